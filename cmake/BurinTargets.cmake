@@ -1,0 +1,38 @@
+# burin_folder(NAME SOURCES ... MAY_INCLUDE folder... [LINKS library...])
+# One target a folder: burin_NAME, also burin::NAME. MAY_INCLUDE is the layer rule of docs/architecture.md; the folders
+# named there are linked, and the test house.layers fails on an include of any other.
+function(burin_folder NAME)
+  cmake_parse_arguments(ARG "" "" "SOURCES;MAY_INCLUDE;LINKS" ${ARGN})
+  if(ARG_SOURCES)
+    add_library(burin_${NAME} STATIC ${ARG_SOURCES})
+    set(scope PUBLIC)
+  else()
+    add_library(burin_${NAME} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  add_library(burin::${NAME} ALIAS burin_${NAME})
+  target_link_libraries(burin_${NAME} ${scope} burin_options Threads::Threads glm::glm ${ARG_LINKS})
+  foreach(layer IN LISTS ARG_MAY_INCLUDE)
+    string(REPLACE "/" "_" target "${layer}")
+    target_link_libraries(burin_${NAME} ${scope} burin_${target})
+  endforeach()
+  string(REPLACE ";" " " allowed "${ARG_MAY_INCLUDE}")
+  set_property(GLOBAL APPEND PROPERTY BURIN_LAYER_RULES "${NAME}: ${allowed}")
+endfunction()
+
+# burin_test(FOLDER compute KIND unit SOURCES a_unit.cpp ... [FOLDERS folder...] [LINKS library...])
+# One program for each folder and kind; the ctest name is FOLDER.KIND and the label is KIND.
+function(burin_test)
+  cmake_parse_arguments(ARG "" "FOLDER;KIND" "SOURCES;FOLDERS;LINKS" ${ARGN})
+  set(target ${ARG_FOLDER}_${ARG_KIND})
+  add_executable(${target} ${ARG_SOURCES})
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  target_link_libraries(${target} PRIVATE burin_test_support ${ARG_LINKS})
+  foreach(folder IN LISTS ARG_FOLDERS)
+    target_link_libraries(${target} PRIVATE burin_${folder})
+  endforeach()
+  add_test(NAME ${ARG_FOLDER}.${ARG_KIND}
+    COMMAND ${target} --gtest_output=xml:${CMAKE_BINARY_DIR}/test-reports/${ARG_FOLDER}.${ARG_KIND}.xml
+    WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+  set_tests_properties(${ARG_FOLDER}.${ARG_KIND} PROPERTIES LABELS ${ARG_KIND} TIMEOUT 900)
+endfunction()

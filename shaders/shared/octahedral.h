@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Unit normals in 32 bits: the octahedron |x| + |y| + |z| = 1 unfolded onto a square, 16 bits an axis (Meyer et al. 2010,
+// "On floating-point normal vectors"). Worst angular error 6e-5 rad; axis directions are exact.
+//
+// Encoding is done on integer vectors of any length, with integer arithmetic alone, so that every machine stores the same
+// bits for the same geometry.
+#ifndef BURIN_SHARED_OCTAHEDRAL_H
+#define BURIN_SHARED_OCTAHEDRAL_H
+#include "shaders/shared/portable.h"
+
+BURIN_SHARED_BEGIN
+
+struct IntVector {
+    int64_t x;
+    int64_t y;
+    int64_t z;
+};
+
+struct Direction {
+    float x;
+    float y;
+    float z;
+};
+
+BURIN_FN int64_t absolute(int64_t a) { return a < int64_t(0) ? -a : a; }
+
+// a / b rounded to nearest, halves away from zero, so that mirrored vectors get mirrored codes; b > 0.
+BURIN_FN int64_t divide_to_nearest(int64_t a, int64_t b) {
+    return a < int64_t(0) ? -((-a + b / int64_t(2)) / b) : (a + b / int64_t(2)) / b;
+}
+
+// The code of the direction of v. Components within +-2^46; the zero vector gives +z.
+BURIN_FN uint encode_normal(IntVector v) {
+    int64_t length1 = absolute(v.x) + absolute(v.y) + absolute(v.z);
+    if (length1 == int64_t(0)) return (uint(32767) << 16) | uint(32767);
+    int64_t a = divide_to_nearest(v.x * int64_t(32767), length1);
+    int64_t b = divide_to_nearest(v.y * int64_t(32767), length1);
+    if (v.z < int64_t(0)) {  // fold the lower half outwards
+        int64_t folded_a = (int64_t(32767) - absolute(b)) * (v.x < int64_t(0) ? int64_t(-1) : int64_t(1));
+        b = (int64_t(32767) - absolute(a)) * (v.y < int64_t(0) ? int64_t(-1) : int64_t(1));
+        a = folded_a;
+    }
+    return (uint(b + int64_t(32767)) << 16) | uint(a + int64_t(32767));
+}
+
+// The unit normal of a code.
+BURIN_FN Direction decode_normal(uint code) {
+    float a = float(int(code & uint(0xffff)) - 32767) / 32767.0f;
+    float b = float(int(code >> 16) - 32767) / 32767.0f;
+    float c = 1.0f - (a < 0.0f ? -a : a) - (b < 0.0f ? -b : b);
+    if (c < 0.0f) {
+        float unfolded_a = (1.0f - (b < 0.0f ? -b : b)) * (a < 0.0f ? -1.0f : 1.0f);
+        b = (1.0f - (a < 0.0f ? -a : a)) * (b < 0.0f ? -1.0f : 1.0f);
+        a = unfolded_a;
+    }
+    float inverse_length = 1.0f / sqrt(a * a + b * b + c * c);
+    Direction d;
+    d.x = a * inverse_length;
+    d.y = b * inverse_length;
+    d.z = c * inverse_length;
+    return d;
+}
+
+BURIN_SHARED_END
+#endif
