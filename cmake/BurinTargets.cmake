@@ -21,10 +21,17 @@ function(burin_folder NAME)
 endfunction()
 
 # burin_test(FOLDER compute KIND unit SOURCES a_unit.cpp ... [FOLDERS folder...] [LINKS library...])
-# One program for each folder and kind; the ctest name is FOLDER.KIND and the label is KIND.
+# One program for each folder and kind; the ctest name is FOLDER.KIND and the label is KIND. Each writes
+# test-reports/FOLDER.KIND.xml in the build directory, which scripts/test reads for its counts and the reasons of skips.
+# Kind realtime runs alone on the machine. Kind fuzz is a libFuzzer program (no GoogleTest), built by preset fuzz only;
+# its ctest replays tests/FOLDER/corpus and then mutates it for a fixed number of runs.
 function(burin_test)
   cmake_parse_arguments(ARG "" "FOLDER;KIND" "SOURCES;FOLDERS;LINKS" ${ARGN})
   set(target ${ARG_FOLDER}_${ARG_KIND})
+  if(ARG_KIND STREQUAL "fuzz")
+    burin_fuzzer(${target} ${ARGN})
+    return()
+  endif()
   add_executable(${target} ${ARG_SOURCES})
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   target_link_libraries(${target} PRIVATE burin_test_support ${ARG_LINKS})
@@ -34,5 +41,32 @@ function(burin_test)
   add_test(NAME ${ARG_FOLDER}.${ARG_KIND}
     COMMAND ${target} --gtest_output=xml:${CMAKE_BINARY_DIR}/test-reports/${ARG_FOLDER}.${ARG_KIND}.xml
     WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
-  set_tests_properties(${ARG_FOLDER}.${ARG_KIND} PROPERTIES LABELS ${ARG_KIND} TIMEOUT 900)
+  set_tests_properties(${ARG_FOLDER}.${ARG_KIND} PROPERTIES LABELS ${ARG_KIND} TIMEOUT ${BURIN_TEST_TIMEOUT_S})
+  if(ARG_KIND STREQUAL "realtime")
+    set_tests_properties(${ARG_FOLDER}.${ARG_KIND} PROPERTIES RUN_SERIAL ON)
+  endif()
+endfunction()
+
+# Called by burin_test for kind fuzz.
+function(burin_fuzzer TARGET)
+  if(NOT BURIN_BUILD_FUZZERS)
+    return()
+  endif()
+  cmake_parse_arguments(ARG "" "FOLDER;KIND" "SOURCES;FOLDERS;LINKS" ${ARGN})
+  add_executable(${TARGET} ${ARG_SOURCES})
+  set_target_properties(${TARGET} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  target_link_libraries(${TARGET} PRIVATE burin_options ${ARG_LINKS})
+  target_link_options(${TARGET} PRIVATE -fsanitize=fuzzer)
+  foreach(folder IN LISTS ARG_FOLDERS)
+    target_link_libraries(${TARGET} PRIVATE burin_${folder})
+  endforeach()
+  # libFuzzer writes what it finds into the first folder, so the tracked corpus comes second.
+  set(corpus ${CMAKE_BINARY_DIR}/corpus/${ARG_FOLDER})
+  file(MAKE_DIRECTORY ${corpus})
+  if(IS_DIRECTORY ${CMAKE_SOURCE_DIR}/tests/${ARG_FOLDER}/corpus)
+    list(APPEND corpus ${CMAKE_SOURCE_DIR}/tests/${ARG_FOLDER}/corpus)
+  endif()
+  add_test(NAME ${ARG_FOLDER}.fuzz COMMAND ${TARGET} -seed=1 -runs=100000 -timeout=10 -rss_limit_mb=2048 ${corpus}
+    WORKING_DIRECTORY ${CMAKE_BINARY_DIR})
+  set_tests_properties(${ARG_FOLDER}.fuzz PROPERTIES LABELS fuzz TIMEOUT ${BURIN_TEST_TIMEOUT_S})
 endfunction()
