@@ -1,0 +1,18 @@
+# What a folder must not include even from outside the repository. The folders that a folder may include are declared in
+# its own CMakeLists.txt (burin_folder's MAY_INCLUDE); both are read by the test house.layers.
+#   burin_forbid(FOLDER prefix...)  a prefix is compared with the text between < > or " ", also in headers reached
+#                                   through other folders; "vulkan" forbids <vulkan/vulkan.h>, "fstream" forbids <fstream>
+function(burin_forbid FOLDER)
+  string(REPLACE ";" " " prefixes "${ARGN}")
+  set_property(GLOBAL APPEND PROPERTY BURIN_FORBIDDEN_HEADERS "${FOLDER}: ${prefixes}")
+endfunction()
+
+set(vulkan_headers vulkan volk)
+# The 1 kHz tick: no Vulkan, no file, no log, no lock, no thread but the one role that its own file declares.
+burin_forbid(haptics ${vulkan_headers} spdlog fmt fstream iostream sstream cstdio stdio.h filesystem fcntl.h
+  mutex shared_mutex condition_variable future regex)
+# Only gpu, and those above it, know Vulkan.
+burin_forbid(base ${vulkan_headers})
+burin_forbid(geometry ${vulkan_headers} thread future)
+burin_forbid(devices ${vulkan_headers})
+burin_forbid(shaders/shared ${vulkan_headers} iostream fstream)
