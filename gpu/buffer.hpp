@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// A buffer, asked for by what it is for. Each buffer is one allocation of its own: ask for few and large ones (drivers
+// allow about 4000 allocations in all).
+//
+// Ownership: move-only; freed when the GPU has done with it. Thread and lifetime: as Device.
+// Contents are undefined after creation. Limits are checked before anything is allocated: a buffer beyond
+// capabilities().max_storage_buffer_bytes (128 MiB on the software driver) is refused with an Error.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "gpu/core.hpp"
+
+namespace burin::gpu {
+
+enum class BufferUse {
+    device_storage,  // read and written by shaders, also indirect arguments; mapped only with unified memory
+    upload,          // written by the CPU through mapped(), copied from
+    readback,        // copied to, read by the CPU through mapped()
+    vertex,          // vertices; also a storage buffer, so that a compute shader can write it
+    index,           // indices; also a storage buffer
+    uniform          // small, written by the CPU through mapped()
+};
+
+class Buffer {
+public:
+    Buffer() = default;  // empty: size_bytes() is 0
+    // name appears in error messages. size_bytes must not be 0.
+    [[nodiscard]] static Result<Buffer> create(Device& device, BufferUse use, std::uint64_t size_bytes,
+                                               const std::string& name);
+
+    [[nodiscard]] std::uint64_t size_bytes() const { return size_bytes_; }
+    // The buffer's memory as the CPU sees it, for as long as the buffer lives; empty when the CPU cannot see it. Coherent:
+    // no flush is needed. Not to be touched between submit() and the end of a submission that uses the buffer.
+    [[nodiscard]] std::span<std::byte> mapped() const { return mapped_; }
+    template <typename T>
+    [[nodiscard]] std::span<T> mapped_as() const {
+        return {reinterpret_cast<T*>(mapped_.data()), mapped_.size() / sizeof(T)};
+    }
+    [[nodiscard]] VkBuffer raw() const { return buffer_.raw(); }
+
+private:
+    MemoryHandle memory_;  // before the buffer: destroyed after it
+    BufferHandle buffer_;
+    std::uint64_t size_bytes_ = 0;
+    std::span<std::byte> mapped_;
+};
+
+// A part of a buffer as a shader sees it. The offset is a multiple of capabilities().storage_offset_alignment.
+struct BufferRange {
+    const Buffer* buffer = nullptr;
+    std::uint64_t offset_bytes = 0;
+    std::uint64_t size_bytes = VK_WHOLE_SIZE;
+
+    // Implicit, so that whole buffers can be listed by name.
+    BufferRange(const Buffer& whole) : buffer(&whole) {}  // NOLINT(google-explicit-constructor)
+    BufferRange(const Buffer& part, std::uint64_t offset, std::uint64_t size)
+        : buffer(&part), offset_bytes(offset), size_bytes(size) {}
+};
+
+// Any plain values as the bytes that upload, push constants and write take.
+template <typename T>
+[[nodiscard]] std::span<const std::byte> bytes_of(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    return std::as_bytes(std::span<const T, 1>(&value, 1));
+}
+
+}  // namespace burin::gpu

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "gpu/core.hpp"
+
+#include <algorithm>
+
+namespace burin::gpu {
+
+namespace {
+// Long enough for the slowest dispatch of a software device; a longer wait means a hung GPU.
+constexpr std::uint64_t kWaitLimit_ns = 120'000'000'000;
+
+template <typename T>
+T handle_of(std::uint64_t bits) {
+    return std::bit_cast<T>(bits);
+}
+}  // namespace
+
+Core::~Core() {
+    if (device != VK_NULL_HANDLE) {
+        vk.vkDeviceWaitIdle(device);
+        for (const Retired& r : retired_) destroy(r.type, r.handle);
+        for (const auto& [serial, set] : retired_sets_) destroy(set);
+        for (const CommandSet& set : free_sets_) destroy(set);
+        vk.vkDestroySemaphore(device, timeline, nullptr);
+        vk.vkDestroyPipelineCache(device, pipeline_cache, nullptr);
+        vk.vkDestroyDevice(device, nullptr);
+    }
+    if (messenger != VK_NULL_HANDLE) {
+        const auto destroy_messenger = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+            vkGetInstanceProcAddr(instance, "vkDestroyDebugUtilsMessengerEXT"));
+        if (destroy_messenger != nullptr) destroy_messenger(instance, messenger, nullptr);
+    }
+    if (instance != VK_NULL_HANDLE) vkDestroyInstance(instance, nullptr);
+}
+
+std::uint64_t Core::completed() {
+    std::uint64_t value = 0;
+    if (vk.vkGetSemaphoreCounterValue(device, timeline, &value) != VK_SUCCESS) return 0;
+    return value;
+}
+
+Result<void> Core::wait_for(std::uint64_t serial) {
+    auto wait = structure<VkSemaphoreWaitInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO);
+    wait.semaphoreCount = 1;
+    wait.pSemaphores = &timeline;
+    wait.pValues = &serial;
+    const VkResult result = vk.vkWaitSemaphores(device, &wait, kWaitLimit_ns);
+    if (result == VK_TIMEOUT) {
+        return fail(info.name, "the GPU has not finished within 120 s", "lower the resolution or use --engine cpu");
+    }
+    if (result != VK_SUCCESS) return vulkan_failure(info.name, "waiting for the GPU failed", result);
+    return {};
+}
+
+void Core::retire_handle(VkObjectType type, std::uint64_t handle) {
+    if (completed() >= submitted) {
+        destroy(type, handle);
+    } else {
+        retired_.push_back({submitted, type, handle});
+    }
+}
+
+void Core::retire(CommandSet set, std::uint64_t after_serial) {
+    retired_sets_.emplace_back(after_serial, std::move(set));
+}
+
+void Core::collect() {
+    const std::uint64_t done = completed();
+    // In order of retirement, as an object may be retired before the memory it is bound to.
+    const auto first_kept = std::ranges::find_if(retired_, [done](const Retired& r) { return r.serial > done; });
+    for (auto r = retired_.begin(); r != first_kept; ++r) destroy(r->type, r->handle);
+    retired_.erase(retired_.begin(), first_kept);
+    std::erase_if(retired_sets_, [&](auto& entry) {
+        if (entry.first > done) return false;
+        free_sets_.push_back(std::move(entry.second));
+        return true;
+    });
+}
+
+Result<CommandSet> Core::take_command_set() {
+    collect();
+    if (!free_sets_.empty()) {
+        CommandSet set = std::move(free_sets_.back());
+        free_sets_.pop_back();
+        vk.vkResetCommandPool(device, set.pool, 0);
+        for (VkDescriptorPool pool : set.descriptor_pools) vk.vkResetDescriptorPool(device, pool, 0);
+        return set;
+    }
+    CommandSet set;
+    auto pool = structure<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
+    pool.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
+    pool.queueFamilyIndex = queue_family;
+    if (const VkResult r = vk.vkCreateCommandPool(device, &pool, nullptr, &set.pool); r != VK_SUCCESS) {
+        return vulkan_failure(info.name, "no command pool", r);
+    }
+    auto buffer = structure<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
+    buffer.commandPool = set.pool;
+    buffer.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    buffer.commandBufferCount = 1;
+    if (const VkResult r = vk.vkAllocateCommandBuffers(device, &buffer, &set.commands); r != VK_SUCCESS) {
+        destroy(set);
+        return vulkan_failure(info.name, "no command buffer", r);
+    }
+    return set;
+}
+
+int Core::memory_type(std::uint32_t allowed_bits, VkMemoryPropertyFlags required,
+                      VkMemoryPropertyFlags preferred) const {
+    int best = -1, best_score = -1;
+    for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
+        const VkMemoryPropertyFlags flags = memory.memoryTypes[i].propertyFlags;
+        if ((allowed_bits & (1u << i)) == 0 || (flags & required) != required) continue;
+        const int score = std::popcount(flags & preferred);
+        if (score > best_score) {
+            best = static_cast<int>(i);
+            best_score = score;
+        }
+    }
+    return best;
+}
+
+void Core::destroy(const CommandSet& set) {
+    for (VkDescriptorPool pool : set.descriptor_pools) vk.vkDestroyDescriptorPool(device, pool, nullptr);
+    vk.vkDestroyQueryPool(device, set.stamps, nullptr);
+    vk.vkDestroyCommandPool(device, set.pool, nullptr);  // frees its command buffer too
+}
+
+void Core::destroy(VkObjectType type, std::uint64_t bits) {
+    switch (type) {
+        case VK_OBJECT_TYPE_BUFFER: return vk.vkDestroyBuffer(device, handle_of<VkBuffer>(bits), nullptr);
+        case VK_OBJECT_TYPE_IMAGE: return vk.vkDestroyImage(device, handle_of<VkImage>(bits), nullptr);
+        case VK_OBJECT_TYPE_IMAGE_VIEW: return vk.vkDestroyImageView(device, handle_of<VkImageView>(bits), nullptr);
+        case VK_OBJECT_TYPE_DEVICE_MEMORY: return vk.vkFreeMemory(device, handle_of<VkDeviceMemory>(bits), nullptr);
+        case VK_OBJECT_TYPE_PIPELINE: return vk.vkDestroyPipeline(device, handle_of<VkPipeline>(bits), nullptr);
+        case VK_OBJECT_TYPE_PIPELINE_LAYOUT:
+            return vk.vkDestroyPipelineLayout(device, handle_of<VkPipelineLayout>(bits), nullptr);
+        case VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT:
+            return vk.vkDestroyDescriptorSetLayout(device, handle_of<VkDescriptorSetLayout>(bits), nullptr);
+        case VK_OBJECT_TYPE_DESCRIPTOR_POOL:
+            return vk.vkDestroyDescriptorPool(device, handle_of<VkDescriptorPool>(bits), nullptr);
+        case VK_OBJECT_TYPE_SHADER_MODULE:
+            return vk.vkDestroyShaderModule(device, handle_of<VkShaderModule>(bits), nullptr);
+        case VK_OBJECT_TYPE_RENDER_PASS: return vk.vkDestroyRenderPass(device, handle_of<VkRenderPass>(bits), nullptr);
+        case VK_OBJECT_TYPE_FRAMEBUFFER:
+            return vk.vkDestroyFramebuffer(device, handle_of<VkFramebuffer>(bits), nullptr);
+        case VK_OBJECT_TYPE_SAMPLER: return vk.vkDestroySampler(device, handle_of<VkSampler>(bits), nullptr);
+        default: BURIN_CHECK(false && "an object type that destroy() does not know");
+    }
+}
+
+}  // namespace burin::gpu

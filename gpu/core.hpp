@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// The inside of a Device, shared by the objects made on it: Vulkan handles, the function table, the timeline of
+// submissions, and the things set aside until the GPU has done with them. For gpu/ and for code that records Vulkan
+// commands of its own (renderer/). Threads: as Device.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "gpu/device.hpp"
+#include "gpu/vulkan.hpp"
+
+namespace burin::gpu {
+
+// What one submission is recorded with; reused by a later one.
+struct CommandSet {
+    VkCommandPool pool = VK_NULL_HANDLE;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    VkQueryPool stamps = VK_NULL_HANDLE;  // made at the first stamp()
+    std::vector<VkDescriptorPool> descriptor_pools;
+};
+
+class Core {
+public:
+    Core() = default;
+    ~Core();
+    Core(const Core&) = delete;
+    Core& operator=(const Core&) = delete;
+
+    VkInstance instance = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    VkQueue queue = VK_NULL_HANDLE;
+    std::uint32_t queue_family = 0;
+    VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
+    VkPhysicalDeviceMemoryProperties memory{};
+    std::uint64_t max_allocation_bytes = 0;
+    double seconds_per_stamp = 0.0;
+    VolkDeviceTable vk{};
+    DeviceInfo info;
+    Capabilities capabilities;
+
+    // The timeline: each submission signals the next number.
+    VkSemaphore timeline = VK_NULL_HANDLE;
+    std::uint64_t submitted = 0;
+    [[nodiscard]] std::uint64_t completed();
+    [[nodiscard]] Result<void> wait_for(std::uint64_t serial);
+
+    // Destroys the object when everything submitted so far is done.
+    template <typename Handle>
+    void retire(VkObjectType type, Handle handle) {
+        if (handle != VK_NULL_HANDLE) retire_handle(type, std::bit_cast<std::uint64_t>(handle));
+    }
+    void retire(CommandSet set, std::uint64_t after_serial);
+    void collect();  // frees what is no longer in use; called by each Commands::begin
+
+    [[nodiscard]] Result<CommandSet> take_command_set();
+
+    // A memory type that has `required`, the one with most of `preferred`; -1 when none.
+    [[nodiscard]] int memory_type(std::uint32_t allowed_bits, VkMemoryPropertyFlags required,
+                                  VkMemoryPropertyFlags preferred) const;
+
+private:
+    struct Retired {
+        std::uint64_t serial;
+        VkObjectType type;
+        std::uint64_t handle;
+    };
+    void retire_handle(VkObjectType type, std::uint64_t handle);
+    void destroy(VkObjectType type, std::uint64_t handle);
+    void destroy(const CommandSet& set);
+
+    std::vector<Retired> retired_;
+    std::vector<std::pair<std::uint64_t, CommandSet>> retired_sets_;
+    std::vector<CommandSet> free_sets_;
+};
+
+// A move-only owner of one Vulkan object.
+template <typename T, VkObjectType Type>
+class Handle {
+public:
+    Handle() = default;
+    Handle(std::shared_ptr<Core> core, T object) : core_(std::move(core)), object_(object) {}
+    ~Handle() { release(); }
+    Handle(Handle&& other) noexcept : core_(std::move(other.core_)), object_(other.object_) {
+        other.object_ = VK_NULL_HANDLE;
+    }
+    Handle& operator=(Handle&& other) noexcept {
+        if (this != &other) {
+            release();
+            core_ = std::move(other.core_);
+            object_ = other.object_;
+            other.object_ = VK_NULL_HANDLE;
+        }
+        return *this;
+    }
+
+    [[nodiscard]] T raw() const { return object_; }
+    [[nodiscard]] const T* pointer() const { return &object_; }
+    explicit operator bool() const { return object_ != VK_NULL_HANDLE; }
+
+private:
+    void release() {
+        if (core_) core_->retire(Type, object_);
+        core_.reset();
+    }
+    std::shared_ptr<Core> core_;
+    T object_ = VK_NULL_HANDLE;
+};
+
+using PipelineHandle = Handle<VkPipeline, VK_OBJECT_TYPE_PIPELINE>;
+using PipelineLayoutHandle = Handle<VkPipelineLayout, VK_OBJECT_TYPE_PIPELINE_LAYOUT>;
+using SetLayoutHandle = Handle<VkDescriptorSetLayout, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT>;
+using DescriptorPoolHandle = Handle<VkDescriptorPool, VK_OBJECT_TYPE_DESCRIPTOR_POOL>;
+using ShaderHandle = Handle<VkShaderModule, VK_OBJECT_TYPE_SHADER_MODULE>;
+using RenderPassHandle = Handle<VkRenderPass, VK_OBJECT_TYPE_RENDER_PASS>;
+using FramebufferHandle = Handle<VkFramebuffer, VK_OBJECT_TYPE_FRAMEBUFFER>;
+using SamplerHandle = Handle<VkSampler, VK_OBJECT_TYPE_SAMPLER>;
+using ImageHandle = Handle<VkImage, VK_OBJECT_TYPE_IMAGE>;
+using ImageViewHandle = Handle<VkImageView, VK_OBJECT_TYPE_IMAGE_VIEW>;
+using BufferHandle = Handle<VkBuffer, VK_OBJECT_TYPE_BUFFER>;
+using MemoryHandle = Handle<VkDeviceMemory, VK_OBJECT_TYPE_DEVICE_MEMORY>;
+
+}  // namespace burin::gpu

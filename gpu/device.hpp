@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// The Vulkan device: what the compute engine and the renderer are built on. No window system is touched.
+//
+// Data flow: list_devices() shows what is there; Device::create() picks one and opens it; buffers, images and pipelines are
+// created on it; work is recorded into Commands (commands.hpp), submitted, and waited for.
+//
+// Lifetime: every object keeps its device's core alive, so the order of destruction is free. A destroyed object that the
+// GPU may still be using is set aside and freed when the submissions made so far are done (deferred destruction).
+// Thread: a Device and all its objects belong to one thread at a time. Different Devices may be used by different threads
+// at once: a thread that needs the GPU of its own opens a Device of its own (30-75 ms with a software driver).
+// Failure: no loader, no driver, no device, out of memory: Error, with the remedy. Wrong use: BURIN_CHECK.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+
+namespace burin::gpu {
+
+class Core;  // core.hpp; only files that record Vulkan commands of their own need it
+
+enum class DeviceKind { discrete, integrated, virtual_machine, software, other };
+
+// One Vulkan device as `burin --version` lists it.
+struct DeviceInfo {
+    unsigned index = 0;  // for DeviceOptions::index
+    std::string name;    // "llvmpipe (LLVM 15.0.6, 256 bits)"
+    DeviceKind kind = DeviceKind::other;
+    std::string driver;    // "llvmpipe Mesa 22.3.6"
+    std::string api;       // "1.3.230"
+    std::string unusable;  // empty, or the reason why Burin cannot use it
+
+    [[nodiscard]] bool is_software() const { return kind == DeviceKind::software; }
+    [[nodiscard]] std::string line() const;  // "0: name (software, driver, Vulkan 1.3.230)"
+};
+
+// What the opened device can do. Everything listed as true has been enabled.
+struct Capabilities {
+    bool shader_int64 = false;
+    bool shader_float64 = false;
+    bool shader_int16 = false;
+    bool shader_int8 = false;
+    bool storage_16bit = false;         // 16-bit members in storage buffers
+    bool storage_8bit = false;          // 8-bit members in storage buffers
+    bool buffer_int64_atomics = false;  // atomicAdd etc. on uint64_t in storage buffers
+    bool scalar_block_layout = false;   // GL_EXT_scalar_block_layout
+    bool sampler_anisotropy = false;
+    bool timestamps = false;
+    bool unified_memory = false;  // device_storage buffers are mapped: Buffer::mapped() is not empty
+    std::uint32_t subgroup_size = 0;
+    std::uint32_t msaa_samples = 1;  // 4 where colour and depth both allow it
+    std::uint64_t max_storage_buffer_bytes = 0;
+    std::uint64_t storage_offset_alignment = 1;  // of BufferRange::offset
+    std::uint32_t max_push_constant_bytes = 0;
+    std::uint32_t max_workgroup_invocations = 0;
+    std::uint32_t max_workgroup_count = 0;  // the least of the three axes
+    std::uint32_t max_image_size = 0;       // width and height of a 2D image
+};
+
+enum class Prefer { hardware, software };  // an order, not a demand: with only the other kind there, that one is taken
+
+struct DeviceOptions {
+    Prefer prefer = Prefer::hardware;
+    std::optional<unsigned> index;  // exactly this device of list_devices()
+    // Runs the Khronos validation layer; an Error where it is not installed. Also asked for by BURIN_VULKAN_VALIDATION=1.
+    bool validation = false;
+};
+
+// Every Vulkan device of this machine, usable or not; an Error when there is no loader or no driver. Cost: 30-75 ms.
+[[nodiscard]] Result<std::vector<DeviceInfo>> list_devices();
+
+class Device {
+public:
+    [[nodiscard]] static Result<Device> create(const DeviceOptions& options = {});
+
+    [[nodiscard]] const DeviceInfo& info() const;
+    [[nodiscard]] const Capabilities& capabilities() const;
+    [[nodiscard]] const std::shared_ptr<Core>& core() const { return core_; }
+
+    // Waits for everything submitted, and frees what was set aside.
+    Result<void> wait_idle();
+
+    explicit Device(std::shared_ptr<Core> core) : core_(std::move(core)) {}  // another handle of an opened device
+
+private:
+    std::shared_ptr<Core> core_;
+};
+
+// Warnings and errors that the validation layer has reported since the start of the process, over all devices. Tests
+// assert that it stays 0; each message also goes to standard error. Any thread.
+[[nodiscard]] std::uint64_t validation_messages() noexcept;
+
+}  // namespace burin::gpu
