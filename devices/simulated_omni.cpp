@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "devices/simulated_omni.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace burin {
+namespace {
+
+constexpr double kStep_s = 50e-6;
+static_assert(SimulatedOmni::kStep_ns == 50'000);
+
+double quantised(double x_m, double quantum_m) {
+    return quantum_m > 0.0 ? quantum_m * std::floor(x_m / quantum_m + 0.5) : x_m;
+}
+
+Vec3 quantised(const Vec3& p_m, double quantum_m) {
+    return {quantised(p_m.x, quantum_m), quantised(p_m.y, quantum_m), quantised(p_m.z, quantum_m)};
+}
+
+double length(const Vec3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
+
+// The device protects itself: what is not finite drives no motor, what is too strong is scaled down.
+Vec3 clamped(const Vec3& force_N, double max_N) {
+    const double l = length(force_N);
+    if (!std::isfinite(l)) return Vec3(0.0);
+    return l > max_N ? force_N * (max_N / l) : force_N;
+}
+
+}  // namespace
+
+SimulatedOmni::SimulatedOmni(SimulatedHand hand, const OmniModel& model, Clock* clock)
+    : hand_(std::move(hand)), model_(model), clock_(clock) {
+    description_.name = "simulated PHANTOM Omni";
+    description_.workspace_m = model_.workspace_m;
+    description_.resolution_m = model_.resolution_m;
+    description_.max_force_N = model_.max_force_N;
+    description_.max_stiffness_N_per_m = model_.max_stiffness_N_per_m;
+    description_.rate_Hz = 1000.0;
+    if (clock_ != nullptr) clock_start_ns_ = clock_->now_ns();
+    const Vec3 half = 0.5 * model_.workspace_m;
+    position_m_ = glm::clamp(hand_.target(0.0).position_device_m, -half, half);
+    last_sample_ = honest_sample();
+}
+
+void SimulatedOmni::advance(Nanoseconds dt_ns) noexcept {
+    owed_ns_ += dt_ns;
+    while (owed_ns_ >= kStep_ns) {
+        step();
+        owed_ns_ -= kStep_ns;
+        time_ns_ += kStep_ns;
+    }
+}
+
+void SimulatedOmni::step() noexcept {
+    const HandGrip& grip = hand_.grip();
+    const HandTarget target = hand_.target(seconds(time_ns_ + kStep_ns));
+    const double mass = model_.apparent_mass_kg + grip.mass_kg;
+    const Vec3 pull = acting_force_N_ + grip.stiffness_N_per_m * (target.position_device_m - position_m_) +
+                      grip.damping_Ns_per_m * target.velocity_device_m_per_s;
+    const double damping = model_.damping_Ns_per_m + grip.damping_Ns_per_m;
+    Vec3 v = (velocity_m_per_s_ + (kStep_s / mass) * pull) / (1.0 + (kStep_s / mass) * damping);
+    // Coulomb friction as the impulse that stops the motion if it can, and else opposes it with all it has.
+    const double brake = kStep_s * model_.friction_N / mass;
+    const double speed = length(v);
+    v = speed <= brake ? Vec3(0.0) : v * (1.0 - brake / speed);
+    position_m_ += kStep_s * v;
+    const Vec3 half = 0.5 * model_.workspace_m;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (std::abs(position_m_[axis]) <= half[axis]) continue;
+        position_m_[axis] = position_m_[axis] < 0.0 ? -half[axis] : half[axis];
+        v[axis] = 0.0;
+    }
+    velocity_m_per_s_ = v;
+}
+
+DeviceSample SimulatedOmni::honest_sample() const noexcept {
+    const HandTarget target = hand_.target(seconds(time_ns_));
+    DeviceSample sample;
+    sample.time_ns = clock_start_ns_ + time_ns_;
+    sample.position_device_m = quantised(position_m_, model_.resolution_m);
+    sample.orientation_device = target.orientation_device;  // the wrist is not driven: it follows the hand
+    sample.buttons = target.buttons;
+    return sample;
+}
+
+DeviceSample SimulatedOmni::read() noexcept {
+    if (clock_ != nullptr) {
+        const Nanoseconds behind_ns = clock_->now_ns() - clock_start_ns_ - time_ns_ - owed_ns_;
+        const Nanoseconds lost_ns = std::max<Nanoseconds>(behind_ns - kMostCatchUp_ns, 0);
+        clock_start_ns_ += lost_ns;
+        advance(behind_ns - lost_ns);
+    }
+    acting_force_N_ = written_force_N_;  // one tick of transport
+    switch (injected_) {
+        case InjectedFault::none: last_sample_ = honest_sample(); break;
+        case InjectedFault::frozen: break;
+        case InjectedFault::disconnected:
+            last_sample_.fault = DeviceFault::disconnected;
+            acting_force_N_ = written_force_N_ = Vec3(0.0);
+            break;
+        case InjectedFault::nan_position:
+            last_sample_ = honest_sample();
+            last_sample_.position_device_m.x = std::numeric_limits<double>::quiet_NaN();
+            break;
+        case InjectedFault::overspeed:
+            last_sample_ = honest_sample();
+            runaway_m_.x += 0.01;
+            last_sample_.position_device_m += runaway_m_;
+            break;
+    }
+    if (injected_ != InjectedFault::overspeed) runaway_m_ = Vec3(0.0);
+    return last_sample_;
+}
+
+void SimulatedOmni::write(const Vec3& force_device_N) noexcept {
+    if (injected_ == InjectedFault::disconnected) return;
+    written_force_N_ = clamped(force_device_N, model_.max_force_N);
+}
+
+}  // namespace burin

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// The haptic loop: the same class in simulated time and in real time.
+//
+// step() does exactly this: read the device, borrow the newest surface and parameters, tick, gate, write the device,
+// publish tool state, stroke sample and tick record. run() calls it at absolute deadlines one period apart.
+// In simulated time: advance the clock (and the device, if it does not follow the clock) by a period and call step();
+// or call run() with a SimulatedClock, which does just that.
+// Thread: one at a time calls step() or run(). Neither allocates, locks, throws or opens a file.
+// A tick that starts late is flagged and counted; deadlines that were missed altogether are skipped and counted, so
+// that the loop never runs a burst of ticks to catch up.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "haptics/channels.hpp"
+#include "haptics/tick.hpp"
+
+namespace burin {
+
+class HapticLoop {
+public:
+    // device, clock and channels must outlive the loop. The period is 1 / device rate.
+    HapticLoop(HapticDevice& device, Clock& clock, HapticChannels& channels) noexcept;
+
+    // One tick at the clock's present time. lateness_ns is only recorded. Returns what was published as the tick
+    // record.
+    TickRecord step(Nanoseconds lateness_ns = 0) noexcept;
+
+    // Steps at absolute deadlines, the first one period from now, until stop is true; then writes zero force.
+    void run(const std::atomic<bool>& stop) noexcept;
+    // As run(), for so many ticks at most.
+    void run_ticks(std::uint64_t count, const std::atomic<bool>* stop = nullptr) noexcept;
+
+    [[nodiscard]] Nanoseconds period_ns() const noexcept { return period_ns_; }
+    [[nodiscard]] std::uint64_t ticks() const noexcept { return ticks_; }
+    [[nodiscard]] std::uint64_t late_ticks() const noexcept { return late_ticks_; }
+    [[nodiscard]] std::uint64_t skipped_deadlines() const noexcept { return skipped_deadlines_; }
+    [[nodiscard]] const FullTickState& state() const noexcept { return state_; }
+
+private:
+    HapticDevice& device_;
+    Clock& clock_;
+    HapticChannels& channels_;
+    Nanoseconds period_ns_;
+    double dt_s_;
+    FullTickState state_;
+    std::uint64_t ticks_ = 0, late_ticks_ = 0, skipped_deadlines_ = 0;
+};
+
+}  // namespace burin

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// The last step before the device, always on: whatever the contact model asks for, what passes here is finite, within
+// the force limit, and changes no faster than the slew limit; and it is zero when something is wrong.
+//
+// A pure function with its state in a struct: no clock, heap, lock or throw; wait-free, a few dozen operations.
+// Order: faults (zero at once: safe comes before smooth), ramp, slew, force limit. The force limit wins over the slew
+// limit should it be lowered while a force is on. After a fault has gone the gate waits recovery_s, then ramps up
+// again.
+#pragma once
+
+#include <cstdint>
+
+#include "devices/haptic_device.hpp"
+
+namespace burin {
+
+// Why the gate gives zero. In order of precedence.
+enum class GateCause : std::uint8_t {
+    none,
+    device_fault,    // the device itself reports one; see DeviceSample::fault
+    not_finite,      // a sample, a surface, a parameter or the force is NaN or infinite
+    bad_parameters,  // settings that make no sense, such as a negative stiffness
+    stale_sample,    // the device has stopped sending
+    overspeed,       // the tool moves faster than any hand should
+    stale_surface,   // in contact with a surface the carving side no longer vouches for
+    outside_known,   // in contact where the surface is not known
+};
+
+// A sentence for people, of static storage.
+[[nodiscard]] const char* text(GateCause cause) noexcept;
+
+struct GateLimits {
+    double max_force_N = 3.3;          // the device's own limit holds too, if it is less
+    double max_slew_N_per_s = 1000.0;  // 1 N a tick at 1 kHz: about what a 600 N/m wall needs at 1.7 m/s
+    double ramp_s = 0.2;               // from zero to full at the start and after a fault
+    double recovery_s = 0.05;          // how long all must be well before the ramp begins again
+    double max_speed_m_per_s = 3.0;    // of the tool, at the device
+    double max_sample_age_s = 0.02;    // 20 ticks without news
+};
+
+struct GateInput {
+    Vec3 wanted_force_device_N{0.0};
+    Vec3 velocity_device_m_per_s{0.0};
+    double device_max_force_N = 0.0;
+    double sample_age_s = 0.0;  // now minus the sample's time
+    DeviceFault device_fault = DeviceFault::none;
+    bool sample_finite = true;
+    bool parameters_sensible = true;
+    bool in_contact = false;
+    bool surface_stale = false;
+    bool outside_known = false;
+};
+
+struct GateState {
+    Vec3 force_device_N{0.0};  // given last
+    double ramp = 0.0;         // 0 to 1
+    double well_s = 0.0;       // how long since the last fault
+    bool faulted = false;      // a fault has happened and recovery_s is not yet over
+};
+
+struct GateOutput {
+    GateState next;
+    Vec3 force_device_N{0.0};
+    GateCause cause = GateCause::none;
+    bool saturated = false;
+    bool slew_limited = false;
+    bool ramping = false;
+};
+
+[[nodiscard]] GateOutput pass_gate(const GateState& state, const GateInput& input, const GateLimits& limits,
+                                   double dt_s) noexcept;
+
+}  // namespace burin
