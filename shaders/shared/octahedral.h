@@ -10,6 +10,7 @@
 
 BURIN_SHARED_BEGIN
 
+#ifndef BURIN_NO_INT64  // for shaders that only decode, so that they run on devices without 64-bit integers
 struct IntVector {
     int64_t x;
     int64_t y;
@@ -29,7 +30,7 @@ BURIN_FN int64_t divide_to_nearest(int64_t a, int64_t b) {
     return a < int64_t(0) ? -((-a + b / int64_t(2)) / b) : (a + b / int64_t(2)) / b;
 }
 
-// The code of the direction of v. Components within +-2^46; the zero vector gives +z.
+// The code of the direction of v. Components within +-2^47; the zero vector gives +z.
 BURIN_FN uint encode_normal(IntVector v) {
     int64_t length1 = absolute(v.x) + absolute(v.y) + absolute(v.z);
     if (length1 == int64_t(0)) return (uint(32767) << 16) | uint(32767);
@@ -42,6 +43,7 @@ BURIN_FN uint encode_normal(IntVector v) {
     }
     return (uint(b + int64_t(32767)) << 16) | uint(a + int64_t(32767));
 }
+#endif
 
 // The unit normal of a code.
 BURIN_FN Direction decode_normal(uint code) {

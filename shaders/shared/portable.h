@@ -18,6 +18,8 @@ namespace burin::shared {
 using uint = std::uint32_t;
 using std::int64_t;
 using std::uint64_t;
+using std::ceil;
+using std::floor;
 using std::sqrt;
 }
 

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// The cubic lattice that a solid lives on: where it lies in the object frame and how coarse it is.
+// Depths and coordinates in lattice units (shaders/shared/dexel.h) are whole numbers counted from the lattice origin.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "base/error.hpp"
+#include "base/space.hpp"
+#include "shaders/shared/dexel.h"
+
+namespace burin {
+
+struct Lattice {
+    Vec3 origin_object{0.0};            // metres
+    double spacing_m = 1.0;             // h, the width of a cell
+    std::array<int, 3> cells{0, 0, 0};  // along x, y, z; there is one more node than cells along each axis
+
+    [[nodiscard]] double unit_m() const { return spacing_m / shared::kUnitsPerCell; }
+    // Lattice units, not rounded.
+    [[nodiscard]] Vec3 units_from_object(const Vec3& p_object) const { return (p_object - origin_object) / unit_m(); }
+    [[nodiscard]] Vec3 object_from_units(const Vec3& units) const { return origin_object + units * unit_m(); }
+
+    // Rays along `axis`: u runs along axis + 1, v along axis + 2 (cyclic).
+    [[nodiscard]] int rays_u(int axis) const { return cells[(axis + 1) % 3] + 1; }
+    [[nodiscard]] int rays_v(int axis) const { return cells[(axis + 2) % 3] + 1; }
+    [[nodiscard]] std::size_t rays(int axis) const {
+        return static_cast<std::size_t>(rays_u(axis)) * static_cast<std::size_t>(rays_v(axis));
+    }
+    bool operator==(const Lattice&) const = default;
+};
+
+inline constexpr int kMinResolution = 16, kMaxResolution = 2048;
+
+// A lattice of `resolution` cells along the longest side of `bounds` (h = longest side / resolution), with at least one
+// empty cell around it. The bounds are placed symmetrically between nodes, so that no face of theirs lies on a node: a face
+// on a node would make the sign there a matter of rounding. Fails when the resolution is out of range or the bounds are
+// empty, flat in every direction, or not finite.
+[[nodiscard]] Result<Lattice> lattice_around(const Box& bounds, int resolution);
+
+}  // namespace burin

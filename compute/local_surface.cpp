@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "compute/surface.hpp"
+
+namespace burin {
+namespace {
+
+// Squared distance from p to the box around a triangle: never more than to the triangle itself.
+float distance2_to_box(const Vec3f& p, const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+    const Vec3f lo = glm::min(a, glm::min(b, c)), hi = glm::max(a, glm::max(b, c));
+    const Vec3f outside = glm::max(glm::max(lo - p, p - hi), Vec3f(0.0f));
+    return glm::dot(outside, outside);
+}
+
+// Tiles that may hold surface within the ball; positions are relative to the lattice origin.
+struct TileRange {
+    std::array<int, 3> from{}, to{};
+};
+
+TileRange tiles_around(const Surface& surface, const Vec3& center, double radius_m) {
+    TileRange range;
+    const double tile_m = surface.lattice().spacing_m * kTileCells;
+    for (int a = 0; a < 3; ++a) {
+        const auto k = static_cast<std::size_t>(a);
+        const double last = surface.grid().tiles[k] - 1;
+        // A tile's triangles reach one cell below its own nodes.
+        range.from[k] = static_cast<int>(std::clamp(std::floor((center[a] - radius_m) / tile_m), 0.0, last));
+        range.to[k] = static_cast<int>(
+            std::clamp(std::floor((center[a] + radius_m + surface.lattice().spacing_m) / tile_m), 0.0, last));
+    }
+    return range;
+}
+
+// Adds what fits of one tile; returns how many triangles within the ball did not.
+std::uint32_t add_tile(const TileMesh& tile, const Vec3f& center, float radius_m, const Vec3f& shift, LocalSurface& out,
+                       std::vector<std::uint32_t>& index_of_vertex) {
+    constexpr std::uint32_t kNone = 0xffffffff;
+    std::uint32_t left_out = 0;
+    index_of_vertex.assign(tile.vertices.size(), kNone);
+    const auto position = [&](std::uint32_t i) {
+        return Vec3f(tile.vertices[i].x, tile.vertices[i].y, tile.vertices[i].z);
+    };
+    for (std::size_t i = 0; i < tile.indices.size(); i += 3) {
+        const std::uint32_t* corner = &tile.indices[i];
+        if (distance2_to_box(center, position(corner[0]), position(corner[1]), position(corner[2])) >
+            radius_m * radius_m) {
+            continue;
+        }
+        if (out.triangle_count == LocalSurface::kMaxTriangles || out.vertex_count + 3 > LocalSurface::kMaxVertices) {
+            ++left_out;
+            continue;
+        }
+        auto& triangle = out.triangles[out.triangle_count++];
+        for (std::size_t k = 0; k < 3; ++k) {
+            std::uint32_t& index = index_of_vertex[corner[k]];
+            if (index == kNone) {
+                index = out.vertex_count;
+                out.positions_m[out.vertex_count++] = position(corner[k]) - shift;
+            }
+            triangle[k] = index;
+        }
+    }
+    return left_out;
+}
+
+}  // namespace
+
+void gather_local_surface(const Surface& surface, const Vec3& center_object, double radius_m, LocalSurface& out) {
+    thread_local std::vector<std::uint32_t> index_of_vertex;
+    const Vec3 center = center_object - surface.lattice().origin_object;
+    out.dropped_triangles = 0;
+    for (double radius = radius_m;; radius *= 0.7) {
+        out.vertex_count = out.triangle_count = 0;
+        out.center_object = center_object;
+        out.origin_object = center_object;
+        out.radius_m = radius;
+        const TileRange range = tiles_around(surface, center, radius);
+        std::uint32_t left_out = 0;
+        for (int z = range.from[2]; z <= range.to[2]; ++z)
+            for (int y = range.from[1]; y <= range.to[1]; ++y)
+                for (int x = range.from[0]; x <= range.to[0]; ++x) {
+                    left_out += add_tile(surface.tile(surface.grid().index(x, y, z)), Vec3f(center),
+                                         static_cast<float>(radius), Vec3f(center), out, index_of_vertex);
+                }
+        if (left_out == 0) return;
+        out.dropped_triangles += left_out;
+    }
+}
+
+}  // namespace burin

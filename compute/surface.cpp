@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "compute/surface.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace burin {
+
+RemeshStats Surface::remesh(const Solid& solid, std::span<const std::uint32_t> tiles, WorkerPool& pool) {
+    for (const std::uint32_t t : tiles) {
+        triangles_ -= tiles_[t].triangles();
+        disagreeing_edges_ -= tiles_[t].disagreeing_edges;
+    }
+    pool.run(tiles.size(), [&](std::size_t i) { mesh_tile(solid, grid_, tiles[i], tiles_[tiles[i]]); });
+    RemeshStats stats;
+    stats.tiles = tiles.size();
+    for (const std::uint32_t t : tiles) {
+        stats.triangles += tiles_[t].triangles();
+        disagreeing_edges_ += tiles_[t].disagreeing_edges;
+    }
+    triangles_ += stats.triangles;
+    return stats;
+}
+
+double Surface::volume_m3() const {
+    double six_volumes = 0.0;
+    for (const TileMesh& tile : tiles_) {
+        const auto corner = [&](std::size_t i) {
+            const shared::SurfaceVertex& v = tile.vertices[tile.indices[i]];
+            return Vec3(v.x, v.y, v.z);
+        };
+        double of_tile = 0.0;
+        for (std::size_t i = 0; i < tile.indices.size(); i += 3) {
+            of_tile += glm::dot(corner(i), glm::cross(corner(i + 1), corner(i + 2)));
+        }
+        six_volumes += of_tile;
+    }
+    return six_volumes / 6.0;
+}
+
+TriangleMesh Surface::welded() const {
+    struct Place {
+        std::uint64_t key;
+        std::uint32_t tile, vertex;
+    };
+    std::vector<Place> places;
+    std::vector<std::vector<std::uint32_t>> welded_index(tiles_.size());
+    for (std::uint32_t t = 0; t < tiles_.size(); ++t) {
+        welded_index[t].resize(tiles_[t].keys.size());
+        for (std::uint32_t v = 0; v < tiles_[t].keys.size(); ++v) places.push_back({tiles_[t].keys[v], t, v});
+    }
+    std::ranges::sort(places, [](const Place& a, const Place& b) {
+        return std::tie(a.key, a.tile, a.vertex) < std::tie(b.key, b.tile, b.vertex);
+    });
+
+    TriangleMesh mesh;
+    for (std::size_t from = 0, to = 0; from < places.size(); from = to) {
+        std::array<std::uint32_t, 3> colour{};
+        for (to = from; to < places.size() && places[to].key == places[from].key; ++to) {
+            const std::uint32_t c = tiles_[places[to].tile].vertices[places[to].vertex].colour;
+            for (std::size_t k = 0; k < 3; ++k) colour[k] += c >> (8 * k) & 0xffu;
+            welded_index[places[to].tile][places[to].vertex] = static_cast<std::uint32_t>(mesh.positions_m.size());
+        }
+        const shared::SurfaceVertex& v = tiles_[places[from].tile].vertices[places[from].vertex];
+        mesh.positions_m.push_back(lattice_.origin_object + Vec3(v.x, v.y, v.z));
+        const auto count = static_cast<std::uint32_t>(to - from);
+        const auto mean = [&](std::size_t k) { return static_cast<std::uint8_t>((colour[k] + count / 2) / count); };
+        mesh.colours.push_back({mean(0), mean(1), mean(2)});
+    }
+    for (std::uint32_t t = 0; t < tiles_.size(); ++t) {
+        const std::vector<std::uint32_t>& index = welded_index[t];
+        for (std::size_t i = 0; i < tiles_[t].indices.size(); i += 3) {
+            const std::uint32_t* corner = &tiles_[t].indices[i];
+            mesh.triangles.push_back({index[corner[0]], index[corner[1]], index[corner[2]]});
+        }
+    }
+    return mesh;
+}
+
+}  // namespace burin

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// The surface of a carved solid, tile by tile: kept up to date where the solid changed, read by drawing, touching, export.
+// One thread; re-meshing is dealt out to the pool, and the result does not depend on how many threads there are.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/worker_pool.hpp"
+#include "compute/tile_mesher.hpp"
+#include "geometry/local_surface.hpp"
+
+namespace burin {
+
+struct RemeshStats {
+    std::uint64_t tiles = 0;
+    std::uint64_t triangles = 0;  // made in those tiles
+};
+
+class Surface {
+public:
+    explicit Surface(const Lattice& lattice) : lattice_(lattice), grid_(lattice), tiles_(grid_.count()) {}
+
+    // Meshes the given tiles anew.
+    RemeshStats remesh(const Solid& solid, std::span<const std::uint32_t> tiles, WorkerPool& pool);
+
+    [[nodiscard]] const Lattice& lattice() const { return lattice_; }
+    [[nodiscard]] const TileGrid& grid() const { return grid_; }
+    [[nodiscard]] const TileMesh& tile(std::uint32_t index) const { return tiles_[index]; }
+    [[nodiscard]] std::size_t tile_count() const { return tiles_.size(); }
+    [[nodiscard]] std::uint64_t triangles() const { return triangles_; }
+    [[nodiscard]] std::uint64_t disagreeing_edges() const { return disagreeing_edges_; }
+
+    // The enclosed volume by the divergence theorem, m^3.
+    [[nodiscard]] double volume_m3() const;
+    // One closed two-manifold mesh in the object frame: vertices shared across sharp edges and tile borders, sorted by key,
+    // with the mean colour of the surfaces that meet there.
+    [[nodiscard]] TriangleMesh welded() const;
+
+private:
+    Lattice lattice_;
+    TileGrid grid_;
+    std::vector<TileMesh> tiles_;
+    std::uint64_t triangles_ = 0, disagreeing_edges_ = 0;
+};
+
+// Fills `out` with the triangles within radius_m of center_object, and its ball; when they do not fit, with those of a
+// smaller ball (dropped_triangles says how many were left out). Does not touch sequence and made_ns.
+void gather_local_surface(const Surface& surface, const Vec3& center_object, double radius_m, LocalSurface& out);
+
+}  // namespace burin

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// What the mesher knows of one tile: which nodes are inside, and the surface crossing on each crossed lattice edge.
+// Nodes and cells are numbered from -1 to kTileCells around the tile's own 0 .. kTileCells - 1 ("local" coordinates).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "compute/feature_point.hpp"
+#include "compute/solid.hpp"
+#include "compute/tile_grid.hpp"
+
+namespace burin {
+
+inline constexpr int kLocalNodes = kTileCells + 2;  // -1 .. kTileCells
+
+using Local = std::array<int, 3>;
+
+// Where the surface crosses a lattice edge.
+struct EdgeSample {
+    float along = 0.5f;  // 0 at the lower node, 1 at the upper
+    Vec3f normal{0.0f};
+    std::uint32_t normal_code = 0;
+    std::uint8_t material = 0;
+    bool disagrees = false;  // the edge's own rays do not have this crossing
+};
+
+class TileSamples {
+public:
+    // False when no edge of the tile is crossed; the rest is then undefined.
+    [[nodiscard]] bool collect(const Solid& solid, const std::array<int, 3>& first_node);
+
+    [[nodiscard]] bool inside(const Local& node) const { return (column(node[0], node[1]) >> (node[2] + 1) & 1u) != 0; }
+    // Bit c of the result: corner c of the cell is inside.
+    [[nodiscard]] unsigned cell_pattern(const Local& cell) const;
+    // The edge from `node` one step along `axis` must be crossed.
+    [[nodiscard]] const EdgeSample& sample(int axis, const Local& node) const {
+        return samples_[static_cast<std::size_t>(sample_index_[static_cast<std::size_t>(axis)][node_index(node)])];
+    }
+    // Bits z of the edges along `axis` from nodes (x, y, z) that are crossed; bit 0 is z = -1.
+    [[nodiscard]] std::uint32_t crossed(int axis, int x, int y) const;
+
+private:
+    [[nodiscard]] std::uint32_t column(int x, int y) const {
+        return columns_[static_cast<std::size_t>((y + 1) * kLocalNodes + x + 1)];
+    }
+    [[nodiscard]] static std::size_t node_index(const Local& n) {
+        return static_cast<std::size_t>(((n[2] + 1) * kLocalNodes + n[1] + 1) * kLocalNodes + n[0] + 1);
+    }
+    [[nodiscard]] bool collect_signs(const Solid& solid, const std::array<int, 3>& first_node);
+    void collect_crossings(const Solid& solid, const std::array<int, 3>& first_node);
+
+    std::array<std::uint32_t, kLocalNodes * kLocalNodes> columns_{};  // bit z + 1: node z is inside
+    std::array<std::array<std::uint16_t, kLocalNodes * kLocalNodes * kLocalNodes>, 3> sample_index_{};
+    std::vector<EdgeSample> samples_;
+};
+
+}  // namespace burin
