@@ -10,17 +10,17 @@
 
 BURIN_SHARED_BEGIN
 
+struct Direction {
+    float x;
+    float y;
+    float z;
+};
+
 #ifndef BURIN_NO_INT64  // for shaders that only decode, so that they run on devices without 64-bit integers
 struct IntVector {
     int64_t x;
     int64_t y;
     int64_t z;
-};
-
-struct Direction {
-    float x;
-    float y;
-    float z;
 };
 
 BURIN_FN int64_t absolute(int64_t a) { return a < int64_t(0) ? -a : a; }
