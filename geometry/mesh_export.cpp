@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include "geometry/mesh_export.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string_view>
+
+#include "geometry/file_io.hpp"
+
+namespace burin {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "binary files are written as the machine's own numbers");
+
+using Colour = std::array<std::uint8_t, 3>;
+
+class Bytes {
+public:
+    template <typename T>
+    void put(const T& value) {
+        const auto* raw = reinterpret_cast<const std::byte*>(&value);
+        bytes_.insert(bytes_.end(), raw, raw + sizeof(T));
+    }
+    void put_text(std::string_view text) {
+        const auto* raw = reinterpret_cast<const std::byte*>(text.data());
+        bytes_.insert(bytes_.end(), raw, raw + text.size());
+    }
+    template <typename Number>
+    void put_number(Number value) {  // shortest form that reads back as the same value
+        std::array<char, 32> digits;
+        const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+        put_text({digits.data(), static_cast<std::size_t>(end - digits.data())});
+    }
+    void put_point(const Vec3f& p) {
+        for (int k = 0; k < 3; ++k) put(p[k]);
+    }
+    void reserve(std::size_t n) { bytes_.reserve(n); }
+    std::vector<std::byte> take() { return std::move(bytes_); }
+
+private:
+    std::vector<std::byte> bytes_;
+};
+
+Result<void> check(const TriangleMesh& mesh, MeshFormat format, const std::string& name) {
+    if (mesh.triangles.empty()) return fail(name, "there are no triangles to write", "nothing was written");
+    if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max()) {
+        return fail(name, "there are more triangles than the format can count", "choose a lower resolution");
+    }
+    for (const auto& t : mesh.triangles) {
+        if (std::ranges::any_of(t, [&](std::uint32_t v) { return v >= mesh.positions_m.size(); })) {
+            return fail(name, "the mesh has a triangle without its vertices", "report this fault; nothing was written");
+        }
+    }
+    const double limit =
+        format == MeshFormat::obj ? std::numeric_limits<double>::max() : double{std::numeric_limits<float>::max()};
+    for (const Vec3& p : mesh.positions_m) {
+        for (int k = 0; k < 3; ++k) {
+            if (!(std::abs(p[k]) <= limit)) {
+                return fail(name, "the mesh has a coordinate that the format cannot hold", "nothing was written");
+            }
+        }
+    }
+    return {};
+}
+
+Colour material_colour(const TriangleMesh& mesh, std::size_t triangle) {
+    const std::size_t material = mesh.triangle_materials.empty() ? 0 : mesh.triangle_materials[triangle];
+    return material < mesh.materials.size() ? mesh.materials[material].colour : Material{}.colour;
+}
+
+bool has_face_colours(const TriangleMesh& mesh) {
+    return !mesh.materials.empty() && mesh.triangle_materials.size() == mesh.triangles.size();
+}
+
+// A vertex each, or nothing when the mesh has no colours at all.
+std::vector<Colour> vertex_colours(const TriangleMesh& mesh) {
+    if (!mesh.positions_m.empty() && mesh.colours.size() == mesh.positions_m.size()) return mesh.colours;
+    if (mesh.materials.empty()) return {};
+    std::vector<Colour> colours(mesh.positions_m.size(), material_colour(mesh, 0));
+    for (std::size_t t = mesh.triangles.size(); t-- > 0;) {  // backwards, so that the first triangle has the last word
+        for (const std::uint32_t v : mesh.triangles[t]) colours[v] = material_colour(mesh, t);
+    }
+    return colours;
+}
+
+// Unit length, or zero for a triangle without area, as the format asks.
+Vec3f normal_of(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 n = glm::cross(b - a, c - a);
+    const double length = glm::length(n);
+    return length > 0.0 && std::isfinite(length) ? Vec3f(n / length) : Vec3f(0.0f);
+}
+
+std::vector<std::byte> encode_stl(const TriangleMesh& mesh) {
+    Bytes out;
+    out.reserve(84 + 50 * mesh.triangles.size());
+    std::array<char, 80> header{};  // must not begin with "solid", or readers take it for text
+    constexpr std::string_view kTitle = "binary STL by Burin, in metres";
+    std::ranges::copy(kTitle, header.begin());
+    out.put(header);
+    out.put(static_cast<std::uint32_t>(mesh.triangles.size()));
+    for (const auto& t : mesh.triangles) {
+        const Vec3 &a = mesh.positions_m[t[0]], &b = mesh.positions_m[t[1]], &c = mesh.positions_m[t[2]];
+        out.put_point(normal_of(a, b, c));
+        for (const Vec3* p : {&a, &b, &c}) out.put_point(Vec3f(*p));
+        out.put(std::uint16_t{0});
+    }
+    return out.take();
+}
+
+std::vector<std::byte> encode_ply(const TriangleMesh& mesh) {
+    const std::vector<Colour> colours = vertex_colours(mesh);
+    const bool face_colours = has_face_colours(mesh);
+    constexpr std::string_view kColourProperties = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+    Bytes out;
+    out.reserve(512 + 15 * mesh.positions_m.size() + 16 * mesh.triangles.size());
+    out.put_text("ply\nformat binary_little_endian 1.0\ncomment by Burin, in metres\nelement vertex ");
+    out.put_number(mesh.positions_m.size());
+    out.put_text("\nproperty float x\nproperty float y\nproperty float z\n");
+    if (!colours.empty()) out.put_text(kColourProperties);
+    out.put_text("element face ");
+    out.put_number(mesh.triangles.size());
+    out.put_text("\nproperty list uchar int vertex_indices\n");
+    if (face_colours) out.put_text(kColourProperties);
+    out.put_text("end_header\n");
+    for (std::size_t v = 0; v < mesh.positions_m.size(); ++v) {
+        out.put_point(Vec3f(mesh.positions_m[v]));
+        if (!colours.empty()) out.put(colours[v]);
+    }
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        out.put(std::uint8_t{3});
+        out.put(mesh.triangles[t]);
+        if (face_colours) out.put(material_colour(mesh, t));
+    }
+    return out.take();
+}
+
+std::vector<std::byte> encode_obj(const TriangleMesh& mesh) {
+    const std::vector<Colour> colours = vertex_colours(mesh);
+    Bytes out;
+    out.put_text("# by Burin, in metres\n");
+    for (std::size_t v = 0; v < mesh.positions_m.size(); ++v) {
+        out.put_text("v");
+        for (int k = 0; k < 3; ++k) {
+            out.put_text(" ");
+            out.put_number(mesh.positions_m[v][k]);
+        }
+        for (std::size_t k = 0; k < 3 && !colours.empty(); ++k) {
+            out.put_text(" ");
+            out.put_number(static_cast<float>(colours[v][k]) / 255.0f);
+        }
+        out.put_text("\n");
+    }
+    for (const auto& t : mesh.triangles) {
+        out.put_text("f");
+        for (const std::uint32_t v : t) {
+            out.put_text(" ");
+            out.put_number(std::uint64_t{v} + 1);
+        }
+        out.put_text("\n");
+    }
+    return out.take();
+}
+
+}  // namespace
+
+Result<std::vector<std::byte>> encode_mesh(const TriangleMesh& mesh, MeshFormat format, const std::string& name) {
+    if (const auto sound = check(mesh, format, name); !sound) return std::unexpected(sound.error());
+    switch (format) {
+        case MeshFormat::stl: return encode_stl(mesh);
+        case MeshFormat::ply: return encode_ply(mesh);
+        case MeshFormat::obj: return encode_obj(mesh);
+        case MeshFormat::off: break;
+    }
+    return fail(name, "OFF is read but not written", "name it .stl, .ply or .obj");
+}
+
+Result<void> export_mesh(const TriangleMesh& mesh, const std::filesystem::path& path) {
+    const auto format = mesh_format_of(path);
+    if (!format) return fail(path.string(), "has an extension that is not a mesh format", "name it .stl, .ply or .obj");
+    const auto bytes = encode_mesh(mesh, *format, path.string());
+    if (!bytes) return std::unexpected(bytes.error());
+    return write_file_atomically(path, *bytes);
+}
+
+}  // namespace burin

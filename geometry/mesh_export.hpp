@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Writes a triangle mesh as STL (binary), PLY (binary, little endian) or OBJ, chosen by the extension.
+//
+// What each keeps: STL the shape in float; PLY shape in float, a colour for each vertex and, where triangles have
+// materials, for each face; OBJ the shape in double, to the last bit, and vertex colours as v x y z r g b.
+// A vertex's colour is mesh.colours where given, else that of the material of its first triangle.
+// Numbers are metres in the object frame. The same mesh gives the same bytes. The file appears whole or not at all, see
+// write_file_atomically. Failure: an Error with the path and the remedy; an existing file is then as it was.
+// Cost: the file in memory once. Any thread.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+#include "base/error.hpp"
+#include "geometry/mesh_import.hpp"
+#include "geometry/triangle_mesh.hpp"
+
+namespace burin {
+
+// Refused: no triangles, indices out of range, coordinates that are not finite (in float, for STL and PLY), OFF.
+[[nodiscard]] Result<void> export_mesh(const TriangleMesh& mesh, const std::filesystem::path& path);
+
+// The same into memory.
+[[nodiscard]] Result<std::vector<std::byte>> encode_mesh(const TriangleMesh& mesh, MeshFormat format,
+                                                         const std::string& name);
+
+}  // namespace burin

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "geometry/mesh_import.hpp"
+
+#include "geometry/file_io.hpp"
+#include "geometry/mesh_soup.hpp"
+#include "geometry/text_scanner.hpp"
+
+namespace burin {
+namespace {
+
+constexpr std::uint64_t kMaxMaterialFileBytes = 16 << 20;
+
+Result<MeshSoup> read(std::span<const std::byte> bytes, MeshFormat format, const std::string& name,
+                      const MaterialFileReader& material_files) {
+    switch (format) {
+        case MeshFormat::stl: return read_stl(bytes, name);
+        case MeshFormat::obj: return read_obj(text_of(bytes), name, material_files);
+        case MeshFormat::ply: return read_ply(bytes, name);
+        case MeshFormat::off: return read_off(text_of(bytes), name);
+    }
+    return fail(name, "has an unknown format", "name it .stl, .obj, .ply or .off");
+}
+
+MaterialFileReader files_beside(const std::filesystem::path& obj) {
+    return [folder = obj.parent_path()](std::string_view name) -> Result<std::string> {
+        auto bytes = read_file(folder / std::filesystem::path(name), kMaxMaterialFileBytes);
+        if (!bytes) return std::unexpected(bytes.error());
+        return std::string(text_of(*bytes));
+    };
+}
+
+}  // namespace
+
+std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& path) {
+    const std::string extension = path.extension().string();
+    if (equals_ignoring_case(extension, ".stl")) return MeshFormat::stl;
+    if (equals_ignoring_case(extension, ".obj")) return MeshFormat::obj;
+    if (equals_ignoring_case(extension, ".ply")) return MeshFormat::ply;
+    if (equals_ignoring_case(extension, ".off")) return MeshFormat::off;
+    return std::nullopt;
+}
+
+Result<ImportedMesh> import_mesh(const std::filesystem::path& path) {
+    const std::string name = path.string();
+    const auto format = mesh_format_of(path);
+    if (!format) {
+        // A folder or a missing file is the better thing to say than a wrong extension.
+        std::error_code ignored;
+        if (std::filesystem::is_directory(path, ignored)) return fail(name, "is a folder", "name a file inside it");
+        if (!std::filesystem::exists(path, ignored)) return fail(name, "does not exist", "check the path");
+        return fail(name, "has an extension that is not a mesh format", "convert it to .stl, .obj, .ply or .off");
+    }
+    const auto bytes = read_file(path);
+    if (!bytes) return std::unexpected(bytes.error());
+    return import_mesh(*bytes, *format, name, files_beside(path));
+}
+
+Result<ImportedMesh> import_mesh(std::span<const std::byte> bytes, MeshFormat format, const std::string& name,
+                                 const MaterialFileReader& material_files) {
+    if (bytes.empty()) return fail(name, "is empty", "export it again");
+    Result<MeshSoup> soup = read(bytes, format, name, material_files);
+    if (!soup) return std::unexpected(soup.error());
+    return finished(std::move(*soup), name);
+}
+
+}  // namespace burin

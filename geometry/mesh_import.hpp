@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Reads a triangle mesh from STL (ASCII, binary), OBJ (with MTL), PLY (ASCII, binary of both byte orders) or OFF (ASCII).
+//
+// The promise: every face of the file is in the mesh, as it stands in the file, or counted in the report. Nothing is
+// merged, dropped, repaired or turned here; that is for mesh_health.hpp and mesh_mend.hpp, on request. The one exception
+// lies in the format: STL has no shared vertices, so equal positions become one vertex (bit for bit; -0 equals 0).
+//
+// Units and frame: file numbers are taken as metres in the object frame, as doubles. Every coordinate is finite and at
+// most kMaxCoordinate_m. Faces wind counter-clockwise seen from outside where the file keeps to that.
+// Failure: an Error with the file, the line (text) or byte (binary), and the remedy. Memory is bounded by a small
+// multiple of the file's size: a count in a header is compared with the bytes that follow before anything is allocated.
+// Cost: linear in the file; a binary STL of a million triangles takes a fraction of a second. Any thread; no locale.
+//
+// Why our own readers and not OpenMesh's: handed a BaseImporter that takes faces raw, OpenMesh 9 still
+//   OBJ: skips a vertex that it cannot parse (so that all later indices name other vertices), drops faces with a repeated
+//        index, rounds positions to float, passes indices out of range;
+//   OFF: repeats the last face when the file is cut short, reads "nan" as 0, passes uninitialised vertex handles for a
+//        face that claims many corners;
+//   PLY: believes the header's and each face's counts, passes empty faces when the text is malformed, rounds to float;
+//   STL: drops triangles with two equal corners, reads "nan" as 0;
+// and none of them can say in which line. The tests use OpenMesh as the independent reader instead.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.hpp"
+#include "geometry/triangle_mesh.hpp"
+
+namespace burin {
+
+inline constexpr double kMaxCoordinate_m = 1e9;  // keeps areas and volumes far from overflow
+inline constexpr std::size_t kMaxMaterials =
+    254;  // a material is one byte; two values stay free for the solid's own use
+
+enum class MeshFormat : std::uint8_t { stl, obj, ply, off };
+
+// What the reader did. Nothing happens that is not said here.
+struct ImportReport {
+    std::string format;                         // e.g. "PLY, binary little endian"
+    std::uint64_t faces_in_file = 0;            // = triangles_in_file + polygons_in_file + faces_without_area
+    std::uint64_t triangles_in_file = 0;        // taken as they are
+    std::uint64_t polygons_in_file = 0;         // of n > 3 corners, split into n - 2 triangles each:
+    std::uint64_t polygons_fanned = 0;          //   convex ones, as a fan from their first corner
+    std::uint64_t polygons_ear_clipped = 0;     //   the others, by cutting ears in their mean plane
+    std::uint64_t polygons_fanned_blindly = 0;  //   no ears found (flat, crossed or huge): a fan, which may fold over
+    std::uint64_t faces_without_area = 0;       // of fewer than 3 corners: not in the mesh
+    std::uint64_t vertices_in_file = 0;
+    std::uint64_t vertices_merged = 0;   // STL corners that met at an equal position
+    std::uint64_t materials_merged = 0;  // by how many the file's materials exceeded kMaxMaterials and were merged
+    std::vector<std::string> remarks;    // one line each, for the user: what was ignored or assumed
+};
+
+struct ImportedMesh {
+    TriangleMesh mesh;
+    ImportReport report;
+};
+
+// By the extension (any case). Reads an OBJ's MTL files from the OBJ's folder; a missing one is a remark.
+[[nodiscard]] Result<ImportedMesh> import_mesh(const std::filesystem::path& path);
+
+// Finds the text of a material file named by an OBJ.
+using MaterialFileReader = std::function<Result<std::string>(std::string_view name)>;
+
+// The same from memory; `name` stands in for the file in messages. Without a reader, OBJ materials are plain grey.
+[[nodiscard]] Result<ImportedMesh> import_mesh(std::span<const std::byte> bytes, MeshFormat format,
+                                               const std::string& name, const MaterialFileReader& material_files = {});
+
+// The format that an extension means (".stl", any case), if any.
+[[nodiscard]] std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& path);
+
+}  // namespace burin

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+// OBJ. Read: v (with w or with a colour: x y z r g b), f (and the old fo) with positive or negative indices, usemtl, mtllib.
+// A face may name a vertex that comes later. Texture coordinates, normals, groups and smoothing are skipped silently, since
+// they do not change the surface; lines, points, curves and free-form surfaces are counted in a remark.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "geometry/mesh_soup.hpp"
+#include "geometry/mtl.hpp"
+#include "geometry/text_scanner.hpp"
+
+namespace burin {
+namespace {
+
+constexpr char kComment = '#';
+
+// Keywords that do not change the surface's shape or colour.
+constexpr std::string_view kSkipped[] = {"vt",     "vn",     "g",   "s",     "o",        "mg",
+                                         "usemap", "maplib", "lod", "bevel", "c_interp", "d_interp"};
+
+class ObjReader {
+public:
+    ObjReader(std::string_view text, const std::string& name, const MaterialFileReader& material_files)
+        : scan_(text), name_(name), material_files_(material_files) {}
+
+    Result<MeshSoup> read() {
+        soup_.report.format = "OBJ";
+        for (; !scan_.at_end(); scan_.next_line()) {
+            if (auto done = statement(); !done) return std::unexpected(done.error());
+        }
+        if (auto done = resolve_corners(); !done) return std::unexpected(done.error());
+        if (auto done = resolve_colours(); !done) return std::unexpected(done.error());
+        if (ignored_ > 0) {
+            soup_.report.remarks.push_back(
+                std::to_string(ignored_) + " statements other than polygons were ignored, the first (" +
+                in_quotes(first_ignored_) + ") in line " + std::to_string(first_ignored_line_));
+        }
+        return std::move(soup_);
+    }
+
+private:
+    using Done = Result<void>;
+
+    std::unexpected<Error> wrong(const std::string& what,
+                                 const char* remedy = "repair the file or export it again") const {
+        return fail(at_line(name_, scan_.line()), what, remedy);
+    }
+
+    // The next word of the statement. A backslash at the end of a line joins it with the next.
+    std::string_view word() {
+        for (;;) {
+            std::string_view found = scan_.token_in_line(kComment);
+            if (!found.ends_with('\\')) return found;
+            found.remove_suffix(1);
+            scan_.next_line();
+            if (!found.empty() || scan_.at_end()) return found;
+        }
+    }
+
+    Done statement() {
+        const std::string_view keyword = word();
+        if (keyword.empty()) return {};
+        if (equals_ignoring_case(keyword, "v")) return vertex();
+        if (equals_ignoring_case(keyword, "f") || equals_ignoring_case(keyword, "fo")) return face();
+        if (equals_ignoring_case(keyword, "usemtl")) {
+            use_material(scan_.rest_of_line());
+        } else if (equals_ignoring_case(keyword, "mtllib")) {
+            read_materials(scan_.rest_of_line());
+        } else if (std::ranges::none_of(kSkipped, [&](auto known) { return equals_ignoring_case(keyword, known); })) {
+            if (ignored_++ == 0) {
+                first_ignored_ = keyword;
+                first_ignored_line_ = scan_.line();
+            }
+        }
+        while (!word().empty()) {
+        }  // joined lines belong to the statement
+        return {};
+    }
+
+    Done vertex() {
+        std::array<double, 7> values{};
+        std::size_t count = 0;
+        for (std::string_view w = word(); !w.empty(); w = word()) {
+            const auto value = number_from(w);
+            if (!value) return wrong(in_quotes(w) + " is not a number");
+            if (count == values.size()) return wrong("a vertex has more than 7 numbers");
+            values[count++] = *value;
+        }
+        if (count < 3) return wrong("a vertex has fewer than 3 coordinates", kTruncatedRemedy);
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (const char* fault = coordinate_fault(values[k])) return wrong(fault, kCoordinateRemedy);
+        }
+        soup_.positions_m.emplace_back(values[0], values[1], values[2]);
+        return count >= 6 ? vertex_colour(values, count - 3) : Done{};
+    }
+
+    // Colours are kept as they stand until the whole file tells whether they run to 1 or to 255.
+    Done vertex_colour(const std::array<double, 7>& values, std::size_t at) {
+        Vec3f colour;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (!(values[at + k] >= 0.0 && values[at + k] <= 255.0))
+                return wrong("a vertex colour lies outside 0 to 1 and 0 to 255");
+            colour[static_cast<int>(k)] = static_cast<float>(values[at + k]);
+            brightest_ = std::max(brightest_, colour[static_cast<int>(k)]);
+        }
+        colours_.push_back(colour);
+        return {};
+    }
+
+    Done face() {
+        std::uint32_t corners = 0;
+        for (std::string_view w = word(); !w.empty(); w = word(), ++corners) {
+            if (auto done = corner(w.substr(0, w.find('/'))); !done) return done;
+        }
+        if (corners < 3) return wrong("a face has fewer than 3 corners", kTruncatedRemedy);
+        soup_.corner_counts.push_back(corners);
+        remember_face_material();
+        return {};
+    }
+
+    Done corner(std::string_view w) {
+        const auto index = integer_from<std::int64_t>(w);
+        if (!index) return wrong(in_quotes(w) + " is not a vertex index");
+        const auto known = static_cast<std::int64_t>(soup_.positions_m.size());
+        if (*index == 0) return wrong("a face names vertex 0; OBJ counts from 1");
+        if (*index < -known || *index > std::numeric_limits<std::uint32_t>::max()) {
+            return wrong("a face names vertex " + std::to_string(*index) + ", but only " + std::to_string(known) +
+                         " come before it");
+        }
+        const auto corner = static_cast<std::uint32_t>(*index > 0 ? *index - 1 : known + *index);
+        if (corner > farthest_corner_ || farthest_line_ == 0) {
+            farthest_corner_ = corner;
+            farthest_line_ = scan_.line();
+        }
+        soup_.corners.push_back(corner);
+        return {};
+    }
+
+    Done resolve_corners() {
+        if (soup_.corners.empty() || farthest_corner_ < soup_.positions_m.size()) return {};
+        return fail(at_line(name_, farthest_line_),
+                    "a face names vertex " + std::to_string(std::uint64_t{farthest_corner_} + 1) +
+                        ", but there are only " + std::to_string(soup_.positions_m.size()),
+                    "repair the file or export it again");
+    }
+
+    Done resolve_colours() {
+        if (colours_.empty()) return {};
+        if (colours_.size() != soup_.positions_m.size()) {
+            soup_.report.remarks.push_back("vertex colours were ignored: only " + std::to_string(colours_.size()) +
+                                           " of " + std::to_string(soup_.positions_m.size()) + " vertices have one");
+            return {};
+        }
+        const float scale = brightest_ > 1.0f ? 1.0f : 255.0f;
+        soup_.colours.reserve(colours_.size());
+        for (const Vec3f& c : colours_) {
+            Colour colour;
+            for (int k = 0; k < 3; ++k)
+                colour[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(std::lround(scale * c[k]));
+            soup_.colours.push_back(colour);
+        }
+        return {};
+    }
+
+    void use_material(std::string_view name) { material_in_use_ = std::string(name); }
+
+    // Materials are numbered in the order of their first use; faces before any usemtl get a plain one.
+    void remember_face_material() {
+        if (!material_in_use_) {
+            if (soup_.face_materials.empty()) return;
+            material_in_use_.emplace();
+        }
+        while (soup_.face_materials.size() + 1 < soup_.corner_counts.size())
+            soup_.face_materials.push_back(number_of(""));
+        soup_.face_materials.push_back(number_of(*material_in_use_));
+    }
+
+    std::uint32_t number_of(const std::string& material) {
+        if (last_number_ && last_name_ == material) return *last_number_;
+        const auto [entry, is_new] = numbers_.try_emplace(material, static_cast<std::uint32_t>(soup_.materials.size()));
+        if (is_new) {
+            const auto known = library_.find(material);
+            if (known == library_.end() && !material.empty()) {
+                soup_.report.remarks.push_back("material " + in_quotes(material) + " is not defined; it is shown grey");
+            }
+            soup_.materials.push_back({material, known == library_.end() ? kPlainColour : known->second});
+        }
+        last_name_ = material;
+        last_number_ = entry->second;
+        return entry->second;
+    }
+
+    void read_materials(std::string_view file) {
+        // The same library named again and again must not be read again and again.
+        if (!libraries_.try_emplace(std::string(file), true).second) return;
+        if (!material_files_) {
+            soup_.report.remarks.push_back("material file " + in_quotes(file) + " was not read");
+            return;
+        }
+        const Result<std::string> text = material_files_(file);
+        if (!text) {
+            soup_.report.remarks.push_back("material file ignored: " + text.error().line());
+            return;
+        }
+        MaterialLibrary read = read_mtl(*text, std::string(file));
+        for (auto& [name, colour] : read.colours) library_.insert_or_assign(name, colour);
+        std::ranges::move(read.remarks, std::back_inserter(soup_.report.remarks));
+    }
+
+    TextScanner scan_;
+    const std::string& name_;
+    const MaterialFileReader& material_files_;
+    MeshSoup soup_;
+    std::vector<Vec3f> colours_;
+    float brightest_ = 0.0f;
+    std::uint32_t farthest_corner_ = 0;
+    std::uint64_t farthest_line_ = 0;
+    std::uint64_t ignored_ = 0, first_ignored_line_ = 0;
+    std::string_view first_ignored_;
+    std::optional<std::string> material_in_use_;
+    std::string last_name_;
+    std::optional<std::uint32_t> last_number_;
+    std::map<std::string, std::uint32_t, std::less<>> numbers_;
+    std::map<std::string, Colour, std::less<>> library_;
+    std::map<std::string, bool, std::less<>> libraries_;
+};
+
+}  // namespace
+
+Result<MeshSoup> read_obj(std::string_view text, const std::string& name, const MaterialFileReader& material_files) {
+    return ObjReader(text, name, material_files).read();
+}
+
+}  // namespace burin

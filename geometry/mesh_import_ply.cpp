@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// PLY 1.0, ASCII and binary of both byte orders. Read: element vertex (x, y, z and red, green, blue), element face
+// (vertex_indices or vertex_index, and red, green, blue). Other elements and properties are skipped; elements are named in
+// a remark. Triangle strips are refused rather than lost. A header's count is compared with the bytes that are left.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "geometry/mesh_soup.hpp"
+#include "geometry/ply_header.hpp"
+#include "geometry/text_scanner.hpp"
+
+namespace burin {
+namespace {
+
+class PlyReader {
+public:
+    PlyReader(std::span<const std::byte> bytes, const std::string& name, PlyHeader header)
+        : name_(name), header_(std::move(header)), values_(bytes, header_) {}
+
+    Result<MeshSoup> read() {
+        soup_.report.format = header_.encoding == PlyEncoding::ascii           ? "PLY, ASCII"
+                              : header_.encoding == PlyEncoding::little_endian ? "PLY, binary little endian"
+                                                                               : "PLY, binary big endian";
+        for (const PlyElement& element : header_.elements) {
+            if (auto done = read_element(element); !done) return std::unexpected(done.error());
+        }
+        if (auto done = check_corners(); !done) return std::unexpected(done.error());
+        if (!values_.only_blanks_left()) soup_.report.remarks.push_back("data after the last element were ignored");
+        return std::move(soup_);
+    }
+
+private:
+    using Done = Result<void>;
+
+    std::unexpected<Error> wrong(const std::string& what,
+                                 const char* remedy = "repair the file or export it again") const {
+        return fail(values_.where(name_), what, remedy);
+    }
+
+    Done read_element(const PlyElement& element) {
+        if (element.least_row_bytes(header_.encoding) > 0 &&
+            element.count > values_.bytes_left() / element.least_row_bytes(header_.encoding)) {
+            return wrong("claims " + std::to_string(element.count) + " of " + in_quotes(element.name) +
+                             ", more than the file can hold",
+                         kTruncatedRemedy);
+        }
+        if (element.properties.empty()) return {};  // its rows are nothing
+        if (element.name == "vertex") return read_vertices(element);
+        if (element.name == "face") return read_faces(element);
+        if (element.count == 0) return {};
+        if (element.name == "tristrips") return wrong("holds triangle strips", "convert them to triangles");
+        soup_.report.remarks.push_back("element " + in_quotes(element.name) + " was ignored");
+        return skip_rows(element);
+    }
+
+    Done skip_rows(const PlyElement& element) {
+        for (std::uint64_t row = 0; row < element.count; ++row) {
+            for (const PlyProperty& property : element.properties) {
+                if (auto done = skip(property); !done) return done;
+            }
+        }
+        return {};
+    }
+
+    Result<double> value(PlyType type) {
+        const auto read = values_.next(type);
+        if (!read) return wrong(values_.fault(), kTruncatedRemedy);
+        return *read;
+    }
+
+    Result<std::uint64_t> list_length(const PlyProperty& property) {
+        const auto length = value(property.count_type);
+        if (!length) return std::unexpected(length.error());
+        if (!(*length >= 0.0) || *length != std::floor(*length) || *length > 4294967295.0) {
+            return wrong("a list has an impossible length");
+        }
+        const auto count = static_cast<std::uint64_t>(*length);
+        if (count > values_.bytes_left() / least_bytes(property.type, header_.encoding)) {
+            return wrong("a list claims " + std::to_string(count) + " values, more than the file can hold",
+                         kTruncatedRemedy);
+        }
+        return count;
+    }
+
+    Done skip(const PlyProperty& property) {
+        std::uint64_t count = 1;
+        if (property.is_list) {
+            const auto length = list_length(property);
+            if (!length) return std::unexpected(length.error());
+            count = *length;
+        }
+        for (; count > 0; --count) {
+            if (const auto read = value(property.type); !read) return std::unexpected(read.error());
+        }
+        return {};
+    }
+
+    Done colour_channel(const PlyProperty& property, Colour& colour) {
+        const auto read = value(property.type);
+        if (!read) return std::unexpected(read.error());
+        const double scaled = property.type == PlyType::f32 || property.type == PlyType::f64 ? *read * 255.0
+                              : property.type == PlyType::u16                                ? *read / 257.0
+                                                                                             : *read;
+        if (!(scaled >= 0.0 && scaled <= 255.5)) return wrong("a colour lies outside its range");
+        colour[property.channel()] = static_cast<std::uint8_t>(std::min(std::lround(scaled), 255L));
+        return {};
+    }
+
+    Done read_vertices(const PlyElement& element) {
+        if (!element.has_position()) {
+            return element.count == 0 ? Done{} : wrong("its vertices lack x, y or z");
+        }
+        const bool coloured = element.has_colour();
+        soup_.positions_m.reserve(element.count);
+        if (coloured) soup_.colours.reserve(element.count);
+        for (std::uint64_t row = 0; row < element.count; ++row) {
+            Vec3 p(0.0);
+            Colour colour = kPlainColour;
+            for (const PlyProperty& property : element.properties) {
+                if (property.role == PlyRole::x || property.role == PlyRole::y || property.role == PlyRole::z) {
+                    const auto read = value(property.type);
+                    if (!read) return std::unexpected(read.error());
+                    if (const char* fault = coordinate_fault(*read)) return wrong(fault, kCoordinateRemedy);
+                    p[static_cast<int>(property.role) - static_cast<int>(PlyRole::x)] = *read;
+                } else if (auto done =
+                               coloured && property.is_colour() ? colour_channel(property, colour) : skip(property);
+                           !done) {
+                    return done;
+                }
+            }
+            soup_.positions_m.push_back(p);
+            if (coloured) soup_.colours.push_back(colour);
+        }
+        return {};
+    }
+
+    Done read_faces(const PlyElement& element) {
+        if (!element.has_corners()) {
+            return element.count == 0 ? Done{} : wrong("its faces lack the list vertex_indices");
+        }
+        const bool coloured = element.has_colour();
+        soup_.corner_counts.reserve(element.count);
+        for (std::uint64_t row = 0; row < element.count; ++row) {
+            Colour colour = kPlainColour;
+            for (const PlyProperty& property : element.properties) {
+                auto done = property.role == PlyRole::corners  ? corners(property)
+                            : coloured && property.is_colour() ? colour_channel(property, colour)
+                                                               : skip(property);
+                if (!done) return done;
+            }
+            if (coloured) soup_.face_materials.push_back(materials_.index_of(colour));
+        }
+        return {};
+    }
+
+    Done corners(const PlyProperty& property) {
+        const auto length = list_length(property);
+        if (!length) return std::unexpected(length.error());
+        for (std::uint64_t i = 0; i < *length; ++i) {
+            const auto read = value(property.type);
+            if (!read) return std::unexpected(read.error());
+            if (!(*read >= 0.0) || *read > 4294967295.0 || *read != std::floor(*read))
+                return wrong("a face has an impossible index");
+            const auto corner = static_cast<std::uint32_t>(*read);
+            if (corner > farthest_corner_ || farthest_where_ == 0) {
+                farthest_corner_ = corner;
+                farthest_where_ = values_.place();
+            }
+            soup_.corners.push_back(corner);
+        }
+        soup_.corner_counts.push_back(static_cast<std::uint32_t>(*length));
+        return {};
+    }
+
+    // Only now, since faces may come before vertices.
+    Done check_corners() {
+        if (soup_.corners.empty() || farthest_corner_ < soup_.positions_m.size()) return {};
+        return fail(values_.where(name_, farthest_where_),
+                    "a face names vertex " + std::to_string(farthest_corner_) + ", but there are only " +
+                        std::to_string(soup_.positions_m.size()) + " (counted from 0)",
+                    "repair the file or export it again");
+    }
+
+    const std::string& name_;
+    PlyHeader header_;
+    PlyValues values_;
+    MeshSoup soup_;
+    ColourMaterials materials_{soup_.materials};
+    std::uint32_t farthest_corner_ = 0;
+    std::uint64_t farthest_where_ = 0;
+};
+
+}  // namespace
+
+Result<MeshSoup> read_ply(std::span<const std::byte> bytes, const std::string& name) {
+    Result<PlyHeader> header = read_ply_header(text_of(bytes), name);
+    if (!header) return std::unexpected(header.error());
+    return PlyReader(bytes, name, std::move(*header)).read();
+}
+
+}  // namespace burin

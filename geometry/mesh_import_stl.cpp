@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// STL. Binary: an 80-byte header, a 32-bit count, then 50 bytes a triangle (normal, three corners, attribute), little
+// endian. ASCII: solid, facet normal, outer loop, vertex, endloop, endfacet, endsolid; any case, any number of solids.
+// A binary header may say "solid" too, so the file's size decides first. Normals are ignored: the winding says it.
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "geometry/mesh_soup.hpp"
+#include "geometry/text_scanner.hpp"
+#include "geometry/vertex_weld.hpp"
+
+namespace burin {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "binary STL is read as the machine's own floats");
+
+constexpr std::size_t kHeaderBytes = 84, kTriangleBytes = 50, kNormalBytes = 12;
+
+std::uint64_t bytes_claimed(std::span<const std::byte> bytes) {
+    std::uint32_t count = 0;
+    std::memcpy(&count, bytes.data() + 80, sizeof count);
+    return kHeaderBytes + std::uint64_t{kTriangleBytes} * count;
+}
+
+// Text says "solid" first and holds no zero byte near its start; binary headers are padded with zeros or the count has one.
+bool looks_like_text(std::string_view text) {
+    TextScanner scan(text.substr(0, 512));
+    return equals_ignoring_case(scan.token(), "solid") && text.substr(0, 512).find('\0') == std::string_view::npos;
+}
+
+Result<MeshSoup> read_binary(std::span<const std::byte> bytes, const std::string& name) {
+    if (bytes.size() < kHeaderBytes) {
+        return fail(name, "has " + std::to_string(bytes.size()) + " bytes, too few for an STL file", kTruncatedRemedy);
+    }
+    const std::uint64_t claimed = bytes_claimed(bytes);
+    const std::uint64_t count = (claimed - kHeaderBytes) / kTriangleBytes;
+    if (claimed > bytes.size()) {
+        return fail(name,
+                    "claims " + std::to_string(count) + " triangles (" + std::to_string(claimed) +
+                        " bytes) but has only " + std::to_string(bytes.size()) + " bytes",
+                    kTruncatedRemedy);
+    }
+    MeshSoup soup;
+    soup.report.format = "STL, binary";
+    if (claimed < bytes.size()) {
+        soup.report.remarks.push_back(std::to_string(bytes.size() - claimed) +
+                                      " bytes after the last triangle were ignored");
+    }
+    VertexWeld weld(soup.positions_m);
+    soup.corners.reserve(3 * count);
+    soup.corner_counts.assign(count, 3);
+    std::uint64_t with_attribute = 0;
+    for (std::uint64_t t = 0; t < count; ++t) {
+        const std::byte* triangle = bytes.data() + kHeaderBytes + t * kTriangleBytes;
+        float xyz[9];
+        std::memcpy(xyz, triangle + kNormalBytes, sizeof xyz);
+        for (std::size_t k = 0; k < 9; ++k) {
+            if (const char* fault = coordinate_fault(xyz[k])) {
+                const auto byte = kHeaderBytes + t * kTriangleBytes + kNormalBytes + 4 * k;
+                return fail(at_byte(name, byte), fault, kCoordinateRemedy);
+            }
+        }
+        for (std::size_t k = 0; k < 9; k += 3) soup.corners.push_back(weld.index_of({xyz[k], xyz[k + 1], xyz[k + 2]}));
+        if (triangle[48] != std::byte{0} || triangle[49] != std::byte{0}) ++with_attribute;
+    }
+    if (with_attribute > 0) {
+        soup.report.remarks.push_back("the attributes (colours) of " + std::to_string(with_attribute) +
+                                      " triangles were ignored");
+    }
+    soup.report.vertices_merged = soup.corners.size() - soup.positions_m.size();
+    return soup;
+}
+
+class AsciiStl {
+public:
+    AsciiStl(std::string_view text, const std::string& name) : scan_(text), name_(name), weld_(soup_.positions_m) {}
+
+    Result<MeshSoup> read() {
+        soup_.report.format = "STL, ASCII";
+        for (std::string_view word = scan_.token(); !word.empty(); word = scan_.token()) {
+            if (equals_ignoring_case(word, "solid") || equals_ignoring_case(word, "endsolid")) {
+                open_ = equals_ignoring_case(word, "solid");
+                scan_.next_line();  // the rest is a name
+            } else if (!equals_ignoring_case(word, "facet")) {
+                return wrong(word, "facet");
+            } else if (const auto done = facet(); !done) {
+                return std::unexpected(done.error());
+            }
+        }
+        if (open_) return fail(at_line(name_, scan_.line()), "ends before endsolid", kTruncatedRemedy);
+        soup_.report.vertices_merged = soup_.corners.size() - soup_.positions_m.size();
+        return std::move(soup_);
+    }
+
+private:
+    std::unexpected<Error> wrong(std::string_view word, const char* wanted) const {
+        const std::string got = word.empty() ? "the end of the file" : in_quotes(word);
+        return fail(at_line(name_, scan_.line()), got + " stands where '" + wanted + "' should", kTruncatedRemedy);
+    }
+
+    // After "facet": what stands before "outer" is the normal, in whatever form.
+    Result<void> facet() {
+        constexpr int kMostNormalWords = 4;
+        std::string_view word = scan_.token();
+        for (int i = 0; i < kMostNormalWords && !equals_ignoring_case(word, "outer"); ++i) word = scan_.token();
+        if (!equals_ignoring_case(word, "outer")) return wrong(word, "outer loop");
+        if (word = scan_.token(); !equals_ignoring_case(word, "loop")) return wrong(word, "loop");
+        std::uint32_t corners = 0;
+        for (word = scan_.token(); equals_ignoring_case(word, "vertex"); word = scan_.token(), ++corners) {
+            if (const auto done = vertex(); !done) return done;
+        }
+        if (!equals_ignoring_case(word, "endloop")) return wrong(word, "vertex or endloop");
+        if (word = scan_.token(); !equals_ignoring_case(word, "endfacet")) return wrong(word, "endfacet");
+        soup_.corner_counts.push_back(corners);
+        return {};
+    }
+
+    Result<void> vertex() {
+        Vec3 p;
+        for (int k = 0; k < 3; ++k) {
+            const std::string_view word = scan_.token();
+            const auto value = number_from(word);
+            if (!value) return wrong(word, "a number");
+            if (const char* fault = coordinate_fault(*value)) {
+                return fail(at_line(name_, scan_.line()), fault, kCoordinateRemedy);
+            }
+            p[k] = *value;
+        }
+        soup_.corners.push_back(weld_.index_of(p));
+        return {};
+    }
+
+    TextScanner scan_;
+    const std::string& name_;
+    MeshSoup soup_;
+    VertexWeld weld_;
+    bool open_ = false;
+};
+
+}  // namespace
+
+Result<MeshSoup> read_stl(std::span<const std::byte> bytes, const std::string& name) {
+    const bool exact_binary = bytes.size() >= kHeaderBytes && bytes_claimed(bytes) == bytes.size();
+    if (!exact_binary && looks_like_text(text_of(bytes))) return AsciiStl(text_of(bytes), name).read();
+    return read_binary(bytes, name);
+}
+
+}  // namespace burin

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "geometry/mesh_soup.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "geometry/polygon.hpp"
+
+namespace burin {
+namespace {
+
+std::uint32_t packed(const Colour& c) {
+    return static_cast<std::uint32_t>(c[0]) << 16 | static_cast<std::uint32_t>(c[1]) << 8 | c[2];
+}
+
+int largest_difference(const Colour& a, const Colour& b) {
+    int most = 0;
+    for (std::size_t i = 0; i < 3; ++i) most = std::max(most, std::abs(int{a[i]} - int{b[i]}));
+    return most;
+}
+
+// Triangles without a face colour take the colour that two of their corners share, else that of their first corner: no
+// colour arises that the file does not have.
+void materials_from_vertices(MeshSoup& soup) {
+    ColourMaterials materials(soup.materials);
+    soup.face_materials.reserve(soup.corner_counts.size());
+    std::size_t first = 0;
+    for (const std::uint32_t count : soup.corner_counts) {
+        Colour colour = kPlainColour;
+        if (count > 0) colour = soup.colours[soup.corners[first]];
+        if (count > 2 && soup.colours[soup.corners[first + 1]] == soup.colours[soup.corners[first + 2]]) {
+            colour = soup.colours[soup.corners[first + 1]];
+        }
+        soup.face_materials.push_back(materials.index_of(colour));
+        first += count;
+    }
+}
+
+// Groups colours by their leading bits, as many bits as leave at most kMaxMaterials groups. A group's colour is the mean
+// over its faces, its name that of its first material.
+void reduce_palette(MeshSoup& soup) {
+    if (soup.materials.size() <= kMaxMaterials) return;
+    std::vector<std::uint64_t> uses(soup.materials.size());
+    for (const std::uint32_t m : soup.face_materials) ++uses[m];
+    std::vector<std::uint32_t> group_of(soup.materials.size());
+    std::size_t groups = 0;
+    for (unsigned dropped_bits = 0; dropped_bits <= 6; ++dropped_bits) {  // 2 bits a channel: at most 64 groups
+        std::unordered_map<std::uint32_t, std::uint32_t> known;
+        for (std::size_t m = 0; m < soup.materials.size(); ++m) {
+            Colour c = soup.materials[m].colour;
+            for (auto& channel : c) channel = static_cast<std::uint8_t>(channel >> dropped_bits);
+            group_of[m] = known.try_emplace(packed(c), static_cast<std::uint32_t>(known.size())).first->second;
+        }
+        groups = known.size();
+        if (groups <= kMaxMaterials) break;
+    }
+    std::vector<Material> merged(groups);
+    std::vector<std::array<std::uint64_t, 4>> sums(groups);
+    for (std::size_t m = 0; m < soup.materials.size(); ++m) {
+        auto& sum = sums[group_of[m]];
+        const std::uint64_t weight = std::max<std::uint64_t>(uses[m], 1);
+        for (std::size_t i = 0; i < 3; ++i) sum[i] += weight * soup.materials[m].colour[i];
+        if (sum[3] == 0) merged[group_of[m]].name = soup.materials[m].name;
+        sum[3] += weight;
+    }
+    int worst = 0;
+    for (std::size_t g = 0; g < groups; ++g) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            merged[g].colour[i] = static_cast<std::uint8_t>((sums[g][i] + sums[g][3] / 2) / sums[g][3]);
+        }
+    }
+    for (std::size_t m = 0; m < soup.materials.size(); ++m) {
+        worst = std::max(worst, largest_difference(soup.materials[m].colour, merged[group_of[m]].colour));
+    }
+    for (auto& m : soup.face_materials) m = group_of[m];
+    soup.report.materials_merged = soup.materials.size() - groups;
+    soup.report.remarks.push_back("its " + std::to_string(soup.materials.size()) + " materials were merged into " +
+                                  std::to_string(groups) + "; a colour changed by up to " + std::to_string(worst) +
+                                  " of 255");
+    soup.materials = std::move(merged);
+}
+
+void count_polygon(ImportReport& report, PolygonSplit how) {
+    ++report.polygons_in_file;
+    switch (how) {
+        case PolygonSplit::fan: ++report.polygons_fanned; break;
+        case PolygonSplit::ears: ++report.polygons_ear_clipped; break;
+        case PolygonSplit::blind_fan: ++report.polygons_fanned_blindly; break;
+    }
+}
+
+void split_faces(const MeshSoup& soup, TriangleMesh& mesh, ImportReport& report) {
+    mesh.triangles.reserve(soup.corner_counts.size());
+    std::vector<Vec3> polygon;
+    std::size_t first = 0;
+    for (std::size_t face = 0; face < soup.corner_counts.size(); ++face) {
+        const std::uint32_t count = soup.corner_counts[face];
+        const std::uint32_t* corner = soup.corners.data() + first;
+        first += count;
+        if (count < 3) {
+            ++report.faces_without_area;
+            continue;
+        }
+        if (count == 3) {
+            ++report.triangles_in_file;
+            mesh.triangles.push_back({corner[0], corner[1], corner[2]});
+        } else {
+            polygon.clear();
+            for (std::uint32_t i = 0; i < count; ++i) polygon.push_back(soup.positions_m[corner[i]]);
+            // The limit bounds the work that a hostile file can ask for to some thousand steps a corner.
+            const SplitPolygon split = split_polygon(polygon, 256);
+            count_polygon(report, split.how);
+            for (const auto& t : split.triangles) mesh.triangles.push_back({corner[t[0]], corner[t[1]], corner[t[2]]});
+        }
+        if (!soup.face_materials.empty()) {
+            mesh.triangle_materials.resize(mesh.triangles.size(), static_cast<std::uint8_t>(soup.face_materials[face]));
+        }
+    }
+}
+
+}  // namespace
+
+std::uint32_t ColourMaterials::index_of(const Colour& colour) {
+    const auto [entry, is_new] = known_.try_emplace(packed(colour), static_cast<std::uint32_t>(materials_.size()));
+    if (is_new) {
+        constexpr char kDigits[] = "0123456789abcdef";
+        std::string name = "#";
+        for (const std::uint8_t c : colour) name += {kDigits[c >> 4], kDigits[c & 15]};
+        materials_.push_back({std::move(name), colour});
+    }
+    return entry->second;
+}
+
+std::string at_line(const std::string& name, std::uint64_t line) { return name + ":" + std::to_string(line); }
+std::string at_byte(const std::string& name, std::uint64_t byte) { return name + ", byte " + std::to_string(byte); }
+
+const char* coordinate_fault(double value_m) {
+    if (std::isnan(value_m)) return "a coordinate is not a number";
+    if (std::isinf(value_m)) return "a coordinate is infinite";
+    if (std::abs(value_m) > kMaxCoordinate_m) return "a coordinate lies beyond a million kilometres";
+    return nullptr;
+}
+
+Result<ImportedMesh> finished(MeshSoup&& soup, const std::string& name) {
+    if (soup.face_materials.empty() && !soup.colours.empty()) materials_from_vertices(soup);
+    reduce_palette(soup);
+    ImportedMesh result{{}, std::move(soup.report)};
+    ImportReport& report = result.report;
+    report.faces_in_file = soup.corner_counts.size();
+    report.vertices_in_file = soup.positions_m.size() + report.vertices_merged;
+    split_faces(soup, result.mesh, report);
+    if (result.mesh.triangles.empty()) {
+        return fail(name, "has no triangles", "export it again as a surface of triangles or polygons");
+    }
+    if (report.faces_without_area > 0) {
+        report.remarks.push_back(std::to_string(report.faces_without_area) +
+                                 " faces have fewer than three corners and are not in the mesh");
+    }
+    if (report.polygons_fanned_blindly > 0) {
+        report.remarks.push_back(
+            std::to_string(report.polygons_fanned_blindly) +
+            " polygons are flat, crossed or huge and were split as plain fans, which may fold over");
+    }
+    result.mesh.positions_m = std::move(soup.positions_m);
+    result.mesh.colours = std::move(soup.colours);
+    result.mesh.materials = std::move(soup.materials);
+    return result;
+}
+
+}  // namespace burin

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// The header of a PLY file and the stream of values after it. Internal to geometry/.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.hpp"
+#include "geometry/text_scanner.hpp"
+
+namespace burin {
+
+enum class PlyEncoding : std::uint8_t { ascii, little_endian, big_endian };
+enum class PlyType : std::uint8_t { i8, u8, i16, u16, i32, u32, f32, f64 };
+enum class PlyRole : std::uint8_t { x, y, z, red, green, blue, corners, other };
+
+// What one value takes at least: its size, or in text a digit and a gap (see PlyValues::bytes_left for the last one).
+[[nodiscard]] std::uint64_t least_bytes(PlyType type, PlyEncoding encoding);
+
+struct PlyProperty {
+    PlyRole role = PlyRole::other;
+    PlyType type = PlyType::f32;
+    bool is_list = false;
+    PlyType count_type = PlyType::u8;
+
+    [[nodiscard]] bool is_colour() const { return role >= PlyRole::red && role <= PlyRole::blue; }
+    [[nodiscard]] std::size_t channel() const {
+        return static_cast<std::size_t>(role) - static_cast<std::size_t>(PlyRole::red);
+    }
+};
+
+struct PlyElement {
+    std::string name;
+    std::uint64_t count = 0;
+    std::vector<PlyProperty> properties;
+
+    [[nodiscard]] bool has(PlyRole role) const;
+    [[nodiscard]] bool has_position() const { return has(PlyRole::x) && has(PlyRole::y) && has(PlyRole::z); }
+    [[nodiscard]] bool has_colour() const { return has(PlyRole::red) && has(PlyRole::green) && has(PlyRole::blue); }
+    [[nodiscard]] bool has_corners() const { return has(PlyRole::corners); }
+    [[nodiscard]] std::uint64_t least_row_bytes(PlyEncoding encoding) const;
+};
+
+struct PlyHeader {
+    PlyEncoding encoding = PlyEncoding::ascii;
+    std::vector<PlyElement> elements;
+    std::size_t data_begin = 0;   // the byte after the header
+    std::uint64_t data_line = 1;  // its line
+};
+
+[[nodiscard]] Result<PlyHeader> read_ply_header(std::string_view text, const std::string& name);
+
+// The values after the header, one after another, whatever the encoding.
+class PlyValues {
+public:
+    PlyValues(std::span<const std::byte> bytes, const PlyHeader& header);
+
+    // Nothing at the end of the file or at something that is not a number; then fault() says which.
+    [[nodiscard]] std::optional<double> next(PlyType type);
+    [[nodiscard]] std::string fault() const { return fault_; }
+
+    // How many bytes can still hold values, plus one for text, whose last value needs no gap after it.
+    [[nodiscard]] std::uint64_t bytes_left() const;
+    [[nodiscard]] bool only_blanks_left();
+
+    // A line (text) or byte (binary) for messages.
+    [[nodiscard]] std::uint64_t place() const;
+    [[nodiscard]] std::string where(const std::string& name) const { return where(name, place()); }
+    [[nodiscard]] std::string where(const std::string& name, std::uint64_t place) const;
+
+private:
+    std::optional<double> next_in_text();
+
+    std::span<const std::byte> bytes_;  // after the header
+    PlyEncoding encoding_;
+    std::size_t data_begin_;
+    std::uint64_t data_line_;
+    std::size_t at_ = 0;
+    TextScanner scan_;
+    std::string fault_;
+};
+
+}  // namespace burin
