@@ -58,7 +58,7 @@ enum TickFlag : std::uint32_t {
     kTickInContact = 1u << 1,       // the proxy is held by a surface
     kTickNoSurface = 1u << 2,       // no searchable surface has been published
     kTickOutsideKnown = 1u << 3,    // the tool leaves the ball within which the surface is known
-    kTickStaleSurface = 1u << 4,    // the surface is older than max_surface_age_s
+    kTickStaleSurface = 1u << 4,    // in contact, and the surface is older than max_surface_age_s
     kTickPushedOut = 1u << 5,       // the proxy was inside material and was put outside, the nearest way
     kTickProxyReset = 1u << 6,      // the proxy was put back to the HIP: first tick, new mapping, or re-enabled
     kTickWorkLimited = 1u << 7,     // the proxy stopped because the tick's work was used up; it goes on in the next

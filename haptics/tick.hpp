@@ -21,6 +21,7 @@ struct TickState {
     VelocityWindow window;
     Similarity object_from_device;  // of the tick before; a change puts the proxy back to the HIP
     bool mapping_known = false;
+    Nanoseconds sample_ns = 0;  // of the last sample that went into the window
 };
 
 struct TickOutput {

@@ -16,7 +16,7 @@ namespace burin {
 
 struct VelocityWindow {
     static constexpr std::uint32_t kLongest = 16;  // ticks; 16 ms of lag at most when at rest
-    std::array<Vec3, kLongest + 1> positions_m;    // a ring
+    std::array<Vec3, kLongest + 1> positions_m{};  // a ring
     std::uint32_t newest = 0;                      // index of the newest
     std::uint32_t count = 0;                       // how many are valid
 };

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "haptics/half_spaces.hpp"
+
+#include <cmath>
+
+namespace burin {
+namespace {
+
+constexpr std::uint32_t kMostExchanges = 48;
+
+// A set of one to three planes borne on exactly.
+struct Bearing {
+    std::array<std::uint32_t, 3> planes{};
+    std::uint32_t count = 0;
+};
+
+struct Projection {
+    bool valid = false;
+    Vec3 point{0.0};
+    std::array<double, 3> weights{};
+};
+
+// The point nearest to the goal on the planes' intersection. Planes nearly parallel have none worth using.
+Projection project(std::span<const HalfSpace> spaces, const Bearing& set, const Vec3& goal) {
+    Projection result;
+    const auto plane = [&](std::size_t i) -> const HalfSpace& { return spaces[set.planes[i]]; };
+    const auto lack = [&](std::size_t i) { return plane(i).offset - glm::dot(plane(i).normal, goal); };
+    const Vec3& n0 = plane(0).normal;
+    if (set.count == 1) {
+        result.weights[0] = lack(0);
+    } else if (set.count == 2) {
+        const Vec3& n1 = plane(1).normal;
+        const Vec3 line = glm::cross(n0, n1);
+        const double sine2 = glm::dot(line, line);
+        if (sine2 < 1e-14) return result;
+        const double cosine = glm::dot(n0, n1);
+        result.weights[0] = (lack(0) - cosine * lack(1)) / sine2;
+        result.weights[1] = (lack(1) - cosine * lack(0)) / sine2;
+    } else {
+        const Vec3 &n1 = plane(1).normal, &n2 = plane(2).normal;
+        const Vec3 c12 = glm::cross(n1, n2), c20 = glm::cross(n2, n0), c01 = glm::cross(n0, n1);
+        const double volume = glm::dot(n0, c12);
+        if (std::abs(volume) < 1e-9) return result;
+        const Vec3 step = (c12 * lack(0) + c20 * lack(1) + c01 * lack(2)) / volume;
+        result.weights = {glm::dot(step, c12) / volume, glm::dot(step, c20) / volume, glm::dot(step, c01) / volume};
+        result.point = goal + step;
+        result.valid = true;
+        return result;
+    }
+    result.point = goal;
+    for (std::uint32_t i = 0; i < set.count; ++i) result.point += result.weights[i] * plane(i).normal;
+    result.valid = true;
+    return result;
+}
+
+double lack_at(const HalfSpace& space, const Vec3& x) { return space.offset - glm::dot(space.normal, x); }
+
+// The optimum over the old bearing planes and the added one, which bears for sure since the old optimum violates it:
+// the added plane alone, with each old one, with each pair. A point that satisfies all of them with no negative weight
+// is the only optimum, so the first found will do.
+NearestInside exchange(std::span<const HalfSpace> spaces, const NearestInside& old, std::uint32_t added,
+                       const Vec3& goal, double tolerance) {
+    constexpr std::array<std::array<std::uint32_t, 2>, 7> kSubsets{
+        {{9, 9}, {0, 9}, {1, 9}, {2, 9}, {0, 1}, {0, 2}, {1, 2}}};  // 9: none
+    NearestInside result;
+    for (const auto& subset : kSubsets) {
+        Bearing set{{added}, 1};
+        bool exists = true;
+        for (const std::uint32_t i : subset) {
+            if (i == 9) continue;
+            if (i >= old.bearing_count)
+                exists = false;
+            else
+                set.planes[set.count++] = old.bearing[i];
+        }
+        if (!exists) continue;
+        const Projection p = project(spaces, set, goal);
+        bool optimal = p.valid;
+        for (std::uint32_t i = 0; optimal && i < set.count; ++i) optimal = p.weights[i] >= 0.0;
+        for (std::uint32_t i = 0; optimal && i < old.bearing_count; ++i)
+            optimal = lack_at(spaces[old.bearing[i]], p.point) <= tolerance;
+        if (!optimal) continue;
+        result.found = true;
+        result.point = p.point;
+        result.bearing = set.planes;
+        result.weights = p.weights;
+        result.bearing_count = set.count;
+        return result;
+    }
+    return result;
+}
+
+}  // namespace
+
+NearestInside nearest_inside(std::span<const HalfSpace> spaces, const Vec3& goal, double tolerance) noexcept {
+    NearestInside best;
+    best.found = true;
+    best.point = goal;
+    for (std::uint32_t exchanges = 0; exchanges <= kMostExchanges; ++exchanges) {
+        std::uint32_t worst = 0;
+        double worst_lack = tolerance;
+        for (std::uint32_t i = 0; i < spaces.size(); ++i) {
+            const double lack = lack_at(spaces[i], best.point);
+            if (lack > worst_lack) worst_lack = lack, worst = i;
+        }
+        best.exchanges = exchanges;
+        if (!(worst_lack > tolerance)) return best;
+        best = exchange(spaces, best, worst, goal, tolerance);
+        if (!best.found) break;
+    }
+    best.found = false;
+    return best;
+}
+
+}  // namespace burin

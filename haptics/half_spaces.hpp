@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// The point nearest to a goal in an intersection of half-spaces: where the god-object goes.
+//
+// Exact (no penalty, no relaxation): at most three planes bear the answer, each with a weight that is not negative,
+// which is Zilles and Salisbury's rule for the active planes. Found by adding the most violated plane to the bearing
+// ones and keeping the best subset; the distance to the goal grows with every exchange, so it ends. Pure, no heap, no
+// throw.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "base/space.hpp"
+
+namespace burin {
+
+struct HalfSpace {
+    Vec3 normal{0.0};     // unit
+    double offset = 0.0;  // inside: dot(normal, x) >= offset
+    std::uint32_t triangle = 0;
+};
+
+struct NearestInside {
+    bool found = false;  // false: no common point, or none found within the bound on exchanges
+    Vec3 point{0.0};
+    std::array<std::uint32_t, 3> bearing{};  // indices of the planes that bear the point
+    std::array<double, 3> weights{};         // point = goal + sum of weight * normal
+    std::uint32_t bearing_count = 0;
+    std::uint32_t exchanges = 0;
+};
+
+// tolerance: how far outside a half-space still counts as inside (metres, or whatever the offsets are in).
+[[nodiscard]] NearestInside nearest_inside(std::span<const HalfSpace> spaces, const Vec3& goal,
+                                           double tolerance) noexcept;
+
+}  // namespace burin

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "haptics/haptic_loop.hpp"
+
+namespace burin {
+
+HapticLoop::HapticLoop(HapticDevice& device, Clock& clock, HapticChannels& channels) noexcept
+    : device_(device),
+      clock_(clock),
+      channels_(channels),
+      period_ns_(nanoseconds(1.0 / device.description().rate_Hz)),
+      dt_s_(seconds(period_ns_)) {}
+
+TickRecord HapticLoop::step(Nanoseconds lateness_ns) noexcept {
+    const Nanoseconds now_ns = clock_.now_ns();
+    const DeviceSample sample = device_.read();
+    const LocalSurface& surface = channels_.surface.newest();
+    const TickParameters& parameters = channels_.parameters.newest();
+    FullTick full = full_tick(state_, sample, surface, parameters, device_.description(), now_ns, dt_s_);
+    device_.write(full.record.force_device_N);
+    state_ = full.next;
+
+    full.record.tick = full.stroke.tick = ++ticks_;
+    full.record.lateness_ns = lateness_ns;
+    if (lateness_ns > period_ns_ / 2) {
+        ++late_ticks_;
+        full.record.flags |= kTickLate;
+        full.stroke.flags |= kTickLate;
+    }
+    if (!channels_.stroke.push(full.stroke)) full.record.flags |= kTickSampleDropped;
+    channels_.records.push(full.record);  // a full ring counts what it refuses
+
+    ToolState& tool = channels_.tool.draft();
+    tool.tick = ticks_;
+    tool.time_ns = now_ns;
+    tool.hip_object_m = full.record.hip_object_m;
+    tool.proxy_object_m = full.record.proxy_object_m;
+    tool.orientation_object = full.stroke.orientation_object;
+    tool.position_device_m = sample.position_device_m;
+    tool.force_device_N = full.record.force_device_N;
+    tool.buttons = sample.buttons;
+    tool.flags = full.record.flags;
+    tool.cause = full.record.cause;
+    tool.late_ticks = late_ticks_;
+    tool.dropped_samples = channels_.stroke.refused();
+    channels_.tool.publish();
+    return full.record;
+}
+
+void HapticLoop::run(const std::atomic<bool>& stop) noexcept { run_ticks(UINT64_MAX, &stop); }
+
+void HapticLoop::run_ticks(std::uint64_t count, const std::atomic<bool>* stop) noexcept {
+    Nanoseconds deadline_ns = clock_.now_ns() + period_ns_;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        // acquire: what the stopping thread did before it said stop is seen by whoever runs after this loop.
+        if (stop != nullptr && stop->load(std::memory_order_acquire)) break;
+        clock_.sleep_until(deadline_ns);
+        const Nanoseconds lateness_ns = clock_.now_ns() - deadline_ns;
+        step(lateness_ns);
+        const Nanoseconds missed = lateness_ns / period_ns_;
+        skipped_deadlines_ += static_cast<std::uint64_t>(missed);
+        deadline_ns += (missed + 1) * period_ns_;
+    }
+    device_.write(Vec3(0.0));
+}
+
+}  // namespace burin

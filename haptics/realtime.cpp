@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "haptics/realtime.hpp"
+
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+
+#include <cerrno>
+#include <cstring>
+#include <future>
+
+namespace burin {
+namespace {
+
+// Above ordinary real-time work, below the kernel's own threads (which sit at 99, interrupts at 50 unless tuned).
+constexpr int kPriority = 80;
+
+void add_line(std::string& text, const std::string& line) {
+    if (!text.empty()) text += '\n';
+    text += line;
+}
+
+}  // namespace
+
+RealtimeNotice ask_for_realtime() {
+    RealtimeNotice notice;
+    sched_param param{};
+    param.sched_priority = kPriority;
+    if (const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &param); error == 0)
+        notice.priority = true;
+    else
+        add_line(notice.text, std::string("real-time priority refused (") + std::strerror(error) +
+                                  "); ticks may come late; allow it with 'rtprio 80' in /etc/security/limits.d");
+    if (mlockall(MCL_CURRENT) == 0)
+        notice.memory_locked = true;
+    else
+        add_line(notice.text, std::string("memory lock refused (") + std::strerror(errno) +
+                                  "); a swapped-out page may delay a tick; allow it with 'memlock unlimited' in "
+                                  "/etc/security/limits.d");
+    return notice;
+}
+
+RealtimeNotice HapticThread::start() {
+    std::promise<RealtimeNotice> ready;
+    std::future<RealtimeNotice> notice = ready.get_future();
+    // The promise moves into the thread: were it on this stack it could be gone before set_value has quite returned.
+    thread_ = std::thread([this, ready = std::move(ready)]() mutable {
+        ready.set_value(ask_for_realtime());
+        loop_.run(stop_);
+    });
+    return notice.get();
+}
+
+void HapticThread::stop() {
+    // release: pairs with the loop's acquire.
+    stop_.store(true, std::memory_order_release);
+    if (thread_.joinable()) thread_.join();
+}
+
+}  // namespace burin

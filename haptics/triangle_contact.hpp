@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// A ball and one triangle: nearest point, and the time at which a moving ball touches.
+// Any one frame and unit of length; triangles must not be degenerate (build_search leaves those out). Pure, no heap, no
+// throw.
+#pragma once
+
+#include <cstdint>
+
+#include "base/space.hpp"
+
+namespace burin {
+
+struct Triangle {
+    Vec3 a, b, c;  // counter-clockwise seen from outside
+};
+
+// Unit length, towards the outside.
+[[nodiscard]] Vec3 outward_normal(const Triangle& t) noexcept;
+
+struct NearestOnTriangle {
+    Vec3 point{0.0};
+    bool on_face = false;  // inside the triangle; else on an edge or a corner
+};
+
+[[nodiscard]] NearestOnTriangle nearest_on_triangle(const Vec3& p, const Triangle& t) noexcept;
+
+// The smallest fraction of `motion`, 0 to 1, at which a ball of this radius around `center` comes to touch the triangle
+// from outside; above 1 when it does not. A ball that already overlaps is not held back: that is for the caller's
+// planes to do.
+[[nodiscard]] double fraction_until_touch(const Vec3& center, const Vec3& motion, double radius,
+                                          const Triangle& t) noexcept;
+
+inline constexpr double kNoTouch = 2.0;  // what fraction_until_touch returns when there is none
+
+}  // namespace burin

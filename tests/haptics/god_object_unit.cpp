@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: MIT
+// The proxy against closed forms: where a ball must rest on shapes simple enough to say so.
+#include "haptics/god_object.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/haptics/surfaces.hpp"
+
+namespace burin {
+namespace {
+
+using test::Surface;
+
+// Walks the HIP in straight steps and returns the last result; gives the proxy time to arrive.
+struct Walker {
+    const LocalSurface* surface;
+    double radius;
+    ProxyState state{};
+    Vec3 hip{0.0};
+    ProxyResult last{};
+
+    ProxyResult put(const Vec3& to) {
+        last = move_proxy(state, to, radius, *surface);
+        state = last.next;
+        hip = to;
+        return last;
+    }
+    ProxyResult walk(const Vec3& to, double step) {
+        const Vec3 from = hip;
+        const int n = std::max(1, static_cast<int>(std::ceil(glm::length(to - from) / step)));
+        for (int i = 1; i <= n; ++i) put(from + (to - from) * (double(i) / n));
+        return last;
+    }
+    [[nodiscard]] Vec3 proxy() const { return last.next.position_object_m; }
+};
+
+constexpr double kMm = 1e-3;
+
+}  // namespace
+
+TEST(GodObject, InFreeSpaceTheProxyIsTheHipToTheLastBit) {
+    const Surface plane = test::plane();
+    Walker w{plane.get(), 5 * kMm};
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3 hip(0.03 * std::sin(0.01 * i), 0.0053 + 1e-4 * std::cos(0.1 * i), 0.02 * std::cos(0.013 * i));
+        w.put(hip);
+        EXPECT_EQ(w.proxy(), hip);
+        EXPECT_EQ(w.last.constraints, 0u);
+    }
+}
+
+TEST(GodObject, BallOnAPlaneRestsOneRadiusAboveIt) {
+    const Surface plane = test::plane();
+    for (const double radius : {0.0, 1 * kMm, 5 * kMm}) {
+        Walker w{plane.get(), radius};
+        w.put({0.0013, 0.02, -0.0007});
+        w.walk({0.0113, -0.004, 0.0057}, 1e-4);
+        // A point probe is a ball of 1/500 edge (10 mm squares: edges 10 and 14 mm).
+        const double rest = radius > 0 ? radius : 0.0;
+        const double tolerance = radius > 0 ? 1e-9 : 0.0142 / 500;
+        EXPECT_NEAR(w.proxy().y, rest, tolerance) << radius;
+        EXPECT_NEAR(w.proxy().x, 0.0113, 1e-7 + 1e-4 * radius) << radius;
+        EXPECT_NEAR(w.proxy().z, 0.0057, 1e-7 + 1e-4 * radius) << radius;
+        EXPECT_EQ(w.last.constraints, 1u);
+        EXPECT_FALSE(w.last.work_limited);
+    }
+}
+
+TEST(GodObject, BallInAVGrooveTouchesBothWalls) {
+    // Walls at 45 degrees: the ball's centre rests sqrt(2) R above the bottom line.
+    const Surface v = test::height_field(0.05, 20, [](double x, double) { return std::abs(x); });
+    const double radius = 4 * kMm;
+    Walker w{v.get(), radius};
+    w.put({0.002, 0.03, 0.001});
+    w.walk({0.0, 0.0, 0.003}, 1e-4);
+    EXPECT_NEAR(w.proxy().x, 0.0, 1e-8);
+    EXPECT_NEAR(w.proxy().y, std::sqrt(2.0) * radius, 1e-8);
+    EXPECT_NEAR(w.proxy().z, 0.003, 1e-4 * radius);
+    EXPECT_EQ(w.last.constraints, 2u);
+}
+
+TEST(GodObject, BallInACornerTouchesThreeWalls) {
+    // The inner corner of a room: three walls of a box turned inside out.
+    test::SurfaceBuilder b;
+    const double s = 0.05;
+    b.quad(Vec3(0, 0, 0), Vec3(0, 0, s), Vec3(s, 0, s), Vec3(s, 0, 0));
+    b.quad(Vec3(0, 0, 0), Vec3(0, s, 0), Vec3(0, s, s), Vec3(0, 0, s));
+    b.quad(Vec3(0, 0, 0), Vec3(s, 0, 0), Vec3(s, s, 0), Vec3(0, s, 0));
+    const Surface room = b.finish();
+    const double radius = 3 * kMm;
+    Walker w{room.get(), radius};
+    w.put({0.01, 0.02, 0.015});
+    w.walk({-0.004, -0.002, -0.006}, 2e-4);
+    EXPECT_NEAR(w.proxy().x, radius, 1e-8);
+    EXPECT_NEAR(w.proxy().y, radius, 1e-8);
+    EXPECT_NEAR(w.proxy().z, radius, 1e-8);
+    EXPECT_EQ(w.last.constraints, 3u);
+}
+
+TEST(GodObject, BallOnASphereStandsBetweenFacetAndVertexHeight) {
+    const double big = 0.03, radius = 4 * kMm;
+    const Surface sphere = test::sphere(big, 4);  // edges about 2.2 mm, facets up to e^2/(8 big)*... inside the sphere
+    const double edge = sphere->search.mean_edge_m;
+    const double sagitta = 1.2 * edge * edge / (6.0 * big);  // circumradius e/sqrt(3): depth e^2/(6 big), edges vary
+    Walker w{sphere.get(), radius};
+    w.put({0.0, 0.05, 0.0});
+    for (int i = 0; i <= 400; ++i) {
+        const double a = 0.004 * i;
+        const Vec3 way(std::sin(a) * std::cos(0.7 * a), std::cos(a), std::sin(a) * std::sin(0.7 * a));
+        w.put((big + radius - 2 * kMm) * way);
+        const double height = glm::length(w.proxy());
+        EXPECT_LE(height, big + radius + 1e-7);
+        EXPECT_GE(height, big + radius - sagitta);
+        // Directly over the HIP, give or take the facet's tilt.
+        EXPECT_LT(glm::length(w.proxy() / height - way), edge / big);
+    }
+}
+
+TEST(GodObject, ActiveTriangleLiesUnderTheProxy) {
+    const Surface plane = test::plane(0.05, 10);
+    Walker w{plane.get(), 2 * kMm};
+    w.put({0.0, 0.02, 0.0});
+    for (int i = 0; i < 300; ++i) {
+        w.put({0.04 * std::sin(0.02 * i), -0.001, 0.04 * std::cos(0.03 * i)});
+        ASSERT_NE(w.last.active_triangle, 0xffffffffu);
+        Box box;
+        for (const auto v : plane->triangles[w.last.active_triangle]) box.include(Vec3(plane->positions_m[v]));
+        const double slack = 0.05 * 2 * kMm;  // a touched neighbour: within sqrt(2 * 1e-3) R
+        EXPECT_GE(w.proxy().x, box.lo.x - slack);
+        EXPECT_LE(w.proxy().x, box.hi.x + slack);
+        EXPECT_GE(w.proxy().z, box.lo.z - slack);
+        EXPECT_LE(w.proxy().z, box.hi.z + slack);
+    }
+}
+
+TEST(GodObject, DoesNotPassThroughAThinSheetFromEitherSideAtTwoMetresASecond) {
+    const Surface sheet = test::box({-0.05, -5e-5, -0.05}, {0.05, 5e-5, 0.05}, 9);  // 0.1 mm thick
+    for (const double radius : {0.0, 3 * kMm})
+        for (const double side : {1.0, -1.0})
+            for (const double slant : {0.0, 0.7, 3.0}) {
+                Walker w{sheet.get(), radius};
+                w.put({-0.01, side * 0.02, 0.003});
+                const Vec3 way = glm::normalize(Vec3(slant, -side, 0.3 * slant));
+                for (int i = 0; i < 12; ++i) {  // 2 mm a tick
+                    w.put(w.hip + 2 * kMm * way);
+                    EXPECT_GT(side * w.proxy().y, 0.9 * radius) << radius << ' ' << side << ' ' << slant;
+                }
+            }
+}
+
+TEST(GodObject, SlidesOverLevelFacetEdgesWithoutSticking) {
+    // Facets far smaller than the ball: the ball's nearest point crosses an edge every few ticks.
+    for (const int n : {7, 40, 120}) {
+        const Surface plane = test::plane(0.03, n);
+        for (const double radius : {0.0, 0.5 * kMm, 6 * kMm}) {
+            Walker w{plane.get(), radius};
+            w.put({-0.02, 0.02, -0.0031});
+            w.walk({-0.02, -0.001, -0.0031}, 1e-4);
+            for (int i = 0; i < 400; ++i) {
+                w.put(w.hip + Vec3(1e-4, 0.0, 0.37e-4));
+                EXPECT_NEAR(w.proxy().x, w.hip.x, 2e-6) << n << ' ' << radius;
+                EXPECT_NEAR(w.proxy().z, w.hip.z, 2e-6) << n << ' ' << radius;
+                EXPECT_FALSE(w.last.work_limited);
+            }
+        }
+    }
+}
+
+TEST(GodObject, ForceDirectionTurnsByNoMoreThanAFacetAngleOnASphere) {
+    const double big = 0.03;
+    const Surface sphere = test::sphere(big, 3);
+    const double facet_angle = 1.5 * sphere->search.mean_edge_m / big;  // neighbours' normals differ by less
+    for (const double radius : {0.0, 2 * kMm, 8 * kMm}) {
+        Walker w{sphere.get(), radius};
+        w.put({0.0, 0.06, 0.0});
+        const double depth = 1 * kMm;
+        Vec3 last_way(0.0);
+        for (int i = 0; i <= 1500; ++i) {
+            const double a = 0.002 * i;
+            w.put((big + radius - depth) * Vec3(std::sin(a) * 0.8, std::cos(a), std::sin(a) * 0.6));
+            const Vec3 way = glm::normalize(w.proxy() - w.hip);
+            if (i > 0) {
+                EXPECT_LT(glm::length(way - last_way), facet_angle) << radius << " " << i;
+            }
+            last_way = way;
+        }
+    }
+}
+
+TEST(GodObject, FollowsTheHipWhenTheSurfaceRecedes) {
+    const double radius = 5 * kMm;
+    const Surface before = test::plane(0.05, 20, 0.0);
+    Surface after = test::plane(0.05, 20, -4 * kMm);
+    after->sequence = 2;
+    Walker w{before.get(), radius};
+    w.put({0.0, 0.02, 0.0});
+    w.walk({0.0, 2 * kMm, 0.0}, 1e-4);
+    EXPECT_NEAR(w.proxy().y, radius, 1e-8);
+    w.surface = after.get();
+    w.put(w.hip);
+    EXPECT_EQ(w.proxy(), w.hip);  // now one millimetre above the carved surface
+    EXPECT_EQ(w.last.constraints, 0u);
+}
+
+TEST(GodObject, IsPutOutsideTheNearestWayWhenItStartsInsideMaterial) {
+    const Surface block = test::box({-0.02, -0.02, -0.02}, {0.02, 0.02, 0.02}, 8);
+    const double radius = 3 * kMm;
+    for (const Vec3 start : {Vec3(0.018, 0.001, 0.002), Vec3(0.003, -0.013, 0.001), Vec3(-0.0192, 0.0191, 0.0)}) {
+        Walker w{block.get(), radius};
+        w.put(start);
+        EXPECT_TRUE(w.last.pushed_out);
+        // Outside by a radius on the side that was nearest.
+        int axis = 0;
+        for (int i = 1; i < 3; ++i)
+            if (std::abs(start[i]) > std::abs(start[axis])) axis = i;
+        EXPECT_NEAR(std::abs(w.proxy()[axis]), 0.02 + radius, 1e-7) << start.x;
+        EXPECT_GT(w.proxy()[axis] * start[axis], 0.0);
+    }
+}
+
+TEST(GodObject, MaterialThatGrowsOverTheProxyPushesItOut) {
+    const double radius = 4 * kMm;
+    const Surface before = test::plane(0.05, 20, 0.0);
+    for (const double rise : {1 * kMm, 3 * kMm, 7 * kMm}) {
+        Surface after = test::plane(0.05, 20, rise);
+        after->sequence = 2;
+        Walker w{before.get(), radius};
+        w.put({0.0, 0.02, 0.0});
+        w.walk({0.0, 3.9 * kMm, 0.0}, 1e-4);
+        w.surface = after.get();
+        w.put(w.hip);
+        EXPECT_NEAR(w.proxy().y, rise + radius, 1e-7) << rise;
+    }
+}
+
+TEST(GodObject, ABallInItsOwnNoisyGrooveDoesNotJitter) {
+    // Facets of 0.16 R, corners off the circle by 0.2 % of R; contact ball 2 % smaller, as the tick makes it.
+    const double radius = 5 * kMm;
+    const Surface groove = test::groove(radius, 0.04, 20, 50, 1e-5);
+    Walker w{groove.get(), 0.98 * radius};
+    w.put({0.0, 0.01, -0.012});
+    w.walk({0.0, -3 * kMm, -0.012}, 1e-4);
+    Vec3 last = w.proxy();
+    double worst = 0.0, lowest = 1.0, highest = -1.0;
+    for (int i = 0; i < 2000; ++i) {  // 12 mm/s along the groove, swaying 0.6 mm at 2 Hz
+        w.put({0.6 * kMm * std::sin(0.0126 * i), -3 * kMm, -0.012 + 12e-6 * i});
+        worst = std::max(worst, glm::length(w.proxy() - last));
+        lowest = std::min(lowest, w.proxy().y);
+        highest = std::max(highest, w.proxy().y);
+        last = w.proxy();
+        EXPECT_FALSE(w.last.work_limited) << i;
+    }
+    // The bottom lies 0.1 mm below the centre of the circle; chords and noise take up to 3 % of R of it.
+    EXPECT_GT(lowest, -0.02 * radius - 3e-5);
+    EXPECT_LT(highest, 0.03 * radius);
+    EXPECT_LT(worst, 0.05 * kMm);  // 30 mN at 600 N/m
+}
+
+TEST(GodObject, MillimetresAndMetresGiveTheSameMotion) {
+    for (const double scale : {1e-3, 1.0, 1e3}) {
+        const auto shape = [scale](double x, double z) {
+            return 0.3 * scale * std::sin(3.0 * x / scale) * std::cos(2.0 * z / scale);
+        };
+        const Surface wavy = test::height_field(2.0 * scale, 40, shape);
+        const Surface unit =
+            test::height_field(2.0, 40, [](double x, double z) { return 0.3 * std::sin(3.0 * x) * std::cos(2.0 * z); });
+        Walker w{wavy.get(), 0.2 * scale}, u{unit.get(), 0.2};
+        for (int i = 0; i < 500; ++i) {
+            const Vec3 hip(1.5 * std::sin(0.011 * i), 0.6 - 0.002 * i, 1.5 * std::sin(0.007 * i));
+            w.put(scale * hip);
+            u.put(hip);
+            // Single-precision vertices round differently at each scale: 1e-7 of 2.
+            EXPECT_LT(glm::length(w.proxy() / scale - u.proxy()), 1e-4) << scale << ' ' << i;
+        }
+    }
+}
+
+TEST(GodObject, LooksAtFewTrianglesOfMany) {
+    const Surface plane = test::plane(0.05, 160);  // 51 200 triangles of 0.6 mm
+    Walker w{plane.get(), 2 * kMm};
+    w.put({0.0, 0.02, 0.0});
+    w.walk({0.01, 1 * kMm, 0.0}, 1e-4);
+    const ProxyResult r = w.put({0.0101, 1 * kMm, 0.0});
+    EXPECT_LT(r.work.triangles_seen, 2000u);
+    EXPECT_LT(r.work.triangles_tested, 100u);
+    EXPECT_LE(r.work.steps, 4u);
+}
+
+TEST(GodObject, StopsSafelyWhenItsWorkIsUsedUp) {
+    const Surface plane = test::plane(0.05, 40);
+    Walker w{plane.get(), 5 * kMm};
+    w.put({0.0, 0.0052, 0.0});
+    const ProxyResult r =
+        move_proxy(w.state, {0.0, -0.01, 0.0}, w.radius, *plane, {.max_steps = 12, .max_triangles_tested = 3});
+    EXPECT_TRUE(r.work_limited);
+    EXPECT_LE(r.work.triangles_tested, 3u);
+    EXPECT_GE(r.next.position_object_m.y, 0.998 * w.radius);
+}
+
+}  // namespace burin
