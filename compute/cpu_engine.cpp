@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The native engine: rows of rays are dealt out to all cores; each ray takes the capsules one after the other.
 #include <algorithm>
+#include <array>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -39,6 +40,7 @@ struct RayOutcome {
 // A ray that needs more room than the store had left, the first capsule it has not taken yet, and what happened before.
 struct PendingRay {
     int axis, u, v;
+    uint room;
     std::size_t capsule;
     RayOutcome before;
 };
@@ -54,7 +56,7 @@ public:
     [[nodiscard]] DirtyTiles& dirty_tiles() override { return dirty_; }
 
     [[nodiscard]] Result<CutStats> cut(std::span<const BallSweep> sweeps) override {
-        const auto capsules = capsules_in_units(solid_.lattice, sweeps);
+        const auto capsules = capsules_in_units(solid_, sweeps);
         if (!capsules) return std::unexpected(capsules.error());
         collect_rows(*capsules);
         pool_.run(rows_.size(), [&](std::size_t i) { cut_row(rows_[i], *capsules); });
@@ -120,7 +122,7 @@ private:
             const uint new_count = list.count_after(end_count, plan);
             if (new_count > shared::room_of(ray) && !move_to_larger_room(set, ray, new_count)) {
                 const std::lock_guard lock(pending_mutex_);
-                pending_.push_back({axis, u, v, i, outcome});
+                pending_.push_back({axis, u, v, shared::room_of({0, DexelSet::count_room(new_count)}), i, outcome});
                 return std::nullopt;
             }
             DexelEnd end_lo{}, end_hi{};
@@ -154,8 +156,12 @@ private:
     void finish_pending(std::span<const Capsule> capsules, CutStats& stats) {
         while (!pending_.empty()) {
             const std::vector<PendingRay> pending = std::exchange(pending_, {});
-            for (DexelSet& set : solid_.sets) {
-                set.make_space(std::max<std::size_t>(set.used() / 4, 8 * pending.size() + 4096));
+            // At least what the waiting rays ask for, so that every round finishes the capsule each of them waits with.
+            std::array<std::size_t, 3> needed{};
+            for (const PendingRay& p : pending) needed[static_cast<std::size_t>(p.axis)] += p.room;
+            for (std::size_t a = 0; a < 3; ++a) {
+                DexelSet& set = solid_.sets[a];
+                if (needed[a] > 0) set.make_space(std::max(set.used() / 4, 2 * needed[a] + 4096));
             }
             for (const PendingRay& p : pending) {
                 count(cut_ray(p.axis, p.u, p.v, capsules, p.capsule, p.before), stats);

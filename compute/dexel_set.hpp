@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "shaders/shared/dexel.h"
@@ -25,6 +26,15 @@ public:
         rays_ = other.rays_;
         ends_ = other.ends_;
         used_ = other.used_.load();
+        return *this;
+    }
+    // Moved, not copied: a large solid changes hands without a second one beside it. `other` is then empty.
+    DexelSet(DexelSet&& other) noexcept
+        : rays_(std::move(other.rays_)), ends_(std::move(other.ends_)), used_(other.used_.exchange(0)) {}
+    DexelSet& operator=(DexelSet&& other) noexcept {
+        rays_ = std::move(other.rays_);
+        ends_ = std::move(other.ends_);
+        used_ = other.used_.exchange(0);
         return *this;
     }
 

@@ -16,6 +16,10 @@
 
 namespace burin {
 
+namespace gpu {
+class Device;
+}
+
 // A ball of radius_m that moves from start to end (object frame, metres); start == end is a stamp.
 struct BallSweep {
     Vec3 start_object_m{0.0};
@@ -44,5 +48,8 @@ public:
 
 // The pool must outlive the engine.
 [[nodiscard]] std::unique_ptr<CarvingEngine> make_cpu_engine(Solid solid, WorkerPool& pool);
+// Fails, with the remedy, where the device cannot run it: no 64-bit integers or doubles in shaders, or buffers too small for
+// the solid. The engine keeps the device open; the device's thread is the engine's (vulkan_engine.hpp).
+[[nodiscard]] Result<std::unique_ptr<CarvingEngine>> make_vulkan_engine(Solid solid, gpu::Device& device);
 
 }  // namespace burin

@@ -2,10 +2,24 @@
 #include "compute/lattice.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
+#include <string>
 
 namespace burin {
 namespace {
+
+// Sizes whose squares and cubes stay well within float, as which surfaces are drawn and touched.
+constexpr double kSmallestExtent_m = 1e-9, kLargestExtent_m = 1e9;
+// A lattice has up to 2^23 units along the longest side; with 2^24 sides' distance a double still tells them apart.
+constexpr double kFarthestInExtents = 1 << 24;
+
+std::string in_metres(double x) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::general, 4).ptr;
+    return std::string(text.data(), end) + " m";
+}
 
 struct AxisPlacement {
     double first_face_cells;  // where the lower face of the bounds lies, in cells from the lattice origin
@@ -30,8 +44,18 @@ Result<Lattice> lattice_around(const Box& bounds, int resolution) {
     }
     const Vec3 extent = bounds.extent();
     const double longest = std::max({extent.x, extent.y, extent.z});
-    if (bounds.empty() || !std::isfinite(longest) || longest <= 0.0) {
+    if (bounds.empty() || !std::isfinite(extent.x) || !std::isfinite(extent.y) || !std::isfinite(extent.z) ||
+        longest <= 0.0) {
         return fail("workpiece", "has no extent", "give a workpiece with finite, non-zero size");
+    }
+    if (longest < kSmallestExtent_m || longest > kLargestExtent_m) {
+        return fail("workpiece", "measures " + in_metres(longest), "give it in metres, between 1e-9 and 1e9");
+    }
+    const Vec3 farthest = glm::max(glm::abs(bounds.lo), glm::abs(bounds.hi));
+    const double distance = std::max({farthest.x, farthest.y, farthest.z});
+    if (distance > kFarthestInExtents * longest) {
+        return fail("workpiece", "measures " + in_metres(longest) + " but lies " + in_metres(distance) + " away",
+                    "move it to the origin: so far out, its coordinates do not hold its shape");
     }
     Lattice lattice;
     lattice.spacing_m = longest / resolution;

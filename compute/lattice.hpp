@@ -36,7 +36,7 @@ inline constexpr int kMinResolution = 16, kMaxResolution = 2048;
 // A lattice of `resolution` cells along the longest side of `bounds` (h = longest side / resolution), with at least one
 // empty cell around it. The bounds are placed symmetrically between nodes, so that no face of theirs lies on a node: a face
 // on a node would make the sign there a matter of rounding. Fails when the resolution is out of range or the bounds are
-// empty, flat in every direction, or not finite.
+// empty, flat in every direction, not finite, outside 1e-9 to 1e9 m, or 2^24 times farther from the origin than it is long.
 [[nodiscard]] Result<Lattice> lattice_around(const Box& bounds, int resolution);
 
 }  // namespace burin

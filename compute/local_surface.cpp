@@ -71,22 +71,24 @@ std::uint32_t add_tile(const TileMesh& tile, const Vec3f& center, float radius_m
 void gather_local_surface(const Surface& surface, const Vec3& center_object, double radius_m, LocalSurface& out) {
     thread_local std::vector<std::uint32_t> index_of_vertex;
     const Vec3 center = center_object - surface.lattice().origin_object;
-    out.dropped_triangles = 0;
+    const Vec3f shift(center);  // the origin of what is handed out, to the bit: positions then lose nothing more
+    std::uint32_t within = 0;   // triangles in the ball that was asked for
     for (double radius = radius_m;; radius *= 0.7) {
         out.vertex_count = out.triangle_count = 0;
         out.center_object = center_object;
-        out.origin_object = center_object;
+        out.origin_object = surface.lattice().origin_object + Vec3(shift);
         out.radius_m = radius;
         const TileRange range = tiles_around(surface, center, radius);
         std::uint32_t left_out = 0;
         for (int z = range.from[2]; z <= range.to[2]; ++z)
             for (int y = range.from[1]; y <= range.to[1]; ++y)
                 for (int x = range.from[0]; x <= range.to[0]; ++x) {
-                    left_out += add_tile(surface.tile(surface.grid().index(x, y, z)), Vec3f(center),
-                                         static_cast<float>(radius), Vec3f(center), out, index_of_vertex);
+                    left_out += add_tile(surface.tile(surface.grid().index(x, y, z)), shift, static_cast<float>(radius),
+                                         shift, out, index_of_vertex);
                 }
+        if (within == 0) within = out.triangle_count + left_out;
+        out.dropped_triangles = within - out.triangle_count;
         if (left_out == 0) return;
-        out.dropped_triangles += left_out;
     }
 }
 

@@ -43,8 +43,9 @@ Input prepare(const TriangleMesh& mesh, const Lattice& lattice) {
     }
     input.normals.reserve(mesh.triangles.size());
     for (const auto& t : mesh.triangles) {
+        // In lattice units: the products of very small or large metres would leave the range of doubles.
         const Vec3 &a = mesh.positions_m[t[0]], &b = mesh.positions_m[t[1]], &c = mesh.positions_m[t[2]];
-        input.normals.push_back(normal_code(glm::cross(b - a, c - a)));
+        input.normals.push_back(normal_code(glm::cross((b - a) / lattice.unit_m(), (c - a) / lattice.unit_m())));
     }
     return input;
 }
@@ -223,6 +224,19 @@ Result<ScanConversion> scan_convert(const TriangleMesh& mesh, int resolution, Wo
     for (const Vec3& p : mesh.positions_m) {
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
             return fail("mesh", "has a coordinate that is not finite", "repair the file");
+        }
+    }
+    if (!mesh.triangle_materials.empty() && mesh.triangle_materials.size() != mesh.triangles.size()) {
+        return fail("mesh", "names a material for some triangles only", "give every triangle a material, or none");
+    }
+    const std::size_t materials = std::max<std::size_t>(mesh.materials.size(), 1);
+    for (const std::uint8_t m : mesh.triangle_materials) {
+        if (m >= materials)
+            return fail("mesh", "uses material " + std::to_string(m) + ", which it lacks", "repair the file");
+    }
+    for (const auto& t : mesh.triangles) {
+        if (std::ranges::max(t) >= mesh.positions_m.size()) {
+            return fail("mesh", "has a triangle with a vertex that does not exist", "repair the file");
         }
     }
     // Only what triangles use counts: a stray vertex must not stretch the lattice.

@@ -74,6 +74,12 @@ Result<Solid> make_block(const Vec3& size_m, int resolution, Material material) 
     Solid solid{*lattice, {}, {std::move(material)}};
     const auto lo = whole_units(solid.lattice.units_from_object(Vec3(0.0)));
     const auto hi = whole_units(solid.lattice.units_from_object(size_m));
+    for (std::size_t a = 0; a < 3; ++a) {
+        if (hi[a] / shared::kUnitsPerCell == lo[a] / shared::kUnitsPerCell) {
+            return fail("workpiece block", "is thinner than the resolution shows",
+                        "raise --resolution, or make the block at least one cell thick");
+        }
+    }
     fill_convex(
         solid,
         [&](int axis, int ray_u, int ray_v) {

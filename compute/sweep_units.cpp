@@ -32,6 +32,14 @@ Part clip(const Vec3& start, const Vec3& along, const Vec3& lo, const Vec3& hi) 
 // shaders/shared/capsule.h is exact.
 constexpr double kLargestRadius = 1 << 24;
 
+// Farther from the lattice than this many units a double does not hold thousandths of a unit any more.
+constexpr double kFarthest = 0x1p42;
+
+bool too_far(const Lattice& lattice, const Vec3& p_object) {
+    const Vec3 units = glm::abs(lattice.units_from_object(p_object));
+    return !(units.x < kFarthest && units.y < kFarthest && units.z < kFarthest);  // also when the division overflowed
+}
+
 bool finite(const Vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 std::optional<shared::Capsule> capsule_in_units(const Lattice& lattice, const BallSweep& sweep) {
@@ -60,7 +68,8 @@ std::optional<shared::Capsule> capsule_in_units(const Lattice& lattice, const Ba
 
 }  // namespace
 
-Result<std::vector<shared::Capsule>> capsules_in_units(const Lattice& lattice, std::span<const BallSweep> sweeps) {
+Result<std::vector<shared::Capsule>> capsules_in_units(const Solid& solid, std::span<const BallSweep> sweeps) {
+    const Lattice& lattice = solid.lattice;
     std::vector<shared::Capsule> capsules;
     capsules.reserve(sweeps.size());
     for (const BallSweep& sweep : sweeps) {
@@ -71,6 +80,14 @@ Result<std::vector<shared::Capsule>> capsules_in_units(const Lattice& lattice, s
         if (!(sweep.radius_m > 0.0) || sweep.radius_m / lattice.unit_m() > kLargestRadius) {
             return fail("tool", "radius " + std::to_string(sweep.radius_m) + " m does not fit the workpiece",
                         "choose a radius above zero and below 4096 lattice cells");
+        }
+        if (too_far(lattice, sweep.start_object_m) || too_far(lattice, sweep.end_object_m)) {
+            return fail("stroke", "holds a position too far from the workpiece to be told apart from its neighbours",
+                        "check the stroke's units: positions are in metres");
+        }
+        if (sweep.material >= solid.materials.size()) {
+            return fail("tool", "cuts with material " + std::to_string(sweep.material) + ", which the workpiece lacks",
+                        "add the material to the workpiece first");
         }
         if (const auto capsule = capsule_in_units(lattice, sweep)) capsules.push_back(*capsule);
     }

@@ -13,8 +13,9 @@ namespace burin {
 // The capsules of the sweeps that come near the lattice, in order; the others touch nothing and are left out. A segment that
 // leaves the lattice by more than the radius is clipped there, so that coordinates stay within the exact arithmetic's range;
 // what is clipped off could not reach any ray. Fails on a number that is not finite, and on a radius that is not above zero
-// or is larger than 4096 cells.
-[[nodiscard]] Result<std::vector<shared::Capsule>> capsules_in_units(const Lattice& lattice,
+// or is larger than 4096 cells, a position so far away that doubles no longer tell units apart, or a material that the
+// solid does not have.
+[[nodiscard]] Result<std::vector<shared::Capsule>> capsules_in_units(const Solid& solid,
                                                                      std::span<const BallSweep> sweeps);
 
 // The rays of one axis that a capsule can touch: u_lo..u_hi, v_lo..v_hi inclusive; empty when lo > hi.

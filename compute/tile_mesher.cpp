@@ -19,6 +19,10 @@ constexpr Local step(Local p, int axis, int by) {
     return p;
 }
 
+constexpr Local between(const Local& from, const Local& to) {
+    return {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+}
+
 std::uint32_t encode(const Vec3f& n) {
     const auto whole = [](float x) { return static_cast<std::int64_t>(x * 1048576.0f); };
     return shared::encode_normal({whole(n.x), whole(n.y), whole(n.z)});
@@ -95,11 +99,12 @@ private:
         const EdgeSample& a = samples_.sample(axis, node);
         const EdgeSample& b = samples_.sample(other, other_node);
         // Symmetric in a and b, so that both quads, in whatever tiles, compute the same bits.
-        const Vec3f position = (point_on(axis, node, a) + point_on(other, other_node, b)) * 0.5f;
+        const Vec3f in_cell =
+            (point_on(axis, between(cell, node), a) + point_on(other, between(cell, other_node), b)) * 0.5f;
         const auto pair_axis = static_cast<std::size_t>((face_axis + 1) % 3);
         const int pair = corner[pair_axis] - cell[pair_axis];
         mesh_.keys.push_back(key(cell, 4 + 2 * face_axis + pair));
-        mesh_.vertices.push_back(vertex(position, a.normal + b.normal, mixed({a.material, b.material})));
+        mesh_.vertices.push_back(vertex(cell, in_cell, a.normal + b.normal, mixed({a.material, b.material})));
         return static_cast<std::uint32_t>(mesh_.vertices.size() - 1);
     }
 
@@ -153,16 +158,14 @@ private:
             ++pieces[p].colour_sum[3];
             piece_of_crossing[count++] = p;
         }
-        const Vec3f local = feature_point({crossings.data(), count});
-        const Vec3f position =
-            local + Vec3f(static_cast<float>(cell[0]), static_cast<float>(cell[1]), static_cast<float>(cell[2]));
+        const Vec3f in_cell = feature_point({crossings.data(), count});
         const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
         for (std::size_t p = 0; p < piece_count; ++p) {
             const auto& sum = pieces[p].colour_sum;
             const auto channel = [&](std::size_t c) { return (sum[c] + sum[3] / 2) / sum[3]; };
             mesh_.keys.push_back(key(cell, loop));
-            mesh_.vertices.push_back(
-                vertex(position, pieces[p].normal_sum, channel(0) | channel(1) << 8 | channel(2) << 16 | 0xff000000u));
+            mesh_.vertices.push_back(vertex(cell, in_cell, pieces[p].normal_sum,
+                                            channel(0) | channel(1) << 8 | channel(2) << 16 | 0xff000000u));
         }
         for (std::size_t i = 0; i < count; ++i) {
             result.of_edge[edge_of_crossing[i]] = first + static_cast<std::uint32_t>(piece_of_crossing[i]);
@@ -179,12 +182,14 @@ private:
         return colour;
     }
 
-    // `position` is in cells, local to the tile.
-    [[nodiscard]] shared::SurfaceVertex vertex(const Vec3f& position, const Vec3f& normal, std::uint32_t colour) const {
-        const double h = solid_.lattice.spacing_m;
+    // `in_cell` is in cells from the cell's lowest corner. The whole cells are counted from the lattice's origin and not
+    // from the tile's, so that every tile that shares the vertex rounds it to the same bits.
+    [[nodiscard]] shared::SurfaceVertex vertex(const Local& cell, const Vec3f& in_cell, const Vec3f& normal,
+                                               std::uint32_t colour) const {
         const auto metres = [&](int a) {
-            return static_cast<float>((static_cast<double>(position[a]) + first_node_[static_cast<std::size_t>(a)]) *
-                                      h);
+            const auto k = static_cast<std::size_t>(a);
+            return static_cast<float>((static_cast<double>(in_cell[a]) + (cell[k] + first_node_[k])) *
+                                      solid_.lattice.spacing_m);
         };
         return {metres(0), metres(1), metres(2),
                 encode(glm::length(normal) > 1e-6f ? glm::normalize(normal) : Vec3f(0, 0, 1)), colour};
@@ -213,10 +218,12 @@ private:
 
     // Along the diagonal that turns the two triangles less away from the surface normal.
     void two_triangles(const std::array<std::uint32_t, 8>& q, bool flip, const Vec3f& surface_normal) {
-        std::array<Vec3f, 4> p;
+        std::array<Vec3f, 4> p;  // in cells, so that a workpiece of a micrometre does not underflow
+        const shared::SurfaceVertex& origin = mesh_.vertices[q[0]];
+        const auto cells_per_m = static_cast<float>(1.0 / solid_.lattice.spacing_m);
         for (std::size_t i = 0; i < 4; ++i) {
             const shared::SurfaceVertex& v = mesh_.vertices[q[i]];
-            p[i] = {v.x, v.y, v.z};
+            p[i] = Vec3f(v.x - origin.x, v.y - origin.y, v.z - origin.z) * cells_per_m;
         }
         const float sign = flip ? -1.0f : 1.0f;
         const auto facing = [&](std::size_t a, std::size_t b, std::size_t c) {

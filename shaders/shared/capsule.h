@@ -191,6 +191,9 @@ BURIN_FN RaySpan capsule_span(CapsuleRay k) {
         } else if (k.dot_uv < int64_t(0) || k.dot_uv > k.length2) {
             slab_hi = -far - int64_t(1);
         }
+        // A segment almost across the ray has end planes that meet the ray far away, where squares would overflow.
+        slab_lo = slab_lo < -far ? -far : slab_lo;
+        slab_hi = slab_hi > far ? far : slab_hi;
         // 1e-12 is far above the rounding of `margin` relative to `reach`: no true crossing is dropped here.
         if (slab_lo <= slab_hi && margin >= -1e-12 * reach) {
             double middle = double(k.dot_uv) * double(k.along_s) / double(across2);

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// The carving engine on a Vulkan device.
+//
+// Data flow of a cut: sweeps -> capsules and work groups (vulkan_engine_tasks.hpp) -> one submission that cuts the rays on
+// the device and lists the changed ones with their new ends -> only those are read back into the solid on the host, and
+// their tiles marked. Rays that found no room in the store, or had their share of one pass, are continued by further
+// submissions; in the usual case there is none.
+//
+// The host's solid changes only when all passes are done: an Error leaves it as it was, and the next cut sends it to the
+// device anew. Tiles are marked once for a ray, between the lowest and the highest depth that changed.
+// Cost on the device: one invocation a ray. Memory: vulkan_engine_memory.hpp; each buffer within the device's limit, with
+// the drivers' smallest in use, 128 MiB, up to a resolution of about 1500 for a solid with one interval a ray.
+// Thread: one, as gpu::Device.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "compute/engine.hpp"
+#include "compute/vulkan_engine_memory.hpp"
+#include "compute/vulkan_engine_tasks.hpp"
+#include "gpu/device.hpp"
+
+namespace burin {
+
+// Sizes to start with; all of them grow when needed. Tests choose small ones to reach that.
+struct VulkanEngineOptions {
+    std::size_t spare_ends = 65536;      // room behind the solid's ends in the store
+    std::uint32_t export_per_ray = 4;    // space for the ends of changed rays, per ray visited
+    std::uint32_t tasks_a_pass = 16384;  // work groups of 64 rays
+};
+
+// What the engine has done since it was made.
+struct VulkanEngineCounts {
+    std::uint64_t cuts = 0;           // calls of cut that reached the lattice
+    std::uint64_t submissions = 0;    // each waited for once
+    std::uint64_t store_rebuilds = 0;  // because a ray found no room
+};
+
+class VulkanEngine final : public CarvingEngine {
+public:
+    // Fails on a device without 64-bit integers or doubles in shaders, or without room for the solid.
+    [[nodiscard]] static Result<std::unique_ptr<VulkanEngine>> create(Solid solid, const gpu::Device& device,
+                                                                      const VulkanEngineOptions& options = {});
+
+    [[nodiscard]] const char* name() const override { return "vulkan"; }
+    [[nodiscard]] Result<CutStats> cut(std::span<const BallSweep> sweeps) override;
+    [[nodiscard]] const Solid& solid() const override { return solid_; }
+    [[nodiscard]] DirtyTiles& dirty_tiles() override { return dirty_; }
+
+    [[nodiscard]] const VulkanEngineCounts& counts() const { return counts_; }
+
+private:
+    VulkanEngine(Solid solid, const gpu::Device& device, const VulkanEngineOptions& options);
+    [[nodiscard]] Result<void> synchronize();
+    [[nodiscard]] Result<CutStats> cut_on_device(std::span<const shared::Capsule> capsules, const CutTasks& tasks);
+    [[nodiscard]] Result<void> reserve(std::span<const shared::Capsule> capsules, const CutTasks& tasks);
+    [[nodiscard]] Result<shared::CutCounters> pass(std::uint32_t task_count, std::uint32_t pending);
+    [[nodiscard]] Result<void> make_room_for(const shared::CutCounters& counters);
+    void collect(const shared::CutCounters& counters);
+    void apply_changes();
+
+    Solid solid_;
+    DirtyTiles dirty_;
+    gpu::Device device_;
+    VulkanEngineOptions options_;
+    VulkanEngineCounts counts_;
+    gpu::ComputePipeline cut_rays_;
+    DeviceSolid device_solid_;
+    bool synchronized_ = false;    // the device holds what solid_ holds
+    std::uint32_t used_ = 0;       // ends taken in the device's store
+    std::uint32_t longest_ = 0;    // no ray has more ends
+    std::size_t capsule_bytes_ = 0, task_bytes_ = 0, order_bytes_ = 0;  // in use in the buffers below
+    SharedBuffer capsules_{"capsules", SharedBuffer::Traffic::to_device};
+    SharedBuffer tasks_{"cut tasks", SharedBuffer::Traffic::to_device};
+    SharedBuffer order_{"capsule order", SharedBuffer::Traffic::to_device};
+    SharedBuffer counters_{"cut counters", SharedBuffer::Traffic::both};
+    SharedBuffer changed_{"changed rays", SharedBuffer::Traffic::from_device};
+    SharedBuffer exported_{"changed ends", SharedBuffer::Traffic::from_device};
+    SharedBuffer pending_{"pending rays", SharedBuffer::Traffic::none};
+    SharedBuffer continued_{"continued rays", SharedBuffer::Traffic::none};
+    // Of all passes of one cut; a ChangedRay's `first` counts from the start of new_ends_.
+    std::vector<shared::ChangedRay> changes_;
+    std::vector<shared::DexelEnd> new_ends_;
+};
+
+}  // namespace burin

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "compute/vulkan_engine_memory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace burin {
+namespace {
+
+using shared::DexelEnd;
+using shared::RayRef;
+
+Result<void> send_all(gpu::Device& device, const gpu::Buffer& buffer, std::span<const std::byte> bytes) {
+    if (bytes.empty()) return {};
+    if (buffer.mapped().empty()) return gpu::write(device, buffer, 0, bytes);
+    std::memcpy(buffer.mapped().data(), bytes.data(), bytes.size());
+    return {};
+}
+
+template <typename T>
+Result<std::vector<T>> fetch_all(gpu::Device& device, const gpu::Buffer& buffer) {
+    std::vector<T> values(buffer.size_bytes() / sizeof(T));
+    if (buffer.mapped().empty()) {
+        const auto bytes = gpu::read(device, buffer, 0, values.size() * sizeof(T));
+        if (!bytes) return std::unexpected(bytes.error());
+        std::memcpy(values.data(), bytes->data(), bytes->size());
+    } else {
+        std::memcpy(values.data(), buffer.mapped().data(), values.size() * sizeof(T));
+    }
+    return values;
+}
+
+// A store that is too large for the device, with the resolution that would fit: ends grow with its square.
+std::unexpected<Error> too_large(const gpu::Device& device, std::size_t ends, int resolution) {
+    const double limit = static_cast<double>(device.capabilities().max_storage_buffer_bytes);
+    const double needed = static_cast<double>(ends * sizeof(DexelEnd));
+    const int fits = static_cast<int>(static_cast<double>(resolution) * std::sqrt(limit / needed));
+    return fail("Vulkan engine",
+                "the solid's " + std::to_string(ends) + " interval ends do not fit into one buffer of " +
+                    device.info().name + " (" + std::to_string(static_cast<std::uint64_t>(limit) >> 20) + " MiB)",
+                "use --engine cpu, or a resolution of about " + std::to_string(fits) + " or less");
+}
+
+}  // namespace
+
+Result<void> SharedBuffer::reserve(gpu::Device& device, std::uint64_t size_bytes) {
+    if (size_bytes <= device_side_.size_bytes()) return {};
+    const std::uint64_t limit = device.capabilities().max_storage_buffer_bytes;
+    const std::uint64_t grown = std::max(size_bytes, std::min(size_bytes + size_bytes / 2, limit));
+    auto made = gpu::Buffer::create(device, gpu::BufferUse::device_storage, grown, name_);
+    if (!made) return std::unexpected(made.error());
+    gpu::Buffer upload, readback;
+    if (made->mapped().empty()) {
+        if (traffic_ == Traffic::to_device || traffic_ == Traffic::both) {
+            auto host = gpu::Buffer::create(device, gpu::BufferUse::upload, grown, name_);
+            if (!host) return std::unexpected(host.error());
+            upload = std::move(*host);
+        }
+        if (traffic_ == Traffic::from_device || traffic_ == Traffic::both) {
+            auto host = gpu::Buffer::create(device, gpu::BufferUse::readback, grown, name_);
+            if (!host) return std::unexpected(host.error());
+            readback = std::move(*host);
+        }
+    }
+    device_side_ = std::move(*made);
+    upload_ = std::move(upload);
+    readback_ = std::move(readback);
+    return {};
+}
+
+void SharedBuffer::send(gpu::Commands& commands, std::uint64_t size_bytes) const {
+    if (!mapped()) commands.copy(upload_, 0, device_side_, 0, size_bytes);
+}
+
+void SharedBuffer::fetch(gpu::Commands& commands, std::uint64_t size_bytes) const {
+    if (!mapped()) commands.copy(device_side_, 0, readback_, 0, size_bytes);
+}
+
+Result<void> DeviceSolid::upload(gpu::Device& device, const Solid& solid, std::size_t spare_ends) {
+    std::array<Part, 3> parts;
+    for (std::size_t a = 0; a < 3; ++a) parts[a] = {solid.sets[a].rays(), solid.sets[a].store()};
+    first_ray_ = {0, static_cast<std::uint32_t>(parts[0].rays.size()),
+                  static_cast<std::uint32_t>(parts[0].rays.size() + parts[1].rays.size())};
+    resolution_ = *std::ranges::max_element(solid.lattice.cells);
+    return pack(device, parts, spare_ends);
+}
+
+Result<void> DeviceSolid::make_space(gpu::Device& device, std::size_t spare_ends) {
+    const auto rays = fetch_all<RayRef>(device, rays_);
+    if (!rays) return std::unexpected(rays.error());
+    const auto store = fetch_all<DexelEnd>(device, store_);
+    if (!store) return std::unexpected(store.error());
+    const std::array<Part, 1> whole{Part{*rays, *store}};
+    return pack(device, whole, spare_ends);
+}
+
+Result<void> DeviceSolid::pack(gpu::Device& device, std::span<const Part> parts, std::size_t spare_ends) {
+    std::size_t ray_count = 0, room = 0;
+    std::uint32_t longest = 0;
+    for (const Part& part : parts) {
+        ray_count += part.rays.size();
+        for (const RayRef& ray : part.rays) {
+            const std::uint32_t count = shared::count_of(ray);
+            longest = std::max(longest, count);
+            if (count > 0) room += shared::room_of({0, DexelSet::count_room(count)});
+        }
+    }
+    const std::size_t limit = static_cast<std::size_t>(
+        std::min<std::uint64_t>(device.capabilities().max_storage_buffer_bytes / sizeof(DexelEnd), 1u << 30));
+    const std::size_t size = std::max<std::size_t>(room + spare_ends, 1);
+    if (size > limit) return too_large(device, size, resolution_);
+
+    std::vector<RayRef> rays;
+    rays.reserve(ray_count);
+    std::vector<DexelEnd> store(size);
+    std::size_t place = 0;
+    for (const Part& part : parts) {
+        for (const RayRef& from : part.rays) {
+            const std::uint32_t count = shared::count_of(from);
+            RayRef to{0, 0};
+            if (count > 0) {
+                to = {static_cast<std::uint32_t>(place), DexelSet::count_room(count)};
+                std::copy_n(part.ends.begin() + from.first, count, store.begin() + static_cast<std::ptrdiff_t>(place));
+                place += shared::room_of(to);
+            }
+            rays.push_back(to);
+        }
+    }
+    auto new_rays = gpu::Buffer::create(device, gpu::BufferUse::device_storage, ray_count * sizeof(RayRef), "rays");
+    if (!new_rays) return std::unexpected(new_rays.error());
+    auto new_store =
+        gpu::Buffer::create(device, gpu::BufferUse::device_storage, size * sizeof(DexelEnd), "interval ends");
+    if (!new_store) return std::unexpected(new_store.error());
+    if (const auto sent = send_all(device, *new_rays, std::as_bytes(std::span(rays))); !sent) return sent;
+    if (const auto sent = send_all(device, *new_store, std::as_bytes(std::span(store))); !sent) return sent;
+    rays_ = std::move(*new_rays);
+    store_ = std::move(*new_store);
+    store_size_ = static_cast<std::uint32_t>(size);
+    packed_size_ = static_cast<std::uint32_t>(place);
+    longest_ = longest;
+    return {};
+}
+
+}  // namespace burin
