@@ -265,6 +265,7 @@ Result<Submission> Commands::submit() && {
         return vulkan_failure(c.info.name, "the work was refused", r);
     }
     c.submitted = serial;
+    kept_.clear();  // set aside until this submission is done
     return Submission(std::move(core_), std::move(set_), std::move(staging_), serial);
 }
 

@@ -89,6 +89,8 @@ public:
     // Sets whole words; offset and size are multiples of 4.
     void fill(const Buffer& buffer, std::uint64_t offset_bytes, std::uint64_t size_bytes, std::uint32_t word);
     void upload(const Buffer& to, std::uint64_t offset_bytes, std::span<const std::byte> bytes);
+    // Frees the buffer only when this work is done; for one that is replaced while recording.
+    void keep_alive(Buffer buffer) { kept_.push_back(std::move(buffer)); }
     // The GPU's time when all commands before it are done. At most kMaxStamps in one Commands.
     Stamp stamp();
 
@@ -110,6 +112,7 @@ private:
     std::shared_ptr<Core> core_;  // empty once moved from or submitted
     CommandSet set_;
     std::vector<Buffer> staging_;
+    std::vector<Buffer> kept_;
     std::uint64_t staging_used_ = 0;  // bytes of staging_.back() that are taken
     std::size_t pool_in_use_ = 0;     // index into set_.descriptor_pools
     std::uint32_t stamps_ = 0;

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "gpu/image.hpp"
+
+namespace burin::gpu {
+
+Result<Image> Image::create(Device& device, const ImageSpec& spec) {
+    const std::shared_ptr<Core>& core = device.core();
+    const std::string where = "GPU image '" + spec.name + "'";
+    const std::uint32_t limit = core->capabilities.max_image_size;
+    if (spec.width == 0 || spec.height == 0 || spec.width > limit || spec.height > limit) {
+        return fail(where,
+                    std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels were asked for; " +
+                        core->info.name + " allows 1 to " + std::to_string(limit) + " each way",
+                    "choose a smaller picture");
+    }
+    auto info = structure<VkImageCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO);
+    info.imageType = VK_IMAGE_TYPE_2D;
+    info.format = spec.format;
+    info.extent = {spec.width, spec.height, 1};
+    info.mipLevels = 1;
+    info.arrayLayers = spec.layers;
+    info.samples = static_cast<VkSampleCountFlagBits>(spec.samples);
+    info.tiling = VK_IMAGE_TILING_OPTIMAL;
+    info.usage = spec.usage;
+    VkImage raw = VK_NULL_HANDLE;
+    if (const VkResult r = core->vk.vkCreateImage(core->device, &info, nullptr, &raw); r != VK_SUCCESS) {
+        return vulkan_failure(where, "could not be created", r);
+    }
+    Image image;
+    image.image_ = ImageHandle(core, raw);
+
+    VkMemoryRequirements requirements{};
+    core->vk.vkGetImageMemoryRequirements(core->device, raw, &requirements);
+    const int type = core->memory_type(requirements.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+    if (type < 0) return fail(where, core->info.name + " has no memory for images");
+    auto allocate = structure<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
+    allocate.allocationSize = requirements.size;
+    allocate.memoryTypeIndex = static_cast<std::uint32_t>(type);
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    if (const VkResult r = core->vk.vkAllocateMemory(core->device, &allocate, nullptr, &memory); r != VK_SUCCESS) {
+        return vulkan_failure(where, "could not be allocated", r);
+    }
+    image.memory_ = MemoryHandle(core, memory);
+    if (const VkResult r = core->vk.vkBindImageMemory(core->device, raw, memory, 0); r != VK_SUCCESS) {
+        return vulkan_failure(where, "could not be bound to its memory", r);
+    }
+    auto view = structure<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
+    view.image = raw;
+    view.viewType = spec.layers > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
+    view.format = spec.format;
+    view.subresourceRange = {spec.aspect, 0, 1, 0, spec.layers};
+    VkImageView raw_view = VK_NULL_HANDLE;
+    if (const VkResult r = core->vk.vkCreateImageView(core->device, &view, nullptr, &raw_view); r != VK_SUCCESS) {
+        return vulkan_failure(where, "has no view", r);
+    }
+    image.view_ = ImageViewHandle(core, raw_view);
+    return image;
+}
+
+}  // namespace burin::gpu

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// A 2D image of one or more layers with its view over all of them. Each image is one allocation of its own.
+// Ownership: move-only; freed when the GPU has done with it. Thread and lifetime: as Device.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "gpu/core.hpp"
+
+namespace burin::gpu {
+
+struct ImageSpec {
+    std::uint32_t width = 0, height = 0;  // pixels, each 1 to capabilities().max_image_size
+    std::uint32_t layers = 1;             // the view is an array for more than one
+    std::uint32_t samples = 1;            // 1 or capabilities().msaa_samples
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    VkImageUsageFlags usage = 0;
+    VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
+    std::string name = "image";  // for error messages
+};
+
+class Image {
+public:
+    Image() = default;
+    [[nodiscard]] static Result<Image> create(Device& device, const ImageSpec& spec);
+
+    [[nodiscard]] VkImage raw() const { return image_.raw(); }
+    [[nodiscard]] VkImageView view() const { return view_.raw(); }
+
+private:
+    MemoryHandle memory_;  // destroyed last
+    ImageHandle image_;
+    ImageViewHandle view_;
+};
+
+}  // namespace burin::gpu

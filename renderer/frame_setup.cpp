@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/frame_setup.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "renderer/projection.hpp"
+
+namespace burin {
+
+namespace {
+
+// One lamp from above, slightly in front and to the left (Hornsey & Hibbard 2024: light above the target gives the most
+// certain sense of shape; Hubona et al.: two lamps are worse than one).
+const Vec3 kToLight = glm::normalize(Vec3{-0.30, 1.0, 0.52});
+constexpr double kLightHalfAngleTangent = 0.07;  // a lamp of 4 degrees: edges 7 mm wide at 100 mm
+const Vec3 kLightColour{1.06, 1.02, 0.95};
+const Vec3 kSkyColour{0.40, 0.42, 0.45};
+const Vec3 kGroundColour{0.19, 0.18, 0.17};
+
+glm::vec4 vec4_of(const Vec3& v, double w) { return {glm::vec3(v), static_cast<float>(w)}; }
+
+double linear_component(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
+
+double stylus_radius_m(const SceneTool& tool) { return std::clamp(0.42 * tool.radius_m, 0.002, 0.012); }
+double stylus_length_m(const SceneTool& tool) { return std::max(20.0 * stylus_radius_m(tool), 6.0 * tool.radius_m); }
+double half_diagonal(const Vec3& size) { return 0.5 * glm::length(size); }
+
+// The smallest ball around two.
+Ball around(const Ball& a, const Ball& b) {
+    if (a.radius_m <= 0.0) return b;
+    if (b.radius_m <= 0.0) return a;
+    const Vec3 apart = b.center_world - a.center_world;
+    const double distance = glm::length(apart);
+    if (distance + b.radius_m <= a.radius_m) return a;
+    if (distance + a.radius_m <= b.radius_m) return b;
+    const double radius = 0.5 * (distance + a.radius_m + b.radius_m);
+    return {a.center_world + apart * ((radius - a.radius_m) / distance), radius};
+}
+
+Ball tool_ball(const SceneTool& tool) {
+    if (!tool.visible) return {};
+    const double half_length = 0.5 * stylus_length_m(tool);
+    const Ball stylus{tool.stylus_world * Vec3{0, 0, half_length}, half_length + stylus_radius_m(tool)};
+    return around({tool.center_world, tool.radius_m}, stylus);
+}
+
+// Orthographic, looking along the light at everything that casts a shadow.
+void set_shadow_frame(shared::FrameUniforms& frame, const Ball& casters, std::uint32_t shadow_texels) {
+    if (casters.radius_m <= 0.0) return;  // shadow_scale.w stays 0: no shadows
+    const Vec3 right = glm::normalize(glm::cross(Vec3{0, 1, 0}, kToLight));
+    const Vec3 up = glm::cross(kToLight, right);
+    // A margin for the edge filter; below the casters room for what catches their shadow.
+    const double half_m = casters.radius_m * 1.08, depth_m = casters.radius_m * 6.0;
+    const Vec3 c = casters.center_world;
+    Mat4 m(0.0);
+    const double xy = 0.5 / half_m, z = 1.0 / depth_m;
+    for (int i = 0; i < 3; ++i) m[i] = glm::dvec4(right[i] * xy, up[i] * xy, -kToLight[i] * z, 0.0);
+    m[3] = glm::dvec4(0.5 - glm::dot(right, c) * xy, 0.5 - glm::dot(up, c) * xy,
+                      (glm::dot(kToLight, c) + casters.radius_m * 1.08) * z, 1.0);
+    frame.shadow_from_world = glm::mat4(m);
+    frame.shadow_scale = {depth_m, 2.0 * half_m / shadow_texels, 1.0 / shadow_texels, 1.0f};
+}
+
+shared::DrawConstants constants_of(const Mat4& world_from_local, const Vec3& srgb, double opacity, double roughness,
+                                   double gloss) {
+    shared::DrawConstants c{};
+    c.world_from_local = glm::mat4(world_from_local);
+    c.tint = vec4_of(linear_of(srgb), opacity);
+    c.material = {static_cast<float>(roughness), static_cast<float>(gloss), 0.0f, 0.0f};
+    return c;
+}
+
+Mat4 matrix_of(const Pose& pose, const Vec3& scale) {
+    return matrix(Similarity{pose.position_m, pose.orientation, 1.0}) * glm::scale(Mat4(1.0), scale);
+}
+
+void add_wall_frame(Shapes& shapes, const Screen& screen, const Primitives& primitives) {
+    // Bars just inside the screen's edges, standing behind its plane: the window one looks through.
+    constexpr double kWidth_m = 0.016, kDepth_m = 0.05;
+    const Vec3 colour{0.30, 0.30, 0.31};
+    const Vec3 across = screen.lower_right_world - screen.lower_left_world;
+    const Vec3 upright = screen.upper_left_world - screen.lower_left_world;
+    const double width = glm::length(across), height = glm::length(upright);
+    const Vec3 x = across / width, y = upright / height, z = glm::cross(x, y);
+    const Vec3 middle = screen.lower_left_world + 0.5 * (across + upright) - 0.5 * kDepth_m * z;
+    const auto bar = [&](const Vec3& center, const Vec3& size) {
+        const Mat4 m(glm::dvec4(x * size.x, 0), glm::dvec4(y * size.y, 0), glm::dvec4(z * size.z, 0),
+                     glm::dvec4(center, 1));
+        shapes.solid.push_back({primitives.cube, constants_of(m, colour, 1.0, 0.6, 0.5), false});
+    };
+    for (const double side : {-1.0, 1.0}) {
+        bar(middle + side * 0.5 * (height - kWidth_m) * y, {width, kWidth_m, kDepth_m});
+        bar(middle + side * 0.5 * (width - kWidth_m) * x, {kWidth_m, height - 2 * kWidth_m, kDepth_m});
+    }
+}
+
+void add_box(Shapes& shapes, const SceneBox& box, const Primitives& primitives) {
+    const Vec3 s = box.size_m;
+    const double bar = std::clamp(0.018 * std::min({s.x, s.y, s.z}), 0.0015, 0.008);
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int corner = 0; corner < 4; ++corner) {
+            Vec3 offset(0.0), size(bar);
+            offset[(axis + 1) % 3] = ((corner & 1) != 0 ? 0.5 : -0.5) * s[(axis + 1) % 3];
+            offset[(axis + 2) % 3] = ((corner & 2) != 0 ? 0.5 : -0.5) * s[(axis + 2) % 3];
+            size[axis] = s[axis] + bar;
+            const Pose pose{box.center_world * offset, box.center_world.orientation};
+            shapes.solid.push_back(
+                {primitives.cube, constants_of(matrix_of(pose, size), box.colour, 1.0, 0.5, 0.6), false});
+        }
+    }
+    shapes.glass.push_back(
+        {primitives.cube, constants_of(matrix_of(box.center_world, s), box.colour, 0.16, 0, 0), false});
+}
+
+void add_tool(Shapes& shapes, const SceneTool& tool, const Primitives& primitives) {
+    const Pose ball{tool.center_world, tool.stylus_world.orientation};
+    shapes.solid.push_back(
+        {primitives.ball, constants_of(matrix_of(ball, Vec3(tool.radius_m)), tool.colour, 1.0, 0.28, 1.0), true});
+    const double r = stylus_radius_m(tool);
+    const Mat4 shaft = matrix_of(tool.stylus_world, {r, r, stylus_length_m(tool)});
+    shapes.solid.push_back({primitives.stylus, constants_of(shaft, {0.27, 0.28, 0.30}, 1.0, 0.35, 1.0), true});
+}
+
+}  // namespace
+
+Vec3 linear_of(const Vec3& srgb) { return {linear_component(srgb.x), linear_component(srgb.y), linear_component(srgb.z)}; }
+
+Mat4 world_from_patch(const Scene& scene) {
+    return matrix(scene.world_from_object) * glm::translate(Mat4(1.0), scene.lattice_origin_object);
+}
+
+Workpiece place_workpiece(const Scene& scene, const Box& patch_bounds, double reach_m) {
+    if (patch_bounds.empty()) return {};
+    const Vec3 center = scene.world_from_object * (scene.lattice_origin_object + patch_bounds.center());
+    const Vec3 size = patch_bounds.extent() * scene.world_from_object.scale;
+    return {{center, reach_m * scene.world_from_object.scale}, {center, (size.x + size.y + size.z) / 6.0}};
+}
+
+DepthRange depth_range(const Scene& scene, const Workpiece& workpiece) {
+    const Eyes eyes = eyes_of(scene.viewer);
+    const double eye_m =
+        std::min(distance_in_front(scene.screen, eyes.left_world), distance_in_front(scene.screen, eyes.right_world));
+    const Ball box{scene.box.center_world.position_m, scene.box.visible ? half_diagonal(scene.box.size_m) : 0.0};
+    DepthRange range;
+    for (const Ball& ball : {workpiece.enclosing, tool_ball(scene.tool), box}) {
+        if (ball.radius_m <= 0.0) continue;
+        const double center_m = eye_m - distance_in_front(scene.screen, ball.center_world);
+        range.near_m = std::min(range.near_m, 0.9 * (center_m - ball.radius_m));
+        range.far_m = std::max(range.far_m, 1.5 * (center_m + ball.radius_m));
+    }
+    // Something reaches to the eye or behind it: what is nearer than 1 cm cannot be seen anyway.
+    range.near_m = std::max(range.near_m, 0.01);
+    return range;
+}
+
+shared::FrameUniforms frame_uniforms(const Scene& scene, const Workpiece& workpiece, std::uint32_t shadow_texels) {
+    shared::FrameUniforms frame{};
+    const Eyes eyes = eyes_of(scene.viewer);
+    const DepthRange depth = depth_range(scene, workpiece);
+    const std::array eye_world{eyes.left_world, eyes.right_world};
+    for (std::size_t i = 0; i < 2; ++i) {
+        frame.clip_from_world[i] =
+            glm::mat4(off_axis_projection(scene.screen, eye_world[i], depth.near_m, depth.far_m));
+        frame.eye_world[i] = vec4_of(eye_world[i], 1.0);
+    }
+    set_shadow_frame(frame, around(workpiece.enclosing, tool_ball(scene.tool)), shadow_texels);
+    frame.light = vec4_of(kToLight, kLightHalfAngleTangent);
+    frame.light_colour = vec4_of(kLightColour, 0.0);
+    frame.sky_colour = vec4_of(kSkyColour, 0.0);
+    frame.ground_colour = vec4_of(kGroundColour, 0.0);
+    if (scene.tool.visible) frame.tool = vec4_of(scene.tool.center_world, scene.tool.radius_m);
+    frame.tool_colour = vec4_of(linear_of(scene.tool.colour), 0.0);
+    frame.workpiece = vec4_of(workpiece.typical.center_world, workpiece.typical.radius_m);
+    if (scene.pedestal.visible) frame.pedestal = vec4_of(scene.pedestal.top_center_world, scene.pedestal.radius_m);
+    frame.background = vec4_of(linear_of(scene.background), 1.0);
+    return frame;
+}
+
+Shapes shapes_of(const Scene& scene, const Primitives& primitives) {
+    Shapes shapes;
+    if (scene.tool.visible) add_tool(shapes, scene.tool, primitives);
+    if (scene.pedestal.visible) {
+        const ScenePedestal& p = scene.pedestal;
+        const Pose pose{p.top_center_world, Quat{1, 0, 0, 0}};
+        const Vec3 size{p.radius_m, std::max(p.top_center_world.y, 0.001), p.radius_m};
+        shapes.solid.push_back(
+            {primitives.plinth, constants_of(matrix_of(pose, size), p.colour, 1.0, 0.75, 0.4), false});
+    }
+    if (scene.show_wall_frame) add_wall_frame(shapes, scene.screen, primitives);
+    if (scene.box.visible) add_box(shapes, scene.box, primitives);
+    return shapes;
+}
+
+shared::DrawConstants surface_constants(const Scene& scene) {
+    shared::DrawConstants c = constants_of(world_from_patch(scene), Vec3(1.0), 1.0, 0.42, 0.9);
+    c.material.z = 1.0f;  // shows the nearness of the tool
+    return c;
+}
+
+}  // namespace burin

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/image.hpp"
+
+#include "base/error.hpp"
+
+namespace burin {
+
+Image side_by_side(const StereoImage& stereo) {
+    const ImageSize size = stereo.left.size;
+    BURIN_CHECK(stereo.right.size.width == size.width && stereo.right.size.height == size.height);
+    Image both{{2 * size.width, size.height}, {}};
+    both.rgba.reserve(2 * stereo.left.rgba.size());
+    const std::size_t row_bytes = std::size_t{4} * size.width;
+    for (std::uint32_t y = 0; y < size.height; ++y) {
+        for (const Image* eye : {&stereo.left, &stereo.right}) {
+            const std::uint8_t* row = eye->rgba.data() + y * row_bytes;
+            both.rgba.insert(both.rgba.end(), row, row + row_bytes);
+        }
+    }
+    return both;
+}
+
+}  // namespace burin

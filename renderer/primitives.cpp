@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/primitives.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include "shaders/shared/octahedral.h"
+
+namespace burin {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+struct ProfilePoint {
+    double radius, along;                // of a shape turned around an axis
+    double normal_radial, normal_along;  // any length
+};
+
+std::uint32_t code_of(const Vec3& normal) {
+    constexpr double kLength = 1 << 20;
+    const Vec3 n = glm::normalize(normal) * kLength;
+    return shared::encode_normal({std::llround(n.x), std::llround(n.y), std::llround(n.z)});
+}
+
+class Builder {
+public:
+    std::uint32_t vertex(const Vec3& p, const Vec3& normal) {
+        out_.vertices.push_back(
+            {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z), code_of(normal), 0xffffffffu});
+        return static_cast<std::uint32_t>(out_.vertices.size() - 1);
+    }
+    // Counter-clockwise seen from outside.
+    void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+        out_.indices.insert(out_.indices.end(), {a, b, c, a, c, d});
+    }
+    [[nodiscard]] std::uint32_t here() const { return static_cast<std::uint32_t>(out_.indices.size()); }
+    [[nodiscard]] PrimitiveRange since(std::uint32_t first) const { return {first, here() - first}; }
+    Primitives take() { return std::move(out_); }
+
+private:
+    Primitives out_;
+};
+
+// Turns a profile, listed from the axis's lower end to its upper end, around +Y (or +Z).
+PrimitiveRange turned(Builder& b, std::span<const ProfilePoint> profile, int segments, bool around_z) {
+    const std::uint32_t first = b.here();
+    std::vector<std::uint32_t> previous, current;
+    for (const ProfilePoint& p : profile) {
+        current.clear();
+        for (int s = 0; s <= segments; ++s) {
+            const double a = 2.0 * kPi * s / segments, c = std::cos(a), d = std::sin(a);
+            const Vec3 around_y_point{p.radius * c, p.along, -p.radius * d};
+            const Vec3 around_y_normal{p.normal_radial * c, p.normal_along, -p.normal_radial * d};
+            const auto stand = [around_z](const Vec3& v) { return around_z ? Vec3{v.x, -v.z, v.y} : v; };
+            current.push_back(b.vertex(stand(around_y_point), stand(around_y_normal)));
+        }
+        for (std::size_t s = 0; !previous.empty() && s + 1 < current.size(); ++s) {
+            b.quad(previous[s], previous[s + 1], current[s + 1], current[s]);
+        }
+        previous = current;
+    }
+    return b.since(first);
+}
+
+PrimitiveRange ball(Builder& b) {
+    constexpr int kRings = 48;
+    std::vector<ProfilePoint> profile;
+    for (int i = 0; i <= kRings; ++i) {
+        const double a = kPi * (static_cast<double>(i) / kRings - 0.5);
+        profile.push_back({std::cos(a), std::sin(a), std::cos(a), std::sin(a)});
+    }
+    return turned(b, profile, 2 * kRings, false);
+}
+
+PrimitiveRange cube(Builder& b) {
+    const std::uint32_t first = b.here();
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const double side : {-1.0, 1.0}) {
+            Vec3 n(0.0), u(0.0), v(0.0);
+            n[axis] = side;
+            u[(axis + 1) % 3] = side;  // u x v = n for both sides
+            v[(axis + 2) % 3] = 1.0;
+            const auto corner = [&](double i, double j) { return b.vertex(0.5 * (n + i * u + j * v), n); };
+            const std::uint32_t p = corner(-1, -1), q = corner(1, -1), r = corner(1, 1), s = corner(-1, 1);
+            b.quad(p, q, r, s);
+        }
+    }
+    return b.since(first);
+}
+
+// A pen: a fine neck at the ball, a grip, a slim shaft with a rounded end.
+PrimitiveRange stylus(Builder& b) {
+    std::vector<ProfilePoint> profile{{0.35, 0.0, 1.0, 0.0}, {0.38, 0.10, 1.0, -0.3}, {0.95, 0.22, 1.0, -0.6},
+                                      {1.0, 0.26, 1.0, 0.0}, {0.92, 0.60, 1.0, 0.05}, {0.86, 0.97, 1.0, 0.1}};
+    for (int i = 1; i <= 6; ++i) {
+        const double a = 0.5 * kPi * i / 6;
+        profile.push_back({0.86 * std::cos(a), 0.97 + 0.03 * std::sin(a), std::cos(a), std::sin(a)});
+    }
+    return turned(b, profile, 48, true);
+}
+
+PrimitiveRange plinth(Builder& b) {
+    constexpr double kRound = 0.03, kRoundHeight = 0.012;  // of the radius; of the height
+    std::vector<ProfilePoint> profile{{1.0, -1.0, 1.0, 0.0}, {1.0, -kRoundHeight, 1.0, 0.0}};
+    for (int i = 1; i <= 8; ++i) {
+        const double a = 0.5 * kPi * i / 8;
+        profile.push_back(
+            {1.0 - kRound + kRound * std::cos(a), kRoundHeight * (std::sin(a) - 1.0), std::cos(a), std::sin(a)});
+    }
+    profile.push_back({0.0, 0.0, 0.0, 1.0});
+    return turned(b, profile, 128, false);
+}
+
+// A photographer's cove: floor, quarter circle, wall; so wide that its edges are seen from nowhere.
+PrimitiveRange backdrop(Builder& b) {
+    const std::uint32_t first = b.here();
+    constexpr double kHalfWidth_m = 60.0, kFront_m = 20.0, kBend_m = -2.4, kRadius_m = 1.6, kTop_m = 60.0;
+    constexpr int kArc = 24;
+    std::vector<std::pair<Vec3, Vec3>> line{{{0, 0, kFront_m}, {0, 1, 0}}};
+    for (int i = 0; i <= kArc; ++i) {
+        const double a = 0.5 * kPi * i / kArc, s = std::sin(a), c = std::cos(a);
+        line.push_back({{0, kRadius_m * (1.0 - c), kBend_m - kRadius_m * s}, {0, c, s}});
+    }
+    line.push_back({{0, kTop_m, kBend_m - kRadius_m}, {0, 0, 1}});
+    const Vec3 half{kHalfWidth_m, 0, 0};
+    std::uint32_t left = 0, right = 0;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const std::uint32_t l = b.vertex(line[i].first - half, line[i].second);
+        const std::uint32_t r = b.vertex(line[i].first + half, line[i].second);
+        if (i > 0) b.quad(left, right, r, l);
+        left = l;
+        right = r;
+    }
+    return b.since(first);
+}
+
+}  // namespace
+
+Primitives make_primitives() {
+    Builder b;
+    const PrimitiveRange ball_range = ball(b), cube_range = cube(b), stylus_range = stylus(b), plinth_range = plinth(b),
+                         backdrop_range = backdrop(b);
+    Primitives out = b.take();
+    out.ball = ball_range;
+    out.cube = cube_range;
+    out.stylus = stylus_range;
+    out.plinth = plinth_range;
+    out.backdrop = backdrop_range;
+    return out;
+}
+
+}  // namespace burin

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// The shapes that the renderer draws besides the workpiece, all in one vertex and one index list. White, with SurfaceVertex.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/space.hpp"
+#include "shaders/shared/surface_vertex.h"
+
+namespace burin {
+
+struct PrimitiveRange {
+    std::uint32_t first_index = 0;
+    std::uint32_t index_count = 0;
+};
+
+struct Primitives {
+    std::vector<shared::SurfaceVertex> vertices;
+    std::vector<std::uint32_t> indices;
+    PrimitiveRange ball;      // radius 1 around the origin
+    PrimitiveRange cube;      // -0.5 to 0.5
+    PrimitiveRange stylus;    // along +Z from 0 to 1, radius at most 1, thin at z = 0
+    PrimitiveRange plinth;    // along +Y from -1 to 0, radius 1, its upper edge rounded for a height of 2 to 3 radii
+    PrimitiveRange backdrop;  // the room, in world coordinates: the floor y = 0 that rises behind the wall
+};
+
+[[nodiscard]] Primitives make_primitives();
+
+}  // namespace burin

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/frame.glsl"
+#include "shaders/lighting.glsl"
+// The room: a floor that rises softly into a backdrop, graded around mid-grey, with a fine grid and with the shadows of the
+// workpiece and the plinth. These fall from far above, so closed forms of a ball and a cylinder serve better than a map.
+
+layout(location = 0) in vec3 in_world;
+layout(location = 1) in vec3 in_normal;
+
+layout(location = 0) out vec4 out_colour;
+
+// How near a grid line is, 0 to 1, anti-aliased over one pixel and fading where lines would crowd.
+float grid(vec2 p, float cell_m, float width_m) {
+    vec2 pixel = fwidth(p);
+    vec2 to_line = abs(fract(p / cell_m - 0.5) - 0.5) * cell_m;
+    vec2 half_width = max(vec2(0.5 * width_m), 0.7 * pixel);
+    vec2 on = 1.0 - smoothstep(half_width - 0.5 * pixel, half_width + 0.5 * pixel, to_line);
+    on *= clamp(width_m / max(pixel, vec2(1e-5)), 0.35, 1.0);             // thinner than a pixel: fainter
+    on *= 1.0 - smoothstep(vec2(0.15 * cell_m), vec2(0.45 * cell_m), pixel);  // crowded: gone
+    return max(on.x, on.y);
+}
+
+// Shadow of a ball far above, with an edge as wide as the gap times the light's size.
+float ball_shadow(vec3 world, vec4 ball) {
+    if (ball.w <= 0.0) return 0.0;
+    vec3 to_ball = ball.xyz - world;
+    float along = dot(to_ball, frame.light.xyz);
+    if (along <= 0.0) return 0.0;
+    float miss = length(to_ball - along * frame.light.xyz);
+    float soft = max(2.2 * frame.light.w * along, 0.01);
+    float full = min(1.0, ball.w * ball.w / (soft * soft));  // a small ball does not cover the lamp
+    return full * (1.0 - smoothstep(ball.w - soft, ball.w + soft, miss));
+}
+
+// Shadow of the upright plinth on the floor: the discs from its base to its top, moved along the light, are a capsule.
+float pedestal_shadow(vec3 world) {
+    if (frame.pedestal.w <= 0.0) return 0.0;
+    vec2 reach = -frame.light.xz / frame.light.y * frame.pedestal.y;
+    vec2 from_base = world.xz - frame.pedestal.xz;
+    float t = clamp(dot(from_base, reach) / max(dot(reach, reach), 1e-6), 0.0, 1.0);
+    float soft = 0.012 + 2.2 * frame.light.w * t * frame.pedestal.y;
+    float away = length(from_base - t * reach);
+    return 1.0 - smoothstep(frame.pedestal.w - soft, frame.pedestal.w + soft, away);
+}
+
+void main() {
+    vec3 n = normalize(in_normal);
+    // Brightest around the work, falling off to the sides: the eye is led to the middle without any edge.
+    float away = length((in_world - vec3(0.0, 0.9, -2.2)) * vec3(0.75, 1.0, 0.55));
+    vec3 c = frame.background.rgb * mix(1.22, 0.62, smoothstep(0.3, 4.2, away));
+
+    float floor_part = smoothstep(0.55, 1.0, n.y);
+    float lines = 0.16 * grid(in_world.xz, 1.0, 0.010) + 0.10 * grid(in_world.xz, 0.25, 0.005);
+    c *= 1.0 - floor_part * min(lines, 0.2);
+
+    float dark = 1.0 - (1.0 - 0.55 * ball_shadow(in_world, frame.workpiece)) * (1.0 - 0.62 * pedestal_shadow(in_world));
+    c *= 1.0 - dark * max(n.y, 0.25);
+    if (frame.pedestal.w > 0.0) {  // ambient light kept off by the foot of the plinth
+        float from_foot = max(length(in_world.xz - frame.pedestal.xz) - frame.pedestal.w, 0.0) + in_world.y;
+        c *= 1.0 - 0.35 * exp(-from_foot / 0.09);
+    }
+    out_colour = vec4(c, 1.0);
+}
