@@ -20,6 +20,10 @@ constexpr double kPointProbeOfEdge = 1.0 / 500.0;
 // more.
 constexpr double kStill = 1e-5;
 
+// Pushing out the thousandth of R that edges may sink in can go back and forth between facets. After these steps the
+// ball is only kept from going deeper, so that each step brings it nearer to the HIP and the steps come to an end.
+constexpr std::uint32_t kPushingSteps = 3;
+
 constexpr std::uint32_t kMostPlanes = 512;  // 20 kB of stack; a ball lying in its own groove touches about 100 facets
 
 struct Planes {
@@ -57,8 +61,8 @@ public:
             const Triangle t = triangle(i);
             const NearestOnTriangle on = nearest_on_triangle(center, t);
             const Vec3 off = center - on.point;
+            if (glm::dot(off, off) > reach * reach) return true;
             const double distance = std::sqrt(glm::dot(off, off));
-            if (distance > reach) return true;
             const Vec3 normal = outward_normal(t);
             const double height = glm::dot(off, normal);
             keep_nearest(result.nearest, {distance, height, on.point, normal});
@@ -161,11 +165,13 @@ private:
     ProxyWork& work_;
 };
 
-// With the ball pushed out where it sinks in; if there is no room for that, at least no deeper.
-NearestInside goal_in(Planes& planes, const Vec3& goal, double radius, ProxyWork& work) {
-    ++work.plane_solves;
-    NearestInside best = nearest_inside(planes.span(), goal, kPlane * radius);
-    if (best.found) return best;
+// With the ball pushed out where it sinks in; if that is not wanted or there is no room for it, at least no deeper.
+NearestInside goal_in(Planes& planes, const Vec3& goal, double radius, bool push_out, ProxyWork& work) {
+    if (push_out) {
+        ++work.plane_solves;
+        const NearestInside best = nearest_inside(planes.span(), goal, kPlane * radius);
+        if (best.found) return best;
+    }
     ++work.plane_solves;
     for (std::uint32_t i = 0; i < planes.count; ++i) planes.list[i].offset = std::min(planes.list[i].offset, 0.0);
     return nearest_inside(planes.span(), goal, kPlane * radius);
@@ -219,7 +225,8 @@ ProxyResult move_proxy(const ProxyState& state, const Vec3& hip_object_m, double
     }
     for (;; touching = mover.touching(center, planes)) {
         ++result.work.steps;
-        const NearestInside goal = goal_in(planes, hip - center, radius, result.work);
+        const NearestInside goal =
+            goal_in(planes, hip - center, radius, result.work.steps <= kPushingSteps, result.work);
         if (!touching.complete || !goal.found) break;
         note_active(result, planes, goal);
         if (glm::dot(goal.point, goal.point) <= still * still && goal.bearing_count > 0) {

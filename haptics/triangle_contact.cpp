@@ -70,23 +70,27 @@ Vec3 outward_normal(const Triangle& t) noexcept {
     return n / std::sqrt(glm::dot(n, n));
 }
 
+// All from the products of the two edges at `a` with each other and with p - a: the barycentric coordinates of p's foot
+// tell which edges p is beyond, and the nearest point then is the foot or lies on one of those.
 NearestOnTriangle nearest_on_triangle(const Vec3& p, const Triangle& t) noexcept {
-    const Vec3 n = glm::cross(t.b - t.a, t.c - t.a);
-    // Which side of each edge, seen along the normal: inside all three means over the face.
-    const bool beyond_ab = glm::dot(glm::cross(t.b - t.a, p - t.a), n) < 0.0;
-    const bool beyond_bc = glm::dot(glm::cross(t.c - t.b, p - t.b), n) < 0.0;
-    const bool beyond_ca = glm::dot(glm::cross(t.a - t.c, p - t.c), n) < 0.0;
-    if (!beyond_ab && !beyond_bc && !beyond_ca) return {p - n * (glm::dot(p - t.a, n) / glm::dot(n, n)), true};
-    // The nearest point lies on an edge that p is beyond; with an obtuse corner it may be either of two.
+    const Vec3 u = t.b - t.a, v = t.c - t.a, w = p - t.a;
+    const double uu = glm::dot(u, u), uv = glm::dot(u, v), vv = glm::dot(v, v);
+    const double wu = glm::dot(w, u), wv = glm::dot(w, v);
+    const double area = uu * vv - uv * uv;     // (twice the area)^2, above 0
+    const double along_u = vv * wu - uv * wv;  // barycentric coordinates of the foot, times area
+    const double along_v = uu * wv - uv * wu;
+    if (along_u >= 0.0 && along_v >= 0.0 && along_u + along_v <= area)
+        return {t.a + u * (along_u / area) + v * (along_v / area), true};
+    // With an obtuse corner p may be beyond two edges, and the nearest point on either.
     NearestOnTriangle best;
     double best2 = HUGE_VAL;
     const auto consider = [&](const Vec3& q) {
         const double d2 = glm::dot(p - q, p - q);
         if (d2 < best2) best2 = d2, best.point = q;
     };
-    if (beyond_ab) consider(nearest_on_edge(p, t.a, t.b));
-    if (beyond_bc) consider(nearest_on_edge(p, t.b, t.c));
-    if (beyond_ca) consider(nearest_on_edge(p, t.c, t.a));
+    if (along_v < 0.0) consider(t.a + u * clamp01(wu / uu));
+    if (along_u < 0.0) consider(t.a + v * clamp01(wv / vv));
+    if (along_u + along_v > area) consider(nearest_on_edge(p, t.b, t.c));
     return best;
 }
 
