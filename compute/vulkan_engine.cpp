@@ -24,8 +24,8 @@ using shared::PendingRay;
 // looking at capsules (16 x 2048), half for cutting.
 constexpr std::uint32_t kLooks = 2048;
 constexpr std::uint32_t kCutTurns = 32000;
-constexpr std::uint32_t kSearchTurns = 140;   // at most, in capsule_span and capsule_normal: about 5 x 28 halvings
-constexpr std::uint32_t kLongestRay = 7500;   // ends: one cut, at three turns an end, and the export fit into kCutTurns
+constexpr std::uint32_t kSearchTurns = 140;  // at most, in capsule_span and capsule_normal: about 5 x 28 halvings
+constexpr std::uint32_t kLongestRay = 7500;  // ends: one cut, at three turns an end, and the export fit into kCutTurns
 constexpr std::uint32_t kMostCuts = 64;
 
 // How many capsules a ray may take in one pass when no ray has more than `longest` ends; each capsule may add two.
@@ -53,9 +53,10 @@ Result<std::unique_ptr<VulkanEngine>> VulkanEngine::create(Solid solid, const gp
                                                            const VulkanEngineOptions& options) {
     const gpu::Capabilities& can = device.capabilities();
     if (!can.shader_int64 || !can.shader_float64) {
-        return fail("Vulkan engine",
-                    device.info().name + " has no " + (can.shader_int64 ? "doubles" : "64-bit integers") + " in shaders",
-                    "use --engine cpu");
+        return fail(
+            "Vulkan engine",
+            device.info().name + " has no " + (can.shader_int64 ? "doubles" : "64-bit integers") + " in shaders",
+            "use --engine cpu");
     }
     std::unique_ptr<VulkanEngine> engine(new VulkanEngine(std::move(solid), device, options));
     auto pipeline = gpu::ComputePipeline::create(
@@ -73,7 +74,7 @@ VulkanEngine::VulkanEngine(Solid solid, const gpu::Device& device, const VulkanE
 }
 
 Result<CutStats> VulkanEngine::cut(std::span<const BallSweep> sweeps) {
-    const auto capsules = capsules_in_units(solid_.lattice, sweeps);
+    const auto capsules = capsules_in_units(solid_, sweeps);
     if (!capsules) return std::unexpected(capsules.error());
     const CutTasks tasks = cut_tasks(solid_.lattice, *capsules);
     if (tasks.tasks.empty()) return CutStats{};
@@ -108,8 +109,8 @@ Result<CutStats> VulkanEngine::cut_on_device(std::span<const Capsule> capsules, 
     order_bytes_ = tasks.order.size() * sizeof(std::uint32_t);
     CutStats stats;
     for (std::size_t from = 0; from < tasks.tasks.size(); from += options_.tasks_a_pass) {
-        const auto some = std::span(tasks.tasks).subspan(
-            from, std::min<std::size_t>(options_.tasks_a_pass, tasks.tasks.size() - from));
+        const auto some = std::span(tasks.tasks)
+                              .subspan(from, std::min<std::size_t>(options_.tasks_a_pass, tasks.tasks.size() - from));
         copy_to<CutTask>(tasks_, some);
         task_bytes_ = some.size_bytes();
         std::uint32_t pending = 0;
@@ -149,9 +150,10 @@ Result<void> VulkanEngine::reserve(std::span<const Capsule> capsules, const CutT
 // One submission: the tasks' rays, or the rays that an earlier pass left pending.
 Result<CutCounters> VulkanEngine::pass(std::uint32_t task_count, std::uint32_t pending) {
     if (longest_ > kLongestRay) {
-        return fail("Vulkan engine", "a ray has " + std::to_string(longest_) + " interval ends, more than " +
-                                         std::to_string(kLongestRay),
-                    "use --engine cpu");
+        return fail(
+            "Vulkan engine",
+            "a ray has " + std::to_string(longest_) + " interval ends, more than " + std::to_string(kLongestRay),
+            "use --engine cpu");
     }
     auto commands = gpu::Commands::begin(device_);
     if (!commands) return std::unexpected(commands.error());
@@ -177,11 +179,11 @@ Result<CutCounters> VulkanEngine::pass(std::uint32_t task_count, std::uint32_t p
     order_.send(*commands, order_bytes_);
     counters_.send(*commands, sizeof(CutCounters));
     commands->barrier();
-    commands->dispatch(cut_rays_,
-                       {device_solid_.rays(), device_solid_.store(), capsules_.buffer(), tasks_.buffer(),
-                        order_.buffer(), counters_.buffer(), changed_.buffer(), exported_.buffer(), continued_.buffer(),
-                        pending_.buffer()},
-                       gpu::bytes_of(parameters), {(rays + shared::kCutGroup - 1) / shared::kCutGroup, 1, 1});
+    commands->dispatch(
+        cut_rays_,
+        {device_solid_.rays(), device_solid_.store(), capsules_.buffer(), tasks_.buffer(), order_.buffer(),
+         counters_.buffer(), changed_.buffer(), exported_.buffer(), continued_.buffer(), pending_.buffer()},
+        gpu::bytes_of(parameters), {(rays + shared::kCutGroup - 1) / shared::kCutGroup, 1, 1});
     commands->barrier();
     counters_.fetch(*commands, sizeof(CutCounters));
     changed_.fetch(*commands, rays * sizeof(ChangedRay));
@@ -227,8 +229,8 @@ void VulkanEngine::apply_changes() {
         const int axis = shared::axis_of(change.ray), u = shared::u_of(change.ray), v = shared::v_of(change.ray);
         const auto index = static_cast<std::size_t>(v) * static_cast<std::size_t>(solid_.lattice.rays_u(axis)) +
                            static_cast<std::size_t>(u);
-        solid_.sets[static_cast<std::size_t>(axis)].replace(
-            index, std::span(new_ends_).subspan(change.first, change.count));
+        solid_.sets[static_cast<std::size_t>(axis)].replace(index,
+                                                            std::span(new_ends_).subspan(change.first, change.count));
         dirty_.mark_ray(axis, u, v, change.changed_lo, change.changed_hi);
     }
 }

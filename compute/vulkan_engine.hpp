@@ -32,8 +32,8 @@ struct VulkanEngineOptions {
 
 // What the engine has done since it was made.
 struct VulkanEngineCounts {
-    std::uint64_t cuts = 0;           // calls of cut that reached the lattice
-    std::uint64_t submissions = 0;    // each waited for once
+    std::uint64_t cuts = 0;            // calls of cut that reached the lattice
+    std::uint64_t submissions = 0;     // each waited for once
     std::uint64_t store_rebuilds = 0;  // because a ray found no room
 };
 
@@ -67,9 +67,9 @@ private:
     VulkanEngineCounts counts_;
     gpu::ComputePipeline cut_rays_;
     DeviceSolid device_solid_;
-    bool synchronized_ = false;    // the device holds what solid_ holds
-    std::uint32_t used_ = 0;       // ends taken in the device's store
-    std::uint32_t longest_ = 0;    // no ray has more ends
+    bool synchronized_ = false;                                         // the device holds what solid_ holds
+    std::uint32_t used_ = 0;                                            // ends taken in the device's store
+    std::uint32_t longest_ = 0;                                         // no ray has more ends
     std::size_t capsule_bytes_ = 0, task_bytes_ = 0, order_bytes_ = 0;  // in use in the buffers below
     SharedBuffer capsules_{"capsules", SharedBuffer::Traffic::to_device};
     SharedBuffer tasks_{"cut tasks", SharedBuffer::Traffic::to_device};

@@ -11,8 +11,8 @@ namespace {
 using shared::Capsule;
 using shared::CutTask;
 
-constexpr int kTileRays = 8;                            // 8 x 8 = shared::kCutGroup
-constexpr std::size_t kLongestOrder = 4 << 20;          // bounds the memory of the lists
+constexpr int kTileRays = 8;                           // 8 x 8 = shared::kCutGroup
+constexpr std::size_t kLongestOrder = 4 << 20;         // bounds the memory of the lists
 constexpr std::uint64_t kCutCost = 16, kLookCost = 1;  // of a ray: to cut it by a capsule, to see that one is far away
 
 std::vector<Footprint> footprints(const Lattice& lattice, std::span<const Capsule> capsules, int axis) {
@@ -27,8 +27,8 @@ Footprint rectangle_around(std::span<const Footprint> footprints) {
     for (const Footprint& f : footprints) {
         if (f.empty()) continue;
         all = all.empty() ? f
-                          : Footprint{std::min(all.u_lo, f.u_lo), std::max(all.u_hi, f.u_hi), std::min(all.v_lo, f.v_lo),
-                                      std::max(all.v_hi, f.v_hi)};
+                          : Footprint{std::min(all.u_lo, f.u_lo), std::max(all.u_hi, f.u_hi),
+                                      std::min(all.v_lo, f.v_lo), std::max(all.v_hi, f.v_hi)};
     }
     return all;
 }
@@ -74,9 +74,8 @@ public:
                                 std::min(kTileRays, lattice.rays_v(axis) - v), 0, at[tile], next});
         }
         to.order.resize(next);
-        for_each_pair([&](std::size_t tile, std::size_t capsule) {
-            to.order[at[tile]++] = static_cast<std::uint32_t>(capsule);
-        });
+        for_each_pair(
+            [&](std::size_t tile, std::size_t capsule) { to.order[at[tile]++] = static_cast<std::uint32_t>(capsule); });
     }
 
 private:

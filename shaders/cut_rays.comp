@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+// Takes capsules out of rays: one invocation owns one ray and gives it all its capsules in order. What one capsule does to
+// one ray is shaders/shared/capsule.h and cut_ray.h, the same text that the CPU engine compiles.
+//
+// A ray that cannot go on is left as it was before the capsule at hand and put on the pending list; the host makes the
+// space and dispatches the list again. Nothing is ever dropped.
+//
+// A pass is bounded: in it a ray takes at most parameters.cuts capsules and looks at no more than parameters.looks. Drivers
+// stop what runs for seconds, and a software driver ends an invocation's loops, silently, after 65535 turns of all of them.
+#include "shaders/shared/cut_job.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant) uniform Push { CutParameters parameters; };
+layout(std430, binding = 0) buffer Rays { RayRef rays[]; };
+layout(std430, binding = 1) buffer Store { DexelEnd store[]; };
+layout(std430, binding = 2) readonly buffer Capsules { Capsule capsules[]; };
+layout(std430, binding = 3) readonly buffer Tasks { CutTask tasks[]; };
+layout(std430, binding = 4) readonly buffer Order { uint order[]; };
+layout(std430, binding = 5) buffer Counters { CutCounters counters; };
+layout(std430, binding = 6) writeonly buffer Changed { ChangedRay changed[]; };
+layout(std430, binding = 7) writeonly buffer Exported { DexelEnd exported[]; };
+layout(std430, binding = 8) readonly buffer Continued { PendingRay continued[]; };
+layout(std430, binding = 9) writeonly buffer Pending { PendingRay pending[]; };
+
+DexelEnd load_end(uint i) { return store[i]; }
+void store_end(uint i, DexelEnd end) { store[i] = end; }
+#include "shaders/shared/cut_ray.h"
+
+const uint kNoPlace = 0xffffffffu;
+
+// log2 of the room for so many ends, in the high bits of a RayRef's count_room.
+uint room_for(uint count) { return count <= 1u ? 0u : uint(findMSB(count - 1u) + 1) << 24; }
+
+// The ray with its ends moved to where there is room for so many; as it was when the store has no such place left.
+RayRef with_larger_room(RayRef ray, uint needed) {
+    uint larger = room_for(needed);
+    uint room = 1u << (larger >> 24);
+    uint place = atomicAdd(counters.used, room);
+    if (place + room > parameters.store_size) {
+        atomicAdd(counters.room_wanted, room);
+        return ray;
+    }
+    uint count = count_of(ray);
+    for (uint i = 0u; i < count; ++i) store[place + i] = store[ray.first + i];
+    ray.first = place;
+    ray.count_room = larger | count;
+    return ray;
+}
+
+// A cheap test that spares most capsules of a long list: false only where capsule_span would find nothing.
+bool near(uint capsule, int axis, int u, int v) {
+    int start_u = pick(axis, capsules[capsule].start_y, capsules[capsule].start_z, capsules[capsule].start_x);
+    int start_v = pick(axis, capsules[capsule].start_z, capsules[capsule].start_x, capsules[capsule].start_y);
+    int end_u = start_u + pick(axis, capsules[capsule].along_y, capsules[capsule].along_z, capsules[capsule].along_x);
+    int end_v = start_v + pick(axis, capsules[capsule].along_z, capsules[capsule].along_x, capsules[capsule].along_y);
+    int reach = capsules[capsule].reach;
+    return u >= min(start_u, end_u) - reach && u <= max(start_u, end_u) + reach &&  //
+           v >= min(start_v, end_v) - reach && v <= max(start_v, end_v) + reach;
+}
+
+// The first capsule from `next` on that comes near the ray; `stop` when none does.
+uint next_near(uint next, uint stop, int axis, int ray_u, int ray_v) {
+    while (next < stop && !near(order[next], axis, ray_u, ray_v)) ++next;
+    return next;
+}
+
+// The ray this invocation works on; ray = kNoPlace when there is none.
+PendingRay take_job() {
+    PendingRay job;
+    job.ray = kNoPlace;
+    if (parameters.pending > 0u) {
+        if (gl_GlobalInvocationID.x < parameters.pending) job = continued[gl_GlobalInvocationID.x];
+        return job;
+    }
+    CutTask task = tasks[gl_WorkGroupID.x];
+    int number = task.offset + int(gl_LocalInvocationID.x);
+    if (number < task.width * task.height) job.ray = ray_code(task.axis, task.u + number % task.width, task.v + number / task.width);
+    job.next = task.first;
+    job.end = task.end;
+    job.changed_lo = kMaxDepth;
+    job.changed_hi = -1;
+    job.touched = 0u;
+    return job;
+}
+
+void main() {
+    PendingRay job = take_job();
+    if (job.ray == kNoPlace) return;
+    int axis = axis_of(job.ray);
+    int ray_u = u_of(job.ray) * kUnitsPerCell;
+    int ray_v = v_of(job.ray) * kUnitsPerCell;
+    uint index = parameters.first_ray[axis] + uint(v_of(job.ray) * parameters.rays_u[axis] + u_of(job.ray));
+    RayRef ray = rays[index];
+    uint stop = min(job.end, job.next + parameters.looks);
+    uint touched = job.touched;
+    uint cuts = 0u;
+    bool waits = false;
+    job.next = next_near(job.next, stop, axis, ray_u, ray_v);
+    if (job.next < stop) {
+        // The condition stands at the end: with it at the beginning, a driver that runs both sides of a branch under a mask
+        // would run the long body once more for nothing.
+        do {
+            Capsule capsule = capsules[order[job.next]];
+            CapsuleRay from_ray = capsule_from_ray(capsule, axis, ray_u, ray_v);
+            RaySpan span = capsule_span(from_ray);
+            if (span.lo <= span.hi) touched = 1u;
+            uint count = count_of(ray);
+            CutPlan plan = plan_cut(ray.first, count, span);
+            if (plan.removed > 0u) {
+                uint new_count = count_after(count, plan);
+                if (new_count > room_of(ray)) {
+                    ray = with_larger_room(ray, new_count);
+                    waits = new_count > room_of(ray);
+                }
+                if (!waits) {
+                    DexelEnd end_lo;
+                    DexelEnd end_hi;
+                    if (plan.kept_low != 0u) {
+                        end_lo = make_end(span.lo, capsule.material, capsule_normal(from_ray, axis, span.lo));
+                    }
+                    if (plan.kept_high != 0u) {
+                        end_hi = make_end(span.hi, capsule.material, capsule_normal(from_ray, axis, span.hi));
+                    }
+                    apply_cut(ray.first, count, plan, end_lo, end_hi);
+                    ray.count_room = (ray.count_room & 0xff000000u) | new_count;
+                    job.changed_lo = min(job.changed_lo, plan.changed_lo);
+                    job.changed_hi = max(job.changed_hi, plan.changed_hi);
+                }
+            }
+            ++cuts;
+            if (!waits) job.next = next_near(job.next + 1u, stop, axis, ray_u, ray_v);
+        } while (job.next < stop && cuts < parameters.cuts && !waits);
+    }
+    if (touched > job.touched) atomicAdd(counters.touched, 1u);
+    job.touched = touched;
+    waits = waits || job.next < job.end;
+    if (job.changed_lo <= job.changed_hi) {
+        rays[index] = ray;
+        if (!waits) {
+            uint count = count_of(ray);
+            uint first = atomicAdd(counters.exported, count);
+            if (first + count <= parameters.export_size) {
+                for (uint i = 0u; i < count; ++i) exported[first + i] = store[ray.first + i];
+                changed[atomicAdd(counters.changed, 1u)] =
+                    ChangedRay(job.ray, first, count, job.changed_lo, job.changed_hi);
+            } else {
+                waits = true;
+            }
+        }
+    }
+    if (waits) {
+        pending[atomicAdd(counters.pending, 1u)] = job;
+        atomicMax(counters.longest, count_of(ray));
+    }
+}
