@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+// The pieces under the god-object against slow, independent computations.
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <cmath>
+#include <set>
+
+#include "haptics/half_spaces.hpp"
+#include "haptics/triangle_contact.hpp"
+#include "tests/haptics/surfaces.hpp"
+
+namespace burin {
+namespace {
+
+double any_between(double lo, double hi) { return lo + (hi - lo) * (*rc::gen::inRange(0, 1'000'001) / 1e6); }
+
+Vec3 any_in_cube(double half) {
+    const double x = any_between(-half, half), y = any_between(-half, half), z = any_between(-half, half);
+    return {x, y, z};
+}
+
+Triangle any_triangle() {
+    Triangle t{any_in_cube(1), any_in_cube(1), any_in_cube(1)};
+    RC_PRE(glm::length(glm::cross(t.b - t.a, t.c - t.a)) > 1e-2);
+    return t;
+}
+
+// Nearest point by bisection on barycentric coordinates: distance is convex along any line in the triangle.
+double sampled_distance(const Vec3& p, const Triangle& t) {
+    const auto along = [&](double v) {
+        const Vec3 from = t.a + v * (t.c - t.a), to = t.b + v * (t.c - t.b);
+        double lo = 0.0, hi = 1.0;
+        for (int i = 0; i < 60; ++i) {
+            const double a = lo + (hi - lo) / 3.0, b = hi - (hi - lo) / 3.0;
+            (glm::length(p - glm::mix(from, to, a)) < glm::length(p - glm::mix(from, to, b)) ? hi : lo) =
+                glm::length(p - glm::mix(from, to, a)) < glm::length(p - glm::mix(from, to, b)) ? b : a;
+        }
+        return glm::length(p - glm::mix(from, to, 0.5 * (lo + hi)));
+    };
+    double lo = 0.0, hi = 1.0;
+    for (int i = 0; i < 60; ++i) {
+        const double a = lo + (hi - lo) / 3.0, b = hi - (hi - lo) / 3.0;
+        const bool left = along(a) < along(b);
+        (left ? hi : lo) = left ? b : a;
+    }
+    return along(0.5 * (lo + hi));
+}
+
+}  // namespace
+
+TEST(TriangleContact, NearestPointAgreesWithATernarySearch) {
+    EXPECT_TRUE(rc::check([] {
+        const Triangle t = any_triangle();
+        const Vec3 p = any_in_cube(2);
+        const NearestOnTriangle on = nearest_on_triangle(p, t);
+        RC_ASSERT(std::abs(glm::length(p - on.point) - sampled_distance(p, t)) < 1e-6);
+        if (on.on_face) RC_ASSERT(glm::length(glm::cross(p - on.point, outward_normal(t))) < 1e-9);
+    }));
+}
+
+TEST(TriangleContact, ASweptBallStopsExactlyWhereItTouches) {
+    EXPECT_TRUE(rc::check([] {
+        const Triangle t = any_triangle();
+        const Vec3 from = any_in_cube(3), motion = any_in_cube(4);
+        const double radius = any_between(0.01, 0.5);
+        const auto distance = [&](double f) {
+            const Vec3 c = from + f * motion;
+            return glm::length(c - nearest_on_triangle(c, t).point);
+        };
+        RC_PRE(distance(0.0) > radius + 1e-6);
+        const double f = fraction_until_touch(from, motion, radius, t);
+        if (f <= 1.0) RC_ASSERT(std::abs(distance(f) - radius) < 1e-6);
+        // Not a moment too late: nothing nearer than the radius before, unless the ball comes from behind.
+        double behind_free = std::min(f, 1.0);
+        for (int i = 0; i <= 200; ++i) {
+            const double g = behind_free * i / 200.0;
+            const Vec3 c = from + g * motion;
+            if (distance(g) < radius - 1e-6)
+                RC_ASSERT(glm::dot(c - nearest_on_triangle(c, t).point, outward_normal(t)) < radius * 0.999);
+        }
+        if (f > 1.0 && glm::dot(from - t.a, outward_normal(t)) > 0 &&
+            glm::dot(from + motion - t.a, outward_normal(t)) > 0)  // in front all the way: nothing may be missed
+            for (int i = 0; i <= 200; ++i) RC_ASSERT(distance(i / 200.0) > radius - 1e-6);
+    }));
+}
+
+TEST(HalfSpaces, NearestPointSatisfiesTheOptimalityConditions) {
+    // Karush-Kuhn-Tucker: inside all, and goal-to-point a non-negative sum of bearing normals. For a convex problem
+    // that is proof.
+    EXPECT_TRUE(rc::check([] {
+        std::vector<HalfSpace> spaces;
+        const int n = *rc::gen::inRange(0, 40);
+        for (int i = 0; i < n; ++i) {
+            const Vec3 v = any_in_cube(1);
+            RC_PRE(glm::length(v) > 0.1);
+            spaces.push_back({glm::normalize(v), -any_between(0.0, 0.2), static_cast<std::uint32_t>(i)});
+        }
+        const Vec3 goal = any_in_cube(3);
+        const NearestInside best = nearest_inside(spaces, goal, 1e-9);
+        RC_ASSERT(best.found);  // the origin is inside all
+        Vec3 sum = goal;
+        for (std::uint32_t i = 0; i < best.bearing_count; ++i) {
+            const HalfSpace& plane = spaces[best.bearing[i]];
+            RC_ASSERT(best.weights[i] >= 0.0);
+            RC_ASSERT(std::abs(glm::dot(plane.normal, best.point) - plane.offset) < 1e-7);
+            sum += best.weights[i] * plane.normal;
+        }
+        RC_ASSERT(glm::length(sum - best.point) < 1e-6);
+        for (const HalfSpace& plane : spaces) RC_ASSERT(glm::dot(plane.normal, best.point) > plane.offset - 1e-8);
+    }));
+}
+
+TEST(HalfSpaces, SaysSoWhenThereIsNoCommonPoint) {
+    const std::vector<HalfSpace> apart{{{0, 1, 0}, 1.0, 0}, {{0, -1, 0}, 1.0, 1}};
+    EXPECT_FALSE(nearest_inside(apart, Vec3(0.0), 1e-9).found);
+}
+
+TEST(LocalSurfaceSearch, EveryBoxFindsEachOfItsTrianglesOnce) {
+    EXPECT_TRUE(rc::check([] {
+        test::SurfaceBuilder b(any_in_cube(1));
+        const double size = *rc::gen::element(0.01, 0.2, 3.0);
+        const int n = *rc::gen::inRange(1, 200);
+        std::vector<Triangle> all;
+        for (int i = 0; i < n; ++i) {
+            const Vec3 at = any_in_cube(1);
+            const Vec3 a = at + any_in_cube(size), c = at + any_in_cube(size), d = at + any_in_cube(size);
+            const auto va = b.vertex(a), vc = b.vertex(c), vd = b.vertex(d);
+            b.triangle(va, vc, vd);
+        }
+        const test::Surface surface = b.finish();
+        const Vec3 lo = any_in_cube(2), hi = lo + glm::abs(any_in_cube(1));
+        std::multiset<std::uint32_t> found;
+        for_each_triangle_near(*surface, lo, hi, [&](std::uint32_t i) {
+            found.insert(i);
+            return true;
+        });
+        for (std::uint32_t i = 0; i < surface->triangle_count; ++i) {
+            if (surface->search.spheres[i].w < 0) continue;  // degenerate
+            Box box;
+            for (const auto v : surface->triangles[i]) box.include(Vec3(surface->positions_m[v]));
+            const bool meets = glm::all(glm::lessThanEqual(box.lo, hi)) && glm::all(glm::lessThanEqual(lo, box.hi));
+            RC_ASSERT(found.count(i) <= 1);
+            if (meets) RC_ASSERT(found.count(i) == 1);
+            for (const auto v : surface->triangles[i]) {
+                const glm::vec4 sphere = surface->search.spheres[i];
+                RC_ASSERT(glm::length(Vec3(surface->positions_m[v]) - Vec3(sphere)) <= static_cast<double>(sphere.w));
+            }
+        }
+    }));
+}
+
+TEST(LocalSurfaceSearch, LeavesOutWhatIsBrokenAndSaysHowMuch) {
+    test::SurfaceBuilder b;
+    const auto a = b.vertex({0, 0, 0}), c = b.vertex({1, 0, 0}), d = b.vertex({0, 1, 0});
+    const auto bad = b.vertex({std::nan(""), 0, 0}), on_edge = b.vertex({0.5, 0, 0});
+    b.triangle(a, c, d);
+    b.triangle(a, c, 4'000'000'000u);
+    b.triangle(a, c, bad);
+    b.triangle(a, on_edge, c);
+    b.triangle(a, a, a);
+    const test::Surface surface = b.finish();
+    const SearchBuild report = build_search(*surface);
+    EXPECT_EQ(report.listed, 1u);
+    EXPECT_EQ(report.invalid, 2u);
+    EXPECT_EQ(report.degenerate, 2u);
+    surface->triangle_count = 4'000'000'000u;  // claims more than there is room for
+    EXPECT_EQ(build_search(*surface).listed, 1u);
+}
+
+TEST(LocalSurfaceSearch, AFullSurfaceIsListedCompletely) {
+    const test::Surface plane = test::plane(0.05, 180);  // 64 800 triangles
+    EXPECT_EQ(plane->search.listed, 64'800u);
+    EXPECT_EQ(plane->search.large_count, 0u);
+    std::uint32_t count = 0;
+    for_each_triangle_near(*plane, Vec3(-1.0), Vec3(1.0), [&](std::uint32_t) {
+        ++count;
+        return true;
+    });
+    EXPECT_EQ(count, 64'800u);
+    // An empty one is searchable too.
+    test::SurfaceBuilder b;
+    const test::Surface empty = b.finish();
+    EXPECT_TRUE(for_each_triangle_near(*empty, Vec3(-1.0), Vec3(1.0), [](std::uint32_t) { return false; }));
+}
+
+}  // namespace burin

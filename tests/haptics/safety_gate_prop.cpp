@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Whatever comes in, what goes out is finite, within the limit and no faster than the slew limit.
+#include "haptics/safety_gate.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace burin {
+namespace {
+
+// Ordinary numbers mostly, nasty ones often.
+double any_number() {
+    const int kind = *rc::gen::inRange(0, 12);
+    const double ordinary = *rc::gen::inRange(-5000, 5000) / 1000.0;
+    switch (kind) {
+        case 0: return std::numeric_limits<double>::quiet_NaN();
+        case 1: return std::numeric_limits<double>::infinity();
+        case 2: return -std::numeric_limits<double>::max();
+        case 3: return std::numeric_limits<double>::denorm_min();
+        case 4: return ordinary * 1e150;
+        default: return ordinary;
+    }
+}
+
+Vec3 any_vector() {
+    const double x = any_number(), y = any_number(), z = any_number();
+    return {x, y, z};
+}
+
+GateInput any_input() {
+    GateInput in;
+    in.wanted_force_device_N = any_vector();
+    if (*rc::gen::inRange(0, 4) == 0) in.velocity_device_m_per_s = any_vector();
+    in.device_max_force_N = *rc::gen::inRange(0, 8) == 0 ? any_number() : 3.3;
+    in.sample_age_s = *rc::gen::inRange(0, 8) == 0 ? any_number() : 0.0;
+    in.device_fault = *rc::gen::inRange(0, 20) == 0 ? DeviceFault::other : DeviceFault::none;
+    in.in_contact = *rc::gen::arbitrary<bool>();
+    in.surface_stale = *rc::gen::inRange(0, 10) == 0;
+    return in;
+}
+
+}  // namespace
+
+TEST(SafetyGate, NeverExceedsForceOrSlewLimitOnAnyInput) {
+    EXPECT_TRUE(rc::check([] {
+        GateLimits limits;
+        limits.max_force_N = *rc::gen::inRange(0, 6000) / 1000.0;
+        limits.max_slew_N_per_s = *rc::gen::inRange(0, 3000);
+        limits.ramp_s = *rc::gen::inRange(0, 20) / 1000.0;
+        limits.recovery_s = *rc::gen::inRange(0, 5) / 1000.0;
+        GateState state;
+        for (int i = 0; i < 60; ++i) {
+            const GateInput in = any_input();
+            const GateOutput out = pass_gate(state, in, limits, 1e-3);
+            const double force = glm::length(out.force_device_N);
+            RC_ASSERT(std::isfinite(force));
+            RC_ASSERT(force <= limits.max_force_N);
+            if (out.cause != GateCause::none) {
+                RC_ASSERT(out.force_device_N == Vec3(0.0));
+            } else {
+                RC_ASSERT(force <= in.device_max_force_N);
+                const double change = glm::length(out.force_device_N - state.force_device_N);
+                // Rounding of the difference of two forces up to 6 N; and the force limit may win when it falls.
+                const bool device_limit_fell = in.device_max_force_N < glm::length(state.force_device_N);
+                RC_ASSERT(device_limit_fell || change <= limits.max_slew_N_per_s * 1e-3 + 1e-14);
+            }
+            state = out.next;
+        }
+    }));
+}
+
+}  // namespace burin

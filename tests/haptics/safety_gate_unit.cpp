@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "haptics/safety_gate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string>
+
+namespace burin {
+namespace {
+
+constexpr double kDt = 1e-3;
+const double kNan = std::numeric_limits<double>::quiet_NaN();
+const double kInfinity = std::numeric_limits<double>::infinity();
+
+GateInput asking_for(const Vec3& force) {
+    GateInput in;
+    in.wanted_force_device_N = force;
+    in.device_max_force_N = 3.3;
+    return in;
+}
+
+// A gate that has been open for long.
+GateState open_at(const Vec3& force) { return {force, 1.0, 10.0, false}; }
+
+}  // namespace
+
+TEST(SafetyGate, PassesAModestForceUnchanged) {
+    const Vec3 force(0.3, -0.2, 1.0);
+    const GateOutput out = pass_gate(open_at(force), asking_for(force), {}, kDt);
+    EXPECT_EQ(out.force_device_N, force);
+    EXPECT_EQ(out.cause, GateCause::none);
+    EXPECT_FALSE(out.saturated || out.slew_limited || out.ramping);
+}
+
+TEST(SafetyGate, FadesInFromZeroAtTheStart) {
+    GateState state;
+    const GateLimits limits{.ramp_s = 0.2};
+    double last = 0.0;
+    for (int i = 1; i <= 250; ++i) {
+        const GateOutput out = pass_gate(state, asking_for({1.0, 0.0, 0.0}), limits, kDt);
+        EXPECT_NEAR(out.force_device_N.x, std::min(1.0, i / 200.0), 1e-9);
+        EXPECT_GE(out.force_device_N.x, last);
+        EXPECT_EQ(out.ramping, i < 200) << i;
+        last = out.force_device_N.x;
+        state = out.next;
+    }
+}
+
+TEST(SafetyGate, CutsToTheSmallerOfDeviceAndSettingAndKeepsTheDirection) {
+    const Vec3 big(30.0, 40.0, 0.0);
+    GateOutput out = pass_gate(open_at({1.98, 2.64, 0}), asking_for(big), {}, kDt);
+    EXPECT_TRUE(out.saturated);
+    EXPECT_NEAR(out.force_device_N.x, 1.98, 1e-12);
+    EXPECT_NEAR(out.force_device_N.y, 2.64, 1e-12);
+    out = pass_gate(open_at({0.6, 0.8, 0}), asking_for(big), {.max_force_N = 1.0}, kDt);
+    EXPECT_NEAR(glm::length(out.force_device_N), 1.0, 1e-12);
+}
+
+TEST(SafetyGate, ForceLimitWinsOverSlewLimitWhenItIsLowered) {
+    const GateLimits limits{.max_force_N = 0.5, .max_slew_N_per_s = 100.0};
+    const GateOutput out = pass_gate(open_at({3.0, 0.0, 0.0}), asking_for({3.0, 0.0, 0.0}), limits, kDt);
+    EXPECT_LE(glm::length(out.force_device_N), 0.5);
+}
+
+TEST(SafetyGate, EveryCauseGivesZeroAtOnceAndItsOwnName) {
+    struct Case {
+        GateCause cause;
+        void (*spoil)(GateInput&, GateLimits&);
+    };
+    const Case cases[] = {
+        {GateCause::device_fault, [](GateInput& in, GateLimits&) { in.device_fault = DeviceFault::overheated; }},
+        {GateCause::not_finite, [](GateInput& in, GateLimits&) { in.wanted_force_device_N.y = kNan; }},
+        {GateCause::not_finite, [](GateInput& in, GateLimits&) { in.wanted_force_device_N.y = kInfinity; }},
+        {GateCause::not_finite, [](GateInput& in, GateLimits&) { in.wanted_force_device_N.y = 1e300; }},
+        {GateCause::not_finite, [](GateInput& in, GateLimits&) { in.velocity_device_m_per_s.z = kNan; }},
+        {GateCause::not_finite, [](GateInput& in, GateLimits&) { in.sample_age_s = kNan; }},
+        {GateCause::not_finite, [](GateInput& in, GateLimits&) { in.device_max_force_N = kNan; }},
+        {GateCause::not_finite, [](GateInput& in, GateLimits&) { in.sample_finite = false; }},
+        {GateCause::bad_parameters, [](GateInput& in, GateLimits&) { in.parameters_sensible = false; }},
+        {GateCause::bad_parameters, [](GateInput&, GateLimits& l) { l.max_force_N = kNan; }},
+        {GateCause::bad_parameters, [](GateInput&, GateLimits& l) { l.max_slew_N_per_s = -1.0; }},
+        {GateCause::stale_sample, [](GateInput& in, GateLimits&) { in.sample_age_s = 0.021; }},
+        {GateCause::overspeed, [](GateInput& in, GateLimits&) { in.velocity_device_m_per_s.x = -3.1; }},
+        {GateCause::stale_surface, [](GateInput& in, GateLimits&) { in.in_contact = in.surface_stale = true; }},
+        {GateCause::outside_known, [](GateInput& in, GateLimits&) { in.in_contact = in.outside_known = true; }},
+    };
+    std::set<GateCause> seen;
+    for (const Case& c : cases) {
+        GateInput in = asking_for({1.0, 0.0, 0.0});
+        GateLimits limits;
+        c.spoil(in, limits);
+        const GateOutput out = pass_gate(open_at({1.0, 0.0, 0.0}), in, limits, kDt);
+        EXPECT_EQ(out.cause, c.cause) << text(c.cause);
+        EXPECT_EQ(out.force_device_N, Vec3(0.0)) << text(c.cause);
+        seen.insert(out.cause);
+    }
+    std::set<std::string> texts;
+    for (const GateCause cause : seen) texts.insert(text(cause));
+    EXPECT_EQ(texts.size(), 7u);  // all but `none`, each with words of its own
+}
+
+TEST(SafetyGate, AStaleOrUnknownSurfaceDoesNotMatterInFreeSpace) {
+    GateInput in = asking_for(Vec3(0.0));
+    in.surface_stale = in.outside_known = true;
+    EXPECT_EQ(pass_gate(open_at(Vec3(0.0)), in, {}, kDt).cause, GateCause::none);
+}
+
+TEST(SafetyGate, WaitsAfterAFaultAndThenFadesInAgain) {
+    const GateLimits limits{.ramp_s = 0.1, .recovery_s = 0.05};
+    GateInput in = asking_for({1.0, 0.0, 0.0});
+    in.device_fault = DeviceFault::disconnected;
+    GateState state = pass_gate(open_at({1.0, 0.0, 0.0}), in, limits, kDt).next;
+    in.device_fault = DeviceFault::none;
+    for (int i = 1; i <= 200; ++i) {
+        const GateOutput out = pass_gate(state, in, limits, kDt);
+        if (i < 50) {
+            EXPECT_EQ(out.force_device_N, Vec3(0.0)) << i;
+        }
+        if (i > 55 && i < 145) {
+            EXPECT_NEAR(out.force_device_N.x, (i - 49) / 100.0, 0.011) << i;
+        }
+        if (i > 155) {
+            EXPECT_EQ(out.force_device_N.x, 1.0) << i;
+        }
+        state = out.next;
+    }
+}
+
+}  // namespace burin
