@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "app/carving.hpp"
+
+#include "base/clock.hpp"
+
+namespace burin {
+namespace {
+
+double milliseconds(Nanoseconds from_ns, Nanoseconds to_ns) { return static_cast<double>(to_ns - from_ns) * 1e-6; }
+
+}  // namespace
+
+Carving::Carving(std::unique_ptr<CarvingEngine> engine, WorkerPool& pool)
+    : engine_(std::move(engine)),
+      pool_(pool),
+      surface_(engine_->solid().lattice),
+      tile_changed_(surface_.tile_count(), true) {
+    MonotonicClock clock;
+    const Nanoseconds start_ns = clock.now_ns();
+    surface_.remesh(engine_->solid(), engine_->dirty_tiles().take(), pool_);
+    first_mesh_ms_ = milliseconds(start_ns, clock.now_ns());
+    initial_volume_m3_ = surface_.volume_m3();
+}
+
+Result<void> Carving::update(std::span<const BallSweep> sweeps) {
+    MonotonicClock clock;
+    const Nanoseconds start_ns = clock.now_ns();
+    const Result<CutStats> cut = engine_->cut(sweeps);
+    if (!cut) return std::unexpected(cut.error());
+    const std::vector<std::uint32_t> dirty = engine_->dirty_tiles().take();
+    const RemeshStats remeshed = surface_.remesh(engine_->solid(), dirty, pool_);
+    figures_.update_ms.push_back(milliseconds(start_ns, clock.now_ns()));
+
+    for (const std::uint32_t tile : dirty) tile_changed_[tile] = true;
+    ++figures_.updates;
+    figures_.sweeps += sweeps.size();
+    figures_.rays_touched += cut->rays_touched;
+    figures_.rays_changed += cut->rays_changed;
+    figures_.tiles_remeshed += remeshed.tiles;
+    figures_.triangles_remeshed += remeshed.triangles;
+    return {};
+}
+
+std::vector<std::uint32_t> Carving::take_changed_tiles() {
+    std::vector<std::uint32_t> changed;
+    for (std::uint32_t tile = 0; tile < tile_changed_.size(); ++tile) {
+        if (tile_changed_[tile]) changed.push_back(tile);
+    }
+    tile_changed_.assign(tile_changed_.size(), false);
+    return changed;
+}
+
+}  // namespace burin

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// The carving side of a session: one stroke is one update, and one update is a straight path: cut the rays, collect the
+// dirty tiles, mesh those anew, count what was done.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "compute/engine.hpp"
+#include "compute/surface.hpp"
+
+namespace burin {
+
+struct CarvingFigures {
+    std::uint64_t updates = 0;
+    std::uint64_t sweeps = 0;
+    std::uint64_t rays_touched = 0;  // summed over the updates
+    std::uint64_t rays_changed = 0;
+    std::uint64_t tiles_remeshed = 0;
+    std::uint64_t triangles_remeshed = 0;
+    std::vector<double> update_ms;  // wall time of each update
+};
+
+class Carving {
+public:
+    // Meshes the whole solid. The pool must outlive the object.
+    Carving(std::unique_ptr<CarvingEngine> engine, WorkerPool& pool);
+
+    [[nodiscard]] Result<void> update(std::span<const BallSweep> sweeps);
+
+    [[nodiscard]] const CarvingEngine& engine() const { return *engine_; }
+    [[nodiscard]] const Surface& surface() const { return surface_; }
+    [[nodiscard]] const CarvingFigures& figures() const { return figures_; }
+    [[nodiscard]] double initial_volume_m3() const { return initial_volume_m3_; }
+    [[nodiscard]] double first_mesh_ms() const { return first_mesh_ms_; }
+    // Tiles meshed anew since the last call, for whoever draws them.
+    [[nodiscard]] std::vector<std::uint32_t> take_changed_tiles();
+
+private:
+    std::unique_ptr<CarvingEngine> engine_;
+    WorkerPool& pool_;
+    Surface surface_;
+    CarvingFigures figures_;
+    std::vector<bool> tile_changed_;
+    double initial_volume_m3_ = 0.0;
+    double first_mesh_ms_ = 0.0;
+};
+
+}  // namespace burin

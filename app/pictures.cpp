@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "app/pictures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace burin {
+namespace {
+
+constexpr ImageSize kEyeSize{1280, 960};  // the wall is 4 : 3
+constexpr double kLargestOnWall_m =
+    0.95;  // the workpiece is scaled so that its longest side has this length on the wall
+const Vec3 kPlace_world{0.0, 1.22, 0.45};  // in front of the wall, within arm's reach
+const Vec3 kHead_world{0.0, 1.60, 2.20};
+
+double longest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
+
+}  // namespace
+
+Pictures::Pictures(std::filesystem::path folder, gpu::Device device, Renderer renderer, const Box& bounds_object)
+    : folder_(std::move(folder)), device_(std::move(device)), renderer_(std::move(renderer)) {
+    device_name_ = device_.info().name;
+    world_from_object_.scale = kLargestOnWall_m / longest(bounds_object.extent());
+    world_from_object_.position_m = kPlace_world - world_from_object_.scale * bounds_object.center();
+    center_world_ = kPlace_world;
+    bottom_world_m_ = kPlace_world.y - 0.5 * world_from_object_.scale * bounds_object.extent().y;
+    radius_world_m_ = 0.5 * world_from_object_.scale * glm::length(bounds_object.extent());
+}
+
+Result<Pictures> Pictures::create(const std::filesystem::path& folder, const Box& bounds_object) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (!std::filesystem::is_directory(folder)) {
+        return fail(folder.string(), "cannot be made as a folder for pictures (" + error.message() + ")",
+                    "choose another --pictures folder");
+    }
+    Result<gpu::Device> device = gpu::Device::create();
+    if (!device) {
+        Error e = device.error();
+        e.what += ", and --pictures needs one";
+        return std::unexpected(e);
+    }
+    Result<Renderer> renderer = Renderer::create(*device, kEyeSize);
+    if (!renderer) return std::unexpected(renderer.error());
+    return Pictures(folder, std::move(*device), std::move(*renderer), bounds_object);
+}
+
+void Pictures::bring_up_to_date(Carving& carving) {
+    for (const std::uint32_t tile : carving.take_changed_tiles()) {
+        const TileMesh& mesh = carving.surface().tile(tile);
+        renderer_.set_patch(tile, mesh.vertices, mesh.indices);
+    }
+}
+
+Scene Pictures::wall_scene(const Carving& carving) const {
+    Scene scene;
+    scene.viewer.head_world.position_m = kHead_world;
+    scene.world_from_object = world_from_object_;
+    scene.lattice_origin_object = carving.surface().lattice().origin_object;
+    scene.pedestal.visible = true;
+    scene.pedestal.top_center_world = {center_world_.x, bottom_world_m_, center_world_.z};
+    scene.pedestal.radius_m = std::min(0.3, 0.5 * radius_world_m_);
+    return scene;
+}
+
+// The same room through a smaller screen that stands around the workpiece, square to the line of sight.
+Scene Pictures::close_scene(const Carving& carving) const {
+    Scene scene = wall_scene(carving);
+    const Vec3 towards_eye = glm::normalize(Vec3(0.18, 0.22, 1.0));
+    const Vec3 right = glm::normalize(glm::cross(Vec3(0, 1, 0), towards_eye));
+    const Vec3 up = glm::cross(towards_eye, right);
+    const double half_height = 1.12 * std::max(radius_world_m_ / std::sqrt(2.0), 0.35 * radius_world_m_);
+    const double half_width = half_height * kEyeSize.width / kEyeSize.height;
+    scene.screen = {center_world_ - half_width * right - half_height * up,
+                    center_world_ + half_width * right - half_height * up,
+                    center_world_ - half_width * right + half_height * up};
+    scene.viewer.interpupillary_m = 0.0;
+    scene.viewer.head_world.position_m = center_world_ + 4.0 * half_height * towards_eye;
+    scene.show_wall_frame = false;
+    return scene;
+}
+
+Result<void> Pictures::take_before(Carving& carving) {
+    bring_up_to_date(carving);
+    const auto image = renderer_.render(close_scene(carving));
+    if (!image) return std::unexpected(image.error());
+    return write_png(folder_ / "before.png", image->left);
+}
+
+Result<void> Pictures::take_after(Carving& carving, const Staging& staging) {
+    bring_up_to_date(carving);
+    const auto close = renderer_.render(close_scene(carving));
+    if (!close) return std::unexpected(close.error());
+    if (const auto done = write_png(folder_ / "after.png", close->left); !done) return done;
+
+    Scene scene = wall_scene(carving);
+    scene.tool.visible = staging.tool_visible;
+    scene.tool.radius_m = staging.tool_radius_object_m * world_from_object_.scale;
+    scene.tool.center_world = world_from_object_ * staging.tool_center_object;
+    scene.tool.stylus_world.position_m = scene.tool.center_world;
+    // Held as a pen is held: from the right, above and in front.
+    scene.tool.stylus_world.orientation = glm::quat_cast(glm::dmat3(
+        glm::normalize(Vec3(1.0, 0.0, -0.45)), glm::normalize(glm::cross(Vec3(0.45, 0.8, 1.0), Vec3(1.0, 0.0, -0.45))),
+        glm::normalize(Vec3(0.45, 0.8, 1.0))));
+    const Similarity world_from_device = world_from_object_ * staging.object_from_device;
+    scene.box.visible = staging.box_visible;
+    scene.box.center_world = {world_from_device.position_m, world_from_device.orientation};
+    scene.box.size_m = staging.workspace_device_m * world_from_device.scale;
+
+    const auto stereo = renderer_.render(scene);
+    if (!stereo) return std::unexpected(stereo.error());
+    if (const auto done = write_png(folder_ / "left.png", stereo->left); !done) return done;
+    if (const auto done = write_png(folder_ / "right.png", stereo->right); !done) return done;
+    return write_png(folder_ / "stereo.png", side_by_side(*stereo));
+}
+
+}  // namespace burin

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "app/report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "geometry/mesh_health.hpp"
+
+namespace burin {
+
+using Json = nlohmann::ordered_json;
+
+double quantile(std::vector<double> values, double q) {
+    if (values.empty()) return 0.0;
+    const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(values.size())));
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::clamp<std::size_t>(rank, 1, values.size()) - 1);
+    std::ranges::nth_element(values, at);
+    return *at;
+}
+
+Json describe_carving(const Carving& carving) {
+    const CarvingFigures& f = carving.figures();
+    const Solid& solid = carving.engine().solid();
+    const Lattice& lattice = solid.lattice;
+    const double volume_m3 = carving.surface().volume_m3();
+    return {{"lattice_cells", lattice.cells},
+            {"lattice_spacing_m", lattice.spacing_m},
+            {"rays_held", solid.rays_held()},
+            {"bytes_per_ray", static_cast<double>(solid.bytes()) / static_cast<double>(solid.rays_held())},
+            {"updates", f.updates},
+            {"sweeps", f.sweeps},
+            {"rays_touched", f.rays_touched},
+            {"rays_changed", f.rays_changed},
+            {"tiles_remeshed", f.tiles_remeshed},
+            {"triangles_remeshed", f.triangles_remeshed},
+            {"triangles_held", carving.surface().triangles()},
+            {"disagreeing_edges", carving.surface().disagreeing_edges()},
+            {"volume_before_m3", carving.initial_volume_m3()},
+            {"volume_after_m3", volume_m3},
+            {"volume_removed_m3", carving.initial_volume_m3() - volume_m3}};
+}
+
+Json describe_mesh(const TriangleMesh& mesh) {
+    const MeshHealth health = examine(mesh);
+    return {{"triangles", health.triangles},
+            {"vertices", health.vertices},
+            {"open_edges", health.boundary_edges},
+            {"nonmanifold_edges", health.nonmanifold_edges},
+            {"nonmanifold_vertices", health.nonmanifold_vertices},
+            {"misoriented_edges", health.misoriented_edges},
+            {"shells", health.shells},
+            {"volume_m3", health.signed_volume_m3},
+            {"area_m2", health.area_m2}};
+}
+
+Json describe_feel(const FeltFigures& felt) {
+    return {{"device", "simulated Omni, held by a simulated hand"},
+            {"object_from_device_scale", felt.object_from_device.scale},
+            {"duration_s", felt.duration_s},
+            {"ticks", felt.ticks},
+            {"ticks_in_contact", felt.ticks_in_contact},
+            {"stroke_samples_dropped", felt.samples_dropped},
+            {"surfaces_published", felt.surfaces_published},
+            {"force_max_N", felt.force_max_N},
+            {"force_mean_in_contact_N", felt.force_mean_in_contact_N},
+            {"penetration_max_m", felt.penetration_max_m},
+            {"zero_force_ticks_by_cause", felt.zero_force_ticks},
+            {"notices", felt.notices}};
+}
+
+Json describe_timing(const Carving& carving, const FeltFigures* felt) {
+    const std::vector<double>& update_ms = carving.figures().update_ms;
+    Json timing = {{"first_mesh_ms", carving.first_mesh_ms()},
+                   {"update_ms_median", quantile(update_ms, 0.5)},
+                   {"update_ms_p99", quantile(update_ms, 0.99)}};
+    if (felt != nullptr && !felt->tick_ns.empty()) {
+        std::vector<double> tick_us;
+        for (const std::uint32_t ns : felt->tick_ns) tick_us.push_back(ns * 1e-3);
+        timing["tick_us_median"] = quantile(tick_us, 0.5);
+        timing["tick_us_p999"] = quantile(tick_us, 0.999);
+    }
+    if (felt != nullptr) timing["ticks_late"] = felt->ticks_late;
+    return timing;
+}
+
+void print_table(const Json& report) {
+    const auto number = [&](const char* pointer) {
+        const Json::json_pointer at(pointer);
+        return report.contains(at) && report[at].is_number() ? report[at].get<double>() : 0.0;
+    };
+    const double updates = std::max(1.0, number("/carving/updates"));
+    const auto row = [](const char* name, const std::string& value) {
+        std::printf("  %-34s %s\n", name, value.c_str());
+    };
+    const auto text = [](const char* format, auto... values) {
+        std::array<char, 160> line{};
+        std::snprintf(line.data(), line.size(), format, values...);
+        return std::string(line.data());
+    };
+    row("engine",
+        report["engine"]["name"].get<std::string>() + " (" + report["engine"]["device"].get<std::string>() + ")");
+    row("updates", text("%.0f", number("/carving/updates")));
+    row("rays touched an update, of held",
+        text("%.0f of %.0f", number("/carving/rays_touched") / updates, number("/carving/rays_held")));
+    row("triangles re-meshed an update",
+        text("%.0f of %.0f", number("/carving/triangles_remeshed") / updates, number("/carving/triangles_held")));
+    row("an update takes (median, p99)",
+        text("%.2f ms, %.2f ms", number("/timing/update_ms_median"), number("/timing/update_ms_p99")));
+    row("volume removed", text("%.2f cm3", number("/carving/volume_removed_m3") * 1e6));
+    if (report.contains("feel")) {
+        row("a haptic tick takes (median, p99.9)",
+            text("%.1f us, %.1f us", number("/timing/tick_us_median"), number("/timing/tick_us_p999")));
+        row("largest, mean force in contact",
+            text("%.2f N, %.2f N", number("/feel/force_max_N"), number("/feel/force_mean_in_contact_N")));
+    }
+    row("mesh",
+        text("%.0f triangles; %.0f open, %.0f non-manifold, %.0f wrongly oriented edges", number("/mesh/triangles"),
+             number("/mesh/open_edges"), number("/mesh/nonmanifold_edges"), number("/mesh/misoriented_edges")));
+}
+
+}  // namespace burin

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// burin sculpt: a workpiece, a tool and a stroke in; a carved mesh, pictures and a report out.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/workpiece.hpp"
+
+namespace burin {
+
+enum class EngineChoice { automatic, cpu, vulkan };
+enum class HandChoice { rigid, simulated };
+
+struct SculptOptions {
+    WorkpieceOptions workpiece;
+    std::string tool = "ball:0.01";  // ball:R, metres
+    std::string stroke;              // a CSV file; empty: nothing is carved
+    EngineChoice engine = EngineChoice::automatic;
+    HandChoice hand = HandChoice::rigid;
+    bool real_time = false;
+    std::vector<std::string> exports;  // STL, PLY, OBJ
+    std::string pictures;              // a folder; empty: none
+    std::string report;                // a JSON file; empty: none
+    unsigned threads = 0;              // 0: one per core
+};
+
+// Writes nothing before all input has been read and all output places have been looked at.
+[[nodiscard]] Result<void> sculpt(const SculptOptions& options);
+
+// burin convert IN OUT: any mesh format in, STL, PLY or OBJ out; prints the mesh's health.
+[[nodiscard]] Result<void> convert(const std::string& in, const std::string& out, bool close_holes);
+
+// burin --version: the version, and the Vulkan devices found.
+void print_version();
+
+}  // namespace burin

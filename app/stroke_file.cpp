@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "app/stroke_file.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "geometry/file_io.hpp"
+
+namespace burin {
+namespace {
+
+constexpr std::string_view kHeader = "time_s,x_m,y_m,z_m,qx,qy,qz,qw,button";
+constexpr std::size_t kColumns = 9;
+constexpr double kLargest_m = 1e9;  // as for meshes: far from overflow
+
+std::string_view trimmed(std::string_view text) {
+    const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+    while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+    while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+    return text;
+}
+
+std::string without_blanks(std::string_view text) {
+    std::string result;
+    for (const char c : text)
+        if (c != ' ' && c != '\t' && c != '\r') result += c;
+    return result;
+}
+
+// The nine numbers of a line; nothing when there are not nine, or one is not a number.
+std::optional<std::array<double, kColumns>> numbers(std::string_view line) {
+    std::array<double, kColumns> values{};
+    for (std::size_t i = 0; i < kColumns; ++i) {
+        const std::size_t comma = line.find(',');
+        if ((comma == std::string_view::npos) != (i + 1 == kColumns)) return std::nullopt;
+        const std::string_view field = trimmed(line.substr(0, comma));
+        const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), values[i]);
+        if (error != std::errc{} || end != field.data() + field.size()) return std::nullopt;
+        if (comma != std::string_view::npos) line.remove_prefix(comma + 1);
+    }
+    return values;
+}
+
+Result<StrokeRow> make_row(const std::array<double, kColumns>& n, const std::string& where, const Stroke& before) {
+    for (const double value : n) {
+        if (!std::isfinite(value) || std::abs(value) > kLargest_m) {
+            return fail(where, "holds a number that is not finite or is absurdly large", "correct the number");
+        }
+    }
+    if (!before.empty() && n[0] <= before.back().time_s) {
+        return fail(where, "its time does not come after the row before", "sort the rows by time_s, each time once");
+    }
+    const Quat q(n[7], n[4], n[5], n[6]);
+    if (!(glm::length(q) > 1e-9)) return fail(where, "its quaternion has no length", "write 0,0,0,1 for no rotation");
+    if (n[8] != 0.0 && n[8] != 1.0) return fail(where, "its button is neither 0 nor 1", "write 0 or 1");
+    return StrokeRow{n[0], {n[1], n[2], n[3]}, glm::normalize(q), n[8] == 1.0};
+}
+
+}  // namespace
+
+Result<Stroke> parse_stroke(std::string_view text, const std::string& name) {
+    Stroke stroke;
+    bool header_seen = false;
+    for (std::size_t line_number = 1; !text.empty(); ++line_number) {
+        const std::size_t end = text.find('\n');
+        const std::string_view line = trimmed(text.substr(0, end));
+        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+        if (line.empty() || line.front() == '#') continue;
+        const std::string where = name + ":" + std::to_string(line_number);
+        if (!header_seen) {
+            if (without_blanks(line) != kHeader) {
+                return fail(where, "is not a stroke file", "its first line must read " + std::string(kHeader));
+            }
+            header_seen = true;
+            continue;
+        }
+        const auto values = numbers(line);
+        if (!values)
+            return fail(where, "does not hold nine numbers separated by commas", "write " + std::string(kHeader));
+        Result<StrokeRow> row = make_row(*values, where, stroke);
+        if (!row) return std::unexpected(row.error());
+        stroke.push_back(*row);
+    }
+    if (stroke.empty())
+        return fail(name, "holds no stroke", "give it the header " + std::string(kHeader) + " and rows");
+    return stroke;
+}
+
+Result<Stroke> read_stroke(const std::filesystem::path& path) {
+    const auto bytes = read_file(path);
+    if (!bytes) return std::unexpected(bytes.error());
+    return parse_stroke({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string());
+}
+
+}  // namespace burin

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "app/workpiece.hpp"
+
+#include <charconv>
+#include <cmath>
+
+#include "compute/scan_convert.hpp"
+#include "geometry/mesh_health.hpp"
+#include "geometry/mesh_import.hpp"
+#include "geometry/mesh_mend.hpp"
+
+namespace burin {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const Material kPlainMaterial{"workpiece", {205, 195, 178}};
+
+Json describe(const MeshHealth& health) {
+    const auto point = [](const Vec3& p) { return Json::array({p.x, p.y, p.z}); };
+    return {{"triangles", health.triangles},
+            {"vertices", health.vertices},
+            {"bounds_lo_m", point(health.bounds_m.lo)},
+            {"bounds_hi_m", point(health.bounds_m.hi)},
+            {"shells", health.shells},
+            {"holes", health.holes},
+            {"boundary_edges", health.boundary_edges},
+            {"nonmanifold_edges", health.nonmanifold_edges},
+            {"misoriented_edges", health.misoriented_edges},
+            {"degenerate_triangles", health.degenerate_triangles},
+            {"duplicate_triangles", health.duplicate_triangles},
+            {"signed_volume_m3", health.signed_volume_m3},
+            {"closed", health.closed}};
+}
+
+Json describe(const ImportReport& import) {
+    return {{"format", import.format},
+            {"faces_in_file", import.faces_in_file},
+            {"triangles_in_file", import.triangles_in_file},
+            {"polygons_split", import.polygons_in_file},
+            {"faces_without_area", import.faces_without_area},
+            {"materials_merged", import.materials_merged},
+            {"remarks", import.remarks}};
+}
+
+Json describe(const ClosingReport& closing) {
+    Json holes = Json::array();
+    for (const ClosedHole& hole : closing.holes) {
+        holes.push_back({{"edges", hole.edges},
+                         {"perimeter_m", hole.perimeter_m},
+                         {"area_added_m2", hole.area_added_m2},
+                         {"triangles_added", hole.triangles_added}});
+    }
+    return holes;
+}
+
+std::string joined(const std::vector<std::string>& sentences) {
+    std::string text;
+    for (const std::string& s : sentences) text += (text.empty() ? "" : "; ") + s;
+    return text;
+}
+
+// Closed and facing outwards, or an Error.
+Result<void> make_ready(TriangleMesh& mesh, const WorkpieceOptions& options, Json& report) {
+    report["vertices_welded"] = weld_vertices(mesh).vertices_merged;
+    MeshHealth health = examine(mesh);
+    report["health"] = describe(health);
+    if (!health.closed) {
+        if (!options.close_holes) {
+            return fail(options.source, "is not closed, so it has no inside: " + joined(complaints(health)),
+                        "close it in a mesh editor, or pass --close-holes to have its holes filled");
+        }
+        report["closed_holes"] = describe(close_holes(mesh));
+        health = examine(mesh);
+    }
+    if (!health.consistently_oriented || health.inside_out()) {
+        const OrientationReport turned = orient_outward(mesh);
+        report["triangles_turned"] = turned.triangles_turned;
+        report["orientation_conflicts"] = turned.conflicts;
+    }
+    return {};
+}
+
+Result<Workpiece> from_file(const WorkpieceOptions& options, WorkerPool& pool) {
+    Result<ImportedMesh> imported = import_mesh(options.source);
+    if (!imported) return std::unexpected(imported.error());
+    Workpiece workpiece;
+    workpiece.report["source"] = options.source;
+    workpiece.report["import"] = describe(imported->report);
+    if (const auto ready = make_ready(imported->mesh, options, workpiece.report); !ready) {
+        return std::unexpected(ready.error());
+    }
+    Result<ScanConversion> converted = scan_convert(imported->mesh, options.resolution, pool);
+    if (!converted) {
+        Error error = converted.error();
+        if (error.where == "mesh") error.where = options.source;
+        return std::unexpected(error);
+    }
+    workpiece.report["triangles_converted"] = imported->mesh.triangles.size();
+    workpiece.report["ray_crossings"] = converted->crossings;
+    workpiece.report["unmatched_rays"] = converted->unmatched_rays;
+    workpiece.report["inside_by_parity"] = converted->by_parity;
+    workpiece.solid = std::move(converted->solid);
+    return workpiece;
+}
+
+Result<Workpiece> from_shape(const WorkpieceOptions& options) {
+    const std::size_t colon = options.source.find(':');
+    const std::string shape = options.source.substr(0, colon);
+    const std::string sizes = options.source.substr(colon + 1);
+    const auto numbers = parse_numbers(sizes, shape == "block" ? 3 : 1, "--workpiece " + options.source);
+    if (!numbers) return std::unexpected(numbers.error());
+    Result<Solid> solid =
+        shape == "block" ? make_block({(*numbers)[0], (*numbers)[1], (*numbers)[2]}, options.resolution, kPlainMaterial)
+                         : make_ball((*numbers)[0], options.resolution, kPlainMaterial);
+    if (!solid) return std::unexpected(solid.error());
+    return Workpiece{std::move(*solid), {{"source", options.source}}};
+}
+
+}  // namespace
+
+Result<std::vector<double>> parse_numbers(std::string_view text, std::size_t count, const std::string& what) {
+    std::vector<double> numbers;
+    const char* at = text.data();
+    const char* const end = text.data() + text.size();
+    while (at <= end && numbers.size() <= count) {
+        double value = 0.0;
+        const auto [stop, error] = std::from_chars(at, end, value);
+        if (error != std::errc{} || !std::isfinite(value)) break;
+        numbers.push_back(value);
+        if (stop == end) {
+            at = end;
+            break;
+        }
+        if (*stop != ',') break;
+        at = stop + 1;
+    }
+    if (at != end || numbers.size() != count) {
+        return fail(what, "does not give " + std::to_string(count) + (count == 1 ? " number" : " numbers with commas"),
+                    "see burin sculpt --help");
+    }
+    return numbers;
+}
+
+Result<Workpiece> load_workpiece(const WorkpieceOptions& options, WorkerPool& pool) {
+    const bool shape = options.source.starts_with("block:") || options.source.starts_with("ball:");
+    return shape ? from_shape(options) : from_file(options, pool);
+}
+
+}  // namespace burin
