@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "geometry/mesh_soup.hpp"
 #include "geometry/mtl.hpp"
@@ -15,6 +16,7 @@ namespace burin {
 namespace {
 
 constexpr char kComment = '#';
+constexpr std::size_t kMostLibraries = 64;  // of material files; a hostile file could name thousands
 
 // Keywords that do not change the surface's shape or colour.
 constexpr std::string_view kSkipped[] = {"vt",     "vn",     "g",   "s",     "o",        "mg",
@@ -32,6 +34,11 @@ public:
         }
         if (auto done = resolve_corners(); !done) return std::unexpected(done.error());
         if (auto done = resolve_colours(); !done) return std::unexpected(done.error());
+        if (undefined_ > 0) {
+            soup_.report.remarks.push_back(std::to_string(undefined_) +
+                                           " materials are not defined and shown grey, the first is " +
+                                           in_quotes(first_undefined_));
+        }
         if (ignored_ > 0) {
             soup_.report.remarks.push_back(
                 std::to_string(ignored_) + " statements other than polygons were ignored, the first (" +
@@ -183,7 +190,7 @@ private:
         if (is_new) {
             const auto known = library_.find(material);
             if (known == library_.end() && !material.empty()) {
-                soup_.report.remarks.push_back("material " + in_quotes(material) + " is not defined; it is shown grey");
+                if (undefined_++ == 0) first_undefined_ = material;
             }
             soup_.materials.push_back({material, known == library_.end() ? kPlainColour : known->second});
         }
@@ -194,7 +201,13 @@ private:
 
     void read_materials(std::string_view file) {
         // The same library named again and again must not be read again and again.
-        if (!libraries_.try_emplace(std::string(file), true).second) return;
+        if (libraries_.contains(file)) return;
+        if (libraries_.size() == kMostLibraries) {
+            if (!too_many_libraries_) soup_.report.remarks.emplace_back("further material files were ignored");
+            too_many_libraries_ = true;
+            return;
+        }
+        libraries_.emplace(file);
         if (!material_files_) {
             soup_.report.remarks.push_back("material file " + in_quotes(file) + " was not read");
             return;
@@ -224,7 +237,10 @@ private:
     std::optional<std::uint32_t> last_number_;
     std::map<std::string, std::uint32_t, std::less<>> numbers_;
     std::map<std::string, Colour, std::less<>> library_;
-    std::map<std::string, bool, std::less<>> libraries_;
+    std::set<std::string, std::less<>> libraries_;
+    bool too_many_libraries_ = false;
+    std::uint64_t undefined_ = 0;
+    std::string first_undefined_;
 };
 
 }  // namespace

@@ -26,6 +26,11 @@ public:
             if (auto done = read_element(element); !done) return std::unexpected(done.error());
         }
         if (auto done = check_corners(); !done) return std::unexpected(done.error());
+        if (ignored_ > 0) {
+            soup_.report.remarks.push_back(std::to_string(ignored_) +
+                                           " other kinds of element were ignored, the first is " +
+                                           in_quotes(first_ignored_));
+        }
         if (!values_.only_blanks_left()) soup_.report.remarks.push_back("data after the last element were ignored");
         return std::move(soup_);
     }
@@ -50,7 +55,7 @@ private:
         if (element.name == "face") return read_faces(element);
         if (element.count == 0) return {};
         if (element.name == "tristrips") return wrong("holds triangle strips", "convert them to triangles");
-        soup_.report.remarks.push_back("element " + in_quotes(element.name) + " was ignored");
+        if (ignored_++ == 0) first_ignored_ = element.name;
         return skip_rows(element);
     }
 
@@ -189,6 +194,8 @@ private:
     ColourMaterials materials_{soup_.materials};
     std::uint32_t farthest_corner_ = 0;
     std::uint64_t farthest_where_ = 0;
+    std::uint64_t ignored_ = 0;
+    std::string first_ignored_;
 };
 
 }  // namespace

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "tests/geometry/mesh_samples.hpp"
+
+namespace burin::test {
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+using Rgb = std::array<std::uint8_t, 3>;
+
+constexpr std::string_view kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+Result<ImportedMesh> import_obj(std::string_view text) { return import_text(text, MeshFormat::obj); }
+std::string refused(const std::string& text) { return refusal(text, MeshFormat::obj); }
+
+TEST(ObjImport, ReadsPositiveNegativeAndForwardIndices) {
+    const auto result = import_obj("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3//-1 -2/7 -1/2/5\nv 0 0 1\nf 4 -4 1\n");
+    ASSERT_TRUE(result) << result.error().line();
+    EXPECT_EQ(result->mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 1, 2}, {3, 0, 0}}));
+}
+
+TEST(ObjImport, ReadsCommentsCarriageReturnsJoinedLinesAndOddCase) {
+    const auto result = import_obj(
+        "# a cube it is not\r\nV 0 0 0 # the origin\r\nv 1 \\\r\n 0 0\r\n\r\n\tv 0 1 0\r\nvn 0 0 1\r\ng part\r\nF 1 2 "
+        "\\\n 3");
+    ASSERT_TRUE(result) << result.error().line();
+    EXPECT_EQ(result->mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
+    EXPECT_EQ(result->mesh.positions_m[1], Vec3(1, 0, 0));
+    EXPECT_TRUE(result->report.remarks.empty());
+}
+
+TEST(ObjImport, KeepsEveryDigitOfADouble) {
+    const auto result = import_obj("v 0.1234567890123456 1e-3 -7.0000000000000009\nv 1 0 0\nv 0 1 0\nf 1 2 3");
+    ASSERT_TRUE(result);
+    EXPECT_EQ(result->mesh.positions_m[0], Vec3(0.1234567890123456, 1e-3, -7.0000000000000009));
+}
+
+TEST(ObjImport, KeepsFansAndRepeatedFacesAndRepeatedCorners) {
+    const auto result =
+        import_obj("v 0 0 0\nv 0 0 1\nv 1 0 0\nv 0 1 0\nv -1 0 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\nf 1 2 3\nf 1 1 3\n");
+    ASSERT_TRUE(result);
+    EXPECT_EQ(result->mesh.triangles.size(), 5u);
+    EXPECT_EQ(result->report.faces_in_file, 5u);
+}
+
+TEST(ObjImport, SplitsConvexPolygonsAsFansAndTheOthersByEars) {
+    const auto result = import_obj(
+        "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3 4\n"  // a square
+        "v 1 1 0\nf 1 2 3 5\n"                             // flat at 1 1: still convex
+        "v 1.5 .5 0\nf 1 2 3 6\n");                        // an arrowhead
+    ASSERT_TRUE(result) << result.error().line();
+    EXPECT_EQ(result->report.polygons_in_file, 3u);
+    EXPECT_EQ(result->report.polygons_fanned, 2u);
+    EXPECT_EQ(result->report.polygons_ear_clipped, 1u);
+    ASSERT_EQ(result->mesh.triangles.size(), 6u);
+    double area = 0.0;  // of the arrowhead: both triangles point up, so the sum is the polygon's own area
+    for (std::size_t t = 4; t < 6; ++t) {
+        const auto& [a, b, c] = result->mesh.triangles[t];
+        const auto& p = result->mesh.positions_m;
+        const double z = glm::cross(p[b] - p[a], p[c] - p[a]).z;
+        EXPECT_GT(z, 0.0);
+        area += z / 2;
+    }
+    EXPECT_DOUBLE_EQ(area, 1.0);  // shoelace of (0,0) (2,0) (2,2) (1.5,0.5)
+}
+
+TEST(ObjImport, TakesMaterialsWithTheirDiffuseColour) {
+    const MaterialFileReader library = [](std::string_view name) -> Result<std::string> {
+        EXPECT_EQ(name, "paints and more.mtl");
+        return "newmtl red one\nKa 0 0 1\nKd 1 0 0\nnewmtl unused\nKd 0 1 0\nNEWMTL grey\nkd 0.5\n";
+    };
+    const auto bytes = bytes_of(
+        std::string(kTriangle) +
+        "mtllib paints and more.mtl\nf 1 2 3\nusemtl grey\nf 1 2 3\nusemtl red one\nf 1 2 3\nusemtl lost\nf 1 2 3\n");
+    const auto result = import_mesh(bytes, MeshFormat::obj, "test.obj", library);
+    ASSERT_TRUE(result) << result.error().line();
+    ASSERT_EQ(result->mesh.materials.size(), 4u);  // the plain one of the first face comes first
+    EXPECT_EQ(result->mesh.triangle_materials, (std::vector<std::uint8_t>{0, 1, 2, 3}));
+    EXPECT_EQ(result->mesh.materials[0].colour, Material{}.colour);
+    EXPECT_EQ(result->mesh.materials[1].colour, (Rgb{128, 128, 128}));
+    EXPECT_EQ(result->mesh.materials[2].name, "red one");
+    EXPECT_EQ(result->mesh.materials[2].colour, (Rgb{255, 0, 0}));
+    ASSERT_EQ(result->report.remarks.size(), 1u);
+    EXPECT_NE(result->report.remarks[0].find("'lost'"), std::string::npos);
+}
+
+TEST(ObjImport, FindsTheMaterialFileBesideTheObj) {
+    const TemporaryFolder folder;
+    folder.write("paint.mtl", "newmtl a\nKd 0 0 1\n");
+    const auto obj = folder.write("part.obj", std::string(kTriangle) + "mtllib paint.mtl\nusemtl a\nf 1 2 3\n");
+    const auto result = import_mesh(obj);
+    ASSERT_TRUE(result) << result.error().line();
+    EXPECT_EQ(result->mesh.materials.at(0).colour, (Rgb{0, 0, 255}));
+}
+
+TEST(ObjImport, RemarksOnAMissingOrBrokenMaterialFileAndReadsTheShape) {
+    const TemporaryFolder folder;
+    folder.write("bad.mtl", "newmtl a\nKd nan 0 1\n");
+    const auto obj =
+        folder.write("part.obj", std::string(kTriangle) + "mtllib gone.mtl\nmtllib bad.mtl\nmtllib .\nf 1 2 3\n");
+    const auto result = import_mesh(obj);
+    ASSERT_TRUE(result) << result.error().line();
+    EXPECT_EQ(result->report.remarks.size(), 3u);
+}
+
+TEST(ObjImport, MergesMoreThan254MaterialsAndSaysSo) {
+    std::string text(kTriangle), paints;
+    for (int i = 0; i < 600; ++i) {
+        text += "usemtl m" + std::to_string(i) + "\nf 1 2 3\n";
+        paints += "newmtl m" + std::to_string(i) + "\nKd " + std::to_string(i / 600.0) + " 0.25 0.75\n";
+    }
+    const auto result = import_mesh(bytes_of("mtllib p\n" + text), MeshFormat::obj, "test.obj",
+                                    [&](std::string_view) -> Result<std::string> { return paints; });
+    ASSERT_TRUE(result) << result.error().line();
+    EXPECT_LE(result->mesh.materials.size(), kMaxMaterials);
+    EXPECT_EQ(result->report.materials_merged, 600 - result->mesh.materials.size());
+    EXPECT_EQ(result->report.remarks.size(), 1u);
+    for (int i = 0; i < 600; ++i) {  // no colour moves by more than the widest group, 4 of 255
+        const auto& colour =
+            result->mesh.materials[result->mesh.triangle_materials[static_cast<std::size_t>(i)]].colour;
+        EXPECT_NEAR(colour[0], 255.0 * i / 600.0, 4.0);
+    }
+}
+
+TEST(ObjImport, ReadsVertexColoursOfEitherRange) {
+    const auto unit = import_obj("v 0 0 0 1 0 0.5\nv 1 0 0 1 0 0.5\nv 0 1 0 0 0 0\nf 1 2 3");
+    const auto bytes = import_obj("v 0 0 0 255 0 128\nv 1 0 0 1.0 255 0 128\nv 0 1 0 0 0 0\nf 1 2 3");
+    ASSERT_TRUE(unit && bytes);
+    EXPECT_EQ(unit->mesh.colours, bytes->mesh.colours);
+    EXPECT_EQ(unit->mesh.materials.at(0).colour, (Rgb{255, 0, 128}));  // two of three corners
+}
+
+TEST(ObjImport, NamesTheLineAndTheRemedyOfWhatIsWrong) {
+    const std::string start(kTriangle);  // 3 lines
+    for (const char* bad :
+         {"f 1 2 4", "f 0 1 2", "f 1 2 -4", "f 1 2", "f 1 2 x", "f 1 2 3.5", "f 1 2 99999999999999999999", "v 1 2",
+          "v 1 2 nan", "v 1 -inf 2", "v 1 2 1e400", "v 1 2 2e9", "v 1 2 3 4 5 6 7 8", "v 1,5 2 3", "v 0 0 0 -1 0 0"}) {
+        const std::string message = refused(start + bad + "\nf 1 2 3\n");
+        EXPECT_EQ(message.substr(0, 11), "test.obj:4:") << bad << " -> " << message;
+        EXPECT_NE(message.find("; "), std::string::npos) << message;
+    }
+}
+
+TEST(ObjImport, RefusesAFileWithoutFaces) {
+    EXPECT_NE(refused(std::string(kTriangle)).find("has no triangles"), std::string::npos);
+    EXPECT_NE(refused("\x7f\x45LF rubbish\n\n").find("has no triangles"), std::string::npos);
+}
+
+TEST(ObjImport, CountsWhatIsNotAPolygonInARemark) {
+    const auto result = import_obj(std::string(kTriangle) + "l 1 2 3\np 1\ncurv 0 1 1 2\nf 1 2 3\n");
+    ASSERT_TRUE(result);
+    ASSERT_EQ(result->report.remarks.size(), 1u);
+    EXPECT_EQ(result->report.remarks[0], "3 statements other than polygons were ignored, the first ('l') in line 4");
+}
+
+TEST(ObjImport, ReadsNumbersTooSmallForADoubleAsZero) {
+    const auto result = import_obj("v 1e-400 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3");
+    ASSERT_TRUE(result) << result.error().line();
+    EXPECT_EQ(result->mesh.positions_m[0], Vec3(0.0));
+}
+
+}  // namespace
+}  // namespace burin::test

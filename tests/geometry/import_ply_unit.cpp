@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "tests/geometry/mesh_samples.hpp"
+
+namespace burin::test {
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+using Rgb = std::array<std::uint8_t, 3>;
+
+Result<ImportedMesh> import_ply(std::string_view text) { return import_text(text, MeshFormat::ply); }
+std::string refused(const std::string& text) { return refusal(text, MeshFormat::ply); }
+
+const std::string kVertexHeader = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+const std::string kFaceHeader = "element face 1\nproperty list uchar int vertex_indices\n";
+const std::string kPlain =
+    "ply\nformat ascii 1.0\n" + kVertexHeader + kFaceHeader + "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+
+template <typename T>
+void put(std::string& out, T value, std::endian order) {
+    char raw[sizeof(T)];
+    std::memcpy(raw, &value, sizeof(T));
+    if (order != std::endian::native) std::reverse(raw, raw + sizeof(T));
+    out.append(raw, sizeof(T));
+}
+
+// Properties of many types in an odd order, a list to skip in front of the coordinates, an element to skip in between.
+std::string binary_ply(std::endian order) {
+    std::string out =
+        std::string("ply\r\nformat ") + (order == std::endian::little ? "binary_little_endian" : "binary_big_endian") +
+        " 1.0\r\ncomment by hand\r\nelement vertex 4\r\nproperty list ushort short ring\r\nproperty double z\r\n"
+        "property uint8 red\r\nproperty uchar green\r\nproperty uchar blue\r\nproperty float32 x\r\nproperty int16 "
+        "y\r\n"
+        "element edge 2\r\nproperty int vertex1\r\nproperty uint vertex2\r\n"
+        "element face 2\r\nproperty int8 flags\r\nproperty list uint uint16 vertex_index\r\nend_header\r\n";
+    for (int v = 0; v < 4; ++v) {
+        put(out, static_cast<std::uint16_t>(v), order);
+        for (int k = 0; k < v; ++k) put(out, std::int16_t{-1}, order);
+        put(out, 0.1 * v, order);
+        for (const int c : {10, 20, 30 + v}) put(out, static_cast<std::uint8_t>(c), order);
+        put(out, 0.5f * static_cast<float>(v), order);
+        put(out, static_cast<std::int16_t>(-v * v), order);
+    }
+    for (std::uint32_t e = 0; e < 4; ++e) put(out, e, order);
+    for (std::uint16_t f = 0; f < 2; ++f) {
+        put(out, std::int8_t{-5}, order);
+        put(out, std::uint32_t{3} + f, order);
+        for (std::uint16_t k = 0; k < 3 + f; ++k) put(out, k, order);
+    }
+    return out;
+}
+
+TEST(PlyImport, ReadsBinaryOfBothByteOrdersWithMixedTypes) {
+    for (const std::endian order : {std::endian::little, std::endian::big}) {
+        const auto result = import_ply(binary_ply(order));
+        ASSERT_TRUE(result) << result.error().line();
+        ASSERT_EQ(result->mesh.positions_m.size(), 4u);
+        EXPECT_EQ(result->mesh.positions_m[3], Vec3(1.5, -9.0, 0.1 * 3));
+        EXPECT_EQ(result->mesh.colours[3], (Rgb{10, 20, 33}));
+        EXPECT_EQ(result->report.faces_in_file, 2u);
+        EXPECT_EQ(result->mesh.triangles.size(), 3u);  // a triangle and a quadrangle
+        ASSERT_EQ(result->report.remarks.size(), 1u);  // the element edge
+    }
+}
+
+TEST(PlyImport, RefusesABinaryFileCutAnywhere) {
+    const std::string whole = binary_ply(std::endian::big);
+    for (std::size_t size = 0; size < whole.size(); ++size) EXPECT_NE(refused(whole.substr(0, size)), "") << size;
+}
+
+TEST(PlyImport, RefusesAnAsciiFileCutAfterAnyWord) {
+    for (std::size_t at = kPlain.find('\n'); at + 2 < kPlain.size(); at = kPlain.find_first_of(" \n", at + 1)) {
+        EXPECT_NE(refused(kPlain.substr(0, at)), "") << kPlain.substr(0, at);
+    }
+    EXPECT_EQ(refused(kPlain), "");
+}
+
+TEST(PlyImport, ReadsCarriageReturnsAndOddCase) {
+    std::string text = kPlain;
+    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.replace(at, 1, "\r\n");
+    EXPECT_EQ(refused(text), "");
+    EXPECT_EQ(refused("PLY\nFormat ASCII 1.0\nobj_info none\nElement Vertex 3\nProperty Float32 X\nproperty FLOAT "
+                      "y\nproperty float z\n" +
+                      kFaceHeader + "END_HEADER\n0 0 0 1 0 0 0 1 0 3 0 1 2"),
+              "");
+}
+
+TEST(PlyImport, TurnsFaceColoursIntoMaterials) {
+    const auto result = import_ply(
+        "ply\nformat ascii 1.0\n" + kVertexHeader +
+        "element face 3\nproperty list uchar int vertex_indices\nproperty uchar red\nproperty uchar green\n"
+        "property uchar blue\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 255 0 0\n3 0 1 2 0 0 255\n3 0 1 2 255 0 0\n");
+    ASSERT_TRUE(result) << result.error().line();
+    EXPECT_EQ(result->mesh.triangle_materials, (std::vector<std::uint8_t>{0, 1, 0}));
+    EXPECT_EQ(result->mesh.materials.at(1).colour, (Rgb{0, 0, 255}));
+    EXPECT_TRUE(result->mesh.colours.empty());
+}
+
+TEST(PlyImport, ReadsFloatColoursFromZeroToOne) {
+    const std::string head =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "property float red\nproperty float green\nproperty float blue\n" +
+        kFaceHeader + "end_header\n";
+    const auto result = import_ply(head + "0 0 0 1 .5 0\n1 0 0 1 .5 0\n0 1 0 1 .5 0\n3 0 1 2\n");
+    ASSERT_TRUE(result) << result.error().line();
+    EXPECT_EQ(result->mesh.colours[0], (Rgb{255, 128, 0}));
+    EXPECT_NE(refused(head + "0 0 0 2 .5 0\n1 0 0 1 .5 0\n0 1 0 1 .5 0\n3 0 1 2\n").find("colour"), std::string::npos);
+}
+
+TEST(PlyImport, NamesTheLineOfWhatIsWrong) {
+    const auto with = [](const std::string& from, const std::string& to) {
+        std::string text = kPlain;
+        return text.replace(text.find(from), from.size(), to);
+    };
+    EXPECT_EQ(refused(with("3 0 1 2", "3 0 1 3")).substr(0, 12), "test.ply:13:");
+    EXPECT_EQ(refused(with("3 0 1 2", "3 0 -1 2")).substr(0, 12), "test.ply:13:");
+    EXPECT_EQ(refused(with("3 0 1 2", "3 0 .5 2")).substr(0, 12), "test.ply:13:");
+    EXPECT_EQ(refused(with("3 0 1 2", "-3 0 1 2")).substr(0, 12), "test.ply:13:");
+    EXPECT_EQ(refused(with("3 0 1 2", "nan 0 1 2")).substr(0, 12), "test.ply:13:");
+    EXPECT_EQ(refused(with("1 0 0", "1 nan 0")).substr(0, 12), "test.ply:11:");
+    EXPECT_EQ(refused(with("1 0 0", "1 0,5 0")).substr(0, 12), "test.ply:11:");
+    EXPECT_EQ(refused(with("float y", "float q")).substr(0, 8), "test.ply");
+    EXPECT_EQ(refused(with("float y", "half y")).substr(0, 11), "test.ply:5:");
+    EXPECT_EQ(refused(with("float y", "float x")).substr(0, 11), "test.ply:5:");
+    EXPECT_EQ(refused(with("ascii", "utf8")).substr(0, 11), "test.ply:2:");
+    EXPECT_EQ(refused(with("vertex 3", "vertex -3")).substr(0, 11), "test.ply:3:");
+    EXPECT_EQ(refused(with("vertex_indices", "corners")).substr(0, 8), "test.ply");
+}
+
+TEST(PlyImport, RefusesTriangleStripsRatherThanLosingThem) {
+    const std::string message = refused(
+        "ply\nformat ascii 1.0\n" + kVertexHeader +
+        "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    EXPECT_NE(message.find("triangle strips"), std::string::npos) << message;
+}
+
+TEST(PlyImport, RefusesCountsThatTheFileCannotHold) {
+    for (const char* count : {"4", "1000000", "4294967295", "18446744073709551615", "99999999999999999999"}) {
+        for (const char* element : {"vertex 3", "face 1"}) {
+            std::string text = kPlain;
+            text.replace(text.find(element), std::strlen(element),
+                         std::string(element, std::strchr(element, ' ')) + " " + count);
+            EXPECT_NE(refused(text), "") << element << " " << count;
+        }
+    }
+}
+
+TEST(PlyImport, CountsFacesOfFewerThanThreeCorners) {
+    const auto result = import_ply(
+        "ply\nformat ascii 1.0\n" + kVertexHeader +
+        "element face 3\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n0\n3 0 1 2\n");
+    ASSERT_TRUE(result) << result.error().line();
+    EXPECT_EQ(result->report.faces_without_area, 2u);
+    EXPECT_EQ(result->mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
+    EXPECT_EQ(result->report.remarks.size(), 1u);
+}
+
+TEST(PlyImport, SkipsAnElementWithoutPropertiesWhateverItsCount) {
+    EXPECT_EQ(refused("ply\nformat ascii 1.0\nelement nothing 18446744073709551615\n" +
+                      kPlain.substr(kPlain.find("element"))),
+              "");
+}
+
+}  // namespace
+}  // namespace burin::test

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/geometry/mesh_samples.hpp"
+
+namespace burin::test {
+namespace {
+
+constexpr float kTwoTriangles[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, /**/ 1, 0, 0, 1, 1, 0, 0, 1, 0};
+
+Result<ImportedMesh> import_bytes(const std::vector<std::byte>& bytes) {
+    return import_mesh(bytes, MeshFormat::stl, "test.stl");
+}
+
+std::string facet(const char* a, const char* b, const char* c) {
+    return std::string("facet normal 0 0 1\n outer loop\n  vertex ") + a + "\n  vertex " + b + "\n  vertex " + c +
+           "\n endloop\nendfacet\n";
+}
+
+TEST(StlImport, WeldsEqualCornersOfBinaryTriangles) {
+    const auto result = import_bytes(binary_stl(kTwoTriangles, 2));
+    ASSERT_TRUE(result) << result.error().line();
+    EXPECT_EQ(result->report.format, "STL, binary");
+    EXPECT_EQ(result->mesh.positions_m.size(), 4u);
+    EXPECT_EQ(result->report.vertices_merged, 2u);
+    EXPECT_EQ(result->report.vertices_in_file, 6u);
+    ASSERT_EQ(result->mesh.triangles.size(), 2u);
+    EXPECT_EQ(result->mesh.triangles[1], (std::array<std::uint32_t, 3>{1, 3, 2}));
+}
+
+TEST(StlImport, TakesMinusZeroForZeroButNothingElseForEqual) {
+    const float next = std::nextafter(1.0f, 2.0f);
+    const float corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, /**/ -0.0f, 0, -0.0f, next, 0, 0, 0, 1, 0};
+    const auto result = import_bytes(binary_stl(corners, 2));
+    ASSERT_TRUE(result);
+    EXPECT_EQ(result->mesh.positions_m.size(), 4u);  // 0 merged, 1 and its successor not
+}
+
+TEST(StlImport, KeepsTrianglesWithEqualCornersForTheHealthReport) {
+    const float corners[] = {0, 0, 0, 0, 0, 0, 0, 1, 0, /**/ 0, 0, 0, 1, 0, 0, 0, 1, 0};
+    const auto result = import_bytes(binary_stl(corners, 2));
+    ASSERT_TRUE(result);
+    EXPECT_EQ(result->mesh.triangles.size(), 2u);
+}
+
+TEST(StlImport, ReadsABinaryFileWhoseHeaderSaysSolid) {
+    auto bytes = binary_stl(kTwoTriangles, 2);
+    const auto title = bytes_of("solid of an exporter that says so in binary files, too");
+    std::copy(title.begin(), title.end(), bytes.begin());
+    const auto result = import_bytes(bytes);
+    ASSERT_TRUE(result) << result.error().line();
+    EXPECT_EQ(result->mesh.triangles.size(), 2u);
+}
+
+TEST(StlImport, RefusesACountThatTheFileCannotHold) {
+    for (const std::uint32_t claimed : {3u, 1000000u, 0xFFFFFFFFu}) {
+        const auto result = import_bytes(binary_stl(kTwoTriangles, claimed));
+        ASSERT_FALSE(result);
+        EXPECT_NE(result.error().what.find("claims " + std::to_string(claimed)), std::string::npos)
+            << result.error().line();
+    }
+}
+
+TEST(StlImport, RefusesABinaryFileCutAnywhere) {
+    const auto whole = binary_stl(kTwoTriangles, 2);
+    for (std::size_t size = 0; size < whole.size(); ++size) {
+        EXPECT_FALSE(import_bytes({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)})) << size;
+    }
+}
+
+TEST(StlImport, SaysThatBytesAfterTheLastTriangleWereIgnored) {
+    const auto result = import_bytes(binary_stl(kTwoTriangles, 1));
+    ASSERT_TRUE(result);
+    ASSERT_EQ(result->report.remarks.size(), 1u);
+    EXPECT_EQ(result->report.remarks[0], "50 bytes after the last triangle were ignored");
+}
+
+TEST(StlImport, NamesTheByteOfANonFiniteCoordinate) {
+    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -3e38f}) {
+        std::vector<float> corners(std::begin(kTwoTriangles), std::end(kTwoTriangles));
+        corners[10] = bad;  // y of the second triangle's first corner
+        const auto result = import_bytes(binary_stl(corners, 2));
+        ASSERT_FALSE(result);
+        EXPECT_EQ(result.error().where, "test.stl, byte 150");  // 84 + 50 + 12 + 4
+    }
+}
+
+TEST(StlImport, RefusesAFileWithoutTriangles) {
+    EXPECT_FALSE(import_bytes(binary_stl({}, 0)));
+    EXPECT_NE(refusal("solid nothing\nendsolid nothing\n", MeshFormat::stl).find("has no triangles"),
+              std::string::npos);
+    EXPECT_NE(refusal("", MeshFormat::stl).find("is empty"), std::string::npos);
+}
+
+TEST(StlImport, ReadsAsciiOfAnyCaseAndLineEndAndNumberForm) {
+    const auto result = import_text(
+        "SOLID My Part facet\r\n  Facet Normal nan 0 1e0\r\nOUTER loop\r\nvertex +1.5 -2E-3 .25\r\nVERTEX 1 0 0\r\n"
+        "vertex 0 1 0\r\nendloop\r\nEndFacet\r\nENDSOLID My Part\r\n",
+        MeshFormat::stl);
+    ASSERT_TRUE(result) << result.error().line();
+    EXPECT_EQ(result->report.format, "STL, ASCII");
+    EXPECT_EQ(result->mesh.positions_m[0], Vec3(1.5, -0.002, 0.25));
+}
+
+TEST(StlImport, ReadsSeveralSolidsOfOneAsciiFile) {
+    const auto result = import_text("solid a\n" + facet("0 0 0", "1 0 0", "0 1 0") + "endsolid a\nsolid b\n" +
+                                        facet("0 0 1", "1 0 0", "0 1 0") + "endsolid b\n",
+                                    MeshFormat::stl);
+    ASSERT_TRUE(result) << result.error().line();
+    EXPECT_EQ(result->mesh.triangles.size(), 2u);
+}
+
+TEST(StlImport, NamesTheLineOfWhatIsWrongInAscii) {
+    const std::string head = "solid\n" + facet("0 0 0", "1 0 0", "0 1 0");  // 8 lines
+    EXPECT_EQ(refusal(head + facet("0 0 0", "x 0 0", "0 1 0"), MeshFormat::stl).substr(0, 12), "test.stl:12:");
+    EXPECT_EQ(refusal(head + facet("0 0 0", "inf 0 0", "0 1 0"), MeshFormat::stl).substr(0, 12), "test.stl:12:");
+    EXPECT_EQ(refusal(head + facet("0 0 0", "1e999 0 0", "0 1 0"), MeshFormat::stl).substr(0, 12), "test.stl:12:");
+    EXPECT_EQ(refusal(head + "rubbish\n", MeshFormat::stl).substr(0, 11), "test.stl:9:");
+}
+
+TEST(StlImport, RefusesAnAsciiFileCutAfterAnyWord) {
+    const std::string whole = "solid x\n" + facet("0 0 0", "1 0 0", "0 1 0") + "endsolid";
+    for (std::size_t at = whole.find('\n'); at < whole.size(); at = whole.find_first_of(" \n", at + 1)) {
+        EXPECT_NE(refusal(whole.substr(0, at), MeshFormat::stl), "") << whole.substr(0, at);
+    }
+    EXPECT_EQ(refusal(whole, MeshFormat::stl), "");
+}
+
+TEST(StlImport, SplitsAsciiFacetsOfFourCorners) {
+    const auto result = import_text(
+        "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 "
+        "0\nendloop\nendfacet\nendsolid",
+        MeshFormat::stl);
+    ASSERT_TRUE(result) << result.error().line();
+    EXPECT_EQ(result->mesh.triangles.size(), 2u);
+    EXPECT_EQ(result->report.polygons_fanned, 1u);
+}
+
+}  // namespace
+}  // namespace burin::test

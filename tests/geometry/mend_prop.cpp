@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+
+#include "geometry/mesh_health.hpp"
+#include "geometry/mesh_mend.hpp"
+#include "geometry/polygon.hpp"
+#include "tests/geometry/mesh_samples.hpp"
+
+namespace burin::test {
+namespace {
+
+TEST(CloseHoles, ClosesWhateverTrianglesAreTakenFromATorus) {
+    EXPECT_TRUE(rc::check([] {
+        TriangleMesh mesh = torus(9, 7, 1.0, 0.4);
+        const auto keep = *rc::gen::container<std::vector<bool>>(mesh.triangles.size(), rc::gen::arbitrary<bool>());
+        std::size_t at = 0;
+        std::erase_if(mesh.triangles, [&](const auto&) { return !keep[at++]; });
+        RC_PRE(!mesh.triangles.empty());
+        const std::size_t before = mesh.triangles.size();
+        const auto kept = mesh.triangles;
+        const ClosingReport report = close_holes(mesh);
+        const MeshHealth health = examine(mesh);
+        RC_ASSERT(health.closed);
+        RC_ASSERT(health.nonmanifold_edges == 0u);
+        RC_ASSERT(mesh.triangles.size() == before + report.triangles_added);
+        RC_ASSERT(std::equal(kept.begin(), kept.end(), mesh.triangles.begin()));  // nothing was dropped or moved
+    }));
+}
+
+TEST(CloseHoles, ClosesAnySoupOfTriangles) {
+    EXPECT_TRUE(rc::check([] {
+        TriangleMesh mesh;
+        for (int i = 0; i < 9; ++i) mesh.positions_m.emplace_back(i % 3, i / 3, i * i % 5);
+        mesh.triangles = *rc::gen::container<std::vector<std::array<std::uint32_t, 3>>>(
+            rc::gen::container<std::array<std::uint32_t, 3>>(rc::gen::inRange<std::uint32_t>(0, 9)));
+        const bool has_edges = examine(mesh).edges > 0;
+        close_holes(mesh);
+        RC_ASSERT(examine(mesh).closed == (has_edges && examine(mesh).edges > 0));
+        RC_ASSERT(examine(mesh).holes == 0u);
+    }));
+}
+
+TEST(OrientOutward, UndoesAnyTurningOfTriangles) {
+    EXPECT_TRUE(rc::check([] {
+        TriangleMesh mesh = torus(9, 7, 1.0, 0.4);
+        const auto good = mesh.triangles;
+        const auto turn = *rc::gen::container<std::vector<bool>>(mesh.triangles.size(), rc::gen::arbitrary<bool>());
+        for (std::size_t t = 0; t < turn.size(); ++t) {
+            if (turn[t]) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+        }
+        RC_ASSERT(orient_outward(mesh).conflicts == 0u);
+        RC_ASSERT(mesh.triangles == good);
+    }));
+}
+
+// A simple polygon: corners at random distances around a centre.
+TEST(SplitPolygon, CoversAStarShapedPolygonExactlyOnce) {
+    EXPECT_TRUE(rc::check([] {
+        const auto radii = *rc::gen::suchThat(rc::gen::container<std::vector<int>>(rc::gen::inRange(1, 100)),
+                                              [](const auto& r) { return r.size() >= 3; });
+        std::vector<Vec3> polygon;
+        double shoelace = 0.0;
+        for (std::size_t i = 0; i < radii.size(); ++i) {
+            const double a = 6.283185307179586 * static_cast<double>(i) / static_cast<double>(radii.size());
+            polygon.emplace_back(radii[i] * std::cos(a), 0.5,
+                                 -radii[i] * std::sin(a));  // seen from +Y, counter-clockwise
+        }
+        for (std::size_t i = 0; i < polygon.size(); ++i) {
+            const Vec3 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+            shoelace += (p.z * q.x - p.x * q.z) / 2;
+        }
+        const SplitPolygon split = split_polygon(polygon);
+        RC_ASSERT(split.triangles.size() == polygon.size() - 2);
+        if (split.how == PolygonSplit::blind_fan) RC_DISCARD("three corners in a line leave no strict ear");
+        double sum = 0.0;
+        for (const auto& t : split.triangles) {
+            const double y = glm::cross(polygon[t[1]] - polygon[t[0]], polygon[t[2]] - polygon[t[0]]).y / 2;
+            RC_ASSERT(y >= -1e-9);
+            sum += y;
+        }
+        RC_ASSERT(std::abs(sum - shoelace) <= 1e-9 * (1.0 + std::abs(shoelace)));
+    }));
+}
+
+}  // namespace
+}  // namespace burin::test
