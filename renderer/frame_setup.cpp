@@ -17,9 +17,9 @@ namespace {
 // certain sense of shape; Hubona et al.: two lamps are worse than one).
 const Vec3 kToLight = glm::normalize(Vec3{-0.30, 1.0, 0.52});
 constexpr double kLightHalfAngleTangent = 0.07;  // a lamp of 4 degrees: edges 7 mm wide at 100 mm
-const Vec3 kLightColour{1.06, 1.02, 0.95};
-const Vec3 kSkyColour{0.40, 0.42, 0.45};
-const Vec3 kGroundColour{0.19, 0.18, 0.17};
+const Vec3 kLightColour{0.93, 0.89, 0.83};
+const Vec3 kSkyColour{0.31, 0.33, 0.36};
+const Vec3 kGroundColour{0.16, 0.15, 0.14};
 
 glm::vec4 vec4_of(const Vec3& v, double w) { return {glm::vec3(v), static_cast<float>(w)}; }
 
@@ -113,7 +113,7 @@ void add_box(Shapes& shapes, const SceneBox& box, const Primitives& primitives) 
         }
     }
     shapes.glass.push_back(
-        {primitives.cube, constants_of(matrix_of(box.center_world, s), box.colour, 0.16, 0, 0), false});
+        {primitives.cube, constants_of(matrix_of(box.center_world, s), box.colour, 0.12, 0, 0), false});
 }
 
 void add_tool(Shapes& shapes, const SceneTool& tool, const Primitives& primitives) {

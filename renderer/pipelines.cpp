@@ -5,7 +5,9 @@
 
 #include "gpu/graphics_pipeline.hpp"
 #include "shaders/backdrop.frag.spv.hpp"
+#include "shaders/backdrop.vert.spv.hpp"
 #include "shaders/glass.frag.spv.hpp"
+#include "shaders/glass.vert.spv.hpp"
 #include "shaders/shadow.vert.spv.hpp"
 #include "shaders/shared/surface_vertex.h"
 #include "shaders/solid.frag.spv.hpp"
@@ -48,11 +50,14 @@ gpu::GraphicsPipelineSpec spec_of(PipelineKind kind) {
             break;
         case PipelineKind::backdrop:
             spec.name = "backdrop pipeline";
+            spec.vertex_spirv = k_backdrop_vert;
+            spec.attributes = std::span(kAttributes).first(2);
             spec.fragment_spirv = k_backdrop_frag;
             break;
         case PipelineKind::glass_back:
         case PipelineKind::glass_front:
             spec.name = "glass pipeline";
+            spec.vertex_spirv = k_glass_vert;
             spec.fragment_spirv = k_glass_frag;
             spec.depth_write = false;
             spec.blend = true;

@@ -113,25 +113,29 @@ PrimitiveRange plinth(Builder& b) {
     return turned(b, profile, 128, false);
 }
 
-// A photographer's cove: floor, quarter circle, wall; so wide that its edges are seen from nowhere.
+// A photographer's cove: floor, quarter circle, wall; so wide that its edges are seen from nowhere. In columns, as long
+// thin triangles are interpolated with less than millimetre precision.
 PrimitiveRange backdrop(Builder& b) {
     const std::uint32_t first = b.here();
-    constexpr double kHalfWidth_m = 60.0, kFront_m = 20.0, kBend_m = -2.4, kRadius_m = 1.6, kTop_m = 60.0;
-    constexpr int kArc = 24;
+    constexpr double kHalfWidth_m = 32.0, kFront_m = 8.0, kBend_m = -2.4, kRadius_m = 1.6, kTop_m = 24.0;
+    constexpr int kArc = 24, kColumns = 32;
     std::vector<std::pair<Vec3, Vec3>> line{{{0, 0, kFront_m}, {0, 1, 0}}};
     for (int i = 0; i <= kArc; ++i) {
         const double a = 0.5 * kPi * i / kArc, s = std::sin(a), c = std::cos(a);
         line.push_back({{0, kRadius_m * (1.0 - c), kBend_m - kRadius_m * s}, {0, c, s}});
     }
     line.push_back({{0, kTop_m, kBend_m - kRadius_m}, {0, 0, 1}});
-    const Vec3 half{kHalfWidth_m, 0, 0};
-    std::uint32_t left = 0, right = 0;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        const std::uint32_t l = b.vertex(line[i].first - half, line[i].second);
-        const std::uint32_t r = b.vertex(line[i].first + half, line[i].second);
-        if (i > 0) b.quad(left, right, r, l);
-        left = l;
-        right = r;
+    std::vector<std::uint32_t> previous, current;
+    for (const auto& [position, normal] : line) {
+        current.clear();
+        for (int i = 0; i <= kColumns; ++i) {
+            const double x = kHalfWidth_m * (2.0 * i / kColumns - 1.0);
+            current.push_back(b.vertex(position + Vec3{x, 0, 0}, normal));
+        }
+        for (std::size_t i = 0; !previous.empty() && i + 1 < current.size(); ++i) {
+            b.quad(previous[i], previous[i + 1], current[i + 1], current[i]);
+        }
+        previous = current;
     }
     return b.since(first);
 }

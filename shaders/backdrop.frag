@@ -49,9 +49,9 @@ void main() {
     vec3 n = normalize(in_normal);
     // Brightest around the work, falling off to the sides: the eye is led to the middle without any edge.
     float away = length((in_world - vec3(0.0, 0.9, -2.2)) * vec3(0.75, 1.0, 0.55));
-    vec3 c = frame.background.rgb * mix(1.22, 0.62, smoothstep(0.3, 4.2, away));
+    vec3 c = frame.background.rgb * mix(1.25, 0.60, smoothstep(0.2, 4.2, away));
 
-    float floor_part = smoothstep(0.55, 1.0, n.y);
+    float floor_part = smoothstep(0.975, 1.0, n.y);  // the grid fades where the floor begins to rise
     float lines = 0.16 * grid(in_world.xz, 1.0, 0.010) + 0.10 * grid(in_world.xz, 0.25, 0.005);
     c *= 1.0 - floor_part * min(lines, 0.2);
 
@@ -61,5 +61,5 @@ void main() {
         float from_foot = max(length(in_world.xz - frame.pedestal.xz) - frame.pedestal.w, 0.0) + in_world.y;
         c *= 1.0 - 0.35 * exp(-from_foot / 0.09);
     }
-    out_colour = vec4(c, 1.0);
+    out_colour = vec4(dithered(c), 1.0);
 }

@@ -17,7 +17,7 @@ void main() {
     // The face's own coordinate is +-0.5; of the other two, the one nearer to 0.5 tells the distance to an edge.
     vec3 a = abs(in_local);
     float edge = max(min(a.x, a.y), max(min(a.x, a.z), min(a.y, a.z)));
-    float alpha = draw.tint.a * (0.55 + 0.6 * grazing + 0.8 * smoothstep(0.36, 0.5, edge));
+    float alpha = draw.tint.a * (0.5 + 0.7 * grazing + 0.9 * smoothstep(0.36, 0.5, edge));
     alpha = min(alpha, 0.6);
     out_colour = vec4(in_colour * alpha, alpha);
 }

@@ -82,3 +82,11 @@ float highlight(vec3 n, vec3 v, vec3 l, float roughness) {
     float fresnel = 0.04 + 0.96 * squared * squared * one_minus;
     return nl * a2 / (kPi * d * d) * visibility * 0.25 * fresnel * kPi;  // light_colour is irradiance over pi
 }
+
+// Adds half a step of the 8-bit picture in an ordered pattern, so that soft gradients show no bands. A step of
+// sRGB is 2.4 c^(1.4/2.4) / 1.055 steps of linear light.
+vec3 dithered(vec3 c) {
+    uvec2 at = uvec2(gl_FragCoord.xy);
+    uint cell = ((at.x ^ at.y) & 1u) * 2u + (at.y & 1u);
+    return c + (float(cell) / 3.0 - 0.5) / 255.0 * 2.27 * pow(c, vec3(0.58));
+}

@@ -28,6 +28,7 @@ void main() {
     float lit = nl > 0.0 ? sunlight(in_world, n) : 0.0;
     vec3 key = frame.light_colour.rgb * lit;
     float open = openness(in_world, n);
+    if (draw.material.z == 0.0) open *= 1.0 - 0.8 * ball_cover(in_world, n, frame.workpiece);
     float roughness = draw.material.x, gloss = draw.material.y;
 
     vec3 c = albedo * (key * max(nl, 0.0) + ambient_light(n) * open);
@@ -38,5 +39,5 @@ void main() {
     float fresnel = 0.04 + 0.5 * grazing * grazing * grazing * (1.0 - 0.6 * roughness);
     float lamp = smoothstep(0.75 - 0.3 * roughness, 0.98, dot(mirrored, l));
     c += (ambient_light(mirrored) + frame.light_colour.rgb * lamp * 0.35 * lit) * fresnel * open * gloss;
-    out_colour = vec4(shoulder(c), 1.0);
+    out_colour = vec4(dithered(shoulder(c)), 1.0);
 }
