@@ -36,7 +36,7 @@ public:
 
     // Consumer only: true and the oldest value, or false when the ring is empty.
     bool pop(T& value) noexcept {
-        const std::size_t head = head_.load(std::memory_order_relaxed);  // only the consumer writes it
+        const std::size_t head = head_.load(std::memory_order_relaxed);   // only the consumer writes it
         if (head == tail_.load(std::memory_order_acquire)) return false;  // acquire: pairs with push's release
         value = values_[head & mask_];
         head_.store(head + 1, std::memory_order_release);  // our read is done before the place is free

@@ -53,7 +53,8 @@ struct Similarity {
 }
 
 [[nodiscard]] inline Similarity operator*(const Similarity& c_from_b, const Similarity& b_from_a) {
-    return {c_from_b * b_from_a.position_m, c_from_b.orientation * b_from_a.orientation, c_from_b.scale * b_from_a.scale};
+    return {c_from_b * b_from_a.position_m, c_from_b.orientation * b_from_a.orientation,
+            c_from_b.scale * b_from_a.scale};
 }
 
 [[nodiscard]] inline Mat4 matrix(const Similarity& s) {
