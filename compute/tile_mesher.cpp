@@ -13,6 +13,9 @@ namespace {
 
 // Crossings whose normals are closer than this (cosine, about 41 degrees) belong to one smooth piece of surface.
 constexpr float kSmooth = 0.75f;
+// Across a change of material already a smaller angle (about 10 degrees) is an edge: the vertex lies on it, so each side can
+// keep its own colour. Where the surface runs on smoothly the border lies anywhere in the cell, and the colours blend.
+constexpr float kSmoothAcrossMaterials = 0.985f;
 
 constexpr Local step(Local p, int axis, int by) {
     p[static_cast<std::size_t>(axis)] += by;
@@ -135,6 +138,7 @@ private:
     void make_loop(const Local& cell, const CellCase& cell_case, int loop, CellVertices& result) {
         struct Piece {
             Vec3f first_normal{0.0f}, normal_sum{0.0f};
+            std::uint8_t first_material = 0;
             std::array<std::uint32_t, 4> colour_sum{};  // red, green, blue, how many
         };
         std::array<Crossing, 12> crossings;
@@ -150,8 +154,16 @@ private:
             crossings[count] = {point_on(axis, offset, s), s.normal};
             edge_of_crossing[count] = e;
             std::size_t p = 0;
-            while (p < piece_count && glm::dot(pieces[p].first_normal, s.normal) < kSmooth) ++p;
-            if (p == piece_count) pieces[piece_count++].first_normal = s.normal;
+            const auto belongs = [&](const Piece& piece) {
+                const float least = piece.first_material == s.material ? kSmooth : kSmoothAcrossMaterials;
+                return glm::dot(piece.first_normal, s.normal) >= least;
+            };
+            while (p < piece_count && !belongs(pieces[p])) ++p;
+            if (p == piece_count) {
+                pieces[p].first_normal = s.normal;
+                pieces[p].first_material = s.material;
+                ++piece_count;
+            }
             pieces[p].normal_sum += s.normal;
             const auto& colour = solid_.materials[s.material].colour;
             for (std::size_t c = 0; c < 3; ++c) pieces[p].colour_sum[c] += colour[c];

@@ -65,8 +65,9 @@ def lines():
         for k in range(241):
             t = k / 240
             angle = math.radians(middle - 58 + 116 * t)
-            radius = 35 + 4.5 * math.sin(2 * math.pi * 5 * t)
-            swelling = 1.0 + 0.8 * math.sin(math.pi * t) * (1 - math.cos(4 * math.pi * 5 * t)) / 2
+            rise = math.sin(math.pi * t)
+            radius = 35 - 4.5 * rise * math.cos(2 * math.pi * 6 * t)
+            swelling = 0.5 + 1.2 * rise * (1 - 0.5 * math.cos(4 * math.pi * 6 * t)) / 1.5
             wave.append((radius * math.cos(angle), radius * math.sin(angle), swelling))
         yield wave
 

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+// The command as its user meets it: exit status, one clear line, and no partial output.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/app/run_command.hpp"
+
+namespace burin {
+namespace {
+
+const std::string kBurin = BURIN_COMMAND;
+
+// A tetrahedron with corners at the origin and one metre along each axis; `faces` of its four.
+std::string tetrahedron_off(int faces) {
+    const char* const kFaces[] = {"3 0 2 1\n", "3 0 1 3\n", "3 0 3 2\n", "3 1 2 3\n"};
+    std::string text = "OFF\n4 " + std::to_string(faces) + " 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+    for (int i = 0; i < faces; ++i) text += kFaces[i];
+    return text;
+}
+
+// One line that starts with the program's name and holds every given part; nothing written beside the inputs.
+void expect_refused(const Workplace& place, const std::string& arguments, int status,
+                    const std::vector<std::string>& parts) {
+    const std::size_t files_before = place.files();
+    const auto outcome = place.run(kBurin + " " + arguments);
+    EXPECT_EQ(outcome.status, status) << arguments << "\n" << outcome.output;
+    EXPECT_EQ(outcome.output.rfind("burin: ", 0), 0u) << outcome.output;
+    EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
+    for (const std::string& part : parts) {
+        EXPECT_NE(outcome.output.find(part), std::string::npos) << "expected '" << part << "' in: " << outcome.output;
+    }
+    EXPECT_EQ(place.files(), files_before) << arguments;
+}
+
+}  // namespace
+
+TEST(Command, RefusesWrongUsageWithStatusTwo) {
+    Workplace place;
+    expect_refused(place, "sculpt", 2, {"--workpiece", "--help"});
+    expect_refused(place, "sculpt --workpiece ball:1 --resolution 8", 2, {"--resolution", "16", "2048"});
+    expect_refused(place, "sculpt --workpiece ball:1 --resolution 4096", 2, {"--resolution", "2048"});
+    expect_refused(place, "sculpt --workpiece ball:1 --resolution many", 2, {"--resolution"});
+    expect_refused(place, "sculpt --workpiece ball:1 --engine gpu", 2, {"--engine"});
+    expect_refused(place, "sculpt --workpiece ball:1 --hand mine", 2, {"--hand"});
+    expect_refused(place, "sculpt --workpiece ball:1 --bogus", 2, {"--bogus"});
+    expect_refused(place, "fly", 2, {"fly"});
+}
+
+TEST(Command, RefusesBadWorkpiecesNamingFileAndRemedy) {
+    Workplace place;
+    place.write("open.off", tetrahedron_off(3));
+    place.write("empty.stl", "");
+    place.write("notes.txt", "hello");
+    place.write("lies.ply",
+                "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\n"
+                "property float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                "end_header\n");
+    place.write("nan.off", "OFF\n3 1 0\n0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n");
+    place.write("none.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n");
+    const std::string low = " --resolution 32 --export out.stl";
+    expect_refused(place, "sculpt --workpiece missing.stl" + low, 1, {"missing.stl"});
+    expect_refused(place, "sculpt --workpiece ." + low, 1, {"."});
+    expect_refused(place, "sculpt --workpiece open.off" + low, 1, {"open.off", "closed", "--close-holes"});
+    expect_refused(place, "sculpt --workpiece empty.stl" + low, 1, {"empty.stl"});
+    expect_refused(place, "sculpt --workpiece notes.txt" + low, 1, {"notes.txt"});
+    expect_refused(place, "sculpt --workpiece lies.ply" + low, 1, {"lies.ply"});
+    expect_refused(place, "sculpt --workpiece nan.off" + low, 1, {"nan.off"});
+    expect_refused(place, "sculpt --workpiece none.off" + low, 1, {"none.off", "triangle"});
+    expect_refused(place, "sculpt --workpiece block:1,2" + low, 1, {"block:1,2", "3 numbers"});
+    expect_refused(place, "sculpt --workpiece block:1,2,-3" + low, 1, {"above zero"});
+    expect_refused(place, "sculpt --workpiece ball:nan" + low, 1, {"ball:nan"});
+    expect_refused(place, "sculpt --workpiece ball:" + low, 1, {"ball:"});
+}
+
+TEST(Command, RefusesBadToolsStrokesAndPlacesBeforeCarving) {
+    Workplace place;
+    place.write("late.csv", kStrokeHeader + "1,0,0,0,0,0,0,1,1\n0,0,0,0,0,0,0,1,1\n");
+    place.write("file", "in the way");
+    const std::string ball = "sculpt --workpiece ball:0.1 --resolution 32 ";
+    expect_refused(place, ball + "--tool cube:1", 1, {"cube:1", "ball:R"});
+    expect_refused(place, ball + "--tool ball:0", 1, {"ball:0", "above zero"});
+    expect_refused(place, ball + "--stroke late.csv", 1, {"late.csv:3", "time"});
+    expect_refused(place, ball + "--stroke missing.csv", 1, {"missing.csv"});
+    expect_refused(place, ball + "--export no/such/folder/out.stl", 1, {"no/such/folder"});
+    expect_refused(place, ball + "--export out.step", 1, {"out.step", ".stl"});
+    expect_refused(place, ball + "--report no/such/folder/r.json", 1, {"no/such/folder"});
+    expect_refused(place, ball + "--pictures file", 1, {"file", "--pictures"});
+}
+
+TEST(Command, SaysWhatToDoWithoutAVulkanDriver) {
+    Workplace place;
+    // A loader without any driver is what a machine without one has.
+    const std::string blind = "VK_ICD_FILENAMES=/nonexistent VK_DRIVER_FILES=/nonexistent " + kBurin;
+    const auto vulkan =
+        place.run(blind + " sculpt --workpiece ball:0.1 --resolution 32 --engine vulkan --export out.stl");
+    EXPECT_EQ(vulkan.status, 1) << vulkan.output;
+    EXPECT_NE(vulkan.output.find("mesa-vulkan-drivers"), std::string::npos) << vulkan.output;
+    EXPECT_FALSE(std::filesystem::exists(place / "out.stl"));
+    const auto automatic =
+        place.run(blind + " sculpt --workpiece ball:0.1 --resolution 32 --engine auto --export out.stl");
+    EXPECT_EQ(automatic.status, 0) << automatic.output;
+    EXPECT_TRUE(std::filesystem::exists(place / "out.stl"));
+}
+
+TEST(Command, ClosesHolesOnRequestAndTheJudgeFindsNothing) {
+    Workplace place;
+    place.write("open.off", tetrahedron_off(3));
+    place.write("s.csv", kStrokeHeader + "0,0.2,0.2,1,0,0,0,1,1\n1,0.2,0.2,0.1,0,0,0,1,1\n");
+    for (const std::string name : {"out.stl", "out.ply", "out.obj"}) {
+        const auto outcome = place.run(kBurin +
+                                       " sculpt --workpiece open.off --close-holes --tool ball:0.1 --stroke s.csv "
+                                       "--resolution 48 --export " +
+                                       name + " --report r.json");
+        ASSERT_EQ(outcome.status, 0) << outcome.output;
+        const auto audit = place.run(std::string(MESH_AUDIT) + " " + name);
+        EXPECT_EQ(audit.status, 0) << audit.output;
+    }
+    const std::string report = place.read("r.json");
+    EXPECT_NE(report.find("\"closed_holes\""), std::string::npos);
+    EXPECT_NE(report.find("\"open_edges\": 0"), std::string::npos);
+}
+
+TEST(Command, AnExistingFileSurvivesAFailedRun) {
+    Workplace place;
+    place.write("out.stl", "precious");
+    place.write("all.csv", kStrokeHeader + "0,0,0,0,0,0,0,1,1\n");
+    // A tool that takes everything away leaves nothing to export.
+    const auto outcome = place.run(kBurin +
+                                   " sculpt --workpiece ball:0.1 --tool ball:0.5 --stroke all.csv --resolution 32 "
+                                   "--export out.stl");
+    EXPECT_EQ(outcome.status, 1) << outcome.output;
+    EXPECT_EQ(place.read("out.stl"), "precious");
+}
+
+TEST(Command, ConvertsBetweenFormatsAndTellsHealth) {
+    Workplace place;
+    place.write("t.off", tetrahedron_off(4));
+    const auto outcome = place.run(kBurin + " convert t.off t.ply");
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_NE(outcome.output.find("4 triangles"), std::string::npos) << outcome.output;
+    EXPECT_EQ(place.run(std::string(MESH_AUDIT) + " t.ply").status, 0);
+    expect_refused(place, "convert missing.off t.stl", 1, {"missing.off"});
+}
+
+TEST(Command, VersionListsTheVulkanDevicesOrSaysWhyNot) {
+    Workplace place;
+    const auto outcome = place.run(kBurin + " --version");
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.output.rfind("burin ", 0), 0u);
+    EXPECT_NE(outcome.output.find("Vulkan"), std::string::npos);
+}
+
+}  // namespace burin

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "app/stroke_file.hpp"
+
+#include <gtest/gtest.h>
+
+namespace burin {
+namespace {
+
+const std::string kHeader = "time_s,x_m,y_m,z_m,qx,qy,qz,qw,button\n";
+
+std::string complaint(const std::string& text) {
+    const auto stroke = parse_stroke(text, "s.csv");
+    return stroke ? "" : stroke.error().line();
+}
+
+}  // namespace
+
+TEST(StrokeFile, ReadsRowsCommentsBlanksAndCarriageReturns) {
+    const auto stroke = parse_stroke(
+        "# a comment\r\ntime_s, x_m, y_m, z_m, qx, qy, qz, qw, button\r\n\r\n"
+        "0, 0.1, -0.2, 3e-1, 0, 0, 0, 2, 0\r\n# more\r\n0.5,1,2,3,0,0,0,1,1",
+        "s.csv");
+    ASSERT_TRUE(stroke) << stroke.error().line();
+    ASSERT_EQ(stroke->size(), 2u);
+    EXPECT_EQ((*stroke)[0].position_object_m, Vec3(0.1, -0.2, 0.3));
+    EXPECT_DOUBLE_EQ(glm::length((*stroke)[0].orientation_object), 1.0);  // normalised
+    EXPECT_FALSE((*stroke)[0].button);
+    EXPECT_TRUE((*stroke)[1].button);
+}
+
+TEST(StrokeFile, NamesTheLineOfEveryKindOfMistake) {
+    EXPECT_NE(complaint("").find("s.csv"), std::string::npos);
+    EXPECT_NE(complaint("x,y\n").find("s.csv:1"), std::string::npos);
+    EXPECT_NE(complaint(kHeader).find("holds no stroke"), std::string::npos);
+    const std::string good = "0,0,0,0,0,0,0,1,0\n";
+    for (const std::string bad : {"1,0,0,0,0,0,0,1\n", "1,0,0,0,0,0,0,1,0,0\n", "1,0,0,zero,0,0,0,1,0\n",
+                                  "1,,0,0,0,0,0,1,0\n", "1,0,0,0 0,0,0,0,1,0\n"}) {
+        EXPECT_NE(complaint(kHeader + good + bad).find("s.csv:3: does not hold nine numbers"), std::string::npos)
+            << bad;
+    }
+    for (const std::string bad :
+         {"1,nan,0,0,0,0,0,1,0\n", "1,0,inf,0,0,0,0,1,0\n", "inf,0,0,0,0,0,0,1,0\n", "1,1e300,0,0,0,0,0,1,0\n"}) {
+        EXPECT_NE(complaint(kHeader + good + bad).find("s.csv:3: holds a number"), std::string::npos) << bad;
+    }
+    EXPECT_NE(complaint(kHeader + good + good).find("s.csv:3: its time"), std::string::npos);
+    EXPECT_NE(complaint(kHeader + "1,0,0,0,0,0,0,1,0\n0,0,0,0,0,0,0,1,0\n").find("s.csv:3: its time"),
+              std::string::npos);
+    EXPECT_NE(complaint(kHeader + "0,0,0,0,0,0,0,0,0\n").find("quaternion"), std::string::npos);
+    EXPECT_NE(complaint(kHeader + "0,0,0,0,0,0,0,1,0.5\n").find("button"), std::string::npos);
+}
+
+TEST(StrokeFile, MissingFileIsNamed) {
+    const auto stroke = read_stroke("no/such/stroke.csv");
+    ASSERT_FALSE(stroke);
+    EXPECT_NE(stroke.error().line().find("no/such/stroke.csv"), std::string::npos);
+}
+
+}  // namespace burin
