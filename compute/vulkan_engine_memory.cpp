@@ -32,11 +32,11 @@ Result<std::vector<T>> fetch_all(gpu::Device& device, const gpu::Buffer& buffer)
     return values;
 }
 
-// A store that is too large for the device, with the resolution that would fit: ends grow with its square.
+// A store that is too large for the device, with the resolution that would fit: ends grow about with its square.
 std::unexpected<Error> too_large(const gpu::Device& device, std::size_t ends, int resolution) {
     const double limit = static_cast<double>(device.capabilities().max_storage_buffer_bytes);
     const double needed = static_cast<double>(ends * sizeof(DexelEnd));
-    const int fits = static_cast<int>(static_cast<double>(resolution) * std::sqrt(limit / needed));
+    const int fits = static_cast<int>(0.98 * static_cast<double>(resolution) * std::sqrt(limit / needed));
     return fail("Vulkan engine",
                 "the solid's " + std::to_string(ends) + " interval ends do not fit into one buffer of " +
                     device.info().name + " (" + std::to_string(static_cast<std::uint64_t>(limit) >> 20) + " MiB)",
@@ -83,7 +83,7 @@ Result<void> DeviceSolid::upload(gpu::Device& device, const Solid& solid, std::s
     for (std::size_t a = 0; a < 3; ++a) parts[a] = {solid.sets[a].rays(), solid.sets[a].store()};
     first_ray_ = {0, static_cast<std::uint32_t>(parts[0].rays.size()),
                   static_cast<std::uint32_t>(parts[0].rays.size() + parts[1].rays.size())};
-    resolution_ = *std::ranges::max_element(solid.lattice.cells);
+    resolution_ = *std::ranges::max_element(solid.lattice.cells) - 2;  // the empty cell on either side
     return pack(device, parts, spare_ends);
 }
 

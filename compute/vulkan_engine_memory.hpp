@@ -75,7 +75,7 @@ private:
     gpu::Buffer rays_, store_;
     std::uint32_t store_size_ = 0, packed_size_ = 0, longest_ = 0;
     std::array<std::uint32_t, 3> first_ray_{};
-    int resolution_ = 0;  // cells along the longest side, for messages
+    int resolution_ = 0;  // cells along the solid's longest side, for messages
 };
 
 }  // namespace burin

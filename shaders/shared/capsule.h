@@ -182,10 +182,12 @@ BURIN_FN RaySpan capsule_span(CapsuleRay k) {
         double margin = reach - moment * moment;
         int64_t slab_lo = -far;
         int64_t slab_hi = far;
-        if (k.along_s > int64_t(0)) {
+        // Compared in 32 bits: llvmpipe of Mesa 22.3 gets the sign of a number wrong that was just widened to 64.
+        int along_s = int(k.along_s);
+        if (along_s > 0) {
             slab_lo = -divide_down(k.dot_uv, k.along_s);
             slab_hi = divide_down(k.length2 - k.dot_uv, k.along_s);
-        } else if (k.along_s < int64_t(0)) {
+        } else if (along_s < 0) {
             slab_lo = -divide_down(k.length2 - k.dot_uv, -k.along_s);
             slab_hi = divide_down(k.dot_uv, -k.along_s);
         } else if (k.dot_uv < int64_t(0) || k.dot_uv > k.length2) {

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Both engines on the same solid: every cut is made by each, and whatever they hold or report must be equal.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "base/worker_pool.hpp"
+#include "compute/vulkan_engine.hpp"
+
+namespace burin::test {
+
+// STROKE-1000: a ball of radius 0.06 at 1000 places on the unit cube's upper face. Sixteen times fewer of them, as far
+// apart, when `every` is 16.
+[[nodiscard]] inline std::vector<BallSweep> stroke_1000(int every = 1) {
+    std::vector<BallSweep> sweeps;
+    for (int i = 0; i < 1000; i += every) {
+        const double t = i / 999.0, pi = std::numbers::pi;
+        const Vec3 p(0.5 + 0.42 * std::sin(6.0 * pi * t), 0.5 + 0.42 * std::sin(4.0 * pi * t + 0.6),
+                     0.985 + 0.03 * std::sin(10.0 * pi * t));
+        sweeps.push_back({p, p, 0.06, 0});
+    }
+    return sweeps;
+}
+
+[[nodiscard]] inline Solid unit_cube(int resolution) {
+    auto made = make_block(Vec3(1.0), resolution, Material{});
+    EXPECT_TRUE(made) << made.error().line();
+    Solid solid = made ? std::move(*made) : Solid{};
+    solid.materials.push_back(Material{});  // what cuts leave may differ from the solid
+    return solid;
+}
+
+class EnginePair {
+public:
+    EnginePair(const Solid& solid, const gpu::Device& device, const VulkanEngineOptions& options = {})
+        : cpu_(make_cpu_engine(solid, pool_)) {
+        auto made = VulkanEngine::create(solid, device, options);
+        EXPECT_TRUE(made) << made.error().line();
+        if (made) vulkan_ = std::move(*made);
+    }
+
+    // False after the first difference, so that loops can stop there.
+    bool cut(std::span<const BallSweep> sweeps) {
+        if (vulkan_ == nullptr) return false;
+        const auto expected = cpu_->cut(sweeps);
+        const auto actual = vulkan_->cut(sweeps);
+        EXPECT_TRUE(expected) << expected.error().line();
+        EXPECT_TRUE(actual) << actual.error().line();
+        if (!expected || !actual) return false;
+        EXPECT_EQ(actual->rays_touched, expected->rays_touched);
+        EXPECT_EQ(actual->rays_changed, expected->rays_changed);
+        const bool same = vulkan_->solid().same_content(cpu_->solid());
+        EXPECT_TRUE(same) << "the engines hold different intervals";
+        changed_ += expected->rays_changed;
+        return !testing::Test::HasFailure();
+    }
+    bool cut(const BallSweep& sweep) { return cut(std::span(&sweep, 1)); }
+
+    [[nodiscard]] CarvingEngine& cpu() { return *cpu_; }
+    [[nodiscard]] VulkanEngine& vulkan() { return *vulkan_; }
+    [[nodiscard]] WorkerPool& pool() { return pool_; }
+    [[nodiscard]] std::uint64_t changed() const { return changed_; }
+
+private:
+    WorkerPool pool_{2};
+    std::unique_ptr<CarvingEngine> cpu_;
+    std::unique_ptr<VulkanEngine> vulkan_;
+    std::uint64_t changed_ = 0;
+};
+
+}  // namespace burin::test
