@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// Are things where they belong, in both eyes?
+#include "tests/renderer/test_scene.hpp"
+
+namespace burin {
+
+namespace {
+
+// How far the line from the eye through a point passes outside a ball, in metres at the ball's distance; negative: it hits.
+double miss(const Vec3& eye, const Vec3& through, const Vec3& center, double radius) {
+    const Vec3 d = glm::normalize(through - eye);
+    const Vec3 to = center - eye;
+    return glm::length(to - glm::dot(to, d) * d) - radius;
+}
+
+double mean_x(const Image& image, const std::uint8_t* background) {
+    double sum = 0.0, count = 0.0;
+    for (std::uint32_t y = 0; y < image.size.height; ++y) {
+        for (std::uint32_t x = 0; x < image.size.width; ++x) {
+            if (same_colour(image.pixel(x, y), background, 2)) continue;
+            sum += x;
+            count += 1.0;
+        }
+    }
+    return sum / count;
+}
+
+int count_reddish(const Image& image) {
+    int count = 0;
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) count += image.rgba[i] > 2 * image.rgba[i + 1] + 20 ? 1 : 0;
+    return count;
+}
+
+}  // namespace
+
+using Geometry = PictureTest;
+
+// A ball seen from an eye covers exactly the pixels whose lines of sight hit it, an ellipse on the screen; only pixels whose
+// centre lies within one pixel of its outline may differ. Everywhere else is the untouched background.
+TEST_F(Geometry, ABallCoversThePixelsThatTheClosedFormPredictsInBothEyes) {
+    Scene scene = bare_scene();
+    scene.viewer.head_world = {{0.09, 0.24, 0.5}, glm::angleAxis(0.2, Vec3{0, 0, 1})};
+    // Placed by all three transforms at once.
+    scene.world_from_object = {{-0.05, 0.12, 0.02}, glm::angleAxis(0.7, glm::normalize(Vec3{1, 2, 3})), 2.0};
+    scene.lattice_origin_object = {0.01, 0.005, -0.02};
+    const Vec3 center_patch{0.004, 0.003, 0.012};
+    set(0, ball_surface(center_patch, 0.025, kGrey, 128));
+    const Vec3 center = scene.world_from_object * (scene.lattice_origin_object + center_patch);
+    constexpr double radius = 0.05;
+
+    const StereoImage pictures = render(scene);
+    const Eyes eyes = eyes_of(scene.viewer);
+    const std::array<std::pair<const Image*, Vec3>, 2> views{
+        {{&pictures.left, eyes.left_world}, {&pictures.right, eyes.right_world}}};
+    for (const auto& [image, eye] : views) {
+        const std::uint8_t* background = image->pixel(kTestSize.width - 1, 0);
+        int covered = 0;
+        for (std::uint32_t y = 0; y < kTestSize.height; ++y) {
+            for (std::uint32_t x = 0; x < kTestSize.width; ++x) {
+                const double outside = miss(eye, pixel_centre_world(scene, x, y), center, radius);
+                if (std::abs(outside) < pixel_m(scene)) continue;
+                const bool drawn = !same_colour(image->pixel(x, y), background);
+                ASSERT_EQ(drawn, outside < 0.0) << "at " << x << ", " << y;
+                covered += drawn ? 1 : 0;
+            }
+        }
+        EXPECT_GT(covered, 2000);
+    }
+}
+
+TEST_F(Geometry, WhatStandsInFrontOfTheWallHasCrossedDisparity) {
+    Scene scene = bare_scene();
+    for (const double z : {0.15, -0.3}) {
+        set(0, ball_surface({0.0, 0.15, z}, 0.02));
+        const StereoImage pictures = render(scene);
+        const std::uint8_t* background = pictures.left.pixel(0, 0);
+        const double disparity_px = mean_x(pictures.right, background) - mean_x(pictures.left, background);
+        const double predicted_m = -scene.viewer.interpupillary_m * z / (0.6 - z);
+        EXPECT_NEAR(disparity_px, predicted_m / pixel_m(scene), 0.25) << "at z = " << z;
+    }
+}
+
+// A block narrower than the distance of the eyes, straight ahead and long: its left side is seen by the left eye alone.
+TEST_F(Geometry, TheLeftEyeSeesTheLeftSide) {
+    Scene scene = bare_scene();
+    Surface cube;
+    const double h = 0.02, depth = 0.15;
+    cube.quad({0, 0.15, depth}, {h, 0, 0}, {0, h, 0}, kGreen);
+    cube.quad({-h, 0.15, 0}, {0, 0, depth}, {0, h, 0}, kRed);    // faces -x
+    cube.quad({h, 0.15, 0}, {0, 0, -depth}, {0, h, 0}, kGreen);  // faces +x
+    set(0, cube);
+    const StereoImage pictures = render(scene);
+    EXPECT_GT(count_reddish(pictures.left), 10);
+    EXPECT_EQ(count_reddish(pictures.right), 0);
+}
+
+// Both eyes at the place of the left one: the left picture must not depend on where the other eye is.
+TEST_F(Geometry, TwoViewsInOnePassEqualViewsDrawnAlone) {
+    Scene scene = bare_scene();
+    scene.show_grid = scene.show_wall_frame = true;
+    scene.tool = {0.015, {0.03, 0.2, 0.05}, {0.9, 0.4, 0.1}, {{0.03, 0.2, 0.05}, Quat{1, 0, 0, 0}}, true};
+    set(0, ball_surface({0.0, 0.15, 0.0}, 0.06));
+    const StereoImage both = render(scene);
+    const Eyes eyes = eyes_of(scene.viewer);
+    scene.viewer.interpupillary_m = 0.0;
+    scene.viewer.head_world.position_m = eyes.left_world;
+    const StereoImage alone = render(scene);
+    int differ = 0;
+    for (std::size_t i = 0; i < alone.left.rgba.size(); ++i)
+        if (alone.left.rgba[i] != both.left.rgba[i] && differ++ < 10)
+            printf("at %zu,%zu: %d %d\n", i / 4 % 240, i / 960, alone.left.rgba[i], both.left.rgba[i]);
+    printf("differ %d\n", differ);
+    EXPECT_TRUE(render(scene).left.rgba == both.left.rgba);
+    EXPECT_TRUE(render(scene).right.rgba == both.left.rgba);
+    scene.viewer.head_world.position_m = eyes.right_world;
+    EXPECT_TRUE(render(scene).left.rgba == both.right.rgba);
+    EXPECT_FALSE(both.left.rgba == both.right.rgba);
+}
+
+// From a few centimetres before the eyes to far behind the wall.
+TEST_F(Geometry, NothingIsClipped) {
+    Scene scene = bare_scene();
+    for (const double z : {0.53, 0.3, -2.0, -30.0}) {
+        const double radius = 0.03 * (0.6 - z);  // the same angle at every distance
+        set(0, ball_surface({0.0, 0.15, z}, radius));
+        const StereoImage pictures = render(scene);
+        const Vec3 eye = eyes_of(scene.viewer).left_world;
+        for (std::uint32_t y = 0; y < kTestSize.height; ++y) {
+            for (std::uint32_t x = 0; x < kTestSize.width; ++x) {
+                const double angle = miss(eye, pixel_centre_world(scene, x, y), {0.0, 0.15, z}, radius) / (0.6 - z);
+                if (std::abs(angle) < 0.004) continue;
+                const bool drawn = !same_colour(pictures.left.pixel(x, y), pictures.left.pixel(0, 0));
+                ASSERT_EQ(drawn, angle < 0.0) << "at " << x << ", " << y << ", z = " << z;
+            }
+        }
+    }
+}
+
+TEST_F(Geometry, RefusesAViewerBehindTheScreen) {
+    Scene scene = bare_scene();
+    scene.viewer.head_world.position_m.z = -0.5;
+    const auto refused = renderer().render(scene);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().line().find("behind"), std::string::npos) << refused.error().line();
+}
+
+TEST_F(Geometry, RefusesPicturesWithoutPixelsOrTooLarge) {
+    EXPECT_FALSE(Renderer::create(device(), {0, 100}));
+    EXPECT_FALSE(Renderer::create(device(), {100, 100000}));
+}
+
+}  // namespace burin

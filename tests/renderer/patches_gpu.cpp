@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// Patches come and go; the picture shows exactly those that are there.
+#include <map>
+#include <random>
+
+#include "tests/renderer/test_scene.hpp"
+
+namespace burin {
+
+using Patches = PictureTest;
+
+TEST_F(Patches, ARemovedPatchIsGone) {
+    const Scene scene = bare_scene();
+    const StereoImage empty = render(scene);
+    set(1, ball_surface({-0.05, 0.15, 0}, 0.03));
+    const StereoImage one = render(scene);
+    set(2, ball_surface({0.06, 0.15, 0}, 0.03));
+    const StereoImage two = render(scene);
+    EXPECT_FALSE(one.left.rgba == two.left.rgba);
+    renderer().remove_patch(2);
+    EXPECT_TRUE(render(scene).left.rgba == one.left.rgba);
+    renderer().remove_patch(1);
+    renderer().remove_patch(77);  // never there
+    EXPECT_TRUE(render(scene).left.rgba == empty.left.rgba);
+}
+
+TEST_F(Patches, SettingAnIdAgainReplacesIt) {
+    const Scene scene = bare_scene();
+    set(1, ball_surface({0, 0.15, 0}, 0.03, kGrey, 8));
+    const StereoImage wanted = render(scene);
+    set(1, ball_surface({0.1, 0.2, 0}, 0.05, kRed, 40));
+    EXPECT_FALSE(render(scene).left.rgba == wanted.left.rgba);
+    set(1, ball_surface({0.1, 0.1, 0}, 0.05, kRed, 20));  // twice before a frame: the last one counts
+    set(1, ball_surface({0, 0.15, 0}, 0.03, kGrey, 8));
+    const StereoImage again = render(scene);
+    EXPECT_TRUE(again.left.rgba == wanted.left.rgba);
+    EXPECT_EQ(again.stats.patches, 1u);
+    EXPECT_EQ(again.stats.triangles, 8u * 16u * 2u);
+}
+
+TEST_F(Patches, ClearingLeavesOnlyWhatIsSetAfterwards) {
+    const Scene scene = bare_scene();
+    const StereoImage empty = render(scene);
+    for (std::uint32_t id = 0; id < 20; ++id) set(id, ball_surface({0.01 * id - 0.1, 0.15, 0}, 0.01, kGrey, 6));
+    renderer().clear_patches();
+    EXPECT_TRUE(render(scene).left.rgba == empty.left.rgba);
+    set(3, ball_surface({0, 0.15, 0}, 0.03));
+    EXPECT_EQ(render(scene).stats.patches, 1u);
+}
+
+// Thousands of changes in random order, with growing and shrinking buffers, end in the same picture as setting the last
+// state at once.
+TEST_F(Patches, AnyHistoryWithTheSameEndGivesTheSamePicture) {
+    const Scene scene = bare_scene();
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> offset(-0.12, 0.12);
+    std::map<std::uint32_t, Surface> last;
+    for (int frame = 0; frame < 6; ++frame) {
+        for (int change = 0; change < 150; ++change) {
+            const auto id = static_cast<std::uint32_t>(random() % 200);
+            if (random() % 4 == 0) {
+                renderer().remove_patch(id);
+                last.erase(id);
+            } else {
+                const int rings = 4 + static_cast<int>(random() % 16);
+                last[id] = ball_surface({offset(random), 0.15 + offset(random), offset(random)}, 0.01, kGrey, rings);
+                set(id, last[id]);
+            }
+        }
+        static_cast<void>(render(scene));
+    }
+    const StereoImage grown = render(scene);
+    auto fresh = Renderer::create(device(), kTestSize);
+    ASSERT_TRUE(fresh);
+    for (const auto& [id, surface] : last) fresh->set_patch(id, surface.vertices, surface.indices);
+    const auto at_once = fresh->render(scene);
+    ASSERT_TRUE(at_once);
+    EXPECT_TRUE(grown.left.rgba == at_once->left.rgba);
+    EXPECT_TRUE(grown.right.rgba == at_once->right.rgba);
+    EXPECT_EQ(grown.stats.triangles, at_once->stats.triangles);
+    EXPECT_EQ(at_once->stats.patches, last.size());
+}
+
+TEST_F(Patches, AFreshSurfaceOfManyPatchesIsOneDrawAPass) {
+    for (std::uint32_t id = 0; id < 500; ++id) set(id, ball_surface({0, 0.15, 0}, 0.02, kGrey, 4));
+    EXPECT_EQ(render(bare_scene()).stats.draws, 2u);  // shadow map and views
+}
+
+TEST_F(Patches, OnlyWhatChangedIsUploaded) {
+    for (std::uint32_t id = 0; id < 100; ++id) set(id, ball_surface({0, 0.15, 0}, 0.02, kGrey, 8));
+    const std::uint64_t all = render(bare_scene()).stats.uploaded_bytes;
+    EXPECT_EQ(render(bare_scene()).stats.uploaded_bytes, 0u);
+    set(7, ball_surface({0, 0.15, 0}, 0.03, kGrey, 8));
+    EXPECT_EQ(render(bare_scene()).stats.uploaded_bytes * 100, all);
+}
+
+}  // namespace burin

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+// Do things look as they should: colour, edges, transparency, shadow?
+#include <algorithm>
+#include <set>
+
+#include "tests/renderer/test_scene.hpp"
+
+namespace burin {
+
+namespace {
+
+double linear(double srgb) {
+    const double c = srgb / 255.0;
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
+double srgb(double linear) {
+    return 255.0 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055);
+}
+
+// The pixel at which the left eye sees a point.
+std::array<std::uint32_t, 2> pixel_of(const Scene& scene, const Vec3& p) {
+    const Vec2 at = point_on_screen(scene.screen, eyes_of(scene.viewer).left_world, p);
+    return {static_cast<std::uint32_t>(at.x / scene.wall.width_m * kTestSize.width),
+            static_cast<std::uint32_t>((1.0 - at.y / scene.wall.height_m) * kTestSize.height)};
+}
+
+const std::uint8_t* seen_at(const Image& image, const Scene& scene, const Vec3& p) {
+    const auto [x, y] = pixel_of(scene, p);
+    return image.pixel(x, y);
+}
+
+int brightness(const std::uint8_t* pixel) { return pixel[0] + pixel[1] + pixel[2]; }
+
+}  // namespace
+
+using Picture = PictureTest;
+
+TEST_F(Picture, OfNothingIsTheBackgroundColour) {
+    Scene scene = bare_scene();
+    scene.background = {0.5, 0.25, 0.75};
+    const StereoImage pictures = render(scene);
+    for (const Image* image : {&pictures.left, &pictures.right}) {
+        for (std::size_t i = 0; i < image->rgba.size(); i += 4) {
+            ASSERT_NEAR(image->rgba[i], 0.50 * 255, 1.0);
+            ASSERT_NEAR(image->rgba[i + 1], 0.25 * 255, 1.0);
+            ASSERT_NEAR(image->rgba[i + 2], 0.75 * 255, 1.0);
+            ASSERT_EQ(image->rgba[i + 3], 255);
+        }
+    }
+}
+
+TEST_F(Picture, HasTheSameBitsEachTime) {
+    Scene scene = bare_scene();
+    scene.show_grid = scene.show_wall_frame = true;
+    scene.box = {{{0.05, 0.15, 0.03}, Quat{1, 0, 0, 0}}, {0.12, 0.1, 0.08}, {0.3, 0.6, 0.8}, true};
+    scene.tool = {0.012, {0.05, 0.2, 0.03}, {0.9, 0.4, 0.1}, {{0.05, 0.2, 0.03}, Quat{1, 0, 0, 0}}, true};
+    scene.pedestal = {{0, 0.05, -0.1}, 0.08, {0.7, 0.7, 0.7}, true};
+    const Surface ball = ball_surface({0, 0.15, -0.1}, 0.07);
+    set(0, ball);
+    const StereoImage first = render(scene), second = render(scene);
+    EXPECT_TRUE(first.left.rgba == second.left.rgba);
+    EXPECT_TRUE(first.right.rgba == second.right.rgba);
+    auto fresh = Renderer::create(device(), kTestSize);
+    ASSERT_TRUE(fresh);
+    fresh->set_patch(5, ball.vertices, ball.indices);
+    const auto third = fresh->render(scene);
+    ASSERT_TRUE(third);
+    EXPECT_TRUE(first.left.rgba == third->left.rgba);
+    EXPECT_TRUE(first.right.rgba == third->right.rgba);
+}
+
+// Four samples a pixel give three steps between the two sides of an edge, and light is mixed linearly: a half covered pixel
+// of black and white is sRGB 188, not 128.
+TEST_F(Picture, HasSmoothEdgesMixedInLinearLight) {
+    Scene scene = bare_scene();
+    scene.background = {0.8, 0.8, 0.8};
+    Surface slanted;
+    const Quat turn = glm::angleAxis(0.15, Vec3{0, 0, 1});
+    slanted.quad({0, 0.15, 0}, turn * Vec3{0.1, 0, 0}, turn * Vec3{0, 0.08, 0}, kBlack);
+    set(0, slanted);
+    const StereoImage pictures = render(scene);
+    const double inside = *seen_at(pictures.left, scene, {0, 0.15, 0}), outside = *pictures.left.pixel(0, 0);
+    ASSERT_GT(outside - inside, 80.0);
+    std::array<int, 3> steps{};
+    int strays = 0;
+    for (std::size_t i = 0; i < pictures.left.rgba.size(); i += 4) {
+        const double value = pictures.left.rgba[i];
+        if (value < inside + 25.0 || value > outside - 8.0) continue;  // a side, not an edge
+        bool found = false;
+        for (std::size_t step = 0; step < 3 && !found; ++step) {
+            const double covered = static_cast<double>(step + 1) / 4.0;
+            found = std::abs(value - srgb(covered * linear(inside) + (1.0 - covered) * linear(outside))) < 6.0;
+            if (found) ++steps[step];
+        }
+        strays += found ? 0 : 1;
+    }
+    for (const int count : steps) EXPECT_GT(count, 20);
+    EXPECT_LT(strays, 5);
+}
+
+TEST_F(Picture, ShowsTheToolBeforeAndNotBehindTheSurface) {
+    Scene scene = bare_scene();
+    Surface plate;
+    plate.quad({0, 0.15, 0}, {0.1, 0, 0}, {0, 0.1, 0}, kGreen);
+    set(0, plate);
+    const Vec3 left_eye = eyes_of(scene.viewer).left_world;
+    for (const double z : {0.05, -0.05}) {
+        scene.tool = {0.02, {0.0, 0.15, z}, {1.0, 0.0, 0.0}, {{0, 0.15, z}, glm::angleAxis(1.2, Vec3{1, 0, 0})}, true};
+        const StereoImage pictures = render(scene);
+        const Vec3 facing = scene.tool.center_world + 0.02 * glm::normalize(left_eye - scene.tool.center_world);
+        const std::uint8_t* pixel = seen_at(pictures.left, scene, facing);
+        EXPECT_EQ(pixel[0] > pixel[1] + 40, z > 0.0) << "red " << int{pixel[0]} << " green " << int{pixel[1]};
+    }
+}
+
+TEST_F(Picture, ShowsThroughTheWorkspaceBox) {
+    Scene scene = bare_scene();
+    scene.background = {0.5, 0.5, 0.5};
+    const Vec3 in_box{0.05, 0.15, 0.0}, beside_tool{0.02, 0.13, 0.0};
+    scene.tool = {0.012, in_box, {1.0, 0.3, 0.0}, {in_box, glm::angleAxis(-1.5, Vec3{1, 0, 0})}, true};  // shaft up
+    const StereoImage without = render(scene);
+    scene.box = {{{0.05, 0.15, 0.0}, Quat{1, 0, 0, 0}}, {0.12, 0.12, 0.06}, {0.1, 0.4, 1.0}, true};
+    const StereoImage with = render(scene);
+
+    const std::uint8_t* tinted = seen_at(with.left, scene, beside_tool);
+    const std::uint8_t* plain = seen_at(without.left, scene, beside_tool);
+    EXPECT_GT(int{tinted[2]} - int{tinted[0]}, int{plain[2]} - int{plain[0]} + 8) << "the box tints what is behind it";
+    EXPECT_GT(tinted[0], 60) << "but does not hide it";
+    const std::uint8_t* tool = seen_at(with.left, scene, in_box);
+    EXPECT_GT(int{tool[0]} - int{tool[2]}, 40) << "the tool inside stays recognisable";
+    EXPECT_FALSE(same_colour(tool, seen_at(without.left, scene, in_box), 2)) << "seen through the near face";
+    EXPECT_TRUE(same_colour(with.left.pixel(2, 2), without.left.pixel(2, 2))) << "outside nothing changes";
+}
+
+TEST_F(Picture, TheToolsShadowFallsOnTheSurfaceBelowAndJoinsItAtContact) {
+    Scene scene = bare_scene();
+    scene.viewer.head_world.position_m = {0.0, 0.45, 0.5};
+    Surface table;
+    table.quad({0, 0.02, -0.05}, {0.15, 0, 0}, {0, 0, -0.12}, kGrey);
+    set(0, table);
+    const StereoImage without = render(scene);
+    std::array<double, 2> nearest_m{};
+    for (std::size_t i = 0; i < 2; ++i) {
+        const double height_m = i == 0 ? 0.016 : 0.06;  // touching, lifted
+        const Vec3 center{0.0, 0.02 + height_m, 0.0};
+        scene.tool = {0.016, center, {0.9, 0.5, 0.1}, {center, glm::angleAxis(-1.5, Vec3{1, 0, 0})}, true};
+        const StereoImage with = render(scene);
+        int darkened = 0;
+        double nearest = 1.0;
+        for (double x = -0.12; x <= 0.12; x += 0.001) {
+            for (double z = -0.15; z <= 0.05; z += 0.001) {
+                const Vec3 p{x, 0.02, z};
+                const int before = brightness(seen_at(without.left, scene, p));
+                const int after = brightness(seen_at(with.left, scene, p));
+                if (after < before - 60) {
+                    ++darkened;
+                    nearest = std::min(nearest, glm::length(Vec2{x, z}));
+                }
+            }
+        }
+        EXPECT_GT(darkened, 100);
+        nearest_m[i] = nearest;
+    }
+    EXPECT_LT(nearest_m[0], 0.016) << "at contact the shadow begins under the tool";
+}
+
+TEST_F(Picture, StaysMidGreyInTheRoom) {
+    Scene scene;  // the wall and the room as they come
+    const StereoImage pictures = render(scene);
+    for (const Image* image : {&pictures.left, &pictures.right}) {
+        for (std::size_t i = 0; i < image->rgba.size(); i += 4) {
+            ASSERT_GT(image->rgba[i], 30) << "black leaks least but shows ghosts most";
+            ASSERT_LT(image->rgba[i], 200);
+        }
+    }
+}
+
+}  // namespace burin
