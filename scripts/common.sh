@@ -36,5 +36,5 @@ build() {
   local targets=()
   if [[ $# -gt 0 ]]; then targets=(--target "$@"); fi
   NINJA_STATUS='[%f/%t %es] ' cmake --build --preset "$preset" "${targets[@]}" </dev/null |
-    { grep -v '^ninja: no work to do' || true; }
+    { grep --line-buffered -v '^ninja: no work to do' || true; }
 }
