@@ -59,7 +59,7 @@ TEST(TriangleContact, NearestPointAgreesWithATernarySearch) {
     }));
 }
 
-TEST(TriangleContact, ASweptBallStopsExactlyWhereItTouches) {
+TEST(TriangleContact, ABallSweptFromTheFrontStopsExactlyWhereItTouches) {
     EXPECT_TRUE(rc::check([] {
         const Triangle t = any_triangle();
         const Vec3 from = any_in_cube(3), motion = any_in_cube(4);
@@ -68,20 +68,41 @@ TEST(TriangleContact, ASweptBallStopsExactlyWhereItTouches) {
             const Vec3 c = from + f * motion;
             return glm::length(c - nearest_on_triangle(c, t).point);
         };
+        const auto height = [&](double f) { return glm::dot(from + f * motion - t.a, outward_normal(t)); };
         RC_PRE(distance(0.0) > radius + 1e-6);
+        RC_PRE(height(0.0) > 0.0);
         const double f = fraction_until_touch(from, motion, radius, t);
         if (f <= 1.0) RC_ASSERT(std::abs(distance(f) - radius) < 1e-6);
-        // Not a moment too late: nothing nearer than the radius before, unless the ball comes from behind.
-        double behind_free = std::min(f, 1.0);
+        // Not a moment too late, unless the ball has gone behind the plane past the triangle: from there it cannot
+        // touch.
         for (int i = 0; i <= 200; ++i) {
-            const double g = behind_free * i / 200.0;
-            const Vec3 c = from + g * motion;
-            if (distance(g) < radius - 1e-6)
-                RC_ASSERT(glm::dot(c - nearest_on_triangle(c, t).point, outward_normal(t)) < radius * 0.999);
+            const double g = std::min(f, 1.0) * i / 200.0;
+            if (height(g) < 0.0) break;
+            RC_ASSERT(distance(g) > radius - 1e-6);
         }
-        if (f > 1.0 && glm::dot(from - t.a, outward_normal(t)) > 0 &&
-            glm::dot(from + motion - t.a, outward_normal(t)) > 0)  // in front all the way: nothing may be missed
-            for (int i = 0; i <= 200; ++i) RC_ASSERT(distance(i / 200.0) > radius - 1e-6);
+    }));
+}
+
+TEST(TriangleContact, ABallSweptAtAClosedBoxStopsExactlyWhereItTouches) {
+    // Edges and corners too, from any side: all twelve triangles together against the distance to a box in closed form.
+    const Vec3 half(0.5, 0.3, 0.7);
+    const test::Surface box = test::box(-half, half);
+    EXPECT_TRUE(rc::check([&] {
+        const Vec3 from = any_in_cube(2), motion = any_in_cube(4);
+        const double radius = any_between(0.01, 0.5);
+        const auto distance = [&](double f) {
+            return glm::length(glm::max(glm::abs(from + f * motion) - half, Vec3(0.0)));
+        };
+        RC_PRE(distance(0.0) > radius + 1e-6);
+        double f = kNoTouch;
+        for (std::uint32_t i = 0; i < box->triangle_count; ++i) {
+            const auto& v = box->triangles[i];
+            f = std::min(f, fraction_until_touch(from, motion, radius,
+                                                 {Vec3(box->positions_m[v[0]]), Vec3(box->positions_m[v[1]]),
+                                                  Vec3(box->positions_m[v[2]])}));
+        }
+        if (f <= 1.0) RC_ASSERT(std::abs(distance(f) - radius) < 1e-6);
+        for (int i = 0; i <= 200; ++i) RC_ASSERT(distance(std::min(f, 1.0) * i / 200.0) > radius - 1e-6);
     }));
 }
 

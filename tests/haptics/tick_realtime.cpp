@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// Ten thousand ticks in and out of contact, with surfaces and settings arriving and faults happening: not one
+// allocation, lock, throw or file.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <mutex>
+#include <stdexcept>
+
+#include "tests/haptics/rig.hpp"
+#include "tests/support/realtime_counters.hpp"
+
+namespace burin {
+
+TEST(RealtimeCounters, SeeWhatTheyAreMeantToSee) {  // a counter that sees nothing proves nothing
+    std::mutex mutex;
+    test::RealtimeCounts counts;
+    {
+        const test::RealtimeScope scope;
+        void* volatile plain = std::malloc(10);
+        std::free(plain);
+        delete new volatile int(3);
+        mutex.lock();
+        mutex.unlock();
+        try {
+            throw std::runtime_error("counted");
+        } catch (const std::runtime_error&) {
+        }
+        if (std::FILE* file = std::fopen("/dev/null", "r")) std::fclose(file);
+        counts = scope.counts();
+    }
+    EXPECT_GE(counts.allocations, 2u);
+    EXPECT_GE(counts.frees, 2u);
+    EXPECT_GE(counts.locks, 1u);
+    EXPECT_EQ(counts.throws, 1u);
+    EXPECT_GE(counts.files, 1u);
+}
+
+TEST(HapticLoop, TenThousandStepsAllocateLockThrowAndOpenNothing) {
+    std::vector<HandPose> script;
+    for (int i = 0; i < 50; ++i) {  // dips into the groove and out of it again, along it and across its rim
+        const double t = 0.2 * i;
+        script.push_back({t,
+                          Vec3(0.008 * std::sin(0.9 * i), i % 2 == 0 ? 0.012 : 0.001, 0.03 * std::sin(0.31 * i)),
+                          {1.0, 0.1 * (i % 3), 0.0, 0.0},
+                          static_cast<std::uint32_t>(i % 2)});
+    }
+    test::Rig rig(script);
+    const test::Surface groove = test::groove(0.005, 0.1, 24, 60, 2e-5);
+    const test::Surface deeper = test::groove(0.0055, 0.1, 24, 60, 2e-5);
+    TickParameters parameters;
+    parameters.tool_radius_m = 0.005;
+    int in_contact = 0, faulty = 0;
+    test::RealtimeCounts total;
+    for (int i = 0; i < 10'000; ++i) {
+        // Between ticks the other threads' work goes on; only step() is watched.
+        if (i % 100 == 0) rig.publish(i % 200 == 0 ? *groove : *deeper, static_cast<std::uint64_t>(i) + 1);
+        if (i % 1000 == 0) {
+            parameters.object_from_device.scale = 1.0 + 1e-4 * i;
+            rig.publish(parameters, static_cast<std::uint64_t>(i) + 1);
+        }
+        if (i % 2500 == 1200) rig.omni.inject(static_cast<InjectedFault>(1 + i / 2500));
+        if (i % 2500 == 1230) rig.omni.inject(InjectedFault::none);
+        rig.clock.sleep_until(rig.clock.now_ns() + rig.loop.period_ns());
+        const test::RealtimeScope scope;
+        const TickRecord record = rig.loop.step();
+        const test::RealtimeCounts counts = scope.counts();
+        total.allocations += counts.allocations;
+        total.frees += counts.frees;
+        total.locks += counts.locks;
+        total.throws += counts.throws;
+        total.files += counts.files;
+        in_contact += (record.flags & kTickInContact) != 0;
+        faulty += record.cause != GateCause::none;
+        EXPECT_LE(record.work.triangles_tested, ProxyBudget{}.max_triangles_tested);
+        EXPECT_LE(record.work.proxy_steps, ProxyBudget{}.max_steps);
+    }
+    EXPECT_EQ(total.allocations, 0u);
+    EXPECT_EQ(total.frees, 0u);
+    EXPECT_EQ(total.locks, 0u);
+    EXPECT_EQ(total.throws, 0u);
+    EXPECT_EQ(total.files, 0u);
+    EXPECT_GT(in_contact, 1000);
+    EXPECT_GT(faulty, 40);
+}
+
+}  // namespace burin

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include "haptics/tick.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/haptics/surfaces.hpp"
+
+namespace burin {
+namespace {
+
+constexpr double kDt = 1e-3;
+constexpr Nanoseconds kMs = 1'000'000;
+
+struct Ticker {
+    const LocalSurface* surface;
+    TickParameters parameters;
+    TickState state{};
+    Nanoseconds now_ns = 0;
+
+    TickOutput at(const Vec3& position_device, DeviceSample sample = {}) {
+        now_ns += kMs;
+        sample.time_ns = now_ns;
+        sample.position_device_m = position_device;
+        const TickOutput out = tick(state, sample, *surface, parameters, now_ns, kDt);
+        state = out.next;
+        return out;
+    }
+};
+
+TickParameters parameters_for(double radius, double stiffness = 600.0, double damping = 0.0) {
+    TickParameters p;
+    p.tool_radius_m = radius;
+    p.clearance_ratio = 0.0;
+    p.stiffness_N_per_m = stiffness;
+    p.damping_Ns_per_m = damping;
+    p.max_surface_age_s = 0.0;
+    return p;
+}
+
+Similarity tilted(double scale) {
+    return {Vec3(0.01, -0.02, 0.005) * scale, glm::normalize(Quat(0.9, 0.2, -0.3, 0.1)), scale};
+}
+
+}  // namespace
+
+TEST(Tick, FreeSpaceGivesExactlyZeroForce) {
+    const test::Surface plane = test::plane();
+    Ticker t{plane.get(), parameters_for(0.004, 600.0, 5.0)};
+    for (int i = 0; i < 500; ++i) {
+        const TickOutput out = t.at({0.02 * std::sin(0.05 * i), 0.0051 + 0.001 * std::cos(0.3 * i), 0.0});
+        EXPECT_EQ(out.force_device_N, Vec3(0.0));
+        EXPECT_EQ(out.flags & kTickInContact, 0u);
+        EXPECT_EQ(out.active_triangle, kNoTriangle);
+    }
+}
+
+TEST(Tick, ForceIsStiffnessTimesPenetrationAlongTheNormal) {
+    const test::Surface plane = test::plane();
+    Ticker t{plane.get(), parameters_for(0.004)};
+    t.at({0.001, 0.01, 0.002});
+    for (int i = 0; i < 100; ++i) {
+        const double depth = 1e-5 * i;
+        const TickOutput out = t.at({0.001, 0.004 - depth, 0.002});
+        EXPECT_NEAR(out.force_device_N.y, 600.0 * depth, 1e-6);
+        EXPECT_NEAR(glm::length(Vec3(out.force_device_N.x, 0.0, out.force_device_N.z)), 0.0, 1e-6);
+        EXPECT_NEAR(out.penetration_m, depth, 1e-9);
+    }
+}
+
+TEST(Tick, DampingActsInContactOnlyAgainstTheMotionAndNeverPulls) {
+    const test::Surface plane = test::plane();
+    Ticker t{plane.get(), parameters_for(0.004, 600.0, 2.0)};
+    t.parameters.position_noise_m = 0.0;
+    double y = 0.006;
+    for (int i = 0; i < 60; ++i) {  // down at 0.1 m/s
+        const TickOutput out = t.at({0.0, y -= 1e-4, 0.0});
+        const double depth = 0.004 - y;
+        if (depth > 1e-9) {
+            EXPECT_NEAR(out.force_device_N.y, 600.0 * depth + 2.0 * 0.1, 1e-5);
+        } else {
+            EXPECT_EQ(out.force_device_N, Vec3(0.0));
+        }
+    }
+    for (int i = 0; i < 60; ++i) {  // and up at 1 m/s: damping would outweigh the spring
+        const TickOutput out = t.at({0.0, y += 1e-3, 0.0});
+        EXPECT_GE(out.force_device_N.y, 0.0);
+        if (i > 2 && 600.0 * (0.004 - y) < 2.0) {
+            EXPECT_EQ(out.force_device_N.y, 0.0);
+        }
+    }
+}
+
+TEST(Tick, SlidingWithoutFrictionFeelsNoTangentialForce) {
+    const test::Surface plane = test::plane(0.05, 30);
+    Ticker t{plane.get(), parameters_for(0.004, 600.0, 5.0)};
+    t.at({-0.02, 0.01, 0.0});
+    for (int i = 0; i < 400; ++i) {
+        const TickOutput out = t.at({-0.02 + 1e-4 * i, 0.003, 3e-5 * i});
+        EXPECT_LT(std::hypot(out.force_device_N.x, out.force_device_N.z), 2e-3 * out.force_device_N.y) << i;
+    }
+}
+
+TEST(Tick, PositionGainScalesMotionUpAndLeavesTheStiffnessFeltAsSet) {
+    for (const double scale : {0.1, 1.0, 25.0}) {
+        const test::Surface plane = test::plane(0.05 * scale, 10);
+        Ticker t{plane.get(), parameters_for(0.004 * scale)};
+        t.parameters.object_from_device = tilted(scale);
+        const Similarity device_from_object = inverse(t.parameters.object_from_device);
+        t.at(device_from_object * (Vec3(0.0, 0.01, 0.0) * scale));
+        const TickOutput out = t.at(device_from_object * (Vec3(0.0, 0.003, 0.0) * scale));
+        // 1 mm deep at the device, whatever the scale; up in the object, turned back into the device frame.
+        const Vec3 up_device = glm::conjugate(t.parameters.object_from_device.orientation) * Vec3(0, 1, 0);
+        EXPECT_LT(glm::length(out.force_device_N - 0.6 * up_device), 1e-5) << scale;
+        EXPECT_NEAR(out.penetration_m, 0.001 * scale, 1e-7 * scale);
+    }
+}
+
+TEST(Tick, ANewMappingPutsTheProxyBackInsteadOfDraggingIt) {
+    const test::Surface plane = test::plane();
+    Ticker t{plane.get(), parameters_for(0.004)};
+    t.at({0.0, 0.01, 0.0});
+    EXPECT_NE(t.at({0.0, 0.001, 0.0}).flags & kTickInContact, 0u);
+    t.parameters.object_from_device.position_m = {0.0, 0.05, 0.0};  // the workspace jumps away
+    const TickOutput out = t.at({0.0, 0.001, 0.0});
+    EXPECT_NE(out.flags & kTickProxyReset, 0u);
+    EXPECT_EQ(out.force_device_N, Vec3(0.0));
+}
+
+TEST(Tick, SwitchedOffItTouchesNothing) {
+    const test::Surface plane = test::plane();
+    Ticker t{plane.get(), parameters_for(0.004)};
+    t.parameters.enabled = false;
+    t.at({0.0, 0.01, 0.0});
+    const TickOutput out = t.at({0.0, -0.01, 0.0});
+    EXPECT_EQ(out.force_device_N, Vec3(0.0));
+    EXPECT_EQ(out.next.proxy.position_object_m, out.hip_object_m);
+}
+
+TEST(Tick, SaysWhenThereIsNoSurfaceOrItIsOldOrTheToolLeavesIt) {
+    test::Surface plane = test::plane();
+    Ticker t{plane.get(), parameters_for(0.004)};
+    plane->sequence = 0;
+    EXPECT_NE(t.at({0.0, 0.01, 0.0}).flags & kTickNoSurface, 0u);
+    plane->sequence = 1;
+    plane->radius_m = 0.02;
+    EXPECT_EQ(t.at({0.0, 0.01, 0.0}).flags & kTickOutsideKnown, 0u);
+    EXPECT_NE(t.at({0.0, 0.0161, 0.0}).flags & kTickOutsideKnown, 0u);  // the ball sticks out by 0.1 mm
+    t.parameters.max_surface_age_s = 0.1;
+    t.at({0.0, 0.01, 0.0});
+    plane->made_ns = t.now_ns;
+    EXPECT_EQ(t.at({0.0, 0.003, 0.0}).flags & kTickStaleSurface, 0u);
+    t.now_ns += 101 * kMs;
+    EXPECT_NE(t.at({0.0, 0.003, 0.0}).flags & kTickStaleSurface, 0u);
+    EXPECT_EQ(t.at({0.0, 0.01, 0.0}).flags & kTickStaleSurface, 0u);  // free: its age does not matter
+}
+
+TEST(Tick, NonsenseInGivesZeroForceAndAFreshStart) {
+    const test::Surface plane = test::plane();
+    const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+    for (const Vec3& bad : {Vec3(nan, 0, 0), Vec3(0, inf, 0), Vec3(0, 0, -inf)}) {
+        Ticker t{plane.get(), parameters_for(0.004)};
+        t.at({0.0, 0.01, 0.0});
+        t.at({0.0, 0.001, 0.0});
+        const TickOutput out = t.at(bad);
+        EXPECT_FALSE(out.sample_finite);
+        EXPECT_EQ(out.force_device_N, Vec3(0.0));
+        const TickOutput next = t.at({0.0, 0.02, 0.0});
+        EXPECT_TRUE(next.sample_finite);
+        EXPECT_EQ(next.next.proxy.position_object_m, Vec3(0.0, 0.02, 0.0));
+    }
+    Ticker t{plane.get(), parameters_for(0.004)};
+    EXPECT_FALSE(t.at(Vec3(0.0), {.orientation_device = Quat(0, 0, 0, 0)}).sample_finite);
+    const auto refused = [&](auto&& spoil) {
+        Ticker bad{plane.get(), parameters_for(0.004)};
+        spoil(bad.parameters);
+        const TickOutput out = bad.at({0.0, 0.001, 0.0});
+        return !out.parameters_sensible && out.force_device_N == Vec3(0.0);
+    };
+    EXPECT_TRUE(refused([&](TickParameters& p) { p.stiffness_N_per_m = -1.0; }));
+    EXPECT_TRUE(refused([&](TickParameters& p) { p.stiffness_N_per_m = nan; }));
+    EXPECT_TRUE(refused([&](TickParameters& p) { p.damping_Ns_per_m = inf; }));
+    EXPECT_TRUE(refused([&](TickParameters& p) { p.tool_radius_m = nan; }));
+    EXPECT_TRUE(refused([&](TickParameters& p) { p.clearance_ratio = 1.0; }));
+    EXPECT_TRUE(refused([&](TickParameters& p) { p.object_from_device.scale = 0.0; }));
+    EXPECT_TRUE(refused([&](TickParameters& p) { p.object_from_device.orientation = Quat(2, 0, 0, 0); }));
+    EXPECT_TRUE(refused([&](TickParameters& p) { p.object_from_device.position_m.z = nan; }));
+}
+
+TEST(Tick, AGapInTheSamplesDoesNotLookLikeSpeed) {
+    const test::Surface plane = test::plane();
+    Ticker t{plane.get(), parameters_for(0.004)};
+    for (int i = 0; i < 20; ++i) t.at({1e-4 * i, 0.01, 0.0});
+    t.now_ns += 30 * kMs;  // thirty ticks lost while the hand went on
+    EXPECT_LT(glm::length(t.at({50e-4, 0.01, 0.0}).velocity_device_m_per_s), 1e-12);
+    EXPECT_NEAR(t.at({51e-4, 0.01, 0.0}).velocity_device_m_per_s.x, 0.1, 1e-9);
+}
+
+TEST(Tick, ThePointProbeFeelsAPlaneWithinItsSkin) {
+    const test::Surface plane = test::plane(0.05, 50);  // 2 mm squares
+    Ticker t{plane.get(), parameters_for(0.0)};
+    t.at({0.0, 0.01, 0.0});
+    const TickOutput out = t.at({0.0003, -0.001, 0.0001});
+    EXPECT_NEAR(out.force_device_N.y, 0.6, 600.0 * 0.0028 / 500);
+}
+
+}  // namespace burin
