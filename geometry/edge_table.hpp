@@ -32,7 +32,7 @@ struct EdgeUse {
     bool upwards = false;     // from the lower vertex to the higher
 };
 
-// 3 uses a triangle; n log n.
+// 3 uses a triangle. Nearly linear; n log n where most edges share one vertex.
 [[nodiscard]] std::vector<EdgeUse> edge_uses(std::span<const VertexTriple> triangles);
 
 // Calls f(std::span<const EdgeUse>) for each edge.

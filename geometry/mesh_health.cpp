@@ -46,12 +46,30 @@ void measure(const TriangleMesh& mesh, MeshHealth& health) {
     }
 }
 
-std::size_t duplicates(const TriangleMesh& mesh) {
-    std::vector<VertexTriple> sorted(mesh.triangles);
-    for (VertexTriple& t : sorted) std::ranges::sort(t);
-    std::ranges::sort(sorted);
+// Equal triangles share their first edge, so it is enough to compare the uses of one edge with each other. Triangles that
+// name a vertex twice have no edges and are compared apart.
+std::size_t duplicates(const TriangleMesh& mesh, std::span<const EdgeUse> uses) {
     std::size_t count = 0;
-    for (std::size_t i = 1; i < sorted.size(); ++i) count += sorted[i] == sorted[i - 1] ? 1 : 0;
+    std::vector<std::uint32_t> opposite;
+    for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
+        if (edge.size() < 2) return;
+        opposite.clear();
+        for (const EdgeUse& use : edge) {
+            const std::uint32_t v = mesh.triangles[use.triangle][(use.corner + 2u) % 3u];
+            // Each triangle has three edges; it is counted at the one between its two lower vertices.
+            if (v > higher_vertex(use.key)) opposite.push_back(v);
+        }
+        std::ranges::sort(opposite);
+        for (std::size_t i = 1; i < opposite.size(); ++i) count += opposite[i] == opposite[i - 1] ? 1 : 0;
+    });
+    std::vector<VertexTriple> edgeless;
+    for (VertexTriple t : mesh.triangles) {
+        if (!names_a_vertex_twice(t)) continue;
+        std::ranges::sort(t);
+        edgeless.push_back(t);
+    }
+    std::ranges::sort(edgeless);
+    for (std::size_t i = 1; i < edgeless.size(); ++i) count += edgeless[i] == edgeless[i - 1] ? 1 : 0;
     return count;
 }
 
@@ -116,8 +134,8 @@ MeshHealth examine(const TriangleMesh& mesh) {
     health.triangles = mesh.triangles.size();
     count_vertices(mesh, health);
     measure(mesh, health);
-    health.duplicate_triangles = duplicates(mesh);
     const std::vector<EdgeUse> uses = edge_uses(mesh.triangles);
+    health.duplicate_triangles = duplicates(mesh, uses);
     examine_edges(uses, health);
     count_shells(mesh, uses, health);
     health.nonmanifold_vertices = nonmanifold_vertices(mesh, uses);

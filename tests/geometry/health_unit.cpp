@@ -116,6 +116,16 @@ TEST(MeshHealth, CountsDegenerateAndDuplicateTrianglesAndUnusedVertices) {
     EXPECT_EQ(health.bounds_m.hi, Vec3(1.0));
 }
 
+TEST(MeshHealth, CountsEachRepetitionOfATriangleOnce) {
+    TriangleMesh mesh = tetrahedron();
+    for (const std::array<std::uint32_t, 3> t :
+         {std::array<std::uint32_t, 3>{3, 1, 2}, {2, 1, 3}, {1, 0, 2}, {1, 1, 0}, {1, 0, 1}}) {
+        mesh.triangles.push_back(t);
+    }
+    EXPECT_EQ(examine(mesh).duplicate_triangles, 4u);  // twice 1 2 3, once 0 1 2, once 0 1 1
+    EXPECT_EQ(examine(mesh).nonmanifold_edges, 5u);    // all but 0 3
+}
+
 TEST(MeshHealth, OfAnEmptyMeshIsNotSound) {
     const MeshHealth health = examine({});
     EXPECT_FALSE(health.closed);
