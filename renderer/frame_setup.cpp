@@ -127,7 +127,9 @@ void add_tool(Shapes& shapes, const SceneTool& tool, const Primitives& primitive
 
 }  // namespace
 
-Vec3 linear_of(const Vec3& srgb) { return {linear_component(srgb.x), linear_component(srgb.y), linear_component(srgb.z)}; }
+Vec3 linear_of(const Vec3& srgb) {
+    return {linear_component(srgb.x), linear_component(srgb.y), linear_component(srgb.z)};
+}
 
 Mat4 world_from_patch(const Scene& scene) {
     return matrix(scene.world_from_object) * glm::translate(Mat4(1.0), scene.lattice_origin_object);

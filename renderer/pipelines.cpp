@@ -51,7 +51,8 @@ gpu::GraphicsPipelineSpec spec_of(PipelineKind kind) {
         case PipelineKind::backdrop:
             spec.name = "backdrop pipeline";
             spec.vertex_spirv = k_backdrop_vert;
-            spec.attributes = std::span(kAttributes).first(2);
+            spec.attributes = std::span(kAttributes).first(1);
+            spec.depth_write = false;
             spec.fragment_spirv = k_backdrop_frag;
             break;
         case PipelineKind::glass_back:

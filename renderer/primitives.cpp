@@ -103,7 +103,10 @@ PrimitiveRange stylus(Builder& b) {
 
 PrimitiveRange plinth(Builder& b) {
     constexpr double kRound = 0.03, kRoundHeight = 0.012;  // of the radius; of the height
-    std::vector<ProfilePoint> profile{{1.0, -1.0, 1.0, 0.0}, {1.0, -kRoundHeight, 1.0, 0.0}};
+    std::vector<ProfilePoint> profile;
+    // In rows: the picture's edge may cut the side, and small triangles keep the harm of a clipped one small.
+    constexpr int kRows = 24;
+    for (int i = 0; i <= kRows; ++i) profile.push_back({1.0, -1.0 + (1.0 - kRoundHeight) * i / kRows, 1.0, 0.0});
     for (int i = 1; i <= 8; ++i) {
         const double a = 0.5 * kPi * i / 8;
         profile.push_back(
@@ -113,30 +116,12 @@ PrimitiveRange plinth(Builder& b) {
     return turned(b, profile, 128, false);
 }
 
-// A photographer's cove: floor, quarter circle, wall; so wide that its edges are seen from nowhere. In columns, as long
-// thin triangles are interpolated with less than millimetre precision.
-PrimitiveRange backdrop(Builder& b) {
+PrimitiveRange screen_quad(Builder& b) {
     const std::uint32_t first = b.here();
-    constexpr double kHalfWidth_m = 32.0, kFront_m = 8.0, kBend_m = -2.4, kRadius_m = 1.6, kTop_m = 24.0;
-    constexpr int kArc = 24, kColumns = 32;
-    std::vector<std::pair<Vec3, Vec3>> line{{{0, 0, kFront_m}, {0, 1, 0}}};
-    for (int i = 0; i <= kArc; ++i) {
-        const double a = 0.5 * kPi * i / kArc, s = std::sin(a), c = std::cos(a);
-        line.push_back({{0, kRadius_m * (1.0 - c), kBend_m - kRadius_m * s}, {0, c, s}});
-    }
-    line.push_back({{0, kTop_m, kBend_m - kRadius_m}, {0, 0, 1}});
-    std::vector<std::uint32_t> previous, current;
-    for (const auto& [position, normal] : line) {
-        current.clear();
-        for (int i = 0; i <= kColumns; ++i) {
-            const double x = kHalfWidth_m * (2.0 * i / kColumns - 1.0);
-            current.push_back(b.vertex(position + Vec3{x, 0, 0}, normal));
-        }
-        for (std::size_t i = 0; !previous.empty() && i + 1 < current.size(); ++i) {
-            b.quad(previous[i], previous[i + 1], current[i + 1], current[i]);
-        }
-        previous = current;
-    }
+    const Vec3 n{0, 0, 1};
+    const std::uint32_t a = b.vertex({-1, -1, 0}, n), c = b.vertex({1, -1, 0}, n);
+    const std::uint32_t d = b.vertex({1, 1, 0}, n), e = b.vertex({-1, 1, 0}, n);
+    b.quad(a, c, d, e);
     return b.since(first);
 }
 
@@ -145,13 +130,13 @@ PrimitiveRange backdrop(Builder& b) {
 Primitives make_primitives() {
     Builder b;
     const PrimitiveRange ball_range = ball(b), cube_range = cube(b), stylus_range = stylus(b), plinth_range = plinth(b),
-                         backdrop_range = backdrop(b);
+                         screen_range = screen_quad(b);
     Primitives out = b.take();
     out.ball = ball_range;
     out.cube = cube_range;
     out.stylus = stylus_range;
     out.plinth = plinth_range;
-    out.backdrop = backdrop_range;
+    out.screen_quad = screen_range;
     return out;
 }
 

@@ -18,11 +18,11 @@ struct PrimitiveRange {
 struct Primitives {
     std::vector<shared::SurfaceVertex> vertices;
     std::vector<std::uint32_t> indices;
-    PrimitiveRange ball;      // radius 1 around the origin
-    PrimitiveRange cube;      // -0.5 to 0.5
-    PrimitiveRange stylus;    // along +Z from 0 to 1, radius at most 1, thin at z = 0
-    PrimitiveRange plinth;    // along +Y from -1 to 0, radius 1, its upper edge rounded for a height of 2 to 3 radii
-    PrimitiveRange backdrop;  // the room, in world coordinates: the floor y = 0 that rises behind the wall
+    PrimitiveRange ball;         // radius 1 around the origin
+    PrimitiveRange cube;         // -0.5 to 0.5
+    PrimitiveRange stylus;       // along +Z from 0 to 1, radius at most 1, thin at z = 0
+    PrimitiveRange plinth;       // along +Y from -1 to 0, radius 1, its upper edge rounded for a height of 2 to 3 radii
+    PrimitiveRange screen_quad;  // -1 to 1 in x and y, z = 0
 };
 
 [[nodiscard]] Primitives make_primitives();

@@ -21,6 +21,17 @@ constexpr std::uint32_t kMaxSide = 8192;
 
 std::uint64_t layer_bytes(ImageSize size) { return std::uint64_t{4} * size.width * size.height; }
 
+// For the room: world_from_local takes the picture's corners, -1 to 1, to the screen's.
+shared::DrawConstants screen_constants(const Screen& screen) {
+    const Vec3 half_x = 0.5 * (screen.lower_right_world - screen.lower_left_world);
+    const Vec3 half_y = 0.5 * (screen.upper_left_world - screen.lower_left_world);
+    shared::DrawConstants c{};
+    c.world_from_local[0] = glm::vec4(glm::vec3(half_x), 0.0f);
+    c.world_from_local[1] = glm::vec4(glm::vec3(half_y), 0.0f);
+    c.world_from_local[3] = glm::vec4(glm::vec3(screen.lower_left_world + half_x + half_y), 1.0f);
+    return c;
+}
+
 VkViewport viewport_of(ImageSize size) {
     return {0.0f, 0.0f, static_cast<float>(size.width), static_cast<float>(size.height), 0.0f, 1.0f};
 }
@@ -190,10 +201,7 @@ Result<void> Renderer::Implementation::draw_views(Recording& r) {
     bind(r, primitive_vertices_, primitive_indices_);
     if (r.scene.show_grid) {
         if (const auto done = use(r, PipelineKind::backdrop); !done) return done;
-        shared::DrawConstants in_world{};
-        in_world.world_from_local = glm::mat4(1.0f);
-        in_world.tint = glm::vec4(1.0f);
-        draw(r, primitives_.backdrop, in_world);
+        draw(r, primitives_.screen_quad, screen_constants(r.scene.screen));
     }
     for (const PipelineKind faces : {PipelineKind::glass_back, PipelineKind::glass_front}) {
         if (r.shapes.glass.empty()) break;

@@ -6,8 +6,7 @@
 // The room: a floor that rises softly into a backdrop, graded around mid-grey, with a fine grid and with the shadows of the
 // workpiece and the plinth. These fall from far above, so closed forms of a ball and a cylinder serve better than a map.
 
-layout(location = 0) in vec3 in_world;
-layout(location = 1) in vec3 in_normal;
+layout(location = 0) in vec3 in_screen;
 
 layout(location = 0) out vec4 out_colour;
 
@@ -45,20 +44,42 @@ float pedestal_shadow(vec3 world) {
     return 1.0 - smoothstep(frame.pedestal.w - soft, frame.pedestal.w + soft, away);
 }
 
+// The room's shape in y and z: the floor y = 0 from the front to kBend_m, a quarter circle, and the wall behind.
+const float kBend_m = -2.4, kRadius_m = 1.6;
+
+// Where the line of sight ends, and how far the room rises there: 1 on the floor, 0 on the wall.
+vec3 place_in_room(vec3 eye, vec3 d, out float level) {
+    level = 1.0;
+    float to_floor = d.y < 0.0 ? -eye.y / d.y : 1e9;
+    if (d.y < 0.0 && eye.z + to_floor * d.z >= kBend_m) return eye + to_floor * d;
+    level = 0.0;
+    if (d.z >= -1e-4) return eye + d * (30.0 / length(d));  // past the side of the wall: as far away
+    float to_wall = (kBend_m - kRadius_m - eye.z) / d.z;
+    if (eye.y + to_wall * d.y >= kRadius_m) return eye + to_wall * d;
+    // The far side of the circle around (kRadius_m, kBend_m) in (y, z).
+    vec2 from = eye.yz - vec2(kRadius_m, kBend_m);
+    float a = dot(d.yz, d.yz), b = dot(from, d.yz), c = dot(from, from) - kRadius_m * kRadius_m;
+    vec3 p = eye + d * ((-b + sqrt(max(b * b - a * c, 0.0))) / a);
+    level = clamp((kRadius_m - p.y) / kRadius_m, 0.0, 1.0);
+    return p;
+}
+
 void main() {
-    vec3 n = normalize(in_normal);
+    vec3 eye = frame.eye_world[gl_ViewIndex].xyz;
+    float level;
+    vec3 world = place_in_room(eye, in_screen - eye, level);
     // Brightest around the work, falling off to the sides: the eye is led to the middle without any edge.
-    float away = length((in_world - vec3(0.0, 0.9, -2.2)) * vec3(0.75, 1.0, 0.55));
+    float away = length((world - vec3(0.0, 0.9, -2.2)) * vec3(0.75, 1.0, 0.55));
     vec3 c = frame.background.rgb * mix(1.25, 0.60, smoothstep(0.2, 4.2, away));
 
-    float floor_part = smoothstep(0.975, 1.0, n.y);  // the grid fades where the floor begins to rise
-    float lines = 0.16 * grid(in_world.xz, 1.0, 0.010) + 0.10 * grid(in_world.xz, 0.25, 0.005);
+    float floor_part = smoothstep(0.975, 1.0, level);  // the grid fades where the floor begins to rise
+    float lines = 0.16 * grid(world.xz, 1.0, 0.010) + 0.10 * grid(world.xz, 0.25, 0.005);
     c *= 1.0 - floor_part * min(lines, 0.2);
 
-    float dark = 1.0 - (1.0 - 0.55 * ball_shadow(in_world, frame.workpiece)) * (1.0 - 0.62 * pedestal_shadow(in_world));
-    c *= 1.0 - dark * max(n.y, 0.25);
+    float dark = 1.0 - (1.0 - 0.55 * ball_shadow(world, frame.workpiece)) * (1.0 - 0.62 * pedestal_shadow(world));
+    c *= 1.0 - dark * max(level, 0.25);
     if (frame.pedestal.w > 0.0) {  // ambient light kept off by the foot of the plinth
-        float from_foot = max(length(in_world.xz - frame.pedestal.xz) - frame.pedestal.w, 0.0) + in_world.y;
+        float from_foot = max(length(world.xz - frame.pedestal.xz) - frame.pedestal.w, 0.0) + world.y;
         c *= 1.0 - 0.35 * exp(-from_foot / 0.09);
     }
     out_colour = vec4(dithered(c), 1.0);

@@ -1,6 +1,15 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The room.
 #include "shaders/frame.glsl"
-#include "shaders/vertex_stage.glsl"
+// The room fills the picture from behind, so one quad at the greatest depth will do; each pixel finds its own place in the
+// room. A mesh of the room would be cut by the picture's edges, and Mesa 22.3's software driver gives cut triangles wrong
+// attributes in every view but the first.
+
+layout(location = 0) in vec3 in_position;
+layout(location = 0) out vec3 out_screen;  // the point on the screen, world frame
+
+void main() {
+    out_screen = (draw.world_from_local * vec4(in_position, 1.0)).xyz;
+    gl_Position = vec4(in_position.x, -in_position.y, 1.0, 1.0);
+}

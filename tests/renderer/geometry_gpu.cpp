@@ -104,12 +104,6 @@ TEST_F(Geometry, TwoViewsInOnePassEqualViewsDrawnAlone) {
     const Eyes eyes = eyes_of(scene.viewer);
     scene.viewer.interpupillary_m = 0.0;
     scene.viewer.head_world.position_m = eyes.left_world;
-    const StereoImage alone = render(scene);
-    int differ = 0;
-    for (std::size_t i = 0; i < alone.left.rgba.size(); ++i)
-        if (alone.left.rgba[i] != both.left.rgba[i] && differ++ < 10)
-            printf("at %zu,%zu: %d %d\n", i / 4 % 240, i / 960, alone.left.rgba[i], both.left.rgba[i]);
-    printf("differ %d\n", differ);
     EXPECT_TRUE(render(scene).left.rgba == both.left.rgba);
     EXPECT_TRUE(render(scene).right.rgba == both.left.rgba);
     scene.viewer.head_world.position_m = eyes.right_world;

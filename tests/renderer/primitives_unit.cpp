@@ -44,7 +44,7 @@ TEST(Primitives, HaveTheVolumesOfTheirShapes) {
 
 TEST(Primitives, HaveNormalsOnTheSideThatTheTrianglesFace) {
     const Primitives p = make_primitives();
-    for (const PrimitiveRange& range : {p.ball, p.cube, p.stylus, p.plinth, p.backdrop}) {
+    for (const PrimitiveRange& range : {p.ball, p.cube, p.stylus, p.plinth, p.screen_quad}) {
         ASSERT_GT(range.index_count, 0u);
         for (std::uint32_t i = range.first_index; i < range.first_index + range.index_count; i += 3) {
             const Vec3 a = position(p, i);
