@@ -15,15 +15,16 @@ namespace {
 std::atomic<std::uint64_t> g_bytes_asked{0};
 }
 
-void* operator new(std::size_t size) {
+// Not inlined: otherwise the compiler sees malloc here and operator delete elsewhere, and takes it for a mismatch.
+[[gnu::noinline]] void* operator new(std::size_t size) {
     g_bytes_asked.fetch_add(size, std::memory_order_relaxed);
     if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
     throw std::bad_alloc();
 }
 void* operator new[](std::size_t size) { return ::operator new(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace burin::test {
