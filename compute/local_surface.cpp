@@ -34,8 +34,8 @@ TileRange tiles_around(const Surface& surface, const Vec3& center, double radius
     return range;
 }
 
-// Adds what fits of one tile; returns how many triangles within the ball did not.
-std::uint32_t add_tile(const TileMesh& tile, const Vec3f& center, float radius_m, const Vec3f& shift, LocalSurface& out,
+// Adds what fits of one tile, relative to `center` (in double: a float centre would shift the whole piece); returns how many triangles within the ball did not.
+std::uint32_t add_tile(const TileMesh& tile, const Vec3& center, float radius_m, LocalSurface& out,
                        std::vector<std::uint32_t>& index_of_vertex) {
     constexpr std::uint32_t kNone = 0xffffffff;
     std::uint32_t left_out = 0;
@@ -45,7 +45,7 @@ std::uint32_t add_tile(const TileMesh& tile, const Vec3f& center, float radius_m
     };
     for (std::size_t i = 0; i < tile.indices.size(); i += 3) {
         const std::uint32_t* corner = &tile.indices[i];
-        if (distance2_to_box(center, position(corner[0]), position(corner[1]), position(corner[2])) >
+        if (distance2_to_box(Vec3f(center), position(corner[0]), position(corner[1]), position(corner[2])) >
             radius_m * radius_m) {
             continue;
         }
@@ -58,7 +58,7 @@ std::uint32_t add_tile(const TileMesh& tile, const Vec3f& center, float radius_m
             std::uint32_t& index = index_of_vertex[corner[k]];
             if (index == kNone) {
                 index = out.vertex_count;
-                out.positions_m[out.vertex_count++] = position(corner[k]) - shift;
+                out.positions_m[out.vertex_count++] = Vec3f(Vec3(position(corner[k])) - center);
             }
             triangle[k] = index;
         }
@@ -71,20 +71,19 @@ std::uint32_t add_tile(const TileMesh& tile, const Vec3f& center, float radius_m
 void gather_local_surface(const Surface& surface, const Vec3& center_object, double radius_m, LocalSurface& out) {
     thread_local std::vector<std::uint32_t> index_of_vertex;
     const Vec3 center = center_object - surface.lattice().origin_object;
-    const Vec3f shift(center);  // the origin of what is handed out, to the bit: positions then lose nothing more
-    std::uint32_t within = 0;   // triangles in the ball that was asked for
+    std::uint32_t within = 0;  // triangles in the ball that was asked for
     for (double radius = radius_m;; radius *= 0.7) {
         out.vertex_count = out.triangle_count = 0;
         out.center_object = center_object;
-        out.origin_object = surface.lattice().origin_object + Vec3(shift);
+        out.origin_object = center_object;
         out.radius_m = radius;
         const TileRange range = tiles_around(surface, center, radius);
         std::uint32_t left_out = 0;
         for (int z = range.from[2]; z <= range.to[2]; ++z)
             for (int y = range.from[1]; y <= range.to[1]; ++y)
                 for (int x = range.from[0]; x <= range.to[0]; ++x) {
-                    left_out += add_tile(surface.tile(surface.grid().index(x, y, z)), shift, static_cast<float>(radius),
-                                         shift, out, index_of_vertex);
+                    left_out += add_tile(surface.tile(surface.grid().index(x, y, z)), center,
+                                         static_cast<float>(radius), out, index_of_vertex);
                 }
         if (within == 0) within = out.triangle_count + left_out;
         out.dropped_triangles = within - out.triangle_count;
