@@ -92,7 +92,7 @@ Result<CutStats> VulkanEngine::cut(std::span<const BallSweep> sweeps) {
 }
 
 Result<void> VulkanEngine::synchronize() {
-    if (const auto sent = device_solid_.upload(device_, solid_, options_.spare_ends); !sent) return sent;
+    if (const auto sent = device_solid_.upload(device_, solid_, {0, options_.spare_ends}); !sent) return sent;
     used_ = device_solid_.packed_size();
     longest_ = device_solid_.longest_ray();
     synchronized_ = true;
@@ -216,8 +216,9 @@ Result<void> VulkanEngine::make_room_for(const CutCounters& counters) {
     }
     if (counters.room_wanted == 0) return {};
     ++counts_.store_rebuilds;
-    // Twice what was asked for: rays that got theirs may ask again.
-    const std::size_t spare = std::max<std::size_t>(used_ / 4, 2 * std::size_t{counters.room_wanted} + 4096);
+    // More than was asked for: rays that got theirs may ask again. With less, fewer rays get on in each pass.
+    const std::size_t asked = counters.room_wanted;
+    const DeviceSolid::Spare spare{asked, std::max<std::size_t>(used_ / 4, 2 * asked + 4096)};
     if (const auto made = device_solid_.make_space(device_, spare); !made) return made;
     used_ = device_solid_.packed_size();
     longest_ = device_solid_.longest_ray();

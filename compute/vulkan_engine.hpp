@@ -9,7 +9,7 @@
 // The host's solid changes only when all passes are done: an Error leaves it as it was, and the next cut sends it to the
 // device anew. Tiles are marked once for a ray, between the lowest and the highest depth that changed.
 // Cost on the device: one invocation a ray. Memory: vulkan_engine_memory.hpp; each buffer within the device's limit, with
-// the drivers' smallest in use, 128 MiB, up to a resolution of about 1500 for a solid with one interval a ray.
+// the drivers' smallest in use, 128 MiB, up to a resolution of about 1600 for a solid with one interval a ray.
 // Thread: one, as gpu::Device.
 #pragma once
 

@@ -78,25 +78,25 @@ void SharedBuffer::fetch(gpu::Commands& commands, std::uint64_t size_bytes) cons
     if (!mapped()) commands.copy(device_side_, 0, readback_, 0, size_bytes);
 }
 
-Result<void> DeviceSolid::upload(gpu::Device& device, const Solid& solid, std::size_t spare_ends) {
+Result<void> DeviceSolid::upload(gpu::Device& device, const Solid& solid, Spare spare) {
     std::array<Part, 3> parts;
     for (std::size_t a = 0; a < 3; ++a) parts[a] = {solid.sets[a].rays(), solid.sets[a].store()};
     first_ray_ = {0, static_cast<std::uint32_t>(parts[0].rays.size()),
                   static_cast<std::uint32_t>(parts[0].rays.size() + parts[1].rays.size())};
     resolution_ = *std::ranges::max_element(solid.lattice.cells) - 2;  // the empty cell on either side
-    return pack(device, parts, spare_ends);
+    return pack(device, parts, spare);
 }
 
-Result<void> DeviceSolid::make_space(gpu::Device& device, std::size_t spare_ends) {
+Result<void> DeviceSolid::make_space(gpu::Device& device, Spare spare) {
     const auto rays = fetch_all<RayRef>(device, rays_);
     if (!rays) return std::unexpected(rays.error());
     const auto store = fetch_all<DexelEnd>(device, store_);
     if (!store) return std::unexpected(store.error());
     const std::array<Part, 1> whole{Part{*rays, *store}};
-    return pack(device, whole, spare_ends);
+    return pack(device, whole, spare);
 }
 
-Result<void> DeviceSolid::pack(gpu::Device& device, std::span<const Part> parts, std::size_t spare_ends) {
+Result<void> DeviceSolid::pack(gpu::Device& device, std::span<const Part> parts, Spare spare) {
     std::size_t ray_count = 0, room = 0;
     std::uint32_t longest = 0;
     for (const Part& part : parts) {
@@ -109,8 +109,8 @@ Result<void> DeviceSolid::pack(gpu::Device& device, std::span<const Part> parts,
     }
     const std::size_t limit = static_cast<std::size_t>(
         std::min<std::uint64_t>(device.capabilities().max_storage_buffer_bytes / sizeof(DexelEnd), 1u << 30));
-    const std::size_t size = std::max<std::size_t>(room + spare_ends, 1);
-    if (size > limit) return too_large(device, size, resolution_);
+    if (room + spare.least > limit) return too_large(device, room + spare.least, resolution_);
+    const std::size_t size = std::max<std::size_t>(std::min(room + std::max(spare.least, spare.wished), limit), 1);
 
     std::vector<RayRef> rays;
     rays.reserve(ray_count);

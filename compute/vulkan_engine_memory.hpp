@@ -50,11 +50,14 @@ private:
 // counter serve all. Laid out as DexelSet, with places of its own.
 class DeviceSolid {
 public:
-    // Packs the solid into new buffers with at least spare_ends behind the last ray's. Fails when the device has no buffer
-    // that large; what was held before then stays.
-    [[nodiscard]] Result<void> upload(gpu::Device& device, const Solid& solid, std::size_t spare_ends);
+    struct Spare {
+        std::size_t least, wished;  // ends; as many as wished where the device's largest buffer allows it
+    };
+    // Packs the solid into new buffers, with spare ends behind the last ray's. Fails when the device has no buffer that holds
+    // the least of them; what was held before then stays.
+    [[nodiscard]] Result<void> upload(gpu::Device& device, const Solid& solid, Spare spare);
     // Fetches what the device holds, packs it without gaps and sends it back. Nothing else may be under way.
-    [[nodiscard]] Result<void> make_space(gpu::Device& device, std::size_t spare_ends);
+    [[nodiscard]] Result<void> make_space(gpu::Device& device, Spare spare);
 
     [[nodiscard]] const gpu::Buffer& rays() const { return rays_; }
     [[nodiscard]] const gpu::Buffer& store() const { return store_; }
@@ -70,7 +73,7 @@ private:
         std::span<const shared::RayRef> rays;
         std::span<const shared::DexelEnd> ends;
     };
-    [[nodiscard]] Result<void> pack(gpu::Device& device, std::span<const Part> parts, std::size_t spare_ends);
+    [[nodiscard]] Result<void> pack(gpu::Device& device, std::span<const Part> parts, Spare spare);
 
     gpu::Buffer rays_, store_;
     std::uint32_t store_size_ = 0, packed_size_ = 0, longest_ = 0;
