@@ -2,14 +2,13 @@
 #include "app/felt_stroke.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <iterator>
-#include <thread>
 
 #include "app/progress.hpp"
 #include "devices/simulated_omni.hpp"
 #include "geometry/local_surface_search.hpp"
 #include "haptics/haptic_loop.hpp"
+#include "haptics/realtime.hpp"
 
 namespace burin {
 namespace {
@@ -183,20 +182,19 @@ Result<void> run_in_real_time(const Session& session, SimulatedHand hand) {
     FigureKeeper keeper(session.figures);
     Progress progress("carving by feel, in real time");
     session.side.publish(start_ns);
-    std::atomic<bool> stop{false};
+    HapticThread haptic_thread(loop);
+    const RealtimeNotice notice = haptic_thread.start();
+    if (!notice.text.empty()) session.figures.notices.push_back(notice.text);
     Result<void> outcome;
-    {
-        std::jthread haptic_thread([&] { loop.run(stop); });
-        Nanoseconds next_update_ns = start_ns;
-        while (seconds(clock.now_ns() - start_ns) < session.end_s && outcome) {
-            next_update_ns = std::max(next_update_ns + kUpdatePeriod_ns, clock.now_ns());
-            clock.sleep_until(next_update_ns);
-            outcome = session.side.update(clock.now_ns());
-            keeper.take(session.channels);
-            progress.show(seconds(clock.now_ns() - start_ns) / session.end_s);
-        }
-        stop.store(true, std::memory_order_relaxed);  // a signal only; the join below orders the rest
+    Nanoseconds next_update_ns = start_ns;
+    while (seconds(clock.now_ns() - start_ns) < session.end_s && outcome) {
+        next_update_ns = std::max(next_update_ns + kUpdatePeriod_ns, clock.now_ns());
+        clock.sleep_until(next_update_ns);
+        outcome = session.side.update(clock.now_ns());
+        keeper.take(session.channels);
+        progress.show(seconds(clock.now_ns() - start_ns) / session.end_s);
     }
+    haptic_thread.stop();
     keeper.take(session.channels);
     keeper.finish();
     return outcome;

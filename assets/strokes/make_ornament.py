@@ -28,7 +28,7 @@ def arc(cx, cy, rx, ry, from_deg, to_deg, steps=24):
 
 def letters():
     """Polylines of the five letters, 24 mm high, about the origin."""
-    h, w = 12.0, 13.0
+    h, w = 12.0, 12.0
     b = [[(0, -h), (0, h)],
          [(0, h), (6, h)] + arc(6, 6, 5.5, 6, 90, -90) + [(0, 0)],
          [(0, 0), (6.5, 0)] + arc(6.5, -6, 6.5, 6, 90, -90) + [(0, -h)]]
@@ -37,7 +37,7 @@ def letters():
     i = [[(0, h), (0, -h)]]
     n = [[(0, -h), (0, h), (w, -h), (w, h)]]
     word = [(b, w), (u, w), (r, w), (i, 0.0), (n, w)]
-    gap = 6.5
+    gap = 5.2
     x = -(sum(width for _, width in word) + gap * (len(word) - 1)) / 2
     for strokes, width in word:
         for stroke in strokes:

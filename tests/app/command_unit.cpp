@@ -133,6 +133,17 @@ TEST(Command, AnExistingFileSurvivesAFailedRun) {
     EXPECT_EQ(place.read("out.stl"), "precious");
 }
 
+TEST(Command, CarvesInRealTimeToo) {
+    Workplace place;
+    place.write("s.csv", kStrokeHeader + "0,0,0,0.06,0,0,0,1,0\n0.3,0,0,0.05,0,0,0,1,1\n0.6,0.01,0,0.05,0,0,0,1,1\n");
+    const auto outcome = place.run(kBurin +
+                                   " sculpt --workpiece ball:0.05 --tool ball:0.004 --stroke s.csv --resolution 48 "
+                                   "--hand simulated --real-time --export out.stl --report r.json");
+    ASSERT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_EQ(place.run(std::string(MESH_AUDIT) + " out.stl").status, 0);
+    EXPECT_NE(place.read("r.json").find("\"ticks\""), std::string::npos);
+}
+
 TEST(Command, ConvertsBetweenFormatsAndTellsHealth) {
     Workplace place;
     place.write("t.off", tetrahedron_off(4));
