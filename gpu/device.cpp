@@ -40,17 +40,21 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info() {
 // The loader's entry points are the same for every instance, so they are loaded once; opening devices on two threads at
 // once is then safe.
 std::mutex g_load_mutex;
-bool g_instance_functions_loaded = false;
+VkInstance g_keeper = VK_NULL_HANDLE;  // never destroyed
 
 bool open_loader() {
     static const bool opened = volkInitialize() == VK_SUCCESS;
     return opened;
 }
 
+// An instance that lives as long as the process keeps the drivers loaded: loading them again for every device costs time,
+// and Mesa 22.3.6 loses some memory whenever it is unloaded after drawing.
 void load_instance_functions(VkInstance instance) {
     const std::lock_guard lock(g_load_mutex);
-    if (!g_instance_functions_loaded) volkLoadInstanceOnly(instance);
-    g_instance_functions_loaded = true;
+    if (g_keeper != VK_NULL_HANDLE) return;
+    volkLoadInstanceOnly(instance);
+    const auto info = structure<VkInstanceCreateInfo>(VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO);
+    if (vkCreateInstance(&info, nullptr, &g_keeper) != VK_SUCCESS) g_keeper = instance;  // kept in name only
 }
 
 bool validation_layer_installed() {

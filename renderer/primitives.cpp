@@ -82,9 +82,18 @@ PrimitiveRange cube(Builder& b) {
             n[axis] = side;
             u[(axis + 1) % 3] = side;  // u x v = n for both sides
             v[(axis + 2) % 3] = 1.0;
-            const auto corner = [&](double i, double j) { return b.vertex(0.5 * (n + i * u + j * v), n); };
-            const std::uint32_t p = corner(-1, -1), q = corner(1, -1), r = corner(1, 1), s = corner(-1, 1);
-            b.quad(p, q, r, s);
+            // Small triangles: see backdrop.vert for what happens to those that the picture's edge cuts.
+            constexpr int kParts = 8;
+            for (int i = 0; i < kParts; ++i) {
+                for (int j = 0; j < kParts; ++j) {
+                    const auto corner = [&](int di, int dj) {
+                        const double along_u = 2.0 * (i + di) / kParts - 1.0, along_v = 2.0 * (j + dj) / kParts - 1.0;
+                        return b.vertex(0.5 * (n + along_u * u + along_v * v), n);
+                    };
+                    const std::uint32_t p = corner(0, 0), q = corner(1, 0), r = corner(1, 1), s = corner(0, 1);
+                    b.quad(p, q, r, s);
+                }
+            }
         }
     }
     return b.since(first);

@@ -30,6 +30,11 @@ const std::uint8_t* seen_at(const Image& image, const Scene& scene, const Vec3& 
     return image.pixel(x, y);
 }
 
+bool in_view(const Scene& scene, const Vec3& p) {
+    const Vec2 at = point_on_screen(scene.screen, eyes_of(scene.viewer).left_world, p);
+    return at.x > 0.0 && at.y > 0.0 && at.x < scene.wall.width_m && at.y < scene.wall.height_m;
+}
+
 int brightness(const std::uint8_t* pixel) { return pixel[0] + pixel[1] + pixel[2]; }
 
 }  // namespace
@@ -151,6 +156,7 @@ TEST_F(Picture, TheToolsShadowFallsOnTheSurfaceBelowAndJoinsItAtContact) {
         for (double x = -0.12; x <= 0.12; x += 0.001) {
             for (double z = -0.15; z <= 0.05; z += 0.001) {
                 const Vec3 p{x, 0.02, z};
+                if (!in_view(scene, p)) continue;
                 const int before = brightness(seen_at(without.left, scene, p));
                 const int after = brightness(seen_at(with.left, scene, p));
                 if (after < before - 60) {
