@@ -28,16 +28,16 @@ def arc(cx, cy, rx, ry, from_deg, to_deg, steps=24):
 
 def letters():
     """Polylines of the five letters, 24 mm high, about the origin."""
-    h, w = 12.0, 12.0
+    h, w = 12.0, 11.0
     b = [[(0, -h), (0, h)],
-         [(0, h), (6, h)] + arc(6, 6, 5.5, 6, 90, -90) + [(0, 0)],
-         [(0, 0), (6.5, 0)] + arc(6.5, -6, 6.5, 6, 90, -90) + [(0, -h)]]
-    u = [[(0, h), (0, -5.5)] + arc(6.5, -5.5, 6.5, 6.5, 180, 360) + [(w, h)]]
-    r = [[(0, -h), (0, h)], [(0, h), (6, h)] + arc(6, 6, 6.5, 6, 90, -90) + [(0, 0)], [(5.5, 0), (w, -h)]]
+         [(0, h), (6, h)] + arc(6, 6, 4, 6, 90, -90) + [(0, 0)],
+         [(0, 0), (6, 0)] + arc(6, -6, 5, 6, 90, -90) + [(0, -h)]]
+    u = [[(0, h), (0, -5.5)] + arc(w / 2, -5.5, w / 2, 6.5, 180, 360) + [(w, h)]]
+    r = [[(0, -h), (0, h)], [(0, h), (6, h)] + arc(6, 6, 5, 6, 90, -90) + [(0, 0)], [(5.5, 0), (w, -h)]]
     i = [[(0, h), (0, -h)]]
     n = [[(0, -h), (0, h), (w, -h), (w, h)]]
     word = [(b, w), (u, w), (r, w), (i, 0.0), (n, w)]
-    gap = 5.2
+    gap = 6.4
     x = -(sum(width for _, width in word) + gap * (len(word) - 1)) / 2
     for strokes, width in word:
         for stroke in strokes:
@@ -58,7 +58,7 @@ def lines():
     """Every line as (x, y, depth) in millimetres."""
     step = CUT_SPEED_MM_S * ROW_S
     for stroke in letters():
-        yield [(x, y, 2.2) for x, y in resampled(stroke, step)]
+        yield [(x, y, 1.9) for x, y in resampled(stroke, step)]
     yield [(x, y, 1.0) for x, y in resampled(arc(0, 0, 50, 50, 90, 450, 180), step)]
     for middle in (90, 270):
         wave = []
