@@ -8,10 +8,11 @@ namespace burin {
 namespace {
 
 constexpr ImageSize kEyeSize{1280, 960};  // the wall is 4 : 3
-constexpr double kLargestOnWall_m =
-    0.95;  // the workpiece is scaled so that its longest side has this length on the wall
-const Vec3 kPlace_world{0.0, 1.22, 0.45};  // in front of the wall, within arm's reach
-const Vec3 kHead_world{0.0, 1.60, 2.20};
+// The workpiece is scaled so that its longest side has this length, and stands so that the side that is carved lies about in
+// the wall's own plane, where eyes rest best, and its plinth behind the wall, where the wall's lower edge does not cut it off.
+constexpr double kLargestOnWall_m = 1.15;
+const Vec3 kPlace_world{0.0, 1.22, -0.45};
+const Vec3 kHead_world{0.0, 1.60, 2.00};
 
 double longest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
 

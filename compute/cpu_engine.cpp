@@ -73,9 +73,11 @@ private:
     void collect_rows(std::span<const Capsule> capsules) {
         rows_.clear();
         for (int axis = 0; axis < 3; ++axis) {
+            std::vector<Footprint>& footprints = footprints_[static_cast<std::size_t>(axis)];
+            footprints.clear();
             row_ranges_.assign(static_cast<std::size_t>(solid_.lattice.rays_v(axis)), {1, 0});
             for (const Capsule& capsule : capsules) {
-                const Footprint f = footprint(solid_.lattice, capsule, axis);
+                const Footprint f = footprints.emplace_back(footprint(solid_.lattice, capsule, axis));
                 for (int v = f.v_lo; v <= f.v_hi && f.u_lo <= f.u_hi; ++v) {
                     auto& [lo, hi] = row_ranges_[static_cast<std::size_t>(v)];
                     const bool fresh = lo > hi;
@@ -102,44 +104,54 @@ private:
         stats.rays_changed += outcome->changed ? 1 : 0;
     }
 
-    // Nothing when the ray has to wait for room.
+    // Takes the capsules from first_capsule on out of one ray. Nothing when the ray has to wait for room.
     std::optional<RayOutcome> cut_ray(int axis, int u, int v, std::span<const Capsule> capsules,
                                       std::size_t first_capsule, RayOutcome outcome) {
-        DexelSet& set = solid_.sets[static_cast<std::size_t>(axis)];
-        RayRef& ray = set.rays()[static_cast<std::size_t>(v) * static_cast<std::size_t>(solid_.lattice.rays_u(axis)) +
-                                 static_cast<std::size_t>(u)];
+        const std::vector<Footprint>& footprints = footprints_[static_cast<std::size_t>(axis)];
         for (std::size_t i = first_capsule; i < capsules.size(); ++i) {
-            const uint end_count = shared::count_of(ray);
+            if (!footprints[i].holds(u, v)) continue;
             const shared::CapsuleRay from_ray =
                 shared::capsule_from_ray(capsules[i], axis, u * shared::kUnitsPerCell, v * shared::kUnitsPerCell);
             const RaySpan span = shared::capsule_span(from_ray);
             if (span.lo > span.hi) continue;
             outcome.touched = true;
-            if (end_count == 0) continue;
-            HostEnds list{set.store().data()};
-            const HostEnds::CutPlan plan = list.plan_cut(ray.first, end_count, span);
-            if (plan.removed == 0) continue;
-            const uint new_count = list.count_after(end_count, plan);
-            if (new_count > shared::room_of(ray) && !move_to_larger_room(set, ray, new_count)) {
+            const Taken taken = take_out(axis, u, v, span, from_ray, capsules[i].material);
+            if (taken.room_needed > 0) {
                 const std::lock_guard lock(pending_mutex_);
-                pending_.push_back({axis, u, v, shared::room_of({0, DexelSet::count_room(new_count)}), i, outcome});
+                pending_.push_back({axis, u, v, taken.room_needed, i, outcome});
                 return std::nullopt;
             }
-            DexelEnd end_lo{}, end_hi{};
-            if (plan.kept_low != 0) {
-                end_lo =
-                    shared::make_end(span.lo, capsules[i].material, shared::capsule_normal(from_ray, axis, span.lo));
-            }
-            if (plan.kept_high != 0) {
-                end_hi =
-                    shared::make_end(span.hi, capsules[i].material, shared::capsule_normal(from_ray, axis, span.hi));
-            }
-            list.apply_cut(ray.first, end_count, plan, end_lo, end_hi);
-            ray.count_room = (ray.count_room & 0xff000000u) | new_count;
-            dirty_.mark_ray(axis, u, v, plan.changed_lo, plan.changed_hi);
-            outcome.changed = true;
+            outcome.changed = outcome.changed || taken.changed;
         }
         return outcome;
+    }
+
+    struct Taken {
+        bool changed = false;
+        uint room_needed = 0;  // above 0: the store is full and the ray is as it was
+    };
+
+    Taken take_out(int axis, int u, int v, RaySpan span, const shared::CapsuleRay& from_ray, uint material) {
+        DexelSet& set = solid_.sets[static_cast<std::size_t>(axis)];
+        RayRef& ray = set.rays()[static_cast<std::size_t>(v) * static_cast<std::size_t>(solid_.lattice.rays_u(axis)) +
+                                 static_cast<std::size_t>(u)];
+        const uint count = shared::count_of(ray);
+        if (count == 0) return {};
+        HostEnds list{set.store().data()};
+        const HostEnds::CutPlan plan = list.plan_cut(ray.first, count, span);
+        if (plan.removed == 0) return {};
+        const uint new_count = list.count_after(count, plan);
+        if (new_count > shared::room_of(ray) && !move_to_larger_room(set, ray, new_count)) {
+            return {false, shared::room_of({0, DexelSet::count_room(new_count)})};
+        }
+        const auto end_at = [&](int depth) {
+            return shared::make_end(depth, material, shared::capsule_normal(from_ray, axis, depth));
+        };
+        list.apply_cut(ray.first, count, plan, plan.kept_low != 0 ? end_at(span.lo) : DexelEnd{},
+                       plan.kept_high != 0 ? end_at(span.hi) : DexelEnd{});
+        ray.count_room = (ray.count_room & 0xff000000u) | new_count;
+        dirty_.mark_ray(axis, u, v, plan.changed_lo, plan.changed_hi);
+        return {true, 0};
     }
 
     // False when the store is full; the ray is then as it was.
@@ -173,7 +185,8 @@ private:
     DirtyTiles dirty_;
     WorkerPool& pool_;
     std::vector<Row> rows_;
-    std::vector<std::pair<int, int>> row_ranges_;  // u_lo, u_hi for each v
+    std::array<std::vector<Footprint>, 3> footprints_;  // of each capsule, for each axis
+    std::vector<std::pair<int, int>> row_ranges_;       // u_lo, u_hi for each v
     std::mutex pending_mutex_;
     std::vector<PendingRay> pending_;  // guarded by pending_mutex_ while rows run
 };

@@ -22,6 +22,7 @@ namespace burin {
 struct Footprint {
     int u_lo, u_hi, v_lo, v_hi;
     [[nodiscard]] bool empty() const { return u_lo > u_hi || v_lo > v_hi; }
+    [[nodiscard]] bool holds(int u, int v) const { return u >= u_lo && u <= u_hi && v >= v_lo && v <= v_hi; }
 };
 [[nodiscard]] Footprint footprint(const Lattice& lattice, const shared::Capsule& capsule, int axis);
 
