@@ -3,6 +3,7 @@
 // Depths and coordinates in lattice units (shaders/shared/dexel.h) are whole numbers counted from the lattice origin.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -23,10 +24,17 @@ struct Lattice {
     [[nodiscard]] Vec3 object_from_units(const Vec3& units) const { return origin_object + units * unit_m(); }
 
     // Rays along `axis`: u runs along axis + 1, v along axis + 2 (cyclic).
-    [[nodiscard]] int rays_u(int axis) const { return cells[(axis + 1) % 3] + 1; }
-    [[nodiscard]] int rays_v(int axis) const { return cells[(axis + 2) % 3] + 1; }
+    [[nodiscard]] int rays_u(int axis) const { return cells[static_cast<std::size_t>((axis + 1) % 3)] + 1; }
+    [[nodiscard]] int rays_v(int axis) const { return cells[static_cast<std::size_t>((axis + 2) % 3)] + 1; }
     [[nodiscard]] std::size_t rays(int axis) const {
         return static_cast<std::size_t>(rays_u(axis)) * static_cast<std::size_t>(rays_v(axis));
+    }
+    // Whether floats in the object frame tell places a thousandth of a cell apart: not where the lattice lies far from the
+    // object's origin, compared with its cells. Formats that hold floats (STL, PLY) are of no use then.
+    [[nodiscard]] bool fits_floats() const {
+        const Vec3 far =
+            glm::max(glm::abs(origin_object), glm::abs(origin_object + Vec3(cells[0], cells[1], cells[2]) * spacing_m));
+        return std::max({far.x, far.y, far.z}) < 8192.0 * spacing_m;  // 2^24 / 8192 = 2048 floats a cell
     }
     bool operator==(const Lattice&) const = default;
 };
