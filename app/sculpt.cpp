@@ -59,6 +59,18 @@ Result<void> check_outputs(const SculptOptions& options) {
     return {};
 }
 
+// Only a mesh's coordinates tell, so this is found out after loading it.
+Result<void> check_precision(const SculptOptions& options, const Lattice& lattice) {
+    for (const std::string& path : options.exports) {
+        if (lattice.fits_floats() || mesh_format_of(path) == MeshFormat::obj) continue;
+        return fail(path,
+                    "would hold single-precision numbers, which cannot tell the workpiece's details apart so far from "
+                    "its origin",
+                    "move the workpiece nearer to its origin, or export .obj");
+    }
+    return {};
+}
+
 Box bounds_of(const Lattice& lattice) {
     // The lattice has about one and a half empty cells around the workpiece.
     const Vec3 inset(1.5 * lattice.spacing_m);
@@ -101,6 +113,7 @@ Result<void> sculpt(const SculptOptions& options) {
     WorkerPool pool(options.threads);
     Result<Workpiece> workpiece = load_workpiece(options.workpiece, pool);
     if (!workpiece) return std::unexpected(workpiece.error());
+    if (const auto ok = check_precision(options, workpiece->solid.lattice); !ok) return ok;
     tool->material = static_cast<std::uint8_t>(workpiece->solid.materials.size());
     workpiece->solid.materials.push_back(kCutMaterial);
 

@@ -53,7 +53,11 @@ Eigen3 eigen(const Symmetric3& m) {
     return e;
 }
 
-Vec3f within_cell(const Vec3f& p) { return glm::clamp(p, Vec3f(0.0f), Vec3f(1.0f)); }
+// A vertex keeps off the cell's faces, by less than any feature's error, so that vertices of two cells never coincide: formats
+// without shared vertices (STL) would take them for one.
+constexpr float kInset = 1.0f / 256.0f;
+
+Vec3f within_cell(const Vec3f& p) { return glm::clamp(p, Vec3f(kInset), Vec3f(1.0f - kInset)); }
 
 }  // namespace
 

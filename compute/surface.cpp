@@ -2,6 +2,9 @@
 #include "compute/surface.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
 #include <tuple>
 
 namespace burin {
@@ -38,6 +41,29 @@ double Surface::volume_m3() const {
     return six_volumes / 6.0;
 }
 
+namespace {
+
+// Two sheets in one cell may have vertices at one place; each is moved on by as many steps of a float as it takes until all
+// places differ, so that a format without shared vertices keeps the sheets apart.
+void make_places_distinct(std::vector<Vec3f>& places) {
+    std::vector<std::uint32_t> order(places.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto key = [&](std::uint32_t i) { return std::tuple(places[i].x, places[i].y, places[i].z); };
+    for (bool all_differ = false; !all_differ;) {
+        all_differ = true;
+        std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+            return std::tuple_cat(key(a), std::tuple(a)) < std::tuple_cat(key(b), std::tuple(b));
+        });
+        for (std::size_t i = 1; i < order.size(); ++i) {
+            if (key(order[i]) != key(order[i - 1])) continue;
+            places[order[i]].x = std::nextafter(places[order[i]].x, std::numeric_limits<float>::max());
+            all_differ = false;
+        }
+    }
+}
+
+}  // namespace
+
 TriangleMesh Surface::welded() const {
     struct Place {
         std::uint64_t key;
@@ -54,19 +80,24 @@ TriangleMesh Surface::welded() const {
     });
 
     TriangleMesh mesh;
+    // Floats in the object frame, as most files hold them; relative to the lattice's origin where those would not do.
+    const Vec3 shift = lattice_.fits_floats() ? Vec3(0.0) : lattice_.origin_object;
+    std::vector<Vec3f> welded_places;
     for (std::size_t from = 0, to = 0; from < places.size(); from = to) {
         std::array<std::uint32_t, 3> colour{};
         for (to = from; to < places.size() && places[to].key == places[from].key; ++to) {
             const std::uint32_t c = tiles_[places[to].tile].vertices[places[to].vertex].colour;
             for (std::size_t k = 0; k < 3; ++k) colour[k] += c >> (8 * k) & 0xffu;
-            welded_index[places[to].tile][places[to].vertex] = static_cast<std::uint32_t>(mesh.positions_m.size());
+            welded_index[places[to].tile][places[to].vertex] = static_cast<std::uint32_t>(welded_places.size());
         }
         const shared::SurfaceVertex& v = tiles_[places[from].tile].vertices[places[from].vertex];
-        mesh.positions_m.push_back(lattice_.origin_object + Vec3(v.x, v.y, v.z));
+        welded_places.emplace_back(lattice_.origin_object - shift + Vec3(v.x, v.y, v.z));
         const auto count = static_cast<std::uint32_t>(to - from);
         const auto mean = [&](std::size_t k) { return static_cast<std::uint8_t>((colour[k] + count / 2) / count); };
         mesh.colours.push_back({mean(0), mean(1), mean(2)});
     }
+    make_places_distinct(welded_places);
+    for (const Vec3f& place : welded_places) mesh.positions_m.push_back(shift + Vec3(place));
     for (std::uint32_t t = 0; t < tiles_.size(); ++t) {
         const std::vector<std::uint32_t>& index = welded_index[t];
         for (std::size_t i = 0; i < tiles_[t].indices.size(); i += 3) {

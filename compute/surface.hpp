@@ -35,7 +35,8 @@ public:
     // The enclosed volume by the divergence theorem, m^3.
     [[nodiscard]] double volume_m3() const;
     // One closed two-manifold mesh in the object frame: vertices shared across sharp edges and tile borders, sorted by key,
-    // with the mean colour of the surfaces that meet there.
+    // with the mean colour of the surfaces that meet there. No two vertices share a place, in float precision too if the
+    // lattice fits_floats().
     [[nodiscard]] TriangleMesh welded() const;
 
 private:

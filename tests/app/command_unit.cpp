@@ -121,6 +121,17 @@ TEST(Command, ClosesHolesOnRequestAndTheJudgeFindsNothing) {
     EXPECT_NE(report.find("\"open_edges\": 0"), std::string::npos);
 }
 
+TEST(Command, AWorkpieceFarFromItsOriginIsExportedOnlyWhereNumbersSuffice) {
+    Workplace place;
+    place.write("far.off",
+                "OFF\n4 4 0\n100000 0 0\n100001 0 0\n100000 1 0\n100000 0 1\n"
+                "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+    expect_refused(place, "sculpt --workpiece far.off --resolution 48 --export out.stl", 1, {"out.stl", ".obj"});
+    const auto outcome = place.run(kBurin + " sculpt --workpiece far.off --resolution 48 --export out.obj");
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_EQ(place.run(std::string(MESH_AUDIT) + " out.obj").status, 0);
+}
+
 TEST(Command, AnExistingFileSurvivesAFailedRun) {
     Workplace place;
     place.write("out.stl", "precious");

@@ -2,6 +2,8 @@
 // The mesher's promises, tried on solids made to break them: closed, two-manifold, tile by tile, the same on any thread.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include <cstring>
 #include <map>
 #include <numeric>
@@ -84,6 +86,26 @@ TEST(Mesher, SmallNoiseOfEveryKindIsTwoManifold) {
         Surface surface(solid.lattice);
         mesh_everything(surface, solid, pool);
         ASSERT_EQ(topology_of(surface.welded()), MeshTopology{}) << name(p, rays, seed);
+    }
+}
+
+// STL has no shared vertices: its readers take equal floats for one vertex. Sheets that touch there would become one.
+TEST(Mesher, NoTwoVerticesShareAPlaceNotEvenInFloats) {
+    WorkerPool pool(1);
+    for (int seed = 0; seed < repeated(600); ++seed) {
+        const auto rays = static_cast<Rays>(seed % 3);
+        Solid solid = noise_solid({9, 8, 7}, 0.4, rays, static_cast<std::uint64_t>(9000 + seed));
+        solid.lattice.spacing_m = 0.01;
+        solid.lattice.origin_object = {3.0 + 0.1 * seed, -7.0, 0.001};  // some hundred lattices away
+        ASSERT_TRUE(solid.lattice.fits_floats());
+        Surface surface(solid.lattice);
+        mesh_everything(surface, solid, pool);
+        const TriangleMesh mesh = surface.welded();
+        std::set<std::array<float, 3>> places;
+        for (const Vec3& p : mesh.positions_m) {
+            places.insert({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+        }
+        ASSERT_EQ(places.size(), mesh.positions_m.size()) << "seed " << seed;
     }
 }
 
