@@ -17,19 +17,19 @@ using mat4 = glm::mat4;
 #endif
 
 struct FrameUniforms {
-    mat4 clip_from_world[2];   // left eye, right eye
-    vec4 eye_world[2];         // xyz
-    mat4 shadow_from_world;    // xy in 0..1 over the shadow map, z the depth from the light in 0..1
-    vec4 light;                // xyz: unit direction towards the light; w: tangent of its half angle
-    vec4 light_colour;         // rgb
-    vec4 sky_colour;           // rgb: ambient light from above
-    vec4 ground_colour;        // rgb: ambient light from below
-    vec4 shadow_scale;         // x: depth of the map in metres, y: a texel in metres, z: a texel in map units, w: 1 = in use
-    vec4 tool;                 // xyz: centre, w: radius; radius 0: no tool
-    vec4 tool_colour;          // rgb
-    vec4 workpiece;            // xyz: centre of its bounding sphere, w: radius; radius 0: none
-    vec4 pedestal;             // xyz: centre of its top, w: radius; radius 0: none
-    vec4 background;           // rgb
+    mat4 clip_from_world[2];  // left eye, right eye
+    vec4 eye_world[2];        // xyz
+    mat4 shadow_from_world;   // xy in 0..1 over the shadow map, z the depth from the light in 0..1
+    vec4 light;               // xyz: unit direction towards the light; w: tangent of its half angle
+    vec4 light_colour;        // rgb
+    vec4 sky_colour;          // rgb: ambient light from above
+    vec4 ground_colour;       // rgb: ambient light from below
+    vec4 shadow_scale;  // x: depth of the map in metres, y: a texel in metres, z: a texel in map units, w: 1 = in use
+    vec4 tool;          // xyz: centre, w: radius; radius 0: no tool
+    vec4 tool_colour;   // rgb
+    vec4 workpiece;     // xyz: centre of its bounding sphere, w: radius; radius 0: none
+    vec4 pedestal;      // xyz: centre of its top, w: radius; radius 0: none
+    vec4 background;    // rgb
 };
 
 struct DrawConstants {
@@ -42,6 +42,7 @@ BURIN_SHARED_END
 
 #ifdef __cplusplus
 static_assert(sizeof(burin::shared::FrameUniforms) == 3 * 64 + 12 * 16);
-static_assert(sizeof(burin::shared::DrawConstants) == 96, "must fit the 128 bytes of push constants that every device has");
+static_assert(sizeof(burin::shared::DrawConstants) == 96,
+              "must fit the 128 bytes of push constants that every device has");
 #endif
 #endif

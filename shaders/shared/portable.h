@@ -8,8 +8,8 @@
 
 #ifdef __cplusplus
 
-#include <cstdint>
 #include <cmath>
+#include <cstdint>
 
 #define BURIN_SHARED_BEGIN namespace burin::shared {
 #define BURIN_SHARED_END }
@@ -22,7 +22,7 @@ using std::uint64_t;
 using std::ceil;
 using std::floor;
 using std::sqrt;
-}
+}  // namespace burin::shared
 
 #else
 
