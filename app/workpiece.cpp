@@ -107,7 +107,7 @@ Result<Workpiece> from_file(const WorkpieceOptions& options, WorkerPool& pool) {
 Result<Workpiece> from_shape(const WorkpieceOptions& options) {
     const std::size_t colon = options.source.find(':');
     const std::string shape = options.source.substr(0, colon);
-    const std::string sizes = options.source.substr(colon + 1);
+    const std::string_view sizes = std::string_view(options.source).substr(colon + 1);
     const auto numbers = parse_numbers(sizes, shape == "block" ? 3 : 1, "--workpiece " + options.source);
     if (!numbers) return std::unexpected(numbers.error());
     Result<Solid> solid =

@@ -85,11 +85,12 @@ TriangleMesh Surface::welded() const {
     std::vector<Vec3f> welded_places;
     for (std::size_t from = 0, to = 0; from < places.size(); from = to) {
         std::array<std::uint32_t, 3> colour{};
-        for (to = from; to < places.size() && places[to].key == places[from].key; ++to) {
+        do {
             const std::uint32_t c = tiles_[places[to].tile].vertices[places[to].vertex].colour;
             for (std::size_t k = 0; k < 3; ++k) colour[k] += c >> (8 * k) & 0xffu;
             welded_index[places[to].tile][places[to].vertex] = static_cast<std::uint32_t>(welded_places.size());
-        }
+            ++to;
+        } while (to < places.size() && places[to].key == places[from].key);
         const shared::SurfaceVertex& v = tiles_[places[from].tile].vertices[places[from].vertex];
         welded_places.emplace_back(lattice_.origin_object - shift + Vec3(v.x, v.y, v.z));
         const auto count = static_cast<std::uint32_t>(to - from);
