@@ -76,6 +76,7 @@ Json describe_timing(const Carving& carving, const FeltFigures* felt) {
                    {"update_ms_p99", quantile(update_ms, 0.99)}};
     if (felt != nullptr && !felt->tick_ns.empty()) {
         std::vector<double> tick_us;
+        tick_us.reserve(felt->tick_ns.size());
         for (const std::uint32_t ns : felt->tick_ns) tick_us.push_back(ns * 1e-3);
         timing["tick_us_median"] = quantile(tick_us, 0.5);
         timing["tick_us_p999"] = quantile(tick_us, 0.999);
