@@ -31,9 +31,8 @@ struct FeltFigures {
     double force_mean_in_contact_N = 0.0;
     double penetration_max_m = 0.0;                         // object frame
     std::map<std::string, std::uint64_t> zero_force_ticks;  // by the gate's cause
-    std::vector<std::uint32_t>
-        tick_ns;                       // cost of each tick; in real time the histogram is the thread's, see ticks_late
-    std::vector<std::string> notices;  // e.g. no real-time priority
+    std::vector<std::uint32_t> tick_ns;                     // cost of each tick in simulated time; empty in real time
+    std::vector<std::string> notices;                       // e.g. no real-time priority
     ToolState last_tool;
 };
 

@@ -106,12 +106,16 @@ void print_table(const Json& report) {
         text("%.0f of %.0f", number("/carving/rays_touched") / updates, number("/carving/rays_held")));
     row("triangles re-meshed an update",
         text("%.0f of %.0f", number("/carving/triangles_remeshed") / updates, number("/carving/triangles_held")));
-    row("an update takes (median, p99)",
-        text("%.2f ms, %.2f ms", number("/timing/update_ms_median"), number("/timing/update_ms_p99")));
+    if (number("/carving/updates") > 0.0) {
+        row("an update takes (median, p99)",
+            text("%.2f ms, %.2f ms", number("/timing/update_ms_median"), number("/timing/update_ms_p99")));
+    }
     row("volume removed", text("%.2f cm3", number("/carving/volume_removed_m3") * 1e6));
-    if (report.contains("feel")) {
+    if (report["timing"].contains("tick_us_median")) {  // in real time the ticks are not timed one by one
         row("a haptic tick takes (median, p99.9)",
             text("%.1f us, %.1f us", number("/timing/tick_us_median"), number("/timing/tick_us_p999")));
+    }
+    if (report.contains("feel")) {
         row("largest, mean force in contact",
             text("%.2f N, %.2f N", number("/feel/force_max_N"), number("/feel/force_mean_in_contact_N")));
     }
