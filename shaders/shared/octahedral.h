@@ -36,14 +36,46 @@ BURIN_FN uint encode_normal(IntVector v) {
     if (length1 == int64_t(0)) return (uint(32767) << 16) | uint(32767);
     int64_t a = divide_to_nearest(v.x * int64_t(32767), length1);
     int64_t b = divide_to_nearest(v.y * int64_t(32767), length1);
-    if (v.z < int64_t(0)) {  // fold the lower half outwards
-        int64_t folded_a = (int64_t(32767) - absolute(b)) * (v.x < int64_t(0) ? int64_t(-1) : int64_t(1));
-        b = (int64_t(32767) - absolute(a)) * (v.y < int64_t(0) ? int64_t(-1) : int64_t(1));
+    if (v.z < int64_t(0)) {  // fold the lower half outwards; a part that was rounded to zero has lost its sign
+        int64_t folded_a = (int64_t(32767) - absolute(b)) * (a < int64_t(0) ? int64_t(-1) : int64_t(1));
+        b = (int64_t(32767) - absolute(a)) * (b < int64_t(0) ? int64_t(-1) : int64_t(1));
         a = folded_a;
     }
     return (uint(b + int64_t(32767)) << 16) | uint(a + int64_t(32767));
 }
 #endif
+
+// The code of the opposite direction, in whole numbers.
+//
+// With M = 32767, let (a, b) be the code's point of the square and c = M - |a| - |b|.
+//   c > 0, the upper half: the direction is (a, b, c). Its opposite (-a, -b, -c) lies in the lower half, whose points are
+//     folded outwards: ((M - |b|) sign(-a), (M - |a|) sign(-b)), with sign(0) = 1 as in encode_normal.
+//   c < 0, the lower half: the direction is ((M - |b|) sign(a), (M - |a|) sign(b), c); its opposite lies in the upper half,
+//     where a code is the direction itself.
+//   c = 0, the equator: (-a, -b).
+// Opposite of opposite is the same code for every code that encode_normal gives: |a| and |b| come back as M - (M - |a|), and
+// each sign is turned twice. A zero a has no sign to lose. In the lower half |b| = M makes the direction's first part zero and
+// with it forgets a's sign; encode_normal gives such a direction a >= 0, which is what comes back. (Likewise for b.)
+// It equals encode_normal(-v) for the code of v, but for vectors with v.z = 0 whose a and b were both rounded up: (1, 1, 0)
+// has the code of a direction 3e-5 rad below the equator, and the opposite lies as much above it.
+BURIN_FN uint opposite_normal(uint code) {
+    int a = int(code & uint(0xffff)) - 32767;
+    int b = int(code >> 16) - 32767;
+    int size_a = a < 0 ? -a : a;
+    int size_b = b < 0 ? -b : b;
+    int c = 32767 - size_a - size_b;
+    int opposite_a = -a;
+    int opposite_b = -b;
+    if (c > 0) {
+        opposite_a = a > 0 ? size_b - 32767 : 32767 - size_b;
+        opposite_b = b > 0 ? size_a - 32767 : 32767 - size_a;
+    }
+    if (c < 0) {
+        opposite_a = a < 0 ? 32767 - size_b : size_b - 32767;
+        opposite_b = b < 0 ? 32767 - size_a : size_a - 32767;
+    }
+    return (uint(opposite_b + 32767) << 16) | uint(opposite_a + 32767);
+}
 
 // The unit normal of a code.
 BURIN_FN Direction decode_normal(uint code) {

@@ -83,4 +83,31 @@ TEST(OctahedralNormal, ZeroVectorPointsUpAlongZ) {
     EXPECT_EQ(d.z, 1.0f);
 }
 
+TEST(OctahedralNormal, OppositeOfOppositeIsTheSameCode) {
+    Random random(4);
+    for (int i = 0; i < repeated(2000000); ++i) {
+        const IntVector v = any_vector(random);
+        const uint code = encode_normal(v), opposite = opposite_normal(code);
+        ASSERT_EQ(opposite_normal(opposite), code) << v.x << ' ' << v.y << ' ' << v.z;
+        const Direction d = decode_normal(code), o = decode_normal(opposite);
+        ASSERT_LE(std::abs(o.x + d.x) + std::abs(o.y + d.y) + std::abs(o.z + d.z), 1e-6f);
+        const IntVector turned{-v.x, -v.y, -v.z};
+        const bool zero = v.x == 0 && v.y == 0 && v.z == 0;
+        ASSERT_TRUE(v.z == 0 || opposite == encode_normal(turned)) << v.x << ' ' << v.y << ' ' << v.z;
+        ASSERT_TRUE(zero || angle_between(turned, o) <= 6.5e-5);
+    }
+}
+
+// The border of the square, where two codes stand for one direction, and the equator.
+TEST(OctahedralNormal, OppositesOfDirectionsWithZerosComeBack) {
+    Random random(5);
+    for (int i = 0; i < repeated(300000); ++i) {
+        std::int64_t part[3] = {random.any_size(40), random.any_size(40), random.any_size(40)};
+        part[random.small(0, 2)] = 0;
+        if (random.chance(0.3)) part[random.small(0, 2)] = 0;
+        const uint code = encode_normal({part[0], part[1], part[2]});
+        ASSERT_EQ(opposite_normal(opposite_normal(code)), code) << part[0] << ' ' << part[1] << ' ' << part[2];
+    }
+}
+
 }  // namespace burin::shared
