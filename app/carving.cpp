@@ -17,7 +17,7 @@ Carving::Carving(std::unique_ptr<CarvingEngine> engine, WorkerPool& pool)
       tile_changed_(surface_.tile_count(), true) {
     MonotonicClock clock;
     const Nanoseconds start_ns = clock.now_ns();
-    surface_.remesh(engine_->solid(), engine_->dirty_tiles().take(), pool_);
+    surface_.mesh_all(engine_->solid(), pool_);
     first_mesh_ms_ = milliseconds(start_ns, clock.now_ns());
     initial_volume_m3_ = surface_.volume_m3();
 }
@@ -25,13 +25,12 @@ Carving::Carving(std::unique_ptr<CarvingEngine> engine, WorkerPool& pool)
 Result<void> Carving::update(std::span<const BallSweep> sweeps) {
     MonotonicClock clock;
     const Nanoseconds start_ns = clock.now_ns();
-    const Result<CutStats> cut = engine_->cut(sweeps);
+    const Result<CarveStats> cut = engine_->carve(sweeps);
     if (!cut) return std::unexpected(cut.error());
-    const std::vector<std::uint32_t> dirty = engine_->dirty_tiles().take();
-    const RemeshStats remeshed = surface_.remesh(engine_->solid(), dirty, pool_);
+    const RemeshStats remeshed = surface_.update(engine_->solid(), engine_->take_changes(), pool_);
     figures_.update_ms.push_back(milliseconds(start_ns, clock.now_ns()));
 
-    for (const std::uint32_t tile : dirty) tile_changed_[tile] = true;
+    for (const std::uint32_t tile : surface_.changed_tiles()) tile_changed_[tile] = true;
     ++figures_.updates;
     figures_.sweeps += sweeps.size();
     figures_.rays_touched += cut->rays_touched;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The native engine: rows of rays are dealt out to all cores; each ray takes the capsules one after the other.
+// The native engine: rows of rays are dealt out to all cores in bands; each row takes the capsules one after the other.
+//
+// Most of the work is not to work: rows and rays outside a capsule are never looked at, a page of empty rays is skipped at
+// once, and a ray whose intervals a span does not meet costs a comparison. Bands own whole rows, so no two threads meet.
 #include <algorithm>
 #include <array>
-#include <mutex>
-#include <optional>
 #include <utility>
 #include <vector>
 
+#include "compute/ball_spans.hpp"
 #include "compute/engine.hpp"
 #include "compute/sweep_units.hpp"
 
@@ -14,181 +16,257 @@ namespace burin {
 namespace {
 
 using shared::Capsule;
+using shared::CapsuleRay;
 using shared::DexelEnd;
-using shared::RayRef;
+using shared::kUnitsPerCell;
 using shared::RaySpan;
 using shared::uint;
 
-// The list surgery of shaders/shared/cut_ray.h on host memory.
-struct HostEnds {
-    DexelEnd* ends;
+// The list surgery of shaders/shared/span_edit.h on host memory.
+struct HostRay {
+    const DexelEnd* ends;
     [[nodiscard]] DexelEnd load_end(uint i) const { return ends[i]; }
-    void store_end(uint i, DexelEnd end) { ends[i] = end; }
-#include "shaders/shared/cut_ray.h"
+#include "shaders/shared/span_edit.h"
 };
 
-// One row of rays of one axis, with what happened to it.
-struct Row {
-    int axis, v, u_lo, u_hi;
-    CutStats stats;
+// Rows v_lo..v_hi of one axis, what became of their rays, and which of their rays the capsules met.
+struct Band {
+    int axis = 0, v_lo = 0, v_hi = 0;
+    CarveStats stats;
+    Changes changes;
 };
 
-struct RayOutcome {
-    bool touched = false, changed = false;
-};
+// What an operation did to a ray. Rays without material are not there for a cut, nor are the lattice's border for filling.
+enum class Outcome { missed, touched, changed };
 
-// A ray that needs more room than the store had left, the first capsule it has not taken yet, and what happened before.
-struct PendingRay {
-    int axis, u, v;
-    uint room;
-    std::size_t capsule;
-    RayOutcome before;
+void count(Band& band, Outcome outcome) {
+    band.stats.rays_touched += outcome != Outcome::missed ? 1 : 0;
+    band.stats.rays_changed += outcome == Outcome::changed ? 1 : 0;
+}
+
+// A capsule's share of a row, and the capsule itself.
+struct RowPart {
+    const Capsule* capsule;
+    int u_lo, u_hi;
 };
 
 class CpuEngine final : public CarvingEngine {
 public:
-    CpuEngine(Solid solid, WorkerPool& pool) : solid_(std::move(solid)), dirty_(solid_.lattice), pool_(pool) {
-        dirty_.mark_all();
-    }
+    CpuEngine(Solid solid, WorkerPool& pool) : solid_(std::move(solid)), pool_(pool) {}
 
     [[nodiscard]] const char* name() const override { return "cpu"; }
     [[nodiscard]] const Solid& solid() const override { return solid_; }
-    [[nodiscard]] DirtyTiles& dirty_tiles() override { return dirty_; }
+    [[nodiscard]] Changes take_changes() override { return std::exchange(changes_, {}); }
 
-    [[nodiscard]] Result<CutStats> cut(std::span<const BallSweep> sweeps) override {
+    [[nodiscard]] Result<CarveStats> carve(std::span<const BallSweep> sweeps) override {
         const auto capsules = capsules_in_units(solid_, sweeps);
         if (!capsules) return std::unexpected(capsules.error());
-        collect_rows(*capsules);
-        pool_.run(rows_.size(), [&](std::size_t i) { cut_row(rows_[i], *capsules); });
-        CutStats stats;
-        for (const Row& row : rows_) {
-            stats.rays_touched += row.stats.rays_touched;
-            stats.rays_changed += row.stats.rays_changed;
+        deal_out(*capsules);
+        pool_.run(band_count_, [&](std::size_t i) { carve_band(bands_[i], *capsules); });
+        return collect();
+    }
+
+    [[nodiscard]] Result<CarveStats> assign(const RayBatch& batch) override {
+        CarveStats stats;
+        for (const RayBatch::Ray& ray : batch.rays) {
+            ++stats.rays_touched;
+            const RayPlace place = place_of(ray.code);
+            DexelSet& set = solid_.sets[static_cast<std::size_t>(place.axis)];
+            if (assign_ray(set, place, batch.ends_of(ray), changes_)) ++stats.rays_changed;
         }
-        finish_pending(*capsules, stats);
         return stats;
     }
 
 private:
-    void collect_rows(std::span<const Capsule> capsules) {
-        rows_.clear();
+    // Bands of rows with about equal numbers of rays to look at; few when there is little to do, since waking the other
+    // cores costs as much as some hundred rays.
+    void deal_out(std::span<const Capsule> capsules) {
+        constexpr std::uint64_t kLeastRays = 1500;
+        std::array<std::vector<std::uint64_t>, 3> rays_of_row;
+        std::uint64_t all = 0;
         for (int axis = 0; axis < 3; ++axis) {
-            std::vector<Footprint>& footprints = footprints_[static_cast<std::size_t>(axis)];
-            footprints.clear();
-            row_ranges_.assign(static_cast<std::size_t>(solid_.lattice.rays_v(axis)), {1, 0});
+            const auto a = static_cast<std::size_t>(axis);
+            rays_of_row[a].assign(static_cast<std::size_t>(solid_.lattice.rays_v(axis)), 0);
+            footprints_[a].clear();
             for (const Capsule& capsule : capsules) {
-                const Footprint f = footprints.emplace_back(footprint(solid_.lattice, capsule, axis));
-                for (int v = f.v_lo; v <= f.v_hi && f.u_lo <= f.u_hi; ++v) {
-                    auto& [lo, hi] = row_ranges_[static_cast<std::size_t>(v)];
-                    const bool fresh = lo > hi;
-                    lo = fresh ? f.u_lo : std::min(lo, f.u_lo);
-                    hi = fresh ? f.u_hi : std::max(hi, f.u_hi);
+                const Footprint f = footprints_[a].emplace_back(footprint(solid_.lattice, capsule, axis));
+                if (f.empty()) continue;
+                const auto width = static_cast<std::uint64_t>(f.u_hi - f.u_lo + 1);
+                for (int v = f.v_lo; v <= f.v_hi; ++v) rays_of_row[a][static_cast<std::size_t>(v)] += width;
+                all += width * static_cast<std::uint64_t>(f.v_hi - f.v_lo + 1);
+            }
+        }
+        const std::uint64_t wanted = std::clamp<std::uint64_t>(all / kLeastRays, 1, pool_.threads() * 4ull);
+        const std::uint64_t share = all / wanted + 1;
+        band_count_ = 0;
+        std::uint64_t in_band = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            bool open = false;
+            const std::vector<std::uint64_t>& rays = rays_of_row[static_cast<std::size_t>(axis)];
+            for (int v = 0; v < static_cast<int>(rays.size()); ++v) {
+                if (rays[static_cast<std::size_t>(v)] == 0) continue;
+                if (!open || in_band >= share) {
+                    open_band(axis, v);
+                    open = true;
+                    in_band = 0;
                 }
-            }
-            for (std::size_t v = 0; v < row_ranges_.size(); ++v) {
-                const auto [lo, hi] = row_ranges_[v];
-                if (lo <= hi) rows_.push_back({axis, static_cast<int>(v), lo, hi, {}});
+                bands_[band_count_ - 1].v_hi = v;
+                in_band += rays[static_cast<std::size_t>(v)];
             }
         }
     }
 
-    void cut_row(Row& row, std::span<const Capsule> capsules) {
-        for (int u = row.u_lo; u <= row.u_hi; ++u) {
-            count(cut_ray(row.axis, u, row.v, capsules, 0, {}), row.stats);
-        }
+    void open_band(int axis, int v) {
+        if (band_count_ == bands_.size()) bands_.emplace_back();
+        Band& band = bands_[band_count_++];
+        band.axis = axis;
+        band.v_lo = v;
+        band.stats = {};
+        band.changes.rays.clear();
+        band.changes.before.clear();
     }
 
-    static void count(const std::optional<RayOutcome>& outcome, CutStats& stats) {
-        if (!outcome) return;  // pending: counted when it is finished
-        stats.rays_touched += outcome->touched ? 1 : 0;
-        stats.rays_changed += outcome->changed ? 1 : 0;
-    }
-
-    // Takes the capsules from first_capsule on out of one ray. Nothing when the ray has to wait for room.
-    std::optional<RayOutcome> cut_ray(int axis, int u, int v, std::span<const Capsule> capsules,
-                                      std::size_t first_capsule, RayOutcome outcome) {
-        const std::vector<Footprint>& footprints = footprints_[static_cast<std::size_t>(axis)];
-        for (std::size_t i = first_capsule; i < capsules.size(); ++i) {
-            if (!footprints[i].holds(u, v)) continue;
-            const shared::CapsuleRay from_ray =
-                shared::capsule_from_ray(capsules[i], axis, u * shared::kUnitsPerCell, v * shared::kUnitsPerCell);
-            const RaySpan span = shared::capsule_span(from_ray);
-            if (span.lo > span.hi) continue;
-            outcome.touched = true;
-            const Taken taken = take_out(axis, u, v, span, from_ray, capsules[i].material);
-            if (taken.room_needed > 0) {
-                const std::lock_guard lock(pending_mutex_);
-                pending_.push_back({axis, u, v, taken.room_needed, i, outcome});
-                return std::nullopt;
+    void carve_band(Band& band, std::span<const Capsule> capsules) {
+        std::vector<RowPart> parts;
+        const std::vector<Footprint>& footprints = footprints_[static_cast<std::size_t>(band.axis)];
+        for (int v = band.v_lo; v <= band.v_hi; ++v) {
+            parts.clear();
+            for (std::size_t i = 0; i < capsules.size(); ++i) {
+                const Footprint& f = footprints[i];
+                if (!f.empty() && v >= f.v_lo && v <= f.v_hi) parts.push_back({&capsules[i], f.u_lo, f.u_hi});
             }
-            outcome.changed = outcome.changed || taken.changed;
-        }
-        return outcome;
-    }
-
-    struct Taken {
-        bool changed = false;
-        uint room_needed = 0;  // above 0: the store is full and the ray is as it was
-    };
-
-    Taken take_out(int axis, int u, int v, RaySpan span, const shared::CapsuleRay& from_ray, uint material) {
-        DexelSet& set = solid_.sets[static_cast<std::size_t>(axis)];
-        RayRef& ray = set.rays()[static_cast<std::size_t>(v) * static_cast<std::size_t>(solid_.lattice.rays_u(axis)) +
-                                 static_cast<std::size_t>(u)];
-        const uint count = shared::count_of(ray);
-        if (count == 0) return {};
-        HostEnds list{set.store().data()};
-        const HostEnds::CutPlan plan = list.plan_cut(ray.first, count, span);
-        if (plan.removed == 0) return {};
-        const uint new_count = list.count_after(count, plan);
-        if (new_count > shared::room_of(ray) && !move_to_larger_room(set, ray, new_count)) {
-            return {false, shared::room_of({0, DexelSet::count_room(new_count)})};
-        }
-        const auto end_at = [&](int depth) {
-            return shared::make_end(depth, material, shared::capsule_normal(from_ray, axis, depth));
-        };
-        list.apply_cut(ray.first, count, plan, plan.kept_low != 0 ? end_at(span.lo) : DexelEnd{},
-                       plan.kept_high != 0 ? end_at(span.hi) : DexelEnd{});
-        ray.count_room = (ray.count_room & 0xff000000u) | new_count;
-        dirty_.mark_ray(axis, u, v, plan.changed_lo, plan.changed_hi);
-        return {true, 0};
-    }
-
-    // False when the store is full; the ray is then as it was.
-    static bool move_to_larger_room(DexelSet& set, RayRef& ray, uint needed) {
-        const uint count = shared::count_of(ray);
-        const uint wanted = DexelSet::count_room(needed);
-        const uint place = set.claim(shared::room_of({0, wanted}));
-        if (place == DexelSet::kNoPlace) return false;
-        std::copy_n(set.store().data() + ray.first, count, set.store().data() + place);
-        ray = {place, (wanted & 0xff000000u) | count};
-        return true;
-    }
-
-    void finish_pending(std::span<const Capsule> capsules, CutStats& stats) {
-        while (!pending_.empty()) {
-            const std::vector<PendingRay> pending = std::exchange(pending_, {});
-            // At least what the waiting rays ask for, so that every round finishes the capsule each of them waits with.
-            std::array<std::size_t, 3> needed{};
-            for (const PendingRay& p : pending) needed[static_cast<std::size_t>(p.axis)] += p.room;
-            for (std::size_t a = 0; a < 3; ++a) {
-                DexelSet& set = solid_.sets[a];
-                if (needed[a] > 0) set.make_space(std::max(set.used() / 4, 2 * needed[a] + 4096));
-            }
-            for (const PendingRay& p : pending) {
-                count(cut_ray(p.axis, p.u, p.v, capsules, p.capsule, p.before), stats);
+            if (parts.size() == 1) {
+                carve_row(band, v, parts.front());
+            } else if (!parts.empty()) {
+                carve_row_by_rays(band, v, parts);
             }
         }
+    }
+
+    // One capsule. A resting ball is dealt with many rays at a time.
+    void carve_row(Band& band, int v, const RowPart& part) {
+        const Capsule& c = *part.capsule;
+        if (c.along_x != 0 || c.along_y != 0 || c.along_z != 0) {
+            for (int u = part.u_lo; u <= part.u_hi; ++u) {
+                if (skips_page(band.axis, u, v, c)) continue;
+                const CapsuleRay from_ray = capsule_from_ray(c, band.axis, u * kUnitsPerCell, v * kUnitsPerCell);
+                count(band, work_on(band, u, v, shared::capsule_span(from_ray), c));
+            }
+            return;
+        }
+        const int center_u = shared::pick(band.axis, c.start_y, c.start_z, c.start_x);
+        const int center_v = shared::pick(band.axis, c.start_z, c.start_x, c.start_y);
+        const int center_s = shared::pick(band.axis, c.start_x, c.start_y, c.start_z);
+        const std::int64_t offset_v = v * kUnitsPerCell - center_v;
+        const std::int64_t row_radius2 = c.radius2 - offset_v * offset_v;
+        if (row_radius2 < 0) return;
+        const auto reach = static_cast<int>(shared::whole_sqrt(row_radius2));
+        const int u_lo = std::max(part.u_lo, -floor_cells(reach - center_u)),
+                  u_hi = std::min(part.u_hi, floor_cells(center_u + reach));
+        std::array<std::int32_t, DexelSet::kPageRays> half{};
+        for (int u = u_lo; u <= u_hi;) {
+            const int last = std::min(u_hi, u / DexelSet::kPageRays * DexelSet::kPageRays + DexelSet::kPageRays - 1);
+            if (skips_page(band.axis, u, v, c)) {
+                u = last + 1;
+                continue;
+            }
+            ball_half_spans(row_radius2, u * kUnitsPerCell - center_u, last - u + 1, half.data());
+            for (int i = 0; u <= last; ++u, ++i) {
+                const int h = half[static_cast<std::size_t>(i)];
+                count(band, work_on(band, u, v, {center_s - h, center_s + h}, c));
+            }
+        }
+    }
+
+    // Several capsules: each ray takes all of them in order, and counts once.
+    void carve_row_by_rays(Band& band, int v, std::span<const RowPart> parts) {
+        int u_lo = parts.front().u_lo, u_hi = parts.front().u_hi;
+        for (const RowPart& p : parts) {
+            u_lo = std::min(u_lo, p.u_lo);
+            u_hi = std::max(u_hi, p.u_hi);
+        }
+        for (int u = u_lo; u <= u_hi; ++u) {
+            Outcome of_ray = Outcome::missed;
+            for (const RowPart& p : parts) {
+                if (u < p.u_lo || u > p.u_hi) continue;
+                const CapsuleRay from_ray =
+                    capsule_from_ray(*p.capsule, band.axis, u * kUnitsPerCell, v * kUnitsPerCell);
+                of_ray = std::max(of_ray, work_on(band, u, v, shared::capsule_span(from_ray), *p.capsule));
+            }
+            count(band, of_ray);
+        }
+    }
+
+    // Where there is no material there is nothing to cut or to paint.
+    [[nodiscard]] bool skips_page(int axis, int u, int v, const Capsule& c) const {
+        return operation_of(c) != shared::kFill && !solid_.sets[static_cast<std::size_t>(axis)].page_held(u, v);
+    }
+
+    [[nodiscard]] static int floor_cells(int units) {
+        return units >= 0 ? units / kUnitsPerCell : -((-units + kUnitsPerCell - 1) / kUnitsPerCell);
+    }
+
+    Outcome work_on(Band& band, int u, int v, RaySpan span, const Capsule& capsule) {
+        if (span.lo > span.hi) return Outcome::missed;
+        DexelSet& set = solid_.sets[static_cast<std::size_t>(band.axis)];
+        const std::span<const DexelEnd> held = set.ends(u, v);
+        const int operation = operation_of(capsule), cells = solid_.lattice.cells[static_cast<std::size_t>(band.axis)];
+        if (operation == shared::kFill) {
+            if (!shared::may_fill_ray(u, v, set.rays_u(), set.rays_v())) return Outcome::missed;
+            span = shared::fill_within(span, cells);
+        } else if (held.empty()) {
+            return Outcome::missed;
+        } else if (operation == shared::kPaint) {
+            return paint(band, u, v, span, shared::material_of_work(capsule));
+        } else if (depth_of(held.front()) >= span.hi || depth_of(held.back()) <= span.lo) {
+            return Outcome::touched;  // half of the rays that a stroke touches
+        }
+        HostRay ray{held.data()};
+        const HostRay::SpanEdit edit =
+            ray.plan_span(static_cast<uint>(held.size()), span, operation == shared::kFill ? 1u : 0u);
+        if (!ray.changes_anything(edit)) return Outcome::touched;
+        band.changes.record({band.axis, u, v}, edit.changed_lo, edit.changed_hi, held);
+        const CapsuleRay from_ray = capsule_from_ray(capsule, band.axis, u * kUnitsPerCell, v * kUnitsPerCell);
+        std::array<DexelEnd, 2> fresh;
+        std::size_t count = 0;
+        if (edit.insert_lo != 0) fresh[count++] = capsule_end(from_ray, band.axis, span.lo, capsule.work, cells);
+        if (edit.insert_hi != 0) fresh[count++] = capsule_end(from_ray, band.axis, span.hi, capsule.work, cells);
+        set.splice(u, v, edit.from, edit.to - edit.from, {fresh.data(), count});
+        return Outcome::changed;
+    }
+
+    Outcome paint(Band& band, int u, int v, RaySpan span, uint material) {
+        int lo = shared::kMaxDepth, hi = -1;
+        const std::span<DexelEnd> held = solid_.sets[static_cast<std::size_t>(band.axis)].ends_to_change(u, v);
+        for (const DexelEnd& end : held) {
+            const int depth = depth_of(end);
+            if (depth < span.lo || depth > span.hi || material_of(end) == material) continue;
+            lo = std::min(lo, depth);
+            hi = depth;
+        }
+        if (lo > hi) return Outcome::touched;
+        band.changes.record({band.axis, u, v}, lo, hi, held);
+        for (DexelEnd& end : held) {
+            if (depth_of(end) >= lo && depth_of(end) <= hi) end = shared::make_end(depth_of(end), material, end.normal);
+        }
+        return Outcome::changed;
+    }
+
+    CarveStats collect() {
+        CarveStats stats;
+        for (std::size_t i = 0; i < band_count_; ++i) {
+            stats += bands_[i].stats;
+            changes_.append(bands_[i].changes);
+        }
+        return stats;
     }
 
     Solid solid_;
-    DirtyTiles dirty_;
     WorkerPool& pool_;
-    std::vector<Row> rows_;
+    Changes changes_;
     std::array<std::vector<Footprint>, 3> footprints_;  // of each capsule, for each axis
-    std::vector<std::pair<int, int>> row_ranges_;       // u_lo, u_hi for each v
-    std::mutex pending_mutex_;
-    std::vector<PendingRay> pending_;  // guarded by pending_mutex_ while rows run
+    std::vector<Band> bands_;  // the first band_count_ are in use, the others keep their memory
+    std::size_t band_count_ = 0;
 };
 
 }  // namespace

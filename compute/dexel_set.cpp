@@ -2,100 +2,126 @@
 #include "compute/dexel_set.hpp"
 
 #include <algorithm>
-#include <bit>
+#include <cstring>
+#include <new>
 
 #include "base/error.hpp"
 
 namespace burin {
 
 using shared::DexelEnd;
-using shared::RayRef;
 
-std::uint32_t DexelSet::count_room(std::uint32_t count) {
-    const std::uint32_t log2_room = count <= 1 ? 0 : static_cast<std::uint32_t>(std::bit_width(count - 1));
-    return count | (log2_room << 24);
+namespace {
+
+// Blocks grow by small steps: a page holds 128 ends and more, and a solid has a page for every 64 rays.
+constexpr std::uint32_t kGrowth = 8;
+constexpr std::size_t kAllocatorBytes = 16;  // what a heap keeps with each block, rounding included
+
+}  // namespace
+
+DexelSet::DexelSet(int rays_u, int rays_v)
+    : rays_u_(rays_u), rays_v_(rays_v), pages_a_row_(static_cast<std::size_t>((rays_u + kPageRays - 1) / kPageRays)) {
+    pages_.resize(pages_a_row_ * static_cast<std::size_t>(rays_v));
+}
+
+DexelSet::DexelSet(const DexelSet& other) { *this = other; }
+
+DexelSet& DexelSet::operator=(const DexelSet& other) {
+    if (this == &other) return *this;
+    rays_u_ = other.rays_u_;
+    rays_v_ = other.rays_v_;
+    pages_a_row_ = other.pages_a_row_;
+    pages_.clear();
+    pages_.resize(other.pages_.size());
+    for (std::size_t i = 0; i < pages_.size(); ++i) {
+        if (other.pages_[i]) pages_[i] = copy_page(*other.pages_[i], other.pages_[i]->first.back());
+    }
+    return *this;
+}
+
+DexelSet::PageOwner DexelSet::make_page(std::uint32_t at_least) {
+    const std::uint32_t capacity = (at_least + kGrowth - 1) / kGrowth * kGrowth;
+    void* memory = ::operator new(sizeof(Page) + capacity * sizeof(DexelEnd));
+    PageOwner page(new (memory) Page);
+    page->capacity = capacity;
+    return page;
+}
+
+DexelSet::PageOwner DexelSet::copy_page(const Page& page, std::uint32_t at_least) {
+    PageOwner copy = make_page(at_least);
+    copy->first = page.first;
+    std::copy_n(page.ends(), page.first.back(), copy->ends());
+    return copy;
+}
+
+void DexelSet::splice(int u, int v, std::uint32_t from, std::uint32_t removed, std::span<const DexelEnd> inserted) {
+    PageOwner& owner = pages_[page_index(u, v)];
+    const auto added = static_cast<std::uint32_t>(inserted.size());
+    if (!owner) {
+        if (added == 0) return;
+        owner = make_page(added);
+    }
+    const auto ray = static_cast<std::size_t>(u % kPageRays);
+    const std::uint32_t count = owner->first.back();
+    const std::uint32_t new_count = count + added - removed;
+    if (new_count > owner->capacity) {
+        // A ray that grows will grow again: an eighth of the page more, beside the next step.
+        owner = copy_page(*owner, new_count + (new_count > 256 ? new_count / 8 : 0));
+    }
+    DexelEnd* at = owner->ends() + owner->first[ray] + from;
+    if (added != removed) {
+        std::memmove(at + added, at + removed,
+                     static_cast<std::size_t>(owner->ends() + count - (at + removed)) * sizeof(DexelEnd));
+        for (std::size_t r = ray + 1; r < owner->first.size(); ++r) owner->first[r] += added - removed;
+    }
+    std::copy(inserted.begin(), inserted.end(), at);
+    if (new_count == 0) owner.reset();
 }
 
 void DexelSet::assign(std::span<const std::uint32_t> counts, std::span<const DexelEnd> ends) {
-    BURIN_CHECK(counts.size() == rays_.size());
-    std::size_t room = 0;
-    for (const std::uint32_t count : counts) {
-        if (count > 0) room += shared::room_of({0, count_room(count)});
-    }
-    ends_.assign(room + room / 8, DexelEnd{});
-    std::size_t place = 0, from = 0;
-    for (std::size_t r = 0; r < rays_.size(); ++r) {
-        const std::uint32_t count = counts[r];
-        if (count == 0) {
-            rays_[r] = {0, kNoRoom};
-            continue;
+    BURIN_CHECK(counts.size() == ray_count());
+    const std::uint32_t* count = counts.data();
+    const DexelEnd* end = ends.data();
+    for (int v = 0; v < rays_v_; ++v) {
+        for (int u = 0; u < rays_u_; u += kPageRays) {
+            const int rays = std::min(kPageRays, rays_u_ - u);
+            std::array<std::uint32_t, kPageRays + 1> first{};
+            for (std::size_t r = 0; r < kPageRays; ++r) {
+                first[r + 1] = first[r] + (static_cast<int>(r) < rays ? *count++ : 0);
+            }
+            PageOwner& page = pages_[page_index(u, v)];
+            page.reset();
+            if (first.back() == 0) continue;
+            page = make_page(first.back());
+            page->first = first;
+            std::copy_n(end, first.back(), page->ends());
+            end += first.back();
         }
-        rays_[r] = {static_cast<std::uint32_t>(place), count_room(count)};
-        std::copy_n(ends.begin() + static_cast<std::ptrdiff_t>(from), count,
-                    ends_.begin() + static_cast<std::ptrdiff_t>(place));
-        from += count;
-        place += shared::room_of(rays_[r]);
     }
-    used_.store(place, std::memory_order_relaxed);
 }
 
-std::uint32_t DexelSet::claim(std::uint32_t room) noexcept {
-    // relaxed: the addition alone makes the place ours; the worker pool's join publishes what is written there.
-    const std::size_t place = used_.fetch_add(room, std::memory_order_relaxed);
-    return place + room <= ends_.size() ? static_cast<std::uint32_t>(place) : kNoPlace;
+std::size_t DexelSet::end_count() const {
+    std::size_t count = 0;
+    for (const PageOwner& page : pages_) count += page ? page->first.back() : 0;
+    return count;
 }
 
-void DexelSet::make_space(std::size_t spare) {
-    std::size_t room = 0;
-    for (const RayRef& ray : rays_) {
-        if (shared::count_of(ray) > 0) room += shared::room_of({0, count_room(shared::count_of(ray))});
+std::size_t DexelSet::bytes() const {
+    std::size_t bytes = pages_.size() * sizeof(PageOwner);
+    for (const PageOwner& page : pages_) {
+        if (page) bytes += sizeof(Page) + page->capacity * sizeof(DexelEnd) + kAllocatorBytes;
     }
-    std::vector<DexelEnd> packed(room + std::max(spare, room / 8));
-    std::size_t place = 0;
-    for (RayRef& ray : rays_) {
-        const std::uint32_t count = shared::count_of(ray);
-        if (count == 0) {
-            ray = {0, kNoRoom};
-            continue;
-        }
-        std::copy_n(ends_.begin() + ray.first, count, packed.begin() + static_cast<std::ptrdiff_t>(place));
-        ray = {static_cast<std::uint32_t>(place), count_room(count)};
-        place += shared::room_of(ray);
-    }
-    ends_ = std::move(packed);
-    used_.store(place, std::memory_order_relaxed);
-}
-
-void DexelSet::replace(std::size_t r, std::span<const DexelEnd> ends) {
-    const auto count = static_cast<std::uint32_t>(ends.size());
-    RayRef& ray = rays_[r];
-    const bool has_place = shared::count_of(ray) > 0;
-    if (count == 0) {
-        ray = {0, kNoRoom};
-        return;
-    }
-    if (!has_place || count > shared::room_of(ray)) {
-        const std::uint32_t wanted = count_room(count);
-        const std::uint32_t room = shared::room_of({0, wanted});
-        std::uint32_t place = claim(room);
-        if (place == kNoPlace) {
-            ray = {0, kNoRoom};  // its old ends go
-            make_space(room);
-            place = claim(room);
-        }
-        ray = {place, wanted};
-    }
-    std::copy(ends.begin(), ends.end(), ends_.begin() + ray.first);
-    ray.count_room = (ray.count_room & 0xff000000u) | count;
+    return bytes;
 }
 
 bool DexelSet::same_content(const DexelSet& other) const {
-    if (ray_count() != other.ray_count()) return false;
-    for (std::size_t r = 0; r < ray_count(); ++r) {
-        const auto a = ends(r), b = other.ends(r);
-        if (!std::ranges::equal(a, b, [](const DexelEnd& x, const DexelEnd& y) {
-                return x.depth_material == y.depth_material && x.normal == y.normal;
-            })) {
+    if (rays_u_ != other.rays_u_ || rays_v_ != other.rays_v_) return false;
+    for (std::size_t i = 0; i < pages_.size(); ++i) {
+        const Page* a = pages_[i].get();
+        const Page* b = other.pages_[i].get();
+        if ((a == nullptr) != (b == nullptr)) return false;
+        if (a != nullptr &&
+            (a->first != b->first || std::memcmp(a->ends(), b->ends(), a->first.back() * sizeof(DexelEnd)) != 0)) {
             return false;
         }
     }

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The rays of one axis and their ends: a table of RayRef and one store of DexelEnd that all rays share.
+// The rays of one axis and their ends, any number of them a ray.
 //
-// Each ray has room for a power of two of ends. A ray that needs more gets a new place at the end of the store and leaves
-// a gap; when the store is full it is rebuilt without gaps and with spare space. Any number of ends is kept.
-// Threads: rays may be read and written from several threads as long as each ray is touched by one; claim() is thread-safe;
-// everything else is for one thread.
+// Rays lie in rows (v) of places (u). kPageRays neighbours of a row share a page: one block of memory with the ends of all of
+// them, ray after ray without gaps, behind a table of where each ray's begin. A page whose rays are all empty is not there.
+// So a ray costs 4 bytes and 8 an end, and little else; a ray that needs more moves the rest of its page up, a few hundred
+// bytes, and a page that is full gets a larger block. Nothing is ever dropped for want of room.
+// Threads: pages may be read and written from several threads as long as each page is touched by one. The rest is for one.
 #pragma once
 
-#include <atomic>
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "shaders/shared/dexel.h"
@@ -19,62 +20,83 @@ namespace burin {
 
 class DexelSet {
 public:
+    static constexpr int kPageRays = 64;
+
     DexelSet() = default;
-    explicit DexelSet(std::size_t ray_count) : rays_(ray_count, shared::RayRef{0, kNoRoom}) {}
-    DexelSet(const DexelSet& other) : rays_(other.rays_), ends_(other.ends_), used_(other.used_.load()) {}
-    DexelSet& operator=(const DexelSet& other) {
-        rays_ = other.rays_;
-        ends_ = other.ends_;
-        used_ = other.used_.load();
-        return *this;
-    }
-    // Moved, not copied: a large solid changes hands without a second one beside it. `other` is then empty.
-    DexelSet(DexelSet&& other) noexcept
-        : rays_(std::move(other.rays_)), ends_(std::move(other.ends_)), used_(other.used_.exchange(0)) {}
-    DexelSet& operator=(DexelSet&& other) noexcept {
-        rays_ = std::move(other.rays_);
-        ends_ = std::move(other.ends_);
-        used_ = other.used_.exchange(0);
-        return *this;
+    DexelSet(int rays_u, int rays_v);
+    DexelSet(const DexelSet& other);
+    DexelSet& operator=(const DexelSet& other);
+    DexelSet(DexelSet&&) noexcept = default;
+    DexelSet& operator=(DexelSet&&) noexcept = default;
+
+    [[nodiscard]] int rays_u() const { return rays_u_; }
+    [[nodiscard]] int rays_v() const { return rays_v_; }
+    [[nodiscard]] std::size_t ray_count() const {
+        return static_cast<std::size_t>(rays_u_) * static_cast<std::size_t>(rays_v_);
     }
 
-    [[nodiscard]] std::size_t ray_count() const { return rays_.size(); }
+    [[nodiscard]] std::span<const shared::DexelEnd> ends(int u, int v) const {
+        const Page* page = pages_[page_index(u, v)].get();
+        if (page == nullptr) return {};
+        const auto ray = static_cast<std::size_t>(u % kPageRays);
+        return {page->ends() + page->first[ray], page->first[ray + 1] - page->first[ray]};
+    }
+    // By index u + v * rays_u().
     [[nodiscard]] std::span<const shared::DexelEnd> ends(std::size_t ray) const {
-        return {ends_.data() + rays_[ray].first, shared::count_of(rays_[ray])};
+        const auto width = static_cast<std::size_t>(rays_u_);
+        return ends(static_cast<int>(ray % width), static_cast<int>(ray / width));
+    }
+    // To change ends without changing their number.
+    [[nodiscard]] std::span<shared::DexelEnd> ends_to_change(int u, int v) {
+        const auto held = ends(u, v);
+        return {const_cast<shared::DexelEnd*>(held.data()), held.size()};
     }
 
-    // Replaces all rays: counts[r] ends each, taken from `ends` one ray after the other.
+    // Puts `inserted` in the place of `removed` ends of a ray from the given one on.
+    void splice(int u, int v, std::uint32_t from, std::uint32_t removed, std::span<const shared::DexelEnd> inserted);
+    // All of a ray's ends.
+    void replace(int u, int v, std::span<const shared::DexelEnd> ends) {
+        splice(u, v, 0, static_cast<std::uint32_t>(this->ends(u, v).size()), ends);
+    }
+    void replace(std::size_t ray, std::span<const shared::DexelEnd> ends) {
+        const auto width = static_cast<std::size_t>(rays_u_);
+        replace(static_cast<int>(ray % width), static_cast<int>(ray / width), ends);
+    }
+    // All rays: counts[r] ends each, taken from `ends` one ray after the other.
     void assign(std::span<const std::uint32_t> counts, std::span<const shared::DexelEnd> ends);
-    // Replaces one ray's ends, finding or making room. One thread.
-    void replace(std::size_t ray, std::span<const shared::DexelEnd> ends);
 
-    // For the engines: raw access, and room for one more ray of `count` ends from the spare space; kNoPlace when it is used
-    // up (then call make_space and try again).
-    static constexpr std::uint32_t kNoPlace = 0xffffffff;
-    [[nodiscard]] std::uint32_t claim(std::uint32_t room) noexcept;
-    // Rebuilds the store without gaps, with at least `spare` free ends behind it.
-    void make_space(std::size_t spare);
-    [[nodiscard]] std::span<shared::RayRef> rays() { return rays_; }
-    [[nodiscard]] std::span<const shared::RayRef> rays() const { return rays_; }
-    [[nodiscard]] std::span<shared::DexelEnd> store() { return ends_; }
-    [[nodiscard]] std::span<const shared::DexelEnd> store() const { return ends_; }
-    [[nodiscard]] std::size_t used() const { return used_.load(std::memory_order_relaxed); }
-
-    // All bookkeeping included.
-    [[nodiscard]] std::size_t bytes() const {
-        return rays_.size() * sizeof(shared::RayRef) + ends_.size() * sizeof(shared::DexelEnd);
-    }
-    // Same intervals, normals and materials on every ray, wherever they are stored.
+    // Whether any ray of u's page in row v has ends: false is a quick answer for all of them.
+    [[nodiscard]] bool page_held(int u, int v) const { return pages_[page_index(u, v)] != nullptr; }
+    [[nodiscard]] std::size_t end_count() const;
+    // All bookkeeping included, and what the allocator adds to a block.
+    [[nodiscard]] std::size_t bytes() const;
+    // Same intervals, normals and materials on every ray.
     [[nodiscard]] bool same_content(const DexelSet& other) const;
 
-    // log2 of the room for `count` ends, in a RayRef's high bits, with the count in the low ones.
-    [[nodiscard]] static std::uint32_t count_room(std::uint32_t count);
-
 private:
-    static constexpr std::uint32_t kNoRoom = 0;  // log2 room 0 and count 0: an empty ray has no place of its own
-    std::vector<shared::RayRef> rays_;
-    std::vector<shared::DexelEnd> ends_;
-    std::atomic<std::size_t> used_{0};
+    struct Page {
+        std::uint32_t capacity = 0;                        // ends
+        std::array<std::uint32_t, kPageRays + 1> first{};  // of each ray; the last one: how many in all
+        [[nodiscard]] shared::DexelEnd* ends() { return reinterpret_cast<shared::DexelEnd*>(this + 1); }
+        [[nodiscard]] const shared::DexelEnd* ends() const {
+            return reinterpret_cast<const shared::DexelEnd*>(this + 1);
+        }
+    };
+    static_assert(sizeof(Page) % alignof(shared::DexelEnd) == 0);
+    struct FreePage {
+        void operator()(Page* page) const { ::operator delete(page); }
+    };
+    using PageOwner = std::unique_ptr<Page, FreePage>;
+
+    [[nodiscard]] static PageOwner make_page(std::uint32_t at_least);
+    [[nodiscard]] static PageOwner copy_page(const Page& page, std::uint32_t at_least);
+    [[nodiscard]] std::size_t page_index(int u, int v) const {
+        return static_cast<std::size_t>(v) * pages_a_row_ + static_cast<std::size_t>(u / kPageRays);
+    }
+
+    int rays_u_ = 0, rays_v_ = 0;
+    std::size_t pages_a_row_ = 0;
+    std::vector<PageOwner> pages_;
 };
 
 }  // namespace burin

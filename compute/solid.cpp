@@ -14,7 +14,7 @@ template <typename SpanOf, typename NormalOf>
 void fill_convex(Solid& solid, SpanOf span_of, NormalOf normal_of) {
     for (int axis = 0; axis < 3; ++axis) {
         DexelSet& set = solid.sets[static_cast<std::size_t>(axis)];
-        set = DexelSet(solid.lattice.rays(axis));
+        set = DexelSet(solid.lattice.rays_u(axis), solid.lattice.rays_v(axis));
         std::vector<std::uint32_t> counts;
         std::vector<shared::DexelEnd> ends;
         counts.reserve(set.ray_count());
@@ -30,12 +30,6 @@ void fill_convex(Solid& solid, SpanOf span_of, NormalOf normal_of) {
         }
         set.assign(counts, ends);
     }
-}
-
-std::uint32_t axis_normal(int axis, bool positive) {
-    shared::IntVector n{0, 0, 0};
-    (axis == 0 ? n.x : axis == 1 ? n.y : n.z) = positive ? 1 : -1;
-    return shared::encode_normal(n);
 }
 
 std::array<int, 3> whole_units(const Vec3& units) {
@@ -87,7 +81,7 @@ Result<Solid> make_block(const Vec3& size_m, int resolution, Material material) 
             const bool hit = ray_u > lo[u] && ray_u < hi[u] && ray_v > lo[v] && ray_v < hi[v];
             return hit ? shared::RaySpan{lo[s], hi[s]} : shared::RaySpan{1, 0};
         },
-        [](int axis, int, int, int, bool upper) { return axis_normal(axis, upper); });
+        [](int axis, int, int, int, bool upper) { return shared::axis_normal(axis, upper); });
     return solid;
 }
 

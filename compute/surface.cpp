@@ -9,25 +9,49 @@
 
 namespace burin {
 
-RemeshStats Surface::remesh(const Solid& solid, std::span<const std::uint32_t> tiles, WorkerPool& pool) {
-    for (const std::uint32_t t : tiles) {
-        triangles_ -= tiles_[t].triangles();
-        disagreeing_edges_ -= tiles_[t].disagreeing_edges;
+template <typename MaskOf>
+RemeshStats Surface::mesh_tiles(const Solid& solid, MaskOf&& mask_of, WorkerPool& pool) {
+    for (const std::uint32_t t : changed_tiles_) {
+        triangles_ -= tile(t).triangles();
+        disagreeing_edges_ -= tile(t).disagreeing_edges;
     }
-    pool.run(tiles.size(), [&](std::size_t i) { mesh_tile(solid, grid_, tiles[i], tiles_[tiles[i]]); });
+    work_.resize(changed_tiles_.size());
+    pool.run(changed_tiles_.size(), [&](std::size_t i) {
+        const std::uint32_t t = changed_tiles_[i];
+        if (!tiles_[t]) tiles_[t] = std::make_unique<TileMesh>();
+        work_[i] = mesh_tile(solid, grid_, t, mask_of(t), *tiles_[t]);
+        if (tiles_[t]->indices.empty()) tiles_[t].reset();
+    });
     RemeshStats stats;
-    stats.tiles = tiles.size();
-    for (const std::uint32_t t : tiles) {
-        stats.triangles += tiles_[t].triangles();
-        disagreeing_edges_ += tiles_[t].disagreeing_edges;
+    stats.tiles = changed_tiles_.size();
+    for (std::size_t i = 0; i < changed_tiles_.size(); ++i) {
+        const TileMesh& mesh = tile(changed_tiles_[i]);
+        stats.cells += work_[i].cells;
+        stats.triangles += work_[i].triangles;
+        triangles_ += mesh.triangles();
+        disagreeing_edges_ += mesh.disagreeing_edges;
     }
-    triangles_ += stats.triangles;
     return stats;
+}
+
+RemeshStats Surface::mesh_all(const Solid& solid, WorkerPool& pool) {
+    changed_tiles_.resize(tiles_.size());
+    std::iota(changed_tiles_.begin(), changed_tiles_.end(), 0u);
+    CellMask all;
+    all.set_all();
+    return mesh_tiles(solid, [&](std::uint32_t) -> const CellMask& { return all; }, pool);
+}
+
+RemeshStats Surface::update(const Solid& solid, const Changes& changes, WorkerPool& pool) {
+    dirty_.sort(changes);
+    changed_tiles_.assign(dirty_.tiles().begin(), dirty_.tiles().end());
+    return mesh_tiles(solid, [&](std::uint32_t tile) { return dirty_.mask(tile); }, pool);
 }
 
 double Surface::volume_m3() const {
     double six_volumes = 0.0;
-    for (const TileMesh& tile : tiles_) {
+    for (std::uint32_t t = 0; t < tile_count(); ++t) {
+        const TileMesh& tile = this->tile(t);
         const auto corner = [&](std::size_t i) {
             const shared::SurfaceVertex& v = tile.vertices[tile.indices[i]];
             return Vec3(v.x, v.y, v.z);
@@ -72,8 +96,9 @@ TriangleMesh Surface::welded() const {
     std::vector<Place> places;
     std::vector<std::vector<std::uint32_t>> welded_index(tiles_.size());
     for (std::uint32_t t = 0; t < tiles_.size(); ++t) {
-        welded_index[t].resize(tiles_[t].keys.size());
-        for (std::uint32_t v = 0; v < tiles_[t].keys.size(); ++v) places.push_back({tiles_[t].keys[v], t, v});
+        const std::vector<std::uint64_t> keys = vertex_keys(lattice_, grid_.first_node(t), tile(t));
+        welded_index[t].resize(keys.size());
+        for (std::uint32_t v = 0; v < keys.size(); ++v) places.push_back({keys[v], t, v});
     }
     std::ranges::sort(places, [](const Place& a, const Place& b) {
         return std::tie(a.key, a.tile, a.vertex) < std::tie(b.key, b.tile, b.vertex);
@@ -86,12 +111,12 @@ TriangleMesh Surface::welded() const {
     for (std::size_t from = 0, to = 0; from < places.size(); from = to) {
         std::array<std::uint32_t, 3> colour{};
         do {
-            const std::uint32_t c = tiles_[places[to].tile].vertices[places[to].vertex].colour;
+            const std::uint32_t c = tile(places[to].tile).vertices[places[to].vertex].colour;
             for (std::size_t k = 0; k < 3; ++k) colour[k] += c >> (8 * k) & 0xffu;
             welded_index[places[to].tile][places[to].vertex] = static_cast<std::uint32_t>(welded_places.size());
             ++to;
         } while (to < places.size() && places[to].key == places[from].key);
-        const shared::SurfaceVertex& v = tiles_[places[from].tile].vertices[places[from].vertex];
+        const shared::SurfaceVertex& v = tile(places[from].tile).vertices[places[from].vertex];
         welded_places.emplace_back(lattice_.origin_object - shift + Vec3(v.x, v.y, v.z));
         const auto count = static_cast<std::uint32_t>(to - from);
         const auto mean = [&](std::size_t k) { return static_cast<std::uint8_t>((colour[k] + count / 2) / count); };
@@ -101,8 +126,9 @@ TriangleMesh Surface::welded() const {
     for (const Vec3f& place : welded_places) mesh.positions_m.push_back(shift + Vec3(place));
     for (std::uint32_t t = 0; t < tiles_.size(); ++t) {
         const std::vector<std::uint32_t>& index = welded_index[t];
-        for (std::size_t i = 0; i < tiles_[t].indices.size(); i += 3) {
-            const std::uint32_t* corner = &tiles_[t].indices[i];
+        const TileMesh& tile = this->tile(t);
+        for (std::size_t i = 0; i < tile.indices.size(); i += 3) {
+            const std::uint32_t* corner = &tile.indices[i];
             mesh.triangles.push_back({index[corner[0]], index[corner[1]], index[corner[2]]});
         }
     }

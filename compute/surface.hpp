@@ -4,30 +4,43 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "base/worker_pool.hpp"
+#include "compute/dirty_cells.hpp"
+#include "compute/ray_batch.hpp"
 #include "compute/tile_mesher.hpp"
 #include "geometry/local_surface.hpp"
 
 namespace burin {
 
 struct RemeshStats {
-    std::uint64_t tiles = 0;
-    std::uint64_t triangles = 0;  // made in those tiles
+    std::uint64_t tiles = 0;      // looked at
+    std::uint64_t cells = 0;      // whose vertices were computed anew
+    std::uint64_t triangles = 0;  // made anew, because a cell at one of their corners was
 };
 
 class Surface {
 public:
-    explicit Surface(const Lattice& lattice) : lattice_(lattice), grid_(lattice), tiles_(grid_.count()) {}
+    explicit Surface(const Lattice& lattice)
+        : lattice_(lattice), grid_(lattice), dirty_(lattice), tiles_(grid_.count()) {}
 
-    // Meshes the given tiles anew.
-    RemeshStats remesh(const Solid& solid, std::span<const std::uint32_t> tiles, WorkerPool& pool);
+    // Meshes everything anew.
+    RemeshStats mesh_all(const Solid& solid, WorkerPool& pool);
+    // Brings the surface up to date after the changes; meshes anew only the cells whose data changed. The result is the
+    // same, bit for bit, as mesh_all's.
+    RemeshStats update(const Solid& solid, const Changes& changes, WorkerPool& pool);
+    // The tiles that the last mesh_all or update meshed anew, in increasing order.
+    [[nodiscard]] std::span<const std::uint32_t> changed_tiles() const { return changed_tiles_; }
 
     [[nodiscard]] const Lattice& lattice() const { return lattice_; }
     [[nodiscard]] const TileGrid& grid() const { return grid_; }
-    [[nodiscard]] const TileMesh& tile(std::uint32_t index) const { return tiles_[index]; }
+    [[nodiscard]] const TileMesh& tile(std::uint32_t index) const {
+        static const TileMesh empty;
+        return tiles_[index] ? *tiles_[index] : empty;
+    }
     [[nodiscard]] std::size_t tile_count() const { return tiles_.size(); }
     [[nodiscard]] std::uint64_t triangles() const { return triangles_; }
     [[nodiscard]] std::uint64_t disagreeing_edges() const { return disagreeing_edges_; }
@@ -40,9 +53,15 @@ public:
     [[nodiscard]] TriangleMesh welded() const;
 
 private:
+    template <typename MaskOf>
+    RemeshStats mesh_tiles(const Solid& solid, MaskOf&& mask_of, WorkerPool& pool);
+
     Lattice lattice_;
     TileGrid grid_;
-    std::vector<TileMesh> tiles_;
+    DirtyCells dirty_;
+    std::vector<std::unique_ptr<TileMesh>> tiles_;  // none for a tile without surface
+    std::vector<std::uint32_t> changed_tiles_;
+    std::vector<TileWork> work_;
     std::uint64_t triangles_ = 0, disagreeing_edges_ = 0;
 };
 

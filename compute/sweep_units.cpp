@@ -62,7 +62,7 @@ std::optional<shared::Capsule> capsule_in_units(const Lattice& lattice, const Ba
     c.along_x = static_cast<int>(std::lround(end.x)) - c.start_x;
     c.along_y = static_cast<int>(std::lround(end.y)) - c.start_y;
     c.along_z = static_cast<int>(std::lround(end.z)) - c.start_z;
-    c.material = sweep.material;
+    c.work = shared::make_work(static_cast<int>(sweep.operation), sweep.material);
     return c;
 }
 
@@ -86,8 +86,11 @@ Result<std::vector<shared::Capsule>> capsules_in_units(const Solid& solid, std::
                         "check the stroke's units: positions are in metres");
         }
         if (sweep.material >= solid.materials.size()) {
-            return fail("tool", "cuts with material " + std::to_string(sweep.material) + ", which the workpiece lacks",
+            return fail("tool", "leaves material " + std::to_string(sweep.material) + ", which the workpiece lacks",
                         "add the material to the workpiece first");
+        }
+        if (sweep.operation == Operation::smooth) {
+            return fail("tool", "cannot smooth along a sweep", "smooth with apply(), which knows the surface around it");
         }
         if (const auto capsule = capsule_in_units(lattice, sweep)) capsules.push_back(*capsule);
     }

@@ -5,89 +5,195 @@
 #include <bit>
 
 #include "compute/cell_table.hpp"
+#include "compute/cell_vertices.hpp"
 #include "compute/tile_samples.hpp"
-#include "shaders/shared/octahedral.h"
 
 namespace burin {
 namespace {
-
-// Crossings whose normals are closer than this (cosine, about 41 degrees) belong to one smooth piece of surface.
-constexpr float kSmooth = 0.75f;
-// Across a change of material already a smaller angle (about 10 degrees) is an edge: the vertex lies on it, so each side can
-// keep its own colour. Where the surface runs on smoothly the border lies anywhere in the cell, and the colours blend.
-constexpr float kSmoothAcrossMaterials = 0.985f;
 
 constexpr Local step(Local p, int axis, int by) {
     p[static_cast<std::size_t>(axis)] += by;
     return p;
 }
 
-constexpr Local between(const Local& from, const Local& to) {
-    return {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+constexpr std::size_t cell_id(const Local& cell) {
+    return static_cast<std::size_t>(((cell[1] + 1) * kSeenCells + cell[0] + 1) * kSeenCells + cell[2] + 1);
 }
 
-std::uint32_t encode(const Vec3f& n) {
-    const auto whole = [](float x) { return static_cast<std::int64_t>(x * 1048576.0f); };
-    return shared::encode_normal({whole(n.x), whole(n.y), whole(n.z)});
+std::uint64_t lattice_key(const Lattice& lattice, const std::array<int, 3>& first_node, const Local& cell, int slot) {
+    std::uint64_t key = 0;
+    for (std::size_t a = 3; a-- > 0;) {
+        // Cell -1 of the lattice exists (it is empty): count from there.
+        key = key * static_cast<std::uint64_t>(lattice.cells[a] + 2) +
+              static_cast<std::uint64_t>(cell[a] + first_node[a] + 1);
+    }
+    return key * 16 + static_cast<std::uint64_t>(slot);
 }
 
-// Which vertex the quad of each crossed edge of a cell uses.
-struct CellVertices {
-    std::array<std::uint32_t, 12> of_edge{};
+// What outlives a call to keep its memory; as large as a tile and used by one thread.
+struct Scratch {
+    TileSamples samples;
+    std::array<std::uint16_t, kSeenCells * kSeenCells * kSeenCells> place_of_cell{};  // in the new mesh's cells
+    TileMesh fresh;
 };
 
 class Mesher {
 public:
-    Mesher(const Solid& solid, const std::array<int, 3>& first_node, const TileSamples& samples, TileMesh& mesh)
-        : solid_(solid), first_node_(first_node), samples_(samples), mesh_(mesh) {
-        cell_slot_.fill(-1);
+    Mesher(const Solid& solid, const std::array<int, 3>& first_node, const CellMask& dirty, const TileMesh& old,
+           Scratch& scratch)
+        : solid_(solid),
+          first_node_(first_node),
+          old_(old),
+          scratch_(scratch),
+          samples_(scratch.samples),
+          mesh_(scratch.fresh) {
+        find_cells(dirty);
     }
 
-    void run() {
-        for (int axis = 0; axis < 3; ++axis) {
-            for (int y = 0; y < kTileCells; ++y) {
-                for (int x = 0; x < kTileCells; ++x) {
-                    // Own nodes only: z = 0 .. kTileCells - 1 are bits 1 .. kTileCells.
-                    std::uint32_t bits = samples_.crossed(axis, x, y) & (((1u << kTileCells) - 1u) << 1);
-                    for (; bits != 0; bits &= bits - 1) quad(axis, {x, y, std::countr_zero(bits) - 1});
+    TileWork run() {
+        make_vertices();
+        make_quads();
+        return work_;
+    }
+
+private:
+    // needed_: the cells that quads refer to; anew_: those of them that cannot be copied. Where a loop passes a face twice,
+    // extra vertices depend on more than one cell: always anew, it is rare.
+    void find_cells(const CellMask& dirty) {
+        needed_ = samples_.cells_at_own_edges();
+        for (int y = -1; y < kTileCells; ++y) {
+            for (int x = -1; x < kTileCells; ++x) {
+                const std::uint32_t needed = needed_.at(x, y);
+                std::uint32_t anew = needed & dirty.at(x, y);
+                for (std::uint32_t bits = needed & ~anew; bits != 0; bits &= bits - 1) {
+                    const int z = std::countr_zero(bits) - 1;
+                    if (cell_table()[samples_.cell_pattern({x, y, z})].twice_faces != 0) anew |= 1u << (z + 1);
+                }
+                anew_.add(x, y, anew);
+            }
+        }
+        samples_.collect_crossings(solid_, first_node_, anew_);
+    }
+
+    void make_vertices() {
+        std::size_t old_cell = 0;
+        for (int y = -1; y < kTileCells; ++y) {
+            for (int x = -1; x < kTileCells; ++x) {
+                for (std::uint32_t bits = needed_.at(x, y); bits != 0; bits &= bits - 1) {
+                    const Local cell{x, y, std::countr_zero(bits) - 1};
+                    const std::size_t id = cell_id(cell);
+                    scratch_.place_of_cell[id] = static_cast<std::uint16_t>(mesh_.cells.size());
+                    mesh_.cells.push_back(
+                        {static_cast<std::uint16_t>(id), static_cast<std::uint16_t>(mesh_.vertices.size())});
+                    if ((anew_.at(x, y) & bits & (~bits + 1u)) != 0) {
+                        ++work_.cells;
+                        mesh_.vertex_of_edge.push_back(
+                            make_cell_vertices(solid_, first_node_, samples_, cell, mesh_.vertices));
+                    } else {
+                        while (old_.cells[old_cell].cell != id) ++old_cell;
+                        copy_cell(old_cell);
+                    }
                 }
             }
         }
     }
 
-private:
+    void copy_cell(std::size_t place) {
+        const std::size_t first = old_.cells[place].first_vertex;
+        const std::size_t end =
+            place + 1 < old_.cells.size() ? old_.cells[place + 1].first_vertex : old_.cell_vertices();
+        mesh_.vertices.insert(mesh_.vertices.end(), old_.vertices.begin() + static_cast<std::ptrdiff_t>(first),
+                              old_.vertices.begin() + static_cast<std::ptrdiff_t>(end));
+        mesh_.vertex_of_edge.push_back(old_.vertex_of_edge[place]);
+    }
+
+    void make_quads() {
+        for (int axis = 0; axis < 3; ++axis) {
+            for (int y = 0; y < kTileCells; ++y) {
+                for (int x = 0; x < kTileCells; ++x) {
+                    for (std::uint32_t bits = samples_.own_crossed(axis, x, y); bits != 0; bits &= bits - 1) {
+                        quad(axis, {x, y, std::countr_zero(bits) - 1});
+                    }
+                }
+            }
+        }
+    }
+
     // The polygon around a crossed edge: the vertices of the four cells about it, and between two of them the extra vertex
     // of their common face where that is needed.
     void quad(int axis, const Local& node) {
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-        const EdgeSample& edge = samples_.sample(axis, node);
-        if (edge.disagrees) ++mesh_.disagreeing_edges;
         // Counter-clockwise seen from the edge's upper end.
         constexpr int kDu[4] = {-1, 0, 0, -1}, kDv[4] = {-1, -1, 0, 0};
         std::array<std::uint32_t, 8> polygon{};
+        std::array<Local, 4> cells;
+        bool anew = false;
+        for (std::size_t i = 0; i < 4; ++i) {
+            cells[i] = step(step(node, u, kDu[i]), v, kDv[i]);
+            polygon[i] = vertex_of(cells[i], cell_edge(axis, -kDu[i], -kDv[i]));
+            anew = anew || (anew_.at(cells[i][0], cells[i][1]) >> (cells[i][2] + 1) & 1u) != 0;
+        }
+        const bool flip = !samples_.inside(node);  // the surface faces the lower end
+        const auto edge =
+            static_cast<std::uint16_t>(((axis * kTileCells + node[1]) * kTileCells + node[0]) * kTileCells + node[2]);
+        if (!anew) {
+            while ((old_.quads[old_quad_] & TileMesh::kQuadEdge) != edge) ++old_quad_;
+            const std::uint16_t quad = old_.quads[old_quad_];
+            mesh_.disagreeing_edges += (quad & TileMesh::kDisagrees) != 0 ? 1 : 0;
+            mesh_.quads.push_back(quad);
+            split(polygon, (quad & TileMesh::kOtherDiagonal) != 0, flip);
+            return;
+        }
+        const EdgeSample& sample = samples_.sample(axis, node);
+        std::uint16_t quad = edge;
+        if (sample.disagrees) {
+            ++mesh_.disagreeing_edges;
+            quad |= TileMesh::kDisagrees;
+        }
+        const std::size_t before = mesh_.indices.size();
+        if (!fan_through_faces(axis, node, cells, polygon, flip)) {
+            const bool other = other_diagonal(polygon, flip, sample.normal);
+            if (other) quad |= TileMesh::kOtherDiagonal;
+            split(polygon, other, flip);
+        }
+        mesh_.quads.push_back(quad);
+        work_.triangles += static_cast<std::uint32_t>((mesh_.indices.size() - before) / 3);
+    }
+
+    [[nodiscard]] std::uint32_t vertex_of(const Local& cell, int edge) const {
+        const std::size_t place = scratch_.place_of_cell[cell_id(cell)];
+        return mesh_.cells[place].first_vertex +
+               static_cast<std::uint32_t>(mesh_.vertex_of_edge[place] >> (4 * edge) & 0xf);
+    }
+
+    // False, and nothing done, in the usual case that no loop passes a face of these cells twice.
+    bool fan_through_faces(int axis, const Local& node, const std::array<Local, 4>& cells,
+                           const std::array<std::uint32_t, 8>& corners, bool flip) {
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        std::array<std::uint32_t, 8> polygon{};
         std::size_t count = 0, extra = 8;
         for (std::size_t i = 0; i < 4; ++i) {
-            const Local cell = step(step(node, u, kDu[i]), v, kDv[i]);
-            polygon[count++] = vertices_of(cell).of_edge[static_cast<std::size_t>(cell_edge(axis, -kDu[i], -kDv[i]))];
+            polygon[count++] = corners[i];
             // Faces towards the next cell: +u, +v, -u, -v.
             const int face_axis = i % 2 == 0 ? u : v;
             const int side = i < 2 ? 1 : 0;
-            const Local next = step(cell, face_axis, side == 1 ? 1 : -1);
-            if (passed_twice(cell, next, face_axis, side)) {
+            const Local next = step(cells[i], face_axis, side == 1 ? 1 : -1);
+            if (passed_twice(cells[i], next, face_axis, side)) {
                 extra = count;
-                polygon[count++] = face_vertex(axis, node, side == 1 ? next : cell, face_axis);
+                polygon[count++] = face_vertex(axis, node, side == 1 ? next : cells[i], face_axis);
             }
         }
-        const bool flip = !samples_.inside(node);  // the surface faces the lower end
-        if (extra < 8) {
-            fan(polygon, count, extra, flip);
-        } else {
-            two_triangles(polygon, flip, edge.normal);
+        if (extra == 8) return false;
+        // From the extra vertex: no diagonal of this fan can be an edge of another polygon.
+        for (std::size_t i = 1; i + 1 < count; ++i) {
+            triangle(polygon[extra], polygon[(extra + i) % count], polygon[(extra + i + 1) % count], flip);
         }
+        return true;
     }
 
     [[nodiscard]] bool passed_twice(const Local& cell, const Local& next, int face_axis, int side) const {
         const unsigned a = cell_table()[samples_.cell_pattern(cell)].twice_faces;
+        if (a == 0) return false;
         const unsigned b = cell_table()[samples_.cell_pattern(next)].twice_faces;
         return (a >> cell_face(face_axis, side) & b >> cell_face(face_axis, 1 - side) & 1u) != 0;
     }
@@ -99,137 +205,28 @@ private:
         const int other = 3 - axis - face_axis;
         const auto o = static_cast<std::size_t>(other);
         const Local other_node = cell[o] < corner[o] ? step(corner, other, -1) : corner;
-        const EdgeSample& a = samples_.sample(axis, node);
-        const EdgeSample& b = samples_.sample(other, other_node);
-        // Symmetric in a and b, so that both quads, in whatever tiles, compute the same bits.
-        const Vec3f in_cell =
-            (point_on(axis, between(cell, node), a) + point_on(other, between(cell, other_node), b)) * 0.5f;
         const auto pair_axis = static_cast<std::size_t>((face_axis + 1) % 3);
         const int pair = corner[pair_axis] - cell[pair_axis];
-        mesh_.keys.push_back(key(cell, 4 + 2 * face_axis + pair));
-        mesh_.vertices.push_back(vertex(cell, in_cell, a.normal + b.normal, mixed({a.material, b.material})));
+        mesh_.face_keys.push_back(lattice_key(solid_.lattice, first_node_, cell, 4 + 2 * face_axis + pair));
+        // Symmetric in the two edges, so that both quads, in whatever tiles, compute the same bits.
+        mesh_.vertices.push_back(make_face_vertex(solid_, first_node_, cell, {axis, node, samples_.sample(axis, node)},
+                                                  {other, other_node, samples_.sample(other, other_node)}));
         return static_cast<std::uint32_t>(mesh_.vertices.size() - 1);
-    }
-
-    [[nodiscard]] static Vec3f point_on(int axis, const Local& node, const EdgeSample& sample) {
-        Vec3f p(static_cast<float>(node[0]), static_cast<float>(node[1]), static_cast<float>(node[2]));
-        p[axis] += sample.along;
-        return p;
-    }
-
-    const CellVertices& vertices_of(const Local& cell) {
-        std::int16_t& slot =
-            cell_slot_[static_cast<std::size_t>(((cell[2] + 1) * kCells + cell[1] + 1) * kCells + cell[0] + 1)];
-        if (slot < 0) {
-            slot = static_cast<std::int16_t>(cells_.size());
-            cells_.push_back(make_vertices(cell));
-        }
-        return cells_[static_cast<std::size_t>(slot)];
-    }
-
-    CellVertices make_vertices(const Local& cell) {
-        const CellCase& cell_case = cell_table()[samples_.cell_pattern(cell)];
-        CellVertices result;
-        for (int loop = 0; loop < cell_case.loops; ++loop) make_loop(cell, cell_case, loop, result);
-        return result;
-    }
-
-    // One position for the loop, and a vertex there for each smooth piece of surface that meets in it.
-    void make_loop(const Local& cell, const CellCase& cell_case, int loop, CellVertices& result) {
-        struct Piece {
-            Vec3f first_normal{0.0f}, normal_sum{0.0f};
-            std::uint8_t first_material = 0;
-            std::array<std::uint32_t, 4> colour_sum{};  // red, green, blue, how many
-        };
-        std::array<Crossing, 12> crossings;
-        std::array<std::size_t, 12> edge_of_crossing{}, piece_of_crossing{};
-        std::array<Piece, 12> pieces;
-        std::size_t count = 0, piece_count = 0;
-        for (std::size_t e = 0; e < 12; ++e) {
-            if (cell_case.loop_of_edge[e] != loop) continue;
-            const int axis = static_cast<int>(e) / 4, o1 = static_cast<int>(e) & 1, o2 = static_cast<int>(e) >> 1 & 1;
-            const Local offset = step(step(Local{0, 0, 0}, (axis + 1) % 3, o1), (axis + 2) % 3, o2);
-            const EdgeSample& s =
-                samples_.sample(axis, {cell[0] + offset[0], cell[1] + offset[1], cell[2] + offset[2]});
-            crossings[count] = {point_on(axis, offset, s), s.normal};
-            edge_of_crossing[count] = e;
-            std::size_t p = 0;
-            const auto belongs = [&](const Piece& piece) {
-                const float least = piece.first_material == s.material ? kSmooth : kSmoothAcrossMaterials;
-                return glm::dot(piece.first_normal, s.normal) >= least;
-            };
-            while (p < piece_count && !belongs(pieces[p])) ++p;
-            if (p == piece_count) {
-                pieces[p].first_normal = s.normal;
-                pieces[p].first_material = s.material;
-                ++piece_count;
-            }
-            pieces[p].normal_sum += s.normal;
-            const auto& colour = solid_.materials[s.material].colour;
-            for (std::size_t c = 0; c < 3; ++c) pieces[p].colour_sum[c] += colour[c];
-            ++pieces[p].colour_sum[3];
-            piece_of_crossing[count++] = p;
-        }
-        const Vec3f in_cell = feature_point({crossings.data(), count});
-        const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
-        for (std::size_t p = 0; p < piece_count; ++p) {
-            const auto& sum = pieces[p].colour_sum;
-            const auto channel = [&](std::size_t c) { return (sum[c] + sum[3] / 2) / sum[3]; };
-            mesh_.keys.push_back(key(cell, loop));
-            mesh_.vertices.push_back(vertex(cell, in_cell, pieces[p].normal_sum,
-                                            channel(0) | channel(1) << 8 | channel(2) << 16 | 0xff000000u));
-        }
-        for (std::size_t i = 0; i < count; ++i) {
-            result.of_edge[edge_of_crossing[i]] = first + static_cast<std::uint32_t>(piece_of_crossing[i]);
-        }
-    }
-
-    [[nodiscard]] std::uint32_t mixed(std::array<std::uint8_t, 2> materials) const {
-        std::uint32_t colour = 0xff000000u;
-        for (std::size_t c = 0; c < 3; ++c) {
-            const std::uint32_t sum =
-                1u + solid_.materials[materials[0]].colour[c] + solid_.materials[materials[1]].colour[c];
-            colour |= (sum / 2) << (8 * c);
-        }
-        return colour;
-    }
-
-    // `in_cell` is in cells from the cell's lowest corner. The whole cells are counted from the lattice's origin and not
-    // from the tile's, so that every tile that shares the vertex rounds it to the same bits.
-    [[nodiscard]] shared::SurfaceVertex vertex(const Local& cell, const Vec3f& in_cell, const Vec3f& normal,
-                                               std::uint32_t colour) const {
-        const auto metres = [&](int a) {
-            const auto k = static_cast<std::size_t>(a);
-            return static_cast<float>((static_cast<double>(in_cell[a]) + (cell[k] + first_node_[k])) *
-                                      solid_.lattice.spacing_m);
-        };
-        return {metres(0), metres(1), metres(2),
-                encode(glm::length(normal) > 1e-6f ? glm::normalize(normal) : Vec3f(0, 0, 1)), colour};
-    }
-
-    [[nodiscard]] std::uint64_t key(const Local& cell, int slot) const {
-        std::uint64_t k = 0;
-        for (std::size_t a = 3; a-- > 0;) {
-            // Cell -1 of the lattice exists (it is empty): count from there.
-            k = k * static_cast<std::uint64_t>(solid_.lattice.cells[a] + 2) +
-                static_cast<std::uint64_t>(cell[a] + first_node_[a] + 1);
-        }
-        return k * 16 + static_cast<std::uint64_t>(slot);
     }
 
     void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, bool flip) {
         mesh_.indices.insert(mesh_.indices.end(), {a, flip ? c : b, flip ? b : c});
     }
 
-    // From the extra vertex: no diagonal of this fan can be an edge of another polygon.
-    void fan(const std::array<std::uint32_t, 8>& polygon, std::size_t count, std::size_t apex, bool flip) {
-        for (std::size_t i = 1; i + 1 < count; ++i) {
-            triangle(polygon[apex], polygon[(apex + i) % count], polygon[(apex + i + 1) % count], flip);
-        }
+    void split(const std::array<std::uint32_t, 8>& q, bool other_diagonal, bool flip) {
+        const std::size_t from = other_diagonal ? 1 : 0;
+        triangle(q[from], q[from + 1], q[(from + 2) % 4], flip);
+        triangle(q[from], q[(from + 2) % 4], q[(from + 3) % 4], flip);
     }
 
-    // Along the diagonal that turns the two triangles less away from the surface normal.
-    void two_triangles(const std::array<std::uint32_t, 8>& q, bool flip, const Vec3f& surface_normal) {
+    // Whether the diagonal 1-3 turns the two triangles less away from the surface normal than 0-2 does.
+    [[nodiscard]] bool other_diagonal(const std::array<std::uint32_t, 8>& q, bool flip,
+                                      const Vec3f& surface_normal) const {
         std::array<Vec3f, 4> p;  // in cells, so that a workpiece of a micrometre does not underflow
         const shared::SurfaceVertex& origin = mesh_.vertices[q[0]];
         const auto cells_per_m = static_cast<float>(1.0 / solid_.lattice.spacing_m);
@@ -237,44 +234,68 @@ private:
             const shared::SurfaceVertex& v = mesh_.vertices[q[i]];
             p[i] = Vec3f(v.x - origin.x, v.y - origin.y, v.z - origin.z) * cells_per_m;
         }
-        const float sign = flip ? -1.0f : 1.0f;
+        const Vec3f normal = flip ? -surface_normal : surface_normal;
+        // The squared cosine with its sign: it grows with the cosine, and needs no root.
         const auto facing = [&](std::size_t a, std::size_t b, std::size_t c) {
             const Vec3f n = glm::cross(p[b] - p[a], p[c] - p[a]);
-            const float length = glm::length(n);
-            return length > 0.0f ? sign * glm::dot(n, surface_normal) / length : -1.0f;
+            const float along = glm::dot(n, normal), length2 = glm::dot(n, n);
+            return length2 > 0.0f ? along * std::abs(along) / length2 : -1.0f;
         };
-        const float across02 = std::min(facing(0, 1, 2), facing(0, 2, 3));
-        const float across13 = std::min(facing(1, 2, 3), facing(1, 3, 0));
-        if (across02 >= across13) {
-            triangle(q[0], q[1], q[2], flip);
-            triangle(q[0], q[2], q[3], flip);
-        } else {
-            triangle(q[1], q[2], q[3], flip);
-            triangle(q[1], q[3], q[0], flip);
-        }
+        return std::min(facing(0, 1, 2), facing(0, 2, 3)) < std::min(facing(1, 2, 3), facing(1, 3, 0));
     }
 
-    static constexpr int kCells = kTileCells + 1;  // -1 .. kTileCells - 1
     const Solid& solid_;
     const std::array<int, 3>& first_node_;
-    const TileSamples& samples_;
+    const TileMesh& old_;
+    Scratch& scratch_;
+    TileSamples& samples_;
     TileMesh& mesh_;
-    std::vector<CellVertices> cells_;
-    std::array<std::int16_t, kCells * kCells * kCells> cell_slot_{};
+    CellMask needed_, anew_;
+    std::size_t old_quad_ = 0;
+    TileWork work_;
 };
+
+void clear(TileMesh& mesh) {
+    mesh.vertices.clear();
+    mesh.indices.clear();
+    mesh.disagreeing_edges = 0;
+    mesh.cells.clear();
+    mesh.vertex_of_edge.clear();
+    mesh.quads.clear();
+    mesh.face_keys.clear();
+}
 
 }  // namespace
 
-void mesh_tile(const Solid& solid, const TileGrid& grid, std::uint32_t tile, TileMesh& mesh) {
-    mesh.vertices.clear();
-    mesh.keys.clear();
-    mesh.indices.clear();
-    mesh.disagreeing_edges = 0;
-    std::array<int, 3> first_node = grid.position(tile);
-    for (int& n : first_node) n *= kTileCells;
-    thread_local TileSamples samples;  // a hundred kilobytes that would otherwise be cleared for every tile
-    if (!samples.collect(solid, first_node)) return;
-    Mesher(solid, first_node, samples, mesh).run();
+TileWork mesh_tile(const Solid& solid, const TileGrid& grid, std::uint32_t tile, const CellMask& dirty,
+                   TileMesh& mesh) {
+    const std::array<int, 3> first_node = grid.first_node(tile);
+    thread_local Scratch scratch;
+    clear(scratch.fresh);
+    TileWork work;
+    if (scratch.samples.collect_signs(solid, first_node)) {
+        work = Mesher(solid, first_node, dirty, mesh, scratch).run();
+    }
+    mesh = scratch.fresh;  // copied, so that a tile holds no more memory than it needs and the scratch keeps its own
+    return work;
+}
+
+std::vector<std::uint64_t> vertex_keys(const Lattice& lattice, const std::array<int, 3>& first_node,
+                                       const TileMesh& mesh) {
+    std::vector<std::uint64_t> keys;
+    keys.reserve(mesh.vertices.size());
+    for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
+        const int id = mesh.cells[i].cell;
+        const Local cell{id / kSeenCells % kSeenCells - 1, id / (kSeenCells * kSeenCells) - 1, id % kSeenCells - 1};
+        const std::size_t end = i + 1 < mesh.cells.size() ? mesh.cells[i + 1].first_vertex : mesh.cell_vertices();
+        for (std::uint64_t k = 0; mesh.cells[i].first_vertex + k < end; ++k) {
+            int loop = 0;
+            while (loop < 3 && (mesh.vertex_of_edge[i] >> (52 + 4 * loop) & 0xf) <= k) ++loop;
+            keys.push_back(lattice_key(lattice, first_node, cell, loop));
+        }
+    }
+    keys.insert(keys.end(), mesh.face_keys.begin(), mesh.face_keys.end());
+    return keys;
 }
 
 }  // namespace burin

@@ -5,13 +5,16 @@
 // edge (position, normal, material); cells -> vertices; crossed edges -> quads -> triangles. A tile owns the lattice edges
 // that start at its own nodes; it computes the vertices of the neighbouring cells that those quads touch itself, from the
 // same rays with the same arithmetic, so tiles meet without cracks and can be meshed alone, in any order, on any thread.
+// After a change only the vertices of the cells that may differ are computed; the others are copied, in the one order that
+// every mesh of the tile has, so that the result is bit for bit that of meshing the whole tile anew.
 //
 // Hardest case: rays of different directions disagree about a node (each was cut at its own rounded depth), or a sliver
 // thinner than a cell passes between nodes. The rule: the z rays decide every sign. An edge along x or y then takes the
-// nearest end of the right kind within one cell of it, clamped to the edge, or else its middle and the edge's own direction
+// nearest end of the right kind within kNearEdge of it, clamped to the edge, or else its middle and the edge's own direction
 // as the normal; such edges are counted. The mesh is closed whatever the rays say.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -23,18 +26,42 @@ namespace burin {
 
 struct TileMesh {
     // One vertex for each smooth piece of surface that meets in a cell: along a sharp edge two vertices share a position and
-    // a key and differ in normal and colour.
+    // a key and differ in normal and colour. Cell by cell, then the extra vertices on faces (cell_table.hpp).
     std::vector<shared::SurfaceVertex> vertices;
-    // Names the point on the surface, the same in all tiles: (cell index in the lattice) * 16 + slot. Slots 0 to 3 are the
-    // cell's loops; slot 4 + 2 * axis + pair is the extra vertex on the cell's lower face of that axis (cell_table.hpp).
-    std::vector<std::uint64_t> keys;
     std::vector<std::uint32_t> indices;   // three a triangle, counter-clockwise seen from outside
     std::uint32_t disagreeing_edges = 0;  // of this tile's own edges
 
+    // How the mesh is made up, in increasing order; for meshing a part of it anew and for naming vertices.
+    struct Cell {
+        std::uint16_t cell = 0;          // ((y + 1) * kSeenCells + x + 1) * kSeenCells + z + 1
+        std::uint16_t first_vertex = 0;  // its vertices end where the next cell's begin
+    };
+    static constexpr std::uint64_t kNoVertex = 0xf;
+    std::vector<Cell> cells;
+    // For each cell: bits 4e .. 4e + 3: which of the cell's vertices edge e uses, or kNoVertex; bits 48 + 4l ..: the first
+    // vertex of loop l, or kNoVertex.
+    std::vector<std::uint64_t> vertex_of_edge;
+    // For each quad or fan: ((axis * 16 + y) * 16 + x) * 16 + z of its edge's lower node; and these bits.
+    static constexpr std::uint16_t kQuadEdge = 0x3fff, kOtherDiagonal = 0x4000, kDisagrees = 0x8000;
+    std::vector<std::uint16_t> quads;
+    std::vector<std::uint64_t> face_keys;  // of the extra vertices
+
     [[nodiscard]] std::size_t triangles() const { return indices.size() / 3; }
+    [[nodiscard]] std::size_t cell_vertices() const { return vertices.size() - face_keys.size(); }
 };
 
-// Thread-safe as long as the solid does not change. Reuses the mesh's memory.
-void mesh_tile(const Solid& solid, const TileGrid& grid, std::uint32_t tile, TileMesh& mesh);
+struct TileWork {
+    std::uint32_t cells = 0;      // whose vertices were computed
+    std::uint32_t triangles = 0;  // that were made anew, because a cell at one of their corners was
+};
+
+// Meshes anew the cells of the mask; those outside it must be as they were when `mesh` was made. Thread-safe as long as the
+// solid does not change. Reuses the mesh's memory.
+TileWork mesh_tile(const Solid& solid, const TileGrid& grid, std::uint32_t tile, const CellMask& dirty, TileMesh& mesh);
+
+// The name of each vertex: the same for one point of the surface in all tiles, (cell index in the lattice) * 16 + slot. Slots
+// 0 to 3 are the cell's loops; slot 4 + 2 * axis + pair is the extra vertex on the cell's lower face of that axis.
+[[nodiscard]] std::vector<std::uint64_t> vertex_keys(const Lattice& lattice, const std::array<int, 3>& first_node,
+                                                     const TileMesh& mesh);
 
 }  // namespace burin

@@ -14,10 +14,9 @@ using shared::DexelEnd;
 using shared::kUnitsPerCell;
 
 std::span<const DexelEnd> ray_ends(const Solid& solid, int axis, int u, int v) {
-    if (u < 0 || v < 0 || u >= solid.lattice.rays_u(axis) || v >= solid.lattice.rays_v(axis)) return {};
-    const auto index = static_cast<std::size_t>(v) * static_cast<std::size_t>(solid.lattice.rays_u(axis)) +
-                       static_cast<std::size_t>(u);
-    return solid.sets[static_cast<std::size_t>(axis)].ends(index);
+    const DexelSet& set = solid.sets[static_cast<std::size_t>(axis)];
+    if (u < 0 || v < 0 || u >= set.rays_u() || v >= set.rays_v()) return {};
+    return set.ends(u, v);
 }
 
 // The lowest node at or above a depth.
@@ -36,14 +35,14 @@ std::uint32_t node_bits(std::span<const DexelEnd> ends, int first_node) {
 }
 
 // The end that makes the crossing of the edge between nodes `lower` and `lower + 1`. An edge whose lower node is inside is
-// left through an upper end (odd index), else entered through a lower end. Nothing when there is none within one cell.
+// left through an upper end (odd index), else entered through a lower end. Nothing when there is none near the edge.
 const DexelEnd* crossing_end(std::span<const DexelEnd> ends, int lower, bool lower_inside) {
     const int edge_lo = lower * kUnitsPerCell, edge_hi = edge_lo + kUnitsPerCell;
     const DexelEnd* best = nullptr;
-    int best_distance = kUnitsPerCell;
+    int best_distance = kNearEdge;
     for (std::size_t i = lower_inside ? 1 : 0; i < ends.size(); i += 2) {
         const int depth = depth_of(ends[i]);
-        if (depth > edge_hi + kUnitsPerCell) break;
+        if (depth >= edge_hi + kNearEdge) break;
         const int distance = depth <= edge_lo ? edge_lo - depth + 1 : std::max(depth - edge_hi, 0);
         // Of several on the edge itself: the first one to leave by, the last one to enter by, the one next to the inside node.
         if (distance < best_distance || (distance == 0 && best_distance == 0 && !lower_inside)) {
@@ -56,31 +55,24 @@ const DexelEnd* crossing_end(std::span<const DexelEnd> ends, int lower, bool low
 
 EdgeSample make_sample(std::span<const DexelEnd> ends, int axis, int lower, bool lower_inside) {
     EdgeSample sample;
+    std::uint32_t normal_code = 0;
     const DexelEnd* end = crossing_end(ends, lower, lower_inside);
     if (end == nullptr) {
-        shared::IntVector n{0, 0, 0};
-        (axis == 0 ? n.x : axis == 1 ? n.y : n.z) = lower_inside ? 1 : -1;
-        sample.normal_code = shared::encode_normal(n);
+        normal_code = shared::axis_normal(axis, lower_inside);
         sample.disagrees = true;
     } else {
         const int offset = depth_of(*end) - lower * kUnitsPerCell;
         sample.along = static_cast<float>(std::clamp(offset, 0, kUnitsPerCell)) / static_cast<float>(kUnitsPerCell);
-        sample.normal_code = end->normal;
+        normal_code = end->normal;
         sample.material = static_cast<std::uint8_t>(material_of(*end));
         sample.disagrees = offset <= 0 || offset > kUnitsPerCell;
     }
-    const shared::Direction n = shared::decode_normal(sample.normal_code);
+    const shared::Direction n = shared::decode_normal(normal_code);
     sample.normal = {n.x, n.y, n.z};
     return sample;
 }
 
 }  // namespace
-
-bool TileSamples::collect(const Solid& solid, const std::array<int, 3>& first_node) {
-    if (!collect_signs(solid, first_node)) return false;
-    collect_crossings(solid, first_node);
-    return true;
-}
 
 bool TileSamples::collect_signs(const Solid& solid, const std::array<int, 3>& first_node) {
     constexpr std::uint32_t kAll = (1u << kLocalNodes) - 1u;
@@ -104,14 +96,40 @@ std::uint32_t TileSamples::crossed(int axis, int x, int y) const {
     return (column(x, y) ^ (column(x, y) >> 1)) & ((1u << (kLocalNodes - 1)) - 1u);
 }
 
-void TileSamples::collect_crossings(const Solid& solid, const std::array<int, 3>& first_node) {
+CellMask TileSamples::cells_at_own_edges() const {
+    CellMask cells;
+    for (int y = 0; y < kTileCells; ++y) {
+        for (int x = 0; x < kTileCells; ++x) {
+            // An edge along x or y touches the cells on both sides of its node's height, z and z - 1.
+            const std::uint32_t along_x = own_crossed(0, x, y), along_y = own_crossed(1, x, y),
+                                along_z = own_crossed(2, x, y);
+            const std::uint32_t both_x = along_x | along_x >> 1, both_y = along_y | along_y >> 1;
+            cells.add(x, y, both_x | both_y | along_z);
+            cells.add(x, y - 1, both_x | along_z);
+            cells.add(x - 1, y, both_y | along_z);
+            cells.add(x - 1, y - 1, along_z);
+        }
+    }
+    return cells;
+}
+
+void TileSamples::collect_crossings(const Solid& solid, const std::array<int, 3>& first_node, const CellMask& cells) {
     samples_.clear();
-    for (int axis = 0; axis < 3; ++axis) {
-        for (int y = -1; y < kLocalNodes - 1; ++y) {
-            for (int x = -1; x < kLocalNodes - 1; ++x) {
-                for (std::uint32_t bits = crossed(axis, x, y); bits != 0; bits &= bits - 1) {
+    const auto cell_bits = [&](int x, int y) {
+        return x < kTileCells && y < kTileCells && x >= -1 && y >= -1 ? cells.at(x, y) : 0u;
+    };
+    for (int y = -1; y < kLocalNodes - 1; ++y) {
+        for (int x = -1; x < kLocalNodes - 1; ++x) {
+            const std::uint32_t here = cell_bits(x, y), left = cell_bits(x - 1, y), below = cell_bits(x, y - 1),
+                                across = cell_bits(x - 1, y - 1);
+            if ((here | left | below | across) == 0) continue;
+            const auto both = [](std::uint32_t c) { return c | c << 1; };
+            const std::array<std::uint32_t, 3> wanted{both(here | below), both(here | left),
+                                                      here | left | below | across};
+            for (int axis = 0; axis < 3; ++axis) {
+                const auto s = static_cast<std::size_t>(axis), u = (s + 1) % 3, v = (s + 2) % 3;
+                for (std::uint32_t bits = crossed(axis, x, y) & wanted[s]; bits != 0; bits &= bits - 1) {
                     const Local node{x, y, std::countr_zero(bits) - 1};
-                    const auto s = static_cast<std::size_t>(axis), u = (s + 1) % 3, v = (s + 2) % 3;
                     const auto ends = ray_ends(solid, axis, first_node[u] + node[u], first_node[v] + node[v]);
                     sample_index_[s][node_index(node)] = static_cast<std::uint16_t>(samples_.size());
                     samples_.push_back(make_sample(ends, axis, first_node[s] + node[s], inside(node)));

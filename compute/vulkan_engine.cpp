@@ -69,15 +69,26 @@ Result<std::unique_ptr<VulkanEngine>> VulkanEngine::create(Solid solid, const gp
 }
 
 VulkanEngine::VulkanEngine(Solid solid, const gpu::Device& device, const VulkanEngineOptions& options)
-    : solid_(std::move(solid)), dirty_(solid_.lattice), device_(device), options_(options) {
-    dirty_.mark_all();
+    : solid_(std::move(solid)), device_(device), options_(options) {}
+
+Result<CarveStats> VulkanEngine::assign(const RayBatch& rays) {
+    CarveStats stats;
+    for (const RayBatch::Ray& ray : rays.rays) {
+        const RayPlace place = place_of(ray.code);
+        ++stats.rays_touched;
+        if (assign_ray(solid_.sets[static_cast<std::size_t>(place.axis)], place, rays.ends_of(ray), changes_)) {
+            ++stats.rays_changed;
+        }
+    }
+    if (stats.rays_changed > 0) synchronized_ = false;
+    return stats;
 }
 
-Result<CutStats> VulkanEngine::cut(std::span<const BallSweep> sweeps) {
+Result<CarveStats> VulkanEngine::carve(std::span<const BallSweep> sweeps) {
     const auto capsules = capsules_in_units(solid_, sweeps);
     if (!capsules) return std::unexpected(capsules.error());
     const CutTasks tasks = cut_tasks(solid_.lattice, *capsules);
-    if (tasks.tasks.empty()) return CutStats{};
+    if (tasks.tasks.empty()) return CarveStats{};
     if (!synchronized_) {
         if (const auto sent = synchronize(); !sent) return std::unexpected(sent.error());
     }
@@ -99,15 +110,15 @@ Result<void> VulkanEngine::synchronize() {
     return {};
 }
 
-Result<CutStats> VulkanEngine::cut_on_device(std::span<const Capsule> capsules, const CutTasks& tasks) {
-    changes_.clear();
+Result<CarveStats> VulkanEngine::cut_on_device(std::span<const Capsule> capsules, const CutTasks& tasks) {
+    changed_rays_.clear();
     new_ends_.clear();
     if (const auto reserved = reserve(capsules, tasks); !reserved) return std::unexpected(reserved.error());
     copy_to(capsules_, capsules);
     copy_to<std::uint32_t>(order_, tasks.order);
     capsule_bytes_ = capsules.size_bytes();
     order_bytes_ = tasks.order.size() * sizeof(std::uint32_t);
-    CutStats stats;
+    CarveStats stats;
     for (std::size_t from = 0; from < tasks.tasks.size(); from += options_.tasks_a_pass) {
         const auto some = std::span(tasks.tasks)
                               .subspan(from, std::min<std::size_t>(options_.tasks_a_pass, tasks.tasks.size() - from));
@@ -123,7 +134,7 @@ Result<CutStats> VulkanEngine::cut_on_device(std::span<const Capsule> capsules, 
             pending = counters->pending;
         } while (pending > 0);
     }
-    stats.rays_changed = changes_.size();
+    stats.rays_changed = changed_rays_.size();
     return stats;
 }
 
@@ -201,8 +212,8 @@ void VulkanEngine::collect(const CutCounters& counters) {
     const auto count = std::min<std::size_t>(counters.exported, ends.size());
     new_ends_.insert(new_ends_.end(), ends.begin(), ends.begin() + static_cast<std::ptrdiff_t>(count));
     for (const ChangedRay& ray : changed_.from_device<ChangedRay>().first(counters.changed)) {
-        changes_.push_back(ray);
-        changes_.back().first += base;
+        changed_rays_.push_back(ray);
+        changed_rays_.back().first += base;
         longest_ = std::max(longest_, ray.count);
     }
     longest_ = std::max(longest_, counters.longest);
@@ -226,13 +237,11 @@ Result<void> VulkanEngine::make_room_for(const CutCounters& counters) {
 }
 
 void VulkanEngine::apply_changes() {
-    for (const ChangedRay& change : changes_) {
-        const int axis = shared::axis_of(change.ray), u = shared::u_of(change.ray), v = shared::v_of(change.ray);
-        const auto index = static_cast<std::size_t>(v) * static_cast<std::size_t>(solid_.lattice.rays_u(axis)) +
-                           static_cast<std::size_t>(u);
-        solid_.sets[static_cast<std::size_t>(axis)].replace(index,
-                                                            std::span(new_ends_).subspan(change.first, change.count));
-        dirty_.mark_ray(axis, u, v, change.changed_lo, change.changed_hi);
+    for (const ChangedRay& change : changed_rays_) {
+        const RayPlace place = place_of(change.ray);
+        DexelSet& set = solid_.sets[static_cast<std::size_t>(place.axis)];
+        changes_.record(place, change.changed_lo, change.changed_hi, set.ends(place.u, place.v));
+        set.replace(place.u, place.v, std::span(new_ends_).subspan(change.first, change.count));
     }
 }
 

@@ -3,7 +3,7 @@
 //
 // Data flow of a cut: sweeps -> capsules and work groups (vulkan_engine_tasks.hpp) -> one submission that cuts the rays on
 // the device and lists the changed ones with their new ends -> only those are read back into the solid on the host, and
-// their tiles marked. Rays that found no room in the store, or had their share of one pass, are continued by further
+// recorded. Rays that found no room in the store, or had their share of one pass, are continued by further
 // submissions; in the usual case there is none.
 //
 // The host's solid changes only when all passes are done: an Error leaves it as it was, and the next cut sends it to the
@@ -14,6 +14,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "compute/engine.hpp"
@@ -44,16 +45,18 @@ public:
                                                                       const VulkanEngineOptions& options = {});
 
     [[nodiscard]] const char* name() const override { return "vulkan"; }
-    [[nodiscard]] Result<CutStats> cut(std::span<const BallSweep> sweeps) override;
+    [[nodiscard]] Result<CarveStats> carve(std::span<const BallSweep> sweeps) override;
+    // The device is sent the whole solid anew before the next carve.
+    [[nodiscard]] Result<CarveStats> assign(const RayBatch& rays) override;
     [[nodiscard]] const Solid& solid() const override { return solid_; }
-    [[nodiscard]] DirtyTiles& dirty_tiles() override { return dirty_; }
+    [[nodiscard]] Changes take_changes() override { return std::exchange(changes_, {}); }
 
     [[nodiscard]] const VulkanEngineCounts& counts() const { return counts_; }
 
 private:
     VulkanEngine(Solid solid, const gpu::Device& device, const VulkanEngineOptions& options);
     [[nodiscard]] Result<void> synchronize();
-    [[nodiscard]] Result<CutStats> cut_on_device(std::span<const shared::Capsule> capsules, const CutTasks& tasks);
+    [[nodiscard]] Result<CarveStats> cut_on_device(std::span<const shared::Capsule> capsules, const CutTasks& tasks);
     [[nodiscard]] Result<void> reserve(std::span<const shared::Capsule> capsules, const CutTasks& tasks);
     [[nodiscard]] Result<shared::CutCounters> pass(std::uint32_t task_count, std::uint32_t pending);
     [[nodiscard]] Result<void> make_room_for(const shared::CutCounters& counters);
@@ -61,7 +64,6 @@ private:
     void apply_changes();
 
     Solid solid_;
-    DirtyTiles dirty_;
     gpu::Device device_;
     VulkanEngineOptions options_;
     VulkanEngineCounts counts_;
@@ -80,8 +82,9 @@ private:
     SharedBuffer pending_{"pending rays", SharedBuffer::Traffic::none};
     SharedBuffer continued_{"continued rays", SharedBuffer::Traffic::none};
     // Of all passes of one cut; a ChangedRay's `first` counts from the start of new_ends_.
-    std::vector<shared::ChangedRay> changes_;
+    std::vector<shared::ChangedRay> changed_rays_;
     std::vector<shared::DexelEnd> new_ends_;
+    Changes changes_;
 };
 
 }  // namespace burin

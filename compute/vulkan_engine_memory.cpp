@@ -2,6 +2,7 @@
 #include "compute/vulkan_engine_memory.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -30,6 +31,12 @@ Result<std::vector<T>> fetch_all(gpu::Device& device, const gpu::Buffer& buffer)
         std::memcpy(values.data(), buffer.mapped().data(), values.size() * sizeof(T));
     }
     return values;
+}
+
+// log2 of the room for so many ends in a RayRef's high bits, with their number in the low ones.
+std::uint32_t count_room(std::uint32_t count) {
+    const std::uint32_t log2_room = count <= 1 ? 0 : static_cast<std::uint32_t>(std::bit_width(count - 1));
+    return count | (log2_room << 24);
 }
 
 // A store that is too large for the device, with the resolution that would fit: ends grow about with its square.
@@ -79,12 +86,15 @@ void SharedBuffer::fetch(gpu::Commands& commands, std::uint64_t size_bytes) cons
 }
 
 Result<void> DeviceSolid::upload(gpu::Device& device, const Solid& solid, Spare spare) {
-    std::array<Part, 3> parts;
-    for (std::size_t a = 0; a < 3; ++a) parts[a] = {solid.sets[a].rays(), solid.sets[a].store()};
-    first_ray_ = {0, static_cast<std::uint32_t>(parts[0].rays.size()),
-                  static_cast<std::uint32_t>(parts[0].rays.size() + parts[1].rays.size())};
+    const std::array<std::size_t, 3> counts{solid.sets[0].ray_count(), solid.sets[1].ray_count(),
+                                            solid.sets[2].ray_count()};
+    first_ray_ = {0, static_cast<std::uint32_t>(counts[0]), static_cast<std::uint32_t>(counts[0] + counts[1])};
     resolution_ = *std::ranges::max_element(solid.lattice.cells) - 2;  // the empty cell on either side
-    return pack(device, parts, spare);
+    const auto ends_of = [&](std::size_t ray) {
+        if (ray < first_ray_[1]) return solid.sets[0].ends(ray);
+        return ray < first_ray_[2] ? solid.sets[1].ends(ray - first_ray_[1]) : solid.sets[2].ends(ray - first_ray_[2]);
+    };
+    return pack(device, counts[0] + counts[1] + counts[2], ends_of, spare);
 }
 
 Result<void> DeviceSolid::make_space(gpu::Device& device, Spare spare) {
@@ -92,20 +102,19 @@ Result<void> DeviceSolid::make_space(gpu::Device& device, Spare spare) {
     if (!rays) return std::unexpected(rays.error());
     const auto store = fetch_all<DexelEnd>(device, store_);
     if (!store) return std::unexpected(store.error());
-    const std::array<Part, 1> whole{Part{*rays, *store}};
-    return pack(device, whole, spare);
+    const auto ends_of = [&](std::size_t ray) {
+        return std::span<const DexelEnd>(*store).subspan((*rays)[ray].first, shared::count_of((*rays)[ray]));
+    };
+    return pack(device, rays->size(), ends_of, spare);
 }
 
-Result<void> DeviceSolid::pack(gpu::Device& device, std::span<const Part> parts, Spare spare) {
-    std::size_t ray_count = 0, room = 0;
-    std::uint32_t longest = 0;
-    for (const Part& part : parts) {
-        ray_count += part.rays.size();
-        for (const RayRef& ray : part.rays) {
-            const std::uint32_t count = shared::count_of(ray);
-            longest = std::max(longest, count);
-            if (count > 0) room += shared::room_of({0, DexelSet::count_room(count)});
-        }
+template <typename EndsOf>
+Result<void> DeviceSolid::pack(gpu::Device& device, std::size_t ray_count, EndsOf&& ends_of, Spare spare) {
+    std::size_t room = 0, longest = 0;
+    for (std::size_t r = 0; r < ray_count; ++r) {
+        const std::size_t count = ends_of(r).size();
+        longest = std::max(longest, count);
+        if (count > 0) room += shared::room_of({0, count_room(static_cast<std::uint32_t>(count))});
     }
     const std::size_t limit = static_cast<std::size_t>(
         std::min<std::uint64_t>(device.capabilities().max_storage_buffer_bytes / sizeof(DexelEnd), 1u << 30));
@@ -116,17 +125,15 @@ Result<void> DeviceSolid::pack(gpu::Device& device, std::span<const Part> parts,
     rays.reserve(ray_count);
     std::vector<DexelEnd> store(size);
     std::size_t place = 0;
-    for (const Part& part : parts) {
-        for (const RayRef& from : part.rays) {
-            const std::uint32_t count = shared::count_of(from);
-            RayRef to{0, 0};
-            if (count > 0) {
-                to = {static_cast<std::uint32_t>(place), DexelSet::count_room(count)};
-                std::copy_n(part.ends.begin() + from.first, count, store.begin() + static_cast<std::ptrdiff_t>(place));
-                place += shared::room_of(to);
-            }
-            rays.push_back(to);
+    for (std::size_t r = 0; r < ray_count; ++r) {
+        const std::span<const DexelEnd> ends = ends_of(r);
+        RayRef to{0, 0};
+        if (!ends.empty()) {
+            to = {static_cast<std::uint32_t>(place), count_room(static_cast<std::uint32_t>(ends.size()))};
+            std::ranges::copy(ends, store.begin() + static_cast<std::ptrdiff_t>(place));
+            place += shared::room_of(to);
         }
+        rays.push_back(to);
     }
     auto new_rays = gpu::Buffer::create(device, gpu::BufferUse::device_storage, ray_count * sizeof(RayRef), "rays");
     if (!new_rays) return std::unexpected(new_rays.error());
@@ -139,7 +146,7 @@ Result<void> DeviceSolid::pack(gpu::Device& device, std::span<const Part> parts,
     store_ = std::move(*new_store);
     store_size_ = static_cast<std::uint32_t>(size);
     packed_size_ = static_cast<std::uint32_t>(place);
-    longest_ = longest;
+    longest_ = static_cast<std::uint32_t>(longest);
     return {};
 }
 

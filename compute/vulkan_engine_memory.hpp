@@ -47,7 +47,7 @@ private:
 };
 
 // All rays of the three axes in one table (x, then y, then z) and all their ends in one store, so that one dispatch and one
-// counter serve all. Laid out as DexelSet, with places of its own.
+// counter serve all. Each ray has room for a power of two of ends; one that needs more moves to the end of the store.
 class DeviceSolid {
 public:
     struct Spare {
@@ -68,12 +68,8 @@ public:
     [[nodiscard]] std::uint64_t bytes() const { return rays_.size_bytes() + store_.size_bytes(); }
 
 private:
-    // A table of rays and the store they point into.
-    struct Part {
-        std::span<const shared::RayRef> rays;
-        std::span<const shared::DexelEnd> ends;
-    };
-    [[nodiscard]] Result<void> pack(gpu::Device& device, std::span<const Part> parts, Spare spare);
+    template <typename EndsOf>
+    [[nodiscard]] Result<void> pack(gpu::Device& device, std::size_t ray_count, EndsOf&& ends_of, Spare spare);
 
     gpu::Buffer rays_, store_;
     std::uint32_t store_size_ = 0, packed_size_ = 0, longest_ = 0;

@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 // Takes capsules out of rays: one invocation owns one ray and gives it all its capsules in order. What one capsule does to
-// one ray is shaders/shared/capsule.h and cut_ray.h, the same text that the CPU engine compiles.
+// one ray is shaders/shared/capsule.h and span_edit.h, the same text that the CPU engine compiles.
 //
 // A ray that cannot go on is left as it was before the capsule at hand and put on the pending list; the host makes the
 // space and dispatches the list again. Nothing is ever dropped.
@@ -25,9 +25,9 @@ layout(std430, binding = 7) writeonly buffer Exported { DexelEnd exported[]; };
 layout(std430, binding = 8) readonly buffer Continued { PendingRay continued[]; };
 layout(std430, binding = 9) writeonly buffer Pending { PendingRay pending[]; };
 
-DexelEnd load_end(uint i) { return store[i]; }
-void store_end(uint i, DexelEnd end) { store[i] = end; }
-#include "shaders/shared/cut_ray.h"
+uint first_end = 0u;  // where the ray at hand begins
+DexelEnd load_end(uint i) { return store[first_end + i]; }
+#include "shaders/shared/span_edit.h"
 
 const uint kNoPlace = 0xffffffffu;
 
@@ -67,6 +67,35 @@ uint next_near(uint next, uint stop, int axis, int ray_u, int ray_v) {
     return next;
 }
 
+// Carries the edit out; the ray has the room.
+void apply_edit(uint count, SpanEdit edit, DexelEnd end_lo, DexelEnd end_hi) {
+    uint fresh = edit.insert_lo + edit.insert_hi;
+    uint removed = edit.to - edit.from;
+    if (fresh > removed) {  // by two at most; the tail moves up
+        for (uint i = count; i > edit.to; --i) store[first_end + i - 1u + fresh - removed] = store[first_end + i - 1u];
+    } else if (fresh < removed) {
+        for (uint i = edit.to; i < count; ++i) store[first_end + i + fresh - removed] = store[first_end + i];
+    }
+    if (edit.insert_lo == 1u) store[first_end + edit.from] = end_lo;
+    if (edit.insert_hi == 1u) store[first_end + edit.from + edit.insert_lo] = end_hi;
+}
+
+// Gives the ends within the span the material; the depths between which some changed, none when lo > hi.
+RaySpan paint_ends(uint count, RaySpan span, uint material) {
+    RaySpan changed;
+    changed.lo = kMaxDepth;
+    changed.hi = -1;
+    for (uint i = 0u; i < count; ++i) {
+        DexelEnd end = load_end(i);
+        int depth = depth_of(end);
+        if (depth < span.lo || depth > span.hi || material_of(end) == material) continue;
+        store[first_end + i] = make_end(depth, material, end.normal);
+        changed.lo = min(changed.lo, depth);
+        changed.hi = depth;
+    }
+    return changed;
+}
+
 // The ray this invocation works on; ray = kNoPlace when there is none.
 PendingRay take_job() {
     PendingRay job;
@@ -93,6 +122,8 @@ void main() {
     int ray_u = u_of(job.ray) * kUnitsPerCell;
     int ray_v = v_of(job.ray) * kUnitsPerCell;
     uint index = parameters.first_ray[axis] + uint(v_of(job.ray) * parameters.rays_u[axis] + u_of(job.ray));
+    int rays_u = parameters.rays_u[axis];
+    int rays_v = parameters.rays_v[axis];
     RayRef ray = rays[index];
     uint stop = min(job.end, job.next + parameters.looks);
     uint touched = job.touched;
@@ -106,28 +137,40 @@ void main() {
             Capsule capsule = capsules[order[job.next]];
             CapsuleRay from_ray = capsule_from_ray(capsule, axis, ray_u, ray_v);
             RaySpan span = capsule_span(from_ray);
-            if (span.lo <= span.hi) touched = 1u;
             uint count = count_of(ray);
-            CutPlan plan = plan_cut(ray.first, count, span);
-            if (plan.removed > 0u) {
-                uint new_count = count_after(count, plan);
-                if (new_count > room_of(ray)) {
-                    ray = with_larger_room(ray, new_count);
-                    waits = new_count > room_of(ray);
+            first_end = ray.first;
+            int operation = operation_of(capsule);
+            // Rays without material are not there for a cut, nor is the lattice's border for filling.
+            bool there =
+                operation == kFill ? may_fill_ray(u_of(job.ray), v_of(job.ray), rays_u, rays_v) : count > 0u;
+            if (there && span.lo <= span.hi) touched = 1u;
+            if (operation == kPaint) {
+                if (span.lo <= span.hi) {
+                    RaySpan painted = paint_ends(count, span, material_of_work(capsule));
+                    job.changed_lo = min(job.changed_lo, painted.lo);
+                    job.changed_hi = max(job.changed_hi, painted.hi);
                 }
-                if (!waits) {
-                    DexelEnd end_lo;
-                    DexelEnd end_hi;
-                    if (plan.kept_low != 0u) {
-                        end_lo = make_end(span.lo, capsule.material, capsule_normal(from_ray, axis, span.lo));
+            } else if (there) {
+                int cells = parameters.rays_v[(axis + 1) % 3] - 1;  // v of the next axis runs along this one
+                if (operation == kFill && span.lo <= span.hi) span = fill_within(span, cells);
+                SpanEdit edit = plan_span(count, span, operation == kFill ? 1u : 0u);
+                if (changes_anything(edit)) {
+                    uint new_count = count_after(count, edit);
+                    if (new_count > room_of(ray)) {  // a ray without a place of its own says that it has room for one
+                        ray = with_larger_room(ray, new_count);
+                        waits = new_count > room_of(ray);
                     }
-                    if (plan.kept_high != 0u) {
-                        end_hi = make_end(span.hi, capsule.material, capsule_normal(from_ray, axis, span.hi));
+                    if (!waits) {
+                        first_end = ray.first;
+                        DexelEnd end_lo;
+                        DexelEnd end_hi;
+                        if (edit.insert_lo != 0u) end_lo = capsule_end(from_ray, axis, span.lo, capsule.work, cells);
+                        if (edit.insert_hi != 0u) end_hi = capsule_end(from_ray, axis, span.hi, capsule.work, cells);
+                        apply_edit(count, edit, end_lo, end_hi);
+                        ray.count_room = (ray.count_room & 0xff000000u) | new_count;
+                        job.changed_lo = min(job.changed_lo, edit.changed_lo);
+                        job.changed_hi = max(job.changed_hi, edit.changed_hi);
                     }
-                    apply_cut(ray.first, count, plan, end_lo, end_hi);
-                    ray.count_room = (ray.count_room & 0xff000000u) | new_count;
-                    job.changed_lo = min(job.changed_lo, plan.changed_lo);
-                    job.changed_hi = max(job.changed_hi, plan.changed_hi);
                 }
             }
             ++cuts;

@@ -22,8 +22,16 @@ struct Capsule {
     int start_x, start_y, start_z;
     int along_x, along_y, along_z;  // end - start
     int reach;                      // the radius rounded up: bounds the footprint
-    uint material;                  // what the cut surface is made of
+    uint work;                      // make_work
 };
+
+// What is to be done within a capsule, and what the surface it leaves is made of.
+const int kCut = 0;
+const int kFill = 1;
+const int kPaint = 2;
+BURIN_FN uint make_work(int operation, uint material) { return uint(operation) << 8 | material; }
+BURIN_FN int operation_of(Capsule c) { return int(c.work >> 8); }
+BURIN_FN uint material_of_work(Capsule c) { return c.work & uint(0xff); }
 
 // A capsule as seen from one ray. Depths here are relative to the start's.
 struct CapsuleRay {
@@ -233,9 +241,22 @@ BURIN_FN RaySpan capsule_span(CapsuleRay k) {
     return span;
 }
 
-// The code of the unit vector from the ray's point at depth s (lattice units) to the nearest point of the capsule's axis:
-// the outward normal of the material that the cut leaves there. In whole numbers, like the depths.
-BURIN_FN uint capsule_normal(CapsuleRay k, int axis, int depth) {
+// What is filled stays clear of the lattice's outermost nodes, so that the solid is closed inside the lattice: no rays along
+// its border, and along the others only the depths within.
+BURIN_FN bool may_fill_ray(int u, int v, int rays_u, int rays_v) {
+    return u > 0 && v > 0 && u < rays_u - 1 && v < rays_v - 1;
+}
+BURIN_FN RaySpan fill_within(RaySpan span, int cells) {
+    int last = cells * kUnitsPerCell - 1;
+    RaySpan within;
+    within.lo = span.lo < 1 ? 1 : span.lo;
+    within.hi = span.hi > last ? last : span.hi;
+    return within;
+}
+
+// The outward normal of the material that is left at depth s of the ray (lattice units), as a code: after a cut it points from
+// there to the nearest point of the capsule's axis, after filling away from it. In whole numbers, like the depths.
+BURIN_FN uint capsule_normal(CapsuleRay k, int axis, int depth, bool filled) {
     int64_t s = int64_t(depth - k.start_s);
     int64_t t = k.dot_uv + s * k.along_s;
     int64_t one = int64_t(1) << 20;
@@ -254,11 +275,24 @@ BURIN_FN uint capsule_normal(CapsuleRay k, int axis, int depth) {
     int64_t n_u = k.along_u * share - k.u * one;
     int64_t n_v = k.along_v * share - k.v * one;
     int64_t n_s = k.along_s * share - s * one;
+    if (filled) {
+        n_u = -n_u;
+        n_v = -n_v;
+        n_s = -n_s;
+    }
     IntVector n;
     n.x = axis == 0 ? n_s : (axis == 1 ? n_v : n_u);
     n.y = axis == 0 ? n_u : (axis == 1 ? n_s : n_v);
     n.z = axis == 0 ? n_v : (axis == 1 ? n_u : n_s);
     return encode_normal(n);
+}
+
+// The end that a capsule leaves there. Where filling stops at the lattice's border it faces along the ray.
+BURIN_FN DexelEnd capsule_end(CapsuleRay k, int axis, int depth, uint work, int cells) {
+    bool filled = int(work >> 8) == kFill;
+    uint normal = filled && (depth == 1 || depth == cells * kUnitsPerCell - 1) ? axis_normal(axis, depth != 1)
+                                                                               : capsule_normal(k, axis, depth, filled);
+    return make_end(depth, work & uint(0xff), normal);
 }
 
 BURIN_SHARED_END

@@ -43,6 +43,16 @@ BURIN_FN uint encode_normal(IntVector v) {
     }
     return (uint(b + int64_t(32767)) << 16) | uint(a + int64_t(32767));
 }
+
+// The code of a lattice direction.
+BURIN_FN uint axis_normal(int axis, bool positive) {
+    int64_t length = positive ? int64_t(1) : int64_t(-1);
+    IntVector n;
+    n.x = axis == 0 ? length : int64_t(0);
+    n.y = axis == 1 ? length : int64_t(0);
+    n.z = axis == 2 ? length : int64_t(0);
+    return encode_normal(n);
+}
 #endif
 
 // The code of the opposite direction, in whole numbers.

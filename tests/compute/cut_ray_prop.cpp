@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// List surgery of one ray against set subtraction on plain intervals.
+// Emptying and filling spans of one ray against set algebra on plain intervals.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -21,15 +21,10 @@ using shared::uint;
 // More cases than the library's 100, and the same ones every time; RC_PARAMS from outside still wins.
 [[maybe_unused]] const int kConfigured = setenv("RC_PARAMS", "seed=20 max_success=5000", 0);
 
-// A ray in the middle of a store, with other rays' ends on both sides that no cut may touch.
-constexpr uint kFirst = 7;
-constexpr uint kForeign = 0xabcd1234u;
-
 struct Ray {
-    std::vector<DexelEnd> ends;
+    const std::vector<DexelEnd>& ends;
     [[nodiscard]] DexelEnd load_end(uint i) const { return ends.at(i); }
-    void store_end(uint i, DexelEnd end) { ends.at(i) = end; }
-#include "shaders/shared/cut_ray.h"
+#include "shaders/shared/span_edit.h"
 };
 
 bool same(const DexelEnd& a, const DexelEnd& b) { return a.depth_material == b.depth_material && a.normal == b.normal; }
@@ -40,30 +35,26 @@ bool same(const std::vector<DexelEnd>& a, const std::vector<DexelEnd>& b) {
 
 DexelEnd tool_end(int depth, uint tool) { return shared::make_end(depth, 200 + tool, 0x70000000u + tool); }
 
-struct Cut {
+struct Edited {
     std::vector<DexelEnd> ends;
     std::optional<std::pair<int, int>> changed;
 };
 
-Cut carve(const std::vector<DexelEnd>& ends, RaySpan span, uint tool) {
-    const auto count = static_cast<uint>(ends.size());
-    Ray ray;
-    ray.ends.assign(kFirst, {kForeign, 1});
-    ray.ends.insert(ray.ends.end(), ends.begin(), ends.end());
-    const auto plan = ray.plan_cut(kFirst, count, span);
-    if (plan.removed == 0) return {ends, std::nullopt};
-    const uint after = ray.count_after(count, plan);
-    RC_ASSERT(after <= count + 2);
-    ray.ends.resize(kFirst + std::max(after, count), {0, 0});
-    ray.ends.insert(ray.ends.end(), 5, {kForeign, 2});
-    const DexelEnd none{0xdeaddeadu, 0xdeaddeadu};
-    ray.apply_cut(kFirst, count, plan, plan.kept_low != 0 ? tool_end(span.lo, tool) : none,
-                  plan.kept_high != 0 ? tool_end(span.hi, tool) : none);
-    for (uint i = 0; i < kFirst; ++i) RC_ASSERT(same(ray.ends[i], DexelEnd{kForeign, 1}));
-    for (uint i = 0; i < 5; ++i) RC_ASSERT(same(ray.ends[ray.ends.size() - 1 - i], DexelEnd{kForeign, 2}));
-    return {{ray.ends.begin() + kFirst, ray.ends.begin() + kFirst + after},
-            std::pair{plan.changed_lo, plan.changed_hi}};
+Edited edit(const std::vector<DexelEnd>& ends, RaySpan span, uint inside, uint tool) {
+    Ray ray{ends};
+    const auto plan = ray.plan_span(static_cast<uint>(ends.size()), span, inside);
+    if (!ray.changes_anything(plan)) return {ends, std::nullopt};
+    std::vector<DexelEnd> after(ends.begin(), ends.begin() + plan.from);
+    if (plan.insert_lo != 0) after.push_back(tool_end(span.lo, tool));
+    if (plan.insert_hi != 0) after.push_back(tool_end(span.hi, tool));
+    after.insert(after.end(), ends.begin() + plan.to, ends.end());
+    RC_ASSERT(after.size() == ray.count_after(static_cast<uint>(ends.size()), plan));
+    RC_ASSERT(after.size() <= ends.size() + 2u);
+    return {after, std::pair{plan.changed_lo, plan.changed_hi}};
 }
+
+Edited carve(const std::vector<DexelEnd>& ends, RaySpan span, uint tool) { return edit(ends, span, 0, tool); }
+Edited fill(const std::vector<DexelEnd>& ends, RaySpan span, uint tool) { return edit(ends, span, 1, tool); }
 
 // The same by set subtraction, interval by interval.
 std::vector<DexelEnd> subtract(const std::vector<DexelEnd>& ends, RaySpan span, uint tool) {
@@ -79,6 +70,26 @@ std::vector<DexelEnd> subtract(const std::vector<DexelEnd>& ends, RaySpan span, 
         if (hi > span.hi) rest.insert(rest.end(), {tool_end(span.hi, tool), ends[i + 1]});
     }
     return rest;
+}
+
+// Union, interval by interval.
+std::vector<DexelEnd> unite(const std::vector<DexelEnd>& ends, RaySpan span, uint tool) {
+    if (span.lo >= span.hi) return ends;
+    DexelEnd lo = tool_end(span.lo, tool), hi = tool_end(span.hi, tool);
+    std::vector<DexelEnd> before, after;
+    for (std::size_t i = 0; i < ends.size(); i += 2) {
+        if (depth_of(ends[i + 1]) < span.lo) {
+            before.insert(before.end(), {ends[i], ends[i + 1]});
+        } else if (depth_of(ends[i]) > span.hi) {
+            after.insert(after.end(), {ends[i], ends[i + 1]});
+        } else {
+            if (depth_of(ends[i]) <= depth_of(lo)) lo = ends[i];
+            if (depth_of(ends[i + 1]) >= depth_of(hi)) hi = ends[i + 1];
+        }
+    }
+    before.insert(before.end(), {lo, hi});
+    before.insert(before.end(), after.begin(), after.end());
+    return before;
 }
 
 // Sorted ends with small gaps, so that coincident and touching faces are common.
@@ -98,6 +109,12 @@ rc::Gen<std::vector<DexelEnd>> any_ray() {
 rc::Gen<RaySpan> any_span() {
     return rc::gen::map(rc::gen::pair(rc::gen::inRange(-3, 120), rc::gen::inRange(-2, 60)),
                         [](const std::pair<int, int>& p) { return RaySpan{p.first, p.first + p.second}; });
+}
+
+std::vector<int> depths(const std::vector<DexelEnd>& ends) {
+    std::vector<int> depths;
+    for (const DexelEnd& end : ends) depths.push_back(depth_of(end));
+    return depths;
 }
 
 long length(const std::vector<DexelEnd>& ends) {
@@ -120,7 +137,7 @@ TEST(CutRay, EqualsSetSubtraction) {
         uint tool = 0;
         for (const RaySpan span : spans) {
             const auto expected = subtract(ends, span, tool % 50);
-            const Cut cut = carve(ends, span, tool % 50);
+            const Edited cut = carve(ends, span, tool % 50);
             RC_ASSERT(same(cut.ends, expected));
             assert_well_formed(cut.ends);
             RC_ASSERT(length(cut.ends) <= length(ends));
@@ -140,12 +157,39 @@ TEST(CutRay, EqualsSetSubtraction) {
     }));
 }
 
+TEST(CutRay, FillingEqualsSetUnion) {
+    EXPECT_TRUE(rc::check([] {
+        std::vector<DexelEnd> ends = *any_ray();
+        uint tool = 0;
+        for (const RaySpan any : *rc::gen::container<std::vector<RaySpan>>(any_span())) {
+            const RaySpan span{std::max(any.lo, 0), any.hi};  // a depth below 0 cannot be stored
+            const Edited filled = fill(ends, span, tool % 50);
+            RC_ASSERT(same(filled.ends, unite(ends, span, tool % 50)));
+            assert_well_formed(filled.ends);
+            RC_ASSERT(length(filled.ends) >= length(ends));
+            RC_ASSERT(filled.changed.has_value() == !same(filled.ends, ends));
+            ends = filled.ends;
+            ++tool;
+        }
+    }));
+}
+
+TEST(CutRay, WhatIsFilledAndCutAgainIsWhatWasCut) {
+    EXPECT_TRUE(rc::check([] {
+        const auto ends = *any_ray();
+        const RaySpan any = *any_span(), span{std::max(any.lo, 0), any.hi};
+        // The depths: an end on the span's border is the tool's afterwards, where it would else have stayed.
+        RC_ASSERT((depths(carve(fill(ends, span, 1).ends, span, 2).ends) == depths(carve(ends, span, 2).ends)));
+        RC_ASSERT((depths(fill(carve(ends, span, 1).ends, span, 2).ends) == depths(fill(ends, span, 2).ends)));
+    }));
+}
+
 TEST(CutRay, CuttingTwiceChangesNothingMore) {
     EXPECT_TRUE(rc::check([] {
         const auto ends = *any_ray();
         const RaySpan span = *any_span();
         const auto once = carve(ends, span, 1).ends;
-        const Cut twice = carve(once, span, 2);
+        const Edited twice = carve(once, span, 2);
         RC_ASSERT(same(twice.ends, once));
         RC_ASSERT(!twice.changed);
     }));

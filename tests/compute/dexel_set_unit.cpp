@@ -40,101 +40,102 @@ bool holds(const DexelSet& set, const Rays& rays) {
     return set.ray_count() == rays.size();
 }
 
-// No two rays may share a place.
-bool places_are_apart(const DexelSet& set) {
-    std::vector<std::pair<std::size_t, std::size_t>> places;
-    for (const shared::RayRef& ray : set.rays()) {
-        if (count_of(ray) > 0) places.emplace_back(ray.first, ray.first + room_of(ray));
-    }
-    std::ranges::sort(places);
-    for (std::size_t i = 1; i < places.size(); ++i) {
-        if (places[i].first < places[i - 1].second) return false;
-    }
-    return places.empty() || places.back().second <= set.store().size();
-}
+DexelSet row_of(std::size_t rays) { return DexelSet(static_cast<int>(rays), 1); }
 
 }  // namespace
 
 TEST(DexelSet, StartsEmpty) {
-    const DexelSet set(7);
-    for (std::size_t r = 0; r < 7; ++r) EXPECT_TRUE(set.ends(r).empty());
-    EXPECT_TRUE(set.same_content(DexelSet(7)));
-    EXPECT_FALSE(set.same_content(DexelSet(8)));
+    const DexelSet set(7, 3);
+    EXPECT_EQ(set.ray_count(), 21u);
+    for (std::size_t r = 0; r < 21; ++r) EXPECT_TRUE(set.ends(r).empty());
+    for (int v = 0; v < 3; ++v) EXPECT_FALSE(set.page_held(6, v));
+    EXPECT_TRUE(set.same_content(DexelSet(7, 3)));
+    EXPECT_FALSE(set.same_content(DexelSet(3, 7)));
+    EXPECT_LT(set.bytes(), 100u);
 }
 
-TEST(DexelSet, RoomIsTheNextPowerOfTwo) {
-    for (std::uint32_t count = 1; count < 5000; ++count) {
-        const shared::RayRef ray{0, DexelSet::count_room(count)};
-        ASSERT_EQ(count_of(ray), count);
-        ASSERT_GE(room_of(ray), count);
-        ASSERT_TRUE(count < 2 || room_of(ray) < 2 * count);
-    }
-}
-
-TEST(DexelSet, KeepsContentsThroughReplacingGrowingAndPacking) {
+TEST(DexelSet, KeepsContentsThroughReplacingAndGrowing) {
     Random random(1);
-    for (int round = 0; round < repeated(60); ++round) {
-        Rays rays(static_cast<std::size_t>(random.small(1, 40)));
-        DexelSet set(rays.size());
-        if (random.chance(0.7)) {
-            for (auto& ends : rays) ends = random_ends(random, 12);
-            assign(set, rays);
-            ASSERT_TRUE(holds(set, rays));
-        }
-        for (int step = 0; step < 200; ++step) {
-            const auto r = static_cast<std::size_t>(random.whole(0, static_cast<std::int64_t>(rays.size()) - 1));
-            if (random.chance(0.05)) {
-                set.make_space(static_cast<std::size_t>(random.small(0, 100)));
-            } else {
-                rays[r] = random_ends(random, random.chance(0.05) ? 600 : 20);
-                set.replace(r, rays[r]);
+    for (int i = 0; i < repeated(50); ++i) {
+        const int width = random.small(1, 200), rows = random.small(1, 4);
+        Rays rays(static_cast<std::size_t>(width * rows));
+        for (auto& ends : rays) ends = random_ends(random, random.chance(0.3) ? 0 : 6);
+        DexelSet set(width, rows);
+        assign(set, rays);
+        ASSERT_TRUE(holds(set, rays));
+        for (int k = 0; k < 300; ++k) {
+            const auto r = static_cast<std::size_t>(random.small(0, static_cast<int>(rays.size()) - 1));
+            rays[r] = random_ends(random, random.chance(0.05) ? 5000 : 12);
+            set.replace(r, rays[r]);
+            if (k % 30 == 0) {
+                ASSERT_TRUE(holds(set, rays));
             }
-            ASSERT_TRUE(holds(set, rays)) << "round " << round << " step " << step;
-            ASSERT_TRUE(places_are_apart(set));
         }
-        DexelSet packed = set;
-        packed.make_space(1000);
-        EXPECT_TRUE(packed.same_content(set));
-        EXPECT_NE(packed.claim(512), DexelSet::kNoPlace);
+        ASSERT_TRUE(holds(set, rays));
+        std::size_t ends = 0;
+        for (const auto& ray : rays) ends += ray.size();
+        ASSERT_EQ(set.end_count(), ends);
+        DexelSet again(width, rows);
+        assign(again, rays);
+        ASSERT_TRUE(again.same_content(set));
     }
 }
 
-TEST(DexelSet, SaysWhenItsSpareSpaceIsUsedUp) {
-    DexelSet set(1);
-    EXPECT_EQ(set.claim(4), DexelSet::kNoPlace);
-    set.make_space(16);
-    EXPECT_NE(set.claim(8), DexelSet::kNoPlace);
-    EXPECT_NE(set.claim(8), DexelSet::kNoPlace);
-    EXPECT_EQ(set.claim(2), DexelSet::kNoPlace);
-    set.make_space(2);
-    EXPECT_NE(set.claim(2), DexelSet::kNoPlace);
+TEST(DexelSet, SplicesAsAVectorDoes) {
+    Random random(2);
+    DexelSet set = row_of(100);
+    Rays rays(100);
+    for (int k = 0; k < repeated(20000); ++k) {
+        const int u = random.small(0, 99);
+        auto& ray = rays[static_cast<std::size_t>(u)];
+        const int from = random.small(0, static_cast<int>(ray.size())),
+                  removed = random.small(0, static_cast<int>(ray.size()) - from);
+        const auto inserted = random_ends(random, ray.size() > 40 ? 1 : 4);
+        set.splice(u, 0, static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(removed), inserted);
+        ray.erase(ray.begin() + from, ray.begin() + from + removed);
+        ray.insert(ray.begin() + from, inserted.begin(), inserted.end());
+    }
+    EXPECT_TRUE(holds(set, rays));
+}
+
+TEST(DexelSet, EmptiedPagesAreGivenBack) {
+    DexelSet set(1000, 10);
+    const std::size_t empty = set.bytes();
+    const std::vector<DexelEnd> two{{1, 2}, {3, 4}};
+    for (std::size_t r = 0; r < set.ray_count(); ++r) set.replace(r, two);
+    EXPECT_GT(set.bytes(), 10000u * 20u);
+    EXPECT_LT(set.bytes(), 10000u * 24u);
+    for (std::size_t r = 0; r < set.ray_count(); ++r) set.replace(r, {});
+    EXPECT_EQ(set.bytes(), empty);
 }
 
 TEST(DexelSet, SeesEveryKindOfDifference) {
-    const Rays rays{{shared::make_end(1, 0, 5), shared::make_end(9, 0, 6)}, {}};
-    DexelSet set(2), other(2);
-    assign(set, rays);
-    const auto differs_with = [&](const std::vector<DexelEnd>& ends, std::size_t ray) {
-        assign(other, rays);
-        other.replace(ray, ends);
-        return !set.same_content(other);
-    };
-    EXPECT_FALSE(differs_with(rays[0], 0));
-    EXPECT_TRUE(differs_with({shared::make_end(2, 0, 5), shared::make_end(9, 0, 6)}, 0));
-    EXPECT_TRUE(differs_with({shared::make_end(1, 1, 5), shared::make_end(9, 0, 6)}, 0));
-    EXPECT_TRUE(differs_with({shared::make_end(1, 0, 5), shared::make_end(9, 0, 7)}, 0));
-    EXPECT_TRUE(differs_with({}, 0));
-    EXPECT_TRUE(differs_with(rays[0], 1));
+    const std::vector<DexelEnd> two{{1, 2}, {3, 4}};
+    DexelSet set = row_of(2), other = row_of(2);
+    set.replace(0, two);
+    other.replace(0, two);
+    EXPECT_TRUE(set.same_content(other));
+    other.replace(0, std::vector<DexelEnd>{{1, 2}, {3, 5}});
+    EXPECT_FALSE(set.same_content(other));
+    other.replace(0, std::vector<DexelEnd>{{1, 2}, {7, 4}});
+    EXPECT_FALSE(set.same_content(other));
+    other.replace(0, two);
+    other.replace(1, two);
+    EXPECT_FALSE(set.same_content(other));
+    other.replace(0, {});
+    EXPECT_FALSE(set.same_content(other));
 }
 
-TEST(DexelSet, MovingLeavesNothingBehindAndCopiesNothing) {
-    DexelSet set(2);
-    assign(set, {{shared::make_end(1, 0, 5), shared::make_end(9, 0, 6)}, {}});
-    const DexelEnd* place = set.store().data();
+TEST(DexelSet, CopiesStandAlone) {
+    DexelSet set = row_of(70);
+    const std::vector<DexelEnd> two{{1, 2}, {3, 4}};
+    set.replace(69, two);
     const DexelSet copy = set;
-    const DexelSet moved = std::move(set);
-    EXPECT_EQ(moved.store().data(), place);
-    EXPECT_TRUE(moved.same_content(copy));
+    DexelSet moved = std::move(set);
+    EXPECT_TRUE(copy.same_content(moved));
+    moved.replace(69, {});
+    EXPECT_FALSE(copy.same_content(moved));
+    EXPECT_EQ(copy.ends(69, 0).size(), 2u);
 }
 
 }  // namespace burin::test

@@ -48,8 +48,8 @@ public:
     // False after the first difference, so that loops can stop there.
     bool cut(std::span<const BallSweep> sweeps) {
         if (vulkan_ == nullptr) return false;
-        const auto expected = cpu_->cut(sweeps);
-        const auto actual = vulkan_->cut(sweeps);
+        const auto expected = cpu_->carve(sweeps);
+        const auto actual = vulkan_->carve(sweeps);
         EXPECT_TRUE(expected) << expected.error().line();
         EXPECT_TRUE(actual) << actual.error().line();
         if (!expected || !actual) return false;

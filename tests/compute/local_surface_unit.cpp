@@ -15,9 +15,7 @@ using Corners = std::array<Vec3, 3>;
 
 Surface meshed(const Solid& solid, WorkerPool& pool) {
     Surface surface(solid.lattice);
-    std::vector<std::uint32_t> all(surface.tile_count());
-    std::iota(all.begin(), all.end(), 0u);
-    surface.remesh(solid, all, pool);
+    surface.mesh_all(solid, pool);
     return surface;
 }
 

@@ -6,7 +6,6 @@
 
 #include <cstring>
 #include <map>
-#include <numeric>
 
 #include "compute/engine.hpp"
 #include "compute/surface.hpp"
@@ -17,14 +16,11 @@
 namespace burin::test {
 namespace {
 
-void mesh_everything(Surface& surface, const Solid& solid, WorkerPool& pool) {
-    std::vector<std::uint32_t> all(surface.tile_count());
-    std::iota(all.begin(), all.end(), 0u);
-    surface.remesh(solid, all, pool);
-}
+void mesh_everything(Surface& surface, const Solid& solid, WorkerPool& pool) { surface.mesh_all(solid, pool); }
 
 bool same_bits(const TileMesh& a, const TileMesh& b) {
-    return a.keys == b.keys && a.indices == b.indices && a.disagreeing_edges == b.disagreeing_edges &&
+    return a.indices == b.indices && a.quads == b.quads && a.face_keys == b.face_keys &&
+           a.vertex_of_edge == b.vertex_of_edge && a.disagreeing_edges == b.disagreeing_edges &&
            a.vertices.size() == b.vertices.size() &&
            std::memcmp(a.vertices.data(), b.vertices.data(), a.vertices.size() * sizeof(shared::SurfaceVertex)) == 0;
 }
@@ -124,7 +120,7 @@ TEST(Mesher, EveryPairOfNeighbouringCellsIsTwoManifold) {
             };
             for (int a = 0; a < 3; ++a) {
                 const auto s = static_cast<std::size_t>(a);
-                solid.sets[s] = DexelSet(solid.lattice.rays(a));
+                solid.sets[s] = DexelSet(solid.lattice.rays_u(a), solid.lattice.rays_v(a));
                 for (int v = 0; v < solid.lattice.rays_v(a); ++v) {
                     for (int u = 0; u < solid.lattice.rays_u(a); ++u) {
                         std::vector<shared::DexelEnd> ends;
@@ -162,9 +158,11 @@ TEST(Mesher, TilesShareTheirBorderVerticesToTheBit) {
         std::size_t shared_by_tiles = 0;
         for (std::uint32_t t = 0; t < surface.tile_count(); ++t) {
             const TileMesh& tile = surface.tile(t);
-            for (std::size_t i = 0; i < tile.keys.size(); ++i) {
+            const auto keys = vertex_keys(surface.lattice(), surface.grid().first_node(t), tile);
+            ASSERT_EQ(keys.size(), tile.vertices.size());
+            for (std::size_t i = 0; i < keys.size(); ++i) {
                 const std::array<float, 3> at{tile.vertices[i].x, tile.vertices[i].y, tile.vertices[i].z};
-                const auto [known, fresh] = places.try_emplace(tile.keys[i], at);
+                const auto [known, fresh] = places.try_emplace(keys[i], at);
                 ASSERT_EQ(known->second, at) << "seed " << seed << " tile " << t;
                 shared_by_tiles += fresh ? 0 : 1;
             }
@@ -185,8 +183,8 @@ TEST(Mesher, ThreadsDoNotChangeTheMesh) {
     EXPECT_TRUE(same_mesh(a.welded(), b.welded()));
 }
 
-// Nothing outside the marked tiles may change: small cuts, most of them near tile borders, in noise and in blocks.
-TEST(Mesher, MeshingOnlyDirtyTilesEqualsMeshingEverything) {
+// What is kept must be what meshing anew would give: small strokes, most of them near tile borders, in noise and in blocks.
+TEST(Mesher, MeshingOnlyWhatChangedEqualsMeshingEverything) {
     WorkerPool pool(2);
     for (int seed = 0; seed < repeated(16); ++seed) {
         Random random(static_cast<std::uint64_t>(seed));
@@ -196,7 +194,7 @@ TEST(Mesher, MeshingOnlyDirtyTilesEqualsMeshingEverything) {
         const Lattice lattice = solid.lattice;
         const auto engine = make_cpu_engine(std::move(solid), pool);
         Surface kept(lattice);
-        kept.remesh(engine->solid(), engine->dirty_tiles().take(), pool);
+        kept.mesh_all(engine->solid(), pool);
         for (int cut = 0; cut < 25; ++cut) {
             std::vector<BallSweep> sweeps(static_cast<std::size_t>(random.small(1, 3)));
             for (BallSweep& s : sweeps) {
@@ -212,11 +210,13 @@ TEST(Mesher, MeshingOnlyDirtyTilesEqualsMeshingEverything) {
                     s.end_object_m += Vec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)) *
                                       (6.0 * lattice.spacing_m);
                 }
+                s.operation = std::array{Operation::cut, Operation::fill,
+                                         Operation::paint}[static_cast<std::size_t>(random.small(0, 2))];
                 s.radius_m =
                     lattice.spacing_m * (random.chance(0.5) ? random.between(0.05, 1.0) : random.between(1, 3));
             }
-            ASSERT_TRUE(engine->cut(sweeps).has_value());
-            kept.remesh(engine->solid(), engine->dirty_tiles().take(), pool);
+            ASSERT_TRUE(engine->carve(sweeps).has_value());
+            kept.update(engine->solid(), engine->take_changes(), pool);
             Surface fresh(lattice);
             mesh_everything(fresh, engine->solid(), pool);
             ASSERT_EQ(first_difference(kept, fresh), -1) << "seed " << seed << " cut " << cut;

@@ -84,7 +84,7 @@ Solid noise_solid(const std::array<int, 3>& cells, double p, Rays rays, std::uin
                 all.insert(all.end(), ends.begin(), ends.end());
             }
         }
-        solid.sets[a] = DexelSet(solid.lattice.rays(axis));
+        solid.sets[a] = DexelSet(solid.lattice.rays_u(axis), solid.lattice.rays_v(axis));
         solid.sets[a].assign(counts, all);
     }
     return solid;

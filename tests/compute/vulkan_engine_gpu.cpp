@@ -43,6 +43,7 @@ BallSweep random_sweep(Random& random, double spacing_m) {
     if (random.chance(0.2)) sweep.end_object_m.x = sweep.start_object_m.x;  // parallel to lattice planes
     if (random.chance(0.2)) sweep.end_object_m.y = sweep.start_object_m.y;
     sweep.material = static_cast<std::uint8_t>(random.small(0, 1));
+    if (random.chance(0.4)) sweep.operation = random.chance(0.5) ? Operation::fill : Operation::paint;
     return sweep;
 }
 
@@ -218,11 +219,13 @@ TEST_F(VulkanEngineGpu, TheMeshesOfBothEnginesAreTheSame) {
     const Solid solid = unit_cube(64);
     EnginePair engines(solid, device());
     Surface cpu_surface(solid.lattice), vulkan_surface(solid.lattice);
+    cpu_surface.mesh_all(solid, engines.pool());
+    vulkan_surface.mesh_all(solid, engines.pool());
     const std::vector<BallSweep> stroke = stroke_1000(4);
     for (std::size_t i = 0; i < stroke.size(); i += 25) {
         ASSERT_TRUE(engines.cut(std::span(stroke).subspan(i, std::min<std::size_t>(25, stroke.size() - i))));
-        cpu_surface.remesh(engines.cpu().solid(), engines.cpu().dirty_tiles().take(), engines.pool());
-        vulkan_surface.remesh(engines.vulkan().solid(), engines.vulkan().dirty_tiles().take(), engines.pool());
+        cpu_surface.update(engines.cpu().solid(), engines.cpu().take_changes(), engines.pool());
+        vulkan_surface.update(engines.vulkan().solid(), engines.vulkan().take_changes(), engines.pool());
     }
     const TriangleMesh expected = cpu_surface.welded(), actual = vulkan_surface.welded();
     EXPECT_GT(expected.triangles.size(), 10'000u);
@@ -249,8 +252,8 @@ TEST_F(VulkanEngineGpu, BadSweepsAreRefusedAndChangeNothing) {
     EnginePair engines(solid, device());
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const std::vector<BallSweep> good_then_bad = {{Vec3(0.5), Vec3(0.5), 0.3, 0}, {Vec3(nan), Vec3(0.5), 0.3, 0}};
-    EXPECT_FALSE(engines.vulkan().cut(good_then_bad));
-    EXPECT_FALSE(engines.vulkan().cut(std::vector<BallSweep>{{Vec3(0.5), Vec3(0.5), 0.0, 0}}));
+    EXPECT_FALSE(engines.vulkan().carve(good_then_bad));
+    EXPECT_FALSE(engines.vulkan().carve(std::vector<BallSweep>{{Vec3(0.5), Vec3(0.5), 0.0, 0}}));
     EXPECT_TRUE(engines.vulkan().solid().same_content(solid));
     EXPECT_TRUE(engines.cut(std::span<const BallSweep>{})) << "an empty batch";
 }
@@ -288,16 +291,16 @@ TEST_F(VulkanEngineGpu, AfterADeviceErrorTheSolidIsAsBeforeAndTheNextCutWorks) {
         const Vec3 p = random_point(random, 0.0, 1.0);
         holes.push_back({p, p + random_point(random, -0.3, 0.3), 0.01, 1});
     }
-    (void)engines.vulkan().dirty_tiles().take();
+    (void)engines.vulkan().take_changes();
 
     capabilities().max_storage_buffer_bytes = 1024;  // the store cannot grow
-    const auto refused = engines.vulkan().cut(holes);
+    const auto refused = engines.vulkan().carve(holes);
     capabilities().max_storage_buffer_bytes = limit;
 
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().line().find("--engine cpu"), std::string::npos) << refused.error().line();
     EXPECT_TRUE(engines.vulkan().solid().same_content(before));
-    EXPECT_TRUE(engines.vulkan().dirty_tiles().take().empty());
+    EXPECT_TRUE(engines.vulkan().take_changes().empty());
     EXPECT_TRUE(engines.cut(holes)) << "the device's half-cut solid must not shine through";
 }
 
@@ -310,7 +313,7 @@ TEST_F(VulkanEngineGpu, ARayWithMoreEndsThanAPassCanHandleIsRefused) {
     solid.sets[2].assign(counts, ends);
     const auto engine = VulkanEngine::create(solid, device());
     ASSERT_TRUE(engine);
-    const auto refused = (*engine)->cut(std::vector<BallSweep>{{Vec3(0.5), Vec3(0.5), 0.5, 0}});
+    const auto refused = (*engine)->carve(std::vector<BallSweep>{{Vec3(0.5), Vec3(0.5), 0.5, 0}});
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().line().find("--engine cpu"), std::string::npos);
     EXPECT_TRUE((*engine)->solid().same_content(solid));
