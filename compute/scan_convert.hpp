@@ -2,9 +2,7 @@
 // From a closed triangle mesh to a tri-dexel solid.
 //
 // Vertices are rounded to whole lattice units once; from then on whether a ray passes through a triangle is decided in
-// 64-bit integers. A ray through an edge or a vertex is counted once: the ray is treated as if moved by an infinitely small
-// step along u and a still smaller one along v, the same for every triangle, so that no edge is ever hit exactly. A mesh
-// whose every edge has an even number of triangles therefore gives every ray an even number of crossings.
+// 64-bit integers (ray_crossings.hpp), and every ray has an even number of crossings.
 //
 // Inside is where the winding number is above zero, so that overlapping shells unite and cavities stay. When the triangles
 // of an edge are not oriented against each other the winding number means nothing; then inside is where the number of
@@ -26,5 +24,11 @@ struct ScanConversion {
 // The mesh's materials become the solid's. Fails on an empty mesh, coordinates that are not finite, a bad resolution, a mesh
 // that is not closed, or one that encloses no ray.
 [[nodiscard]] Result<ScanConversion> scan_convert(const TriangleMesh& mesh, int resolution, WorkerPool& pool);
+// The same on a given lattice, which must hold the whole mesh.
+[[nodiscard]] Result<ScanConversion> scan_convert_onto(const TriangleMesh& mesh, const Lattice& lattice,
+                                                       WorkerPool& pool);
+
+// Only what triangles use counts: a stray vertex must not stretch a lattice.
+[[nodiscard]] Box bounds_of_triangles(const TriangleMesh& mesh);
 
 }  // namespace burin

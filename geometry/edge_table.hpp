@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which triangles meet at each edge of a triangle soup of any topology, as one sorted array: edges in ascending order of
-// (lower vertex, higher vertex), the uses of one edge side by side in ascending order of triangle. Internal to geometry/.
+// (lower vertex, higher vertex), the uses of one edge side by side in ascending order of triangle. For geometry/ and compute/.
 #pragma once
 
 #include <cstddef>
