@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "compute/slivers.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace burin {
+namespace {
+
+using shared::kUnitsPerCell;
+
+// What one row of rays has: the report's own fields, with thicknesses in lattice units.
+struct RowFindings {
+    std::uint64_t solid = 0, gaps = 0;
+    int thinnest = std::numeric_limits<int>::max();
+    Box bounds_object_m;
+    std::vector<Sliver> first;
+};
+
+// Nodes d with from <= d < to are inside a solid interval from..to, and outside in a gap.
+bool holds_no_node(int from, int to) { return (from + kUnitsPerCell - 1) / kUnitsPerCell * kUnitsPerCell >= to; }
+
+RowFindings look_along_row(const Solid& solid, int axis, int v) {
+    const Lattice& lattice = solid.lattice;
+    const DexelSet& set = solid.sets[static_cast<std::size_t>(axis)];
+    RowFindings row;
+    for (int u = 0; u < lattice.rays_u(axis); ++u) {
+        const auto ends = set.ends(static_cast<std::size_t>(v) * static_cast<std::size_t>(lattice.rays_u(axis)) +
+                                   static_cast<std::size_t>(u));
+        for (std::size_t i = 1; i < ends.size(); ++i) {
+            const int from = shared::depth_of(ends[i - 1]), to = shared::depth_of(ends[i]);
+            if (!holds_no_node(from, to)) continue;
+            const bool is_gap = i % 2 == 0;
+            ++(is_gap ? row.gaps : row.solid);
+            row.thinnest = std::min(row.thinnest, to - from);
+            Vec3 units;
+            units[axis] = 0.5 * (from + to);
+            units[(axis + 1) % 3] = static_cast<double>(u) * kUnitsPerCell;
+            units[(axis + 2) % 3] = static_cast<double>(v) * kUnitsPerCell;
+            const Vec3 place_object_m = lattice.object_from_units(units);
+            row.bounds_object_m.include(place_object_m);
+            if (row.first.size() < kSliversNamed) {
+                row.first.push_back({place_object_m, (to - from) * lattice.unit_m(), axis, is_gap});
+            }
+        }
+    }
+    return row;
+}
+
+}  // namespace
+
+SliverReport find_slivers(const Solid& solid, WorkerPool& pool) {
+    SliverReport report;
+    int thinnest = std::numeric_limits<int>::max();
+    for (int axis = 0; axis < 3; ++axis) {
+        std::vector<RowFindings> rows(static_cast<std::size_t>(solid.lattice.rays_v(axis)));
+        pool.run(rows.size(), [&](std::size_t v) { rows[v] = look_along_row(solid, axis, static_cast<int>(v)); });
+        for (const RowFindings& row : rows) {
+            report.solid[static_cast<std::size_t>(axis)] += row.solid;
+            report.gaps[static_cast<std::size_t>(axis)] += row.gaps;
+            if (row.solid + row.gaps == 0) continue;
+            thinnest = std::min(thinnest, row.thinnest);
+            report.bounds_object_m.include(row.bounds_object_m.lo);
+            report.bounds_object_m.include(row.bounds_object_m.hi);
+            const std::size_t room = std::min(row.first.size(), kSliversNamed - report.first.size());
+            report.first.insert(report.first.end(), row.first.begin(), row.first.begin() + static_cast<long>(room));
+        }
+    }
+    if (report.count() > 0) report.thinnest_m = thinnest * solid.lattice.unit_m();
+    return report;
+}
+
+}  // namespace burin
