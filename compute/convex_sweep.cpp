@@ -144,26 +144,24 @@ SweepSpan FrustumSweep::span(int axis, double ray_u, double ray_v) const {
     const Vec3 o = on_ray - tip_;
     Candidate least{}, greatest{};
     if (!Section(shape_, slope_, axis_, o, e, direction_, distance_).extremes(least, greatest)) return {};
-    // Out of the body where the candidate lies. Of several normals at an edge, the one that the motion leaves: n.d = 0.
+    // Out of the body where the candidate lies.
     const auto normal = [&](const Candidate& c) {
         const Vec3 p = o + c.s * e - c.t * direction_;
         const double y = glm::dot(p, axis_);
+        const Vec3 outward = p - axis_ * y, cap = y < 0.5 * shape_.length ? -axis_ : axis_;
+        if (c.part == Part::cap) return cap;
         const bool moving = c.t > kSlack && c.t < distance_ - kSlack;
-        const Vec3 outward = p - axis_ * y;
-        if (shape_.rim_radius >= 0.0) {
+        if (shape_.rim_radius >= 0.0 && !(moving && c.part == Part::rim)) {
             const double out = std::sqrt(glm::dot(outward, outward));
             const Vec3 from_rim = out > shape_.rim_radius ? outward * (1.0 - shape_.rim_radius / out) : Vec3(0.0);
             const Vec3 n = from_rim + axis_ * (y - shape_.rim_height);
             return moving ? n - direction_ * glm::dot(n, direction_) : n;
         }
-        const Vec3 cap = y < 0.5 * shape_.length ? -axis_ : axis_;
-        if (c.part == Part::cap) return cap;
-        Vec3 side = outward - axis_ * (slope_ * (shape_.tip_radius + slope_ * y));
+        const Vec3 side = outward - axis_ * (slope_ * (shape_.tip_radius + slope_ * y));
         if (c.part == Part::side || !moving) return side;
-        const double length = std::sqrt(glm::dot(side, side));
-        if (length > 0.0) side /= length;
-        const double of_cap = std::abs(glm::dot(side, direction_)), of_side = std::abs(glm::dot(cap, direction_));
-        return of_cap + of_side > 0.0 ? cap * of_cap + side * of_side : cap;
+        // Of the normals at an edge, the one that the motion leaves: n.d = 0, between the side's and the cap's.
+        const Vec3 n = cap * std::abs(glm::dot(side, direction_)) + side * std::abs(glm::dot(cap, direction_));
+        return n == Vec3(0.0) ? cap : n;
     };
     SweepSpan span{on_ray[axis] + least.s, on_ray[axis] + greatest.s, normal(least), normal(greatest)};
     if (glm::dot(span.normal_lo, span.normal_lo) == 0.0) span.normal_lo = -e;  // the tip of a cone

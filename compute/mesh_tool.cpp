@@ -33,7 +33,8 @@ Vec3 real(const Whole3& p) { return {static_cast<double>(p[0]), static_cast<doub
 
 class MoveAdder {
 public:
-    MoveAdder(const MeshTool& tool, double unit_m, Swept& swept) : tool_(tool), unit_m_(unit_m), swept_(swept) {}
+    MoveAdder(const MeshTool& tool, const Lattice& lattice, Swept& swept)
+        : tool_(tool), lattice_(lattice), swept_(swept) {}
 
     void add(const StraightMove& move) {
         const Whole3 along = whole(move.along);
@@ -61,8 +62,10 @@ private:
         ahead_ = static_cast<std::uint32_t>(positions.size());
         posed_.resize(positions.size());
         for (std::size_t i = 0; i < positions.size(); ++i) {
-            posed_[i] = move.orientation * (positions[i] / unit_m_);
-            swept_.vertices.push_back(whole(posed_[i] + move.start));
+            posed_[i] = move.orientation * (positions[i] / lattice_.unit_m());
+            // The way that scan conversion takes, so that an unturned mesh gets the same corners.
+            swept_.vertices.push_back(
+                whole(lattice_.units_from_object(move.start_object_m + move.orientation * positions[i])));
         }
         for (std::size_t i = 0; i < positions.size() && moves_; ++i) {
             const Whole3 p = swept_.vertices[first_ + i];
@@ -87,7 +90,7 @@ private:
     }
 
     const MeshTool& tool_;
-    double unit_m_;
+    const Lattice& lattice_;
     Swept& swept_;
     bool moves_ = false;
     Vec3 direction_{0.0};
@@ -236,7 +239,7 @@ Result<RayBatch> mesh_spans(const Lattice& lattice, const MeshTool& tool, std::s
                     "raise --sweep-tolerance, give the stroke more rows, or simplify the mesh");
     }
     Swept swept;
-    MoveAdder adder(tool, lattice.unit_m(), swept);
+    MoveAdder adder(tool, lattice, swept);
     for (const StraightMove& move : moves) adder.add(move);
     RayBatch batch;
     for (int axis = 0; axis < 3; ++axis) append_axis(lattice, swept, axis, material, pool, batch);

@@ -59,8 +59,8 @@ void add_move(const Lattice& lattice, const Extent& extent, const Quat& orientat
     const Vec3 along = middle_end - middle;
     const Part part = near_lattice(lattice, middle, along, extent.radius + shared::kUnitsPerCell);
     if (part.lo > part.hi) return;
-    const Vec3 origin = middle - orientation * extent.middle;
-    moves.push_back({orientation, origin + along * part.lo, along * (part.hi - part.lo)});
+    const Vec3 start = middle - orientation * extent.middle + along * part.lo;
+    moves.push_back({orientation, start, along * (part.hi - part.lo), lattice.object_from_units(start)});
 }
 
 Result<void> check(const Lattice& lattice, const ToolSweep& sweep) {
@@ -116,8 +116,12 @@ Result<std::vector<StraightMove>> straight_moves(const Lattice& lattice, const T
     std::vector<StraightMove> moves;
     if (from == to || (extent.turns_on_itself && turns_about_y(from, to))) {
         const Vec3 middle = start + from * extent.middle;
-        add_move(lattice, extent, from, middle, middle + (end - start), moves);
-        return moves;
+        const Part part = near_lattice(lattice, middle, end - start, extent.radius + shared::kUnitsPerCell);
+        if (part.lo > part.hi) return moves;
+        const Vec3 along = (end - start) * (part.hi - part.lo);
+        if (part.lo == 0.0) return std::vector{StraightMove{from, start, along, sweep.start.position_m}};
+        const Vec3 clipped = start + (end - start) * part.lo;
+        return std::vector{StraightMove{from, clipped, along, lattice.object_from_units(clipped)}};
     }
     const double angle = angle_bound(from, to), tolerance = sweep.tolerance_cells * shared::kUnitsPerCell;
     const double arm = std::sqrt(glm::dot(extent.middle, extent.middle));

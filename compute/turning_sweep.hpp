@@ -24,6 +24,7 @@ namespace burin {
 struct StraightMove {
     Quat orientation{1.0, 0.0, 0.0, 0.0};  // lattice_from_tool
     Vec3 start{0.0}, along{0.0};           // of the tool's own origin, lattice units
+    Vec3 start_object_m{0.0};  // the same start; as the sweep gave it, to the last digit, if it begins there
 };
 
 // What of a tool decides how finely its turning must be split; tool frame, lattice units.

@@ -41,7 +41,7 @@ struct SignedDistance {
         if (q.y < t.corner_radius_m) {
             const double rounded =
                 segment_distance(q, {0, t.corner_radius_m}, {rim, t.corner_radius_m}) - t.corner_radius_m;
-            return rounded;
+            return rounded <= 0.0 ? std::max(rounded, q.y - t.length_m) : rounded;
         }
         const double side = q.x - t.radius_m, top = q.y - t.length_m;
         if (side <= 0.0 && top <= 0.0) return std::max({side, top, -q.y});

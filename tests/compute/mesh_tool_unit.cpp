@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+// Mesh tools against closed forms of the same shapes, against dense stamps, and against scan conversion.
+#include "compute/mesh_tool.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "compute/apply.hpp"
+#include "compute/ray_algebra.hpp"
+#include "compute/scan_convert.hpp"
+#include "compute/tool_spans.hpp"
+#include "tests/compute/test_meshes.hpp"
+#include "tests/compute/tool_reference.hpp"
+
+namespace burin::test {
+namespace {
+
+using Rays = std::map<std::uint32_t, std::vector<shared::DexelEnd>>;
+
+WorkerPool& pool() {
+    static WorkerPool two(2);
+    return two;
+}
+
+MeshTool tool_of(TriangleMesh mesh) {
+    auto prepared = prepare_mesh_tool(std::make_shared<TriangleMesh>(std::move(mesh)));
+    EXPECT_TRUE(prepared) << prepared.error().line();
+    return prepared ? *prepared : MeshTool{};
+}
+
+Rays spans(const Solid& solid, const ToolSweep& sweep) {
+    Rays rays;
+    const auto batch = tool_spans(solid, sweep, pool());
+    EXPECT_TRUE(batch) << batch.error().line();
+    if (!batch) return rays;
+    for (const RayBatch::Ray& ray : batch->rays) {
+        const auto ends = batch->ends_of(ray);
+        rays[ray.code].assign(ends.begin(), ends.end());
+    }
+    return rays;
+}
+
+double length_of(RayEnds ends) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < ends.size(); i += 2) sum += depth_of(ends[i + 1]) - depth_of(ends[i]);
+    return sum;
+}
+
+double length_of(const Rays& rays) {
+    double sum = 0.0;
+    for (const auto& [code, ends] : rays) sum += length_of(ends);
+    return sum;
+}
+
+// What of `a` is not in `b`, all rays together.
+double rest_of(const Rays& a, const Rays& b) {
+    double sum = 0.0;
+    for (const auto& [code, ends] : a) {
+        const auto found = b.find(code);
+        std::vector<shared::DexelEnd> rest;
+        append_difference(ends, found == b.end() ? RayEnds{} : RayEnds(found->second), rest);
+        sum += length_of(rest);
+    }
+    return sum;
+}
+
+void expect_alike(const Rays& a, const Rays& b, double share) {
+    ASSERT_GT(length_of(a), 0.0);
+    EXPECT_LE(rest_of(a, b), share * length_of(a));
+    EXPECT_LE(rest_of(b, a), share * length_of(a));
+}
+
+ToolSweep any_sweep(Random& random, ToolShape shape, bool turns) {
+    const auto anywhere = [&] {
+        return Vec3(random.between(0.2, 0.8), random.between(0.2, 0.8), random.between(0.2, 0.8));
+    };
+    ToolSweep sweep{std::move(shape), {anywhere(), any_orientation(random)}, {}};
+    sweep.end = {random.chance(0.2) ? sweep.start.position_m : anywhere(),
+                 turns ? any_orientation(random) : sweep.start.orientation};
+    return sweep;
+}
+
+// Two boxes that overlap, with a notch between them: what a sweep fills of the notch depends on its direction.
+struct Angle {
+    TriangleMesh mesh = joined(box_mesh(Vec3(-0.15, -0.05, -0.05), Vec3(0.15, 0.05, 0.05), 2),
+                               box_mesh(Vec3(-0.15, -0.05, -0.05), Vec3(-0.05, 0.2, 0.05), 2));
+    BoxTool foot{Vec3(0.15, 0.05, 0.05)}, leg{Vec3(0.05, 0.125, 0.05)};
+    Vec3 leg_middle{-0.1, 0.075, 0.0};
+};
+
+}  // namespace
+
+TEST(MeshTool, ABoxMeshSweepsWhatABoxSweeps) {
+    const Solid solid = *make_block(Vec3(1), 64, {"cube", {}});
+    Random random(1);
+    for (int i = 0; i < repeated(40); ++i) {
+        const Vec3 half(random.between(0.02, 0.2), random.between(0.02, 0.2), random.between(0.02, 0.2));
+        const ToolSweep box = any_sweep(random, BoxTool{half}, i % 4 == 3);
+        ToolSweep mesh = box;
+        mesh.shape = tool_of(box_mesh(-half, half, random.small(1, 4)));
+        // Corners are rounded to whole units: of a box some thousands of units wide, a part in a thousand at most.
+        expect_alike(spans(solid, box), spans(solid, mesh), 2e-3);
+    }
+}
+
+TEST(MeshTool, AHollowShapeSweepsTheUnionOfItsParts) {
+    const Solid solid = *make_block(Vec3(1), 64, {"cube", {}});
+    Random random(2);
+    const Angle angle;
+    const MeshTool tool = tool_of(angle.mesh);
+    for (int i = 0; i < repeated(30); ++i) {
+        const ToolSweep mesh = any_sweep(random, tool, false);
+        ToolSweep foot = mesh, leg = mesh;
+        foot.shape = angle.foot;
+        leg.shape = angle.leg;
+        for (Pose* pose : {&leg.start, &leg.end}) pose->position_m = *pose * angle.leg_middle;
+        Rays both = spans(solid, foot);
+        for (const auto& [code, ends] : spans(solid, leg)) {
+            std::vector<shared::DexelEnd> united;
+            append_union(both[code], ends, united);
+            both[code] = united;
+        }
+        expect_alike(both, spans(solid, mesh), 2e-3);
+    }
+}
+
+TEST(MeshTool, ASweepHoldsEveryStampOnItsWay) {
+    const Solid solid = *make_block(Vec3(1), 48, {"cube", {}});
+    Random random(3);
+    const MeshTool tool = tool_of(Angle{}.mesh);
+    for (int i = 0; i < repeated(12); ++i) {
+        ToolSweep sweep = any_sweep(random, tool, i % 2 == 1);
+        sweep.tolerance_cells = 0.05;
+        const Rays swept = spans(solid, sweep);
+        for (int k = 0; k <= 8; ++k) {
+            ToolSweep stamp = sweep;
+            stamp.start = stamp.end = pose_at(sweep, k / 8.0);
+            const Rays stamped = spans(solid, stamp);
+            // Turning, the surface may lie 0.05 cells inside; on a tool five cells thick that is a few hundredths.
+            EXPECT_LE(rest_of(stamped, swept), (i % 2 == 1 ? 0.03 : 1e-3) * length_of(stamped));
+        }
+    }
+}
+
+TEST(MeshTool, APrismOfManySidesIsACylinder) {
+    const Solid solid = *make_block(Vec3(1), 48, {"cube", {}});
+    Random random(4);
+    // The prism's axis is z; the cylinder's is y.
+    TriangleMesh prism = prism_mesh(360, 0.1, 0.3);
+    for (Vec3& p : prism.positions_m) p = {p.y, p.z, p.x};
+    const MeshTool tool = tool_of(prism);
+    for (int i = 0; i < repeated(12); ++i) {
+        const ToolSweep cylinder = any_sweep(random, CylinderTool{0.1, 0.3}, false);
+        ToolSweep mesh = cylinder;
+        mesh.shape = tool;
+        expect_alike(spans(solid, cylinder), spans(solid, mesh), 1e-3);
+    }
+}
+
+TEST(MeshTool, AMeshTakesItsOwnScanConversionAwayToTheBit) {
+    Random random(5);
+    for (int i = 0; i < repeated(12); ++i) {
+        TriangleMesh mesh = i % 2 == 0 ? transformed(ball_mesh(0.5, 3), any_orientation(random), Vec3(0.1, 7, -2))
+                                       : transformed(Angle{}.mesh, any_orientation(random), Vec3(-3, 0.2, 0));
+        auto converted = scan_convert(mesh, random.small(16, 64), pool());
+        ASSERT_TRUE(converted) << converted.error().line();
+        const auto engine = make_cpu_engine(std::move(converted->solid), pool());
+        const ToolSweep sweep{tool_of(mesh), {}, {}};
+        ASSERT_TRUE(apply(*engine, {&sweep, 1}, pool()));
+        for (const DexelSet& set : engine->solid().sets) {
+            for (std::size_t r = 0; r < set.ray_count(); ++r) ASSERT_TRUE(set.ends(r).empty());
+        }
+    }
+}
+
+TEST(MeshTool, UnpreparedMeshesDoTheSame) {
+    const Solid solid = *make_block(Vec3(1), 32, {"cube", {}});
+    Random random(6);
+    ToolSweep sweep = any_sweep(random, tool_of(Angle{}.mesh), true);
+    const auto prepared = tool_spans(solid, sweep, pool());
+    std::get<MeshTool>(sweep.shape).edges = nullptr;
+    const auto unprepared = tool_spans(solid, sweep, pool());
+    ASSERT_TRUE(prepared && unprepared);
+    EXPECT_TRUE(same_ends(prepared->ends, unprepared->ends));
+}
+
+TEST(MeshTool, RefusesMeshesThatAreNoTools) {
+    const auto refusal = [](TriangleMesh mesh) {
+        const auto prepared = prepare_mesh_tool(std::make_shared<TriangleMesh>(std::move(mesh)));
+        return prepared ? std::string() : prepared.error().line();
+    };
+    const TriangleMesh good = box_mesh(Vec3(0), Vec3(1), 2);
+    EXPECT_EQ(refusal(good), "");
+    TriangleMesh open = good;
+    open.triangles.pop_back();
+    EXPECT_NE(refusal(open).find("holes"), std::string::npos);
+    TriangleMesh mixed = good;
+    std::swap(mixed.triangles[3][0], mixed.triangles[3][1]);
+    EXPECT_NE(refusal(mixed).find("outwards"), std::string::npos);
+    EXPECT_NE(refusal(inverted(good)).find("inside out"), std::string::npos);
+    TriangleMesh nan = good;
+    nan.positions_m[2].z = NAN;
+    EXPECT_NE(refusal(nan).find("finite"), std::string::npos);
+    TriangleMesh dangling = good;
+    dangling.triangles[0][0] = 1000;
+    EXPECT_NE(refusal(dangling).find("does not exist"), std::string::npos);
+    EXPECT_NE(refusal(TriangleMesh{}).find("no triangles"), std::string::npos);
+    TriangleMesh stray = good;  // harmless, and not posed
+    stray.positions_m.push_back(Vec3(1e300));
+    EXPECT_EQ(refusal(stray), "");
+    EXPECT_EQ(tool_of(stray).mesh->positions_m.size(), good.positions_m.size());
+    TriangleMesh huge = good;
+    for (Vec3& p : huge.positions_m) p *= 1e4;
+    const ToolSweep sweep{tool_of(huge), {}, {}};
+    EXPECT_FALSE(check_sweep(*make_block(Vec3(1), 32, {"cube", {}}), sweep));
+}
+
+}  // namespace burin::test
