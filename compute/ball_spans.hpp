@@ -14,6 +14,11 @@ namespace burin {
 // of a number from 0 to 2^50. Runs on the widest vector unit that the machine has; the result does not depend on it.
 void ball_half_spans(std::int64_t row_radius2, std::int32_t first_offset_u, std::int32_t count, std::int32_t* half);
 
+// code[i] is the code of the direction (x[i], y[i], z[i]), not zero, components within +-2^26: shared::encode_normal's, without
+// its 64-bit divisions.
+void direction_codes(std::int32_t count, const std::int32_t* x, const std::int32_t* y, const std::int32_t* z,
+                     std::uint32_t* code);
+
 // The vector unit in use: "avx512", "avx2" or "baseline".
 [[nodiscard]] const char* vector_unit();
 

@@ -74,6 +74,13 @@ constexpr CellCase make_case(unsigned pattern) {
         }
         if (one_loop) result.twice_faces = static_cast<std::uint8_t>(result.twice_faces | (1u << face));
     }
+    std::uint8_t listed = 0;
+    for (std::uint8_t loop = 0; loop < 4; ++loop) {
+        for (std::uint8_t e = 0; e < 12; ++e) {
+            if (result.loop_of_edge[e] == loop) result.edges[listed++] = e;
+        }
+        result.first_edge[loop + 1u] = listed;
+    }
     return result;
 }
 
@@ -86,8 +93,8 @@ constexpr std::array<CellCase, 256> make_table() {
 }  // namespace
 
 const std::array<CellCase, 256>& cell_table() {
-    static const std::array<CellCase, 256> table = make_table();
-    return table;
+    static constexpr std::array<CellCase, 256> kTable = make_table();
+    return kTable;
 }
 
 }  // namespace burin

@@ -26,6 +26,8 @@ struct CellCase {
     std::uint8_t loops = 0;                       // 0 to 4
     std::array<std::uint8_t, 12> loop_of_edge{};  // kNotCrossed or the loop
     std::uint8_t twice_faces = 0;                 // bit f: face f is passed twice by one loop
+    std::array<std::uint8_t, 12> edges{};         // the crossed edges, loop by loop, in each loop in increasing order
+    std::array<std::uint8_t, 5> first_edge{};     // loop l has edges[first_edge[l] .. first_edge[l + 1])
 };
 
 // Indexed by the corner pattern: bit c is set when corner c is inside.

@@ -34,6 +34,7 @@ shared::SurfaceVertex vertex_at(const Lattice& lattice, const std::array<int, 3>
 // Red, green and blue summed up, with how many colours there were.
 class ColourSum {
 public:
+    explicit ColourSum(const Material& first) : sum_{first.colour[0], first.colour[1], first.colour[2]} {}
     void add(const Material& material) {
         for (std::size_t c = 0; c < 3; ++c) sum_[c] += material.colour[c];
         ++count_;
@@ -44,42 +45,54 @@ public:
     }
 
 private:
-    std::array<std::uint32_t, 3> sum_{};
-    std::uint32_t count_ = 0;
+    std::array<std::uint32_t, 3> sum_;
+    std::uint32_t count_ = 1;
 };
 
-// Crossings of one loop that belong together, by the first of them.
-struct Piece {
-    Vec3f first_normal{0.0f}, normal_sum{0.0f};
-    std::uint8_t first_material = 0;
-    ColourSum colour;
-
-    [[nodiscard]] bool takes(const EdgeSample& s) const {
-        const float least = first_material == s.material ? kSmooth : kSmoothAcrossMaterials;
-        return glm::dot(first_normal, s.normal) >= least;
-    }
+// A crossed edge of a cell.
+struct Sampled {
+    const EdgeSample* sample;
+    std::uint8_t edge, piece;
 };
 
+// The place of a crossing in its cell is corner + along * direction: by a table and not by indexing a vector's components,
+// which the processor would have to wait for.
 struct CellEdge {
-    std::uint8_t axis;
-    std::array<std::int8_t, 3> offset;
+    int axis;
+    std::size_t node_offset;  // of the edge's lower node, from the cell's lowest
+    Vec3f corner, direction;
 };
 
 constexpr std::array<CellEdge, 12> kCellEdges = [] {
     std::array<CellEdge, 12> edges{};
     for (std::size_t e = 0; e < 12; ++e) {
         const std::size_t axis = e / 4;
-        edges[e].axis = static_cast<std::uint8_t>(axis);
-        edges[e].offset[(axis + 1) % 3] = static_cast<std::int8_t>(e & 1);
-        edges[e].offset[(axis + 2) % 3] = static_cast<std::int8_t>(e >> 1 & 1);
+        Local offset{};
+        offset[(axis + 1) % 3] = static_cast<int>(e & 1);
+        offset[(axis + 2) % 3] = static_cast<int>(e >> 1 & 1);
+        edges[e] = {static_cast<int>(axis), TileSamples::node_offset(offset),
+                    Vec3f(static_cast<float>(offset[0]), static_cast<float>(offset[1]), static_cast<float>(offset[2])),
+                    Vec3f(axis == 0 ? 1.0f : 0.0f, axis == 1 ? 1.0f : 0.0f, axis == 2 ? 1.0f : 0.0f)};
     }
     return edges;
 }();
 
-Vec3f place_of(int axis, const Local& from_cell, const EdgeSample& sample) {
-    Vec3f p(static_cast<float>(from_cell[0]), static_cast<float>(from_cell[1]), static_cast<float>(from_cell[2]));
-    p[axis] += sample.along;
-    return p;
+[[nodiscard]] bool in_one_piece(const EdgeSample& first, const EdgeSample& s) {
+    const float least = first.material == s.material ? kSmooth : kSmoothAcrossMaterials;
+    return glm::dot(first.normal, s.normal) >= least;
+}
+
+// Numbers the pieces: a crossing belongs to the first piece whose first crossing is like it. Returns how many there are.
+std::size_t find_pieces(std::span<Sampled> loop) {
+    std::array<const EdgeSample*, 12> first_of;
+    std::size_t pieces = 0;
+    for (Sampled& s : loop) {
+        std::size_t p = 0;
+        while (p < pieces && !in_one_piece(*first_of[p], *s.sample)) ++p;
+        if (p == pieces) first_of[pieces++] = s.sample;
+        s.piece = static_cast<std::uint8_t>(p);
+    }
+    return pieces;
 }
 
 }  // namespace
@@ -87,7 +100,7 @@ Vec3f place_of(int axis, const Local& from_cell, const EdgeSample& sample) {
 std::uint64_t make_cell_vertices(const Solid& solid, const std::array<int, 3>& first_node, const TileSamples& samples,
                                  const Local& cell, std::vector<shared::SurfaceVertex>& vertices) {
     const CellCase& cell_case = cell_table()[samples.cell_pattern(cell)];
-    const std::size_t first = vertices.size();
+    const std::size_t first = vertices.size(), lowest_node = TileSamples::node_index(cell);
     std::uint64_t used = ~std::uint64_t{0};  // kNoVertex everywhere
     const auto use = [&](std::size_t place, std::size_t vertex) {
         used &= ~(TileMesh::kNoVertex << (4 * place));
@@ -95,47 +108,46 @@ std::uint64_t make_cell_vertices(const Solid& solid, const std::array<int, 3>& f
     };
     for (std::size_t loop = 0; loop < cell_case.loops; ++loop) {
         std::array<Crossing, 12> crossings;
-        std::array<std::size_t, 12> edge_of{}, piece_of{};
-        std::array<Piece, 12> pieces;
-        std::size_t count = 0, piece_count = 0;
-        for (std::size_t e = 0; e < 12; ++e) {
-            if (cell_case.loop_of_edge[e] != loop) continue;
+        std::array<Sampled, 12> sampled;
+        std::size_t count = 0;
+        for (std::size_t i = cell_case.first_edge[loop]; i < cell_case.first_edge[loop + 1]; ++i) {
+            const std::uint8_t e = cell_case.edges[i];
             const CellEdge& edge = kCellEdges[e];
-            const Local offset{edge.offset[0], edge.offset[1], edge.offset[2]};
-            const EdgeSample& s =
-                samples.sample(edge.axis, {cell[0] + offset[0], cell[1] + offset[1], cell[2] + offset[2]});
-            crossings[count] = {place_of(edge.axis, offset, s), s.normal};
-            std::size_t p = 0;
-            while (p < piece_count && !pieces[p].takes(s)) ++p;
-            if (p == piece_count) {
-                pieces[p].first_normal = s.normal;
-                pieces[p].first_material = s.material;
-                ++piece_count;
-            }
-            pieces[p].normal_sum += s.normal;
-            pieces[p].colour.add(solid.materials[s.material]);
-            edge_of[count] = e;
-            piece_of[count++] = p;
+            const EdgeSample& s = samples.sample_at(edge.axis, lowest_node + edge.node_offset);
+            crossings[count] = {edge.corner + edge.direction * s.along, s.normal};
+            sampled[count++] = {&s, e, 0};
         }
         const Vec3f in_cell = feature_point({crossings.data(), count});
         const std::size_t first_of_loop = vertices.size() - first;
-        use(12 + loop, first_of_loop);
-        for (std::size_t i = 0; i < count; ++i) use(edge_of[i], first_of_loop + piece_of[i]);
-        for (std::size_t p = 0; p < piece_count; ++p) {
-            vertices.push_back(
-                vertex_at(solid.lattice, first_node, cell, in_cell, pieces[p].normal_sum, pieces[p].colour.mean()));
+        const std::size_t pieces = find_pieces({sampled.data(), count});
+        if (loop > 0) use(12 + loop, first_of_loop);
+        for (std::size_t i = 0; i < count; ++i) use(sampled[i].edge, first_of_loop + sampled[i].piece);
+        for (std::size_t p = 0; p < pieces; ++p) {
+            std::size_t i = 0;
+            while (sampled[i].piece != p) ++i;
+            Vec3f normal_sum = sampled[i].sample->normal;
+            ColourSum colour(solid.materials[sampled[i].sample->material]);
+            while (++i < count) {
+                if (sampled[i].piece != p) continue;
+                normal_sum += sampled[i].sample->normal;
+                colour.add(solid.materials[sampled[i].sample->material]);
+            }
+            vertices.push_back(vertex_at(solid.lattice, first_node, cell, in_cell, normal_sum, colour.mean()));
         }
     }
+    if (cell_case.twice_faces == 0) used &= ~TileMesh::kPassedTwice;
     return used;
 }
 
 shared::SurfaceVertex make_face_vertex(const Solid& solid, const std::array<int, 3>& first_node, const Local& cell,
                                        const EdgeCrossing& a, const EdgeCrossing& b) {
     const auto place = [&](const EdgeCrossing& c) {
-        return place_of(c.axis, {c.node[0] - cell[0], c.node[1] - cell[1], c.node[2] - cell[2]}, c.sample);
+        Vec3f p(static_cast<float>(c.node[0] - cell[0]), static_cast<float>(c.node[1] - cell[1]),
+                static_cast<float>(c.node[2] - cell[2]));
+        p[c.axis] += c.sample.along;
+        return p;
     };
-    ColourSum colour;
-    colour.add(solid.materials[a.sample.material]);
+    ColourSum colour(solid.materials[a.sample.material]);
     colour.add(solid.materials[b.sample.material]);
     return vertex_at(solid.lattice, first_node, cell, (place(a) + place(b)) * 0.5f, a.sample.normal + b.sample.normal,
                      colour.mean());

@@ -21,6 +21,7 @@ using shared::DexelEnd;
 using shared::kUnitsPerCell;
 using shared::RaySpan;
 using shared::uint;
+constexpr int kPageRays = DexelSet::kPageRays;
 
 // The list surgery of shaders/shared/span_edit.h on host memory.
 struct HostRay {
@@ -44,6 +45,48 @@ void count(Band& band, Outcome outcome) {
     band.stats.rays_changed += outcome == Outcome::changed ? 1 : 0;
 }
 
+// The ends that a resting ball leaves in one page: they go into the solid without their normals, which follow together.
+class NewEnds {
+public:
+    NewEnds(const Capsule& ball, int axis, int v) : ball_(ball), axis_(axis), v_(v) {}
+
+    // Those of an edit, in order; valid until the next call.
+    [[nodiscard]] std::span<const DexelEnd> add(int u, const HostRay::SpanEdit& edit, RaySpan span) {
+        std::size_t added = 0;
+        if (edit.insert_lo != 0) ends_[added++] = place(u, edit.from, span.lo);
+        if (edit.insert_hi != 0) ends_[added++] = place(u, edit.from + edit.insert_lo, span.hi);
+        return {ends_.data(), added};
+    }
+
+    void give_normals(DexelSet& set) {
+        std::array<std::uint32_t, kMost> codes;
+        direction_codes(static_cast<std::int32_t>(count_), x_.data(), y_.data(), z_.data(), codes.data());
+        for (std::size_t i = 0; i < count_; ++i) set.ends_to_change(u_[i], v_)[in_ray_[i]].normal = codes[i];
+    }
+
+private:
+    static constexpr std::size_t kMost = 2 * kPageRays;
+
+    // From the end to the ball's centre: out of the material.
+    DexelEnd place(int u, uint in_ray, int depth) {
+        const int at_u = u * kUnitsPerCell, at_v = v_ * kUnitsPerCell;
+        x_[count_] = ball_.start_x - shared::pick(axis_, depth, at_v, at_u);
+        y_[count_] = ball_.start_y - shared::pick(axis_, at_u, depth, at_v);
+        z_[count_] = ball_.start_z - shared::pick(axis_, at_v, at_u, depth);
+        u_[count_] = u;
+        in_ray_[count_++] = in_ray;
+        return shared::make_end(depth, shared::material_of_work(ball_), 0);
+    }
+
+    const Capsule& ball_;
+    int axis_, v_;
+    std::size_t count_ = 0;
+    std::array<std::int32_t, kMost> x_, y_, z_;
+    std::array<int, kMost> u_;
+    std::array<uint, kMost> in_ray_;
+    std::array<DexelEnd, 2> ends_;
+};
+
 // A capsule's share of a row, and the capsule itself.
 struct RowPart {
     const Capsule* capsule;
@@ -56,7 +99,7 @@ public:
 
     [[nodiscard]] const char* name() const override { return "cpu"; }
     [[nodiscard]] const Solid& solid() const override { return solid_; }
-    [[nodiscard]] Changes take_changes() override { return std::exchange(changes_, {}); }
+    [[nodiscard]] Changes take_changes() override { return changes_.take(); }
 
     [[nodiscard]] Result<CarveStats> carve(std::span<const BallSweep> sweeps) override {
         const auto capsules = capsules_in_units(solid_, sweeps);
@@ -163,19 +206,50 @@ private:
         const auto reach = static_cast<int>(shared::whole_sqrt(row_radius2));
         const int u_lo = std::max(part.u_lo, -floor_cells(reach - center_u)),
                   u_hi = std::min(part.u_hi, floor_cells(center_u + reach));
-        std::array<std::int32_t, DexelSet::kPageRays> half{};
+        std::array<std::int32_t, kPageRays> half;
         for (int u = u_lo; u <= u_hi;) {
-            const int last = std::min(u_hi, u / DexelSet::kPageRays * DexelSet::kPageRays + DexelSet::kPageRays - 1);
+            const int last = std::min(u_hi, u / kPageRays * kPageRays + kPageRays - 1);
             if (skips_page(band.axis, u, v, c)) {
                 u = last + 1;
                 continue;
             }
             ball_half_spans(row_radius2, u * kUnitsPerCell - center_u, last - u + 1, half.data());
+            if (operation_of(c) == shared::kCut) {
+                cut_page(band, u, last, v, center_s, half, c);
+                u = last + 1;
+                continue;
+            }
             for (int i = 0; u <= last; ++u, ++i) {
                 const int h = half[static_cast<std::size_t>(i)];
                 count(band, work_on(band, u, v, {center_s - h, center_s + h}, c));
             }
         }
+    }
+
+    // The rays u .. last of one page, each cut half[i] to both sides of center_s. Most of them hold one interval, and half
+    // of those a stroke leaves alone: to see that takes two comparisons. The new ends' normals are worked out together.
+    void cut_page(Band& band, int u, int last, int v, int center_s, const std::array<std::int32_t, kPageRays>& half,
+                  const Capsule& c) {
+        DexelSet& set = solid_.sets[static_cast<std::size_t>(band.axis)];
+        DexelSet::Run run = set.run(u, v);
+        NewEnds fresh(c, band.axis, v);
+        for (int i = 0; u + i <= last; ++i) {
+            const std::span<const DexelEnd> held = run.ends_of(i);
+            if (held.empty()) continue;
+            ++band.stats.rays_touched;
+            const int h = half[static_cast<std::size_t>(i)];
+            const RaySpan span{center_s - h, center_s + h};
+            if (depth_of(held.front()) >= span.hi || depth_of(held.back()) <= span.lo) continue;
+            HostRay ray{held.data()};
+            const HostRay::SpanEdit edit = ray.plan_span(static_cast<uint>(held.size()), span, 0);
+            if (!ray.changes_anything(edit)) continue;
+            ++band.stats.rays_changed;
+            band.changes.record({band.axis, u + i, v}, edit.changed_lo, edit.changed_hi, held);
+            set.splice(u + i, v, edit.from, edit.to - edit.from, fresh.add(u + i, edit, span));
+            run = set.run(u, v);  // the page may have moved
+            if (run.ends == nullptr) return;
+        }
+        fresh.give_normals(set);
     }
 
     // Several capsules: each ray takes all of them in order, and counts once.
@@ -226,9 +300,9 @@ private:
             ray.plan_span(static_cast<uint>(held.size()), span, operation == shared::kFill ? 1u : 0u);
         if (!ray.changes_anything(edit)) return Outcome::touched;
         band.changes.record({band.axis, u, v}, edit.changed_lo, edit.changed_hi, held);
-        const CapsuleRay from_ray = capsule_from_ray(capsule, band.axis, u * kUnitsPerCell, v * kUnitsPerCell);
         std::array<DexelEnd, 2> fresh;
         std::size_t count = 0;
+        const CapsuleRay from_ray = capsule_from_ray(capsule, band.axis, u * kUnitsPerCell, v * kUnitsPerCell);
         if (edit.insert_lo != 0) fresh[count++] = capsule_end(from_ray, band.axis, span.lo, capsule.work, cells);
         if (edit.insert_hi != 0) fresh[count++] = capsule_end(from_ray, band.axis, span.hi, capsule.work, cells);
         set.splice(u, v, edit.from, edit.to - edit.from, {fresh.data(), count});
@@ -254,6 +328,13 @@ private:
 
     CarveStats collect() {
         CarveStats stats;
+        std::size_t rays = changes_.rays.size(), ends = changes_.before.size();
+        for (std::size_t i = 0; i < band_count_; ++i) {
+            rays += bands_[i].changes.rays.size();
+            ends += bands_[i].changes.before.size();
+        }
+        changes_.rays.reserve(rays);
+        changes_.before.reserve(ends);
         for (std::size_t i = 0; i < band_count_; ++i) {
             stats += bands_[i].stats;
             changes_.append(bands_[i].changes);

@@ -62,6 +62,10 @@ void DexelSet::splice(int u, int v, std::uint32_t from, std::uint32_t removed, s
         owner = make_page(added);
     }
     const auto ray = static_cast<std::size_t>(u % kPageRays);
+    if (removed == 1 && added == 1) {  // an end that moves: most of what a stroke does
+        owner->ends()[owner->first[ray] + from] = inserted.front();
+        return;
+    }
     const std::uint32_t count = owner->first.back();
     const std::uint32_t new_count = count + added - removed;
     if (new_count > owner->capacity) {

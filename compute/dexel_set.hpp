@@ -46,6 +46,23 @@ public:
         const auto width = static_cast<std::size_t>(rays_u_);
         return ends(static_cast<int>(ray % width), static_cast<int>(ray / width));
     }
+    // The rays (u, v), (u + 1, v) ... as far as they lie in one page, for walking along a row.
+    struct Run {
+        const std::uint32_t* first;  // ray i has the ends first[i] .. first[i + 1]
+        const shared::DexelEnd* ends;
+        int rays;
+        [[nodiscard]] std::span<const shared::DexelEnd> ends_of(int i) const {
+            return {ends + first[i], ends + first[i + 1]};
+        }
+    };
+    [[nodiscard]] Run run(int u, int v) const {
+        static constexpr std::array<std::uint32_t, kPageRays + 1> kNoEnds{};
+        const Page* page = pages_[page_index(u, v)].get();
+        const int in_page = u % kPageRays, left = rays_u_ - u;
+        const int rays = left < kPageRays - in_page ? left : kPageRays - in_page;
+        if (page == nullptr) return {kNoEnds.data(), nullptr, rays};
+        return {page->first.data() + in_page, page->ends(), rays};
+    }
     // To change ends without changing their number.
     [[nodiscard]] std::span<shared::DexelEnd> ends_to_change(int u, int v) {
         const auto held = ends(u, v);

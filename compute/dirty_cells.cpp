@@ -11,7 +11,7 @@ namespace burin {
 DirtyCells::CellRange DirtyCells::range_of(const shared::ChangedRay& change) const {
     const RayPlace place = place_of(change.ray);
     const auto s = static_cast<std::size_t>(place.axis), u = (s + 1) % 3, v = (s + 2) % 3;
-    const auto cell = [](int depth) { return (depth + shared::kUnitsPerCell) / shared::kUnitsPerCell - 1; };
+    const auto cell = [](int depth) { return ((depth + shared::kUnitsPerCell) >> shared::kSubcellBits) - 1; };
     CellRange range{};
     range.lo[s] = cell(change.changed_lo - kNearEdge);
     range.hi[s] = cell(change.changed_hi + kNearEdge);

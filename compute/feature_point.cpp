@@ -3,13 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace burin {
 namespace {
 
-// Below this cosine of the angle to the mean normal a cell counts as curved or sharp. 0.995 is 5.7 degrees; flatter cells
-// have a second eigenvalue far below the cut-off, so both ways give the same point.
-constexpr float kFlat = 0.995f;
+// Normals closer to a cluster's first than this (cosine, about 15 degrees) belong to one smooth piece of surface. A crease
+// shallower than that is less than a tenth of a cell deep within a cell.
+constexpr float kSameCluster = 0.966f;
+// Planes that meet at less than about 10 degrees do not determine where (squared sine), nor do three that nearly share a
+// direction (the volume of their normals).
+constexpr float kLeastSine2 = 0.03f, kLeastVolume = 0.1f;
 // Directions with less than this share of the largest eigenvalue carry no position, only noise.
 constexpr float kEigenvalueCutoff = 0.02f;
 
@@ -61,28 +65,70 @@ Vec3f within_cell(const Vec3f& p) { return glm::clamp(p, Vec3f(kInset), Vec3f(1.
 
 }  // namespace
 
-Vec3f feature_point(std::span<const Crossing> crossings) {
-    Vec3f mean_position(0.0f), normal_sum(0.0f);
+namespace {
+
+// The mean plane of crossings whose normals are alike.
+struct Cluster {
+    Vec3f first_normal, normal_sum;
+    float offset_sum;  // of the crossings' planes from the mean position, along their own normals
+    float count;
+};
+
+struct Clusters {
+    std::array<Cluster, 3> of;
+    int count = 0;  // 4: there are more
+};
+
+Clusters find_clusters(std::span<const Crossing> crossings, const Vec3f& mean_position) {
+    Clusters clusters;
     for (const Crossing& c : crossings) {
-        mean_position += c.position;
-        normal_sum += c.normal;
-    }
-    mean_position /= static_cast<float>(crossings.size());
-    const float sum_length = glm::length(normal_sum);
-    bool flat = sum_length > 1e-6f;
-    const Vec3f mean_normal = flat ? normal_sum / sum_length : normal_sum;
-    for (const Crossing& c : crossings) flat = flat && glm::dot(c.normal, mean_normal) > kFlat;
-
-    if (flat) {  // only the offset along the common normal is determined
-        float weighted = 0.0f, weights = 0.0f;
-        for (const Crossing& c : crossings) {
-            const float along = glm::dot(c.normal, mean_normal);
-            weighted += along * glm::dot(c.normal, c.position - mean_position);
-            weights += along * along;
+        const float offset = glm::dot(c.normal, c.position - mean_position);
+        int k = 0;
+        while (k < clusters.count &&
+               glm::dot(clusters.of[static_cast<std::size_t>(k)].first_normal, c.normal) < kSameCluster) {
+            ++k;
         }
-        return within_cell(mean_position + mean_normal * (weighted / weights));
+        if (k == 3) {
+            clusters.count = 4;
+            return clusters;
+        }
+        Cluster& cluster = clusters.of[static_cast<std::size_t>(k)];
+        if (k == clusters.count) {
+            ++clusters.count;
+            cluster = {c.normal, c.normal, offset, 1.0f};
+        } else {
+            cluster.normal_sum += c.normal;
+            cluster.offset_sum += offset;
+            cluster.count += 1.0f;
+        }
     }
+    return clusters;
+}
 
+// From the mean position to the nearest point of the clusters' planes; nothing where they do not determine it.
+std::optional<Vec3f> offset_to_planes(const Clusters& clusters) {
+    if (clusters.count > 3) return std::nullopt;
+    std::array<Vec3f, 3> n;
+    std::array<float, 3> d{};
+    for (std::size_t k = 0; k < static_cast<std::size_t>(clusters.count); ++k) {
+        const Cluster& c = clusters.of[k];
+        n[k] = c.normal_sum / glm::length(c.normal_sum);
+        d[k] = c.offset_sum / c.count;
+    }
+    if (clusters.count == 1) return n[0] * d[0];
+    if (clusters.count == 2) {
+        const float cosine = glm::dot(n[0], n[1]), sine2 = 1.0f - cosine * cosine;
+        if (sine2 < kLeastSine2) return std::nullopt;
+        return (n[0] * (d[0] - cosine * d[1]) + n[1] * (d[1] - cosine * d[0])) / sine2;
+    }
+    const Vec3f across = glm::cross(n[1], n[2]);
+    const float volume = glm::dot(n[0], across);
+    if (std::abs(volume) < kLeastVolume) return std::nullopt;
+    return (across * d[0] + glm::cross(n[2], n[0]) * d[1] + glm::cross(n[0], n[1]) * d[2]) / volume;
+}
+
+// The same for any planes at all: the pseudo-inverse of their normal equations.
+Vec3f offset_by_eigenvalues(std::span<const Crossing> crossings, const Vec3f& mean_position) {
     Symmetric3 ata;
     Vec3f atb(0.0f);
     for (const Crossing& c : crossings) {
@@ -103,7 +149,17 @@ Vec3f feature_point(std::span<const Crossing> crossings) {
         const float value = e.values[static_cast<std::size_t>(k)];
         if (value > kEigenvalueCutoff * largest) offset += e.vectors[k] * (glm::dot(e.vectors[k], atb) / value);
     }
-    return within_cell(mean_position + offset);
+    return offset;
+}
+
+}  // namespace
+
+Vec3f feature_point(std::span<const Crossing> crossings) {
+    Vec3f mean_position(0.0f);
+    for (const Crossing& c : crossings) mean_position += c.position;
+    mean_position /= static_cast<float>(crossings.size());
+    const std::optional<Vec3f> offset = offset_to_planes(find_clusters(crossings, mean_position));
+    return within_cell(mean_position + (offset ? *offset : offset_by_eigenvalues(crossings, mean_position)));
 }
 
 }  // namespace burin

@@ -2,6 +2,9 @@
 // Where to put a cell's vertex: the point nearest to the tangent planes of the surface where it crosses the cell's edges
 // (the quadratic error function of Ju et al. 2002), taken about the mean of the crossings and with weak directions left
 // alone (Schaefer and Warren), so that it lies on a flat or curved surface, on a sharp edge, or in a corner.
+//
+// Most cells hold one, two or three smooth pieces of surface: there the point is found from the mean plane of each, in closed
+// form. What is left, rare, goes through the eigenvalues.
 #pragma once
 
 #include <array>
@@ -13,8 +16,8 @@ namespace burin {
 
 // One crossing: in cell units relative to the cell's lowest corner, with the unit normal there.
 struct Crossing {
-    Vec3f position{0.0f};
-    Vec3f normal{0.0f};
+    Vec3f position;
+    Vec3f normal;
 };
 
 // Cell units relative to the cell's lowest corner, always within the cell. 1 to 12 crossings.

@@ -2,6 +2,7 @@
 #include "compute/ray_batch.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace burin {
 
@@ -13,6 +14,14 @@ void Changes::append(const Changes& later) {
     const std::size_t own = rays.size();
     rays.insert(rays.end(), later.rays.begin(), later.rays.end());
     for (std::size_t i = own; i < rays.size(); ++i) rays[i].first += shift;
+}
+
+Changes Changes::take() {
+    Changes taken;
+    taken.rays.reserve(rays.size());
+    taken.before.reserve(before.size());
+    std::swap(taken, *this);
+    return taken;
 }
 
 bool assign_ray(DexelSet& set, const RayPlace& place, std::span<const DexelEnd> ends, Changes& changes) {

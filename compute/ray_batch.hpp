@@ -60,9 +60,11 @@ struct Changes {
     void record(const RayPlace& place, int changed_lo, int changed_hi, std::span<const shared::DexelEnd> ends) {
         rays.push_back({place.code(), static_cast<std::uint32_t>(before.size()),
                         static_cast<std::uint32_t>(ends.size()), changed_lo, changed_hi});
-        before.insert(before.end(), ends.begin(), ends.end());
+        for (const shared::DexelEnd& end : ends) before.push_back(end);  // two, mostly: less than a call's worth
     }
     void append(const Changes& later);
+    // Hands everything over and keeps room for as much again: updates follow each other and are alike.
+    [[nodiscard]] Changes take();
 };
 
 // Gives a ray new ends and records what it held; false when they are the old ones.

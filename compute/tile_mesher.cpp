@@ -58,20 +58,18 @@ public:
 
 private:
     // needed_: the cells that quads refer to; anew_: those of them that cannot be copied. Where a loop passes a face twice,
-    // extra vertices depend on more than one cell: always anew, it is rare.
+    // extra vertices depend on the cells on both sides: these are always made anew.
     void find_cells(const CellMask& dirty) {
         needed_ = samples_.cells_at_own_edges();
-        for (int y = -1; y < kTileCells; ++y) {
-            for (int x = -1; x < kTileCells; ++x) {
-                const std::uint32_t needed = needed_.at(x, y);
-                std::uint32_t anew = needed & dirty.at(x, y);
-                for (std::uint32_t bits = needed & ~anew; bits != 0; bits &= bits - 1) {
-                    const int z = std::countr_zero(bits) - 1;
-                    if (cell_table()[samples_.cell_pattern({x, y, z})].twice_faces != 0) anew |= 1u << (z + 1);
+        anew_ = dirty;
+        if (old_.has_twice_passed_faces) {
+            for (std::size_t i = 0; i < old_.cells.size(); ++i) {
+                if ((old_.vertex_of_edge[i] & TileMesh::kPassedTwice) != 0) {
+                    anew_.columns[old_.cells[i].cell / kSeenCells] |= 1u << (old_.cells[i].cell % kSeenCells);
                 }
-                anew_.add(x, y, anew);
             }
         }
+        for (std::size_t i = 0; i < anew_.columns.size(); ++i) anew_.columns[i] &= needed_.columns[i];
         samples_.collect_crossings(solid_, first_node_, anew_);
     }
 
@@ -89,6 +87,8 @@ private:
                         ++work_.cells;
                         mesh_.vertex_of_edge.push_back(
                             make_cell_vertices(solid_, first_node_, samples_, cell, mesh_.vertices));
+                        mesh_.has_twice_passed_faces =
+                            mesh_.has_twice_passed_faces || (mesh_.vertex_of_edge.back() & TileMesh::kPassedTwice) != 0;
                     } else {
                         while (old_.cells[old_cell].cell != id) ++old_cell;
                         copy_cell(old_cell);
@@ -108,12 +108,17 @@ private:
     }
 
     void make_quads() {
-        for (int axis = 0; axis < 3; ++axis) {
-            for (int y = 0; y < kTileCells; ++y) {
-                for (int x = 0; x < kTileCells; ++x) {
-                    for (std::uint32_t bits = samples_.own_crossed(axis, x, y); bits != 0; bits &= bits - 1) {
-                        quad(axis, {x, y, std::countr_zero(bits) - 1});
-                    }
+        make_quads_along<0>();
+        make_quads_along<1>();
+        make_quads_along<2>();
+    }
+
+    template <int axis>
+    void make_quads_along() {
+        for (int y = 0; y < kTileCells; ++y) {
+            for (int x = 0; x < kTileCells; ++x) {
+                for (std::uint32_t bits = samples_.own_crossed(axis, x, y); bits != 0; bits &= bits - 1) {
+                    quad<axis>({x, y, std::countr_zero(bits) - 1});
                 }
             }
         }
@@ -121,18 +126,18 @@ private:
 
     // The polygon around a crossed edge: the vertices of the four cells about it, and between two of them the extra vertex
     // of their common face where that is needed.
-    void quad(int axis, const Local& node) {
-        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    template <int axis>
+    void quad(const Local& node) {
+        constexpr int u = (axis + 1) % 3, v = (axis + 2) % 3;
         // Counter-clockwise seen from the edge's upper end.
-        constexpr int kDu[4] = {-1, 0, 0, -1}, kDv[4] = {-1, -1, 0, 0};
-        std::array<std::uint32_t, 8> polygon{};
-        std::array<Local, 4> cells;
-        bool anew = false;
-        for (std::size_t i = 0; i < 4; ++i) {
-            cells[i] = step(step(node, u, kDu[i]), v, kDv[i]);
-            polygon[i] = vertex_of(cells[i], cell_edge(axis, -kDu[i], -kDv[i]));
-            anew = anew || (anew_.at(cells[i][0], cells[i][1]) >> (cells[i][2] + 1) & 1u) != 0;
-        }
+        const std::array<Local, 4> cells{step(step(node, u, -1), v, -1), step(node, v, -1), node, step(node, u, -1)};
+        std::array<std::uint32_t, 8> polygon;
+        polygon[0] = vertex_of(cells[0], cell_edge(axis, 1, 1));
+        polygon[1] = vertex_of(cells[1], cell_edge(axis, 0, 1));
+        polygon[2] = vertex_of(cells[2], cell_edge(axis, 0, 0));
+        polygon[3] = vertex_of(cells[3], cell_edge(axis, 1, 0));
+        const auto is_anew = [&](const Local& c) { return (anew_.at(c[0], c[1]) >> (c[2] + 1) & 1u) != 0; };
+        const bool anew = is_anew(cells[0]) || is_anew(cells[1]) || is_anew(cells[2]) || is_anew(cells[3]);
         const bool flip = !samples_.inside(node);  // the surface faces the lower end
         const auto edge =
             static_cast<std::uint16_t>(((axis * kTileCells + node[1]) * kTileCells + node[0]) * kTileCells + node[2]);
@@ -151,7 +156,7 @@ private:
             quad |= TileMesh::kDisagrees;
         }
         const std::size_t before = mesh_.indices.size();
-        if (!fan_through_faces(axis, node, cells, polygon, flip)) {
+        if (!mesh_.has_twice_passed_faces || !fan_through_faces(axis, node, cells, polygon, flip)) {
             const bool other = other_diagonal(polygon, flip, sample.normal);
             if (other) quad |= TileMesh::kOtherDiagonal;
             split(polygon, other, flip);
@@ -263,6 +268,7 @@ void clear(TileMesh& mesh) {
     mesh.vertex_of_edge.clear();
     mesh.quads.clear();
     mesh.face_keys.clear();
+    mesh.has_twice_passed_faces = false;
 }
 
 }  // namespace
@@ -290,7 +296,7 @@ std::vector<std::uint64_t> vertex_keys(const Lattice& lattice, const std::array<
         const std::size_t end = i + 1 < mesh.cells.size() ? mesh.cells[i + 1].first_vertex : mesh.cell_vertices();
         for (std::uint64_t k = 0; mesh.cells[i].first_vertex + k < end; ++k) {
             int loop = 0;
-            while (loop < 3 && (mesh.vertex_of_edge[i] >> (52 + 4 * loop) & 0xf) <= k) ++loop;
+            while (loop < 3 && (mesh.vertex_of_edge[i] >> (4 * (13 + loop)) & 0xf) <= k) ++loop;
             keys.push_back(lattice_key(lattice, first_node, cell, loop));
         }
     }

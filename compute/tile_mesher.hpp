@@ -39,12 +39,15 @@ struct TileMesh {
     static constexpr std::uint64_t kNoVertex = 0xf;
     std::vector<Cell> cells;
     // For each cell: bits 4e .. 4e + 3: which of the cell's vertices edge e uses, or kNoVertex; bits 48 + 4l ..: the first
-    // vertex of loop l, or kNoVertex.
+    // vertex of loop l = 1, 2, 3, or kNoVertex; and kPassedTwice.
     std::vector<std::uint64_t> vertex_of_edge;
+    static constexpr std::uint64_t kPassedTwice = std::uint64_t{1}
+                                                  << 48;  // a loop passes a face twice (cell_table.hpp)
     // For each quad or fan: ((axis * 16 + y) * 16 + x) * 16 + z of its edge's lower node; and these bits.
     static constexpr std::uint16_t kQuadEdge = 0x3fff, kOtherDiagonal = 0x4000, kDisagrees = 0x8000;
     std::vector<std::uint16_t> quads;
     std::vector<std::uint64_t> face_keys;  // of the extra vertices
+    bool has_twice_passed_faces = false;   // in any cell
 
     [[nodiscard]] std::size_t triangles() const { return indices.size() / 3; }
     [[nodiscard]] std::size_t cell_vertices() const { return vertices.size() - face_keys.size(); }

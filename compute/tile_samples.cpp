@@ -76,14 +76,27 @@ EdgeSample make_sample(std::span<const DexelEnd> ends, int axis, int lower, bool
 
 bool TileSamples::collect_signs(const Solid& solid, const std::array<int, 3>& first_node) {
     constexpr std::uint32_t kAll = (1u << kLocalNodes) - 1u;
+    const DexelSet& set = solid.sets[2];
     std::uint32_t any = 0, all = kAll;
-    for (int y = -1; y < kLocalNodes - 1; ++y) {
-        for (int x = -1; x < kLocalNodes - 1; ++x) {
-            const std::uint32_t bits =
-                node_bits(ray_ends(solid, 2, first_node[0] + x, first_node[1] + y), first_node[2]);
-            columns_[static_cast<std::size_t>((y + 1) * kLocalNodes + x + 1)] = bits;
-            any |= bits;
-            all &= bits;
+    std::uint32_t* column = columns_.data();
+    for (int v = first_node[1] - 1; v < first_node[1] - 1 + kLocalNodes; ++v) {
+        const int u_end = first_node[0] - 1 + kLocalNodes;
+        for (int u = first_node[0] - 1; u < u_end;) {
+            if (u < 0 || v < 0 || u >= set.rays_u() || v >= set.rays_v()) {  // outside the lattice
+                *column++ = 0;
+                all = 0;
+                ++u;
+                continue;
+            }
+            const DexelSet::Run run = set.run(u, v);
+            const int rays = std::min(run.rays, u_end - u);
+            for (int i = 0; i < rays; ++i) {
+                const std::uint32_t bits = node_bits(run.ends_of(i), first_node[2]);
+                any |= bits;
+                all &= bits;
+                *column++ = bits;
+            }
+            u += rays;
         }
     }
     return any != 0 && all != kAll;

@@ -23,8 +23,8 @@ using Local = std::array<int, 3>;
 
 // Where the surface crosses a lattice edge.
 struct EdgeSample {
-    float along = 0.5f;  // 0 at the lower node, 1 at the upper
     Vec3f normal{0.0f};
+    float along = 0.5f;  // 0 at the lower node, 1 at the upper
     std::uint8_t material = 0;
     bool disagrees = false;  // the edge's own rays do not have this crossing
 };
@@ -41,7 +41,17 @@ public:
     [[nodiscard]] unsigned cell_pattern(const Local& cell) const;
     // The edge from `node` one step along `axis` must be crossed.
     [[nodiscard]] const EdgeSample& sample(int axis, const Local& node) const {
-        return samples_[static_cast<std::size_t>(sample_index_[static_cast<std::size_t>(axis)][node_index(node)])];
+        return sample_at(axis, node_index(node));
+    }
+    // By the node's number; the numbers of neighbours differ by node_offset of the way to them.
+    [[nodiscard]] const EdgeSample& sample_at(int axis, std::size_t node) const {
+        return samples_[sample_index_[static_cast<std::size_t>(axis)][node]];
+    }
+    [[nodiscard]] static constexpr std::size_t node_offset(const Local& way) {
+        return static_cast<std::size_t>((way[2] * kLocalNodes + way[1]) * kLocalNodes + way[0]);
+    }
+    [[nodiscard]] static constexpr std::size_t node_index(const Local& n) {
+        return node_offset({n[0] + 1, n[1] + 1, n[2] + 1});
     }
     // Bits z + 1 of the edges along `axis` from nodes (x, y, z) that are crossed.
     [[nodiscard]] std::uint32_t crossed(int axis, int x, int y) const;
@@ -55,9 +65,6 @@ public:
 private:
     [[nodiscard]] std::uint32_t column(int x, int y) const {
         return columns_[static_cast<std::size_t>((y + 1) * kLocalNodes + x + 1)];
-    }
-    [[nodiscard]] static std::size_t node_index(const Local& n) {
-        return static_cast<std::size_t>(((n[2] + 1) * kLocalNodes + n[1] + 1) * kLocalNodes + n[0] + 1);
     }
 
     std::array<std::uint32_t, kLocalNodes * kLocalNodes> columns_{};  // bit z + 1: node z is inside

@@ -14,7 +14,6 @@
 #pragma once
 
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "compute/engine.hpp"
@@ -49,7 +48,7 @@ public:
     // The device is sent the whole solid anew before the next carve.
     [[nodiscard]] Result<CarveStats> assign(const RayBatch& rays) override;
     [[nodiscard]] const Solid& solid() const override { return solid_; }
-    [[nodiscard]] Changes take_changes() override { return std::exchange(changes_, {}); }
+    [[nodiscard]] Changes take_changes() override { return changes_.take(); }
 
     [[nodiscard]] const VulkanEngineCounts& counts() const { return counts_; }
 
