@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "compute/combine.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "compute/ray_algebra.hpp"
+
+namespace burin {
+namespace {
+
+using shared::DexelEnd;
+
+constexpr std::size_t kMostMaterials = 255;
+
+void append_combined(Combination operation, RayEnds a, RayEnds b, std::vector<DexelEnd>& to) {
+    switch (operation) {
+        case Combination::unite: return append_union(a, b, to);
+        case Combination::subtract: return append_difference(a, b, to);
+        case Combination::intersect: return append_intersection(a, b, to);
+    }
+}
+
+// Where each of b's materials stands in `materials`, which is a's table and grows by what it lacks.
+std::vector<std::uint8_t> merge_materials(const std::vector<Material>& b, std::vector<Material>& materials) {
+    std::vector<std::uint8_t> places;
+    for (const Material& material : b) {
+        const auto same = [&](const Material& m) { return m.name == material.name && m.colour == material.colour; };
+        const auto found = std::ranges::find_if(materials, same);
+        places.push_back(static_cast<std::uint8_t>(found - materials.begin()));
+        if (found == materials.end()) materials.push_back(material);
+        if (materials.size() > kMostMaterials) break;
+    }
+    return places;
+}
+
+// The rays of one axis, row by row.
+DexelSet combined_set(const Solid& a, const Solid& b, int axis, Combination operation,
+                      std::span<const std::uint8_t> place_of_b, WorkerPool& pool) {
+    const auto s = static_cast<std::size_t>(axis);
+    const int rays_u = a.lattice.rays_u(axis), rays_v = a.lattice.rays_v(axis);
+    struct Row {
+        std::vector<std::uint32_t> counts;
+        std::vector<DexelEnd> ends;
+    };
+    std::vector<Row> rows(static_cast<std::size_t>(rays_v));
+    pool.run(rows.size(), [&](std::size_t v) {
+        std::vector<DexelEnd> other;
+        for (int u = 0; u < rays_u; ++u) {
+            const RayEnds of_b = b.sets[s].ends(u, static_cast<int>(v));
+            other.clear();
+            for (const DexelEnd& end : of_b) {
+                other.push_back(shared::make_end(depth_of(end), place_of_b[material_of(end)], end.normal));
+            }
+            const std::size_t before = rows[v].ends.size();
+            append_combined(operation, a.sets[s].ends(u, static_cast<int>(v)), other, rows[v].ends);
+            rows[v].counts.push_back(static_cast<std::uint32_t>(rows[v].ends.size() - before));
+        }
+    });
+    std::vector<std::uint32_t> counts;
+    std::vector<DexelEnd> ends;
+    counts.reserve(a.lattice.rays(axis));
+    for (Row& row : rows) {
+        counts.insert(counts.end(), row.counts.begin(), row.counts.end());
+        ends.insert(ends.end(), row.ends.begin(), row.ends.end());
+        row = {};
+    }
+    DexelSet set(rays_u, rays_v);
+    set.assign(counts, ends);
+    return set;
+}
+
+}  // namespace
+
+Result<Solid> combine(const Solid& a, const Solid& b, Combination operation, WorkerPool& pool) {
+    if (!(a.lattice == b.lattice)) {
+        return fail("solids", "lie on different lattices, so their rays do not meet",
+                    "convert both onto one lattice (scan_convert_onto)");
+    }
+    Solid result{a.lattice, {}, a.materials};
+    const std::vector<std::uint8_t> place_of_b = merge_materials(b.materials, result.materials);
+    if (result.materials.size() > kMostMaterials) {
+        return fail("solids", "have more than 255 materials together", "merge materials in one of the files");
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        result.sets[static_cast<std::size_t>(axis)] = combined_set(a, b, axis, operation, place_of_b, pool);
+    }
+    return result;
+}
+
+}  // namespace burin
