@@ -57,11 +57,14 @@ Eigen3 eigen(const Symmetric3& m) {
     return e;
 }
 
-// A vertex keeps off the cell's faces, by less than any feature's error, so that vertices of two cells never coincide: formats
-// without shared vertices (STL) would take them for one.
-constexpr float kInset = 1.0f / 256.0f;
+// Where planes meet, a vertex may lie this far outside its cell (in cells): an edge or a corner that passes close by a cell
+// often has no crossing on the edges of the cell that it lies in, and would else be cut off.
+constexpr float kOutside = 0.5f;
 
-Vec3f within_cell(const Vec3f& p) { return glm::clamp(p, Vec3f(kInset), Vec3f(1.0f - kInset)); }
+// On a curved surface the mean of the crossings lies inside the curve, by some distance e, and the mean of their tangent planes
+// as far outside it. The triangles between the vertices sag to the inside by about e once more. Three quarters of the way from
+// the one to the other the volume comes out right, and the vertices lie e / 2 outside.
+constexpr float kTowardsTangents = 0.75f;
 
 }  // namespace
 
@@ -115,7 +118,7 @@ std::optional<Vec3f> offset_to_planes(const Clusters& clusters) {
         n[k] = c.normal_sum / glm::length(c.normal_sum);
         d[k] = c.offset_sum / c.count;
     }
-    if (clusters.count == 1) return n[0] * d[0];
+    if (clusters.count == 1) return n[0] * (kTowardsTangents * d[0]);
     if (clusters.count == 2) {
         const float cosine = glm::dot(n[0], n[1]), sine2 = 1.0f - cosine * cosine;
         if (sine2 < kLeastSine2) return std::nullopt;
@@ -159,7 +162,8 @@ Vec3f feature_point(std::span<const Crossing> crossings) {
     for (const Crossing& c : crossings) mean_position += c.position;
     mean_position /= static_cast<float>(crossings.size());
     const std::optional<Vec3f> offset = offset_to_planes(find_clusters(crossings, mean_position));
-    return within_cell(mean_position + (offset ? *offset : offset_by_eigenvalues(crossings, mean_position)));
+    const Vec3f p = mean_position + (offset ? *offset : offset_by_eigenvalues(crossings, mean_position));
+    return glm::clamp(p, Vec3f(-kOutside), Vec3f(1.0f + kOutside));
 }
 
 }  // namespace burin

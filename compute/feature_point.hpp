@@ -20,7 +20,7 @@ struct Crossing {
     Vec3f normal;
 };
 
-// Cell units relative to the cell's lowest corner, always within the cell. 1 to 12 crossings.
+// Cell units relative to the cell's lowest corner, within half a cell of the cell. 1 to 12 crossings.
 [[nodiscard]] Vec3f feature_point(std::span<const Crossing> crossings);
 
 }  // namespace burin
