@@ -352,7 +352,7 @@ private:
         const auto [a, b, c] = mesh_.triangles[t];
         return {mesh_.positions_m[a], mesh_.positions_m[b], mesh_.positions_m[c]};
     }
-    // With the remedy exchanged into the mesh: how much farther than at first its vertices are from their cells' planes. 0
+    // With the remedy exchanged into the mesh: how much farther than at first its vertices are from the planes around. 0
     // for a turned diagonal, whose gap is small.
     [[nodiscard]] double deviation(const Remedy& exchanged) const {
         double worst = 0.0;
@@ -367,34 +367,34 @@ private:
         return worst;
     }
 
-    // Of the surface where the rays along the edges of the vertex' cell cross it.
+    // Of the surface where rays cross it within a cell's width of the vertex, along each axis. Not only in the vertex' own
+    // cell: a feature may lie in a cell that has no crossing.
     const std::vector<TangentPlane>& planes_at(std::uint32_t v) const {
         const auto [known, fresh] = planes_.try_emplace(v);
         if (!fresh) return known->second;
         const Vec3 cells = (before_[v] - lattice_.origin_object) / lattice_.spacing_m;
-        const glm::ivec3 cell(glm::floor(cells));
         for (int axis = 0; axis < 3; ++axis) {
-            const int u_axis = (axis + 1) % 3, v_axis = (axis + 2) % 3;
-            for (const int corner : {0, 1, 2, 3}) {
-                glm::ivec3 node = cell;
-                node[u_axis] += corner & 1;
-                node[v_axis] += corner >> 1;
-                add_crossings(axis, node, known->second);
+            const double at_u = cells[(axis + 1) % 3], at_v = cells[(axis + 2) % 3];
+            for (int ray_v = whole(at_v - 1.0) + 1; ray_v <= at_v + 1.0; ++ray_v) {
+                for (int ray_u = whole(at_u - 1.0) + 1; ray_u <= at_u + 1.0; ++ray_u) {
+                    add_crossings(axis, ray_u, ray_v, cells[axis], known->second);
+                }
             }
         }
         return known->second;
     }
-    void add_crossings(int axis, const glm::ivec3& node, std::vector<TangentPlane>& planes) const {
-        const int u = node[(axis + 1) % 3], v = node[(axis + 2) % 3];
+    [[nodiscard]] static int whole(double x) { return static_cast<int>(std::floor(x)); }
+    void add_crossings(int axis, int u, int v, double at_cells, std::vector<TangentPlane>& planes) const {
         if (u < 0 || v < 0 || u >= lattice_.rays_u(axis) || v >= lattice_.rays_v(axis)) return;
-        const int lowest = node[axis] * shared::kUnitsPerCell;
         const std::size_t ray =
             static_cast<std::size_t>(v) * static_cast<std::size_t>(lattice_.rays_u(axis)) + static_cast<std::size_t>(u);
         for (const shared::DexelEnd& end : solid_.sets[static_cast<std::size_t>(axis)].ends(ray)) {
-            const int depth = shared::depth_of(end);
-            if (depth < lowest || depth > lowest + shared::kUnitsPerCell) continue;
-            Vec3 units = Vec3(node) * static_cast<double>(shared::kUnitsPerCell);
+            const double depth = shared::depth_of(end);
+            if (std::abs(depth - at_cells * shared::kUnitsPerCell) > shared::kUnitsPerCell) continue;
+            Vec3 units;
             units[axis] = depth;
+            units[(axis + 1) % 3] = static_cast<double>(u) * shared::kUnitsPerCell;
+            units[(axis + 2) % 3] = static_cast<double>(v) * shared::kUnitsPerCell;
             const shared::Direction n = shared::decode_normal(end.normal);
             planes.push_back({lattice_.object_from_units(units), Vec3(n.x, n.y, n.z)});
         }

@@ -4,8 +4,7 @@
 //
 // Local: only triangles within a few cells of a fault change. In rounds over a neighbourhood that grows, each fault is cured
 // by the remedy that moves the surface least: the other diagonal of a quad, or vertices moved towards the middle of their
-// neighbours by a quarter, a half, three quarters or all of the way. A vertex never leaves its cell, so that sheets stay
-// apart; triangles are never added or removed; a remedy that leaves as many faults as before is not taken. The mesh stays
+// neighbours by a quarter, a half, three quarters or all of the way. A vertex never leaves the lattice cell that it lies in; triangles are never added or removed; a remedy that leaves as many faults as before is not taken. The mesh stays
 // closed and two-manifold. Serial but for finding the faults: the result does not depend on the number of threads.
 #pragma once
 
@@ -23,7 +22,7 @@ struct MendingReport {
     std::uint64_t diagonals_turned = 0;
     std::uint64_t vertices_moved = 0;
     std::vector<std::uint32_t> moved;  // which, in ascending order
-    // How much farther than before a moved vertex lies from a plane that the solid's rays give for its cell; the largest.
+    // How much farther than before a moved vertex lies from a plane that the solid's rays give around it; the largest.
     double deviation_max_m = 0.0;
 };
 
