@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <map>
 
+#include "app/bench_command.hpp"
 #include "app/sculpt.hpp"
 #include "compute/lattice.hpp"
 
@@ -69,12 +70,14 @@ int main(int argc, char** argv) {
     convert->add_option("OUT", out, ".stl, .ply or .obj")->required();
     convert->add_flag("--close-holes", close_holes, "Fill holes and turn the triangles outwards");
 
+    const burin::BenchCommand bench(app);
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);  // --help
         std::fprintf(stderr, "burin: %s; see burin %s--help\n", error.what(),
-                     sculpt->parsed() ? "sculpt " : (convert->parsed() ? "convert " : ""));
+                     sculpt->parsed() ? "sculpt " : (convert->parsed() ? "convert " : (bench.parsed() ? "bench " : "")));
         return 2;
     }
     if (version) {
@@ -82,6 +85,7 @@ int main(int argc, char** argv) {
         return 0;
     }
     if (sculpt->parsed()) return finish(burin::sculpt(sculpt_options));
+    if (bench.parsed()) return finish(bench.run());
     if (convert->parsed()) return finish(burin::convert(in, out, close_holes));
     std::fputs(app.help().c_str(), stdout);
     return 2;

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "app/bench_command.hpp"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <span>
+
+#include "bench/machine.hpp"
+#include "bench/pareto.hpp"
+#include "bench/stroke_report.hpp"
+#include "compute/lattice.hpp"
+#include "geometry/file_io.hpp"
+#include "geometry/mesh_export.hpp"
+
+namespace burin {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr const char* kStandardOutput = "-";
+constexpr int kReferenceRays = 2048;  // a side, for the removed volume of a part of a scene
+
+// Whether a file can appear there.
+Result<void> check_place(const std::string& path) {
+    if (path.empty() || path == kStandardOutput) return {};
+    const fs::path folder = fs::absolute(path).parent_path();
+    std::error_code ignored;
+    if (!fs::is_directory(folder, ignored) || access(folder.c_str(), W_OK) != 0) {
+        return fail(path, "cannot be written: there is no folder " + folder.string() + " that can be written to",
+                    "make the folder, or choose another place");
+    }
+    if (fs::is_directory(path, ignored)) return fail(path, "is a folder", "give the name of a file");
+    return {};
+}
+
+Result<void> write_text(const std::string& path, const std::string& text) {
+    if (path.empty()) return {};
+    if (path == kStandardOutput) {
+        std::fputs(text.c_str(), stdout);
+        return {};
+    }
+    return write_file_atomically(path, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+}  // namespace
+
+struct BenchCommand::Options {
+    bench::StrokeOptions stroke;
+    bench::ParetoOptions pareto;
+    std::string tool = "ball", peer, json, exported;  // of stroke
+    std::size_t updates = 1000;
+    std::string csv, svg, pareto_json;
+
+    [[nodiscard]] Result<void> run_stroke() const;
+    [[nodiscard]] Result<void> run_pareto() const;
+
+private:
+    [[nodiscard]] Result<void> check_stroke() const;
+    [[nodiscard]] Result<void> add_peer(Json& report, const bench::CarveScene& scene) const;
+};
+
+Result<void> BenchCommand::Options::check_stroke() const {
+    for (const std::string& path : {json, exported}) {
+        if (const auto ok = check_place(path); !ok) return ok;
+    }
+    if (!exported.empty()) {
+        const auto format = mesh_format_of(exported);
+        if (!format || *format == MeshFormat::off) {
+            return fail(exported, "has no extension that Burin exports", "name it .stl, .ply or .obj");
+        }
+    }
+    if (!peer.empty() && tool != "ball") {
+        return fail("--peer " + peer, "carves with a ball at one place after the other", "leave --tool at ball");
+    }
+    if (!peer.empty() && !bench::has_peers()) {
+        return fail("--peer " + peer, "is not built into this program",
+                    "install it with scripts/setup --peers and configure with -DBURIN_WITH_PEERS=ON");
+    }
+    return {};
+}
+
+Result<void> BenchCommand::Options::add_peer(Json& report, const bench::CarveScene& scene) const {
+    const Result<Lattice> lattice = lattice_around({Vec3(0.0), Vec3(1.0)}, stroke.resolution);
+    if (!lattice) return std::unexpected(lattice.error());
+    const auto threads = report["threads"].get<unsigned>();
+    for (const auto method : {bench::VdbMethod::csg_difference, bench::VdbMethod::leaf_brush}) {
+        const auto run = bench::run_openvdb(scene, *lattice, threads, method);
+        if (!run) return std::unexpected(run.error());
+        const auto errors = bench::measure(run->mesh, scene, lattice->spacing_m);
+        bench::add_openvdb(report, bench::describe(scene, *run, errors, lattice->spacing_m));
+    }
+    return {};
+}
+
+Result<void> BenchCommand::Options::run_stroke() const {
+    if (const auto ok = check_stroke(); !ok) return ok;
+    bench::CarveScene scene = tool == "ball" ? bench::stroke_1000_scene() : bench::stroke_1000_swept_scene();
+    if (updates < scene.sweeps.size()) scene = bench::beginning_of(scene, updates, kReferenceRays);
+    const std::string on = bench::machine();
+    const auto run = bench::run_stroke(scene, stroke);
+    if (!run) return std::unexpected(run.error());
+    Json report = bench::describe(scene, *run, bench::measure(run->mesh, scene, run->cell_m),
+                                  bench::count_self_intersections(run->mesh, stroke.threads));
+    report["tool"] = tool;
+    report["machine"] = on;
+    if (!peer.empty()) {
+        if (const auto added = add_peer(report, scene); !added) return added;
+    }
+    if (!exported.empty()) {
+        if (const auto written = export_mesh(run->mesh, exported); !written) return written;
+    }
+    if (json != kStandardOutput) std::fputs(bench::table(report).c_str(), stdout);
+    return write_text(json, report.dump(2) + "\n");
+}
+
+Result<void> BenchCommand::Options::run_pareto() const {
+    for (const std::string& path : {csv, svg, pareto_json}) {
+        if (const auto ok = check_place(path); !ok) return ok;
+    }
+    const auto compared = bench::run_pareto(
+        pareto, [](const std::string& line) { std::fprintf(stderr, "measured: %s\n", line.c_str()); });
+    if (!compared) return std::unexpected(compared.error());
+    Json report = {{"machine", compared->machine}, {"rows", compared->rows}, {"left_out", compared->left_out}};
+    if (pareto_json != kStandardOutput && csv != kStandardOutput && svg != kStandardOutput) {
+        std::fputs(bench::pareto_table(*compared).c_str(), stdout);
+    }
+    if (const auto written = write_text(csv, bench::pareto_csv(*compared)); !written) return written;
+    if (const auto written = write_text(svg, bench::pareto_svg(*compared)); !written) return written;
+    return write_text(pareto_json, report.dump(2) + "\n");
+}
+
+BenchCommand::BenchCommand(CLI::App& app)
+    : options_(std::make_unique<Options>()),
+      command_(app.add_subcommand("bench", "Measure how fast and how exact carving is")) {
+    command_->require_subcommand(1);
+    const CLI::Range resolutions(kMinResolution, kMaxResolution), threads(0, 1024), updates(1, 1000);
+    const std::string threads_help = "How many threads work; 0: one per core";
+    static const std::map<std::string, bool> engines{{"cpu", false}, {"vulkan", true}};
+
+    stroke_ = command_->add_subcommand("stroke", "STROKE-1000: a thousand cuts into a cube, every figure of one run");
+    Options& o = *options_;
+    stroke_->add_option("--resolution", o.stroke.resolution, "Lattice cells along the cube's side")
+        ->check(resolutions)
+        ->capture_default_str();
+    stroke_->add_option("--engine", o.stroke.on_vulkan, "cpu or vulkan")->transform(CLI::CheckedTransformer(engines));
+    stroke_->add_option("--tool", o.tool, "ball: a stamp at each place; capsule: swept from each place to the next")
+        ->check(CLI::IsMember({"ball", "capsule"}))
+        ->capture_default_str();
+    stroke_->add_option("--threads", o.stroke.threads, threads_help)->check(threads);
+    stroke_->add_option("--updates", o.updates, "Only so many of the cuts")->check(updates)->capture_default_str();
+    stroke_->add_option("--json", o.json, "A file for all figures; - for standard output");
+    stroke_->add_option("--export", o.exported, "Where to write the carved mesh: .stl, .ply or .obj");
+    stroke_->add_option("--peer", o.peer, "openvdb: do the same with it, and compare")
+        ->check(CLI::IsMember({"openvdb"}));
+
+    pareto_ = command_->add_subcommand("pareto", "Time against error over resolutions, for both engines and the peers");
+    pareto_->add_option("--smallest", o.pareto.smallest, "The coarsest resolution")
+        ->check(resolutions)
+        ->capture_default_str();
+    pareto_->add_option("--largest", o.pareto.largest, "The finest; each is twice the one before")
+        ->check(resolutions)
+        ->capture_default_str();
+    pareto_
+        ->add_option("--largest-on-software-vulkan", o.pareto.largest_on_software_vulkan,
+                     "The finest for the Vulkan engine where its device is a software one; 0: none")
+        ->check(CLI::Range(0, kMaxResolution))
+        ->capture_default_str();
+    pareto_->add_option("--threads", o.pareto.threads, threads_help)->check(threads);
+    pareto_->add_option("--updates", o.pareto.updates, "Only so many of the cuts")
+        ->check(updates)
+        ->capture_default_str();
+    pareto_->add_option("--cgal-updates", o.pareto.cgal_updates, "Only so many of the cuts with CGAL, which is slow")
+        ->check(updates)
+        ->capture_default_str();
+    pareto_->add_option("--csv", o.csv, "A file for the table; - for standard output");
+    pareto_->add_option("--svg", o.svg, "A file for the figure");
+    pareto_->add_option("--json", o.pareto_json, "A file for every figure of every run; - for standard output");
+}
+
+BenchCommand::~BenchCommand() = default;
+
+bool BenchCommand::parsed() const { return command_->parsed(); }
+
+Result<void> BenchCommand::run() const { return stroke_->parsed() ? options_->run_stroke() : options_->run_pareto(); }
+
+}  // namespace burin

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// burin bench: how fast and how exact carving is (bench/), as tables, JSON, CSV and a figure.
+//   burin bench stroke   one engine and resolution through STROKE-1000, with every figure
+//   burin bench pareto   time against error over resolutions, engines and peers
+#pragma once
+
+#include <memory>
+
+#include "base/error.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace burin {
+
+class BenchCommand {
+public:
+    // Adds the command and its options; `app` must outlive the object.
+    explicit BenchCommand(CLI::App& app);
+    ~BenchCommand();
+    BenchCommand(const BenchCommand&) = delete;
+    BenchCommand& operator=(const BenchCommand&) = delete;
+
+    [[nodiscard]] bool parsed() const;
+    // What was asked for. Places for output are looked at before the first long step.
+    [[nodiscard]] Result<void> run() const;
+
+private:
+    struct Options;
+    std::unique_ptr<Options> options_;
+    CLI::App* command_;
+    CLI::App* stroke_ = nullptr;
+    CLI::App* pareto_ = nullptr;
+};
+
+}  // namespace burin

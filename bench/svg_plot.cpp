@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+#include "bench/svg_plot.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace burin::bench {
+namespace {
+
+// Pixels. A plot's frame within its cell leaves room for the labels.
+constexpr double kCellWidth = 430, kFrameLeft = 72, kFrameTop = 84, kFrameWidth = 335, kFrameHeight = 300;
+constexpr double kLegendTop = kFrameTop + kFrameHeight + 66, kLegendRow = 20, kLegendColumn = 430;
+
+// Okabe and Ito's colours, which people with any kind of colour vision tell apart.
+constexpr std::array kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9"};
+
+std::string text_of(const char* format, auto... values) {
+    std::array<char, 400> text{};
+    std::snprintf(text.data(), text.size(), format, values...);
+    return text.data();
+}
+
+std::string escaped(const std::string& text) {
+    std::string safe;
+    for (const char c : text) {
+        if (c == '&') {
+            safe += "&amp;";
+        } else if (c == '<') {
+            safe += "&lt;";
+        } else if (c == '>') {
+            safe += "&gt;";
+        } else if (c == '"') {
+            safe += "&quot;";
+        } else {
+            safe += c;
+        }
+    }
+    return safe;
+}
+
+std::string write(double x, double y, const char* attributes, const std::string& text) {
+    return text_of("<text x=\"%.1f\" y=\"%.1f\" %s>", x, y, attributes) + escaped(text) + "</text>\n";
+}
+
+bool drawable(const PlotPoint& p) { return p.x > 0.0 && p.y > 0.0 && std::isfinite(p.x) && std::isfinite(p.y); }
+
+// A logarithmic axis: from value to place along it, 0 to 1.
+struct Axis {
+    double lo = std::numeric_limits<double>::infinity(), hi = -std::numeric_limits<double>::infinity();  // of log10
+
+    void include(double value) {
+        lo = std::min(lo, std::log10(value));
+        hi = std::max(hi, std::log10(value));
+    }
+    // A margin on both sides, and at least one decade, so that there are ticks.
+    void widen() {
+        if (lo > hi) lo = hi = 0.0;
+        const double margin = std::max(0.08 * (hi - lo), 0.5 * (1.0 - (hi - lo)));
+        lo -= margin;
+        hi += margin;
+    }
+    [[nodiscard]] double place(double value) const { return (std::log10(value) - lo) / (hi - lo); }
+    [[nodiscard]] bool holds(double value) const { return place(value) >= 0.0 && place(value) <= 1.0; }
+};
+
+struct Frame {
+    double left = 0.0, top = kFrameTop;
+    Axis x, y;
+    [[nodiscard]] double at_x(double value) const { return left + kFrameWidth * x.place(value); }
+    [[nodiscard]] double at_y(double value) const { return top + kFrameHeight * (1.0 - y.place(value)); }
+};
+
+// 0.001, 0.2, 50, or 1e-05 where that is shorter.
+std::string tick_label(double value) { return text_of("%.12g", value); }
+
+std::string grid_of(const Frame& f) {
+    std::string text;
+    const auto ticks = [](const Axis& axis, auto&& draw) {
+        const bool few_decades = axis.hi - axis.lo < 2.5;
+        for (int decade = static_cast<int>(std::floor(axis.lo)); decade <= axis.hi; ++decade) {
+            for (const int step : {1, 2, 5}) {
+                const double value = step * std::pow(10.0, decade);
+                if (axis.holds(value)) draw(value, step == 1, step == 1 || few_decades);
+            }
+        }
+    };
+    ticks(f.x, [&](double value, bool strong, bool labelled) {
+        const double x = f.at_x(value);
+        text += text_of("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\"/>\n", x, f.top, x,
+                        f.top + kFrameHeight, strong ? "#bbbbbb" : "#e6e6e6");
+        if (labelled) text += write(x, f.top + kFrameHeight + 16, "text-anchor=\"middle\"", tick_label(value));
+    });
+    ticks(f.y, [&](double value, bool strong, bool labelled) {
+        const double y = f.at_y(value);
+        text += text_of("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\"/>\n", f.left, y,
+                        f.left + kFrameWidth, y, strong ? "#bbbbbb" : "#e6e6e6");
+        if (labelled) text += write(f.left - 6, y + 4, "text-anchor=\"end\"", tick_label(value));
+    });
+    return text +
+           text_of("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" stroke=\"#444444\"/>\n",
+                   f.left, f.top, kFrameWidth, kFrameHeight);
+}
+
+// A filled shape that goes with the colour, so that series differ in print too.
+std::string marker(std::size_t style, double x, double y) {
+    const char* colour = kColours[style % kColours.size()];
+    constexpr double r = 4.5;
+    switch (style % 4) {
+        case 0: return text_of("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"%s\"/>\n", x, y, r, colour);
+        case 1:
+            return text_of("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\"/>\n", x - 4, y - 4,
+                           8.0, 8.0, colour);
+        case 2: return text_of("<path d=\"M%.1f %.1f l5 9 h-10 z\" fill=\"%s\"/>\n", x, y - 6, colour);
+        default: return text_of("<path d=\"M%.1f %.1f l6 6 l-6 6 l-6 -6 z\" fill=\"%s\"/>\n", x, y - 6, colour);
+    }
+}
+
+std::string line_through(const PlotSeries& series, std::size_t style, const Frame& f) {
+    std::string path, points;
+    for (const PlotPoint& p : series.points) {
+        if (!drawable(p)) continue;
+        const double x = f.at_x(p.x), y = f.at_y(p.y);
+        path += text_of("%s%.1f %.1f", path.empty() ? "M" : " L", x, y);
+        points += marker(style, x, y);
+        if (!p.label.empty()) points += write(x + 7, y - 6, "font-size=\"10\" fill=\"#444444\"", p.label);
+    }
+    if (path.empty()) return "";
+    return "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + kColours[style % kColours.size()] +
+           "\" stroke-width=\"1.8\"/>\n" + points;
+}
+
+std::string plot_text(const Plot& plot, double left, const std::vector<std::string>& names) {
+    Frame f;
+    f.left = left + kFrameLeft;
+    for (const PlotSeries& s : plot.series) {
+        for (const PlotPoint& p : s.points) {
+            if (!drawable(p)) continue;
+            f.x.include(p.x);
+            f.y.include(p.y);
+        }
+    }
+    f.x.widen();
+    f.y.widen();
+    const double middle = f.left + kFrameWidth / 2, half_up = f.top + kFrameHeight / 2;
+    std::string text = grid_of(f);
+    text += write(middle, f.top - 12, "text-anchor=\"middle\" font-size=\"13\" font-weight=\"bold\"", plot.title);
+    text += write(middle, f.top + kFrameHeight + 38, "text-anchor=\"middle\"", plot.x_label);
+    const std::string turned =
+        text_of("text-anchor=\"middle\" transform=\"rotate(-90 %.1f %.1f)\"", left + 16, half_up);
+    text += write(left + 16, half_up, turned.c_str(), plot.y_label);
+    for (const PlotSeries& s : plot.series) {
+        text += line_through(s, static_cast<std::size_t>(std::ranges::find(names, s.name) - names.begin()), f);
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string svg_figure(const std::string& title, const std::vector<Plot>& plots) {
+    std::vector<std::string> names;
+    for (const Plot& plot : plots) {
+        for (const PlotSeries& s : plot.series) {
+            if (std::ranges::find(names, s.name) == names.end()) names.push_back(s.name);
+        }
+    }
+    const double width = kCellWidth * static_cast<double>(std::max<std::size_t>(1, plots.size()));
+    const auto columns = static_cast<std::size_t>(std::max(1.0, std::floor(width / kLegendColumn)));
+    const double height = kLegendTop + kLegendRow * static_cast<double>((names.size() + columns - 1) / columns) + 6;
+    std::string text = text_of(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" "
+        "font-family=\"DejaVu Sans, Arial, sans-serif\" font-size=\"11\">\n"
+        "<rect width=\"100%%\" height=\"100%%\" fill=\"#ffffff\"/>\n",
+        width, height, width, height);
+    text += write(width / 2, 30, "text-anchor=\"middle\" font-size=\"16\" font-weight=\"bold\"", title);
+    for (std::size_t i = 0; i < plots.size(); ++i) {
+        text += plot_text(plots[i], kCellWidth * static_cast<double>(i), names);
+    }
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const double x = kFrameLeft + kLegendColumn * static_cast<double>(i % columns);
+        const double y = kLegendTop + kLegendRow * static_cast<double>(i / columns);
+        text += marker(i, x, y) + write(x + 12, y + 4, "font-size=\"12\"", names[i]);
+    }
+    return text + "</svg>\n";
+}
+
+}  // namespace burin::bench
