@@ -8,9 +8,9 @@
 namespace burin {
 namespace {
 
-// Normals closer to a cluster's first than this (cosine, about 15 degrees) belong to one smooth piece of surface. A crease
+// Normals closer to a cluster's first than this (cosine, about 23 degrees) belong to one smooth piece of surface. A crease
 // shallower than that is less than a tenth of a cell deep within a cell.
-constexpr float kSameCluster = 0.966f;
+constexpr float kSameCluster = 0.92f;
 // Planes that meet at less than about 10 degrees do not determine where (squared sine), nor do three that nearly share a
 // direction (the volume of their normals).
 constexpr float kLeastSine2 = 0.03f, kLeastVolume = 0.1f;

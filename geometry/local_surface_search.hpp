@@ -43,31 +43,25 @@ struct CellRange {
     return range;
 }
 
-// Calls visit(triangle index) once for each listed triangle whose cells meet the box [lo, hi]; order depends only on
-// the surface and the box. visit returns false to stop; so does this function then.
+// Calls visit(triangle index) once for each listed triangle that may meet the box [lo, hi], and for some near it; order depends
+// only on the surface and the box. visit returns false to stop; so does this function then.
 template <typename Visit>
 bool for_each_triangle_near(const LocalSurface& surface, const Vec3& lo, const Vec3& hi, Visit&& visit) {
     const SurfaceGrid& grid = surface.search;
     if (!grid.built) return true;
     for (std::uint32_t i = 0; i < grid.large_count; ++i)
         if (!visit(grid.large[i])) return false;
-    const CellRange range = cells_touched(grid, lo, hi);
+    const Vec3 reach(static_cast<double>(grid.reach_m));
+    const CellRange range = cells_touched(grid, lo - reach, hi + reach);
     if (range.empty) return true;
     for (std::uint32_t z = range.lo[2]; z <= range.hi[2]; ++z)
-        for (std::uint32_t y = range.lo[1]; y <= range.hi[1]; ++y)
-            for (std::uint32_t x = range.lo[0]; x <= range.hi[0]; ++x) {
-                const std::uint32_t cell = (z * grid.cells[1] + y) * grid.cells[0] + x;
-                for (std::uint32_t e = grid.first_entry[cell]; e < grid.first_entry[cell + 1]; ++e) {
-                    const std::uint32_t triangle = grid.entries[e];
-                    const auto& first = grid.first_cell[triangle];
-                    // Listed in many cells, reported in one: the lowest that it and the range have in common.
-                    if (x != std::max<std::uint32_t>(first[0], range.lo[0]) ||
-                        y != std::max<std::uint32_t>(first[1], range.lo[1]) ||
-                        z != std::max<std::uint32_t>(first[2], range.lo[2]))
-                        continue;
-                    if (!visit(triangle)) return false;
-                }
-            }
+        for (std::uint32_t y = range.lo[1]; y <= range.hi[1]; ++y) {
+            const std::uint32_t row = (z * grid.cells[1] + y) * grid.cells[0];
+            // The cells of a row lie side by side, and so do their entries.
+            for (std::uint32_t e = grid.first_entry[row + range.lo[0]]; e < grid.first_entry[row + range.hi[0] + 1];
+                 ++e)
+                if (!visit(grid.entries[e])) return false;
+        }
     return true;
 }
 
