@@ -22,10 +22,10 @@ Carving::Carving(std::unique_ptr<CarvingEngine> engine, WorkerPool& pool)
     initial_volume_m3_ = surface_.volume_m3();
 }
 
-Result<void> Carving::update(std::span<const BallSweep> sweeps) {
+Result<void> Carving::update(std::span<const ToolSweep> sweeps) {
     MonotonicClock clock;
     const Nanoseconds start_ns = clock.now_ns();
-    const Result<CarveStats> cut = engine_->carve(sweeps);
+    const Result<CarveStats> cut = apply(*engine_, sweeps, pool_);
     if (!cut) return std::unexpected(cut.error());
     const RemeshStats remeshed = surface_.update(engine_->solid(), engine_->take_changes(), pool_);
     figures_.update_ms.push_back(milliseconds(start_ns, clock.now_ns()));

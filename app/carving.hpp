@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The carving side of a session: one stroke is one update, and one update is a straight path: cut the rays, collect the
-// dirty tiles, mesh those anew, count what was done.
+// The carving side of a session: one stroke is one update, and one update is a straight path: apply the tool to the
+// rays, mesh the cells anew that changed, count what was done.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "compute/engine.hpp"
+#include "compute/apply.hpp"
 #include "compute/surface.hpp"
 
 namespace burin {
@@ -29,7 +29,7 @@ public:
     // Meshes the whole solid. The pool must outlive the object.
     Carving(std::unique_ptr<CarvingEngine> engine, WorkerPool& pool);
 
-    [[nodiscard]] Result<void> update(std::span<const BallSweep> sweeps);
+    [[nodiscard]] Result<void> update(std::span<const ToolSweep> sweeps);
 
     [[nodiscard]] const CarvingEngine& engine() const { return *engine_; }
     [[nodiscard]] const Surface& surface() const { return surface_; }

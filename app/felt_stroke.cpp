@@ -46,7 +46,7 @@ public:
         : carving_(carving), channels_(channels), tool_(tool), reach_m_(reach_m) {}
 
     Result<void> update(Nanoseconds now_ns) {
-        const std::vector<BallSweep> sweeps = drain();
+        const std::vector<ToolSweep> sweeps = drain();
         if (!sweeps.empty()) {
             if (const auto updated = carving_.update(sweeps); !updated) return updated;
         }
@@ -56,7 +56,7 @@ public:
 
     void publish(Nanoseconds now_ns) {
         LocalSurface& surface = channels_.surface.draft();
-        gather_local_surface(carving_.surface(), tool_position_, tool_.radius_m + reach_m_, surface);
+        gather_local_surface(carving_.surface(), tool_position_, tool_.ball_radius_m() + reach_m_, surface);
         surface.sequence = ++sequence_;
         surface.made_ns = now_ns;
         build_search(surface);
@@ -68,11 +68,11 @@ public:
 
 private:
     // What the working tool has swept since the last update.
-    std::vector<BallSweep> drain() {
-        std::vector<BallSweep> sweeps;
-        std::vector<Vec3> run;    // where the tool was, from press to release
+    std::vector<ToolSweep> drain() {
+        std::vector<ToolSweep> sweeps;
+        std::vector<Pose> run;    // where the tool was, from press to release
         bool goes_on = pressed_;  // the run began before this update: its first point has been cut already
-        if (goes_on) run.push_back(last_point_);
+        if (goes_on) run.push_back({last_point_});
         const auto end_run = [&] {
             if (run.size() >= 2 || (run.size() == 1 && !goes_on)) {
                 std::ranges::copy(sweeps_along(run, tool_, tolerance_m()), std::back_inserter(sweeps));
@@ -89,7 +89,7 @@ private:
                 continue;
             }
             last_point_ = sample.position_object_m;
-            if (run.empty() || run.back() != last_point_) run.push_back(last_point_);
+            if (run.empty() || run.back().position_m != last_point_) run.push_back({last_point_});
         }
         end_run();
         return sweeps;
@@ -200,32 +200,7 @@ Result<void> run_in_real_time(const Session& session, SimulatedHand hand) {
     return outcome;
 }
 
-double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-    const Vec3 ab = b - a;
-    const double length2 = glm::dot(ab, ab);
-    const double t = length2 > 0.0 ? std::clamp(glm::dot(p - a, ab) / length2, 0.0, 1.0) : 0.0;
-    return glm::length(p - (a + ab * t));
-}
-
 }  // namespace
-
-std::vector<BallSweep> sweeps_along(std::span<const Vec3> points, const Tool& tool, double tolerance_m) {
-    std::vector<BallSweep> sweeps;
-    if (points.size() == 1) return {{points[0], points[0], tool.radius_m, tool.material}};
-    for (std::size_t from = 0; from + 1 < points.size();) {
-        std::size_t to = from + 1;
-        const auto straight = [&](std::size_t end) {
-            for (std::size_t k = from + 1; k < end; ++k) {
-                if (distance_to_segment(points[k], points[from], points[end]) > tolerance_m) return false;
-            }
-            return true;
-        };
-        while (to + 1 < points.size() && straight(to + 1)) ++to;
-        sweeps.push_back({points[from], points[to], tool.radius_m, tool.material});
-        from = to;
-    }
-    return sweeps;
-}
 
 Result<FeltFigures> carve_by_feel(Carving& carving, const Stroke& stroke, const Tool& tool,
                                   const FeltOptions& options) {
@@ -240,7 +215,7 @@ Result<FeltFigures> carve_by_feel(Carving& carving, const Stroke& stroke, const 
     TickParameters& parameters = channels.parameters.draft();
     parameters.sequence = 1;
     parameters.object_from_device = figures.object_from_device;
-    parameters.tool_radius_m = tool.radius_m;
+    parameters.tool_radius_m = tool.ball_radius_m();
     channels.parameters.publish();
 
     // Far enough for the fastest hand to stay inside the known ball until the next update: 1 m/s for 12 ms.

@@ -40,12 +40,8 @@ struct FeltOptions {
     bool real_time = false;
 };
 
-// The stroke must fit: its bounds are centred in the workspace and, where they are larger, the motion is scaled up.
+// The tool must be a ball: that is what is felt. The stroke must fit: its bounds are centred in the workspace and, where they are larger, the motion is scaled up.
 [[nodiscard]] Result<FeltFigures> carve_by_feel(Carving& carving, const Stroke& stroke, const Tool& tool,
                                                 const FeltOptions& options);
-
-// The longest runs of samples that a straight sweep replaces to within tolerance_m: fewer capsules, the same cut.
-[[nodiscard]] std::vector<BallSweep> sweeps_along(std::span<const Vec3> points_object_m, const Tool& tool,
-                                                  double tolerance_m);
 
 }  // namespace burin

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "app/bench_command.hpp"
+#include "app/combine.hpp"
 #include "app/sculpt.hpp"
 #include "compute/lattice.hpp"
 
@@ -12,6 +13,7 @@ namespace {
 
 using burin::EngineChoice;
 using burin::HandChoice;
+using burin::Operation;
 using burin::SculptOptions;
 
 void add_sculpt_options(CLI::App& command, SculptOptions& options) {
@@ -19,12 +21,33 @@ void add_sculpt_options(CLI::App& command, SculptOptions& options) {
         {"auto", EngineChoice::automatic}, {"cpu", EngineChoice::cpu}, {"vulkan", EngineChoice::vulkan}};
     static const std::map<std::string, HandChoice> hands{{"rigid", HandChoice::rigid},
                                                          {"simulated", HandChoice::simulated}};
+    static const std::map<std::string, Operation> operations{{"cut", Operation::cut},
+                                                             {"fill", Operation::fill},
+                                                             {"paint", Operation::paint},
+                                                             {"smooth", Operation::smooth}};
     command
         .add_option("--workpiece", options.workpiece.source,
                     "FILE (STL, OBJ, PLY, OFF), block:X,Y,Z or ball:R, in metres")
         ->required();
     command.add_flag("--close-holes", options.workpiece.close_holes, "Fill the holes of a mesh that is not closed");
-    command.add_option("--tool", options.tool, "ball:R, in metres")->capture_default_str();
+    command
+        .add_option("--tool", options.tool.shape,
+                    "ball:R, cylinder:R,L, cone:R0,R1,L, bullnose:R,C,L, box:X,Y,Z or mesh:FILE, in metres")
+        ->capture_default_str();
+    command.add_option("--operation", options.tool.operation, "cut, fill, paint or smooth")
+        ->transform(CLI::CheckedTransformer(operations));
+    command.add_option("--material", options.tool.material, "R,G,B, the colour of the surface that the tool leaves");
+    command
+        .add_option("--sweep-tolerance", options.tool.sweep_tolerance_cells,
+                    "Largest error of a swept surface that has no closed form, in lattice cells")
+        ->check(CLI::Range(0.001, 1000.0))
+        ->capture_default_str();
+    command
+        .add_option("--smooth-strength", options.tool.smooth_strength, "With --operation smooth: 0 does nothing, 1 all at once")
+        ->check(CLI::Range(0.0, 1.0))
+        ->capture_default_str();
+    command.add_flag("!--no-merge", options.merge_rows,
+                     "One update for each row of the stroke, instead of one for a straight run of rows");
     command.add_option("--stroke", options.stroke, "CSV with the columns time_s,x_m,y_m,z_m,qx,qy,qz,qw,button");
     command.add_option("--resolution", options.workpiece.resolution, "Lattice cells along the longest side")
         ->check(CLI::Range(burin::kMinResolution, burin::kMaxResolution))
@@ -43,6 +66,25 @@ void add_sculpt_options(CLI::App& command, SculptOptions& options) {
     command.add_option("--report", options.report, "A JSON file for all figures");
     command.add_option("--threads", options.threads, "How many threads carve; 0: one per core")
         ->check(CLI::Range(0, 1024));
+}
+
+void add_combine_options(CLI::App& command, burin::CombineOptions& options) {
+    static const std::map<std::string, burin::Combination> operations{{"union", burin::Combination::unite},
+                                                                      {"difference", burin::Combination::subtract},
+                                                                      {"intersection", burin::Combination::intersect}};
+    command.add_option("A", options.a, "STL, OBJ, PLY or OFF")->required();
+    command.add_option("B", options.b, "STL, OBJ, PLY or OFF")->required();
+    command.add_option("--operation", options.operation, "union, difference (A without B) or intersection")
+        ->required()
+        ->transform(CLI::CheckedTransformer(operations));
+    command.add_option("--resolution", options.resolution, "Lattice cells along the longest side of both together")
+        ->check(CLI::Range(burin::kMinResolution, burin::kMaxResolution))
+        ->capture_default_str();
+    command.add_flag("--close-holes", options.close_holes, "Fill the holes of meshes that are not closed");
+    command.add_option("--export", options.exports,
+                       "Where to write the result: .stl, .ply (with colour) or .obj; may be repeated");
+    command.add_option("--report", options.report, "A JSON file for all figures");
+    command.add_option("--threads", options.threads, "How many threads work; 0: one per core")->check(CLI::Range(0, 1024));
 }
 
 int finish(const burin::Result<void>& outcome) {
@@ -70,6 +112,10 @@ int main(int argc, char** argv) {
     convert->add_option("OUT", out, ".stl, .ply or .obj")->required();
     convert->add_flag("--close-holes", close_holes, "Fill holes and turn the triangles outwards");
 
+    burin::CombineOptions combine_options;
+    CLI::App* combine = app.add_subcommand("combine", "Unite, subtract or intersect two closed meshes");
+    add_combine_options(*combine, combine_options);
+
     const burin::BenchCommand bench(app);
 
     try {
@@ -77,7 +123,7 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);  // --help
         std::fprintf(stderr, "burin: %s; see burin %s--help\n", error.what(),
-                     sculpt->parsed() ? "sculpt " : (convert->parsed() ? "convert " : (bench.parsed() ? "bench " : "")));
+                     sculpt->parsed() ? "sculpt " : (convert->parsed() ? "convert " : combine->parsed() ? "combine " : (bench.parsed() ? "bench " : "")));
         return 2;
     }
     if (version) {
@@ -87,6 +133,7 @@ int main(int argc, char** argv) {
     if (sculpt->parsed()) return finish(burin::sculpt(sculpt_options));
     if (bench.parsed()) return finish(bench.run());
     if (convert->parsed()) return finish(burin::convert(in, out, close_holes));
+    if (combine->parsed()) return finish(burin::combine_files(combine_options));
     std::fputs(app.help().c_str(), stdout);
     return 2;
 }

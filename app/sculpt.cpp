@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "app/sculpt.hpp"
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <optional>
 
 #include "app/engine_choice.hpp"
 #include "app/felt_stroke.hpp"
+#include "app/output_files.hpp"
 #include "app/pictures.hpp"
 #include "app/report.hpp"
 #include "app/rigid_stroke.hpp"
-#include "geometry/file_io.hpp"
+#include "compute/tool_spans.hpp"
 #include "geometry/mesh_export.hpp"
 
 namespace burin {
@@ -19,57 +18,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
-
-const Material kCutMaterial{"cut", {224, 142, 54}};  // a warm wood under whatever the skin is
-
-Result<Tool> parse_tool(const std::string& text) {
-    constexpr std::string_view kBall = "ball:";
-    if (!text.starts_with(kBall))
-        return fail("--tool " + text, "is not a tool", "write ball:R with the radius in metres");
-    const auto radius = parse_numbers(std::string_view(text).substr(kBall.size()), 1, "--tool " + text);
-    if (!radius) return std::unexpected(radius.error());
-    if (!(radius->front() > 0.0)) return fail("--tool " + text, "has no size", "give a radius above zero, in metres");
-    return Tool{radius->front(), 0};
-}
-
-// Whether a file can appear there, found out before hours of work and not after.
-Result<void> check_output(const std::string& path) {
-    const fs::path folder = fs::absolute(path).parent_path();
-    std::error_code ignored;
-    if (!fs::is_directory(folder, ignored)) {
-        return fail(path, "cannot be written: there is no folder " + folder.string(),
-                    "make the folder, or choose another place");
-    }
-    if (fs::is_directory(path, ignored)) return fail(path, "is a folder", "give the name of a file");
-    if (access(folder.c_str(), W_OK) != 0) {
-        return fail(path, "cannot be written: no permission in folder " + folder.string(), "choose another place");
-    }
-    return {};
-}
-
-Result<void> check_outputs(const SculptOptions& options) {
-    for (const std::string& path : options.exports) {
-        const auto format = mesh_format_of(path);
-        if (!format || *format == MeshFormat::off) {
-            return fail(path, "has no extension that Burin exports", "name it .stl, .ply or .obj");
-        }
-        if (const auto ok = check_output(path); !ok) return ok;
-    }
-    if (!options.report.empty()) return check_output(options.report);
-    return {};
-}
-
-// Only a mesh's coordinates tell, so this is found out after loading it.
-Result<void> check_precision(const SculptOptions& options, const Lattice& lattice) {
-    for (const std::string& path : options.exports) {
-        if (lattice.fits_floats() || mesh_format_of(path) == MeshFormat::obj) continue;
-        return fail(path,
-                    "would hold single-precision numbers, which cannot tell the workpiece's details apart so far from "
-                    "its origin",
-                    "move the workpiece nearer to its origin, or export .obj");
-    }
-    return {};
-}
 
 Box bounds_of(const Lattice& lattice) {
     // The lattice has about one and a half empty cells around the workpiece.
@@ -80,8 +28,8 @@ Box bounds_of(const Lattice& lattice) {
 
 Staging staging_of(const Stroke& stroke, const Tool& tool, const std::optional<FeltFigures>& felt) {
     Staging staging;
-    staging.tool_radius_object_m = tool.radius_m;
-    staging.tool_visible = !stroke.empty();
+    staging.tool_radius_object_m = tool.ball_radius_m();
+    staging.tool_visible = !stroke.empty() && tool.ball_radius_m() > 0.0;
     if (!stroke.empty()) staging.tool_center_object = stroke.back().position_object_m;
     if (felt) {
         staging.tool_center_object = felt->last_tool.proxy_object_m;
@@ -92,18 +40,18 @@ Staging staging_of(const Stroke& stroke, const Tool& tool, const std::optional<F
     return staging;
 }
 
-Result<void> write_report(const std::string& path, const Json& report) {
-    const std::string text = report.dump(2) + "\n";
-    return write_file_atomically(path, std::as_bytes(std::span(text.data(), text.size())));
-}
-
 }  // namespace
 
 Result<void> sculpt(const SculptOptions& options) {
     // Everything that can be wrong with the input is found before the first long step.
     Result<Tool> tool = parse_tool(options.tool);
     if (!tool) return std::unexpected(tool.error());
-    if (const auto ok = check_outputs(options); !ok) return ok;
+    const Result<Material> material = parse_tool_material(options.tool);
+    if (!material) return std::unexpected(material.error());
+    if (options.hand == HandChoice::simulated && tool->ball_radius_m() == 0.0) {
+        return fail("--hand simulated", "feels with a ball only", "use --tool ball:R, or --hand rigid");
+    }
+    if (const auto ok = check_outputs(options.exports, options.report); !ok) return ok;
     Stroke stroke;
     if (!options.stroke.empty()) {
         Result<Stroke> read = read_stroke(options.stroke);
@@ -113,9 +61,10 @@ Result<void> sculpt(const SculptOptions& options) {
     WorkerPool pool(options.threads);
     Result<Workpiece> workpiece = load_workpiece(options.workpiece, pool);
     if (!workpiece) return std::unexpected(workpiece.error());
-    if (const auto ok = check_precision(options, workpiece->solid.lattice); !ok) return ok;
+    if (const auto ok = check_precision(options.exports, workpiece->solid.lattice); !ok) return ok;
     tool->material = static_cast<std::uint8_t>(workpiece->solid.materials.size());
-    workpiece->solid.materials.push_back(kCutMaterial);
+    workpiece->solid.materials.push_back(*material);
+    if (const auto ok = check_sweep(workpiece->solid, tool->sweep(Pose{}, Pose{})); !ok) return ok;
 
     std::optional<Pictures> pictures;
     if (!options.pictures.empty()) {
@@ -132,7 +81,7 @@ Result<void> sculpt(const SculptOptions& options) {
 
     std::optional<FeltFigures> felt;
     if (!stroke.empty() && options.hand == HandChoice::rigid) {
-        if (const auto carved = carve_rigidly(carving, stroke, *tool); !carved) return carved;
+        if (const auto carved = carve_rigidly(carving, stroke, *tool, options.merge_rows); !carved) return carved;
     } else if (!stroke.empty()) {
         Result<FeltFigures> carved = carve_by_feel(carving, stroke, *tool, {options.real_time});
         if (!carved) return std::unexpected(carved.error());
@@ -141,6 +90,7 @@ Result<void> sculpt(const SculptOptions& options) {
 
     const TriangleMesh mesh = carving.surface().welded();
     Json report = {{"burin", BURIN_VERSION}, {"workpiece", workpiece->report}};
+    report["tool"] = describe_tool(options.tool, *material);
     report["engine"] = {
         {"name", carving.engine().name()}, {"device", chosen->device}, {"chosen_because", chosen->reason}};
     report["carving"] = describe_carving(carving);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/tool_option.hpp"
 #include "app/workpiece.hpp"
 
 namespace burin {
@@ -14,8 +15,9 @@ enum class HandChoice { rigid, simulated };
 
 struct SculptOptions {
     WorkpieceOptions workpiece;
-    std::string tool = "ball:0.01";  // ball:R, metres
-    std::string stroke;              // a CSV file; empty: nothing is carved
+    ToolOptions tool;
+    std::string stroke;      // a CSV file; empty: nothing is carved
+    bool merge_rows = true;  // with a rigid hand: nearly straight runs of rows are one sweep
     EngineChoice engine = EngineChoice::automatic;
     HandChoice hand = HandChoice::rigid;
     bool real_time = false;

@@ -61,13 +61,13 @@ std::string joined(const std::vector<std::string>& sentences) {
 }
 
 // Closed and facing outwards, or an Error.
-Result<void> make_ready(TriangleMesh& mesh, const WorkpieceOptions& options, Json& report) {
+Result<void> make_ready(TriangleMesh& mesh, const std::string& file, bool fill_holes, Json& report) {
     report["vertices_welded"] = weld_vertices(mesh).vertices_merged;
     MeshHealth health = examine(mesh);
     report["health"] = describe(health);
     if (!health.closed) {
-        if (!options.close_holes) {
-            return fail(options.source, "is not closed, so it has no inside: " + joined(complaints(health)),
+        if (!fill_holes) {
+            return fail(file, "is not closed, so it has no inside: " + joined(complaints(health)),
                         "close it in a mesh editor, or pass --close-holes to have its holes filled");
         }
         report["closed_holes"] = describe(close_holes(mesh));
@@ -82,21 +82,16 @@ Result<void> make_ready(TriangleMesh& mesh, const WorkpieceOptions& options, Jso
 }
 
 Result<Workpiece> from_file(const WorkpieceOptions& options, WorkerPool& pool) {
-    Result<ImportedMesh> imported = import_mesh(options.source);
-    if (!imported) return std::unexpected(imported.error());
-    Workpiece workpiece;
-    workpiece.report["source"] = options.source;
-    workpiece.report["import"] = describe(imported->report);
-    if (const auto ready = make_ready(imported->mesh, options, workpiece.report); !ready) {
-        return std::unexpected(ready.error());
-    }
-    Result<ScanConversion> converted = scan_convert(imported->mesh, options.resolution, pool);
+    Result<ClosedMesh> closed = load_closed_mesh(options.source, options.close_holes);
+    if (!closed) return std::unexpected(closed.error());
+    Workpiece workpiece{{}, std::move(closed->report)};
+    Result<ScanConversion> converted = scan_convert(closed->mesh, options.resolution, pool);
     if (!converted) {
         Error error = converted.error();
         if (error.where == "mesh") error.where = options.source;
         return std::unexpected(error);
     }
-    workpiece.report["triangles_converted"] = imported->mesh.triangles.size();
+    workpiece.report["triangles_converted"] = closed->mesh.triangles.size();
     workpiece.report["ray_crossings"] = converted->crossings;
     workpiece.report["unmatched_rays"] = converted->unmatched_rays;
     workpiece.report["inside_by_parity"] = converted->by_parity;
@@ -140,6 +135,18 @@ Result<std::vector<double>> parse_numbers(std::string_view text, std::size_t cou
                     "see burin sculpt --help");
     }
     return numbers;
+}
+
+Result<ClosedMesh> load_closed_mesh(const std::string& file, bool close_holes) {
+    Result<ImportedMesh> imported = import_mesh(file);
+    if (!imported) return std::unexpected(imported.error());
+    ClosedMesh closed{std::move(imported->mesh), {}};
+    closed.report["source"] = file;
+    closed.report["import"] = describe(imported->report);
+    if (const auto ready = make_ready(closed.mesh, file, close_holes, closed.report); !ready) {
+        return std::unexpected(ready.error());
+    }
+    return closed;
 }
 
 Result<Workpiece> load_workpiece(const WorkpieceOptions& options, WorkerPool& pool) {

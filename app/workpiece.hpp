@@ -22,8 +22,14 @@ struct Workpiece {
     nlohmann::ordered_json report;  // the file's health, what was done about it, and the conversion
 };
 
+struct ClosedMesh {
+    TriangleMesh mesh;  // facing outwards
+    nlohmann::ordered_json report;
+};
+
 // A file's mesh is welded (equal positions become one vertex) and turned to face outwards; both are reported. One that is not
 // closed is refused with the reason, or closed on request. Every triangle of the file is in the solid or in the report.
+[[nodiscard]] Result<ClosedMesh> load_closed_mesh(const std::string& file, bool close_holes);
 [[nodiscard]] Result<Workpiece> load_workpiece(const WorkpieceOptions& options, WorkerPool& pool);
 
 // "prefix:1,2,3" -> the numbers, exactly `count` of them, finite; an Error names `what`.

@@ -2,9 +2,11 @@
 #include "compute/apply.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "compute/ray_algebra.hpp"
+#include "compute/smooth.hpp"
 #include "compute/tool_spans.hpp"
 
 namespace burin {
@@ -27,6 +29,14 @@ Result<void> check(const Solid& solid, const ToolSweep& sweep) {
         if (!(sweep.smooth_strength >= 0.0 && sweep.smooth_strength <= 1.0)) {
             return fail("smooth strength", "is outside 0 to 1", "give a strength from 0 to 1");
         }
+        if (const auto good = check_sweep(solid, sweep); !good) return good;
+        const double radius_m = std::get<BallTool>(sweep.shape).radius_m;
+        const Vec3 along = sweep.end.position_m - sweep.start.position_m;
+        if (radius_m > kLargestSmoothCells * solid.lattice.spacing_m || glm::length(along) > 4096.0 * radius_m) {
+            return fail("tool", "is too large, or goes too far at once, to smooth with",
+                        "choose a ball of at most 100 lattice cells, and more rows in the stroke");
+        }
+        return {};
     }
     return check_sweep(solid, sweep);
 }
@@ -64,7 +74,25 @@ RayBatch changed_rays(const Solid& solid, const RayBatch& covered, Operation ope
     return changed;
 }
 
+// A long way is done in stretches of a radius, one after the other.
+Result<CarveStats> smooth_on_host(CarvingEngine& engine, const ToolSweep& sweep, WorkerPool& pool) {
+    const double radius_m = std::get<BallTool>(sweep.shape).radius_m;
+    const Vec3 start = sweep.start.position_m, along = sweep.end.position_m - start;
+    const double stretches = std::max(1.0, std::ceil(std::sqrt(glm::dot(along, along)) / radius_m));
+    CarveStats stats;
+    for (double i = 0.0; i < stretches; i += 1.0) {
+        const SmoothBall ball{start + along * (i / stretches), start + along * ((i + 1.0) / stretches), radius_m,
+                              sweep.smooth_strength, sweep.material};
+        const Result<CarveStats> done = engine.assign(smoothed_rays(engine.solid(), ball, pool));
+        if (!done) return done;
+        stats += *done;
+    }
+    stats.rays_touched = stats.rays_changed;
+    return stats;
+}
+
 Result<CarveStats> apply_on_host(CarvingEngine& engine, const ToolSweep& sweep, WorkerPool& pool) {
+    if (sweep.operation == Operation::smooth) return smooth_on_host(engine, sweep, pool);
     const Result<RayBatch> covered = tool_spans(engine.solid(), sweep, pool);
     if (!covered) return std::unexpected(covered.error());
     Result<CarveStats> stats = engine.assign(changed_rays(engine.solid(), *covered, sweep.operation, pool));

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "compute/normal_code.hpp"
+#include "compute/ray_algebra.hpp"
 #include "compute/ray_crossings.hpp"
 
 namespace burin {
@@ -13,8 +15,8 @@ namespace {
 using shared::DexelEnd;
 using shared::kUnitsPerCell;
 
-constexpr double kLargestReach = 1 << 24;      // lattice units, as for balls: 4096 cells
-constexpr double kMostTriangles = 40'000'000;  // of all moves together: about 3 GB of tables
+constexpr double kLargestReach = 1 << 24;  // lattice units, as for balls: 4096 cells
+constexpr double kMostTriangles = 400'000'000;
 
 // The surfaces of all moves together.
 struct Swept {
@@ -152,6 +154,27 @@ void append_axis(const Lattice& lattice, const Swept& swept, int axis, std::uint
     }
 }
 
+// Both are in order of axis, row and place.
+RayBatch united(const RayBatch& a, const RayBatch& b) {
+    const auto order = [](const RayBatch::Ray& ray) {
+        const RayPlace p = place_of(ray.code);
+        return std::tuple(p.axis, p.v, p.u);
+    };
+    RayBatch both;
+    std::vector<DexelEnd> ends;
+    for (std::size_t i = 0, j = 0; i < a.rays.size() || j < b.rays.size();) {
+        const bool takes_a = j == b.rays.size() || (i < a.rays.size() && order(a.rays[i]) <= order(b.rays[j]));
+        const bool takes_b = i == a.rays.size() || (j < b.rays.size() && order(b.rays[j]) <= order(a.rays[i]));
+        const std::uint32_t code = takes_a ? a.rays[i].code : b.rays[j].code;
+        ends.clear();
+        append_union(takes_a ? a.ends_of(a.rays[i]) : RayEnds{}, takes_b ? b.ends_of(b.rays[j]) : RayEnds{}, ends);
+        both.add(code, ends);
+        i += takes_a ? 1 : 0;
+        j += takes_b ? 1 : 0;
+    }
+    return both;
+}
+
 // Without the vertices that no triangle uses: they must neither widen footprints nor be posed.
 std::shared_ptr<const TriangleMesh> without_strays(std::shared_ptr<const TriangleMesh> mesh) {
     constexpr std::uint32_t kUnused = 0xffffffff;
@@ -232,18 +255,27 @@ Result<Extent> extent_of(const MeshTool& tool, double unit_m) {
                 "bring it within 4096 lattice cells of its origin");
 }
 
+Result<void> check_effort(const MeshTool& tool, std::span<const StraightMove> moves) {
+    if (static_cast<double>(moves.size()) * static_cast<double>(tool.mesh->triangles.size()) <= kMostTriangles)
+        return {};
+    return fail("tool mesh", "has too many triangles for a motion that must be split so often",
+                "raise --sweep-tolerance, give the stroke more rows, or simplify the mesh");
+}
+
 Result<RayBatch> mesh_spans(const Lattice& lattice, const MeshTool& tool, std::span<const StraightMove> moves,
-                            std::uint8_t material, WorkerPool& pool) {
-    if (static_cast<double>(moves.size()) * static_cast<double>(tool.mesh->triangles.size()) > kMostTriangles) {
-        return fail("tool mesh", "has too many triangles for a motion that must be split so often",
-                    "raise --sweep-tolerance, give the stroke more rows, or simplify the mesh");
+                            std::uint8_t material, WorkerPool& pool, std::size_t triangles_at_once) {
+    if (const auto good = check_effort(tool, moves); !good) return std::unexpected(good.error());
+    const std::size_t at_once = std::max<std::size_t>(1, triangles_at_once / tool.mesh->triangles.size());
+    RayBatch all;
+    for (std::size_t from = 0; from < moves.size(); from += at_once) {
+        Swept swept;
+        MoveAdder adder(tool, lattice, swept);
+        for (const StraightMove& move : moves.subspan(from, std::min(at_once, moves.size() - from))) adder.add(move);
+        RayBatch batch;
+        for (int axis = 0; axis < 3; ++axis) append_axis(lattice, swept, axis, material, pool, batch);
+        all = from == 0 ? std::move(batch) : united(all, batch);
     }
-    Swept swept;
-    MoveAdder adder(tool, lattice, swept);
-    for (const StraightMove& move : moves) adder.add(move);
-    RayBatch batch;
-    for (int axis = 0; axis < 3; ++axis) append_axis(lattice, swept, axis, material, pool, batch);
-    return batch;
+    return all;
 }
 
 }  // namespace burin

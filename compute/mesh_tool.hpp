@@ -37,8 +37,15 @@ struct MeshToolEdges {
 // Tool frame, lattice units; the tool must be prepared. Fails on one that is too large.
 [[nodiscard]] Result<Extent> extent_of(const MeshTool& tool, double unit_m);
 
-// What the tool covers on those moves, all of one material. Fails when moves and triangles are too many to hold.
+// Fails when moves and triangles are so many that one sweep would take minutes.
+[[nodiscard]] Result<void> check_effort(const MeshTool& tool, std::span<const StraightMove> moves);
+
+inline constexpr std::size_t kTrianglesAtOnce = 4'000'000;  // about 300 MB of tables
+
+// What the tool covers on those moves, all of one material; fails as check_effort does. Moves with more than so many triangles
+// together are done in several batches; the intervals do not depend on it.
 [[nodiscard]] Result<RayBatch> mesh_spans(const Lattice& lattice, const MeshTool& tool,
-                                          std::span<const StraightMove> moves, std::uint8_t material, WorkerPool& pool);
+                                          std::span<const StraightMove> moves, std::uint8_t material, WorkerPool& pool,
+                                          std::size_t triangles_at_once = kTrianglesAtOnce);
 
 }  // namespace burin

@@ -150,7 +150,7 @@ double turning_share() {
 }
 
 Result<std::vector<shared::Capsule>> ball_capsules(const Solid& solid, const BallTool& tool, const ToolSweep& sweep) {
-    const BallSweep ball{sweep.start.position_m, sweep.end.position_m, tool.radius_m, sweep.material, sweep.operation};
+    const BallSweep ball{sweep.start.position_m, sweep.end.position_m, tool.radius_m, sweep.material, Operation::cut};
     return capsules_in_units(solid, {&ball, 1});
 }
 
@@ -219,7 +219,10 @@ Result<std::vector<StraightMove>> check_tool(const Solid& solid, const Tool& too
 Result<std::vector<StraightMove>> check_tool(const Solid& solid, const MeshTool& tool, const ToolSweep& sweep) {
     const Result<MeshTool> prepared = tool.edges == nullptr ? prepare_mesh_tool(tool.mesh) : Result<MeshTool>(tool);
     if (!prepared) return std::unexpected(prepared.error());
-    return moves_of(solid.lattice, *prepared, sweep);
+    auto moves = moves_of(solid.lattice, *prepared, sweep);
+    if (!moves) return moves;
+    if (const auto good = check_effort(*prepared, *moves); !good) return std::unexpected(good.error());
+    return moves;
 }
 Result<std::vector<shared::Capsule>> check_tool(const Solid& solid, const BallTool& tool, const ToolSweep& sweep) {
     return ball_capsules(solid, tool, sweep);

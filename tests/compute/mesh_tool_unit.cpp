@@ -175,6 +175,28 @@ TEST(MeshTool, AMeshTakesItsOwnScanConversionAwayToTheBit) {
     }
 }
 
+TEST(MeshTool, ManyMovesInBatchesCoverTheSame) {
+    const Solid solid = *make_block(Vec3(1), 32, {"cube", {}});
+    Random random(7);
+    const MeshTool tool = tool_of(Angle{}.mesh);
+    for (int i = 0; i < 6; ++i) {
+        const auto moves =
+            straight_moves(solid.lattice, any_sweep(random, tool, true), *extent_of(tool, solid.lattice.unit_m()));
+        ASSERT_TRUE(moves);
+        const auto at_once = mesh_spans(solid.lattice, tool, *moves, 0, pool());
+        const auto in_three =
+            mesh_spans(solid.lattice, tool, *moves, 0, pool(), (moves->size() + 2) / 3 * tool.mesh->triangles.size());
+        ASSERT_TRUE(at_once && in_three);
+        ASSERT_EQ(at_once->rays.size(), in_three->rays.size());
+        for (std::size_t r = 0; r < at_once->rays.size(); ++r) {
+            ASSERT_EQ(at_once->rays[r].code, in_three->rays[r].code);
+            const auto a = at_once->ends_of(at_once->rays[r]), b = in_three->ends_of(in_three->rays[r]);
+            ASSERT_EQ(a.size(), b.size());
+            for (std::size_t e = 0; e < a.size(); ++e) ASSERT_EQ(depth_of(a[e]), depth_of(b[e]));
+        }
+    }
+}
+
 TEST(MeshTool, UnpreparedMeshesDoTheSame) {
     const Solid solid = *make_block(Vec3(1), 32, {"cube", {}});
     Random random(6);
