@@ -34,7 +34,9 @@ namespace {
         const std::int32_t a = nearest_share(size_x, length1), b = nearest_share(size_y, length1);
         // The lower half is folded outwards.
         const std::int32_t folded_a = z[i] < 0 ? 32767 - b : a, folded_b = z[i] < 0 ? 32767 - a : b;
-        const std::int32_t signed_a = x[i] < 0 ? -folded_a : folded_a, signed_b = y[i] < 0 ? -folded_b : folded_b;
+        // A part that was rounded to zero has lost its sign.
+        const std::int32_t signed_a = x[i] < 0 && a != 0 ? -folded_a : folded_a,
+                           signed_b = y[i] < 0 && b != 0 ? -folded_b : folded_b;
         code[i] = static_cast<std::uint32_t>(signed_b + 32767) << 16 | static_cast<std::uint32_t>(signed_a + 32767);
     }
 }

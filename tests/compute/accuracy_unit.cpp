@@ -56,9 +56,12 @@ void expect_second_order(const bench::CarveScene& scene, const Bounds& bounds) {
         EXPECT_LT(e.surface.corner_m.max, 0.001 * h) << scene.name << n;
         EXPECT_LT(e.normal_rad, bounds.normal_rad * 64 / n) << scene.name << n;
         if (n > 64) {
-            const double ratio = coarser.surface.volume_over_removed / e.surface.volume_over_removed;
-            EXPECT_GE(ratio, 2.5) << scene.name << n;
-            EXPECT_LE(ratio, 8.0) << scene.name << n;
+            // Below this, errors outwards and inwards all but cancel, and the ratio of what is left says nothing.
+            if (std::abs(coarser.surface.volume_over_removed) > 3e-4) {
+                const double ratio = coarser.surface.volume_over_removed / e.surface.volume_over_removed;
+                EXPECT_GE(ratio, 2.5) << scene.name << n;
+                EXPECT_LE(ratio, 8.0) << scene.name << n;
+            }
             EXPECT_GE(coarser.surface.cut_m.rms / e.surface.cut_m.rms, bounds.least_rms_ratio) << scene.name << n;
         }
         coarser = e;

@@ -220,8 +220,8 @@ TEST(Capsule, RotatingTheAxesRotatesSpansAndNormalsToTheBit) {
         ASSERT_EQ(sa.hi, sb.hi);
         if (sa.lo > sa.hi || c.radius2 < 16) continue;  // on the axis itself there is no direction
         // The octahedral map is not symmetric in z, so the codes differ by its rounding; the directions agree.
-        const Direction da = decode_normal(capsule_normal(a, 2, sa.lo)),
-                        db = decode_normal(capsule_normal(b, 0, sb.lo));
+        const Direction da = decode_normal(capsule_normal(a, 2, sa.lo, false)),
+                        db = decode_normal(capsule_normal(b, 0, sb.lo, false));
         ASSERT_NEAR(da.x, db.y, 1.3e-4);
         ASSERT_NEAR(da.y, db.z, 1.3e-4);
         ASSERT_NEAR(da.z, db.x, 1.3e-4);
@@ -274,7 +274,7 @@ TEST(Capsule, NormalPointsAtTheAxis) {
             }
             const long double distance = std::sqrt(distance2);
             if (distance < 1) continue;  // no direction to speak of
-            const Direction got = decode_normal(capsule_normal(ray, 2, depth));
+            const Direction got = decode_normal(capsule_normal(ray, 2, depth, false));
             const long double cx = got.y * n[2] - got.z * n[1], cy = got.z * n[0] - got.x * n[2],
                               cz = got.x * n[1] - got.y * n[0];
             const auto angle = static_cast<double>(
