@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A fork-join pool for the carving side: run(n, f) calls f(0) .. f(n-1), each once, over all workers and the caller, and
-// returns when all are done. Results must not depend on which thread runs which index. Never used by the haptic thread.
+// returns when all are done. One run often follows another within microseconds, and waking a sleeping thread takes tens of
+// them: who waits looks for more for a moment before it sleeps. Results must not depend on which thread runs which index. Never used by the haptic thread.
 // Our own and not a library: the well-known ones are not built for thread sanitizers, and this is all we need of them.
 #pragma once
 
@@ -38,9 +39,10 @@ private:
     std::mutex mutex_;
     std::condition_variable wake_, done_;
     std::vector<std::thread> workers_;
-    std::size_t generation_ = 0, busy_ = 0;  // guarded by mutex_
-    bool stop_ = false;                      // guarded by mutex_
-    void* task_ = nullptr;                   // written under mutex_ before the generation changes
+    // Changed under mutex_, so that a sleeper misses nothing; read without it by those who are still looking.
+    std::atomic<std::size_t> generation_{0}, busy_{0};
+    bool stop_ = false;     // guarded by mutex_
+    void* task_ = nullptr;  // written before the generation changes
     Call call_ = nullptr;
     std::size_t count_ = 0;
     std::atomic<std::size_t> next_{0};
