@@ -29,7 +29,7 @@ struct Pareto {
     std::vector<std::string> left_out;  // what could not run, and why
 };
 
-// tell(line) is called before each run.
+// tell(line) is called after each run, with what was measured.
 [[nodiscard]] Result<Pareto> run_pareto(const ParetoOptions& options,
                                         const std::function<void(const std::string&)>& tell);
 

@@ -84,17 +84,17 @@ Plot plot_of(const Pareto& pareto, const char* title, const char* y_label, const
 
 std::string pareto_table(const Pareto& pareto) {
     std::array<char, 400> line{};
-    std::snprintf(line.data(), line.size(), "%-52s %5s %9s %9s %9s %10s %9s %9s %9s %9s %8s\n", "series", "N",
+    std::snprintf(line.data(), line.size(), "%-58s %12s %9s %9s %9s %10s %9s %9s %9s %9s %8s\n", "series", "N",
                   "median ms", "p99 ms", "cpu ms", "vol/removed", "cut h", "edge h", "rim h", "crease h", "x slower");
     std::string text = line.data();
     for (const Json& row : pareto.rows) {
         const auto cell = [&](const char* key) { return text_of(row, key, "-"); };
-        std::snprintf(line.data(), line.size(), "%-52s %5s %9s %9s %9s %10s %9s %9s %9s %9s %8s\n",
-                      row["series"].get<std::string>().c_str(), cell("resolution").c_str(),
-                      cell("update_ms_median").c_str(), cell("update_ms_p99").c_str(),
-                      cell("update_cpu_ms_median").c_str(), cell("volume_error_over_removed").c_str(),
-                      cell("cut_rms_h").c_str(), cell("edge_rms_h").c_str(), cell("rim_rms_h").c_str(),
-                      cell("crease_rms_h").c_str(), cell("burin_cpu_faster_at_equal_cut_error").c_str());
+        std::snprintf(line.data(), line.size(), "%-58s %12s %9s %9s %9s %10s %9s %9s %9s %9s %8s\n",
+                      row["series"].get<std::string>().c_str(), label_of(row).c_str(), cell("update_ms_median").c_str(),
+                      cell("update_ms_p99").c_str(), cell("update_cpu_ms_median").c_str(),
+                      cell("volume_error_over_removed").c_str(), cell("cut_rms_h").c_str(), cell("edge_rms_h").c_str(),
+                      cell("rim_rms_h").c_str(), cell("crease_rms_h").c_str(),
+                      cell("burin_cpu_faster_at_equal_cut_error").c_str());
         text += line.data();
     }
     text += "x slower: median time over that of Burin cpu at the same rms error of the cut region\n";

@@ -125,7 +125,12 @@ std::string line_through(const PlotSeries& series, std::size_t style, const Fram
         const double x = f.at_x(p.x), y = f.at_y(p.y);
         path += text_of("%s%.1f %.1f", path.empty() ? "M" : " L", x, y);
         points += marker(style, x, y);
-        if (!p.label.empty()) points += write(x + 7, y - 6, "font-size=\"10\" fill=\"#444444\"", p.label);
+        if (p.label.empty()) continue;
+        const bool room = x + 7 + 6.2 * static_cast<double>(p.label.size()) < f.left + kFrameWidth;  // to the right
+        points +=
+            write(room ? x + 7 : x - 7, y - 6,
+                  room ? "font-size=\"10\" fill=\"#444444\"" : "font-size=\"10\" fill=\"#444444\" text-anchor=\"end\"",
+                  p.label);
     }
     if (path.empty()) return "";
     return "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + kColours[style % kColours.size()] +
