@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "shaders/cut_rays.comp.spv.hpp"
+#include "shaders/export_rays.comp.spv.hpp"
+#include "shaders/patch_rays.comp.spv.hpp"
 
 namespace burin {
 namespace {
@@ -18,6 +20,7 @@ using shared::CutCounters;
 using shared::CutParameters;
 using shared::CutTask;
 using shared::DexelEnd;
+using shared::PatchRay;
 using shared::PendingRay;
 
 // A software driver lets the loops of a group of up to 16 invocations turn 65535 times together. Half of that is for
@@ -41,6 +44,8 @@ void copy_to(const SharedBuffer& buffer, std::span<const T> values) {
     std::ranges::copy(values, buffer.to_device<T>().begin());
 }
 
+std::uint32_t groups_of(std::uint32_t rays) { return (rays + shared::kCutGroup - 1) / shared::kCutGroup; }
+
 }  // namespace
 
 Result<std::unique_ptr<CarvingEngine>> make_vulkan_engine(Solid solid, gpu::Device& device) {
@@ -52,19 +57,29 @@ Result<std::unique_ptr<CarvingEngine>> make_vulkan_engine(Solid solid, gpu::Devi
 Result<std::unique_ptr<VulkanEngine>> VulkanEngine::create(Solid solid, const gpu::Device& device,
                                                            const VulkanEngineOptions& options) {
     const gpu::Capabilities& can = device.capabilities();
-    if (!can.shader_int64 || !can.shader_float64) {
-        return fail(
-            "Vulkan engine",
-            device.info().name + " has no " + (can.shader_int64 ? "doubles" : "64-bit integers") + " in shaders",
-            "use --engine cpu");
+    if (!can.shader_int64 || !can.shader_float64 || !can.buffer_address) {
+        return fail("Vulkan engine",
+                    device.info().name + " has no " +
+                        (!can.shader_int64     ? "64-bit integers in shaders"
+                         : !can.shader_float64 ? "doubles in shaders"
+                                               : "addresses of buffers"),
+                    "use --engine cpu");
     }
     std::unique_ptr<VulkanEngine> engine(new VulkanEngine(std::move(solid), device, options));
-    auto pipeline = gpu::ComputePipeline::create(
-        engine->device_,
-        {.spirv = k_cut_rays_comp, .storage_buffers = 10, .push_constant_bytes = sizeof(CutParameters), .name = "cut"});
-    if (!pipeline) return std::unexpected(pipeline.error());
-    engine->cut_rays_ = std::move(*pipeline);
-    if (const auto sent = engine->synchronize(); !sent) return std::unexpected(sent.error());
+    const auto compile = [&](gpu::ComputePipeline& to, std::span<const std::uint32_t> spirv, std::uint32_t buffers,
+                             const char* name) -> Result<void> {
+        auto made = gpu::ComputePipeline::create(
+            engine->device_,
+            {.spirv = spirv, .storage_buffers = buffers, .push_constant_bytes = sizeof(CutParameters), .name = name});
+        if (!made) return std::unexpected(made.error());
+        to = std::move(*made);
+        return {};
+    };
+    auto made = compile(engine->cut_rays_, k_cut_rays_comp, 10, "cut");
+    if (made) made = compile(engine->patch_rays_, k_patch_rays_comp, 4, "patch");
+    if (made) made = compile(engine->export_rays_, k_export_rays_comp, 5, "read back");
+    if (made) made = engine->synchronize();
+    if (!made) return std::unexpected(made.error());
     return engine;
 }
 
@@ -72,6 +87,12 @@ VulkanEngine::VulkanEngine(Solid solid, const gpu::Device& device, const VulkanE
     : solid_(std::move(solid)), device_(device), options_(options) {}
 
 Result<CarveStats> VulkanEngine::assign(const RayBatch& rays) {
+    if (const auto done = read_back(); !done) return std::unexpected(done.error());
+    if (const auto sent = synchronize(); !sent) return std::unexpected(sent.error());
+    if (const auto patched = patch(rays); !patched) {
+        synchronized_ = false;
+        return std::unexpected(patched.error());
+    }
     CarveStats stats;
     for (const RayBatch::Ray& ray : rays.rays) {
         const RayPlace place = place_of(ray.code);
@@ -80,8 +101,51 @@ Result<CarveStats> VulkanEngine::assign(const RayBatch& rays) {
             ++stats.rays_changed;
         }
     }
-    if (stats.rays_changed > 0) synchronized_ = false;
     return stats;
+}
+
+// In pieces, so that no buffer grows beyond what a device may bind.
+Result<void> VulkanEngine::patch(const RayBatch& rays) {
+    const std::size_t limit = static_cast<std::size_t>(device_.capabilities().max_storage_buffer_bytes);
+    const std::size_t most_rays = std::min<std::size_t>(std::size_t{options_.tasks_a_pass} * shared::kCutGroup,
+                                                        limit / sizeof(PatchRay)),
+                      most_ends = limit / sizeof(DexelEnd);
+    for (std::size_t next = 0; next < rays.rays.size();) {
+        std::vector<PatchRay> patches;
+        std::vector<DexelEnd> ends;
+        while (next < rays.rays.size() && patches.size() < most_rays) {
+            const RayBatch::Ray& ray = rays.rays[next];
+            if (!ends.empty() && ends.size() + ray.count > most_ends) break;
+            patches.push_back({ray.code, static_cast<std::uint32_t>(ends.size()), ray.count});
+            const auto of_ray = rays.ends_of(ray);
+            ends.insert(ends.end(), of_ray.begin(), of_ray.end());
+            ++next;
+        }
+        auto reserved = patches_.reserve(device_, patches.size() * sizeof(PatchRay));
+        if (reserved) reserved = patch_ends_.reserve(device_, std::max<std::size_t>(ends.size(), 1) * sizeof(DexelEnd));
+        if (reserved) reserved = counters_.reserve(device_, sizeof(CutCounters));
+        if (!reserved) return reserved;
+        copy_to<PatchRay>(patches_, patches);
+        copy_to<DexelEnd>(patch_ends_, ends);
+        for (bool done = false; !done;) {  // again when the store had to grow
+            auto commands = gpu::Commands::begin(device_);
+            if (!commands) return std::unexpected(commands.error());
+            CutParameters parameters = this->parameters();
+            parameters.pending = static_cast<std::uint32_t>(patches.size());
+            patches_.send(*commands, patches.size() * sizeof(PatchRay));
+            patch_ends_.send(*commands, ends.size() * sizeof(DexelEnd));
+            send_counters(*commands);
+            commands->dispatch(patch_rays_,
+                               {device_solid_.rays(), patches_.buffer(), patch_ends_.buffer(), counters_.buffer()},
+                               gpu::bytes_of(parameters), {groups_of(parameters.pending), 1, 1});
+            const auto counters = counted(std::move(*commands));
+            if (!counters) return std::unexpected(counters.error());
+            longest_ = std::max(longest_, counters->longest);
+            done = counters->room_wanted == 0;
+            if (const auto made = make_room_for(*counters); !made) return made;
+        }
+    }
+    return {};
 }
 
 Result<CarveStats> VulkanEngine::carve(std::span<const BallSweep> sweeps) {
@@ -89,9 +153,8 @@ Result<CarveStats> VulkanEngine::carve(std::span<const BallSweep> sweeps) {
     if (!capsules) return std::unexpected(capsules.error());
     const CutTasks tasks = cut_tasks(solid_.lattice, *capsules);
     if (tasks.tasks.empty()) return CarveStats{};
-    if (!synchronized_) {
-        if (const auto sent = synchronize(); !sent) return std::unexpected(sent.error());
-    }
+    if (const auto done = read_back(); !done) return std::unexpected(done.error());
+    if (const auto sent = synchronize(); !sent) return std::unexpected(sent.error());
     const auto stats = cut_on_device(*capsules, tasks);
     if (!stats) {
         synchronized_ = false;
@@ -103,6 +166,9 @@ Result<CarveStats> VulkanEngine::carve(std::span<const BallSweep> sweeps) {
 }
 
 Result<void> VulkanEngine::synchronize() {
+    if (synchronized_) return {};
+    const std::size_t rays = solid_.rays_held();
+    if (const auto kept = stale_.reserve(device_, rays * sizeof(std::uint32_t)); !kept) return kept;
     if (const auto sent = device_solid_.upload(device_, solid_, {0, options_.spare_ends}); !sent) return sent;
     used_ = device_solid_.packed_size();
     longest_ = device_solid_.longest_ray();
@@ -114,19 +180,13 @@ Result<CarveStats> VulkanEngine::cut_on_device(std::span<const Capsule> capsules
     changed_rays_.clear();
     new_ends_.clear();
     if (const auto reserved = reserve(capsules, tasks); !reserved) return std::unexpected(reserved.error());
-    copy_to(capsules_, capsules);
-    copy_to<std::uint32_t>(order_, tasks.order);
-    capsule_bytes_ = capsules.size_bytes();
-    order_bytes_ = tasks.order.size() * sizeof(std::uint32_t);
     CarveStats stats;
-    for (std::size_t from = 0; from < tasks.tasks.size(); from += options_.tasks_a_pass) {
-        const auto some = std::span(tasks.tasks)
-                              .subspan(from, std::min<std::size_t>(options_.tasks_a_pass, tasks.tasks.size() - from));
-        copy_to<CutTask>(tasks_, some);
-        task_bytes_ = some.size_bytes();
+    for (std::size_t next = 0; next < tasks.tasks.size();) {
+        const std::uint32_t some = send_tasks(std::span(tasks.tasks).subspan(next));
+        next += some;
         std::uint32_t pending = 0;
         do {
-            const auto counters = pass(static_cast<std::uint32_t>(some.size()), pending);
+            const auto counters = pass(some, pending);
             if (!counters) return std::unexpected(counters.error());
             stats.rays_touched += counters->touched;
             collect(*counters);
@@ -136,6 +196,14 @@ Result<CarveStats> VulkanEngine::cut_on_device(std::span<const Capsule> capsules
     }
     stats.rays_changed = changed_rays_.size();
     return stats;
+}
+
+// As many of them as one pass takes.
+std::uint32_t VulkanEngine::send_tasks(std::span<const CutTask> tasks) {
+    const auto some = tasks.first(std::min<std::size_t>(options_.tasks_a_pass, tasks.size()));
+    copy_to<CutTask>(tasks_, some);
+    task_bytes_ = some.size_bytes();
+    return static_cast<std::uint32_t>(some.size());
 }
 
 // Every ray visited in a pass may change or have to wait.
@@ -149,61 +217,190 @@ Result<void> VulkanEngine::reserve(std::span<const Capsule> capsules, const CutT
         {&counters_, sizeof(CutCounters)},
         {&changed_, rays * sizeof(ChangedRay)},
         {&exported_, std::max<std::size_t>(rays * options_.export_per_ray, 1) * sizeof(DexelEnd)},
-        {&pending_, rays * sizeof(PendingRay)},
+        {&pending_buffer_, rays * sizeof(PendingRay)},
         {&continued_, rays * sizeof(PendingRay)},
     };
     for (const auto& [buffer, size] : sizes) {
         if (const auto reserved = buffer->reserve(device_, size); !reserved) return reserved;
     }
+    copy_to(capsules_, capsules);
+    copy_to<std::uint32_t>(order_, tasks.order);
+    capsule_bytes_ = capsules.size_bytes();
+    order_bytes_ = tasks.order.size() * sizeof(std::uint32_t);
     return {};
 }
 
-// One submission: the tasks' rays, or the rays that an earlier pass left pending.
-Result<CutCounters> VulkanEngine::pass(std::uint32_t task_count, std::uint32_t pending) {
-    if (longest_ > kLongestRay) {
-        return fail(
-            "Vulkan engine",
-            "a ray has " + std::to_string(longest_) + " interval ends, more than " + std::to_string(kLongestRay),
-            "use --engine cpu");
-    }
-    auto commands = gpu::Commands::begin(device_);
-    if (!commands) return std::unexpected(commands.error());
-    counters_.to_device<CutCounters>()[0] = {used_, 0, 0, 0, 0, 0, 0};
+Result<void> VulkanEngine::check_longest() const {
+    if (longest_ <= kLongestRay) return {};
+    return fail("Vulkan engine",
+                "a ray has " + std::to_string(longest_) + " interval ends, more than " + std::to_string(kLongestRay),
+                "use --engine cpu");
+}
+
+CutParameters VulkanEngine::parameters() const {
     CutParameters parameters{};
+    parameters.store_address = device_solid_.store().address();
     for (int axis = 0; axis < 3; ++axis) {
         parameters.rays_u[axis] = solid_.lattice.rays_u(axis);
         parameters.rays_v[axis] = solid_.lattice.rays_v(axis);
         parameters.first_ray[axis] = device_solid_.first_ray()[static_cast<std::size_t>(axis)];
     }
     parameters.store_size = device_solid_.store_size();
+    parameters.cuts = cuts_a_pass(longest_);
+    parameters.looks = kLooks;
+    return parameters;
+}
+
+void VulkanEngine::send_counters(gpu::Commands& commands) {
+    counters_.to_device<CutCounters>()[0] = {used_, 0, 0, 0, 0, 0, 0, stale_count_};
+    counters_.send(commands, sizeof(CutCounters));
+    commands.barrier();
+}
+
+// Submits what is recorded, waits, and gives what was counted.
+Result<CutCounters> VulkanEngine::counted(gpu::Commands commands) {
+    commands.barrier();
+    counters_.fetch(commands, sizeof(CutCounters));
+    auto submission = std::move(commands).submit();
+    if (!submission) return std::unexpected(submission.error());
+    ++counts_.submissions;
+    if (const auto done = submission->wait(); !done) return std::unexpected(done.error());
+    return counters_.from_device<CutCounters>()[0];
+}
+
+void VulkanEngine::record_cut(gpu::Commands& commands, CutParameters parameters, std::uint32_t task_count) {
+    passed_rays_ = parameters.pending > 0 ? parameters.pending : task_count * shared::kCutGroup;
+    std::swap(pending_buffer_, continued_);
+    capsules_.send(commands, capsule_bytes_);
+    tasks_.send(commands, task_bytes_);
+    order_.send(commands, order_bytes_);
+    send_counters(commands);
+    commands.dispatch(
+        cut_rays_,
+        {device_solid_.rays(), stale_.buffer(), capsules_.buffer(), tasks_.buffer(), order_.buffer(),
+         counters_.buffer(), changed_.buffer(), exported_.buffer(), continued_.buffer(), pending_buffer_.buffer()},
+        gpu::bytes_of(parameters), {groups_of(passed_rays_), 1, 1});
+}
+
+// One submission: the tasks' rays, or the rays that an earlier pass left pending.
+Result<CutCounters> VulkanEngine::pass(std::uint32_t task_count, std::uint32_t pending) {
+    if (const auto fits = check_longest(); !fits) return std::unexpected(fits.error());
+    auto commands = gpu::Commands::begin(device_);
+    if (!commands) return std::unexpected(commands.error());
+    CutParameters parameters = this->parameters();
     const std::uint32_t rays = pending > 0 ? pending : task_count * shared::kCutGroup;
     // The buffer may be larger from an earlier cut; what a shader may use is also what has to be carried back.
     const std::uint64_t space = exported_.size_bytes() / sizeof(DexelEnd);
     const std::uint64_t expected = std::max<std::uint64_t>(std::uint64_t{rays} * options_.export_per_ray, 1);
     parameters.export_size = static_cast<std::uint32_t>(pending > 0 ? space : std::min(space, expected));
-    parameters.cuts = cuts_a_pass(longest_);
-    parameters.looks = kLooks;
     parameters.pending = pending;
-    std::swap(pending_, continued_);
-    capsules_.send(*commands, capsule_bytes_);
-    tasks_.send(*commands, task_bytes_);
-    order_.send(*commands, order_bytes_);
-    counters_.send(*commands, sizeof(CutCounters));
+    record_cut(*commands, parameters, task_count);
     commands->barrier();
-    commands->dispatch(
-        cut_rays_,
-        {device_solid_.rays(), device_solid_.store(), capsules_.buffer(), tasks_.buffer(), order_.buffer(),
-         counters_.buffer(), changed_.buffer(), exported_.buffer(), continued_.buffer(), pending_.buffer()},
-        gpu::bytes_of(parameters), {(rays + shared::kCutGroup - 1) / shared::kCutGroup, 1, 1});
-    commands->barrier();
-    counters_.fetch(*commands, sizeof(CutCounters));
     changed_.fetch(*commands, rays * sizeof(ChangedRay));
     exported_.fetch(*commands, parameters.export_size * sizeof(DexelEnd));
-    auto submission = std::move(*commands).submit();
-    if (!submission) return std::unexpected(submission.error());
+    return counted(std::move(*commands));
+}
+
+// ---- Deferred cuts
+
+Result<void> VulkanEngine::defer(std::span<const BallSweep> sweeps) {
+    deferred_tasks_.clear();
+    next_task_ = 0;
+    pending_ = 0;
+    deferred_stats_ = {};
+    const auto capsules = capsules_in_units(solid_, sweeps);
+    if (!capsules) return std::unexpected(capsules.error());
+    CutTasks tasks = cut_tasks(solid_.lattice, *capsules);
+    if (tasks.tasks.empty()) return {};
+    if (const auto sent = synchronize(); !sent) return sent;
+    if (const auto fits = check_longest(); !fits) return fits;
+    if (const auto reserved = reserve(*capsules, tasks); !reserved) return reserved;
+    deferred_tasks_ = std::move(tasks.tasks);
+    ++counts_.cuts;
+    return {};
+}
+
+void VulkanEngine::record_pass(gpu::Commands& commands) {
+    CutParameters parameters = this->parameters();
+    parameters.pending = pending_;
+    parameters.deferred = 1;
+    std::uint32_t tasks = 0;
+    if (pending_ == 0) next_task_ += tasks = send_tasks(std::span(deferred_tasks_).subspan(next_task_));
+    record_cut(commands, parameters, tasks);
+    commands.barrier();
+    counters_.fetch(commands, sizeof(CutCounters));
     ++counts_.submissions;
-    if (const auto done = submission->wait(); !done) return std::unexpected(done.error());
-    return counters_.from_device<CutCounters>()[0];
+}
+
+Result<void> VulkanEngine::end_pass() {
+    const CutCounters counters = counters_.from_device<CutCounters>()[0];
+    deferred_stats_.rays_touched += counters.touched;
+    deferred_stats_.rays_changed += counters.changed;
+    stale_count_ = counters.stale;
+    longest_ = std::max(longest_, counters.longest);
+    pending_ = counters.pending;
+    auto done = make_room_for(counters);
+    if (done && pending_ > 0) done = check_longest();
+    if (!done) {
+        synchronized_ = false;
+        stale_count_ = pending_ = 0;
+        deferred_tasks_.clear();
+        next_task_ = 0;
+    }
+    return done;
+}
+
+Result<void> VulkanEngine::read_back() {
+    const std::uint32_t rays = std::exchange(stale_count_, 0);
+    const std::uint64_t limit = device_.capabilities().max_storage_buffer_bytes;
+    const auto most = static_cast<std::uint32_t>(std::min<std::uint64_t>(limit / sizeof(ChangedRay), 1 << 20));
+    for (std::uint32_t first = 0, some = 0; first < rays; first += some) {
+        some = std::min(most, rays - first);
+        const auto fetched = fetch_stale(first, some);
+        if (!fetched) {
+            synchronized_ = false;
+            return std::unexpected(fetched.error());
+        }
+        some = *fetched;
+        const auto new_ends = exported_.from_device<DexelEnd>();
+        for (const ChangedRay& ray : changed_.from_device<ChangedRay>().first(some)) {
+            const RayPlace place = place_of(ray.ray);
+            (void)assign_ray(solid_.sets[static_cast<std::size_t>(place.axis)], place,
+                             new_ends.subspan(ray.first, ray.count), changes_);  // false: it holds again what it held
+        }
+    }
+    return {};
+}
+
+// Some of the stale rays into changed_ and exported_; how many: fewer than asked for where their ends are too many at once.
+Result<std::uint32_t> VulkanEngine::fetch_stale(std::uint32_t first, std::uint32_t rays) {
+    const std::uint64_t limit = device_.capabilities().max_storage_buffer_bytes / sizeof(DexelEnd);
+    std::uint64_t ends = std::min<std::uint64_t>(std::uint64_t{2} * rays, limit);
+    for (;;) {
+        auto kept = changed_.reserve(device_, rays * sizeof(ChangedRay));
+        if (kept) kept = exported_.reserve(device_, ends * sizeof(DexelEnd));
+        if (kept) kept = counters_.reserve(device_, sizeof(CutCounters));
+        if (!kept) return std::unexpected(kept.error());
+        auto commands = gpu::Commands::begin(device_);
+        if (!commands) return std::unexpected(commands.error());
+        CutParameters parameters = this->parameters();
+        parameters.pending = rays;
+        parameters.first_stale = first;
+        parameters.export_size = static_cast<std::uint32_t>(ends);
+        send_counters(*commands);
+        commands->dispatch(
+            export_rays_,
+            {device_solid_.rays(), stale_.buffer(), counters_.buffer(), changed_.buffer(), exported_.buffer()},
+            gpu::bytes_of(parameters), {groups_of(rays), 1, 1});
+        commands->barrier();
+        changed_.fetch(*commands, rays * sizeof(ChangedRay));
+        exported_.fetch(*commands, ends * sizeof(DexelEnd));
+        const auto counters = counted(std::move(*commands));
+        if (!counters) return std::unexpected(counters.error());
+        if (counters->exported <= ends) return rays;
+        ends = std::min<std::uint64_t>(counters->exported, limit);
+        if (counters->exported > limit) rays = std::max(1u, rays / 2);
+    }
 }
 
 void VulkanEngine::collect(const CutCounters& counters) {

@@ -8,8 +8,10 @@
 //
 // The host's solid changes only when all passes are done: an Error leaves it as it was, and the next cut sends it to the
 // device anew. Tiles are marked once for a ray, between the lowest and the highest depth that changed.
-// Cost on the device: one invocation a ray. Memory: vulkan_engine_memory.hpp; each buffer within the device's limit, with
-// the drivers' smallest in use, 128 MiB, up to a resolution of about 1600 for a solid with one interval a ray.
+//
+// A cut can also be deferred: recorded into the caller's commands, and not waited for. The host's solid is then behind the
+// device's until read_back fetches the rays that differ; the device keeps a list of them, each once.
+// Cost on the device: one invocation a ray. Memory: vulkan_engine_memory.hpp.
 // Thread: one, as gpu::Device.
 #pragma once
 
@@ -45,19 +47,47 @@ public:
 
     [[nodiscard]] const char* name() const override { return "vulkan"; }
     [[nodiscard]] Result<CarveStats> carve(std::span<const BallSweep> sweeps) override;
-    // The device is sent the whole solid anew before the next carve.
+    // Only the batch is sent: one submission, more when the store is full.
     [[nodiscard]] Result<CarveStats> assign(const RayBatch& rays) override;
+    // Behind the device after deferred cuts, until read_back.
     [[nodiscard]] const Solid& solid() const override { return solid_; }
     [[nodiscard]] Changes take_changes() override { return changes_.take(); }
 
     [[nodiscard]] const VulkanEngineCounts& counts() const { return counts_; }
 
+    // A deferred cut, for who records commands of their own (device_surface.hpp): defer; then, while deferred_left():
+    // record_pass into commands, submit and wait for them at leisure, end_pass. After each pass changed_rays() holds the rays
+    // that it finished, `changed` in counters() of them, at most passed_rays(). Nothing else may be asked of the engine in
+    // between. An Error loses what was deferred since the last read_back: the next call sends the host's solid anew.
+    [[nodiscard]] Result<void> defer(std::span<const BallSweep> sweeps);
+    [[nodiscard]] bool deferred_left() const { return pending_ > 0 || next_task_ < deferred_tasks_.size(); }
+    void record_pass(gpu::Commands& commands);
+    [[nodiscard]] Result<void> end_pass();
+    [[nodiscard]] const CarveStats& deferred_stats() const { return deferred_stats_; }  // since defer
+    // Brings solid() up to date and records what has changed, a ray at most once. Does nothing when nothing was deferred.
+    [[nodiscard]] Result<void> read_back();
+    [[nodiscard]] std::uint32_t stale_rays() const { return stale_count_; }
+    [[nodiscard]] const DeviceSolid& device_solid() const { return device_solid_; }
+    [[nodiscard]] const gpu::Buffer& changed_rays() const { return changed_.buffer(); }
+    [[nodiscard]] const gpu::Buffer& counters() const { return counters_.buffer(); }
+    [[nodiscard]] std::uint32_t passed_rays() const { return passed_rays_; }
+    [[nodiscard]] gpu::Device& device() { return device_; }
+    // Sends the host's solid to the device if the device does not hold it.
+    [[nodiscard]] Result<void> synchronize();
+
 private:
     VulkanEngine(Solid solid, const gpu::Device& device, const VulkanEngineOptions& options);
-    [[nodiscard]] Result<void> synchronize();
+    [[nodiscard]] Result<void> patch(const RayBatch& rays);
+    [[nodiscard]] Result<std::uint32_t> fetch_stale(std::uint32_t first, std::uint32_t rays);
     [[nodiscard]] Result<CarveStats> cut_on_device(std::span<const shared::Capsule> capsules, const CutTasks& tasks);
     [[nodiscard]] Result<void> reserve(std::span<const shared::Capsule> capsules, const CutTasks& tasks);
+    [[nodiscard]] Result<void> check_longest() const;
+    [[nodiscard]] shared::CutParameters parameters() const;
+    void send_counters(gpu::Commands& commands);
+    [[nodiscard]] Result<shared::CutCounters> counted(gpu::Commands commands);
+    void record_cut(gpu::Commands& commands, shared::CutParameters parameters, std::uint32_t task_count);
     [[nodiscard]] Result<shared::CutCounters> pass(std::uint32_t task_count, std::uint32_t pending);
+    [[nodiscard]] std::uint32_t send_tasks(std::span<const shared::CutTask> tasks);
     [[nodiscard]] Result<void> make_room_for(const shared::CutCounters& counters);
     void collect(const shared::CutCounters& counters);
     void apply_changes();
@@ -66,7 +96,7 @@ private:
     gpu::Device device_;
     VulkanEngineOptions options_;
     VulkanEngineCounts counts_;
-    gpu::ComputePipeline cut_rays_;
+    gpu::ComputePipeline cut_rays_, patch_rays_, export_rays_;
     DeviceSolid device_solid_;
     bool synchronized_ = false;                                         // the device holds what solid_ holds
     std::uint32_t used_ = 0;                                            // ends taken in the device's store
@@ -78,8 +108,16 @@ private:
     SharedBuffer counters_{"cut counters", SharedBuffer::Traffic::both};
     SharedBuffer changed_{"changed rays", SharedBuffer::Traffic::from_device};
     SharedBuffer exported_{"changed ends", SharedBuffer::Traffic::from_device};
-    SharedBuffer pending_{"pending rays", SharedBuffer::Traffic::none};
+    SharedBuffer pending_buffer_{"pending rays", SharedBuffer::Traffic::none};
     SharedBuffer continued_{"continued rays", SharedBuffer::Traffic::none};
+    SharedBuffer stale_{"stale rays", SharedBuffer::Traffic::none};
+    SharedBuffer patches_{"patched rays", SharedBuffer::Traffic::to_device};
+    SharedBuffer patch_ends_{"patch ends", SharedBuffer::Traffic::to_device};
+    // Of the deferred cut.
+    std::vector<shared::CutTask> deferred_tasks_;
+    std::size_t next_task_ = 0;
+    std::uint32_t pending_ = 0, stale_count_ = 0, passed_rays_ = 0;
+    CarveStats deferred_stats_;
     // Of all passes of one cut; a ChangedRay's `first` counts from the start of new_ends_.
     std::vector<shared::ChangedRay> changed_rays_;
     std::vector<shared::DexelEnd> new_ends_;

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <utility>
 
+#include "gpu/core.hpp"
+
 namespace burin {
 namespace {
 
@@ -41,12 +43,13 @@ std::uint32_t count_room(std::uint32_t count) {
 
 // A store that is too large for the device, with the resolution that would fit: ends grow about with its square.
 std::unexpected<Error> too_large(const gpu::Device& device, std::size_t ends, int resolution) {
-    const double limit = static_cast<double>(device.capabilities().max_storage_buffer_bytes);
+    const double limit = static_cast<double>(device.core()->max_allocation_bytes);
     const double needed = static_cast<double>(ends * sizeof(DexelEnd));
     const int fits = static_cast<int>(0.98 * static_cast<double>(resolution) * std::sqrt(limit / needed));
     return fail("Vulkan engine",
-                "the solid's " + std::to_string(ends) + " interval ends do not fit into one buffer of " +
-                    device.info().name + " (" + std::to_string(static_cast<std::uint64_t>(limit) >> 20) + " MiB)",
+                "the solid's " + std::to_string(ends) +
+                    " interval ends do not fit into what can be allocated at once on " + device.info().name + " (" +
+                    std::to_string(static_cast<std::uint64_t>(limit) >> 20) + " MiB)",
                 "use --engine cpu, or a resolution of about " + std::to_string(fits) + " or less");
 }
 
@@ -117,7 +120,7 @@ Result<void> DeviceSolid::pack(gpu::Device& device, std::size_t ray_count, EndsO
         if (count > 0) room += shared::room_of({0, count_room(static_cast<std::uint32_t>(count))});
     }
     const std::size_t limit = static_cast<std::size_t>(
-        std::min<std::uint64_t>(device.capabilities().max_storage_buffer_bytes / sizeof(DexelEnd), 1u << 30));
+        std::min<std::uint64_t>(device.core()->max_allocation_bytes / sizeof(DexelEnd), 1u << 30));
     if (room + spare.least > limit) return too_large(device, room + spare.least, resolution_);
     const std::size_t size = std::max<std::size_t>(std::min(room + std::max(spare.least, spare.wished), limit), 1);
 
@@ -137,8 +140,7 @@ Result<void> DeviceSolid::pack(gpu::Device& device, std::size_t ray_count, EndsO
     }
     auto new_rays = gpu::Buffer::create(device, gpu::BufferUse::device_storage, ray_count * sizeof(RayRef), "rays");
     if (!new_rays) return std::unexpected(new_rays.error());
-    auto new_store =
-        gpu::Buffer::create(device, gpu::BufferUse::device_storage, size * sizeof(DexelEnd), "interval ends");
+    auto new_store = gpu::Buffer::create(device, gpu::BufferUse::addressed, size * sizeof(DexelEnd), "interval ends");
     if (!new_store) return std::unexpected(new_store.error());
     if (const auto sent = send_all(device, *new_rays, std::as_bytes(std::span(rays))); !sent) return sent;
     if (const auto sent = send_all(device, *new_store, std::as_bytes(std::span(store))); !sent) return sent;

@@ -47,14 +47,15 @@ private:
 };
 
 // All rays of the three axes in one table (x, then y, then z) and all their ends in one store, so that one dispatch and one
-// counter serve all. Each ray has room for a power of two of ends; one that needs more moves to the end of the store.
+// counter serve all. The table takes 96 MiB at the finest resolution. The store, larger, is reached by its address and may be
+// as large as what the device allocates at once, at least 1 GiB everywhere, however little a binding may show. Each ray has room for a power of two of ends; one that needs more moves to the end of the store.
 class DeviceSolid {
 public:
     struct Spare {
         std::size_t least, wished;  // ends; as many as wished where the device's largest buffer allows it
     };
-    // Packs the solid into new buffers, with spare ends behind the last ray's. Fails when the device has no buffer that holds
-    // the least of them; what was held before then stays.
+    // Packs the solid into new buffers, with spare ends behind the last ray's. Fails when the device cannot allocate the least
+    // of them at once; what was held before then stays.
     [[nodiscard]] Result<void> upload(gpu::Device& device, const Solid& solid, Spare spare);
     // Fetches what the device holds, packs it without gaps and sends it back. Nothing else may be under way.
     [[nodiscard]] Result<void> make_space(gpu::Device& device, Spare spare);

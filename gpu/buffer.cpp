@@ -10,6 +10,7 @@ struct Needs {
     VkMemoryPropertyFlags required = 0;
     VkMemoryPropertyFlags preferred = 0;
     bool storage = false;
+    bool addressed = false;
 };
 
 Needs needs_of(BufferUse use, bool unified_memory) {
@@ -20,6 +21,10 @@ Needs needs_of(BufferUse use, bool unified_memory) {
     const VkMemoryPropertyFlags local = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | (unified_memory ? kSeen : 0u);
     switch (use) {
         case BufferUse::device_storage: return {kStorage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, 0, local, true};
+        case BufferUse::addressed:
+            return {kStorage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
+                        VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                    0, local, false, true};
         case BufferUse::vertex: return {kStorage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, 0, local, true};
         case BufferUse::index: return {kStorage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT, 0, local, true};
         case BufferUse::upload: return {VK_BUFFER_USAGE_TRANSFER_SRC_BIT, kSeen, 0, false};
@@ -46,6 +51,9 @@ Result<Buffer> Buffer::create(Device& device, BufferUse use, std::uint64_t size_
                         mebibytes(core->capabilities.max_storage_buffer_bytes) + " in one buffer",
                     "lower the resolution or use --engine cpu");
     }
+    if (needs.addressed && !core->capabilities.buffer_address) {
+        return fail(where, core->info.name + " does not let shaders reach buffers by address", "use --engine cpu");
+    }
     if (size_bytes > core->max_allocation_bytes) {
         return fail(where, mebibytes(size_bytes) + " exceed what " + core->info.name + " allocates at once",
                     "lower the resolution or use --engine cpu");
@@ -66,6 +74,9 @@ Result<Buffer> Buffer::create(Device& device, BufferUse use, std::uint64_t size_
     const int type = core->memory_type(requirements.memoryTypeBits, needs.required, needs.preferred);
     if (type < 0) return fail(where, core->info.name + " has no memory of this kind", "use --engine cpu");
     auto allocate = structure<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
+    auto flags_info = structure<VkMemoryAllocateFlagsInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO);
+    flags_info.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
+    if (needs.addressed) allocate.pNext = &flags_info;
     allocate.allocationSize = requirements.size;
     allocate.memoryTypeIndex = static_cast<std::uint32_t>(type);
     VkDeviceMemory memory = VK_NULL_HANDLE;
@@ -75,6 +86,11 @@ Result<Buffer> Buffer::create(Device& device, BufferUse use, std::uint64_t size_
     buffer.memory_ = MemoryHandle(core, memory);
     if (const VkResult r = core->vk.vkBindBufferMemory(core->device, raw, memory, 0); r != VK_SUCCESS) {
         return vulkan_failure(where, "could not be bound to its memory", r);
+    }
+    if (needs.addressed) {
+        auto address = structure<VkBufferDeviceAddressInfo>(VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO);
+        address.buffer = raw;
+        buffer.address_ = core->vk.vkGetBufferDeviceAddress(core->device, &address);
     }
     constexpr VkMemoryPropertyFlags kSeen = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     const VkMemoryPropertyFlags flags = core->memory.memoryTypes[type].propertyFlags;

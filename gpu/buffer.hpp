@@ -4,7 +4,8 @@
 //
 // Ownership: move-only; freed when the GPU has done with it. Thread and lifetime: as Device.
 // Contents are undefined after creation. Limits are checked before anything is allocated: a buffer beyond
-// capabilities().max_storage_buffer_bytes (128 MiB on the software driver) is refused with an Error.
+// capabilities().max_storage_buffer_bytes (128 MiB on the software driver) is refused with an Error. Only what a binding shows
+// is bounded by it: buffers that are reached by address are not.
 #pragma once
 
 #include <cstddef>
@@ -20,6 +21,7 @@ enum class BufferUse {
     device_storage,  // read and written by shaders, also indirect arguments; mapped only with unified memory
     upload,          // written by the CPU through mapped(), copied from
     readback,        // copied to, read by the CPU through mapped()
+    addressed,       // like device_storage, but reached by address(): as large as an allocation may be
     vertex,          // vertices; also a storage buffer, so that a compute shader can write it
     index,           // indices; also a storage buffer
     uniform          // small, written by the CPU through mapped()
@@ -40,12 +42,14 @@ public:
     [[nodiscard]] std::span<T> mapped_as() const {
         return {reinterpret_cast<T*>(mapped_.data()), mapped_.size() / sizeof(T)};
     }
+    // Where shaders find an `addressed` buffer; 0 for all others.
+    [[nodiscard]] std::uint64_t address() const { return address_; }
     [[nodiscard]] VkBuffer raw() const { return buffer_.raw(); }
 
 private:
     MemoryHandle memory_;  // before the buffer: destroyed after it
     BufferHandle buffer_;
-    std::uint64_t size_bytes_ = 0;
+    std::uint64_t size_bytes_ = 0, address_ = 0;
     std::span<std::byte> mapped_;
 };
 

@@ -239,6 +239,7 @@ void read_features(Core& core, Features& enabled) {
     enabled.v12.storageBuffer8BitAccess = found.v12.storageBuffer8BitAccess;
     enabled.v12.shaderBufferInt64Atomics = found.v12.shaderBufferInt64Atomics;
     enabled.v12.scalarBlockLayout = found.v12.scalarBlockLayout;
+    enabled.v12.bufferDeviceAddress = found.v12.bufferDeviceAddress;
     Capabilities& c = core.capabilities;
     c.shader_int64 = f.shaderInt64 == VK_TRUE;
     c.shader_float64 = f.shaderFloat64 == VK_TRUE;
@@ -249,6 +250,7 @@ void read_features(Core& core, Features& enabled) {
     c.storage_8bit = found.v12.storageBuffer8BitAccess == VK_TRUE;
     c.buffer_int64_atomics = found.v12.shaderBufferInt64Atomics == VK_TRUE;
     c.scalar_block_layout = found.v12.scalarBlockLayout == VK_TRUE;
+    c.buffer_address = found.v12.bufferDeviceAddress == VK_TRUE;
 }
 
 void read_limits(Core& core) {

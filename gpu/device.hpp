@@ -48,6 +48,7 @@ struct Capabilities {
     bool storage_8bit = false;          // 8-bit members in storage buffers
     bool buffer_int64_atomics = false;  // atomicAdd etc. on uint64_t in storage buffers
     bool scalar_block_layout = false;   // GL_EXT_scalar_block_layout
+    bool buffer_address = false;        // shaders reach buffers by address (GL_EXT_buffer_reference)
     bool sampler_anisotropy = false;
     bool timestamps = false;
     bool unified_memory = false;  // device_storage buffers are mapped: Buffer::mapped() is not empty

@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_EXT_buffer_reference : require
 // Takes capsules out of rays: one invocation owns one ray and gives it all its capsules in order. What one capsule does to
 // one ray is shaders/shared/capsule.h and span_edit.h, the same text that the CPU engine compiles.
 //
@@ -15,7 +16,8 @@
 layout(local_size_x = 64) in;
 layout(push_constant) uniform Push { CutParameters parameters; };
 layout(std430, binding = 0) buffer Rays { RayRef rays[]; };
-layout(std430, binding = 1) buffer Store { DexelEnd store[]; };
+layout(std430, binding = 1) writeonly buffer Stale { uint stale[]; };
+#include "shaders/dexel_store.glsl"
 layout(std430, binding = 2) readonly buffer Capsules { Capsule capsules[]; };
 layout(std430, binding = 3) readonly buffer Tasks { CutTask tasks[]; };
 layout(std430, binding = 4) readonly buffer Order { uint order[]; };
@@ -24,31 +26,13 @@ layout(std430, binding = 6) writeonly buffer Changed { ChangedRay changed[]; };
 layout(std430, binding = 7) writeonly buffer Exported { DexelEnd exported[]; };
 layout(std430, binding = 8) readonly buffer Continued { PendingRay continued[]; };
 layout(std430, binding = 9) writeonly buffer Pending { PendingRay pending[]; };
+#include "shaders/dexel_rooms.glsl"
 
 uint first_end = 0u;  // where the ray at hand begins
-DexelEnd load_end(uint i) { return store[first_end + i]; }
+DexelEnd load_end(uint i) { return store.at[first_end + i]; }
 #include "shaders/shared/span_edit.h"
 
 const uint kNoPlace = 0xffffffffu;
-
-// log2 of the room for so many ends, in the high bits of a RayRef's count_room.
-uint room_for(uint count) { return count <= 1u ? 0u : uint(findMSB(count - 1u) + 1) << 24; }
-
-// The ray with its ends moved to where there is room for so many; as it was when the store has no such place left.
-RayRef with_larger_room(RayRef ray, uint needed) {
-    uint larger = room_for(needed);
-    uint room = 1u << (larger >> 24);
-    uint place = atomicAdd(counters.used, room);
-    if (place + room > parameters.store_size) {
-        atomicAdd(counters.room_wanted, room);
-        return ray;
-    }
-    uint count = count_of(ray);
-    for (uint i = 0u; i < count; ++i) store[place + i] = store[ray.first + i];
-    ray.first = place;
-    ray.count_room = larger | count;
-    return ray;
-}
 
 // A cheap test that spares most capsules of a long list: false only where capsule_span would find nothing.
 bool near(uint capsule, int axis, int u, int v) {
@@ -72,12 +56,12 @@ void apply_edit(uint count, SpanEdit edit, DexelEnd end_lo, DexelEnd end_hi) {
     uint fresh = edit.insert_lo + edit.insert_hi;
     uint removed = edit.to - edit.from;
     if (fresh > removed) {  // by two at most; the tail moves up
-        for (uint i = count; i > edit.to; --i) store[first_end + i - 1u + fresh - removed] = store[first_end + i - 1u];
+        for (uint i = count; i > edit.to; --i) store.at[first_end + i - 1u + fresh - removed] = store.at[first_end + i - 1u];
     } else if (fresh < removed) {
-        for (uint i = edit.to; i < count; ++i) store[first_end + i + fresh - removed] = store[first_end + i];
+        for (uint i = edit.to; i < count; ++i) store.at[first_end + i + fresh - removed] = store.at[first_end + i];
     }
-    if (edit.insert_lo == 1u) store[first_end + edit.from] = end_lo;
-    if (edit.insert_hi == 1u) store[first_end + edit.from + edit.insert_lo] = end_hi;
+    if (edit.insert_lo == 1u) store.at[first_end + edit.from] = end_lo;
+    if (edit.insert_hi == 1u) store.at[first_end + edit.from + edit.insert_lo] = end_hi;
 }
 
 // Gives the ends within the span the material; the depths between which some changed, none when lo > hi.
@@ -89,7 +73,7 @@ RaySpan paint_ends(uint count, RaySpan span, uint material) {
         DexelEnd end = load_end(i);
         int depth = depth_of(end);
         if (depth < span.lo || depth > span.hi || material_of(end) == material) continue;
-        store[first_end + i] = make_end(depth, material, end.normal);
+        store.at[first_end + i] = make_end(depth, material, end.normal);
         changed.lo = min(changed.lo, depth);
         changed.hi = depth;
     }
@@ -181,12 +165,19 @@ void main() {
     job.touched = touched;
     waits = waits || job.next < job.end;
     if (job.changed_lo <= job.changed_hi) {
+        uint count = count_of(ray);
+        atomicMax(counters.longest, count);
+        if (parameters.deferred != 0u) {
+            if ((ray.count_room & kStale) == 0u) stale[atomicAdd(counters.stale, 1u)] = job.ray;
+            ray.count_room |= kStale;
+        }
         rays[index] = ray;
-        if (!waits) {
-            uint count = count_of(ray);
+        if (!waits && parameters.deferred != 0u) {
+            changed[atomicAdd(counters.changed, 1u)] = ChangedRay(job.ray, 0u, count, job.changed_lo, job.changed_hi);
+        } else if (!waits) {
             uint first = atomicAdd(counters.exported, count);
             if (first + count <= parameters.export_size) {
-                for (uint i = 0u; i < count; ++i) exported[first + i] = store[ray.first + i];
+                for (uint i = 0u; i < count; ++i) exported[first + i] = store.at[ray.first + i];
                 changed[atomicAdd(counters.changed, 1u)] =
                     ChangedRay(job.ray, first, count, job.changed_lo, job.changed_hi);
             } else {

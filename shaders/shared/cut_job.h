@@ -55,10 +55,19 @@ struct CutCounters {
     uint exported;     // ends exported, or more than there is space when some found none
     uint pending;      // length of the list of PendingRay
     uint room_wanted;  // ends that pending rays asked the store for in vain
-    uint longest;      // most ends of a pending ray
+    uint longest;      // most ends of a ray that changed or is pending
+    uint stale;        // length of the list of rays that the host does not know yet
+};
+
+// A ray that the host gives other ends: patch_ends[first .. first + count).
+struct PatchRay {
+    uint ray;
+    uint first;
+    uint count;
 };
 
 struct CutParameters {
+    uint64_t store_address;
     int rays_u[3];
     int rays_v[3];
     uint first_ray[3];  // of each axis in the table of all rays
@@ -67,6 +76,8 @@ struct CutParameters {
     uint cuts;          // capsules that a ray may take in one pass
     uint looks;         // capsules that it may look at, near or far
     uint pending;       // 0: the tasks are new; else so many pending rays are continued instead
+    uint deferred;      // 1: the ends of changed rays are not exported; the rays go on the list of stale ones
+    uint first_stale;   // where in the list of stale rays to begin
 };
 
 BURIN_SHARED_END
@@ -74,6 +85,7 @@ BURIN_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(burin::shared::Capsule) == 40 && sizeof(burin::shared::CutTask) == 32 &&
               sizeof(burin::shared::ChangedRay) == 20 && sizeof(burin::shared::PendingRay) == 24 &&
-              sizeof(burin::shared::CutCounters) == 28 && sizeof(burin::shared::CutParameters) == 56);
+              sizeof(burin::shared::CutCounters) == 32 && sizeof(burin::shared::PatchRay) == 12 &&
+              sizeof(burin::shared::CutParameters) == 72);
 #endif
 #endif

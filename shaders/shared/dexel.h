@@ -28,8 +28,9 @@ struct DexelEnd {
 // Where a ray's ends lie in its set's store: 8 bytes.
 struct RayRef {
     uint first;
-    uint count_room;  // number of ends in the low 24 bits; log2 of the room reserved for them in the high 8
+    uint count_room;  // number of ends in the low 24 bits; log2 of the room reserved for them in the 5 above; kStale
 };
+const uint kStale = 0x80000000u;  // the ray is on the device's list of rays that the host does not know yet
 
 BURIN_FN DexelEnd make_end(int depth, uint material, uint normal) {
     DexelEnd end;
@@ -41,7 +42,7 @@ BURIN_FN DexelEnd make_end(int depth, uint material, uint normal) {
 BURIN_FN int depth_of(DexelEnd end) { return int(end.depth_material & uint(0xffffff)); }
 BURIN_FN uint material_of(DexelEnd end) { return end.depth_material >> 24; }
 BURIN_FN uint count_of(RayRef ray) { return ray.count_room & uint(0xffffff); }
-BURIN_FN uint room_of(RayRef ray) { return uint(1) << (ray.count_room >> 24); }
+BURIN_FN uint room_of(RayRef ray) { return uint(1) << ((ray.count_room >> 24) & uint(31)); }
 
 // The whole depths lo..hi of a ray that a tool covers; none when lo > hi.
 struct RaySpan {

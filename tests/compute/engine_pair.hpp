@@ -8,6 +8,7 @@
 #include <memory>
 #include <numbers>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "base/worker_pool.hpp"
@@ -36,6 +37,27 @@ namespace burin::test {
     return solid;
 }
 
+// Names the first ray of two solids that differs; nothing when none does.
+[[nodiscard]] inline std::string first_difference(const Solid& a, const Solid& b) {
+    if (a.same_content(b)) return "";
+    const auto text = [](std::span<const shared::DexelEnd> ends) {
+        std::string line;
+        for (const shared::DexelEnd& end : ends) {
+            line += " " + std::to_string(depth_of(end)) + "/" + std::to_string(material_of(end)) + "/" +
+                    std::to_string(end.normal);
+        }
+        return line;
+    };
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (std::size_t ray = 0; ray < a.sets[axis].ray_count(); ++ray) {
+            const std::string held = text(a.sets[axis].ends(ray)), other = text(b.sets[axis].ends(ray));
+            if (held == other) continue;
+            return "axis " + std::to_string(axis) + " ray " + std::to_string(ray) + ":" + held + " and" + other;
+        }
+    }
+    return "the lattices differ";
+}
+
 class EnginePair {
 public:
     EnginePair(const Solid& solid, const gpu::Device& device, const VulkanEngineOptions& options = {})
@@ -55,12 +77,50 @@ public:
         if (!expected || !actual) return false;
         EXPECT_EQ(actual->rays_touched, expected->rays_touched);
         EXPECT_EQ(actual->rays_changed, expected->rays_changed);
-        const bool same = vulkan_->solid().same_content(cpu_->solid());
-        EXPECT_TRUE(same) << "the engines hold different intervals";
+        EXPECT_EQ(first_difference(vulkan_->solid(), cpu_->solid()), "");
         changed_ += expected->rays_changed;
         return !testing::Test::HasFailure();
     }
     bool cut(const BallSweep& sweep) { return cut(std::span(&sweep, 1)); }
+
+    bool assign(const RayBatch& rays) {
+        if (vulkan_ == nullptr) return false;
+        const auto expected = cpu_->assign(rays);
+        const auto actual = vulkan_->assign(rays);
+        EXPECT_TRUE(expected) << expected.error().line();
+        EXPECT_TRUE(actual) << actual.error().line();
+        if (!expected || !actual) return false;
+        EXPECT_EQ(actual->rays_changed, expected->rays_changed);
+        EXPECT_TRUE(vulkan_->solid().same_content(cpu_->solid())) << "the engines hold different intervals";
+        return !testing::Test::HasFailure();
+    }
+
+    // The Vulkan engine's host is behind until read_back.
+    bool cut_deferred(std::span<const BallSweep> sweeps) {
+        if (vulkan_ == nullptr) return false;
+        const auto expected = cpu_->carve(sweeps);
+        EXPECT_TRUE(expected) << expected.error().line();
+        auto done = vulkan_->defer(sweeps);
+        while (done && vulkan_->deferred_left()) {
+            auto commands = gpu::Commands::begin(vulkan_->device());
+            if (!commands) return false;
+            vulkan_->record_pass(*commands);
+            auto submission = std::move(*commands).submit();
+            if (!submission || !submission->wait()) return false;
+            done = vulkan_->end_pass();
+        }
+        EXPECT_TRUE(done) << done.error().line();
+        if (!expected || !done) return false;
+        EXPECT_EQ(vulkan_->deferred_stats().rays_touched, expected->rays_touched);
+        EXPECT_EQ(vulkan_->deferred_stats().rays_changed, expected->rays_changed);
+        return !testing::Test::HasFailure();
+    }
+    bool read_back() {
+        const auto done = vulkan_->read_back();
+        EXPECT_TRUE(done) << done.error().line();
+        EXPECT_TRUE(vulkan_->solid().same_content(cpu_->solid())) << "the engines hold different intervals";
+        return !testing::Test::HasFailure();
+    }
 
     [[nodiscard]] CarvingEngine& cpu() { return *cpu_; }
     [[nodiscard]] VulkanEngine& vulkan() { return *vulkan_; }

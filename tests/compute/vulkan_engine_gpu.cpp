@@ -70,6 +70,42 @@ Solid plates(int resolution, int most_plates, std::uint64_t seed) {
     return solid;
 }
 
+// Random lists of ends for some rays, none of them named twice.
+RayBatch random_rays(const Lattice& lattice, int count, Random& random) {
+    std::vector<std::uint32_t> codes;
+    for (int i = 0; i < count; ++i) {
+        const int axis = random.small(0, 2);
+        codes.push_back(shared::ray_code(axis, random.small(0, lattice.rays_u(axis) - 1),
+                                         random.small(0, lattice.rays_v(axis) - 1)));
+    }
+    std::ranges::sort(codes);
+    codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+    RayBatch batch;
+    for (const std::uint32_t code : codes) {
+        std::vector<shared::DexelEnd> ends;
+        const int most = lattice.cells[static_cast<std::size_t>(shared::axis_of(code))] * shared::kUnitsPerCell;
+        const int plates = random.small(0, 20);
+        for (int i = 0, depth = 0; i < 2 * plates; ++i) {
+            depth += random.small(1, most / 40);
+            ends.push_back(shared::make_end(depth, 1, static_cast<shared::uint>(random.bits())));
+        }
+        batch.add(code, ends);
+    }
+    return batch;
+}
+
+// What undoes a record in which each ray appears once at most per step: the oldest entry of a ray counts.
+RayBatch as_before(const Changes& changes) {
+    RayBatch batch;
+    std::vector<std::uint32_t> seen;
+    for (const shared::ChangedRay& ray : changes.rays) {
+        if (std::ranges::find(seen, ray.ray) != seen.end()) continue;
+        seen.push_back(ray.ray);
+        batch.add(ray.ray, changes.before_of(ray));
+    }
+    return batch;
+}
+
 }  // namespace
 
 TEST_F(VulkanEngineGpu, ABallAndACapsuleTakeTheSameEnds) {
@@ -258,8 +294,9 @@ TEST_F(VulkanEngineGpu, BadSweepsAreRefusedAndChangeNothing) {
     EXPECT_TRUE(engines.cut(std::span<const BallSweep>{})) << "an empty batch";
 }
 
-TEST_F(VulkanEngineGpu, ADeviceWithout64BitArithmeticIsRefused) {
-    for (bool gpu::Capabilities::* lacking : {&gpu::Capabilities::shader_int64, &gpu::Capabilities::shader_float64}) {
+TEST_F(VulkanEngineGpu, ADeviceWithout64BitArithmeticOrAddressesIsRefused) {
+    for (bool gpu::Capabilities::* lacking :
+         {&gpu::Capabilities::shader_int64, &gpu::Capabilities::shader_float64, &gpu::Capabilities::buffer_address}) {
         capabilities().*lacking = false;
         const auto engine = make_vulkan_engine(unit_cube(16), device());
         ASSERT_FALSE(engine);
@@ -270,7 +307,7 @@ TEST_F(VulkanEngineGpu, ADeviceWithout64BitArithmeticIsRefused) {
 
 TEST_F(VulkanEngineGpu, ASolidTooLargeForTheDevicesBuffersIsRefusedWithAResolutionThatFits) {
     const Solid solid = unit_cube(128);
-    capabilities().max_storage_buffer_bytes = 256 << 10;
+    device().core()->max_allocation_bytes = 512 << 10;
     const auto engine = VulkanEngine::create(solid, device(), {.spare_ends = 0});
     ASSERT_FALSE(engine);
     const std::string line = engine.error().line();
@@ -284,7 +321,7 @@ TEST_F(VulkanEngineGpu, ASolidTooLargeForTheDevicesBuffersIsRefusedWithAResoluti
 TEST_F(VulkanEngineGpu, AfterADeviceErrorTheSolidIsAsBeforeAndTheNextCutWorks) {
     const Solid before = plates(20, 4, 7);
     EnginePair engines(before, device(), {.spare_ends = 0});
-    const std::uint64_t limit = capabilities().max_storage_buffer_bytes;
+    const std::uint64_t limit = device().core()->max_allocation_bytes;
     std::vector<BallSweep> holes;  // each splits a few plates
     Random random(8);
     for (int i = 0; i < 200; ++i) {
@@ -293,9 +330,9 @@ TEST_F(VulkanEngineGpu, AfterADeviceErrorTheSolidIsAsBeforeAndTheNextCutWorks) {
     }
     (void)engines.vulkan().take_changes();
 
-    capabilities().max_storage_buffer_bytes = 1024;  // the store cannot grow
+    device().core()->max_allocation_bytes = 1024;  // the store cannot grow
     const auto refused = engines.vulkan().carve(holes);
-    capabilities().max_storage_buffer_bytes = limit;
+    device().core()->max_allocation_bytes = limit;
 
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().line().find("--engine cpu"), std::string::npos) << refused.error().line();
@@ -317,6 +354,112 @@ TEST_F(VulkanEngineGpu, ARayWithMoreEndsThanAPassCanHandleIsRefused) {
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().line().find("--engine cpu"), std::string::npos);
     EXPECT_TRUE((*engine)->solid().same_content(solid));
+}
+
+// Undo and tools whose spans the host works out arrive as lists of ends; carves on the device go on from there.
+TEST_F(VulkanEngineGpu, AssignedRaysAndCutsMixAndTheEnginesStayEqual) {
+    for (int round = 0; round < repeated(12); ++round) {
+        Random random(static_cast<std::uint64_t>(100 + round));
+        const Solid solid = plates(random.small(16, 32), random.small(1, 5), static_cast<std::uint64_t>(round));
+        EnginePair engines(solid, device(), {.spare_ends = 0});
+        std::vector<Changes> strokes;
+        for (int step = 0; step < 8; ++step) {
+            (void)engines.vulkan().take_changes();
+            std::vector<BallSweep> sweeps(static_cast<std::size_t>(random.small(1, 6)));
+            for (BallSweep& sweep : sweeps) sweep = random_sweep(random, solid.lattice.spacing_m);
+            ASSERT_TRUE(engines.cut(sweeps)) << "round " << round << " step " << step;
+            strokes.push_back(engines.vulkan().take_changes());
+            if (random.chance(0.5)) {
+                const int count = random.small(0, 40);  // far more ends than the ray had room for
+                ASSERT_TRUE(engines.assign(random_rays(solid.lattice, count, random)));
+                strokes.push_back(engines.vulkan().take_changes());
+            }
+            if (random.chance(0.3)) {
+                ASSERT_TRUE(engines.assign(as_before(strokes.back())));
+                strokes.pop_back();
+            }
+        }
+        EXPECT_GT(engines.vulkan().counts().store_rebuilds, 0u);
+        while (!strokes.empty()) {
+            ASSERT_TRUE(engines.assign(as_before(strokes.back())));
+            strokes.pop_back();
+        }
+        EXPECT_TRUE(engines.cut({Vec3(0.4), Vec3(0.6), 0.1, 1})) << "the device must hold what was assigned";
+    }
+}
+
+TEST_F(VulkanEngineGpu, AssigningAFewRaysIsOneSubmissionAndSendsNothingElse) {
+    EnginePair engines(unit_cube(32), device());
+    const std::uint64_t before = engines.vulkan().counts().submissions;
+    Random random(5);
+    ASSERT_TRUE(engines.assign(random_rays(engines.cpu().solid().lattice, 10, random)));
+    EXPECT_EQ(engines.vulkan().counts().submissions, before + 1);
+    EXPECT_EQ(engines.vulkan().counts().store_rebuilds, 0u);
+    EXPECT_TRUE(engines.cut({Vec3(0.4), Vec3(0.6), 0.3, 1}));
+}
+
+TEST_F(VulkanEngineGpu, AfterADeviceErrorInAssignTheSolidIsAsBefore) {
+    const Solid before = plates(20, 4, 7);
+    EnginePair engines(before, device(), {.spare_ends = 0});
+    const std::uint64_t limit = device().core()->max_allocation_bytes;
+    Random random(9);
+    const RayBatch rays = random_rays(before.lattice, 500, random);
+    device().core()->max_allocation_bytes = 1024;
+    const auto refused = engines.vulkan().assign(rays);
+    device().core()->max_allocation_bytes = limit;
+    ASSERT_FALSE(refused);
+    EXPECT_TRUE(engines.vulkan().solid().same_content(before));
+    EXPECT_TRUE(engines.vulkan().take_changes().empty());
+    EXPECT_TRUE(engines.assign(rays));
+    EXPECT_TRUE(engines.cut({Vec3(0.2), Vec3(0.8), 0.2, 1}));
+}
+
+// Drivers bind as little as 128 MiB. The table of rays fits into that at every resolution; the ends need not.
+TEST_F(VulkanEngineGpu, AStoreLargerThanABindingWorks) {
+    const Solid solid = plates(24, 40, 11);
+    capabilities().max_storage_buffer_bytes = solid.rays_held() * sizeof(shared::RayRef);
+    ASSERT_GT(solid.sets[0].end_count() * sizeof(shared::DexelEnd), 3 * capabilities().max_storage_buffer_bytes);
+    EnginePair engines(solid, device(), {.spare_ends = 0, .export_per_ray = 1, .tasks_a_pass = 1});
+    Random random(12);
+    for (int batch = 0; batch < repeated(8); ++batch) {
+        std::vector<BallSweep> sweeps(4);
+        for (BallSweep& sweep : sweeps) sweep = random_sweep(random, 0.04), sweep.radius_m *= 0.05;
+        ASSERT_TRUE(engines.cut(sweeps)) << batch;
+        ASSERT_TRUE(engines.assign(random_rays(solid.lattice, 20, random))) << batch;
+    }
+}
+
+TEST_F(VulkanEngineGpu, DeferredCutsReadBackAreTheSameAndRecordEachRayOnce) {
+    for (int round = 0; round < repeated(12); ++round) {
+        Random random(static_cast<std::uint64_t>(200 + round));
+        const Solid solid = plates(random.small(16, 32), random.small(1, 5), static_cast<std::uint64_t>(round));
+        EnginePair engines(solid, device(), {.spare_ends = 0, .tasks_a_pass = 8});
+        for (int frame = 0; frame < 6; ++frame) {
+            for (int update = random.small(1, 3); update > 0; --update) {
+                std::vector<BallSweep> sweeps(static_cast<std::size_t>(random.small(1, 6)));
+                for (BallSweep& sweep : sweeps) sweep = random_sweep(random, solid.lattice.spacing_m);
+                ASSERT_TRUE(engines.cut_deferred(sweeps)) << "round " << round << " frame " << frame;
+            }
+            const Solid held = engines.vulkan().solid();
+            (void)engines.vulkan().take_changes();
+            ASSERT_TRUE(engines.read_back());
+            const Changes changes = engines.vulkan().take_changes();
+            std::vector<std::uint32_t> codes;
+            for (const shared::ChangedRay& ray : changes.rays) {
+                codes.push_back(ray.ray);
+                const RayPlace place = place_of(ray.ray);
+                const auto before = held.sets[static_cast<std::size_t>(place.axis)].ends(place.u, place.v);
+                ASSERT_TRUE(std::ranges::equal(changes.before_of(ray), before, [](const auto& a, const auto& b) {
+                    return a.depth_material == b.depth_material && a.normal == b.normal;
+                }));
+            }
+            std::ranges::sort(codes);
+            EXPECT_EQ(std::ranges::adjacent_find(codes), codes.end()) << "a ray is listed twice";
+            if (random.chance(0.5)) {
+                ASSERT_TRUE(engines.cut(random_sweep(random, solid.lattice.spacing_m)));
+            }
+        }
+    }
 }
 
 }  // namespace burin::test

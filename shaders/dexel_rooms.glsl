@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Rays that grow: a place for more ends at the end of the store. Needs dexel_store.glsl and the CutCounters `counters`.
+
+// log2 of the room for so many ends, in the high bits of a RayRef's count_room.
+uint room_for(uint count) { return count <= 1u ? 0u : uint(findMSB(count - 1u) + 1) << 24; }
+
+// The ray with its ends moved to where there is room for so many; as it was when the store has no such place left.
+RayRef with_larger_room(RayRef ray, uint needed) {
+    uint larger = room_for(needed);
+    uint room = 1u << (larger >> 24);
+    uint place = atomicAdd(counters.used, room);
+    if (place + room > parameters.store_size) {
+        atomicAdd(counters.room_wanted, room);
+        return ray;
+    }
+    uint count = count_of(ray);
+    for (uint i = 0u; i < count; ++i) store.at[place + i] = store.at[ray.first + i];
+    ray.first = place;
+    ray.count_room = larger | (ray.count_room & kStale) | count;
+    return ray;
+}
