@@ -61,6 +61,8 @@ void add_sculpt_options(CLI::App& command, SculptOptions& options) {
                      "With --hand simulated: a haptic thread at 1 kHz instead of simulated time");
     command.add_option("--export", options.exports,
                        "Where to write the carved mesh: .stl, .ply (with colour) or .obj; may be repeated");
+    command.add_option("--simplify", options.simplify_m,
+                       "Export fewer triangles: the surface moves at most this far, in metres");
     command.add_option("--pictures", options.pictures,
                        "A folder for before.png, after.png, left.png, right.png, stereo.png");
     command.add_option("--report", options.report, "A JSON file for all figures");
@@ -105,12 +107,13 @@ int main(int argc, char** argv) {
     CLI::App* sculpt = app.add_subcommand("sculpt", "Carve a workpiece along a stroke");
     add_sculpt_options(*sculpt, sculpt_options);
 
-    std::string in, out;
-    bool close_holes = false;
+    burin::ConvertOptions convert_options;
     CLI::App* convert = app.add_subcommand("convert", "Convert a mesh file to STL, PLY or OBJ and print its health");
-    convert->add_option("IN", in, "STL, OBJ, PLY or OFF")->required();
-    convert->add_option("OUT", out, ".stl, .ply or .obj")->required();
-    convert->add_flag("--close-holes", close_holes, "Fill holes and turn the triangles outwards");
+    convert->add_option("IN", convert_options.in, "STL, OBJ, PLY or OFF")->required();
+    convert->add_option("OUT", convert_options.out, ".stl, .ply or .obj")->required();
+    convert->add_flag("--close-holes", convert_options.close_holes, "Fill holes and turn the triangles outwards");
+    convert->add_option("--simplify", convert_options.simplify_m,
+                        "Fewer triangles: the surface moves at most this far, in metres");
 
     burin::CombineOptions combine_options;
     CLI::App* combine = app.add_subcommand("combine", "Unite, subtract or intersect two closed meshes");
@@ -132,7 +135,7 @@ int main(int argc, char** argv) {
     }
     if (sculpt->parsed()) return finish(burin::sculpt(sculpt_options));
     if (bench.parsed()) return finish(bench.run());
-    if (convert->parsed()) return finish(burin::convert(in, out, close_holes));
+    if (convert->parsed()) return finish(burin::convert(convert_options));
     if (combine->parsed()) return finish(burin::combine_files(combine_options));
     std::fputs(app.help().c_str(), stdout);
     return 2;

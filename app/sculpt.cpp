@@ -6,6 +6,7 @@
 
 #include "app/engine_choice.hpp"
 #include "app/felt_stroke.hpp"
+#include "app/finishing.hpp"
 #include "app/output_files.hpp"
 #include "app/pictures.hpp"
 #include "app/report.hpp"
@@ -52,6 +53,7 @@ Result<void> sculpt(const SculptOptions& options) {
         return fail("--hand simulated", "feels with a ball only", "use --tool ball:R, or --hand rigid");
     }
     if (const auto ok = check_outputs(options.exports, options.report); !ok) return ok;
+    if (const auto ok = check_simplification(options.simplify_m); !ok) return ok;
     Stroke stroke;
     if (!options.stroke.empty()) {
         Result<Stroke> read = read_stroke(options.stroke);
@@ -88,13 +90,19 @@ Result<void> sculpt(const SculptOptions& options) {
         felt = std::move(*carved);
     }
 
-    const TriangleMesh mesh = carving.surface().welded();
+    const Result<FinishedMesh> finished =
+        finish_mesh(carving.surface(), carving.engine().solid(), options.simplify_m, pool);
+    if (!finished) return std::unexpected(finished.error());
+    const TriangleMesh& mesh = finished->mesh;
     Json report = {{"burin", BURIN_VERSION}, {"workpiece", workpiece->report}};
     report["tool"] = describe_tool(options.tool, *material);
     report["engine"] = {
         {"name", carving.engine().name()}, {"device", chosen->device}, {"chosen_because", chosen->reason}};
     report["carving"] = describe_carving(carving);
     report["mesh"] = describe_mesh(mesh);
+    report["mesh"]["self_intersections"] = finished->self_intersections;
+    report["slivers"] = finished->slivers;
+    if (!finished->simplification.is_null()) report["simplification"] = finished->simplification;
     if (felt) report["feel"] = describe_feel(*felt);
     report["timing"] = describe_timing(carving, felt ? &*felt : nullptr);
     if (mesh.triangles.empty() && !options.exports.empty()) {

@@ -2,6 +2,7 @@
 // burin sculpt: a workpiece, a tool and a stroke in; a carved mesh, pictures and a report out.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct SculptOptions {
     HandChoice hand = HandChoice::rigid;
     bool real_time = false;
     std::vector<std::string> exports;  // STL, PLY, OBJ
+    std::optional<double> simplify_m;  // how far the exported surface may move; none: all triangles
     std::string pictures;              // a folder; empty: none
     std::string report;                // a JSON file; empty: none
     unsigned threads = 0;              // 0: one per core
@@ -31,7 +33,12 @@ struct SculptOptions {
 [[nodiscard]] Result<void> sculpt(const SculptOptions& options);
 
 // burin convert IN OUT: any mesh format in, STL, PLY or OBJ out; prints the mesh's health.
-[[nodiscard]] Result<void> convert(const std::string& in, const std::string& out, bool close_holes);
+struct ConvertOptions {
+    std::string in, out;
+    bool close_holes = false;
+    std::optional<double> simplify_m;  // how far the surface may move
+};
+[[nodiscard]] Result<void> convert(const ConvertOptions& options);
 
 // burin --version: the version, and the Vulkan devices found.
 void print_version();

@@ -13,12 +13,13 @@
 namespace burin {
 namespace {
 
-constexpr int kRounds = 8;
+constexpr int kRounds = 14;
+constexpr int kMostRings = 5;  // of neighbours that are moved at once
 // An attempt takes a millisecond or two where everything is at fault; what random noise has beyond this is left and counted.
 constexpr std::uint64_t kMostAttempts = 20000;
-// As the mesher keeps its vertices off the cell's faces (feature_point.cpp), and what lies nearer than half of that is one
-// of its vertices on a face.
-constexpr double kInset = 1.0 / 256.0, kOnFace = 1.0 / 512.0;
+// A vertex that is moved keeps off its cell's faces by this much, so that vertices of two cells do not come to one place.
+constexpr double kInset = 1.0 / 256.0;
+constexpr int kFirstFaceSlot = 4;  // of a key (tile_mesher.hpp): two slots for each of the cell's lower faces
 // A turned diagonal changes the surface by the gap between the diagonals; in cells.
 constexpr double kMostGap = 0.1;
 // A vertex nearer to a plane than this, in cells, was placed on it.
@@ -30,6 +31,7 @@ double most_deviation(int round) {
     constexpr std::array kMost{0.05, 0.1, 0.1, 0.1, 0.2, 0.4};
     return static_cast<std::size_t>(round) < kMost.size() ? kMost[static_cast<std::size_t>(round)] : 2.0;
 }
+constexpr int kAnywhere = 5;  // from this round on a vertex may go to any part of its cell
 constexpr int kCureOnly = 2;  // rounds in which a remedy must leave no fault behind
 
 // The triangles around each vertex: those of the start in one array, changed fans beside it.
@@ -78,19 +80,33 @@ struct Remedy {
     double deviation_m = 0.0;
 };
 
+// Of the welded vertices: they are sorted by key, one for each.
+std::vector<std::uint64_t> keys_of(const Surface& surface) {
+    std::vector<std::uint64_t> keys;
+    for (std::uint32_t t = 0; t < surface.tile_count(); ++t) {
+        const std::vector<std::uint64_t> of_tile =
+            vertex_keys(surface.lattice(), surface.grid().first_node(t), surface.tile(t));
+        keys.insert(keys.end(), of_tile.begin(), of_tile.end());
+    }
+    std::ranges::sort(keys);
+    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+    return keys;
+}
+
 struct TangentPlane {
     Vec3 point_m, normal;
 };
 
 class Mender {
 public:
-    Mender(TriangleMesh& mesh, const Solid& solid)
+    Mender(TriangleMesh& mesh, const Surface& surface, const Solid& solid)
         : mesh_(mesh),
           solid_(solid),
           lattice_(solid.lattice),
           shift_(solid.lattice.fits_floats() ? Vec3(0.0) : solid.lattice.origin_object),
           before_(mesh.positions_m),
           triangles_before_(mesh.triangles),
+          keys_(keys_of(surface)),
           fans_(mesh),
           tree_(before_, triangles_before_) {}
 
@@ -157,20 +173,27 @@ private:
         for (const std::uint32_t t : pair) {
             for (std::size_t k = 0; k < 3; ++k) {
                 vertices.push_back(mesh_.triangles[t][k]);
-                add(turned_diagonal(t, k));
+                add(turned_diagonal(t, k, round < kAnywhere ? kMostGap : 1.0));
             }
         }
         sort_unique(vertices);
         for (const std::uint32_t v : vertices) {
             for (const double share : kShares) add(towards_neighbours({&v, 1}, share));
+            for (const double share : kShares) add(homewards({&v, 1}, share));
             // Along an edge of the mesh a vertex stays on the surface, or on the crease that the edge follows.
             for (const std::uint32_t w : neighbours(v)) {
                 for (const double share : kShares) add(along_edge(v, w, share));
             }
         }
+        for (int i = 0; round >= kAnywhere && i < 27; ++i) {
+            const Vec3 shares = Vec3(i % 3, i / 3 % 3, i / 9) * 0.4 + 0.1;
+            for (const std::uint32_t v : vertices) add(within_cells({&v, 1}, shares));
+        }
         // From the second round on several vertices at once, then their neighbours too, and so on.
-        for (int ring = 1; ring <= round; ++ring) {
+        for (int ring = 1; ring <= std::min(round, kMostRings); ++ring) {
             for (const double share : kShares) add(towards_neighbours(vertices, share));
+            for (const double share : kShares) add(homewards(vertices, share));
+            if (round >= kAnywhere) add(within_cells(vertices, Vec3(0.5)));
             add_neighbours(vertices);
         }
         return remedies;
@@ -234,7 +257,7 @@ private:
     }
 
     // The two triangles at the edge from corner k of t, with the edge between their other corners instead.
-    [[nodiscard]] Remedy turned_diagonal(std::uint32_t t, std::size_t k) const {
+    [[nodiscard]] Remedy turned_diagonal(std::uint32_t t, std::size_t k, double most_gap_cells) const {
         const std::uint32_t u = mesh_.triangles[t][k], v = mesh_.triangles[t][(k + 1) % 3],
                             a = mesh_.triangles[t][(k + 2) % 3];
         std::uint32_t other = t, b = a;
@@ -252,7 +275,7 @@ private:
                    &pb = mesh_.positions_m[b];
         const Vec3 across = glm::cross(pv - pu, pb - pa);
         const double length = glm::length(across);
-        if (!(std::abs(glm::dot(across, pa - pu)) <= kMostGap * lattice_.spacing_m * length)) return {};
+        if (!(std::abs(glm::dot(across, pa - pu)) <= most_gap_cells * lattice_.spacing_m * length)) return {};
         const Vec3 normal = glm::cross(pv - pu, pa - pu) + glm::cross(pb - pu, pv - pu);
         if (!(glm::dot(glm::cross(pu - pa, pb - pa), normal) > 0.0 &&
               glm::dot(glm::cross(pv - pb, pa - pb), normal) > 0.0)) {
@@ -279,7 +302,7 @@ private:
     }
     void move(std::uint32_t v, const Vec3& target, double share, Remedy& remedy) const {
         const Vec3& old = mesh_.positions_m[v];
-        const Vec3 place = in_cell_of(old, old + (target - old) * share);
+        const Vec3 place = allowed(v, old + (target - old) * share);
         if (place != old) remedy.places.emplace_back(v, place);
     }
 
@@ -294,19 +317,50 @@ private:
         return around;
     }
 
-    // The point of old's cell nearest to p, in numbers as the mesh has them. What lies on a face stays there.
-    [[nodiscard]] Vec3 in_cell_of(const Vec3& old, const Vec3& p) const {
+    // The point nearest to p that a vertex may have, in numbers as the mesh has them: within its cell, or on the way back
+    // there. What lies on a face stays there.
+    [[nodiscard]] Vec3 allowed(std::uint32_t v, const Vec3& p) const {
+        const Vec3& old = mesh_.positions_m[v];
         Vec3 place = old;
+        const Box home = home_of(v);
+        const int slot = static_cast<int>(keys_[v] % 16);
         for (int k = 0; k < 3; ++k) {
-            const double cells = (old[k] - lattice_.origin_object[k]) / lattice_.spacing_m;
-            const double cell = std::floor(cells), within = cells - cell;
-            if (within < kOnFace || within > 1.0 - kOnFace) continue;
-            const double lowest = lattice_.origin_object[k] + (cell + kInset) * lattice_.spacing_m;
-            const double highest = lattice_.origin_object[k] + (cell + 1.0 - kInset) * lattice_.spacing_m;
-            place[k] =
-                shift_[k] + static_cast<double>(static_cast<float>(std::clamp(p[k], lowest, highest) - shift_[k]));
+            if (slot >= kFirstFaceSlot && (slot - kFirstFaceSlot) / 2 == k) continue;
+            const double within = std::clamp(p[k], std::min(home.lo[k], old[k]), std::max(home.hi[k], old[k]));
+            place[k] = shift_[k] + static_cast<double>(static_cast<float>(within - shift_[k]));
         }
         return place;
+    }
+    // The box that the vertex' cell leaves to it, by its name.
+    [[nodiscard]] Box home_of(std::uint32_t v) const {
+        Box home{Vec3(0.0), Vec3(0.0)};
+        std::uint64_t cell = keys_[v] / 16;
+        for (int k = 0; k < 3; ++k) {
+            const auto along = static_cast<std::uint64_t>(lattice_.cells[static_cast<std::size_t>(k)] + 2);
+            const double lower_cells = static_cast<double>(cell % along) - 1.0;
+            cell /= along;
+            home.lo[k] = lattice_.origin_object[k] + (lower_cells + kInset) * lattice_.spacing_m;
+            home.hi[k] = lattice_.origin_object[k] + (lower_cells + 1.0 - kInset) * lattice_.spacing_m;
+        }
+        return home;
+    }
+    // Back to where the cell begins, for what the mesher put beside its cell.
+    [[nodiscard]] Remedy homewards(std::span<const std::uint32_t> vertices, double share) const {
+        Remedy remedy;
+        for (const std::uint32_t v : vertices) {
+            const Box home = home_of(v);
+            move(v, glm::clamp(mesh_.positions_m[v], home.lo, home.hi), share, remedy);
+        }
+        return remedy;
+    }
+    // To one place in each cell, in shares of its width: all in the middle, the surface is made of whole squares.
+    [[nodiscard]] Remedy within_cells(std::span<const std::uint32_t> vertices, const Vec3& shares) const {
+        Remedy remedy;
+        for (const std::uint32_t v : vertices) {
+            const Box home = home_of(v);
+            move(v, home.lo + home.extent() * shares, 1.0, remedy);
+        }
+        return remedy;
     }
 
     void add_neighbours(std::vector<std::uint32_t>& vertices) const {
@@ -406,6 +460,7 @@ private:
     const Vec3 shift_;  // what the mesh's floats are relative to (surface.cpp)
     const std::vector<Vec3> before_;
     const std::vector<VertexTriple> triangles_before_;
+    const std::vector<std::uint64_t> keys_;  // of the vertices (tile_mesher.hpp)
     Fans fans_;
     TriangleTree tree_;
     double reach_m_ = 0.0;  // no triangle has strayed farther from where the tree has it
@@ -417,12 +472,12 @@ private:
 
 }  // namespace
 
-MendingReport mend_intersections(TriangleMesh& mesh, const Solid& solid, WorkerPool& pool) {
+MendingReport mend_intersections(TriangleMesh& mesh, const Surface& surface, const Solid& solid, WorkerPool& pool) {
     MendingReport report;
     std::vector<TrianglePair> pairs = self_intersections(mesh, pool);
     report.found = report.left = pairs.size();
     if (pairs.empty()) return report;
-    Mender mender(mesh, solid);
+    Mender mender(mesh, surface, solid);
     for (int round = 0; round < kRounds && !pairs.empty(); ++round) {
         pairs = mender.treat(pairs, round);
     }

@@ -3,9 +3,11 @@
 // a sharp feature, jumps past a neighbour's (about one triangle in ten thousand around rims and thin walls).
 //
 // Local: only triangles within a few cells of a fault change. In rounds over a neighbourhood that grows, each fault is cured
-// by the remedy that moves the surface least: the other diagonal of a quad, or vertices moved towards the middle of their
-// neighbours by a quarter, a half, three quarters or all of the way. A vertex never leaves the lattice cell that it lies in; triangles are never added or removed; a remedy that leaves as many faults as before is not taken. The mesh stays
-// closed and two-manifold. Serial but for finding the faults: the result does not depend on the number of threads.
+// by the remedy that leaves the solid's surface least: the other diagonal of a quad, or vertices moved by an eighth to all of
+// the way towards a neighbour or the middle of their neighbours. A vertex stays in its cell, or goes back there;
+// triangles are never added or removed; a remedy that leaves as many faults as before is not taken. The mesh stays closed
+// and two-manifold. Serial but for finding the faults: the result does not depend on the number of threads.
+// What 20,000 attempts do not mend (random noise has that many faults) is left, and counted.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +15,7 @@
 
 #include "base/worker_pool.hpp"
 #include "compute/solid.hpp"
+#include "compute/surface.hpp"
 
 namespace burin {
 
@@ -26,7 +29,7 @@ struct MendingReport {
     double deviation_max_m = 0.0;
 };
 
-// The mesh must be Surface::welded()'s of a surface of this solid.
-MendingReport mend_intersections(TriangleMesh& mesh, const Solid& solid, WorkerPool& pool);
+// The mesh must be surface.welded(), and the surface up to date with the solid.
+MendingReport mend_intersections(TriangleMesh& mesh, const Surface& surface, const Solid& solid, WorkerPool& pool);
 
 }  // namespace burin
