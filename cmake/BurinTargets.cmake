@@ -23,7 +23,7 @@ endfunction()
 # burin_test(FOLDER compute KIND unit SOURCES a_unit.cpp ... [FOLDERS folder...] [LINKS library...])
 # One program for each folder and kind; the ctest name is FOLDER.KIND and the label is KIND. Each writes
 # test-reports/FOLDER.KIND.xml in the build directory, which scripts/test reads for its counts and the reasons of skips.
-# Kind realtime runs alone on the machine. Kind fuzz is a libFuzzer program (no GoogleTest), built by preset fuzz only;
+# Kind realtime runs alone on the machine. Kind soak is random use with a new seed each time, short by default. Kind fuzz is a libFuzzer program (no GoogleTest), built by preset fuzz only;
 # its ctest replays tests/FOLDER/corpus and then mutates it for a fixed number of runs.
 function(burin_test)
   cmake_parse_arguments(ARG "" "FOLDER;KIND" "SOURCES;FOLDERS;LINKS" ${ARGN})
@@ -42,6 +42,9 @@ function(burin_test)
     COMMAND ${target} --gtest_output=xml:${CMAKE_BINARY_DIR}/test-reports/${ARG_FOLDER}.${ARG_KIND}.xml
     WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
   set_tests_properties(${ARG_FOLDER}.${ARG_KIND} PROPERTIES LABELS ${ARG_KIND} TIMEOUT ${BURIN_TEST_TIMEOUT_S})
+  if(ARG_KIND STREQUAL "soak")  # as long as its user wants it to run
+    set_tests_properties(${ARG_FOLDER}.${ARG_KIND} PROPERTIES TIMEOUT 14400)
+  endif()
   if(ARG_KIND STREQUAL "realtime")
     set_tests_properties(${ARG_FOLDER}.${ARG_KIND} PROPERTIES RUN_SERIAL ON)
   endif()

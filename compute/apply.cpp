@@ -8,6 +8,7 @@
 #include "compute/ray_algebra.hpp"
 #include "compute/smooth.hpp"
 #include "compute/tool_spans.hpp"
+#include "shaders/shared/capsule.h"
 
 namespace burin {
 namespace {
@@ -50,12 +51,33 @@ void append_result(Operation operation, RayEnds held, RayEnds covered, std::vect
     }
 }
 
+// What filling may do of it: nothing on rays along the lattice's border, and on the others only within (shaders/shared/
+// capsule.h); where it stops it faces along the ray.
+RayEnds fillable(const Lattice& lattice, const RayPlace& place, RayEnds covered, std::vector<shared::DexelEnd>& kept) {
+    if (!shared::may_fill_ray(place.u, place.v, lattice.rays_u(place.axis), lattice.rays_v(place.axis))) return {};
+    const int cells = lattice.cells[static_cast<std::size_t>(place.axis)];
+    kept.clear();
+    for (std::size_t i = 0; i < covered.size(); i += 2) {
+        const shared::RaySpan whole{depth_of(covered[i]), depth_of(covered[i + 1])};
+        const shared::RaySpan within = shared::fill_within(whole, cells);
+        if (within.lo >= within.hi) continue;
+        const auto end = [&](const shared::DexelEnd& e, int depth, bool upper) {
+            return depth == depth_of(e)
+                       ? e
+                       : shared::make_end(depth, material_of(e), shared::axis_normal(place.axis, upper));
+        };
+        kept.push_back(end(covered[i], within.lo, false));
+        kept.push_back(end(covered[i + 1], within.hi, true));
+    }
+    return kept;
+}
+
 // The rays of `covered` whose ends the operation changes.
 RayBatch changed_rays(const Solid& solid, const RayBatch& covered, Operation operation, WorkerPool& pool) {
     constexpr std::size_t kRaysATask = 1024;
     std::vector<RayBatch> parts((covered.rays.size() + kRaysATask - 1) / kRaysATask);
     pool.run(parts.size(), [&](std::size_t i) {
-        std::vector<shared::DexelEnd> ends;
+        std::vector<shared::DexelEnd> ends, kept;
         const std::size_t last = std::min(covered.rays.size(), (i + 1) * kRaysATask);
         for (std::size_t r = i * kRaysATask; r < last; ++r) {
             const RayBatch::Ray& ray = covered.rays[r];
@@ -63,7 +85,10 @@ RayBatch changed_rays(const Solid& solid, const RayBatch& covered, Operation ope
             const RayEnds held = solid.sets[static_cast<std::size_t>(place.axis)].ends(place.u, place.v);
             if (held.empty() && operation != Operation::fill) continue;
             ends.clear();
-            append_result(operation, held, covered.ends_of(ray), ends);
+            const RayEnds by_tool = operation == Operation::fill
+                                        ? fillable(solid.lattice, place, covered.ends_of(ray), kept)
+                                        : covered.ends_of(ray);
+            append_result(operation, held, by_tool, ends);
             if (!same_ends(held, ends)) parts[i].add(ray.code, ends);
         }
     });

@@ -10,6 +10,8 @@
 #include "compute/mesh_tool.hpp"
 #include "compute/ray_algebra.hpp"
 #include "compute/scan_convert.hpp"
+#include "compute/surface.hpp"
+#include "tests/compute/mesh_topology.hpp"
 #include "tests/compute/test_meshes.hpp"
 #include "tests/compute/tool_reference.hpp"
 
@@ -254,6 +256,26 @@ TEST(Apply, RefusesTheWholeRunWhenOneSweepCannotBe) {
     }
     EXPECT_TRUE(engine->take_changes().empty());
     EXPECT_TRUE(apply(*engine, {}, pool()).has_value());
+}
+
+// Filled up to where the lattice ends, the solid is still closed there: its outermost nodes stay empty.
+TEST(Apply, WhatIsFilledBeyondTheLatticeClosesAtItsBorder) {
+    const Solid start = start_solid(20);
+    for (const ToolShape& shape : {ToolShape(BallTool{0.4}), ToolShape(CylinderTool{0.3, 0.9}),
+                                   ToolShape(BoxTool{Vec3(0.3)}), ToolShape(star())}) {
+        const auto engine = make_cpu_engine(start, pool());
+        for (const Vec3 corner : {Vec3(0.0), Vec3(1.0), Vec3(0.0, 1.0, 0.5), Vec3(1.0, 0.5, 0.0)}) {
+            ToolSweep sweep;
+            sweep.shape = shape;
+            sweep.start = sweep.end = {corner, Quat(1, 0, 0, 0)};
+            sweep.operation = Operation::fill;
+            ASSERT_TRUE(apply(*engine, std::span(&sweep, 1), pool()).has_value());
+        }
+        ASSERT_TRUE(well_formed(engine->solid()));
+        Surface surface(start.lattice);
+        surface.mesh_all(engine->solid(), pool());
+        EXPECT_EQ(topology_of(surface.welded()), MeshTopology{}) << shape.index();
+    }
 }
 
 }  // namespace burin::test
