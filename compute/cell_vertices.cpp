@@ -3,16 +3,14 @@
 
 #include "compute/cell_table.hpp"
 #include "compute/tile_mesher.hpp"
+#include "shaders/shared/feature_constants.h"
 #include "shaders/shared/octahedral.h"
 
 namespace burin {
 namespace {
 
-// Crossings whose normals are closer than this (cosine, about 41 degrees) belong to one smooth piece of surface.
-constexpr float kSmooth = 0.75f;
-// Across a change of material already a smaller angle (about 10 degrees) is an edge: the vertex lies on it, so each side can
-// keep its own colour. Where the surface runs on smoothly the border lies anywhere in the cell, and the colours blend.
-constexpr float kSmoothAcrossMaterials = 0.985f;
+using shared::kSmooth;
+using shared::kSmoothAcrossMaterials;
 
 std::uint32_t encode(const Vec3f& n) {
     const auto whole = [](float x) { return static_cast<std::int64_t>(x * 1048576.0f); };

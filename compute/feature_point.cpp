@@ -5,17 +5,17 @@
 #include <cmath>
 #include <optional>
 
+#include "shaders/shared/feature_constants.h"
+
 namespace burin {
 namespace {
 
-// Normals closer to a cluster's first than this (cosine, about 23 degrees) belong to one smooth piece of surface. A crease
-// shallower than that is less than a tenth of a cell deep within a cell.
-constexpr float kSameCluster = 0.92f;
-// Planes that meet at less than about 10 degrees do not determine where (squared sine), nor do three that nearly share a
-// direction (the volume of their normals).
-constexpr float kLeastSine2 = 0.03f, kLeastVolume = 0.1f;
-// Directions with less than this share of the largest eigenvalue carry no position, only noise.
-constexpr float kEigenvalueCutoff = 0.02f;
+using shared::kEigenvalueCutoff;
+using shared::kLeastSine2;
+using shared::kLeastVolume;
+using shared::kOutside;
+using shared::kSameCluster;
+using shared::kTowardsTangents;
 
 struct Symmetric3 {
     float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
@@ -56,15 +56,6 @@ Eigen3 eigen(const Symmetric3& m) {
     e.values = {a[0][0], a[1][1], a[2][2]};
     return e;
 }
-
-// Where planes meet, a vertex may lie this far outside its cell (in cells): an edge or a corner that passes close by a cell
-// often has no crossing on the edges of the cell that it lies in, and would else be cut off.
-constexpr float kOutside = 0.5f;
-
-// On a curved surface the mean of the crossings lies inside the curve, by some distance e, and the mean of their tangent planes
-// as far outside it. The triangles between the vertices sag to the inside by about e once more. Three quarters of the way from
-// the one to the other the volume comes out right, and the vertices lie e / 2 outside.
-constexpr float kTowardsTangents = 0.75f;
 
 }  // namespace
 
