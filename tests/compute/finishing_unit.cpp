@@ -97,7 +97,7 @@ TEST(Mending, MendsRandomStrokesAndKeepsPlace) {
     WorkerPool pool(2);
     std::size_t found = 0, moved = 0, worse = 0;
     for (int seed = 1; seed <= repeated(4); ++seed) {
-        const Carved carved = carved_block(kSanitized ? 48 : 96, static_cast<std::uint64_t>(seed), pool);
+        const Carved carved = carved_block(kSanitized ? 40 : 72, static_cast<std::uint64_t>(seed), pool);
         TriangleMesh mesh = mesh_of(carved.solid, pool);
         const TriangleMesh before = mesh;
         const MendingReport report = mend(mesh, carved.solid, pool);
@@ -141,7 +141,7 @@ TEST(Mending, DoesNotDependOnThreads) {
 TEST(Mending, NoiseIsMendedOrCounted) {
     WorkerPool pool(2);
     for (int seed = 0; seed < repeated(3); ++seed) {
-        const Solid solid = noise_solid({9, 9, 9}, 0.5, static_cast<Rays>(seed % 3), static_cast<std::uint64_t>(seed));
+        const Solid solid = noise_solid({7, 7, 7}, 0.5, static_cast<Rays>(seed % 3), static_cast<std::uint64_t>(seed));
         TriangleMesh mesh = mesh_of(solid, pool);
         const MendingReport report = mend(mesh, solid, pool);
         EXPECT_GT(report.found, 0u);
@@ -190,7 +190,7 @@ TEST(Slivers, KnownOnesAreFoundWithPlaceAndThickness) {
 
 TEST(ThinningOut, MakesNoNewFaultsAndStaysClosed) {
     WorkerPool pool(2);
-    const Carved carved = carved_block(48, 3, pool);
+    const Carved carved = carved_block(28, 3, pool);
     TriangleMesh mesh = mesh_of(carved.solid, pool);
     const std::uint64_t left = mend(mesh, carved.solid, pool).left;
     const double bound_m = 0.5 * carved.solid.lattice.spacing_m;  // coarse, so that sheets come near each other
