@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "tests/app/run_command.hpp"
 
@@ -86,6 +87,94 @@ TEST(Command, RefusesBadToolsStrokesAndPlacesBeforeCarving) {
     expect_refused(place, ball + "--export out.step", 1, {"out.step", ".stl"});
     expect_refused(place, ball + "--report no/such/folder/r.json", 1, {"no/such/folder"});
     expect_refused(place, ball + "--pictures file", 1, {"file", "--pictures"});
+}
+
+TEST(Command, RefusesBadToolSizesColoursAndUses) {
+    Workplace place;
+    place.write("open.off", tetrahedron_off(3));
+    const std::string ball = "sculpt --workpiece ball:0.1 --resolution 32 --export out.ply ";
+    expect_refused(place, ball + "--tool cylinder:0.1", 1, {"cylinder:0.1", "2 numbers"});
+    expect_refused(place, ball + "--tool cylinder:0.1,0", 1, {"cylinder:0.1,0", "above zero"});
+    expect_refused(place, ball + "--tool cone:0,0,1", 1, {"cone:0,0,1", "radius"});
+    expect_refused(place, ball + "--tool bullnose:0.01,0.02,1", 1, {"corner"});
+    expect_refused(place, ball + "--tool box:0.1,0.1,1e9", 1, {"too large", "4096"});
+    expect_refused(place, ball + "--tool mesh:missing.stl", 1, {"missing.stl"});
+    expect_refused(place, ball + "--tool mesh:open.off", 1, {"open.off", "closed"});
+    expect_refused(place, ball + "--tool box:1,1,1 --operation smooth", 1, {"box:1,1,1", "ball:R"});
+    expect_refused(place, ball + "--tool box:1,1,1 --hand simulated", 1, {"--hand", "ball:R"});
+    expect_refused(place, ball + "--material 1,2", 1, {"--material 1,2", "3 numbers"});
+    expect_refused(place, ball + "--material 1,2,256", 1, {"--material 1,2,256", "255"});
+    expect_refused(place, ball + "--operation melt", 2, {"--operation"});
+    expect_refused(place, ball + "--sweep-tolerance 0", 2, {"--sweep-tolerance"});
+    expect_refused(place, "combine open.off open.off --operation union --export out.ply", 1, {"open.off", "closed"});
+    expect_refused(place, "combine open.off open.off", 2, {"--operation"});
+}
+
+TEST(Command, EveryToolCutsFillsAndPaintsAndTheJudgeFindsNothing) {
+    Workplace place;
+    place.write("tool.off", tetrahedron_off(4));
+    // Pressed, moved along, then turned.
+    place.write("s.csv", kStrokeHeader + "0,0.4,0.5,0.9,0,0,0,1,1\n1,0.5,0.5,0.9,0,0,0,1,1\n2,0.6,0.5,0.9,0,0,0,1,1\n" +
+                             "3,0.6,0.6,0.9,0.1,0.2,0,1,1\n");
+    for (const std::string tool : {"ball:0.2", "cylinder:0.1,0.3", "cone:0,0.2,0.3", "bullnose:0.2,0.05,0.3",
+                                   "box:0.2,0.3,0.4", "mesh:tool.off"}) {
+        for (const std::string operation : {"cut", "fill", "paint"}) {
+            const auto outcome = place.run(kBurin + " sculpt --workpiece block:1,1,1 --tool " + tool + " --operation " +
+                                           operation + " --material 10,250,20 --stroke s.csv --resolution 32" +
+                                           " --sweep-tolerance 0.5 --export out.ply --report r.json");
+            ASSERT_EQ(outcome.status, 0) << tool << ' ' << operation << '\n' << outcome.output;
+            const auto audit = place.run(std::string(MESH_AUDIT) + " out.ply");
+            EXPECT_EQ(audit.status, 0) << tool << ' ' << operation << '\n' << audit.output;
+            const auto report = nlohmann::json::parse(place.read("r.json"));
+            const double removed_m3 = report["carving"]["volume_removed_m3"];
+            EXPECT_EQ(report["tool"]["operation"], operation);
+            const bool as_expected = operation == "cut"    ? removed_m3 > 1e-4
+                                     : operation == "fill" ? removed_m3 < -1e-5
+                                                           : removed_m3 == 0.0;
+            EXPECT_TRUE(as_expected) << tool << ' ' << operation << ' ' << removed_m3;
+            // The colour of what the tool left is in the file.
+            EXPECT_NE(place.read("out.ply").find(std::string("\x0a\xfa\x14", 3)), std::string::npos)
+                << tool << ' ' << operation;
+        }
+    }
+}
+
+TEST(Command, StraightRunsOfRowsAreOneSweepUnlessToldOtherwise) {
+    Workplace place;
+    std::string stroke = kStrokeHeader;
+    for (int i = 0; i <= 20; ++i)
+        stroke += std::to_string(i) + "," + std::to_string(0.2 + 0.03 * i) + ",0.5,1,0,0,0,1,1\n";
+    place.write("s.csv", stroke);
+    const auto updates = [&](const std::string& flags) {
+        const auto outcome =
+            place.run(kBurin + " sculpt --workpiece block:1,1,1 --tool cylinder:0.1,0.3 --stroke s.csv " +
+                      "--resolution 32 --export " + (flags.empty() ? "a" : "b") + ".ply --report r.json" + flags);
+        EXPECT_EQ(outcome.status, 0) << outcome.output;
+        return nlohmann::json::parse(place.read("r.json"))["carving"]["updates"].get<int>();
+    };
+    EXPECT_EQ(updates(""), 1);
+    EXPECT_EQ(updates(" --no-merge"), 21);
+}
+
+TEST(Command, CombinesTwoMeshesAndTheJudgeFindsNothing) {
+    Workplace place;
+    place.write("t.off", tetrahedron_off(4));
+    ASSERT_EQ(place.run(kBurin + " sculpt --workpiece block:0.5,0.5,0.5 --resolution 32 --export b.obj").status, 0);
+    for (const std::string operation : {"union", "difference", "intersection"}) {
+        const auto outcome = place.run(kBurin + " combine t.off b.obj --operation " + operation +
+                                       " --resolution 64 --export out.ply --report r.json");
+        ASSERT_EQ(outcome.status, 0) << outcome.output;
+        EXPECT_EQ(place.run(std::string(MESH_AUDIT) + " out.ply").status, 0);
+        const double volume_m3 = nlohmann::json::parse(place.read("r.json"))["mesh"]["volume_m3"];
+        // The tetrahedron holds 1/6, the block 1/8; beyond the slanting
+        // face x + y + z = 1 lies a corner of the block with 1/48.
+        const double common_m3 = 0.125 - 1.0 / 48.0;
+        const double expected_m3 = operation == "union"        ? 1.0 / 6.0 + 0.125 - common_m3
+                                   : operation == "difference" ? 1.0 / 6.0 - common_m3
+                                                               : common_m3;
+        EXPECT_NEAR(volume_m3, expected_m3, 2e-4) << operation;
+    }
+    expect_refused(place, "combine t.off t.off --operation difference --export none.ply", 1, {"empty"});
 }
 
 TEST(Command, SaysWhatToDoWithoutAVulkanDriver) {
