@@ -14,7 +14,7 @@
 namespace burin::bench {
 
 struct ParetoOptions {
-    int smallest = 64;  // resolutions double from here
+    int smallest = 32;  // resolutions double from here
     int largest = 512;
     int largest_on_software_vulkan = 256;  // a software device takes minutes beyond; 0: none
     unsigned threads = 0;                  // 0: one a core; OpenVDB gets as many
