@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: MIT
+// The surface that the device makes against the one that the CPU makes: the same vertices to the last bit where the device
+// rounds as the host does, the same triangles, whatever the solid and however it came about.
+#include "compute/device_surface.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "compute/surface.hpp"
+#include "gpu/core.hpp"
+#include "tests/compute/effort.hpp"
+#include "tests/compute/engine_pair.hpp"
+#include "tests/compute/random_solids.hpp"
+#include "tests/gpu/test_device.hpp"
+
+namespace burin::test {
+namespace {
+
+class DeviceSurfaceGpu : public gpu::DeviceTest {
+protected:
+    void SetUp() override {
+        DeviceTest::SetUp();
+        if (IsSkipped()) return;
+        const gpu::Capabilities& can = device().capabilities();
+        if (!can.shader_int64 || !can.shader_float64 || !can.buffer_address) {
+            GTEST_SKIP() << device().info().name << " cannot run the Vulkan engine";
+        }
+    }
+    gpu::Capabilities& capabilities() { return device().core()->capabilities; }
+};
+
+bool same(const shared::SurfaceVertex& a, const shared::SurfaceVertex& b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z && a.normal == b.normal && a.colour == b.colour;
+}
+
+std::string text(const shared::SurfaceVertex& v) {
+    return "(" + std::to_string(v.x) + " " + std::to_string(v.y) + " " + std::to_string(v.z) + " " +
+           std::to_string(v.normal) + " " + std::to_string(v.colour) + ")";
+}
+
+// A triangle by what its corners are, the least first, so that the order of vertices and triangles does not matter.
+using Corner = std::array<std::uint32_t, 5>;
+std::vector<std::array<Corner, 3>> triangles_of(const TileMesh& mesh) {
+    std::vector<std::array<Corner, 3>> triangles;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        std::array<Corner, 3> t;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const shared::SurfaceVertex& v = mesh.vertices[mesh.indices[i + k]];
+            t[k] = {std::bit_cast<std::uint32_t>(v.x), std::bit_cast<std::uint32_t>(v.y),
+                    std::bit_cast<std::uint32_t>(v.z), v.normal, v.colour};
+        }
+        std::ranges::rotate(t, std::ranges::min_element(t));
+        triangles.push_back(t);
+    }
+    std::ranges::sort(triangles);
+    return triangles;
+}
+
+// Nothing when the device's tile is the CPU's, else how it differs. The vertices of the cells come in the same order; only
+// the extra ones on faces, and the triangles of their fans, may come in another.
+std::string difference(const TileMesh& device, const TileMesh& cpu) {
+    if (device.vertices.size() != cpu.vertices.size() || device.indices.size() != cpu.indices.size()) {
+        return std::to_string(device.vertices.size()) + " vertices and " + std::to_string(device.indices.size()) +
+               " indices in place of " + std::to_string(cpu.vertices.size()) + " and " +
+               std::to_string(cpu.indices.size());
+    }
+    if (device.disagreeing_edges != cpu.disagreeing_edges) return "other disagreeing edges";
+    for (std::size_t i = 0; i < cpu.cell_vertices(); ++i) {
+        if (!same(device.vertices[i], cpu.vertices[i])) {
+            return "vertex " + std::to_string(i) + " is " + text(device.vertices[i]) + " in place of " +
+                   text(cpu.vertices[i]);
+        }
+    }
+    if (cpu.face_keys.empty()) return device.indices == cpu.indices ? "" : "other triangles";
+    return triangles_of(device) == triangles_of(cpu) ? "" : "other triangles, with fans";
+}
+
+testing::AssertionResult equal(DeviceSurface& device, const Surface& cpu) {
+    const auto tiles = device.download();
+    if (!tiles) return testing::AssertionFailure() << tiles.error().line();
+    for (std::uint32_t t = 0; t < cpu.tile_count(); ++t) {
+        const std::string differs = difference((*tiles)[t], cpu.tile(t));
+        if (!differs.empty()) return testing::AssertionFailure() << "tile " << t << ": " << differs;
+    }
+    return testing::AssertionSuccess();
+}
+
+std::unique_ptr<DeviceSurface> surface_of(VulkanEngine& engine, const DeviceSurfaceOptions& options = {}) {
+    auto made = DeviceSurface::create(engine, options);
+    EXPECT_TRUE(made) << made.error().line();
+    return made ? std::move(*made) : nullptr;
+}
+
+}  // namespace
+
+TEST_F(DeviceSurfaceGpu, ABlockHasTheSameSurface) {
+    EnginePair engines(unit_cube(40), device());
+    Surface cpu(engines.cpu().solid().lattice);
+    cpu.mesh_all(engines.cpu().solid(), engines.pool());
+    const auto surface = surface_of(engines.vulkan());
+    ASSERT_NE(surface, nullptr);
+    EXPECT_TRUE(equal(*surface, cpu));
+}
+
+TEST_F(DeviceSurfaceGpu, NoiseHasTheSameSurfaceWhateverItsRaysSay) {
+    std::uint64_t seed = 0;
+    for (const Rays rays : {Rays::agree, Rays::disturbed, Rays::unrelated}) {
+        for (const double p : {0.02, 0.2, 0.5}) {
+            for (int round = 0; round < repeated(2); ++round) {
+                const Solid solid = noise_solid({20, 17, 34}, p, rays, ++seed);
+                auto engine = VulkanEngine::create(solid, device());
+                ASSERT_TRUE(engine);
+                const auto surface = surface_of(**engine);
+                ASSERT_NE(surface, nullptr);
+                WorkerPool pool(2);
+                Surface cpu(solid.lattice);
+                cpu.mesh_all(solid, pool);
+                ASSERT_TRUE(equal(*surface, cpu)) << "seed " << seed << " p " << p;
+            }
+        }
+    }
+}
+
+TEST_F(DeviceSurfaceGpu, AStrokeCarvedAndMeshedOnTheDeviceGivesTheSameSurfaceAndSolid) {
+    const Solid solid = unit_cube(64);
+    EnginePair engines(solid, device());
+    const auto surface = surface_of(engines.vulkan());
+    ASSERT_NE(surface, nullptr);
+    Surface cpu(solid.lattice);
+    cpu.mesh_all(solid, engines.pool());
+    const std::vector<BallSweep> stroke = stroke_1000(kSanitized ? 64 : 16);
+    const std::uint64_t before = surface->counts().submissions;
+    for (std::size_t i = 0; i < stroke.size(); ++i) {
+        ASSERT_TRUE(engines.cpu().carve(std::span(&stroke[i], 1)));
+        cpu.update(engines.cpu().solid(), engines.cpu().take_changes(), engines.pool());
+        const auto carved = surface->carve(std::span(&stroke[i], 1));
+        ASSERT_TRUE(carved) << carved.error().line();
+        if (i % 8 == 7) {
+            ASSERT_TRUE(equal(*surface, cpu)) << "after ball " << i;
+        }
+    }
+    ASSERT_TRUE(equal(*surface, cpu));
+    EXPECT_EQ(surface->counts().submissions, before + stroke.size()) << "a frame is one submission";
+    EXPECT_TRUE(engines.read_back());
+}
+
+// Lists and pools start far too small, and few tiles are taken at once: tiles have to wait, several times over.
+TEST_F(DeviceSurfaceGpu, RunningOutOfRoomLosesNoSurface) {
+    const Solid solid = noise_solid({40, 33, 34}, 0.1, Rays::disturbed, 77);
+    EnginePair engines(solid, device());
+    const auto surface =
+        surface_of(engines.vulkan(), {.slots = 5, .cells = 64, .edges = 64, .vertices = 64, .indices = 64});
+    ASSERT_NE(surface, nullptr);
+    Surface cpu(solid.lattice);
+    cpu.mesh_all(solid, engines.pool());
+    ASSERT_TRUE(equal(*surface, cpu));
+    EXPECT_GT(surface->counts().growths, 4u);
+    Random random(3);
+    for (int i = 0; i < repeated(10); ++i) {
+        BallSweep sweep;
+        sweep.start_object_m = Vec3(-0.3, 0.2, 0.1) + Vec3(random.between(0, 0.4), random.between(0, 0.33), 0.17);
+        sweep.end_object_m = sweep.start_object_m + Vec3(0.05, 0.02, 0.1);
+        sweep.radius_m = random.between(0.01, 0.2);
+        sweep.operation = static_cast<Operation>(i % 3);  // cut, fill, paint
+        sweep.material = 1;
+        ASSERT_TRUE(engines.cpu().carve(std::span(&sweep, 1)));
+        cpu.update(engines.cpu().solid(), engines.cpu().take_changes(), engines.pool());
+        ASSERT_TRUE(surface->carve(std::span(&sweep, 1)));
+        ASSERT_TRUE(equal(*surface, cpu)) << i;
+    }
+    EXPECT_TRUE(engines.read_back());
+}
+
+// Many frames that nobody looks at, cuts that take several passes, and changes that come from the host in between.
+TEST_F(DeviceSurfaceGpu, FramesThatAreNotWaitedForAndChangesFromTheHostGiveTheSameSurface) {
+    const Solid solid = unit_cube(48);
+    EnginePair engines(solid, device(), {.spare_ends = 0, .tasks_a_pass = 8});
+    const auto surface = surface_of(engines.vulkan(), {.slots = 16});
+    ASSERT_NE(surface, nullptr);
+    Surface cpu(solid.lattice);
+    cpu.mesh_all(solid, engines.pool());
+    Random random(9);
+    for (int round = 0; round < repeated(6); ++round) {
+        for (int frame = 0; frame < 5; ++frame) {
+            std::vector<BallSweep> sweeps(static_cast<std::size_t>(random.small(1, 6)));
+            for (BallSweep& sweep : sweeps) {
+                sweep.start_object_m = Vec3(random.unit(), random.unit(), random.unit());
+                sweep.end_object_m = Vec3(random.unit(), random.unit(), random.unit());
+                sweep.radius_m = random.between(0.01, 0.12);
+                sweep.operation = static_cast<Operation>(random.small(0, 2));
+                sweep.material = 1;
+            }
+            ASSERT_TRUE(engines.cpu().carve(sweeps));
+            ASSERT_TRUE(surface->carve(sweeps));
+        }
+        ASSERT_TRUE(surface->finish());
+        ASSERT_TRUE(engines.read_back());
+        const Changes undone = engines.vulkan().take_changes();
+        if (round % 2 == 0) {  // undo
+            RayBatch batch;
+            for (const shared::ChangedRay& ray : undone.rays) batch.add(ray.ray, undone.before_of(ray));
+            ASSERT_TRUE(engines.assign(batch));
+            ASSERT_TRUE(surface->update(engines.vulkan().take_changes()));
+        }
+        cpu.update(engines.cpu().solid(), engines.cpu().take_changes(), engines.pool());
+        ASSERT_TRUE(equal(*surface, cpu)) << "round " << round;
+    }
+}
+
+TEST_F(DeviceSurfaceGpu, WithoutUnifiedMemoryTheSurfaceIsTheSame) {
+    capabilities().unified_memory = false;
+    const Solid solid = noise_solid({30, 20, 34}, 0.05, Rays::agree, 5);
+    EnginePair engines(solid, device());
+    const auto surface = surface_of(engines.vulkan(), {.slots = 7, .vertices = 256, .indices = 256});
+    ASSERT_NE(surface, nullptr);
+    Surface cpu(solid.lattice);
+    cpu.mesh_all(solid, engines.pool());
+    const BallSweep sweep{Vec3(-0.2, 0.3, 0.2), Vec3(-0.1, 0.3, 0.3), 0.06, 1};
+    ASSERT_TRUE(engines.cpu().carve(std::span(&sweep, 1)));
+    cpu.update(engines.cpu().solid(), engines.cpu().take_changes(), engines.pool());
+    ASSERT_TRUE(surface->carve(std::span(&sweep, 1)));
+    EXPECT_TRUE(equal(*surface, cpu));
+    EXPECT_TRUE(engines.read_back());
+}
+
+TEST_F(DeviceSurfaceGpu, AfterADeviceErrorTheSurfaceIsThatOfTheHostsSolid) {
+    const Solid solid = noise_solid({30, 20, 34}, 0.1, Rays::agree, 6);
+    EnginePair engines(solid, device(), {.spare_ends = 0});
+    const auto surface = surface_of(engines.vulkan());
+    ASSERT_NE(surface, nullptr);
+    Surface cpu(solid.lattice);
+    cpu.mesh_all(solid, engines.pool());
+    std::vector<BallSweep> holes;  // each splits intervals, for which the store has no room
+    for (int i = 0; i < 20; ++i) holes.push_back({Vec3(-0.3 + 0.01 * i, 0.2, 0.1), Vec3(-0.1, 0.39, 0.4), 0.004, 1});
+    const std::uint64_t limit = device().core()->max_allocation_bytes;
+    device().core()->max_allocation_bytes = 1024;
+    auto failed = surface->carve(holes);
+    if (failed) failed = surface->finish();
+    device().core()->max_allocation_bytes = limit;
+    EXPECT_FALSE(failed);
+    EXPECT_TRUE(engines.vulkan().solid().same_content(solid));
+    ASSERT_TRUE(equal(*surface, cpu));
+    ASSERT_TRUE(engines.cpu().carve(holes));
+    cpu.update(engines.cpu().solid(), engines.cpu().take_changes(), engines.pool());
+    ASSERT_TRUE(surface->carve(holes));
+    EXPECT_TRUE(equal(*surface, cpu));
+    EXPECT_TRUE(engines.read_back());
+}
+
+// ---- Near the tool
+
+namespace {
+
+using Place = std::array<float, 3>;
+std::vector<std::array<Place, 3>> triangles_of(const LocalSurface& surface) {
+    std::vector<std::array<Place, 3>> triangles;
+    for (std::uint32_t i = 0; i < surface.triangle_count; ++i) {
+        std::array<Place, 3> t;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3f& p = surface.positions_m[surface.triangles[i][k]];
+            t[k] = {p.x, p.y, p.z};
+        }
+        std::ranges::rotate(t, std::ranges::min_element(t));
+        triangles.push_back(t);
+    }
+    std::ranges::sort(triangles);
+    return triangles;
+}
+
+}  // namespace
+
+TEST_F(DeviceSurfaceGpu, TheTrianglesNearTheToolAreTheSameAsASet) {
+    const Solid solid = unit_cube(64);
+    EnginePair engines(solid, device());
+    const auto surface = surface_of(engines.vulkan());
+    ASSERT_NE(surface, nullptr);
+    Surface cpu(solid.lattice);
+    cpu.mesh_all(solid, engines.pool());
+    const auto expected = std::make_unique<LocalSurface>(), actual = std::make_unique<LocalSurface>();
+    std::uint64_t triangles = 0;
+    for (const BallSweep& sweep : stroke_1000(32)) {
+        ASSERT_TRUE(engines.cpu().carve(std::span(&sweep, 1)));
+        cpu.update(engines.cpu().solid(), engines.cpu().take_changes(), engines.pool());
+        const std::uint64_t before = surface->counts().submissions;
+        ASSERT_TRUE(surface->carve(std::span(&sweep, 1), DeviceSurface::Ball{sweep.start_object_m, 0.1}));
+        for (const double radius : {0.1, 0.013}) {  // the one that was told, and another
+            gather_local_surface(cpu, sweep.start_object_m, radius, *expected);
+            const auto gathered = surface->local_surface(sweep.start_object_m, radius, *actual);
+            ASSERT_TRUE(gathered) << gathered.error().line();
+            ASSERT_EQ(actual->triangle_count, expected->triangle_count);
+            ASSERT_EQ(actual->vertex_count, expected->vertex_count);
+            EXPECT_EQ(actual->dropped_triangles, 0u);
+            EXPECT_EQ(actual->radius_m, expected->radius_m);
+            ASSERT_EQ(triangles_of(*actual), triangles_of(*expected));
+            triangles += actual->triangle_count;
+        }
+        EXPECT_EQ(surface->counts().submissions, before + 2);
+    }
+    EXPECT_GT(triangles, 1000u);
+}
+
+TEST_F(DeviceSurfaceGpu, ABallWithMoreTrianglesThanALocalSurfaceHoldsIsMadeSmallerAlike) {
+    const Solid solid = noise_solid({60, 60, 60}, 0.3, Rays::agree, 8);
+    EnginePair engines(solid, device());
+    const auto surface = surface_of(engines.vulkan());
+    ASSERT_NE(surface, nullptr);
+    Surface cpu(solid.lattice);
+    cpu.mesh_all(solid, engines.pool());
+    const auto expected = std::make_unique<LocalSurface>(), actual = std::make_unique<LocalSurface>();
+    const Vec3 center(0.0, 0.5, 0.4);
+    gather_local_surface(cpu, center, 0.5, *expected);
+    ASSERT_TRUE(surface->local_surface(center, 0.5, *actual));
+    EXPECT_GT(expected->dropped_triangles, 0u);
+    EXPECT_EQ(actual->dropped_triangles, expected->dropped_triangles);
+    EXPECT_EQ(actual->radius_m, expected->radius_m);
+    EXPECT_EQ(triangles_of(*actual), triangles_of(*expected));
+}
+
+}  // namespace burin::test
