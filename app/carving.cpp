@@ -27,7 +27,9 @@ Result<void> Carving::update(std::span<const ToolSweep> sweeps) {
     const Nanoseconds start_ns = clock.now_ns();
     const Result<CarveStats> cut = apply(*engine_, sweeps, pool_);
     if (!cut) return std::unexpected(cut.error());
-    const RemeshStats remeshed = surface_.update(engine_->solid(), engine_->take_changes(), pool_);
+    const Changes changes = engine_->take_changes();
+    const RemeshStats remeshed = surface_.update(engine_->solid(), changes, pool_);
+    if (history_) history_->record(changes);
     figures_.update_ms.push_back(milliseconds(start_ns, clock.now_ns()));
 
     for (const std::uint32_t tile : surface_.changed_tiles()) tile_changed_[tile] = true;
@@ -38,6 +40,35 @@ Result<void> Carving::update(std::span<const ToolSweep> sweeps) {
     figures_.tiles_remeshed += remeshed.tiles;
     figures_.triangles_remeshed += remeshed.triangles;
     return {};
+}
+
+Result<std::size_t> Carving::undo(std::size_t strokes) {
+    std::size_t undone = 0;
+    while (history_ && undone < strokes) {
+        const Result<bool> taken_back = history_->undo(*engine_);
+        if (!taken_back) return std::unexpected(taken_back.error());
+        if (!*taken_back) break;
+        follow_engine();
+        ++undone;
+    }
+    return undone;
+}
+
+Result<std::size_t> Carving::redo(std::size_t strokes) {
+    std::size_t redone = 0;
+    while (history_ && redone < strokes) {
+        const Result<bool> done_again = history_->redo(*engine_);
+        if (!done_again) return std::unexpected(done_again.error());
+        if (!*done_again) break;
+        follow_engine();
+        ++redone;
+    }
+    return redone;
+}
+
+void Carving::follow_engine() {
+    surface_.update(engine_->solid(), engine_->take_changes(), pool_);
+    for (const std::uint32_t tile : surface_.changed_tiles()) tile_changed_[tile] = true;
 }
 
 std::vector<std::uint32_t> Carving::take_changed_tiles() {

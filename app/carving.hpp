@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "compute/apply.hpp"
+#include "compute/history.hpp"
 #include "compute/surface.hpp"
 
 namespace burin {
@@ -31,6 +33,17 @@ public:
 
     [[nodiscard]] Result<void> update(std::span<const ToolSweep> sweeps);
 
+    // From now on strokes can be taken back. Costs time and memory, so whoever never undoes does without.
+    void keep_history(std::size_t budget_bytes) { history_.emplace(budget_bytes); }
+    // What was updated since the last call is one stroke.
+    void end_stroke() {
+        if (history_) history_->end_stroke();
+    }
+    // Takes back up to so many strokes, the last first; says how many there were. Redo likewise.
+    [[nodiscard]] Result<std::size_t> undo(std::size_t strokes);
+    [[nodiscard]] Result<std::size_t> redo(std::size_t strokes);
+    [[nodiscard]] History* history() { return history_ ? &*history_ : nullptr; }
+
     [[nodiscard]] const CarvingEngine& engine() const { return *engine_; }
     [[nodiscard]] const Surface& surface() const { return surface_; }
     [[nodiscard]] const CarvingFigures& figures() const { return figures_; }
@@ -40,9 +53,12 @@ public:
     [[nodiscard]] std::vector<std::uint32_t> take_changed_tiles();
 
 private:
+    void follow_engine();
+
     std::unique_ptr<CarvingEngine> engine_;
     WorkerPool& pool_;
     Surface surface_;
+    std::optional<History> history_;
     CarvingFigures figures_;
     std::vector<bool> tile_changed_;
     double initial_volume_m3_ = 0.0;

@@ -21,10 +21,8 @@ void add_sculpt_options(CLI::App& command, SculptOptions& options) {
         {"auto", EngineChoice::automatic}, {"cpu", EngineChoice::cpu}, {"vulkan", EngineChoice::vulkan}};
     static const std::map<std::string, HandChoice> hands{{"rigid", HandChoice::rigid},
                                                          {"simulated", HandChoice::simulated}};
-    static const std::map<std::string, Operation> operations{{"cut", Operation::cut},
-                                                             {"fill", Operation::fill},
-                                                             {"paint", Operation::paint},
-                                                             {"smooth", Operation::smooth}};
+    static const std::map<std::string, Operation> operations{
+        {"cut", Operation::cut}, {"fill", Operation::fill}, {"paint", Operation::paint}, {"smooth", Operation::smooth}};
     command
         .add_option("--workpiece", options.workpiece.source,
                     "FILE (STL, OBJ, PLY, OFF), block:X,Y,Z or ball:R, in metres")
@@ -43,7 +41,8 @@ void add_sculpt_options(CLI::App& command, SculptOptions& options) {
         ->check(CLI::Range(0.001, 1000.0))
         ->capture_default_str();
     command
-        .add_option("--smooth-strength", options.tool.smooth_strength, "With --operation smooth: 0 does nothing, 1 all at once")
+        .add_option("--smooth-strength", options.tool.smooth_strength,
+                    "With --operation smooth: 0 does nothing, 1 all at once")
         ->check(CLI::Range(0.0, 1.0))
         ->capture_default_str();
     command.add_flag("!--no-merge", options.merge_rows,
@@ -66,6 +65,11 @@ void add_sculpt_options(CLI::App& command, SculptOptions& options) {
     command.add_option("--pictures", options.pictures,
                        "A folder for before.png, after.png, left.png, right.png, stereo.png");
     command.add_option("--report", options.report, "A JSON file for all figures");
+    command.add_option("--undo", options.undo, "Take back the last so many strokes, each from press to release")
+        ->capture_default_str();
+    command.add_option("--undo-memory", options.undo_memory_MiB, "MiB for strokes that can be taken back")
+        ->check(CLI::Range(1, 1 << 20))
+        ->capture_default_str();
     command.add_option("--threads", options.threads, "How many threads carve; 0: one per core")
         ->check(CLI::Range(0, 1024));
 }
@@ -86,7 +90,8 @@ void add_combine_options(CLI::App& command, burin::CombineOptions& options) {
     command.add_option("--export", options.exports,
                        "Where to write the result: .stl, .ply (with colour) or .obj; may be repeated");
     command.add_option("--report", options.report, "A JSON file for all figures");
-    command.add_option("--threads", options.threads, "How many threads work; 0: one per core")->check(CLI::Range(0, 1024));
+    command.add_option("--threads", options.threads, "How many threads work; 0: one per core")
+        ->check(CLI::Range(0, 1024));
 }
 
 int finish(const burin::Result<void>& outcome) {
@@ -126,7 +131,10 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);  // --help
         std::fprintf(stderr, "burin: %s; see burin %s--help\n", error.what(),
-                     sculpt->parsed() ? "sculpt " : (convert->parsed() ? "convert " : combine->parsed() ? "combine " : (bench.parsed() ? "bench " : "")));
+                     sculpt->parsed() ? "sculpt "
+                                      : (convert->parsed()   ? "convert "
+                                         : combine->parsed() ? "combine "
+                                                             : (bench.parsed() ? "bench " : "")));
         return 2;
     }
     if (version) {

@@ -22,6 +22,7 @@ Result<void> carve_rigidly(Carving& carving, const Stroke& stroke, const Tool& t
             const double of_run = static_cast<double>(done * run.size()) / static_cast<double>(sweeps.size());
             progress.show((static_cast<double>(i) + of_run) / static_cast<double>(stroke.size()));
         }
+        carving.end_stroke();
     }
     return {};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/sculpt.hpp"
 
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 
@@ -39,6 +40,22 @@ Staging staging_of(const Stroke& stroke, const Tool& tool, const std::optional<F
         staging.box_visible = true;
     }
     return staging;
+}
+
+// Undoes the last strokes; what there is to say about it.
+Result<Json> take_back(Carving& carving, std::size_t strokes) {
+    carving.end_stroke();
+    const std::size_t kept = carving.history()->undoable();
+    const Result<std::size_t> undone = carving.undo(strokes);
+    if (!undone) return std::unexpected(undone.error());
+    for (const std::string& notice : carving.history()->take_notices()) {
+        std::fprintf(stderr, "burin: %s\n", notice.c_str());
+    }
+    if (*undone < strokes) {
+        std::fprintf(stderr, "burin: %zu strokes could be undone, not %zu\n", *undone, strokes);
+    }
+    return Json{
+        {"strokes_kept", kept}, {"strokes_undone", *undone}, {"strokes_dropped", carving.history()->dropped_strokes()}};
 }
 
 }  // namespace
@@ -81,6 +98,7 @@ Result<void> sculpt(const SculptOptions& options) {
         if (const auto taken = pictures->take_before(carving); !taken) return taken;
     }
 
+    if (options.undo > 0) carving.keep_history(options.undo_memory_MiB << 20);
     std::optional<FeltFigures> felt;
     if (!stroke.empty() && options.hand == HandChoice::rigid) {
         if (const auto carved = carve_rigidly(carving, stroke, *tool, options.merge_rows); !carved) return carved;
@@ -88,6 +106,13 @@ Result<void> sculpt(const SculptOptions& options) {
         Result<FeltFigures> carved = carve_by_feel(carving, stroke, *tool, {options.real_time});
         if (!carved) return std::unexpected(carved.error());
         felt = std::move(*carved);
+    }
+
+    Json undone;
+    if (options.undo > 0) {
+        Result<Json> taken_back = take_back(carving, options.undo);
+        if (!taken_back) return std::unexpected(taken_back.error());
+        undone = std::move(*taken_back);
     }
 
     const Result<FinishedMesh> finished =
@@ -103,6 +128,7 @@ Result<void> sculpt(const SculptOptions& options) {
     report["mesh"]["self_intersections"] = finished->self_intersections;
     report["slivers"] = finished->slivers;
     if (!finished->simplification.is_null()) report["simplification"] = finished->simplification;
+    if (!undone.is_null()) report["undo"] = undone;
     if (felt) report["feel"] = describe_feel(*felt);
     report["timing"] = describe_timing(carving, felt ? &*felt : nullptr);
     if (mesh.triangles.empty() && !options.exports.empty()) {

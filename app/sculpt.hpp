@@ -22,11 +22,13 @@ struct SculptOptions {
     EngineChoice engine = EngineChoice::automatic;
     HandChoice hand = HandChoice::rigid;
     bool real_time = false;
-    std::vector<std::string> exports;  // STL, PLY, OBJ
-    std::optional<double> simplify_m;  // how far the exported surface may move; none: all triangles
-    std::string pictures;              // a folder; empty: none
-    std::string report;                // a JSON file; empty: none
-    unsigned threads = 0;              // 0: one per core
+    std::size_t undo = 0;                // strokes to take back at the end, from press to release
+    std::size_t undo_memory_MiB = 1024;  // for the strokes that can be taken back
+    std::vector<std::string> exports;    // STL, PLY, OBJ
+    std::optional<double> simplify_m;    // how far the exported surface may move; none: all triangles
+    std::string pictures;                // a folder; empty: none
+    std::string report;                  // a JSON file; empty: none
+    unsigned threads = 0;                // 0: one per core
 };
 
 // Writes nothing before all input has been read and all output places have been looked at.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "compute/memory_need.hpp"
 #include "compute/normal_code.hpp"
 #include "compute/ray_crossings.hpp"
 #include "geometry/edge_table.hpp"
@@ -135,6 +136,7 @@ Result<ScanConversion> scan_convert(const TriangleMesh& mesh, int resolution, Wo
     if (orientation == Orientation::open) return fail("mesh", kHoles, "close it, or pass --close-holes");
     const Result<Lattice> lattice = lattice_around(bounds_of_triangles(mesh), resolution);
     if (!lattice) return std::unexpected(lattice.error());
+    if (const auto fits = check_memory(*lattice, memory_available()); !fits) return std::unexpected(fits.error());
     return convert(mesh, orientation, *lattice, pool);
 }
 

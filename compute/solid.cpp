@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "compute/memory_need.hpp"
 #include "shaders/shared/capsule.h"
 
 namespace burin {
@@ -65,6 +66,7 @@ Result<Solid> make_block(const Vec3& size_m, int resolution, Material material) 
     }
     Result<Lattice> lattice = lattice_around(Box{Vec3(0.0), size_m}, resolution);
     if (!lattice) return std::unexpected(lattice.error());
+    if (const auto fits = check_memory(*lattice, memory_available()); !fits) return std::unexpected(fits.error());
     Solid solid{*lattice, {}, {std::move(material)}};
     const auto lo = whole_units(solid.lattice.units_from_object(Vec3(0.0)));
     const auto hi = whole_units(solid.lattice.units_from_object(size_m));
@@ -89,6 +91,7 @@ Result<Solid> make_ball(double radius_m, int resolution, Material material) {
     if (!(radius_m > 0)) return fail("workpiece ball", "needs a radius above zero", "write ball:R in metres");
     Result<Lattice> lattice = lattice_around(Box{Vec3(-radius_m), Vec3(radius_m)}, resolution);
     if (!lattice) return std::unexpected(lattice.error());
+    if (const auto fits = check_memory(*lattice, memory_available()); !fits) return std::unexpected(fits.error());
     Solid solid{*lattice, {}, {std::move(material)}};
     const auto center = whole_units(solid.lattice.units_from_object(Vec3(0.0)));
     const double radius = radius_m / solid.lattice.unit_m();

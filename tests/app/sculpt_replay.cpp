@@ -87,4 +87,32 @@ TEST(Sculpt, ASurfaceThatIsOnlyTouchedPushesBackAndStaysWhole) {
     EXPECT_LT(force, 1.6);
 }
 
+// Two strokes, both taken back: the exported workpiece is the one that nobody touched, byte for byte.
+TEST(Sculpt, UndoneStrokesLeaveNoTrace) {
+    Workplace place;
+    std::string text = kStrokeHeader;
+    for (int i = 0; i < 40; ++i) {
+        const bool between = i == 20;  // the tool is lifted here, which ends the first stroke
+        text += std::to_string(0.02 * i) + "," + std::to_string(-0.02 + 0.001 * i) + ",0,0.05,0,0,0,1," +
+                (between ? "0" : "1") + "\n";
+    }
+    place.write("two.csv", text);
+    for (const std::string engine : {"cpu", "vulkan"}) {
+        const std::string common = kBurin + " sculpt --workpiece ball:0.05 --resolution 48 --engine " + engine;
+        const auto touched = place.run(common + " --tool ball:0.004 --stroke two.csv --export touched.ply");
+        if (engine == "vulkan" && touched.status != 0) continue;  // no Vulkan device that can carve
+        ASSERT_EQ(touched.status, 0) << touched.output;
+        ASSERT_EQ(place.run(common + " --export untouched.ply").status, 0);
+        const auto undone =
+            place.run(common + " --tool ball:0.004 --stroke two.csv --undo 2 --export undone.ply --report r.json");
+        ASSERT_EQ(undone.status, 0) << undone.output;
+        EXPECT_EQ(nlohmann::json::parse(place.read("r.json"))["undo"]["strokes_undone"], 2);
+        EXPECT_TRUE(place.read("undone.ply") == place.read("untouched.ply")) << engine;
+        EXPECT_FALSE(place.read("undone.ply") == place.read("touched.ply")) << engine;
+        const auto more = place.run(common + " --tool ball:0.004 --stroke two.csv --undo 9 --export undone.ply");
+        EXPECT_EQ(more.status, 0);
+        EXPECT_NE(more.output.find("2 strokes could be undone, not 9"), std::string::npos) << more.output;
+    }
+}
+
 }  // namespace burin
