@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 
 #include "compute/surface.hpp"
 #include "tests/compute/effort.hpp"
@@ -40,9 +39,7 @@ double ray_volume(const Solid& solid, std::size_t axis) {
 
 double mesh_volume(const Solid& solid) {
     Surface surface(solid.lattice);
-    std::vector<std::uint32_t> all(surface.tile_count());
-    std::iota(all.begin(), all.end(), 0u);
-    surface.remesh(solid, all, pool());
+    surface.mesh_all(solid, pool());
     EXPECT_EQ(topology_of(surface.welded()), MeshTopology{});
     return surface.volume_m3();
 }
@@ -263,6 +260,18 @@ TEST(ScanConvert, RefusesWhatHasNoInside) {
     EXPECT_NE(refusal(unknown).find("material 3"), std::string::npos);
     unknown.triangle_materials.assign(5, 0);
     EXPECT_NE(refusal(unknown).find("some triangles"), std::string::npos);
+}
+
+TEST(ScanConvert, OnAGivenLatticeItIsTheSameAndMustFit) {
+    const TriangleMesh mesh = box_mesh(Vec3(0), Vec3(1), 2);
+    const auto alone = converted(mesh, 32);
+    const auto onto = scan_convert_onto(mesh, alone.solid.lattice, pool());
+    ASSERT_TRUE(onto);
+    EXPECT_TRUE(onto->solid.same_content(alone.solid));
+    const auto outside =
+        scan_convert_onto(transformed(mesh, Quat(1, 0, 0, 0), Vec3(0.5, 0, 0)), alone.solid.lattice, pool());
+    ASSERT_FALSE(outside);
+    EXPECT_NE(outside.error().line().find("lattice"), std::string::npos);
 }
 
 TEST(ScanConvert, AStrayVertexDoesNotStretchTheLattice) {
