@@ -19,7 +19,7 @@ class DirtyCells {
 public:
     explicit DirtyCells(const Lattice& lattice) : lattice_(lattice), grid_(lattice), newest_(grid_.count(), kNone) {}
 
-    // Sorts the changes by tile; the tiles they touch are then tiles(). `changes` must outlive the calls of mask.
+    // Sorts the changes by tile; the tiles they touch are then tiles().
     void sort(const Changes& changes);
     [[nodiscard]] std::span<const std::uint32_t> tiles() const { return tiles_; }  // in increasing order
     // The cells of one of these tiles. Thread-safe.
@@ -27,21 +27,22 @@ public:
 
 private:
     static constexpr std::uint32_t kNone = 0xffffffff;
+    // Cells of the lattice, -1 being the empty layer below the first.
+    struct CellRange {
+        std::array<std::int16_t, 3> lo, hi;
+    };
     // A change in the list of a tile, and the entry before it.
     struct Entry {
-        std::uint32_t change, before;
+        CellRange range;
+        std::uint32_t before;
     };
-    struct CellRange {
-        std::array<int, 3> lo, hi;
-    };
-    [[nodiscard]] CellRange range_of(const shared::ChangedRay& change) const;
+    [[nodiscard]] static CellRange range_of(const shared::ChangedRay& change);
 
     Lattice lattice_;
     TileGrid grid_;
     std::vector<std::uint32_t> newest_;  // of each tile: its last entry
     std::vector<Entry> entries_;
     std::vector<std::uint32_t> tiles_;
-    std::span<const shared::ChangedRay> changes_;
 };
 
 }  // namespace burin

@@ -33,7 +33,7 @@ struct SurfaceGrid {
     Vec3f lo{0.0f};                               // corner of the first cell, relative to origin_object
     float cell_m = 1.0f;
     float reach_m = 0.0f;      // no listed triangle is farther from its cell than this
-    float mean_edge_m = 0.0f;  // of the listed triangles: the length scale of the mesh
+    float mean_edge_m = 0.0f;  // root of the mean square, of the listed triangles: the length scale of the mesh
     std::uint32_t listed = 0;  // triangles that can be found
     std::uint32_t large_count = 0;
     std::array<std::uint32_t, kMaxCells + 1> first_entry;  // of a cell; its entries end where the next cell's begin

@@ -48,22 +48,21 @@ struct Shape {
         // height = twice the area over the longest edge; compared squared. A point, whose edges are 0, is degenerate too.
         return !(glm::dot(twice_area, twice_area) > 1e-10 * longest2 * longest2);
     }
-    [[nodiscard]] double edges_m() const { return std::sqrt(ab2) + std::sqrt(bc2) + std::sqrt(ca2); }
+    [[nodiscard]] double edges2_m2() const { return ab2 + bc2 + ca2; }
 };
 
-// The ball around the box's middle; a little too large rather than too small, since it is stored in float.
-glm::vec4 sphere(const Corners& t, const Vec3& lo, const Vec3& hi) {
+// The ball around the triangle's box; a little too large rather than too small, since it is stored in float.
+glm::vec4 sphere(const Vec3& lo, const Vec3& hi) {
     const Vec3f center(0.5 * (lo + hi));
-    double r2 = 0.0;
-    for (const Vec3& p : {t.a, t.b, t.c}) r2 = std::max(r2, glm::dot(p - Vec3(center), p - Vec3(center)));
-    return {center, static_cast<float>(std::sqrt(r2) * (1.0 + 1e-6))};
+    const Vec3 half = glm::max(hi - Vec3(center), Vec3(center) - lo);  // from the middle as it is stored
+    return {center, static_cast<float>(glm::length(half) * (1.0 + 1e-6))};
 }
 
 constexpr float kNotListed = -1.0f;
 
 struct Extent {
     Vec3f lo{std::numeric_limits<float>::infinity()}, hi{-std::numeric_limits<float>::infinity()};  // of the middles
-    double edges_m = 0.0;
+    double edges2_m2 = 0.0;
 };
 
 // Spheres, and what the grid's shape follows from.
@@ -84,17 +83,17 @@ Extent measure_triangles(LocalSurface& surface, std::uint32_t triangle_count, Se
             ++report.degenerate;
             continue;
         }
-        ball = sphere(t, glm::min(glm::min(t.a, t.b), t.c), glm::max(glm::max(t.a, t.b), t.c));
+        ball = sphere(glm::min(glm::min(t.a, t.b), t.c), glm::max(glm::max(t.a, t.b), t.c));
         all.lo = glm::min(all.lo, Vec3f(ball));
         all.hi = glm::max(all.hi, Vec3f(ball));
-        all.edges_m += shape.edges_m();
+        all.edges2_m2 += shape.edges2_m2();
         ++report.listed;
     }
     return all;
 }
 
 void shape_grid(SurfaceGrid& grid, const Extent& all) {
-    grid.mean_edge_m = static_cast<float>(all.edges_m / (3.0 * grid.listed));
+    grid.mean_edge_m = static_cast<float>(std::sqrt(all.edges2_m2 / (3.0 * grid.listed)));
     const Vec3 extent = Vec3(all.hi) - Vec3(all.lo);
     const double longest = std::max({extent.x, extent.y, extent.z});
     double cell = std::max(longest / SurfaceGrid::kMaxCellsAnAxis, 2.0 * static_cast<double>(grid.mean_edge_m));
