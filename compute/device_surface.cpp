@@ -222,8 +222,10 @@ Result<void> DeviceSurface::submit(std::span<const ChangedRay> host_changes) {
     }
     auto commands = gpu::Commands::begin(device);
     if (!commands) return std::unexpected(commands.error());
+    stamps_[0] = commands->stamp();
     cut_under_way_ = engine_.deferred_left();
     if (cut_under_way_) engine_.record_pass(*commands);
+    stamps_[1] = commands->stamp();
     send_counters(*commands);
     if (!host_changes.empty()) {
         host_changes_.send(*commands, host_changes.size_bytes());
@@ -238,7 +240,9 @@ Result<void> DeviceSurface::submit(std::span<const ChangedRay> host_changes) {
     } else if (sent_tiles_ > 0) {
         record_mesh(*commands, nullptr, nullptr, 0);
     }
+    stamps_[2] = commands->stamp();
     if (touched_) record_gather(*commands, *touched_);
+    stamps_[3] = commands->stamp();
     commands->barrier();
     counters_.fetch(*commands, sizeof(MeshCounters));
     waiting_.fetch(*commands, waiting_.size_bytes());
@@ -321,6 +325,11 @@ void DeviceSurface::record_mesh(gpu::Commands& commands, const gpu::Buffer* cut_
 // Takes in what the device has counted, when it is done, and grows what was too small.
 Result<void> DeviceSurface::settle() {
     if (const auto waited = under_way_->wait(); !waited) return waited;
+    const auto cut = under_way_->seconds_between(stamps_[0], stamps_[1]),
+               mesh = under_way_->seconds_between(stamps_[1], stamps_[2]),
+               gather = under_way_->seconds_between(stamps_[2], stamps_[3]);
+    times_.reset();
+    if (cut && mesh && gather) times_ = DeviceTimes{*cut, *mesh, *gather};
     under_way_.reset();
     if (cut_under_way_) {
         if (const auto ended = engine_.end_pass(); !ended) return ended;
@@ -396,6 +405,7 @@ void DeviceSurface::record_gather(gpu::Commands& commands, const Ball& ball) {
     p.member_address = members_.address();
     p.radius_m = static_cast<float>(ball.radius_m);
     p.stamp = ++stamp_;
+    p.spacing_m = static_cast<float>(lattice_.spacing_m);
     const Vec3 center = ball.center_object - lattice_.origin_object;
     const double tile_m = lattice_.spacing_m * kTileCells;
     for (int a = 0; a < 3; ++a) {

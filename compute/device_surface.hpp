@@ -46,6 +46,11 @@ struct DeviceSurfaceCounts {
     std::uint64_t growths = 0;  // of any buffer, because a tile had to wait
 };
 
+// The device's time for the last submission; nothing where it cannot tell.
+struct DeviceTimes {
+    double cut_s = 0.0, mesh_s = 0.0, gather_s = 0.0;
+};
+
 class DeviceSurface {
 public:
     // The ball whose triangles are wanted (object frame).
@@ -78,6 +83,7 @@ public:
     [[nodiscard]] const gpu::Buffer& ranges() const { return ranges_; }
     [[nodiscard]] std::size_t tile_count() const { return grid_.count(); }
     [[nodiscard]] const DeviceSurfaceCounts& counts() const { return counts_; }
+    [[nodiscard]] const std::optional<DeviceTimes>& times() const { return times_; }
     [[nodiscard]] const CarveStats& carved() const {
         return engine_.deferred_stats();
     }  // of the last carve, when finished
@@ -117,6 +123,8 @@ private:
     SharedBuffer ball_triangles_{"triangles near the tool", SharedBuffer::Traffic::from_device};
 
     std::optional<gpu::Submission> under_way_;
+    std::array<gpu::Stamp, 4> stamps_{};  // its start, and the ends of cut, mesh and gathering
+    std::optional<DeviceTimes> times_;
     bool cut_under_way_ = false;                // it has a pass of the engine
     bool all_stale_ = true;                     // everything has to be meshed anew
     std::vector<std::uint32_t> waiting_tiles_;  // for the next submission

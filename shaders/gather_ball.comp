@@ -37,6 +37,11 @@ void main() {
     uint first_index = ranges[tile].first_index;
     uint end = ranges[tile].index_count;
     vec3 center = vec3(parameters.center_float[0], parameters.center_float[1], parameters.center_float[2]);
+    // A tile's triangles reach at most one and a half cells beyond its own; two, for the rounding.
+    vec3 tile_lo = (vec3(at * kMeshTile) - 2.0) * parameters.spacing_m;
+    vec3 tile_hi = (vec3(at * kMeshTile + kMeshTile) + 2.0) * parameters.spacing_m;
+    vec3 to_tile = max(max(tile_lo - center, center - tile_hi), vec3(0.0));
+    if (dot(to_tile, to_tile) > parameters.radius_m * parameters.radius_m) end = 0u;
     for (uint i = 3u * gl_LocalInvocationID.x; i < end; i += 3u * 64u) {
         uint a = first_vertex + pool_indices.at[first_index + i];
         uint b = first_vertex + pool_indices.at[first_index + i + 1u];

@@ -34,6 +34,7 @@ void main() {
     uint end_of_list = min(counters.edges, parameters.most_edges);
     for (uint turn = number < end_of_list ? 0u : 1u; turn < 1u; ++turn) {
         uint slot = edges[number].slot;
+        if (slot == kNoSlot) break;
         uint place = edges[number].place;
         int axis = int(place & 3u);
         ivec3 local = edge_node(place);

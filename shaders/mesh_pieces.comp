@@ -30,6 +30,7 @@ void main() {
     uint end_of_list = min(counters.cells, parameters.most_cells);
     for (uint turn = number < end_of_list ? 0u : 1u; turn < 1u; ++turn) {
         uint slot = cells[number].slot;
+        if (slot == kNoSlot) break;
         ivec3 cell = cell_place(cells[number].cell);
         uint pattern = cell_pattern(slot, cell);
         uint loops = loops_of(pattern);

@@ -63,6 +63,7 @@ void main() {
     uint end_of_list = min(counters.edges, parameters.most_edges);
     for (uint turn = number < end_of_list ? 0u : 1u; turn < 1u; ++turn) {
         uint slot = edges[number].slot;
+        if (slot == kNoSlot) break;
         uint quad = edges[number].quad;
         if (quad == kNotOwn || jobs[slot].waits != 0u) break;
         uint tile = jobs[slot].tile;

@@ -17,6 +17,10 @@ shared uint quad_sums[kMeshGroup];
 shared uint first_cell;
 shared uint first_edge;
 shared uint fits;
+shared uint cells_asked;
+shared uint edges_asked;
+shared uint any_inside;
+shared uint all_inside;
 
 const uint kOwn = 0xffffu << 1;
 
@@ -70,13 +74,28 @@ void main() {
     int lane = int(gl_LocalInvocationID.x);
     uint tile = dirty[slot];
     ivec3 node = first_node(tile);
+    if (lane == 0) {
+        any_inside = 0u;
+        all_inside = 0xffffffffu;
+    }
+    barrier();
+    uint any_of_lane = 0u;
+    uint all_of_lane = 0xffffffffu;
     for (int c = lane; c < kNodeColumns; c += kMeshGroup) {
         uint bits = node_bits(ray_at(2, node.x + c % kMeshNodes - 1, node.y + c / kMeshNodes - 1), node.z);
         signs[c] = bits;
         jobs[slot].signs[c] = bits;
+        any_of_lane |= bits;
+        all_of_lane &= bits;
     }
+    atomicOr(any_inside, any_of_lane);
+    atomicAnd(all_inside, all_of_lane);
     barrier();
-    for (int c = lane; c < kCellColumns; c += kMeshGroup) {
+    // Most tiles of a solid are empty or full: there is nothing to count in them.
+    bool has_surface = any_inside != 0u && all_inside != (1u << uint(kMeshNodes)) - 1u;
+    int cell_columns = has_surface ? kCellColumns : 0;
+    int edge_columns = has_surface ? kEdgeColumns : 0;
+    for (int c = lane; c < cell_columns; c += kMeshGroup) {
         uint bits = needed_cells(c % kMeshCells - 1, c / kMeshCells - 1);
         needed[c] = bits;
         jobs[slot].cell_bits[c] = bits;
@@ -86,9 +105,9 @@ void main() {
     const int kCellShare = (kCellColumns + kMeshGroup - 1) / kMeshGroup;
     const int kEdgeShare = (kEdgeColumns + kMeshGroup - 1) / kMeshGroup;
     int cells_from = lane * kCellShare;
-    int cells_to = min(cells_from + kCellShare, kCellColumns);
+    int cells_to = min(cells_from + kCellShare, cell_columns);
     int edges_from = lane * kEdgeShare;
-    int edges_to = min(edges_from + kEdgeShare, kEdgeColumns);
+    int edges_to = min(edges_from + kEdgeShare, edge_columns);
     uint cell_sum = 0u;
     uint edge_sum = 0u;
     uint quad_sum = 0u;
@@ -124,6 +143,8 @@ void main() {
         first_cell = atomicAdd(counters.cells, all_cells);
         first_edge = atomicAdd(counters.edges, all_edges);
         fits = first_cell + all_cells <= parameters.most_cells && first_edge + all_edges <= parameters.most_edges ? 1u : 0u;
+        cells_asked = all_cells;
+        edges_asked = all_edges;
         if (fits == 1u) {
             atomicMax(counters.cell_groups[0], (first_cell + all_cells + 63u) / 64u);
             atomicMax(counters.edge_groups[0], (first_edge + all_edges + 63u) / 64u);
@@ -141,6 +162,12 @@ void main() {
         jobs[slot].disagreeing = 0u;
     }
     barrier();
+    if (fits == 0u) {  // what it asked for in vain may lie between what others got, and holds an older frame's entries
+        uint end_of_cells = min(first_cell + cells_asked, parameters.most_cells);
+        uint end_of_edges = min(first_edge + edges_asked, parameters.most_edges);
+        for (uint i = first_cell + uint(lane); i < end_of_cells; i += uint(kMeshGroup)) cells[i].slot = kNoSlot;
+        for (uint i = first_edge + uint(lane); i < end_of_edges; i += uint(kMeshGroup)) edges[i].slot = kNoSlot;
+    }
     uint at = cell_sums[lane];
     for (int c = fits == 1u ? cells_from : cells_to; c < cells_to; ++c) {
         jobs[slot].cells_before[c] = at;

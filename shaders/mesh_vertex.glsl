@@ -1,14 +1,24 @@
 // SPDX-License-Identifier: MIT
 // Writes a vertex of the surface as compute/cell_vertices.cpp makes it. Needs mesh_buffers.glsl.
 
+// size * 32767 / length1 rounded to nearest, halves up: exact in doubles for numbers as small as these, since a quotient is on
+// a half or at least 1 / (2 length1) away from it. (Software drivers divide 64-bit integers one at a time.)
+int nearest_share(int size, double length1) { return int((double(size) * 65534.0lf + length1) / (2.0lf * length1)); }
+
+// The code that encode_normal gives for n in units of 2^-20.
 uint encode_float_normal(vec3 n) {
     float length2 = dot3(n, n);
     precise vec3 unit = sqrt(length2) > 1e-6 ? n * (1.0 / sqrt(length2)) : vec3(0.0, 0.0, 1.0);
-    IntVector whole;
-    whole.x = int64_t(unit.x * 1048576.0);
-    whole.y = int64_t(unit.y * 1048576.0);
-    whole.z = int64_t(unit.z * 1048576.0);
-    return encode_normal(whole);
+    ivec3 whole = ivec3(unit * 1048576.0);
+    ivec3 size = abs(whole);
+    double length1 = double(size.x + size.y + size.z);
+    int a = nearest_share(size.x, length1);
+    int b = nearest_share(size.y, length1);
+    int folded_a = whole.z < 0 ? 32767 - b : a;  // the lower half is folded outwards
+    int folded_b = whole.z < 0 ? 32767 - a : b;
+    if (whole.x < 0 && a != 0) folded_a = -folded_a;  // a part that was rounded to zero has lost its sign
+    if (whole.y < 0 && b != 0) folded_b = -folded_b;
+    return uint(folded_b + 32767) << 16 | uint(folded_a + 32767);
 }
 
 // `in_cell` is in cells from the cell's lowest corner; `cell` is counted from the lattice's origin, so that every tile that

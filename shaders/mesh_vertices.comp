@@ -165,6 +165,7 @@ void main() {
     uint end_of_list = min(counters.cells, parameters.most_cells);
     for (uint turn = number < end_of_list ? 0u : 1u; turn < 1u; ++turn) {
         uint slot = cells[number].slot;
+        if (slot == kNoSlot) break;
         if (jobs[slot].waits != 0u) break;
         uint tile = jobs[slot].tile;
         ivec3 cell = cell_place(cells[number].cell);

@@ -20,6 +20,7 @@ const int kEdgeColumns = 972;  // of the three axes
 const int kMeshGroup = 64;     // invocations in a work group
 const int kNearEdgeUnits = 256;
 const uint kNotOwn = 0xffffffffu;
+const uint kNoSlot = 0xffffffffu;
 
 // Ranges of the pools hold a power of two of vertices or indices: 64 of the smallest class, 2^20 of the largest.
 const int kRangeClasses = 15;
@@ -61,7 +62,7 @@ struct TileJob {
 };
 
 struct MeshCell {
-    uint slot;      // of its TileJob
+    uint slot;      // of its TileJob; kNoSlot: the entry is void
     uint cell;      // ((y + 1) * kMeshCells + x + 1) * kMeshCells + z + 1
     uint used_low;  // TileMesh::vertex_of_edge
     uint used_high;
@@ -70,7 +71,7 @@ struct MeshCell {
 };
 
 struct MeshEdge {
-    uint slot;
+    uint slot;                // likewise
     uint place;               // axis; and in 5 bits each x + 1, y + 1, z + 1 of the lower node
     uint quad;                // its number in the tile, kNotOwn when the edge is another tile's
     uint material_disagrees;  // material, and in bit 8: the edge's own ray does not have this crossing
@@ -122,6 +123,7 @@ struct GatherParameters {
     int from[3];  // the tiles to look at
     int count[3];
     uint stamp;  // another one for each ball
+    float spacing_m;
 };
 
 const int kBallVertices = 32768;  // LocalSurface
@@ -133,6 +135,6 @@ BURIN_SHARED_END
 static_assert(sizeof(burin::shared::TileRange) == 40 && sizeof(burin::shared::MeshCell) == 24 &&
               sizeof(burin::shared::MeshEdge) == 32 && sizeof(burin::shared::MeshCounters) == 72 &&
               sizeof(burin::shared::TileJob) == 4 * (11 + 324 + 2 * 289 + 2 * 972) &&
-              sizeof(burin::shared::MeshParameters) == 96 && sizeof(burin::shared::GatherParameters) == 104);
+              sizeof(burin::shared::MeshParameters) == 96 && sizeof(burin::shared::GatherParameters) == 112);
 #endif
 #endif
