@@ -109,6 +109,7 @@ Result<void> DeviceSurface::compile() {
         std::span<const std::uint32_t> spirv;
         std::uint32_t buffers, push_bytes;
         const char* name;
+        std::uint32_t variant = 0;
     };
     const std::uint32_t mesh = sizeof(MeshParameters), gather = sizeof(GatherParameters);
     const std::array<Program, kStages> programs{{{k_mesh_mark_comp, 12, mesh, "mark tiles"},
@@ -118,13 +119,16 @@ Result<void> DeviceSurface::compile() {
                                                  {k_mesh_sizes_comp, 10, mesh, "number vertices"},
                                                  {k_mesh_places_comp, 10, mesh, "place tiles"},
                                                  {k_mesh_vertices_comp, 10, mesh, "make vertices"},
+                                                 {k_mesh_vertices_comp, 10, mesh, "make hard vertices", 1},
                                                  {k_mesh_quads_comp, 10, mesh, "make triangles"},
+                                                 {k_mesh_quads_comp, 10, mesh, "make fans", 1},
                                                  {k_gather_ball_comp, 4, gather, "gather triangles"},
                                                  {k_gather_corners_comp, 4, gather, "gather corners"}}};
     for (std::size_t i = 0; i < programs.size(); ++i) {
         auto made = gpu::ComputePipeline::create(engine_.device(), {.spirv = programs[i].spirv,
                                                                     .storage_buffers = programs[i].buffers,
                                                                     .push_constant_bytes = programs[i].push_bytes,
+                                                                    .constants = std::span(&programs[i].variant, 1),
                                                                     .name = programs[i].name});
         if (!made) return std::unexpected(made.error());
         stages_[i] = std::move(*made);
@@ -260,7 +264,8 @@ void DeviceSurface::send_counters(gpu::Commands& commands) {
     waiting_tiles_.resize(waiting_tiles_.size() - sent_tiles_);
     MeshCounters counters{};
     counters.tile_groups[0] = counters.tiles = sent_tiles_;
-    for (std::uint32_t* groups : {counters.tile_groups, counters.edge_groups, counters.cell_groups}) {
+    for (std::uint32_t* groups : {counters.tile_groups, counters.edge_groups, counters.cell_groups,
+                                  counters.hard_groups, counters.fan_groups}) {
         groups[1] = groups[2] = 1;
     }
     counters.vertices_used = vertices_used_;
@@ -312,10 +317,11 @@ void DeviceSurface::record_mesh(gpu::Commands& commands, const gpu::Buffer* cut_
         commands.barrier();
     }
     constexpr std::uint64_t kTiles = offsetof(MeshCounters, tile_groups), kEdges = offsetof(MeshCounters, edge_groups),
-                            kCells = offsetof(MeshCounters, cell_groups);
-    const std::pair<Stage, std::uint64_t> order[] = {{tiles, kTiles}, {edges, kEdges},  {pieces, kCells},
-                                                     {sizes, kTiles}, {places, kTiles}, {vertex_stage, kCells},
-                                                     {quads, kEdges}};
+                            kCells = offsetof(MeshCounters, cell_groups), kHard = offsetof(MeshCounters, hard_groups),
+                            kFans = offsetof(MeshCounters, fan_groups);
+    const std::pair<Stage, std::uint64_t> order[] = {{tiles, kTiles},        {edges, kEdges},  {pieces, kCells},
+                                                     {sizes, kTiles},        {places, kTiles}, {vertex_stage, kCells},
+                                                     {hard_vertices, kHard}, {quads, kEdges},  {fans, kFans}};
     for (const auto& [stage, groups] : order) {
         commands.dispatch_indirect(stages_[stage], buffers, gpu::bytes_of(p), counters_.buffer(), groups);
         commands.barrier();

@@ -89,7 +89,21 @@ public:
     }  // of the last carve, when finished
 
 private:
-    enum Stage { mark, tiles, edges, pieces, sizes, places, vertex_stage, quads, ball, corners, kStages };
+    enum Stage {
+        mark,
+        tiles,
+        edges,
+        pieces,
+        sizes,
+        places,
+        vertex_stage,
+        hard_vertices,
+        quads,
+        fans,
+        ball,
+        corners,
+        kStages
+    };
     DeviceSurface(VulkanEngine& engine, const DeviceSurfaceOptions& options);
     [[nodiscard]] Result<void> compile();
     [[nodiscard]] Result<void> allocate();

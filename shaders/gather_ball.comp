@@ -54,15 +54,14 @@ void main() {
         vec3 outside = max(max(lo - center, center - hi), vec3(0.0));
         precise float distance2 = outside.x * outside.x + outside.y * outside.y + outside.z * outside.z;
         precise float reach2 = parameters.radius_m * parameters.radius_m;
-        for (uint turn = distance2 > reach2 ? 1u : 0u; turn < 1u; ++turn) {
-            uint number = atomicAdd(counters.ball_triangles, 1u);
-            if (number >= uint(kBallTriangles)) break;
-            take(a, pa);
-            take(b, pb);
-            take(c, pc);
-            ball_triangles[3u * number] = a;
-            ball_triangles[3u * number + 1u] = b;
-            ball_triangles[3u * number + 2u] = c;
-        }
+        if (distance2 > reach2) continue;
+        uint number = atomicAdd(counters.ball_triangles, 1u);
+        if (number >= uint(kBallTriangles)) continue;
+        take(a, pa);
+        take(b, pb);
+        take(c, pc);
+        ball_triangles[3u * number] = a;
+        ball_triangles[3u * number + 1u] = b;
+        ball_triangles[3u * number + 2u] = c;
     }
 }

@@ -32,34 +32,33 @@ uint crossing_end(RayRef ray, int lower, bool lower_inside) {
 void main() {
     uint number = gl_GlobalInvocationID.x;
     uint end_of_list = min(counters.edges, parameters.most_edges);
-    for (uint turn = number < end_of_list ? 0u : 1u; turn < 1u; ++turn) {
-        uint slot = edges[number].slot;
-        if (slot == kNoSlot) break;
-        uint place = edges[number].place;
-        int axis = int(place & 3u);
-        ivec3 local = edge_node(place);
-        ivec3 node = first_node(jobs[slot].tile) + local;
-        bool lower_inside = inside(slot, local);
-        RayRef ray = ray_at(axis, node[(axis + 1) % 3], node[(axis + 2) % 3]);
-        uint chosen = crossing_end(ray, node[axis], lower_inside);
-        uint material = 0u;
-        uint code = axis_normal(axis, lower_inside);
-        float along = 0.5;
-        bool disagrees = true;
-        if (chosen != kNoEnd) {
-            DexelEnd end = store.at[ray.first + chosen];
-            int offset = depth_of(end) - node[axis] * kUnitsPerCell;
-            along = float(clamp(offset, 0, kUnitsPerCell)) / float(kUnitsPerCell);
-            code = end.normal;
-            material = material_of(end);
-            disagrees = offset <= 0 || offset > kUnitsPerCell;
-        }
-        Direction n = decode_normal(code);
-        edges[number].normal_x = n.x;
-        edges[number].normal_y = n.y;
-        edges[number].normal_z = n.z;
-        edges[number].along = along;
-        edges[number].material_disagrees = material | (disagrees ? 0x100u : 0u);
-        if (disagrees && edges[number].quad != kNotOwn) atomicAdd(jobs[slot].disagreeing, 1u);
+    if (number >= end_of_list) return;
+    uint slot = edges[number].slot;
+    if (slot == kNoSlot) return;
+    uint place = edges[number].place;
+    int axis = int(place & 3u);
+    ivec3 local = edge_node(place);
+    ivec3 node = first_node(jobs[slot].tile) + local;
+    bool lower_inside = inside(slot, local);
+    RayRef ray = ray_at(axis, node[(axis + 1) % 3], node[(axis + 2) % 3]);
+    uint chosen = crossing_end(ray, node[axis], lower_inside);
+    uint material = 0u;
+    uint code = axis_normal(axis, lower_inside);
+    float along = 0.5;
+    bool disagrees = true;
+    if (chosen != kNoEnd) {
+        DexelEnd end = store.at[ray.first + chosen];
+        int offset = depth_of(end) - node[axis] * kUnitsPerCell;
+        along = float(clamp(offset, 0, kUnitsPerCell)) / float(kUnitsPerCell);
+        code = end.normal;
+        material = material_of(end);
+        disagrees = offset <= 0 || offset > kUnitsPerCell;
     }
+    Direction n = decode_normal(code);
+    edges[number].normal_x = n.x;
+    edges[number].normal_y = n.y;
+    edges[number].normal_z = n.z;
+    edges[number].along = along;
+    edges[number].material_disagrees = material | (disagrees ? 0x100u : 0u);
+    if (disagrees && edges[number].quad != kNotOwn) atomicAdd(jobs[slot].disagreeing, 1u);
 }

@@ -26,29 +26,27 @@ void mark(uint tile) {
 }
 
 void main() {
-    // A loop and not a condition: a driver that runs both sides of a branch under a mask skips a loop without turns.
     uint number = gl_GlobalInvocationID.x;
-    for (uint turn = number < cut.changed ? 0u : 1u; turn < 1u; ++turn) {
-        ChangedRay ray = changed[number];
-        int s = axis_of(ray.ray);
-        int u = (s + 1) % 3;
-        int v = (s + 2) % 3;
-        ivec3 lo;
-        ivec3 hi;
-        lo[s] = cell_at(ray.changed_lo - kNearEdgeUnits);
-        hi[s] = cell_at(ray.changed_hi + kNearEdgeUnits);
-        lo[u] = u_of(ray.ray) - 1;
-        hi[u] = u_of(ray.ray);
-        lo[v] = v_of(ray.ray) - 1;
-        hi[v] = v_of(ray.ray);
-        ivec3 last = ivec3(parameters.nodes[0], parameters.nodes[1], parameters.nodes[2]) - 1;
-        ivec3 from = clamp(lo, ivec3(0), last) / kMeshTile;
-        ivec3 to = clamp(hi + 1, ivec3(0), last) / kMeshTile;  // also seen from above
-        for (int z = from.z; z <= to.z; ++z) {
-            for (int y = from.y; y <= to.y; ++y) {
-                for (int x = from.x; x <= to.x; ++x) {
-                    mark(uint((z * parameters.tiles[1] + y) * parameters.tiles[0] + x));
-                }
+    if (number >= cut.changed) return;
+    ChangedRay ray = changed[number];
+    int s = axis_of(ray.ray);
+    int u = (s + 1) % 3;
+    int v = (s + 2) % 3;
+    ivec3 lo;
+    ivec3 hi;
+    lo[s] = cell_at(ray.changed_lo - kNearEdgeUnits);
+    hi[s] = cell_at(ray.changed_hi + kNearEdgeUnits);
+    lo[u] = u_of(ray.ray) - 1;
+    hi[u] = u_of(ray.ray);
+    lo[v] = v_of(ray.ray) - 1;
+    hi[v] = v_of(ray.ray);
+    ivec3 last = ivec3(parameters.nodes[0], parameters.nodes[1], parameters.nodes[2]) - 1;
+    ivec3 from = clamp(lo, ivec3(0), last) / kMeshTile;
+    ivec3 to = clamp(hi + 1, ivec3(0), last) / kMeshTile;  // also seen from above
+    for (int z = from.z; z <= to.z; ++z) {
+        for (int y = from.y; y <= to.y; ++y) {
+            for (int x = from.x; x <= to.x; ++x) {
+                mark(uint((z * parameters.tiles[1] + y) * parameters.tiles[0] + x));
             }
         }
     }

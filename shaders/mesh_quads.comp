@@ -11,6 +11,9 @@
 
 layout(local_size_x = 64) in;
 
+// 0: only quads; 1: only fans, run where there are any (see mesh_vertices.comp for the reason).
+layout(constant_id = 0) const uint kFans = 0u;
+
 uint vertex_of(uint slot, ivec3 cell, uint edge) {
     uint number = cell_number(slot, cell);
     uint used = edge < 8u ? cells[number].used_low : cells[number].used_high;
@@ -61,72 +64,73 @@ vec3 place_of(uint vertex, uint origin, float cells_per_m) {
 void main() {
     uint number = gl_GlobalInvocationID.x;
     uint end_of_list = min(counters.edges, parameters.most_edges);
-    for (uint turn = number < end_of_list ? 0u : 1u; turn < 1u; ++turn) {
-        uint slot = edges[number].slot;
-        if (slot == kNoSlot) break;
-        uint quad = edges[number].quad;
-        if (quad == kNotOwn || jobs[slot].waits != 0u) break;
-        uint tile = jobs[slot].tile;
-        int axis = int(edges[number].place & 3u);
-        ivec3 node = edge_node(edges[number].place);
-        int u = (axis + 1) % 3;
-        int v = (axis + 2) % 3;
-        // Counter-clockwise seen from the edge's upper end.
-        ivec3 around[4];
-        around[0] = node - along_axis(u, 1) - along_axis(v, 1);
-        around[1] = node - along_axis(v, 1);
-        around[2] = node;
-        around[3] = node - along_axis(u, 1);
-        uint first_edge = uint(axis) * 4u;
-        uint corners[4];
-        corners[0] = vertex_of(slot, around[0], first_edge + 3u);
-        corners[1] = vertex_of(slot, around[1], first_edge + 2u);
-        corners[2] = vertex_of(slot, around[2], first_edge);
-        corners[3] = vertex_of(slot, around[3], first_edge + 1u);
-        bool flip = !inside(slot, node);  // the surface faces the lower end
-        uint place = ranges[tile].first_index + 6u * quad;
-        uint first_vertex = uint(ranges[tile].first_vertex);
+    if (number >= end_of_list) return;
+    uint slot = edges[number].slot;
+    if (slot == kNoSlot) return;
+    uint quad = edges[number].quad;
+    if (quad == kNotOwn || jobs[slot].waits != 0u) return;
+    uint tile = jobs[slot].tile;
+    int axis = int(edges[number].place & 3u);
+    ivec3 node = edge_node(edges[number].place);
+    int u = (axis + 1) % 3;
+    int v = (axis + 2) % 3;
+    // Counter-clockwise seen from the edge's upper end.
+    ivec3 around[4];
+    around[0] = node - along_axis(u, 1) - along_axis(v, 1);
+    around[1] = node - along_axis(v, 1);
+    around[2] = node;
+    around[3] = node - along_axis(u, 1);
+    uint first_edge = uint(axis) * 4u;
+    uint corners[4];
+    corners[0] = vertex_of(slot, around[0], first_edge + 3u);
+    corners[1] = vertex_of(slot, around[1], first_edge + 2u);
+    corners[2] = vertex_of(slot, around[2], first_edge);
+    corners[3] = vertex_of(slot, around[3], first_edge + 1u);
+    bool flip = !inside(slot, node);  // the surface faces the lower end
+    uint place = ranges[tile].first_index + 6u * quad;
+    uint first_vertex = uint(ranges[tile].first_vertex);
 
-        uint twice = 0u;  // bit i: the face between cells i and i + 1 has an extra vertex
-        for (uint i = 0u; i < (jobs[slot].extras > 0u ? 4u : 0u); ++i) {
-            int face_axis = i % 2u == 0u ? u : v;
-            int by = i < 2u ? 1 : -1;
-            if (passed_twice(slot, around[i], around[i] + along_axis(face_axis, by), face_axis, i < 2u ? 1u : 0u)) twice |= 1u << i;
-        }
-        uint extras = uint(bitCount(twice));
-        for (uint fan = extras > 0u ? 0u : 1u; fan < 1u; ++fan) {
-            uint polygon[8];
-            uint count = 0u;
-            uint last_extra = 0u;
-            uint made = atomicAdd(jobs[slot].extras_made, extras);
-            uint next_extra = jobs[slot].cell_vertices + made;
-            for (uint i = 0u; i < 4u; ++i) {
-                polygon[count++] = corners[i];
-                if ((twice >> i & 1u) == 0u) continue;
-                int face_axis = i % 2u == 0u ? u : v;
-                ivec3 upper = i < 2u ? around[i] + along_axis(face_axis, 1) : around[i];
-                write_face_vertex(first_vertex + next_extra, slot, axis, node, upper, face_axis, number);
-                last_extra = count;
-                polygon[count++] = next_extra++;
-            }
-            // From the last extra vertex: no diagonal of this fan can be an edge of another polygon.
-            uint behind = ranges[tile].first_index + 6u * jobs[slot].quads + 3u * made;
-            for (uint i = 1u; i + 1u < count; ++i) {
-                write_triangle(i < 3u ? place + 3u * (i - 1u) : behind + 3u * (i - 3u), polygon[last_extra],
-                               polygon[(last_extra + i) % count], polygon[(last_extra + i + 1u) % count], flip);
-            }
-        }
-        if (extras > 0u) break;
-        float cells_per_m = float(1.0lf / parameters.spacing_m);
-        vec3 p0 = vec3(0.0);
-        vec3 p1 = place_of(first_vertex + corners[1], first_vertex + corners[0], cells_per_m);
-        vec3 p2 = place_of(first_vertex + corners[2], first_vertex + corners[0], cells_per_m);
-        vec3 p3 = place_of(first_vertex + corners[3], first_vertex + corners[0], cells_per_m);
-        vec3 normal = flip ? -normal_of(number) : normal_of(number);
-        bool other_diagonal = min(facing(p0, p1, p2, normal), facing(p0, p2, p3, normal)) <
-                              min(facing(p1, p2, p3, normal), facing(p1, p3, p0, normal));
-        uint from = other_diagonal ? 1u : 0u;
-        write_triangle(place, corners[from], corners[from + 1u], corners[(from + 2u) & 3u], flip);
-        write_triangle(place + 3u, corners[from], corners[(from + 2u) & 3u], corners[(from + 3u) & 3u], flip);
+    uint twice = 0u;  // bit i: the face between cells i and i + 1 has an extra vertex
+    for (uint i = 0u; i < (jobs[slot].extras > 0u ? 4u : 0u); ++i) {
+        int face_axis = i % 2u == 0u ? u : v;
+        int by = i < 2u ? 1 : -1;
+        if (passed_twice(slot, around[i], around[i] + along_axis(face_axis, by), face_axis, i < 2u ? 1u : 0u)) twice |= 1u << i;
     }
+    uint extras = uint(bitCount(twice));
+    if (kFans == 1u) {
+        if (extras == 0u) return;
+        uint polygon[8];
+        uint count = 0u;
+        uint last_extra = 0u;
+        uint made = atomicAdd(jobs[slot].extras_made, extras);
+        uint next_extra = jobs[slot].cell_vertices + made;
+        for (uint i = 0u; i < 4u; ++i) {
+            polygon[count++] = corners[i];
+            if ((twice >> i & 1u) == 0u) continue;
+            int face_axis = i % 2u == 0u ? u : v;
+            ivec3 upper = i < 2u ? around[i] + along_axis(face_axis, 1) : around[i];
+            write_face_vertex(first_vertex + next_extra, slot, axis, node, upper, face_axis, number);
+            last_extra = count;
+            polygon[count++] = next_extra++;
+        }
+        // From the last extra vertex: no diagonal of this fan can be an edge of another polygon.
+        uint behind = ranges[tile].first_index + 6u * jobs[slot].quads + 3u * made;
+        for (uint i = 1u; i + 1u < count; ++i) {
+            write_triangle(i < 3u ? place + 3u * (i - 1u) : behind + 3u * (i - 3u), polygon[last_extra],
+                           polygon[(last_extra + i) % count], polygon[(last_extra + i + 1u) % count], flip);
+        }
+        return;
+    }
+    if (extras > 0u) return;
+    float cells_per_m = float(1.0lf / parameters.spacing_m);
+    vec3 p0 = vec3(0.0);
+    vec3 p1 = place_of(first_vertex + corners[1], first_vertex + corners[0], cells_per_m);
+    vec3 p2 = place_of(first_vertex + corners[2], first_vertex + corners[0], cells_per_m);
+    vec3 p3 = place_of(first_vertex + corners[3], first_vertex + corners[0], cells_per_m);
+    vec3 normal = flip ? -normal_of(number) : normal_of(number);
+    bool other_diagonal = min(facing(p0, p1, p2, normal), facing(p0, p2, p3, normal)) <
+                          min(facing(p1, p2, p3, normal), facing(p1, p3, p0, normal));
+    uint from = other_diagonal ? 1u : 0u;
+    write_triangle(place, corners[from], corners[from + 1u], corners[(from + 2u) & 3u], flip);
+    write_triangle(place + 3u, corners[from], corners[(from + 2u) & 3u], corners[(from + 3u) & 3u], flip);
 }

@@ -11,6 +11,11 @@
 
 layout(local_size_x = 64) in;
 
+// 0: cells whose planes determine a point in closed form; the others are listed. 1: those on that list. Software drivers run
+// both sides of every branch, so what is rare and long must not stand beside what is not.
+layout(constant_id = 0) const uint kListed = 0u;
+
+bool closed_form = true;  // of the point that was found last
 uint crossings = 0u;
 vec3 at[12];
 vec3 normal[12];
@@ -154,57 +159,63 @@ vec3 feature_point() {
         precise vec3 corner = (across * d[0] + cross3(n[2], n[0]) * d[1] + cross3(n[0], n[1]) * d[2]) / volume;
         offset = corner;
     }
-    // A loop, since a driver that runs both sides of a branch under a mask skips only a loop without turns.
-    for (int turn = found ? 1 : 0; turn < 1; ++turn) offset = offset_by_eigenvalues(mean);
+    closed_form = found;
+    if (kListed == 1u && !found) offset = offset_by_eigenvalues(mean);
     precise vec3 point = mean + offset;
     return clamp(point, vec3(-kOutside), vec3(1.0 + kOutside));
 }
 
 void main() {
     uint number = gl_GlobalInvocationID.x;
-    uint end_of_list = min(counters.cells, parameters.most_cells);
-    for (uint turn = number < end_of_list ? 0u : 1u; turn < 1u; ++turn) {
-        uint slot = cells[number].slot;
-        if (slot == kNoSlot) break;
-        if (jobs[slot].waits != 0u) break;
-        uint tile = jobs[slot].tile;
-        ivec3 cell = cell_place(cells[number].cell);
-        ivec3 cell_in_lattice = cell + first_node(tile);
-        uint first_place = uint(ranges[tile].first_vertex) + cells[number].first_vertex;
-        uint low = cells[number].used_low;
-        uint high = cells[number].used_high;
-        uint pattern = cell_pattern(slot, cell);
-        uint loops = loops_of(pattern);
-        uint next_vertex = 0u;
-        for (uint loop = 0u; loop < loops; ++loop) {
-            uint last = first_listed(pattern, loop + 1u);
-            uint end_vertex = loop + 1u < loops ? high >> (20u + 4u * loop) & 0xfu : cells[number].vertices;
-            crossings = 0u;
-            for (uint i = first_listed(pattern, loop); i < last; ++i) {
-                uint edge = listed_edge(pattern, i);
-                uint crossing = sample_of(slot, cell, edge);
-                vec3 place = vec3(edge_offset(edge));
-                place[edge >> 2] += edges[crossing].along;
-                at[crossings] = place;
-                normal[crossings] = normal_of(crossing);
-                sampled[crossings] = crossing;
-                vertex[crossings] = (edge < 8u ? low : high) >> (4u * (edge & 7u)) & 0xfu;
-                ++crossings;
-            }
-            vec3 in_cell = feature_point();
-            while (next_vertex < end_vertex) {
-                precise vec3 normal_sum = vec3(0.0);
-                uvec3 colour = uvec3(0u);
-                uint count = 0u;
-                for (uint i = 0u; i < crossings; ++i) {
-                    if (vertex[i] != next_vertex) continue;
-                    normal_sum += normal[i];
-                    colour += colour_of(sampled[i]);
-                    ++count;
-                }
-                write_vertex(first_place + next_vertex, cell_in_lattice, in_cell, normal_sum, mean_colour(colour, max(count, 1u)));
-                ++next_vertex;
-            }
+    if (number >= (kListed == 1u ? counters.hard_cells : min(counters.cells, parameters.most_cells))) return;
+    if (kListed == 1u) number = cells[number].hard;
+    uint slot = cells[number].slot;
+    if (slot == kNoSlot) return;
+    if (jobs[slot].waits != 0u) return;
+    uint tile = jobs[slot].tile;
+    ivec3 cell = cell_place(cells[number].cell);
+    ivec3 cell_in_lattice = cell + first_node(tile);
+    uint first_place = uint(ranges[tile].first_vertex) + cells[number].first_vertex;
+    uint low = cells[number].used_low;
+    uint high = cells[number].used_high;
+    uint pattern = cell_pattern(slot, cell);
+    uint loops = loops_of(pattern);
+    uint next_vertex = 0u;
+    bool is_hard = false;
+    for (uint loop = 0u; loop < loops; ++loop) {
+        uint last = first_listed(pattern, loop + 1u);
+        uint end_vertex = loop + 1u < loops ? high >> (20u + 4u * loop) & 0xfu : cells[number].vertices;
+        crossings = 0u;
+        for (uint i = first_listed(pattern, loop); i < last; ++i) {
+            uint edge = listed_edge(pattern, i);
+            uint crossing = sample_of(slot, cell, edge);
+            vec3 place = vec3(edge_offset(edge));
+            place[edge >> 2] += edges[crossing].along;
+            at[crossings] = place;
+            normal[crossings] = normal_of(crossing);
+            sampled[crossings] = crossing;
+            vertex[crossings] = (edge < 8u ? low : high) >> (4u * (edge & 7u)) & 0xfu;
+            ++crossings;
         }
+        vec3 in_cell = feature_point();
+        is_hard = is_hard || !closed_form;
+        while (next_vertex < end_vertex) {
+            precise vec3 normal_sum = vec3(0.0);
+            uvec3 colour = uvec3(0u);
+            uint count = 0u;
+            for (uint i = 0u; i < crossings; ++i) {
+                if (vertex[i] != next_vertex) continue;
+                normal_sum += normal[i];
+                colour += colour_of(sampled[i]);
+                ++count;
+            }
+            write_vertex(first_place + next_vertex, cell_in_lattice, in_cell, normal_sum, mean_colour(colour, max(count, 1u)));
+            ++next_vertex;
+        }
+    }
+    if (kListed == 0u && is_hard) {
+        uint place = atomicAdd(counters.hard_cells, 1u);
+        cells[place].hard = number;
+        atomicMax(counters.hard_groups[0], (place + 64u) / 64u);
     }
 }

@@ -68,6 +68,7 @@ struct MeshCell {
     uint used_high;
     uint first_vertex;  // in the tile
     uint vertices;
+    uint hard;  // apart from the rest: an entry of the list of cells without a closed form
 };
 
 struct MeshEdge {
@@ -85,8 +86,10 @@ struct MeshCounters {
     uint tile_groups[3];  // what indirect dispatches read: a group a tile, 64 edges, 64 cells
     uint edge_groups[3];
     uint cell_groups[3];
-    uint tiles;    // to mesh
-    uint waiting;  // length of the list of tiles that could not be meshed
+    uint hard_groups[3];  // likewise of cells without a closed form
+    uint fan_groups[3];   // of edges, when there is any fan
+    uint tiles;           // to mesh
+    uint waiting;         // length of the list of tiles that could not be meshed
     uint cells;
     uint edges;
     uint vertices_used;  // of the pools, or more when a range was asked for in vain
@@ -94,6 +97,7 @@ struct MeshCounters {
     uint cells_computed;  // whose vertices were
     uint ball_triangles;  // within the ball, also when there is no space for them
     uint ball_vertices;
+    uint hard_cells;  // length of their list
 };
 
 struct MeshParameters {
@@ -132,8 +136,8 @@ const int kBallTriangles = 65536;
 BURIN_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(burin::shared::TileRange) == 40 && sizeof(burin::shared::MeshCell) == 24 &&
-              sizeof(burin::shared::MeshEdge) == 32 && sizeof(burin::shared::MeshCounters) == 72 &&
+static_assert(sizeof(burin::shared::TileRange) == 40 && sizeof(burin::shared::MeshCell) == 28 &&
+              sizeof(burin::shared::MeshEdge) == 32 && sizeof(burin::shared::MeshCounters) == 100 &&
               sizeof(burin::shared::TileJob) == 4 * (11 + 324 + 2 * 289 + 2 * 972) &&
               sizeof(burin::shared::MeshParameters) == 96 && sizeof(burin::shared::GatherParameters) == 112);
 #endif
