@@ -130,7 +130,7 @@ void assert_well_formed(const std::vector<DexelEnd>& ends) {
 
 }  // namespace
 
-TEST(CutRay, EqualsSetSubtraction) {
+TEST(SpanEdit, EqualsSetSubtraction) {
     EXPECT_TRUE(rc::check([] {
         std::vector<DexelEnd> ends = *any_ray();
         const auto spans = *rc::gen::container<std::vector<RaySpan>>(any_span());
@@ -157,7 +157,7 @@ TEST(CutRay, EqualsSetSubtraction) {
     }));
 }
 
-TEST(CutRay, FillingEqualsSetUnion) {
+TEST(SpanEdit, FillingEqualsSetUnion) {
     EXPECT_TRUE(rc::check([] {
         std::vector<DexelEnd> ends = *any_ray();
         uint tool = 0;
@@ -174,7 +174,7 @@ TEST(CutRay, FillingEqualsSetUnion) {
     }));
 }
 
-TEST(CutRay, WhatIsFilledAndCutAgainIsWhatWasCut) {
+TEST(SpanEdit, WhatIsFilledAndCutAgainIsWhatWasCut) {
     EXPECT_TRUE(rc::check([] {
         const auto ends = *any_ray();
         const RaySpan any = *any_span(), span{std::max(any.lo, 0), any.hi};
@@ -184,7 +184,7 @@ TEST(CutRay, WhatIsFilledAndCutAgainIsWhatWasCut) {
     }));
 }
 
-TEST(CutRay, CuttingTwiceChangesNothingMore) {
+TEST(SpanEdit, CuttingTwiceChangesNothingMore) {
     EXPECT_TRUE(rc::check([] {
         const auto ends = *any_ray();
         const RaySpan span = *any_span();
@@ -195,7 +195,7 @@ TEST(CutRay, CuttingTwiceChangesNothingMore) {
     }));
 }
 
-TEST(CutRay, OrderOfCutsThatDoNotTouchDoesNotMatter) {
+TEST(SpanEdit, OrderOfCutsThatDoNotTouchDoesNotMatter) {
     EXPECT_TRUE(rc::check([] {
         const auto ends = *any_ray();
         const RaySpan a = *any_span(), b = *any_span();
@@ -204,7 +204,7 @@ TEST(CutRay, OrderOfCutsThatDoNotTouchDoesNotMatter) {
     }));
 }
 
-TEST(CutRay, CoincidentFacesLeaveNoSliver) {
+TEST(SpanEdit, CoincidentFacesLeaveNoSliver) {
     const std::vector<DexelEnd> block{shared::make_end(10, 0, 1), shared::make_end(20, 0, 2)};
     EXPECT_TRUE(carve(block, {10, 20}, 1).ends.empty());
     EXPECT_TRUE(carve(block, {9, 21}, 1).ends.empty());
@@ -218,7 +218,7 @@ TEST(CutRay, CoincidentFacesLeaveNoSliver) {
     EXPECT_EQ(depth_of(lower[1]), 15);
 }
 
-TEST(CutRay, TwoHundredPlatesAreCutOneByOneAndAllAtOnce) {
+TEST(SpanEdit, TwoHundredPlatesAreCutOneByOneAndAllAtOnce) {
     std::vector<DexelEnd> plates;
     for (int i = 0; i < 200; ++i) {
         plates.push_back(shared::make_end(100 * i, 1, static_cast<uint>(2 * i)));
