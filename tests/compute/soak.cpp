@@ -195,9 +195,15 @@ private:
             ASSERT_TRUE(same_depths(held, shadow)) << "what a ray held before is told wrong";
             const auto now = engine_->solid().sets[a].ends(place.u, place.v);
             ASSERT_TRUE(well_formed_ray(now, shadow_.lattice.cells[a] * 4096, shadow_.materials.size()));
-            if (operation == Operation::cut) ASSERT_TRUE(within(now, held)) << "a cut added material";
-            if (operation == Operation::fill) ASSERT_TRUE(within(held, now)) << "filling took material away";
-            if (operation == Operation::paint) ASSERT_TRUE(same_depths(now, held)) << "paint changed a shape";
+            if (operation == Operation::cut) {
+                ASSERT_TRUE(within(now, held)) << "a cut added material";
+            }
+            if (operation == Operation::fill) {
+                ASSERT_TRUE(within(held, now)) << "filling took material away";
+            }
+            if (operation == Operation::paint) {
+                ASSERT_TRUE(same_depths(now, held)) << "paint changed a shape";
+            }
             shadow_.sets[a].replace(place.u, place.v, now);
         }
         surface_.update(engine_->solid(), changes, pool_);
