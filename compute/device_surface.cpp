@@ -155,7 +155,7 @@ Result<void> DeviceSurface::allocate() {
     if (done) done = create_into(indices_, device, kAddressed, options_.indices * sizeof(std::uint32_t), "indices");
     if (done) done = counters_.reserve(device, sizeof(MeshCounters));
     if (done) done = dirty_.reserve(device, options_.slots * sizeof(std::uint32_t));
-    if (done) done = waiting_.reserve(device, tile_count * sizeof(std::uint32_t));
+    if (done) done = create_into(waiting_, device, kStorage, tile_count * sizeof(std::uint32_t), "waiting tiles");
     if (done) done = ball_places_.reserve(device, LocalSurface::kMaxVertices * sizeof(Vec3f));
     if (done) done = ball_triangles_.reserve(device, LocalSurface::kMaxTriangles * 3 * sizeof(std::uint32_t));
     TileRange none{};
@@ -249,7 +249,6 @@ Result<void> DeviceSurface::submit(std::span<const ChangedRay> host_changes) {
     stamps_[3] = commands->stamp();
     commands->barrier();
     counters_.fetch(*commands, sizeof(MeshCounters));
-    waiting_.fetch(*commands, waiting_.size_bytes());
     auto submission = std::move(*commands).submit();
     if (!submission) return std::unexpected(submission.error());
     under_way_.emplace(std::move(*submission));
@@ -302,7 +301,7 @@ void DeviceSurface::record_mesh(gpu::Commands& commands, const gpu::Buffer* cut_
                                           counters_.buffer(),
                                           ranges_,
                                           dirty_.buffer(),
-                                          waiting_.buffer(),
+                                          waiting_,
                                           jobs_,
                                           cells_,
                                           edges_,
@@ -345,8 +344,9 @@ Result<void> DeviceSurface::settle() {
     counts_.cells += std::min(counters.cells, options_.cells);
     vertices_used_ = std::min(counters.vertices_used, options_.vertices);
     indices_used_ = std::min(counters.indices_used, options_.indices);
-    const auto late = waiting_.from_device<std::uint32_t>().first(counters.waiting);
-    waiting_tiles_.insert(waiting_tiles_.end(), late.begin(), late.end());
+    const auto late = read_buffer<std::uint32_t>(engine_.device(), waiting_, counters.waiting);  // rarely any
+    if (!late) return std::unexpected(late.error());
+    waiting_tiles_.insert(waiting_tiles_.end(), late->begin(), late->end());
     return grow(counters);
 }
 

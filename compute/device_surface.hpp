@@ -127,10 +127,9 @@ private:
     TileGrid grid_;
     DeviceSurfaceCounts counts_;
     std::array<gpu::ComputePipeline, kStages> stages_;
-    gpu::Buffer ranges_, jobs_, cells_, edges_, free_, tables_, vertices_, indices_, members_;
+    gpu::Buffer ranges_, jobs_, cells_, edges_, free_, tables_, waiting_, vertices_, indices_, members_;
     SharedBuffer counters_{"mesh counters", SharedBuffer::Traffic::both};
     SharedBuffer dirty_{"tiles to mesh", SharedBuffer::Traffic::to_device};
-    SharedBuffer waiting_{"waiting tiles", SharedBuffer::Traffic::from_device};
     SharedBuffer host_changes_{"changes to mesh", SharedBuffer::Traffic::to_device};
     SharedBuffer host_counters_{"number of changes", SharedBuffer::Traffic::to_device};
     SharedBuffer ball_places_{"places near the tool", SharedBuffer::Traffic::from_device};

@@ -169,7 +169,9 @@ Result<void> VulkanEngine::synchronize() {
     if (synchronized_) return {};
     const std::size_t rays = solid_.rays_held();
     if (const auto kept = stale_.reserve(device_, rays * sizeof(std::uint32_t)); !kept) return kept;
-    if (const auto sent = device_solid_.upload(device_, solid_, {0, options_.spare_ends}); !sent) return sent;
+    // A fine solid's first cuts need more than a coarse one's: an end for every eighth ray.
+    const std::size_t spare = options_.spare_ends > 0 ? std::max(options_.spare_ends, rays / 8) : 0;
+    if (const auto sent = device_solid_.upload(device_, solid_, {0, spare}); !sent) return sent;
     used_ = device_solid_.packed_size();
     longest_ = device_solid_.longest_ray();
     synchronized_ = true;

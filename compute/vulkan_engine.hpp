@@ -27,7 +27,7 @@ namespace burin {
 
 // Sizes to start with; all of them grow when needed. Tests choose small ones to reach that.
 struct VulkanEngineOptions {
-    std::size_t spare_ends = 65536;      // room behind the solid's ends in the store
+    std::size_t spare_ends = 65536;      // room behind the solid's ends in the store; more for a fine one, none for 0
     std::uint32_t export_per_ray = 4;    // space for the ends of changed rays, per ray visited
     std::uint32_t tasks_a_pass = 16384;  // work groups of 64 rays
 };

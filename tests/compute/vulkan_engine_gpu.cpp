@@ -275,7 +275,7 @@ TEST_F(VulkanEngineGpu, WithoutUnifiedMemoryTheEndsAreTheSame) {
     capabilities().unified_memory = false;
     EnginePair engines(plates(20, 3, 5), device(), {.spare_ends = 0, .export_per_ray = 1});
     Random random(6);
-    for (int batch = 0; batch < repeated(32); ++batch) {
+    for (int batch = 0; batch < 32; ++batch) {
         std::vector<BallSweep> sweeps(4);
         for (BallSweep& sweep : sweeps) sweep = random_sweep(random, 0.05), sweep.radius_m *= 0.3;
         ASSERT_TRUE(engines.cut(sweeps));
