@@ -31,7 +31,8 @@ struct HostRay {
 };
 
 // Rows v_lo..v_hi of one axis, what became of their rays, and which of their rays the capsules met.
-struct Band {
+// On lines of the cache of its own: threads write to neighbouring bands all the time.
+struct alignas(128) Band {
     int axis = 0, v_lo = 0, v_hi = 0;
     CarveStats stats;
     Changes changes;
