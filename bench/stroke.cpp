@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "bench/timing.hpp"
+#include "compute/mend_intersections.hpp"
 #include "compute/surface.hpp"
 #include "geometry/local_surface_search.hpp"
 #include "gpu/device.hpp"
@@ -86,7 +87,10 @@ Result<StrokeRun> run_stroke(const CarveScene& scene, const StrokeOptions& optio
     run.bytes = solid.bytes();
     run.disagreeing_edges = carver.surface().disagreeing_edges();
     run.intervals = check_intervals(solid, scene, kCheckedRays);
+    // As it would be exported.
     run.mesh = carver.surface().welded();
+    const MendingReport mending = mend_intersections(run.mesh, carver.surface(), solid, pool);
+    run.self_intersections_mended = mending.found - mending.left;
     return run;
 }
 

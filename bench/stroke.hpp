@@ -38,7 +38,8 @@ struct StrokeRun {
     std::size_t bytes = 0;  // of the rays at the end
     std::uint64_t disagreeing_edges = 0;
     IntervalCheck intervals;
-    TriangleMesh mesh;  // at the end
+    TriangleMesh mesh;  // at the end, as it would be exported: mended
+    std::uint64_t self_intersections_mended = 0;
 };
 
 // Published is what lies within this many tool radii of the tool.

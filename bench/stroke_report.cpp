@@ -100,6 +100,7 @@ Json describe(const CarveScene& scene, const StrokeRun& run, const SurfaceErrors
     report["triangles_published_per_update"] = static_cast<double>(run.triangles_published) / updates;
     add_errors(report, errors, run.cell_m);
     report["self_intersections"] = or_null(crossings.pairs);
+    report["self_intersections_mended"] = run.self_intersections_mended;
     report["self_intersections_by_cgal"] = or_null(crossings.pairs_by_cgal);
     report["disagreeing_edges"] = run.disagreeing_edges;
     report["rays_checked"] = run.intervals.rays;
