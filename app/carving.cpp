@@ -42,28 +42,20 @@ Result<void> Carving::update(std::span<const ToolSweep> sweeps) {
     return {};
 }
 
-Result<std::size_t> Carving::undo(std::size_t strokes) {
-    std::size_t undone = 0;
-    while (history_ && undone < strokes) {
-        const Result<bool> taken_back = history_->undo(*engine_);
-        if (!taken_back) return std::unexpected(taken_back.error());
-        if (!*taken_back) break;
-        follow_engine();
-        ++undone;
-    }
-    return undone;
-}
+Result<std::size_t> Carving::undo(std::size_t strokes) { return walk_history(strokes, &History::undo); }
 
-Result<std::size_t> Carving::redo(std::size_t strokes) {
-    std::size_t redone = 0;
-    while (history_ && redone < strokes) {
-        const Result<bool> done_again = history_->redo(*engine_);
-        if (!done_again) return std::unexpected(done_again.error());
-        if (!*done_again) break;
+Result<std::size_t> Carving::redo(std::size_t strokes) { return walk_history(strokes, &History::redo); }
+
+Result<std::size_t> Carving::walk_history(std::size_t strokes, HistoryStep step) {
+    std::size_t walked = 0;
+    while (history_ && walked < strokes) {
+        const Result<bool> stepped = (*history_.*step)(*engine_);
+        if (!stepped) return std::unexpected(stepped.error());
+        if (!*stepped) break;
         follow_engine();
-        ++redone;
+        ++walked;
     }
-    return redone;
+    return walked;
 }
 
 void Carving::follow_engine() {

@@ -53,6 +53,8 @@ public:
     [[nodiscard]] std::vector<std::uint32_t> take_changed_tiles();
 
 private:
+    using HistoryStep = Result<bool> (History::*)(CarvingEngine&);
+    [[nodiscard]] Result<std::size_t> walk_history(std::size_t strokes, HistoryStep step);
     void follow_engine();
 
     std::unique_ptr<CarvingEngine> engine_;

@@ -87,7 +87,7 @@ private:
             pareto_.left_out.push_back(run.error().line());
             return;
         }
-        Json row = {{"series", run->library + " " + run->method + ", " + std::to_string(run->threads) +
+        Json row = {{"series", run->peer + " " + run->method + ", " + std::to_string(run->threads) +
                                    (run->threads == 1 ? " thread" : " threads")}};
         tell_(row["series"].get<std::string>() + ", " + run->detail);
         const SurfaceErrors errors = measure(run->mesh, scene, cell_m > 0.0 ? cell_m : kCellWithoutCells_m);

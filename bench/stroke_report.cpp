@@ -111,7 +111,7 @@ Json describe(const CarveScene& scene, const StrokeRun& run, const SurfaceErrors
 
 Json describe(const CarveScene& scene, const PeerRun& run, const SurfaceErrors& errors, double cell_m) {
     Json report = {{"scene", scene.name},
-                   {"library", run.library},
+                   {"peer", run.peer},
                    {"method", run.method},
                    {"detail", run.detail},
                    {"threads", run.threads}};

@@ -18,9 +18,10 @@ RemeshStats Surface::mesh_tiles(const Solid& solid, MaskOf&& mask_of, WorkerPool
     work_.resize(changed_tiles_.size());
     pool.run(changed_tiles_.size(), [&](std::size_t i) {
         const std::uint32_t t = changed_tiles_[i];
-        if (!tiles_[t]) tiles_[t] = std::make_unique<TileMesh>();
-        work_[i] = mesh_tile(solid, grid_, t, mask_of(t), *tiles_[t]);
-        if (tiles_[t]->indices.empty()) tiles_[t].reset();
+        auto fresh = std::make_shared<TileMesh>();
+        work_[i] = mesh_tile(solid, grid_, t, mask_of(t), tile(t), *fresh);
+        if (fresh->indices.empty()) fresh.reset();
+        tiles_[t] = std::move(fresh);
     });
     RemeshStats stats;
     stats.tiles = changed_tiles_.size();

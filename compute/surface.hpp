@@ -41,6 +41,10 @@ public:
         static const TileMesh empty;
         return tiles_[index] ? *tiles_[index] : empty;
     }
+    // The same to keep: it stays as it is while carving goes on. Null for a tile without surface.
+    [[nodiscard]] const std::shared_ptr<const TileMesh>& shared_tile(std::uint32_t index) const {
+        return tiles_[index];
+    }
     [[nodiscard]] std::size_t tile_count() const { return tiles_.size(); }
     [[nodiscard]] std::uint64_t triangles() const { return triangles_; }
     [[nodiscard]] std::uint64_t disagreeing_edges() const { return disagreeing_edges_; }
@@ -59,7 +63,7 @@ private:
     Lattice lattice_;
     TileGrid grid_;
     DirtyCells dirty_;
-    std::vector<std::unique_ptr<TileMesh>> tiles_;  // none for a tile without surface
+    std::vector<std::shared_ptr<const TileMesh>> tiles_;  // none for a tile without surface
     std::vector<std::uint32_t> changed_tiles_;
     std::vector<TileWork> work_;
     std::uint64_t triangles_ = 0, disagreeing_edges_ = 0;

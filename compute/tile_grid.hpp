@@ -9,10 +9,11 @@
 #include <cstdint>
 
 #include "compute/lattice.hpp"
+#include "geometry/surface_tile.hpp"
 
 namespace burin {
 
-inline constexpr int kTileCells = 16;
+inline constexpr int kTileCells = SurfaceTile::kCells;
 inline constexpr int kSeenCells = kTileCells + 1;  // -1 .. kTileCells - 1
 
 struct TileGrid {

@@ -111,11 +111,17 @@ private:
         make_quads_along<0>();
         make_quads_along<1>();
         make_quads_along<2>();
+        mesh_.row_quads.back() = static_cast<std::uint16_t>(mesh_.quads.size());
+        mesh_.row_triangles.back() = static_cast<std::uint32_t>(mesh_.triangles());
     }
 
     template <int axis>
     void make_quads_along() {
         for (int y = 0; y < kTileCells; ++y) {
+            constexpr std::size_t first_row = std::size_t{axis} * kTileCells;
+            mesh_.row_quads[first_row + static_cast<std::size_t>(y)] = static_cast<std::uint16_t>(mesh_.quads.size());
+            mesh_.row_triangles[first_row + static_cast<std::size_t>(y)] =
+                static_cast<std::uint32_t>(mesh_.triangles());
             for (int x = 0; x < kTileCells; ++x) {
                 for (std::uint32_t bits = samples_.own_crossed(axis, x, y); bits != 0; bits &= bits - 1) {
                     quad<axis>({x, y, std::countr_zero(bits) - 1});
@@ -274,15 +280,15 @@ void clear(TileMesh& mesh) {
 }  // namespace
 
 TileWork mesh_tile(const Solid& solid, const TileGrid& grid, std::uint32_t tile, const CellMask& dirty,
-                   TileMesh& mesh) {
+                   const TileMesh& old, TileMesh& fresh) {
     const std::array<int, 3> first_node = grid.first_node(tile);
     thread_local Scratch scratch;
     clear(scratch.fresh);
     TileWork work;
     if (scratch.samples.collect_signs(solid, first_node)) {
-        work = Mesher(solid, first_node, dirty, mesh, scratch).run();
+        work = Mesher(solid, first_node, dirty, old, scratch).run();
     }
-    mesh = scratch.fresh;  // copied, so that a tile holds no more memory than it needs and the scratch keeps its own
+    fresh = scratch.fresh;  // copied, so that a tile holds no more memory than it needs and the scratch keeps its own
     return work;
 }
 

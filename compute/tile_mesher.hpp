@@ -20,18 +20,15 @@
 
 #include "compute/solid.hpp"
 #include "compute/tile_grid.hpp"
-#include "shaders/shared/surface_vertex.h"
+#include "geometry/surface_tile.hpp"
 
 namespace burin {
 
-struct TileMesh {
-    // One vertex for each smooth piece of surface that meets in a cell: along a sharp edge two vertices share a position and
-    // a key and differ in normal and colour. Cell by cell, then the extra vertices on faces (cell_table.hpp).
-    std::vector<shared::SurfaceVertex> vertices;
-    std::vector<std::uint32_t> indices;   // three a triangle, counter-clockwise seen from outside
+struct TileMesh : SurfaceTile {
     std::uint32_t disagreeing_edges = 0;  // of this tile's own edges
 
-    // How the mesh is made up, in increasing order; for meshing a part of it anew and for naming vertices.
+    // How the vertices are made up, in increasing order of cells; for meshing a part anew and for naming vertices. First come
+    // those of the cells, then the extra vertices on faces (cell_table.hpp).
     struct Cell {
         std::uint16_t cell = 0;          // ((y + 1) * kSeenCells + x + 1) * kSeenCells + z + 1
         std::uint16_t first_vertex = 0;  // its vertices end where the next cell's begin
@@ -43,13 +40,9 @@ struct TileMesh {
     std::vector<std::uint64_t> vertex_of_edge;
     static constexpr std::uint64_t kPassedTwice = std::uint64_t{1}
                                                   << 48;  // a loop passes a face twice (cell_table.hpp)
-    // For each quad or fan: ((axis * 16 + y) * 16 + x) * 16 + z of its edge's lower node; and these bits.
-    static constexpr std::uint16_t kQuadEdge = 0x3fff, kOtherDiagonal = 0x4000, kDisagrees = 0x8000;
-    std::vector<std::uint16_t> quads;
-    std::vector<std::uint64_t> face_keys;  // of the extra vertices
-    bool has_twice_passed_faces = false;   // in any cell
+    std::vector<std::uint64_t> face_keys;                 // of the extra vertices
+    bool has_twice_passed_faces = false;                  // in any cell
 
-    [[nodiscard]] std::size_t triangles() const { return indices.size() / 3; }
     [[nodiscard]] std::size_t cell_vertices() const { return vertices.size() - face_keys.size(); }
 };
 
@@ -58,9 +51,10 @@ struct TileWork {
     std::uint32_t triangles = 0;  // that were made anew, because a cell at one of their corners was
 };
 
-// Meshes anew the cells of the mask; those outside it must be as they were when `mesh` was made. Thread-safe as long as the
-// solid does not change. Reuses the mesh's memory.
-TileWork mesh_tile(const Solid& solid, const TileGrid& grid, std::uint32_t tile, const CellMask& dirty, TileMesh& mesh);
+// The tile's mesh, `old` being the one before: the cells of the mask anew, the others copied; those must be as they were when
+// `old` was made. Thread-safe as long as the solid does not change. Reuses the memory of `fresh`, which is not `old`.
+TileWork mesh_tile(const Solid& solid, const TileGrid& grid, std::uint32_t tile, const CellMask& dirty,
+                   const TileMesh& old, TileMesh& fresh);
 
 // The name of each vertex: the same for one point of the surface in all tiles, (cell index in the lattice) * 16 + slot. Slots
 // 0 to 3 are the cell's loops; slot 4 + 2 * axis + pair is the extra vertex on the cell's lower face of that axis.

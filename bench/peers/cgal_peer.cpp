@@ -88,7 +88,7 @@ TriangleMesh placed(TriangleMesh ball, const BallSweep& stamp) {
 Result<PeerRun> carve(const CarveScene& scene, int subdivisions) {
     PeerRun run;
     const TriangleMesh unit_ball = icosphere(subdivisions);
-    run.library = "CGAL " CGAL_VERSION_STR;
+    run.peer = "CGAL " CGAL_VERSION_STR;
     run.method = "corefinement, first " + std::to_string(scene.sweeps.size()) + " updates";
     run.detail = "ball of " + std::to_string(unit_ball.triangles.size());
     run.threads = 1;
@@ -99,7 +99,7 @@ Result<PeerRun> carve(const CarveScene& scene, int subdivisions) {
         Mesh ball = from_triangles(placed(unit_ball, stamp));
         run.tool_ms.push_back(watch.lap_ms());
         if (!pmp::corefine_and_compute_difference(solid, ball, solid)) {
-            return fail(run.library, "could not take ball " + std::to_string(run.update_ms.size()) + " out of the cube",
+            return fail(run.peer, "could not take ball " + std::to_string(run.update_ms.size()) + " out of the cube",
                         "take fewer updates");
         }
         run.boolean_ms.push_back(watch.lap_ms());

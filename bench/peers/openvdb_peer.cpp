@@ -232,7 +232,7 @@ PeerRun carve(const CarveScene& scene, const Lattice& lattice, unsigned threads,
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     openvdb::initialize();
     PeerRun run;
-    run.library = "OpenVDB " OPENVDB_LIBRARY_VERSION_STRING;
+    run.peer = "OpenVDB " OPENVDB_LIBRARY_VERSION_STRING;
     run.method = method == VdbMethod::csg_difference ? "csgDifference" : "leaf brush";
     run.detail = std::to_string(static_cast<int>(std::lround(1.0 / lattice.spacing_m)));
     run.threads = threads;

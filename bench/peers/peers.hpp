@@ -17,7 +17,7 @@
 namespace burin::bench {
 
 struct PeerRun {
-    std::string library, method;
+    std::string peer, method;
     std::string detail;  // of the method: cells a side, or the tool's triangles
     unsigned threads = 0;
     // One an update, wall: the tool's own field or mesh, the Boolean, the triangles of the changed region, and all three.
