@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A scene carved update by update, as a session does it while someone sculpts, and timed. One update is: the engine cuts one
 // sweep; the surface is brought up to date, vertices and indices; the triangles near the tool are gathered into a local
-// surface and its search grid is built, ready to be published to the haptic thread.
+// surface and its search grid is built, ready to be published to the haptic thread. On the Vulkan engine the first three are
+// done on the device (compute/device_surface.hpp), and how much is whose is what the device's clock says.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +34,7 @@ struct StrokeRun {
     std::vector<double> carve_ms, mesh_ms, publish_ms, update_ms, cpu_ms;
     std::uint64_t rays_touched = 0, rays_changed = 0;                                   // summed over the updates
     std::uint64_t cells_remeshed = 0, triangles_remeshed = 0, triangles_published = 0;  // likewise
-    double first_mesh_ms = 0.0;                                                         // of the whole untouched cube
+    double first_mesh_ms = 0.0;  // of the whole untouched cube; on a device with the making of its programs
     std::uint64_t rays_held = 0;
     std::size_t bytes = 0;  // of the rays at the end
     std::uint64_t disagreeing_edges = 0;

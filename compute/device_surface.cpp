@@ -173,6 +173,7 @@ Result<void> DeviceSurface::carve(std::span<const BallSweep> sweeps, const std::
     if (const auto done = finish(); !done) return done;
     if (const auto begun = engine_.defer(sweeps); !begun) return begun;
     touched_ = touched;
+    times_ = DeviceTimes{};
     if (!engine_.deferred_left() && !touched) return {};
     return submit({});
 }
@@ -180,6 +181,7 @@ Result<void> DeviceSurface::carve(std::span<const BallSweep> sweeps, const std::
 Result<void> DeviceSurface::update(const Changes& changes) {
     if (const auto done = finish(); !done) return done;
     touched_.reset();
+    times_ = DeviceTimes{};
     const std::size_t most =
         static_cast<std::size_t>(engine_.device().capabilities().max_storage_buffer_bytes) / sizeof(ChangedRay);
     for (std::size_t from = 0; from < changes.rays.size(); from += most) {
@@ -333,8 +335,8 @@ Result<void> DeviceSurface::settle() {
     const auto cut = under_way_->seconds_between(stamps_[0], stamps_[1]),
                mesh = under_way_->seconds_between(stamps_[1], stamps_[2]),
                gather = under_way_->seconds_between(stamps_[2], stamps_[3]);
-    times_.reset();
-    if (cut && mesh && gather) times_ = DeviceTimes{*cut, *mesh, *gather};
+    if (!cut || !mesh || !gather) times_.reset();
+    if (times_) times_ = DeviceTimes{times_->cut_s + *cut, times_->mesh_s + *mesh, times_->gather_s + *gather};
     under_way_.reset();
     if (cut_under_way_) {
         if (const auto ended = engine_.end_pass(); !ended) return ended;
@@ -342,6 +344,7 @@ Result<void> DeviceSurface::settle() {
     const MeshCounters counters = counters_.from_device<MeshCounters>()[0];
     counts_.tiles += std::min(counters.tiles, options_.slots) - std::min(counters.waiting, counters.tiles);
     counts_.cells += std::min(counters.cells, options_.cells);
+    counts_.triangles += counters.triangles;
     vertices_used_ = std::min(counters.vertices_used, options_.vertices);
     indices_used_ = std::min(counters.indices_used, options_.indices);
     const auto late = read_buffer<std::uint32_t>(engine_.device(), waiting_, counters.waiting);  // rarely any

@@ -41,12 +41,13 @@ struct DeviceSurfaceOptions {
 // What the surface has done since it was made.
 struct DeviceSurfaceCounts {
     std::uint64_t submissions = 0;
-    std::uint64_t tiles = 0;    // meshed
-    std::uint64_t cells = 0;    // whose vertices were computed
-    std::uint64_t growths = 0;  // of any buffer, because a tile had to wait
+    std::uint64_t tiles = 0;      // meshed
+    std::uint64_t cells = 0;      // whose vertices were computed
+    std::uint64_t triangles = 0;  // made
+    std::uint64_t growths = 0;    // of any buffer, because a tile had to wait
 };
 
-// The device's time for the last submission; nothing where it cannot tell.
+// The device's time since the last carve or update; nothing where it cannot tell.
 struct DeviceTimes {
     double cut_s = 0.0, mesh_s = 0.0, gather_s = 0.0;
 };

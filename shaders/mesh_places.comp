@@ -60,5 +60,6 @@ void main() {
         ranges[tile].vertices = vertices;
         ranges[tile].disagreeing = jobs[slot].disagreeing;
         ranges[tile].marked = 0u;
+        atomicAdd(counters.triangles, indices / 3u);
     }
 }

@@ -94,7 +94,7 @@ struct MeshCounters {
     uint edges;
     uint vertices_used;  // of the pools, or more when a range was asked for in vain
     uint indices_used;
-    uint cells_computed;  // whose vertices were
+    uint triangles;       // made
     uint ball_triangles;  // within the ball, also when there is no space for them
     uint ball_vertices;
     uint hard_cells;  // length of their list
