@@ -37,7 +37,7 @@ static_assert(shared::kBallVertices == LocalSurface::kMaxVertices &&
               shared::kBallTriangles == LocalSurface::kMaxTriangles);
 
 constexpr std::uint32_t kMemberBytes = 8;
-constexpr std::uint32_t kColourTable = 1024, kTableWords = kColourTable + 256;
+constexpr std::uint32_t kTableWords = 4 * 256;
 constexpr std::uint32_t kMostFree = 65536;
 constexpr std::uint32_t kLists = 2 * shared::kRangeClasses;
 
@@ -71,7 +71,7 @@ Result<void> create_into(gpu::Buffer& to, gpu::Device& device, gpu::BufferUse us
     return {};
 }
 
-// cell_table.hpp as mesh_buffers.glsl reads it, and behind it the colours of the materials.
+// cell_table.hpp and the colours of the materials, as mesh_buffers.glsl reads them.
 std::vector<std::uint32_t> table_words(std::span<const Material> materials) {
     std::vector<std::uint32_t> words(kTableWords, 0);
     for (std::size_t pattern = 0; pattern < 256; ++pattern) {
@@ -83,8 +83,7 @@ std::vector<std::uint32_t> table_words(std::span<const Material> materials) {
     }
     for (std::size_t m = 0; m < materials.size() && m < 256; ++m) {
         const auto& colour = materials[m].colour;
-        words[kColourTable + m] =
-            std::uint32_t{colour[0]} | std::uint32_t{colour[1]} << 8 | std::uint32_t{colour[2]} << 16;
+        words[4 * m + 3] = std::uint32_t{colour[0]} | std::uint32_t{colour[1]} << 8 | std::uint32_t{colour[2]} << 16;
     }
     return words;
 }
@@ -105,6 +104,10 @@ DeviceSurface::DeviceSurface(VulkanEngine& engine, const DeviceSurfaceOptions& o
     : engine_(engine), options_(options), lattice_(engine.solid().lattice), grid_(lattice_) {}
 
 Result<void> DeviceSurface::compile() {
+    if (!engine_.device().capabilities().scalar_block_layout) {
+        return fail("Vulkan engine", engine_.device().info().name + " cannot lay out buffers without gaps",
+                    "use --engine cpu");
+    }
     struct Program {
         std::span<const std::uint32_t> spirv;
         std::uint32_t buffers, push_bytes;

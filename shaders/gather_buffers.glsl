@@ -5,8 +5,8 @@
 layout(push_constant) uniform Push { GatherParameters parameters; };
 layout(std430, binding = 0) buffer Counters { MeshCounters counters; };
 layout(std430, binding = 1) readonly buffer Ranges { TileRange ranges[]; };
-layout(std430, binding = 2) buffer BallPlaces { float ball_places[]; };      // three a vertex
-layout(std430, binding = 3) buffer BallTriangles { uint ball_triangles[]; };  // three a triangle
+layout(scalar, binding = 2) writeonly buffer BallPlaces { vec3 ball_places[]; };
+layout(scalar, binding = 3) buffer BallTriangles { uvec3 ball_triangles[]; };
 
 // For each vertex of the pool the ball that it was last in, and its number there.
 struct Member {
@@ -14,5 +14,11 @@ struct Member {
     uint number;
 };
 layout(buffer_reference, std430, buffer_reference_align = 8) buffer Members { Member at[]; };
-layout(buffer_reference, std430, buffer_reference_align = 4) buffer Vertices { SurfaceVertex at[]; };
-layout(buffer_reference, std430, buffer_reference_align = 4) buffer Indices { uint at[]; };
+// As the device reads them with the fewest accesses: a place, a triangle each with one.
+struct PlacedVertex {
+    vec3 place;
+    uint normal;
+    uint colour;
+};
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Vertices { PlacedVertex at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Triangles { uvec3 at[]; };

@@ -13,10 +13,8 @@ layout(std430, binding = 5) buffer Jobs { TileJob jobs[]; };     // of these til
 layout(std430, binding = 6) buffer Cells { MeshCell cells[]; };
 layout(std430, binding = 7) buffer Edges { MeshEdge edges[]; };
 layout(std430, binding = 8) buffer Free { uint free_places[]; };  // counts of both pools' classes, then their lists
-layout(std430, binding = 9) readonly buffer Tables { uint tables[]; };  // cell_table.hpp, four words a pattern; colours
+layout(std430, binding = 9) readonly buffer Tables { uvec4 tables[]; };  // see listed_edge
 #include "shaders/dexel_store.glsl"
-
-const uint kColourTable = 1024u;  // where in tables
 
 layout(buffer_reference, std430, buffer_reference_align = 4) buffer Vertices { SurfaceVertex at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 4) buffer Indices { uint at[]; };
@@ -33,8 +31,6 @@ int node_column(int x, int y) { return (y + 1) * kMeshNodes + x + 1; }
 int cell_column(int x, int y) { return (y + 1) * kMeshCells + x + 1; }
 uint below(int z) { return (1u << uint(z + 1)) - 1u; }  // the bits of what lies below z
 
-bool inside(uint slot, ivec3 node) { return (jobs[slot].signs[node_column(node.x, node.y)] >> uint(node.z + 1) & 1u) != 0u; }
-
 uint cell_pattern(uint slot, ivec3 cell) {
     int column = node_column(cell.x, cell.y);
     uint shift = uint(cell.z + 1);
@@ -46,36 +42,35 @@ uint cell_pattern(uint slot, ivec3 cell) {
            (p00 >> 1 & 1u) << 4 | (p10 >> 1 & 1u) << 5 | (p01 >> 1 & 1u) << 6 | (p11 >> 1 & 1u) << 7;
 }
 
-// cell_table.hpp in words: edges[0 .. 7] in 4 bits each; edges[8 .. 11] and first_edge[1 .. 4]; loops and twice_faces.
-uint listed_edge(uint pattern, uint i) { return tables[4u * pattern + (i >> 3)] >> (4u * (i & 7u)) & 0xfu; }
-uint first_listed(uint pattern, uint loop) {
-    return loop == 0u ? 0u : tables[4u * pattern + 1u] >> (12u + 4u * loop) & 0xfu;
-}
-uint loops_of(uint pattern) { return tables[4u * pattern + 2u] & 0xfu; }
-uint twice_faces(uint pattern) { return tables[4u * pattern + 2u] >> 4; }
+// cell_table.hpp, a row a pattern: edges[0 .. 7] in 4 bits each; edges[8 .. 11] and first_edge[1 .. 4]; loops and twice_faces.
+// And in the last word the colour of the material of that number.
+uint listed_edge(uvec4 row, uint i) { return (i < 8u ? row.x : row.y) >> (4u * (i & 7u)) & 0xfu; }
+uint first_listed(uvec4 row, uint loop) { return loop == 0u ? 0u : row.y >> (12u + 4u * loop) & 0xfu; }
+uint loops_of(uvec4 row) { return row.z & 0xfu; }
+uint twice_faces(uvec4 row) { return row.z >> 4; }
 
 ivec3 along_axis(int axis, int by) { return ivec3(axis == 0 ? by : 0, axis == 1 ? by : 0, axis == 2 ? by : 0); }
 
 uint edge_number(uint slot, int axis, ivec3 node) {
-    int column = axis * kNodeColumns + node_column(node.x, node.y);
-    return jobs[slot].first_edge + jobs[slot].edges_before[column] +
-           uint(bitCount(jobs[slot].edge_bits[column] & below(node.z)));
+    uvec2 column = jobs[slot].edge_columns[axis * kNodeColumns + node_column(node.x, node.y)];
+    return column.y + uint(bitCount(column.x & below(node.z)));
 }
 uint cell_number(uint slot, ivec3 cell) {
-    int column = cell_column(cell.x, cell.y);
-    return jobs[slot].first_cell + jobs[slot].cells_before[column] +
-           uint(bitCount(jobs[slot].cell_bits[column] & below(cell.z)));
+    uvec2 column = jobs[slot].cell_columns[cell_column(cell.x, cell.y)];
+    return column.y + uint(bitCount(column.x & below(cell.z)));
 }
+uint pattern_of(uint cell) { return cell >> 16; }
 ivec3 cell_place(uint cell) {
-    int id = int(cell);
+    int id = int(cell & 0xffffu);
     return ivec3(id / kMeshCells % kMeshCells - 1, id / (kMeshCells * kMeshCells) - 1, id % kMeshCells - 1);
 }
 ivec3 edge_node(uint place) {
     return ivec3(int(place >> 2 & 31u) - 1, int(place >> 7 & 31u) - 1, int(place >> 12 & 31u) - 1);
 }
-uint edge_place(int axis, ivec3 node) {
-    return uint(axis) | uint(node.x + 1) << 2 | uint(node.y + 1) << 7 | uint(node.z + 1) << 12;
+uint edge_place(int axis, ivec3 node, uint inside) {
+    return uint(axis) | uint(node.x + 1) << 2 | uint(node.y + 1) << 7 | uint(node.z + 1) << 12 | inside << 17;
 }
+bool lower_is_inside(uint place) { return (place >> 17 & 1u) != 0u; }
 
 // The lower node of a cell's edge, from the cell's lowest.
 ivec3 edge_offset(uint edge) {
@@ -83,8 +78,6 @@ ivec3 edge_offset(uint edge) {
     return along_axis((axis + 1) % 3, int(edge & 1u)) + along_axis((axis + 2) % 3, int(edge >> 1 & 1u));
 }
 uint sample_of(uint slot, ivec3 cell, uint edge) { return edge_number(slot, int(edge >> 2), cell + edge_offset(edge)); }
-
-vec3 normal_of(uint edge) { return vec3(edges[edge].normal_x, edges[edge].normal_y, edges[edge].normal_z); }
 
 // The ends of a ray through the tile's nodes; none outside the lattice.
 RayRef ray_at(int axis, int u, int v) {

@@ -33,13 +33,12 @@ void main() {
     uint number = gl_GlobalInvocationID.x;
     uint end_of_list = min(counters.edges, parameters.most_edges);
     if (number >= end_of_list) return;
-    uint slot = edges[number].slot;
+    uvec4 what = edges[number].what;
+    uint slot = what.x;
     if (slot == kNoSlot) return;
-    uint place = edges[number].place;
-    int axis = int(place & 3u);
-    ivec3 local = edge_node(place);
-    ivec3 node = first_node(jobs[slot].tile) + local;
-    bool lower_inside = inside(slot, local);
+    int axis = int(what.y & 3u);
+    ivec3 node = first_node(jobs[slot].tile) + edge_node(what.y);
+    bool lower_inside = lower_is_inside(what.y);
     RayRef ray = ray_at(axis, node[(axis + 1) % 3], node[(axis + 2) % 3]);
     uint chosen = crossing_end(ray, node[axis], lower_inside);
     uint material = 0u;
@@ -55,10 +54,7 @@ void main() {
         disagrees = offset <= 0 || offset > kUnitsPerCell;
     }
     Direction n = decode_normal(code);
-    edges[number].normal_x = n.x;
-    edges[number].normal_y = n.y;
-    edges[number].normal_z = n.z;
-    edges[number].along = along;
-    edges[number].material_disagrees = material | (disagrees ? 0x100u : 0u);
-    if (disagrees && edges[number].quad != kNotOwn) atomicAdd(jobs[slot].disagreeing, 1u);
+    edges[number].crossing = vec4(n.x, n.y, n.z, along);
+    edges[number].what.w = material << 24 | tables[material].w;
+    if (disagrees && what.z != kNotOwn) atomicAdd(jobs[slot].disagreeing, 1u);
 }

@@ -10,9 +10,8 @@
 
 layout(local_size_x = 64) in;
 
-bool in_one_piece(uint first, uint other) {
-    bool same = ((edges[first].material_disagrees ^ edges[other].material_disagrees) & 0xffu) == 0u;
-    return dot3(normal_of(first), normal_of(other)) >= (same ? kSmooth : kSmoothAcrossMaterials);
+bool in_one_piece(vec3 first_normal, uint first_material, vec3 normal, uint material) {
+    return dot3(first_normal, normal) >= (first_material == material ? kSmooth : kSmoothAcrossMaterials);
 }
 
 bool own_node(ivec3 node) { return all(greaterThanEqual(node, ivec3(0))) && all(lessThan(node, ivec3(kMeshTile))); }
@@ -29,25 +28,42 @@ void main() {
     uint number = gl_GlobalInvocationID.x;
     uint end_of_list = min(counters.cells, parameters.most_cells);
     if (number >= end_of_list) return;
-    uint slot = cells[number].slot;
+    uvec4 what = cells[number].what;
+    uint slot = what.x;
     if (slot == kNoSlot) return;
-    ivec3 cell = cell_place(cells[number].cell);
-    uint pattern = cell_pattern(slot, cell);
-    uint loops = loops_of(pattern);
+    ivec3 cell = cell_place(what.y);
+    uvec4 row = tables[pattern_of(what.y)];
+    uint loops = loops_of(row);
     uint low = 0xffffffffu;
     uint high = 0xffffffffu;
     uint vertices = 0u;
-    uint first_of[12];
+    vec3 first_normal[12];  // of each piece of the loop
+    uint first_material[12];
     for (uint loop = 0u; loop < loops; ++loop) {
         uint pieces = 0u;
-        uint last = first_listed(pattern, loop + 1u);
+        uint last = first_listed(row, loop + 1u);
+        vec3 normal_0 = vec3(0.0);  // of the first piece, which is mostly the only one
+        uint material_0 = 0u;
         if (loop > 0u) high = (high & ~(0xfu << (16u + 4u * loop))) | vertices << (16u + 4u * loop);
-        for (uint i = first_listed(pattern, loop); i < last; ++i) {
-            uint edge = listed_edge(pattern, i);
+        for (uint i = first_listed(row, loop); i < last; ++i) {
+            uint edge = listed_edge(row, i);
             uint crossing = sample_of(slot, cell, edge);
+            vec3 normal = edges[crossing].crossing.xyz;
+            uint material = edges[crossing].what.w >> 24;
             uint p = 0u;
-            while (p < pieces && !in_one_piece(first_of[p], crossing)) ++p;
-            if (p == pieces) first_of[pieces++] = crossing;
+            if (pieces == 0u) {
+                normal_0 = normal;
+                material_0 = material;
+                pieces = 1u;
+            } else if (!in_one_piece(normal_0, material_0, normal, material)) {
+                p = 1u;
+                while (p < pieces && !in_one_piece(first_normal[p], first_material[p], normal, material)) ++p;
+                if (p == pieces) {
+                    first_normal[p] = normal;
+                    first_material[p] = material;
+                    ++pieces;
+                }
+            }
             uint shift = 4u * (edge & 7u);
             uint used = (vertices + p) << shift;
             low = edge < 8u ? (low & ~(0xfu << shift)) | used : low;
@@ -55,15 +71,13 @@ void main() {
         }
         vertices += pieces;
     }
-    cells[number].used_low = low;
-    cells[number].used_high = high;
-    cells[number].vertices = vertices;
-    uint twice = twice_faces(pattern);
+    uint twice = twice_faces(row);
+    cells[number].made = uvec4(low, high, 0u, vertices | twice << 16);
     for (uint face = 0u; face < (twice == 0u ? 0u : 6u); face += 2u) {  // the cell's lower faces
         int axis = int(face >> 1);
         ivec3 next = cell - along_axis(axis, 1);
         if ((twice >> face & 1u) == 0u || next[axis] < -1) continue;
-        if ((twice_faces(cell_pattern(slot, next)) >> (face + 1u) & 1u) == 0u) continue;
+        if ((twice_faces(tables[cell_pattern(slot, next)]) >> (face + 1u) & 1u) == 0u) continue;
         atomicAdd(jobs[slot].extras, own_edges_of_face(cell, axis));
         counters.fan_groups[0] = counters.edge_groups[0];
     }

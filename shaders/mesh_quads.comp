@@ -14,15 +14,15 @@ layout(local_size_x = 64) in;
 // 0: only quads; 1: only fans, run where there are any (see mesh_vertices.comp for the reason).
 layout(constant_id = 0) const uint kFans = 0u;
 
-uint vertex_of(uint slot, ivec3 cell, uint edge) {
-    uint number = cell_number(slot, cell);
-    uint used = edge < 8u ? cells[number].used_low : cells[number].used_high;
-    return cells[number].first_vertex + (used >> (4u * (edge & 7u)) & 0xfu);
-}
+bool inside(uint slot, ivec3 node) { return (jobs[slot].signs[node_column(node.x, node.y)] >> uint(node.z + 1) & 1u) != 0u; }
 
-bool passed_twice(uint slot, ivec3 cell, ivec3 next, int axis, uint side) {
-    uint face = uint(axis) * 2u;
-    return ((twice_faces(cell_pattern(slot, cell)) >> (face + side)) & (twice_faces(cell_pattern(slot, next)) >> (face + 1u - side)) & 1u) != 0u;
+// What cells hold: the vertex of one of its edges; whether a face of one and of the next, which are the same, is passed twice.
+uint vertex_of(uvec4 made, uint edge) {
+    return made.z + ((edge < 8u ? made.x : made.y) >> (4u * (edge & 7u)) & 0xfu);
+}
+bool passed_twice(uvec4 made, uvec4 next, int axis, uint side) {
+    uint face = 16u + uint(axis) * 2u;
+    return ((made.w >> (face + side)) & (next.w >> (face + 1u - side)) & 1u) != 0u;
 }
 
 void write_triangle(uint place, uint a, uint b, uint c, bool flip) {
@@ -39,10 +39,12 @@ void write_face_vertex(uint place, uint slot, int axis, ivec3 node, ivec3 cell, 
     uint other_number = edge_number(slot, other, other_node);
     vec3 a = vec3(node - cell);
     vec3 b = vec3(other_node - cell);
-    a[axis] += edges[number].along;
-    b[other] += edges[other_number].along;
-    write_vertex(place, cell + first_node(jobs[slot].tile), (a + b) * 0.5, normal_of(number) + normal_of(other_number),
-                 mean_colour(colour_of(number) + colour_of(other_number), 2u));
+    vec4 crossing = edges[number].crossing;
+    vec4 other_crossing = edges[other_number].crossing;
+    a[axis] += crossing.w;
+    b[other] += other_crossing.w;
+    write_vertex(place, cell + first_node(jobs[slot].tile), (a + b) * 0.5, crossing.xyz + other_crossing.xyz,
+                 mean_colour(channels(edges[number].what.w) + channels(edges[other_number].what.w), 2u));
 }
 
 // The squared cosine between a triangle and the surface, with its sign.
@@ -54,10 +56,11 @@ float facing(vec3 a, vec3 b, vec3 c, vec3 normal) {
     return length2 > 0.0 ? cosine2 : -1.0;
 }
 
-vec3 place_of(uint vertex, uint origin, float cells_per_m) {
-    precise vec3 p = vec3(pool_vertices.at[vertex].x - pool_vertices.at[origin].x,
-                          pool_vertices.at[vertex].y - pool_vertices.at[origin].y,
-                          pool_vertices.at[vertex].z - pool_vertices.at[origin].z) * cells_per_m;
+vec3 place_of(uint vertex) {
+    return vec3(pool_vertices.at[vertex].x, pool_vertices.at[vertex].y, pool_vertices.at[vertex].z);
+}
+vec3 in_cells(vec3 place, vec3 origin, float cells_per_m) {
+    precise vec3 p = (place - origin) * cells_per_m;
     return p;
 }
 
@@ -65,13 +68,14 @@ void main() {
     uint number = gl_GlobalInvocationID.x;
     uint end_of_list = min(counters.edges, parameters.most_edges);
     if (number >= end_of_list) return;
-    uint slot = edges[number].slot;
+    uvec4 what = edges[number].what;
+    uint slot = what.x;
     if (slot == kNoSlot) return;
-    uint quad = edges[number].quad;
+    uint quad = what.z;
     if (quad == kNotOwn || jobs[slot].waits != 0u) return;
     uint tile = jobs[slot].tile;
-    int axis = int(edges[number].place & 3u);
-    ivec3 node = edge_node(edges[number].place);
+    int axis = int(what.y & 3u);
+    ivec3 node = edge_node(what.y);
     int u = (axis + 1) % 3;
     int v = (axis + 2) % 3;
     // Counter-clockwise seen from the edge's upper end.
@@ -80,21 +84,21 @@ void main() {
     around[1] = node - along_axis(v, 1);
     around[2] = node;
     around[3] = node - along_axis(u, 1);
+    uvec4 made[4];
+    for (int i = 0; i < 4; ++i) made[i] = cells[cell_number(slot, around[i])].made;
     uint first_edge = uint(axis) * 4u;
     uint corners[4];
-    corners[0] = vertex_of(slot, around[0], first_edge + 3u);
-    corners[1] = vertex_of(slot, around[1], first_edge + 2u);
-    corners[2] = vertex_of(slot, around[2], first_edge);
-    corners[3] = vertex_of(slot, around[3], first_edge + 1u);
-    bool flip = !inside(slot, node);  // the surface faces the lower end
+    corners[0] = vertex_of(made[0], first_edge + 3u);
+    corners[1] = vertex_of(made[1], first_edge + 2u);
+    corners[2] = vertex_of(made[2], first_edge);
+    corners[3] = vertex_of(made[3], first_edge + 1u);
+    bool flip = !lower_is_inside(what.y);  // the surface faces the lower end
     uint place = ranges[tile].first_index + 6u * quad;
     uint first_vertex = uint(ranges[tile].first_vertex);
 
     uint twice = 0u;  // bit i: the face between cells i and i + 1 has an extra vertex
-    for (uint i = 0u; i < (jobs[slot].extras > 0u ? 4u : 0u); ++i) {
-        int face_axis = i % 2u == 0u ? u : v;
-        int by = i < 2u ? 1 : -1;
-        if (passed_twice(slot, around[i], around[i] + along_axis(face_axis, by), face_axis, i < 2u ? 1u : 0u)) twice |= 1u << i;
+    for (int i = 0; i < 4; ++i) {
+        if (passed_twice(made[i], made[(i + 1) & 3], i % 2 == 0 ? u : v, i < 2 ? 1u : 0u)) twice |= 1u << i;
     }
     uint extras = uint(bitCount(twice));
     if (kFans == 1u) {
@@ -123,14 +127,19 @@ void main() {
     }
     if (extras > 0u) return;
     float cells_per_m = float(1.0lf / parameters.spacing_m);
+    vec3 origin = place_of(first_vertex + corners[0]);
     vec3 p0 = vec3(0.0);
-    vec3 p1 = place_of(first_vertex + corners[1], first_vertex + corners[0], cells_per_m);
-    vec3 p2 = place_of(first_vertex + corners[2], first_vertex + corners[0], cells_per_m);
-    vec3 p3 = place_of(first_vertex + corners[3], first_vertex + corners[0], cells_per_m);
-    vec3 normal = flip ? -normal_of(number) : normal_of(number);
+    vec3 p1 = in_cells(place_of(first_vertex + corners[1]), origin, cells_per_m);
+    vec3 p2 = in_cells(place_of(first_vertex + corners[2]), origin, cells_per_m);
+    vec3 p3 = in_cells(place_of(first_vertex + corners[3]), origin, cells_per_m);
+    vec3 upwards = edges[number].crossing.xyz;
+    vec3 normal = flip ? -upwards : upwards;
     bool other_diagonal = min(facing(p0, p1, p2, normal), facing(p0, p2, p3, normal)) <
                           min(facing(p1, p2, p3, normal), facing(p1, p3, p0, normal));
-    uint from = other_diagonal ? 1u : 0u;
-    write_triangle(place, corners[from], corners[from + 1u], corners[(from + 2u) & 3u], flip);
-    write_triangle(place + 3u, corners[from], corners[(from + 2u) & 3u], corners[(from + 3u) & 3u], flip);
+    uint second = other_diagonal ? corners[2] : corners[1];
+    uint third = other_diagonal ? corners[3] : corners[2];
+    uint fourth = other_diagonal ? corners[0] : corners[3];
+    uint opening = other_diagonal ? corners[1] : corners[0];
+    write_triangle(place, opening, second, third, flip);
+    write_triangle(place + 3u, opening, third, fourth, flip);
 }

@@ -20,7 +20,7 @@ void main() {
     uint from = min(lane * share, count) + jobs[slot].first_cell;
     uint to = min((lane + 1u) * share, count) + jobs[slot].first_cell;
     uint sum = 0u;
-    for (uint i = from; i < to; ++i) sum += cells[i].vertices;
+    for (uint i = from; i < to; ++i) sum += cells[i].made.w & 0xffffu;
     sums[lane] = sum;
     barrier();
     if (lane == 0u) {
@@ -48,7 +48,7 @@ void main() {
     barrier();
     uint at = sums[lane];
     for (uint i = from; i < to; ++i) {
-        cells[i].first_vertex = at;
-        at += cells[i].vertices;
+        cells[i].made.z = at;
+        at += cells[i].made.w & 0xffffu;
     }
 }

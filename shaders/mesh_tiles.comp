@@ -12,8 +12,8 @@ layout(local_size_x = 64) in;
 shared uint signs[kNodeColumns];
 shared uint needed[kCellColumns];
 shared uint cell_sums[kMeshGroup];
-shared uint edge_sums[kMeshGroup];
-shared uint quad_sums[kMeshGroup];
+shared uint edge_sums[3 * kMeshGroup];  // axis by axis
+shared uint quad_sums[3 * kMeshGroup];
 shared uint first_cell;
 shared uint first_edge;
 shared uint fits;
@@ -39,34 +39,41 @@ uint node_bits(RayRef ray, int first) {
     return bits;
 }
 
-uint crossed(int axis, int x, int y) {
-    uint here = signs[node_column(x, y)];
-    if (axis == 0) return x < kMeshTile ? here ^ signs[node_column(x + 1, y)] : 0u;
-    if (axis == 1) return y < kMeshTile ? here ^ signs[node_column(x, y + 1)] : 0u;
-    return (here ^ (here >> 1)) & ((1u << uint(kMeshNodes - 1)) - 1u);
-}
 bool own(int x, int y) { return x >= 0 && y >= 0 && x < kMeshTile && y < kMeshTile; }
-uint own_crossed(int axis, int x, int y) { return own(x, y) ? crossed(axis, x, y) & kOwn : 0u; }
 uint both_cells(uint edge_bits) { return edge_bits | edge_bits >> 1; }  // an edge along x or y touches z and z - 1
 uint both_nodes(uint cell_bits) { return cell_bits | cell_bits << 1; }
+uint along_z(uint column) { return (column ^ (column >> 1)) & ((1u << uint(kMeshNodes - 1)) - 1u); }
 
-// The cells of a column that own crossed edges touch.
+// The cells of a column that own crossed edges touch. An edge is own when it starts at an own node.
 uint needed_cells(int x, int y) {
-    uint bits = both_cells(own_crossed(0, x, y)) | both_cells(own_crossed(1, x, y)) | own_crossed(2, x, y);
-    bits |= both_cells(own_crossed(0, x, y + 1)) | own_crossed(2, x, y + 1);
-    bits |= both_cells(own_crossed(1, x + 1, y)) | own_crossed(2, x + 1, y);
-    return bits | own_crossed(2, x + 1, y + 1);
+    int column = node_column(x, y);
+    uint low = signs[column];
+    uint right = signs[column + 1];
+    uint upper = signs[column + kMeshNodes];
+    uint across = signs[column + kMeshNodes + 1];
+    uint at_low = own(x, y) ? kOwn : 0u;
+    uint at_right = own(x + 1, y) ? kOwn : 0u;
+    uint at_upper = own(x, y + 1) ? kOwn : 0u;
+    uint at_across = own(x + 1, y + 1) ? kOwn : 0u;
+    uint sideways = ((low ^ right) | (low ^ upper)) & at_low;
+    sideways |= (upper ^ across) & at_upper;
+    sideways |= (right ^ across) & at_right;
+    return both_cells(sideways) | (along_z(low) & at_low) | (along_z(right) & at_right) | (along_z(upper) & at_upper) |
+           (along_z(across) & at_across);
 }
 uint cells_at(int x, int y) { return x >= -1 && y >= -1 && x < kMeshTile && y < kMeshTile ? needed[cell_column(x, y)] : 0u; }
 
-// The crossed edges of these cells that start in a column of nodes.
-uint needed_edges(int axis, int x, int y) {
+// The crossed edges of these cells that start in a column of nodes, along each axis.
+uvec3 needed_edges(int x, int y) {
     uint here = cells_at(x, y);
     uint left = cells_at(x - 1, y);
     uint low = cells_at(x, y - 1);
     uint across = cells_at(x - 1, y - 1);
-    uint wanted = axis == 0 ? both_nodes(here | low) : (axis == 1 ? both_nodes(here | left) : here | left | low | across);
-    return crossed(axis, x, y) & wanted;
+    uint bits = signs[node_column(x, y)];
+    uint along_x = x < kMeshTile ? bits ^ signs[node_column(x + 1, y)] : 0u;
+    uint along_y = y < kMeshTile ? bits ^ signs[node_column(x, y + 1)] : 0u;
+    return uvec3(along_x & both_nodes(here | low), along_y & both_nodes(here | left),
+                 along_z(bits) & (here | left | low | across));
 }
 
 void main() {
@@ -94,36 +101,37 @@ void main() {
     // Most tiles of a solid are empty or full: there is nothing to count in them.
     bool has_surface = any_inside != 0u && all_inside != (1u << uint(kMeshNodes)) - 1u;
     int cell_columns = has_surface ? kCellColumns : 0;
-    int edge_columns = has_surface ? kEdgeColumns : 0;
+    int node_columns = has_surface ? kNodeColumns : 0;
     for (int c = lane; c < cell_columns; c += kMeshGroup) {
-        uint bits = needed_cells(c % kMeshCells - 1, c / kMeshCells - 1);
-        needed[c] = bits;
-        jobs[slot].cell_bits[c] = bits;
+        needed[c] = needed_cells(c % kMeshCells - 1, c / kMeshCells - 1);
     }
     barrier();
     // Each lane counts neighbouring columns, so that the lists are in the order of the columns.
     const int kCellShare = (kCellColumns + kMeshGroup - 1) / kMeshGroup;
-    const int kEdgeShare = (kEdgeColumns + kMeshGroup - 1) / kMeshGroup;
+    const int kNodeShare = (kNodeColumns + kMeshGroup - 1) / kMeshGroup;
     int cells_from = lane * kCellShare;
     int cells_to = min(cells_from + kCellShare, cell_columns);
-    int edges_from = lane * kEdgeShare;
-    int edges_to = min(edges_from + kEdgeShare, edge_columns);
+    int nodes_from = lane * kNodeShare;
+    int nodes_to = min(nodes_from + kNodeShare, node_columns);
     uint cell_sum = 0u;
-    uint edge_sum = 0u;
-    uint quad_sum = 0u;
+    uvec3 edge_sum = uvec3(0u);
+    uvec3 quad_sum = uvec3(0u);
     for (int c = cells_from; c < cells_to; ++c) cell_sum += uint(bitCount(needed[c]));
-    for (int c = edges_from; c < edges_to; ++c) {
-        int column = c % kNodeColumns;
-        int x = column % kMeshNodes - 1;
-        int y = column / kMeshNodes - 1;
-        uint bits = needed_edges(c / kNodeColumns, x, y);
-        jobs[slot].edge_bits[c] = bits;
-        edge_sum += uint(bitCount(bits));
-        quad_sum += own(x, y) ? uint(bitCount(bits & kOwn)) : 0u;
+    for (int c = nodes_from; c < nodes_to; ++c) {
+        int x = c % kMeshNodes - 1;
+        int y = c / kMeshNodes - 1;
+        uvec3 bits = needed_edges(x, y);
+        jobs[slot].edge_columns[c].x = bits.x;
+        jobs[slot].edge_columns[kNodeColumns + c].x = bits.y;
+        jobs[slot].edge_columns[2 * kNodeColumns + c].x = bits.z;
+        edge_sum += uvec3(bitCount(bits));
+        quad_sum += own(x, y) ? uvec3(bitCount(bits & kOwn)) : uvec3(0u);
     }
     cell_sums[lane] = cell_sum;
-    edge_sums[lane] = edge_sum;
-    quad_sums[lane] = quad_sum;
+    for (int axis = 0; axis < 3; ++axis) {
+        edge_sums[axis * kMeshGroup + lane] = edge_sum[axis];
+        quad_sums[axis * kMeshGroup + lane] = quad_sum[axis];
+    }
     barrier();
     if (lane == 0) {
         uint all_cells = 0u;
@@ -131,12 +139,14 @@ void main() {
         uint all_quads = 0u;
         for (int i = 0; i < kMeshGroup; ++i) {
             uint c = cell_sums[i];
+            cell_sums[i] = all_cells;
+            all_cells += c;
+        }
+        for (int i = 0; i < 3 * kMeshGroup; ++i) {
             uint e = edge_sums[i];
             uint q = quad_sums[i];
-            cell_sums[i] = all_cells;
             edge_sums[i] = all_edges;
             quad_sums[i] = all_quads;
-            all_cells += c;
             all_edges += e;
             all_quads += q;
         }
@@ -165,33 +175,43 @@ void main() {
     if (fits == 0u) {  // what it asked for in vain may lie between what others got, and holds an older frame's entries
         uint end_of_cells = min(first_cell + cells_asked, parameters.most_cells);
         uint end_of_edges = min(first_edge + edges_asked, parameters.most_edges);
-        for (uint i = first_cell + uint(lane); i < end_of_cells; i += uint(kMeshGroup)) cells[i].slot = kNoSlot;
-        for (uint i = first_edge + uint(lane); i < end_of_edges; i += uint(kMeshGroup)) edges[i].slot = kNoSlot;
+        for (uint i = first_cell + uint(lane); i < end_of_cells; i += uint(kMeshGroup)) cells[i].what.x = kNoSlot;
+        for (uint i = first_edge + uint(lane); i < end_of_edges; i += uint(kMeshGroup)) edges[i].what.x = kNoSlot;
     }
-    uint at = cell_sums[lane];
+    uint at = first_cell + cell_sums[lane];
     for (int c = fits == 1u ? cells_from : cells_to; c < cells_to; ++c) {
-        jobs[slot].cells_before[c] = at;
-        for (uint bits = needed[c]; bits != 0u; bits &= bits - 1u) {
-            cells[first_cell + at].slot = slot;
-            cells[first_cell + at].cell = uint(c * kMeshCells + findLSB(bits));
+        uint bits = needed[c];
+        jobs[slot].cell_columns[c] = uvec2(bits, at);
+        int column = node_column(c % kMeshCells - 1, c / kMeshCells - 1);
+        uint p00 = signs[column];
+        uint p10 = signs[column + 1];
+        uint p01 = signs[column + kMeshNodes];
+        uint p11 = signs[column + kMeshNodes + 1];
+        for (; bits != 0u; bits &= bits - 1u) {
+            int bit = findLSB(bits);
+            uint lower = (p00 >> bit & 1u) | (p10 >> bit & 1u) << 1 | (p01 >> bit & 1u) << 2 | (p11 >> bit & 1u) << 3;
+            int next = bit + 1;
+            uint upper = (p00 >> next & 1u) | (p10 >> next & 1u) << 1 | (p01 >> next & 1u) << 2 | (p11 >> next & 1u) << 3;
+            cells[at].what = uvec4(slot, uint(c * kMeshCells + bit) | (lower | upper << 4) << 16, 0u, 0u);
             ++at;
         }
     }
-    at = edge_sums[lane];
-    uint quad = quad_sums[lane];
-    for (int c = fits == 1u ? edges_from : edges_to; c < edges_to; ++c) {
-        int axis = c / kNodeColumns;
-        int x = c % kNodeColumns % kMeshNodes - 1;
-        int y = c % kNodeColumns / kMeshNodes - 1;
-        jobs[slot].edges_before[c] = at;
-        for (uint bits = jobs[slot].edge_bits[c]; bits != 0u; bits &= bits - 1u) {
-            int z = findLSB(bits) - 1;
-            bool is_own = own(x, y) && z >= 0 && z < kMeshTile;
-            edges[first_edge + at].slot = slot;
-            edges[first_edge + at].place = edge_place(axis, ivec3(x, y, z));
-            edges[first_edge + at].quad = is_own ? quad : kNotOwn;
-            quad += is_own ? 1u : 0u;
-            ++at;
+    for (int axis = 0; axis < 3; ++axis) {
+        at = first_edge + edge_sums[axis * kMeshGroup + lane];
+        uint quad = quad_sums[axis * kMeshGroup + lane];
+        for (int c = fits == 1u ? nodes_from : nodes_to; c < nodes_to; ++c) {
+            int x = c % kMeshNodes - 1;
+            int y = c / kMeshNodes - 1;
+            uint inside = signs[c];
+            uint bits = jobs[slot].edge_columns[axis * kNodeColumns + c].x;
+            jobs[slot].edge_columns[axis * kNodeColumns + c].y = at;
+            for (; bits != 0u; bits &= bits - 1u) {
+                int bit = findLSB(bits);
+                bool is_own = own(x, y) && (kOwn >> bit & 1u) != 0u;
+                edges[at].what = uvec4(slot, edge_place(axis, ivec3(x, y, bit - 1), inside >> bit & 1u), is_own ? quad : kNotOwn, 0u);
+                quad += is_own ? 1u : 0u;
+                ++at;
+            }
         }
     }
 }

@@ -31,10 +31,7 @@ void write_vertex(uint place, ivec3 cell, vec3 in_cell, vec3 normal, uint colour
     pool_vertices.at[place].colour = colour;
 }
 
-uvec3 colour_of(uint edge) {
-    uint colour = tables[kColourTable + (edges[edge].material_disagrees & 0xffu)];
-    return uvec3(colour & 0xffu, colour >> 8 & 0xffu, colour >> 16 & 0xffu);
-}
+uvec3 channels(uint colour) { return uvec3(colour & 0xffu, colour >> 8 & 0xffu, colour >> 16 & 0xffu); }
 uint mean_colour(uvec3 sum, uint count) {
     uvec3 mean = (sum + count / 2u) / count;
     return mean.x | mean.y << 8 | mean.z << 16 | 0xff000000u;

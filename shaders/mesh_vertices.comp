@@ -16,11 +16,20 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint kListed = 0u;
 
 bool closed_form = true;  // of the point that was found last
-uint crossings = 0u;
-vec3 at[12];
+uvec4 row;                // of the cell's pattern (mesh_buffers.glsl)
+uint first;               // of the edges of a loop in it
+uint last;
+float along[12];
 vec3 normal[12];
-uint sampled[12];  // number in edges
-uint vertex[12];   // of the cell
+uint colour[12];
+
+// In cells from the cell's lowest corner.
+vec3 place_of_crossing(uint i) {
+    uint edge = listed_edge(row, i);
+    float u = float(edge & 1u);
+    float v = float(edge >> 1 & 1u);
+    return edge < 4u ? vec3(along[i], u, v) : (edge < 8u ? vec3(v, along[i], u) : vec3(u, v, along[i]));
+}
 
 // The pseudo-inverse of the planes' normal equations, for any planes at all.
 vec3 offset_by_eigenvalues(vec3 mean) {
@@ -33,9 +42,9 @@ vec3 offset_by_eigenvalues(vec3 mean) {
     float yy = 0.0;
     float yz = 0.0;
     float zz = 0.0;
-    for (uint i = 0u; i < crossings; ++i) {
+    for (uint i = first; i < last; ++i) {
         vec3 n = normal[i];
-        float d = dot3(n, at[i] - mean);
+        float d = dot3(n, place_of_crossing(i) - mean);
         precise float sum_xx = xx + n.x * n.x;
         precise float sum_xy = xy + n.x * n.y;
         precise float sum_xz = xz + n.x * n.z;
@@ -100,63 +109,77 @@ vec3 offset_by_eigenvalues(vec3 mean) {
     return offset;
 }
 
-// In cells from the cell's lowest corner.
-vec3 feature_point() {
-    precise vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < crossings; ++i) sum += at[i];
-    precise vec3 mean = sum / float(crossings);
+// A plane that several crossings share. (Three by name, not an array: software drivers reach into arrays one invocation after the
+// other.)
+struct Cluster {
+    vec3 first_normal;
+    vec3 normal_sum;
+    float offset_sum;
+    float count;
+};
+bool takes(Cluster cluster, vec3 n) { return !(dot3(cluster.first_normal, n) < kSameCluster); }
+Cluster with(Cluster old, bool opened, bool joined, vec3 n, float d) {
+    precise vec3 more_normal = old.normal_sum + n;
+    precise float more_offset = old.offset_sum + d;
+    Cluster now;
+    now.first_normal = opened ? n : old.first_normal;
+    now.normal_sum = opened ? n : (joined ? more_normal : old.normal_sum);
+    now.offset_sum = opened ? d : (joined ? more_offset : old.offset_sum);
+    now.count = opened ? 1.0 : (joined ? old.count + 1.0 : old.count);
+    return now;
+}
+vec3 mean_normal(Cluster cluster) {
+    precise vec3 mean = cluster.normal_sum / sqrt(dot3(cluster.normal_sum, cluster.normal_sum));
+    return mean;
+}
+float mean_offset(Cluster cluster) {
+    precise float mean = cluster.offset_sum / cluster.count;
+    return mean;
+}
 
-    vec3 first_normal[3];
-    vec3 normal_sum[3];
-    float offset_sum[3];
-    float count[3];
+// In cells from the cell's lowest corner; `sum` is that of the crossings' places.
+vec3 feature_point(vec3 sum) {
+    precise vec3 mean = sum / float(last - first);
+    Cluster c0 = Cluster(vec3(0.0), vec3(0.0), 0.0, 0.0);
+    Cluster c1 = c0;
+    Cluster c2 = c0;
     int clusters = 0;  // 4: there are more than three
-    for (uint i = 0u; i < crossings && clusters < 4; ++i) {
-        float d = dot3(normal[i], at[i] - mean);
-        int k = 0;
-        while (k < clusters && dot3(first_normal[k], normal[i]) < kSameCluster) ++k;
-        if (k == 3) {
-            clusters = 4;
-        } else if (k == clusters) {
-            ++clusters;
-            first_normal[k] = normal[i];
-            normal_sum[k] = normal[i];
-            offset_sum[k] = d;
-            count[k] = 1.0;
-        } else {
-            precise vec3 more_normal = normal_sum[k] + normal[i];
-            precise float more_offset = offset_sum[k] + d;
-            normal_sum[k] = more_normal;
-            offset_sum[k] = more_offset;
-            count[k] += 1.0;
-        }
+    for (uint i = first; i < last && clusters < 4; ++i) {
+        vec3 n = normal[i];
+        float d = dot3(n, place_of_crossing(i) - mean);
+        bool in_0 = clusters > 0 && takes(c0, n);
+        bool in_1 = clusters > 1 && !in_0 && takes(c1, n);
+        bool in_2 = clusters > 2 && !in_0 && !in_1 && takes(c2, n);
+        bool opens = !in_0 && !in_1 && !in_2;
+        c0 = with(c0, opens && clusters == 0, in_0, n, d);
+        c1 = with(c1, opens && clusters == 1, in_1, n, d);
+        c2 = with(c2, opens && clusters == 2, in_2, n, d);
+        clusters += opens ? 1 : 0;
     }
-    vec3 n[3];
-    float d[3];
-    for (int k = 0; k < min(clusters, 3); ++k) {
-        precise vec3 mean_normal = normal_sum[k] / sqrt(dot3(normal_sum[k], normal_sum[k]));
-        precise float mean_offset = offset_sum[k] / count[k];
-        n[k] = mean_normal;
-        d[k] = mean_offset;
-    }
+    vec3 n0 = mean_normal(c0);
+    vec3 n1 = mean_normal(c1);
+    vec3 n2 = mean_normal(c2);
+    float d0 = mean_offset(c0);
+    float d1 = mean_offset(c1);
+    float d2 = mean_offset(c2);
     precise vec3 offset = vec3(0.0);
     bool found = false;
     if (clusters == 1) {
-        offset = n[0] * (kTowardsTangents * d[0]);
+        offset = n0 * (kTowardsTangents * d0);
         found = true;
     }
     if (clusters == 2) {
-        float cosine = dot3(n[0], n[1]);
+        float cosine = dot3(n0, n1);
         precise float sine2 = 1.0 - cosine * cosine;
         found = sine2 >= kLeastSine2;
-        precise vec3 between = (n[0] * (d[0] - cosine * d[1]) + n[1] * (d[1] - cosine * d[0])) / sine2;
+        precise vec3 between = (n0 * (d0 - cosine * d1) + n1 * (d1 - cosine * d0)) / sine2;
         offset = between;
     }
     if (clusters == 3) {
-        vec3 across = cross3(n[1], n[2]);
-        float volume = dot3(n[0], across);
+        vec3 across = cross3(n1, n2);
+        float volume = dot3(n0, across);
         found = abs(volume) >= kLeastVolume;
-        precise vec3 corner = (across * d[0] + cross3(n[2], n[0]) * d[1] + cross3(n[0], n[1]) * d[2]) / volume;
+        precise vec3 corner = (across * d0 + cross3(n2, n0) * d1 + cross3(n0, n1) * d2) / volume;
         offset = corner;
     }
     closed_form = found;
@@ -168,54 +191,53 @@ vec3 feature_point() {
 void main() {
     uint number = gl_GlobalInvocationID.x;
     if (number >= (kListed == 1u ? counters.hard_cells : min(counters.cells, parameters.most_cells))) return;
-    if (kListed == 1u) number = cells[number].hard;
-    uint slot = cells[number].slot;
+    if (kListed == 1u) number = cells[number].what.z;
+    uvec4 what = cells[number].what;
+    uint slot = what.x;
     if (slot == kNoSlot) return;
     if (jobs[slot].waits != 0u) return;
     uint tile = jobs[slot].tile;
-    ivec3 cell = cell_place(cells[number].cell);
+    ivec3 cell = cell_place(what.y);
     ivec3 cell_in_lattice = cell + first_node(tile);
-    uint first_place = uint(ranges[tile].first_vertex) + cells[number].first_vertex;
-    uint low = cells[number].used_low;
-    uint high = cells[number].used_high;
-    uint pattern = cell_pattern(slot, cell);
-    uint loops = loops_of(pattern);
+    uvec4 made = cells[number].made;
+    uint first_place = uint(ranges[tile].first_vertex) + made.z;
+    row = tables[pattern_of(what.y)];
+    uint loops = loops_of(row);
     uint next_vertex = 0u;
     bool is_hard = false;
     for (uint loop = 0u; loop < loops; ++loop) {
-        uint last = first_listed(pattern, loop + 1u);
-        uint end_vertex = loop + 1u < loops ? high >> (20u + 4u * loop) & 0xfu : cells[number].vertices;
-        crossings = 0u;
-        for (uint i = first_listed(pattern, loop); i < last; ++i) {
-            uint edge = listed_edge(pattern, i);
-            uint crossing = sample_of(slot, cell, edge);
-            vec3 place = vec3(edge_offset(edge));
-            place[edge >> 2] += edges[crossing].along;
-            at[crossings] = place;
-            normal[crossings] = normal_of(crossing);
-            sampled[crossings] = crossing;
-            vertex[crossings] = (edge < 8u ? low : high) >> (4u * (edge & 7u)) & 0xfu;
-            ++crossings;
+        first = first_listed(row, loop);
+        last = first_listed(row, loop + 1u);
+        uint end_vertex = loop + 1u < loops ? made.y >> (20u + 4u * loop) & 0xfu : made.w & 0xffffu;
+        precise vec3 place_sum = vec3(0.0);
+        for (uint i = first; i < last; ++i) {
+            uint crossing = sample_of(slot, cell, listed_edge(row, i));
+            vec4 normal_along = edges[crossing].crossing;
+            normal[i] = normal_along.xyz;
+            along[i] = normal_along.w;
+            colour[i] = edges[crossing].what.w;
+            place_sum += place_of_crossing(i);
         }
-        vec3 in_cell = feature_point();
+        vec3 in_cell = feature_point(place_sum);
         is_hard = is_hard || !closed_form;
         while (next_vertex < end_vertex) {
             precise vec3 normal_sum = vec3(0.0);
-            uvec3 colour = uvec3(0u);
+            uvec3 colour_sum = uvec3(0u);
             uint count = 0u;
-            for (uint i = 0u; i < crossings; ++i) {
-                if (vertex[i] != next_vertex) continue;
+            for (uint i = first; i < last; ++i) {
+                uint edge = listed_edge(row, i);
+                if (((edge < 8u ? made.x : made.y) >> (4u * (edge & 7u)) & 0xfu) != next_vertex) continue;
                 normal_sum += normal[i];
-                colour += colour_of(sampled[i]);
+                colour_sum += channels(colour[i]);
                 ++count;
             }
-            write_vertex(first_place + next_vertex, cell_in_lattice, in_cell, normal_sum, mean_colour(colour, max(count, 1u)));
+            write_vertex(first_place + next_vertex, cell_in_lattice, in_cell, normal_sum, mean_colour(colour_sum, max(count, 1u)));
             ++next_vertex;
         }
     }
     if (kListed == 0u && is_hard) {
         uint place = atomicAdd(counters.hard_cells, 1u);
-        cells[place].hard = number;
+        cells[place].what.z = number;
         atomicMax(counters.hard_groups[0], (place + 64u) / 64u);
     }
 }

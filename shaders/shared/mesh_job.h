@@ -7,6 +7,20 @@
 #include "shaders/shared/dexel.h"
 #include "shaders/shared/surface_vertex.h"
 
+#ifdef __cplusplus
+namespace burin::shared {  // as far as the layout goes
+struct uvec2 {
+    uint x, y;
+};
+struct uvec4 {
+    uint x, y, z, w;
+};
+struct vec4 {
+    float x, y, z, w;
+};
+}  // namespace burin::shared
+#endif
+
 BURIN_SHARED_BEGIN
 
 // As in compute/tile_grid.hpp and tile_samples.hpp: a tile has 16 cells a side and sees the cells from -1 on and the nodes
@@ -41,7 +55,8 @@ struct TileRange {
     uint marked;       // 1: on the list of tiles to mesh, or of those that wait
 };
 
-// A tile while it is meshed.
+// A tile while it is meshed. What is read together lies together: software drivers load one word of one invocation after the
+// other, so that the shaders' time is the number of loads.
 struct TileJob {
     uint tile;
     uint first_cell;
@@ -54,32 +69,26 @@ struct TileJob {
     uint cell_vertices;
     uint waits;  // 1: something has no space for it
     uint disagreeing;
-    uint signs[324];         // of node columns: which nodes are inside
-    uint cell_bits[289];     // of cell columns: the cells that quads refer to
-    uint cells_before[289];  // of the tile, before the column's first
-    uint edge_bits[972];     // of node columns, axis by axis: the crossed edges of these cells
-    uint edges_before[972];
+    uint unused;
+    uint signs[324];          // of node columns: which nodes are inside
+    uvec2 cell_columns[289];  // the cells that quads refer to; where in the list of cells the column's begin
+    uvec2 edge_columns[972];  // of node columns, axis by axis: the crossed edges of these cells; where their list begins
 };
 
 struct MeshCell {
-    uint slot;      // of its TileJob; kNoSlot: the entry is void
-    uint cell;      // ((y + 1) * kMeshCells + x + 1) * kMeshCells + z + 1
-    uint used_low;  // TileMesh::vertex_of_edge
-    uint used_high;
-    uint first_vertex;  // in the tile
-    uint vertices;
-    uint hard;  // apart from the rest: an entry of the list of cells without a closed form
+    // Slot of its TileJob, kNoSlot: the entry is void; ((y + 1) * kMeshCells + x + 1) * kMeshCells + z + 1, and from bit 16 on
+    // which corners are inside; apart from the rest: an entry of the list of cells without a closed form.
+    uvec4 what;
+    // TileMesh::vertex_of_edge, low and high; its first vertex in the tile; how many, and from bit 16 on the faces that a loop
+    // passes twice.
+    uvec4 made;
 };
 
 struct MeshEdge {
-    uint slot;                // likewise
-    uint place;               // axis; and in 5 bits each x + 1, y + 1, z + 1 of the lower node
-    uint quad;                // its number in the tile, kNotOwn when the edge is another tile's
-    uint material_disagrees;  // material, and in bit 8: the edge's own ray does not have this crossing
-    float normal_x;
-    float normal_y;
-    float normal_z;
-    float along;  // 0 at the lower node, 1 at the upper
+    // Slot, likewise; axis, in 5 bits each x + 1, y + 1, z + 1 of the lower node, and in bit 17 whether that is inside; the
+    // quad's number in the tile, kNotOwn when the edge is another tile's; colour, and in the high 8 bits material.
+    uvec4 what;
+    vec4 crossing;  // normal; 0 at the lower node, 1 at the upper
 };
 
 struct MeshCounters {
@@ -136,9 +145,9 @@ const int kBallTriangles = 65536;
 BURIN_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(burin::shared::TileRange) == 40 && sizeof(burin::shared::MeshCell) == 28 &&
+static_assert(sizeof(burin::shared::TileRange) == 40 && sizeof(burin::shared::MeshCell) == 32 &&
               sizeof(burin::shared::MeshEdge) == 32 && sizeof(burin::shared::MeshCounters) == 100 &&
-              sizeof(burin::shared::TileJob) == 4 * (11 + 324 + 2 * 289 + 2 * 972) &&
+              sizeof(burin::shared::TileJob) == 4 * (12 + 324 + 2 * 289 + 2 * 972) &&
               sizeof(burin::shared::MeshParameters) == 96 && sizeof(burin::shared::GatherParameters) == 112);
 #endif
 #endif
