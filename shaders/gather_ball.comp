@@ -22,6 +22,16 @@ void take(uint vertex, vec3 place) {
                                float(double(place.z) - parameters.center[2]));
 }
 
+// Whether the box around a triangle comes within the ball.
+bool near(vec3 a, vec3 b, vec3 c, vec3 center) {
+    vec3 lo = min(a, min(b, c));
+    vec3 hi = max(a, max(b, c));
+    vec3 outside = max(max(lo - center, center - hi), vec3(0.0));
+    precise float distance2 = outside.x * outside.x + outside.y * outside.y + outside.z * outside.z;
+    precise float reach2 = parameters.radius_m * parameters.radius_m;
+    return distance2 <= reach2;
+}
+
 void main() {
     int group = int(gl_WorkGroupID.x);
     ivec3 at = ivec3(group % parameters.count[0], group / parameters.count[0] % parameters.count[1],
@@ -29,7 +39,7 @@ void main() {
     at += ivec3(parameters.from[0], parameters.from[1], parameters.from[2]);
     int tile = (at.z * parameters.tiles[1] + at.y) * parameters.tiles[0] + at.x;
     uint first_vertex = uint(ranges[tile].first_vertex);
-    Triangles triangles = Triangles(parameters.index_address + 4ul * ranges[tile].first_index);
+    TrianglePairs pairs = TrianglePairs(parameters.index_address + 4ul * ranges[tile].first_index);
     uint end = ranges[tile].index_count / 3u;
     vec3 center = vec3(parameters.center_float[0], parameters.center_float[1], parameters.center_float[2]);
     // A tile's triangles reach at most one and a half cells beyond its own; two, for the rounding.
@@ -37,22 +47,40 @@ void main() {
     vec3 tile_hi = (vec3(at * kMeshTile + kMeshTile) + 2.0) * parameters.spacing_m;
     vec3 to_tile = max(max(tile_lo - center, center - tile_hi), vec3(0.0));
     if (dot(to_tile, to_tile) > parameters.radius_m * parameters.radius_m) end = 0u;
-    for (uint i = gl_LocalInvocationID.x; i < end; i += 64u) {
-        uvec3 corners = triangles.at[i] + first_vertex;
-        vec3 a = pool_vertices.at[corners.x].place;
-        vec3 b = pool_vertices.at[corners.y].place;
-        vec3 c = pool_vertices.at[corners.z].place;
-        vec3 lo = min(a, min(b, c));
-        vec3 hi = max(a, max(b, c));
-        vec3 outside = max(max(lo - center, center - hi), vec3(0.0));
-        precise float distance2 = outside.x * outside.x + outside.y * outside.y + outside.z * outside.z;
-        precise float reach2 = parameters.radius_m * parameters.radius_m;
-        if (distance2 > reach2) continue;
-        uint number = atomicAdd(counters.ball_triangles, 1u);
-        if (number >= uint(kBallTriangles)) continue;
-        take(corners.x, a);
-        take(corners.y, b);
-        take(corners.z, c);
-        ball_triangles[number] = corners;
+    // Two triangles at a time: those of a quad, or two of a fan, share their first corner and another one.
+    for (uint i = 2u * gl_LocalInvocationID.x; i < end; i += 128u) {
+        TrianglePair pair = pairs.at[i / 2u];
+        bool two = i + 1u < end;
+        bool shares_c = two && pair.d == pair.a && pair.e == pair.c;
+        bool shares_b = two && pair.d == pair.a && pair.f == pair.b;
+        bool alone = two && !shares_b && !shares_c;  // the second has a turn of its own
+        uvec3 corners = uvec3(pair.a, pair.b, pair.c);
+        uint fourth = shares_b ? pair.e : (shares_c ? pair.f : pair.a);
+        for (;;) {
+            uint a = first_vertex + corners.x;
+            uint b = first_vertex + corners.y;
+            uint c = first_vertex + corners.z;
+            uint d = first_vertex + fourth;
+            vec3 at_a = pool_vertices.at[a].place;
+            vec3 at_b = pool_vertices.at[b].place;
+            vec3 at_c = pool_vertices.at[c].place;
+            vec3 at_d = pool_vertices.at[d].place;
+            bool first = near(at_a, at_b, at_c, center);
+            bool second = (shares_b || shares_c) && near(at_a, shares_b ? at_b : at_c, at_d, center);
+            uint taken = (first ? 1u : 0u) + (second ? 1u : 0u);
+            uint number = taken > 0u ? atomicAdd(counters.ball_triangles, taken) : 0u;
+            if (taken > 0u && number + taken <= uint(kBallTriangles)) {
+                take(a, at_a);
+                if (first || shares_b) take(b, at_b);
+                if (first || shares_c) take(c, at_c);
+                if (second) take(d, at_d);
+                if (first) ball_triangles[number] = uvec3(a, b, c);
+                if (second) ball_triangles[number + taken - 1u] = shares_b ? uvec3(a, d, b) : uvec3(a, c, d);
+            }
+            if (!alone) break;
+            corners = uvec3(pair.d, pair.e, pair.f);
+            fourth = pair.d;
+            alone = false;
+        }
     }
 }

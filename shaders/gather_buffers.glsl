@@ -14,11 +14,18 @@ struct Member {
     uint number;
 };
 layout(buffer_reference, std430, buffer_reference_align = 8) buffer Members { Member at[]; };
-// As the device reads them with the fewest accesses: a place, a triangle each with one.
 struct PlacedVertex {
     vec3 place;
     uint normal;
     uint colour;
 };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Vertices { PlacedVertex at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Triangles { uvec3 at[]; };
+struct TrianglePair {
+    uint a;
+    uint b;
+    uint c;
+    uint d;
+    uint e;
+    uint f;
+};
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer TrianglePairs { TrianglePair at[]; };

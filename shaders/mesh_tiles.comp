@@ -116,16 +116,16 @@ void main() {
     uint cell_sum = 0u;
     uvec3 edge_sum = uvec3(0u);
     uvec3 quad_sum = uvec3(0u);
+    uvec3 edge_bits[kNodeShare];
     for (int c = cells_from; c < cells_to; ++c) cell_sum += uint(bitCount(needed[c]));
-    for (int c = nodes_from; c < nodes_to; ++c) {
+    for (int i = 0; i < kNodeShare; ++i) {
+        int c = nodes_from + i;
         int x = c % kMeshNodes - 1;
         int y = c / kMeshNodes - 1;
-        uvec3 bits = needed_edges(x, y);
-        jobs[slot].edge_columns[c].x = bits.x;
-        jobs[slot].edge_columns[kNodeColumns + c].x = bits.y;
-        jobs[slot].edge_columns[2 * kNodeColumns + c].x = bits.z;
-        edge_sum += uvec3(bitCount(bits));
-        quad_sum += own(x, y) ? uvec3(bitCount(bits & kOwn)) : uvec3(0u);
+        edge_bits[i] = uvec3(0u);
+        if (c < nodes_to) edge_bits[i] = needed_edges(x, y);
+        edge_sum += uvec3(bitCount(edge_bits[i]));
+        quad_sum += own(x, y) ? uvec3(bitCount(edge_bits[i] & kOwn)) : uvec3(0u);
     }
     cell_sums[lane] = cell_sum;
     for (int axis = 0; axis < 3; ++axis) {
@@ -199,19 +199,22 @@ void main() {
     for (int axis = 0; axis < 3; ++axis) {
         at = first_edge + edge_sums[axis * kMeshGroup + lane];
         uint quad = quad_sums[axis * kMeshGroup + lane];
-        for (int c = fits == 1u ? nodes_from : nodes_to; c < nodes_to; ++c) {
+        for (int i = 0; i < kNodeShare; ++i) {
+            uint bits = fits == 1u ? edge_bits[i][axis] : 0u;
+            if (bits == 0u) continue;  // nobody asks where these begin
+            int c = nodes_from + i;
             int x = c % kMeshNodes - 1;
             int y = c / kMeshNodes - 1;
             uint inside = signs[c];
-            uint bits = jobs[slot].edge_columns[axis * kNodeColumns + c].x;
-            jobs[slot].edge_columns[axis * kNodeColumns + c].y = at;
-            for (; bits != 0u; bits &= bits - 1u) {
+            jobs[slot].edge_columns[axis * kNodeColumns + c] = uvec2(bits, at);
+            do {
                 int bit = findLSB(bits);
                 bool is_own = own(x, y) && (kOwn >> bit & 1u) != 0u;
                 edges[at].what = uvec4(slot, edge_place(axis, ivec3(x, y, bit - 1), inside >> bit & 1u), is_own ? quad : kNotOwn, 0u);
                 quad += is_own ? 1u : 0u;
                 ++at;
-            }
+                bits &= bits - 1u;
+            } while (bits != 0u);
         }
     }
 }
