@@ -18,7 +18,7 @@ layout(push_constant) uniform Push { CutParameters parameters; };
 layout(std430, binding = 0) buffer Rays { RayRef rays[]; };
 layout(std430, binding = 1) writeonly buffer Stale { uint stale[]; };
 #include "shaders/dexel_store.glsl"
-layout(std430, binding = 2) readonly buffer Capsules { Capsule capsules[]; };
+layout(std430, binding = 2) readonly buffer Capsules { ivec2 capsule_words[]; };  // five pairs a Capsule
 layout(std430, binding = 3) readonly buffer Tasks { CutTask tasks[]; };
 layout(std430, binding = 4) readonly buffer Order { uint order[]; };
 layout(std430, binding = 5) buffer Counters { CutCounters counters; };
@@ -34,20 +34,38 @@ DexelEnd load_end(uint i) { return store.at[first_end + i]; }
 
 const uint kNoPlace = 0xffffffffu;
 
+// Software drivers read piece by piece, so by twos is faster than by ones.
+Capsule capsule_at(uint number) {
+    ivec2 start_xy = capsule_words[5u * number + 1u];
+    ivec2 start_z_along_x = capsule_words[5u * number + 2u];
+    ivec2 along_yz = capsule_words[5u * number + 3u];
+    ivec2 reach_work = capsule_words[5u * number + 4u];
+    Capsule c;
+    c.radius2 = packInt2x32(capsule_words[5u * number]);
+    c.start_x = start_xy.x;
+    c.start_y = start_xy.y;
+    c.start_z = start_z_along_x.x;
+    c.along_x = start_z_along_x.y;
+    c.along_y = along_yz.x;
+    c.along_z = along_yz.y;
+    c.reach = reach_work.x;
+    c.work = uint(reach_work.y);
+    return c;
+}
+
 // A cheap test that spares most capsules of a long list: false only where capsule_span would find nothing.
-bool near(uint capsule, int axis, int u, int v) {
-    int start_u = pick(axis, capsules[capsule].start_y, capsules[capsule].start_z, capsules[capsule].start_x);
-    int start_v = pick(axis, capsules[capsule].start_z, capsules[capsule].start_x, capsules[capsule].start_y);
-    int end_u = start_u + pick(axis, capsules[capsule].along_y, capsules[capsule].along_z, capsules[capsule].along_x);
-    int end_v = start_v + pick(axis, capsules[capsule].along_z, capsules[capsule].along_x, capsules[capsule].along_y);
-    int reach = capsules[capsule].reach;
-    return u >= min(start_u, end_u) - reach && u <= max(start_u, end_u) + reach &&  //
-           v >= min(start_v, end_v) - reach && v <= max(start_v, end_v) + reach;
+bool near(Capsule c, int axis, int u, int v) {
+    int start_u = pick(axis, c.start_y, c.start_z, c.start_x);
+    int start_v = pick(axis, c.start_z, c.start_x, c.start_y);
+    int end_u = start_u + pick(axis, c.along_y, c.along_z, c.along_x);
+    int end_v = start_v + pick(axis, c.along_z, c.along_x, c.along_y);
+    return u >= min(start_u, end_u) - c.reach && u <= max(start_u, end_u) + c.reach &&  //
+           v >= min(start_v, end_v) - c.reach && v <= max(start_v, end_v) + c.reach;
 }
 
 // The first capsule from `next` on that comes near the ray; `stop` when none does.
 uint next_near(uint next, uint stop, int axis, int ray_u, int ray_v) {
-    while (next < stop && !near(order[next], axis, ray_u, ray_v)) ++next;
+    while (next < stop && !near(capsule_at(order[next]), axis, ray_u, ray_v)) ++next;
     return next;
 }
 
@@ -118,7 +136,7 @@ void main() {
         // The condition stands at the end: with it at the beginning, a driver that runs both sides of a branch under a mask
         // would run the long body once more for nothing.
         do {
-            Capsule capsule = capsules[order[job.next]];
+            Capsule capsule = capsule_at(order[job.next]);
             CapsuleRay from_ray = capsule_from_ray(capsule, axis, ray_u, ray_v);
             RaySpan span = capsule_span(from_ray);
             uint count = count_of(ray);
