@@ -6,7 +6,6 @@
 
 #include "app/progress.hpp"
 #include "devices/simulated_omni.hpp"
-#include "geometry/local_surface_search.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "haptics/realtime.hpp"
 
@@ -59,7 +58,6 @@ public:
         gather_local_surface(carving_.surface(), tool_position_, tool_.ball_radius_m() + reach_m_, surface);
         surface.sequence = ++sequence_;
         surface.made_ns = now_ns;
-        build_search(surface);
         channels_.surface.publish();
     }
 

@@ -8,7 +8,6 @@
 #include "compute/device_surface.hpp"
 #include "compute/mend_intersections.hpp"
 #include "compute/surface.hpp"
-#include "geometry/local_surface_search.hpp"
 #include "gpu/device.hpp"
 
 namespace burin::bench {
@@ -40,7 +39,7 @@ protected:
         run_.rays_changed += carved.rays_changed;
         run_.cells_remeshed += cells;
         run_.triangles_remeshed += triangles;
-        run_.triangles_published += published_->triangle_count;
+        run_.triangles_published += published_->triangles();
     }
 
     StrokeRun& run_;
@@ -67,7 +66,6 @@ public:
         const RemeshStats meshed = surface_.update(engine_->solid(), engine_->take_changes(), pool_);
         const double mesh_ms = watch.lap_ms();
         gather_local_surface(surface_, sweep.end_object_m, kPublishedRadii * sweep.radius_m, *published_);
-        build_search(*published_);
         const double publish_ms = watch.lap_ms();
         took(carve_ms, mesh_ms, publish_ms, process_cpu_ms() - cpu_before_ms);
         did(*carved, meshed.cells, meshed.triangles);
@@ -111,7 +109,6 @@ public:
         double mesh_ms = watch.lap_ms();
         if (done) done = on_device_->local_surface(sweep.end_object_m, radius_m, *published_);
         if (!done) return done;
-        build_search(*published_);
         double publish_ms = watch.lap_ms();
         if (const auto& times = on_device_->times()) {  // all that is neither cut nor mesh counts as publishing
             const double all_ms = carve_ms + mesh_ms + publish_ms;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A scene carved update by update, as a session does it while someone sculpts, and timed. One update is: the engine cuts one
-// sweep; the surface is brought up to date, vertices and indices; the triangles near the tool are gathered into a local
-// surface and its search grid is built, ready to be published to the haptic thread. On the Vulkan engine the first three are
-// done on the device (compute/device_surface.hpp), and how much is whose is what the device's clock says.
+// sweep; the surface is brought up to date, vertices and indices; a local surface is filled with references to
+// the tiles near the tool, ready to be published to the haptic thread. On the Vulkan engine all is done on the device
+// (compute/device_surface.hpp), and how much is whose is what the device's clock says; there the triangles near the tool come
+// back, and the search grid for them is built on the host.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +34,7 @@ struct StrokeRun {
     // three on all threads.
     std::vector<double> carve_ms, mesh_ms, publish_ms, update_ms, cpu_ms;
     std::uint64_t rays_touched = 0, rays_changed = 0;                                   // summed over the updates
-    std::uint64_t cells_remeshed = 0, triangles_remeshed = 0, triangles_published = 0;  // likewise
+    std::uint64_t cells_remeshed = 0, triangles_remeshed = 0, triangles_published = 0;  // likewise; of whole tiles
     double first_mesh_ms = 0.0;  // of the whole untouched cube; on a device with the making of its programs
     std::uint64_t rays_held = 0;
     std::size_t bytes = 0;  // of the rays at the end

@@ -33,8 +33,6 @@ using shared::TileJob;
 using shared::TileRange;
 
 static_assert(shared::kMeshTile == kTileCells && shared::kMeshCells == kSeenCells);
-static_assert(shared::kBallVertices == LocalSurface::kMaxVertices &&
-              shared::kBallTriangles == LocalSurface::kMaxTriangles);
 
 constexpr std::uint32_t kMemberBytes = 8;
 constexpr std::uint32_t kTableWords = 4 * 256;
@@ -159,8 +157,8 @@ Result<void> DeviceSurface::allocate() {
     if (done) done = counters_.reserve(device, sizeof(MeshCounters));
     if (done) done = dirty_.reserve(device, options_.slots * sizeof(std::uint32_t));
     if (done) done = create_into(waiting_, device, kStorage, tile_count * sizeof(std::uint32_t), "waiting tiles");
-    if (done) done = ball_places_.reserve(device, LocalSurface::kMaxVertices * sizeof(Vec3f));
-    if (done) done = ball_triangles_.reserve(device, LocalSurface::kMaxTriangles * 3 * sizeof(std::uint32_t));
+    if (done) done = ball_places_.reserve(device, shared::kBallVertices * sizeof(Vec3f));
+    if (done) done = ball_triangles_.reserve(device, shared::kBallTriangles * 3 * sizeof(std::uint32_t));
     TileRange none{};
     none.vertex_class = none.index_class = shared::kNoClass;
     if (done) done = fill_buffer(device, ranges_, std::vector<TileRange>(tile_count, none));
@@ -450,25 +448,27 @@ Result<void> DeviceSurface::gather_alone(const Ball& ball) {
 
 Result<void> DeviceSurface::local_surface(const Vec3& center_object, double radius_m, LocalSurface& out) {
     if (const auto done = finish(); !done) return done;
-    std::uint32_t within = 0;  // triangles in the ball that was asked for
     for (double radius = radius_m;; radius *= 0.7) {
         if (!touched_ || touched_->center_object != center_object || touched_->radius_m != radius) {
             if (const auto done = gather_alone({center_object, radius}); !done) return done;
         }
         const MeshCounters counters = counters_.from_device<MeshCounters>()[0];
-        if (within == 0) within = counters.ball_triangles;
-        if (counters.ball_triangles > LocalSurface::kMaxTriangles ||
-            counters.ball_vertices > LocalSurface::kMaxVertices) {
+        if (counters.ball_triangles > std::uint32_t{shared::kBallTriangles} ||
+            counters.ball_vertices > std::uint32_t{shared::kBallVertices}) {
             continue;
         }
+        auto loose = std::make_shared<GriddedTriangles>();
+        loose->positions_m.resize(counters.ball_vertices);
+        loose->triangles.resize(counters.ball_triangles);
+        std::memcpy(loose->positions_m.data(), ball_places_.from_device<Vec3f>().data(),
+                    loose->positions_m.size() * sizeof(Vec3f));
+        std::memcpy(loose->triangles.data(), ball_triangles_.from_device<std::uint32_t>().data(),
+                    loose->triangles.size() * sizeof(loose->triangles[0]));
+        build_search(*loose);
         out.center_object = out.origin_object = center_object;
         out.radius_m = radius;
-        out.vertex_count = counters.ball_vertices;
-        out.triangle_count = counters.ball_triangles;
-        out.dropped_triangles = within - out.triangle_count;
-        std::memcpy(out.positions_m.data(), ball_places_.from_device<Vec3f>().data(), out.vertex_count * sizeof(Vec3f));
-        std::memcpy(out.triangles.data(), ball_triangles_.from_device<std::uint32_t>().data(),
-                    out.triangle_count * sizeof(out.triangles[0]));
+        out.tiles = {};
+        out.loose = std::move(loose);
         return {};
     }
 }

@@ -72,8 +72,9 @@ public:
     // Waits until the surface is that of the solid.
     [[nodiscard]] Result<void> finish();
 
-    // As gather_local_surface (surface.hpp), the triangles in another order. Finishes first; one more submission where the
-    // ball is not the one that carve was told.
+    // The triangles of the ball as loose ones, ready to be touched; of a smaller ball when there are more than the device
+    // keeps room for (kBallTriangles). Does not touch sequence and made_ns. Finishes first; one more submission where the ball
+    // is not the one that carve was told.
     [[nodiscard]] Result<void> local_surface(const Vec3& center_object, double radius_m, LocalSurface& out);
     // The vertices, indices and disagreeing edges of every tile, for tests and reports. Finishes first.
     [[nodiscard]] Result<std::vector<TileMesh>> download();

@@ -69,8 +69,9 @@ private:
     std::uint64_t triangles_ = 0, disagreeing_edges_ = 0;
 };
 
-// Fills `out` with the triangles within radius_m of center_object, and its ball; when they do not fit, with those of a
-// smaller ball (dropped_triangles says how many were left out). Does not touch sequence and made_ns.
+// Fills `out` with references to the tiles that may have triangles within radius_m of center_object, and with its ball; what
+// it referred to before lapses. Copies no triangle, and allocates only where the block of places grows. Does not touch
+// sequence and made_ns.
 void gather_local_surface(const Surface& surface, const Vec3& center_object, double radius_m, LocalSurface& out);
 
 }  // namespace burin

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What travels between the haptic thread and the rest: the payloads of the five channels, all plain data of fixed size.
+// What travels between the haptic thread and the rest: the payloads of the five channels, all plain data of fixed size but
+// for the surface, which refers to what the carving side owns (geometry/local_surface.hpp).
 //
 // Data flow: parameters and surface come in (newest value wins, borrowed); the tool's state goes out to the frame
 // (newest value wins), stroke samples go to the carving side and tick records to the recorder (rings: in order, none
@@ -56,7 +57,7 @@ struct StrokeSample {
 enum TickFlag : std::uint32_t {
     kTickLate = 1u << 0,            // began more than half a period after its deadline
     kTickInContact = 1u << 1,       // the proxy is held by a surface
-    kTickNoSurface = 1u << 2,       // no searchable surface has been published
+    kTickNoSurface = 1u << 2,       // no surface has been published
     kTickOutsideKnown = 1u << 3,    // the tool leaves the ball within which the surface is known
     kTickStaleSurface = 1u << 4,    // in contact, and the surface is older than max_surface_age_s
     kTickPushedOut = 1u << 5,       // the proxy was inside material and was put outside, the nearest way
@@ -72,7 +73,7 @@ enum TickFlag : std::uint32_t {
 // What the tick did in numbers that do not depend on the machine's speed.
 struct TickWork {
     std::uint32_t triangles_tested = 0;  // exact distance or sweep computations
-    std::uint32_t triangles_seen = 0;    // looked at and passed over by their bounding ball
+    std::uint32_t triangles_seen = 0;    // looked at by their bounding box or ball; a quad is one
     std::uint32_t proxy_steps = 0;
     std::uint32_t plane_solves = 0;
 };

@@ -29,7 +29,16 @@ constexpr std::uint32_t kMostPlanes = 512;  // 20 kB of stack; a ball lying in i
 struct Planes {
     std::array<HalfSpace, kMostPlanes> list;
     std::uint32_t count = 0;
+    std::array<std::uint32_t, kMostPlanes> triangles;  // those of the list, in rising order
     [[nodiscard]] std::span<const HalfSpace> span() const { return {list.data(), count}; }
+    [[nodiscard]] bool has(std::uint32_t triangle) const {
+        return std::binary_search(triangles.begin(), triangles.begin() + count, triangle);
+    }
+    void sort_triangles() {
+        for (std::uint32_t i = 0; i < count; ++i) triangles[i] = list[i].triangle;
+        const auto end = triangles.begin() + count;
+        if (!std::is_sorted(triangles.begin(), end)) std::sort(triangles.begin(), end);  // tiles come sorted
+    }
 };
 
 struct Nearest {
@@ -55,10 +64,9 @@ public:
         Touching result;
         planes.count = 0;
         const double reach = radius_ * (1.0 + kTouch);
-        result.complete = for_each_triangle_near(surface_, center - reach, center + reach, [&](std::uint32_t i) {
-            if (far_from(i, center, reach)) return true;
+        Near near{center, center, reach};
+        const auto visit = [&](std::uint32_t i, const Triangle& t) {
             if (!count_test()) return false;
-            const Triangle t = triangle(i);
             const NearestOnTriangle on = nearest_on_triangle(center, t);
             const Vec3 off = center - on.point;
             if (glm::dot(off, off) > reach * reach) return true;
@@ -72,7 +80,9 @@ public:
             planes.list[planes.count++] = {flat ? normal : off / distance,
                                            radius_ * (flat ? 1.0 : 1.0 - kTouch) - distance, i};
             return true;
-        });
+        };
+        result.complete = search(near, visit);
+        planes.sort_triangles();
         return result;
     }
 
@@ -86,68 +96,69 @@ public:
         Sweep result;
         const double radius = radius_ * (1.0 - 2.0 * kTouch);
         const Vec3 end = center + motion;
-        const double length2 = glm::dot(motion, motion);
-        result.complete = for_each_triangle_near(
-            surface_, glm::min(center, end) - radius, glm::max(center, end) + radius, [&](std::uint32_t i) {
-                const Vec3 to_middle = Vec3(surface_.search.spheres[i]) - center;
-                const double along = std::clamp(glm::dot(to_middle, motion) / length2, 0.0, 1.0);
-                if (far_from(i, center + along * motion, radius)) return true;
-                if (!count_test()) return false;
-                if (touches_already(planes, i)) return true;
-                result.fraction = std::min(result.fraction, fraction_until_touch(center, motion, radius, triangle(i)));
-                return true;
-            });
+        // What is near the box around a long way need not be near the way.
+        const bool is_long = glm::dot(motion, motion) > 0.25 * radius * radius;
+        const auto visit = [&](std::uint32_t i, const Triangle& t) {
+            if (planes.has(i) || (is_long && beside(t, center, motion, radius))) return true;
+            if (!count_test()) return false;
+            result.fraction = std::min(result.fraction, fraction_until_touch(center, motion, radius, t));
+            return true;
+        };
+        Near near{glm::min(center, end), glm::max(center, end), radius};
+        result.complete = search(near, visit);
         return result;
     }
 
-    // The nearest triangle of all, by boxes that double until what they found must be it.
-    Nearest nearest(const Vec3& center) {
+    // The nearest triangle of all, by boxes that double until what they found must be it. Of those that are farther than
+    // `most` any or none; none too when the work is used up.
+    Nearest nearest(const Vec3& center, double most) {
         Nearest result;
-        const SurfaceGrid& grid = surface_.search;
-        const Vec3 far_corner =
-            Vec3(grid.lo) + static_cast<double>(grid.cell_m) * Vec3(grid.cells[0], grid.cells[1], grid.cells[2]);
-        const Vec3 span = glm::max(glm::abs(center - Vec3(grid.lo)), glm::abs(center - far_corner));
-        const double everything = std::max({span.x, span.y, span.z});
-        for (double reach = std::max(radius_, static_cast<double>(grid.cell_m));; reach *= 2.0) {
-            for_each_triangle_near(surface_, center - reach, center + reach, [&](std::uint32_t i) {
-                if (far_from(i, center, result.distance * (1.0 + kTie))) return true;
-                if (!count_test()) return false;
-                const Triangle t = triangle(i);
-                const NearestOnTriangle on = nearest_on_triangle(center, t);
-                const Vec3 off = center - on.point, normal = outward_normal(t);
-                keep_nearest(result, {std::sqrt(glm::dot(off, off)), glm::dot(off, normal), on.point, normal});
-                return true;
-            });
+        Near near{center, center};
+        const auto visit = [&](std::uint32_t, const Triangle& t) {
+            if (beside(t, center, Vec3(0.0), result.distance * (1.0 + kTie))) return true;
+            if (!count_test()) return false;
+            const NearestOnTriangle on = nearest_on_triangle(center, t);
+            const Vec3 off = center - on.point, normal = outward_normal(t);
+            keep_nearest(result, {std::sqrt(glm::dot(off, off)), glm::dot(off, normal), on.point, normal});
+            near.reach_m = std::min(near.reach_m, result.distance * (1.0 + kTie));
+            return true;
+        };
+        const Box all = bounds(surface_);
+        const Vec3 span = glm::max(glm::abs(center - all.lo), glm::abs(center - all.hi));
+        const double everything = std::min(most, std::max({span.x, span.y, span.z}));
+        for (double reach = std::max(radius_, 2.0 * surface_.mean_edge_m());; reach *= 2.0) {
+            near.reach_m = reach;
+            if (!search(near, visit)) return {};
             if (result.distance <= reach || reach >= everything) return result;
         }
     }
 
-    [[nodiscard]] bool used_up() const { return work_.triangles_tested >= budget_.max_triangles_tested; }
-
 private:
-    [[nodiscard]] Triangle triangle(std::uint32_t i) const {
-        const auto& v = surface_.triangles[i];
-        return {Vec3(surface_.positions_m[v[0]]), Vec3(surface_.positions_m[v[1]]), Vec3(surface_.positions_m[v[2]])};
+    // visit may make near.reach_m smaller.
+    template <typename Visit>
+    bool search(Near& near, Visit&& visit) {
+        const std::uint32_t looks = budget_.max_triangles_seen - work_.triangles_seen;
+        near.looks_left = looks;
+        const bool complete = for_each_triangle_near(surface_, near, visit);
+        work_.triangles_seen += looks - near.looks_left;
+        return complete;
     }
 
-    [[nodiscard]] bool far_from(std::uint32_t i, const Vec3& p, double reach) {
-        ++work_.triangles_seen;
-        const glm::vec4& sphere = surface_.search.spheres[i];
-        const Vec3 off = p - Vec3(sphere);
-        const double limit = reach + static_cast<double>(sphere.w);
+    // Whether the ball around the triangle's box is farther than `reach` from all of the way: a cheap look before a test.
+    static bool beside(const Triangle& t, const Vec3& start, const Vec3& motion, double reach) {
+        const Vec3 lo = glm::min(glm::min(t.a, t.b), t.c), hi = glm::max(glm::max(t.a, t.b), t.c);
+        const Vec3 middle = 0.5 * (lo + hi), to_middle = middle - start;
+        const double length2 = glm::dot(motion, motion);
+        const double along = length2 > 0.0 ? std::clamp(glm::dot(to_middle, motion) / length2, 0.0, 1.0) : 0.0;
+        const Vec3 off = to_middle - along * motion;
+        const double limit = reach + 0.5 * glm::length(hi - lo) * (1.0 + 1e-9);
         return glm::dot(off, off) > limit * limit;
     }
 
     [[nodiscard]] bool count_test() {
-        if (used_up()) return false;
+        if (work_.triangles_tested >= budget_.max_triangles_tested) return false;
         ++work_.triangles_tested;
         return true;
-    }
-
-    static bool touches_already(const Planes& planes, std::uint32_t triangle) {
-        for (std::uint32_t p = 0; p < planes.count; ++p)
-            if (planes.list[p].triangle == triangle) return true;
-        return false;
     }
 
     // Of triangles that share the nearest point the one that is looked at most squarely tells inside from outside: at a
@@ -186,12 +197,16 @@ void note_active(ProxyResult& result, const Planes& planes, const NearestInside&
     result.active_triangle = planes.list[goal.bearing[heaviest]].triangle;
 }
 
+// How far around `center` the surface is known; negative outside the known ball.
+double known_around(const Vec3& center, const LocalSurface& surface) {
+    const Vec3 off = center - (surface.center_object - surface.origin_object);
+    return surface.radius_m - std::sqrt(glm::dot(off, off));
+}
+
 // Only where the ball around `center` that reaches the nearest triangle lies within what is known is "nearest" the
 // truth.
 bool inside_material(const Nearest& nearest, const Vec3& center, const LocalSurface& surface) {
-    if (!(nearest.height < 0.0)) return false;
-    const Vec3 off = center - (surface.center_object - surface.origin_object);
-    return std::sqrt(glm::dot(off, off)) + nearest.distance <= surface.radius_m;
+    return nearest.height < 0.0 && nearest.distance <= known_around(center, surface);
 }
 
 Vec3 put_outside(const Nearest& nearest, const Vec3& center, double radius) {
@@ -206,8 +221,8 @@ ProxyResult move_proxy(const ProxyState& state, const Vec3& hip_object_m, double
                        const LocalSurface& surface, const ProxyBudget& budget) noexcept {
     ProxyResult result;
     result.next = {hip_object_m, surface.sequence, true};
-    if (!surface.search.built || surface.search.listed == 0) return result;
-    const double edge = static_cast<double>(surface.search.mean_edge_m);
+    const double edge = surface.mean_edge_m();
+    if (!(edge > 0.0)) return result;  // nothing there to touch
     const double radius = std::max(contact_radius_m, kPointProbeOfEdge * edge);
     const double still = kStill * std::max(radius, 0.05 * edge);
     const Vec3 hip = hip_object_m - surface.origin_object;
@@ -217,7 +232,8 @@ ProxyResult move_proxy(const ProxyState& state, const Vec3& hip_object_m, double
 
     auto touching = mover.touching(center, planes);
     const bool unsure = !state.placed || state.surface_sequence != surface.sequence;
-    if (unsure && !(touching.nearest.distance < HUGE_VAL)) touching.nearest = mover.nearest(center);
+    if (unsure && !(touching.nearest.distance < HUGE_VAL))
+        touching.nearest = mover.nearest(center, known_around(center, surface));
     if (inside_material(touching.nearest, center, surface)) {
         center = put_outside(touching.nearest, center, radius);
         result.pushed_out = true;

@@ -38,7 +38,7 @@ struct ProxyState {
 
 struct ProxyWork {
     std::uint32_t triangles_tested = 0;
-    std::uint32_t triangles_seen = 0;
+    std::uint32_t triangles_seen = 0;  // looked at by their bounding box or ball; a quad is one
     std::uint32_t steps = 0;
     std::uint32_t plane_solves = 0;
 };
@@ -56,9 +56,11 @@ struct ProxyBudget {
     std::uint32_t max_steps = 12;
     // Exact distance and sweep computations a tick, about 30 ns each. When used up the proxy waits where it is safe.
     std::uint32_t max_triangles_tested = 12000;
+    // Bounding boxes looked at a tick, about 10 ns each: a large tool on a fine lattice has many. Likewise.
+    std::uint32_t max_triangles_seen = 200000;
 };
 
-// contact_radius_m >= 0 and all positions finite; the surface searchable (build_search).
+// contact_radius_m >= 0 and all positions finite. Only reads through the surface's references (geometry/local_surface.hpp).
 [[nodiscard]] ProxyResult move_proxy(const ProxyState& state, const Vec3& hip_object_m, double contact_radius_m,
                                      const LocalSurface& surface, const ProxyBudget& budget = {}) noexcept;
 

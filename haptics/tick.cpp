@@ -97,7 +97,7 @@ TickOutput tick(const TickState& state, const DeviceSample& sample, const LocalS
     out.hip_object_m = parameters.object_from_device * sample.position_device_m;
     out.orientation_object = parameters.object_from_device.orientation * sample.orientation_device;
     follow_mapping(out, parameters);
-    const bool searchable = surface.sequence > 0 && surface.search.built;
+    const bool searchable = surface.sequence > 0;
     if (!searchable) out.flags |= kTickNoSurface;
     if (!searchable || !parameters.enabled) {
         out.next.proxy = {out.hip_object_m, surface.sequence, false};

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: MIT
 // A ball and one triangle: nearest point, and the time at which a moving ball touches.
-// Any one frame and unit of length; triangles must not be degenerate (build_search leaves those out). Pure, no heap, no
-// throw.
+// Any one frame and unit of length; triangles must not be degenerate (for_each_triangle_near leaves those out). Pure, no
+// heap, no throw.
 #pragma once
 
 #include <cstdint>
 
-#include "base/space.hpp"
+#include "geometry/triangle.hpp"
 
 namespace burin {
-
-struct Triangle {
-    Vec3 a, b, c;  // counter-clockwise seen from outside
-};
 
 // Unit length, towards the outside.
 [[nodiscard]] Vec3 outward_normal(const Triangle& t) noexcept;

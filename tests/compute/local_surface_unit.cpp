@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: MIT
+// The tiles near the tool against every triangle of the surface, one by one.
 #include <gtest/gtest.h>
 
+#include <cstring>
+#include <map>
 #include <memory>
-#include <numeric>
 #include <set>
 
+#include "compute/engine.hpp"
 #include "compute/surface.hpp"
+#include "geometry/local_surface_search.hpp"
 #include "tests/compute/random_solids.hpp"
 
 namespace burin::test {
 namespace {
 
-using Corners = std::array<Vec3, 3>;
+using Name = std::array<float, 9>;  // a triangle by its corners, to the bit
 
 Surface meshed(const Solid& solid, WorkerPool& pool) {
     Surface surface(solid.lattice);
@@ -19,20 +23,34 @@ Surface meshed(const Solid& solid, WorkerPool& pool) {
     return surface;
 }
 
-std::vector<Corners> all_triangles(const Surface& surface) {
-    std::vector<Corners> result;
+std::vector<Triangle> all_triangles(const Surface& surface) {
+    std::vector<Triangle> result;
     for (std::uint32_t t = 0; t < surface.tile_count(); ++t) {
         const TileMesh& tile = surface.tile(t);
+        const auto corner = [&](std::size_t i) {
+            const shared::SurfaceVertex& v = tile.vertices[tile.indices[i]];
+            return Vec3(v.x, v.y, v.z);
+        };
         for (std::size_t i = 0; i < tile.indices.size(); i += 3) {
-            Corners c;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const shared::SurfaceVertex& v = tile.vertices[tile.indices[i + k]];
-                c[k] = surface.lattice().origin_object + Vec3(v.x, v.y, v.z);
-            }
-            result.push_back(c);
+            result.push_back({corner(i), corner(i + 1), corner(i + 2)});
         }
     }
     return result;
+}
+
+Name name_of(const Triangle& t) {
+    const Vec3f a(t.a), b(t.b), c(t.c);
+    return {a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z};
+}
+
+Box box_of(const Triangle& t) {
+    Box box;
+    for (const Vec3& corner : {t.a, t.b, t.c}) box.include(corner);
+    return box;
+}
+
+bool meet(const Box& a, const Box& b) {
+    return glm::all(glm::lessThanEqual(a.lo, b.hi)) && glm::all(glm::lessThanEqual(b.lo, a.hi));
 }
 
 double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
@@ -42,7 +60,8 @@ double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
     return glm::length(p - a - e * t);
 }
 
-double distance_to_triangle(const Vec3& p, const Corners& c) {
+double distance_to_triangle(const Vec3& p, const Triangle& t) {
+    const std::array<Vec3, 3> c{t.a, t.b, t.c};
     const Vec3 n = glm::cross(c[1] - c[0], c[2] - c[0]);
     bool above = glm::length(n) > 0;
     for (std::size_t k = 0; k < 3 && above; ++k) {
@@ -53,115 +72,187 @@ double distance_to_triangle(const Vec3& p, const Corners& c) {
         {distance_to_segment(p, c[0], c[1]), distance_to_segment(p, c[1], c[2]), distance_to_segment(p, c[2], c[0])});
 }
 
-// Corners rounded to a millionth of the cell, as names to compare by.
-std::array<std::int64_t, 9> name_of(const Corners& c, double spacing_m) {
-    std::array<std::int64_t, 9> name{};
-    for (std::size_t k = 0; k < 3; ++k)
-        for (int a = 0; a < 3; ++a) name[k * 3 + static_cast<std::size_t>(a)] = std::llround(c[k][a] / spacing_m * 1e3);
-    return name;
+// How often the search comes by each triangle. Ids are those of the triangles, none comes twice, and none is degenerate.
+std::map<Name, int> found_in(const LocalSurface& local, const Box& box) {
+    std::map<Name, int> found;
+    std::set<std::uint32_t> ids;
+    for_each_triangle_near(local, box.lo, box.hi, [&](std::uint32_t id, const Triangle& t) {
+        EXPECT_TRUE(ids.insert(id).second);
+        EXPECT_LT(id, local.triangles());
+        EXPECT_EQ(name_of(local.triangle(id)), name_of(t));
+        EXPECT_FALSE(is_degenerate(t));
+        ++found[name_of(t)];
+        return true;
+    });
+    return found;
 }
 
-Corners corners(const LocalSurface& local, std::size_t triangle) {
-    Corners c;
-    for (std::size_t k = 0; k < 3; ++k) {
-        c[k] = local.origin_object + Vec3(local.positions_m[local.triangles[triangle][k]]);
+// Every triangle that fits the description is found as often as the surface has it, and nothing that it does not have.
+template <typename Wanted>
+std::size_t expect_all(const std::vector<Triangle>& all, std::map<Name, int> found, Wanted&& wanted,
+                       const std::string& what) {
+    std::size_t count = 0;
+    for (const Triangle& t : all) {
+        const auto at = found.find(name_of(t));
+        const bool is_found = at != found.end() && at->second-- > 0;
+        if (is_degenerate(t) || !wanted(t)) continue;
+        ++count;
+        EXPECT_TRUE(is_found) << what;
     }
-    return c;
+    for (const auto& [name, left] : found) EXPECT_LE(left, 0) << what << ": found what is not there";
+    return count;
 }
 
-void expect_complete(const Surface& surface, const LocalSurface& local, const std::string& what) {
-    std::set<std::array<std::int64_t, 9>> held;
-    for (std::size_t t = 0; t < local.triangle_count; ++t) {
-        for (const std::uint32_t i : local.triangles[t]) ASSERT_LT(i, local.vertex_count);
-        held.insert(name_of(corners(local, t), surface.lattice().spacing_m));
+std::vector<Solid> random_solids() {
+    std::vector<Solid> solids;
+    for (const Rays rays : {Rays::agree, Rays::disturbed, Rays::unrelated}) {
+        solids.push_back(noise_solid({20, 37, 50}, 0.5, rays, 7));  // with fans
+        solids.push_back(noise_solid({33, 16, 15}, 0.05, rays, 8));
     }
-    for (const Corners& c : all_triangles(surface)) {
-        // Float positions are good to a millionth of the lattice.
-        const double tolerance = 1e-6 * surface.lattice().spacing_m * surface.lattice().cells[0];
-        if (distance_to_triangle(local.center_object, c) > local.radius_m - tolerance) continue;
-        // Rounding of a name may fall either way: look at the neighbours too.
-        const auto name = name_of(c, surface.lattice().spacing_m);
-        const bool found = held.contains(name) || std::ranges::any_of(held, [&](const auto& other) {
-                               for (std::size_t i = 0; i < 9; ++i) {
-                                   if (std::abs(other[i] - name[i]) > 1) return false;
-                               }
-                               return true;
-                           });
-        ASSERT_TRUE(found) << what;
+    solids.push_back(*make_ball(0.4, 40, {"ball", {}}));
+    return solids;
+}
+
+// Over the upper side of a ball of radius 0.4.
+std::vector<BallSweep> stroke(int sweeps) {
+    std::vector<BallSweep> result;
+    for (int i = 0; i < sweeps; ++i) {
+        const Vec3 at(0.3 * std::sin(0.7 * i), 0.38, 0.3 * std::cos(0.4 * i));
+        result.push_back({at, at + Vec3(0.05, 0.0, 0.02), 0.08, 0});
     }
+    return result;
 }
 
 }  // namespace
 
+TEST(LocalSurface, ABoxFindsWhatALookAtEveryTriangleFinds) {
+    WorkerPool pool(2);
+    Random random(2);
+    std::size_t with_fans = 0, without = 0, wanted = 0;
+    for (const Solid& solid : random_solids()) {
+        const Surface surface = meshed(solid, pool);
+        for (std::uint32_t t = 0; t < surface.tile_count(); ++t) {
+            (surface.tile(t).only_quads() ? without : with_fans) += surface.shared_tile(t) ? 1u : 0u;
+        }
+        const std::vector<Triangle> all = all_triangles(surface);
+        const double h = solid.lattice.spacing_m;
+        const Vec3 extent = h * Vec3(solid.lattice.cells[0], solid.lattice.cells[1], solid.lattice.cells[2]);
+        LocalSurface local;
+        gather_local_surface(surface, solid.lattice.origin_object + 0.5 * extent, glm::length(extent), local);
+        EXPECT_EQ(local.triangles(), surface.triangles());
+        for (int i = 0; i < repeated(60); ++i) {
+            Box box;
+            for (int axis = 0; axis < 3; ++axis) {  // some begin, end or lie beyond the lattice
+                box.lo[axis] = random.between(-6.0 * h, extent[axis] + 3.0 * h);
+                box.hi[axis] = box.lo[axis] + random.between(0.0, random.chance(0.3) ? 2.0 * extent[axis] : 4.0 * h);
+                if (random.chance(0.2)) box.lo[axis] = h * std::round(box.lo[axis] / h);
+            }
+            if (box.empty()) continue;
+            wanted += expect_all(
+                all, found_in(local, box), [&](const Triangle& t) { return meet(box_of(t), box); }, std::to_string(i));
+        }
+    }
+    EXPECT_GT(with_fans, 10u);
+    EXPECT_GT(without, 10u);
+    EXPECT_GT(wanted, 10000u);
+}
+
 TEST(LocalSurface, HoldsEveryTriangleWithinTheBall) {
     WorkerPool pool(2);
-    const auto ball = make_ball(0.4, 40, {"ball", {}});
-    ASSERT_TRUE(ball.has_value());
-    const Surface surface = meshed(*ball, pool);
-    const auto local = std::make_unique<LocalSurface>();
     Random random(1);
-    std::size_t gathered = 0;
-    for (int i = 0; i < repeated(60); ++i) {
-        const Vec3 center(random.between(-0.5, 0.5), random.between(-0.5, 0.5), random.between(-0.5, 0.5));
-        const double radius = random.between(0.001, 0.2);
-        gather_local_surface(surface, center, radius, *local);
-        EXPECT_EQ(local->radius_m, radius);
-        EXPECT_EQ(local->center_object, center);
-        EXPECT_EQ(local->dropped_triangles, 0u);
-        ASSERT_NO_FATAL_FAILURE(expect_complete(surface, *local, std::to_string(i)));
-        gathered += local->triangle_count;
-    }
-    EXPECT_GT(gathered, 100u);
-    gather_local_surface(surface, Vec3(100), 1, *local);
-    EXPECT_EQ(local->triangle_count, 0u);
-}
-
-TEST(LocalSurface, PositionsLieWhereTheSurfacesDo) {
-    WorkerPool pool(1);
-    const auto ball = make_ball(0.4, 32, {"ball", {}});
-    const Surface surface = meshed(*ball, pool);
-    const auto local = std::make_unique<LocalSurface>();
-    const Vec3 center(0.123456789, 0.3, 0.2);
-    gather_local_surface(surface, center, 0.05, *local);
-    ASSERT_GT(local->triangle_count, 0u);
-    constexpr double kRounding = 0.1 * 0x1p-24;  // of a float that is at most the neighbourhood's size
-    const Vec3 shift = local->origin_object - surface.lattice().origin_object;
-    std::set<std::array<double, 3>> places;
-    for (std::uint32_t t = 0; t < surface.tile_count(); ++t) {
-        for (const auto& v : surface.tile(t).vertices) places.insert({v.x, v.y, v.z});
-    }
-    for (std::uint32_t i = 0; i < local->vertex_count; ++i) {
-        const Vec3 p = Vec3(local->positions_m[i]) + shift;
-        const auto near = places.lower_bound({p.x - kRounding, -1e9, -1e9});
-        bool found = false;
-        for (auto it = near; it != places.end() && (*it)[0] <= p.x + kRounding; ++it) {
-            found = found || (std::abs((*it)[1] - p.y) <= kRounding && std::abs((*it)[2] - p.z) <= kRounding);
-        }
-        ASSERT_TRUE(found) << i;
-    }
-}
-
-// More than 65 536 triangles within reach: the ball shrinks, says how many it left out, and is complete again.
-TEST(LocalSurface, TooManyTrianglesShrinkTheBall) {
-    WorkerPool pool(2);
-    const Solid solid = noise_solid({40, 40, 40}, 0.5, Rays::agree, 1);
-    const Surface surface = meshed(solid, pool);
-    ASSERT_GT(surface.triangles(), LocalSurface::kMaxTriangles);
-    const auto local = std::make_unique<LocalSurface>();
-    const Vec3 center = solid.lattice.object_from_units(Vec3(20.3, 19.6, 20.1) * 4096.0);
-    gather_local_surface(surface, center, 1.0, *local);
-    EXPECT_LT(local->radius_m, 1.0);
-    EXPECT_GT(local->triangle_count, 1000u);
-    EXPECT_EQ(local->dropped_triangles + local->triangle_count, surface.triangles());
     std::size_t within = 0;
-    for (const Corners& c : all_triangles(surface)) {
-        within += distance_to_triangle(center, c) <= local->radius_m * (1 - 1e-5) ? 1u : 0u;
+    for (const Solid& solid : random_solids()) {
+        const Surface surface = meshed(solid, pool);
+        const std::vector<Triangle> all = all_triangles(surface);
+        const double h = solid.lattice.spacing_m;
+        LocalSurface local;
+        for (int i = 0; i < repeated(40); ++i) {
+            Vec3 center(0.0);  // relative to the lattice's origin
+            for (int axis = 0; axis < 3; ++axis) {
+                center[axis] = h * random.between(-6.0, solid.lattice.cells[static_cast<std::size_t>(axis)] + 6.0);
+            }
+            const double radius = h * random.between(0.01, 10.0);
+            gather_local_surface(surface, solid.lattice.origin_object + center, radius, local);
+            EXPECT_EQ(local.radius_m, radius);
+            EXPECT_EQ(local.center_object, solid.lattice.origin_object + center);
+            EXPECT_EQ(local.origin_object, solid.lattice.origin_object);
+            // A thousandth of a cell for the rounding of the centre.
+            const auto inside = [&](const Triangle& t) { return distance_to_triangle(center, t) <= radius - 1e-3 * h; };
+            within += expect_all(all, found_in(local, {center - radius, center + radius}), inside, std::to_string(i));
+        }
+        gather_local_surface(surface, Vec3(1e6), h, local);
+        EXPECT_EQ(local.triangles(), 0u);
     }
-    EXPECT_GE(local->triangle_count, within);
-    EXPECT_GT(within, 500u);
-    // A ball that fits is left alone.
-    gather_local_surface(surface, center, local->radius_m, *local);
-    EXPECT_EQ(local->dropped_triangles, 0u);
+    EXPECT_GT(within, 10000u);
+}
+
+TEST(LocalSurface, BoxesThatAreNoBoxesFindNothing) {
+    WorkerPool pool(1);
+    const Surface surface = meshed(*make_ball(0.4, 24, {"ball", {}}), pool);
+    LocalSurface local;
+    const Vec3 center = surface.lattice().origin_object;
+    gather_local_surface(surface, center, 2.0, local);
+    ASSERT_GT(local.triangles(), 0u);
+    const double nan = std::nan(""), inf = HUGE_VAL;
+    EXPECT_TRUE(found_in(local, {Vec3(nan), Vec3(nan)}).empty());
+    EXPECT_TRUE(found_in(local, {Vec3(0.0), Vec3(1.0, nan, 1.0)}).empty());
+    EXPECT_TRUE(found_in(local, {Vec3(1.0), Vec3(-1.0)}).empty());
+    EXPECT_TRUE(found_in(local, {Vec3(inf), Vec3(inf)}).empty());
+    EXPECT_EQ(found_in(local, {Vec3(-inf), Vec3(inf)}), found_in(local, {Vec3(-1e9), Vec3(1e9)}));
+    EXPECT_FALSE(found_in(local, {Vec3(-inf), Vec3(inf)}).empty());
+    EXPECT_TRUE(found_in(LocalSurface{}, {Vec3(-1.0), Vec3(1.0)}).empty());
+}
+
+TEST(LocalSurface, TilesThatAReaderHoldsStayAsTheyAreWhileCarvingGoesOn) {
+    WorkerPool pool(2);
+    const auto engine = make_cpu_engine(*make_ball(0.4, 48, {"ball", {}}), pool);
+    Surface surface = meshed(engine->solid(), pool);
+    LocalSurface held, draft;
+    const Vec3 top(0.0, 0.4, 0.0);
+    gather_local_surface(surface, top, 0.3, held);
+    std::vector<SurfaceTile> before;
+    for (const TileBlock::Place& place : held.tiles.places) before.push_back(place.tile ? *place.tile : SurfaceTile{});
+    const std::vector<Triangle> touched_before = all_triangles(surface);
+    for (const BallSweep& sweep : stroke(repeated(100))) {
+        ASSERT_TRUE(engine->carve({&sweep, 1}));
+        surface.update(engine->solid(), engine->take_changes(), pool);
+        gather_local_surface(surface, sweep.end_object_m, 0.1, draft);
+    }
+    const auto same_bytes = [](const auto& a, const auto& b) {
+        return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0);
+    };
+    std::size_t changed = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        if (!held.tiles.places[i].tile) continue;
+        const SurfaceTile& now = *held.tiles.places[i].tile;
+        EXPECT_TRUE(same_bytes(now.vertices, before[i].vertices) && same_bytes(now.indices, before[i].indices) &&
+                    same_bytes(now.quads, before[i].quads) && same_bytes(now.row_quads, before[i].row_quads) &&
+                    same_bytes(now.row_triangles, before[i].row_triangles));
+        changed += held.tiles.places[i].tile.use_count() == 1 ? 1u : 0u;  // the surface has another by now
+    }
+    EXPECT_GT(changed, 3u);
+    // What is found is still what the surface was, and no other.
+    expect_all(touched_before, found_in(held, {Vec3(-1e9), Vec3(1e9)}), [](const Triangle&) { return false; }, "held");
+}
+
+TEST(LocalSurface, ADraftFilledAgainLetsGoOfWhatItHeld) {
+    WorkerPool pool(1);
+    const auto engine = make_cpu_engine(*make_ball(0.4, 48, {"ball", {}}), pool);
+    Surface surface = meshed(engine->solid(), pool);
+    LocalSurface draft;
+    gather_local_surface(surface, Vec3(0.0, 0.4, 0.0), 0.1, draft);
+    std::vector<std::weak_ptr<const SurfaceTile>> held;
+    for (const TileBlock::Place& place : draft.tiles.places) {
+        if (place.tile) held.push_back(place.tile);
+    }
+    ASSERT_GT(held.size(), 0u);
+    gather_local_surface(surface, Vec3(0.0, -0.4, 0.0), 0.01, draft);
+    for (const auto& tile : held) EXPECT_EQ(tile.use_count(), 1);  // the surface's own
+    gather_local_surface(surface, Vec3(0.0, 0.4, 0.0), 0.1, draft);
+    surface = Surface(surface.lattice());
+    for (const auto& tile : held) EXPECT_EQ(tile.use_count(), 1);  // the draft's
+    draft = {};
+    for (const auto& tile : held) EXPECT_TRUE(tile.expired());
 }
 
 }  // namespace burin::test

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "geometry/local_surface_search.hpp"
 #include "haptics/half_spaces.hpp"
 #include "haptics/triangle_contact.hpp"
 #include "tests/haptics/surfaces.hpp"
@@ -95,11 +96,8 @@ TEST(TriangleContact, ABallSweptAtAClosedBoxStopsExactlyWhereItTouches) {
         };
         RC_PRE(distance(0.0) > radius + 1e-6);
         double f = kNoTouch;
-        for (std::uint32_t i = 0; i < box->triangle_count; ++i) {
-            const auto& v = box->triangles[i];
-            f = std::min(f, fraction_until_touch(from, motion, radius,
-                                                 {Vec3(box->positions_m[v[0]]), Vec3(box->positions_m[v[1]]),
-                                                  Vec3(box->positions_m[v[2]])}));
+        for (std::uint32_t i = 0; i < box->triangles(); ++i) {
+            f = std::min(f, fraction_until_touch(from, motion, radius, box->triangle(i)));
         }
         if (f <= 1.0) RC_ASSERT(std::abs(distance(f) - radius) < 1e-6);
         for (int i = 0; i <= 200; ++i) RC_ASSERT(distance(std::min(f, 1.0) * i / 200.0) > radius - 1e-6);
@@ -142,7 +140,6 @@ TEST(LocalSurfaceSearch, EveryBoxFindsEachOfItsTrianglesOnce) {
         test::SurfaceBuilder b(any_in_cube(1));
         const double size = *rc::gen::element(0.01, 0.2, 3.0);
         const int n = *rc::gen::inRange(1, 200);
-        std::vector<Triangle> all;
         for (int i = 0; i < n; ++i) {
             const Vec3 at = any_in_cube(1);
             const Vec3 a = at + any_in_cube(size), c = at + any_in_cube(size), d = at + any_in_cube(size);
@@ -152,57 +149,53 @@ TEST(LocalSurfaceSearch, EveryBoxFindsEachOfItsTrianglesOnce) {
         const test::Surface surface = b.finish();
         const Vec3 lo = any_in_cube(2), hi = lo + glm::abs(any_in_cube(1));
         std::multiset<std::uint32_t> found;
-        for_each_triangle_near(*surface, lo, hi, [&](std::uint32_t i) {
+        for_each_triangle_near(*surface, lo, hi, [&](std::uint32_t i, const Triangle& t) {
             found.insert(i);
+            RC_ASSERT(t.b == surface->triangle(i).b);
             return true;
         });
-        for (std::uint32_t i = 0; i < surface->triangle_count; ++i) {
-            if (surface->search.spheres[i].w < 0) continue;  // degenerate
+        for (std::uint32_t i = 0; i < surface->triangles(); ++i) {
+            const glm::vec4 sphere = surface->loose->search.spheres[i];
+            if (sphere.w < 0) continue;  // degenerate
+            const Triangle t = surface->triangle(i);
             Box box;
-            for (const auto v : surface->triangles[i]) box.include(Vec3(surface->positions_m[v]));
+            for (const Vec3& corner : {t.a, t.b, t.c}) box.include(corner);
             const bool meets = glm::all(glm::lessThanEqual(box.lo, hi)) && glm::all(glm::lessThanEqual(lo, box.hi));
             RC_ASSERT(found.count(i) <= 1);
             if (meets) RC_ASSERT(found.count(i) == 1);
-            for (const auto v : surface->triangles[i]) {
-                const glm::vec4 sphere = surface->search.spheres[i];
-                RC_ASSERT(glm::length(Vec3(surface->positions_m[v]) - Vec3(sphere)) <= static_cast<double>(sphere.w));
+            for (const Vec3& corner : {t.a, t.b, t.c}) {
+                RC_ASSERT((glm::length(corner - Vec3(sphere)) <= static_cast<double>(sphere.w)));
             }
         }
     }));
 }
 
 TEST(LocalSurfaceSearch, LeavesOutWhatIsBrokenAndSaysHowMuch) {
-    test::SurfaceBuilder b;
-    const auto a = b.vertex({0, 0, 0}), c = b.vertex({1, 0, 0}), d = b.vertex({0, 1, 0});
-    const auto bad = b.vertex({std::nan(""), 0, 0}), on_edge = b.vertex({0.5, 0, 0});
-    b.triangle(a, c, d);
-    b.triangle(a, c, 4'000'000'000u);
-    b.triangle(a, c, bad);
-    b.triangle(a, on_edge, c);
-    b.triangle(a, a, a);
-    const test::Surface surface = b.finish();
-    const SearchBuild report = build_search(*surface);
+    GriddedTriangles piece;
+    piece.positions_m = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {std::nanf(""), 0, 0}, {0.5, 0, 0}};
+    piece.triangles = {{0, 1, 2}, {0, 1, 4'000'000'000u}, {0, 1, 3}, {0, 4, 1}, {0, 0, 0}};
+    const SearchBuild report = build_search(piece);
     EXPECT_EQ(report.listed, 1u);
     EXPECT_EQ(report.invalid, 2u);
     EXPECT_EQ(report.degenerate, 2u);
-    surface->triangle_count = 4'000'000'000u;  // claims more than there is room for
-    EXPECT_EQ(build_search(*surface).listed, 1u);
+    EXPECT_EQ(build_search(piece).listed, 1u);  // again, from what it left
 }
 
-TEST(LocalSurfaceSearch, AFullSurfaceIsListedCompletely) {
-    const test::Surface plane = test::plane(0.05, 180);  // 64 800 triangles
-    EXPECT_EQ(plane->search.listed, 64'800u);
-    EXPECT_EQ(plane->search.large_count, 0u);
+TEST(LocalSurfaceSearch, ALargeSurfaceIsListedCompletely) {
+    const test::Surface plane = test::plane(0.05, 200);  // 80 000 triangles
+    EXPECT_EQ(plane->loose->search.listed, 80'000u);
+    EXPECT_TRUE(plane->loose->search.large.empty());
     std::uint32_t count = 0;
-    for_each_triangle_near(*plane, Vec3(-1.0), Vec3(1.0), [&](std::uint32_t) {
+    for_each_triangle_near(*plane, Vec3(-1.0), Vec3(1.0), [&](std::uint32_t, const Triangle&) {
         ++count;
         return true;
     });
-    EXPECT_EQ(count, 64'800u);
+    EXPECT_EQ(count, 80'000u);
     // An empty one is searchable too.
     test::SurfaceBuilder b;
     const test::Surface empty = b.finish();
-    EXPECT_TRUE(for_each_triangle_near(*empty, Vec3(-1.0), Vec3(1.0), [](std::uint32_t) { return false; }));
+    EXPECT_TRUE(
+        for_each_triangle_near(*empty, Vec3(-1.0), Vec3(1.0), [](std::uint32_t, const Triangle&) { return false; }));
 }
 
 }  // namespace burin

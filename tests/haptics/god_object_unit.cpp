@@ -100,7 +100,7 @@ TEST(GodObject, BallInACornerTouchesThreeWalls) {
 TEST(GodObject, BallOnASphereStandsBetweenFacetAndVertexHeight) {
     const double big = 0.03, radius = 4 * kMm;
     const Surface sphere = test::sphere(big, 4);  // edges about 2.2 mm, facets up to e^2/(8 big)*... inside the sphere
-    const double edge = sphere->search.mean_edge_m;
+    const double edge = sphere->mean_edge_m();
     const double sagitta = 1.2 * edge * edge / (6.0 * big);  // circumradius e/sqrt(3): depth e^2/(6 big), edges vary
     Walker w{sphere.get(), radius};
     w.put({0.0, 0.05, 0.0});
@@ -123,8 +123,9 @@ TEST(GodObject, ActiveTriangleLiesUnderTheProxy) {
     for (int i = 0; i < 300; ++i) {
         w.put({0.04 * std::sin(0.02 * i), -0.001, 0.04 * std::cos(0.03 * i)});
         ASSERT_NE(w.last.active_triangle, 0xffffffffu);
+        const Triangle active = plane->triangle(w.last.active_triangle);
         Box box;
-        for (const auto v : plane->triangles[w.last.active_triangle]) box.include(Vec3(plane->positions_m[v]));
+        for (const Vec3& corner : {active.a, active.b, active.c}) box.include(corner);
         const double slack = 0.05 * 2 * kMm;  // a touched neighbour: within sqrt(2 * 1e-3) R
         EXPECT_GE(w.proxy().x, box.lo.x - slack);
         EXPECT_LE(w.proxy().x, box.hi.x + slack);
@@ -169,7 +170,7 @@ TEST(GodObject, SlidesOverLevelFacetEdgesWithoutSticking) {
 TEST(GodObject, ForceDirectionTurnsByNoMoreThanAFacetAngleOnASphere) {
     const double big = 0.03;
     const Surface sphere = test::sphere(big, 3);
-    const double facet_angle = 1.5 * sphere->search.mean_edge_m / big;  // neighbours' normals differ by less
+    const double facet_angle = 1.5 * sphere->mean_edge_m() / big;  // neighbours' normals differ by less
     for (const double radius : {0.0, 2 * kMm, 8 * kMm}) {
         Walker w{sphere.get(), radius};
         w.put({0.0, 0.06, 0.0});

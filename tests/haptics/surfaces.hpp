@@ -10,24 +10,21 @@
 #include <utility>
 
 #include "geometry/local_surface.hpp"
-#include "geometry/local_surface_search.hpp"
 
 namespace burin::test {
 
-using Surface = std::unique_ptr<LocalSurface>;  // too large for a stack
+using Surface = std::unique_ptr<LocalSurface>;
 
 // Collects triangles in any position and scale, then publishes them with everything known.
 class SurfaceBuilder {
 public:
-    explicit SurfaceBuilder(Vec3 origin = Vec3(0.0)) : origin_(origin), surface_(std::make_unique<LocalSurface>()) {}
+    explicit SurfaceBuilder(Vec3 origin = Vec3(0.0)) : origin_(origin) {}
 
     std::uint32_t vertex(const Vec3& p_object) {
-        surface_->positions_m[surface_->vertex_count] = Vec3f(p_object - origin_);
-        return surface_->vertex_count++;
+        piece_.positions_m.emplace_back(p_object - origin_);
+        return static_cast<std::uint32_t>(piece_.positions_m.size() - 1);
     }
-    void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        surface_->triangles[surface_->triangle_count++] = {a, b, c};
-    }
+    void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { piece_.triangles.push_back({a, b, c}); }
     void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
         triangle(a, b, c);
         triangle(a, c, d);
@@ -37,17 +34,19 @@ public:
         quad(va, vb, vc, vd);
     }
     Surface finish(double known_radius_m = 1e3, std::uint64_t sequence = 1) {
-        surface_->sequence = sequence;
-        surface_->origin_object = origin_;
-        surface_->center_object = origin_;
-        surface_->radius_m = known_radius_m;
-        build_search(*surface_);
-        return std::move(surface_);
+        auto surface = std::make_unique<LocalSurface>();
+        surface->sequence = sequence;
+        surface->origin_object = origin_;
+        surface->center_object = origin_;
+        surface->radius_m = known_radius_m;
+        build_search(piece_);
+        surface->loose = std::make_shared<GriddedTriangles>(std::move(piece_));
+        return surface;
     }
 
 private:
     Vec3 origin_;
-    Surface surface_;
+    GriddedTriangles piece_;
 };
 
 // height(x, z) over a square of side 2 half, n by n squares, material below.

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Loose triangles with a grid to find the few that are near the tool: for surfaces that do not come as tiles, such as what a
+// GPU hands back, or a mesh that is only touched.
+//
+// Fill positions_m and triangles, call build_search() once, then share it and change it no more. Positions are float metres,
+// relative to the origin_object of the LocalSurface that holds them. Building allocates and is linear in triangles + cells
+// (two passes); asking does not allocate, lock or throw. A query looks at the cells its box touches, at the triangles listed
+// there, each once, and at the large ones.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/triangle.hpp"
+
+namespace burin {
+
+// A uniform grid. Written by build_search() alone, read through for_each_near(). A triangle is listed once, in the cell of its
+// sphere's middle, so a query looks as much farther as the largest listed sphere reaches; a triangle larger than a cell is in
+// `large`, which every query looks at.
+struct SurfaceGrid {
+    static constexpr std::uint32_t kMaxCellsAnAxis = 32;
+
+    std::array<std::uint32_t, 3> cells{1, 1, 1};  // along x, y, z
+    Vec3f lo{0.0f};                               // corner of the first cell
+    float cell_m = 1.0f;
+    float reach_m = 0.0f;      // no listed triangle is farther from its cell than this
+    float mean_edge_m = 0.0f;  // root of the mean square, of the listed triangles: the length scale of the mesh
+    std::uint32_t listed = 0;  // triangles that can be found
+    std::vector<std::uint32_t> first_entry;  // of a cell; its entries end where the next cell's begin
+    std::vector<std::uint32_t> entries;      // triangle indices
+    std::vector<std::uint32_t> large;        // triangle indices
+    std::vector<glm::vec4> spheres;          // around each triangle: centre, radius; below 0: not listed
+
+    [[nodiscard]] Box bounds() const noexcept {  // of the spheres' middles
+        const Vec3 from(lo);
+        return {from, from + static_cast<double>(cell_m) * Vec3(cells[0], cells[1], cells[2])};
+    }
+};
+
+struct GriddedTriangles {
+    std::vector<Vec3f> positions_m;
+    std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise seen from outside
+    SurfaceGrid search;
+
+    [[nodiscard]] Triangle triangle(std::uint32_t i) const noexcept {
+        const auto& v = triangles[i];
+        return {Vec3(positions_m[v[0]]), Vec3(positions_m[v[1]]), Vec3(positions_m[v[2]])};
+    }
+};
+
+struct SearchBuild {
+    std::uint32_t listed = 0;
+    std::uint32_t degenerate = 0;  // see is_degenerate: left out
+    std::uint32_t invalid = 0;     // an index out of range or a coordinate that is not finite: left out
+};
+
+// Fills piece.search.
+SearchBuild build_search(GriddedTriangles& piece);
+
+// The range of grid cells that a box touches, inclusive; empty when it misses the grid.
+struct CellRange {
+    std::array<std::uint32_t, 3> lo{}, hi{};
+    bool empty = true;
+};
+
+[[nodiscard]] inline CellRange cells_touched(const SurfaceGrid& grid, const Vec3& lo, const Vec3& hi) noexcept {
+    CellRange range;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double from = (lo[axis] - static_cast<double>(grid.lo[axis])) / static_cast<double>(grid.cell_m);
+        const double to = (hi[axis] - static_cast<double>(grid.lo[axis])) / static_cast<double>(grid.cell_m);
+        const double last = static_cast<double>(grid.cells[static_cast<std::size_t>(axis)]) - 1.0;
+        if (!(to >= 0.0 && from <= last + 1.0)) return range;  // also when not finite
+        range.lo[static_cast<std::size_t>(axis)] = static_cast<std::uint32_t>(std::clamp(from, 0.0, last));
+        range.hi[static_cast<std::size_t>(axis)] = static_cast<std::uint32_t>(std::clamp(to, 0.0, last));
+    }
+    range.empty = false;
+    return range;
+}
+
+// As for_each_triangle_near (geometry/local_surface_search.hpp), visit(triangle index, triangle).
+template <typename Visit>
+bool for_each_near(const GriddedTriangles& piece, Near& near, Visit&& visit) {
+    const SurfaceGrid& grid = piece.search;
+    if (grid.listed == 0) return true;
+    const auto look_at = [&](std::uint32_t i) {
+        if (!near.look()) return false;
+        const glm::vec4& sphere = grid.spheres[i];
+        const Vec3 center(sphere), outside = glm::max(glm::max(near.lo - center, center - near.hi), Vec3(0.0));
+        const double reach = near.reach_m + static_cast<double>(sphere.w);
+        return !(glm::dot(outside, outside) <= reach * reach) || visit(i, piece.triangle(i));
+    };
+    for (const std::uint32_t i : grid.large)
+        if (!look_at(i)) return false;
+    const Vec3 reach(near.reach_m + static_cast<double>(grid.reach_m));
+    const CellRange range = cells_touched(grid, near.lo - reach, near.hi + reach);
+    if (range.empty) return true;
+    for (std::uint32_t z = range.lo[2]; z <= range.hi[2]; ++z)
+        for (std::uint32_t y = range.lo[1]; y <= range.hi[1]; ++y) {
+            const std::uint32_t row = (z * grid.cells[1] + y) * grid.cells[0];
+            // The cells of a row lie side by side, and so do their entries.
+            for (std::uint32_t e = grid.first_entry[row + range.lo[0]]; e < grid.first_entry[row + range.hi[0] + 1];
+                 ++e)
+                if (!look_at(grid.entries[e])) return false;
+        }
+    return true;
+}
+
+}  // namespace burin

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+// The tiles of a carved surface around the tool, shared and not copied, and the search for the few triangles near it.
+//
+// No search structure is built: a tile holds its quads sorted by the lattice edge that each surrounds, and a quad's corners
+// are at most kReach cells from that edge's lower node. So the edges alone tell most quads that are too far, and only the rest
+// are looked up.
+// Frame: relative to the lattice's origin, metres. Whoever holds a block may read it without a lock, since no tile ever
+// changes. Copying a block, or filling it, counts references and may free tiles: that is for the side that carves.
+// Asking does not allocate, lock, throw. Work, in the tiles within reach: the 48 rows of each, the quads of the rows within
+// reach at 2 ns, and a look at the corners of those quads whose edge is near enough.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "geometry/surface_tile.hpp"
+#include "geometry/triangle.hpp"
+
+namespace burin {
+
+struct TileBlock {
+    struct Place {
+        std::shared_ptr<const SurfaceTile> tile;  // none: no surface there, or out of reach
+        std::uint32_t first_triangle = 0;         // triangles in the places before
+    };
+    double cell_m = 0.0;                // spacing of the lattice
+    std::array<int, 3> first{0, 0, 0};  // which tile of the lattice the first place is for
+    std::array<int, 3> count{0, 0, 0};  // places along x, y, z
+    std::vector<Place> places;          // x fastest, then y, then z
+    std::uint32_t triangles = 0;        // in all places; a triangle's number counts them in order
+
+    // A corner of a quad is at most this many cells from the edge's lower node along each axis: a cell and a half beyond it,
+    // and a little for the rounding to float.
+    static constexpr double kReach = 1.5 + 1.0 / 64.0;
+
+    // What no triangle goes beyond.
+    [[nodiscard]] Box bounds() const noexcept {
+        Box box{Vec3(0.0), Vec3(0.0)};
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto k = static_cast<std::size_t>(axis);
+            box.lo[axis] = (first[k] * SurfaceTile::kCells - kReach) * cell_m;
+            box.hi[axis] = ((first[k] + count[k]) * SurfaceTile::kCells - 1 + kReach) * cell_m;
+        }
+        return box;
+    }
+    // Number below `triangles`.
+    [[nodiscard]] Triangle triangle(std::uint32_t number) const noexcept;
+};
+
+[[nodiscard]] inline Vec3f place_of(const shared::SurfaceVertex& v) noexcept { return {v.x, v.y, v.z}; }
+
+inline Triangle TileBlock::triangle(std::uint32_t number) const noexcept {
+    // The last place that does not begin after it; of several that begin there, the one with triangles is the last.
+    const auto after = std::ranges::upper_bound(places, number, {}, &Place::first_triangle);
+    const Place& place = *(after - 1);
+    const std::uint32_t* corner = &place.tile->indices[std::size_t{3} * (number - place.first_triangle)];
+    const auto at = [&](std::size_t k) { return Vec3(place_of(place.tile->vertices[corner[k]])); };
+    return {at(0), at(1), at(2)};
+}
+
+// Nodes of the lattice, inclusive.
+struct NodeRange {
+    std::array<int, 3> from{0, 0, 0}, to{-1, -1, -1};
+};
+
+// The nodes of the block whose edges may have triangles within reach; none (to below from) when the block is not.
+[[nodiscard]] inline NodeRange nodes_near(const TileBlock& block, const Near& near) noexcept {
+    NodeRange range;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto k = static_cast<std::size_t>(axis);
+        const double first = block.first[k] * SurfaceTile::kCells;
+        const double last = first + block.count[k] * SurfaceTile::kCells - 1.0;
+        const double from = std::ceil((near.lo[axis] - near.reach_m) / block.cell_m - TileBlock::kReach);
+        const double to = std::floor((near.hi[axis] + near.reach_m) / block.cell_m + TileBlock::kReach);
+        if (!(from <= last && to >= first && from <= to)) return {};  // also when not a number
+        range.from[k] = static_cast<int>(std::max(from, first));
+        range.to[k] = static_cast<int>(std::min(to, last));
+    }
+    return range;
+}
+
+// Which boxes are within reach, in float; for a few beyond it too, because of the rounding.
+struct RoundedBox {
+    Vec3f lo, hi;
+    float reach2;
+
+    explicit RoundedBox(const Near& near) noexcept : lo(near.lo), hi(near.hi) {
+        const Vec3 size = glm::max(glm::abs(near.lo), glm::abs(near.hi));
+        const double rounding = 1e-7 * std::max({size.x, size.y, size.z});
+        const double reach = (near.reach_m + 4.0 * rounding) * (1.0 + 1e-6);
+        reach2 = static_cast<float>(reach * reach);
+    }
+    [[nodiscard]] bool meets(const Vec3f& from, const Vec3f& to) const noexcept {
+        const Vec3f outside = glm::max(glm::max(from - hi, lo - to), Vec3f(0.0f));
+        return glm::dot(outside, outside) <= reach2;
+    }
+};
+
+// How far a quad can be from the box, by nothing but the lattice edge that it surrounds: squared, in cells, for each coordinate
+// of the edge's lower node in a tile. The sum over x, y and z is never more than the squared distance of any of its corners.
+struct EdgeDistances {
+    using OfAxis = std::array<std::array<float, SurfaceTile::kCells>, 3>;
+    OfAxis across, along;  // for edges of the two other axes, and for those of this one
+    float reach2;
+
+    // `first_node` in the lattice.
+    EdgeDistances(const Near& near, double cell_m, const std::array<int, 3>& first_node) noexcept {
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto k = static_cast<std::size_t>(axis);
+            const auto lo = static_cast<float>(near.lo[axis] / cell_m - first_node[k] - TileBlock::kReach);
+            const auto hi = static_cast<float>(near.hi[axis] / cell_m - first_node[k] + TileBlock::kReach);
+            float* const of_across = across[k].data();
+            float* const of_along = along[k].data();
+            for (int node = 0; node < SurfaceTile::kCells; ++node) {  // in a form that the compiler makes vectors of
+                const auto at = static_cast<float>(node);
+                const float below = std::max(lo - at, 0.0f), above = at - hi;
+                of_across[node] = squared(std::max(below, above));
+                of_along[node] = squared(std::max(below, above + 1.0f));
+            }
+        }
+        reach2 = squared(static_cast<float>(near.reach_m / cell_m * (1.0 + 1e-5)));
+    }
+    static float squared(float x) noexcept { return x * x; }
+};
+
+// visit(triangle of the tile, triangle).
+template <typename Visit>
+bool for_each_near_in_tile(const SurfaceTile& tile, const EdgeDistances& edges, Near& near, Visit&& visit) {
+    const RoundedBox box(near);
+    const shared::SurfaceVertex* const vertices = tile.vertices.data();
+    const std::uint32_t* const indices = tile.indices.data();
+    const auto pass_on = [&](std::uint32_t i, const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+        const Triangle t{Vec3(a), Vec3(b), Vec3(c)};
+        return is_degenerate(t) || visit(i, t);
+    };
+    // Two triangles at once, which mostly have the same box: that of their quad. Both begin with the same corner, and either
+    // the second has the first's last one next, or the first has the second's last one next.
+    const auto look_at_quad = [&](std::uint32_t i) {
+        if (!near.look()) return false;
+        const std::uint32_t* const corner = indices + std::size_t{3} * i;
+        const bool flip = corner[4] != corner[2];
+        const Vec3f a = place_of(vertices[corner[0]]), b = place_of(vertices[corner[1]]),
+                    c = place_of(vertices[corner[2]]), d = place_of(vertices[corner[flip ? 4 : 5]]);
+        if (!box.meets(glm::min(glm::min(a, b), glm::min(c, d)), glm::max(glm::max(a, b), glm::max(c, d)))) return true;
+        return pass_on(i, a, b, c) && (flip ? pass_on(i + 1, a, d, b) : pass_on(i + 1, a, c, d));
+    };
+    const auto look_at_triangle = [&](std::uint32_t i) {
+        if (!near.look()) return false;
+        const std::uint32_t* const corner = indices + std::size_t{3} * i;
+        const Vec3f a = place_of(vertices[corner[0]]), b = place_of(vertices[corner[1]]),
+                    c = place_of(vertices[corner[2]]);
+        return !box.meets(glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c)) || pass_on(i, a, b, c);
+    };
+    const bool only_quads = tile.only_quads();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto& of_x = axis == 0 ? edges.along[0] : edges.across[0];
+        const auto& of_y = axis == 1 ? edges.along[1] : edges.across[1];
+        const auto& of_z = axis == 2 ? edges.along[2] : edges.across[2];
+        for (std::size_t y = 0; y < SurfaceTile::kCells; ++y) {
+            const float left2 = edges.reach2 - of_y[y];
+            if (!(left2 >= 0.0f)) continue;
+            const std::size_t row = axis * SurfaceTile::kCells + y;
+            if (!only_quads) {  // rare: some quads are fans, so that a quad's place does not tell its triangles'
+                for (std::uint32_t i = tile.row_triangles[row]; i < tile.row_triangles[row + 1]; ++i)
+                    if (!look_at_triangle(i)) return false;
+                continue;
+            }
+            const std::uint16_t* const quads = tile.quads.data();
+            for (std::uint32_t q = tile.row_quads[row]; q < tile.row_quads[row + 1]; ++q) {
+                const std::size_t x = quads[q] / SurfaceTile::kCells % SurfaceTile::kCells,
+                                  z = quads[q] % SurfaceTile::kCells;
+                if (of_x[x] + of_z[z] <= left2 && !look_at_quad(2 * q)) return false;
+            }
+        }
+    }
+    return true;
+}
+
+// As for_each_triangle_near (geometry/local_surface_search.hpp), visit(number, triangle).
+template <typename Visit>
+bool for_each_near(const TileBlock& block, Near& near, Visit&& visit) {
+    constexpr int kCells = SurfaceTile::kCells;
+    const NodeRange nodes = nodes_near(block, near);
+    std::array<int, 3> from{}, to{};  // places
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (nodes.to[k] < nodes.from[k]) return true;
+        from[k] = (nodes.from[k] - block.first[k] * kCells) / kCells;
+        to[k] = (nodes.to[k] - block.first[k] * kCells) / kCells;
+    }
+    for (int z = from[2]; z <= to[2]; ++z)
+        for (int y = from[1]; y <= to[1]; ++y)
+            for (int x = from[0]; x <= to[0]; ++x) {
+                const TileBlock::Place& place =
+                    block.places[static_cast<std::size_t>((z * block.count[1] + y) * block.count[0] + x)];
+                if (!place.tile) continue;
+                const EdgeDistances edges(
+                    near, block.cell_m,
+                    {(block.first[0] + x) * kCells, (block.first[1] + y) * kCells, (block.first[2] + z) * kCells});
+                const auto visit_numbered = [&](std::uint32_t i, const Triangle& t) {
+                    return visit(place.first_triangle + i, t);
+                };
+                if (!for_each_near_in_tile(*place.tile, edges, near, visit_numbered)) return false;
+            }
+    return true;
+}
+
+}  // namespace burin

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+// The tiles of a carved surface as they are touched: the god-object on them and on the same triangles as loose ones, and the
+// haptic loop on tiles that are carved meanwhile.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <set>
+
+#include "compute/engine.hpp"
+#include "compute/surface.hpp"
+#include "geometry/local_surface_search.hpp"
+#include "haptics/god_object.hpp"
+#include "haptics/realtime.hpp"
+#include "tests/compute/random_solids.hpp"
+#include "tests/haptics/rig.hpp"
+
+namespace burin {
+namespace {
+
+constexpr double kToolRadius_m = 0.06;
+
+// A ball of radius 0.4 with a groove over its top, on 40 cells a side.
+struct Workpiece {
+    WorkerPool pool{2};
+    std::unique_ptr<CarvingEngine> engine;
+    std::unique_ptr<Surface> surface;
+
+    Workpiece() : engine(make_cpu_engine(*make_ball(0.4, 40, {"ball", {}}), pool)) {
+        surface = std::make_unique<Surface>(engine->solid().lattice);
+        surface->mesh_all(engine->solid(), pool);
+    }
+    void cut(const Vec3& from, const Vec3& to) {
+        const BallSweep sweep{from, to, kToolRadius_m, 0};
+        ASSERT_TRUE(engine->carve({&sweep, 1}));
+        surface->update(engine->solid(), engine->take_changes(), pool);
+    }
+};
+
+// The same triangles, relative to the same origin, one by one and in an order of their own.
+LocalSurface loosened(const LocalSurface& tiles) {
+    auto piece = std::make_shared<GriddedTriangles>();
+    for (std::uint32_t id = tiles.triangles(); id-- > 0;) {
+        const Triangle t = tiles.triangle(id);
+        const auto first = static_cast<std::uint32_t>(piece->positions_m.size());
+        for (const Vec3& corner : {t.a, t.b, t.c}) piece->positions_m.emplace_back(corner);
+        piece->triangles.push_back({first, first + 1, first + 2});
+    }
+    build_search(*piece);
+    LocalSurface loose = tiles;
+    loose.tiles = {};
+    loose.loose = std::move(piece);
+    return loose;
+}
+
+LocalSurface tiles_around(const Surface& surface, const Vec3& center_object, double radius_m) {
+    LocalSurface local;
+    gather_local_surface(surface, center_object, radius_m, local);
+    local.sequence = 1;
+    return local;
+}
+
+// A walk of the hand over the surface and into it, one tick after another; each tick starts from one state on both.
+void expect_alike(const LocalSurface& tiles, const LocalSurface& loose, const Vec3& about, double reach,
+                  double tool_radius, std::uint64_t seed) {
+    test::Random random(seed);
+    ProxyState state;
+    Vec3 hip = about, way(0.0);
+    int in_contact = 0;
+    for (int i = 0; i < test::repeated(1500); ++i) {
+        if (i % 40 == 0) {
+            const Vec3 goal = about + reach * Vec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+            way = (goal - hip) / 40.0;
+        }
+        hip += way;
+        const ProxyResult a = move_proxy(state, hip, tool_radius, tiles);
+        const ProxyResult b = move_proxy(state, hip, tool_radius, loose);
+        // Ties are broken in the order in which triangles come by: within the tolerances of god_object.hpp.
+        ASSERT_LT(glm::length(a.next.position_object_m - b.next.position_object_m), 3e-5 * tool_radius) << i;
+        ASSERT_EQ(a.pushed_out, b.pushed_out) << i;
+        ASSERT_EQ(a.work_limited, b.work_limited) << i;
+        ASSERT_EQ(a.constraints > 0, b.constraints > 0) << i;
+        in_contact += a.constraints > 0;
+        state = a.next;
+    }
+    EXPECT_GT(in_contact, test::repeated(1500) / 8);
+}
+
+}  // namespace
+
+TEST(TouchedTiles, TheProxyGoesAsOnTheSameTrianglesLoose) {
+    Workpiece work;
+    work.cut({-0.2, 0.4, 0.0}, {0.2, 0.4, 0.05});
+    const Vec3 top(0.0, 0.4, 0.0);
+    const LocalSurface tiles = tiles_around(*work.surface, top, 0.5);
+    const LocalSurface loose = loosened(tiles);
+    ASSERT_EQ(tiles.triangles(), loose.triangles());
+    // As large as the groove, smaller, larger, and of the size of a cell.
+    const double cell = work.surface->lattice().spacing_m;
+    for (const double radius : {0.98 * kToolRadius_m, 0.5 * kToolRadius_m, 1.7 * kToolRadius_m, cell}) {
+        expect_alike(tiles, loose, top, 0.25, radius, 5);
+    }
+}
+
+TEST(TouchedTiles, TheProxyGoesAsOnTheSameTrianglesLooseInNoiseWithFans) {
+    WorkerPool pool(2);
+    const Solid solid = test::noise_solid({24, 24, 24}, 0.4, test::Rays::agree, 3);
+    Surface surface(solid.lattice);
+    surface.mesh_all(solid, pool);
+    const double cell = solid.lattice.spacing_m;
+    const Vec3 middle = solid.lattice.origin_object + 12.0 * cell;
+    const LocalSurface tiles = tiles_around(surface, middle, 1e3 * cell), loose = loosened(tiles);
+    // Larger than the gaps: it stays outside and rolls over the bumps.
+    const Vec3 above = middle + Vec3(0.0, 16.0 * cell, 0.0);
+    expect_alike(tiles, loose, above, 6.0 * cell, 3.0 * cell, 6);
+}
+
+TEST(TouchedTiles, TilesAndLooseTrianglesAreTouchedTogether) {
+    // A loose plate over the ball: each is felt where it is.
+    Workpiece work;
+    LocalSurface both = tiles_around(*work.surface, Vec3(0.0), 1.0);
+    auto plate = std::make_shared<GriddedTriangles>();
+    for (const Vec3& p : {Vec3(0.5, 0.2, -0.5), Vec3(0.5, 0.2, 0.5), Vec3(1.0, 0.2, 0.5), Vec3(1.0, 0.2, -0.5)}) {
+        plate->positions_m.emplace_back(p - both.origin_object);
+    }
+    plate->triangles = {{0, 1, 2}, {0, 2, 3}};
+    build_search(*plate);
+    both.loose = plate;
+    std::set<std::uint32_t> ids;
+    for_each_triangle_near(both, Vec3(-10.0), Vec3(10.0), [&](std::uint32_t id, const Triangle&) {
+        ids.insert(id);
+        return true;
+    });
+    EXPECT_EQ(ids.size(), work.surface->triangles() + 2);
+    EXPECT_EQ(*ids.rbegin(), both.triangles() - 1);
+    EXPECT_EQ(both.triangle(both.triangles() - 1).b, Vec3(plate->positions_m[2]));
+
+    const double radius = 0.03;
+    ProxyState state;
+    for (const double y : {0.5, 0.3, 0.18}) state = move_proxy(state, {0.75, y, 0.0}, radius, both).next;
+    EXPECT_NEAR(state.position_object_m.y, 0.2 + radius, 1e-6);
+    state = {};
+    for (const double y : {0.6, 0.45, 0.39}) state = move_proxy(state, {0.0, y, 0.0}, radius, both).next;
+    EXPECT_NEAR(state.position_object_m.y, 0.4 + radius, 0.002);  // facets of a cell, 0.02, on a radius of 0.4
+}
+
+// Under the thread sanitizer: the loop reads tiles while others are made and the old ones freed.
+TEST(TouchedTiles, TheHapticThreadReadsWhileTheCarvingSideMakesAndFreesTiles) {
+    Workpiece work;
+    MonotonicClock clock;
+    std::vector<HandPose> script;  // circles over the top, now in contact and now out of it
+    for (int i = 0; i < 400; ++i) {
+        script.push_back({0.02 * i, Vec3(0.05 * std::sin(0.3 * i), 0.01 * (i % 3), 0.05 * std::cos(0.3 * i))});
+    }
+    SimulatedOmni omni(*SimulatedHand::create(script), {}, &clock);
+    HapticChannels channels(1u << 14, 1u << 14);
+    HapticLoop loop(omni, clock, channels);
+    TickParameters& parameters = channels.parameters.draft();
+    parameters.sequence = 1;
+    parameters.tool_radius_m = kToolRadius_m;
+    parameters.object_from_device.position_m = Vec3(0.0, 0.42, 0.0);
+    parameters.object_from_device.scale = 4.0;
+    channels.parameters.publish();
+    HapticThread thread(loop);
+    (void)thread.start();
+    std::uint64_t published = 0, in_contact = 0, ticks = 0;
+    TickRecord record;
+    while (published < 150 || (in_contact == 0 && published < 3000)) {
+        const double a = 0.1 * static_cast<double>(published);
+        const Vec3 at(0.2 * std::sin(a), 0.41 - 1e-4 * static_cast<double>(published % 300), 0.2 * std::cos(a));
+        work.cut(at, at + Vec3(0.01, 0.0, 0.0));
+        LocalSurface& draft = channels.surface.draft();
+        gather_local_surface(*work.surface, Vec3(0.0, 0.4, 0.0), 0.6, draft);
+        draft.sequence = ++published;
+        draft.made_ns = clock.now_ns();
+        channels.surface.publish();
+        clock.sleep_until(clock.now_ns() + 1'000'000);
+        for (; channels.records.pop(record); ++ticks) in_contact += (record.flags & kTickInContact) != 0 ? 1u : 0u;
+    }
+    thread.stop();
+    EXPECT_GT(ticks, 0u);
+    EXPECT_GT(in_contact, 0u);
+}
+
+}  // namespace burin
