@@ -299,6 +299,10 @@ TEST(GodObject, StopsSafelyWhenItsWorkIsUsedUp) {
     EXPECT_TRUE(r.work_limited);
     EXPECT_LE(r.work.triangles_tested, 3u);
     EXPECT_GE(r.next.position_object_m.y, 0.998 * w.radius);
+    const ProxyResult looked = move_proxy(w.state, {0.0, -0.01, 0.0}, w.radius, *plane, {.max_triangles_seen = 7});
+    EXPECT_TRUE(looked.work_limited);
+    EXPECT_LE(looked.work.triangles_seen, 7u);
+    EXPECT_GE(looked.next.position_object_m.y, 0.998 * w.radius);
 }
 
 }  // namespace burin

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "tests/haptics/rig.hpp"
+#include "tests/haptics/workpiece.hpp"
 #include "tests/support/realtime_counters.hpp"
 
 namespace burin {
@@ -83,6 +84,50 @@ TEST(HapticLoop, TenThousandStepsAllocateLockThrowAndOpenNothing) {
     EXPECT_EQ(total.files, 0u);
     EXPECT_GT(in_contact, 1000);
     EXPECT_GT(faulty, 40);
+}
+
+TEST(HapticLoop, StepsOnTilesThatAreCarvedMeanwhileAllocateFreeAndLockNothing) {
+    // The carving side makes new tiles, lets go of old ones and fills the draft between the steps; the steps do neither.
+    std::vector<HandPose> script;
+    for (int i = 0; i < 50; ++i) {
+        script.push_back(
+            {0.2 * i, Vec3(0.03 * std::sin(0.9 * i), i % 2 == 0 ? 0.02 : -0.02, 0.03 * std::sin(0.31 * i))});
+    }
+    test::Rig rig(script);
+    TickParameters parameters;
+    parameters.tool_radius_m = test::kToolRadius_m;
+    parameters.object_from_device.position_m = Vec3(0.0, 0.44, 0.0);
+    parameters.object_from_device.scale = 4.0;
+    rig.publish(parameters, 1);
+    test::Workpiece work;
+    int in_contact = 0;
+    test::RealtimeCounts total;
+    for (int i = 0; i < 3000; ++i) {
+        if (i % 10 == 0) {
+            const double a = 0.01 * i;
+            if (i % 30 == 0) work.cut(Vec3(0.1 * std::sin(a), 0.42, 0.1 * std::cos(a)), Vec3(0.0, 0.41, 0.0));
+            LocalSurface& draft = rig.channels.surface.draft();
+            gather_local_surface(*work.surface, Vec3(0.0, 0.4, 0.0), 0.3, draft);
+            draft.sequence = static_cast<std::uint64_t>(i) + 1;
+            draft.made_ns = rig.clock.now_ns();
+            rig.channels.surface.publish();
+        }
+        rig.clock.sleep_until(rig.clock.now_ns() + rig.loop.period_ns());
+        const test::RealtimeScope scope;
+        const TickRecord record = rig.loop.step();
+        const test::RealtimeCounts counts = scope.counts();
+        total.allocations += counts.allocations;
+        total.frees += counts.frees;
+        total.locks += counts.locks;
+        total.throws += counts.throws;
+        in_contact += (record.flags & kTickInContact) != 0;
+        EXPECT_LE(record.work.triangles_seen, ProxyBudget{}.max_triangles_seen);
+    }
+    EXPECT_EQ(total.allocations, 0u);
+    EXPECT_EQ(total.frees, 0u);
+    EXPECT_EQ(total.locks, 0u);
+    EXPECT_EQ(total.throws, 0u);
+    EXPECT_GT(in_contact, 300);
 }
 
 }  // namespace burin

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// A carved solid to touch: a ball of radius 0.4 m on 40 cells a side, cut with a ball tool.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "compute/engine.hpp"
+#include "compute/surface.hpp"
+
+namespace burin::test {
+
+inline constexpr double kToolRadius_m = 0.06;
+
+struct Workpiece {
+    WorkerPool pool{2};
+    std::unique_ptr<CarvingEngine> engine;
+    std::unique_ptr<burin::Surface> surface;
+
+    Workpiece() : engine(make_cpu_engine(*make_ball(0.4, 40, {"ball", {}}), pool)) {
+        surface = std::make_unique<burin::Surface>(engine->solid().lattice);
+        surface->mesh_all(engine->solid(), pool);
+    }
+    void cut(const Vec3& from, const Vec3& to) {
+        const BallSweep sweep{from, to, kToolRadius_m, 0};
+        ASSERT_TRUE(engine->carve({&sweep, 1}));
+        surface->update(engine->solid(), engine->take_changes(), pool);
+    }
+};
+
+}  // namespace burin::test
