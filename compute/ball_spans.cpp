@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "compute/direction_code.hpp"
 #include "shaders/shared/dexel.h"
 
 namespace burin {
@@ -19,26 +20,9 @@ namespace {
     }
 }
 
-// |a| * 32767 / length1 rounded to nearest, halves up. In doubles this is exact: a quotient of whole numbers below 2^43 is on
-// a half or at least 1 / (2 length1) > 2^-30 away from it, and the division errs by less than 2^-37.
-[[gnu::always_inline]] inline std::int32_t nearest_share(std::int32_t size, double length1) {
-    return static_cast<std::int32_t>((static_cast<double>(size) * 65534.0 + length1) / (2.0 * length1));
-}
-
 [[gnu::always_inline]] inline void codes(std::int32_t count, const std::int32_t* x, const std::int32_t* y,
                                          const std::int32_t* z, std::uint32_t* code) {
-    for (std::int32_t i = 0; i < count; ++i) {
-        const std::int32_t size_x = x[i] < 0 ? -x[i] : x[i], size_y = y[i] < 0 ? -y[i] : y[i],
-                           size_z = z[i] < 0 ? -z[i] : z[i];
-        const double length1 = static_cast<double>(size_x) + static_cast<double>(size_y) + static_cast<double>(size_z);
-        const std::int32_t a = nearest_share(size_x, length1), b = nearest_share(size_y, length1);
-        // The lower half is folded outwards.
-        const std::int32_t folded_a = z[i] < 0 ? 32767 - b : a, folded_b = z[i] < 0 ? 32767 - a : b;
-        // A part that was rounded to zero has lost its sign.
-        const std::int32_t signed_a = x[i] < 0 && a != 0 ? -folded_a : folded_a,
-                           signed_b = y[i] < 0 && b != 0 ? -folded_b : folded_b;
-        code[i] = static_cast<std::uint32_t>(signed_b + 32767) << 16 | static_cast<std::uint32_t>(signed_a + 32767);
-    }
+    for (std::int32_t i = 0; i < count; ++i) code[i] = direction_code(x[i], y[i], z[i]);
 }
 
 using HalfSpans = void (*)(std::int64_t, std::int32_t, std::int32_t, std::int32_t*);

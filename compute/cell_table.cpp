@@ -81,6 +81,9 @@ constexpr CellCase make_case(unsigned pattern) {
         }
         result.first_edge[loop + 1u] = listed;
     }
+    result.all_use_first = ~std::uint64_t{0};
+    for (std::uint8_t i = 0; i < listed; ++i) result.all_use_first &= ~(std::uint64_t{0xf} << (4 * result.edges[i]));
+    if (result.twice_faces == 0) result.all_use_first &= ~(std::uint64_t{1} << 48);
     return result;
 }
 

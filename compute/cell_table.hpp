@@ -28,6 +28,7 @@ struct CellCase {
     std::uint8_t twice_faces = 0;                 // bit f: face f is passed twice by one loop
     std::array<std::uint8_t, 12> edges{};         // the crossed edges, loop by loop, in each loop in increasing order
     std::array<std::uint8_t, 5> first_edge{};     // loop l has edges[first_edge[l] .. first_edge[l + 1])
+    std::uint64_t all_use_first = 0;              // TileMesh::vertex_of_edge when there is one vertex for all edges
 };
 
 // Indexed by the corner pattern: bit c is set when corner c is inside.

@@ -1,33 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "compute/cell_vertices.hpp"
 
+#include <cmath>
+
 #include "compute/cell_table.hpp"
+#include "compute/direction_code.hpp"
+#include "compute/feature_point.hpp"
+#include "compute/float4.hpp"
 #include "compute/tile_mesher.hpp"
 #include "shaders/shared/feature_constants.h"
-#include "shaders/shared/octahedral.h"
 
 namespace burin {
 namespace {
 
 using shared::kSmooth;
 using shared::kSmoothAcrossMaterials;
-
-std::uint32_t encode(const Vec3f& n) {
-    const auto whole = [](float x) { return static_cast<std::int64_t>(x * 1048576.0f); };
-    return shared::encode_normal({whole(n.x), whole(n.y), whole(n.z)});
-}
-
-// `in_cell` is in cells from the cell's lowest corner. The whole cells are counted from the lattice's origin and not from the
-// tile's, so that every tile that shares the vertex rounds it to the same bits.
-shared::SurfaceVertex vertex_at(const Lattice& lattice, const std::array<int, 3>& first_node, const Local& cell,
-                                const Vec3f& in_cell, const Vec3f& normal, std::uint32_t colour) {
-    const auto metres = [&](int a) {
-        const auto k = static_cast<std::size_t>(a);
-        return static_cast<float>((static_cast<double>(in_cell[a]) + (cell[k] + first_node[k])) * lattice.spacing_m);
-    };
-    return {metres(0), metres(1), metres(2),
-            encode(glm::length(normal) > 1e-6f ? glm::normalize(normal) : Vec3f(0, 0, 1)), colour};
-}
 
 // Red, green and blue summed up, with how many colours there were.
 class ColourSum {
@@ -56,9 +43,8 @@ struct Sampled {
 // The place of a crossing in its cell is corner + along * direction: by a table and not by indexing a vector's components,
 // which the processor would have to wait for.
 struct CellEdge {
-    int axis;
-    std::size_t node_offset;  // of the edge's lower node, from the cell's lowest
-    Vec3f corner, direction;
+    Float4 corner, direction;
+    std::size_t offset;  // of its number, from that of the x edge at the cell's lowest node
 };
 
 constexpr std::array<CellEdge, 12> kCellEdges = [] {
@@ -68,9 +54,11 @@ constexpr std::array<CellEdge, 12> kCellEdges = [] {
         Local offset{};
         offset[(axis + 1) % 3] = static_cast<int>(e & 1);
         offset[(axis + 2) % 3] = static_cast<int>(e >> 1 & 1);
-        edges[e] = {static_cast<int>(axis), TileSamples::node_offset(offset),
-                    Vec3f(static_cast<float>(offset[0]), static_cast<float>(offset[1]), static_cast<float>(offset[2])),
-                    Vec3f(axis == 0 ? 1.0f : 0.0f, axis == 1 ? 1.0f : 0.0f, axis == 2 ? 1.0f : 0.0f)};
+        const auto x = static_cast<float>(offset[0]), y = static_cast<float>(offset[1]),
+                   z = static_cast<float>(offset[2]);
+        edges[e] = {Float4{x, y, z, 0.0f},
+                    Float4{axis == 0 ? 1.0f : 0.0f, axis == 1 ? 1.0f : 0.0f, axis == 2 ? 1.0f : 0.0f, 0.0f},
+                    TileSamples::edge_offset(static_cast<int>(axis), offset)};
     }
     return edges;
 }();
@@ -95,60 +83,144 @@ std::size_t find_pieces(std::span<Sampled> loop) {
 
 }  // namespace
 
-std::uint64_t make_cell_vertices(const Solid& solid, const std::array<int, 3>& first_node, const TileSamples& samples,
-                                 const Local& cell, std::vector<shared::SurfaceVertex>& vertices) {
-    const CellCase& cell_case = cell_table()[samples.cell_pattern(cell)];
-    const std::size_t first = vertices.size(), lowest_node = TileSamples::node_index(cell);
-    std::uint64_t used = ~std::uint64_t{0};  // kNoVertex everywhere
-    const auto use = [&](std::size_t place, std::size_t vertex) {
-        used &= ~(TileMesh::kNoVertex << (4 * place));
-        used |= static_cast<std::uint64_t>(vertex) << (4 * place);
+// The crossings of one loop through a cell, and the sums over them.
+struct CellVertexMaker::Loop {
+    std::array<const EdgeSample*, 12> samples;
+    std::array<Float4, 12> places;
+    std::size_t count;
+    Float4 place_sum, normal_sum;
+    bool one_material;
+};
+
+// `in_cell` is in cells from the cell's lowest corner; `length` is that of the normals' sum. The whole cells are counted from
+// the lattice's origin and not from the tile's, so that every tile that shares the vertex rounds it to the same bits.
+shared::SurfaceVertex CellVertexMaker::vertex_at(const Local& cell, const Vec3f& in_cell, const Vec3f& normal_sum,
+                                                 float length, std::uint32_t colour) const {
+    const auto metres = [&](int a) {
+        const auto k = static_cast<std::size_t>(a);
+        return static_cast<float>((static_cast<double>(in_cell[a]) + (cell[k] + first_node_[k])) * spacing_m_);
     };
-    for (std::size_t loop = 0; loop < cell_case.loops; ++loop) {
+    const Vec3f normal = length > 1e-6f ? normal_sum * (1.0f / length) : Vec3f(0, 0, 1);
+    const auto whole = [](float x) { return static_cast<std::int32_t>(x * 1048576.0f); };
+    return {metres(0), metres(1), metres(2), direction_code(whole(normal.x), whole(normal.y), whole(normal.z)), colour};
+}
+
+// Whether all normals are in the cluster of the first. The sum over all pairs of |a - b|^2 is n^2 - |sum|^2; one normal that
+// lies d from the first adds n d^2 / 2 to it at least (with every third one the two make a triangle). So a sum that is long
+// enough says yes without looking at each; a shorter one does not say no.
+bool CellVertexMaker::alike(const Loop& loop, float length2) {
+    constexpr float kRounding = 1e-3f;
+    const float least_distance2 = 2.0f - 2.0f * shared::kSameCluster;
+    const auto count = static_cast<float>(loop.count);
+    if (count * count - length2 < 0.5f * count * least_distance2 - kRounding * count * count) return true;
+    const Float4 first = loop.samples[0]->normal_and_along();
+    bool all = true;
+    for (std::size_t i = 1; i < loop.count; ++i) {
+        all &= dot3(first, loop.samples[i]->normal_and_along()) >= shared::kSameCluster;
+    }
+    return all;
+}
+
+// The usual loop, one smooth piece of one material: what feature_point() and the sums over pieces come to for it, bit for bit.
+// False, and nothing done, for any other.
+bool CellVertexMaker::make_smooth(const Local& cell, const Loop& loop, shared::SurfaceVertex& vertex) const {
+    const float length2 = dot3(loop.normal_sum, loop.normal_sum);
+    if (!loop.one_material || !alike(loop, length2)) return false;
+    const auto count = static_cast<float>(loop.count);
+    const Float4 mean = loop.place_sum / count;
+    float offset_sum = 0.0f;
+    for (std::size_t i = 0; i < loop.count; ++i) {
+        offset_sum += dot3(loop.samples[i]->normal_and_along(), loop.places[i] - mean);
+    }
+    const float length = std::sqrt(length2);
+    const Float4 in_cell = mean + loop.normal_sum / length * (shared::kTowardsTangents * (offset_sum / count));
+    vertex = vertex_at(cell, glm::clamp(xyz(in_cell), Vec3f(-shared::kOutside), Vec3f(1.0f + shared::kOutside)),
+                       xyz(loop.normal_sum), length, ColourSum(materials_[loop.samples[0]->material]).mean());
+    return true;
+}
+
+// The crossings of edges `first` to `end` of a cell.
+[[gnu::always_inline]] inline void CellVertexMaker::collect(Loop& loop, std::size_t lowest_edge,
+                                                            const std::uint8_t* first, const std::uint8_t* end) const {
+    Float4 place_sum{}, normal_sum{};
+    const std::uint8_t material = all_[index_[lowest_edge + kCellEdges[*first].offset]].material;
+    unsigned other_materials = 0;
+    std::size_t i = 0;
+    for (; first != end; ++first, ++i) {
+        const CellEdge& edge = kCellEdges[*first];
+        const EdgeSample& s = all_[index_[lowest_edge + edge.offset]];
+        const Float4 normal = s.normal_and_along(), place = edge.corner + edge.direction * broadcast<3>(normal);
+        loop.samples[i] = &s;
+        loop.places[i] = place;
+        place_sum += place;
+        normal_sum += normal;
+        other_materials |= s.material ^ material;
+    }
+    loop.count = i;
+    loop.place_sum = place_sum;
+    loop.normal_sum = normal_sum;
+    loop.one_material = other_materials == 0;
+}
+
+CellVertices CellVertexMaker::make(const Local& cell, shared::SurfaceVertex* vertices) const {
+    const CellCase& cell_case = table_[samples_.cell_pattern(cell)];
+    const std::size_t lowest_edge = TileSamples::edge_offset(0, {cell[0] + 1, cell[1] + 1, cell[2] + 1});
+    CellVertices made{~std::uint64_t{0}, 0};  // kNoVertex everywhere
+    const auto use = [&](std::size_t place, std::size_t vertex) {
+        made.of_edge &= ~(TileMesh::kNoVertex << (4 * place));
+        made.of_edge |= static_cast<std::uint64_t>(vertex) << (4 * place);
+    };
+    for (std::size_t l = 0; l < cell_case.loops; ++l) {
+        Loop loop;
+        const std::size_t from = cell_case.first_edge[l], to = cell_case.first_edge[l + 1];
+        collect(loop, lowest_edge, &cell_case.edges[from], cell_case.edges.data() + to);
+        const bool smooth = make_smooth(cell, loop, vertices[made.count]);
+        if (smooth && cell_case.loops == 1) return {cell_case.all_use_first, 1};
+        if (l > 0) use(12 + l, made.count);
+        if (smooth) {
+            for (std::size_t i = from; i < to; ++i) use(cell_case.edges[i], made.count);
+            ++made.count;
+            continue;
+        }
         std::array<Crossing, 12> crossings;
         std::array<Sampled, 12> sampled;
-        std::size_t count = 0;
-        for (std::size_t i = cell_case.first_edge[loop]; i < cell_case.first_edge[loop + 1]; ++i) {
-            const std::uint8_t e = cell_case.edges[i];
-            const CellEdge& edge = kCellEdges[e];
-            const EdgeSample& s = samples.sample_at(edge.axis, lowest_node + edge.node_offset);
-            crossings[count] = {edge.corner + edge.direction * s.along, s.normal};
-            sampled[count++] = {&s, e, 0};
+        for (std::size_t i = 0; i < loop.count; ++i) {
+            crossings[i] = {xyz(loop.places[i]), loop.samples[i]->normal};
+            sampled[i] = {loop.samples[i], cell_case.edges[from + i], 0};
         }
-        const Vec3f in_cell = feature_point({crossings.data(), count});
-        const std::size_t first_of_loop = vertices.size() - first;
-        const std::size_t pieces = find_pieces({sampled.data(), count});
-        if (loop > 0) use(12 + loop, first_of_loop);
-        for (std::size_t i = 0; i < count; ++i) use(sampled[i].edge, first_of_loop + sampled[i].piece);
+        const Vec3f in_cell = feature_point({crossings.data(), loop.count});
+        const std::size_t first_of_loop = made.count;
+        const std::size_t pieces = find_pieces({sampled.data(), loop.count});
+        for (std::size_t i = 0; i < loop.count; ++i) use(sampled[i].edge, first_of_loop + sampled[i].piece);
         for (std::size_t p = 0; p < pieces; ++p) {
             std::size_t i = 0;
             while (sampled[i].piece != p) ++i;
             Vec3f normal_sum = sampled[i].sample->normal;
-            ColourSum colour(solid.materials[sampled[i].sample->material]);
-            while (++i < count) {
+            ColourSum colour(materials_[sampled[i].sample->material]);
+            while (++i < loop.count) {
                 if (sampled[i].piece != p) continue;
                 normal_sum += sampled[i].sample->normal;
-                colour.add(solid.materials[sampled[i].sample->material]);
+                colour.add(materials_[sampled[i].sample->material]);
             }
-            vertices.push_back(vertex_at(solid.lattice, first_node, cell, in_cell, normal_sum, colour.mean()));
+            vertices[made.count++] = vertex_at(cell, in_cell, normal_sum, glm::length(normal_sum), colour.mean());
         }
     }
-    if (cell_case.twice_faces == 0) used &= ~TileMesh::kPassedTwice;
-    return used;
+    if (cell_case.twice_faces == 0) made.of_edge &= ~TileMesh::kPassedTwice;
+    return made;
 }
 
-shared::SurfaceVertex make_face_vertex(const Solid& solid, const std::array<int, 3>& first_node, const Local& cell,
-                                       const EdgeCrossing& a, const EdgeCrossing& b) {
-    const auto place = [&](const EdgeCrossing& c) {
-        Vec3f p(static_cast<float>(c.node[0] - cell[0]), static_cast<float>(c.node[1] - cell[1]),
-                static_cast<float>(c.node[2] - cell[2]));
-        p[c.axis] += c.sample.along;
+shared::SurfaceVertex CellVertexMaker::make_face_vertex(const Local& cell, const EdgeSample& a,
+                                                        const EdgeSample& b) const {
+    const auto place = [&](const EdgeSample& s) {
+        Vec3f p(static_cast<float>(s.node[0] - cell[0]), static_cast<float>(s.node[1] - cell[1]),
+                static_cast<float>(s.node[2] - cell[2]));
+        p[s.axis] += s.along;
         return p;
     };
-    ColourSum colour(solid.materials[a.sample.material]);
-    colour.add(solid.materials[b.sample.material]);
-    return vertex_at(solid.lattice, first_node, cell, (place(a) + place(b)) * 0.5f, a.sample.normal + b.sample.normal,
-                     colour.mean());
+    ColourSum colour(materials_[a.material]);
+    colour.add(materials_[b.material]);
+    const Vec3f normal_sum = a.normal + b.normal;
+    return vertex_at(cell, (place(a) + place(b)) * 0.5f, normal_sum, glm::length(normal_sum), colour.mean());
 }
 
 }  // namespace burin

@@ -2,6 +2,7 @@
 #include "compute/dirty_cells.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "compute/tile_samples.hpp"
 
@@ -24,12 +25,14 @@ void DirtyCells::sort(const Changes& changes) {
     for (const std::uint32_t tile : tiles_) newest_[tile] = kNone;
     tiles_.clear();
     entries_.clear();
+    const std::array<int, 3> cells = lattice_.cells;
+    constexpr int kTileBits = std::countr_zero(static_cast<unsigned>(kTileCells));
     for (const shared::ChangedRay& change : changes.rays) {
         const CellRange range = range_of(change);
         std::array<int, 3> from{}, to{};
         for (std::size_t a = 0; a < 3; ++a) {
-            from[a] = std::clamp<int>(range.lo[a], 0, lattice_.cells[a]) / kTileCells;
-            to[a] = std::clamp<int>(range.hi[a] + 1, 0, lattice_.cells[a]) / kTileCells;  // also seen from above
+            from[a] = std::clamp<int>(range.lo[a], 0, cells[a]) >> kTileBits;
+            to[a] = std::clamp<int>(range.hi[a] + 1, 0, cells[a]) >> kTileBits;  // also seen from above
         }
         for (int z = from[2]; z <= to[2]; ++z)
             for (int y = from[1]; y <= to[1]; ++y)
@@ -54,7 +57,7 @@ CellMask DirtyCells::mask(std::uint32_t tile) const {
             hi[a] = std::min(range.hi[a] - first[a], kTileCells - 1);
         }
         if (lo[2] > hi[2]) continue;
-        const std::uint32_t bits = ((1u << (hi[2] + 2)) - 1u) & ~((1u << (lo[2] + 1)) - 1u);
+        const std::uint32_t bits = (2u << (hi[2] + 1)) - (1u << (lo[2] + 1));
         for (int y = lo[1]; y <= hi[1]; ++y)
             for (int x = lo[0]; x <= hi[0]; ++x) mask.add(x, y, bits);
     }

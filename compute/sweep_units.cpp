@@ -90,7 +90,8 @@ Result<std::vector<shared::Capsule>> capsules_in_units(const Solid& solid, std::
                         "add the material to the workpiece first");
         }
         if (sweep.operation == Operation::smooth) {
-            return fail("tool", "cannot smooth along a sweep", "smooth with apply(), which knows the surface around it");
+            return fail("tool", "cannot smooth along a sweep",
+                        "smooth with apply(), which knows the surface around it");
         }
         if (const auto capsule = capsule_in_units(lattice, sweep)) capsules.push_back(*capsule);
     }

@@ -6,6 +6,8 @@
 
 #include "compute/cell_table.hpp"
 #include "compute/cell_vertices.hpp"
+#include "compute/float4.hpp"
+#include "compute/tile_draft.hpp"
 #include "compute/tile_samples.hpp"
 
 namespace burin {
@@ -20,6 +22,9 @@ constexpr std::size_t cell_id(const Local& cell) {
     return static_cast<std::size_t>(((cell[1] + 1) * kSeenCells + cell[0] + 1) * kSeenCells + cell[2] + 1);
 }
 
+// By which that grows a step along each axis.
+constexpr std::array<std::size_t, 3> kIdStep{kSeenCells, kSeenCells* kSeenCells, 1};
+
 std::uint64_t lattice_key(const Lattice& lattice, const std::array<int, 3>& first_node, const Local& cell, int slot) {
     std::uint64_t key = 0;
     for (std::size_t a = 3; a-- > 0;) {
@@ -30,157 +35,233 @@ std::uint64_t lattice_key(const Lattice& lattice, const std::array<int, 3>& firs
     return key * 16 + static_cast<std::uint64_t>(slot);
 }
 
-// What outlives a call to keep its memory; as large as a tile and used by one thread.
+// What outlives a call to keep its memory; used by one thread.
 struct Scratch {
     TileSamples samples;
-    std::array<std::uint16_t, kSeenCells * kSeenCells * kSeenCells> place_of_cell{};  // in the new mesh's cells
-    TileMesh fresh;
+    Draft draft;
+    std::array<std::uint16_t, Draft::kCells> place_of_cell{};  // in the new mesh's cells
+    std::vector<std::uint32_t> new_index;                      // of each vertex of the old mesh
 };
 
 class Mesher {
 public:
     Mesher(const Solid& solid, const std::array<int, 3>& first_node, const CellMask& dirty, const TileMesh& old,
-           Scratch& scratch)
+           Scratch& scratch, TileMesh& mesh)
         : solid_(solid),
           first_node_(first_node),
           old_(old),
           scratch_(scratch),
           samples_(scratch.samples),
-          mesh_(scratch.fresh) {
-        find_cells(dirty);
+          draft_(scratch.draft),
+          mesh_(mesh),
+          cells_per_m_(static_cast<float>(1.0 / solid.lattice.spacing_m)),
+          dirty_(dirty) {
+        draft_.clear();
+        scratch_.new_index.resize(old.vertices.size());
+        find_cells();
     }
 
     TileWork run() {
         make_vertices();
         make_quads();
+        draft_.vertices.assign_to(mesh_.vertices);
+        draft_.indices.assign_to(mesh_.indices);
+        draft_.quads.assign_to(mesh_.quads);
+        draft_.cells.assign_to(mesh_.cells);
+        draft_.vertex_of_edge.assign_to(mesh_.vertex_of_edge);
+        mesh_.signs = samples_.signs();
         return work_;
     }
 
 private:
-    // needed_: the cells that quads refer to; anew_: those of them that cannot be copied. Where a loop passes a face twice,
-    // extra vertices depend on the cells on both sides: these are always made anew.
-    void find_cells(const CellMask& dirty) {
-        needed_ = samples_.cells_at_own_edges();
-        anew_ = dirty;
+    // dirty_: the cells of the old mesh that cannot be copied; anew_: the cells that have to be made. Where a loop passes a
+    // face twice, vertices and fans depend on the cells on both sides: these are always made anew.
+    void find_cells() {
         if (old_.has_twice_passed_faces) {
             for (std::size_t i = 0; i < old_.cells.size(); ++i) {
                 if ((old_.vertex_of_edge[i] & TileMesh::kPassedTwice) != 0) {
-                    anew_.columns[old_.cells[i].cell / kSeenCells] |= 1u << (old_.cells[i].cell % kSeenCells);
+                    dirty_.columns[old_.cells[i].cell / kSeenCells] |= 1u << (old_.cells[i].cell % kSeenCells);
                 }
             }
         }
-        for (std::size_t i = 0; i < anew_.columns.size(); ++i) anew_.columns[i] &= needed_.columns[i];
+        anew_ = samples_.cells_at_own_edges();
+        for (std::size_t i = 0; i < anew_.columns.size(); ++i) anew_.columns[i] &= dirty_.columns[i];
+        dirty_edges_ = edges_of(dirty_);
         samples_.collect_crossings(solid_, first_node_, anew_);
     }
 
     void make_vertices() {
-        std::size_t old_cell = 0;
+        const CellVertexMaker maker(solid_, first_node_, samples_);
         for (int y = -1; y < kTileCells; ++y) {
             for (int x = -1; x < kTileCells; ++x) {
-                for (std::uint32_t bits = needed_.at(x, y); bits != 0; bits &= bits - 1) {
+                for (std::uint32_t bits = anew_.at(x, y); bits != 0; bits &= bits - 1) {
                     const Local cell{x, y, std::countr_zero(bits) - 1};
-                    const std::size_t id = cell_id(cell);
-                    scratch_.place_of_cell[id] = static_cast<std::uint16_t>(mesh_.cells.size());
-                    mesh_.cells.push_back(
-                        {static_cast<std::uint16_t>(id), static_cast<std::uint16_t>(mesh_.vertices.size())});
-                    if ((anew_.at(x, y) & bits & (~bits + 1u)) != 0) {
-                        ++work_.cells;
-                        mesh_.vertex_of_edge.push_back(
-                            make_cell_vertices(solid_, first_node_, samples_, cell, mesh_.vertices));
-                        mesh_.has_twice_passed_faces =
-                            mesh_.has_twice_passed_faces || (mesh_.vertex_of_edge.back() & TileMesh::kPassedTwice) != 0;
-                    } else {
-                        while (old_.cells[old_cell].cell != id) ++old_cell;
-                        copy_cell(old_cell);
-                    }
+                    copy_cells(cell_id(cell));
+                    make_cell(maker, cell);
                 }
+            }
+        }
+        copy_cells(Draft::kCells);
+    }
+
+    void make_cell(const CellVertexMaker& maker, const Local& cell) {
+        ++work_.cells;
+        begin_cell(cell_id(cell), draft_.vertices.count);
+        const CellVertices made = maker.make(cell, &draft_.vertices.items[draft_.vertices.count]);
+        draft_.vertices.count += made.count;
+        draft_.vertex_of_edge.push_back(made.of_edge);
+        mesh_.has_twice_passed_faces |= (made.of_edge & TileMesh::kPassedTwice) != 0;
+    }
+
+    void begin_cell(std::size_t id, std::size_t first_vertex) {
+        scratch_.place_of_cell[id] = static_cast<std::uint16_t>(draft_.cells.count);
+        draft_.cells.push_back({static_cast<std::uint16_t>(id), static_cast<std::uint16_t>(first_vertex)});
+    }
+
+    // The old mesh's cells before this one that are not dirty, and have not been copied. They come in long runs.
+    void copy_cells(std::size_t before) {
+        const std::size_t end = old_.cells.size();
+        const auto is_dirty = [&](std::size_t place) {
+            const std::size_t id = old_.cells[place].cell;
+            return (dirty_.columns[id / kSeenCells] >> (id % kSeenCells) & 1u) != 0;
+        };
+        while (old_cell_ < end && old_.cells[old_cell_].cell < before) {
+            const std::size_t first = old_cell_;
+            while (old_cell_ < end && old_.cells[old_cell_].cell < before && !is_dirty(old_cell_)) ++old_cell_;
+            if (old_cell_ > first) {
+                copy_run(first, old_cell_);
+            } else {
+                ++old_cell_;
             }
         }
     }
 
-    void copy_cell(std::size_t place) {
-        const std::size_t first = old_.cells[place].first_vertex;
-        const std::size_t end =
-            place + 1 < old_.cells.size() ? old_.cells[place + 1].first_vertex : old_.cell_vertices();
-        mesh_.vertices.insert(mesh_.vertices.end(), old_.vertices.begin() + static_cast<std::ptrdiff_t>(first),
-                              old_.vertices.begin() + static_cast<std::ptrdiff_t>(end));
-        mesh_.vertex_of_edge.push_back(old_.vertex_of_edge[place]);
+    void copy_run(std::size_t first, std::size_t end) {
+        draft_.vertex_of_edge.append(&old_.vertex_of_edge[first], end - first);
+        const std::size_t old_vertex = old_.cells[first].first_vertex, new_vertex = draft_.vertices.count;
+        const std::size_t vertices =
+            (end < old_.cells.size() ? old_.cells[end].first_vertex : old_.cell_vertices()) - old_vertex;
+        draft_.vertices.append(&old_.vertices[old_vertex], vertices);
+        for (std::size_t v = 0; v < vertices; ++v) {
+            scratch_.new_index[old_vertex + v] = static_cast<std::uint32_t>(new_vertex + v);
+        }
+        for (std::size_t i = first; i < end; ++i) {
+            begin_cell(old_.cells[i].cell, old_.cells[i].first_vertex + new_vertex - old_vertex);
+        }
     }
 
     void make_quads() {
-        make_quads_along<0>();
-        make_quads_along<1>();
-        make_quads_along<2>();
-        mesh_.row_quads.back() = static_cast<std::uint16_t>(mesh_.quads.size());
-        mesh_.row_triangles.back() = static_cast<std::uint32_t>(mesh_.triangles());
+        std::size_t row = 0;
+        begin_row(0);
+        const auto begin_rows = [&](std::size_t last) {
+            while (row < last) {
+                copy_quads((row + 1) * kTileCells * kTileCells);
+                begin_row(++row);
+            }
+        };
+        for (const EdgeSample& sample : samples_.samples()) {
+            if (sample.own_edge == EdgeSample::kNotOwn) continue;
+            begin_rows(sample.own_edge / (kTileCells * kTileCells));
+            copy_quads(sample.own_edge);
+            if (sample.axis == 0) make_quad<0>(sample);
+            if (sample.axis == 1) make_quad<1>(sample);
+            if (sample.axis == 2) make_quad<2>(sample);
+        }
+        begin_rows(SurfaceTile::kRows);
     }
 
-    template <int axis>
-    void make_quads_along() {
-        for (int y = 0; y < kTileCells; ++y) {
-            constexpr std::size_t first_row = std::size_t{axis} * kTileCells;
-            mesh_.row_quads[first_row + static_cast<std::size_t>(y)] = static_cast<std::uint16_t>(mesh_.quads.size());
-            mesh_.row_triangles[first_row + static_cast<std::size_t>(y)] =
-                static_cast<std::uint32_t>(mesh_.triangles());
-            for (int x = 0; x < kTileCells; ++x) {
-                for (std::uint32_t bits = samples_.own_crossed(axis, x, y); bits != 0; bits &= bits - 1) {
-                    quad<axis>({x, y, std::countr_zero(bits) - 1});
-                }
+    void begin_row(std::size_t row) {
+        mesh_.row_quads[row] = static_cast<std::uint16_t>(draft_.quads.count);
+        mesh_.row_triangles[row] = static_cast<std::uint32_t>(draft_.indices.count / 3);
+    }
+
+    // Likewise the quads of edges before this one.
+    void copy_quads(std::size_t before) {
+        const std::size_t end = old_.quads.size();
+        const auto edge_of = [&](std::size_t quad) { return std::size_t{old_.quads[quad]} & TileMesh::kQuadEdge; };
+        const auto is_dirty = [&](std::size_t edge) {
+            const std::size_t column =
+                TileSamples::column(static_cast<int>(edge / kTileCells % kTileCells),
+                                    static_cast<int>(edge / (kTileCells * kTileCells) % kTileCells));
+            return (dirty_edges_[edge / (kTileCells * kTileCells * kTileCells)][column] >> (edge % kTileCells + 1) &
+                    1u) != 0;
+        };
+        while (old_quad_ < end && edge_of(old_quad_) < before) {
+            const std::size_t first = old_quad_;
+            while (old_quad_ < end && edge_of(old_quad_) < before && !is_dirty(edge_of(old_quad_))) ++old_quad_;
+            if (old_quad_ > first) {
+                copy_quad_run(first, old_quad_);
+            } else {
+                old_index_ += indices_of_quad_at(old_index_);
+                ++old_quad_;
             }
         }
+    }
+
+    void copy_quad_run(std::size_t first, std::size_t end) {
+        draft_.quads.append(&old_.quads[first], end - first);
+        if (old_.disagreeing_edges != 0) {
+            for (std::size_t i = first; i < end; ++i) {
+                mesh_.disagreeing_edges += (old_.quads[i] & TileMesh::kDisagrees) != 0 ? 1 : 0;
+            }
+        }
+        const std::size_t count = 6 * (end - first);  // fans are never copied
+        const std::uint32_t* const from = &old_.indices[old_index_];
+        std::uint32_t* const to = &draft_.indices.items[draft_.indices.count];
+        for (std::size_t i = 0; i < count; ++i) to[i] = scratch_.new_index[from[i]];
+        draft_.indices.count += count;
+        old_index_ += count;
+    }
+
+    // The triangles of a fan all begin with its own extra vertex.
+    [[nodiscard]] std::size_t indices_of_quad_at(std::size_t index) const {
+        const std::uint32_t first = old_.indices[index];
+        if (first < old_.cell_vertices()) return 6;
+        std::size_t count = 3;
+        while (index + count < old_.indices.size() && old_.indices[index + count] == first) count += 3;
+        return count;
     }
 
     // The polygon around a crossed edge: the vertices of the four cells about it, and between two of them the extra vertex
     // of their common face where that is needed.
     template <int axis>
-    void quad(const Local& node) {
+    void make_quad(const EdgeSample& sample) {
         constexpr int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        const Local node{sample.node[0], sample.node[1], sample.node[2]};
+        constexpr std::size_t back_u = kIdStep[u], back_v = kIdStep[v];
+        const std::size_t id = cell_id(node);
         // Counter-clockwise seen from the edge's upper end.
-        const std::array<Local, 4> cells{step(step(node, u, -1), v, -1), step(node, v, -1), node, step(node, u, -1)};
         std::array<std::uint32_t, 8> polygon;
-        polygon[0] = vertex_of(cells[0], cell_edge(axis, 1, 1));
-        polygon[1] = vertex_of(cells[1], cell_edge(axis, 0, 1));
-        polygon[2] = vertex_of(cells[2], cell_edge(axis, 0, 0));
-        polygon[3] = vertex_of(cells[3], cell_edge(axis, 1, 0));
-        const auto is_anew = [&](const Local& c) { return (anew_.at(c[0], c[1]) >> (c[2] + 1) & 1u) != 0; };
-        const bool anew = is_anew(cells[0]) || is_anew(cells[1]) || is_anew(cells[2]) || is_anew(cells[3]);
-        const bool flip = !samples_.inside(node);  // the surface faces the lower end
-        const auto edge =
-            static_cast<std::uint16_t>(((axis * kTileCells + node[1]) * kTileCells + node[0]) * kTileCells + node[2]);
-        if (!anew) {
-            while ((old_.quads[old_quad_] & TileMesh::kQuadEdge) != edge) ++old_quad_;
-            const std::uint16_t quad = old_.quads[old_quad_];
-            mesh_.disagreeing_edges += (quad & TileMesh::kDisagrees) != 0 ? 1 : 0;
-            mesh_.quads.push_back(quad);
-            split(polygon, (quad & TileMesh::kOtherDiagonal) != 0, flip);
-            return;
-        }
-        const EdgeSample& sample = samples_.sample(axis, node);
-        std::uint16_t quad = edge;
+        polygon[0] = vertex_of(id - back_u - back_v, cell_edge(axis, 1, 1));
+        polygon[1] = vertex_of(id - back_v, cell_edge(axis, 0, 1));
+        polygon[2] = vertex_of(id, cell_edge(axis, 0, 0));
+        polygon[3] = vertex_of(id - back_u, cell_edge(axis, 1, 0));
+        const bool flip = !sample.lower_inside;  // the surface faces the lower end
+        std::uint16_t edge = sample.own_edge;
         if (sample.disagrees) {
             ++mesh_.disagreeing_edges;
-            quad |= TileMesh::kDisagrees;
+            edge |= TileMesh::kDisagrees;
         }
-        const std::size_t before = mesh_.indices.size();
-        if (!mesh_.has_twice_passed_faces || !fan_through_faces(axis, node, cells, polygon, flip)) {
-            const bool other = other_diagonal(polygon, flip, sample.normal);
-            if (other) quad |= TileMesh::kOtherDiagonal;
+        const std::size_t before = draft_.indices.count;
+        if (!mesh_.has_twice_passed_faces || !fan_through_faces(axis, node, polygon, flip)) {
+            const bool other = other_diagonal(polygon, flip ? -sample.normal : sample.normal);
+            if (other) edge |= TileMesh::kOtherDiagonal;
             split(polygon, other, flip);
         }
-        mesh_.quads.push_back(quad);
-        work_.triangles += static_cast<std::uint32_t>((mesh_.indices.size() - before) / 3);
+        draft_.quads.push_back(edge);
+        work_.triangles += static_cast<std::uint32_t>((draft_.indices.count - before) / 3);
     }
 
-    [[nodiscard]] std::uint32_t vertex_of(const Local& cell, int edge) const {
-        const std::size_t place = scratch_.place_of_cell[cell_id(cell)];
-        return mesh_.cells[place].first_vertex +
-               static_cast<std::uint32_t>(mesh_.vertex_of_edge[place] >> (4 * edge) & 0xf);
+    [[nodiscard]] std::uint32_t vertex_of(std::size_t id, int edge) const {
+        const std::size_t place = scratch_.place_of_cell[id];
+        return draft_.cells.items[place].first_vertex +
+               static_cast<std::uint32_t>(draft_.vertex_of_edge.items[place] >> (4 * edge) & 0xf);
     }
 
     // False, and nothing done, in the usual case that no loop passes a face of these cells twice.
-    bool fan_through_faces(int axis, const Local& node, const std::array<Local, 4>& cells,
-                           const std::array<std::uint32_t, 8>& corners, bool flip) {
+    bool fan_through_faces(int axis, const Local& node, const std::array<std::uint32_t, 8>& corners, bool flip) {
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        const std::array<Local, 4> cells{step(step(node, u, -1), v, -1), step(node, v, -1), node, step(node, u, -1)};
         std::array<std::uint32_t, 8> polygon{};
         std::size_t count = 0, extra = 8;
         for (std::size_t i = 0; i < 4; ++i) {
@@ -220,13 +301,18 @@ private:
         const int pair = corner[pair_axis] - cell[pair_axis];
         mesh_.face_keys.push_back(lattice_key(solid_.lattice, first_node_, cell, 4 + 2 * face_axis + pair));
         // Symmetric in the two edges, so that both quads, in whatever tiles, compute the same bits.
-        mesh_.vertices.push_back(make_face_vertex(solid_, first_node_, cell, {axis, node, samples_.sample(axis, node)},
-                                                  {other, other_node, samples_.sample(other, other_node)}));
-        return static_cast<std::uint32_t>(mesh_.vertices.size() - 1);
+        draft_.vertices.push_back(
+            CellVertexMaker(solid_, first_node_, samples_)
+                .make_face_vertex(cell, samples_.sample(axis, node), samples_.sample(other, other_node)));
+        return static_cast<std::uint32_t>(draft_.vertices.count - 1);
     }
 
     void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, bool flip) {
-        mesh_.indices.insert(mesh_.indices.end(), {a, flip ? c : b, flip ? b : c});
+        std::uint32_t* const corner = &draft_.indices.items[draft_.indices.count];
+        corner[0] = a;
+        corner[1] = flip ? c : b;
+        corner[2] = flip ? b : c;
+        draft_.indices.count += 3;
     }
 
     void split(const std::array<std::uint32_t, 8>& q, bool other_diagonal, bool flip) {
@@ -235,24 +321,30 @@ private:
         triangle(q[from], q[(from + 2) % 4], q[(from + 3) % 4], flip);
     }
 
-    // Whether the diagonal 1-3 turns the two triangles less away from the surface normal than 0-2 does.
-    [[nodiscard]] bool other_diagonal(const std::array<std::uint32_t, 8>& q, bool flip,
-                                      const Vec3f& surface_normal) const {
-        std::array<Vec3f, 4> p;  // in cells, so that a workpiece of a micrometre does not underflow
-        const shared::SurfaceVertex& origin = mesh_.vertices[q[0]];
-        const auto cells_per_m = static_cast<float>(1.0 / solid_.lattice.spacing_m);
-        for (std::size_t i = 0; i < 4; ++i) {
-            const shared::SurfaceVertex& v = mesh_.vertices[q[i]];
-            p[i] = Vec3f(v.x - origin.x, v.y - origin.y, v.z - origin.z) * cells_per_m;
-        }
-        const Vec3f normal = flip ? -surface_normal : surface_normal;
+    // Whether the diagonal 1-3 turns the two triangles less away from the outward normal than 0-2 does. All four triangles at
+    // once: (0, 1, 2) and (0, 2, 3), (1, 2, 3) and (1, 3, 0).
+    [[nodiscard]] bool other_diagonal(const std::array<std::uint32_t, 8>& q, const Vec3f& normal) const {
+        // Rows of x, y, z; in cells, so that a workpiece of a micrometre does not underflow.
+        std::array<Float4, 4> p;
+        for (std::size_t i = 0; i < 4; ++i) __builtin_memcpy(&p[i], &draft_.vertices.items[q[i]], sizeof p[i]);
+        const Float4 xy01 = __builtin_shufflevector(p[0], p[1], 0, 4, 1, 5),
+                     xy23 = __builtin_shufflevector(p[2], p[3], 0, 4, 1, 5),
+                     z01 = __builtin_shufflevector(p[0], p[1], 2, 6, 2, 6),
+                     z23 = __builtin_shufflevector(p[2], p[3], 2, 6, 2, 6);
+        const auto from_first = [&](Float4 c) { return (c - broadcast<0>(c)) * cells_per_m_; };
+        const Float4 x = from_first(__builtin_shufflevector(xy01, xy23, 0, 1, 4, 5)),
+                     y = from_first(__builtin_shufflevector(xy01, xy23, 2, 3, 6, 7)),
+                     z = from_first(__builtin_shufflevector(z01, z23, 0, 1, 4, 5));
+        const auto first_side = [](Float4 c) { return shuffled<1, 2, 2, 3>(c) - shuffled<0, 0, 1, 1>(c); };
+        const auto second_side = [](Float4 c) { return shuffled<2, 3, 3, 0>(c) - shuffled<0, 0, 1, 1>(c); };
+        const Float4 ax = first_side(x), ay = first_side(y), az = first_side(z);
+        const Float4 bx = second_side(x), by = second_side(y), bz = second_side(z);
+        const Float4 nx = ay * bz - by * az, ny = az * bx - bz * ax, nz = ax * by - bx * ay;
+        const Float4 along = nx * normal.x + ny * normal.y + nz * normal.z, length2 = nx * nx + ny * ny + nz * nz;
         // The squared cosine with its sign: it grows with the cosine, and needs no root.
-        const auto facing = [&](std::size_t a, std::size_t b, std::size_t c) {
-            const Vec3f n = glm::cross(p[b] - p[a], p[c] - p[a]);
-            const float along = glm::dot(n, normal), length2 = glm::dot(n, n);
-            return length2 > 0.0f ? along * std::abs(along) / length2 : -1.0f;
-        };
-        return std::min(facing(0, 1, 2), facing(0, 2, 3)) < std::min(facing(1, 2, 3), facing(1, 3, 0));
+        const Float4 size = along < 0.0f ? -along : along;
+        const Float4 facing = length2 > 0.0f ? along * size / length2 : Float4{-1.0f, -1.0f, -1.0f, -1.0f};
+        return std::min(facing[0], facing[1]) < std::min(facing[2], facing[3]);
     }
 
     const Solid& solid_;
@@ -260,22 +352,14 @@ private:
     const TileMesh& old_;
     Scratch& scratch_;
     TileSamples& samples_;
+    Draft& draft_;
     TileMesh& mesh_;
-    CellMask needed_, anew_;
-    std::size_t old_quad_ = 0;
+    float cells_per_m_;
+    CellMask dirty_, anew_;
+    EdgeMask dirty_edges_;
+    std::size_t old_cell_ = 0, old_quad_ = 0, old_index_ = 0;  // the next of the old mesh to copy or to drop
     TileWork work_;
 };
-
-void clear(TileMesh& mesh) {
-    mesh.vertices.clear();
-    mesh.indices.clear();
-    mesh.disagreeing_edges = 0;
-    mesh.cells.clear();
-    mesh.vertex_of_edge.clear();
-    mesh.quads.clear();
-    mesh.face_keys.clear();
-    mesh.has_twice_passed_faces = false;
-}
 
 }  // namespace
 
@@ -283,13 +367,10 @@ TileWork mesh_tile(const Solid& solid, const TileGrid& grid, std::uint32_t tile,
                    const TileMesh& old, TileMesh& fresh) {
     const std::array<int, 3> first_node = grid.first_node(tile);
     thread_local Scratch scratch;
-    clear(scratch.fresh);
-    TileWork work;
-    if (scratch.samples.collect_signs(solid, first_node)) {
-        work = Mesher(solid, first_node, dirty, old, scratch).run();
-    }
-    fresh = scratch.fresh;  // copied, so that a tile holds no more memory than it needs and the scratch keeps its own
-    return work;
+    fresh = TileMesh();
+    const NodeColumns* const signs_before = old.quads.empty() ? nullptr : &old.signs;
+    if (!scratch.samples.collect_signs(solid, first_node, signs_before, dirty)) return {};
+    return Mesher(solid, first_node, dirty, old, scratch, fresh).run();
 }
 
 std::vector<std::uint64_t> vertex_keys(const Lattice& lattice, const std::array<int, 3>& first_node,

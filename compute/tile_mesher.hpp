@@ -20,6 +20,7 @@
 
 #include "compute/solid.hpp"
 #include "compute/tile_grid.hpp"
+#include "compute/tile_samples.hpp"
 #include "geometry/surface_tile.hpp"
 
 namespace burin {
@@ -42,6 +43,7 @@ struct TileMesh : SurfaceTile {
                                                   << 48;  // a loop passes a face twice (cell_table.hpp)
     std::vector<std::uint64_t> face_keys;                 // of the extra vertices
     bool has_twice_passed_faces = false;                  // in any cell
+    NodeColumns signs{};                                  // of the nodes that it sees
 
     [[nodiscard]] std::size_t cell_vertices() const { return vertices.size() - face_keys.size(); }
 };
@@ -52,7 +54,7 @@ struct TileWork {
 };
 
 // The tile's mesh, `old` being the one before: the cells of the mask anew, the others copied; those must be as they were when
-// `old` was made. Thread-safe as long as the solid does not change. Reuses the memory of `fresh`, which is not `old`.
+// `old` was made. Thread-safe as long as the solid does not change. `fresh` is not `old`.
 TileWork mesh_tile(const Solid& solid, const TileGrid& grid, std::uint32_t tile, const CellMask& dirty,
                    const TileMesh& old, TileMesh& fresh);
 

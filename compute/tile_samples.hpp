@@ -5,9 +5,10 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "compute/feature_point.hpp"
+#include "compute/float4.hpp"
 #include "compute/solid.hpp"
 #include "compute/tile_grid.hpp"
 
@@ -22,53 +23,83 @@ inline constexpr int kNearEdge = 256;
 using Local = std::array<int, 3>;
 
 // Where the surface crosses a lattice edge.
-struct EdgeSample {
+struct alignas(16) EdgeSample {
     Vec3f normal{0.0f};
-    float along = 0.5f;  // 0 at the lower node, 1 at the upper
+    float along = 0.5f;                // 0 at the lower node, 1 at the upper
+    std::uint16_t own_edge = kNotOwn;  // as in SurfaceTile::quads
     std::uint8_t material = 0;
-    bool disagrees = false;  // the edge's own rays do not have this crossing
+    bool disagrees = false;     // the edge's own rays do not have this crossing
+    bool lower_inside = false;  // the lower node is
+    std::uint8_t axis = 0;
+    std::array<std::int8_t, 3> node{};  // the lower one
+
+    static constexpr std::uint16_t kNotOwn = 0xffff;
+    [[nodiscard]] Float4 normal_and_along() const {
+        Float4 v;
+        __builtin_memcpy(&v, this, sizeof v);
+        return v;
+    }
 };
+
+// A word for each column of nodes; bit z + 1 stands for what is at height z.
+using NodeColumns = std::array<std::uint32_t, kLocalNodes * kLocalNodes>;
+// Lattice edges, axis by axis, by their lower nodes.
+using EdgeMask = std::array<NodeColumns, 3>;
+
+// All edges of these cells, crossed or not, own or not.
+[[nodiscard]] EdgeMask edges_of(const CellMask& cells);
 
 class TileSamples {
 public:
-    // Reads the signs; false when no edge of the tile is crossed, and then the rest is undefined.
-    [[nodiscard]] bool collect_signs(const Solid& solid, const std::array<int, 3>& first_node);
-    // Reads the crossings of all edges of these cells; no others may be asked for.
-    void collect_crossings(const Solid& solid, const std::array<int, 3>& first_node, const CellMask& cells);
-
-    [[nodiscard]] bool inside(const Local& node) const { return (column(node[0], node[1]) >> (node[2] + 1) & 1u) != 0; }
-    // Bit c of the result: corner c of the cell is inside.
-    [[nodiscard]] unsigned cell_pattern(const Local& cell) const;
-    // The edge from `node` one step along `axis` must be crossed.
-    [[nodiscard]] const EdgeSample& sample(int axis, const Local& node) const {
-        return sample_at(axis, node_index(node));
-    }
-    // By the node's number; the numbers of neighbours differ by node_offset of the way to them.
-    [[nodiscard]] const EdgeSample& sample_at(int axis, std::size_t node) const {
-        return samples_[sample_index_[static_cast<std::size_t>(axis)][node]];
-    }
-    [[nodiscard]] static constexpr std::size_t node_offset(const Local& way) {
-        return static_cast<std::size_t>((way[2] * kLocalNodes + way[1]) * kLocalNodes + way[0]);
-    }
-    [[nodiscard]] static constexpr std::size_t node_index(const Local& n) {
-        return node_offset({n[0] + 1, n[1] + 1, n[2] + 1});
-    }
-    // Bits z + 1 of the edges along `axis` from nodes (x, y, z) that are crossed.
-    [[nodiscard]] std::uint32_t crossed(int axis, int x, int y) const;
-    // The same of the tile's own edges.
-    [[nodiscard]] std::uint32_t own_crossed(int axis, int x, int y) const {
-        return crossed(axis, x, y) & (((1u << kTileCells) - 1u) << 1);
-    }
+    // Reads the signs; false when no edge of the tile is crossed, and then the rest is undefined. With the signs as they were
+    // before, only those columns are read anew that touch a dirty cell.
+    [[nodiscard]] bool collect_signs(const Solid& solid, const std::array<int, 3>& first_node,
+                                     const NodeColumns* before, const CellMask& dirty);
+    [[nodiscard]] const NodeColumns& signs() const { return columns_; }
     // The cells that the tile's own crossed edges touch.
     [[nodiscard]] CellMask cells_at_own_edges() const;
+    // Reads the crossings of all edges of these cells; no others may be asked for.
+    void collect_crossings(const Solid& solid, const std::array<int, 3>& first_node, const CellMask& cells);
+    // By axis, then in the order y, x, z of their lower nodes.
+    [[nodiscard]] std::span<const EdgeSample> samples() const { return samples_; }
 
-private:
-    [[nodiscard]] std::uint32_t column(int x, int y) const {
-        return columns_[static_cast<std::size_t>((y + 1) * kLocalNodes + x + 1)];
+    // Bit c of the result: corner c of the cell is inside.
+    [[nodiscard]] unsigned cell_pattern(const Local& cell) const {
+        const int shift = cell[2] + 1;
+        const std::uint32_t* const corner = &columns_[column(cell[0], cell[1])];
+        const auto pair = [&](std::size_t i, int c) {
+            const std::uint32_t both = corner[i] >> shift;
+            return (both & 1u) << c | (both & 2u) << (c + 3);
+        };
+        return pair(0, 0) | pair(1, 1) | pair(kLocalNodes, 2) | pair(kLocalNodes + 1, 3);
+    }
+    [[nodiscard]] bool inside(const Local& node) const {
+        return (columns_[column(node[0], node[1])] >> (node[2] + 1) & 1u) != 0;
+    }
+    // The crossed edge from `node` one step along `axis`. By its number: those of other edges differ by edge_offset.
+    [[nodiscard]] const EdgeSample& sample(int axis, const Local& node) const {
+        return sample_at(edge_offset(axis, {node[0] + 1, node[1] + 1, node[2] + 1}));
+    }
+    [[nodiscard]] const EdgeSample& sample_at(std::size_t edge) const { return samples_[sample_index_[edge]]; }
+    // Which of samples() belongs to an edge, by its number.
+    [[nodiscard]] const std::uint16_t* sample_indices() const { return sample_index_.data(); }
+    [[nodiscard]] static constexpr std::size_t edge_offset(int axis, const Local& way) {
+        return static_cast<std::size_t>(((axis * kLocalNodes + way[2]) * kLocalNodes + way[1]) * kLocalNodes + way[0]);
+    }
+    [[nodiscard]] static constexpr std::size_t column(int x, int y) {
+        return static_cast<std::size_t>((y + 1) * kLocalNodes + x + 1);
     }
 
-    std::array<std::uint32_t, kLocalNodes * kLocalNodes> columns_{};  // bit z + 1: node z is inside
-    std::array<std::array<std::uint16_t, kLocalNodes * kLocalNodes * kLocalNodes>, 3> sample_index_{};
+private:
+    void find_crossed();
+    template <int axis>
+    void collect_along(const Solid& solid, const std::array<int, 3>& first_node, const NodeColumns& edges);
+    template <int axis>
+    void collect_column(const Solid& solid, const std::array<int, 3>& first_node, int x, int y, std::uint32_t edges);
+
+    NodeColumns columns_{};  // the inside nodes
+    EdgeMask crossed_{};
+    std::array<std::uint16_t, 3 * kLocalNodes * kLocalNodes * kLocalNodes> sample_index_{};
     std::vector<EdgeSample> samples_;
 };
 

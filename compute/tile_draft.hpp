@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Where the mesher puts a tile's mesh together before it is copied to a TileMesh, which holds no more memory than it needs.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "compute/cell_vertices.hpp"
+#include "compute/tile_mesher.hpp"
+
+namespace burin {
+
+// A tile's mesh in the making, as large as any can become: nothing is asked before anything is added. Memory that is never
+// written is never there.
+struct Draft {
+    static constexpr std::size_t kCells = std::size_t{kSeenCells} * kSeenCells * kSeenCells,
+                                 kQuads = std::size_t{3} * kTileCells * kTileCells * kTileCells,
+                                 kFaces = 4;  // a quad has this many, and each adds a vertex and a triangle at most
+    template <typename T>
+    struct List {
+        explicit List(std::size_t most) : items(std::make_unique_for_overwrite<T[]>(most)) {}
+        std::unique_ptr<T[]> items;
+        std::size_t count = 0;
+        void push_back(const T& item) { items[count++] = item; }
+        void append(const T* first, std::size_t more) {
+            std::copy_n(first, more, items.get() + count);
+            count += more;
+        }
+        void assign_to(std::vector<T>& out) const { out.assign(items.get(), items.get() + count); }
+    };
+    List<shared::SurfaceVertex> vertices{kCells * CellVertexMaker::kMost + kQuads * kFaces};
+    List<TileMesh::Cell> cells{kCells};
+    List<std::uint64_t> vertex_of_edge{kCells};
+    List<std::uint16_t> quads{kQuads};
+    List<std::uint32_t> indices{kQuads * (2 + kFaces) * 3};
+
+    void clear() { vertices.count = cells.count = vertex_of_edge.count = quads.count = indices.count = 0; }
+};
+
+}  // namespace burin
