@@ -345,8 +345,8 @@ TEST_F(DeviceSurfaceGpu, ABallWithMoreTrianglesThanTheDeviceGathersIsMadeSmaller
     EXPECT_LT(actual.radius_m, 0.5);
     EXPECT_GT(actual.triangles(), 1000u);
     EXPECT_EQ(triangles_of(actual), triangles_within(cpu, center, actual.radius_m));
-    // No smaller than it must be: the next larger one has too many triangles, or vertices, of which there are fewer.
-    EXPECT_GT(triangles_within(cpu, center, actual.radius_m / 0.7).size(), std::size_t{shared::kBallVertices});
+    // The next larger one has too many corners, unless they share vertices, which few do in noise.
+    EXPECT_GT(3 * triangles_within(cpu, center, actual.radius_m / 0.7).size(), std::size_t{shared::kBallVertices});
 }
 
 }  // namespace burin::test
