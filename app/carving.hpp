@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The carving side of a session: one stroke is one update, and one update is a straight path: apply the tool to the
-// rays, mesh the cells anew that changed, count what was done.
+// rays, mesh the cells anew that changed, count what was done. Or all of it happens on a Vulkan device, one submission an update
+// that nobody waits for before the next (mesh_on_device).
 #pragma once
 
 #include <cstdint>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "compute/apply.hpp"
+#include "compute/device_surface.hpp"
 #include "compute/history.hpp"
 #include "compute/surface.hpp"
 
@@ -23,7 +25,7 @@ struct CarvingFigures {
     std::uint64_t rays_changed = 0;
     std::uint64_t tiles_remeshed = 0;
     std::uint64_t triangles_remeshed = 0;
-    std::vector<double> update_ms;  // wall time of each update
+    std::vector<double> update_ms;  // wall time of each; on a device it waits for the one before, and not for its own
 };
 
 class Carving {
@@ -32,6 +34,14 @@ public:
     Carving(std::unique_ptr<CarvingEngine> engine, WorkerPool& pool);
 
     [[nodiscard]] Result<void> update(std::span<const ToolSweep> sweeps);
+
+    // From now on the device of a Vulkan engine meshes as well, and hands back only what local_surface asks for; surface() and
+    // engine().solid() are as the last bring_home() left them. Does nothing with another engine, or with a history, which has
+    // to see the rays of each update at once. Ends, with a bring_home(), at a sweep that is not a ball's.
+    [[nodiscard]] Result<void> mesh_on_device();
+    [[nodiscard]] Result<void> bring_home();
+    // As gather_local_surface.
+    [[nodiscard]] Result<void> local_surface(const Vec3& center_object, double radius_m, LocalSurface& out);
 
     // From now on strokes can be taken back. Costs time and memory, so whoever never undoes does without.
     void keep_history(std::size_t budget_bytes) { history_.emplace(budget_bytes); }
@@ -56,10 +66,17 @@ private:
     using HistoryStep = Result<bool> (History::*)(CarvingEngine&);
     [[nodiscard]] Result<std::size_t> walk_history(std::size_t strokes, HistoryStep step);
     void follow_engine();
+    [[nodiscard]] Result<void> update_on_host(std::span<const ToolSweep> sweeps);
+    [[nodiscard]] Result<void> update_on_device(std::span<const BallSweep> sweeps);
+    [[nodiscard]] Result<void> finish_on_device();
 
     std::unique_ptr<CarvingEngine> engine_;
     WorkerPool& pool_;
     Surface surface_;
+    std::unique_ptr<DeviceSurface> on_device_;
+    bool under_way_ = false;       // an update on the device, not counted yet
+    DeviceSurfaceCounts counted_;  // before it
+    double asked_radius_m_ = 0.0;  // of the last local surface; 0: none yet
     std::optional<History> history_;
     CarvingFigures figures_;
     std::vector<bool> tile_changed_;

@@ -49,16 +49,17 @@ public:
         if (!sweeps.empty()) {
             if (const auto updated = carving_.update(sweeps); !updated) return updated;
         }
-        publish(now_ns);
-        return {};
+        return publish(now_ns);
     }
 
-    void publish(Nanoseconds now_ns) {
+    Result<void> publish(Nanoseconds now_ns) {
         LocalSurface& surface = channels_.surface.draft();
-        gather_local_surface(carving_.surface(), tool_position_, tool_.ball_radius_m() + reach_m_, surface);
+        const double radius_m = tool_.ball_radius_m() + reach_m_;
+        if (const auto done = carving_.local_surface(tool_position_, radius_m, surface); !done) return done;
         surface.sequence = ++sequence_;
         surface.made_ns = now_ns;
         channels_.surface.publish();
+        return {};
     }
 
     void start_at(const Vec3& position_object) { tool_position_ = position_object; }
@@ -154,7 +155,7 @@ Result<void> run_in_simulated_time(const Session& session, SimulatedHand hand) {
     FigureKeeper keeper(session.figures);
     MonotonicClock stopwatch;
     Progress progress("carving by feel");
-    session.side.publish(clock.now_ns());
+    if (const auto published = session.side.publish(clock.now_ns()); !published) return published;
     Nanoseconds next_update_ns = kUpdatePeriod_ns;
     while (seconds(clock.now_ns()) < session.end_s) {
         clock.sleep_until(clock.now_ns() + loop.period_ns());
@@ -179,7 +180,7 @@ Result<void> run_in_real_time(const Session& session, SimulatedHand hand) {
     HapticLoop loop(omni, clock, session.channels);
     FigureKeeper keeper(session.figures);
     Progress progress("carving by feel, in real time");
-    session.side.publish(start_ns);
+    if (const auto published = session.side.publish(start_ns); !published) return published;
     HapticThread haptic_thread(loop);
     const RealtimeNotice notice = haptic_thread.start();
     if (!notice.text.empty()) session.figures.notices.push_back(notice.text);

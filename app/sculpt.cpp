@@ -99,6 +99,9 @@ Result<void> sculpt(const SculptOptions& options) {
     }
 
     if (options.undo > 0) carving.keep_history(options.undo_memory_MiB << 20);
+    if (std::holds_alternative<BallTool>(tool->shape) && tool->operation != Operation::smooth) {
+        if (const auto ready = carving.mesh_on_device(); !ready) return ready;
+    }
     std::optional<FeltFigures> felt;
     if (!stroke.empty() && options.hand == HandChoice::rigid) {
         if (const auto carved = carve_rigidly(carving, stroke, *tool, options.merge_rows); !carved) return carved;
@@ -108,6 +111,7 @@ Result<void> sculpt(const SculptOptions& options) {
         felt = std::move(*carved);
     }
 
+    if (const auto home = carving.bring_home(); !home) return home;
     Json undone;
     if (options.undo > 0) {
         Result<Json> taken_back = take_back(carving, options.undo);
