@@ -2,13 +2,11 @@
 #include "compute/device_surface.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <numeric>
 #include <utility>
 
-#include "compute/cell_table.hpp"
+#include "compute/device_surface_buffers.hpp"
 #include "shaders/gather_ball.comp.spv.hpp"
 #include "shaders/gather_corners.comp.spv.hpp"
 #include "shaders/mesh_edges.comp.spv.hpp"
@@ -28,63 +26,7 @@ using shared::CutCounters;
 using shared::GatherParameters;
 using shared::MeshCounters;
 using shared::MeshParameters;
-using shared::SurfaceVertex;
-using shared::TileJob;
-using shared::TileRange;
-
 static_assert(shared::kMeshTile == kTileCells && shared::kMeshCells == kSeenCells);
-
-constexpr std::uint32_t kMemberBytes = 8;
-constexpr std::uint32_t kTableWords = 4 * 256;
-constexpr std::uint32_t kMostFree = 65536;
-constexpr std::uint32_t kLists = 2 * shared::kRangeClasses;
-
-template <typename T>
-Result<void> fill_buffer(gpu::Device& device, const gpu::Buffer& buffer, const std::vector<T>& values) {
-    const auto bytes = std::as_bytes(std::span(values));
-    if (buffer.mapped().empty()) return gpu::write(device, buffer, 0, bytes);
-    std::memcpy(buffer.mapped().data(), bytes.data(), bytes.size());
-    return {};
-}
-
-template <typename T>
-Result<std::vector<T>> read_buffer(gpu::Device& device, const gpu::Buffer& buffer, std::size_t count) {
-    std::vector<T> values(count);
-    if (count == 0) return values;
-    if (!buffer.mapped().empty()) {
-        std::memcpy(values.data(), buffer.mapped().data(), count * sizeof(T));
-        return values;
-    }
-    const auto bytes = gpu::read(device, buffer, 0, count * sizeof(T));
-    if (!bytes) return std::unexpected(bytes.error());
-    std::memcpy(values.data(), bytes->data(), bytes->size());
-    return values;
-}
-
-Result<void> create_into(gpu::Buffer& to, gpu::Device& device, gpu::BufferUse use, std::uint64_t size_bytes,
-                         const char* name) {
-    auto made = gpu::Buffer::create(device, use, size_bytes, name);
-    if (!made) return std::unexpected(made.error());
-    to = std::move(*made);
-    return {};
-}
-
-// cell_table.hpp and the colours of the materials, as mesh_buffers.glsl reads them.
-std::vector<std::uint32_t> table_words(std::span<const Material> materials) {
-    std::vector<std::uint32_t> words(kTableWords, 0);
-    for (std::size_t pattern = 0; pattern < 256; ++pattern) {
-        const CellCase& c = cell_table()[pattern];
-        std::uint32_t* word = &words[4 * pattern];
-        for (std::size_t i = 0; i < 12; ++i) word[i / 8] |= std::uint32_t{c.edges[i]} << (4 * (i % 8));
-        for (std::size_t loop = 1; loop < 5; ++loop) word[1] |= std::uint32_t{c.first_edge[loop]} << (12 + 4 * loop);
-        word[2] = c.loops | std::uint32_t{c.twice_faces} << 4;
-    }
-    for (std::size_t m = 0; m < materials.size() && m < 256; ++m) {
-        const auto& colour = materials[m].colour;
-        words[4 * m + 3] = std::uint32_t{colour[0]} | std::uint32_t{colour[1]} << 8 | std::uint32_t{colour[2]} << 16;
-    }
-    return words;
-}
 
 }  // namespace
 
@@ -135,37 +77,6 @@ Result<void> DeviceSurface::compile() {
         stages_[i] = std::move(*made);
     }
     return {};
-}
-
-Result<void> DeviceSurface::allocate() {
-    gpu::Device& device = engine_.device();
-    constexpr auto kStorage = gpu::BufferUse::device_storage, kAddressed = gpu::BufferUse::addressed;
-    const std::size_t tile_count = grid_.count();
-    options_.slots = static_cast<std::uint32_t>(std::min<std::uint64_t>(
-        {options_.slots, tile_count, device.capabilities().max_storage_buffer_bytes / sizeof(TileJob)}));
-    most_free_ = static_cast<std::uint32_t>(std::min<std::size_t>(tile_count, kMostFree));
-    const std::size_t free_words = kLists + std::size_t{kLists} * most_free_;
-    auto done = create_into(ranges_, device, kStorage, tile_count * sizeof(TileRange), "tile ranges");
-    if (done) done = create_into(jobs_, device, kStorage, options_.slots * sizeof(TileJob), "tile jobs");
-    if (done) done = create_into(cells_, device, kStorage, options_.cells * sizeof(shared::MeshCell), "cells");
-    if (done) done = create_into(edges_, device, kStorage, options_.edges * sizeof(shared::MeshEdge), "crossed edges");
-    if (done) done = create_into(free_, device, kStorage, free_words * sizeof(std::uint32_t), "free ranges");
-    if (done) done = create_into(tables_, device, kStorage, kTableWords * sizeof(std::uint32_t), "cell table");
-    if (done) done = create_into(vertices_, device, kAddressed, options_.vertices * sizeof(SurfaceVertex), "vertices");
-    if (done) done = create_into(members_, device, kAddressed, options_.vertices * kMemberBytes, "vertex numbers");
-    if (done) done = create_into(indices_, device, kAddressed, options_.indices * sizeof(std::uint32_t), "indices");
-    if (done) done = counters_.reserve(device, sizeof(MeshCounters));
-    if (done) done = dirty_.reserve(device, options_.slots * sizeof(std::uint32_t));
-    if (done) done = create_into(waiting_, device, kStorage, tile_count * sizeof(std::uint32_t), "waiting tiles");
-    if (done) done = ball_places_.reserve(device, shared::kBallVertices * sizeof(Vec3f));
-    if (done) done = ball_triangles_.reserve(device, shared::kBallTriangles * 3 * sizeof(std::uint32_t));
-    TileRange none{};
-    none.vertex_class = none.index_class = shared::kNoClass;
-    if (done) done = fill_buffer(device, ranges_, std::vector<TileRange>(tile_count, none));
-    if (done) done = fill_buffer(device, free_, std::vector<std::uint32_t>(kLists, 0));
-    if (done) done = fill_buffer(device, tables_, table_words(engine_.solid().materials));
-    if (done) done = fill_buffer(device, members_, std::vector<std::uint32_t>(std::size_t{2} * options_.vertices, 0));
-    return done;
 }
 
 // ---- Frames
@@ -352,146 +263,6 @@ Result<void> DeviceSurface::settle() {
     if (!late) return std::unexpected(late.error());
     waiting_tiles_.insert(waiting_tiles_.end(), late->begin(), late->end());
     return grow(counters);
-}
-
-Result<void> DeviceSurface::grow(const MeshCounters& counters) {
-    gpu::Device& device = engine_.device();
-    const auto grow_list = [&](gpu::Buffer& list, std::size_t element_bytes, std::uint32_t& held, std::uint32_t wanted,
-                               const char* name) -> Result<void> {
-        if (wanted <= held) return {};
-        const std::uint64_t limit = device.capabilities().max_storage_buffer_bytes / element_bytes;
-        const auto more = static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted + wanted / 2, limit));
-        if (more == held) {  // all that a binding shows: fewer tiles at once
-            options_.slots = std::max(1u, options_.slots / 2);
-            return {};
-        }
-        ++counts_.growths;
-        held = more;
-        return create_into(list, device, gpu::BufferUse::device_storage, more * element_bytes, name);
-    };
-    auto done = grow_list(cells_, sizeof(shared::MeshCell), options_.cells, counters.cells, "cells");
-    if (done) done = grow_list(edges_, sizeof(shared::MeshEdge), options_.edges, counters.edges, "crossed edges");
-    if (done && counters.vertices_used > options_.vertices) {
-        std::uint32_t members = options_.vertices;
-        done = grow_pool(members_, kMemberBytes, members, counters.vertices_used, "vertex numbers");
-        if (done) {
-            done = grow_pool(vertices_, sizeof(SurfaceVertex), options_.vertices, counters.vertices_used, "vertices");
-        }
-    }
-    if (done && counters.indices_used > options_.indices) {
-        done = grow_pool(indices_, sizeof(std::uint32_t), options_.indices, counters.indices_used, "indices");
-    }
-    return done;
-}
-
-// Larger, with what it holds.
-Result<void> DeviceSurface::grow_pool(gpu::Buffer& pool, std::size_t element_bytes, std::uint32_t& held,
-                                      std::uint32_t wanted, const char* name) {
-    gpu::Device& device = engine_.device();
-    const std::uint32_t more = wanted + wanted / 2;
-    gpu::Buffer larger;
-    if (const auto made = create_into(larger, device, gpu::BufferUse::addressed, more * element_bytes, name); !made) {
-        return made;
-    }
-    auto commands = gpu::Commands::begin(device);
-    if (!commands) return std::unexpected(commands.error());
-    const std::uint64_t bytes = held * element_bytes;
-    commands->copy(pool, 0, larger, 0, bytes);
-    commands->fill(larger, bytes, larger.size_bytes() - bytes, 0);
-    commands->keep_alive(std::exchange(pool, std::move(larger)));
-    auto submission = std::move(*commands).submit();
-    if (!submission) return std::unexpected(submission.error());
-    ++counts_.growths;
-    held = more;
-    return {};
-}
-
-// ---- Near the tool
-
-void DeviceSurface::record_gather(gpu::Commands& commands, const Ball& ball) {
-    GatherParameters p{};
-    p.vertex_address = vertices_.address();
-    p.index_address = indices_.address();
-    p.member_address = members_.address();
-    p.radius_m = static_cast<float>(ball.radius_m);
-    p.stamp = ++stamp_;
-    p.spacing_m = static_cast<float>(lattice_.spacing_m);
-    const Vec3 center = ball.center_object - lattice_.origin_object;
-    const double tile_m = lattice_.spacing_m * kTileCells;
-    for (int a = 0; a < 3; ++a) {
-        const auto k = static_cast<std::size_t>(a);
-        p.center[k] = center[a];
-        p.center_float[k] = static_cast<float>(center[a]);
-        p.tiles[k] = grid_.tiles[k];
-        // A tile's triangles reach up to two cells beyond its own.
-        const double last = grid_.tiles[k] - 1, reach = ball.radius_m + 2.0 * lattice_.spacing_m;
-        p.from[k] = static_cast<int>(std::clamp(std::floor((center[a] - reach) / tile_m), 0.0, last));
-        p.count[k] = static_cast<int>(std::clamp(std::floor((center[a] + reach) / tile_m), 0.0, last)) - p.from[k] + 1;
-    }
-    const std::array<gpu::BufferRange, 4> buffers{counters_.buffer(), ranges_, ball_places_.buffer(),
-                                                  ball_triangles_.buffer()};
-    const auto groups = static_cast<std::uint32_t>(p.count[0] * p.count[1] * p.count[2]);
-    commands.dispatch(stages_[Stage::ball], buffers, gpu::bytes_of(p), {groups, 1, 1});
-    commands.barrier();
-    constexpr std::uint32_t kCornerGroups = 64;
-    commands.dispatch(stages_[corners], buffers, gpu::bytes_of(p), {kCornerGroups, 1, 1});
-    commands.barrier();
-    ball_places_.fetch(commands, ball_places_.size_bytes());
-    ball_triangles_.fetch(commands, ball_triangles_.size_bytes());
-}
-
-Result<void> DeviceSurface::gather_alone(const Ball& ball) {
-    touched_ = ball;
-    if (const auto sent = submit({}); !sent) return sent;
-    return finish();
-}
-
-Result<void> DeviceSurface::local_surface(const Vec3& center_object, double radius_m, LocalSurface& out) {
-    if (const auto done = finish(); !done) return done;
-    for (double radius = radius_m;; radius *= 0.7) {
-        if (!touched_ || touched_->center_object != center_object || touched_->radius_m != radius) {
-            if (const auto done = gather_alone({center_object, radius}); !done) return done;
-        }
-        const MeshCounters counters = counters_.from_device<MeshCounters>()[0];
-        if (counters.ball_triangles > std::uint32_t{shared::kBallTriangles} ||
-            counters.ball_vertices > std::uint32_t{shared::kBallVertices}) {
-            continue;
-        }
-        auto loose = std::make_shared<GriddedTriangles>();
-        loose->positions_m.resize(counters.ball_vertices);
-        loose->triangles.resize(counters.ball_triangles);
-        std::memcpy(loose->positions_m.data(), ball_places_.from_device<Vec3f>().data(),
-                    loose->positions_m.size() * sizeof(Vec3f));
-        std::memcpy(loose->triangles.data(), ball_triangles_.from_device<std::uint32_t>().data(),
-                    loose->triangles.size() * sizeof(loose->triangles[0]));
-        build_search(*loose);
-        out.center_object = out.origin_object = center_object;
-        out.radius_m = radius;
-        out.tiles = {};
-        out.loose = std::move(loose);
-        return {};
-    }
-}
-
-Result<std::vector<TileMesh>> DeviceSurface::download() {
-    if (const auto done = finish(); !done) return std::unexpected(done.error());
-    const auto ranges = read_buffer<TileRange>(engine_.device(), ranges_, grid_.count());
-    if (!ranges) return std::unexpected(ranges.error());
-    const auto vertices = read_buffer<SurfaceVertex>(engine_.device(), vertices_, vertices_used_);
-    if (!vertices) return std::unexpected(vertices.error());
-    const auto indices = read_buffer<std::uint32_t>(engine_.device(), indices_, indices_used_);
-    if (!indices) return std::unexpected(indices.error());
-    std::vector<TileMesh> tiles(grid_.count());
-    for (std::size_t t = 0; t < tiles.size(); ++t) {
-        const TileRange& range = (*ranges)[t];
-        if (range.index_count == 0) continue;
-        const auto of_tile = std::span(*vertices).subspan(static_cast<std::size_t>(range.first_vertex), range.vertices);
-        const auto corners = std::span(*indices).subspan(range.first_index, range.index_count);
-        tiles[t].vertices.assign(of_tile.begin(), of_tile.end());
-        tiles[t].indices.assign(corners.begin(), corners.end());
-        tiles[t].disagreeing_edges = range.disagreeing;
-    }
-    return tiles;
 }
 
 }  // namespace burin

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// What of a DeviceSurface comes back to the host: the triangles near the tool, and for tests everything.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "compute/device_surface.hpp"
+#include "compute/device_surface_buffers.hpp"
+
+namespace burin {
+
+using shared::GatherParameters;
+using shared::MeshCounters;
+using shared::SurfaceVertex;
+using shared::TileRange;
+
+void DeviceSurface::record_gather(gpu::Commands& commands, const Ball& ball) {
+    GatherParameters p{};
+    p.vertex_address = vertices_.address();
+    p.index_address = indices_.address();
+    p.member_address = members_.address();
+    p.radius_m = static_cast<float>(ball.radius_m);
+    p.stamp = ++stamp_;
+    p.spacing_m = static_cast<float>(lattice_.spacing_m);
+    const Vec3 center = ball.center_object - lattice_.origin_object;
+    const double tile_m = lattice_.spacing_m * kTileCells;
+    for (int a = 0; a < 3; ++a) {
+        const auto k = static_cast<std::size_t>(a);
+        p.center[k] = center[a];
+        p.center_float[k] = static_cast<float>(center[a]);
+        p.tiles[k] = grid_.tiles[k];
+        // A tile's triangles reach up to two cells beyond its own.
+        const double last = grid_.tiles[k] - 1, reach = ball.radius_m + 2.0 * lattice_.spacing_m;
+        p.from[k] = static_cast<int>(std::clamp(std::floor((center[a] - reach) / tile_m), 0.0, last));
+        p.count[k] = static_cast<int>(std::clamp(std::floor((center[a] + reach) / tile_m), 0.0, last)) - p.from[k] + 1;
+    }
+    const std::array<gpu::BufferRange, 4> buffers{counters_.buffer(), ranges_, ball_places_.buffer(),
+                                                  ball_triangles_.buffer()};
+    const auto groups = static_cast<std::uint32_t>(p.count[0] * p.count[1] * p.count[2]);
+    commands.dispatch(stages_[Stage::ball], buffers, gpu::bytes_of(p), {groups, 1, 1});
+    commands.barrier();
+    constexpr std::uint32_t kCornerGroups = 64;
+    commands.dispatch(stages_[corners], buffers, gpu::bytes_of(p), {kCornerGroups, 1, 1});
+    commands.barrier();
+    ball_places_.fetch(commands, ball_places_.size_bytes());
+    ball_triangles_.fetch(commands, ball_triangles_.size_bytes());
+}
+
+Result<void> DeviceSurface::gather_alone(const Ball& ball) {
+    touched_ = ball;
+    if (const auto sent = submit({}); !sent) return sent;
+    return finish();
+}
+
+Result<void> DeviceSurface::local_surface(const Vec3& center_object, double radius_m, LocalSurface& out) {
+    if (const auto done = finish(); !done) return done;
+    for (double radius = radius_m;; radius *= 0.7) {
+        if (!touched_ || touched_->center_object != center_object || touched_->radius_m != radius) {
+            if (const auto done = gather_alone({center_object, radius}); !done) return done;
+        }
+        const MeshCounters counters = counters_.from_device<MeshCounters>()[0];
+        if (counters.ball_triangles > std::uint32_t{shared::kBallTriangles} ||
+            counters.ball_vertices > std::uint32_t{shared::kBallVertices}) {
+            continue;
+        }
+        auto loose = std::make_shared<GriddedTriangles>();
+        loose->positions_m.resize(counters.ball_vertices);
+        loose->triangles.resize(counters.ball_triangles);
+        std::memcpy(loose->positions_m.data(), ball_places_.from_device<Vec3f>().data(),
+                    loose->positions_m.size() * sizeof(Vec3f));
+        std::memcpy(loose->triangles.data(), ball_triangles_.from_device<std::uint32_t>().data(),
+                    loose->triangles.size() * sizeof(loose->triangles[0]));
+        build_search(*loose);
+        out.center_object = out.origin_object = center_object;
+        out.radius_m = radius;
+        out.tiles = {};
+        out.loose = std::move(loose);
+        return {};
+    }
+}
+
+Result<std::vector<TileMesh>> DeviceSurface::download() {
+    if (const auto done = finish(); !done) return std::unexpected(done.error());
+    const auto ranges = read_buffer<TileRange>(engine_.device(), ranges_, grid_.count());
+    if (!ranges) return std::unexpected(ranges.error());
+    const auto vertices = read_buffer<SurfaceVertex>(engine_.device(), vertices_, vertices_used_);
+    if (!vertices) return std::unexpected(vertices.error());
+    const auto indices = read_buffer<std::uint32_t>(engine_.device(), indices_, indices_used_);
+    if (!indices) return std::unexpected(indices.error());
+    std::vector<TileMesh> tiles(grid_.count());
+    for (std::size_t t = 0; t < tiles.size(); ++t) {
+        const TileRange& range = (*ranges)[t];
+        if (range.index_count == 0) continue;
+        const auto of_tile = std::span(*vertices).subspan(static_cast<std::size_t>(range.first_vertex), range.vertices);
+        const auto corners = std::span(*indices).subspan(range.first_index, range.index_count);
+        tiles[t].vertices.assign(of_tile.begin(), of_tile.end());
+        tiles[t].indices.assign(corners.begin(), corners.end());
+        tiles[t].disagreeing_edges = range.disagreeing;
+    }
+    return tiles;
+}
+
+}  // namespace burin

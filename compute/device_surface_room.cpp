@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// The room that a DeviceSurface has on the device: what it starts with, and how that grows.
+#include <algorithm>
+
+#include "compute/cell_table.hpp"
+#include "compute/device_surface.hpp"
+#include "compute/device_surface_buffers.hpp"
+
+namespace burin {
+namespace {
+
+using shared::MeshCounters;
+using shared::SurfaceVertex;
+using shared::TileJob;
+using shared::TileRange;
+
+constexpr std::uint32_t kMemberBytes = 8;
+constexpr std::uint32_t kTableWords = 4 * 256;
+constexpr std::uint32_t kMostFree = 65536;
+constexpr std::uint32_t kLists = 2 * shared::kRangeClasses;
+
+// cell_table.hpp and the colours of the materials, as mesh_buffers.glsl reads them.
+std::vector<std::uint32_t> table_words(std::span<const Material> materials) {
+    std::vector<std::uint32_t> words(kTableWords, 0);
+    for (std::size_t pattern = 0; pattern < 256; ++pattern) {
+        const CellCase& c = cell_table()[pattern];
+        std::uint32_t* word = &words[4 * pattern];
+        for (std::size_t i = 0; i < 12; ++i) word[i / 8] |= std::uint32_t{c.edges[i]} << (4 * (i % 8));
+        for (std::size_t loop = 1; loop < 5; ++loop) word[1] |= std::uint32_t{c.first_edge[loop]} << (12 + 4 * loop);
+        word[2] = c.loops | std::uint32_t{c.twice_faces} << 4;
+    }
+    for (std::size_t m = 0; m < materials.size() && m < 256; ++m) {
+        const auto& colour = materials[m].colour;
+        words[4 * m + 3] = std::uint32_t{colour[0]} | std::uint32_t{colour[1]} << 8 | std::uint32_t{colour[2]} << 16;
+    }
+    return words;
+}
+
+}  // namespace
+
+Result<void> DeviceSurface::allocate() {
+    gpu::Device& device = engine_.device();
+    constexpr auto kStorage = gpu::BufferUse::device_storage, kAddressed = gpu::BufferUse::addressed;
+    const std::size_t tile_count = grid_.count();
+    options_.slots = static_cast<std::uint32_t>(std::min<std::uint64_t>(
+        {options_.slots, tile_count, device.capabilities().max_storage_buffer_bytes / sizeof(TileJob)}));
+    most_free_ = static_cast<std::uint32_t>(std::min<std::size_t>(tile_count, kMostFree));
+    const std::size_t free_words = kLists + std::size_t{kLists} * most_free_;
+    auto done = create_into(ranges_, device, kStorage, tile_count * sizeof(TileRange), "tile ranges");
+    if (done) done = create_into(jobs_, device, kStorage, options_.slots * sizeof(TileJob), "tile jobs");
+    if (done) done = create_into(cells_, device, kStorage, options_.cells * sizeof(shared::MeshCell), "cells");
+    if (done) done = create_into(edges_, device, kStorage, options_.edges * sizeof(shared::MeshEdge), "crossed edges");
+    if (done) done = create_into(free_, device, kStorage, free_words * sizeof(std::uint32_t), "free ranges");
+    if (done) done = create_into(tables_, device, kStorage, kTableWords * sizeof(std::uint32_t), "cell table");
+    if (done) done = create_into(vertices_, device, kAddressed, options_.vertices * sizeof(SurfaceVertex), "vertices");
+    if (done) done = create_into(members_, device, kAddressed, options_.vertices * kMemberBytes, "vertex numbers");
+    if (done) done = create_into(indices_, device, kAddressed, options_.indices * sizeof(std::uint32_t), "indices");
+    if (done) done = counters_.reserve(device, sizeof(MeshCounters));
+    if (done) done = dirty_.reserve(device, options_.slots * sizeof(std::uint32_t));
+    if (done) done = create_into(waiting_, device, kStorage, tile_count * sizeof(std::uint32_t), "waiting tiles");
+    if (done) done = ball_places_.reserve(device, shared::kBallVertices * sizeof(Vec3f));
+    if (done) done = ball_triangles_.reserve(device, shared::kBallTriangles * 3 * sizeof(std::uint32_t));
+    TileRange none{};
+    none.vertex_class = none.index_class = shared::kNoClass;
+    if (done) done = fill_buffer(device, ranges_, std::vector<TileRange>(tile_count, none));
+    if (done) done = fill_buffer(device, free_, std::vector<std::uint32_t>(kLists, 0));
+    if (done) done = fill_buffer(device, tables_, table_words(engine_.solid().materials));
+    if (done) done = fill_buffer(device, members_, std::vector<std::uint32_t>(std::size_t{2} * options_.vertices, 0));
+    return done;
+}
+
+Result<void> DeviceSurface::grow(const MeshCounters& counters) {
+    gpu::Device& device = engine_.device();
+    const auto grow_list = [&](gpu::Buffer& list, std::size_t element_bytes, std::uint32_t& held, std::uint32_t wanted,
+                               const char* name) -> Result<void> {
+        if (wanted <= held) return {};
+        const std::uint64_t limit = device.capabilities().max_storage_buffer_bytes / element_bytes;
+        const auto more = static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted + wanted / 2, limit));
+        if (more == held) {  // all that a binding shows: fewer tiles at once
+            options_.slots = std::max(1u, options_.slots / 2);
+            return {};
+        }
+        ++counts_.growths;
+        held = more;
+        return create_into(list, device, gpu::BufferUse::device_storage, more * element_bytes, name);
+    };
+    auto done = grow_list(cells_, sizeof(shared::MeshCell), options_.cells, counters.cells, "cells");
+    if (done) done = grow_list(edges_, sizeof(shared::MeshEdge), options_.edges, counters.edges, "crossed edges");
+    if (done && counters.vertices_used > options_.vertices) {
+        std::uint32_t members = options_.vertices;
+        done = grow_pool(members_, kMemberBytes, members, counters.vertices_used, "vertex numbers");
+        if (done) {
+            done = grow_pool(vertices_, sizeof(SurfaceVertex), options_.vertices, counters.vertices_used, "vertices");
+        }
+    }
+    if (done && counters.indices_used > options_.indices) {
+        done = grow_pool(indices_, sizeof(std::uint32_t), options_.indices, counters.indices_used, "indices");
+    }
+    return done;
+}
+
+// Larger, with what it holds.
+Result<void> DeviceSurface::grow_pool(gpu::Buffer& pool, std::size_t element_bytes, std::uint32_t& held,
+                                      std::uint32_t wanted, const char* name) {
+    gpu::Device& device = engine_.device();
+    const std::uint32_t more = wanted + wanted / 2;
+    gpu::Buffer larger;
+    if (const auto made = create_into(larger, device, gpu::BufferUse::addressed, more * element_bytes, name); !made) {
+        return made;
+    }
+    auto commands = gpu::Commands::begin(device);
+    if (!commands) return std::unexpected(commands.error());
+    const std::uint64_t bytes = held * element_bytes;
+    commands->copy(pool, 0, larger, 0, bytes);
+    commands->fill(larger, bytes, larger.size_bytes() - bytes, 0);
+    commands->keep_alive(std::exchange(pool, std::move(larger)));
+    auto submission = std::move(*commands).submit();
+    if (!submission) return std::unexpected(submission.error());
+    ++counts_.growths;
+    held = more;
+    return {};
+}
+
+}  // namespace burin
