@@ -65,8 +65,9 @@ Result<void> DeviceSurface::compile() {
                                                  {k_mesh_vertices_comp, 10, mesh, "make hard vertices", 1},
                                                  {k_mesh_quads_comp, 10, mesh, "make triangles"},
                                                  {k_mesh_quads_comp, 10, mesh, "make fans", 1},
-                                                 {k_gather_ball_comp, 4, gather, "gather triangles"},
-                                                 {k_gather_corners_comp, 4, gather, "gather corners"}}};
+                                                 {k_gather_ball_comp, 5, gather, "gather triangles"},
+                                                 {k_gather_ball_comp, 5, gather, "gather bound triangles", 1},
+                                                 {k_gather_corners_comp, 5, gather, "gather corners"}}};
     for (std::size_t i = 0; i < programs.size(); ++i) {
         auto made = gpu::ComputePipeline::create(engine_.device(), {.spirv = programs[i].spirv,
                                                                     .storage_buffers = programs[i].buffers,

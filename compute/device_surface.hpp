@@ -103,6 +103,7 @@ private:
         quads,
         fans,
         ball,
+        bound_ball,  // where a binding shows all vertices
         corners,
         kStages
     };

@@ -34,10 +34,13 @@ void DeviceSurface::record_gather(gpu::Commands& commands, const Ball& ball) {
         p.from[k] = static_cast<int>(std::clamp(std::floor((center[a] - reach) / tile_m), 0.0, last));
         p.count[k] = static_cast<int>(std::clamp(std::floor((center[a] + reach) / tile_m), 0.0, last)) - p.from[k] + 1;
     }
-    const std::array<gpu::BufferRange, 4> buffers{counters_.buffer(), ranges_, ball_places_.buffer(),
-                                                  ball_triangles_.buffer()};
+    const std::uint64_t shown = engine_.device().capabilities().max_storage_buffer_bytes;
+    const bool bound = vertices_.size_bytes() <= shown;
+    const std::array<gpu::BufferRange, 5> buffers{
+        counters_.buffer(), ranges_, ball_places_.buffer(), ball_triangles_.buffer(),
+        gpu::BufferRange(vertices_, 0, std::min<std::uint64_t>(vertices_.size_bytes(), shown))};
     const auto groups = static_cast<std::uint32_t>(p.count[0] * p.count[1] * p.count[2]);
-    commands.dispatch(stages_[Stage::ball], buffers, gpu::bytes_of(p), {groups, 1, 1});
+    commands.dispatch(stages_[bound ? bound_ball : Stage::ball], buffers, gpu::bytes_of(p), {groups, 1, 1});
     commands.barrier();
     constexpr std::uint32_t kCornerGroups = 64;
     commands.dispatch(stages_[corners], buffers, gpu::bytes_of(p), {kCornerGroups, 1, 1});

@@ -13,6 +13,11 @@ layout(local_size_x = 64) in;
 Vertices pool_vertices = Vertices(parameters.vertex_address);
 Members members = Members(parameters.member_address);
 
+// 1: the binding shows the whole pool.
+layout(constant_id = 0) const uint kBound = 0u;
+
+vec3 place_of(uint vertex) { return kBound == 1u ? bound_vertices[vertex].place : pool_vertices.at[vertex].place; }
+
 void take(uint vertex, vec3 place) {
     if (atomicExchange(members.at[vertex].stamp, parameters.stamp) == parameters.stamp) return;
     uint number = atomicAdd(counters.ball_vertices, 1u);
@@ -61,10 +66,10 @@ void main() {
             uint b = first_vertex + corners.y;
             uint c = first_vertex + corners.z;
             uint d = first_vertex + fourth;
-            vec3 at_a = pool_vertices.at[a].place;
-            vec3 at_b = pool_vertices.at[b].place;
-            vec3 at_c = pool_vertices.at[c].place;
-            vec3 at_d = pool_vertices.at[d].place;
+            vec3 at_a = place_of(a);
+            vec3 at_b = place_of(b);
+            vec3 at_c = place_of(c);
+            vec3 at_d = place_of(d);
             bool first = near(at_a, at_b, at_c, center);
             bool second = (shares_b || shares_c) && near(at_a, shares_b ? at_b : at_c, at_d, center);
             uint taken = (first ? 1u : 0u) + (second ? 1u : 0u);

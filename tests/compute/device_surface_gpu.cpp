@@ -332,6 +332,24 @@ TEST_F(DeviceSurfaceGpu, TheTrianglesNearTheToolAreTheSameAsASet) {
     EXPECT_GT(triangles, 1000u);
 }
 
+// Then they are reached by address, which software drivers do more slowly.
+TEST_F(DeviceSurfaceGpu, TheTrianglesNearTheToolAreTheSameWhereNoBindingShowsAllVertices) {
+    capabilities().max_storage_buffer_bytes = 2u << 20;
+    const Solid solid = unit_cube(48);
+    EnginePair engines(solid, device());
+    const auto surface = surface_of(engines.vulkan(), {.slots = 16, .cells = 1u << 12, .edges = 1u << 13});
+    ASSERT_NE(surface, nullptr);
+    ASSERT_GT(surface->vertices().size_bytes(), capabilities().max_storage_buffer_bytes);
+    Surface cpu(solid.lattice);
+    cpu.mesh_all(solid, engines.pool());
+    LocalSurface actual;
+    const Vec3 corner(1.0);
+    const auto gathered = surface->local_surface(corner, 0.3, actual);
+    ASSERT_TRUE(gathered) << gathered.error().line();
+    EXPECT_GT(actual.triangles(), 100u);
+    EXPECT_EQ(triangles_of(actual), triangles_within(cpu, corner, 0.3));
+}
+
 TEST_F(DeviceSurfaceGpu, ABallWithMoreTrianglesThanTheDeviceGathersIsMadeSmaller) {
     const Solid solid = noise_solid({60, 60, 60}, 0.3, Rays::agree, 8);
     EnginePair engines(solid, device());
