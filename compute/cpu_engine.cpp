@@ -125,7 +125,7 @@ private:
     // Bands of rows with about equal numbers of rays to look at; few when there is little to do, since waking the other
     // cores costs as much as some hundred rays.
     void deal_out(std::span<const Capsule> capsules) {
-        constexpr std::uint64_t kLeastRays = 1500;
+        constexpr std::uint64_t kLeastRays = 500;
         std::array<std::vector<std::uint64_t>, 3> rays_of_row;
         std::uint64_t all = 0;
         for (int axis = 0; axis < 3; ++axis) {

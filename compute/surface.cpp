@@ -44,7 +44,7 @@ RemeshStats Surface::mesh_all(const Solid& solid, WorkerPool& pool) {
 }
 
 RemeshStats Surface::update(const Solid& solid, const Changes& changes, WorkerPool& pool) {
-    dirty_.sort(changes);
+    dirty_.sort(changes, pool);
     changed_tiles_.assign(dirty_.tiles().begin(), dirty_.tiles().end());
     return mesh_tiles(solid, [&](std::uint32_t tile) { return dirty_.mask(tile); }, pool);
 }

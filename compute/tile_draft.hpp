@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -14,7 +15,7 @@ namespace burin {
 
 // A tile's mesh in the making, as large as any can become: nothing is asked before anything is added. Memory that is never
 // written is never there.
-struct Draft {
+struct TileDraft {
     static constexpr std::size_t kCells = std::size_t{kSeenCells} * kSeenCells * kSeenCells,
                                  kQuads = std::size_t{3} * kTileCells * kTileCells * kTileCells,
                                  kFaces = 4;  // a quad has this many, and each adds a vertex and a triangle at most
@@ -24,10 +25,9 @@ struct Draft {
         std::unique_ptr<T[]> items;
         std::size_t count = 0;
         void push_back(const T& item) { items[count++] = item; }
-        void append(const T* first, std::size_t more) {
-            std::copy_n(first, more, items.get() + count);
-            count += more;
-        }
+        // Room for more, to be written at once.
+        [[nodiscard]] T* add(std::size_t more) { return &items[(count += more) - more]; }
+        void append(const T* first, std::size_t more) { std::copy_n(first, more, add(more)); }
         void assign_to(std::vector<T>& out) const { out.assign(items.get(), items.get() + count); }
     };
     List<shared::SurfaceVertex> vertices{kCells * CellVertexMaker::kMost + kQuads * kFaces};
@@ -36,6 +36,12 @@ struct Draft {
     List<std::uint16_t> quads{kQuads};
     List<std::uint32_t> indices{kQuads * (2 + kFaces) * 3};
 
+    std::array<std::uint16_t, kCells> place_of_cell{};  // in cells
+
+    void begin_cell(std::size_t id, std::size_t first_vertex) {
+        place_of_cell[id] = static_cast<std::uint16_t>(cells.count);
+        cells.push_back({static_cast<std::uint16_t>(id), static_cast<std::uint16_t>(first_vertex)});
+    }
     void clear() { vertices.count = cells.count = vertex_of_edge.count = quads.count = indices.count = 0; }
 };
 

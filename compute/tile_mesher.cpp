@@ -7,6 +7,7 @@
 #include "compute/cell_table.hpp"
 #include "compute/cell_vertices.hpp"
 #include "compute/float4.hpp"
+#include "compute/tile_copier.hpp"
 #include "compute/tile_draft.hpp"
 #include "compute/tile_samples.hpp"
 
@@ -38,9 +39,8 @@ std::uint64_t lattice_key(const Lattice& lattice, const std::array<int, 3>& firs
 // What outlives a call to keep its memory; used by one thread.
 struct Scratch {
     TileSamples samples;
-    Draft draft;
-    std::array<std::uint16_t, Draft::kCells> place_of_cell{};  // in the new mesh's cells
-    std::vector<std::uint32_t> new_index;                      // of each vertex of the old mesh
+    TileDraft draft;
+    std::vector<std::uint32_t> new_index;
 };
 
 class Mesher {
@@ -49,16 +49,12 @@ public:
            Scratch& scratch, TileMesh& mesh)
         : solid_(solid),
           first_node_(first_node),
-          old_(old),
-          scratch_(scratch),
           samples_(scratch.samples),
           draft_(scratch.draft),
           mesh_(mesh),
           cells_per_m_(static_cast<float>(1.0 / solid.lattice.spacing_m)),
-          dirty_(dirty) {
+          copier_(old, dirty, scratch.draft, scratch.new_index) {
         draft_.clear();
-        scratch_.new_index.resize(old.vertices.size());
-        find_cells();
     }
 
     TileWork run() {
@@ -69,85 +65,36 @@ public:
         draft_.quads.assign_to(mesh_.quads);
         draft_.cells.assign_to(mesh_.cells);
         draft_.vertex_of_edge.assign_to(mesh_.vertex_of_edge);
+        mesh_.disagreeing_edges += copier_.disagreeing_edges();
         mesh_.signs = samples_.signs();
         return work_;
     }
 
 private:
-    // dirty_: the cells of the old mesh that cannot be copied; anew_: the cells that have to be made. Where a loop passes a
-    // face twice, vertices and fans depend on the cells on both sides: these are always made anew.
-    void find_cells() {
-        if (old_.has_twice_passed_faces) {
-            for (std::size_t i = 0; i < old_.cells.size(); ++i) {
-                if ((old_.vertex_of_edge[i] & TileMesh::kPassedTwice) != 0) {
-                    dirty_.columns[old_.cells[i].cell / kSeenCells] |= 1u << (old_.cells[i].cell % kSeenCells);
-                }
-            }
-        }
-        anew_ = samples_.cells_at_own_edges();
-        for (std::size_t i = 0; i < anew_.columns.size(); ++i) anew_.columns[i] &= dirty_.columns[i];
-        dirty_edges_ = edges_of(dirty_);
-        samples_.collect_crossings(solid_, first_node_, anew_);
-    }
-
     void make_vertices() {
+        CellMask anew = samples_.cells_at_own_edges();
+        for (std::size_t i = 0; i < anew.columns.size(); ++i) anew.columns[i] &= copier_.dirty().columns[i];
+        samples_.collect_crossings(solid_, first_node_, anew);
         const CellVertexMaker maker(solid_, first_node_, samples_);
         for (int y = -1; y < kTileCells; ++y) {
             for (int x = -1; x < kTileCells; ++x) {
-                for (std::uint32_t bits = anew_.at(x, y); bits != 0; bits &= bits - 1) {
+                for (std::uint32_t bits = anew.at(x, y); bits != 0; bits &= bits - 1) {
                     const Local cell{x, y, std::countr_zero(bits) - 1};
-                    copy_cells(cell_id(cell));
+                    copier_.copy_cells(cell_id(cell));
                     make_cell(maker, cell);
                 }
             }
         }
-        copy_cells(Draft::kCells);
+        copier_.copy_cells(TileDraft::kCells);
     }
 
     void make_cell(const CellVertexMaker& maker, const Local& cell) {
         ++work_.cells;
-        begin_cell(cell_id(cell), draft_.vertices.count);
+        draft_.begin_cell(cell_id(cell), draft_.vertices.count);
         const CellVertices made = maker.make(cell, &draft_.vertices.items[draft_.vertices.count]);
         draft_.vertices.count += made.count;
         draft_.vertex_of_edge.push_back(made.of_edge);
         mesh_.has_twice_passed_faces |= (made.of_edge & TileMesh::kPassedTwice) != 0;
-    }
-
-    void begin_cell(std::size_t id, std::size_t first_vertex) {
-        scratch_.place_of_cell[id] = static_cast<std::uint16_t>(draft_.cells.count);
-        draft_.cells.push_back({static_cast<std::uint16_t>(id), static_cast<std::uint16_t>(first_vertex)});
-    }
-
-    // The old mesh's cells before this one that are not dirty, and have not been copied. They come in long runs.
-    void copy_cells(std::size_t before) {
-        const std::size_t end = old_.cells.size();
-        const auto is_dirty = [&](std::size_t place) {
-            const std::size_t id = old_.cells[place].cell;
-            return (dirty_.columns[id / kSeenCells] >> (id % kSeenCells) & 1u) != 0;
-        };
-        while (old_cell_ < end && old_.cells[old_cell_].cell < before) {
-            const std::size_t first = old_cell_;
-            while (old_cell_ < end && old_.cells[old_cell_].cell < before && !is_dirty(old_cell_)) ++old_cell_;
-            if (old_cell_ > first) {
-                copy_run(first, old_cell_);
-            } else {
-                ++old_cell_;
-            }
-        }
-    }
-
-    void copy_run(std::size_t first, std::size_t end) {
-        draft_.vertex_of_edge.append(&old_.vertex_of_edge[first], end - first);
-        const std::size_t old_vertex = old_.cells[first].first_vertex, new_vertex = draft_.vertices.count;
-        const std::size_t vertices =
-            (end < old_.cells.size() ? old_.cells[end].first_vertex : old_.cell_vertices()) - old_vertex;
-        draft_.vertices.append(&old_.vertices[old_vertex], vertices);
-        for (std::size_t v = 0; v < vertices; ++v) {
-            scratch_.new_index[old_vertex + v] = static_cast<std::uint32_t>(new_vertex + v);
-        }
-        for (std::size_t i = first; i < end; ++i) {
-            begin_cell(old_.cells[i].cell, old_.cells[i].first_vertex + new_vertex - old_vertex);
-        }
     }
 
     void make_quads() {
@@ -155,14 +102,14 @@ private:
         begin_row(0);
         const auto begin_rows = [&](std::size_t last) {
             while (row < last) {
-                copy_quads((row + 1) * kTileCells * kTileCells);
+                copier_.copy_quads((row + 1) * kTileCells * kTileCells);
                 begin_row(++row);
             }
         };
         for (const EdgeSample& sample : samples_.samples()) {
             if (sample.own_edge == EdgeSample::kNotOwn) continue;
             begin_rows(sample.own_edge / (kTileCells * kTileCells));
-            copy_quads(sample.own_edge);
+            copier_.copy_quads(sample.own_edge);
             if (sample.axis == 0) make_quad<0>(sample);
             if (sample.axis == 1) make_quad<1>(sample);
             if (sample.axis == 2) make_quad<2>(sample);
@@ -173,53 +120,6 @@ private:
     void begin_row(std::size_t row) {
         mesh_.row_quads[row] = static_cast<std::uint16_t>(draft_.quads.count);
         mesh_.row_triangles[row] = static_cast<std::uint32_t>(draft_.indices.count / 3);
-    }
-
-    // Likewise the quads of edges before this one.
-    void copy_quads(std::size_t before) {
-        const std::size_t end = old_.quads.size();
-        const auto edge_of = [&](std::size_t quad) { return std::size_t{old_.quads[quad]} & TileMesh::kQuadEdge; };
-        const auto is_dirty = [&](std::size_t edge) {
-            const std::size_t column =
-                TileSamples::column(static_cast<int>(edge / kTileCells % kTileCells),
-                                    static_cast<int>(edge / (kTileCells * kTileCells) % kTileCells));
-            return (dirty_edges_[edge / (kTileCells * kTileCells * kTileCells)][column] >> (edge % kTileCells + 1) &
-                    1u) != 0;
-        };
-        while (old_quad_ < end && edge_of(old_quad_) < before) {
-            const std::size_t first = old_quad_;
-            while (old_quad_ < end && edge_of(old_quad_) < before && !is_dirty(edge_of(old_quad_))) ++old_quad_;
-            if (old_quad_ > first) {
-                copy_quad_run(first, old_quad_);
-            } else {
-                old_index_ += indices_of_quad_at(old_index_);
-                ++old_quad_;
-            }
-        }
-    }
-
-    void copy_quad_run(std::size_t first, std::size_t end) {
-        draft_.quads.append(&old_.quads[first], end - first);
-        if (old_.disagreeing_edges != 0) {
-            for (std::size_t i = first; i < end; ++i) {
-                mesh_.disagreeing_edges += (old_.quads[i] & TileMesh::kDisagrees) != 0 ? 1 : 0;
-            }
-        }
-        const std::size_t count = 6 * (end - first);  // fans are never copied
-        const std::uint32_t* const from = &old_.indices[old_index_];
-        std::uint32_t* const to = &draft_.indices.items[draft_.indices.count];
-        for (std::size_t i = 0; i < count; ++i) to[i] = scratch_.new_index[from[i]];
-        draft_.indices.count += count;
-        old_index_ += count;
-    }
-
-    // The triangles of a fan all begin with its own extra vertex.
-    [[nodiscard]] std::size_t indices_of_quad_at(std::size_t index) const {
-        const std::uint32_t first = old_.indices[index];
-        if (first < old_.cell_vertices()) return 6;
-        std::size_t count = 3;
-        while (index + count < old_.indices.size() && old_.indices[index + count] == first) count += 3;
-        return count;
     }
 
     // The polygon around a crossed edge: the vertices of the four cells about it, and between two of them the extra vertex
@@ -253,7 +153,7 @@ private:
     }
 
     [[nodiscard]] std::uint32_t vertex_of(std::size_t id, int edge) const {
-        const std::size_t place = scratch_.place_of_cell[id];
+        const std::size_t place = draft_.place_of_cell[id];
         return draft_.cells.items[place].first_vertex +
                static_cast<std::uint32_t>(draft_.vertex_of_edge.items[place] >> (4 * edge) & 0xf);
     }
@@ -308,11 +208,10 @@ private:
     }
 
     void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, bool flip) {
-        std::uint32_t* const corner = &draft_.indices.items[draft_.indices.count];
+        std::uint32_t* const corner = draft_.indices.add(3);
         corner[0] = a;
         corner[1] = flip ? c : b;
         corner[2] = flip ? b : c;
-        draft_.indices.count += 3;
     }
 
     void split(const std::array<std::uint32_t, 8>& q, bool other_diagonal, bool flip) {
@@ -349,15 +248,11 @@ private:
 
     const Solid& solid_;
     const std::array<int, 3>& first_node_;
-    const TileMesh& old_;
-    Scratch& scratch_;
     TileSamples& samples_;
-    Draft& draft_;
+    TileDraft& draft_;
     TileMesh& mesh_;
     float cells_per_m_;
-    CellMask dirty_, anew_;
-    EdgeMask dirty_edges_;
-    std::size_t old_cell_ = 0, old_quad_ = 0, old_index_ = 0;  // the next of the old mesh to copy or to drop
+    TileCopier copier_;
     TileWork work_;
 };
 
