@@ -94,8 +94,9 @@ struct CellVertexMaker::Loop {
 
 // `in_cell` is in cells from the cell's lowest corner; `length` is that of the normals' sum. The whole cells are counted from
 // the lattice's origin and not from the tile's, so that every tile that shares the vertex rounds it to the same bits.
-shared::SurfaceVertex CellVertexMaker::vertex_at(const Local& cell, const Vec3f& in_cell, const Vec3f& normal_sum,
-                                                 float length, std::uint32_t colour) const {
+[[gnu::always_inline]] inline shared::SurfaceVertex CellVertexMaker::vertex_at(const Local& cell, const Vec3f& in_cell,
+                                                                               const Vec3f& normal_sum, float length,
+                                                                               std::uint32_t colour) const {
     const auto metres = [&](int a) {
         const auto k = static_cast<std::size_t>(a);
         return static_cast<float>((static_cast<double>(in_cell[a]) + (cell[k] + first_node_[k])) * spacing_m_);
@@ -108,7 +109,7 @@ shared::SurfaceVertex CellVertexMaker::vertex_at(const Local& cell, const Vec3f&
 // Whether all normals are in the cluster of the first. The sum over all pairs of |a - b|^2 is n^2 - |sum|^2; one normal that
 // lies d from the first adds n d^2 / 2 to it at least (with every third one the two make a triangle). So a sum that is long
 // enough says yes without looking at each; a shorter one does not say no.
-bool CellVertexMaker::alike(const Loop& loop, float length2) {
+[[gnu::always_inline]] inline bool CellVertexMaker::alike(const Loop& loop, float length2) {
     constexpr float kRounding = 1e-3f;
     const float least_distance2 = 2.0f - 2.0f * shared::kSameCluster;
     const auto count = static_cast<float>(loop.count);
@@ -123,7 +124,8 @@ bool CellVertexMaker::alike(const Loop& loop, float length2) {
 
 // The usual loop, one smooth piece of one material: what feature_point() and the sums over pieces come to for it, bit for bit.
 // False, and nothing done, for any other.
-bool CellVertexMaker::make_smooth(const Local& cell, const Loop& loop, shared::SurfaceVertex& vertex) const {
+[[gnu::always_inline]] inline bool CellVertexMaker::make_smooth(const Local& cell, const Loop& loop,
+                                                                shared::SurfaceVertex& vertex) const {
     const float length2 = dot3(loop.normal_sum, loop.normal_sum);
     if (!loop.one_material || !alike(loop, length2)) return false;
     const auto count = static_cast<float>(loop.count);
@@ -146,25 +148,37 @@ bool CellVertexMaker::make_smooth(const Local& cell, const Loop& loop, shared::S
     const std::uint8_t material = all_[index_[lowest_edge + kCellEdges[*first].offset]].material;
     unsigned other_materials = 0;
     std::size_t i = 0;
-    for (; first != end; ++first, ++i) {
+    do {  // a loop has three edges at least
         const CellEdge& edge = kCellEdges[*first];
         const EdgeSample& s = all_[index_[lowest_edge + edge.offset]];
         const Float4 normal = s.normal_and_along(), place = edge.corner + edge.direction * broadcast<3>(normal);
         loop.samples[i] = &s;
-        loop.places[i] = place;
+        loop.places[i++] = place;
         place_sum += place;
         normal_sum += normal;
         other_materials |= s.material ^ material;
-    }
+    } while (++first != end);
     loop.count = i;
     loop.place_sum = place_sum;
     loop.normal_sum = normal_sum;
     loop.one_material = other_materials == 0;
 }
 
-CellVertices CellVertexMaker::make(const Local& cell, shared::SurfaceVertex* vertices) const {
-    const CellCase& cell_case = table_[samples_.cell_pattern(cell)];
-    const std::size_t lowest_edge = TileSamples::edge_offset(0, {cell[0] + 1, cell[1] + 1, cell[2] + 1});
+CellVertices CellVertexMaker::make(int z, shared::SurfaceVertex* vertices) const {
+    const CellCase& cell_case = table_[TileSamples::cell_pattern(corners_, z)];
+    const Local cell{column_[0], column_[1], z};
+    const std::size_t lowest_edge = TileSamples::edge_offset(0, {cell[0] + 1, cell[1] + 1, z + 1});
+    if (cell_case.loops == 1) {
+        Loop loop;
+        collect(loop, lowest_edge, cell_case.edges.data(), cell_case.edges.data() + cell_case.first_edge[1]);
+        if (make_smooth(cell, loop, *vertices)) return {cell_case.all_use_first, 1};
+    }
+    return make_any(cell_case, cell, lowest_edge, vertices);
+}
+
+[[gnu::noinline]] CellVertices CellVertexMaker::make_any(const CellCase& cell_case, const Local& cell,
+                                                         std::size_t lowest_edge,
+                                                         shared::SurfaceVertex* vertices) const {
     CellVertices made{~std::uint64_t{0}, 0};  // kNoVertex everywhere
     const auto use = [&](std::size_t place, std::size_t vertex) {
         made.of_edge &= ~(TileMesh::kNoVertex << (4 * place));
@@ -174,10 +188,8 @@ CellVertices CellVertexMaker::make(const Local& cell, shared::SurfaceVertex* ver
         Loop loop;
         const std::size_t from = cell_case.first_edge[l], to = cell_case.first_edge[l + 1];
         collect(loop, lowest_edge, &cell_case.edges[from], cell_case.edges.data() + to);
-        const bool smooth = make_smooth(cell, loop, vertices[made.count]);
-        if (smooth && cell_case.loops == 1) return {cell_case.all_use_first, 1};
         if (l > 0) use(12 + l, made.count);
-        if (smooth) {
+        if (make_smooth(cell, loop, vertices[made.count])) {
             for (std::size_t i = from; i < to; ++i) use(cell_case.edges[i], made.count);
             ++made.count;
             continue;

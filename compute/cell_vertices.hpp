@@ -35,14 +35,21 @@ public:
           spacing_m_(solid.lattice.spacing_m),
           first_node_(first_node) {}
 
-    // Writes the vertices, kMost at most. The samples must hold the crossings of all the cell's edges.
-    [[nodiscard]] CellVertices make(const Local& cell, shared::SurfaceVertex* vertices) const;
+    // The cells that are asked for next are in this column.
+    void begin_column(int x, int y) {
+        column_ = {x, y, 0};
+        corners_ = samples_.corner_signs(x, y);
+    }
+    // Writes the vertices of the column's cell at height z, kMost at most. The samples must hold the crossings of all its edges.
+    [[nodiscard]] CellVertices make(int z, shared::SurfaceVertex* vertices) const;
     // The vertex half-way between two crossings on a face of the cell.
     [[nodiscard]] shared::SurfaceVertex make_face_vertex(const Local& cell, const EdgeSample& a,
                                                          const EdgeSample& b) const;
 
 private:
     struct Loop;
+    [[nodiscard]] CellVertices make_any(const CellCase& cell_case, const Local& cell, std::size_t lowest_edge,
+                                        shared::SurfaceVertex* vertices) const;
     void collect(Loop& loop, std::size_t lowest_edge, const std::uint8_t* first, const std::uint8_t* end) const;
     [[nodiscard]] static bool alike(const Loop& loop, float length2);
     [[nodiscard]] bool make_smooth(const Local& cell, const Loop& loop, shared::SurfaceVertex& vertex) const;
@@ -56,6 +63,8 @@ private:
     const std::vector<Material>& materials_;
     double spacing_m_;
     std::array<int, 3> first_node_;
+    Local column_{};
+    std::array<std::uint32_t, 4> corners_{};
 };
 
 }  // namespace burin

@@ -14,6 +14,13 @@ void mark_cells(const std::array<int, 3>& lo, const std::array<int, 3>& hi, Cell
     const std::uint32_t bits = (2u << (hi[2] + 1)) - (1u << (lo[2] + 1));
     std::uint32_t* row = &mask.columns[CellMask::column(lo[0], lo[1])];
     const int width = hi[0] - lo[0] + 1;
+    if (width == 2) {  // beside a ray along y or z
+        for (int y = lo[1]; y <= hi[1]; ++y, row += kSeenCells) {
+            row[0] |= bits;
+            row[1] |= bits;
+        }
+        return;
+    }
     for (int y = lo[1]; y <= hi[1]; ++y, row += kSeenCells)
         for (int x = 0; x < width; ++x) row[x] |= bits;
 }

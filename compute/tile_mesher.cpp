@@ -75,9 +75,11 @@ private:
         CellMask anew = samples_.cells_at_own_edges();
         for (std::size_t i = 0; i < anew.columns.size(); ++i) anew.columns[i] &= copier_.dirty().columns[i];
         samples_.collect_crossings(solid_, first_node_, anew);
-        const CellVertexMaker maker(solid_, first_node_, samples_);
+        CellVertexMaker maker(solid_, first_node_, samples_);
         for (int y = -1; y < kTileCells; ++y) {
             for (int x = -1; x < kTileCells; ++x) {
+                if (anew.at(x, y) == 0) continue;
+                maker.begin_column(x, y);
                 for (std::uint32_t bits = anew.at(x, y); bits != 0; bits &= bits - 1) {
                     const Local cell{x, y, std::countr_zero(bits) - 1};
                     copier_.copy_cells(cell_id(cell));
@@ -91,7 +93,7 @@ private:
     void make_cell(const CellVertexMaker& maker, const Local& cell) {
         ++work_.cells;
         draft_.begin_cell(cell_id(cell), draft_.vertices.count);
-        const CellVertices made = maker.make(cell, &draft_.vertices.items[draft_.vertices.count]);
+        const CellVertices made = maker.make(cell[2], &draft_.vertices.items[draft_.vertices.count]);
         draft_.vertices.count += made.count;
         draft_.vertex_of_edge.push_back(made.of_edge);
         mesh_.has_twice_passed_faces |= (made.of_edge & TileMesh::kPassedTwice) != 0;

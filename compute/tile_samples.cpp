@@ -15,12 +15,6 @@ using shared::kUnitsPerCell;
 
 constexpr std::uint32_t kOwn = ((1u << kTileCells) - 1u) << 1;
 
-std::span<const DexelEnd> ray_ends(const Solid& solid, int axis, int u, int v) {
-    const DexelSet& set = solid.sets[static_cast<std::size_t>(axis)];
-    if (u < 0 || v < 0 || u >= set.rays_u() || v >= set.rays_v()) return {};
-    return set.ends(u, v);
-}
-
 // The lowest node at or above a depth.
 int node_at_or_above(int depth) { return (depth + kUnitsPerCell - 1) / kUnitsPerCell; }
 
@@ -56,12 +50,14 @@ const DexelEnd* crossing_end(std::span<const DexelEnd> ends, int lower, bool low
 }
 
 // Where the edge from node `lower` of this ray is crossed; the sample knows its axis and which end is inside.
-void read_crossing(std::span<const DexelEnd> ends, int lower, EdgeSample& sample) {
+[[gnu::always_inline]] inline void read_crossing(std::span<const DexelEnd> ends, int lower, EdgeSample& sample) {
     std::uint32_t normal_code = 0;
     const DexelEnd* end = crossing_end(ends, lower, sample.lower_inside);
-    if (end == nullptr) {
+    if (end == nullptr) [[unlikely]] {
         normal_code = shared::axis_normal(sample.axis, sample.lower_inside);
         sample.disagrees = true;
+        sample.along = 0.5f;
+        sample.material = 0;
     } else {
         const int offset = depth_of(*end) - lower * kUnitsPerCell;
         sample.along = static_cast<float>(std::clamp(offset, 0, kUnitsPerCell)) / static_cast<float>(kUnitsPerCell);
@@ -188,7 +184,7 @@ void TileSamples::collect_crossings(const Solid& solid, const std::array<int, 3>
     for (std::size_t axis = 0; axis < 3; ++axis) {
         for (std::size_t i = 0; i < wanted[axis].size(); ++i) wanted[axis][i] &= crossed_[axis][i];
     }
-    samples_.clear();
+    count_ = 0;
     collect_along<0>(solid, first_node, wanted[0]);
     collect_along<1>(solid, first_node, wanted[1]);
     collect_along<2>(solid, first_node, wanted[2]);
@@ -214,21 +210,20 @@ template <int axis>
     constexpr std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
     const std::uint32_t own = x >= 0 && x < kTileCells && y >= 0 && y < kTileCells ? kOwn : 0u;
     const std::uint32_t inside = columns_[column(x, y)];
+    const int first_own_edge = ((axis * kTileCells + y) * kTileCells + x) * kTileCells - 1;
     for (std::uint32_t bits = edges; bits != 0; bits &= bits - 1) {
         const int bit = std::countr_zero(bits);
         const Local node{x, y, bit - 1};
-        const auto ends = ray_ends(solid, axis, first_node[u] + node[u], first_node[v] + node[v]);
-        sample_index_[edge_offset(axis, {x + 1, y + 1, bit})] = static_cast<std::uint16_t>(samples_.size());
-        EdgeSample sample;
+        sample_index_[edge_offset(axis, {x + 1, y + 1, bit})] = static_cast<std::uint16_t>(count_);
+        EdgeSample& sample = samples_[count_++];
         sample.axis = axis;
         sample.node = {static_cast<std::int8_t>(x), static_cast<std::int8_t>(y), static_cast<std::int8_t>(bit - 1)};
-        if ((own >> bit & 1u) != 0) {
-            sample.own_edge =
-                static_cast<std::uint16_t>(((axis * kTileCells + y) * kTileCells + x) * kTileCells + bit - 1);
-        }
+        sample.own_edge =
+            (own >> bit & 1u) != 0 ? static_cast<std::uint16_t>(first_own_edge + bit) : EdgeSample::kNotOwn;
         sample.lower_inside = (inside >> bit & 1u) != 0;
+        // One of the edge's nodes is inside, so it is in the lattice, and so is the edge's ray.
+        const auto ends = solid.sets[axis].ends(first_node[u] + node[u], first_node[v] + node[v]);
         read_crossing(ends, first_node[axis] + node[axis], sample);
-        samples_.push_back(sample);
     }
 }
 

@@ -5,8 +5,8 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
-#include <vector>
 
 #include "compute/float4.hpp"
 #include "compute/solid.hpp"
@@ -24,14 +24,14 @@ using Local = std::array<int, 3>;
 
 // Where the surface crosses a lattice edge.
 struct alignas(16) EdgeSample {
-    Vec3f normal{0.0f};
-    float along = 0.5f;                // 0 at the lower node, 1 at the upper
-    std::uint16_t own_edge = kNotOwn;  // as in SurfaceTile::quads
-    std::uint8_t material = 0;
-    bool disagrees = false;     // the edge's own rays do not have this crossing
-    bool lower_inside = false;  // the lower node is
-    std::uint8_t axis = 0;
-    std::array<std::int8_t, 3> node{};  // the lower one
+    Vec3f normal;
+    float along;             // 0 at the lower node, 1 at the upper
+    std::uint16_t own_edge;  // as in SurfaceTile::quads
+    std::uint8_t material;
+    bool disagrees;     // the edge's own rays do not have this crossing
+    bool lower_inside;  // the lower node is
+    std::uint8_t axis;
+    std::array<std::int8_t, 3> node;  // the lower one
 
     static constexpr std::uint16_t kNotOwn = 0xffff;
     [[nodiscard]] Float4 normal_and_along() const {
@@ -61,17 +61,24 @@ public:
     // Reads the crossings of all edges of these cells; no others may be asked for.
     void collect_crossings(const Solid& solid, const std::array<int, 3>& first_node, const CellMask& cells);
     // By axis, then in the order y, x, z of their lower nodes.
-    [[nodiscard]] std::span<const EdgeSample> samples() const { return samples_; }
+    [[nodiscard]] std::span<const EdgeSample> samples() const { return {samples_.get(), count_}; }
 
+    // The signs along the four edges of a column of cells that go upwards: at (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1).
+    [[nodiscard]] std::array<std::uint32_t, 4> corner_signs(int x, int y) const {
+        const std::uint32_t* const corner = &columns_[column(x, y)];
+        return {corner[0], corner[1], corner[kLocalNodes], corner[kLocalNodes + 1]};
+    }
     // Bit c of the result: corner c of the cell is inside.
+    [[nodiscard]] static unsigned cell_pattern(const std::array<std::uint32_t, 4>& corners, int z) {
+        unsigned pattern = 0;
+        for (std::size_t c = 0; c < 4; ++c) {
+            const unsigned both = corners[c] >> (z + 1);  // the lower and the upper node
+            pattern |= (both & 1u) << c | (both & 2u) << (c + 3);
+        }
+        return pattern;
+    }
     [[nodiscard]] unsigned cell_pattern(const Local& cell) const {
-        const int shift = cell[2] + 1;
-        const std::uint32_t* const corner = &columns_[column(cell[0], cell[1])];
-        const auto pair = [&](std::size_t i, int c) {
-            const std::uint32_t both = corner[i] >> shift;
-            return (both & 1u) << c | (both & 2u) << (c + 3);
-        };
-        return pair(0, 0) | pair(1, 1) | pair(kLocalNodes, 2) | pair(kLocalNodes + 1, 3);
+        return cell_pattern(corner_signs(cell[0], cell[1]), cell[2]);
     }
     [[nodiscard]] bool inside(const Local& node) const {
         return (columns_[column(node[0], node[1])] >> (node[2] + 1) & 1u) != 0;
@@ -100,7 +107,10 @@ private:
     NodeColumns columns_{};  // the inside nodes
     EdgeMask crossed_{};
     std::array<std::uint16_t, 3 * kLocalNodes * kLocalNodes * kLocalNodes> sample_index_{};
-    std::vector<EdgeSample> samples_;
+    // As many as there can be; memory that is never written is never there.
+    static constexpr std::size_t kMostEdges = 3 * kLocalNodes * kLocalNodes * kLocalNodes;
+    std::unique_ptr<EdgeSample[]> samples_ = std::make_unique_for_overwrite<EdgeSample[]>(kMostEdges);
+    std::size_t count_ = 0;
 };
 
 }  // namespace burin
