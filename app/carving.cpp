@@ -75,7 +75,8 @@ Result<void> Carving::update_on_host(std::span<const ToolSweep> sweeps) {
 
 Result<void> Carving::mesh_on_device() {
     auto* vulkan = dynamic_cast<VulkanEngine*>(engine_.get());
-    if (vulkan == nullptr || history_) return {};
+    // Where the device cannot mesh it still carves, and the host meshes.
+    if (vulkan == nullptr || history_ || !vulkan->device().capabilities().scalar_block_layout) return {};
     auto made = DeviceSurface::create(*vulkan);
     if (!made) return std::unexpected(made.error());
     on_device_ = std::move(*made);

@@ -139,7 +139,7 @@ struct GatherParameters {
     float spacing_m;
 };
 
-const int kBallVertices = 32768;  // LocalSurface
+const int kBallVertices = 32768;  // of the triangles near the tool; with more the ball is made smaller
 const int kBallTriangles = 65536;
 
 BURIN_SHARED_END
