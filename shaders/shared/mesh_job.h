@@ -72,7 +72,8 @@ struct TileJob {
     uint unused;
     uint signs[324];          // of node columns: which nodes are inside
     uvec2 cell_columns[289];  // the cells that quads refer to; where in the list of cells the column's begin
-    uvec2 edge_columns[972];  // of node columns, axis by axis: the crossed edges of these cells; where their list begins
+    uvec2
+        edge_columns[972];  // of node columns, axis by axis: the crossed edges of these cells; where their list begins
 };
 
 struct MeshCell {

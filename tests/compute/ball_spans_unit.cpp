@@ -30,8 +30,7 @@ TEST(BallSpans, AreTheCapsulesOwn) {
         ASSERT_GT(count, 0);
         ball_half_spans(ball.radius2, first, count, half.data());
         for (std::int32_t k = 0; k < count; ++k) {
-            const shared::RaySpan span =
-                shared::capsule_span(shared::capsule_from_ray(ball, 0, first + k * 4096, 0));
+            const shared::RaySpan span = shared::capsule_span(shared::capsule_from_ray(ball, 0, first + k * 4096, 0));
             ASSERT_EQ(span.lo, -half[static_cast<std::size_t>(k)]) << radius << " " << k;
             ASSERT_EQ(span.hi, half[static_cast<std::size_t>(k)]);
         }
