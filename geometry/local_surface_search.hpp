@@ -9,8 +9,9 @@
 namespace burin {
 
 // Calls visit(id, triangle) once for each triangle within near.reach_m of the box [near.lo, near.hi], and for some a little
-// farther off; for none that is degenerate. visit may make near.reach_m smaller, for what comes after. The order depends only on the surface and on what is asked. Ends when visit
-// returns false, or when all looks are used up, and then returns false itself.
+// farther off; for none that is degenerate. visit may make near.reach_m smaller, for what comes after. The order depends only
+// on the surface and on what is asked. Ends when visit returns false, or when all looks are used up, and then returns false
+// itself.
 template <typename Visit>
 bool for_each_triangle_near(const LocalSurface& surface, Near& near, Visit&& visit) {
     if (surface.tiles.triangles > 0 && !for_each_near(surface.tiles, near, visit)) return false;

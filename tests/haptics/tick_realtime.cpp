@@ -13,6 +13,17 @@
 #include "tests/support/realtime_counters.hpp"
 
 namespace burin {
+namespace {
+
+void expect_none(const test::RealtimeCounts& counts) {
+    EXPECT_EQ(counts.allocations, 0u);
+    EXPECT_EQ(counts.frees, 0u);
+    EXPECT_EQ(counts.locks, 0u);
+    EXPECT_EQ(counts.throws, 0u);
+    EXPECT_EQ(counts.files, 0u);
+}
+
+}  // namespace
 
 TEST(RealtimeCounters, SeeWhatTheyAreMeantToSee) {  // a counter that sees nothing proves nothing
     std::mutex mutex;
@@ -66,22 +77,13 @@ TEST(HapticLoop, TenThousandStepsAllocateLockThrowAndOpenNothing) {
         rig.clock.sleep_until(rig.clock.now_ns() + rig.loop.period_ns());
         const test::RealtimeScope scope;
         const TickRecord record = rig.loop.step();
-        const test::RealtimeCounts counts = scope.counts();
-        total.allocations += counts.allocations;
-        total.frees += counts.frees;
-        total.locks += counts.locks;
-        total.throws += counts.throws;
-        total.files += counts.files;
+        total += scope.counts();
         in_contact += (record.flags & kTickInContact) != 0;
         faulty += record.cause != GateCause::none;
         EXPECT_LE(record.work.triangles_tested, ProxyBudget{}.max_triangles_tested);
         EXPECT_LE(record.work.proxy_steps, ProxyBudget{}.max_steps);
     }
-    EXPECT_EQ(total.allocations, 0u);
-    EXPECT_EQ(total.frees, 0u);
-    EXPECT_EQ(total.locks, 0u);
-    EXPECT_EQ(total.throws, 0u);
-    EXPECT_EQ(total.files, 0u);
+    expect_none(total);
     EXPECT_GT(in_contact, 1000);
     EXPECT_GT(faulty, 40);
 }
@@ -115,18 +117,11 @@ TEST(HapticLoop, StepsOnTilesThatAreCarvedMeanwhileAllocateFreeAndLockNothing) {
         rig.clock.sleep_until(rig.clock.now_ns() + rig.loop.period_ns());
         const test::RealtimeScope scope;
         const TickRecord record = rig.loop.step();
-        const test::RealtimeCounts counts = scope.counts();
-        total.allocations += counts.allocations;
-        total.frees += counts.frees;
-        total.locks += counts.locks;
-        total.throws += counts.throws;
+        total += scope.counts();
         in_contact += (record.flags & kTickInContact) != 0;
         EXPECT_LE(record.work.triangles_seen, ProxyBudget{}.max_triangles_seen);
     }
-    EXPECT_EQ(total.allocations, 0u);
-    EXPECT_EQ(total.frees, 0u);
-    EXPECT_EQ(total.locks, 0u);
-    EXPECT_EQ(total.throws, 0u);
+    expect_none(total);
     EXPECT_GT(in_contact, 300);
 }
 

@@ -16,6 +16,15 @@ struct RealtimeCounts {
     std::uint64_t locks = 0;  // pthread mutex, read-write lock, condition wait, semaphore wait
     std::uint64_t throws = 0;
     std::uint64_t files = 0;  // open, fopen, read, write
+
+    RealtimeCounts& operator+=(const RealtimeCounts& more) noexcept {
+        allocations += more.allocations;
+        frees += more.frees;
+        locks += more.locks;
+        throws += more.throws;
+        files += more.files;
+        return *this;
+    }
 };
 
 // Counting is per thread and on while a scope lives. Scopes do not nest.
