@@ -15,6 +15,7 @@ namespace burin {
 template <typename T>
 Result<void> fill_buffer(gpu::Device& device, const gpu::Buffer& buffer, const std::vector<T>& values) {
     const auto bytes = std::as_bytes(std::span(values));
+    if (bytes.empty()) return {};
     if (buffer.mapped().empty()) return gpu::write(device, buffer, 0, bytes);
     std::memcpy(buffer.mapped().data(), bytes.data(), bytes.size());
     return {};

@@ -69,10 +69,13 @@ Result<void> DeviceSurface::local_surface(const Vec3& center_object, double radi
         auto loose = std::make_shared<GriddedTriangles>();
         loose->positions_m.resize(counters.ball_vertices);
         loose->triangles.resize(counters.ball_triangles);
-        std::memcpy(loose->positions_m.data(), ball_places_.from_device<Vec3f>().data(),
-                    loose->positions_m.size() * sizeof(Vec3f));
-        std::memcpy(loose->triangles.data(), ball_triangles_.from_device<std::uint32_t>().data(),
-                    loose->triangles.size() * sizeof(loose->triangles[0]));
+        // Neither may be asked to copy nothing to nowhere: there need not be a triangle near the tool.
+        if (counters.ball_triangles > 0) {
+            std::memcpy(loose->positions_m.data(), ball_places_.from_device<Vec3f>().data(),
+                        loose->positions_m.size() * sizeof(Vec3f));
+            std::memcpy(loose->triangles.data(), ball_triangles_.from_device<std::uint32_t>().data(),
+                        loose->triangles.size() * sizeof(loose->triangles[0]));
+        }
         build_search(*loose);
         out.center_object = out.origin_object = center_object;
         out.radius_m = radius;

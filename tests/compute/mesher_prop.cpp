@@ -23,7 +23,8 @@ bool same_bits(const TileMesh& a, const TileMesh& b) {
            a.vertex_of_edge == b.vertex_of_edge && a.disagreeing_edges == b.disagreeing_edges &&
            a.row_quads == b.row_quads && a.row_triangles == b.row_triangles && a.signs == b.signs &&
            a.vertices.size() == b.vertices.size() &&
-           std::memcmp(a.vertices.data(), b.vertices.data(), a.vertices.size() * sizeof(shared::SurfaceVertex)) == 0;
+           (a.vertices.empty() ||
+            std::memcmp(a.vertices.data(), b.vertices.data(), a.vertices.size() * sizeof(shared::SurfaceVertex)) == 0);
 }
 
 // -1 when every tile is the same.
