@@ -124,7 +124,7 @@ public:
 private:
     void add(const TickRecord& record) {
         ++figures_.ticks;
-        const double force_N = glm::length(record.force_device_N);
+        const double force_N = glm::length(record.given.force_device_N);
         figures_.force_max_N = std::max(figures_.force_max_N, force_N);
         if ((record.flags & kTickInContact) != 0) {
             ++figures_.ticks_in_contact;
@@ -213,8 +213,8 @@ Result<FeltFigures> carve_by_feel(Carving& carving, const Stroke& stroke, const 
     HapticChannels channels;
     TickParameters& parameters = channels.parameters.draft();
     parameters.sequence = 1;
-    parameters.object_from_device = figures.object_from_device;
-    parameters.tool_radius_m = tool.ball_radius_m();
+    parameters.workspace.object_from_device = figures.object_from_device;
+    parameters.probe.points[0].radius_m = tool.ball_radius_m();
     channels.parameters.publish();
 
     // Far enough for the fastest hand to stay inside the known ball until the next update: 1 m/s for 12 ms.

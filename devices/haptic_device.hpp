@@ -11,14 +11,27 @@
 
 namespace burin {
 
-// What the device can do; the safety gate and the workspace mapping are set up from it.
+// What the device can do; the safety gate, the stiffness limiter and the workspace mapping are set up from it. What is not
+// known of a device stays 0.
 struct DeviceDescription {
     const char* name = "";
     Vec3 workspace_m{0.0};             // width (x), height (y), depth (z) of the box centred on the device origin
     double resolution_m = 0.0;         // position quantum
-    double max_force_N = 0.0;          // peak the device takes
+    double max_force_N = 0.0;          // peak the device takes, any direction
+    Vec3 axis_max_force_N{0.0};        // of each axis; 0: no limit of its own
+    Vec3 max_torque_Nm{0.0};           // of each axis; 0: the axis is passive and gets no torque
     double max_stiffness_N_per_m = 0;  // stiffest wall it should be asked to render
     double rate_Hz = 1000.0;           // servo rate
+    double apparent_mass_kg = 0.0;     // of the arm, at the hand
+    double damping_Ns_per_m = 0.0;     // viscous, of the arm
+    double friction_N = 0.0;           // Coulomb, of the arm
+    double delay_s = 0.0;              // from write() until the motors act, on top of the hold over a period
+};
+
+// A force and a torque about the device's position, in the device frame. Axes that are not driven ignore theirs.
+struct DeviceWrench {
+    Vec3 force_device_N{0.0};
+    Vec3 torque_device_Nm{0.0};
 };
 
 enum class DeviceFault : std::uint8_t { none, disconnected, overheated, overspeed, other };
@@ -37,7 +50,7 @@ public:
     virtual ~HapticDevice() = default;
     [[nodiscard]] virtual const DeviceDescription& description() const noexcept = 0;
     [[nodiscard]] virtual DeviceSample read() noexcept = 0;
-    virtual void write(const Vec3& force_device_N) noexcept = 0;
+    virtual void write(const DeviceWrench& wrench) noexcept = 0;
 };
 
 }  // namespace burin

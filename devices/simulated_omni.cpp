@@ -38,6 +38,10 @@ SimulatedOmni::SimulatedOmni(SimulatedHand hand, const OmniModel& model, Clock* 
     description_.max_force_N = model_.max_force_N;
     description_.max_stiffness_N_per_m = model_.max_stiffness_N_per_m;
     description_.rate_Hz = 1000.0;
+    description_.apparent_mass_kg = model_.apparent_mass_kg;
+    description_.damping_Ns_per_m = model_.damping_Ns_per_m;
+    description_.friction_N = model_.friction_N;
+    description_.delay_s = 0.001;  // one tick of transport
     if (clock_ != nullptr) clock_start_ns_ = clock_->now_ns();
     const Vec3 half = 0.5 * model_.workspace_m;
     position_m_ = glm::clamp(hand_.target(0.0).position_device_m, -half, half);
@@ -114,9 +118,9 @@ DeviceSample SimulatedOmni::read() noexcept {
     return last_sample_;
 }
 
-void SimulatedOmni::write(const Vec3& force_device_N) noexcept {
+void SimulatedOmni::write(const DeviceWrench& wrench) noexcept {
     if (injected_ == InjectedFault::disconnected) return;
-    written_force_N_ = clamped(force_device_N, model_.max_force_N);
+    written_force_N_ = clamped(wrench.force_device_N, model_.max_force_N);
 }
 
 }  // namespace burin

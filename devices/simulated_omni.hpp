@@ -50,7 +50,7 @@ public:
 
     [[nodiscard]] const DeviceDescription& description() const noexcept override { return description_; }
     [[nodiscard]] DeviceSample read() noexcept override;
-    void write(const Vec3& force_device_N) noexcept override;
+    void write(const DeviceWrench& wrench) noexcept override;  // it drives no torque
 
     // Moves simulated time on in whole steps of kStep_ns; what is left over is kept for the next call. Before read().
     void advance(Nanoseconds dt_ns) noexcept;

@@ -17,8 +17,10 @@
 // TickParameters::max_surface_age_s asks, even if nothing has changed.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "base/clock.hpp"
 #include "base/space.hpp"
@@ -26,6 +28,20 @@
 #include "geometry/tile_block.hpp"
 
 namespace burin {
+
+struct TouchSnapshot;
+
+// A mesh among what can be touched.
+struct TouchedMesh {
+    std::shared_ptr<const TouchSnapshot> snapshot;
+    std::uint8_t material = 0;  // which of the session's materials (haptics/forces/touch_material.hpp)
+};
+
+// The normals at a triangle's corners, of the smooth surface that it is a facet of. None where it is not known.
+struct CornerNormals {
+    bool known = false;
+    std::array<Vec3f, 3> normals{};  // unit
+};
 
 struct LocalSurface {
     std::uint64_t sequence = 0;  // 0: never published; a tick record names the surface it used
@@ -35,12 +51,15 @@ struct LocalSurface {
     double radius_m = 0.0;
     TileBlock tiles;
     std::shared_ptr<const GriddedTriangles> loose;  // none, or with its search built
+    std::vector<TouchedMesh> meshes;                // whole, wherever they are; the known ball does not bound them
 
     // A triangle's id is its number among the tiles', or that of a loose one after all of those.
     [[nodiscard]] std::uint32_t loose_triangles() const noexcept {
         return loose ? static_cast<std::uint32_t>(loose->triangles.size()) : 0u;
     }
     [[nodiscard]] std::uint32_t triangles() const noexcept { return tiles.triangles + loose_triangles(); }
+    [[nodiscard]] std::uint8_t material(std::uint32_t) const noexcept { return 0; }
+    [[nodiscard]] CornerNormals corner_normals(std::uint32_t) const noexcept { return {}; }
     // Relative to origin_object; of an id below triangles().
     [[nodiscard]] Triangle triangle(std::uint32_t id) const noexcept {
         return id < tiles.triangles ? tiles.triangle(id) : loose->triangle(id - tiles.triangles);

@@ -8,29 +8,57 @@
 // contact happen.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "base/newest_slot.hpp"
 #include "base/ring.hpp"
 #include "devices/haptic_device.hpp"
 #include "geometry/local_surface.hpp"
-#include "haptics/safety_gate.hpp"
+#include "haptics/contact/probe.hpp"
+#include "haptics/forces/guidance.hpp"
+#include "haptics/forces/touch_material.hpp"
+#include "haptics/forces/wrench.hpp"
+#include "haptics/signals/smoothing.hpp"
+#include "haptics/stability/passivity.hpp"
+#include "haptics/stability/safety_gate.hpp"
+#include "haptics/stability/stiffness_limit.hpp"
+#include "haptics/stability/virtual_coupling.hpp"
+#include "haptics/workspace/technique.hpp"
 
 namespace burin {
+
+// What the tool does while its button (bit 0) is pressed.
+enum class ToolAction : std::uint8_t {
+    touch,  // nothing: it only feels
+    cut,    // resistance by hardness and engagement
+    fill,   // deposits where the proxy is; felt as touch
+    paint,  // felt without friction: painting has no resistance
+};
 
 // Settings of a tick. Written by the frame or the study, never by the haptic thread. A set that is not sensible (see
 // parameters_are_sensible in haptics/tick.hpp) gives zero force and GateCause::bad_parameters.
 struct TickParameters {
-    std::uint64_t sequence = 0;     // 0: the defaults, never published
-    Similarity object_from_device;  // its scale is the position gain g: motions grow by g, forces shrink by g
-    double tool_radius_m = 0.0;     // of the tool ball, in the object frame; 0 is a point
+    std::uint64_t sequence = 0;  // 0: the defaults, never published
+    WorkspaceSettings
+        workspace;  // where the device is in the scene; the scale is the position gain g: motions grow by g,
+                    // forces shrink by g
+    Probe probe;
     // The ball that touches is smaller than the ball that carves by this fraction of its radius. A ball lying in the
     // groove it has cut would otherwise be pinched by the facets, which cut the circle's corner: a facet of length s
     // stands s^2 / (8 R) proud. 0.02 leaves room for facets of 0.4 R.
     double clearance_ratio = 0.02;
-    // F = k dx + b dx/dt. As felt at the device, whatever the scale. 600 N/m is what the Omni renders crisply.
-    double stiffness_N_per_m = 600.0;
-    double damping_Ns_per_m = 0.5;
+    bool shading = true;  // force shading, see haptics/contact/god_object.hpp
+    std::array<TouchMaterial, kMostMaterials> materials{};
+    ToolAction action = ToolAction::touch;
+    // The stiffness of materials is limited to what the device renders passively; false: taken as it is set.
+    bool limit_stiffness = true;
+    CouplingSettings coupling;
+    PassivitySettings passivity;
+    SignalSettings signals;
+    WeightSettings weight;
+    GuidanceSettings guidance;
+    GuidanceCurve curve;
     // The noise bound of the velocity estimate, in the device frame: the encoder's step.
     double position_noise_m = 0.000055;
     bool enabled = true;  // false: no contact, zero force, the proxy stays with the HIP
@@ -44,6 +72,7 @@ struct StrokeSample {
     std::uint64_t tick = 0;
     Nanoseconds time_ns = 0;
     Vec3 position_object_m{0.0};  // HIP: where the hand is
+    Vec3 cut_object_m{0.0};       // where the tool has eaten to (haptics/forces/cutting.hpp): what a cut sweeps along
     Vec3 proxy_object_m{0.0};     // IHIP: where the tool rests on the surface; the HIP itself in free space
     Quat orientation_object{1.0, 0.0, 0.0, 0.0};
     Vec3 force_object_N{0.0};  // what the device was told, in the object frame, in newtons at the device
@@ -51,6 +80,7 @@ struct StrokeSample {
     std::uint32_t flags = 0;  // TickFlag bits
     std::uint64_t surface_sequence = 0;
     std::uint64_t parameter_sequence = 0;
+    WorkspacePhase phase = WorkspacePhase::editing;  // in any other nothing is carved
 };
 
 // A degraded or noteworthy tick says so; bits of TickRecord::flags.
@@ -68,6 +98,14 @@ enum TickFlag : std::uint32_t {
     kTickRamping = 1u << 10,        // force is being faded in
     kTickFault = 1u << 11,          // the gate gave zero; TickRecord::cause says why
     kTickSampleDropped = 1u << 12,  // the carving side's ring was full: this stroke sample was lost
+    kTickStiffnessLimited =
+        1u << 13,                   // a material is stiffer than the device renders passively; StiffnessBound says why
+    kTickPassivityActs = 1u << 14,  // the passivity controller adds damping
+    kTickPaused = 1u << 15,         // the workspace is being moved: nothing is touched
+    kTickSticking = 1u << 16,       // friction holds the proxy
+    kTickCutting = 1u << 17,        // the tool eats its way into material
+    kTickGuided = 1u << 18,         // drawn to the guidance curve
+    kTickLoopGap = 1u << 19,        // ticks were lost before this one
 };
 
 // What the tick did in numbers that do not depend on the machine's speed.
@@ -80,6 +118,17 @@ struct TickWork {
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 
+// One point of the probe.
+struct PointRecord {
+    Vec3 hip_object_m{0.0};
+    Vec3 proxy_object_m{0.0};
+    Vec3 normal_object{0.0};                      // unit, of the contact; zero in free space
+    Vec3 force_device_N{0.0};                     // wanted, of this point alone
+    double penetration_m = 0.0;                   // |proxy - HIP| in the object frame
+    std::uint32_t active_triangle = kNoTriangle;  // in the surface used: the one that bears most of the contact
+    std::uint32_t constraints = 0;                // 0 to 3 planes bear the proxy
+};
+
 // Everything a tick used and did. With the surfaces and parameters of the sequences named it replays to the same bits.
 struct TickRecord {
     std::uint64_t tick = 0;
@@ -88,15 +137,24 @@ struct TickRecord {
     DeviceSample sample;
     std::uint64_t surface_sequence = 0;
     std::uint64_t parameter_sequence = 0;
+    Similarity object_from_device;  // as the workspace technique had it
+    WorkspacePhase phase = WorkspacePhase::editing;
+    // Of the point that is deepest in contact; in free space of the first.
     Vec3 hip_object_m{0.0};
     Vec3 proxy_object_m{0.0};
+    Vec3 contact_normal_object{0.0};
+    double penetration_m = 0.0;
+    std::uint32_t active_triangle = kNoTriangle;
+    std::uint32_t constraints = 0;
+    std::uint32_t point_count = 0;
+    std::array<PointRecord, kMostProbePoints> points{};
+    Vec3 cut_object_m{0.0};
     Vec3 velocity_device_m_per_s{0.0};
-    Vec3 contact_normal_object{0.0};              // unit, from the HIP to the proxy; zero in free space
-    double penetration_m = 0.0;                   // |proxy - HIP| in the object frame
-    std::uint32_t active_triangle = kNoTriangle;  // in the surface used: the one that bears most of the contact
-    std::uint32_t constraints = 0;                // 0 to 3 planes bear the proxy
-    Vec3 wanted_force_device_N{0.0};              // before the gate
-    Vec3 force_device_N{0.0};                     // what the device was told
+    DeviceWrench wanted;  // before the gate
+    DeviceWrench given;   // what the device was told
+    StiffnessBound stiffness_bound = StiffnessBound::none;
+    double passivity_energy_J = 0.0;  // into the rendered world since contact began
+    double passivity_damping_Ns_per_m = 0.0;
     std::uint32_t flags = 0;
     GateCause cause = GateCause::none;
     TickWork work;
@@ -110,7 +168,11 @@ struct ToolState {
     Vec3 proxy_object_m{0.0};
     Quat orientation_object{1.0, 0.0, 0.0, 0.0};
     Vec3 position_device_m{0.0};
-    Vec3 force_device_N{0.0};
+    DeviceWrench given;
+    std::uint32_t point_count = 0;
+    std::array<Vec3, kMostProbePoints> proxies_object_m{};
+    WorkspacePicture workspace;
+    StiffnessBound stiffness_bound = StiffnessBound::none;
     std::uint32_t buttons = 0;
     std::uint32_t flags = 0;
     GateCause cause = GateCause::none;

@@ -16,7 +16,7 @@ TickRecord HapticLoop::step(Nanoseconds lateness_ns) noexcept {
     const LocalSurface& surface = channels_.surface.newest();
     const TickParameters& parameters = channels_.parameters.newest();
     FullTick full = full_tick(state_, sample, surface, parameters, device_.description(), now_ns, dt_s_);
-    device_.write(full.record.force_device_N);
+    device_.write(full.record.given);
     state_ = full.next;
 
     full.record.tick = full.stroke.tick = ++ticks_;
@@ -36,7 +36,12 @@ TickRecord HapticLoop::step(Nanoseconds lateness_ns) noexcept {
     tool.proxy_object_m = full.record.proxy_object_m;
     tool.orientation_object = full.stroke.orientation_object;
     tool.position_device_m = sample.position_device_m;
-    tool.force_device_N = full.record.force_device_N;
+    tool.given = full.record.given;
+    tool.point_count = full.record.point_count;
+    for (std::uint32_t i = 0; i < tool.point_count; ++i)
+        tool.proxies_object_m[i] = full.record.points[i].proxy_object_m;
+    tool.workspace = full.workspace;
+    tool.stiffness_bound = full.record.stiffness_bound;
     tool.buttons = sample.buttons;
     tool.flags = full.record.flags;
     tool.cause = full.record.cause;
@@ -60,7 +65,7 @@ void HapticLoop::run_ticks(std::uint64_t count, const std::atomic<bool>* stop) n
         skipped_deadlines_ += static_cast<std::uint64_t>(missed);
         deadline_ns += (missed + 1) * period_ns_;
     }
-    device_.write(Vec3(0.0));
+    device_.write({});
 }
 
 }  // namespace burin

@@ -35,7 +35,7 @@ TEST(SimulatedOmni, ForcesBelowFrictionMoveNothing) {
     for (int i = 0; i < 500; ++i) {
         omni.advance(kMs);
         static_cast<void>(omni.read());
-        omni.write({0.18, -0.18, 0.04});  // 0.2577 N in all
+        omni.write({{0.18, -0.18, 0.04}});  // 0.2577 N in all
     }
     EXPECT_EQ(omni.true_position_device_m(), Vec3(0.0));
     EXPECT_EQ(omni.true_velocity_device_m_per_s(), Vec3(0.0));
@@ -46,7 +46,7 @@ TEST(SimulatedOmni, AConstantForceGivesTheClosedFormMotion) {
     SimulatedOmni omni(resting(kLetGo));
     const OmniModel model;
     const double net = 1.0 - model.friction_N;
-    omni.write({1.0, 0.0, 0.0});
+    omni.write({{1.0, 0.0, 0.0}});
     static_cast<void>(omni.read());  // from here on the force acts
     for (int i = 0; i < 60; ++i) {
         omni.advance(kMs);
@@ -61,9 +61,9 @@ TEST(SimulatedOmni, AConstantForceGivesTheClosedFormMotion) {
 
 TEST(SimulatedOmni, FrictionStopsASlidingStylusAndKeepsItStill) {
     SimulatedOmni omni(resting(kLetGo));
-    omni.write({3.0, 1.0, 0.0});
+    omni.write({{3.0, 1.0, 0.0}});
     static_cast<void>(omni.read());
-    omni.write(Vec3(0.0));
+    omni.write({});
     omni.advance(5 * kMs);
     static_cast<void>(omni.read());
     EXPECT_GT(glm::length(omni.true_velocity_device_m_per_s()), 0.2);
@@ -79,14 +79,14 @@ TEST(SimulatedOmni, ForcesActOneTickLateAndAreHeldAndClamped) {
     SimulatedOmni omni(resting());
     omni.advance(kMs);
     static_cast<void>(omni.read());
-    omni.write({30.0, 40.0, 0.0});
+    omni.write({{30.0, 40.0, 0.0}});
     EXPECT_EQ(omni.acting_force_device_N(), Vec3(0.0));
     omni.advance(kMs);
     EXPECT_EQ(omni.acting_force_device_N(), Vec3(0.0));  // still the tick of transport
     static_cast<void>(omni.read());
     EXPECT_NEAR(omni.acting_force_device_N().x, 3.3 * 0.6, 1e-12);
     EXPECT_NEAR(omni.acting_force_device_N().y, 3.3 * 0.8, 1e-12);
-    omni.write({std::nan(""), 0.0, 0.0});
+    omni.write({{std::nan(""), 0.0, 0.0}});
     static_cast<void>(omni.read());
     EXPECT_EQ(omni.acting_force_device_N(), Vec3(0.0));
 }
@@ -141,7 +141,7 @@ TEST(SimulatedOmni, TheSameScriptGivesTheSameBitsByAdvanceAndByClock) {
         clock.sleep_until(i * kMs);
         const DeviceSample sa = a.read(), sb = b.read(), sc = by_clock.read();
         const Vec3 force = -20.0 * sa.position_device_m;
-        a.write(force), b.write(force), by_clock.write(force);
+        a.write({force}), b.write({force}), by_clock.write({force});
         EXPECT_EQ(sa.time_ns, i * kMs);
         for (const DeviceSample& other : {sb, sc}) {
             EXPECT_EQ(sa.time_ns, other.time_ns);
@@ -176,7 +176,7 @@ TEST(SimulatedOmni, InjectedFaultsShowAsTheyWouldOnHardware) {
     EXPECT_NEAR(omni.read().position_device_m.x - x0, 0.01, 1e-12);
     omni.inject(InjectedFault::disconnected);
     EXPECT_EQ(omni.read().fault, DeviceFault::disconnected);
-    omni.write({1.0, 0.0, 0.0});
+    omni.write({{1.0, 0.0, 0.0}});
     static_cast<void>(omni.read());
     EXPECT_EQ(omni.acting_force_device_N(), Vec3(0.0));
     omni.inject(InjectedFault::none);

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "geometry/local_surface_search.hpp"
-#include "haptics/half_spaces.hpp"
-#include "haptics/triangle_contact.hpp"
+#include "haptics/contact/half_spaces.hpp"
+#include "haptics/contact/triangle_contact.hpp"
 #include "tests/haptics/surfaces.hpp"
 
 namespace burin {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The proxy against closed forms: where a ball must rest on shapes simple enough to say so.
-#include "haptics/god_object.hpp"
+#include "haptics/contact/god_object.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ struct Walker {
     ProxyResult last{};
 
     ProxyResult put(const Vec3& to) {
-        last = move_proxy(state, to, radius, *surface);
+        last = move_proxy(state, to, {radius}, *surface);
         state = last.next;
         hip = to;
         return last;
@@ -295,11 +295,11 @@ TEST(GodObject, StopsSafelyWhenItsWorkIsUsedUp) {
     Walker w{plane.get(), 5 * kMm};
     w.put({0.0, 0.0052, 0.0});
     const ProxyResult r =
-        move_proxy(w.state, {0.0, -0.01, 0.0}, w.radius, *plane, {.max_steps = 12, .max_triangles_tested = 3});
+        move_proxy(w.state, {0.0, -0.01, 0.0}, {w.radius}, *plane, {.max_steps = 12, .max_triangles_tested = 3});
     EXPECT_TRUE(r.work_limited);
     EXPECT_LE(r.work.triangles_tested, 3u);
     EXPECT_GE(r.next.position_object_m.y, 0.998 * w.radius);
-    const ProxyResult looked = move_proxy(w.state, {0.0, -0.01, 0.0}, w.radius, *plane, {.max_triangles_seen = 7});
+    const ProxyResult looked = move_proxy(w.state, {0.0, -0.01, 0.0}, {w.radius}, *plane, {.max_triangles_seen = 7});
     EXPECT_TRUE(looked.work_limited);
     EXPECT_LE(looked.work.triangles_seen, 7u);
     EXPECT_GE(looked.next.position_object_m.y, 0.998 * w.radius);

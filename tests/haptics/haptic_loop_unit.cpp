@@ -25,8 +25,9 @@ std::vector<HandPose> press_and_drag() {
 
 TickParameters tool(double radius = 0.005) {
     TickParameters p;
-    p.tool_radius_m = radius;
+    p.probe.points[0].radius_m = radius;
     p.clearance_ratio = 0.0;
+    p.limit_stiffness = false;
     p.max_surface_age_s = 0.0;
     return p;
 }
@@ -38,16 +39,16 @@ TEST(HapticLoop, AHandPressingOnAWallFindsTheBalanceOfTheTwoSprings) {
     rig.publish(*test::plane(0.1, 20), 1);
     rig.publish(tool(), 1);
     const auto before = rig.ticks(600);
-    EXPECT_EQ(before.front().force_device_N, Vec3(0.0));
+    EXPECT_EQ(before.front().given.force_device_N, Vec3(0.0));
     const auto pressed = rig.ticks(550);
     // 600 (d) = 200 (6 mm - d) give or take friction 0.26 N: d = 1.5 mm +- 0.33 mm.
     EXPECT_NEAR(pressed.back().penetration_m, 1.5e-3, 0.26 / 800.0 + 0.1e-3);
-    EXPECT_NEAR(pressed.back().force_device_N.y, 600.0 * pressed.back().penetration_m, 1e-9);
+    EXPECT_NEAR(pressed.back().given.force_device_N.y, 600.0 * pressed.back().penetration_m, 1e-9);
     EXPECT_EQ(pressed.back().surface_sequence, 1u);
     EXPECT_EQ(pressed.back().parameter_sequence, 1u);
     EXPECT_EQ(pressed.back().cause, GateCause::none);
     const auto rest = rig.ticks(1400);
-    EXPECT_EQ(rest.back().force_device_N, Vec3(0.0));
+    EXPECT_EQ(rest.back().given.force_device_N, Vec3(0.0));
     for (const TickRecord& r : rest) EXPECT_EQ(r.flags & kTickWorkLimited, 0u);
 }
 
@@ -69,12 +70,12 @@ TEST(HapticLoop, PublishesEveryTickInOrderWithItsNumbers) {
         EXPECT_EQ(record.surface_sequence, 7u);
         EXPECT_EQ(stroke.parameter_sequence, 3u);
         EXPECT_EQ(record.time_ns, static_cast<Nanoseconds>(i) * kMs);
-        EXPECT_EQ(record.force_device_N, told[i - 1].force_device_N);
+        EXPECT_EQ(record.given.force_device_N, told[i - 1].given.force_device_N);
     }
     EXPECT_FALSE(rig.channels.records.pop(record));
     const ToolState& tool_state = rig.channels.tool.newest();
     EXPECT_EQ(tool_state.tick, 1000u);
-    EXPECT_EQ(tool_state.force_device_N, record.force_device_N);
+    EXPECT_EQ(tool_state.given.force_device_N, record.given.force_device_N);
 }
 
 TEST(HapticLoop, AFullRingIsFlaggedAndCounted) {
@@ -102,7 +103,7 @@ TEST(HapticLoop, TheSameScriptGivesTheSameBitsTwice) {
     for (std::size_t i = 0; i < a.size(); ++i) {
         touched = touched || a[i].penetration_m > 0.0;
         EXPECT_EQ(std::memcmp(&a[i].proxy_object_m, &b[i].proxy_object_m, sizeof(Vec3)), 0) << i;
-        EXPECT_EQ(std::memcmp(&a[i].force_device_N, &b[i].force_device_N, sizeof(Vec3)), 0) << i;
+        EXPECT_EQ(std::memcmp(&a[i].given.force_device_N, &b[i].given.force_device_N, sizeof(Vec3)), 0) << i;
         EXPECT_EQ(std::memcmp(&a[i].sample.position_device_m, &b[i].sample.position_device_m, sizeof(Vec3)), 0) << i;
         EXPECT_EQ(a[i].flags, b[i].flags);
     }
@@ -122,7 +123,7 @@ TEST(HapticLoop, RunInSimulatedTimeEqualsStepping) {
     TickRecord record;
     for (const TickRecord& expected : told) {
         ASSERT_TRUE(run.channels.records.pop(record));
-        EXPECT_EQ(record.force_device_N, expected.force_device_N);
+        EXPECT_EQ(record.given.force_device_N, expected.given.force_device_N);
         EXPECT_EQ(record.time_ns, expected.time_ns);
     }
 }
@@ -139,18 +140,18 @@ TEST(HapticLoop, DeviceFaultsTurnTheForceOffAndItComesBackGently) {
         Rig rig(press_and_drag());
         rig.publish(*test::plane(0.1, 20), 1);
         rig.publish(tool(), 1);
-        ASSERT_GT(rig.ticks(1100).back().force_device_N.y, 0.5);
+        ASSERT_GT(rig.ticks(1100).back().given.force_device_N.y, 0.5);
         rig.omni.inject(c.fault);
         const auto faulty = rig.ticks(25);
         EXPECT_EQ(faulty.back().cause, c.cause) << text(c.cause);
-        EXPECT_EQ(faulty.back().force_device_N, Vec3(0.0)) << text(c.cause);
+        EXPECT_EQ(faulty.back().given.force_device_N, Vec3(0.0)) << text(c.cause);
         EXPECT_NE(faulty.back().flags & kTickFault, 0u);
-        for (const TickRecord& r : faulty) EXPECT_TRUE(std::isfinite(glm::length(r.force_device_N)));
+        for (const TickRecord& r : faulty) EXPECT_TRUE(std::isfinite(glm::length(r.given.force_device_N)));
         rig.omni.inject(InjectedFault::none);
         Vec3 last(0.0);
         for (const TickRecord& r : rig.ticks(60)) {
-            EXPECT_LE(glm::length(r.force_device_N - last), 0.05) << text(c.cause);  // no kick
-            last = r.force_device_N;
+            EXPECT_LE(glm::length(r.given.force_device_N - last), 0.05) << text(c.cause);  // no kick
+            last = r.given.force_device_N;
         }
     }
 }
@@ -165,11 +166,11 @@ TEST(HapticLoop, ASurfaceNobodyVouchesForAnyMoreGivesNoForce) {
         if (i % 100 == 0) rig.publish(*plane, static_cast<std::uint64_t>(i) + 1);  // sign of life
         rig.tick();
     }
-    EXPECT_GT(rig.tick().force_device_N.y, 0.5);
+    EXPECT_GT(rig.tick().given.force_device_N.y, 0.5);
     EXPECT_EQ(rig.ticks(150).back().cause, GateCause::stale_surface);
-    EXPECT_EQ(rig.tick().force_device_N, Vec3(0.0));
+    EXPECT_EQ(rig.tick().given.force_device_N, Vec3(0.0));
     rig.publish(*plane, 2000);
-    EXPECT_GT(rig.ticks(190).back().force_device_N.y, 0.5);
+    EXPECT_GT(rig.ticks(190).back().given.force_device_N.y, 0.5);
 }
 
 namespace {

@@ -24,9 +24,9 @@ TEST(Replay, RecordedSamplesSurfacesAndParametersGiveTheSameForcesBitForBit) {
         if (i == 20 || i == 900 || i == 1500) {
             TickParameters p;
             p.sequence = static_cast<std::uint64_t>(i);
-            p.tool_radius_m = 0.005;
-            p.stiffness_N_per_m = 300.0 + 0.2 * i;
-            p.object_from_device.scale = i < 1500 ? 1.0 : 1.25;
+            p.probe.points[0].radius_m = 0.005;
+            p.materials[0].stiffness_N_per_m = 300.0 + 0.2 * i;
+            p.workspace.object_from_device.scale = i < 1500 ? 1.0 : 1.25;
             parameters[p.sequence] = p;
             rig.publish(p, p.sequence);
         }
@@ -50,8 +50,8 @@ TEST(Replay, RecordedSamplesSurfacesAndParametersGiveTheSameForcesBitForBit) {
         state = again.next;
         in_contact += (r.flags & kTickInContact) != 0;
         const TickRecord& a = again.record;
-        ASSERT_EQ(std::memcmp(&a.force_device_N, &r.force_device_N, sizeof(Vec3)), 0) << r.tick;
-        ASSERT_EQ(std::memcmp(&a.wanted_force_device_N, &r.wanted_force_device_N, sizeof(Vec3)), 0) << r.tick;
+        ASSERT_EQ(std::memcmp(&a.given.force_device_N, &r.given.force_device_N, sizeof(Vec3)), 0) << r.tick;
+        ASSERT_EQ(std::memcmp(&a.wanted.force_device_N, &r.wanted.force_device_N, sizeof(Vec3)), 0) << r.tick;
         ASSERT_EQ(std::memcmp(&a.proxy_object_m, &r.proxy_object_m, sizeof(Vec3)), 0) << r.tick;
         ASSERT_EQ(std::memcmp(&a.velocity_device_m_per_s, &r.velocity_device_m_per_s, sizeof(Vec3)), 0) << r.tick;
         ASSERT_EQ(a.active_triangle, r.active_triangle) << r.tick;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Whatever comes in, what goes out is finite, within the limit and no faster than the slew limit.
-#include "haptics/safety_gate.hpp"
+#include "haptics/stability/safety_gate.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -33,7 +33,7 @@ Vec3 any_vector() {
 
 GateInput any_input() {
     GateInput in;
-    in.wanted_force_device_N = any_vector();
+    in.wanted.force_device_N = any_vector();
     if (*rc::gen::inRange(0, 4) == 0) in.velocity_device_m_per_s = any_vector();
     in.device_max_force_N = *rc::gen::inRange(0, 8) == 0 ? any_number() : 3.3;
     in.sample_age_s = *rc::gen::inRange(0, 8) == 0 ? any_number() : 0.0;
@@ -56,16 +56,16 @@ TEST(SafetyGate, NeverExceedsForceOrSlewLimitOnAnyInput) {
         for (int i = 0; i < 60; ++i) {
             const GateInput in = any_input();
             const GateOutput out = pass_gate(state, in, limits, 1e-3);
-            const double force = glm::length(out.force_device_N);
+            const double force = glm::length(out.given.force_device_N);
             RC_ASSERT(std::isfinite(force));
             RC_ASSERT(force <= limits.max_force_N);
             if (out.cause != GateCause::none) {
-                RC_ASSERT(out.force_device_N == Vec3(0.0));
+                RC_ASSERT(out.given.force_device_N == Vec3(0.0));
             } else {
                 RC_ASSERT(force <= in.device_max_force_N);
-                const double change = glm::length(out.force_device_N - state.force_device_N);
+                const double change = glm::length(out.given.force_device_N - state.given.force_device_N);
                 // Rounding of the difference of two forces up to 6 N; and the force limit may win when it falls.
-                const bool device_limit_fell = in.device_max_force_N < glm::length(state.force_device_N);
+                const bool device_limit_fell = in.device_max_force_N < glm::length(state.given.force_device_N);
                 RC_ASSERT(device_limit_fell || change <= limits.max_slew_N_per_s * 1e-3 + 1e-14);
             }
             state = out.next;

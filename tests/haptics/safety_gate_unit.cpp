@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "haptics/safety_gate.hpp"
+#include "haptics/stability/safety_gate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,20 +17,20 @@ const double kInfinity = std::numeric_limits<double>::infinity();
 
 GateInput asking_for(const Vec3& force) {
     GateInput in;
-    in.wanted_force_device_N = force;
+    in.wanted.force_device_N = force;
     in.device_max_force_N = 3.3;
     return in;
 }
 
 // A gate that has been open for long.
-GateState open_at(const Vec3& force) { return {force, 1.0, 10.0, false}; }
+GateState open_at(const Vec3& force) { return {.given = {force}, .ramp = 1.0, .well_s = 10.0}; }
 
 }  // namespace
 
 TEST(SafetyGate, PassesAModestForceUnchanged) {
     const Vec3 force(0.3, -0.2, 1.0);
     const GateOutput out = pass_gate(open_at(force), asking_for(force), {}, kDt);
-    EXPECT_EQ(out.force_device_N, force);
+    EXPECT_EQ(out.given.force_device_N, force);
     EXPECT_EQ(out.cause, GateCause::none);
     EXPECT_FALSE(out.saturated || out.slew_limited || out.ramping);
 }
@@ -41,10 +41,10 @@ TEST(SafetyGate, FadesInFromZeroAtTheStart) {
     double last = 0.0;
     for (int i = 1; i <= 250; ++i) {
         const GateOutput out = pass_gate(state, asking_for({1.0, 0.0, 0.0}), limits, kDt);
-        EXPECT_NEAR(out.force_device_N.x, std::min(1.0, i / 200.0), 1e-9);
-        EXPECT_GE(out.force_device_N.x, last);
+        EXPECT_NEAR(out.given.force_device_N.x, std::min(1.0, i / 200.0), 1e-9);
+        EXPECT_GE(out.given.force_device_N.x, last);
         EXPECT_EQ(out.ramping, i < 200) << i;
-        last = out.force_device_N.x;
+        last = out.given.force_device_N.x;
         state = out.next;
     }
 }
@@ -53,16 +53,16 @@ TEST(SafetyGate, CutsToTheSmallerOfDeviceAndSettingAndKeepsTheDirection) {
     const Vec3 big(30.0, 40.0, 0.0);
     GateOutput out = pass_gate(open_at({1.98, 2.64, 0}), asking_for(big), {}, kDt);
     EXPECT_TRUE(out.saturated);
-    EXPECT_NEAR(out.force_device_N.x, 1.98, 1e-12);
-    EXPECT_NEAR(out.force_device_N.y, 2.64, 1e-12);
+    EXPECT_NEAR(out.given.force_device_N.x, 1.98, 1e-12);
+    EXPECT_NEAR(out.given.force_device_N.y, 2.64, 1e-12);
     out = pass_gate(open_at({0.6, 0.8, 0}), asking_for(big), {.max_force_N = 1.0}, kDt);
-    EXPECT_NEAR(glm::length(out.force_device_N), 1.0, 1e-12);
+    EXPECT_NEAR(glm::length(out.given.force_device_N), 1.0, 1e-12);
 }
 
 TEST(SafetyGate, ForceLimitWinsOverSlewLimitWhenItIsLowered) {
     const GateLimits limits{.max_force_N = 0.5, .max_slew_N_per_s = 100.0};
     const GateOutput out = pass_gate(open_at({3.0, 0.0, 0.0}), asking_for({3.0, 0.0, 0.0}), limits, kDt);
-    EXPECT_LE(glm::length(out.force_device_N), 0.5);
+    EXPECT_LE(glm::length(out.given.force_device_N), 0.5);
 }
 
 TEST(SafetyGate, EveryCauseGivesZeroAtOnceAndItsOwnName) {
@@ -72,9 +72,9 @@ TEST(SafetyGate, EveryCauseGivesZeroAtOnceAndItsOwnName) {
     };
     const Case cases[] = {
         {GateCause::device_fault, [](GateInput& in, GateLimits&) { in.device_fault = DeviceFault::overheated; }},
-        {GateCause::not_finite, [](GateInput& in, GateLimits&) { in.wanted_force_device_N.y = kNan; }},
-        {GateCause::not_finite, [](GateInput& in, GateLimits&) { in.wanted_force_device_N.y = kInfinity; }},
-        {GateCause::not_finite, [](GateInput& in, GateLimits&) { in.wanted_force_device_N.y = 1e300; }},
+        {GateCause::not_finite, [](GateInput& in, GateLimits&) { in.wanted.force_device_N.y = kNan; }},
+        {GateCause::not_finite, [](GateInput& in, GateLimits&) { in.wanted.force_device_N.y = kInfinity; }},
+        {GateCause::not_finite, [](GateInput& in, GateLimits&) { in.wanted.force_device_N.y = 1e300; }},
         {GateCause::not_finite, [](GateInput& in, GateLimits&) { in.velocity_device_m_per_s.z = kNan; }},
         {GateCause::not_finite, [](GateInput& in, GateLimits&) { in.sample_age_s = kNan; }},
         {GateCause::not_finite, [](GateInput& in, GateLimits&) { in.device_max_force_N = kNan; }},
@@ -94,7 +94,7 @@ TEST(SafetyGate, EveryCauseGivesZeroAtOnceAndItsOwnName) {
         c.spoil(in, limits);
         const GateOutput out = pass_gate(open_at({1.0, 0.0, 0.0}), in, limits, kDt);
         EXPECT_EQ(out.cause, c.cause) << text(c.cause);
-        EXPECT_EQ(out.force_device_N, Vec3(0.0)) << text(c.cause);
+        EXPECT_EQ(out.given.force_device_N, Vec3(0.0)) << text(c.cause);
         seen.insert(out.cause);
     }
     std::set<std::string> texts;
@@ -117,13 +117,13 @@ TEST(SafetyGate, WaitsAfterAFaultAndThenFadesInAgain) {
     for (int i = 1; i <= 200; ++i) {
         const GateOutput out = pass_gate(state, in, limits, kDt);
         if (i < 50) {
-            EXPECT_EQ(out.force_device_N, Vec3(0.0)) << i;
+            EXPECT_EQ(out.given.force_device_N, Vec3(0.0)) << i;
         }
         if (i > 55 && i < 145) {
-            EXPECT_NEAR(out.force_device_N.x, (i - 49) / 100.0, 0.011) << i;
+            EXPECT_NEAR(out.given.force_device_N.x, (i - 49) / 100.0, 0.011) << i;
         }
         if (i > 155) {
-            EXPECT_EQ(out.force_device_N.x, 1.0) << i;
+            EXPECT_EQ(out.given.force_device_N.x, 1.0) << i;
         }
         state = out.next;
     }

@@ -22,12 +22,13 @@ Tap tap(double stiffness, HandGrip grip) {
     test::Rig rig({{0.0, Vec3(0.0, 0.01, 0.0)}, {0.3, Vec3(0.0, 0.01, 0.0)}, {0.43, Vec3(0.0, -0.003, 0.0)}}, grip);
     rig.publish(*test::plane(0.05, 2), 1);
     TickParameters p;
-    p.tool_radius_m = 0.002;
+    p.probe.points[0].radius_m = 0.002;
     p.clearance_ratio = 0.0;
-    p.stiffness_N_per_m = stiffness;
-    p.damping_Ns_per_m = 0.0;
+    p.limit_stiffness = false;
+    p.materials[0].stiffness_N_per_m = stiffness;
+    p.materials[0].damping_Ns_per_m = 0.0;
     p.max_surface_age_s = 0.0;
-    p.object_from_device.position_m = {0.0, 0.002, 0.0};  // the ball's rest is at device height 0
+    p.workspace.object_from_device.position_m = {0.0, 0.002, 0.0};  // the ball's rest is at device height 0
     p.limits.ramp_s = 0.0;
     p.limits.max_slew_N_per_s = 1e9;  // the loop itself is under test
     p.limits.max_speed_m_per_s = 1e3;
@@ -46,9 +47,9 @@ Tap tap(double stiffness, HandGrip grip) {
         if (i > kTicks * 4 / 5) {
             highest = std::max(highest, position.y);
             lowest = std::min(lowest, position.y);
-            result.change_late_N += glm::length(r.force_device_N - last_force) / (kTicks / 5);
+            result.change_late_N += glm::length(r.given.force_device_N - last_force) / (kTicks / 5);
         }
-        last_force = r.force_device_N;
+        last_force = r.given.force_device_N;
     }
     result.deepest_late_m = -lowest;
     result.swing_late_m = highest - lowest;

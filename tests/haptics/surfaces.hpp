@@ -9,9 +9,14 @@
 #include <numbers>
 #include <utility>
 
+#include "devices/haptic_device.hpp"
 #include "geometry/local_surface.hpp"
 
 namespace burin::test {
+
+// A device that limits nothing by itself, for ticks without a gate.
+inline constexpr DeviceDescription kStrongDevice{
+    .name = "strong", .max_force_N = 100.0, .max_torque_Nm = Vec3(10.0), .max_stiffness_N_per_m = 1e6};
 
 using Surface = std::unique_ptr<LocalSurface>;
 

@@ -62,14 +62,14 @@ TEST(HapticLoop, TenThousandStepsAllocateLockThrowAndOpenNothing) {
     const test::Surface groove = test::groove(0.005, 0.1, 24, 60, 2e-5);
     const test::Surface deeper = test::groove(0.0055, 0.1, 24, 60, 2e-5);
     TickParameters parameters;
-    parameters.tool_radius_m = 0.005;
+    parameters.probe.points[0].radius_m = 0.005;
     int in_contact = 0, faulty = 0;
     test::RealtimeCounts total;
     for (int i = 0; i < 10'000; ++i) {
         // Between ticks the other threads' work goes on; only step() is watched.
         if (i % 100 == 0) rig.publish(i % 200 == 0 ? *groove : *deeper, static_cast<std::uint64_t>(i) + 1);
         if (i % 1000 == 0) {
-            parameters.object_from_device.scale = 1.0 + 1e-4 * i;
+            parameters.workspace.object_from_device.scale = 1.0 + 1e-4 * i;
             rig.publish(parameters, static_cast<std::uint64_t>(i) + 1);
         }
         if (i % 2500 == 1200) rig.omni.inject(static_cast<InjectedFault>(1 + i / 2500));
@@ -97,9 +97,9 @@ TEST(HapticLoop, StepsOnTilesThatAreCarvedMeanwhileAllocateFreeAndLockNothing) {
     }
     test::Rig rig(script);
     TickParameters parameters;
-    parameters.tool_radius_m = test::kToolRadius_m;
-    parameters.object_from_device.position_m = Vec3(0.0, 0.44, 0.0);
-    parameters.object_from_device.scale = 4.0;
+    parameters.probe.points[0].radius_m = test::kToolRadius_m;
+    parameters.workspace.object_from_device.position_m = Vec3(0.0, 0.44, 0.0);
+    parameters.workspace.object_from_device.scale = 4.0;
     rig.publish(parameters, 1);
     test::Workpiece work;
     int in_contact = 0;

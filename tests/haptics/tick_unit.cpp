@@ -24,7 +24,7 @@ struct Ticker {
         now_ns += kMs;
         sample.time_ns = now_ns;
         sample.position_device_m = position_device;
-        const TickOutput out = tick(state, sample, *surface, parameters, now_ns, kDt);
+        const TickOutput out = tick(state, sample, *surface, parameters, test::kStrongDevice, now_ns, kDt);
         state = out.next;
         return out;
     }
@@ -32,10 +32,11 @@ struct Ticker {
 
 TickParameters parameters_for(double radius, double stiffness = 600.0, double damping = 0.0) {
     TickParameters p;
-    p.tool_radius_m = radius;
+    p.probe.points[0].radius_m = radius;
     p.clearance_ratio = 0.0;
-    p.stiffness_N_per_m = stiffness;
-    p.damping_Ns_per_m = damping;
+    p.limit_stiffness = false;
+    p.materials[0].stiffness_N_per_m = stiffness;
+    p.materials[0].damping_Ns_per_m = damping;
     p.max_surface_age_s = 0.0;
     return p;
 }
@@ -51,9 +52,9 @@ TEST(Tick, FreeSpaceGivesExactlyZeroForce) {
     Ticker t{plane.get(), parameters_for(0.004, 600.0, 5.0)};
     for (int i = 0; i < 500; ++i) {
         const TickOutput out = t.at({0.02 * std::sin(0.05 * i), 0.0051 + 0.001 * std::cos(0.3 * i), 0.0});
-        EXPECT_EQ(out.force_device_N, Vec3(0.0));
+        EXPECT_EQ(out.wanted.force_device_N, Vec3(0.0));
         EXPECT_EQ(out.flags & kTickInContact, 0u);
-        EXPECT_EQ(out.active_triangle, kNoTriangle);
+        EXPECT_EQ(out.points[0].active_triangle, kNoTriangle);
     }
 }
 
@@ -64,9 +65,9 @@ TEST(Tick, ForceIsStiffnessTimesPenetrationAlongTheNormal) {
     for (int i = 0; i < 100; ++i) {
         const double depth = 1e-5 * i;
         const TickOutput out = t.at({0.001, 0.004 - depth, 0.002});
-        EXPECT_NEAR(out.force_device_N.y, 600.0 * depth, 1e-6);
-        EXPECT_NEAR(glm::length(Vec3(out.force_device_N.x, 0.0, out.force_device_N.z)), 0.0, 1e-6);
-        EXPECT_NEAR(out.penetration_m, depth, 1e-9);
+        EXPECT_NEAR(out.wanted.force_device_N.y, 600.0 * depth, 1e-6);
+        EXPECT_NEAR(glm::length(Vec3(out.wanted.force_device_N.x, 0.0, out.wanted.force_device_N.z)), 0.0, 1e-6);
+        EXPECT_NEAR(out.points[0].penetration_m, depth, 1e-9);
     }
 }
 
@@ -79,16 +80,16 @@ TEST(Tick, DampingActsInContactOnlyAgainstTheMotionAndNeverPulls) {
         const TickOutput out = t.at({0.0, y -= 1e-4, 0.0});
         const double depth = 0.004 - y;
         if (depth > 1e-9) {
-            EXPECT_NEAR(out.force_device_N.y, 600.0 * depth + 2.0 * 0.1, 1e-5);
+            EXPECT_NEAR(out.wanted.force_device_N.y, 600.0 * depth + 2.0 * 0.1, 1e-5);
         } else {
-            EXPECT_EQ(out.force_device_N, Vec3(0.0));
+            EXPECT_EQ(out.wanted.force_device_N, Vec3(0.0));
         }
     }
     for (int i = 0; i < 60; ++i) {  // and up at 1 m/s: damping would outweigh the spring
         const TickOutput out = t.at({0.0, y += 1e-3, 0.0});
-        EXPECT_GE(out.force_device_N.y, 0.0);
+        EXPECT_GE(out.wanted.force_device_N.y, 0.0);
         if (i > 2 && 600.0 * (0.004 - y) < 2.0) {
-            EXPECT_EQ(out.force_device_N.y, 0.0);
+            EXPECT_EQ(out.wanted.force_device_N.y, 0.0);
         }
     }
 }
@@ -99,7 +100,9 @@ TEST(Tick, SlidingWithoutFrictionFeelsNoTangentialForce) {
     t.at({-0.02, 0.01, 0.0});
     for (int i = 0; i < 400; ++i) {
         const TickOutput out = t.at({-0.02 + 1e-4 * i, 0.003, 3e-5 * i});
-        EXPECT_LT(std::hypot(out.force_device_N.x, out.force_device_N.z), 2e-3 * out.force_device_N.y) << i;
+        EXPECT_LT(std::hypot(out.wanted.force_device_N.x, out.wanted.force_device_N.z),
+                  2e-3 * out.wanted.force_device_N.y)
+            << i;
     }
 }
 
@@ -107,14 +110,14 @@ TEST(Tick, PositionGainScalesMotionUpAndLeavesTheStiffnessFeltAsSet) {
     for (const double scale : {0.1, 1.0, 25.0}) {
         const test::Surface plane = test::plane(0.05 * scale, 10);
         Ticker t{plane.get(), parameters_for(0.004 * scale)};
-        t.parameters.object_from_device = tilted(scale);
-        const Similarity device_from_object = inverse(t.parameters.object_from_device);
+        t.parameters.workspace.object_from_device = tilted(scale);
+        const Similarity device_from_object = inverse(t.parameters.workspace.object_from_device);
         t.at(device_from_object * (Vec3(0.0, 0.01, 0.0) * scale));
         const TickOutput out = t.at(device_from_object * (Vec3(0.0, 0.003, 0.0) * scale));
         // 1 mm deep at the device, whatever the scale; up in the object, turned back into the device frame.
-        const Vec3 up_device = glm::conjugate(t.parameters.object_from_device.orientation) * Vec3(0, 1, 0);
-        EXPECT_LT(glm::length(out.force_device_N - 0.6 * up_device), 1e-5) << scale;
-        EXPECT_NEAR(out.penetration_m, 0.001 * scale, 1e-7 * scale);
+        const Vec3 up_device = glm::conjugate(t.parameters.workspace.object_from_device.orientation) * Vec3(0, 1, 0);
+        EXPECT_LT(glm::length(out.wanted.force_device_N - 0.6 * up_device), 1e-5) << scale;
+        EXPECT_NEAR(out.points[0].penetration_m, 0.001 * scale, 1e-7 * scale);
     }
 }
 
@@ -123,10 +126,10 @@ TEST(Tick, ANewMappingPutsTheProxyBackInsteadOfDraggingIt) {
     Ticker t{plane.get(), parameters_for(0.004)};
     t.at({0.0, 0.01, 0.0});
     EXPECT_NE(t.at({0.0, 0.001, 0.0}).flags & kTickInContact, 0u);
-    t.parameters.object_from_device.position_m = {0.0, 0.05, 0.0};  // the workspace jumps away
+    t.parameters.workspace.object_from_device.position_m = {0.0, 0.05, 0.0};  // the workspace jumps away
     const TickOutput out = t.at({0.0, 0.001, 0.0});
     EXPECT_NE(out.flags & kTickProxyReset, 0u);
-    EXPECT_EQ(out.force_device_N, Vec3(0.0));
+    EXPECT_EQ(out.wanted.force_device_N, Vec3(0.0));
 }
 
 TEST(Tick, SwitchedOffItTouchesNothing) {
@@ -135,8 +138,8 @@ TEST(Tick, SwitchedOffItTouchesNothing) {
     t.parameters.enabled = false;
     t.at({0.0, 0.01, 0.0});
     const TickOutput out = t.at({0.0, -0.01, 0.0});
-    EXPECT_EQ(out.force_device_N, Vec3(0.0));
-    EXPECT_EQ(out.next.proxy.position_object_m, out.hip_object_m);
+    EXPECT_EQ(out.wanted.force_device_N, Vec3(0.0));
+    EXPECT_EQ(out.next.proxies[0].position_object_m, out.points[0].hip_object_m);
 }
 
 TEST(Tick, SaysWhenThereIsNoSurfaceOrItIsOldOrTheToolLeavesIt) {
@@ -166,10 +169,10 @@ TEST(Tick, NonsenseInGivesZeroForceAndAFreshStart) {
         t.at({0.0, 0.001, 0.0});
         const TickOutput out = t.at(bad);
         EXPECT_FALSE(out.sample_finite);
-        EXPECT_EQ(out.force_device_N, Vec3(0.0));
+        EXPECT_EQ(out.wanted.force_device_N, Vec3(0.0));
         const TickOutput next = t.at({0.0, 0.02, 0.0});
         EXPECT_TRUE(next.sample_finite);
-        EXPECT_EQ(next.next.proxy.position_object_m, Vec3(0.0, 0.02, 0.0));
+        EXPECT_EQ(next.next.proxies[0].position_object_m, Vec3(0.0, 0.02, 0.0));
     }
     Ticker t{plane.get(), parameters_for(0.004)};
     EXPECT_FALSE(t.at(Vec3(0.0), {.orientation_device = Quat(0, 0, 0, 0)}).sample_finite);
@@ -177,16 +180,16 @@ TEST(Tick, NonsenseInGivesZeroForceAndAFreshStart) {
         Ticker bad{plane.get(), parameters_for(0.004)};
         spoil(bad.parameters);
         const TickOutput out = bad.at({0.0, 0.001, 0.0});
-        return !out.parameters_sensible && out.force_device_N == Vec3(0.0);
+        return !out.parameters_sensible && out.wanted.force_device_N == Vec3(0.0);
     };
-    EXPECT_TRUE(refused([&](TickParameters& p) { p.stiffness_N_per_m = -1.0; }));
-    EXPECT_TRUE(refused([&](TickParameters& p) { p.stiffness_N_per_m = nan; }));
-    EXPECT_TRUE(refused([&](TickParameters& p) { p.damping_Ns_per_m = inf; }));
-    EXPECT_TRUE(refused([&](TickParameters& p) { p.tool_radius_m = nan; }));
+    EXPECT_TRUE(refused([&](TickParameters& p) { p.materials[0].stiffness_N_per_m = -1.0; }));
+    EXPECT_TRUE(refused([&](TickParameters& p) { p.materials[0].stiffness_N_per_m = nan; }));
+    EXPECT_TRUE(refused([&](TickParameters& p) { p.materials[0].damping_Ns_per_m = inf; }));
+    EXPECT_TRUE(refused([&](TickParameters& p) { p.probe.points[0].radius_m = nan; }));
     EXPECT_TRUE(refused([&](TickParameters& p) { p.clearance_ratio = 1.0; }));
-    EXPECT_TRUE(refused([&](TickParameters& p) { p.object_from_device.scale = 0.0; }));
-    EXPECT_TRUE(refused([&](TickParameters& p) { p.object_from_device.orientation = Quat(2, 0, 0, 0); }));
-    EXPECT_TRUE(refused([&](TickParameters& p) { p.object_from_device.position_m.z = nan; }));
+    EXPECT_TRUE(refused([&](TickParameters& p) { p.workspace.object_from_device.scale = 0.0; }));
+    EXPECT_TRUE(refused([&](TickParameters& p) { p.workspace.object_from_device.orientation = Quat(2, 0, 0, 0); }));
+    EXPECT_TRUE(refused([&](TickParameters& p) { p.workspace.object_from_device.position_m.z = nan; }));
 }
 
 TEST(Tick, AGapInTheSamplesDoesNotLookLikeSpeed) {
@@ -203,7 +206,7 @@ TEST(Tick, ThePointProbeFeelsAPlaneWithinItsSkin) {
     Ticker t{plane.get(), parameters_for(0.0)};
     t.at({0.0, 0.01, 0.0});
     const TickOutput out = t.at({0.0003, -0.001, 0.0001});
-    EXPECT_NEAR(out.force_device_N.y, 0.6, 600.0 * 0.0028 / 500);
+    EXPECT_NEAR(out.wanted.force_device_N.y, 0.6, 600.0 * 0.0028 / 500);
 }
 
 }  // namespace burin

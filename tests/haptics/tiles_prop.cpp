@@ -6,7 +6,7 @@
 #include <set>
 
 #include "geometry/local_surface_search.hpp"
-#include "haptics/god_object.hpp"
+#include "haptics/contact/god_object.hpp"
 #include "haptics/realtime.hpp"
 #include "tests/compute/random_solids.hpp"
 #include "tests/haptics/rig.hpp"
@@ -54,8 +54,8 @@ void expect_alike(const LocalSurface& tiles, const LocalSurface& loose, const Ve
             way = (goal - hip) / 40.0;
         }
         hip += way;
-        const ProxyResult a = move_proxy(state, hip, tool_radius, tiles);
-        const ProxyResult b = move_proxy(state, hip, tool_radius, loose);
+        const ProxyResult a = move_proxy(state, hip, {tool_radius}, tiles);
+        const ProxyResult b = move_proxy(state, hip, {tool_radius}, loose);
         // Ties are broken in the order in which triangles come by: within the tolerances of god_object.hpp.
         ASSERT_LT(glm::length(a.next.position_object_m - b.next.position_object_m), 3e-5 * tool_radius) << i;
         ASSERT_EQ(a.pushed_out, b.pushed_out) << i;
@@ -119,10 +119,10 @@ TEST(TouchedTiles, TilesAndLooseTrianglesAreTouchedTogether) {
 
     const double radius = 0.03;
     ProxyState state;
-    for (const double y : {0.5, 0.3, 0.18}) state = move_proxy(state, {0.75, y, 0.0}, radius, both).next;
+    for (const double y : {0.5, 0.3, 0.18}) state = move_proxy(state, {0.75, y, 0.0}, {radius}, both).next;
     EXPECT_NEAR(state.position_object_m.y, 0.2 + radius, 1e-6);
     state = {};
-    for (const double y : {0.6, 0.45, 0.39}) state = move_proxy(state, {0.0, y, 0.0}, radius, both).next;
+    for (const double y : {0.6, 0.45, 0.39}) state = move_proxy(state, {0.0, y, 0.0}, {radius}, both).next;
     EXPECT_NEAR(state.position_object_m.y, 0.4 + radius, 0.002);  // facets of a cell, 0.02, on a radius of 0.4
 }
 
@@ -139,9 +139,9 @@ TEST(TouchedTiles, TheHapticThreadReadsWhileTheCarvingSideMakesAndFreesTiles) {
     HapticLoop loop(omni, clock, channels);
     TickParameters& parameters = channels.parameters.draft();
     parameters.sequence = 1;
-    parameters.tool_radius_m = kToolRadius_m;
-    parameters.object_from_device.position_m = Vec3(0.0, 0.42, 0.0);
-    parameters.object_from_device.scale = 4.0;
+    parameters.probe.points[0].radius_m = kToolRadius_m;
+    parameters.workspace.object_from_device.position_m = Vec3(0.0, 0.42, 0.0);
+    parameters.workspace.object_from_device.scale = 4.0;
     channels.parameters.publish();
     HapticThread thread(loop);
     (void)thread.start();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The last step before the device, always on: whatever the contact model asks for, what passes here is finite, within
-// the force limit, and changes no faster than the slew limit; and it is zero when something is wrong.
+// the force and torque limits, and changes no faster than the slew limits; and it is zero when something is wrong.
+// Force and torque are limited each for itself, shortened and never turned; passive axes get no torque.
 //
 // A pure function with its state in a struct: no clock, heap, lock or throw; wait-free, a few dozen operations.
 // Order: faults (zero at once: safe comes before smooth), ramp, slew, force limit. The force limit wins over the slew
@@ -24,43 +25,52 @@ enum class GateCause : std::uint8_t {
     overspeed,       // the tool moves faster than any hand should
     stale_surface,   // in contact with a surface the carving side no longer vouches for
     outside_known,   // in contact where the surface is not known
+    lost_loop,       // the loop itself has stood still: what it knows of the hand is old
 };
 
 // A sentence for people, of static storage.
 [[nodiscard]] const char* text(GateCause cause) noexcept;
 
 struct GateLimits {
-    double max_force_N = 3.3;          // the device's own limit holds too, if it is less
-    double max_slew_N_per_s = 1000.0;  // 1 N a tick at 1 kHz: about what a 600 N/m wall needs at 1.7 m/s
-    double ramp_s = 0.2;               // from zero to full at the start and after a fault
-    double recovery_s = 0.05;          // how long all must be well before the ramp begins again
-    double max_speed_m_per_s = 3.0;    // of the tool, at the device
-    double max_sample_age_s = 0.02;    // 20 ticks without news
+    double max_force_N = 3.3;                // the device's own limits hold too, if they are less
+    double max_slew_N_per_s = 1000.0;        // 1 N a tick at 1 kHz: about what a 600 N/m wall needs at 1.7 m/s
+    double max_torque_slew_Nm_per_s = 80.0;  // the same at the end of a handle of 0.16 m
+    double contact_ramp_s = 0.1;             // after a contact that has jumped: an edit, a moved workspace
+    double ramp_s = 0.2;                     // from zero to full at the start and after a fault
+    double recovery_s = 0.05;                // how long all must be well before the ramp begins again
+    double max_speed_m_per_s = 3.0;          // of the tool, at the device
+    double max_sample_age_s = 0.02;          // 20 ticks without news
+    double max_loop_gap_s = 0.02;            // since the tick before
 };
 
 struct GateInput {
-    Vec3 wanted_force_device_N{0.0};
+    DeviceWrench wanted;
     Vec3 velocity_device_m_per_s{0.0};
     double device_max_force_N = 0.0;
-    double sample_age_s = 0.0;  // now minus the sample's time
+    Vec3 device_axis_max_force_N{0.0};  // 0: that axis has no limit of its own
+    Vec3 device_max_torque_Nm{0.0};     // 0: that axis is passive
+    double sample_age_s = 0.0;          // now minus the sample's time
+    double loop_gap_s = 0.0;            // now minus the tick before; 0 for the first
     DeviceFault device_fault = DeviceFault::none;
     bool sample_finite = true;
     bool parameters_sensible = true;
     bool in_contact = false;
+    bool contact_jumped = false;  // the contact is not continuous with the one before: fade in
     bool surface_stale = false;
     bool outside_known = false;
 };
 
 struct GateState {
-    Vec3 force_device_N{0.0};  // given last
-    double ramp = 0.0;         // 0 to 1
-    double well_s = 0.0;       // how long since the last fault
-    bool faulted = false;      // a fault has happened and recovery_s is not yet over
+    DeviceWrench given;         // last
+    double ramp = 0.0;          // 0 to 1, at the start and after a fault
+    double contact_ramp = 1.0;  // 0 to 1, after a contact that has jumped
+    double well_s = 0.0;        // how long since the last fault
+    bool faulted = false;       // a fault has happened and recovery_s is not yet over
 };
 
 struct GateOutput {
     GateState next;
-    Vec3 force_device_N{0.0};
+    DeviceWrench given;
     GateCause cause = GateCause::none;
     bool saturated = false;
     bool slew_limited = false;

@@ -7,7 +7,7 @@
 //   1. Every triangle that the ball touches gives a plane through the ball's nearest point of it. The half-space beyond
 // that
 //      plane keeps the ball off the triangle wherever it goes in it, because a triangle is convex.
-//   2. The goal is the point nearest to the HIP in all these half-spaces (haptics/half_spaces.hpp); at most three
+//   2. The goal is the point nearest to the HIP in all these half-spaces (haptics/contact/half_spaces.hpp); at most three
 // planes
 //      bear it, and those are the active ones.
 //   3. The ball is swept towards the goal against all other triangles and stops at the first; that one joins in the
@@ -34,6 +34,18 @@ struct ProxyState {
     Vec3 position_object_m{0.0};
     std::uint64_t surface_sequence = 0;  // of the surface used last
     bool placed = false;                 // false: the next tick starts from the HIP
+    bool slipping = false;               // with friction: it slid in the tick before
+};
+
+struct ProxySettings {
+    double contact_radius_m = 0.0;  // of the ball; 0 is a point
+    // Force shading: where the surface is smooth the proxy moves as if the facets were the surface that their corners' normals
+    // describe, so that the force does not jump from facet to facet. Sharp edges stay sharp.
+    bool shading = true;
+    // Coulomb friction by the proxy (Salisbury, Brock, Massie et al. 1995; Harwin and Melder 2002): it stays until the HIP
+    // leaves the friction cone, then slides until the HIP lies on the cone of dynamic friction again.
+    double static_friction = 0.0;
+    double dynamic_friction = 0.0;
 };
 
 struct ProxyWork {
@@ -46,6 +58,8 @@ struct ProxyWork {
 struct ProxyResult {
     ProxyState next;
     std::uint32_t active_triangle = 0xffffffffu;  // bears most of the contact; none in free space
+    Vec3 normal_object{0.0};                      // unit, of the contact, shaded; zero in free space
+    bool sticking = false;                        // held by friction
     std::uint32_t constraints = 0;                // active planes, 0 to 3
     bool pushed_out = false;
     bool work_limited = false;
@@ -60,8 +74,9 @@ struct ProxyBudget {
     std::uint32_t max_triangles_seen = 200000;
 };
 
-// contact_radius_m >= 0 and all positions finite. Only reads through the surface's references (geometry/local_surface.hpp).
-[[nodiscard]] ProxyResult move_proxy(const ProxyState& state, const Vec3& hip_object_m, double contact_radius_m,
+// All settings finite and not negative, dynamic friction at most static friction, positions finite. Only reads through the
+// surface's references (geometry/local_surface.hpp).
+[[nodiscard]] ProxyResult move_proxy(const ProxyState& state, const Vec3& hip_object_m, const ProxySettings& settings,
                                      const LocalSurface& surface, const ProxyBudget& budget = {}) noexcept;
 
 }  // namespace burin

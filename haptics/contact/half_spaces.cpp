@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "haptics/half_spaces.hpp"
+#include "haptics/contact/half_spaces.hpp"
 
 #include <cmath>
 

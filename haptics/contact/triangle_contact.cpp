@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "haptics/triangle_contact.hpp"
+#include "haptics/contact/triangle_contact.hpp"
 
 #include <algorithm>
 #include <cmath>

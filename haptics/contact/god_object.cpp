@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "haptics/god_object.hpp"
+#include "haptics/contact/god_object.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "geometry/local_surface_search.hpp"
-#include "haptics/half_spaces.hpp"
-#include "haptics/triangle_contact.hpp"
+#include "haptics/contact/half_spaces.hpp"
+#include "haptics/contact/triangle_contact.hpp"
 
 namespace burin {
 namespace {
@@ -197,6 +197,12 @@ void note_active(ProxyResult& result, const Planes& planes, const NearestInside&
     result.active_triangle = planes.list[goal.bearing[heaviest]].triangle;
 }
 
+void note_normal(ProxyResult& result, const Vec3& hip_object_m) {
+    const Vec3 off = result.next.position_object_m - hip_object_m;
+    const double distance = std::sqrt(glm::dot(off, off));
+    if (distance > 0.0) result.normal_object = off / distance;
+}
+
 // How far around `center` the surface is known; negative outside the known ball.
 double known_around(const Vec3& center, const LocalSurface& surface) {
     const Vec3 off = center - (surface.center_object - surface.origin_object);
@@ -217,13 +223,13 @@ Vec3 put_outside(const Nearest& nearest, const Vec3& center, double radius) {
 
 }  // namespace
 
-ProxyResult move_proxy(const ProxyState& state, const Vec3& hip_object_m, double contact_radius_m,
+ProxyResult move_proxy(const ProxyState& state, const Vec3& hip_object_m, const ProxySettings& settings,
                        const LocalSurface& surface, const ProxyBudget& budget) noexcept {
     ProxyResult result;
     result.next = {hip_object_m, surface.sequence, true};
     const double edge = surface.mean_edge_m();
     if (!(edge > 0.0)) return result;  // nothing there to touch
-    const double radius = std::max(contact_radius_m, kPointProbeOfEdge * edge);
+    const double radius = std::max(settings.contact_radius_m, kPointProbeOfEdge * edge);
     const double still = kStill * std::max(radius, 0.05 * edge);
     const Vec3 hip = hip_object_m - surface.origin_object;
     Vec3 center = state.placed ? state.position_object_m - surface.origin_object : hip;
@@ -247,6 +253,7 @@ ProxyResult move_proxy(const ProxyState& state, const Vec3& hip_object_m, double
         note_active(result, planes, goal);
         if (glm::dot(goal.point, goal.point) <= still * still && goal.bearing_count > 0) {
             result.next.position_object_m = surface.origin_object + (center + goal.point);
+            note_normal(result, hip_object_m);
             return result;
         }
         if (goal.point == Vec3(0.0)) return result;  // only in free space: the proxy already is at the HIP
@@ -258,6 +265,7 @@ ProxyResult move_proxy(const ProxyState& state, const Vec3& hip_object_m, double
     }
     result.work_limited = true;
     result.next.position_object_m = surface.origin_object + center;
+    note_normal(result, hip_object_m);
     return result;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "haptics/velocity.hpp"
+#include "haptics/signals/velocity.hpp"
 
 #include <cmath>
 

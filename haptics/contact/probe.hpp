@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// What touches: a tool as a set of balls, each with a proxy of its own. One ball for a stylus, two for the wand's ends, a
+// patch of small ones for a fingertip.
+//
+// Frame: offsets are in the tool's own axes, in metres at the device; where the tool is and how it is turned comes from the
+// device's sample. Ball i is at P_i = R T_i + P in the device frame (R the orientation, T_i the offset, P the position),
+// and then in the object frame by the workspace's mapping, gain included. Radii are in the object frame.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "base/space.hpp"
+
+namespace burin {
+
+inline constexpr std::uint32_t kMostProbePoints = 20;  // four fingers of five points
+
+struct ProbePoint {
+    Vec3 offset_device_m{0.0};  // T_i
+    double radius_m = 0.0;      // 0 is a point
+};
+
+struct Probe {
+    std::uint32_t count = 1;  // 1 to kMostProbePoints
+    std::array<ProbePoint, kMostProbePoints> points{};
+};
+
+[[nodiscard]] inline Probe ball_probe(double radius_m) {
+    Probe probe;
+    probe.points[0].radius_m = radius_m;
+    return probe;
+}
+
+}  // namespace burin

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Magnetic guidance: a force that draws the tool to a curve, as training asks for.
+//
+// The nearest point of a polyline within reach draws with k d, at most max_force, fading to nothing at the end of the reach, and
+// with a damping across the curve; along it the tool is free, unless a lead speed is set: then the point drawn to runs along the
+// curve with it and takes the hand along. The force is continuous in the tool's position but where two stretches of the curve are equally
+// near; there the one held last is kept until the other is nearer by a tenth of the reach.
+// Frame: object in, device out. Ownership: the curve is the publisher's and stays in place while it is published
+// (TickParameters are borrowed whole). Work: at most kMostCurvePoints segments a tick. Pure; no heap, lock or throw.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "base/space.hpp"
+
+namespace burin {
+
+inline constexpr std::uint32_t kMostCurvePoints = 256;
+
+struct GuidanceCurve {
+    std::uint32_t count = 0;  // 0: no guidance; else 2 to kMostCurvePoints
+    std::array<Vec3f, kMostCurvePoints> points_object_m{};
+};
+
+struct GuidanceSettings {
+    double stiffness_N_per_m = 0.0;  // at the device; 0: off
+    double damping_Ns_per_m = 0.0;   // at the device, across the curve
+    double max_force_N = 1.5;
+    double reach_m = 0.02;            // object frame
+    double lead_speed_m_per_s = 0.0;  // object frame; 0: the tool is free along the curve
+};
+
+struct GuidanceState {
+    double along_m = 0.0;  // arc length of the point drawn to, object frame
+    bool held = false;
+};
+
+struct GuidanceInput {
+    Vec3 hip_object_m{0.0};
+    Vec3 velocity_device_m_per_s{0.0};
+    Quat object_from_device_orientation{1.0, 0.0, 0.0, 0.0};
+    double scale = 1.0;  // object metres a device metre
+    double dt_s = 0.0;
+};
+
+struct GuidanceStep {
+    GuidanceState next;
+    Vec3 force_device_N{0.0};
+    double distance_m = 0.0;  // to the point drawn to, object frame; 0 when not held
+};
+
+[[nodiscard]] GuidanceStep guide(const GuidanceState& state, const GuidanceInput& input, const GuidanceCurve& curve,
+                                 const GuidanceSettings& settings) noexcept;
+
+}  // namespace burin

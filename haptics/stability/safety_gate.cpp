@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "haptics/stability/safety_gate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace burin {
+namespace {
+
+bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
+
+bool not_negative(double x) { return std::isfinite(x) && x >= 0.0; }
+
+bool not_negative(const Vec3& v) { return not_negative(v.x) && not_negative(v.y) && not_negative(v.z); }
+
+bool sensible(const GateLimits& limits) {
+    return not_negative(limits.max_force_N) && not_negative(limits.max_slew_N_per_s) && not_negative(limits.ramp_s) &&
+           not_negative(limits.recovery_s) && not_negative(limits.max_speed_m_per_s) &&
+           not_negative(limits.max_torque_slew_Nm_per_s) && not_negative(limits.contact_ramp_s) &&
+           not_negative(limits.max_loop_gap_s) && not_negative(limits.max_sample_age_s);
+}
+
+GateCause find_cause(const GateInput& in, const GateLimits& limits) {
+    if (in.device_fault != DeviceFault::none) return GateCause::device_fault;
+    if (!in.sample_finite || !std::isfinite(length(in.wanted.force_device_N)) ||
+        !std::isfinite(length(in.wanted.torque_device_Nm)) || !finite(in.velocity_device_m_per_s) ||
+        !std::isfinite(in.sample_age_s) || !std::isfinite(in.loop_gap_s) || !not_negative(in.device_max_force_N) ||
+        !not_negative(in.device_axis_max_force_N) || !not_negative(in.device_max_torque_Nm))
+        return GateCause::not_finite;
+    if (!in.parameters_sensible || !sensible(limits)) return GateCause::bad_parameters;
+    if (in.sample_age_s > limits.max_sample_age_s) return GateCause::stale_sample;
+    if (in.loop_gap_s > limits.max_loop_gap_s) return GateCause::lost_loop;
+    if (length(in.velocity_device_m_per_s) > limits.max_speed_m_per_s) return GateCause::overspeed;
+    if (in.in_contact && in.surface_stale) return GateCause::stale_surface;
+    if (in.in_contact && in.outside_known) return GateCause::outside_known;
+    return GateCause::none;
+}
+
+// Shortened to at most `most`; a hair less, so that rounding cannot leave it a hair more.
+Vec3 shortened(const Vec3& v, double most, bool& cut) {
+    const double l = length(v);
+    if (l <= most) return v;
+    cut = true;
+    return v * (most * (1.0 - 1e-15) / l);
+}
+
+// Likewise, so that no axis exceeds its own limit. A limit of 0 is none, or a passive axis.
+Vec3 within_axes(Vec3 v, const Vec3& most, bool zero_is_none, bool& cut) {
+    double share = 1.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (most[axis] == 0.0 && !zero_is_none) v[axis] = 0.0;
+        if (most[axis] > 0.0 && std::abs(v[axis]) * share > most[axis]) share = most[axis] / std::abs(v[axis]);
+    }
+    if (share == 1.0) return v;
+    cut = true;
+    return v * (share * (1.0 - 1e-15));
+}
+
+double risen(double ramp, double ramp_s, double dt_s) {
+    return ramp_s > dt_s ? std::min(1.0, ramp + dt_s / ramp_s) : 1.0;
+}
+
+struct Limited {
+    double most = 0.0;
+    Vec3 axis_most{0.0};
+    bool zero_is_none = true;
+    double most_change = 0.0;
+};
+
+Vec3 passed(const Vec3& before, const Vec3& wanted, const Limited& limit, GateOutput& out) {
+    const auto inside = [&](const Vec3& v) {
+        return within_axes(shortened(v, limit.most, out.saturated), limit.axis_most, limit.zero_is_none, out.saturated);
+    };
+    const Vec3 target = inside(wanted);
+    bool slewed = false;
+    const Vec3 step = shortened(target - before, limit.most_change, slewed);
+    out.slew_limited = out.slew_limited || slewed;
+    // Between two values within the limits; beyond them only when a limit has just been lowered.
+    return inside(slewed ? before + step : target);
+}
+
+}  // namespace
+
+const char* text(GateCause cause) noexcept {
+    switch (cause) {
+        case GateCause::none: return "force is on";
+        case GateCause::device_fault: return "no force: the device reports a fault";
+        case GateCause::not_finite: return "no force: a position or force is not a number";
+        case GateCause::bad_parameters: return "no force: the haptic settings make no sense";
+        case GateCause::stale_sample: return "no force: the device has stopped sending";
+        case GateCause::overspeed: return "no force: the tool moves too fast";
+        case GateCause::stale_surface: return "no force: the surface touched is out of date";
+        case GateCause::outside_known: return "no force: the surface is not known here";
+        case GateCause::lost_loop: return "no force: the haptic loop stood still";
+    }
+    return "no force: unknown cause";
+}
+
+GateOutput pass_gate(const GateState& state, const GateInput& input, const GateLimits& limits, double dt_s) noexcept {
+    GateOutput out;
+    out.cause = find_cause(input, limits);
+    if (out.cause != GateCause::none) {
+        out.next.faulted = true;
+        return out;
+    }
+    out.next.well_s = std::min(state.well_s + dt_s, 1e6);  // what is compared is far below
+    out.next.faulted = state.faulted && out.next.well_s < limits.recovery_s;
+    if (!out.next.faulted) out.next.ramp = risen(state.ramp, limits.ramp_s, dt_s);
+    // Only a contact can jump; out of it the ramp is kept for the next one.
+    out.next.contact_ramp = input.contact_jumped ? 0.0 : risen(state.contact_ramp, limits.contact_ramp_s, dt_s);
+    out.ramping = out.next.ramp < 1.0 || out.next.contact_ramp < 1.0;
+    const double ramp = out.next.ramp * out.next.contact_ramp;
+    const Limited force{std::min(limits.max_force_N, input.device_max_force_N), input.device_axis_max_force_N, true,
+                        limits.max_slew_N_per_s * dt_s};
+    const Limited torque{HUGE_VAL, input.device_max_torque_Nm, false, limits.max_torque_slew_Nm_per_s * dt_s};
+    out.given.force_device_N = passed(state.given.force_device_N, ramp * input.wanted.force_device_N, force, out);
+    out.given.torque_device_Nm =
+        passed(state.given.torque_device_Nm, ramp * input.wanted.torque_device_Nm, torque, out);
+    out.next.given = out.given;
+    return out;
+}
+
+}  // namespace burin

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Which settings of a tick make sense.
+#include <cmath>
+
+#include "haptics/tick.hpp"
+
+namespace burin {
+namespace {
+
+bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+bool not_negative(double x) { return std::isfinite(x) && x >= 0.0; }
+
+bool share(double x) { return not_negative(x) && x < 1.0; }
+
+bool sensible(const TouchMaterial& m) {
+    return not_negative(m.stiffness_N_per_m) && not_negative(m.damping_Ns_per_m) && not_negative(m.static_friction) &&
+           not_negative(m.dynamic_friction) && m.dynamic_friction <= m.static_friction &&
+           not_negative(m.coulomb_velocity_m_per_s) && m.hardness_Ns_per_m3 >= 0.0 &&  // infinite: not to be cut
+           not_negative(m.cutting_drag_Ns_per_m3);
+}
+
+bool sensible(const Probe& probe) {
+    if (probe.count < 1 || probe.count > kMostProbePoints) return false;
+    for (std::uint32_t i = 0; i < probe.count; ++i)
+        if (!finite(probe.points[i].offset_device_m) || !not_negative(probe.points[i].radius_m)) return false;
+    return true;
+}
+
+bool sensible(const GuidanceCurve& curve, const GuidanceSettings& s) {
+    if (curve.count == 1 || curve.count > kMostCurvePoints) return false;
+    return not_negative(s.stiffness_N_per_m) && not_negative(s.damping_Ns_per_m) && not_negative(s.max_force_N) &&
+           not_negative(s.reach_m) && std::isfinite(s.lead_speed_m_per_s);
+}
+
+bool sensible(const WeightSettings& w) {
+    return not_negative(w.compensated_mass_kg) && not_negative(w.tool_mass_kg) &&
+           finite(w.tool_centre_of_mass_device_m) && std::abs(glm::dot(w.down_device, w.down_device) - 1.0) <= 2e-6;
+}
+
+}  // namespace
+
+bool parameters_are_sensible(const TickParameters& p) noexcept {
+    for (const TouchMaterial& material : p.materials)
+        if (!sensible(material)) return false;
+    return settings_are_sensible(p.workspace) && sensible(p.probe) && share(p.clearance_ratio) &&
+           share(p.signals.velocity_alpha) && share(p.signals.force_alpha) &&
+           not_negative(p.coupling.stiffness_N_per_m) && not_negative(p.coupling.damping_Ns_per_m) &&
+           not_negative(p.passivity.max_damping_Ns_per_m) && not_negative(p.passivity.resolution_m) &&
+           sensible(p.weight) && sensible(p.curve, p.guidance) && not_negative(p.position_noise_m) &&
+           not_negative(p.max_surface_age_s);
+}
+
+}  // namespace burin
