@@ -142,6 +142,13 @@ public:
         return {arm_device_m_, record_.force_device_N};
     }
 
+    // What the wall's spring holds of it.
+    [[nodiscard]] double spring_energy_J(const CoupledWall& wall, const Vec3& bearing_object_m) const {
+        if (!in_contact()) return 0.0;
+        const Vec3 spring_device_m = (bearing_object_m - record_.hip_object_m) / out_.object_from_device.scale;
+        return 0.5 * wall.stiffness_N_per_m * glm::dot(spring_device_m, spring_device_m);
+    }
+
 private:
     [[nodiscard]] ProxySettings settings(bool painting) const {
         ProxySettings s;
@@ -183,7 +190,8 @@ CoupledWall rendered(TickOutput& out, const TouchMaterial& material, const TickP
     demand.stiffness_N_per_m = wall.stiffness_N_per_m;
     demand.damping_Ns_per_m = wall.damping_Ns_per_m;
     const double alpha = parameters.signals.force_alpha;
-    demand.filter_lag_s = dt_s * alpha / (1.0 - alpha);
+    demand.filter_lag_s = mean_lag_s(alpha, dt_s);
+    demand.period_s = dt_s;
     const StiffnessLimit limit = limited(demand, device);
     if (limit.bound != StiffnessBound::none) {
         out.flags |= kTickStiffnessLimited;
@@ -194,17 +202,23 @@ CoupledWall rendered(TickOutput& out, const TouchMaterial& material, const TickP
 
 // While the button cuts, the tool eats its way in, and is borne by what it has not cut yet.
 Vec3 bearing_of(TickOutput& out, const PointContact& point, const CoupledWall& wall, bool cutting,
-                const TickParameters& parameters, Vec3& drag_device_N, double dt_s) {
+                const LocalSurface& surface, const TickParameters& parameters, Vec3& drag_device_N, double dt_s) {
     CuttingInput input;
     input.hip_object_m = point.record().hip_object_m;
     input.proxy_object_m = point.record().proxy_object_m;
+    input.normal_object = point.record().normal_object;
     input.velocity_device_m_per_s = out.velocity_device_m_per_s;
-    input.object_from_device_orientation = out.object_from_device.orientation;
     input.scale = out.object_from_device.scale;
     input.tool_radius_m = parameters.probe.points[0].radius_m;
+    input.slack_m = parameters.clearance_ratio * input.tool_radius_m;
     input.cutting = cutting && point.in_contact();
     input.stiffness_N_per_m = wall.stiffness_N_per_m;
     input.dt_s = dt_s;
+    if (input.cutting) {
+        const LookedAt looked = look_at(out.next.cutting, surface, input.proxy_object_m, input.tool_radius_m);
+        out.next.cutting = looked.next;
+        out.work.triangles_seen += looked.triangles_seen;
+    }
     const CuttingStep step = cut(out.next.cutting, input, point.material());
     out.next.cutting = step.next;
     if (step.next.engaged) out.flags |= kTickCutting;
@@ -234,8 +248,9 @@ DeviceWrench touch_surface(TickOutput& out, const DeviceSample& sample, const Lo
         point.touch(painting, budget);
         const CoupledWall wall = rendered(out, point.material(), parameters, device, dt_s);
         Vec3 bearing = point.record().proxy_object_m;
-        if (i == 0) bearing = bearing_of(out, point, wall, cutting, parameters, drag_device_N, dt_s);
+        if (i == 0) bearing = bearing_of(out, point, wall, cutting, surface, parameters, drag_device_N, dt_s);
         forces[i] = point.force(wall, bearing);
+        out.spring_energy_J += point.spring_energy_J(wall, bearing);
     }
     note_deepest(out);
     DeviceWrench sum = sum_of({forces.data(), out.point_count});
@@ -252,13 +267,19 @@ void follow_hand(TickOutput& out, const DeviceSample& sample, const LocalSurface
 }
 
 // The force filter of choice, and the controller that takes back what the sampled wall gives out too much.
-void condition_contact(TickOutput& out, const DeviceSample& sample, const TickParameters& parameters, double dt_s) {
-    const bool in_contact = (out.flags & kTickInContact) != 0;
+void condition_contact(TickOutput& out, const DeviceSample& sample, const TickParameters& parameters,
+                       const DeviceDescription& device, double dt_s) {
     const double alpha = parameters.signals.force_alpha;
     out.next.force_average = with_input(out.next.force_average, out.contact.force_device_N, alpha);
     if (alpha > 0.0) out.contact.force_device_N = out.next.force_average.value;
-    const PassivityStep kept = keep_passive(out.next.passivity, sample.position_device_m, out.contact.force_device_N,
-                                            in_contact, parameters.passivity, dt_s);
+    PassivityInput input;
+    input.position_device_m = sample.position_device_m;
+    input.wanted_force_device_N = out.contact.force_device_N;
+    input.stored_J = out.spring_energy_J;
+    input.max_force_N = std::min(parameters.limits.max_force_N, device.max_force_N);
+    input.in_contact = (out.flags & kTickInContact) != 0;
+    input.jumped = out.contact_jumped;
+    const PassivityStep kept = keep_passive(out.next.passivity, input, parameters.passivity, device, dt_s);
     out.next.passivity = kept.next;
     out.contact.force_device_N = kept.force_device_N;
     out.passivity_energy_J = kept.energy_J;
@@ -315,7 +336,7 @@ TickOutput tick(const TickState& state, const DeviceSample& sample, const LocalS
     const double age_s = seconds(now_ns - surface.made_ns);
     if (out.next.in_contact && parameters.max_surface_age_s > 0.0 && age_s > parameters.max_surface_age_s)
         out.flags |= kTickStaleSurface;
-    condition_contact(out, sample, parameters, dt_s);
+    condition_contact(out, sample, parameters, device, dt_s);
     const DeviceWrench others = other_forces(out, sample, parameters, workspace.force_device_N, dt_s);
     out.wanted = driven_part(
         {out.contact.force_device_N + others.force_device_N, out.contact.torque_device_Nm + others.torque_device_Nm},

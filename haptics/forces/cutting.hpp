@@ -1,18 +1,28 @@
 // SPDX-License-Identifier: MIT
 // Carving that feels like carving: the tool eats its way in at a rate set by force and hardness.
 //
-// The surface that the tick knows is some milliseconds old, and the proxy rests on it. Between the proxy p and the HIP h lies
-// material that the hand presses into. The cutting point c is where the tool has eaten to, between the two:
-//     dc/dt = F / (H A)      F = k |h - c|,  H the hardness, A the engaged area,   along h - p
-// so that the tool is borne by the uncut material ahead of it: the hand feels k (c - h), at 1 kHz, however seldom the carved
-// surface is published. The carving side sweeps the tool along c, not along h. When the surface with the cut arrives, the
-// proxy moves down to where c is, and c stays where it was.
-// Engaged area: of a ball of radius R pressed d deep into material, the cap 2 pi R d, at most half the ball, projected on
-// the direction of the cut: A = pi (2 R d - d^2), d <= R. At the device lengths are divided by the gain; areas too (g^2).
-// Frame: object, metres. Pure; no clock, heap, lock or throw.
+// The surface that the tick knows is some milliseconds old, and the proxy p rests on it. Between p and the HIP h lies material
+// that the hand presses into. The cutting point c is where the tool has eaten to. It bears the tool, and moves by
+//     F = k (h - c)      dc/dt = F_n / (H A_n) n  +  F_t / (H A_t)
+// H the hardness, n the direction into the material, F_n and F_t the parts of F along it and across, A_n and A_t the engaged
+// areas projected on those directions. The hand feels k (c - h) at 1 kHz, however seldom the carved surface is published; the
+// carving side sweeps the tool along c. When the surface with the cut arrives the proxy comes down to where c is, and c stays.
+//
+// Engaged area: of a ball of radius R that lies d deep in material, d <= R; deeper it is as at d = R, half the ball:
+//     A_n = pi (2 R d - d^2)                             the disc that the surface cuts out of it
+//     A_t = 2/3 w d + d^3 / (2 w), w = 2 sqrt(2 R d - d^2)   the segment of a circle seen from the side, within 0.8 %
+// d is what the known surface shows at the proxy (haptics/forces/engagement.hpp) and how far c is ahead of the proxy.
+//
+// Bounds: the force is never more than the uncut surface would give, |h - c| <= |h - p| + slack: where the proxy goes freely c
+// is drawn after it. The slack is what the ball that touches is smaller than the ball that cuts: without it each new surface
+// would move c on by so much, and the tool would sink without a force. c is never deeper than the hand.
+// The step is implicit, so that any hardness and any period are stable: 0 cuts without resistance (c = h), infinite does not
+// cut (c = p). The material takes energy only: F . dc >= 0. Lengths at the device are shorter by the gain g, areas by g^2.
+// Frame: object, metres. Pure; no clock, heap, lock or throw; + - * / and sqrt only, so that every machine gives the same bits.
 #pragma once
 
 #include "base/space.hpp"
+#include "haptics/forces/engagement.hpp"
 #include "haptics/forces/touch_material.hpp"
 
 namespace burin {
@@ -20,16 +30,21 @@ namespace burin {
 struct CuttingState {
     Vec3 point_object_m{0.0};  // c: where the tool has eaten to
     bool engaged = false;      // false: c is the proxy
+    // What the surface showed where the proxy was, and when that was looked at.
+    Engagement known;
+    Vec3 looked_at_object_m{0.0};
+    std::uint64_t surface_sequence = 0;
 };
 
 struct CuttingInput {
     Vec3 hip_object_m{0.0};
     Vec3 proxy_object_m{0.0};  // on the surface as it is known; the HIP itself in free space
+    Vec3 normal_object{0.0};   // of the contact, unit; which way is out where the surface does not say
     Vec3 velocity_device_m_per_s{0.0};
-    Quat object_from_device_orientation{1.0, 0.0, 0.0, 0.0};
     double scale = 1.0;              // object metres a device metre
-    double tool_radius_m = 0.0;      // object frame
-    bool cutting = false;            // the button is pressed and the tool cuts
+    double tool_radius_m = 0.0;      // object frame; a point has no area, and cuts without resistance
+    double slack_m = 0.0;            // object frame; how far the proxy may be ahead of c
+    bool cutting = false;            // in contact, the button is pressed and the tool cuts
     double stiffness_N_per_m = 0.0;  // at the device, after the limiter
     double dt_s = 0.0;
 };
@@ -38,11 +53,27 @@ struct CuttingStep {
     CuttingState next;
     Vec3 bearing_object_m{0.0};      // what the spring pulls the hand to: c while cutting, else the proxy
     Vec3 drag_device_N{0.0};         // viscous, against the motion
-    double engaged_area_m2 = 0.0;    // at the device
+    double engaged_depth_m = 0.0;    // object frame: d
+    double engaged_area_m2 = 0.0;    // at the device: A_n
     double cut_speed_m_per_s = 0.0;  // of c, at the device
 };
 
+// Of a ball, any unit of length; depth from 0 on.
+struct EngagedAreas {
+    double along_m2 = 0.0, across_m2 = 0.0;
+};
+[[nodiscard]] EngagedAreas engaged_areas(double radius_m, double depth_m) noexcept;
+
+// state.known is used as it is (look_at).
 [[nodiscard]] CuttingStep cut(const CuttingState& state, const CuttingInput& input,
                               const TouchMaterial& material) noexcept;
+
+// Looks at the surface again when it is a new one or the proxy has moved on by a tenth of the tool's radius.
+struct LookedAt {
+    CuttingState next;
+    std::uint32_t triangles_seen = 0;
+};
+[[nodiscard]] LookedAt look_at(const CuttingState& state, const LocalSurface& surface, const Vec3& proxy_object_m,
+                               double tool_radius_m) noexcept;
 
 }  // namespace burin

@@ -1,10 +1,147 @@
 // SPDX-License-Identifier: MIT
 #include "haptics/forces/guidance.hpp"
 
-namespace burin {
+#include <algorithm>
+#include <cmath>
 
-GuidanceStep guide(const GuidanceState&, const GuidanceInput&, const GuidanceCurve&, const GuidanceSettings&) noexcept {
-    return {};
+namespace burin {
+namespace {
+
+constexpr double kFullUpTo = 0.75;   // of the reach
+constexpr double kKeepsFor = 0.1;    // of the reach: so much nearer another stretch must be
+constexpr double kLeadsUpTo = 0.25;  // of the reach; and not at all at twice that
+
+double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
+
+// A point of the curve: where, how far along, and how near.
+struct Foot {
+    Vec3 at{0.0};
+    Vec3 tangent{0.0};  // unit; zero on a stretch of no length
+    double along_m = 0.0;
+    double distance_m = HUGE_VAL;
+};
+
+class Polyline {
+public:
+    Polyline(const GuidanceCurve& curve, const Vec3& hip) : curve_(curve), hip_(hip) {}
+
+    // The nearest point of all, and the one that is reached from `along_m` by never going away from the tool.
+    struct Feet {
+        Foot nearest, kept;
+    };
+    [[nodiscard]] Feet feet(double along_m) const {
+        Feet feet;
+        double begin_m = 0.0;
+        std::uint32_t home = 0;  // the segment with along_m, and where it begins
+        double home_m = 0.0;
+        for (std::uint32_t i = 0; i < segments(); ++i) {
+            const Foot foot = foot_on(i, begin_m);
+            if (foot.distance_m < feet.nearest.distance_m) feet.nearest = foot;
+            if (along_m >= begin_m) home = i, home_m = begin_m;
+            begin_m += length(point(i + 1) - point(i));
+        }
+        feet.kept = walk(walk(foot_on(home, home_m), home, home_m, true), home, home_m, false);
+        return feet;
+    }
+
+    // At an arc length, which is kept within the curve.
+    [[nodiscard]] Foot at(double along_m) const {
+        double begin_m = 0.0;
+        for (std::uint32_t i = 0; i < segments(); ++i) {
+            const Vec3 edge = point(i + 1) - point(i);
+            const double l = length(edge);
+            if (along_m <= begin_m + l || i + 1 == segments()) {
+                const double t = l > 0.0 ? std::clamp((along_m - begin_m) / l, 0.0, 1.0) : 0.0;
+                return foot_at(i, begin_m, t);
+            }
+            begin_m += l;
+        }
+        return {};
+    }
+
+private:
+    [[nodiscard]] std::uint32_t segments() const { return curve_.count - 1; }
+    [[nodiscard]] Vec3 point(std::uint32_t i) const { return Vec3(curve_.points_object_m[i]); }
+
+    [[nodiscard]] Foot foot_at(std::uint32_t i, double begin_m, double t) const {
+        const Vec3 edge = point(i + 1) - point(i);
+        const double l = length(edge);
+        Foot foot;
+        foot.at = point(i) + t * edge;
+        if (l > 0.0) foot.tangent = edge / l;
+        foot.along_m = begin_m + t * l;
+        foot.distance_m = length(foot.at - hip_);
+        return foot;
+    }
+    [[nodiscard]] Foot foot_on(std::uint32_t i, double begin_m) const {
+        const Vec3 edge = point(i + 1) - point(i);
+        const double l2 = glm::dot(edge, edge);
+        const double t = l2 > 0.0 ? std::clamp(glm::dot(hip_ - point(i), edge) / l2, 0.0, 1.0) : 0.0;
+        return foot_at(i, begin_m, t);
+    }
+    // From segment to segment as long as the next one is no farther.
+    [[nodiscard]] Foot walk(Foot foot, std::uint32_t i, double begin_m, bool forwards) const {
+        while (forwards ? i + 1 < segments() : i > 0) {
+            if (forwards) begin_m += length(point(i + 1) - point(i));
+            i += forwards ? 1u : -1u;
+            if (!forwards) begin_m -= length(point(i + 1) - point(i));
+            const Foot next = foot_on(i, begin_m);
+            if (!(next.distance_m <= foot.distance_m)) break;
+            foot = next;
+        }
+        return foot;
+    }
+
+    const GuidanceCurve& curve_;
+    Vec3 hip_;
+};
+
+// The point that draws: the stretch held last, unless another is clearly nearer.
+Foot free_foot(const Polyline& curve, const GuidanceState& state, const GuidanceSettings& settings) {
+    const Polyline::Feet feet = curve.feet(state.along_m);
+    const bool keeps = state.held && feet.kept.distance_m <= feet.nearest.distance_m + kKeepsFor * settings.reach_m;
+    return keeps ? feet.kept : feet.nearest;
+}
+
+// The point that leads runs on, and waits for a hand that lags.
+Foot leading_foot(const Polyline& curve, const GuidanceState& state, const GuidanceSettings& settings, double dt_s) {
+    if (!state.held) return free_foot(curve, state, settings);
+    const Foot before = curve.at(state.along_m);
+    const double pace = std::clamp(2.0 - before.distance_m / (kLeadsUpTo * settings.reach_m), 0.0, 1.0);
+    return curve.at(std::max(0.0, before.along_m + pace * settings.lead_speed_m_per_s * dt_s));
+}
+
+double fade(double distance_m, double reach_m) {
+    return std::clamp((1.0 - distance_m / reach_m) / (1.0 - kFullUpTo), 0.0, 1.0);
+}
+
+Vec3 at_most(const Vec3& v, double most) {
+    const double l = length(v);
+    return l > most ? v * (most / l) : v;
+}
+
+}  // namespace
+
+GuidanceStep guide(const GuidanceState& state, const GuidanceInput& in, const GuidanceCurve& curve,
+                   const GuidanceSettings& settings) noexcept {
+    if (curve.count < 2 || curve.count > kMostCurvePoints || !(settings.stiffness_N_per_m > 0.0)) return {};
+    const Polyline line(curve, in.hip_object_m);
+    const Foot foot = settings.lead_speed_m_per_s != 0.0 ? leading_foot(line, state, settings, in.dt_s)
+                                                         : free_foot(line, state, settings);
+    if (!(foot.distance_m < settings.reach_m)) return {};  // also when not a number
+    GuidanceStep step;
+    step.next = {foot.along_m, true};
+    step.distance_m = foot.distance_m;
+    const Quat device_from_object = glm::conjugate(in.object_from_device_orientation);
+    const Vec3 spring_N =
+        at_most((settings.stiffness_N_per_m / in.scale) * (device_from_object * (foot.at - in.hip_object_m)),
+                settings.max_force_N);
+    const Vec3 tangent_device = device_from_object * foot.tangent;
+    const Vec3 across =
+        in.velocity_device_m_per_s - glm::dot(in.velocity_device_m_per_s, tangent_device) * tangent_device;
+    const Vec3 force_N = fade(foot.distance_m, settings.reach_m) * (spring_N - settings.damping_Ns_per_m * across);
+    step.force_device_N = at_most(force_N, settings.max_force_N);
+    return step;
 }
 
 }  // namespace burin

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Magnetic guidance: a force that draws the tool to a curve, as training asks for.
 //
-// The nearest point of a polyline within reach draws with k d, at most max_force, fading to nothing at the end of the reach, and
-// with a damping across the curve; along it the tool is free, unless a lead speed is set: then the point drawn to runs along the
-// curve with it and takes the hand along. The force is continuous in the tool's position but where two stretches of the curve are equally
-// near; there the one held last is kept until the other is nearer by a tenth of the reach.
+// The nearest point q of a polyline draws the HIP h, d = |q - h| / g (g the gain):
+//     F = (min(k d, max) n - b v_across) * fade      n to the point, |F| at most max
+//     fade = 1 up to three quarters of the reach, from there falling linearly to 0 at its end
+// The damping acts across the curve; along it the tool is free, unless a lead speed is set: then q runs along the curve with it
+// and takes the hand along. It waits for a hand that lags: full speed up to a quarter of the reach, none beyond half of it. At
+// the curve's end it stays.
+// The force is continuous in the tool's position but where two stretches of the curve are equally near; there the one held
+// last is kept until the other is nearer by a tenth of the reach.
 // Frame: object in, device out. Ownership: the curve is the publisher's and stays in place while it is published
-// (TickParameters are borrowed whole). Work: at most kMostCurvePoints segments a tick. Pure; no heap, lock or throw.
+// (TickParameters are borrowed whole). Work: twice kMostCurvePoints segments a tick at most. Pure; no heap, lock or throw.
 #pragma once
 
 #include <array>
@@ -28,7 +32,7 @@ struct GuidanceSettings {
     double damping_Ns_per_m = 0.0;   // at the device, across the curve
     double max_force_N = 1.5;
     double reach_m = 0.02;            // object frame
-    double lead_speed_m_per_s = 0.0;  // object frame; 0: the tool is free along the curve
+    double lead_speed_m_per_s = 0.0;  // object frame, below 0 backwards; 0: the tool is free along the curve
 };
 
 struct GuidanceState {
