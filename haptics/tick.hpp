@@ -51,6 +51,7 @@ struct TickOutput {
     DeviceWrench contact;  // of contact, after filter and passivity
     DeviceWrench wanted;   // all of it
     StiffnessBound stiffness_bound = StiffnessBound::none;
+    double spring_energy_J = 0.0;  // what the walls touched hold
     double passivity_energy_J = 0.0;
     double passivity_damping_Ns_per_m = 0.0;
     std::uint32_t flags = 0;

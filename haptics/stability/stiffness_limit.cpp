@@ -1,12 +1,117 @@
 // SPDX-License-Identifier: MIT
 #include "haptics/stability/stiffness_limit.hpp"
 
-namespace burin {
+#include <algorithm>
+#include <array>
+#include <cmath>
 
-StiffnessLimit limited(const ContactDemand& wanted, const DeviceDescription&) noexcept {
-    return {wanted.stiffness_N_per_m, wanted.damping_Ns_per_m, StiffnessBound::none};
+namespace burin {
+namespace {
+
+// per_stiffness K + per_damping B <= budget
+struct Line {
+    double per_stiffness = 0.0, per_damping = 0.0, budget = 0.0;
+    StiffnessBound bound = StiffnessBound::sampling;
+
+    [[nodiscard]] double most_stiffness(double damping) const {
+        const double left = std::max(0.0, budget - per_damping * damping);
+        return per_stiffness > 0.0 ? left / per_stiffness : (left > 0.0 ? HUGE_VAL : 0.0);
+    }
+    [[nodiscard]] double most_damping(double stiffness) const {
+        const double left = std::max(0.0, budget - per_stiffness * stiffness);
+        return per_damping > 0.0 ? left / per_damping : HUGE_VAL;
+    }
+};
+
+// At rest and at speed; both have to hold.
+struct Cover {
+    Line rest, speed;
+
+    [[nodiscard]] const Line& tighter() const {
+        return rest.most_stiffness(0.0) < speed.most_stiffness(0.0) ? rest : speed;
+    }
+    [[nodiscard]] double most_damping(double stiffness) const {
+        return std::min(rest.most_damping(stiffness), speed.most_damping(stiffness));
+    }
+};
+
+struct Loop {
+    double period_s = 0.0;
+    double lag_s = 0.0;  // T/2 + t_d + t_f
+    double step_m = 0.0;
+};
+
+// (1 + 1 + 1/2 + ... + 1/16) / 2: how often a difference can be counted in adaptive windows of up to 16, at worst.
+constexpr double kAdaptiveWindows = 2.2;
+
+Loop loop_of(const ContactDemand& wanted, const DeviceDescription& device) {
+    Loop loop;
+    loop.period_s = wanted.period_s > 0.0 ? wanted.period_s : (device.rate_Hz > 0.0 ? 1.0 / device.rate_Hz : 0.001);
+    // In whole periods: a part of one costs as much in the worst phase. A millionth is rounding.
+    const double delay_s = std::ceil(device.delay_s / loop.period_s - 1e-6) * loop.period_s;
+    loop.lag_s = 0.5 * loop.period_s + std::max(0.0, delay_s) + wanted.filter_lag_s;
+    loop.step_m = device.resolution_m;
+    return loop;
 }
 
-const char* text(StiffnessBound) noexcept { return ""; }
+Cover by_friction(const Loop& loop, const DeviceDescription& device, double speed) {
+    const double half_step_m = 0.5 * loop.step_m, damper = speed + loop.step_m / loop.period_s;
+    return {{half_step_m, damper, device.friction_N, StiffnessBound::quantisation},
+            {loop.lag_s * speed + half_step_m, damper, device.friction_N + device.damping_Ns_per_m * speed,
+             StiffnessBound::sampling}};
+}
+
+Cover by_damping(const Loop& loop, const DeviceDescription& device) {
+    Cover cover;
+    cover.rest = {0.0, 0.0, HUGE_VAL, StiffnessBound::quantisation};
+    if (device.friction_N > 0.0)
+        cover.rest = {0.5 * loop.step_m, loop.step_m / loop.period_s, device.friction_N, StiffnessBound::quantisation};
+    cover.speed = {loop.lag_s, kAdaptiveWindows, device.damping_Ns_per_m, StiffnessBound::sampling};
+    return cover;
+}
+
+}  // namespace
+
+StiffnessLimit limited(const ContactDemand& wanted, const DeviceDescription& device) noexcept {
+    StiffnessLimit out{wanted.stiffness_N_per_m, wanted.damping_Ns_per_m, StiffnessBound::none};
+    if (device.max_stiffness_N_per_m > 0.0 && !(out.stiffness_N_per_m <= device.max_stiffness_N_per_m)) {
+        out.stiffness_N_per_m = device.max_stiffness_N_per_m;
+        out.bound = StiffnessBound::device;
+    }
+    if (!(device.friction_N > 0.0) && !(device.damping_Ns_per_m > 0.0)) return out;  // nothing is known of it
+    const Loop loop = loop_of(wanted, device);
+    const Cover friction = by_friction(loop, device, wanted.contact_speed_m_per_s);
+    const Cover damping = by_damping(loop, device);
+    const Line& stiffest = friction.tighter().most_stiffness(0.0) > damping.tighter().most_stiffness(0.0)
+                               ? friction.tighter()
+                               : damping.tighter();
+    if (!(out.stiffness_N_per_m <= stiffest.most_stiffness(0.0))) {
+        return {stiffest.most_stiffness(0.0), 0.0, stiffest.bound};
+    }
+    const double room =
+        std::max(friction.most_damping(out.stiffness_N_per_m), damping.most_damping(out.stiffness_N_per_m));
+    if (!(out.damping_Ns_per_m <= room)) {
+        out.damping_Ns_per_m = room;
+        if (out.bound == StiffnessBound::none) out.bound = StiffnessBound::damping;
+    }
+    return out;
+}
+
+const char* text(StiffnessBound bound) noexcept {
+    switch (bound) {
+        case StiffnessBound::none: return "as stiff as the material says";
+        case StiffnessBound::sampling:
+            return "softer than the material says: the device's friction and damping cannot take away what a stiffer "
+                   "wall "
+                   "gives out at this rate and delay";
+        case StiffnessBound::quantisation:
+            return "softer than the material says: the device's friction cannot hide its encoders' steps on a stiffer "
+                   "wall";
+        case StiffnessBound::device: return "softer than the material says: the device is not made for stiffer walls";
+        case StiffnessBound::damping:
+            return "less damped than the material says: the device cannot take away what more damping gives out";
+    }
+    return "softer than the material says";
+}
 
 }  // namespace burin

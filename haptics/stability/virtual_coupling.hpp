@@ -2,9 +2,13 @@
 // Virtual coupling (Colgate, Stanley and Brown 1995; Adams and Hannaford 1999): the hand holds the virtual tool by a spring and a
 // damper, so that whatever the world renders, the device never feels more stiffness than the coupling's.
 //
-// The virtual tool has no mass: it rests where the world's spring and the coupling balance. In series with a wall of stiffness k
-// the device feels k Kc / (k + Kc). The coupling's damper acts between the hand and the virtual tool, which a stiff wall holds
-// still; the effective damping is that of the series. Frame: device. Pure; no clock, heap, lock or throw.
+// The virtual tool has no mass: it is where the wall (k, b) and the coupling (Kc, Bc) push equally,
+//   k p + b p' = Kc (x - p) + Bc (x' - p').
+// For the hand that is F(s) / x(s) = (k + b s)(Kc + Bc s) / (k + Kc + (b + Bc) s), whose first two terms in s are
+//   stiffness k Kc / (k + Kc),   damping b (Kc / (k + Kc))^2 + Bc (k / (k + Kc))^2.
+// They are what is rendered. It is what the tool would do up to about (k + Kc) / (b + Bc), some hundred rad/s or more for any
+// wall that can be felt; above it the tool would follow the dampers' ratio instead, which one spring and one damper cannot show.
+// Frame: device. Pure; no clock, heap, lock or throw.
 #pragma once
 
 #include "base/space.hpp"
