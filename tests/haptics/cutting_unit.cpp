@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: MIT
+#include "haptics/forces/cutting.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "tests/haptics/surfaces.hpp"
+
+namespace burin {
+namespace {
+
+constexpr double kDt = 1e-3;
+constexpr double kRadius_m = 0.003;
+constexpr double kStiffness = 600.0;
+const Vec3 kDown(0.0, -1.0, 0.0);
+
+TouchMaterial of_hardness(double hardness_Ns_per_m3) {
+    TouchMaterial material;
+    material.hardness_Ns_per_m3 = hardness_Ns_per_m3;
+    return material;
+}
+
+// A hand at this height that presses on a plane at height 0 (of the ball's centre), material below.
+CuttingInput pressing(double hip_y_m, double dt_s = kDt) {
+    CuttingInput in;
+    in.hip_object_m = {0.0, hip_y_m, 0.0};
+    in.normal_object = -kDown;
+    in.tool_radius_m = kRadius_m;
+    in.cutting = true;
+    in.stiffness_N_per_m = kStiffness;
+    in.dt_s = dt_s;
+    return in;
+}
+
+Vec3 force_on_hand_N(const CuttingInput& in, const CuttingStep& step) {
+    return kStiffness / in.scale * (step.bearing_object_m - in.hip_object_m);
+}
+
+// The time that a hand held at depth x needs to bring the tool from the surface to depth s: the closed form of
+// the integral of A(y) / (x - y) dy, times H / k, with A(y) = pi (2 R y - y^2).
+double time_to_depth_s(double s, double x, double hardness) {
+    const double R = kRadius_m;
+    const double integral = std::numbers::pi * ((2.0 * R * x - x * x) * std::log(x / (x - s)) + 2.0 * (x - R) * s -
+                                                0.5 * (x * x - (x - s) * (x - s)));
+    return hardness / kStiffness * integral;
+}
+
+double depth_after(double time_s, double x, double hardness, double dt_s) {
+    CuttingState state;
+    CuttingStep step;
+    for (int i = 0; i < std::lround(time_s / dt_s); ++i) {
+        step = cut(state, pressing(-x, dt_s), of_hardness(hardness));
+        state = step.next;
+    }
+    return -step.bearing_object_m.y;
+}
+
+}  // namespace
+
+TEST(Cutting, EngagedAreasAreThoseOfABallThatLiesSoDeep) {
+    EXPECT_EQ(engaged_areas(kRadius_m, 0.0).along_m2, 0.0);
+    EXPECT_EQ(engaged_areas(kRadius_m, 0.0).across_m2, 0.0);
+    EXPECT_EQ(engaged_areas(0.0, 0.001).along_m2, 0.0);
+    for (const double depth : {0.0001, 0.0005, 0.0015, 0.003}) {
+        double segment = 0.0;  // the strips of the circle below the surface
+        const int strips = 20000;
+        for (int i = 0; i < strips; ++i) {
+            const double y = -kRadius_m + depth * (i + 0.5) / strips;
+            segment += 2.0 * std::sqrt(kRadius_m * kRadius_m - y * y) * depth / strips;
+        }
+        const double rim2 = kRadius_m * kRadius_m - (kRadius_m - depth) * (kRadius_m - depth);
+        EXPECT_NEAR(engaged_areas(kRadius_m, depth).along_m2, std::numbers::pi * rim2, 1e-15) << depth;
+        EXPECT_NEAR(engaged_areas(kRadius_m, depth).across_m2, segment, 0.01 * segment) << depth;
+    }
+    EXPECT_EQ(engaged_areas(kRadius_m, 1.0).along_m2, engaged_areas(kRadius_m, kRadius_m).along_m2);
+}
+
+TEST(Cutting, AtASteadyPressTheToolCutsAtForceOverHardnessTimesArea) {
+    const double hardness = 2e6, speed = 0.01;  // device m/s; it settles with H A / k = 0.1 s
+    for (const double scale : {0.1, 1.0, 40.0}) {
+        CuttingState state;
+        double y = 0.0;
+        CuttingStep step;
+        CuttingInput in;
+        for (int i = 0; i < 4000; ++i) {
+            y -= speed * kDt * scale;
+            in = pressing(y);
+            in.scale = scale;
+            in.tool_radius_m = kRadius_m * scale;
+            step = cut(state, in, of_hardness(hardness));
+            state = step.next;
+        }
+        const double area_m2 = std::numbers::pi * kRadius_m * kRadius_m;  // far deeper than the radius by now
+        EXPECT_NEAR(step.engaged_area_m2, area_m2, 1e-12) << scale;
+        EXPECT_NEAR(step.cut_speed_m_per_s, speed, 1e-9) << scale;
+        EXPECT_NEAR(force_on_hand_N(in, step).y, hardness * area_m2 * speed, 1e-7) << scale;
+    }
+}
+
+TEST(Cutting, SidewaysTheToolIsHeldBackByTheSegmentItPushesAhead) {
+    const double hardness = 1e6, speed = 0.03;
+    CuttingState state;
+    state.known = {0.001, kDown};  // a millimetre deep, as the surface shows
+    double x = 0.0;
+    CuttingStep step;
+    CuttingInput in;
+    for (int i = 0; i < 3000; ++i) {
+        x += speed * kDt;
+        in = pressing(0.0);
+        in.hip_object_m = {x, 0.0, 0.0};
+        in.proxy_object_m = {x - 0.02, 0.0, 0.0};  // held back more than the tool
+        step = cut(state, in, of_hardness(hardness));
+        state = step.next;
+    }
+    const double drag_N = hardness * engaged_areas(kRadius_m, 0.001).across_m2 * speed;
+    EXPECT_NEAR(force_on_hand_N(in, step).x, -drag_N, 1e-6);
+    EXPECT_NEAR(force_on_hand_N(in, step).y, 0.0, 1e-12);
+}
+
+TEST(Cutting, AHeldHandSinksInAsTheGrowingCapLetsIt) {
+    const double hardness = 2e7, x = 0.002;
+    for (const double time_s : {0.05, 0.2, 0.6}) {
+        const double depth = depth_after(time_s, x, hardness, 1e-4);
+        EXPECT_GT(depth, 0.0002);
+        EXPECT_LT(depth, x);
+        EXPECT_NEAR(time_to_depth_s(depth, x, hardness), time_s, 0.005 * time_s + 2e-4) << depth;
+    }
+}
+
+TEST(Cutting, HalvingThePeriodHalvesTheError) {
+    const double hardness = 2e7, x = 0.002, time_s = 0.2;
+    const double fine = depth_after(time_s, x, hardness, 1e-5);
+    const double coarse_error = std::abs(depth_after(time_s, x, hardness, 2e-3) - fine);
+    const double half_error = std::abs(depth_after(time_s, x, hardness, 1e-3) - fine);
+    EXPECT_LT(coarse_error, 0.02 * fine);
+    EXPECT_NEAR(half_error / coarse_error, 0.5, 0.1);
+}
+
+TEST(Cutting, HarderMaterialIsCutLessAndMoreForceCutsDeeper) {
+    double last = 1.0;
+    for (const double hardness : {1e5, 1e6, 1e7, 1e8, 1e9}) {
+        const double depth = depth_after(0.2, 0.002, hardness, kDt);
+        EXPECT_LT(depth, last);
+        last = depth;
+    }
+    last = 0.0;
+    for (const double x : {0.0005, 0.001, 0.002, 0.003}) {
+        const double depth = depth_after(0.2, x, 2e7, kDt);
+        EXPECT_GT(depth, last);
+        last = depth;
+    }
+}
+
+TEST(Cutting, WhatHasNoHardnessGivesWayAndWhatIsInfinitelyHardDoesNot) {
+    const CuttingInput in = pressing(-0.002);
+    const CuttingStep air = cut({}, in, of_hardness(0.0));
+    EXPECT_EQ(air.bearing_object_m, in.hip_object_m);
+    EXPECT_TRUE(air.next.engaged);
+    const CuttingStep diamond = cut({}, in, of_hardness(std::numeric_limits<double>::infinity()));
+    EXPECT_EQ(diamond.bearing_object_m, in.proxy_object_m);
+    EXPECT_FALSE(diamond.next.engaged);
+    // The limits are approached from both sides, at any period.
+    for (const double dt_s : {1e-6, 1e-3, 1.0, 1e3}) {
+        EXPECT_NEAR(cut({}, pressing(-0.002, dt_s), of_hardness(1e-6)).bearing_object_m.y, -0.002, 1e-9);
+        EXPECT_NEAR(cut({}, pressing(-0.002, dt_s), of_hardness(1e18)).bearing_object_m.y, 0.0, 1e-6);
+    }
+    CuttingInput idle = in;
+    idle.cutting = false;
+    EXPECT_EQ(cut({}, idle, of_hardness(1e6)).bearing_object_m, in.proxy_object_m);
+}
+
+TEST(Cutting, AFreshSurfaceDoesNotMoveTheToolNorTheForce) {
+    const double hardness = 2e7;
+    CuttingState state;
+    CuttingInput in = pressing(-0.002);
+    CuttingStep before;
+    for (int i = 0; i < 200; ++i) {
+        before = cut(state, in, of_hardness(hardness));
+        state = before.next;
+    }
+    // The cut has arrived: the proxy lies where the tool is, and deeper by the clearance; the bed is as deep.
+    state.known = {-before.bearing_object_m.y, kDown};
+    for (const double clearance_m : {0.0, 3e-5, 6e-5}) {
+        in.proxy_object_m = before.bearing_object_m + clearance_m * kDown;
+        in.slack_m = 6e-5;
+        const CuttingStep after = cut(state, in, of_hardness(hardness));
+        const double change_N = glm::length(force_on_hand_N(in, after) - force_on_hand_N(in, before));
+        EXPECT_LT(change_N, 0.005) << clearance_m;  // one more step of cutting
+    }
+}
+
+TEST(Cutting, HowDeepItGetsDoesNotDependOnHowOftenTheSurfaceArrives) {
+    const double hardness = 2e7;
+    const auto depth_when_published_every = [&](int ticks) {
+        CuttingState state;
+        CuttingInput in = pressing(-0.002);
+        in.slack_m = 0.02 * kRadius_m;
+        CuttingStep step;
+        for (int i = 1; i <= 500; ++i) {
+            step = cut(state, in, of_hardness(hardness));
+            state = step.next;
+            if (i % ticks != 0) continue;
+            // The touching ball is smaller than the cutting one and comes to lie that much deeper.
+            in.proxy_object_m = step.bearing_object_m + in.slack_m * kDown;
+            state.known = {-in.proxy_object_m.y, kDown};
+        }
+        return -step.bearing_object_m.y;
+    };
+    const double never = depth_when_published_every(1'000'000);
+    for (const int ticks : {1, 3, 10, 50}) EXPECT_NEAR(depth_when_published_every(ticks), never, 1e-9) << ticks;
+}
+
+TEST(Cutting, TheToolNeverGoesBeyondTheHandNorStaysBehindTheProxy) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> any(-1.0, 1.0);
+    for (int run = 0; run < 30; ++run) {
+        CuttingState state;
+        Vec3 hip(0.0);
+        const TouchMaterial material = of_hardness(std::pow(10.0, 7.0 + 3.0 * any(random)));
+        for (int i = 0; i < 400; ++i) {
+            hip += 2e-4 * Vec3(any(random), any(random) - 0.1, any(random));
+            hip.y = std::min(hip.y, -1e-9);
+            CuttingInput in = pressing(0.0);
+            in.hip_object_m = hip;
+            in.proxy_object_m = {hip.x, 0.0, hip.z};
+            in.slack_m = 5e-5;
+            const CuttingStep step = cut(state, in, material);
+            const double lag_m = glm::length(step.bearing_object_m - hip);
+            EXPECT_LE(lag_m, glm::length(in.proxy_object_m - hip) + in.slack_m + 1e-12);
+            EXPECT_GE(step.bearing_object_m.y, hip.y - 1e-12);
+            state = step.next;
+        }
+    }
+}
+
+TEST(Cutting, TakesEnergyAndGivesNoneBack) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> any(-1.0, 1.0);
+    for (int run = 0; run < 40; ++run) {
+        CuttingState state;
+        state.known = {0.001 * std::abs(any(random)), kDown};
+        Vec3 hip(0.0, -1e-6, 0.0), velocity(0.0);
+        double taken_J = 0.0;
+        const TouchMaterial material = of_hardness(std::pow(10.0, 7.0 + 3.0 * any(random)));
+        for (int i = 0; i < 500; ++i) {
+            velocity += 0.02 * Vec3(any(random), any(random), any(random));
+            const Vec3 from = hip;
+            hip += velocity * kDt;
+            if (hip.y >= 0.0) hip.y = -1e-6, velocity.y = 0.0;
+            const Vec3 motion = hip - from;
+            CuttingInput in = pressing(0.0);
+            in.hip_object_m = hip;
+            in.proxy_object_m = {hip.x, 0.0, hip.z};
+            const CuttingStep step = cut(state, in, material);
+            // A convex spring's work is never less than its energy gained when counted with the force at the end.
+            taken_J -= glm::dot(force_on_hand_N(in, step), motion);
+            const double stored_J =
+                0.5 * kStiffness * glm::dot(step.bearing_object_m - hip, step.bearing_object_m - hip);
+            EXPECT_GE(taken_J, stored_J - 1e-9) << run << ' ' << i;
+            state = step.next;
+        }
+    }
+}
+
+TEST(Cutting, DragIsViscousOverTheEngagedArea) {
+    TouchMaterial material = of_hardness(1e7);
+    material.cutting_drag_Ns_per_m3 = 2e4;
+    CuttingState state;
+    state.known = {0.002, kDown};
+    CuttingInput in = pressing(-0.001);
+    in.velocity_device_m_per_s = {0.1, 0.0, -0.05};
+    const CuttingStep step = cut(state, in, material);
+    EXPECT_GT(step.engaged_area_m2, 1e-5);
+    EXPECT_LT(glm::length(step.drag_device_N + 2e4 * step.engaged_area_m2 * in.velocity_device_m_per_s), 1e-15);
+    in.cutting = false;
+    EXPECT_EQ(cut(state, in, material).drag_device_N, Vec3(0.0));
+}
+
+TEST(Engagement, OnAPlaneItIsHowDeepTheBallLies) {
+    for (const int squares : {10, 80, 400}) {  // of 10 mm, of 1.25 mm, of a quarter of one
+        const test::Surface plane = test::plane(0.05, squares);
+        for (const double depth : {0.0, 0.0003, 0.001, 0.002}) {
+            const Engagement seen = engagement(*plane, {0.0011, kRadius_m - depth, 0.0007}, kRadius_m).engagement;
+            EXPECT_NEAR(seen.depth_m, depth, 0.06 * kRadius_m) << squares;
+            EXPECT_GT(glm::dot(seen.into_object, kDown), 0.99) << squares;
+        }
+    }
+    const test::Surface plane = test::plane();
+    const Engagement away = engagement(*plane, {0.0, 2.0 * kRadius_m, 0.0}, kRadius_m).engagement;
+    EXPECT_EQ(away.depth_m, 0.0);
+    EXPECT_EQ(away.into_object, Vec3(0.0));
+}
+
+TEST(Engagement, InAGrooveItIsWhatTheWallsTakeUpOfTheView) {
+    // Half a pipe, open at both ends: within 1.1 R of the middle it is z0 = sqrt(0.21) R long to both sides, and takes up
+    // W = 2 pi z0 / (1.1 R) of the view.
+    const test::Surface groove = test::groove(kRadius_m, 0.05, 24, 200, 0.0);
+    const Engagement seen = engagement(*groove, Vec3(0.0), kRadius_m).engagement;
+    EXPECT_NEAR(seen.depth_m, (std::sqrt(0.21) - 0.1) * kRadius_m, 0.03 * kRadius_m);
+    EXPECT_GT(glm::dot(seen.into_object, kDown), 0.999);
+}
+
+TEST(Engagement, DoesNotDependOnTheUnitOfLengthOrThePlace) {
+    for (const double scale : {1e-3, 1.0, 1e3}) {
+        const double R = kRadius_m * scale;
+        const Vec3 origin = scale * Vec3(3.0, -2.0, 1.0);
+        const test::Surface wavy = test::height_field(
+            0.02 * scale, 80, [&](double x, double z) { return 0.1 * R * std::sin(x / R) * std::cos(z / R); },
+            Vec3(0.0));
+        wavy->origin_object = origin;
+        const Engagement seen = engagement(*wavy, origin + scale * Vec3(0.0004, 0.0021, 0.001), R).engagement;
+        const test::Surface same = test::height_field(0.02, 80, [&](double x, double z) {
+            return 0.1 * kRadius_m * std::sin(x / kRadius_m) * std::cos(z / kRadius_m);
+        });
+        const Engagement unscaled = engagement(*same, Vec3(0.0004, 0.0021, 0.001), kRadius_m).engagement;
+        EXPECT_NEAR(seen.depth_m / scale, unscaled.depth_m, 1e-6);
+    }
+}
+
+}  // namespace burin
