@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// The two-point wand: forces of both ends as one force and one torque, through the real tick.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "haptics/tick.hpp"
+#include "tests/haptics/surfaces.hpp"
+
+namespace burin {
+namespace {
+
+constexpr double kDt = 1e-3;
+constexpr Nanoseconds kMs = 1'000'000;
+const Vec3 kTop(0.0, 0.08, 0.0), kBottom(0.0, -0.08, 0.0);
+
+// What the wand's maker says: yaw, about y, is passive.
+constexpr DeviceDescription kWand{
+    .name = "wand", .max_force_N = 100.0, .max_torque_Nm = Vec3(10.0, 0.0, 10.0), .max_stiffness_N_per_m = 1e6};
+
+TickParameters wand(double radius_m, double stiffness_N_per_m) {
+    TickParameters p;
+    p.probe.count = 2;
+    p.probe.points[0] = {kTop, radius_m};
+    p.probe.points[1] = {kBottom, radius_m};
+    p.clearance_ratio = 0.0;
+    p.limit_stiffness = false;
+    p.passivity.control = false;
+    p.materials[0].stiffness_N_per_m = stiffness_N_per_m;
+    p.materials[0].damping_Ns_per_m = 0.0;
+    p.max_surface_age_s = 0.0;
+    return p;
+}
+
+struct Hand {
+    const LocalSurface* surface;
+    TickParameters parameters;
+    DeviceDescription device = test::kStrongDevice;
+    TickState state{};
+    Nanoseconds now_ns = 0;
+
+    TickOutput at(const Vec3& position, const Quat& orientation = {1, 0, 0, 0}) {
+        now_ns += kMs;
+        DeviceSample sample;
+        sample.time_ns = now_ns;
+        sample.position_device_m = position;
+        sample.orientation_device = orientation;
+        const TickOutput out = tick(state, sample, *surface, parameters, device, now_ns, kDt);
+        state = out.next;
+        return out;
+    }
+};
+
+// Three walls that meet in a corner at `apex`, open towards `out` (its signs): a ball in it can be pushed back in any
+// direction between the walls' normals.
+void add_corner(test::SurfaceBuilder& b, const Vec3& apex, const Vec3& out, double size) {
+    const Vec3 s(std::copysign(size, out.x), std::copysign(size, out.y), std::copysign(size, out.z));
+    const bool even = s.x * s.y * s.z > 0.0;
+    const auto wall = [&](const Vec3& u, const Vec3& v) {
+        if (even) {
+            b.quad(apex, apex + u, apex + u + v, apex + v);
+        } else {
+            b.quad(apex, apex + v, apex + u + v, apex + u);
+        }
+    };
+    wall({s.x, 0, 0}, {0, s.y, 0});
+    wall({0, s.y, 0}, {0, 0, s.z});
+    wall({0, 0, s.z}, {s.x, 0, 0});
+}
+
+Quat rotation_of_check() {
+    const Vec3 k = Vec3(1.0, 2.0, 3.0) / std::sqrt(14.0);
+    return {std::cos(0.35), std::sin(0.35) * k.x, std::sin(0.35) * k.y, std::sin(0.35) * k.z};
+}
+
+void expect_near(const Vec3& value, const Vec3& expected, double tolerance) {
+    EXPECT_NEAR(value.x, expected.x, tolerance);
+    EXPECT_NEAR(value.y, expected.y, tolerance);
+    EXPECT_NEAR(value.z, expected.z, tolerance);
+}
+
+}  // namespace
+
+TEST(Wand, TheSumHasTheCheckValuesOfTheRequirements) {
+    const PointForce top{kTop, {0.0, 0.0, -1.0}};
+    expect_near(sum_of({&top, 1}).torque_device_Nm, {-0.08, 0.0, 0.0}, 1e-15);
+    const Quat R = rotation_of_check();
+    const std::array both{PointForce{R * kTop, {0.3, -0.2, -1.0}}, PointForce{R * kBottom, {0.0, 0.1, -0.4}}};
+    const DeviceWrench sum = sum_of(both);
+    expect_near(sum.force_device_N, {0.3, -0.1, -1.4}, 1e-15);
+    expect_near(sum.torque_device_Nm, {-0.03338649, -0.01662965, -0.00837842}, 1e-8);
+}
+
+TEST(Wand, TheTickHasTheCheckValuesOfTheRequirements) {
+    // Each end lies in a corner of three walls and is pressed so far beyond each that its spring gives the force wanted. A soft
+    // spring makes the way long against the walls' rounding to float: the top corner is exact, the bottom one within 6e-9 m.
+    const double k = 10.0, radius = 0.002;
+    const Quat R = rotation_of_check();
+    const Vec3 position(0.013, -0.027, 0.041);
+    const Vec3 top_force(0.3, -0.2, -1.0), bottom_force(0.0, 0.1, -0.4);
+    const auto signs = [](const Vec3& v) {
+        return Vec3(std::copysign(1.0, v.x), std::copysign(1.0, v.y), std::copysign(1.0, v.z));
+    };
+    // HIP + F / k is where the proxy shall be: a radius off the apex along each wall's normal.
+    const auto apex_for = [&](const Vec3& arm, const Vec3& force) {
+        return position + R * arm + force / k - radius * signs(force);
+    };
+    const Vec3 top_apex = apex_for(kTop, top_force);
+    const Vec3 bottom_apex = apex_for(kBottom, bottom_force) - Vec3(0.02, 0.0, 0.0);  // its x wall is far from the ball
+    test::SurfaceBuilder b(top_apex);
+    add_corner(b, top_apex, top_force, 0.03);
+    add_corner(b, bottom_apex, bottom_force, 0.06);
+    const test::Surface corners = b.finish();
+    Hand hand{corners.get(), wand(radius, k)};
+    hand.parameters.shading = false;
+    hand.at(position, R);
+    // Both ends come from the open side of their corners.
+    const auto in_the_open = [&](const Vec3& apex, const Vec3& out) {
+        return ProxyState{apex + 0.012 * signs(out), corners->sequence, true, false};
+    };
+    hand.state.proxies[0] = in_the_open(top_apex, top_force);
+    hand.state.proxies[1] = in_the_open(bottom_apex, bottom_force);
+    hand.state.proxies[1].position_object_m.x += 0.02;
+    TickOutput out;
+    for (int i = 0; i < 50; ++i) out = hand.at(position, R);
+    ASSERT_EQ(out.points[0].constraints, 3u);
+    ASSERT_EQ(out.points[1].constraints, 2u);
+    expect_near(out.points[0].force_device_N, top_force, 1e-12);
+    expect_near(out.points[1].force_device_N, bottom_force, 1e-7);
+    expect_near(out.wanted.force_device_N, {0.3, -0.1, -1.4}, 1e-7);
+    expect_near(out.wanted.torque_device_Nm, {-0.03338649, -0.01662965, -0.00837842}, 1e-8);
+    // And of the very forces that the points have, to the last digits.
+    const Vec3 torque =
+        glm::cross(R * kTop, out.points[0].force_device_N) + glm::cross(R * kBottom, out.points[1].force_device_N);
+    expect_near(out.wanted.torque_device_Nm, torque, 1e-15);
+}
+
+TEST(Wand, OnACubeTopAloneTurnsOneWayBottomAloneTheOtherAndBothCancel) {
+    // The wand stands upright before the cube's face z = 0 and is pressed into it along +z; a narrow cube meets one end alone.
+    const auto press = [](const LocalSurface& cube) {
+        Hand hand{&cube, wand(0.004, 500.0)};
+        hand.at({0.0, 0.0, -0.02});
+        return hand.at({0.0, 0.0, -0.002});  // 2 mm beyond where the balls touch
+    };
+    const test::Surface whole = test::box({-0.2, -0.2, 0.0}, {0.2, 0.2, 0.4}, 8);
+    const test::Surface upper = test::box({-0.2, 0.02, 0.0}, {0.2, 0.2, 0.4}, 8);
+    const test::Surface lower = test::box({-0.2, -0.2, 0.0}, {0.2, -0.02, 0.4}, 8);
+    const double force = 500.0 * 0.002;
+    const TickOutput top = press(*upper), bottom = press(*lower), both = press(*whole);
+    expect_near(top.wanted.force_device_N, {0.0, 0.0, -force}, 1e-4);
+    expect_near(top.wanted.torque_device_Nm, {-0.08 * force, 0.0, 0.0}, 1e-5);
+    EXPECT_EQ(top.points[1].constraints, 0u);
+    expect_near(bottom.wanted.force_device_N, {0.0, 0.0, -force}, 1e-4);
+    expect_near(bottom.wanted.torque_device_Nm, {0.08 * force, 0.0, 0.0}, 1e-5);
+    EXPECT_EQ(bottom.points[0].constraints, 0u);
+    expect_near(both.wanted.force_device_N, {0.0, 0.0, -2.0 * force}, 2e-4);
+    expect_near(both.wanted.torque_device_Nm, Vec3(0.0), 1e-5);
+}
+
+TEST(Wand, ASinglePointFeelsNothingAtItsEnds) {
+    const test::Surface upper = test::box({-0.2, 0.02, 0.0}, {0.2, 0.2, 0.4}, 8);
+    TickParameters p = wand(0.004, 500.0);
+    p.probe = ball_probe(0.004);
+    Hand hand{upper.get(), p};
+    hand.at({0.0, 0.0, -0.02});
+    const TickOutput out = hand.at({0.0, 0.0, 0.01});  // the upper end would be a centimetre deep
+    EXPECT_EQ(out.wanted.force_device_N, Vec3(0.0));
+    EXPECT_EQ(out.wanted.torque_device_Nm, Vec3(0.0));
+}
+
+TEST(Wand, PassiveAxesGetNoTorque) {
+    // Pressed at the top, sideways and turned: torque about all three axes, but for the yaw that nothing drives.
+    const test::Surface wall = test::box({-0.2, 0.02, 0.0}, {0.2, 0.2, 0.4}, 8);
+    const Quat lean = glm::normalize(Quat(1.0, 0.05, 0.1, 0.2));
+    Hand free{wall.get(), wand(0.004, 500.0)}, driven{wall.get(), wand(0.004, 500.0), kWand};
+    for (Hand* hand : {&free, &driven}) hand->at({0.0, 0.0, -0.04}, lean);
+    const TickOutput all = free.at({0.0, 0.0, -0.012}, lean), some = driven.at({0.0, 0.0, -0.012}, lean);
+    ASSERT_GT(std::abs(all.wanted.torque_device_Nm.y), 1e-3);
+    EXPECT_EQ(some.wanted.torque_device_Nm.y, 0.0);
+    EXPECT_EQ(some.wanted.torque_device_Nm.x, all.wanted.torque_device_Nm.x);
+    EXPECT_EQ(some.wanted.torque_device_Nm.z, all.wanted.torque_device_Nm.z);
+    EXPECT_EQ(some.wanted.force_device_N, all.wanted.force_device_N);
+}
+
+TEST(Wand, AGainScalesTheSceneAndLeavesForceAndTorqueAsTheyWere) {
+    DeviceWrench unscaled;
+    for (const double gain : {1.0, 0.2, 30.0}) {
+        const test::Surface cube = test::box(gain * Vec3(-0.2, 0.02, 0.0), gain * Vec3(0.2, 0.2, 0.4), 8);
+        Hand hand{cube.get(), wand(0.004 * gain, 500.0)};
+        hand.parameters.workspace.object_from_device.scale = gain;
+        hand.at({0.0, 0.0, -0.02});
+        const TickOutput out = hand.at({0.0, 0.0, -0.002});
+        if (gain == 1.0) unscaled = out.wanted;
+        expect_near(out.wanted.force_device_N, unscaled.force_device_N, 1e-6);
+        expect_near(out.wanted.torque_device_Nm, unscaled.torque_device_Nm, 1e-7);
+    }
+}
+
+}  // namespace burin
