@@ -215,7 +215,7 @@ Vec3 bearing_of(TickOutput& out, const PointContact& point, const CoupledWall& w
     input.stiffness_N_per_m = wall.stiffness_N_per_m;
     input.dt_s = dt_s;
     if (input.cutting) {
-        const LookedAt looked = look_at(out.next.cutting, surface, input.proxy_object_m, input.tool_radius_m);
+        const LookedAt looked = look_at(out.next.cutting, input, surface);
         out.next.cutting = looked.next;
         out.work.triangles_seen += looked.triangles_seen;
     }

@@ -13,19 +13,34 @@ double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 // Halvings of an interval: enough for every digit of a double.
 constexpr int kHalvings = 54;
 
-// How far c goes along n in one step. Implicit Euler: the root of H A(d + s) s = k g^2 dt (x - s) between 0 and x, x the way
-// from c to the hand. The left side rises with s and the right one falls, so there is one.
+// How far c goes in one step: implicit Euler. With x_n, x_t the way from c to the hand and K = k g^2 dt,
+//     H (A_nn s + A_nt u) = K (x_n - s)      H (A_nt s + A_tt u) = K (x_t - u), u >= 0
+// the areas at depth d + s. The second gives u for any s; what then is left over in the first is below zero where the tool
+// leaves the material and above where it reaches the hand, so there is a root between.
 struct Advance {
-    double hardness_Ns_per_m3, pull_Ns_per_m, radius_m, depth_m, way_m;  // pull: k g^2 dt
+    double hardness_Ns_per_m3, pull_Ns_per_m, radius_m, depth_m, way_in_m, way_across_m;
 
-    [[nodiscard]] double length_m() const {
-        double lo = 0.0, hi = way_m;
+    struct Step {
+        double in_m = 0.0, across_m = 0.0;
+    };
+    [[nodiscard]] Step step() const {
+        double lo = -depth_m, hi = way_in_m;
         for (int i = 0; i < kHalvings; ++i) {
             const double s = 0.5 * (lo + hi);
-            const double resists = hardness_Ns_per_m3 * engaged_areas(radius_m, depth_m + s).along_m2 * s;
-            (resists < pull_Ns_per_m * (way_m - s) ? lo : hi) = s;
+            (left_over(s) < 0.0 ? lo : hi) = s;
         }
-        return lo;
+        return {lo, across(lo, engaged_areas(radius_m, depth_m + lo))};
+    }
+
+private:
+    [[nodiscard]] double across(double s, const EngagedAreas& a) const {
+        const double driven = pull_Ns_per_m * way_across_m - hardness_Ns_per_m3 * a.lift_m2 * s;
+        const double resists = hardness_Ns_per_m3 * a.across_m2 + pull_Ns_per_m;
+        return driven > 0.0 ? std::min(way_across_m, driven / resists) : 0.0;
+    }
+    [[nodiscard]] double left_over(double s) const {
+        const EngagedAreas a = engaged_areas(radius_m, depth_m + s);
+        return hardness_Ns_per_m3 * (a.into_m2 * s + a.lift_m2 * across(s, a)) - pull_Ns_per_m * (way_in_m - s);
     }
 };
 
@@ -59,11 +74,12 @@ CuttingStep not_cutting(const CuttingState& state, const CuttingInput& in) {
 }  // namespace
 
 EngagedAreas engaged_areas(double radius_m, double depth_m) noexcept {
-    const double d = std::min(depth_m, radius_m);
-    const double half_width2 = d * (2.0 * radius_m - d);
-    if (!(half_width2 > 0.0)) return {};
-    const double width = 2.0 * std::sqrt(half_width2);
-    return {std::numbers::pi * half_width2, 2.0 / 3.0 * width * d + d * d * d / (2.0 * width)};
+    if (!(radius_m > 0.0) || !(depth_m > 0.0)) return {};
+    const double x = std::min(depth_m / radius_m, 1.0);
+    const double rim = x * (2.0 - x);  // the rim's radius over R, squared
+    const double R2 = radius_m * radius_m;
+    return {2.0 * std::numbers::pi * R2 * x * (1.0 - x + x * x / 3.0),
+            0.5 * std::numbers::pi * R2 * x * x * (1.0 - x / 3.0), 2.0 / 3.0 * R2 * rim * std::sqrt(rim)};
 }
 
 CuttingStep cut(const CuttingState& state, const CuttingInput& in, const TouchMaterial& material) noexcept {
@@ -81,29 +97,34 @@ CuttingStep cut(const CuttingState& state, const CuttingInput& in, const TouchMa
     const double depth_m = std::max(0.0, state.known.depth_m + ahead_m);
     const double pull = in.stiffness_N_per_m * in.scale * in.scale * in.dt_s;
 
-    const double advance_m =
-        hardness > 0.0 ? Advance{hardness, pull, in.tool_radius_m, depth_m, way_in_m}.length_m() : way_in_m;
-    const EngagedAreas areas = engaged_areas(in.tool_radius_m, depth_m + advance_m);
-    const double resists = hardness * areas.across_m2;
-    const Vec3 left_across = resists > 0.0 ? way_across * (resists / (resists + pull)) : Vec3(0.0);
-    const Vec3 point = in.hip_object_m - (way_in_m - advance_m) * into - left_across;
+    const double way_across_m = length(way_across);
+    const Advance advance{hardness, pull, in.tool_radius_m, depth_m, way_in_m, way_across_m};
+    const Advance::Step done = hardness > 0.0 ? advance.step() : Advance::Step{way_in_m, way_across_m};
+    const Vec3 sideways = way_across_m > 0.0 ? way_across * (done.across_m / way_across_m) : Vec3(0.0);
+    const Vec3 point = in.hip_object_m - (way_in_m - done.in_m) * into - (way_across - sideways);
 
     step.next.point_object_m = step.bearing_object_m = point;
-    step.engaged_depth_m = depth_m + advance_m;
-    step.engaged_area_m2 = areas.along_m2 / (in.scale * in.scale);
-    step.cut_speed_m_per_s = length(advance_m * into + way_across - left_across) / (in.scale * in.dt_s);
+    step.engaged_depth_m = depth_m + done.in_m;
+    const EngagedAreas areas = engaged_areas(in.tool_radius_m, step.engaged_depth_m);
+    step.engaged_area_m2 = areas.into_m2 / (in.scale * in.scale);
+    step.cut_speed_m_per_s = length(done.in_m * into + sideways) / (in.scale * in.dt_s);
     step.drag_device_N = drag(in, material, step.engaged_area_m2);
     return step;
 }
 
-LookedAt look_at(const CuttingState& state, const LocalSurface& surface, const Vec3& proxy_object_m,
-                 double tool_radius_m) noexcept {
-    const double moved_m = length(proxy_object_m - state.looked_at_object_m);
-    if (state.surface_sequence == surface.sequence && moved_m <= 0.1 * tool_radius_m) return {state, 0};
-    const EngagementLook look = engagement(surface, proxy_object_m, tool_radius_m);
+LookedAt look_at(const CuttingState& state, const CuttingInput& in, const LocalSurface& surface) noexcept {
+    const double moved_m = length(in.proxy_object_m - state.looked_at_object_m);
+    if (state.surface_sequence == surface.sequence && moved_m <= 0.1 * in.tool_radius_m) return {state, 0};
+    // Which way the tool is drawn, as far as it is drawn sideways.
+    const Vec3 way = in.hip_object_m - carried_over(state, in);
+    const Vec3 into = into_material(state, in);
+    const Vec3 across = way - glm::dot(way, into) * into;
+    const double way_m = length(way);
+    const EngagementLook look =
+        engagement(surface, in.proxy_object_m, in.tool_radius_m, way_m > 0.0 ? across / way_m : Vec3(0.0));
     LookedAt looked{state, look.triangles_seen};
     looked.next.known = look.engagement;
-    looked.next.looked_at_object_m = proxy_object_m;
+    looked.next.looked_at_object_m = in.proxy_object_m;
     looked.next.surface_sequence = surface.sequence;
     return looked;
 }

@@ -2,15 +2,19 @@
 // Carving that feels like carving: the tool eats its way in at a rate set by force and hardness.
 //
 // The surface that the tick knows is some milliseconds old, and the proxy p rests on it. Between p and the HIP h lies material
-// that the hand presses into. The cutting point c is where the tool has eaten to. It bears the tool, and moves by
-//     F = k (h - c)      dc/dt = F_n / (H A_n) n  +  F_t / (H A_t)
-// H the hardness, n the direction into the material, F_n and F_t the parts of F along it and across, A_n and A_t the engaged
-// areas projected on those directions. The hand feels k (c - h) at 1 kHz, however seldom the carved surface is published; the
-// carving side sweeps the tool along c. When the surface with the cut arrives the proxy comes down to where c is, and c stays.
+// that the hand presses into. The cutting point c is where the tool has eaten to. It bears the tool with F = k (h - c). Each
+// element of the ball's engaged surface that moves into material is resisted along its normal m by the pressure H (v . m), H
+// the hardness and v = dc/dt, which sums up to
+//     F_n = H (A_nn v_n + A_nt v_t)      F_t = H (A_nt v_n + A_tt v_t)      A_ij = integral of m_i m_j
+// n the direction into the material, t across it. Pressed straight in the tool sinks at F / (H A_nn). Drawn along it is dragged
+// by H A_tt v_t, and lifted by H A_nt v_t: so it runs at the depth where that lift bears the press, deeper with more force,
+// softer material and less speed. The hand feels k (c - h) at 1 kHz, however seldom the carved surface is published; the carving
+// side sweeps the tool along c. When the surface with the cut arrives the proxy comes down to where c is, and c stays.
 //
-// Engaged area: of a ball of radius R that lies d deep in material, d <= R; deeper it is as at d = R, half the ball:
-//     A_n = pi (2 R d - d^2)                             the disc that the surface cuts out of it
-//     A_t = 2/3 w d + d^3 / (2 w), w = 2 sqrt(2 R d - d^2)   the segment of a circle seen from the side, within 0.8 %
+// Of a ball of radius R that lies d deep, x = d / R <= 1 (deeper it is as at x = 1, half the ball):
+//     A_nn = 2 pi R^2 (x - x^2 + x^3 / 3)             the whole cap
+//     A_tt = pi / 2 R^2 (x^2 - x^3 / 3)               its front half
+//     A_nt = 2/3 R^2 (x (2 - x))^(3/2)                likewise
 // d is what the known surface shows at the proxy (haptics/forces/engagement.hpp) and how far c is ahead of the proxy.
 //
 // Bounds: the force is never more than the uncut surface would give, |h - c| <= |h - p| + slack: where the proxy goes freely c
@@ -54,13 +58,13 @@ struct CuttingStep {
     Vec3 bearing_object_m{0.0};      // what the spring pulls the hand to: c while cutting, else the proxy
     Vec3 drag_device_N{0.0};         // viscous, against the motion
     double engaged_depth_m = 0.0;    // object frame: d
-    double engaged_area_m2 = 0.0;    // at the device: A_n
+    double engaged_area_m2 = 0.0;    // at the device: A_nn
     double cut_speed_m_per_s = 0.0;  // of c, at the device
 };
 
 // Of a ball, any unit of length; depth from 0 on.
 struct EngagedAreas {
-    double along_m2 = 0.0, across_m2 = 0.0;
+    double into_m2 = 0.0, across_m2 = 0.0, lift_m2 = 0.0;  // A_nn, A_tt, A_nt
 };
 [[nodiscard]] EngagedAreas engaged_areas(double radius_m, double depth_m) noexcept;
 
@@ -73,7 +77,7 @@ struct LookedAt {
     CuttingState next;
     std::uint32_t triangles_seen = 0;
 };
-[[nodiscard]] LookedAt look_at(const CuttingState& state, const LocalSurface& surface, const Vec3& proxy_object_m,
-                               double tool_radius_m) noexcept;
+[[nodiscard]] LookedAt look_at(const CuttingState& state, const CuttingInput& input,
+                               const LocalSurface& surface) noexcept;
 
 }  // namespace burin

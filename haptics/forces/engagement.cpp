@@ -11,13 +11,20 @@ namespace burin {
 namespace {
 
 constexpr double kReach = 1.1;           // of the radius
+constexpr double kSurroundings = 1.6;    // likewise
 constexpr double kPiece = 1.0 / 3.0;     // of the radius: the longest edge of a piece
 constexpr std::uint32_t kMostCuts = 24;  // of an edge; coarser than a third of the radius where a triangle is huge
 
 // What of the view from the centre is taken up by surface within reach.
 class View {
 public:
-    View(const Vec3& center, double reach_m, double piece_m) : center_(center), reach_m_(reach_m), piece_m_(piece_m) {}
+    View(const Vec3& center, double radius_m, const Vec3& ahead)
+        : center_(center),
+          ahead_(ahead),
+          bias_(std::sqrt(glm::dot(ahead, ahead))),
+          reach_m_(kReach * radius_m),
+          surroundings_m_(kSurroundings * radius_m),
+          piece_m_(kPiece * radius_m) {}
 
     // False when enough has been looked at.
     bool add(const Triangle& t) {
@@ -41,9 +48,9 @@ public:
     }
 
     [[nodiscard]] double solid_angle() const { return solid_angle_; }
-    [[nodiscard]] Vec3 direction() const {
-        const double l = std::sqrt(glm::dot(direction_, direction_));
-        return l > 1e-12 ? direction_ / l : Vec3(0.0);
+    [[nodiscard]] Vec3 into() const {
+        const double l = std::sqrt(glm::dot(area_, area_));
+        return l > 1e-9 * piece_m_ * piece_m_ ? -area_ / l : Vec3(0.0);
     }
 
 private:
@@ -56,36 +63,36 @@ private:
     void add_piece(const Vec3& middle, const Vec3& area) {
         const Vec3 to = middle - center_;
         const double r2 = glm::dot(to, to);
-        if (!(r2 <= reach_m_ * reach_m_) || !(r2 > 0.0)) return;
-        const double r = std::sqrt(r2);
-        const double share = -glm::dot(area, to) / (r2 * r);
-        solid_angle_ += share;
-        direction_ += (share / r) * to;
+        if (!(r2 <= surroundings_m_ * surroundings_m_) || !(r2 > 0.0)) return;
+        area_ += area;
+        if (r2 > reach_m_ * reach_m_) return;
+        const double weight = glm::dot(to, ahead_) > 0.0 ? 1.0 + bias_ : 1.0 - bias_;
+        solid_angle_ -= weight * glm::dot(area, to) / (r2 * std::sqrt(r2));
     }
 
-    Vec3 center_;
-    double reach_m_, piece_m_;
+    Vec3 center_, ahead_;
+    double bias_, reach_m_, surroundings_m_, piece_m_;
     double solid_angle_ = 0.0;
-    Vec3 direction_{0.0};
+    Vec3 area_{0.0};
     std::uint32_t pieces_ = 0;
 };
 
 }  // namespace
 
-EngagementLook engagement(const LocalSurface& surface, const Vec3& center_object_m, double radius_m) noexcept {
+EngagementLook engagement(const LocalSurface& surface, const Vec3& center_object_m, double radius_m,
+                          const Vec3& ahead_object) noexcept {
     EngagementLook look;
     if (!(radius_m > 0.0)) return look;
     const Vec3 center = center_object_m - surface.origin_object;
-    const double reach_m = kReach * radius_m;
-    View view(center, reach_m, kPiece * radius_m);
-    for_each_triangle_near(surface, center - Vec3(reach_m), center + Vec3(reach_m),
-                           [&](std::uint32_t, const Triangle& t) {
-                               ++look.triangles_seen;
-                               return view.add(t);
-                           });
+    const Vec3 around(kSurroundings * radius_m);
+    View view(center, radius_m, ahead_object);
+    for_each_triangle_near(surface, center - around, center + around, [&](std::uint32_t, const Triangle& t) {
+        ++look.triangles_seen;
+        return view.add(t);
+    });
     const double depth_m =
         kReach * radius_m * view.solid_angle() / (2.0 * std::numbers::pi) - (kReach - 1.0) * radius_m;
-    look.engagement = {std::clamp(depth_m, 0.0, 2.0 * radius_m), view.direction()};
+    look.engagement = {std::clamp(depth_m, 0.0, 2.0 * radius_m), view.into()};
     return look;
 }
 
