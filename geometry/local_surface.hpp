@@ -3,7 +3,8 @@
 //
 // Data flow: after each update the carving side fills a LocalSurface (the draft of a NewestSlot) and publishes it; the tick
 // borrows the newest one. What is published is references: to the tiles of a carved surface that the ball touches, to loose
-// triangles, or to both. No triangle is copied, and tiles need no search structure built.
+// triangles, and to the meshes of a scene (geometry/touch_mesh.hpp). No triangle is copied, and tiles need no search structure
+// built.
 // Ownership: what is referred to never changes once it is published. Only the carving side makes, copies, fills or destroys
 // a LocalSurface, and so only it counts references, allocates, and frees what nobody refers to any more: the references in a
 // draft lapse when it is filled again. The haptic thread reads through them and never copies one; what it reads cannot go
@@ -26,21 +27,14 @@
 #include "base/space.hpp"
 #include "geometry/gridded_triangles.hpp"
 #include "geometry/tile_block.hpp"
+#include "geometry/touch_patch.hpp"
 
 namespace burin {
-
-struct TouchSnapshot;
 
 // A mesh among what can be touched.
 struct TouchedMesh {
     std::shared_ptr<const TouchSnapshot> snapshot;
     std::uint8_t material = 0;  // which of the session's materials (haptics/forces/touch_material.hpp)
-};
-
-// The normals at a triangle's corners, of the smooth surface that it is a facet of. None where it is not known.
-struct CornerNormals {
-    bool known = false;
-    std::array<Vec3f, 3> normals{};  // unit
 };
 
 struct LocalSurface {
@@ -53,22 +47,81 @@ struct LocalSurface {
     std::shared_ptr<const GriddedTriangles> loose;  // none, or with its search built
     std::vector<TouchedMesh> meshes;                // whole, wherever they are; the known ball does not bound them
 
-    // A triangle's id is its number among the tiles', or that of a loose one after all of those.
+    // A triangle's id is its number among the tiles', or that of a loose one after all of those, or of a mesh's after those: all
+    // tiles, all loose ones, then mesh by mesh.
     [[nodiscard]] std::uint32_t loose_triangles() const noexcept {
         return loose ? static_cast<std::uint32_t>(loose->triangles.size()) : 0u;
     }
-    [[nodiscard]] std::uint32_t triangles() const noexcept { return tiles.triangles + loose_triangles(); }
-    [[nodiscard]] std::uint8_t material(std::uint32_t) const noexcept { return 0; }
-    [[nodiscard]] CornerNormals corner_normals(std::uint32_t) const noexcept { return {}; }
-    // Relative to origin_object; of an id below triangles().
-    [[nodiscard]] Triangle triangle(std::uint32_t id) const noexcept {
-        return id < tiles.triangles ? tiles.triangle(id) : loose->triangle(id - tiles.triangles);
-    }
-    // The length scale of the mesh: a cell, or the mean edge of loose triangles; 0 when there are none.
-    [[nodiscard]] double mean_edge_m() const noexcept {
-        if (tiles.triangles > 0) return tiles.cell_m;
-        return loose ? static_cast<double>(loose->search.mean_edge_m) : 0.0;
-    }
+    [[nodiscard]] std::uint32_t triangles() const noexcept;
+    // All of an id below triangles(). A triangle is relative to origin_object.
+    [[nodiscard]] Triangle triangle(std::uint32_t id) const noexcept;
+    // Of tiles and loose triangles it is 0.
+    [[nodiscard]] std::uint8_t material(std::uint32_t id) const noexcept;
+    // Of loose triangles they are not known.
+    [[nodiscard]] CornerNormals corner_normals(std::uint32_t id) const noexcept;
+    // The length scale of what is there: a cell, the mean edge of loose triangles or that of a mesh, whichever is the
+    // smallest; 0 when there are none.
+    [[nodiscard]] double mean_edge_m() const noexcept;
+
+private:
+    struct Place {
+        const TouchedMesh* mesh = nullptr;  // none: not of a mesh
+        std::uint32_t number = 0;
+    };
+    [[nodiscard]] Place in_meshes(std::uint32_t id) const noexcept;
 };
+
+inline std::uint32_t triangles_of(const TouchedMesh& mesh) noexcept {
+    return mesh.snapshot ? mesh.snapshot->triangles() : 0u;
+}
+
+inline std::uint32_t LocalSurface::triangles() const noexcept {
+    std::uint32_t sum = tiles.triangles + loose_triangles();
+    for (const TouchedMesh& mesh : meshes) sum += triangles_of(mesh);
+    return sum;
+}
+
+inline LocalSurface::Place LocalSurface::in_meshes(std::uint32_t id) const noexcept {
+    std::uint32_t first = tiles.triangles + loose_triangles();
+    if (id < first) return {};
+    for (const TouchedMesh& mesh : meshes) {
+        if (id - first < triangles_of(mesh)) return {&mesh, id - first};
+        first += triangles_of(mesh);
+    }
+    return {};
+}
+
+inline Triangle LocalSurface::triangle(std::uint32_t id) const noexcept {
+    if (id < tiles.triangles) return tiles.triangle(id);
+    const Place place = in_meshes(id);
+    if (place.mesh == nullptr) return loose->triangle(id - tiles.triangles);
+    const TouchSnapshot& snapshot = *place.mesh->snapshot;
+    const Vec3 shift = snapshot.origin_object - origin_object;
+    const Triangle t = snapshot.triangle(place.number);
+    return {t.a + shift, t.b + shift, t.c + shift};
+}
+
+inline std::uint8_t LocalSurface::material(std::uint32_t id) const noexcept {
+    const Place place = in_meshes(id);
+    return place.mesh == nullptr ? std::uint8_t{0} : place.mesh->material;
+}
+
+inline CornerNormals LocalSurface::corner_normals(std::uint32_t id) const noexcept {
+    if (id < tiles.triangles) return tiles.corner_normals(id);
+    const Place place = in_meshes(id);
+    return place.mesh == nullptr ? CornerNormals{} : place.mesh->snapshot->corner_normals(place.number);
+}
+
+inline double LocalSurface::mean_edge_m() const noexcept {
+    double least = 0.0;
+    const auto note = [&](double edge_m) {
+        if (edge_m > 0.0 && !(least > 0.0 && least <= edge_m)) least = edge_m;
+    };
+    if (tiles.triangles > 0) note(tiles.cell_m);
+    if (loose) note(static_cast<double>(loose->search.mean_edge_m));
+    for (const TouchedMesh& mesh : meshes)
+        if (mesh.snapshot) note(mesh.snapshot->mean_edge_m());
+    return least;
+}
 
 }  // namespace burin

@@ -1,12 +1,27 @@
 // SPDX-License-Identifier: MIT
 // Finding the few triangles of a LocalSurface that are near the tool: what the tick asks, several times over.
 // Does not allocate, lock or throw. Everything is relative to origin_object, metres.
-// Work: see geometry/tile_block.hpp and geometry/gridded_triangles.hpp.
+// Work: see geometry/tile_block.hpp, geometry/gridded_triangles.hpp and geometry/touch_patch.hpp.
 #pragma once
 
 #include "geometry/local_surface.hpp"
 
 namespace burin {
+
+// The triangles of one mesh, whose origin is another than the surface's; ids begin with `first`.
+template <typename Visit>
+bool for_each_near_in_mesh(const TouchSnapshot& snapshot, const Vec3& shift, std::uint32_t first, Near& near,
+                           Visit&& visit) {
+    Near shifted{near.lo - shift, near.hi - shift, near.reach_m, near.looks_left};
+    const bool all = for_each_near(snapshot, shifted, [&](std::uint32_t i, const Triangle& t) {
+        near.looks_left = shifted.looks_left;
+        if (!visit(first + i, Triangle{t.a + shift, t.b + shift, t.c + shift})) return false;
+        shifted.reach_m = near.reach_m;
+        return true;
+    });
+    near.looks_left = shifted.looks_left;
+    return all;
+}
 
 // Calls visit(id, triangle) once for each triangle within near.reach_m of the box [near.lo, near.hi], and for some a little
 // farther off; for none that is degenerate. visit may make near.reach_m smaller, for what comes after. The order depends only
@@ -15,9 +30,17 @@ namespace burin {
 template <typename Visit>
 bool for_each_triangle_near(const LocalSurface& surface, Near& near, Visit&& visit) {
     if (surface.tiles.triangles > 0 && !for_each_near(surface.tiles, near, visit)) return false;
-    if (!surface.loose) return true;
-    const std::uint32_t first = surface.tiles.triangles;
-    return for_each_near(*surface.loose, near, [&](std::uint32_t i, const Triangle& t) { return visit(first + i, t); });
+    std::uint32_t first = surface.tiles.triangles;
+    const auto visit_loose = [&](std::uint32_t i, const Triangle& t) { return visit(first + i, t); };
+    if (surface.loose && !for_each_near(*surface.loose, near, visit_loose)) return false;
+    first += surface.loose_triangles();
+    for (const TouchedMesh& mesh : surface.meshes) {
+        if (!mesh.snapshot) continue;
+        const Vec3 shift = mesh.snapshot->origin_object - surface.origin_object;
+        if (!for_each_near_in_mesh(*mesh.snapshot, shift, first, near, visit)) return false;
+        first += mesh.snapshot->triangles();
+    }
+    return true;
 }
 
 // Each triangle that may meet the box.
@@ -36,6 +59,12 @@ bool for_each_triangle_near(const LocalSurface& surface, const Vec3& lo, const V
     };
     if (surface.tiles.triangles > 0) include(surface.tiles.bounds());
     if (surface.loose && surface.loose->search.listed > 0) include(surface.loose->search.bounds());
+    for (const TouchedMesh& mesh : surface.meshes) {
+        if (triangles_of(mesh) == 0) continue;
+        const Vec3 shift = mesh.snapshot->origin_object - surface.origin_object;
+        const Box own = mesh.snapshot->bounds();
+        include({own.lo + shift, own.hi + shift});
+    }
     return box;
 }
 

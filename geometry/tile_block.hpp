@@ -17,8 +17,10 @@
 #include <memory>
 #include <vector>
 
+#include "geometry/rounded_box.hpp"
 #include "geometry/surface_tile.hpp"
 #include "geometry/triangle.hpp"
+#include "shaders/shared/octahedral.h"
 
 namespace burin {
 
@@ -47,19 +49,38 @@ struct TileBlock {
         }
         return box;
     }
-    // Number below `triangles`.
+    // Both of a number below `triangles`.
     [[nodiscard]] Triangle triangle(std::uint32_t number) const noexcept;
+    [[nodiscard]] CornerNormals corner_normals(std::uint32_t number) const noexcept;
+
+private:
+    using Corners = std::array<const shared::SurfaceVertex*, 3>;
+    [[nodiscard]] Corners corners(std::uint32_t number) const noexcept;
 };
 
 [[nodiscard]] inline Vec3f place_of(const shared::SurfaceVertex& v) noexcept { return {v.x, v.y, v.z}; }
 
-inline Triangle TileBlock::triangle(std::uint32_t number) const noexcept {
+inline TileBlock::Corners TileBlock::corners(std::uint32_t number) const noexcept {
     // The last place that does not begin after it; of several that begin there, the one with triangles is the last.
     const auto after = std::ranges::upper_bound(places, number, {}, &Place::first_triangle);
     const Place& place = *(after - 1);
     const std::uint32_t* corner = &place.tile->indices[std::size_t{3} * (number - place.first_triangle)];
-    const auto at = [&](std::size_t k) { return Vec3(place_of(place.tile->vertices[corner[k]])); };
+    const auto at = [&](std::size_t k) { return &place.tile->vertices[corner[k]]; };
     return {at(0), at(1), at(2)};
+}
+
+inline Triangle TileBlock::triangle(std::uint32_t number) const noexcept {
+    const Corners corner = corners(number);
+    return {Vec3(place_of(*corner[0])), Vec3(place_of(*corner[1])), Vec3(place_of(*corner[2]))};
+}
+
+inline CornerNormals TileBlock::corner_normals(std::uint32_t number) const noexcept {
+    const auto normal = [](const shared::SurfaceVertex* v) {
+        const shared::Direction d = shared::decode_normal(v->normal);
+        return Vec3f(d.x, d.y, d.z);
+    };
+    const Corners corner = corners(number);
+    return {true, {normal(corner[0]), normal(corner[1]), normal(corner[2])}};
 }
 
 // Nodes of the lattice, inclusive.
@@ -82,23 +103,6 @@ struct NodeRange {
     }
     return range;
 }
-
-// Which boxes are within reach, in float; for a few beyond it too, because of the rounding.
-struct RoundedBox {
-    Vec3f lo, hi;
-    float reach2;
-
-    explicit RoundedBox(const Near& near) noexcept : lo(near.lo), hi(near.hi) {
-        const Vec3 size = glm::max(glm::abs(near.lo), glm::abs(near.hi));
-        const double rounding = 1e-7 * std::max({size.x, size.y, size.z});
-        const double reach = (near.reach_m + 4.0 * rounding) * (1.0 + 1e-6);
-        reach2 = static_cast<float>(reach * reach);
-    }
-    [[nodiscard]] bool meets(const Vec3f& from, const Vec3f& to) const noexcept {
-        const Vec3f outside = glm::max(glm::max(from - hi, lo - to), Vec3f(0.0f));
-        return glm::dot(outside, outside) <= reach2;
-    }
-};
 
 // How far a quad can be from the box, by nothing but the lattice edge that it surrounds: squared, in cells, for each coordinate
 // of the edge's lower node in a tile. The sum over x, y and z is never more than the squared distance of any of its corners.

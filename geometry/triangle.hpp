@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "base/space.hpp"
@@ -11,6 +12,12 @@ namespace burin {
 
 struct Triangle {
     Vec3 a, b, c;  // counter-clockwise seen from outside
+};
+
+// The normals at a triangle's corners, of the smooth surface that it is a facet of. None where it is not known.
+struct CornerNormals {
+    bool known = false;
+    std::array<Vec3f, 3> normals{};  // unit
 };
 
 // Thinner than 1e-5 of its longest edge, or a point: it adds nothing that its neighbours lack, and its normal is noise.

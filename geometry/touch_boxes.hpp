@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Sixteen boxes side by side in 96 bytes, and which of them meet another box: the step that the search in a touched mesh
+// (geometry/touch_patch.hpp) is made of.
+//
+// A side is a whole number, 0 to 255, of steps of the box around all sixteen. What is asked about is put on the same steps by the
+// same arithmetic. Each operation in it (subtract, multiply by a positive number, clamp, cut off) never turns two
+// numbers round, so boxes that meet still meet on the steps, and rounding loses nothing; boxes up to two steps apart may
+// seem to meet.
+// Lengths are float metres relative to the mesh's origin. No heap, no throw.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "base/space.hpp"
+
+namespace burin {
+
+struct SteppedBox {
+    std::array<std::uint8_t, 3> lo{}, hi{};
+};
+
+// The box around the sixteen, and its steps.
+struct TouchFrame {
+    Vec3f lo{0.0f}, hi{0.0f};
+    Vec3f steps_per_m{1.0f};  // finite, above 0
+
+    static TouchFrame around(const Vec3f& lo, const Vec3f& hi) noexcept {
+        TouchFrame frame{lo, hi, Vec3f(1.0f)};
+        for (int k = 0; k < 3; ++k)
+            // A box flatter than this has one step only.
+            if (const float extent = hi[k] - lo[k]; extent > 1e-30f) frame.steps_per_m[k] = 255.99f / extent;
+        return frame;
+    }
+    [[nodiscard]] std::uint8_t step(int axis, float at_m) const noexcept {
+        const float steps = (at_m - lo[axis]) * steps_per_m[axis];
+        return static_cast<std::uint8_t>(static_cast<int>(std::min(std::max(steps, 0.0f), 255.0f)));
+    }
+    [[nodiscard]] SteppedBox stepped(const Vec3f& from, const Vec3f& to) const noexcept {
+        return {{step(0, from.x), step(1, from.y), step(2, from.z)}, {step(0, to.x), step(1, to.y), step(2, to.z)}};
+    }
+};
+
+struct alignas(32) TouchBoxes {
+    static constexpr std::uint32_t kMost = 16;
+
+    std::array<std::array<std::uint8_t, kMost>, 3> lo{}, hi{};
+
+    void set(std::uint32_t i, const SteppedBox& box) noexcept {
+        for (std::size_t k = 0; k < 3; ++k) lo[k][i] = box.lo[k], hi[k][i] = box.hi[k];
+    }
+    // Bit i: whether box i, one of the first `count`, meets this one.
+    [[nodiscard]] std::uint32_t meeting(const SteppedBox& box, std::uint32_t count) const noexcept {
+        alignas(16) std::array<std::uint8_t, kMost> meets{};
+        for (std::size_t i = 0; i < kMost; ++i) {  // in a form that the compiler makes vectors of
+            const bool x = (lo[0][i] <= box.hi[0]) & (hi[0][i] >= box.lo[0]);
+            const bool y = (lo[1][i] <= box.hi[1]) & (hi[1][i] >= box.lo[1]);
+            const bool z = (lo[2][i] <= box.hi[2]) & (hi[2][i] >= box.lo[2]);
+            meets[i] = static_cast<std::uint8_t>(x & y & z);
+        }
+        return bits_of(meets) & ((1u << count) - 1u);
+    }
+
+private:
+    // Of sixteen bytes that are 0 or 1. The product brings byte i of eight to bit 56 + i, and nothing else there.
+    [[nodiscard]] static std::uint32_t bits_of(const std::array<std::uint8_t, kMost>& bytes) noexcept {
+        static_assert(std::endian::native == std::endian::little, "byte i must be the i-th lowest");
+        constexpr std::uint64_t kGather = 0x0102040810204080u;
+        const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(bytes);
+        return static_cast<std::uint32_t>((halves[0] * kGather) >> 56 | ((halves[1] * kGather) >> 56) << 8);
+    }
+};
+
+}  // namespace burin

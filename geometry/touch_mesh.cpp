@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: MIT
+#include "geometry/touch_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "geometry/touch_order.hpp"
+#include "geometry/touch_patch_maker.hpp"
+#include "geometry/touch_surface.hpp"
+#include "geometry/touch_tree.hpp"
+
+namespace burin {
+namespace {
+
+constexpr std::uint32_t kNone = TouchSurface::kNone;
+
+// Beyond this the squares of areas leave the range of float; nothing that is touched is as large.
+constexpr double kFarthest_m = 1e8;
+
+constexpr const char* kWhere = "mesh to touch";
+
+bool near_enough(const Vec3& p) {
+    return std::abs(p.x) <= kFarthest_m && std::abs(p.y) <= kFarthest_m && std::abs(p.z) <= kFarthest_m;
+}
+
+Result<void> check_positions(std::span<const Vec3> positions, const Vec3& origin) {
+    for (std::size_t i = 0; i < positions.size(); ++i)
+        if (!near_enough(positions[i] - origin))
+            return fail(kWhere, "position " + std::to_string(i) + " is not finite, or more than 1e8 m from the middle",
+                        "give positions in metres");
+    return {};
+}
+
+Result<void> check_triangles(std::span<const VertexTriple> triangles, std::size_t vertices) {
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+        for (const std::uint32_t v : triangles[i])
+            if (v >= vertices)
+                return fail(kWhere,
+                            "triangle " + std::to_string(i) + " names vertex " + std::to_string(v) + " of " +
+                                std::to_string(vertices),
+                            "number vertices from 0");
+    return {};
+}
+
+Box box_of(std::span<const Vec3> positions) {
+    Box box;
+    for (const Vec3& p : positions) box.include(p);
+    return box;
+}
+
+// The mesh in the order of its patches.
+struct Ordered {
+    std::vector<VertexTriple> triangles;          // by slot
+    std::vector<std::uint32_t> mesh_index;        // of each slot
+    std::vector<std::vector<TouchItem>> classes;  // of sizes, largest triangles first; items by slot
+};
+
+struct Sized {
+    TouchItem item;
+    float longest_m = 0.0f;
+};
+
+Sized sized(const VertexTriple& t, std::span<const Vec3f> positions_m, std::uint32_t id) {
+    const Vec3f &a = positions_m[t[0]], &b = positions_m[t[1]], &c = positions_m[t[2]];
+    const Vec3f lo = glm::min(glm::min(a, b), c), hi = glm::max(glm::max(a, b), c), size = hi - lo;
+    return {{0.5f * (lo + hi), id}, std::max({size.x, size.y, size.z})};
+}
+
+std::vector<std::vector<TouchItem>> by_size(const std::vector<Sized>& all) {
+    float largest_m = 0.0f;
+    for (const Sized& one : all) largest_m = std::max(largest_m, one.longest_m);
+    std::vector<std::vector<TouchItem>> classes(kSizeClasses);
+    for (const Sized& one : all)
+        classes[largest_m > 0.0f ? size_class(one.longest_m, largest_m) : 0].push_back(one.item);
+    return classes;
+}
+
+Ordered ordered(std::span<const VertexTriple> triangles, std::span<const Vec3f> positions_m) {
+    std::vector<Sized> all(triangles.size());
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) all[i] = sized(triangles[i], positions_m, i);
+    Ordered result;
+    result.classes = by_size(all);
+    result.triangles.reserve(triangles.size());
+    result.mesh_index.reserve(triangles.size());
+    for (std::vector<TouchItem>& items : result.classes) {
+        order_by_nearness(items);
+        for (TouchItem& item : items) {
+            result.triangles.push_back(triangles[item.id]);
+            result.mesh_index.push_back(item.id);
+            item.id = static_cast<std::uint32_t>(result.mesh_index.size() - 1);
+        }
+    }
+    return result;
+}
+
+// Numbers vertices in the order in which the triangles name them first, so that neighbours lie near each other in memory; those
+// that none names come last. Returns the new number of each old one.
+std::vector<std::uint32_t> renumber(std::vector<VertexTriple>& triangles, std::size_t vertices) {
+    std::vector<std::uint32_t> number(vertices, kNone);
+    std::uint32_t next = 0;
+    for (VertexTriple& t : triangles)
+        for (std::uint32_t& v : t) {
+            if (number[v] == kNone) number[v] = next++;
+            v = number[v];
+        }
+    for (std::uint32_t& n : number)
+        if (n == kNone) n = next++;
+    return number;
+}
+
+std::vector<std::uint32_t> inverse(std::span<const std::uint32_t> permutation) {
+    std::vector<std::uint32_t> back(permutation.size());
+    for (std::uint32_t i = 0; i < permutation.size(); ++i) back[permutation[i]] = i;
+    return back;
+}
+
+}  // namespace
+
+// Vertices and triangles have two numbers: an index, by which the publisher knows them, and an own one in the order of the
+// patches: `own` of a vertex, `slot` of a triangle.
+struct TouchMesh::Parts {
+    Vec3 origin_object{0.0};
+    TouchSurface surface;
+    std::vector<std::uint32_t> own_of;      // of each vertex index
+    std::vector<std::uint32_t> slot_of;     // of each triangle index
+    std::vector<std::uint32_t> mesh_index;  // of each slot
+    std::vector<std::uint32_t> empty_slots{};
+    TouchTree tree{};
+    TouchPatchMaker maker{};
+    // Vertices (own) whose normals are to be made anew, each once.
+    std::vector<std::uint32_t> stale_normals{};
+    std::vector<std::uint8_t> is_stale{};
+    std::shared_ptr<const TouchSnapshot> newest{};  // none: something has changed since
+
+    [[nodiscard]] Vec3f relative(const Vec3& position_object_m) const {
+        return Vec3f(position_object_m - origin_object);
+    }
+
+    void normal_is_stale(std::uint32_t vertex) {
+        if (is_stale[vertex] != 0) return;
+        is_stale[vertex] = 1;
+        stale_normals.push_back(vertex);
+    }
+    void normals_are_stale(std::uint32_t slot) {
+        for (const std::uint32_t v : surface.triangle(slot)) normal_is_stale(v);
+    }
+    void move(std::uint32_t vertex, const Vec3& position_object_m) {
+        surface.place(vertex, relative(position_object_m));
+        surface.for_each_at(vertex, [&](std::uint32_t slot) { normals_are_stale(slot); });
+    }
+
+    // What a triangle that has changed is part of: all patches around its corners, since those hold their normals.
+    void renew_normals() {
+        for (const std::uint32_t vertex : stale_normals) {
+            is_stale[vertex] = 0;
+            surface.renew_normal(vertex);
+            surface.for_each_at(vertex, [&](std::uint32_t slot) { tree.mark(tree.patch_of(slot)); });
+        }
+        stale_normals.clear();
+    }
+
+    // The patches that lose triangles, or border on those that come: they are filled again.
+    std::vector<std::uint32_t> patches_around(std::span<const std::uint32_t> slots,
+                                              std::span<const VertexTriple> added) const;
+    void remove(std::uint32_t slot);
+    std::uint32_t put(const VertexTriple& triangle);
+    void refill(std::span<const std::uint32_t> patches, std::span<const std::uint32_t> added_slots);
+};
+
+Result<TouchMesh> TouchMesh::create(const TriangleMesh& mesh) {
+    if (mesh.triangles.empty()) return fail(kWhere, "there is no triangle", "give a mesh with triangles");
+    if (mesh.triangles.size() >= kNone / 3)
+        return fail(kWhere, std::to_string(mesh.triangles.size()) + " triangles are too many", "part the mesh");
+    if (auto ok = check_triangles(mesh.triangles, mesh.positions_m.size()); !ok) return std::unexpected(ok.error());
+    if (auto ok = check_positions(mesh.positions_m, Vec3(0.0)); !ok) return std::unexpected(ok.error());
+    const Vec3 origin = box_of(mesh.positions_m).center();
+    std::vector<Vec3f> positions_m;
+    positions_m.reserve(mesh.positions_m.size());
+    for (const Vec3& p : mesh.positions_m) positions_m.push_back(Vec3f(p - origin));
+
+    Ordered order = ordered(mesh.triangles, positions_m);
+    std::vector<std::uint32_t> own_of = renumber(order.triangles, positions_m.size());
+    std::vector<Vec3f> own_positions_m(positions_m.size());
+    for (std::size_t i = 0; i < own_of.size(); ++i) own_positions_m[own_of[i]] = positions_m[i];
+    std::vector<std::uint32_t> slot_of = inverse(order.mesh_index);
+    const std::vector<std::span<const TouchItem>> groups(order.classes.begin(), order.classes.end());
+    auto parts =
+        std::make_unique<Parts>(Parts{.origin_object = origin,
+                                      .surface = TouchSurface(std::move(own_positions_m), std::move(order.triangles)),
+                                      .own_of = std::move(own_of),
+                                      .slot_of = std::move(slot_of),
+                                      .mesh_index = std::move(order.mesh_index)});
+    parts->is_stale.assign(mesh.positions_m.size(), 0);
+    parts->tree.build(groups);
+    return TouchMesh(std::move(parts));
+}
+
+TouchMesh::TouchMesh(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+TouchMesh::~TouchMesh() = default;
+TouchMesh::TouchMesh(TouchMesh&&) noexcept = default;
+TouchMesh& TouchMesh::operator=(TouchMesh&&) noexcept = default;
+
+std::size_t TouchMesh::triangles() const { return parts_->surface.slots() - parts_->empty_slots.size(); }
+std::size_t TouchMesh::vertices() const { return parts_->own_of.size(); }
+std::uint64_t TouchMesh::patches_made() const { return parts_->tree.patches_made(); }
+
+Result<void> TouchMesh::move_vertices(std::span<const std::uint32_t> vertices,
+                                      std::span<const Vec3> positions_object_m) {
+    if (vertices.size() != positions_object_m.size())
+        return fail(kWhere,
+                    std::to_string(vertices.size()) + " vertices and " + std::to_string(positions_object_m.size()) +
+                        " positions",
+                    "give a position for each vertex");
+    for (const std::uint32_t v : vertices)
+        if (v >= parts_->own_of.size())
+            return fail(kWhere,
+                        "there is no vertex " + std::to_string(v) + " of " + std::to_string(parts_->own_of.size()),
+                        "number vertices from 0");
+    if (auto ok = check_positions(positions_object_m, parts_->origin_object); !ok) return ok;
+    for (std::size_t i = 0; i < vertices.size(); ++i) parts_->move(parts_->own_of[vertices[i]], positions_object_m[i]);
+    parts_->newest.reset();
+    return {};
+}
+
+Result<void> TouchMesh::move_all(std::span<const Vec3> positions_object_m) {
+    if (positions_object_m.size() != vertices())
+        return fail(
+            kWhere,
+            std::to_string(positions_object_m.size()) + " positions for " + std::to_string(vertices()) + " vertices",
+            "give a position for each vertex");
+    if (auto ok = check_positions(positions_object_m, parts_->origin_object); !ok) return ok;
+    for (std::uint32_t i = 0; i < positions_object_m.size(); ++i) {
+        const std::uint32_t own = parts_->own_of[i];
+        parts_->surface.place(own, parts_->relative(positions_object_m[i]));
+        parts_->normal_is_stale(own);
+    }
+    parts_->newest.reset();
+    return {};
+}
+
+void TouchMesh::Parts::remove(std::uint32_t slot) {
+    normals_are_stale(slot);
+    surface.remove(slot);
+    empty_slots.push_back(slot);
+}
+
+std::uint32_t TouchMesh::Parts::put(const VertexTriple& triangle) {
+    std::uint32_t slot = surface.slots();
+    if (empty_slots.empty()) {
+        slot_of.push_back(slot);  // a new slot has the same number as its triangle's index
+        mesh_index.push_back(slot);
+    } else {
+        slot = empty_slots.back();
+        empty_slots.pop_back();
+    }
+    surface.put(slot, triangle);
+    normals_are_stale(slot);
+    return slot;
+}
+
+std::vector<std::uint32_t> TouchMesh::Parts::patches_around(std::span<const std::uint32_t> slots,
+                                                            std::span<const VertexTriple> added) const {
+    std::vector<std::uint32_t> patches;
+    for (const std::uint32_t slot : slots) patches.push_back(tree.patch_of(slot));
+    for (std::size_t i = 0; patches.empty() && i < added.size(); ++i)
+        for (const std::uint32_t v : added[i])
+            surface.for_each_at(v, [&](std::uint32_t slot) { patches.push_back(tree.patch_of(slot)); });
+    std::ranges::sort(patches);
+    const auto rest = std::ranges::unique(patches);
+    patches.erase(rest.begin(), rest.end());
+    return patches;
+}
+
+Result<std::vector<std::uint32_t>> TouchMesh::replace(std::span<const std::uint32_t> removed_triangles,
+                                                      std::span<const VertexTriple> added,
+                                                      std::span<const Vec3> new_positions_object_m) {
+    Parts& parts = *parts_;
+    std::vector<std::uint32_t> removed;
+    for (const std::uint32_t index : removed_triangles) {
+        if (index >= parts.slot_of.size() || !parts.surface.is_there(parts.slot_of[index]))
+            return fail(kWhere, "there is no triangle " + std::to_string(index), "remove each triangle once");
+        removed.push_back(parts.slot_of[index]);
+    }
+    std::ranges::sort(removed);
+    if (std::ranges::adjacent_find(removed) != removed.end())
+        return fail(kWhere, "a triangle is to be removed twice", "remove each triangle once");
+    if (auto ok = check_triangles(added, vertices() + new_positions_object_m.size()); !ok)
+        return std::unexpected(ok.error());
+    if (auto ok = check_positions(new_positions_object_m, parts.origin_object); !ok) return std::unexpected(ok.error());
+
+    for (const Vec3& p : new_positions_object_m) {
+        parts.own_of.push_back(parts.surface.vertices());
+        parts.surface.add_vertex(parts.relative(p));
+        parts.is_stale.push_back(0);
+    }
+    std::vector<VertexTriple> own(added.begin(), added.end());
+    for (VertexTriple& t : own)
+        for (std::uint32_t& v : t) v = parts.own_of[v];
+    const std::vector<std::uint32_t> patches = parts.patches_around(removed, own);
+    for (const std::uint32_t slot : removed) parts.remove(slot);
+    std::vector<std::uint32_t> slots, indices;
+    for (const VertexTriple& t : own) {
+        slots.push_back(parts.put(t));
+        indices.push_back(parts.mesh_index[slots.back()]);
+    }
+    parts.refill(patches, slots);
+    parts.newest.reset();
+    return indices;
+}
+
+// What is left in these patches and what is new is shared out again, by size and nearness; patches come or go as they are needed.
+void TouchMesh::Parts::refill(std::span<const std::uint32_t> patches, std::span<const std::uint32_t> added_slots) {
+    std::vector<Sized> all;
+    const auto take = [&](std::uint32_t slot) {
+        const VertexTriple& t = surface.triangle(slot);
+        const std::array<Vec3f, 3> corners{surface.position_m(t[0]), surface.position_m(t[1]),
+                                           surface.position_m(t[2])};
+        all.push_back(sized({0, 1, 2}, corners, slot));
+    };
+    for (const std::uint32_t slot : added_slots) take(slot);
+    std::vector<std::uint32_t> added(added_slots.begin(), added_slots.end());
+    std::ranges::sort(added);
+    for (const std::uint32_t patch : patches)
+        for (const std::uint32_t slot : tree.slots(patch))
+            if (surface.is_there(slot) && !std::ranges::binary_search(added, slot)) take(slot);
+
+    std::size_t filled = 0;
+    for (std::vector<TouchItem>& items : by_size(all)) {
+        order_by_nearness(items);
+        for (std::size_t at = 0; at < items.size(); at += TouchPatch::kMostTriangles) {
+            const std::span<const TouchItem> some =
+                std::span(items).subspan(at, std::min<std::size_t>(TouchPatch::kMostTriangles, items.size() - at));
+            if (filled < patches.size()) {
+                tree.refill(patches[filled++], some);
+            } else {
+                tree.insert(some, patches.empty() ? TouchTree::kNone : patches.front());
+            }
+        }
+    }
+    for (; filled < patches.size(); ++filled) tree.remove(patches[filled]);
+}
+
+std::shared_ptr<const TouchSnapshot> TouchMesh::snapshot() {
+    if (parts_->newest) return parts_->newest;
+    parts_->renew_normals();
+    const auto make = [&](std::span<const std::uint32_t> slots) {
+        return parts_->maker.make(parts_->surface, slots, parts_->mesh_index);
+    };
+    auto made = std::make_shared<TouchSnapshot>();
+    made->origin_object = parts_->origin_object;
+    made->root = parts_->tree.renew(make);
+    parts_->newest = made;
+    return parts_->newest;
+}
+
+}  // namespace burin

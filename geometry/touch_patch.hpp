@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+// What a TouchMesh (geometry/touch_mesh.hpp) hands to the haptic thread: patches of neighbouring triangles under a tree of
+// boxes, none of which ever changes, and the search for the few triangles near the tool.
+//
+// Layout: a patch holds up to 256 triangles in leaves of 16; nodes hold up to 16 patches, or 16 nodes. An edit makes new patches
+// for what it touches and new nodes on the way up; all else is shared with the snapshot before. Asking about a point of a mesh of
+// 2 million triangles goes through 4 nodes, a patch or two and a leaf or two, each of 2 or 3 cache lines.
+// Frame: positions are float metres relative to origin_object. A triangle's number counts those of the tree from left to right,
+// and holds for one snapshot only; mesh_triangle tells which one of the mesh it is.
+// Threads: anyone may read; only the publisher makes and destroys references. No heap, lock or throw in asking.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "geometry/rounded_box.hpp"
+#include "geometry/touch_boxes.hpp"
+#include "geometry/triangle.hpp"
+
+namespace burin {
+
+// What patches and nodes have in common.
+struct TouchPart {
+    TouchFrame frame;
+    std::uint32_t triangles = 0;
+    std::uint32_t count = 0;  // leaves of a patch; children of a node
+    double edge_sum_m = 0.0;  // of the triangles' edges: a shared one counts twice
+};
+
+struct TouchPatch : TouchPart {
+    static constexpr std::uint32_t kMostTriangles = TouchBoxes::kMost * TouchBoxes::kMost;
+
+    struct Leaf {
+        TouchBoxes boxes;
+        std::array<std::array<std::uint16_t, 3>, TouchBoxes::kMost> corners{};  // indices of vertices
+    };
+    TouchBoxes boxes;  // of the leaves
+    std::vector<Leaf> leaves;
+    // A mesh vertex on a sharp edge is several here, one for each smooth piece, which differ in normal.
+    std::vector<Vec3f> positions_m;
+    std::vector<Vec3f> normals;
+    std::vector<std::uint32_t> mesh_triangles;  // of each triangle, its index in the mesh
+
+    [[nodiscard]] const std::array<std::uint16_t, 3>& corners(std::uint32_t i) const noexcept {
+        return leaves[i / TouchBoxes::kMost].corners[i % TouchBoxes::kMost];
+    }
+    [[nodiscard]] std::uint32_t in_leaf(std::uint32_t leaf) const noexcept {
+        return std::min(TouchBoxes::kMost, triangles - leaf * TouchBoxes::kMost);
+    }
+};
+
+struct TouchNode : TouchPart {
+    TouchBoxes boxes;                                               // of the children
+    bool of_patches = true;                                         // else of nodes
+    std::array<std::uint32_t, TouchBoxes::kMost> first_triangle{};  // of each child, counted from this node's first
+    std::array<std::shared_ptr<const TouchPart>, TouchBoxes::kMost> children;
+
+    [[nodiscard]] const TouchPatch& patch(std::uint32_t i) const noexcept {
+        return static_cast<const TouchPatch&>(*children[i]);
+    }
+    [[nodiscard]] const TouchNode& node(std::uint32_t i) const noexcept {
+        return static_cast<const TouchNode&>(*children[i]);
+    }
+};
+
+struct TouchSnapshot {
+    static constexpr std::uint32_t kMostLevels = 16;  // of nodes: more than 32 bits of triangles can fill
+
+    Vec3 origin_object{0.0};
+    std::shared_ptr<const TouchNode> root;  // never none; without children when the mesh has no triangle left
+
+    [[nodiscard]] std::uint32_t triangles() const noexcept { return root->triangles; }
+    [[nodiscard]] double mean_edge_m() const noexcept {
+        return root->triangles > 0 ? root->edge_sum_m / (3.0 * root->triangles) : 0.0;
+    }
+    // What no triangle goes beyond; empty when there is none. Relative to origin_object.
+    [[nodiscard]] Box bounds() const noexcept {
+        return root->triangles > 0 ? Box{Vec3(root->frame.lo), Vec3(root->frame.hi)} : Box{};
+    }
+
+    // All of a number below triangles().
+    [[nodiscard]] Triangle triangle(std::uint32_t number) const noexcept;
+    [[nodiscard]] CornerNormals corner_normals(std::uint32_t number) const noexcept;
+    [[nodiscard]] std::uint32_t mesh_triangle(std::uint32_t number) const noexcept;
+
+private:
+    struct Place {
+        const TouchPatch* patch = nullptr;
+        std::uint32_t triangle = 0;  // of the patch
+    };
+    [[nodiscard]] Place place_of(std::uint32_t number) const noexcept;
+};
+
+inline TouchSnapshot::Place TouchSnapshot::place_of(std::uint32_t number) const noexcept {
+    for (const TouchNode* node = root.get();;) {
+        // The last child that does not begin after it; of several that begin there, the one with triangles is the last.
+        std::uint32_t child = node->count - 1;
+        while (node->first_triangle[child] > number || node->children[child]->triangles == 0) --child;
+        number -= node->first_triangle[child];
+        if (node->of_patches) return {&node->patch(child), number};
+        node = &node->node(child);
+    }
+}
+
+inline Triangle TouchSnapshot::triangle(std::uint32_t number) const noexcept {
+    const auto [patch, i] = place_of(number);
+    const auto& corner = patch->corners(i);
+    const auto at = [&](std::size_t k) { return Vec3(patch->positions_m[corner[k]]); };
+    return {at(0), at(1), at(2)};
+}
+
+inline CornerNormals TouchSnapshot::corner_normals(std::uint32_t number) const noexcept {
+    const auto [patch, i] = place_of(number);
+    const auto& corner = patch->corners(i);
+    const auto at = [&](std::size_t k) { return patch->normals[corner[k]]; };
+    const CornerNormals all{true, {at(0), at(1), at(2)}};
+    const auto is_none = [](const Vec3f& n) { return n == Vec3f(0.0f); };
+    return std::ranges::any_of(all.normals, is_none) ? CornerNormals{} : all;
+}
+
+inline std::uint32_t TouchSnapshot::mesh_triangle(std::uint32_t number) const noexcept {
+    const auto [patch, i] = place_of(number);
+    return patch->mesh_triangles[i];
+}
+
+// A search under way: what is asked, on floats.
+class TouchSearch {
+public:
+    explicit TouchSearch(Near& near) noexcept : near_(near), box_(near) { widen(); }
+
+    template <typename Visit>
+    bool run(const TouchNode& root, Visit&& visit) {
+        struct Step {
+            const TouchNode* node;
+            std::uint32_t first, left;  // triangle number of the node's first; children still to be looked at
+        };
+        std::array<Step, TouchSnapshot::kMostLevels> way;
+        std::uint32_t depth = 0;
+        const auto enter = [&](const TouchNode& node, std::uint32_t first) {
+            if (!near_.look()) return false;
+            way[depth++] = {&node, first, node.boxes.meeting(stepped(node.frame), node.count)};
+            return true;
+        };
+        if (!enter(root, 0)) return false;
+        while (depth > 0) {
+            Step& at = way[depth - 1];
+            if (at.left == 0) {
+                --depth;
+                continue;
+            }
+            const auto child = static_cast<std::uint32_t>(std::countr_zero(at.left));
+            at.left &= at.left - 1;
+            const std::uint32_t first = at.first + at.node->first_triangle[child];
+            if (!(at.node->of_patches ? in_patch(at.node->patch(child), first, visit)
+                                      : enter(at.node->node(child), first)))
+                return false;
+        }
+        return true;
+    }
+
+private:
+    template <typename Visit>
+    bool in_patch(const TouchPatch& patch, std::uint32_t first, Visit& visit) {
+        if (!near_.look()) return false;
+        const SteppedBox asked = stepped(patch.frame);
+        for (std::uint32_t leaves = patch.boxes.meeting(asked, patch.count); leaves != 0; leaves &= leaves - 1) {
+            if (!near_.look()) return false;
+            const auto number = static_cast<std::uint32_t>(std::countr_zero(leaves));
+            const TouchPatch::Leaf& leaf = patch.leaves[number];
+            for (std::uint32_t left = leaf.boxes.meeting(asked, patch.in_leaf(number)); left != 0; left &= left - 1) {
+                const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
+                if (!in_triangle(patch, leaf.corners[i], first + number * TouchBoxes::kMost + i, visit)) return false;
+            }
+        }
+        return true;
+    }
+
+    template <typename Visit>
+    bool in_triangle(const TouchPatch& patch, const std::array<std::uint16_t, 3>& corner, std::uint32_t number,
+                     Visit& visit) {
+        if (!near_.look()) return false;
+        const Vec3f &a = patch.positions_m[corner[0]], &b = patch.positions_m[corner[1]],
+                    &c = patch.positions_m[corner[2]];
+        if (!box_.meets(glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c))) return true;
+        const double reach = near_.reach_m;
+        if (!visit(number, Triangle{Vec3(a), Vec3(b), Vec3(c)})) return false;
+        if (near_.reach_m != reach) {
+            box_ = RoundedBox(near_);
+            widen();
+        }
+        return true;
+    }
+
+    [[nodiscard]] SteppedBox stepped(const TouchFrame& frame) const noexcept { return frame.stepped(from_, to_); }
+
+    void widen() noexcept {
+        const double reach = near_.reach_m * (1.0 + 1e-6);
+        // A hair more than rounding to float takes away.
+        const Vec3 lo = near_.lo - reach, hi = near_.hi + reach;
+        from_ = Vec3f(lo - 2e-7 * glm::abs(lo));
+        to_ = Vec3f(hi + 2e-7 * glm::abs(hi));
+    }
+
+    Near& near_;
+    RoundedBox box_;
+    Vec3f from_{0.0f}, to_{0.0f};
+};
+
+// As for_each_triangle_near (geometry/local_surface_search.hpp), visit(number, triangle), all relative to the snapshot's origin.
+// A look is sixteen boxes of a node, a patch or a leaf, or one triangle.
+template <typename Visit>
+bool for_each_near(const TouchSnapshot& snapshot, Near& near, Visit&& visit) {
+    // A box that is not a number meets nothing.
+    if (snapshot.triangles() == 0 || !(glm::dot(near.lo, near.hi) + near.reach_m < HUGE_VAL)) return true;
+    return TouchSearch(near).run(*snapshot.root, visit);
+}
+
+}  // namespace burin
