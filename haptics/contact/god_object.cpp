@@ -4,203 +4,29 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/local_surface_search.hpp"
-#include "haptics/contact/half_spaces.hpp"
-#include "haptics/contact/triangle_contact.hpp"
+#include "haptics/contact/friction.hpp"
+#include "haptics/contact/shading.hpp"
+#include "haptics/contact/touching.hpp"
 
 namespace burin {
 namespace {
 
-// All as fractions of the ball's radius; see the header.
-constexpr double kTouch = 1e-3;
+// As fractions of the ball's radius; kTouch and kTie are in touching.hpp.
 constexpr double kPlane = 1e-9;  // rounding of plane offsets, far below anything felt
-constexpr double kTie = 1e-6;    // two triangles share their nearest point: an edge or a corner
 constexpr double kPointProbeOfEdge = 1.0 / 500.0;
 // The proxy stands still when it moves less than this fraction of the radius, or of a twentieth of an edge if that is
-// more.
-constexpr double kStill = 1e-5;
+// more; under shading also when the HIP is off the normal by less than this angle, a tenth of what a hand may notice.
+constexpr double kStill = 1e-5, kStillAngle = 1e-4;
 
 // Pushing out the thousandth of R that edges may sink in can go back and forth between facets. After these steps the
 // ball is only kept from going deeper, so that each step brings it nearer to the HIP and the steps come to an end.
 constexpr std::uint32_t kPushingSteps = 3;
+// Shading converges in two or three steps. Where it does not, as in a corner of the smooth surface, the ball is left where these took it.
+constexpr std::uint32_t kShadingSteps = 10;
 
-constexpr std::uint32_t kMostPlanes = 512;  // 20 kB of stack; a ball lying in its own groove touches about 100 facets
-
-struct Planes {
-    std::array<HalfSpace, kMostPlanes> list;
-    std::uint32_t count = 0;
-    std::array<std::uint32_t, kMostPlanes> triangles;  // those of the list, in rising order
-    [[nodiscard]] std::span<const HalfSpace> span() const { return {list.data(), count}; }
-    [[nodiscard]] bool has(std::uint32_t triangle) const {
-        return std::binary_search(triangles.begin(), triangles.begin() + count, triangle);
-    }
-    void sort_triangles() {
-        for (std::uint32_t i = 0; i < count; ++i) triangles[i] = list[i].triangle;
-        const auto end = triangles.begin() + count;
-        if (!std::is_sorted(triangles.begin(), end)) std::sort(triangles.begin(), end);  // tiles come sorted
-    }
-};
-
-struct Nearest {
-    double distance = HUGE_VAL;
-    double height = 0.0;  // above the triangle's plane; negative: behind it
-    Vec3 point{0.0};
-    Vec3 normal{0.0};
-};
-
-// One tick's worth of proxy motion. Everything is relative to the surface's origin.
-class Mover {
-public:
-    Mover(const LocalSurface& surface, double radius, const ProxyBudget& budget, ProxyWork& work)
-        : surface_(surface), radius_(radius), budget_(budget), work_(work) {}
-
-    struct Touching {
-        Nearest nearest;  // of all triangles within reach, whichever side they turn
-        bool complete = true;
-    };
-
-    // Fills planes with the half-spaces, relative to `center`, of the triangles that the ball touches from outside.
-    Touching touching(const Vec3& center, Planes& planes) {
-        Touching result;
-        planes.count = 0;
-        const double reach = radius_ * (1.0 + kTouch);
-        Near near{center, center, reach};
-        const auto visit = [&](std::uint32_t i, const Triangle& t) {
-            if (!count_test()) return false;
-            const NearestOnTriangle on = nearest_on_triangle(center, t);
-            const Vec3 off = center - on.point;
-            if (glm::dot(off, off) > reach * reach) return true;
-            const double distance = std::sqrt(glm::dot(off, off));
-            const Vec3 normal = outward_normal(t);
-            const double height = glm::dot(off, normal);
-            keep_nearest(result.nearest, {distance, height, on.point, normal});
-            if (height < 0.0) return true;
-            if (planes.count == kMostPlanes) return false;
-            const bool flat = on.on_face || distance < kTie * radius_;
-            planes.list[planes.count++] = {flat ? normal : off / distance,
-                                           radius_ * (flat ? 1.0 : 1.0 - kTouch) - distance, i};
-            return true;
-        };
-        result.complete = search(near, visit);
-        planes.sort_triangles();
-        return result;
-    }
-
-    struct Sweep {
-        double fraction = 1.0;
-        bool complete = true;
-    };
-
-    // How far the ball may go, all triangles considered but those that touch already.
-    Sweep sweep(const Vec3& center, const Vec3& motion, const Planes& planes) {
-        Sweep result;
-        const double radius = radius_ * (1.0 - 2.0 * kTouch);
-        const Vec3 end = center + motion;
-        // What is near the box around a long way need not be near the way.
-        const bool is_long = glm::dot(motion, motion) > 0.25 * radius * radius;
-        const auto visit = [&](std::uint32_t i, const Triangle& t) {
-            if (planes.has(i) || (is_long && beside(t, center, motion, radius))) return true;
-            if (!count_test()) return false;
-            result.fraction = std::min(result.fraction, fraction_until_touch(center, motion, radius, t));
-            return true;
-        };
-        Near near{glm::min(center, end), glm::max(center, end), radius};
-        result.complete = search(near, visit);
-        return result;
-    }
-
-    // The nearest triangle of all, by boxes that double until what they found must be it. Of those that are farther than
-    // `most` any or none; none too when the work is used up.
-    Nearest nearest(const Vec3& center, double most) {
-        Nearest result;
-        Near near{center, center};
-        const auto visit = [&](std::uint32_t, const Triangle& t) {
-            if (beside(t, center, Vec3(0.0), result.distance * (1.0 + kTie))) return true;
-            if (!count_test()) return false;
-            const NearestOnTriangle on = nearest_on_triangle(center, t);
-            const Vec3 off = center - on.point, normal = outward_normal(t);
-            keep_nearest(result, {std::sqrt(glm::dot(off, off)), glm::dot(off, normal), on.point, normal});
-            near.reach_m = std::min(near.reach_m, result.distance * (1.0 + kTie));
-            return true;
-        };
-        const Box all = bounds(surface_);
-        const Vec3 span = glm::max(glm::abs(center - all.lo), glm::abs(center - all.hi));
-        const double everything = std::min(most, std::max({span.x, span.y, span.z}));
-        for (double reach = std::max(radius_, 2.0 * surface_.mean_edge_m());; reach *= 2.0) {
-            near.reach_m = reach;
-            if (!search(near, visit)) return {};
-            if (result.distance <= reach || reach >= everything) return result;
-        }
-    }
-
-private:
-    // visit may make near.reach_m smaller.
-    template <typename Visit>
-    bool search(Near& near, Visit&& visit) {
-        const std::uint32_t looks = budget_.max_triangles_seen - work_.triangles_seen;
-        near.looks_left = looks;
-        const bool complete = for_each_triangle_near(surface_, near, visit);
-        work_.triangles_seen += looks - near.looks_left;
-        return complete;
-    }
-
-    // Whether the ball around the triangle's box is farther than `reach` from all of the way: a cheap look before a test.
-    static bool beside(const Triangle& t, const Vec3& start, const Vec3& motion, double reach) {
-        const Vec3 lo = glm::min(glm::min(t.a, t.b), t.c), hi = glm::max(glm::max(t.a, t.b), t.c);
-        const Vec3 middle = 0.5 * (lo + hi), to_middle = middle - start;
-        const double length2 = glm::dot(motion, motion);
-        const double along = length2 > 0.0 ? std::clamp(glm::dot(to_middle, motion) / length2, 0.0, 1.0) : 0.0;
-        const Vec3 off = to_middle - along * motion;
-        const double limit = reach + 0.5 * glm::length(hi - lo) * (1.0 + 1e-9);
-        return glm::dot(off, off) > limit * limit;
-    }
-
-    [[nodiscard]] bool count_test() {
-        if (work_.triangles_tested >= budget_.max_triangles_tested) return false;
-        ++work_.triangles_tested;
-        return true;
-    }
-
-    // Of triangles that share the nearest point the one that is looked at most squarely tells inside from outside: at a
-    // sharp edge the other may be seen from its back although the point is outside.
-    void keep_nearest(Nearest& best, const Nearest& other) const {
-        const double tie = kTie * radius_;
-        if (other.distance < best.distance - tie ||
-            (other.distance <= best.distance + tie && std::abs(other.height) > std::abs(best.height)))
-            best = other;
-    }
-
-    const LocalSurface& surface_;
-    double radius_;
-    ProxyBudget budget_;
-    ProxyWork& work_;
-};
-
-// With the ball pushed out where it sinks in; if that is not wanted or there is no room for it, at least no deeper.
-NearestInside goal_in(Planes& planes, const Vec3& goal, double radius, bool push_out, ProxyWork& work) {
-    if (push_out) {
-        ++work.plane_solves;
-        const NearestInside best = nearest_inside(planes.span(), goal, kPlane * radius);
-        if (best.found) return best;
-    }
-    ++work.plane_solves;
-    for (std::uint32_t i = 0; i < planes.count; ++i) planes.list[i].offset = std::min(planes.list[i].offset, 0.0);
-    return nearest_inside(planes.span(), goal, kPlane * radius);
-}
-
-void note_active(ProxyResult& result, const Planes& planes, const NearestInside& goal) {
-    result.constraints = goal.bearing_count;
-    if (goal.bearing_count == 0) return;
-    std::uint32_t heaviest = 0;
-    for (std::uint32_t i = 1; i < goal.bearing_count; ++i)
-        if (goal.weights[i] > goal.weights[heaviest]) heaviest = i;
-    result.active_triangle = planes.list[goal.bearing[heaviest]].triangle;
-}
-
-void note_normal(ProxyResult& result, const Vec3& hip_object_m) {
-    const Vec3 off = result.next.position_object_m - hip_object_m;
-    const double distance = std::sqrt(glm::dot(off, off));
-    if (distance > 0.0) result.normal_object = off / distance;
+Vec3 unit_or_zero(const Vec3& v) {
+    const double length2 = glm::dot(v, v);
+    return length2 > 0.0 ? v / std::sqrt(length2) : Vec3(0.0);
 }
 
 // How far around `center` the surface is known; negative outside the known ball.
@@ -221,52 +47,210 @@ Vec3 put_outside(const Nearest& nearest, const Vec3& center, double radius) {
     return nearest.point + radius * way;
 }
 
+// Where the ball is to go from where it is, and what bears it there.
+struct Goal {
+    bool found = false;
+    Vec3 step{0.0};     // from the centre
+    Vec3 normal{0.0};   // unit, of the contact; zero in free space
+    double left = 0.0;  // how far it is to where nothing draws it on
+    double enough = 0.0;
+    bool in_contact = false;
+    bool is_shaded = false;
+};
+
+// One tick's worth of proxy motion. Everything is relative to the surface's origin.
+class Mover {
+public:
+    Mover(const ProxyState& state, const Vec3& hip_object_m, const ProxySettings& settings, const LocalSurface& surface,
+          const ProxyBudget& budget)
+        : settings_(settings),
+          surface_(surface),
+          budget_(budget),
+          edge_(surface.mean_edge_m()),
+          radius_(std::max(settings.contact_radius_m, kPointProbeOfEdge * edge_)),
+          still_(kStill * std::max(radius_, 0.05 * edge_)),
+          hip_(hip_object_m - surface.origin_object),
+          search_(surface, radius_, budget, result_.work) {
+        result_.next = {hip_object_m, surface.sequence, true, false, hip_object_m};
+        center_ = state.placed ? state.position_object_m - surface.origin_object : hip_;
+        slips_ = state.slipping;
+    }
+
+    ProxyResult move(const ProxyState& state) {
+        if (!begin(state)) return limited();
+        for (;;) {
+            ++result_.work.steps;
+            const Goal goal = aim();
+            if (!goal.found) return limited();
+            if (arrived(goal)) return goal.in_contact ? at_rest(goal) : free();
+            const Going going = go(goal);
+            if (going == Going::arrived_free) return free();
+            if (going == Going::out_of_work || result_.work.steps >= budget_.max_steps || !touch()) return limited();
+        }
+    }
+
+private:
+    // Looks where the ball will probably go: as the HIP went. And puts it outside if it is inside material.
+    bool begin(const ProxyState& state) {
+        Vec3 went = state.placed ? hip_ - (state.hip_object_m - surface_.origin_object) : Vec3(0.0);
+        const Vec3 pull = hip_ - center_;
+        if (glm::dot(went, went) > 4.0 * glm::dot(pull, pull) + radius_ * radius_)
+            went = Vec3(0.0);  // not of this walk
+        if (!search_.look_along({center_, center_ + went}) || !touch()) return false;
+        const bool unsure = !state.placed || state.surface_sequence != surface_.sequence;
+        if (unsure && !(nearest_.distance < HUGE_VAL))
+            nearest_ = search_.nearest(center_, known_around(center_, surface_));
+        if (!inside_material(nearest_, center_, surface_)) return true;
+        center_ = put_outside(nearest_, center_, radius_);
+        result_.pushed_out = true;
+        return search_.look_along({center_, center_}) && touch();
+    }
+
+    bool touch() {
+        const auto touching = search_.touching(center_, touches_);
+        nearest_ = touching.nearest;
+        return touching.complete;
+    }
+
+    Goal aim() {
+        const Vec3 pull = hip_ - center_;
+        const NearestInside plain = goal_in(pull);
+        Goal goal;
+        goal.found = plain.found;
+        note_active(plain);
+        goal.step = plain.point;
+        goal.left = glm::length(goal.step);
+        goal.enough = still_;
+        goal.in_contact = plain.bearing_count > 0;
+        if (!plain.found || !goal.in_contact) return goal;
+        goal.normal = unit_or_zero(goal.step - pull);
+        if (settings_.shading) shade(goal, plain, pull);
+        if (settings_.static_friction > 0.0 || settings_.dynamic_friction > 0.0) hold(goal, pull);
+        if (goal.is_shaded) {
+            const double share = step_share_.of(center_, goal.step);
+            goal.step = onto_true_planes(touches_, share * goal.step, goal.normal, kPlane * radius_);
+        }
+        return goal;
+    }
+
+    // With the ball pushed out where it sinks in; if that is not wanted or there is no room for it, at least no deeper.
+    NearestInside goal_in(const Vec3& pull) {
+        if (result_.work.steps <= kPushingSteps) {
+            ++result_.work.plane_solves;
+            const NearestInside best = nearest_inside(touches_.span(), pull, kPlane * radius_);
+            if (best.found) return best;
+        }
+        ++result_.work.plane_solves;
+        for (std::uint32_t i = 0; i < touches_.count; ++i)
+            touches_.planes[i].offset = std::min(touches_.planes[i].offset, 0.0);
+        return nearest_inside(touches_.span(), pull, kPlane * radius_);
+    }
+
+    void shade(Goal& goal, const NearestInside& plain, const Vec3& pull) {
+        const ShadedPlanes planes = shaded(surface_, search_.candidates(), touches_, plain, center_, radius_);
+        if (!planes.any) return;
+        ++result_.work.plane_solves;
+        const NearestInside smooth = nearest_inside({planes.planes.data(), planes.count}, pull, kPlane * radius_);
+        if (!smooth.found || smooth.bearing_count == 0) return;
+        goal.is_shaded = true;
+        goal.step = smooth.point;
+        goal.left = glm::length(goal.step);
+        goal.normal = unit_or_zero(goal.step - pull);
+        goal.enough = std::max(still_, kStillAngle * -glm::dot(pull, goal.normal));
+    }
+
+    // Friction takes its part of the way along the surface, or all of it.
+    void hold(Goal& goal, const Vec3& pull) {
+        const double depth = -glm::dot(pull, goal.normal);
+        const Vec3 along = pull + depth * goal.normal;
+        const double coefficient = slips_ ? settings_.dynamic_friction : settings_.static_friction;
+        double share = sliding_share(along, depth, coefficient);
+        if (share > 0.0 && !slips_) share = sliding_share(along, depth, settings_.dynamic_friction);
+        if (share * glm::length(along) <= still_) share = 0.0;
+        if (share > 0.0) slips_ = slid_ = true;
+        goal.step *= share;
+        goal.left = share > 0.0 ? glm::length(goal.step) : 0.0;
+    }
+
+    void note_active(const NearestInside& goal) {
+        result_.constraints = goal.bearing_count;
+        if (goal.bearing_count == 0) return;
+        std::uint32_t heaviest = 0;
+        for (std::uint32_t i = 1; i < goal.bearing_count; ++i)
+            if (goal.weights[i] > goal.weights[heaviest]) heaviest = i;
+        result_.active_triangle = touches_.planes[goal.bearing[heaviest]].triangle;
+    }
+
+    [[nodiscard]] bool arrived(const Goal& goal) const {
+        if (!goal.in_contact) return goal.step == Vec3(0.0);  // the proxy already is at the HIP
+        return goal.left <= goal.enough || (goal.is_shaded && result_.work.steps >= kShadingSteps);
+    }
+
+    enum class Going : std::uint8_t { on, arrived_free, out_of_work };
+
+    Going go(const Goal& goal) {
+        double share = 1.0;
+        if (!search_.knows(center_ + goal.step)) {
+            if (!search_.look_along({center_, center_ + goal.step}) || !touch()) return Going::out_of_work;
+            share = search_.known_share(center_, goal.step);
+        }
+        const auto sweep = search_.sweep(center_, share * goal.step);
+        if (!sweep.complete) return Going::out_of_work;
+        if (share * sweep.fraction >= 1.0 && !goal.in_contact) return Going::arrived_free;
+        center_ += (share * sweep.fraction) * goal.step;
+        return Going::on;
+    }
+
+    // The proxy is the HIP, exactly.
+    ProxyResult free() {
+        result_.constraints = 0;
+        result_.active_triangle = ProxyResult{}.active_triangle;
+        return result_;
+    }
+
+    ProxyResult at_rest(const Goal& goal) {
+        const bool all = goal.left <= still_;
+        result_.next.position_object_m = surface_.origin_object + (all ? center_ + goal.step : center_);
+        result_.next.slipping = slid_;
+        result_.sticking = !slid_ && settings_.static_friction > 0.0;
+        result_.normal_object = goal.normal;
+        return result_;
+    }
+
+    // Work is used up: the proxy waits where it is safe, and goes on in the next tick.
+    ProxyResult limited() {
+        result_.work_limited = true;
+        result_.next.position_object_m = surface_.origin_object + center_;
+        result_.next.slipping = slid_;
+        result_.normal_object = unit_or_zero(center_ - hip_);
+        return result_;
+    }
+
+    ProxySettings settings_;
+    const LocalSurface& surface_;
+    ProxyBudget budget_;
+    double edge_, radius_, still_;
+    Vec3 hip_, center_{0.0};
+    ProxyResult result_;
+    ContactSearch search_;
+    Touches touches_;
+    Nearest nearest_;
+    StepShare step_share_;
+    bool slips_ = false;  // of the two cones it is the dynamic one that holds
+    bool slid_ = false;   // in this tick
+};
+
 }  // namespace
 
 ProxyResult move_proxy(const ProxyState& state, const Vec3& hip_object_m, const ProxySettings& settings,
                        const LocalSurface& surface, const ProxyBudget& budget) noexcept {
-    ProxyResult result;
-    result.next = {hip_object_m, surface.sequence, true};
-    const double edge = surface.mean_edge_m();
-    if (!(edge > 0.0)) return result;  // nothing there to touch
-    const double radius = std::max(settings.contact_radius_m, kPointProbeOfEdge * edge);
-    const double still = kStill * std::max(radius, 0.05 * edge);
-    const Vec3 hip = hip_object_m - surface.origin_object;
-    Vec3 center = state.placed ? state.position_object_m - surface.origin_object : hip;
-    Mover mover(surface, radius, budget, result.work);
-    Planes planes;
-
-    auto touching = mover.touching(center, planes);
-    const bool unsure = !state.placed || state.surface_sequence != surface.sequence;
-    if (unsure && !(touching.nearest.distance < HUGE_VAL))
-        touching.nearest = mover.nearest(center, known_around(center, surface));
-    if (inside_material(touching.nearest, center, surface)) {
-        center = put_outside(touching.nearest, center, radius);
-        result.pushed_out = true;
-        touching = mover.touching(center, planes);
+    if (!(surface.mean_edge_m() > 0.0)) {  // nothing there to touch
+        ProxyResult free;
+        free.next = {hip_object_m, surface.sequence, true, false, hip_object_m};
+        return free;
     }
-    for (;; touching = mover.touching(center, planes)) {
-        ++result.work.steps;
-        const NearestInside goal =
-            goal_in(planes, hip - center, radius, result.work.steps <= kPushingSteps, result.work);
-        if (!touching.complete || !goal.found) break;
-        note_active(result, planes, goal);
-        if (glm::dot(goal.point, goal.point) <= still * still && goal.bearing_count > 0) {
-            result.next.position_object_m = surface.origin_object + (center + goal.point);
-            note_normal(result, hip_object_m);
-            return result;
-        }
-        if (goal.point == Vec3(0.0)) return result;  // only in free space: the proxy already is at the HIP
-        const auto sweep = mover.sweep(center, goal.point, planes);
-        if (!sweep.complete) break;
-        if (sweep.fraction >= 1.0 && goal.bearing_count == 0) return result;  // free: the proxy is the HIP, exactly
-        center += sweep.fraction * goal.point;
-        if (result.work.steps >= budget.max_steps) break;
-    }
-    result.work_limited = true;
-    result.next.position_object_m = surface.origin_object + center;
-    note_normal(result, hip_object_m);
-    return result;
+    Mover mover(state, hip_object_m, settings, surface, budget);
+    return mover.move(state);
 }
 
 }  // namespace burin

@@ -54,8 +54,8 @@ void expect_alike(const LocalSurface& tiles, const LocalSurface& loose, const Ve
             way = (goal - hip) / 40.0;
         }
         hip += way;
-        const ProxyResult a = move_proxy(state, hip, {tool_radius}, tiles);
-        const ProxyResult b = move_proxy(state, hip, {tool_radius}, loose);
+        const ProxyResult a = move_proxy(state, hip, {tool_radius, false}, tiles);
+        const ProxyResult b = move_proxy(state, hip, {tool_radius, false}, loose);
         // Ties are broken in the order in which triangles come by: within the tolerances of god_object.hpp.
         ASSERT_LT(glm::length(a.next.position_object_m - b.next.position_object_m), 3e-5 * tool_radius) << i;
         ASSERT_EQ(a.pushed_out, b.pushed_out) << i;

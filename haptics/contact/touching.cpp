@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "haptics/contact/touching.hpp"
+
+#include <algorithm>
+
+#include "geometry/local_surface_search.hpp"
+#include "haptics/contact/triangle_contact.hpp"
+
+namespace burin {
+namespace {
+
+// How much is looked at beside a way, as shares of the ball's radius, of an edge and of the way: enough that most ticks look once.
+constexpr double kBesideOfRadius = 0.002, kBesideOfEdge = 0.05, kBesideOfWay = 0.25;
+
+// Whether the ball around the triangle's box is farther than `reach` from all of the way: a cheap look before a test.
+bool beside(const Triangle& t, const Way& way, double reach) {
+    const Vec3 lo = glm::min(glm::min(t.a, t.b), t.c), hi = glm::max(glm::max(t.a, t.b), t.c);
+    const double limit = reach + 0.5 * glm::length(hi - lo) * (1.0 + 1e-9);
+    return distance2(way, 0.5 * (lo + hi)) > limit * limit;
+}
+
+}  // namespace
+
+bool ContactSearch::look_along(const Way& way) noexcept {
+    const Vec3 motion = way.to - way.from;
+    const double edge = surface_.mean_edge_m();
+    double slack = kBesideOfRadius * radius_ + kBesideOfEdge * edge + kBesideOfWay * glm::length(motion);
+    double share = 1.0;
+    for (int tries = 0; tries < 6; ++tries) {
+        std::uint32_t looks = budget_.max_triangles_seen - work_.triangles_seen;
+        const std::uint32_t before = looks;
+        const auto found = candidates_.gather(surface_, {way.from, way.from + share * motion}, radius_, slack, looks);
+        work_.triangles_seen += before - looks;
+        for (std::uint32_t i = 0; i < candidates_.count(); ++i) touches_already_.put(i, false);
+        if (found == Candidates::Gathered::all) return true;
+        if (found == Candidates::Gathered::out_of_looks) return false;
+        share *= 0.25;
+        slack *= 0.25;
+    }
+    return false;
+}
+
+double ContactSearch::known_share(const Vec3& center, const Vec3& motion) const noexcept {
+    double share = 1.0;  // what is known is convex, so that a known end makes all of the way known
+    for (int halvings = 0; halvings < 20; ++halvings, share *= 0.5)
+        if (knows(center + share * motion)) return share;
+    return 0.0;
+}
+
+// Of triangles that share the nearest point the one that is looked at most squarely tells inside from outside: at a
+// sharp edge the other may be seen from its back although the point is outside.
+void ContactSearch::keep_nearest(Nearest& best, const Nearest& other) const noexcept {
+    const double tie = kTie * radius_;
+    if (other.distance < best.distance - tie ||
+        (other.distance <= best.distance + tie && std::abs(other.height) > std::abs(best.height)))
+        best = other;
+}
+
+ContactSearch::Touching ContactSearch::touching(const Vec3& center, Touches& touches) noexcept {
+    Touching result;
+    for (std::uint32_t i = 0; i < touches.count;
+         ++i)  // those gathered before the last look too: what is cleared is clear
+        if (const std::uint32_t candidate = touches.places[i].candidate; candidate < candidates_.count())
+            touches_already_[candidate] = false;
+    touches.count = 0;
+    const double reach = radius_ * (1.0 + kTouch);
+    result.complete = candidates_.for_each_at(center, reach, [&](std::uint32_t i) {
+        if (!count_test()) return false;
+        const Triangle& t = candidates_.triangle(i);
+        const NearestOnTriangle on = nearest_on_triangle(center, t);
+        const Vec3 off = center - on.point;
+        if (glm::dot(off, off) > reach * reach) return true;
+        const double distance = std::sqrt(glm::dot(off, off));
+        const Vec3 normal = outward_normal(t);
+        const double height = glm::dot(off, normal);
+        keep_nearest(result.nearest, {distance, height, on.point, normal});
+        if (height < 0.0) return true;
+        if (touches.count == Touches::kMost) return false;
+        const bool flat = on.on_face || distance < kTie * radius_;
+        touches.planes.put(touches.count, {flat ? normal : off / distance,
+                                           radius_ * (flat ? 1.0 : 1.0 - kTouch) - distance, candidates_.id(i)});
+        touches.places.put(touches.count++, {on.point, i, flat});
+        touches_already_[i] = true;
+        return true;
+    });
+    return result;
+}
+
+ContactSearch::Sweep ContactSearch::sweep(const Vec3& center, const Vec3& motion) noexcept {
+    Sweep result;
+    const double radius = radius_ * (1.0 - 2.0 * kTouch);
+    const Way way{center, center + motion};
+    result.complete = candidates_.for_each_on_way(way, radius, [&](std::uint32_t i) {
+        if (touches_already_[i]) return true;
+        const Triangle& t = candidates_.triangle(i);
+        if (beside(t, way, radius)) return true;
+        if (!count_test()) return false;
+        result.fraction = std::min(result.fraction, fraction_until_touch(center, motion, radius, t));
+        return true;
+    });
+    return result;
+}
+
+Nearest ContactSearch::nearest(const Vec3& center, double most) noexcept {
+    Nearest result;
+    Near near{center, center};
+    const auto visit = [&](std::uint32_t, const Triangle& t) {
+        if (beside(t, {center, center}, result.distance * (1.0 + kTie))) return true;
+        if (!count_test()) return false;
+        const NearestOnTriangle on = nearest_on_triangle(center, t);
+        const Vec3 off = center - on.point, normal = outward_normal(t);
+        keep_nearest(result, {std::sqrt(glm::dot(off, off)), glm::dot(off, normal), on.point, normal});
+        near.reach_m = std::min(near.reach_m, result.distance * (1.0 + kTie));
+        return true;
+    };
+    const Box all = bounds(surface_);
+    const Vec3 span = glm::max(glm::abs(center - all.lo), glm::abs(center - all.hi));
+    const double everything = std::min(most, std::max({span.x, span.y, span.z}));
+    for (double reach = std::max(radius_, 2.0 * surface_.mean_edge_m());; reach *= 2.0) {
+        near.reach_m = reach;
+        const std::uint32_t looks = budget_.max_triangles_seen - work_.triangles_seen;
+        near.looks_left = looks;
+        const bool complete = for_each_triangle_near(surface_, near, visit);
+        work_.triangles_seen += looks - near.looks_left;
+        if (!complete) return {};
+        if (result.distance <= reach || reach >= everything) return result;
+    }
+}
+
+}  // namespace burin
