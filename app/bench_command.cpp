@@ -1,51 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench_command.hpp"
 
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <filesystem>
 #include <map>
-#include <span>
 
+#include "app/bench_workspace_command.hpp"
 #include "bench/machine.hpp"
 #include "bench/pareto.hpp"
 #include "bench/stroke_report.hpp"
 #include "compute/lattice.hpp"
-#include "geometry/file_io.hpp"
 #include "geometry/mesh_export.hpp"
 
 namespace burin {
 namespace {
 
 using Json = nlohmann::ordered_json;
-namespace fs = std::filesystem;
 
-constexpr const char* kStandardOutput = "-";
 constexpr int kReferenceRays = 2048;  // a side, for the removed volume of a part of a scene
-
-// Whether a file can appear there.
-Result<void> check_place(const std::string& path) {
-    if (path.empty() || path == kStandardOutput) return {};
-    const fs::path folder = fs::absolute(path).parent_path();
-    std::error_code ignored;
-    if (!fs::is_directory(folder, ignored) || access(folder.c_str(), W_OK) != 0) {
-        return fail(path, "cannot be written: there is no folder " + folder.string() + " that can be written to",
-                    "make the folder, or choose another place");
-    }
-    if (fs::is_directory(path, ignored)) return fail(path, "is a folder", "give the name of a file");
-    return {};
-}
-
-Result<void> write_text(const std::string& path, const std::string& text) {
-    if (path.empty()) return {};
-    if (path == kStandardOutput) {
-        std::fputs(text.c_str(), stdout);
-        return {};
-    }
-    return write_file_atomically(path, std::as_bytes(std::span(text.data(), text.size())));
-}
 
 }  // namespace
 
@@ -136,7 +108,7 @@ Result<void> BenchCommand::Options::run_pareto() const {
 
 BenchCommand::BenchCommand(CLI::App& app)
     : options_(std::make_unique<Options>()),
-      command_(app.add_subcommand("bench", "Measure how fast and how exact carving is")) {
+      command_(app.add_subcommand("bench", "Measure carving, and reaching across the wall")) {
     command_->require_subcommand(1);
     const CLI::Range resolutions(kMinResolution, kMaxResolution), threads(0, 1024), updates(1, 1000);
     const std::string threads_help = "How many threads work; 0: one per core";
@@ -180,12 +152,19 @@ BenchCommand::BenchCommand(CLI::App& app)
     pareto_->add_option("--csv", o.csv, "A file for the table; - for standard output");
     pareto_->add_option("--svg", o.svg, "A file for the figure");
     pareto_->add_option("--json", o.pareto_json, "A file for every figure of every run; - for standard output");
+
+    others_.push_back(add_bench_workspace(*command_));
 }
 
 BenchCommand::~BenchCommand() = default;
 
 bool BenchCommand::parsed() const { return command_->parsed(); }
 
-Result<void> BenchCommand::run() const { return stroke_->parsed() ? options_->run_stroke() : options_->run_pareto(); }
+Result<void> BenchCommand::run() const {
+    for (const BenchSubcommand& other : others_) {
+        if (other.command->parsed()) return other.run();
+    }
+    return stroke_->parsed() ? options_->run_stroke() : options_->run_pareto();
+}
 
 }  // namespace burin

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
-// burin bench: how fast and how exact carving is (bench/), as tables, JSON, CSV and a figure.
-//   burin bench stroke   one engine and resolution through STROKE-1000, with every figure
-//   burin bench pareto   time against error over resolutions, engines and peers
+// burin bench: what Burin does in numbers (bench/), as tables, JSON, CSV and a figure.
+//   burin bench stroke     one engine and resolution through STROKE-1000, with every figure
+//   burin bench pareto     time against error over resolutions, engines and peers
+//   burin bench workspace  each workspace technique across the wall, in a simulated hand
 #pragma once
 
 #include <memory>
+#include <vector>
 
-#include "base/error.hpp"
-
-namespace CLI {
-class App;
-}
+#include "app/bench_files.hpp"
 
 namespace burin {
 
@@ -32,6 +30,7 @@ private:
     CLI::App* command_;
     CLI::App* stroke_ = nullptr;
     CLI::App* pareto_ = nullptr;
+    std::vector<BenchSubcommand> others_;
 };
 
 }  // namespace burin

@@ -2,10 +2,10 @@
 #include "bench/svg_plot.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
+
+#include "bench/svg_text.hpp"
 
 namespace burin::bench {
 namespace {
@@ -13,37 +13,6 @@ namespace {
 // Pixels. A plot's frame within its cell leaves room for the labels.
 constexpr double kCellWidth = 430, kFrameLeft = 72, kFrameTop = 84, kFrameWidth = 335, kFrameHeight = 300;
 constexpr double kLegendTop = kFrameTop + kFrameHeight + 66, kLegendRow = 20, kLegendColumn = 430;
-
-// Okabe and Ito's colours, which people with any kind of colour vision tell apart.
-constexpr std::array kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9"};
-
-std::string text_of(const char* format, auto... values) {
-    std::array<char, 400> text{};
-    std::snprintf(text.data(), text.size(), format, values...);
-    return text.data();
-}
-
-std::string escaped(const std::string& text) {
-    std::string safe;
-    for (const char c : text) {
-        if (c == '&') {
-            safe += "&amp;";
-        } else if (c == '<') {
-            safe += "&lt;";
-        } else if (c == '>') {
-            safe += "&gt;";
-        } else if (c == '"') {
-            safe += "&quot;";
-        } else {
-            safe += c;
-        }
-    }
-    return safe;
-}
-
-std::string write(double x, double y, const char* attributes, const std::string& text) {
-    return text_of("<text x=\"%.1f\" y=\"%.1f\" %s>", x, y, attributes) + escaped(text) + "</text>\n";
-}
 
 bool drawable(const PlotPoint& p) { return p.x > 0.0 && p.y > 0.0 && std::isfinite(p.x) && std::isfinite(p.y); }
 
@@ -174,12 +143,7 @@ std::string svg_figure(const std::string& title, const std::vector<Plot>& plots)
     const double width = kCellWidth * static_cast<double>(std::max<std::size_t>(1, plots.size()));
     const auto columns = static_cast<std::size_t>(std::max(1.0, std::floor(width / kLegendColumn)));
     const double height = kLegendTop + kLegendRow * static_cast<double>((names.size() + columns - 1) / columns) + 6;
-    std::string text = text_of(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" "
-        "font-family=\"DejaVu Sans, Arial, sans-serif\" font-size=\"11\">\n"
-        "<rect width=\"100%%\" height=\"100%%\" fill=\"#ffffff\"/>\n",
-        width, height, width, height);
-    text += write(width / 2, 30, "text-anchor=\"middle\" font-size=\"16\" font-weight=\"bold\"", title);
+    std::string text = svg_begin(width, height, title);
     for (std::size_t i = 0; i < plots.size(); ++i) {
         text += plot_text(plots[i], kCellWidth * static_cast<double>(i), names);
     }

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "app/bench_workspace_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "bench/workspace.hpp"
+
+namespace burin {
+namespace {
+
+struct Options {
+    bench::WorkspaceTask task;
+    std::string csv, svg, json;
+};
+
+Result<void> run(const Options& options) {
+    for (const std::string& path : {options.csv, options.svg, options.json}) {
+        if (const auto ok = check_place(path); !ok) return ok;
+    }
+    std::vector<bench::WorkspaceFigures> figures;
+    for (const bench::Approach& approach : bench::all_approaches()) {
+        std::fprintf(stderr, "reaching: %s\n", approach.name.c_str());
+        figures.push_back(bench::reach_targets(approach, options.task));
+    }
+    if (options.json != kStandardOutput && options.csv != kStandardOutput && options.svg != kStandardOutput) {
+        std::fputs((bench::assumptions(options.task) + "\n" + bench::workspace_table(figures)).c_str(), stdout);
+    }
+    if (const auto done = write_text(options.csv, bench::workspace_csv(figures)); !done) return done;
+    if (const auto done = write_text(options.svg, bench::workspace_svg(figures, options.task)); !done) return done;
+    return write_text(options.json, bench::workspace_json(figures, options.task).dump(2) + "\n");
+}
+
+}  // namespace
+
+BenchSubcommand add_bench_workspace(CLI::App& bench) {
+    CLI::App* command =
+        bench.add_subcommand("workspace", "Reach across the wall with a small device, by each workspace technique");
+    const auto options = std::make_shared<Options>();
+    command->add_option("--targets", options->task.targets, "How many targets each technique reaches for")
+        ->check(CLI::Range(1, 10'000))
+        ->capture_default_str();
+    command->add_option("--seed", options->task.seed, "Where the targets lie, and how the hand misses")
+        ->capture_default_str();
+    command->add_option("--csv", options->csv, "A file for the table; - for standard output");
+    command->add_option("--svg", options->svg, "A file for the figure");
+    command->add_option("--json", options->json, "A file for the figures of every target; - for standard output");
+    return {command, [options] { return run(*options); }};
+}
+
+}  // namespace burin

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// burin bench workspace: a simulated hand reaches across the wall by each workspace technique (bench/workspace.hpp).
+#pragma once
+
+#include "app/bench_files.hpp"
+
+namespace burin {
+
+// `bench` must outlive what is returned.
+[[nodiscard]] BenchSubcommand add_bench_workspace(CLI::App& bench);
+
+}  // namespace burin
