@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "app/bench_stability_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "bench/stability.hpp"
+
+namespace burin {
+namespace {
+
+struct Options {
+    bool quick = false;
+    std::string csv, svg, figure7_svg, json;
+};
+
+Result<void> run(const Options& options) {
+    for (const std::string& path : {options.csv, options.svg, options.figure7_svg, options.json}) {
+        if (const auto ok = check_place(path); !ok) return ok;
+    }
+    const bench::Stability stability = bench::run_stability(options.quick);
+    if (options.json != kStandardOutput && options.csv != kStandardOutput && options.svg != kStandardOutput &&
+        options.figure7_svg != kStandardOutput) {
+        std::fputs(bench::stability_table(stability).c_str(), stdout);
+    }
+    if (const auto done = write_output(options.csv, bench::stability_csv(stability)); !done) return done;
+    if (const auto done = write_output(options.svg, bench::stability_svg(stability)); !done) return done;
+    if (const auto done = write_output(options.figure7_svg, bench::figure7_svg(stability.figure7)); !done) return done;
+    return write_output(options.json, bench::stability_json(stability).dump(2) + "\n");
+}
+
+}  // namespace
+
+BenchSubcommand add_bench_stability(CLI::App& bench) {
+    CLI::App* command = bench.add_subcommand(
+        "stability",
+        "How stiff a wall may be before a simulated device shakes, over rate, delay, filter and controller");
+    const auto options = std::make_shared<Options>();
+    command->add_flag("--quick", options->quick, "A few points of each table");
+    command->add_option("--csv", options->csv, "A file for the figures; - for standard output");
+    command->add_option("--svg", options->svg, "A file for the plots of the largest stable stiffness");
+    command->add_option("--figure7-svg", options->figure7_svg,
+                        "A file for the force over time with and without a filter");
+    command->add_option("--json", options->json, "A file for every figure; - for standard output");
+    return {command, [options] { return run(*options); }};
+}
+
+}  // namespace burin

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// burin bench stability: how stiff a wall may be before the device shakes (bench/stability.hpp).
+#pragma once
+
+#include "app/bench_files.hpp"
+
+namespace burin {
+
+// `bench` must outlive what is returned.
+[[nodiscard]] BenchSubcommand add_bench_stability(CLI::App& bench);
+
+}  // namespace burin

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+#include "bench/stability.hpp"
+
+#include <cmath>
+#include <iterator>
+#include <span>
+
+namespace burin::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A smallest and largest stiffness that bisection looks between, N/m. What is stable up to there counts as "any".
+constexpr double kLowest = 10.0, kHighest = 1e5;
+
+StabilityCase held_by(const NamedGrip& grip) {
+    StabilityCase c;
+    c.task = grip.task;
+    c.grip = grip.grip;
+    return c;
+}
+
+const NamedGrip& grip_called(const std::string& name) {
+    for (const NamedGrip& g : grips()) {
+        if (name == g.name) return g;
+    }
+    return grips().front();
+}
+
+const char* name_of(VelocityMethod method) {
+    switch (method) {
+        case VelocityMethod::adaptive_window: return "adaptive window";
+        case VelocityMethod::moving_average: return "moving average";
+        case VelocityMethod::difference: return "difference";
+    }
+    return "";
+}
+
+std::string controller_of(const StabilityCase& c) {
+    if (c.coupling.stiffness_N_per_m > 0.0) return "coupling";
+    if (c.control && c.limit) return "limiter and passivity";
+    return c.control ? "passivity" : c.limit ? "limiter" : "none";
+}
+
+Json conditions(const char* section, const char* grip, const StabilityCase& c) {
+    return {{"section", section},
+            {"grip", grip},
+            {"rate_Hz", c.device.rate_Hz},
+            {"delay_ms", 1e3 * c.device.delay_s},
+            {"force_alpha", c.signals.force_alpha},
+            {"velocity", name_of(c.signals.velocity)},
+            {"wall_damping_Ns_per_m", c.wall_damping_Ns_per_m},
+            {"controller", controller_of(c)}};
+}
+
+// `published` is the same from another simulation, 0: none.
+Json stiffest(const char* section, const NamedGrip& grip, const StabilityCase& c, double published = 0.0) {
+    Json row = conditions(section, grip.name, c);
+    const double found = largest_stable_stiffness(c, kLowest, kHighest);
+    row["largest_stable_stiffness_N_per_m"] = found;
+    row["any_stiffness"] = found >= kHighest;
+    row["published_N_per_m"] = published > 0.0 ? Json(published) : Json(nullptr);
+    return row;
+}
+
+// Without friction, steps of the encoder, limits or a hand a wall begins to shake at K = b / (T/2 + t_d): 2 b / T without
+// delay (Colgate and Schenkel). It applies where the device's own damping is slow against a period.
+constexpr double kApplies = 0.1;  // b T / m
+
+void add_theory(std::vector<Json>& rows, bool quick) {
+    for (const double rate : {250.0, 1000.0, 4000.0}) {
+        for (const double damping : {0.05, 0.2, 1.0, 3.0}) {
+            for (const int delay : {0, 1, 2}) {
+                if (quick && (rate != 1000.0 || damping > 1.0 || damping < 0.2 || delay > 1)) continue;
+                StabilityCase c;
+                c.task = HandTask::none;
+                c.device.friction_N = c.device.resolution_m = c.device.max_force_N = 0.0;
+                c.device.damping_Ns_per_m = damping;
+                c.device.rate_Hz = rate;
+                c.device.delay_s = delay / rate;
+                Json row = conditions("theory", "no hand", c);
+                const double theory = damping / (0.5 / rate + c.device.delay_s);
+                const double found = largest_stable_stiffness(c, 0.2 * theory, 10.0 * theory);
+                row["device_damping_Ns_per_m"] = damping;
+                row["largest_stable_stiffness_N_per_m"] = found;
+                row["theory_N_per_m"] = theory;
+                row["ratio"] = found / theory;
+                row["theory_applies"] = damping / rate / c.device.apparent_mass_kg <= kApplies;
+                rows.push_back(row);
+            }
+        }
+    }
+}
+
+// A published simulation of the same hand on the same device, which has a settling rule of its own.
+struct Published {
+    double at, stiffness_N_per_m;
+};
+constexpr Published kRates[] = {{100, 1720}, {250, 5770}, {500, 15623}, {1000, 35321}, {2000, 76763}, {4000, 121540}};
+constexpr Published kDelays_ms[] = {{0, 35321}, {1, 7853}, {2, 3834}, {5, 1371}, {10, 637}, {30, 223}};
+constexpr Published kAlphas[] = {{0, 35321},  {0.3, 18008}, {0.5, 9287}, {0.7, 3992},
+                                 {0.8, 2335}, {0.9, 1131},  {0.95, 728}};
+
+// Every other one in a quick run, the first included.
+template <typename Each>
+void over(std::span<const Published> points, bool quick, Each&& each) {
+    for (std::size_t i = 0; i < points.size(); i += quick ? 2 : 1) each(points[i]);
+}
+
+bool left_out(const NamedGrip& grip, bool quick) { return quick && std::string(grip.name) != "hand"; }
+
+bool is_published_hand(const NamedGrip& grip) { return std::string(grip.name) == "hand"; }
+
+void add_rates(std::vector<Json>& rows, bool quick) {
+    for (const NamedGrip& grip : grips()) {
+        if (left_out(grip, quick)) continue;
+        over(kRates, quick, [&](const Published& p) {
+            StabilityCase c = held_by(grip);
+            c.device.rate_Hz = p.at;
+            rows.push_back(stiffest("rate", grip, c, is_published_hand(grip) ? p.stiffness_N_per_m : 0.0));
+        });
+    }
+}
+
+void add_delays(std::vector<Json>& rows, bool quick) {
+    for (const NamedGrip& grip : grips()) {
+        if (left_out(grip, quick)) continue;
+        over(kDelays_ms, quick, [&](const Published& p) {
+            StabilityCase c = held_by(grip);
+            c.device.delay_s = 1e-3 * p.at;
+            rows.push_back(stiffest("delay", grip, c, is_published_hand(grip) ? p.stiffness_N_per_m : 0.0));
+        });
+    }
+}
+
+// Without delay, as published, and with the Omni's one millisecond.
+void add_filters(std::vector<Json>& rows, bool quick) {
+    for (const double delay_s : {0.0, 0.001}) {
+        for (const NamedGrip& grip : grips()) {
+            if (left_out(grip, quick)) continue;
+            if (grip.task == HandTask::none && delay_s > 0.0) continue;
+            over(kAlphas, quick, [&](const Published& p) {
+                StabilityCase c = held_by(grip);
+                c.device.delay_s = delay_s;
+                c.signals.force_alpha = p.at;
+                const bool published = delay_s == 0.0 && is_published_hand(grip);
+                rows.push_back(stiffest("filter", grip, c, published ? p.stiffness_N_per_m : 0.0));
+            });
+        }
+    }
+}
+
+void add_velocities(std::vector<Json>& rows, bool quick) {
+    const NamedGrip& grip = grip_called("hand");
+    for (const auto method :
+         {VelocityMethod::adaptive_window, VelocityMethod::moving_average, VelocityMethod::difference}) {
+        for (const double damping : {0.5, 2.0, 5.0}) {
+            if (quick && damping != 2.0) continue;
+            StabilityCase c = held_by(grip);
+            c.device.delay_s = 0.001;
+            c.signals.velocity = method;
+            c.wall_damping_Ns_per_m = damping;
+            rows.push_back(stiffest("velocity", grip, c));
+        }
+    }
+}
+
+std::vector<StabilityCase> controllers(const StabilityCase& plain) {
+    std::vector<StabilityCase> all(5, plain);
+    all[1].control = true;
+    all[2].coupling = {1000.0, 1.0};
+    all[3].limit = true;
+    all[4].limit = all[4].control = true;
+    return all;
+}
+
+void add_controllers(std::vector<Json>& rows, bool quick) {
+    for (const NamedGrip& grip : grips()) {
+        if (left_out(grip, quick) || grip.task == HandTask::none) continue;
+        StabilityCase plain = held_by(grip);
+        plain.device.delay_s = 0.001;
+        for (const StabilityCase& c : controllers(plain)) rows.push_back(stiffest("controller", grip, c));
+    }
+}
+
+// A tap, and drawn back out: what is felt, and what energy the wall has given out.
+void add_contacts(std::vector<Json>& rows, bool quick) {
+    for (const char* name : {"light", "hand", "firm", "rigid"}) {
+        if (quick && std::string(name) != "hand") continue;
+        for (const double speed : {0.1, 0.3, 0.6}) {
+            for (const double stiffness : {600.0, 1500.0, 5000.0, 15000.0}) {
+                if (quick && speed != 0.3) continue;
+                const NamedGrip& grip = grip_called(name);
+                StabilityCase plain = held_by(grip);
+                plain.device.delay_s = 0.001;
+                plain.tap_speed_m_per_s = speed;
+                for (const StabilityCase& c : controllers(plain)) {
+                    const StabilityRun run = run_wall(c, stiffness);
+                    Json row = conditions("contact", grip.name, c);
+                    row["tap_speed_m_per_s"] = speed;
+                    row["wanted_stiffness_N_per_m"] = stiffness;
+                    row["rendered_stiffness_N_per_m"] = run.rendered.stiffness_N_per_m;
+                    row["settles"] = stable(c, run);
+                    row["limit_cycle_mm"] = 1e3 * run.swing_m;
+                    row["force_change_a_tick_N"] = run.force_change_N;
+                    row["late_force_change_a_tick_N"] = run.late_change_N;
+                    row["net_energy_mJ"] = 1e3 * run.net_energy_J;
+                    row["controller_ticks"] = run.acted_ticks;
+                    rows.push_back(row);
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+
+const std::vector<NamedGrip>& grips() {
+    static const std::vector<NamedGrip> all{{"no hand", HandTask::none, {}},
+                                            {"light", HandTask::tap, {0.05, 50.0, 1.0}},
+                                            {"hand", HandTask::tap, {0.1, 100.0, 3.0}},
+                                            {"firm", HandTask::tap, {0.2, 600.0, 12.0}},
+                                            {"rigid", HandTask::tap, {1.0, 20000.0, 100.0}}};
+    return all;
+}
+
+Stability run_stability(bool quick) {
+    Stability s;
+    add_theory(s.rows, quick);
+    add_rates(s.rows, quick);
+    add_delays(s.rows, quick);
+    add_filters(s.rows, quick);
+    add_velocities(s.rows, quick);
+    add_controllers(s.rows, quick);
+    add_contacts(s.rows, quick);
+    s.figure7 = run_figure7(quick);
+    return s;
+}
+
+}  // namespace burin::bench

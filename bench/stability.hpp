@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// How stiff a wall may be before a simulated device in a simulated hand shakes: over rate, delay, force filter, velocity estimate
+// and controller; against theory where there is one; and what a contact feels like under each controller.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "bench/stability_figure7.hpp"
+#include "bench/stability_sim.hpp"
+
+namespace burin::bench {
+
+struct NamedGrip {
+    const char* name;
+    HandTask task;
+    HandGrip grip;
+};
+// no hand; light; hand (0.1 kg, 100 N/m, 3 Ns/m, that of the published comparison); firm; rigid.
+[[nodiscard]] const std::vector<NamedGrip>& grips();
+
+// One row a figure. "section" is theory, rate, delay, filter, velocity, controller (each with
+// largest_stable_stiffness_N_per_m) or contact (with how one contact went).
+struct Stability {
+    std::vector<nlohmann::ordered_json> rows;
+    Figure7 figure7;
+};
+
+// quick: a few points of each section. The same result each time.
+[[nodiscard]] Stability run_stability(bool quick);
+
+[[nodiscard]] std::string stability_table(const Stability& stability);
+[[nodiscard]] std::string stability_csv(const Stability& stability);
+[[nodiscard]] std::string stability_svg(const Stability& stability);
+[[nodiscard]] nlohmann::ordered_json stability_json(const Stability& stability);
+
+}  // namespace burin::bench
