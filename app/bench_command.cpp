@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <map>
 
+#include "app/bench_stability_command.hpp"
 #include "app/bench_workspace_command.hpp"
 #include "bench/machine.hpp"
 #include "bench/pareto.hpp"
@@ -87,7 +88,7 @@ Result<void> BenchCommand::Options::run_stroke() const {
         if (const auto written = export_mesh(run->mesh, exported); !written) return written;
     }
     if (json != kStandardOutput) std::fputs(bench::table(report).c_str(), stdout);
-    return write_text(json, report.dump(2) + "\n");
+    return write_output(json, report.dump(2) + "\n");
 }
 
 Result<void> BenchCommand::Options::run_pareto() const {
@@ -101,9 +102,9 @@ Result<void> BenchCommand::Options::run_pareto() const {
     if (pareto_json != kStandardOutput && csv != kStandardOutput && svg != kStandardOutput) {
         std::fputs(bench::pareto_table(*compared).c_str(), stdout);
     }
-    if (const auto written = write_text(csv, bench::pareto_csv(*compared)); !written) return written;
-    if (const auto written = write_text(svg, bench::pareto_svg(*compared)); !written) return written;
-    return write_text(pareto_json, report.dump(2) + "\n");
+    if (const auto written = write_output(csv, bench::pareto_csv(*compared)); !written) return written;
+    if (const auto written = write_output(svg, bench::pareto_svg(*compared)); !written) return written;
+    return write_output(pareto_json, report.dump(2) + "\n");
 }
 
 BenchCommand::BenchCommand(CLI::App& app)
@@ -153,6 +154,7 @@ BenchCommand::BenchCommand(CLI::App& app)
     pareto_->add_option("--svg", o.svg, "A file for the figure");
     pareto_->add_option("--json", o.pareto_json, "A file for every figure of every run; - for standard output");
 
+    others_.push_back(add_bench_stability(*command_));
     others_.push_back(add_bench_workspace(*command_));
 }
 

@@ -25,7 +25,7 @@ Result<void> check_place(const std::string& path) {
     return {};
 }
 
-Result<void> write_text(const std::string& path, const std::string& text) {
+Result<void> write_output(const std::string& path, const std::string& text) {
     if (path.empty()) return {};
     if (path == kStandardOutput) {
         std::fputs(text.c_str(), stdout);

@@ -18,7 +18,7 @@ inline constexpr const char* kStandardOutput = "-";
 // Whether a file can appear there; to be asked before the first long step. Empty: none is wanted.
 [[nodiscard]] Result<void> check_place(const std::string& path);
 // Empty: nowhere.
-[[nodiscard]] Result<void> write_text(const std::string& path, const std::string& text);
+[[nodiscard]] Result<void> write_output(const std::string& path, const std::string& text);
 
 // A subcommand of burin bench with options of its own.
 struct BenchSubcommand {

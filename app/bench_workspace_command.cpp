@@ -27,9 +27,9 @@ Result<void> run(const Options& options) {
     if (options.json != kStandardOutput && options.csv != kStandardOutput && options.svg != kStandardOutput) {
         std::fputs((bench::assumptions(options.task) + "\n" + bench::workspace_table(figures)).c_str(), stdout);
     }
-    if (const auto done = write_text(options.csv, bench::workspace_csv(figures)); !done) return done;
-    if (const auto done = write_text(options.svg, bench::workspace_svg(figures, options.task)); !done) return done;
-    return write_text(options.json, bench::workspace_json(figures, options.task).dump(2) + "\n");
+    if (const auto done = write_output(options.csv, bench::workspace_csv(figures)); !done) return done;
+    if (const auto done = write_output(options.svg, bench::workspace_svg(figures, options.task)); !done) return done;
+    return write_output(options.json, bench::workspace_json(figures, options.task).dump(2) + "\n");
 }
 
 }  // namespace
