@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/componentwise.hpp"
 #include "geometry/triangle.hpp"
 
 namespace burin {
@@ -88,7 +89,7 @@ bool for_each_near(const GriddedTriangles& piece, Near& near, Visit&& visit) {
     const auto look_at = [&](std::uint32_t i) {
         if (!near.look()) return false;
         const glm::vec4& sphere = grid.spheres[i];
-        const Vec3 center(sphere), outside = glm::max(glm::max(near.lo - center, center - near.hi), Vec3(0.0));
+        const Vec3 center(sphere), outside = upper_of(upper_of(near.lo - center, center - near.hi), Vec3(0.0));
         const double reach = near.reach_m + static_cast<double>(sphere.w);
         return !(glm::dot(outside, outside) <= reach * reach) || visit(i, piece.triangle(i));
     };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "geometry/componentwise.hpp"
 #include "geometry/triangle.hpp"
 
 namespace burin {
@@ -14,13 +15,13 @@ struct RoundedBox {
     float reach2;
 
     explicit RoundedBox(const Near& near) noexcept : lo(near.lo), hi(near.hi) {
-        const Vec3 size = glm::max(glm::abs(near.lo), glm::abs(near.hi));
+        const Vec3 size = upper_of(glm::abs(near.lo), glm::abs(near.hi));
         const double rounding = 1e-7 * std::max({size.x, size.y, size.z});
         const double reach = (near.reach_m + 4.0 * rounding) * (1.0 + 1e-6);
         reach2 = static_cast<float>(reach * reach);
     }
     [[nodiscard]] bool meets(const Vec3f& from, const Vec3f& to) const noexcept {
-        const Vec3f outside = glm::max(glm::max(from - hi, lo - to), Vec3f(0.0f));
+        const Vec3f outside = upper_of(upper_of(from - hi, lo - to), Vec3f(0.0f));
         return glm::dot(outside, outside) <= reach2;
     }
 };

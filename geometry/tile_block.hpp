@@ -17,6 +17,7 @@
 #include <memory>
 #include <vector>
 
+#include "geometry/plane_gate.hpp"
 #include "geometry/rounded_box.hpp"
 #include "geometry/surface_tile.hpp"
 #include "geometry/triangle.hpp"
@@ -133,11 +134,14 @@ struct EdgeDistances {
 
 // visit(triangle of the tile, triangle).
 template <typename Visit>
-bool for_each_near_in_tile(const SurfaceTile& tile, const EdgeDistances& edges, Near& near, Visit&& visit) {
+bool for_each_near_in_tile(const SurfaceTile& tile, const EdgeDistances& edges, double longest_edge_m, Near& near,
+                           Visit&& visit) {
     const RoundedBox box(near);
+    const PlaneGate planes(near, longest_edge_m);
     const shared::SurfaceVertex* const vertices = tile.vertices.data();
     const std::uint32_t* const indices = tile.indices.data();
     const auto pass_on = [&](std::uint32_t i, const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+        if (!planes.meets(a, b, c)) return true;
         const Triangle t{Vec3(a), Vec3(b), Vec3(c)};
         return is_degenerate(t) || visit(i, t);
     };
@@ -149,7 +153,7 @@ bool for_each_near_in_tile(const SurfaceTile& tile, const EdgeDistances& edges, 
         const bool flip = corner[4] != corner[2];
         const Vec3f a = place_of(vertices[corner[0]]), b = place_of(vertices[corner[1]]),
                     c = place_of(vertices[corner[2]]), d = place_of(vertices[corner[flip ? 4 : 5]]);
-        if (!box.meets(glm::min(glm::min(a, b), glm::min(c, d)), glm::max(glm::max(a, b), glm::max(c, d)))) return true;
+        if (!box.meets(lower_of(lower_of(a, b), lower_of(c, d)), upper_of(upper_of(a, b), upper_of(c, d)))) return true;
         return pass_on(i, a, b, c) && (flip ? pass_on(i + 1, a, d, b) : pass_on(i + 1, a, c, d));
     };
     const auto look_at_triangle = [&](std::uint32_t i) {
@@ -157,7 +161,7 @@ bool for_each_near_in_tile(const SurfaceTile& tile, const EdgeDistances& edges, 
         const std::uint32_t* const corner = indices + std::size_t{3} * i;
         const Vec3f a = place_of(vertices[corner[0]]), b = place_of(vertices[corner[1]]),
                     c = place_of(vertices[corner[2]]);
-        return !box.meets(glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c)) || pass_on(i, a, b, c);
+        return !box.meets(lower_of(lower_of(a, b), c), upper_of(upper_of(a, b), c)) || pass_on(i, a, b, c);
     };
     const bool only_quads = tile.only_quads();
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -188,6 +192,7 @@ bool for_each_near_in_tile(const SurfaceTile& tile, const EdgeDistances& edges, 
 template <typename Visit>
 bool for_each_near(const TileBlock& block, Near& near, Visit&& visit) {
     constexpr int kCells = SurfaceTile::kCells;
+    const double longest_edge_m = 5.5 * block.cell_m;  // the diagonal of 2 kReach cells a side
     const NodeRange nodes = nodes_near(block, near);
     std::array<int, 3> from{}, to{};  // places
     for (std::size_t k = 0; k < 3; ++k) {
@@ -207,7 +212,7 @@ bool for_each_near(const TileBlock& block, Near& near, Visit&& visit) {
                 const auto visit_numbered = [&](std::uint32_t i, const Triangle& t) {
                     return visit(place.first_triangle + i, t);
                 };
-                if (!for_each_near_in_tile(*place.tile, edges, near, visit_numbered)) return false;
+                if (!for_each_near_in_tile(*place.tile, edges, longest_edge_m, near, visit_numbered)) return false;
             }
     return true;
 }

@@ -63,7 +63,7 @@ struct Sized {
 
 Sized sized(const VertexTriple& t, std::span<const Vec3f> positions_m, std::uint32_t id) {
     const Vec3f &a = positions_m[t[0]], &b = positions_m[t[1]], &c = positions_m[t[2]];
-    const Vec3f lo = glm::min(glm::min(a, b), c), hi = glm::max(glm::max(a, b), c), size = hi - lo;
+    const Vec3f lo = lower_of(lower_of(a, b), c), hi = upper_of(upper_of(a, b), c), size = hi - lo;
     return {{0.5f * (lo + hi), id}, std::max({size.x, size.y, size.z})};
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/componentwise.hpp"
 #include "geometry/touch_boxes.hpp"
 
 namespace burin {
@@ -11,7 +12,7 @@ namespace {
 
 int longest_side(std::span<const TouchItem> items) {
     Vec3f lo = items.front().middle, hi = lo;
-    for (const TouchItem& item : items) lo = glm::min(lo, item.middle), hi = glm::max(hi, item.middle);
+    for (const TouchItem& item : items) lo = lower_of(lo, item.middle), hi = upper_of(hi, item.middle);
     const Vec3f side = hi - lo;
     if (side.x >= side.y && side.x >= side.z) return 0;
     return side.y >= side.z ? 1 : 2;

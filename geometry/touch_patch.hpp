@@ -184,7 +184,7 @@ private:
         if (!near_.look()) return false;
         const Vec3f &a = patch.positions_m[corner[0]], &b = patch.positions_m[corner[1]],
                     &c = patch.positions_m[corner[2]];
-        if (!box_.meets(glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c))) return true;
+        if (!box_.meets(lower_of(lower_of(a, b), c), upper_of(upper_of(a, b), c))) return true;
         const double reach = near_.reach_m;
         if (!visit(number, Triangle{Vec3(a), Vec3(b), Vec3(c)})) return false;
         if (near_.reach_m != reach) {

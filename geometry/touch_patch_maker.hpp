@@ -33,9 +33,10 @@ private:
     };
 
     void add_triangle(TouchPatch& patch, std::uint32_t mesh_triangle, const std::array<std::uint16_t, 3>& corners);
-    std::uint16_t vertex_of(TouchPatch& patch, TouchSurface& surface, std::uint32_t vertex, std::uint32_t slot);
-    std::uint16_t split_vertex_of(TouchPatch& patch, const TouchSurface& surface, const Split& split,
-                                  std::uint32_t vertex, std::uint32_t slot);
+    std::uint16_t add_vertex(const Vec3f& position_m, const Vec3f& normal);
+    std::uint16_t vertex_of(TouchSurface& surface, std::uint32_t vertex, std::uint32_t slot);
+    std::uint16_t split_vertex_of(const TouchSurface& surface, const Split& split, std::uint32_t vertex,
+                                  std::uint32_t slot);
     void keep_pieces(TouchSurface& surface, std::uint32_t vertex);
     void box_triangles(TouchPatch& patch);
 
@@ -43,7 +44,8 @@ private:
     std::vector<Mark> marks_;
     std::vector<Split> splits_;
     std::vector<SplitPiece> pieces_;
-    std::vector<Vec3f> lo_, hi_;  // of the triangles
+    std::vector<Vec3f> positions_m_, normals_;                   // of the patch's vertices
+    std::array<Vec3f, TouchPatch::kMostTriangles> lo_{}, hi_{};  // of its triangles
 };
 
 }  // namespace burin

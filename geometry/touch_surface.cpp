@@ -72,8 +72,8 @@ void TouchSurface::put(std::uint32_t slot, const VertexTriple& triangle) {
 }
 
 TouchSurface::Facet TouchSurface::facet_at(std::uint32_t corner) const {
-    const VertexTriple& t = triangles_[corner / 3];
-    const std::uint32_t k = corner % 3;
+    const std::uint32_t slot = corner / 3, k = corner - 3 * slot;
+    const VertexTriple& t = triangles_[slot];
     const Vec3 at(positions_m_[t[k]]);
     const Vec3 next = Vec3(positions_m_[t[k == 2 ? 0 : k + 1]]) - at;
     const Vec3 before = Vec3(positions_m_[t[k == 0 ? 2 : k - 1]]) - at;
@@ -81,7 +81,7 @@ TouchSurface::Facet TouchSurface::facet_at(std::uint32_t corner) const {
     const double lengths2 = glm::dot(next, next) * glm::dot(before, before);
     // An angle of less than 1e-6: its normal is noise.
     if (!(glm::dot(cross, cross) > 1e-12 * lengths2)) return {};
-    return {cross, cross / lengths2};
+    return {cross, (1.0 / lengths2) * cross};
 }
 
 void TouchSurface::renew_normal(std::uint32_t vertex) {

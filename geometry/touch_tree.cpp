@@ -233,7 +233,7 @@ std::shared_ptr<const TouchNode> TouchTree::make_node(const Node& node) const {
         made->first_triangle[made->count] = made->triangles;
         made->triangles += part->triangles;
         made->edge_sum_m += part->edge_sum_m;
-        if (part->triangles > 0) lo = glm::min(lo, part->frame.lo), hi = glm::max(hi, part->frame.hi);
+        if (part->triangles > 0) lo = lower_of(lo, part->frame.lo), hi = upper_of(hi, part->frame.hi);
         made->children[made->count++] = std::move(part);
     }
     if (made->triangles == 0) return made;
