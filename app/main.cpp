@@ -56,6 +56,23 @@ void add_sculpt_options(CLI::App& command, SculptOptions& options) {
         .add_option("--hand", options.hand,
                     "rigid: the tool follows the stroke exactly; simulated: a hand feels its way")
         ->transform(CLI::CheckedTransformer(hands));
+    command
+        .add_option("--hardness", options.feel.hardness,
+                    "With --hand simulated: soft, medium, hard, or the pressure in kPa under which a millimetre of "
+                    "material a second goes away; 0 gives way, inf cannot be cut")
+        ->capture_default_str();
+    command.add_option("--stiffness", options.feel.stiffness_N_per_m,
+                       "With --hand simulated: of the surface, N/m at the device; else the hardness' own");
+    command.add_option("--friction", options.feel.friction,
+                       "With --hand simulated: Coulomb's coefficient; else the hardness' own");
+    command
+        .add_option("--press", options.feel.press_N,
+                    "With --hand simulated: the force in N with which the hand presses beyond its stroke")
+        ->capture_default_str();
+    command
+        .add_option("--grip", options.feel.grip_N_per_m,
+                    "With --hand simulated: how firmly the hand holds the tool, N/m")
+        ->capture_default_str();
     command.add_flag("--real-time", options.real_time,
                      "With --hand simulated: a haptic thread at 1 kHz instead of simulated time");
     command.add_option("--export", options.exports,
@@ -64,7 +81,7 @@ void add_sculpt_options(CLI::App& command, SculptOptions& options) {
                        "Export fewer triangles: the surface moves at most this far, in metres");
     command.add_option("--pictures", options.pictures,
                        "A folder for before.png, after.png, left.png, right.png, stereo.png");
-    command.add_option("--report", options.report, "A JSON file for all figures");
+    command.add_option("--report", options.report, "A JSON file for all figures; plots of what was felt go beside it");
     command.add_option("--undo", options.undo, "Take back the last so many strokes, each from press to release")
         ->capture_default_str();
     command.add_option("--undo-memory", options.undo_memory_MiB, "MiB for strokes that can be taken back")

@@ -53,9 +53,12 @@ Result<void> check_precision(std::span<const std::string> exports, const Lattice
     return {};
 }
 
-Result<void> write_report(const std::string& path, const nlohmann::ordered_json& report) {
-    const std::string text = report.dump(2) + "\n";
+Result<void> write_text(const std::string& path, const std::string& text) {
     return write_file_atomically(path, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+Result<void> write_report(const std::string& path, const nlohmann::ordered_json& report) {
+    return write_text(path, report.dump(2) + "\n");
 }
 
 }  // namespace burin

@@ -15,6 +15,7 @@ namespace burin {
 [[nodiscard]] Result<void> check_outputs(std::span<const std::string> exports, const std::string& report);
 // Whether the formats hold the lattice's details; only a mesh's coordinates tell, so this is found out after loading it.
 [[nodiscard]] Result<void> check_precision(std::span<const std::string> exports, const Lattice& lattice);
+[[nodiscard]] Result<void> write_text(const std::string& path, const std::string& text);
 [[nodiscard]] Result<void> write_report(const std::string& path, const nlohmann::ordered_json& report);
 
 }  // namespace burin

@@ -54,18 +54,35 @@ Json describe_mesh(const TriangleMesh& mesh) {
             {"area_m2", health.area_m2}};
 }
 
-Json describe_feel(const FeltFigures& felt) {
+namespace {
+
+Json occurrences(const std::map<std::string, Occurrence>& of) {
+    Json list = Json::array();
+    for (const auto& [what, o] : of)
+        list.push_back({{"what", what}, {"ticks", o.ticks}, {"times", o.times}, {"first_s", o.first_s}});
+    return list;
+}
+
+}  // namespace
+
+Json describe_feel(const FeltFigures& felt, const Feel& feel) {
     return {{"device", "simulated Omni, held by a simulated hand"},
+            {"material", describe_feel_settings(feel)},
             {"object_from_device_scale", felt.object_from_device.scale},
             {"duration_s", felt.duration_s},
             {"ticks", felt.ticks},
             {"ticks_in_contact", felt.ticks_in_contact},
+            {"ticks_cutting", felt.ticks_cutting},
             {"stroke_samples_dropped", felt.samples_dropped},
+            {"tick_records_lost", felt.records_lost},
             {"surfaces_published", felt.surfaces_published},
             {"force_max_N", felt.force_max_N},
             {"force_mean_in_contact_N", felt.force_mean_in_contact_N},
+            {"force_mean_cutting_N", felt.force_mean_cutting_N},
             {"penetration_max_m", felt.penetration_max_m},
-            {"zero_force_ticks_by_cause", felt.zero_force_ticks},
+            {"silent", occurrences(felt.silent)},
+            {"stiffness_limited", occurrences(felt.limited)},
+            {"degraded", occurrences(felt.degraded)},
             {"notices", felt.notices}};
 }
 
@@ -81,7 +98,6 @@ Json describe_timing(const Carving& carving, const FeltFigures* felt) {
         timing["tick_us_median"] = quantile(tick_us, 0.5);
         timing["tick_us_p999"] = quantile(tick_us, 0.999);
     }
-    if (felt != nullptr) timing["ticks_late"] = felt->ticks_late;
     return timing;
 }
 
@@ -118,6 +134,12 @@ void print_table(const Json& report) {
     if (report.contains("feel")) {
         row("largest, mean force in contact",
             text("%.2f N, %.2f N", number("/feel/force_max_N"), number("/feel/force_mean_in_contact_N")));
+        if (number("/feel/ticks_cutting") > 0.0) {
+            row("mean force while cutting", text("%.2f N", number("/feel/force_mean_cutting_N")));
+        }
+        for (const Json& silence : report["feel"]["silent"]) {
+            row(silence["what"].get<std::string>().c_str(), text("%.0f ticks", silence["ticks"].get<double>()));
+        }
     }
     row("mesh",
         text("%.0f triangles; %.0f open, %.0f non-manifold, %.0f wrongly oriented edges", number("/mesh/triangles"),

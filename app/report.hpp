@@ -17,7 +17,7 @@ namespace burin {
 
 [[nodiscard]] nlohmann::ordered_json describe_carving(const Carving& carving);
 [[nodiscard]] nlohmann::ordered_json describe_mesh(const TriangleMesh& mesh);
-[[nodiscard]] nlohmann::ordered_json describe_feel(const FeltFigures& felt);
+[[nodiscard]] nlohmann::ordered_json describe_feel(const FeltFigures& felt, const Feel& feel);
 // Wall-clock figures: these differ from run to run.
 [[nodiscard]] nlohmann::ordered_json describe_timing(const Carving& carving, const FeltFigures* felt);
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/engine_choice.hpp"
+#include "app/felt_plot.hpp"
 #include "app/felt_stroke.hpp"
 #include "app/finishing.hpp"
 #include "app/output_files.hpp"
@@ -42,6 +43,15 @@ Staging staging_of(const Stroke& stroke, const Tool& tool, const std::optional<F
     return staging;
 }
 
+// Beside the report, which names them.
+Result<void> write_plots(const std::string& report_path, const FeltFigures& felt, Json& report) {
+    const std::string figure = felt_figure_path(report_path), table = felt_table_path(report_path);
+    if (const auto written = write_text(figure, felt_figure(felt)); !written) return written;
+    if (const auto written = write_text(table, felt_table(felt)); !written) return written;
+    report["feel"]["plots"] = {fs::path(figure).filename().string(), fs::path(table).filename().string()};
+    return {};
+}
+
 // Undoes the last strokes; what there is to say about it.
 Result<Json> take_back(Carving& carving, std::size_t strokes) {
     carving.end_stroke();
@@ -69,6 +79,8 @@ Result<void> sculpt(const SculptOptions& options) {
     if (options.hand == HandChoice::simulated && tool->ball_radius_m() == 0.0) {
         return fail("--hand simulated", "feels with a ball only", "use --tool ball:R, or --hand rigid");
     }
+    const Result<Feel> feel = parse_feel(options.feel);
+    if (!feel) return std::unexpected(feel.error());
     if (const auto ok = check_outputs(options.exports, options.report); !ok) return ok;
     if (const auto ok = check_simplification(options.simplify_m); !ok) return ok;
     Stroke stroke;
@@ -106,7 +118,7 @@ Result<void> sculpt(const SculptOptions& options) {
     if (!stroke.empty() && options.hand == HandChoice::rigid) {
         if (const auto carved = carve_rigidly(carving, stroke, *tool, options.merge_rows); !carved) return carved;
     } else if (!stroke.empty()) {
-        Result<FeltFigures> carved = carve_by_feel(carving, stroke, *tool, {options.real_time});
+        Result<FeltFigures> carved = carve_by_feel(carving, stroke, *tool, {*feel, options.real_time});
         if (!carved) return std::unexpected(carved.error());
         felt = std::move(*carved);
     }
@@ -133,7 +145,7 @@ Result<void> sculpt(const SculptOptions& options) {
     report["slivers"] = finished->slivers;
     if (!finished->simplification.is_null()) report["simplification"] = finished->simplification;
     if (!undone.is_null()) report["undo"] = undone;
-    if (felt) report["feel"] = describe_feel(*felt);
+    if (felt) report["feel"] = describe_feel(*felt, *feel);
     report["timing"] = describe_timing(carving, felt ? &*felt : nullptr);
     if (mesh.triangles.empty() && !options.exports.empty()) {
         return fail(options.workpiece.source, "has been carved away altogether, so there is nothing to export",
@@ -148,6 +160,9 @@ Result<void> sculpt(const SculptOptions& options) {
         report["pictures"] = {{"device", pictures->device_name()}, {"scene_scale", pictures->scene_scale()}};
     }
     if (!options.report.empty()) {
+        if (felt) {
+            if (const auto plotted = write_plots(options.report, *felt, report); !plotted) return plotted;
+        }
         if (const auto written = write_report(options.report, report); !written) return written;
     }
     print_table(report);

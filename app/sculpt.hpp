@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/feel_options.hpp"
 #include "app/tool_option.hpp"
 #include "app/workpiece.hpp"
 
@@ -21,13 +22,14 @@ struct SculptOptions {
     bool merge_rows = true;  // with a rigid hand: nearly straight runs of rows are one sweep
     EngineChoice engine = EngineChoice::automatic;
     HandChoice hand = HandChoice::rigid;
+    FeelOptions feel;  // with a simulated hand
     bool real_time = false;
     std::size_t undo = 0;                // strokes to take back at the end, from press to release
     std::size_t undo_memory_MiB = 1024;  // for the strokes that can be taken back
     std::vector<std::string> exports;    // STL, PLY, OBJ
     std::optional<double> simplify_m;    // how far the exported surface may move; none: all triangles
     std::string pictures;                // a folder; empty: none
-    std::string report;                  // a JSON file; empty: none
+    std::string report;                  // a JSON file; empty: none. Plots of what was felt go beside it
     unsigned threads = 0;                // 0: one per core
 };
 

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// The carving side of the channels: stroke samples in, sweeps of the tool, surfaces out.
+//
+// Where the tool works, by what it does:
+//   cut     along the cutting point (StrokeSample::cut_object_m), while the tool eats its way in; material of no hardness goes
+//           away where the hand is
+//   fill    where the tool rests on the surface
+//   paint, smooth   where the hand is, while it touches
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "app/carving.hpp"
+#include "app/tool_option.hpp"
+#include "haptics/channels.hpp"
+
+namespace burin {
+
+class CarvingSide {
+public:
+    // reach_m: how far the tool may go until the next surface arrives.
+    CarvingSide(Carving& carving, HapticChannels& channels, const Tool& tool, double hardness_Ns_per_m3,
+                double reach_m);
+
+    [[nodiscard]] Result<void> update(Nanoseconds now_ns);
+    [[nodiscard]] Result<void> publish(Nanoseconds now_ns);
+
+    void start_at(const Vec3& position_object) { tool_position_ = position_object; }
+    [[nodiscard]] std::uint64_t published() const { return sequence_; }
+
+private:
+    [[nodiscard]] std::vector<ToolSweep> drain();
+    // Where the tool works in this sample; none when it only moves.
+    [[nodiscard]] std::optional<Vec3> working_at(const StrokeSample& sample) const;
+
+    Carving& carving_;
+    HapticChannels& channels_;
+    Tool tool_;
+    double hardness_Ns_per_m3_;
+    double reach_m_;
+    Vec3 tool_position_{0.0};  // what the next surface is about
+    Vec3 last_point_{0.0};     // where the tool worked last
+    bool working_ = false;     // in the last sample of all
+    std::uint64_t sequence_ = 0;
+};
+
+}  // namespace burin

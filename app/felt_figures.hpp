@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// What the tick records of a session say, added up: forces, what was touched and cut, when the force was silent and why, and a
+// trace for plots. Takes every record; says on standard error at once when the force goes silent or a material is rendered less
+// stiff than it is.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "haptics/channels.hpp"
+
+namespace burin {
+
+// One tick of the trace.
+struct TracePoint {
+    double time_s = 0.0;
+    Vec3 hip_object_m{0.0}, proxy_object_m{0.0}, cut_object_m{0.0};
+    Vec3 normal_object{0.0};  // of the contact
+    Vec3 force_device_N{0.0};
+    double penetration_m = 0.0;
+    std::uint32_t flags = 0;
+};
+
+// Of what happened in some ticks and not in others.
+struct Occurrence {
+    std::uint64_t ticks = 0;
+    std::uint64_t times = 0;  // stretches of ticks in a row
+    double first_s = 0.0;     // since the session's start
+    std::uint64_t last_tick = 0;
+};
+
+struct FeltFigures {
+    Similarity object_from_device;  // how the stroke was fitted into the device's workspace
+    Vec3 workspace_device_m{0.0};
+    double duration_s = 0.0;
+    std::uint64_t ticks = 0;
+    std::uint64_t ticks_in_contact = 0;
+    std::uint64_t ticks_cutting = 0;
+    std::uint64_t samples_dropped = 0;
+    std::uint64_t records_lost = 0;
+    std::uint64_t surfaces_published = 0;
+    double force_max_N = 0.0;
+    double force_mean_in_contact_N = 0.0;
+    double force_mean_cutting_N = 0.0;
+    double penetration_max_m = 0.0;             // object frame
+    std::map<std::string, Occurrence> silent;   // by the gate's cause, in words
+    std::map<std::string, Occurrence> limited;  // stiffness, by the bound, in words
+    std::map<std::string, Occurrence>
+        degraded;                        // late ticks, lost ticks, damping that the controller added, and the like
+    std::vector<TracePoint> trace;       // thinned out
+    std::vector<TracePoint> closeup;     // of every tick, about the first second in which the tool cuts
+    double trace_period_s = 0.0;         // between its points
+    std::vector<std::uint32_t> tick_ns;  // cost of each tick in simulated time; empty in real time
+    std::vector<std::string> notices;    // e.g. no real-time priority
+    ToolState last_tool;
+};
+
+class FigureKeeper {
+public:
+    // Of a session of this length; the trace has at most kMostTracePoints, each of them the tick with the largest force of its
+    // stretch.
+    FigureKeeper(FeltFigures& figures, double duration_s, double period_s);
+
+    static constexpr std::uint64_t kMostTracePoints = 4000;
+    static constexpr std::size_t kCloseupTicks = 1000;
+
+    void take(HapticChannels& channels);
+    void finish(const HapticChannels& channels);
+
+private:
+    void add(const TickRecord& record);
+    void note(std::map<std::string, Occurrence>& where, const std::string& what, const TickRecord& record);
+    void trace(const TickRecord& record);
+
+    FeltFigures& figures_;
+    std::uint64_t stretch_ = 1;  // ticks to a point of the trace
+    Nanoseconds start_ns_ = 0;
+    double force_sum_N_ = 0.0, cutting_sum_N_ = 0.0;
+    TracePoint pending_;
+    double pending_force_N_ = -1.0;
+};
+
+}  // namespace burin
