@@ -14,24 +14,31 @@ namespace {
 constexpr double kCellWidth = 430, kFrameLeft = 72, kFrameTop = 84, kFrameWidth = 335, kFrameHeight = 300;
 constexpr double kLegendTop = kFrameTop + kFrameHeight + 66, kLegendRow = 20, kLegendColumn = 430;
 
-bool drawable(const PlotPoint& p) { return p.x > 0.0 && p.y > 0.0 && std::isfinite(p.x) && std::isfinite(p.y); }
+bool drawable(const Plot& plot, const PlotPoint& p) {
+    return (plot.x_linear || p.x > 0.0) && (plot.y_linear || p.y > 0.0) && std::isfinite(p.x) && std::isfinite(p.y);
+}
 
-// A logarithmic axis: from value to place along it, 0 to 1.
+// From value to place along the axis, 0 to 1.
 struct Axis {
-    double lo = std::numeric_limits<double>::infinity(), hi = -std::numeric_limits<double>::infinity();  // of log10
+    bool linear = false;
+    double lo = std::numeric_limits<double>::infinity(),
+           hi = -std::numeric_limits<double>::infinity();  // of log10, or as is
 
+    [[nodiscard]] double scaled(double value) const { return linear ? value : std::log10(value); }
     void include(double value) {
-        lo = std::min(lo, std::log10(value));
-        hi = std::max(hi, std::log10(value));
+        lo = std::min(lo, scaled(value));
+        hi = std::max(hi, scaled(value));
     }
-    // A margin on both sides, and at least one decade, so that there are ticks.
+    // A margin on both sides, and at least one decade of a logarithmic axis, so that there are ticks.
     void widen() {
         if (lo > hi) lo = hi = 0.0;
-        const double margin = std::max(0.08 * (hi - lo), 0.5 * (1.0 - (hi - lo)));
+        double margin = 0.08 * (hi - lo);
+        if (!linear) margin = std::max(margin, 0.5 * (1.0 - (hi - lo)));
+        if (linear && !(margin > 0.0)) margin = 1.0;
         lo -= margin;
         hi += margin;
     }
-    [[nodiscard]] double place(double value) const { return (std::log10(value) - lo) / (hi - lo); }
+    [[nodiscard]] double place(double value) const { return (scaled(value) - lo) / (hi - lo); }
     [[nodiscard]] bool holds(double value) const { return place(value) >= 0.0 && place(value) <= 1.0; }
 };
 
@@ -45,9 +52,19 @@ struct Frame {
 // 0.001, 0.2, 50, or 1e-05 where that is shorter.
 std::string tick_label(double value) { return text_of("%.12g", value); }
 
+// draw(value, strong, labelled) for every fifth or so of a linear axis, at 1, 2 or 5 times a power of ten.
+template <typename Draw>
+void linear_ticks(const Axis& axis, Draw&& draw) {
+    const double wanted = (axis.hi - axis.lo) / 5.0, power = std::pow(10.0, std::floor(std::log10(wanted)));
+    const double step = power * (wanted < 2.0 * power ? 1.0 : wanted < 5.0 * power ? 2.0 : 5.0);
+    for (double i = std::ceil(axis.lo / step); i * step <= axis.hi; ++i)
+        draw(i * step + 0.0, i == 0.0, true);  // + 0: no -0
+}
+
 std::string grid_of(const Frame& f) {
     std::string text;
     const auto ticks = [](const Axis& axis, auto&& draw) {
+        if (axis.linear) return linear_ticks(axis, draw);
         const bool few_decades = axis.hi - axis.lo < 2.5;
         for (int decade = static_cast<int>(std::floor(axis.lo)); decade <= axis.hi; ++decade) {
             for (const int step : {1, 2, 5}) {
@@ -87,13 +104,13 @@ std::string marker(std::size_t style, double x, double y) {
     }
 }
 
-std::string line_through(const PlotSeries& series, std::size_t style, const Frame& f) {
+std::string line_through(const Plot& plot, const PlotSeries& series, std::size_t style, const Frame& f) {
     std::string path, points;
     for (const PlotPoint& p : series.points) {
-        if (!drawable(p)) continue;
+        if (!drawable(plot, p)) continue;
         const double x = f.at_x(p.x), y = f.at_y(p.y);
         path += text_of("%s%.1f %.1f", path.empty() ? "M" : " L", x, y);
-        points += marker(style, x, y);
+        if (plot.markers) points += marker(style, x, y);
         if (p.label.empty()) continue;
         const bool room = x + 7 + 6.2 * static_cast<double>(p.label.size()) < f.left + kFrameWidth;  // to the right
         points +=
@@ -103,15 +120,21 @@ std::string line_through(const PlotSeries& series, std::size_t style, const Fram
     }
     if (path.empty()) return "";
     return "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + kColours[style % kColours.size()] +
-           "\" stroke-width=\"1.8\"/>\n" + points;
+           (plot.markers ? "\" stroke-width=\"1.8\"/>\n" : "\" stroke-width=\"1\"/>\n") + points;
 }
 
 std::string plot_text(const Plot& plot, double left, const std::vector<std::string>& names) {
     Frame f;
     f.left = left + kFrameLeft;
+    f.x.linear = plot.x_linear;
+    f.y.linear = plot.y_linear;
+    if (plot.y_lowest < plot.y_highest) {
+        f.y.include(plot.y_lowest);
+        f.y.include(plot.y_highest);
+    }
     for (const PlotSeries& s : plot.series) {
         for (const PlotPoint& p : s.points) {
-            if (!drawable(p)) continue;
+            if (!drawable(plot, p)) continue;
             f.x.include(p.x);
             f.y.include(p.y);
         }
@@ -126,7 +149,7 @@ std::string plot_text(const Plot& plot, double left, const std::vector<std::stri
         text_of("text-anchor=\"middle\" transform=\"rotate(-90 %.1f %.1f)\"", left + 16, half_up);
     text += write(left + 16, half_up, turned.c_str(), plot.y_label);
     for (const PlotSeries& s : plot.series) {
-        text += line_through(s, static_cast<std::size_t>(std::ranges::find(names, s.name) - names.begin()), f);
+        text += line_through(plot, s, static_cast<std::size_t>(std::ranges::find(names, s.name) - names.begin()), f);
     }
     return text;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A figure of line plots with logarithmic axes, side by side with one legend, as SVG text that browsers and rsvg-convert
-// show alike. The same input gives the same text.
+// A figure of line plots with logarithmic or linear axes, side by side with one legend, as SVG text that browsers and
+// rsvg-convert show alike. The same input gives the same text.
 #pragma once
 
 #include <string>
@@ -9,8 +9,9 @@
 namespace burin::bench {
 
 struct PlotPoint {
-    double x = 0.0, y = 0.0;  // above zero; a point that is not, or not finite, is left out
-    std::string label;        // written beside the point; may be empty
+    double x = 0.0,
+           y = 0.0;     // above zero where the axis is logarithmic; a point that is not, or not finite, is left out
+    std::string label;  // written beside the point; may be empty
 };
 
 struct PlotSeries {
@@ -21,6 +22,10 @@ struct PlotSeries {
 struct Plot {
     std::string title, x_label, y_label;
     std::vector<PlotSeries> series;  // of one name in several plots: drawn alike, listed once
+    bool x_linear = false, y_linear = false;
+    bool markers = true;  // false: a line alone, for curves of many points
+    double y_lowest = 0,
+           y_highest = 0;  // what the axis shows at least, so that plots side by side compare; equal: as needed
 };
 
 [[nodiscard]] std::string svg_figure(const std::string& title, const std::vector<Plot>& plots);
