@@ -42,6 +42,10 @@ struct Near {
     double reach_m = 0.0;   // how far from it
     std::uint32_t looks_left =
         UINT32_MAX;  // bounding boxes or balls it may look at; counted down, and none left ends it
+    // True: triangles whose planes are farther than reach_m from all of the way between two points may be left out too. That
+    // is most of those around a ball in its own groove.
+    bool by_plane = false;
+    Vec3 from{0.0}, to{0.0};
 
     [[nodiscard]] bool look() noexcept {
         if (looks_left == 0) return false;

@@ -51,7 +51,7 @@ Candidates::Gathered Candidates::gather(const LocalSurface& surface, const Way& 
         return distance2(way, 0.5 * (lo + hi)) > limit * limit;
     };
     bool room = true;
-    Near near{glm::min(way.from, way.to), glm::max(way.from, way.to), reach, looks_left};
+    Near near{glm::min(way.from, way.to), glm::max(way.from, way.to), reach, looks_left, true, way.from, way.to};
     const bool complete = for_each_triangle_near(surface, near, [&](std::uint32_t id, const Triangle& t) {
         // All squared and times the normal's length, so that those too far cost no root.
         const Vec3 normal = glm::cross(t.b - t.a, t.c - t.a);

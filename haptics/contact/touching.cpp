@@ -10,7 +10,7 @@ namespace burin {
 namespace {
 
 // How much is looked at beside a way, as shares of the ball's radius, of an edge and of the way: enough that most ticks look once.
-constexpr double kBesideOfRadius = 0.002, kBesideOfEdge = 0.05, kBesideOfWay = 0.25;
+constexpr double kBesideOfRadius = 0.001, kBesideOfEdge = 0.02, kBesideOfWay = 0.25;
 
 // Whether the ball around the triangle's box is farther than `reach` from all of the way: a cheap look before a test.
 bool beside(const Triangle& t, const Way& way, double reach) {
@@ -93,7 +93,6 @@ ContactSearch::Sweep ContactSearch::sweep(const Vec3& center, const Vec3& motion
     result.complete = candidates_.for_each_on_way(way, radius, [&](std::uint32_t i) {
         if (touches_already_[i]) return true;
         const Triangle& t = candidates_.triangle(i);
-        if (beside(t, way, radius)) return true;
         if (!count_test()) return false;
         result.fraction = std::min(result.fraction, fraction_until_touch(center, motion, radius, t));
         return true;
