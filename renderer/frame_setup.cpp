@@ -41,6 +41,10 @@ Ball around(const Ball& a, const Ball& b) {
     return {a.center_world + apart * ((radius - a.radius_m) / distance), radius};
 }
 
+Ball box_ball(const SceneBox& box) {
+    return {box.center_world.position_m, box.visible ? half_diagonal(box.size_m) : 0.0};
+}
+
 Ball tool_ball(const SceneTool& tool) {
     if (!tool.visible) return {};
     const double half_length = 0.5 * stylus_length_m(tool);
@@ -98,6 +102,9 @@ void add_wall_frame(Shapes& shapes, const Screen& screen, const Primitives& prim
     }
 }
 
+// How much denser a box's faces are towards its edges, in the opacity of their middle (shaders/glass.frag).
+constexpr double kDenserEdges = 0.9;
+
 void add_box(Shapes& shapes, const SceneBox& box, const Primitives& primitives) {
     const Vec3 s = box.size_m;
     const double bar = std::clamp(0.018 * std::min({s.x, s.y, s.z}), 0.0015, 0.008);
@@ -112,8 +119,16 @@ void add_box(Shapes& shapes, const SceneBox& box, const Primitives& primitives) 
                 {primitives.cube, constants_of(matrix_of(pose, size), box.colour, 1.0, 0.5, 0.6), false});
         }
     }
+    if (box.face_opacity <= 0.0) return;
+    shapes.glass.push_back({primitives.cube,
+                            constants_of(matrix_of(box.center_world, s), box.colour, box.face_opacity, kDenserEdges, 0),
+                            false});
+}
+
+void add_bubble(Shapes& shapes, const SceneBubble& bubble, const Primitives& primitives) {
+    const Pose pose{bubble.center_world, Quat{1, 0, 0, 0}};
     shapes.glass.push_back(
-        {primitives.cube, constants_of(matrix_of(box.center_world, s), box.colour, 0.12, 0, 0), false});
+        {primitives.ball, constants_of(matrix_of(pose, Vec3(bubble.radius_m)), bubble.colour, 0.16, 0, 0), false});
 }
 
 void add_tool(Shapes& shapes, const SceneTool& tool, const Primitives& primitives) {
@@ -146,9 +161,10 @@ DepthRange depth_range(const Scene& scene, const Workpiece& workpiece) {
     const Eyes eyes = eyes_of(scene.viewer);
     const double eye_m =
         std::min(distance_in_front(scene.screen, eyes.left_world), distance_in_front(scene.screen, eyes.right_world));
-    const Ball box{scene.box.center_world.position_m, scene.box.visible ? half_diagonal(scene.box.size_m) : 0.0};
+    const Ball bubble{scene.bubble.center_world, scene.bubble.visible ? scene.bubble.radius_m : 0.0};
     DepthRange range;
-    for (const Ball& ball : {workpiece.enclosing, tool_ball(scene.tool), box}) {
+    for (const Ball& ball :
+         {workpiece.enclosing, tool_ball(scene.tool), box_ball(scene.box), box_ball(scene.proposed_box), bubble}) {
         if (ball.radius_m <= 0.0) continue;
         const double center_m = eye_m - distance_in_front(scene.screen, ball.center_world);
         range.near_m = std::min(range.near_m, 0.9 * (center_m - ball.radius_m));
@@ -193,7 +209,10 @@ Shapes shapes_of(const Scene& scene, const Primitives& primitives) {
             {primitives.plinth, constants_of(matrix_of(pose, size), p.colour, 1.0, 0.75, 0.4), false});
     }
     if (scene.show_wall_frame) add_wall_frame(shapes, scene.screen, primitives);
-    if (scene.box.visible) add_box(shapes, scene.box, primitives);
+    for (const SceneBox* box : {&scene.box, &scene.proposed_box}) {
+        if (box->visible) add_box(shapes, *box, primitives);
+    }
+    if (scene.bubble.visible) add_bubble(shapes, scene.bubble, primitives);
     return shapes;
 }
 

@@ -46,7 +46,7 @@ struct Shape {
 };
 struct Shapes {
     std::vector<Shape> solid;
-    std::vector<Shape> glass;  // the faces of the workspace box
+    std::vector<Shape> glass;  // the faces of the workspace boxes, and the bubble
 };
 [[nodiscard]] Shapes shapes_of(const Scene& scene, const Primitives& primitives);
 

@@ -15,8 +15,8 @@ enum class PipelineKind : std::size_t {
     shadow,       // depth only, for the light
     solid,        // the workpiece and the shapes
     backdrop,     // the room
-    glass_back,   // the workspace box's far faces, then
-    glass_front,  // its near ones; neither writes depth
+    glass_back,   // the far faces of the workspace's boxes and bubble, then
+    glass_front,  // their near ones; neither writes depth
     count
 };
 

@@ -58,6 +58,15 @@ struct SceneBox {
     Vec3 size_m{0.1626, 0.1219, 0.0711};  // the Omni's workspace, 6.4 x 4.8 x 2.8 in
     Vec3 colour{0.35, 0.62, 0.80};
     bool visible = false;
+    double face_opacity = 0.12;  // 0: its edges alone
+};
+
+// A clear ball around a part of the haptic workspace: within it the hand's place counts, beyond it the workspace glides.
+struct SceneBubble {
+    Vec3 center_world{0.0};
+    double radius_m = 0.03;
+    Vec3 colour{0.45, 0.72, 0.62};
+    bool visible = false;
 };
 
 // A round matt plinth from the floor (y = 0) up to its top, which catches the workpiece's shadow.
@@ -76,6 +85,9 @@ struct Scene {
     Vec3 lattice_origin_object{0.0};  // what the positions of surface patches are relative to
     SceneTool tool;
     SceneBox box;
+    SceneBox proposed_box{
+        {}, {0.1626, 0.1219, 0.0711}, {0.93, 0.67, 0.25}, false, 0.22};  // where the workspace may be next
+    SceneBubble bubble;
     ScenePedestal pedestal;
     bool show_wall_frame = true;
     bool show_grid = true;              // the room: floor with grid and shadow, rising softly into a backdrop

@@ -35,7 +35,8 @@ struct FrameUniforms {
 struct DrawConstants {
     mat4 world_from_local;
     vec4 tint;      // rgb multiplies the vertex colour; a: opacity, for glass
-    vec4 material;  // x: roughness 0..1, y: strength of reflections, z: 1 = shows the nearness of the tool
+    vec4 material;  // x: roughness 0..1, y: strength of reflections, z: 1 = shows the nearness of the tool; glass has
+                    // x: how much denser it is towards the edges
 };
 
 BURIN_SHARED_END

@@ -35,6 +35,22 @@ TEST(DepthRange, CutsNothingOffNeitherNearTheEyeNorFarBehindTheWall) {
     }
 }
 
+TEST(DepthRange, HoldsTheWorkspacesBoxesAndBubbleToo) {
+    Scene scene;
+    scene.viewer.head_world.position_m = {0, 1.5, 1.0};
+    const Vec3 close{0.0, 1.5, 0.97};
+    const double away = depth_of(scene, Workpiece{}, close);
+    EXPECT_LT(away, 0.0) << "nearer than what is usually there: cut off";
+    const auto shown = [&](auto&& show) {
+        Scene with = scene;
+        show(with);
+        return depth_of(with, Workpiece{}, close) > 0.0;
+    };
+    EXPECT_TRUE(shown([&](Scene& s) { s.box = {{close, Quat{1, 0, 0, 0}}, Vec3(0.02), {}, true}; }));
+    EXPECT_TRUE(shown([&](Scene& s) { s.proposed_box = {{close, Quat{1, 0, 0, 0}}, Vec3(0.02), {}, true}; }));
+    EXPECT_TRUE(shown([&](Scene& s) { s.bubble = {close, 0.01, {}, true}; }));
+}
+
 TEST(DepthRange, StaysTheSameWhileThingsMoveInTheUsualRange) {
     Scene scene;
     const DepthRange a = depth_range(scene, ball_at({0, 1, 0.5}, 0.1));

@@ -138,6 +138,49 @@ TEST_F(Picture, ShowsThroughTheWorkspaceBox) {
     EXPECT_TRUE(same_colour(with.left.pixel(2, 2), without.left.pixel(2, 2))) << "outside nothing changes";
 }
 
+TEST_F(Picture, ABoxOfEdgesAloneTintsNothingWithin) {
+    Scene scene = bare_scene();
+    const Vec3 middle{0.05, 0.15, 0.0}, size{0.12, 0.12, 0.06};
+    const StereoImage without = render(scene);
+    scene.box = {{middle, Quat{1, 0, 0, 0}}, size, {0.1, 0.4, 1.0}, true, 0.0};
+    const StereoImage with = render(scene);
+    EXPECT_TRUE(same_colour(seen_at(with.left, scene, middle), seen_at(without.left, scene, middle)));
+    const Vec3 edge = middle + 0.5 * size * Vec3(0, 1, 1);
+    EXPECT_FALSE(same_colour(seen_at(with.left, scene, edge), seen_at(without.left, scene, edge), 20));
+}
+
+TEST_F(Picture, ShowsTheProposedBoxBesideTheWorkspacesOwn) {
+    Scene scene = bare_scene();
+    scene.background = {0.5, 0.5, 0.5};
+    const Vec3 own{-0.08, 0.15, 0.0}, proposed{0.08, 0.15, 0.0}, size{0.1, 0.1, 0.06};
+    scene.box = {{own, Quat{1, 0, 0, 0}}, size, {0.2, 0.4, 1.0}, true};
+    const StereoImage without = render(scene);
+    scene.proposed_box.center_world.position_m = proposed;
+    scene.proposed_box.size_m = size;
+    scene.proposed_box.visible = true;
+    const StereoImage with = render(scene);
+    EXPECT_TRUE(same_colour(seen_at(with.left, scene, own), seen_at(without.left, scene, own)));
+    const std::uint8_t* tinted = seen_at(with.left, scene, proposed);
+    EXPECT_GT(int{tinted[0]} - int{tinted[2]}, 15) << "of its own, warm colour";
+    EXPECT_GT(tinted[2], 60) << "clear";
+}
+
+TEST_F(Picture, ShowsTheBubbleAsAClearBallDenserAtItsRim) {
+    Scene scene = bare_scene();
+    scene.background = {0.5, 0.5, 0.5};
+    const StereoImage without = render(scene);
+    scene.bubble = {{0.0, 0.15, 0.0}, 0.05, {0.0, 0.8, 0.3}, true};
+    const StereoImage with = render(scene);
+    const auto tint = [&](const Vec3& p) {
+        const std::uint8_t *now = seen_at(with.left, scene, p), *before = seen_at(without.left, scene, p);
+        return (int{now[1]} - int{now[0]}) - (int{before[1]} - int{before[0]});
+    };
+    const int middle = tint({0.0, 0.15, 0.0}), rim = tint({0.0, 0.15 + 0.047, 0.0}), outside = tint({0.0, 0.22, 0.0});
+    EXPECT_GT(middle, 10);
+    EXPECT_GT(rim, middle + 5);
+    EXPECT_EQ(outside, 0);
+}
+
 TEST_F(Picture, TheToolsShadowFallsOnTheSurfaceBelowAndJoinsItAtContact) {
     Scene scene = bare_scene();
     scene.viewer.head_world.position_m = {0.0, 0.45, 0.5};
