@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "haptics/contact/friction.hpp"
 #include "haptics/contact/shading.hpp"
@@ -17,6 +19,9 @@ constexpr double kPointProbeOfEdge = 1.0 / 500.0;
 // The proxy stands still when it moves less than this fraction of the radius, or of a twentieth of an edge if that is
 // more; under shading also when the HIP is off the normal by less than this angle, a tenth of what a hand may notice.
 constexpr double kStill = 1e-5, kStillAngle = 1e-4;
+
+// A plane bears the ball when it is no farther off than this; with friction.
+constexpr double kBears = 1e-4;
 
 // Pushing out the thousandth of R that edges may sink in can go back and forth between facets. After these steps the
 // ball is only kept from going deeper, so that each step brings it nearer to the HIP and the steps come to an end.
@@ -56,6 +61,7 @@ struct Goal {
     double enough = 0.0;
     bool in_contact = false;
     bool is_shaded = false;
+    bool is_hip = false;  // nothing in the way is known of
 };
 
 // One tick's worth of proxy motion. Everything is relative to the surface's origin.
@@ -113,8 +119,34 @@ private:
     }
 
     Goal aim() {
+        const bool pushing = result_.work.steps <= kPushingSteps;
+        if (!pushing) only_no_deeper();
+        const bool rubs = settings_.static_friction > 0.0 || settings_.dynamic_friction > 0.0;
+        if (rubs && touches_.count > 0) return held_goal();
         const Vec3 pull = hip_ - center_;
-        const NearestInside plain = goal_in(pull);
+        NearestInside plain = nearest_in(touches_.span(), pull);
+        if (!plain.found && pushing) {  // there is no room to be pushed out into
+            only_no_deeper();
+            plain = nearest_in(touches_.span(), pull);
+        }
+        Goal goal = goal_of(plain, pull);
+        if (!goal.found || !goal.in_contact || !settings_.shading) return goal;
+        shade(goal, plain, pull, false);
+        if (goal.is_shaded) onto_surface(goal);
+        return goal;
+    }
+
+    NearestInside nearest_in(std::span<const HalfSpace> planes, const Vec3& pull) {
+        ++result_.work.plane_solves;
+        return nearest_inside(planes, pull, kPlane * radius_);
+    }
+
+    void only_no_deeper() {
+        for (std::uint32_t i = 0; i < touches_.count; ++i)
+            touches_.planes[i].offset = std::min(touches_.planes[i].offset, 0.0);
+    }
+
+    Goal goal_of(const NearestInside& plain, const Vec3& pull) {
         Goal goal;
         goal.found = plain.found;
         note_active(plain);
@@ -122,35 +154,60 @@ private:
         goal.left = glm::length(goal.step);
         goal.enough = still_;
         goal.in_contact = plain.bearing_count > 0;
-        if (!plain.found || !goal.in_contact) return goal;
-        goal.normal = unit_or_zero(goal.step - pull);
-        if (settings_.shading) shade(goal, plain, pull);
-        if (settings_.static_friction > 0.0 || settings_.dynamic_friction > 0.0) hold(goal, pull);
-        if (goal.is_shaded) {
-            const double share = step_share_.of(center_, goal.step);
-            goal.step = onto_true_planes(touches_, share * goal.step, goal.normal, kPlane * radius_);
-        }
+        goal.is_hip = plain.found && !goal.in_contact;
+        if (plain.found && goal.in_contact) goal.normal = unit_or_zero(goal.step - pull);
         return goal;
     }
 
-    // With the ball pushed out where it sinks in; if that is not wanted or there is no room for it, at least no deeper.
-    NearestInside goal_in(const Vec3& pull) {
-        if (result_.work.steps <= kPushingSteps) {
-            ++result_.work.plane_solves;
-            const NearestInside best = nearest_inside(touches_.span(), pull, kPlane * radius_);
-            if (best.found) return best;
-        }
-        ++result_.work.plane_solves;
-        for (std::uint32_t i = 0; i < touches_.count; ++i)
-            touches_.planes[i].offset = std::min(touches_.planes[i].offset, 0.0);
-        return nearest_inside(touches_.span(), pull, kPlane * radius_);
+    // With friction: what bears the ball is what it lies on, not what it would come to on its way.
+    Goal held_goal() {
+        const Vec3 pull = hip_ - center_;
+        const std::uint32_t bearing = put_first_what_bears();
+        if (bearing == 0) return falling(pull);
+        const NearestInside plain = nearest_in(flat_.first(bearing), pull);
+        Goal goal = goal_of(plain, pull);
+        if (!goal.found || !goal.in_contact) return goal;
+        if (settings_.shading) shade(goal, plain, pull, true);
+        hold(goal, pull);
+        onto_surface(goal);
+        return goal;
     }
 
-    void shade(Goal& goal, const NearestInside& plain, const Vec3& pull) {
-        const ShadedPlanes planes = shaded(surface_, search_.candidates(), touches_, plain, center_, radius_);
+    // The planes that the ball is on, through its centre, in flat_; they come first among the touches too.
+    std::uint32_t put_first_what_bears() {
+        std::uint32_t count = 0;
+        for (std::uint32_t i = 0; i < touches_.count; ++i) {
+            if (touches_.planes[i].offset < -kBears * radius_) continue;
+            std::swap(touches_.planes[i], touches_.planes[count]);
+            std::swap(touches_.places[i], touches_.places[count]);
+            HalfSpace plane = touches_.planes[count];
+            plane.offset = 0.0;
+            flat_.put(count++, plane);
+        }
+        return count;
+    }
+
+    // Towards the HIP until the first plane bears the ball.
+    Goal falling(const Vec3& pull) {
+        double share = 1.0;
+        for (const HalfSpace& plane : touches_.span()) {
+            const double sinking = glm::dot(plane.normal, pull);
+            if (sinking < 0.0) share = std::min(share, plane.offset / sinking);
+        }
+        Goal goal;
+        goal.found = true;
+        goal.step = std::max(share, 0.0) * pull;
+        goal.is_hip = share >= 1.0;
+        note_active({});
+        return goal;
+    }
+
+    void shade(Goal& goal, const NearestInside& plain, const Vec3& pull, bool through_center) {
+        ShadedPlanes planes = shaded(surface_, search_.candidates(), touches_, plain, center_, radius_);
         if (!planes.any) return;
-        ++result_.work.plane_solves;
-        const NearestInside smooth = nearest_inside({planes.planes.data(), planes.count}, pull, kPlane * radius_);
+        for (HalfSpace& plane : planes.planes)
+            if (through_center) plane.offset = 0.0;
+        const NearestInside smooth = nearest_in({planes.planes.data(), planes.count}, pull);
         if (!smooth.found || smooth.bearing_count == 0) return;
         goal.is_shaded = true;
         goal.step = smooth.point;
@@ -166,10 +223,17 @@ private:
         const double coefficient = slips_ ? settings_.dynamic_friction : settings_.static_friction;
         double share = sliding_share(along, depth, coefficient);
         if (share > 0.0 && !slips_) share = sliding_share(along, depth, settings_.dynamic_friction);
-        if (share * glm::length(along) <= still_) share = 0.0;
+        goal.left = share * glm::length(along);
+        if (goal.left <= goal.enough) goal.left = share = 0.0;
         if (share > 0.0) slips_ = slid_ = true;
-        goal.step *= share;
-        goal.left = share > 0.0 ? glm::length(goal.step) : 0.0;
+        goal.step = share * along;
+    }
+
+    // Where the ball is wanted along the surface, but on the true planes.
+    void onto_surface(Goal& goal) {
+        if (goal.step == Vec3(0.0)) return;
+        const double share = goal.is_shaded ? step_share_.of(center_, goal.step) : 1.0;
+        goal.step = onto_true_planes(touches_, share * goal.step, goal.normal, kPlane * radius_);
     }
 
     void note_active(const NearestInside& goal) {
@@ -182,7 +246,7 @@ private:
     }
 
     [[nodiscard]] bool arrived(const Goal& goal) const {
-        if (!goal.in_contact) return goal.step == Vec3(0.0);  // the proxy already is at the HIP
+        if (!goal.in_contact) return goal.is_hip && goal.step == Vec3(0.0);
         return goal.left <= goal.enough || (goal.is_shaded && result_.work.steps >= kShadingSteps);
     }
 
@@ -196,7 +260,7 @@ private:
         }
         const auto sweep = search_.sweep(center_, share * goal.step);
         if (!sweep.complete) return Going::out_of_work;
-        if (share * sweep.fraction >= 1.0 && !goal.in_contact) return Going::arrived_free;
+        if (share * sweep.fraction >= 1.0 && goal.is_hip) return Going::arrived_free;
         center_ += (share * sweep.fraction) * goal.step;
         return Going::on;
     }
@@ -234,6 +298,7 @@ private:
     ProxyResult result_;
     ContactSearch search_;
     Touches touches_;
+    Room<HalfSpace, Touches::kMost> flat_;
     Nearest nearest_;
     StepShare step_share_;
     bool slips_ = false;  // of the two cones it is the dynamic one that holds
