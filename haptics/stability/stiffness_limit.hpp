@@ -5,8 +5,9 @@
 //
 //   work of the wall on hand and device since the contact began  <=  what the device's friction and damping took since then
 //
-// so the hand alone decides what energy there is. It holds for every motion, every hand and every mass, and does not
-// depend on the shape of the motion: tests/haptics/passivity_prop.cpp tries it on random ones.
+// (with virtual damping: since a velocity window before it, for a damper remembers the approach), so the hand alone decides
+// what energy there is. It holds for every motion, every hand and every mass; tests/haptics/passivity_prop.cpp tries it on random
+// ones. It is for one point: the stiffnesses of points that touch at once add up.
 //
 // Where it comes from. A spring of stiffness K whose force is sampled every T and held, and acts t_d (in whole periods) and a
 // filter's mean lag t_f late, is behind its own potential K x^2 / 2 by at most
