@@ -12,17 +12,18 @@ namespace {
 constexpr double kHardnessUnit_Ns_per_m3 = 1e6;  // 1 kPa per mm/s
 constexpr double kStaticOverDynamic = 1.25;
 
-// The figures are ours, chosen in simulation with a ball of 3 mm on an Omni held by a hand; no material's constants. A stroke of
-// 50 mm/s pressed with half a newton then runs about 2.5, 1.1 and 0.4 mm deep. The softer, the less stiff and the more damped, as
-// clay is against wood; friction is that of a dry hand tool: wood on metal 0.2 to 0.6, kept low because what holds a tool back
-// while it cuts is the cutting. Stiffness stays below the 600 to 700 N/m that the Omni renders crisply.
+// The figures are ours, chosen in simulation with a ball of 3 mm on an Omni held by a hand; no material's constants. Drawn along
+// at 50 mm/s and pressed with 0.3 N the tool runs where the lift bears it (haptics/forces/cutting.hpp): 1.5, 0.7 and 0.3 mm deep.
+// The softer, the less stiff and the more damped, as clay is against wood. Friction is that of wood on metal, 0.2 to 0.6, at its
+// lower end and below: what holds a tool back while it cuts is the cutting. Stiffness stays within what the limiter allows an
+// Omni (haptics/stability/stiffness_limit.hpp) together with the damping.
 struct Preset {
     const char* name;
     double hardness_kPa_per_mm_s, stiffness_N_per_m, damping_Ns_per_m, friction, drag_Ns_per_m3;
 };
-constexpr std::array kPresets{Preset{"soft", 1.0, 400.0, 0.8, 0.10, 3e4},    // clay
-                              Preset{"medium", 3.0, 600.0, 0.5, 0.20, 1e4},  // wax, or green wood
-                              Preset{"hard", 12.0, 650.0, 0.4, 0.30, 0.0}};  // hard wood
+constexpr std::array kPresets{Preset{"soft", 1.5, 400.0, 0.6, 0.10, 3e4},    // clay
+                              Preset{"medium", 4.0, 600.0, 0.5, 0.20, 1e4},  // wax, or green wood
+                              Preset{"hard", 12.0, 650.0, 0.3, 0.30, 0.0}};  // hard wood
 
 const Preset* preset_named(const std::string& name) {
     for (const Preset& preset : kPresets)

@@ -62,16 +62,27 @@ TimePlot forces(const Trace& trace) {
     return made;
 }
 
-// Of the contacts; zero when there is none.
+// Of the contacts, and across the way that the tool goes while it touches.
 Vec3 mean_normal(const Trace& trace) {
     Vec3 sum(0.0);
-    for (const TracePoint& p : trace) sum += p.normal_object;
+    const TracePoint *first = nullptr, *last = nullptr;
+    for (const TracePoint& p : trace) {
+        sum += p.normal_object;
+        if (!in_contact(p)) continue;
+        if (first == nullptr) first = &p;
+        last = &p;
+    }
+    if (first != nullptr) {
+        const Vec3 way = last->proxy_object_m - first->proxy_object_m;
+        const double l2 = glm::dot(way, way);
+        if (l2 > 0.0) sum -= way * (glm::dot(sum, way) / l2);
+    }
     const double l = glm::length(sum);
     return l > 0.0 ? sum / l : Vec3(0.0, 1.0, 0.0);
 }
 
 TimePlot heights(const Trace& trace, const Vec3& up) {
-    TimePlot made = plot("Close up: height along the mean contact normal", "mm", trace);
+    TimePlot made = plot("Close up: height across the way of the tool", "mm", trace);
     Vec3 origin(0.0);
     for (const TracePoint& p : trace) {
         if (!in_contact(p)) continue;

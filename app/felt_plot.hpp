@@ -8,7 +8,8 @@
 
 namespace burin {
 
-// Left the whole session, right the first second in which the tool cuts, with heights along its mean contact normal.
+// Left the whole session, right the first second in which the tool cuts, with heights along its mean contact
+// normal across the way that it goes.
 [[nodiscard]] std::string felt_figure(const FeltFigures& felt);
 
 // The trace's points, one a line: time_s, HIP, proxy and cutting point in the object frame (metres), force at the device
