@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The last step before the device, always on: whatever the contact model asks for, what passes here is finite, within
 // the force and torque limits, and changes no faster than the slew limits; and it is zero when something is wrong.
-// Force and torque are limited each for itself, shortened and never turned; passive axes get no torque.
+// Force and torque are limited each for itself, shortened and never turned, but for passive axes, which get no torque.
 //
 // A pure function with its state in a struct: no clock, heap, lock or throw; wait-free, a few dozen operations.
-// Order: faults (zero at once: safe comes before smooth), ramp, slew, force limit. The force limit wins over the slew
-// limit should it be lowered while a force is on. After a fault has gone the gate waits recovery_s, then ramps up
-// again.
+// Order: faults (zero at once: safe comes before smooth), ramps, limits, slew. A limit that is lowered while a force is on
+// wins over the slew limit. After a fault has gone the gate waits recovery_s, then fades in again over ramp_s; a contact that
+// has jumped fades in over contact_ramp_s. Nothing goes silent without a cause: what gives zero is named in GateOutput::cause,
+// kept in the tick record, and has a text for people.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,7 @@ namespace burin {
 enum class GateCause : std::uint8_t {
     none,
     device_fault,    // the device itself reports one; see DeviceSample::fault
-    not_finite,      // a sample, a surface, a parameter or the force is NaN or infinite
+    not_finite,      // a sample, a force wanted or a limit of the device is NaN, infinite or negative
     bad_parameters,  // settings that make no sense, such as a negative stiffness
     stale_sample,    // the device has stopped sending
     overspeed,       // the tool moves faster than any hand should

@@ -34,6 +34,15 @@ Vec3 any_vector() {
 GateInput any_input() {
     GateInput in;
     in.wanted.force_device_N = any_vector();
+    if (*rc::gen::inRange(0, 3) == 0) in.wanted.torque_device_Nm = any_vector();
+    in.device_max_torque_Nm = {0.23, 0.0, 0.25};
+    if (*rc::gen::inRange(0, 10) == 0) in.device_max_torque_Nm = any_vector();
+    if (*rc::gen::inRange(0, 10) == 0) in.device_axis_max_force_N = any_vector();
+    in.loop_gap_s = *rc::gen::inRange(0, 10) == 0 ? any_number() : 0.001;
+    in.sample_finite = *rc::gen::inRange(0, 20) != 0;
+    in.parameters_sensible = *rc::gen::inRange(0, 20) != 0;
+    in.contact_jumped = *rc::gen::inRange(0, 20) == 0;
+    in.outside_known = *rc::gen::inRange(0, 20) == 0;
     if (*rc::gen::inRange(0, 4) == 0) in.velocity_device_m_per_s = any_vector();
     in.device_max_force_N = *rc::gen::inRange(0, 8) == 0 ? any_number() : 3.3;
     in.sample_age_s = *rc::gen::inRange(0, 8) == 0 ? any_number() : 0.0;
@@ -65,9 +74,43 @@ TEST(SafetyGate, NeverExceedsForceOrSlewLimitOnAnyInput) {
                 RC_ASSERT(force <= in.device_max_force_N);
                 const double change = glm::length(out.given.force_device_N - state.given.force_device_N);
                 // Rounding of the difference of two forces up to 6 N; and the force limit may win when it falls.
-                const bool device_limit_fell = in.device_max_force_N < glm::length(state.given.force_device_N);
+                const Vec3& before = state.given.force_device_N;
+                bool device_limit_fell = in.device_max_force_N < glm::length(before);
+                for (int axis = 0; axis < 3; ++axis) {
+                    const double most = in.device_axis_max_force_N[axis];
+                    device_limit_fell = device_limit_fell || (most > 0.0 && std::abs(before[axis]) > most);
+                }
                 RC_ASSERT(device_limit_fell || change <= limits.max_slew_N_per_s * 1e-3 + 1e-14);
             }
+            state = out.next;
+        }
+    }));
+}
+
+TEST(SafetyGate, NeverExceedsAnAxisLimitOfForceOrTorqueOnAnyInputOrLimits) {
+    EXPECT_TRUE(rc::check([] {
+        GateLimits limits;
+        if (*rc::gen::inRange(0, 3) == 0) {
+            limits = {any_number(), any_number(), any_number(), any_number(), any_number(),
+                      any_number(), any_number(), any_number(), any_number()};
+        }
+        GateState state;
+        for (int i = 0; i < 40; ++i) {
+            const GateInput in = any_input();
+            const GateOutput out = pass_gate(state, in, limits, 1e-3);
+            const Vec3 &force = out.given.force_device_N, &torque = out.given.torque_device_Nm;
+            RC_ASSERT(std::isfinite(glm::length(force)) && std::isfinite(glm::length(torque)));
+            for (int axis = 0; axis < 3; ++axis) {
+                const double most_N = in.device_axis_max_force_N[axis], most_Nm = in.device_max_torque_Nm[axis];
+                if (out.cause == GateCause::none) {
+                    RC_ASSERT(most_N == 0.0 || std::abs(force[axis]) <= most_N);
+                    RC_ASSERT(std::abs(torque[axis]) <= most_Nm);  // a passive axis has 0
+                } else {
+                    RC_ASSERT(force[axis] == 0.0 && torque[axis] == 0.0);
+                }
+            }
+            RC_ASSERT(out.next.ramp >= 0.0 && out.next.ramp <= 1.0);
+            RC_ASSERT(out.next.contact_ramp >= 0.0 && out.next.contact_ramp <= 1.0);
             state = out.next;
         }
     }));

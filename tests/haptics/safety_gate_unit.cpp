@@ -86,6 +86,14 @@ TEST(SafetyGate, EveryCauseGivesZeroAtOnceAndItsOwnName) {
         {GateCause::overspeed, [](GateInput& in, GateLimits&) { in.velocity_device_m_per_s.x = -3.1; }},
         {GateCause::stale_surface, [](GateInput& in, GateLimits&) { in.in_contact = in.surface_stale = true; }},
         {GateCause::outside_known, [](GateInput& in, GateLimits&) { in.in_contact = in.outside_known = true; }},
+        {GateCause::lost_loop, [](GateInput& in, GateLimits&) { in.loop_gap_s = 0.021; }},
+        {GateCause::not_finite, [](GateInput& in, GateLimits&) { in.loop_gap_s = kNan; }},
+        {GateCause::not_finite, [](GateInput& in, GateLimits&) { in.wanted.torque_device_Nm.x = kInfinity; }},
+        {GateCause::not_finite, [](GateInput& in, GateLimits&) { in.device_max_torque_Nm.z = kNan; }},
+        {GateCause::not_finite, [](GateInput& in, GateLimits&) { in.device_axis_max_force_N.y = -1.0; }},
+        {GateCause::bad_parameters, [](GateInput&, GateLimits& l) { l.contact_ramp_s = kInfinity; }},
+        {GateCause::bad_parameters, [](GateInput&, GateLimits& l) { l.max_loop_gap_s = -0.1; }},
+        {GateCause::bad_parameters, [](GateInput&, GateLimits& l) { l.max_torque_slew_Nm_per_s = kNan; }},
     };
     std::set<GateCause> seen;
     for (const Case& c : cases) {
@@ -99,7 +107,9 @@ TEST(SafetyGate, EveryCauseGivesZeroAtOnceAndItsOwnName) {
     }
     std::set<std::string> texts;
     for (const GateCause cause : seen) texts.insert(text(cause));
-    EXPECT_EQ(texts.size(), 7u);  // all but `none`, each with words of its own
+    EXPECT_EQ(texts.size(), 8u);  // all but `none`, each with words of its own
+    for (const std::string& words : texts) EXPECT_EQ(words.rfind("no force: ", 0), 0u) << words;
+    EXPECT_EQ(texts.count(text(static_cast<GateCause>(200))), 0u);
 }
 
 TEST(SafetyGate, AStaleOrUnknownSurfaceDoesNotMatterInFreeSpace) {
@@ -127,6 +137,74 @@ TEST(SafetyGate, WaitsAfterAFaultAndThenFadesInAgain) {
         }
         state = out.next;
     }
+}
+
+namespace {
+
+GateInput turning_by(const Vec3& torque) {
+    GateInput in = asking_for(Vec3(0.0));
+    in.wanted.torque_device_Nm = torque;
+    in.device_max_torque_Nm = {0.23, 0.0, 0.25};  // the wand: yaw is passive
+    return in;
+}
+
+}  // namespace
+
+TEST(SafetyGate, TorqueStaysWithinEachAxisOwnLimitAndPassiveAxesGetNone) {
+    GateState open = open_at(Vec3(0.0));
+    open.given.torque_device_Nm = {0.1, 0.0, -0.1};
+    GateOutput out = pass_gate(open, turning_by({0.1, 0.3, -0.1}), {}, kDt);
+    EXPECT_EQ(out.given.torque_device_Nm, Vec3(0.1, 0.0, -0.1));  // within: the passive axis alone is left out
+    EXPECT_FALSE(out.saturated);
+    for (int i = 0; i < 100; ++i) {
+        out = pass_gate(open, turning_by({-2.3, 5.0, 1.0}), {}, kDt);
+        open = out.next;
+    }
+    EXPECT_TRUE(out.saturated);
+    EXPECT_NEAR(out.given.torque_device_Nm.x, -0.23, 1e-12);
+    EXPECT_LE(std::abs(out.given.torque_device_Nm.x), 0.23);
+    EXPECT_EQ(out.given.torque_device_Nm.y, 0.0);
+    EXPECT_NEAR(out.given.torque_device_Nm.z, 0.1, 1e-12);  // shortened, not turned
+}
+
+TEST(SafetyGate, TorqueChangesNoFasterThanItsSlewLimit) {
+    const GateLimits limits{.max_torque_slew_Nm_per_s = 20.0};
+    GateState state = open_at(Vec3(0.0));
+    for (int i = 1; i <= 15; ++i) {
+        const GateOutput out = pass_gate(state, turning_by({0.21, 0.0, 0.0}), limits, kDt);
+        EXPECT_NEAR(out.given.torque_device_Nm.x, std::min(0.21, 0.02 * i), 1e-9);
+        EXPECT_EQ(out.slew_limited, i < 11) << i;
+        state = out.next;
+    }
+}
+
+TEST(SafetyGate, AnAxisWithALimitOfItsOwnIsNeverAskedForMore) {
+    GateInput in = asking_for({0.0, 3.0, 0.5});
+    in.device_axis_max_force_N = {2.3, 1.5, 0.0};  // z has none of its own
+    const GateOutput out = pass_gate(open_at({0.0, 1.5, 0.25}), in, {}, kDt);
+    EXPECT_TRUE(out.saturated);
+    EXPECT_NEAR(out.given.force_device_N.y, 1.5, 1e-12);
+    EXPECT_LE(out.given.force_device_N.y, 1.5);
+    EXPECT_NEAR(out.given.force_device_N.z, 0.25, 1e-12);
+}
+
+TEST(SafetyGate, AContactThatHasJumpedFadesIn) {
+    const GateLimits limits{.contact_ramp_s = 0.1};
+    GateInput in = asking_for({0.0, 1.0, 0.0});
+    in.in_contact = true;
+    in.contact_jumped = true;
+    GateState state = open_at(Vec3(0.0));
+    state.contact_ramp = 1.0;
+    GateOutput out = pass_gate(state, in, limits, kDt);
+    EXPECT_EQ(out.given.force_device_N, Vec3(0.0));
+    EXPECT_TRUE(out.ramping);
+    in.contact_jumped = false;
+    for (int i = 1; i <= 120; ++i) {
+        out = pass_gate(out.next, in, limits, kDt);
+        EXPECT_NEAR(out.given.force_device_N.y, std::min(1.0, i / 100.0), 1e-9) << i;
+        EXPECT_EQ(out.ramping, i < 100) << i;
+    }
+    EXPECT_EQ(out.cause, GateCause::none);
 }
 
 }  // namespace burin

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// The loop itself stands still and comes back: the gate through the whole tick.
+#include <gtest/gtest.h>
+
+#include "haptics/tick.hpp"
+#include "tests/haptics/surfaces.hpp"
+
+namespace burin {
+namespace {
+
+constexpr double kDt = 1e-3;
+constexpr Nanoseconds kMs = 1'000'000;
+
+struct Session {
+    test::Surface plane = test::plane();
+    TickParameters parameters;
+    FullTickState state{};
+    Nanoseconds now_ns = 0;
+
+    Session() {
+        parameters.probe = ball_probe(0.004);
+        parameters.limit_stiffness = false;
+        parameters.passivity.control = false;
+        parameters.max_surface_age_s = 0.0;
+    }
+    // A hand that rests 2 mm beyond the surface.
+    TickRecord after(Nanoseconds gap_ns) {
+        now_ns += gap_ns;
+        DeviceSample sample;
+        sample.time_ns = now_ns;
+        sample.position_device_m = {0.0, 0.0019, 0.0};
+        const FullTick full = full_tick(state, sample, *plane, parameters, test::kStrongDevice, now_ns, kDt);
+        state = full.next;
+        return full.record;
+    }
+    TickRecord many(int ticks) {
+        TickRecord last;
+        for (int i = 0; i < ticks; ++i) last = after(kMs);
+        return last;
+    }
+};
+
+}  // namespace
+
+TEST(LostLoop, AGapOfThirtyMillisecondsGivesNoForceSaysWhyAndComesBackGently) {
+    Session session;
+    const double full_N = session.many(500).given.force_device_N.y;
+    ASSERT_GT(full_N, 0.5);
+    const TickRecord lost = session.after(30 * kMs);
+    EXPECT_EQ(lost.cause, GateCause::lost_loop);
+    EXPECT_STREQ(text(lost.cause), "no force: the haptic loop stood still");
+    EXPECT_EQ(lost.given.force_device_N, Vec3(0.0));
+    EXPECT_NE(lost.flags & kTickLoopGap, 0u);
+    EXPECT_NE(lost.flags & kTickFault, 0u);
+    double last_N = 0.0;
+    for (int i = 0; i < 400; ++i) {
+        const TickRecord record = session.after(kMs);
+        EXPECT_EQ(record.cause, GateCause::none);
+        EXPECT_LE(record.given.force_device_N.y - last_N, 0.02) << i;  // no kick
+        last_N = record.given.force_device_N.y;
+        if (i < 45) {
+            EXPECT_EQ(last_N, 0.0) << i;  // all must be well for a while first
+        }
+    }
+    EXPECT_NEAR(last_N, full_N, 1e-3);
+}
+
+TEST(LostLoop, AFewLostTicksAreFlaggedAndDoNotSilenceTheForce) {
+    Session session;
+    const double full_N = session.many(500).given.force_device_N.y;
+    const TickRecord late = session.after(5 * kMs);
+    EXPECT_EQ(late.cause, GateCause::none);
+    EXPECT_NE(late.flags & kTickLoopGap, 0u);
+    EXPECT_NEAR(late.given.force_device_N.y, full_N, 0.05);
+    EXPECT_EQ(session.after(kMs).flags & kTickLoopGap, 0u);
+}
+
+}  // namespace burin
