@@ -95,24 +95,23 @@ Result<void> Pictures::take_after(Carving& carving, const Staging& staging) {
     if (const auto done = write_png(folder_ / "after.png", close->left); !done) return done;
 
     Scene scene = wall_scene(carving);
-    scene.tool.visible = staging.tool_visible;
-    scene.tool.radius_m = staging.tool_radius_object_m * world_from_object_.scale;
-    scene.tool.center_world = world_from_object_ * staging.tool_center_object;
-    scene.tool.stylus_world.position_m = scene.tool.center_world;
-    // Held as a pen is held: from the right, above and in front.
-    scene.tool.stylus_world.orientation = glm::quat_cast(glm::dmat3(
-        glm::normalize(Vec3(1.0, 0.0, -0.45)), glm::normalize(glm::cross(Vec3(0.45, 0.8, 1.0), Vec3(1.0, 0.0, -0.45))),
-        glm::normalize(Vec3(0.45, 0.8, 1.0))));
-    const Similarity world_from_device = world_from_object_ * staging.object_from_device;
-    scene.box.visible = staging.box_visible;
-    scene.box.center_world = {world_from_device.position_m, world_from_device.orientation};
-    scene.box.size_m = staging.workspace_device_m * world_from_device.scale;
+    stage(scene, staging, world_from_object_);
 
     const auto stereo = renderer_.render(scene);
     if (!stereo) return std::unexpected(stereo.error());
     if (const auto done = write_png(folder_ / "left.png", stereo->left); !done) return done;
     if (const auto done = write_png(folder_ / "right.png", stereo->right); !done) return done;
     return write_png(folder_ / "stereo.png", side_by_side(*stereo));
+}
+
+Result<Image> Pictures::view_of_wall(Carving& carving, const Staging& staging) {
+    bring_up_to_date(carving);
+    Scene scene = wall_scene(carving);
+    scene.viewer.interpupillary_m = 0.0;
+    stage(scene, staging, world_from_object_);
+    auto views = renderer_.render(scene);
+    if (!views) return std::unexpected(views.error());
+    return std::move(views->left);
 }
 
 }  // namespace burin

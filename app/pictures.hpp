@@ -7,19 +7,10 @@
 #include <optional>
 
 #include "app/carving.hpp"
+#include "app/staging.hpp"
 #include "renderer/renderer.hpp"
 
 namespace burin {
-
-// Where tool and haptic workspace stand, in the object frame.
-struct Staging {
-    Vec3 tool_center_object{0.0};
-    double tool_radius_object_m = 0.0;
-    bool tool_visible = false;
-    Similarity object_from_device;
-    Vec3 workspace_device_m{0.0};
-    bool box_visible = false;
-};
 
 class Pictures {
 public:
@@ -30,6 +21,8 @@ public:
     [[nodiscard]] Result<void> take_before(Carving& carving);
     // after.png likewise; left.png, right.png and stereo.png (left | right): the wall as the tracked viewer sees it.
     [[nodiscard]] Result<void> take_after(Carving& carving, const Staging& staging);
+    // What the middle between the eyes sees of the wall: for books, where one picture has to do.
+    [[nodiscard]] Result<Image> view_of_wall(Carving& carving, const Staging& staging);
 
     [[nodiscard]] const std::string& device_name() const { return device_name_; }
     [[nodiscard]] double scene_scale() const { return world_from_object_.scale; }

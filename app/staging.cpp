@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "app/staging.hpp"
+
+namespace burin {
+namespace {
+
+void stage_tool(SceneTool& tool, const Staging& staging, const Similarity& world_from_object) {
+    tool.visible = staging.tool_visible;
+    tool.radius_m = staging.tool_radius_object_m * world_from_object.scale;
+    tool.center_world = world_from_object * staging.tool_center_object;
+    tool.stylus_world.position_m = tool.center_world;
+    // Held as a pen is held: from the right, above and in front.
+    tool.stylus_world.orientation = glm::quat_cast(glm::dmat3(
+        glm::normalize(Vec3(1.0, 0.0, -0.45)), glm::normalize(glm::cross(Vec3(0.45, 0.8, 1.0), Vec3(1.0, 0.0, -0.45))),
+        glm::normalize(Vec3(0.45, 0.8, 1.0))));
+}
+
+void stage_workspace(Scene& scene, const Staging& staging, const Similarity& world_from_object) {
+    const Similarity world_from_device = world_from_object * staging.object_from_device;
+    scene.box.visible = staging.box_visible;
+    scene.box.center_world = {world_from_device.position_m, world_from_device.orientation};
+    scene.box.size_m = staging.workspace_device_m * world_from_device.scale;
+    scene.proposed_box.visible = staging.proposed_visible;
+    scene.proposed_box.center_world = {world_from_object * staging.proposed_center_object,
+                                       world_from_device.orientation};
+    scene.proposed_box.size_m = scene.box.size_m;
+    if (staging.proposed_visible) scene.box.face_opacity = 0.0;
+    scene.bubble.visible = staging.bubble_radius_object_m > 0.0;
+    scene.bubble.center_world = world_from_device.position_m;
+    scene.bubble.radius_m = staging.bubble_radius_object_m * world_from_object.scale;
+}
+
+}  // namespace
+
+Staging staging_of(const ToolState& tool, double tool_radius_object_m, const Vec3& workspace_device_m) {
+    const WorkspacePicture& picture = tool.workspace;
+    Staging staging;
+    staging.tool_center_object = tool.proxy_object_m;
+    staging.tool_radius_object_m = tool_radius_object_m;
+    staging.tool_visible = tool.tick > 0;
+    staging.object_from_device = picture.object_from_device;
+    staging.workspace_device_m = workspace_device_m;
+    staging.box_visible = tool.tick > 0;
+    staging.proposed_visible = tool.tick > 0 && picture.proposed_visible;
+    staging.proposed_center_object = picture.proposed_center_object_m;
+    staging.bubble_radius_object_m = tool.tick > 0 ? picture.bubble_radius_object_m : 0.0;
+    return staging;
+}
+
+void stage(Scene& scene, const Staging& staging, const Similarity& world_from_object) {
+    stage_tool(scene.tool, staging, world_from_object);
+    stage_workspace(scene, staging, world_from_object);
+}
+
+}  // namespace burin

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// From the haptic thread's tool state to what is drawn of tool and workspace.
+#include "app/staging.hpp"
+
+#include <gtest/gtest.h>
+
+namespace burin {
+namespace {
+
+const Vec3 kWorkspace_m{0.16, 0.12, 0.07};
+const Similarity kWorldFromObject{{0.1, 1.2, -0.4}, glm::angleAxis(0.3, glm::normalize(Vec3(0, 1, 1))), 5.0};
+
+ToolState paused_tool() {
+    ToolState tool;
+    tool.tick = 17;
+    tool.hip_object_m = {0.02, 0.0, 0.05};
+    tool.proxy_object_m = {0.02, 0.0, 0.06};
+    tool.workspace.phase = WorkspacePhase::paused;
+    tool.workspace.object_from_device = {{-0.1, 0.02, 0.05}, glm::angleAxis(0.5, Vec3(0, 0, 1)), 0.5};
+    tool.workspace.proposed_visible = true;
+    tool.workspace.proposed_center_object_m = tool.hip_object_m;
+    return tool;
+}
+
+Scene staged(const Staging& staging) {
+    Scene scene;
+    stage(scene, staging, kWorldFromObject);
+    return scene;
+}
+
+bool near(const Vec3& a, const Vec3& b) { return glm::length(a - b) < 1e-12; }
+
+}  // namespace
+
+TEST(Staging, ShowsNothingBeforeTheFirstTick) {
+    ToolState tool = paused_tool();
+    tool.workspace.bubble_radius_object_m = 0.02;
+    tool.tick = 0;
+    const Scene scene = staged(staging_of(tool, 0.01, kWorkspace_m));
+    EXPECT_FALSE(scene.tool.visible || scene.box.visible || scene.proposed_box.visible || scene.bubble.visible);
+}
+
+TEST(Staging, ShowsTheToolOnTheSurfaceAndTheWorkspaceAroundTheDevicesMiddle) {
+    ToolState tool = paused_tool();
+    tool.workspace.proposed_visible = false;
+    const Scene scene = staged(staging_of(tool, 0.01, kWorkspace_m));
+    EXPECT_TRUE(near(scene.tool.center_world, kWorldFromObject * tool.proxy_object_m)) << "not where the hand is";
+    EXPECT_DOUBLE_EQ(scene.tool.radius_m, 0.05);
+    ASSERT_TRUE(scene.box.visible);
+    EXPECT_GT(scene.box.face_opacity, 0.0);
+    EXPECT_FALSE(scene.proposed_box.visible);
+    EXPECT_FALSE(scene.bubble.visible);
+    // A corner of the device's workspace, the two ways round.
+    const Similarity world_from_device = kWorldFromObject * tool.workspace.object_from_device;
+    EXPECT_TRUE(near(scene.box.center_world * (0.5 * scene.box.size_m), world_from_device * (0.5 * kWorkspace_m)));
+}
+
+TEST(Staging, WhileModellingPausesAClearBoxStandsAroundTheToolAndTheOldOneIsLines) {
+    const ToolState tool = paused_tool();
+    const Scene scene = staged(staging_of(tool, 0.01, kWorkspace_m));
+    ASSERT_TRUE(scene.proposed_box.visible);
+    EXPECT_TRUE(near(scene.proposed_box.center_world.position_m, kWorldFromObject * tool.hip_object_m));
+    EXPECT_EQ(scene.proposed_box.size_m, scene.box.size_m);
+    EXPECT_EQ(scene.proposed_box.center_world.orientation, scene.box.center_world.orientation);
+    EXPECT_GT(scene.proposed_box.face_opacity, 0.0);
+    EXPECT_EQ(scene.box.face_opacity, 0.0);
+    EXPECT_NE(scene.proposed_box.colour, scene.box.colour);
+}
+
+TEST(Staging, TheBubbleLiesAroundTheWorkspacesMiddle) {
+    ToolState tool = paused_tool();
+    tool.workspace.bubble_radius_object_m = 0.0125;
+    const Scene scene = staged(staging_of(tool, 0.01, kWorkspace_m));
+    ASSERT_TRUE(scene.bubble.visible);
+    EXPECT_TRUE(near(scene.bubble.center_world, scene.box.center_world.position_m));
+    EXPECT_DOUBLE_EQ(scene.bubble.radius_m, 0.0625);
+}
+
+}  // namespace burin
