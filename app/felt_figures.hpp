@@ -32,6 +32,14 @@ struct Occurrence {
     std::uint64_t last_tick = 0;
 };
 
+// Of a loop in real time.
+struct LoopTimes {
+    bool known = false;
+    std::uint64_t skipped_deadlines = 0;
+    double late_us_median = 0.0, late_us_p99 = 0.0, late_us_p999 = 0.0, late_us_max = 0.0;
+    double tick_us_median = 0.0, tick_us_p99 = 0.0, tick_us_p999 = 0.0, tick_us_max = 0.0;
+};
+
 struct FeltFigures {
     Similarity object_from_device;  // how the stroke was fitted into the device's workspace
     Vec3 workspace_device_m{0.0};
@@ -54,6 +62,7 @@ struct FeltFigures {
     std::vector<TracePoint> closeup;     // of every tick, about the first second in which the tool cuts
     double trace_period_s = 0.0;         // between its points
     std::vector<std::uint32_t> tick_ns;  // cost of each tick in simulated time; empty in real time
+    LoopTimes loop;                      // in real time
     std::vector<std::string> notices;    // e.g. no real-time priority
     ToolState last_tool;
 };

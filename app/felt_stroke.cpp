@@ -2,6 +2,7 @@
 #include "app/felt_stroke.hpp"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "app/felt_carving.hpp"
 #include "app/felt_hand.hpp"
@@ -38,6 +39,13 @@ Result<SimulatedHand> pressing_hand(Carving& carving, const Stroke& stroke, cons
     Result<SimulatedHand> hand = hand_along(stroke, object_from_device, feel, into_material);
     if (!asked) return std::unexpected(asked.error());
     return hand;
+}
+
+LoopTimes times_of(const HapticLoop& loop) {
+    const auto us = [](const Histogram& of, double q) { return static_cast<double>(of.quantile_ns(q)) * 1e-3; };
+    const Histogram &late = loop.lateness(), &tick = loop.duration();
+    return {true,          loop.skipped_deadlines(), us(late, 0.5),   us(late, 0.99), us(late, 0.999), us(late, 1.0),
+            us(tick, 0.5), us(tick, 0.99),           us(tick, 0.999), us(tick, 1.0)};
 }
 
 struct Session {
@@ -83,7 +91,10 @@ Result<void> run_in_real_time(const Session& session, SimulatedHand hand) {
     if (const auto published = session.side.publish(start_ns); !published) return published;
     HapticThread haptic_thread(loop);
     const RealtimeNotice notice = haptic_thread.start();
-    if (!notice.text.empty()) session.figures.notices.push_back(notice.text);
+    if (!notice.text.empty()) {
+        session.figures.notices.push_back(notice.text);
+        std::fprintf(stderr, "burin: %s\n", notice.text.c_str());
+    }
     Result<void> outcome;
     Nanoseconds next_update_ns = start_ns;
     while (seconds(clock.now_ns() - start_ns) < session.end_s && outcome) {
@@ -94,6 +105,7 @@ Result<void> run_in_real_time(const Session& session, SimulatedHand hand) {
         progress.show(seconds(clock.now_ns() - start_ns) / session.end_s);
     }
     haptic_thread.stop();
+    session.figures.loop = times_of(loop);
     keeper.take(session.channels);
     keeper.finish(session.channels);
     return outcome;

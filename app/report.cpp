@@ -98,6 +98,14 @@ Json describe_timing(const Carving& carving, const FeltFigures* felt) {
         timing["tick_us_median"] = quantile(tick_us, 0.5);
         timing["tick_us_p999"] = quantile(tick_us, 0.999);
     }
+    if (felt != nullptr && felt->loop.known) {
+        const LoopTimes& l = felt->loop;
+        timing["skipped_deadlines"] = l.skipped_deadlines;
+        timing["wake_up_late_us"] = {
+            {"median", l.late_us_median}, {"p99", l.late_us_p99}, {"p999", l.late_us_p999}, {"max", l.late_us_max}};
+        timing["tick_us"] = {
+            {"median", l.tick_us_median}, {"p99", l.tick_us_p99}, {"p999", l.tick_us_p999}, {"max", l.tick_us_max}};
+    }
     return timing;
 }
 
@@ -130,6 +138,12 @@ void print_table(const Json& report) {
     if (report["timing"].contains("tick_us_median")) {  // in real time the ticks are not timed one by one
         row("a haptic tick takes (median, p99.9)",
             text("%.1f us, %.1f us", number("/timing/tick_us_median"), number("/timing/tick_us_p999")));
+    }
+    if (report["timing"].contains("wake_up_late_us")) {
+        row("a tick begins late by (median, max)",
+            text("%.0f us, %.0f us", number("/timing/wake_up_late_us/median"), number("/timing/wake_up_late_us/max")));
+        row("a haptic tick takes (median, p99.9)",
+            text("%.1f us, %.1f us", number("/timing/tick_us/median"), number("/timing/tick_us/p999")));
     }
     if (report.contains("feel")) {
         row("largest, mean force in contact",

@@ -59,8 +59,11 @@ void HapticLoop::run_ticks(std::uint64_t count, const std::atomic<bool>* stop) n
         // acquire: what the stopping thread did before it said stop is seen by whoever runs after this loop.
         if (stop != nullptr && stop->load(std::memory_order_acquire)) break;
         clock_.sleep_until(deadline_ns);
-        const Nanoseconds lateness_ns = clock_.now_ns() - deadline_ns;
+        const Nanoseconds begin_ns = clock_.now_ns();
+        const Nanoseconds lateness_ns = begin_ns - deadline_ns;
         step(lateness_ns);
+        lateness_.add(lateness_ns);
+        duration_.add(clock_.now_ns() - begin_ns);
         const Nanoseconds missed = lateness_ns / period_ns_;
         skipped_deadlines_ += static_cast<std::uint64_t>(missed);
         deadline_ns += (missed + 1) * period_ns_;

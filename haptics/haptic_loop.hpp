@@ -6,6 +6,7 @@
 // In simulated time: advance the clock (and the device, if it does not follow the clock) by a period and call step();
 // or call run() with a SimulatedClock, which does just that.
 // Thread: one at a time calls step() or run(). Neither allocates, locks, throws or opens a file.
+// How late each tick began and how long it took is kept in histograms, which any thread may read while the loop runs.
 // A tick that starts late is flagged and counted; deadlines that were missed altogether are skipped and counted, so
 // that the loop never runs a burst of ticks to catch up.
 #pragma once
@@ -14,6 +15,7 @@
 #include <cstdint>
 
 #include "haptics/channels.hpp"
+#include "haptics/histogram.hpp"
 #include "haptics/tick.hpp"
 
 namespace burin {
@@ -36,6 +38,9 @@ public:
     [[nodiscard]] std::uint64_t ticks() const noexcept { return ticks_; }
     [[nodiscard]] std::uint64_t late_ticks() const noexcept { return late_ticks_; }
     [[nodiscard]] std::uint64_t skipped_deadlines() const noexcept { return skipped_deadlines_; }
+    // Of ticks of run() and run_ticks(): from the deadline to the tick's beginning, and from there to its end. Any thread.
+    [[nodiscard]] const Histogram& lateness() const noexcept { return lateness_; }
+    [[nodiscard]] const Histogram& duration() const noexcept { return duration_; }
     [[nodiscard]] const FullTickState& state() const noexcept { return state_; }
 
 private:
@@ -46,6 +51,7 @@ private:
     double dt_s_;
     FullTickState state_;
     std::uint64_t ticks_ = 0, late_ticks_ = 0, skipped_deadlines_ = 0;
+    Histogram lateness_, duration_;
 };
 
 }  // namespace burin

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Asking the system for what a 1 kHz loop wants: a real-time priority and memory that stays in place; and a thread that
-// has them. Both are asked for, neither is needed: without the right to them the loop runs all the same, late ticks are
-// flagged and counted, and the notice says what was refused and how to allow it.
+// Asking the system for what a 1 kHz loop wants: a real-time priority, a timer without slack, and memory that stays in place;
+// and a thread that has them. All are asked for, none is needed: without the right to them the loop runs all the same, late
+// ticks are flagged and counted, and the notice says what was refused and how to allow it.
+// Memory: what the process holds is brought in and locked; what it takes later is locked as it is first touched, but only where
+// there is no limit, since beyond a limit taking memory itself would fail. The thread's stack is touched before the first tick.
 #pragma once
 
 #include <atomic>
@@ -14,7 +16,7 @@ namespace burin {
 
 struct RealtimeNotice {
     bool priority = false;       // SCHED_FIFO granted
-    bool memory_locked = false;  // no page of the process will be swapped out
+    bool memory_locked = false;  // no page of the process will be swapped out, nor of what it takes later
     std::string text;            // one line a refusal; empty when all was granted. For the log and the status panel.
 };
 
