@@ -79,7 +79,7 @@ PassivityStep keep_passive(const PassivityState& state, const PassivityInput& in
     count_energy(step.next, state, in, wanted_N, settings, device, dt_s);
     step.energy_J = step.next.energy_J;
     step.next.position_device_m = in.position_device_m;
-    step.next.known = true;
+    step.next.known = false;  // until told() says what the device was told
     if (settings.control && step.next.reserve_J < 0.0 && wanted_N > 0.0)
         take_back(step, state, in, wanted_N, settings, device, dt_s);
     const double asked_N = length(step.force_device_N);
@@ -91,6 +91,7 @@ PassivityState told(PassivityState state, const Vec3& force_device_N) noexcept {
     state.newest = (state.newest + 1) % kPlaces;
     state.forces_device_N[state.newest] = force_device_N;
     state.fading = length(force_device_N) < kGiven * state.asked_N;
+    state.known = true;
     return state;
 }
 

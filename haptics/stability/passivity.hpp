@@ -41,7 +41,7 @@ struct PassivityState {
     double energy_J = 0.0;        // E
     double stored_J = 0.0;        // U
     double reserve_J = 0.0;       // R
-    bool known = false;           // false: no tick before
+    bool known = false;           // false: no tick before, or not known what the device was told: nothing to count
     bool fading = false;          // the gate gave less than asked for
 };
 

@@ -150,6 +150,16 @@ TEST(PassivityObserver, StartsAnewInFreeSpaceOnceTheLastForceHasActed) {
     EXPECT_EQ(go(0.0012), 0.0);
 }
 
+TEST(PassivityController, DoesNothingWhereNobodySaysWhatTheDeviceWasTold) {
+    PassivityState state;
+    for (int i = 0; i < 40; ++i) {
+        const PassivityStep step = keep_passive(state, at(-0.0003 * i, 2000.0), {}, device(0.0, 0.0, 0.0), kDt);
+        EXPECT_EQ(step.damping_Ns_per_m, 0.0);
+        EXPECT_EQ(step.energy_J, 0.0);
+        state = step.next;
+    }
+}
+
 TEST(PassivityController, WaitsWhileTheGateFadesAForceIn) {
     PassivityState state;
     const DeviceDescription d = device(0.0, 0.0, 0.0);
