@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <map>
 
+#include "app/bench_haptics_command.hpp"
 #include "app/bench_stability_command.hpp"
 #include "app/bench_workspace_command.hpp"
 #include "bench/machine.hpp"
@@ -154,6 +155,7 @@ BenchCommand::BenchCommand(CLI::App& app)
     pareto_->add_option("--svg", o.svg, "A file for the figure");
     pareto_->add_option("--json", o.pareto_json, "A file for every figure of every run; - for standard output");
 
+    others_.push_back(add_bench_haptics(*command_));
     others_.push_back(add_bench_stability(*command_));
     others_.push_back(add_bench_workspace(*command_));
 }

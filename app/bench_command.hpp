@@ -2,6 +2,7 @@
 // burin bench: what Burin does in numbers (bench/), as tables, JSON, CSV and a figure.
 //   burin bench stroke     one engine and resolution through STROKE-1000, with every figure
 //   burin bench pareto     time against error over resolutions, engines and peers
+//   burin bench haptics    what a tick costs, and how true the proxy is
 //   burin bench stability  how stiff a wall may be before a simulated device shakes
 //   burin bench workspace  each workspace technique across the wall, in a simulated hand
 #pragma once

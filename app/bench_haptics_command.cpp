@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "app/bench_haptics_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "bench/haptics.hpp"
+
+namespace burin {
+namespace {
+
+struct Options {
+    bool quick = false;
+    std::uint64_t contact_ticks = 0, paced_ticks = 0;  // 0: as many as usual
+    std::string csv, svg, json;
+};
+
+bench::HapticsOptions asked_for(const Options& options) {
+    bench::HapticsOptions asked = options.quick ? bench::quick_haptics() : bench::HapticsOptions{};
+    if (options.contact_ticks > 0) asked.contact_ticks = options.contact_ticks;
+    if (options.paced_ticks > 0) asked.paced_ticks = options.paced_ticks;
+    return asked;
+}
+
+Result<void> run(const Options& options) {
+    for (const std::string& path : {options.csv, options.svg, options.json}) {
+        if (const auto ok = check_place(path); !ok) return ok;
+    }
+    const auto all = bench::run_haptics(
+        asked_for(options), [](const std::string& part) { std::fprintf(stderr, "measuring: %s\n", part.c_str()); });
+    if (!all) return std::unexpected(all.error());
+    if (options.json != kStandardOutput && options.csv != kStandardOutput && options.svg != kStandardOutput) {
+        std::fputs(bench::haptics_table(*all).c_str(), stdout);
+    }
+    if (const auto done = write_output(options.csv, bench::haptics_csv(*all)); !done) return done;
+    if (const auto done = write_output(options.svg, bench::haptics_svg(*all)); !done) return done;
+    return write_output(options.json, bench::haptics_json(*all).dump(2) + "\n");
+}
+
+}  // namespace
+
+BenchSubcommand add_bench_haptics(CLI::App& bench) {
+    CLI::App* command = bench.add_subcommand(
+        "haptics", "Ticks of the haptic loop: their cost, the proxy's error, lost contact, edits, the force's jumps");
+    const auto options = std::make_shared<Options>();
+    command->add_flag("--quick", options->quick, "Small meshes and few ticks: whether it works, in seconds");
+    command->add_option("--ticks", options->contact_ticks, "How many ticks are looked at for lost contact (1000000)")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
+    command->add_option("--paced-ticks", options->paced_ticks, "How many paced ticks of each scene, 1 ms each (5000)")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{10'000'000}));
+    command->add_option("--csv", options->csv, "A file for the table of ticks; - for standard output");
+    command->add_option("--svg", options->svg, "A file for the figure");
+    command->add_option("--json", options->json, "A file for every figure; - for standard output");
+    return {command, [options] { return run(*options); }};
+}
+
+}  // namespace burin

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "bench/haptics.hpp"
+
+#include "bench/machine.hpp"
+#include "haptics/realtime.hpp"
+
+namespace burin::bench {
+
+HapticsOptions quick_haptics() {
+    HapticsOptions quick;
+    quick.sizes = {2'000, 20'000};
+    quick.accuracy_size = 20'000;
+    quick.paced_ticks = 50;
+    quick.back_to_back_ticks = 300;
+    quick.accuracy_ticks = 2'000;
+    quick.contact_ticks = 5'000;
+    quick.edits = 5;
+    quick.solid_resolution = 48;
+    quick.ask_for_realtime = false;
+    return quick;
+}
+
+Result<Haptics> run_haptics(const HapticsOptions& options, const Tell& tell) {
+    Haptics all;
+    all.options = options;
+    all.machine = machine();
+    all.realtime = "not asked for";
+    // Edits first, and without priority: they are the publisher's work.
+    if (auto done = measure_edits(all, tell); !done) return std::unexpected(done.error());
+    if (auto done = measure_accuracy(all, tell); !done) return std::unexpected(done.error());
+    if (options.ask_for_realtime) {
+        const RealtimeNotice notice = ask_for_realtime();
+        all.realtime = notice.text.empty() ? "priority and locked memory" : notice.text;
+    }
+    if (auto done = measure_ticks(all, tell); !done) return std::unexpected(done.error());
+    return all;
+}
+
+}  // namespace burin::bench
