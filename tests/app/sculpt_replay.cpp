@@ -42,8 +42,8 @@ TEST(Sculpt, SameCommandTwiceAndAnyNumberOfThreadsGiveTheSameFiles) {
         const auto run = [&](const std::string& name, int threads) {
             const auto outcome =
                 place.run(kBurin + " sculpt --workpiece ball:0.05 --tool ball:0.004 --stroke wave.csv " +
-                          "--resolution 96 --engine cpu --hand " + hand + " --threads " + std::to_string(threads) +
-                          " --export part.stl --export part.ply --report r.json");
+                          "--resolution 96 --engine cpu --press 1 --grip 600 --hand " + hand + " --threads " +
+                          std::to_string(threads) + " --export part.stl --export part.ply --report r.json");
             EXPECT_EQ(outcome.status, 0) << outcome.output;
             for (const std::string file : {"part.stl", "part.ply", "r.json"}) {
                 std::filesystem::rename(place / file, place / (name + file));

@@ -35,6 +35,7 @@ TickParameters parameters_for(double radius, double stiffness = 600.0, double da
     p.probe.points[0].radius_m = radius;
     p.clearance_ratio = 0.0;
     p.limit_stiffness = false;
+    p.passivity.control = false;  // the hand's jumps from tick to tick are no motion that it should judge
     p.materials[0].stiffness_N_per_m = stiffness;
     p.materials[0].damping_Ns_per_m = damping;
     p.max_surface_age_s = 0.0;
