@@ -99,7 +99,7 @@ using Tell = std::function<void(const std::string&)>;
 // First a comment line that names the machine, then one of column names; a row for each scene of ticks.
 [[nodiscard]] std::string haptics_csv(const Haptics& all);
 [[nodiscard]] nlohmann::ordered_json haptics_json(const Haptics& all);
-// How large a share of ticks takes longer than so many microseconds.
+// How large a share of paced ticks takes as long or longer, a plot for each scene.
 [[nodiscard]] std::string haptics_svg(const Haptics& all);
 
 }  // namespace burin::bench

@@ -53,23 +53,25 @@ struct alignas(32) TouchBoxes {
     }
     // Bit i: whether box i, one of the first `count`, meets this one.
     [[nodiscard]] std::uint32_t meeting(const SteppedBox& box, std::uint32_t count) const noexcept {
-        alignas(16) std::array<std::uint8_t, kMost> meets{};
-        for (std::size_t i = 0; i < kMost; ++i) {  // in a form that the compiler makes vectors of
-            const bool x = (lo[0][i] <= box.hi[0]) & (hi[0][i] >= box.lo[0]);
-            const bool y = (lo[1][i] <= box.hi[1]) & (hi[1][i] >= box.lo[1]);
-            const bool z = (lo[2][i] <= box.hi[2]) & (hi[2][i] >= box.lo[2]);
-            meets[i] = static_cast<std::uint8_t>(x & y & z);
-        }
+        const Row meets = (row(lo[0]) <= box.hi[0]) & (row(hi[0]) >= box.lo[0]) & (row(lo[1]) <= box.hi[1]) &
+                          (row(hi[1]) >= box.lo[1]) & (row(lo[2]) <= box.hi[2]) & (row(hi[2]) >= box.lo[2]);
         return bits_of(meets) & ((1u << count) - 1u);
     }
 
 private:
-    // Of sixteen bytes that are 0 or 1. The product brings byte i of eight to bit 56 + i, and nothing else there.
-    [[nodiscard]] static std::uint32_t bits_of(const std::array<std::uint8_t, kMost>& bytes) noexcept {
+    // All sixteen at once. A plain loop is unrolled by GCC before it looks for vectors, and then takes six times as long.
+    using Row [[gnu::vector_size(kMost)]] = std::uint8_t;
+
+    [[nodiscard]] static Row row(const std::array<std::uint8_t, kMost>& side) noexcept {
+        return std::bit_cast<Row>(side);
+    }
+    // Of sixteen bytes that are all ones or zero. The product brings byte i of eight to bit 56 + i, and nothing else there.
+    [[nodiscard]] static std::uint32_t bits_of(const Row& bytes) noexcept {
         static_assert(std::endian::native == std::endian::little, "byte i must be the i-th lowest");
-        constexpr std::uint64_t kGather = 0x0102040810204080u;
+        constexpr std::uint64_t kLowest = 0x0101010101010101u, kGather = 0x0102040810204080u;
         const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(bytes);
-        return static_cast<std::uint32_t>((halves[0] * kGather) >> 56 | ((halves[1] * kGather) >> 56) << 8);
+        return static_cast<std::uint32_t>(((halves[0] & kLowest) * kGather) >> 56 |
+                                          (((halves[1] & kLowest) * kGather) >> 56) << 8);
     }
 };
 

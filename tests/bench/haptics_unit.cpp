@@ -126,7 +126,7 @@ TEST(BenchHaptics, TicksTouchEverySceneWithEveryProbe) {
         }
     }
     EXPECT_NE(haptics_table(all).find("20_points"), std::string::npos);
-    EXPECT_NE(haptics_svg(all).find("Paced at 1 kHz"), std::string::npos);
+    EXPECT_NE(haptics_svg(all).find("paced at 1 kHz"), std::string::npos);
     EXPECT_EQ(std::ranges::count(haptics_csv(all), '\n'), static_cast<std::ptrdiff_t>(all.ticks.size()) + 2);
 }
 
