@@ -245,6 +245,17 @@ private:
         result_.active_triangle = touches_.planes[goal.bearing[heaviest]].triangle;
     }
 
+    void note_most_opposed() {
+        double most = 0.0;
+        for (const HalfSpace& plane : touches_.span()) {
+            const double opposed = -glm::dot(plane.normal, hip_ - center_);
+            if (opposed <= most) continue;
+            most = opposed;
+            result_.constraints = 1;
+            result_.active_triangle = plane.triangle;
+        }
+    }
+
     [[nodiscard]] bool arrived(const Goal& goal) const {
         if (!goal.in_contact) return goal.is_hip && goal.step == Vec3(0.0);
         return goal.left <= goal.enough || (goal.is_shaded && result_.work.steps >= kShadingSteps);
@@ -281,9 +292,11 @@ private:
         return result_;
     }
 
-    // Work is used up: the proxy waits where it is safe, and goes on in the next tick.
+    // Work is used up, or no goal was found among planes that nearly agree: the proxy waits where it is safe, and goes on in the
+    // next tick. What it lies on bears it all the same.
     ProxyResult limited() {
         result_.work_limited = true;
+        if (result_.constraints == 0) note_most_opposed();
         result_.next.position_object_m = surface_.origin_object + center_;
         result_.next.slipping = slid_;
         result_.normal_object = unit_or_zero(center_ - hip_);

@@ -3,18 +3,18 @@
 // surface lets it, never through.
 //
 // After Zilles and Salisbury 1995 (the proxy is the point nearest to the HIP under up to three active planes) and
-// Ruspini et al. 1997 (a proxy with a radius, moved by sweeps until nothing more is gained). Each step:
-//   1. Every triangle that the ball touches gives a plane through the ball's nearest point of it. The half-space beyond
-// that
-//      plane keeps the ball off the triangle wherever it goes in it, because a triangle is convex.
-//   2. The goal is the point nearest to the HIP in all these half-spaces (haptics/contact/half_spaces.hpp); at most three
-// planes
-//      bear it, and those are the active ones.
+// Ruspini et al. 1997 (a proxy with a radius, moved by sweeps until nothing more is gained). A tick first gathers, once, the triangles
+// that its motion can reach (candidates.hpp), and looks again only where the proxy goes elsewhere. Each step then:
+//   1. Every triangle that the ball touches gives a plane through the ball's nearest point of it (touching.hpp). The half-space
+//      beyond that plane keeps the ball off the triangle wherever it goes in it, because a triangle is convex.
+//   2. The goal is the point nearest to the HIP in all these half-spaces (half_spaces.hpp); at most three planes bear it, and
+//      those are the active ones. Shading turns these to the smooth surface's normals (shading.hpp), friction holds the ball
+//      back on its way along them (friction.hpp), and the true planes keep it out all the same.
 //   3. The ball is swept towards the goal against all other triangles and stops at the first; that one joins in the
-// next step. The distance to the HIP never grows, and steps stop when the ball stands still. Only the outer side of a
-// triangle is felt, so the material must be closed where the surface is known.
+//      next step. Without shading the distance to the HIP never grows, and steps stop when the ball stands still. Only the
+//      outer side of a triangle is felt, so the material must be closed where the surface is known.
 //
-// Tolerances are fractions of the ball's radius, so that millimetres and metres behave alike (kTouch below): a triangle
+// Tolerances are fractions of the ball's radius, so that millimetres and metres behave alike (kTouch in touching.hpp): a triangle
 // counts as touched within 1e-3 R; an edge or corner may sink in by as much, which lets the ball roll over the edge
 // between two level facets instead of stopping at the edge's tilted plane; sweeps stop 2e-3 R deep, so that what is
 // slid along is not hit again. A point probe is a ball of 1/500 of the mean edge.
@@ -69,7 +69,7 @@ struct ProxyResult {
 
 struct ProxyBudget {
     std::uint32_t max_steps = 12;
-    // Exact distance and sweep computations a tick, about 30 ns each. When used up the proxy waits where it is safe.
+    // Exact distance and sweep computations a tick, about 50 ns each. When used up the proxy waits where it is safe.
     std::uint32_t max_triangles_tested = 12000;
     // Bounding boxes looked at a tick, about 10 ns each: a large tool on a fine lattice has many. Likewise.
     std::uint32_t max_triangles_seen = 200000;

@@ -12,10 +12,11 @@ namespace {
 constexpr double kSmooth = 0.7;        // cosine: a corner's normal of a smooth piece is no farther from its facet's
 constexpr double kSameNormal = 0.05;   // facets agree about a shared point's normal to within this
 constexpr double kOneRegion = 0.9;     // cosine: planes that may belong to one smooth piece
-constexpr double kLeastArea = 0.05;    // of a moved triangle, over the facet's
+constexpr double kLeastArea = 0.25;    // of a moved triangle, over the facet's: less is a hollow too tight for the ball
 constexpr double kBeyondFacet = 0.25;  // how far normals are carried on past a facet, in barycentric coordinates
 constexpr std::uint32_t kMostTried = 24;
 constexpr std::uint32_t kManyTouches = 16;
+constexpr double kAsNear = 1.0 + 4e-4;  // of distances squared
 
 struct Facet {
     Triangle triangle;
@@ -72,13 +73,7 @@ public:
         if (!own || !agreed(*own, touch)) return std::nullopt;
         Best best;
         look_at(best, *own);
-        for_each_beside(
-            touch,
-            [&](const Facet& facet) {
-                look_at(best, facet);
-                return best.inside < 0.0;
-            },
-            best);
+        if (best.inside < 0.0) look_beside(best, touch);
         if (!best.found) return std::nullopt;
         return best.normal;
     }
@@ -99,20 +94,19 @@ private:
         best = {true, least_of(*at), interpolated(facet, held)};
     }
 
-    template <typename Look>
-    void for_each_beside(std::uint32_t touch, Look&& look, const Best& best) const {
-        if (best.inside >= 0.0) return;
+    // At the other facets touched on this side; of very many only at those that are as near as any.
+    void look_beside(Best& best, std::uint32_t touch) const {
         const Vec3& way = touches_.planes[touch].normal;
+        const bool many = touches_.count > kManyTouches;
         double nearest2 = HUGE_VAL;
-        if (touches_.count > kManyTouches)
-            for (std::uint32_t i = 0; i < touches_.count; ++i) nearest2 = std::min(nearest2, distance2_of(i));
+        for (std::uint32_t i = 0; many && i < touches_.count; ++i) nearest2 = std::min(nearest2, distance2_of(i));
         std::uint32_t tried = 0;
         for (std::uint32_t i = 0; i < touches_.count && tried < kMostTried; ++i) {
             if (i == touch || glm::dot(touches_.planes[i].normal, way) < kOneRegion) continue;
-            if (touches_.count > kManyTouches && distance2_of(i) > nearest2 * (1.0 + 4e-4)) continue;
+            if (many && distance2_of(i) > nearest2 * kAsNear) continue;
             ++tried;
-            const auto facet = facet_of(surface_, candidates_, touches_.places[i].candidate);
-            if (facet && !look(*facet)) return;
+            if (const auto facet = facet_of(surface_, candidates_, touches_.places[i].candidate)) look_at(best, *facet);
+            if (best.inside >= 0.0) return;
         }
     }
 
