@@ -202,13 +202,13 @@ TEST(Wand, TwoPointsThatTouchShareTheStiffnessThatTheDeviceRenders) {
     DeviceDescription device = test::kStrongDevice;
     device.max_stiffness_N_per_m = 700.0;
     const auto force_of = [&](const Vec3& top, const Vec3& bottom) {
-        TickParameters parameters = wand(0.0, 600.0);
+        TickParameters parameters = wand(0.002, 600.0);
         parameters.limit_stiffness = true;
         parameters.probe.points[0].offset_device_m = top;
         parameters.probe.points[1].offset_device_m = bottom;
         Hand hand{plane.get(), parameters, device};
-        hand.at({0.0, 0.001, 0.0});
-        return hand.at({0.0, -0.001, 0.0});
+        hand.at({0.0, 0.003, 0.0});
+        return hand.at({0.0, 0.001, 0.0});
     };
     const TickOutput both = force_of({0.01, 0, 0}, {-0.01, 0, 0}), one = force_of({0.01, 0, 0}, {-0.01, 0.01, 0});
     EXPECT_NEAR(both.wanted.force_device_N.y, 0.7, 1e-6);  // 350 N/m each, 1 mm deep
