@@ -23,6 +23,11 @@ constexpr double kStill = 1e-5, kStillAngle = 1e-4;
 // A plane bears the ball when it is no farther off than this; with friction.
 constexpr double kBears = 1e-4;
 
+constexpr double kSunk = 5e-3;
+
+// Inside or outside is voted on by what is within this many times the distance of the nearest triangle.
+constexpr double kVote = 1.5;
+
 // Pushing out the thousandth of R that edges may sink in can go back and forth between facets. After these steps the
 // ball is only kept from going deeper, so that each step brings it nearer to the HIP and the steps come to an end.
 constexpr std::uint32_t kPushingSteps = 3;
@@ -107,6 +112,8 @@ private:
         if (unsure && !(nearest_.distance < HUGE_VAL))
             nearest_ = search_.nearest(center_, known_around(center_, surface_));
         if (!inside_material(nearest_, center_, surface_)) return true;
+        // A facet folded over may be the nearest, and show its back to a ball that is outside.
+        if (!search_.sees_backs(center_, kVote * nearest_.distance + edge_)) return true;
         center_ = put_outside(nearest_, center_, radius_);
         result_.pushed_out = true;
         return search_.look_along({center_, center_}) && touch();
@@ -122,7 +129,7 @@ private:
         const bool pushing = result_.work.steps <= kPushingSteps;
         if (!pushing) only_no_deeper();
         const bool rubs = settings_.static_friction > 0.0 || settings_.dynamic_friction > 0.0;
-        if (rubs && touches_.count > 0) return held_goal();
+        if (rubs && touches_.count > 0 && !(pushing && sunk())) return held_goal();
         const Vec3 pull = hip_ - center_;
         NearestInside plain = nearest_in(touches_.span(), pull);
         if (!plain.found && pushing) {  // there is no room to be pushed out into
@@ -157,6 +164,13 @@ private:
         goal.is_hip = plain.found && !goal.in_contact;
         if (plain.found && goal.in_contact) goal.normal = unit_or_zero(goal.step - pull);
         return goal;
+    }
+
+    // Deeper in what it touches than sweeps and edges leave it: the surface has come to it. Friction does not hold it there.
+    [[nodiscard]] bool sunk() const {
+        for (const HalfSpace& plane : touches_.span())
+            if (plane.offset > kSunk * radius_) return true;
+        return false;
     }
 
     // With friction: what bears the ball is what it lies on, not what it would come to on its way.

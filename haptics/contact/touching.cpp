@@ -126,4 +126,17 @@ Nearest ContactSearch::nearest(const Vec3& center, double most) noexcept {
     }
 }
 
+bool ContactSearch::sees_backs(const Vec3& center, double reach) noexcept {
+    double sum = 0.0;
+    Near near{center, center, reach};
+    const std::uint32_t looks = budget_.max_triangles_seen - work_.triangles_seen;
+    near.looks_left = looks;
+    const bool complete = for_each_triangle_near(surface_, near, [&](std::uint32_t, const Triangle& t) {
+        sum += solid_angle_tangent(center, t);
+        return true;
+    });
+    work_.triangles_seen += looks - near.looks_left;
+    return complete && sum > 0.0;
+}
+
 }  // namespace burin

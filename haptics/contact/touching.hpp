@@ -74,6 +74,11 @@ public:
     // `most` any or none; none too when the work is used up. Knows nothing of what look_along found.
     [[nodiscard]] Nearest nearest(const Vec3& center, double most) noexcept;
 
+    // Whether the surface within reach shows its back to the centre on the whole: by the solid angles that its triangles take up, so
+    // that a facet folded over, as a surface under carving may have, is outvoted by those around it. False when the tick's work
+    // is used up.
+    [[nodiscard]] bool sees_backs(const Vec3& center, double reach) noexcept;
+
     [[nodiscard]] const Candidates& candidates() const noexcept { return candidates_; }
 
 private:

@@ -102,4 +102,14 @@ double fraction_until_touch(const Vec3& center, const Vec3& motion, double radiu
                      sweep.until_corner(t.a), sweep.until_corner(t.b), sweep.until_corner(t.c)});
 }
 
+double solid_angle_tangent(const Vec3& p, const Triangle& t) noexcept {
+    const Vec3 a = t.a - p, b = t.b - p, c = t.c - p;
+    const double la = std::sqrt(glm::dot(a, a)), lb = std::sqrt(glm::dot(b, b)), lc = std::sqrt(glm::dot(c, c));
+    const double volume = glm::dot(a, glm::cross(b, c));
+    const double base = la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
+    constexpr double kMost = 1e3;  // p is all but on the triangle
+    if (std::abs(volume) >= kMost * base) return volume == 0.0 ? 0.0 : std::copysign(kMost, volume);
+    return volume / base;
+}
+
 }  // namespace burin

@@ -26,6 +26,10 @@ struct NearestOnTriangle {
 [[nodiscard]] double fraction_until_touch(const Vec3& center, const Vec3& motion, double radius,
                                           const Triangle& t) noexcept;
 
+// About half the solid angle that the triangle takes up, seen from p: its tangent, at most 1e3; negative where p is on the outer
+// side (van Oosterom and Strackee 1983).
+[[nodiscard]] double solid_angle_tangent(const Vec3& p, const Triangle& t) noexcept;
+
 inline constexpr double kNoTouch = 2.0;  // what fraction_until_touch returns when there is none
 
 }  // namespace burin
