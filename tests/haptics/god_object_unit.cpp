@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "tests/haptics/surfaces.hpp"
 
 namespace burin {
@@ -303,6 +305,52 @@ TEST(GodObject, StopsSafelyWhenItsWorkIsUsedUp) {
     EXPECT_TRUE(looked.work_limited);
     EXPECT_LE(looked.work.triangles_seen, 7u);
     EXPECT_GE(looked.next.position_object_m.y, 0.998 * w.radius);
+}
+
+// At the front of a cut a facet may be folded over: it stands a little proud and shows its back. A ball that comes by must not
+// take itself for buried and be put outside through the material.
+TEST(GodObject, AFacetFoldedOverDoesNotPullABallThroughTheSurface) {
+    test::SurfaceBuilder builder;
+    const double h = 0.25 * kMm;
+    std::array<std::array<std::uint32_t, 41>, 41> grid{};
+    for (std::size_t z = 0; z < 41; ++z)
+        for (std::size_t x = 0; x < 41; ++x)
+            grid[z][x] = builder.vertex({(double(x) - 20.0) * h, 0.0, (double(z) - 20.0) * h});
+    for (std::size_t z = 0; z < 40; ++z)
+        for (std::size_t x = 0; x < 40; ++x)
+            builder.quad(grid[z][x], grid[z + 1][x], grid[z + 1][x + 1], grid[z][x + 1]);
+    const double proud = 0.04 * kMm;
+    const std::uint32_t a = builder.vertex({-0.5 * h, proud, 0.0}), b = builder.vertex({0.5 * h, proud, 0.0}),
+                        c = builder.vertex({0.0, proud, 0.5 * h});
+    builder.triangle(a, b, c);  // its normal points down
+    const test::Surface surface = builder.finish();
+    for (const double friction : {0.0, 0.3}) {
+        const double radius = 2.0 * kMm;
+        ProxyState state;
+        ProxySettings settings{radius};
+        settings.static_friction = settings.dynamic_friction = friction;
+        for (int i = 0; i <= 400; ++i) {
+            const double x = (i - 200) * 0.015 * kMm, y = i < 20 ? 3.0 * kMm : 1.2 * kMm;
+            const ProxyResult moved = move_proxy(state, {x, y, 0.02 * kMm}, settings, *surface);
+            ASSERT_GT(moved.next.position_object_m.y, 0.99 * radius) << i;
+            ASSERT_LT(moved.next.position_object_m.y, 3.0 * kMm + 1e-9) << i;
+            ASSERT_FALSE(moved.pushed_out) << i;
+            state = moved.next;
+        }
+    }
+}
+
+// A ball that the surface has come to, as after a fill, comes out; friction does not hold it there.
+TEST(GodObject, ASunkBallComesOutDespiteFriction) {
+    const Surface plane = test::plane();
+    ProxySettings settings{2.0 * kMm};
+    settings.static_friction = settings.dynamic_friction = 0.5;
+    ProxyState state;
+    state.position_object_m = {0.0, 1.0 * kMm, 0.0};  // half a radius in
+    state.surface_sequence = plane->sequence;
+    state.placed = true;
+    const ProxyResult moved = move_proxy(state, {0.0, 0.5 * kMm, 0.0}, settings, *plane);
+    EXPECT_NEAR(moved.next.position_object_m.y, 2.0 * kMm, 0.01 * kMm);
 }
 
 }  // namespace burin
