@@ -257,6 +257,7 @@ private:
         for (std::uint32_t i = 1; i < goal.bearing_count; ++i)
             if (goal.weights[i] > goal.weights[heaviest]) heaviest = i;
         result_.active_triangle = touches_.planes[goal.bearing[heaviest]].triangle;
+        last_ = {result_.constraints, result_.active_triangle};
     }
 
     void note_most_opposed() {
@@ -311,6 +312,10 @@ private:
     ProxyResult limited() {
         result_.work_limited = true;
         if (result_.constraints == 0) note_most_opposed();
+        if (result_.constraints == 0 && last_.constraints > 0) {  // between two facets on its way
+            result_.constraints = last_.constraints;
+            result_.active_triangle = last_.triangle;
+        }
         result_.next.position_object_m = surface_.origin_object + center_;
         result_.next.slipping = slid_;
         result_.normal_object = unit_or_zero(center_ - hip_);
@@ -328,6 +333,9 @@ private:
     Room<HalfSpace, Touches::kMost> flat_;
     Nearest nearest_;
     StepShare step_share_;
+    struct {
+        std::uint32_t constraints = 0, triangle = 0;
+    } last_;              // what bore the ball last in this tick
     bool slips_ = false;  // of the two cones it is the dynamic one that holds
     bool slid_ = false;   // in this tick
 };
