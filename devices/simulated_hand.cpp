@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sensible.hpp"
+
 namespace burin {
 namespace {
-
-bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 double length2(const Quat& q) { return q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z; }
 

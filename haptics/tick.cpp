@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sensible.hpp"
 #include "haptics/probe_contact.hpp"
 
 namespace burin {
 namespace {
-
-bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 bool unit(const Quat& q) {
     // A comparison that a NaN fails.

@@ -2,14 +2,11 @@
 // Which settings of a tick make sense.
 #include <cmath>
 
+#include "base/sensible.hpp"
 #include "haptics/tick.hpp"
 
 namespace burin {
 namespace {
-
-bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-bool not_negative(double x) { return std::isfinite(x) && x >= 0.0; }
 
 bool share(double x) { return not_negative(x) && x < 1.0; }
 

@@ -4,16 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sensible.hpp"
+
 namespace burin {
 namespace {
 
-bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
 double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
-
-bool not_negative(double x) { return std::isfinite(x) && x >= 0.0; }
-
-bool not_negative(const Vec3& v) { return not_negative(v.x) && not_negative(v.y) && not_negative(v.z); }
 
 bool sensible(const GateLimits& limits) {
     return not_negative(limits.max_force_N) && not_negative(limits.max_slew_N_per_s) && not_negative(limits.ramp_s) &&
