@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "geometry/touch_order.hpp"
+#include "geometry/touch_layout.hpp"
 #include "geometry/touch_patch_maker.hpp"
 #include "geometry/touch_surface.hpp"
 #include "geometry/touch_tree.hpp"
@@ -49,76 +49,9 @@ Box box_of(std::span<const Vec3> positions) {
     return box;
 }
 
-// The mesh in the order of its patches.
-struct Ordered {
-    std::vector<VertexTriple> triangles;          // by slot
-    std::vector<std::uint32_t> mesh_index;        // of each slot
-    std::vector<std::vector<TouchItem>> classes;  // of sizes, largest triangles first; items by slot
-};
-
-struct Sized {
-    TouchItem item;
-    float longest_m = 0.0f;
-};
-
-Sized sized(const VertexTriple& t, std::span<const Vec3f> positions_m, std::uint32_t id) {
-    const Vec3f &a = positions_m[t[0]], &b = positions_m[t[1]], &c = positions_m[t[2]];
-    const Vec3f lo = lower_of(lower_of(a, b), c), hi = upper_of(upper_of(a, b), c), size = hi - lo;
-    return {{0.5f * (lo + hi), id}, std::max({size.x, size.y, size.z})};
-}
-
-std::vector<std::vector<TouchItem>> by_size(const std::vector<Sized>& all) {
-    float largest_m = 0.0f;
-    for (const Sized& one : all) largest_m = std::max(largest_m, one.longest_m);
-    std::vector<std::vector<TouchItem>> classes(kSizeClasses);
-    for (const Sized& one : all)
-        classes[largest_m > 0.0f ? size_class(one.longest_m, largest_m) : 0].push_back(one.item);
-    return classes;
-}
-
-Ordered ordered(std::span<const VertexTriple> triangles, std::span<const Vec3f> positions_m) {
-    std::vector<Sized> all(triangles.size());
-    for (std::uint32_t i = 0; i < triangles.size(); ++i) all[i] = sized(triangles[i], positions_m, i);
-    Ordered result;
-    result.classes = by_size(all);
-    result.triangles.reserve(triangles.size());
-    result.mesh_index.reserve(triangles.size());
-    for (std::vector<TouchItem>& items : result.classes) {
-        order_by_nearness(items);
-        for (TouchItem& item : items) {
-            result.triangles.push_back(triangles[item.id]);
-            result.mesh_index.push_back(item.id);
-            item.id = static_cast<std::uint32_t>(result.mesh_index.size() - 1);
-        }
-    }
-    return result;
-}
-
-// Numbers vertices in the order in which the triangles name them first, so that neighbours lie near each other in memory; those
-// that none names come last. Returns the new number of each old one.
-std::vector<std::uint32_t> renumber(std::vector<VertexTriple>& triangles, std::size_t vertices) {
-    std::vector<std::uint32_t> number(vertices, kNone);
-    std::uint32_t next = 0;
-    for (VertexTriple& t : triangles)
-        for (std::uint32_t& v : t) {
-            if (number[v] == kNone) number[v] = next++;
-            v = number[v];
-        }
-    for (std::uint32_t& n : number)
-        if (n == kNone) n = next++;
-    return number;
-}
-
-std::vector<std::uint32_t> inverse(std::span<const std::uint32_t> permutation) {
-    std::vector<std::uint32_t> back(permutation.size());
-    for (std::uint32_t i = 0; i < permutation.size(); ++i) back[permutation[i]] = i;
-    return back;
-}
-
 }  // namespace
 
-// Vertices and triangles have two numbers: an index, by which the publisher knows them, and an own one in the order of the
-// patches: `own` of a vertex, `slot` of a triangle.
+// Numbers of vertices and triangles: geometry/touch_layout.hpp.
 struct TouchMesh::Parts {
     Vec3 origin_object{0.0};
     TouchSurface surface;
@@ -128,38 +61,14 @@ struct TouchMesh::Parts {
     std::vector<std::uint32_t> empty_slots{};
     TouchTree tree{};
     TouchPatchMaker maker{};
-    // Vertices (own) whose normals are to be made anew, each once.
-    std::vector<std::uint32_t> stale_normals{};
-    std::vector<std::uint8_t> is_stale{};
     std::shared_ptr<const TouchSnapshot> newest{};  // none: something has changed since
 
     [[nodiscard]] Vec3f relative(const Vec3& position_object_m) const {
         return Vec3f(position_object_m - origin_object);
     }
-
-    void normal_is_stale(std::uint32_t vertex) {
-        if (is_stale[vertex] != 0) return;
-        is_stale[vertex] = 1;
-        stale_normals.push_back(vertex);
+    void place(std::uint32_t index, const Vec3& position_object_m) {
+        surface.place(own_of[index], relative(position_object_m));
     }
-    void normals_are_stale(std::uint32_t slot) {
-        for (const std::uint32_t v : surface.triangle(slot)) normal_is_stale(v);
-    }
-    void move(std::uint32_t vertex, const Vec3& position_object_m) {
-        surface.place(vertex, relative(position_object_m));
-        surface.for_each_at(vertex, [&](std::uint32_t slot) { normals_are_stale(slot); });
-    }
-
-    // What a triangle that has changed is part of: all patches around its corners, since those hold their normals.
-    void renew_normals() {
-        for (const std::uint32_t vertex : stale_normals) {
-            is_stale[vertex] = 0;
-            surface.renew_normal(vertex);
-            surface.for_each_at(vertex, [&](std::uint32_t slot) { tree.mark(tree.patch_of(slot)); });
-        }
-        stale_normals.clear();
-    }
-
     // The patches that lose triangles, or border on those that come: they are filled again.
     std::vector<std::uint32_t> patches_around(std::span<const std::uint32_t> slots,
                                               std::span<const VertexTriple> added) const;
@@ -170,7 +79,7 @@ struct TouchMesh::Parts {
 
 Result<TouchMesh> TouchMesh::create(const TriangleMesh& mesh) {
     if (mesh.triangles.empty()) return fail(kWhere, "there is no triangle", "give a mesh with triangles");
-    if (mesh.triangles.size() >= kNone / 3)
+    if (mesh.triangles.size() >= kNone / 4)
         return fail(kWhere, std::to_string(mesh.triangles.size()) + " triangles are too many", "part the mesh");
     if (auto ok = check_triangles(mesh.triangles, mesh.positions_m.size()); !ok) return std::unexpected(ok.error());
     if (auto ok = check_positions(mesh.positions_m, Vec3(0.0)); !ok) return std::unexpected(ok.error());
@@ -179,19 +88,13 @@ Result<TouchMesh> TouchMesh::create(const TriangleMesh& mesh) {
     positions_m.reserve(mesh.positions_m.size());
     for (const Vec3& p : mesh.positions_m) positions_m.push_back(Vec3f(p - origin));
 
-    Ordered order = ordered(mesh.triangles, positions_m);
-    std::vector<std::uint32_t> own_of = renumber(order.triangles, positions_m.size());
-    std::vector<Vec3f> own_positions_m(positions_m.size());
-    for (std::size_t i = 0; i < own_of.size(); ++i) own_positions_m[own_of[i]] = positions_m[i];
-    std::vector<std::uint32_t> slot_of = inverse(order.mesh_index);
-    const std::vector<std::span<const TouchItem>> groups(order.classes.begin(), order.classes.end());
-    auto parts =
-        std::make_unique<Parts>(Parts{.origin_object = origin,
-                                      .surface = TouchSurface(std::move(own_positions_m), std::move(order.triangles)),
-                                      .own_of = std::move(own_of),
-                                      .slot_of = std::move(slot_of),
-                                      .mesh_index = std::move(order.mesh_index)});
-    parts->is_stale.assign(mesh.positions_m.size(), 0);
+    TouchLayout layout = lay_out(mesh.triangles, positions_m);
+    const std::vector<std::span<const TouchItem>> groups(layout.classes.begin(), layout.classes.end());
+    auto parts = std::make_unique<Parts>(Parts{.origin_object = origin,
+                                               .surface = TouchSurface(layout.positions_m, layout.triangles),
+                                               .own_of = std::move(layout.own_of),
+                                               .slot_of = std::move(layout.slot_of),
+                                               .mesh_index = std::move(layout.mesh_index)});
     parts->tree.build(groups);
     return TouchMesh(std::move(parts));
 }
@@ -218,7 +121,7 @@ Result<void> TouchMesh::move_vertices(std::span<const std::uint32_t> vertices,
                         "there is no vertex " + std::to_string(v) + " of " + std::to_string(parts_->own_of.size()),
                         "number vertices from 0");
     if (auto ok = check_positions(positions_object_m, parts_->origin_object); !ok) return ok;
-    for (std::size_t i = 0; i < vertices.size(); ++i) parts_->move(parts_->own_of[vertices[i]], positions_object_m[i]);
+    for (std::size_t i = 0; i < vertices.size(); ++i) parts_->place(vertices[i], positions_object_m[i]);
     parts_->newest.reset();
     return {};
 }
@@ -230,18 +133,14 @@ Result<void> TouchMesh::move_all(std::span<const Vec3> positions_object_m) {
             std::to_string(positions_object_m.size()) + " positions for " + std::to_string(vertices()) + " vertices",
             "give a position for each vertex");
     if (auto ok = check_positions(positions_object_m, parts_->origin_object); !ok) return ok;
-    for (std::uint32_t i = 0; i < positions_object_m.size(); ++i) {
-        const std::uint32_t own = parts_->own_of[i];
-        parts_->surface.place(own, parts_->relative(positions_object_m[i]));
-        parts_->normal_is_stale(own);
-    }
+    for (std::uint32_t i = 0; i < positions_object_m.size(); ++i) parts_->place(i, positions_object_m[i]);
     parts_->newest.reset();
     return {};
 }
 
 void TouchMesh::Parts::remove(std::uint32_t slot) {
-    normals_are_stale(slot);
     surface.remove(slot);
+    tree.take_out(slot);
     empty_slots.push_back(slot);
 }
 
@@ -255,17 +154,19 @@ std::uint32_t TouchMesh::Parts::put(const VertexTriple& triangle) {
         empty_slots.pop_back();
     }
     surface.put(slot, triangle);
-    normals_are_stale(slot);
     return slot;
 }
 
 std::vector<std::uint32_t> TouchMesh::Parts::patches_around(std::span<const std::uint32_t> slots,
                                                             std::span<const VertexTriple> added) const {
     std::vector<std::uint32_t> patches;
-    for (const std::uint32_t slot : slots) patches.push_back(tree.patch_of(slot));
+    const auto take = [&](std::uint32_t slot) {
+        const std::uint32_t patch = tree.patch_of(slot);
+        if (patches.empty() || patches.back() != patch) patches.push_back(patch);
+    };
+    for (const std::uint32_t slot : slots) take(slot);
     for (std::size_t i = 0; patches.empty() && i < added.size(); ++i)
-        for (const std::uint32_t v : added[i])
-            surface.for_each_at(v, [&](std::uint32_t slot) { patches.push_back(tree.patch_of(slot)); });
+        for (const std::uint32_t v : added[i]) surface.for_each_at(v, take);
     std::ranges::sort(patches);
     const auto rest = std::ranges::unique(patches);
     patches.erase(rest.begin(), rest.end());
@@ -292,7 +193,6 @@ Result<std::vector<std::uint32_t>> TouchMesh::replace(std::span<const std::uint3
     for (const Vec3& p : new_positions_object_m) {
         parts.own_of.push_back(parts.surface.vertices());
         parts.surface.add_vertex(parts.relative(p));
-        parts.is_stale.push_back(0);
     }
     std::vector<VertexTriple> own(added.begin(), added.end());
     for (VertexTriple& t : own)
@@ -311,23 +211,18 @@ Result<std::vector<std::uint32_t>> TouchMesh::replace(std::span<const std::uint3
 
 // What is left in these patches and what is new is shared out again, by size and nearness; patches come or go as they are needed.
 void TouchMesh::Parts::refill(std::span<const std::uint32_t> patches, std::span<const std::uint32_t> added_slots) {
-    std::vector<Sized> all;
+    std::vector<SizedItem> all;
     const auto take = [&](std::uint32_t slot) {
-        const VertexTriple& t = surface.triangle(slot);
-        const std::array<Vec3f, 3> corners{surface.position_m(t[0]), surface.position_m(t[1]),
-                                           surface.position_m(t[2])};
-        all.push_back(sized({0, 1, 2}, corners, slot));
+        const auto [a, b, c] = surface.triangle(slot);
+        all.push_back(sized({surface.position_m(a), surface.position_m(b), surface.position_m(c)}, slot));
     };
     for (const std::uint32_t slot : added_slots) take(slot);
-    std::vector<std::uint32_t> added(added_slots.begin(), added_slots.end());
-    std::ranges::sort(added);
     for (const std::uint32_t patch : patches)
         for (const std::uint32_t slot : tree.slots(patch))
-            if (surface.is_there(slot) && !std::ranges::binary_search(added, slot)) take(slot);
+            if (tree.patch_of(slot) == patch) take(slot);
 
     std::size_t filled = 0;
-    for (std::vector<TouchItem>& items : by_size(all)) {
-        order_by_nearness(items);
+    for (const std::vector<TouchItem>& items : in_classes(all)) {
         for (std::size_t at = 0; at < items.size(); at += TouchPatch::kMostTriangles) {
             const std::span<const TouchItem> some =
                 std::span(items).subspan(at, std::min<std::size_t>(TouchPatch::kMostTriangles, items.size() - at));
@@ -343,7 +238,7 @@ void TouchMesh::Parts::refill(std::span<const std::uint32_t> patches, std::span<
 
 std::shared_ptr<const TouchSnapshot> TouchMesh::snapshot() {
     if (parts_->newest) return parts_->newest;
-    parts_->renew_normals();
+    parts_->tree.mark_patches_of(parts_->surface.renew_normals());
     const auto make = [&](std::span<const std::uint32_t> slots) {
         return parts_->maker.make(parts_->surface, slots, parts_->mesh_index);
     };

@@ -19,33 +19,36 @@ public:
                                                          std::span<const std::uint32_t> mesh_index);
 
 private:
-    // Where a mesh vertex is in the patch being made; of an earlier patch when the number does not match.
-    struct Mark {
-        std::uint32_t patch = 0;
-        std::uint32_t local = 0;  // the vertex of the patch; of a split one, its place in splits_
-    };
-    struct Split {  // a vertex with several normals: its pieces, of all_pieces_
-        std::uint32_t first = 0, count = 0;
+    struct Split {  // a vertex with several normals: its pieces, of pieces_
+        std::uint32_t vertex = 0, first = 0, count = 0;
     };
     struct SplitPiece {
         TouchSurface::Piece piece;
-        std::uint32_t local = TouchSurface::kNone;  // the same for all triangles of the piece
+        std::uint16_t local = kNone;  // the same for all triangles of the piece
     };
 
-    void add_triangle(TouchPatch& patch, std::uint32_t mesh_triangle, const std::array<std::uint16_t, 3>& corners);
-    std::uint16_t add_vertex(const Vec3f& position_m, const Vec3f& normal);
+    void take_triangles(TouchPatch& patch, const TouchSurface& surface, std::span<const std::uint32_t> slots);
+    void take_vertices(TouchPatch& patch, TouchSurface& surface);
+    std::uint16_t add_vertex(std::uint32_t vertex, const Vec3f& position_m, const Vec3f& normal);
     std::uint16_t vertex_of(TouchSurface& surface, std::uint32_t vertex, std::uint32_t slot);
-    std::uint16_t split_vertex_of(const TouchSurface& surface, const Split& split, std::uint32_t vertex,
-                                  std::uint32_t slot);
+    std::uint16_t split_vertex_of(TouchSurface& surface, std::uint32_t vertex, std::uint32_t slot);
     void keep_pieces(TouchSurface& surface, std::uint32_t vertex);
     void box_triangles(TouchPatch& patch);
 
-    std::uint32_t patch_number_ = 0;
-    std::vector<Mark> marks_;
+    static constexpr std::uint16_t kNone = 0xffffu;
+
+    std::array<std::uint32_t, TouchPatch::kMostTriangles> slots_{};  // of the patch's triangles
+
+    // Where a mesh vertex is in the patch being made: its number there; of a split one, its place in splits_. It may be out
+    // of date, and then the vertex of that number, or the split, is another one: so nothing has to be wiped for the next patch.
+    std::vector<std::uint16_t> place_of_;
     std::vector<Split> splits_;
     std::vector<SplitPiece> pieces_;
-    std::vector<Vec3f> positions_m_, normals_;                   // of the patch's vertices
-    std::array<Vec3f, TouchPatch::kMostTriangles> lo_{}, hi_{};  // of its triangles
+    // The patch's vertices.
+    static constexpr std::size_t kMostVertices = 3 * TouchPatch::kMostTriangles;
+    std::uint32_t vertices_ = 0;
+    std::array<std::uint32_t, kMostVertices> mesh_vertex_{};
+    std::array<Vec3f, kMostVertices> positions_m_{}, normals_{};
 };
 
 }  // namespace burin

@@ -2,7 +2,6 @@
 #include "geometry/touch_surface.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace burin {
@@ -25,39 +24,54 @@ Vec3f unit(const Vec3& v) {
     return length2 > 0.0 ? Vec3f(v / std::sqrt(length2)) : Vec3f(0.0f);
 }
 
+std::size_t and_a_quarter(std::size_t count) { return count + count / 4; }
+
 }  // namespace
 
-TouchSurface::TouchSurface(std::vector<Vec3f> positions_m, std::vector<VertexTriple> triangles)
-    : positions_m_(std::move(positions_m)),
-      triangles_(std::move(triangles)),
-      first_corner_(positions_m_.size(), kNone),
-      next_corner_(3 * triangles_.size(), kNone),
-      normals_(positions_m_.size(), Vec3f(0.0f)),
-      split_(positions_m_.size(), 0) {
+TouchSurface::TouchSurface(std::span<const Vec3f> positions_m, std::span<const VertexTriple> triangles) {
+    vertices_.reserve(and_a_quarter(positions_m.size()));
+    triangles_.reserve(and_a_quarter(triangles.size()));
+    links_.reserve(and_a_quarter(triangles.size()));
+    edge_sum_m_.reserve(and_a_quarter(triangles.size()));
+    for (const Vec3f& p : positions_m) add_vertex(p);
+    triangles_.assign(triangles.begin(), triangles.end());
+    links_.resize(triangles.size());
+    edge_sum_m_.resize(triangles.size(), 0.0f);
     for (std::uint32_t slot = slots(); slot-- > 0;) link(slot);
     for (std::uint32_t v = 0; v < vertices(); ++v) renew_normal(v);
+    changed_ = {};
 }
 
 void TouchSurface::link(std::uint32_t slot) {
     for (std::uint32_t k = 0; k < 3; ++k) {
-        const std::uint32_t corner = 3 * slot + k, vertex = triangles_[slot][k];
-        next_corner_[corner] = first_corner_[vertex];
-        first_corner_[vertex] = corner;
+        std::uint32_t& first = vertices_[triangles_[slot][k]].first_corner;
+        links_[slot].next_corner[k] = first;
+        first = 4 * slot + k;
     }
 }
 
-void TouchSurface::add_vertex(const Vec3f& position_m) {
-    positions_m_.push_back(position_m);
-    first_corner_.push_back(kNone);
-    normals_.push_back(Vec3f(0.0f));
-    split_.push_back(0);
+void TouchSurface::place(std::uint32_t vertex, const Vec3f& position_m) {
+    Vertex& v = vertices_[vertex];
+    v.position_m = position_m;
+    if (v.stale == Stale::kFacets) return;
+    v.stale = Stale::kFacets;
+    moved_.push_back(vertex);
+}
+
+void TouchSurface::normals_are_stale(std::uint32_t slot) {
+    for (const std::uint32_t v : triangles_[slot]) {
+        if (vertices_[v].stale != Stale::kNo) continue;
+        vertices_[v].stale = Stale::kNormal;
+        stale_normals_.push_back(v);
+    }
 }
 
 void TouchSurface::remove(std::uint32_t slot) {
+    normals_are_stale(slot);
     for (std::uint32_t k = 0; k < 3; ++k) {
-        std::uint32_t* at = &first_corner_[triangles_[slot][k]];
-        while (*at != 3 * slot + k) at = &next_corner_[*at];
-        *at = next_corner_[3 * slot + k];
+        std::uint32_t* at = &vertices_[triangles_[slot][k]].first_corner;
+        while (*at != 4 * slot + k) at = &next(*at);
+        *at = links_[slot].next_corner[k];
     }
     triangles_[slot] = {kNone, kNone, kNone};
 }
@@ -65,69 +79,130 @@ void TouchSurface::remove(std::uint32_t slot) {
 void TouchSurface::put(std::uint32_t slot, const VertexTriple& triangle) {
     if (slot == slots()) {
         triangles_.push_back(triangle);
-        next_corner_.resize(next_corner_.size() + 3, kNone);
+        links_.emplace_back();
+        edge_sum_m_.push_back(0.0f);
     }
     triangles_[slot] = triangle;
     link(slot);
+    normals_are_stale(slot);
 }
 
-TouchSurface::Facet TouchSurface::facet_at(std::uint32_t corner) const {
-    const std::uint32_t slot = corner / 3, k = corner - 3 * slot;
-    const VertexTriple& t = triangles_[slot];
-    const Vec3 at(positions_m_[t[k]]);
-    const Vec3 next = Vec3(positions_m_[t[k == 2 ? 0 : k + 1]]) - at;
-    const Vec3 before = Vec3(positions_m_[t[k == 0 ? 2 : k - 1]]) - at;
-    const Vec3 cross = glm::cross(next, before);
-    const double lengths2 = glm::dot(next, next) * glm::dot(before, before);
-    // An angle of less than 1e-6: its normal is noise.
-    if (!(glm::dot(cross, cross) > 1e-12 * lengths2)) return {};
-    return {cross, (1.0 / lengths2) * cross};
+void TouchSurface::make_facet(std::uint32_t slot) {
+    if (facet_count_ == facets_.size()) make_room_for_facets();
+    const auto [a, b, c] = triangles_[slot];
+    TouchFacet& facet = facets_[facet_count_];
+    facet = TouchFacet({Vec3(position_m(a)), Vec3(position_m(b)), Vec3(position_m(c))}, slot);
+    edge_sum_m_[slot] = facet.edge_sum_m;
+    links_[slot].facet = facet_count_++;
 }
 
-void TouchSurface::renew_normal(std::uint32_t vertex) {
-    facets_.clear();
-    Vec3 sum(0.0);
-    for (std::uint32_t corner = first_corner_[vertex]; corner != kNone; corner = next_corner_[corner]) {
-        facets_.push_back(facet_at(corner));
-        sum += facets_.back().weighted;
+void TouchSurface::make_room_for_facets() { facets_.resize(std::max<std::size_t>(64, 2 * facets_.size())); }
+
+std::span<const std::uint32_t> TouchSurface::renew_normals() {
+    facet_count_ = 0, changed_.clear();
+    if (moved_.size() > vertices() / 4) order_moved();
+    for (const std::uint32_t v : moved_) renew_around(v);
+    for (const std::uint32_t v : stale_normals_) {
+        if (vertices_[v].stale == Stale::kNormal) renew_normal(v);
+        vertices_[v].stale = Stale::kNo;
     }
-    split_[vertex] = 0;
-    normals_[vertex] = unit(sum);
-    // Where all facets are near their sum, no two of them turn by much: nearly all vertices of a fine mesh.
-    const auto near_sum = [&](const Facet& f) { return f.cross == Vec3(0.0) || within(sum, f.cross, kCosHalfSharp); };
-    if (std::ranges::all_of(facets_, near_sum)) return;
-    const auto pieces = pieces_at(vertex);
-    split_[vertex] = std::ranges::any_of(pieces, [&](const Piece& p) { return p.piece != pieces.front().piece; });
+    for (const std::uint32_t v : moved_) vertices_[v].stale = Stale::kNo;
+    moved_.clear(), stale_normals_.clear();
+    return changed_;
+}
+
+// Of many vertices, neighbours are renewed one after another, while their facets are known.
+void TouchSurface::order_moved() {
+    moved_.clear();
+    for (std::uint32_t v = 0; v < vertices(); ++v)
+        if (vertices_[v].stale == Stale::kFacets) moved_.push_back(v);
+}
+
+// A vertex that has moved: its normal, and the finding that those beside it are stale.
+void TouchSurface::renew_around(std::uint32_t vertex) {
+    const std::size_t before = changed_.size();
+    renew_normal(vertex);
+    for (std::size_t i = before; i < changed_.size(); ++i) normals_are_stale(changed_[i]);
+}
+
+// The vertex's normal, or the finding that there are several.
+void TouchSurface::renew_normal(std::uint32_t vertex) {
+    const std::span<const Around> around = facets_around(vertex);
+    const Vec3 sum = weighted_sum(around);
+    vertices_[vertex].normal = unit(sum);
+    vertices_[vertex].split = false;
+    if (is_smooth(around, sum)) return;
+    find_pieces(vertex);
+    const auto is_other = [&](const Piece& p) { return p.piece != pieces_.front().piece; };
+    vertices_[vertex].split = std::ranges::any_of(pieces_, is_other);
+}
+
+std::span<const TouchSurface::Around> TouchSurface::facets_around(std::uint32_t vertex) {
+    forget_facets_if_many();
+    std::uint32_t count = 0;
+    for (std::uint32_t corner = vertices_[vertex].first_corner; corner != kNone; corner = next(corner)) {
+        const std::uint32_t slot = slot_of(corner);
+        if (!knows_facet(slot)) {
+            make_facet(slot);
+            changed_.push_back(slot);
+        }
+        if (count == around_.size()) around_.resize(2 * count + 16);
+        around_[count++] = {links_[slot].facet, corner & 3};
+    }
+    return {around_.data(), count};
+}
+
+Vec3 TouchSurface::weighted_sum(std::span<const Around> around) const {
+    Vec3 sum(0.0);
+    for (const auto& [facet, corner] : around) sum += facets_[facet].weight[corner] * facets_[facet].cross;
+    return sum;
+}
+
+// Where all facets are near their sum, no two of them turn by much: nearly all vertices of a fine mesh.
+bool TouchSurface::is_smooth(std::span<const Around> around, const Vec3& sum) const {
+    const double least2 = kCosHalfSharp * kCosHalfSharp * glm::dot(sum, sum);
+    for (const auto& [facet, corner] : around) {
+        const double along = glm::dot(sum, facets_[facet].cross);
+        const bool is_near = along > 0.0 && along * along > least2 * facets_[facet].cross2;
+        if (!is_near && facets_[facet].weight[corner] > 0.0) return false;
+    }
+    return true;
 }
 
 std::span<const TouchSurface::Piece> TouchSurface::pieces_at(std::uint32_t vertex) {
-    corners_.clear(), facets_.clear(), spokes_.clear(), pieces_.clear();
-    for (std::uint32_t corner = first_corner_[vertex]; corner != kNone; corner = next_corner_[corner])
-        corners_.push_back(corner);
+    forget_facets_if_many();
+    find_pieces(vertex);
+    return pieces_;
+}
+
+void TouchSurface::find_pieces(std::uint32_t vertex) {
+    corners_.clear(), crosses_.clear(), sums_.clear(), spokes_.clear(), pieces_.clear();
+    for (std::uint32_t at = vertices_[vertex].first_corner; at != kNone; at = next(at)) corners_.push_back(at);
     std::ranges::sort(corners_);
-    for (const std::uint32_t corner : corners_) {
-        const VertexTriple& t = triangles_[corner / 3];
-        const std::uint32_t k = corner % 3, facet = static_cast<std::uint32_t>(facets_.size());
-        facets_.push_back(facet_at(corner));
-        pieces_.push_back({corner / 3, facet, Vec3f(0.0f)});
-        spokes_.push_back({t[k == 2 ? 0 : k + 1], facet});
-        spokes_.push_back({t[k == 0 ? 2 : k - 1], facet});
+    for (std::uint32_t i = 0; i < corners_.size(); ++i) {
+        const std::uint32_t slot = slot_of(corners_[i]), k = corners_[i] & 3;
+        const VertexTriple& t = triangles_[slot];
+        const TouchFacet& facet = facets_[facet_number(slot)];
+        crosses_.push_back(facet.weight[k] > 0.0 ? facet.cross : Vec3(0.0));
+        pieces_.push_back({slot, i, Vec3f(0.0f)});
+        spokes_.push_back({t[k == 2 ? 0 : k + 1], i});
+        spokes_.push_back({t[k == 0 ? 2 : k - 1], i});
     }
-    std::ranges::sort(spokes_, {}, [](const Spoke& s) { return std::uint64_t{s.to} << 32 | s.facet; });
-    DisjointSets sets(facets_.size());
+    std::ranges::sort(spokes_, {}, [](const Spoke& s) { return std::uint64_t{s.to} << 32 | s.corner; });
+    DisjointSets sets(corners_.size());
     for (std::size_t i = 0; i < spokes_.size(); ++i)
         for (std::size_t j = i + 1; j < std::min(i + kMostAtEdge, spokes_.size()) && spokes_[j].to == spokes_[i].to;
              ++j) {
-            const std::uint32_t a = spokes_[i].facet, b = spokes_[j].facet;
-            if (within(facets_[a].cross, facets_[b].cross, kCosSharp)) sets.unite(a, b);
+            const std::uint32_t a = spokes_[i].corner, b = spokes_[j].corner;
+            if (within(crosses_[a], crosses_[b], kCosSharp)) sets.unite(a, b);
         }
-    sums_.assign(facets_.size(), Vec3(0.0));
-    for (std::uint32_t i = 0; i < facets_.size(); ++i) sums_[sets.set_of(i)] += facets_[i].weighted;
+    sums_.assign(corners_.size(), Vec3(0.0));
+    for (std::uint32_t i = 0; i < corners_.size(); ++i)
+        sums_[sets.set_of(i)] += facets_[facet_number(slot_of(corners_[i]))].weight[corners_[i] & 3] * crosses_[i];
     for (Piece& piece : pieces_) {
         piece.piece = sets.set_of(piece.piece);
         piece.normal = unit(sums_[piece.piece]);
     }
-    return pieces_;
 }
 
 }  // namespace burin

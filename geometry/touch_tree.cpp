@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/componentwise.hpp"
+
 namespace burin {
 namespace {
 
@@ -92,6 +94,10 @@ void TouchTree::adopt(std::uint32_t number) {
         sum += middle_of_child(node, child);
     }
     node.middle = sum / static_cast<float>(std::max<std::size_t>(node.children.size(), 1));
+}
+
+void TouchTree::mark_patches_of(std::span<const std::uint32_t> slots) {
+    for (const std::uint32_t slot : slots) mark(patch_of_[slot]);
 }
 
 void TouchTree::mark(std::uint32_t patch) {

@@ -27,9 +27,12 @@ public:
     void build(std::span<const std::span<const TouchItem>> groups);
 
     [[nodiscard]] std::uint32_t patch_of(std::uint32_t slot) const { return patch_of_[slot]; }
+    // Those taken out still among them.
     [[nodiscard]] std::span<const std::uint32_t> slots(std::uint32_t patch) const { return patches_[patch].slots; }
 
-    void mark(std::uint32_t patch);
+    void mark_patches_of(std::span<const std::uint32_t> slots);
+    // The triangle belongs to no patch from now on; the one that had it is to be filled again.
+    void take_out(std::uint32_t slot) { patch_of_[slot] = kNone; }
     // Other triangles for a patch.
     void refill(std::uint32_t patch, std::span<const TouchItem> items);
     // A new patch beside another; anywhere, if that is kNone.
@@ -62,6 +65,7 @@ private:
     std::uint32_t new_node(bool of_patches, std::vector<std::uint32_t> children);
     void fill(Patch& patch, std::uint32_t number, std::span<const TouchItem> items);
     [[nodiscard]] const Vec3f& middle_of_child(const Node& node, std::uint32_t child) const;
+    void mark(std::uint32_t patch);
     void adopt(std::uint32_t node);
     std::uint32_t group(bool of_patches, std::vector<std::uint32_t> children);
     void mark_node(std::uint32_t node);

@@ -6,8 +6,10 @@
 #include <atomic>
 #include <limits>
 #include <thread>
+#include <tuple>
 
 #include "base/newest_slot.hpp"
+#include "geometry/touch_facet.hpp"
 #include "tests/geometry/touch_samples.hpp"
 
 namespace burin::test {
@@ -68,6 +70,54 @@ TEST(TouchMesh, KeepsEveryTriangleUnderItsNumber) {
         seen.insert(snapshot->mesh_triangle(i));
     }
     EXPECT_EQ(seen.size(), source.triangles.size());
+}
+
+TEST(TouchFacet, WeighsEachCornerAsMaxDoes) {
+    std::mt19937 random(5);
+    for (int i = 0; i < 200; ++i) {
+        const std::array<Vec3, 3> p{random_vector(random, 0.01), random_vector(random, 0.01),
+                                    random_vector(random, 1.0)};
+        const TouchFacet facet({p[0], p[1], p[2]}, 7);
+        double edges_m = 0.0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 next = p[(k + 1) % 3] - p[k], before = p[(k + 2) % 3] - p[k];
+            const Vec3 expected = glm::cross(next, before) / (glm::dot(next, next) * glm::dot(before, before));
+            EXPECT_LT(glm::length(facet.weight[k] * facet.cross - expected), 1e-9 * glm::length(expected));
+            edges_m += glm::length(next);
+        }
+        EXPECT_NEAR(facet.edge_sum_m, edges_m, 1e-6 * edges_m);
+        EXPECT_EQ(facet.slot, 7u);
+    }
+}
+
+TEST(TouchFacet, HasNoWeightWhereItHasNoAngleAndNoEdgesWithoutAnArea) {
+    const Vec3 a(0.0), b(1.0, 0.0, 0.0);
+    for (const Vec3& c : {a, b, Vec3(0.3, 0.0, 0.0), Vec3(0.3, 1e-7, 0.0)}) {
+        const TouchFacet facet({a, b, c}, 0);
+        EXPECT_EQ(facet.weight[0], 0.0);
+        EXPECT_EQ(facet.weight[1], 0.0);
+        EXPECT_EQ(facet.edge_sum_m, 0.0f);
+    }
+    const TouchFacet needle({a, b, Vec3(1.0, 5e-7, 0.0)}, 0);  // its tip has no direction, its base has
+    EXPECT_EQ(needle.weight[0], 0.0);
+    EXPECT_GT(needle.weight[1], 0.0);
+    EXPECT_GT(needle.weight[2], 0.0);
+}
+
+// More triangles than facets are kept at a time, moved from one end to the other.
+TEST(TouchMesh, AllOfALargeMeshMovesAsOneMadeAnew) {
+    TriangleMesh source = ball(56, 0.05);  // 37632 triangles
+    TouchMesh mesh = made(source);
+    std::ignore = mesh.snapshot();
+    for (Vec3& p : source.positions_m) p *= Vec3(1.0, 1.25, 1.0);
+    ASSERT_TRUE(mesh.move_all(source.positions_m).has_value());
+    const auto moved = mesh.snapshot();
+    ASSERT_EQ(moved->triangles(), source.triangles.size());
+    for (std::uint32_t i = 0; i < moved->triangles(); ++i) {
+        const Triangle t = moved->triangle(i);
+        const Vec3 outward = glm::normalize(t.a / Vec3(1.0, 1.5625, 1.0));  // of an ellipsoid: its gradient
+        EXPECT_LT(glm::length(Vec3(moved->corner_normals(i).normals[0]) - outward), 2e-3);
+    }
 }
 
 TEST(TouchMesh, NormalsOfABallAreRadialAndOneAtEachVertexWhateverThePatch) {
