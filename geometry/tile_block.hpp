@@ -7,7 +7,7 @@
 // Frame: relative to the lattice's origin, metres. Whoever holds a block may read it without a lock, since no tile ever
 // changes. Copying a block, or filling it, counts references and may free tiles: that is for the side that carves.
 // Asking does not allocate, lock, throw. Work, in the tiles within reach: the 48 rows of each, the quads of the rows within
-// reach at 2 ns, and a look at the corners of those quads whose edge is near enough.
+// reach at 2 ns, and a look at the corners of those quads whose edge is near enough, four quads at once.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,7 @@
 #include <memory>
 #include <vector>
 
-#include "geometry/plane_gate.hpp"
-#include "geometry/rounded_box.hpp"
+#include "geometry/quad_gate.hpp"
 #include "geometry/surface_tile.hpp"
 #include "geometry/triangle.hpp"
 #include "shaders/shared/octahedral.h"
@@ -110,10 +109,11 @@ struct NodeRange {
 struct EdgeDistances {
     using OfAxis = std::array<std::array<float, SurfaceTile::kCells>, 3>;
     OfAxis across, along;  // for edges of the two other axes, and for those of this one
-    float reach2;
+    double cell_m;
 
     // `first_node` in the lattice.
-    EdgeDistances(const Near& near, double cell_m, const std::array<int, 3>& first_node) noexcept {
+    EdgeDistances(const Near& near, double cell_length_m, const std::array<int, 3>& first_node) noexcept
+        : cell_m(cell_length_m) {
         for (int axis = 0; axis < 3; ++axis) {
             const auto k = static_cast<std::size_t>(axis);
             const auto lo = static_cast<float>(near.lo[axis] / cell_m - first_node[k] - TileBlock::kReach);
@@ -127,72 +127,133 @@ struct EdgeDistances {
                 of_along[node] = squared(std::max(below, above + 1.0f));
             }
         }
-        reach2 = squared(static_cast<float>(near.reach_m / cell_m * (1.0 + 1e-5)));
+    }
+    [[nodiscard]] float reach2(const Near& near) const noexcept {
+        return squared(static_cast<float>(near.reach_m / cell_m * (1.0 + 1e-5)));
     }
     static float squared(float x) noexcept { return x * x; }
 };
 
+// The quads of a tile that are near enough by their edges, looked at four at a time; visit(triangle of the tile, triangle).
+template <typename Visit>
+class QuadsNear {
+public:
+    QuadsNear(const SurfaceTile& tile, QuadGate& gate, Near& near, Visit& visit) noexcept
+        : vertices_(tile.vertices.data()), indices_(tile.indices.data()), gate_(gate), near_(near), visit_(visit) {}
+
+    // The quad whose triangles are i and i + 1. False when visit said so or the looks are used up.
+    [[nodiscard]] bool add(std::uint32_t i) {
+        if (!near_.look()) {
+            end();
+            return false;
+        }
+        quads_[count_++] = i;
+        return count_ < kLanes || look();
+    }
+    // A triangle that is part of a fan.
+    [[nodiscard]] bool add_alone(std::uint32_t i) {
+        if (!near_.look()) return false;
+        const std::uint32_t* const corner = indices_ + std::size_t{3} * i;
+        const Vec3Lanes a = in_all_lanes(place_of(vertices_[corner[0]])),
+                        b = in_all_lanes(place_of(vertices_[corner[1]])),
+                        c = in_all_lanes(place_of(vertices_[corner[2]]));
+        if (!gate_.reaches_as_far_as(near_)) gate_.reach(near_);
+        const auto passed = gate_.look({a, b, c, c}, LaneMask{-1, -1, -1, -1});
+        return passed.first[0] == 0 || pass_on(i, passed.sound_first[0] != 0);
+    }
+    // Looks at those that are left over.
+    bool end() { return count_ == 0 || look(); }
+
+private:
+    bool look() {
+        LaneMask asked{};
+        for (std::uint32_t k = 0; k < kLanes; ++k) {
+            asked[k] = k < count_ ? -1 : 0;
+            if (k >= count_) quads_[k] = quads_[0];
+        }
+        count_ = 0;
+        if (!gate_.reaches_as_far_as(near_)) gate_.reach(near_);
+        const auto passed = gate_.look(corners(), asked);
+        if (!any(passed.first | passed.second)) return true;
+        for (std::uint32_t k = 0; k < kLanes; ++k) {
+            if (passed.first[k] != 0 && !pass_on(quads_[k], passed.sound_first[k] != 0)) return false;
+            if (passed.second[k] != 0 && !pass_on(quads_[k] + 1, passed.sound_second[k] != 0)) return false;
+        }
+        return true;
+    }
+    // Both triangles of a quad begin with the same corner, and either the second has the first's last one next, or the first has
+    // the second's last one next.
+    [[nodiscard]] FourQuads corners() const noexcept {
+        const float *a[kLanes], *p[kLanes], *q[kLanes], *d[kLanes];
+        for (std::uint32_t k = 0; k < kLanes; ++k) {
+            const std::uint32_t* const corner = indices_ + std::size_t{3} * quads_[k];
+            const bool flip = corner[4] != corner[2];
+            a[k] = &vertices_[corner[0]].x;
+            p[k] = &vertices_[corner[flip ? 1 : 2]].x;
+            q[k] = &vertices_[corner[flip ? 2 : 1]].x;
+            d[k] = &vertices_[corner[flip ? 4 : 5]].x;
+        }
+        return {gathered(a), gathered(p), gathered(q), gathered(d)};
+    }
+    bool pass_on(std::uint32_t i, bool sound) {
+        const std::uint32_t* const corner = indices_ + std::size_t{3} * i;
+        const Triangle t{Vec3(place_of(vertices_[corner[0]])), Vec3(place_of(vertices_[corner[1]])),
+                         Vec3(place_of(vertices_[corner[2]]))};
+        return (!sound && is_degenerate(t)) || visit_(i, t);
+    }
+
+    const shared::SurfaceVertex* vertices_;
+    const std::uint32_t* indices_;
+    QuadGate& gate_;
+    Near& near_;
+    Visit& visit_;
+    std::array<std::uint32_t, kLanes> quads_{};  // by their first triangles
+    std::uint32_t count_ = 0;
+};
+
 // visit(triangle of the tile, triangle).
 template <typename Visit>
-bool for_each_near_in_tile(const SurfaceTile& tile, const EdgeDistances& edges, double longest_edge_m, Near& near,
+bool for_each_near_in_tile(const SurfaceTile& tile, const EdgeDistances& edges, QuadGate& gate, Near& near,
                            Visit&& visit) {
-    const RoundedBox box(near);
-    const PlaneGate planes(near, longest_edge_m);
-    const shared::SurfaceVertex* const vertices = tile.vertices.data();
-    const std::uint32_t* const indices = tile.indices.data();
-    const auto pass_on = [&](std::uint32_t i, const Vec3f& a, const Vec3f& b, const Vec3f& c) {
-        if (!planes.meets(a, b, c)) return true;
-        const Triangle t{Vec3(a), Vec3(b), Vec3(c)};
-        return is_degenerate(t) || visit(i, t);
-    };
-    // Two triangles at once, which mostly have the same box: that of their quad. Both begin with the same corner, and either
-    // the second has the first's last one next, or the first has the second's last one next.
-    const auto look_at_quad = [&](std::uint32_t i) {
-        if (!near.look()) return false;
-        const std::uint32_t* const corner = indices + std::size_t{3} * i;
-        const bool flip = corner[4] != corner[2];
-        const Vec3f a = place_of(vertices[corner[0]]), b = place_of(vertices[corner[1]]),
-                    c = place_of(vertices[corner[2]]), d = place_of(vertices[corner[flip ? 4 : 5]]);
-        if (!box.meets(lower_of(lower_of(a, b), lower_of(c, d)), upper_of(upper_of(a, b), upper_of(c, d)))) return true;
-        return pass_on(i, a, b, c) && (flip ? pass_on(i + 1, a, d, b) : pass_on(i + 1, a, c, d));
-    };
-    const auto look_at_triangle = [&](std::uint32_t i) {
-        if (!near.look()) return false;
-        const std::uint32_t* const corner = indices + std::size_t{3} * i;
-        const Vec3f a = place_of(vertices[corner[0]]), b = place_of(vertices[corner[1]]),
-                    c = place_of(vertices[corner[2]]);
-        return !box.meets(lower_of(lower_of(a, b), c), upper_of(upper_of(a, b), c)) || pass_on(i, a, b, c);
-    };
+    QuadsNear quads_near(tile, gate, near, visit);
     const bool only_quads = tile.only_quads();
+    const std::uint16_t* const quads = tile.quads.data();
+    constexpr unsigned kCells = SurfaceTile::kCells, kInRow = kCells * kCells - 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto& of_x = axis == 0 ? edges.along[0] : edges.across[0];
         const auto& of_y = axis == 1 ? edges.along[1] : edges.across[1];
         const auto& of_z = axis == 2 ? edges.along[2] : edges.across[2];
+        const float reach2 = edges.reach2(near);
+        unsigned first_x = 0, last_x = kCells - 1;  // beyond these all are too far
+        while (first_x < last_x && !(of_x[first_x] <= reach2)) ++first_x;
+        while (last_x > first_x && !(of_x[last_x] <= reach2)) --last_x;
         for (std::size_t y = 0; y < SurfaceTile::kCells; ++y) {
-            const float left2 = edges.reach2 - of_y[y];
+            const float left2 = reach2 - of_y[y];
             if (!(left2 >= 0.0f)) continue;
             const std::size_t row = axis * SurfaceTile::kCells + y;
             if (!only_quads) {  // rare: some quads are fans, so that a quad's place does not tell its triangles'
                 for (std::uint32_t i = tile.row_triangles[row]; i < tile.row_triangles[row + 1]; ++i)
-                    if (!look_at_triangle(i)) return false;
+                    if (!quads_near.add_alone(i)) return false;
                 continue;
             }
-            const std::uint16_t* const quads = tile.quads.data();
-            for (std::uint32_t q = tile.row_quads[row]; q < tile.row_quads[row + 1]; ++q) {
-                const std::size_t x = quads[q] / SurfaceTile::kCells % SurfaceTile::kCells,
-                                  z = quads[q] % SurfaceTile::kCells;
-                if (of_x[x] + of_z[z] <= left2 && !look_at_quad(2 * q)) return false;
+            std::uint32_t q = tile.row_quads[row];
+            const std::uint32_t end = tile.row_quads[row + 1];
+            while (q < end && (quads[q] & kInRow) < first_x * kCells) ++q;
+            for (; q < end; ++q) {
+                const unsigned x = (quads[q] & kInRow) / kCells, z = quads[q] % kCells;
+                if (x > last_x) break;
+                if (of_x[x] + of_z[z] <= left2 && !quads_near.add(2 * q)) return false;
             }
         }
     }
-    return true;
+    return quads_near.end();
 }
 
 // As for_each_triangle_near (geometry/local_surface_search.hpp), visit(number, triangle).
 template <typename Visit>
 bool for_each_near(const TileBlock& block, Near& near, Visit&& visit) {
     constexpr int kCells = SurfaceTile::kCells;
-    const double longest_edge_m = 5.5 * block.cell_m;  // the diagonal of 2 kReach cells a side
+    QuadGate gate(near, 5.5 * block.cell_m, block.cell_m);  // at most the diagonal of 2 kReach cells a side
     const NodeRange nodes = nodes_near(block, near);
     std::array<int, 3> from{}, to{};  // places
     for (std::size_t k = 0; k < 3; ++k) {
@@ -212,7 +273,7 @@ bool for_each_near(const TileBlock& block, Near& near, Visit&& visit) {
                 const auto visit_numbered = [&](std::uint32_t i, const Triangle& t) {
                     return visit(place.first_triangle + i, t);
                 };
-                if (!for_each_near_in_tile(*place.tile, edges, longest_edge_m, near, visit_numbered)) return false;
+                if (!for_each_near_in_tile(*place.tile, edges, gate, near, visit_numbered)) return false;
             }
     return true;
 }

@@ -42,9 +42,9 @@ struct Near {
     double reach_m = 0.0;   // how far from it
     std::uint32_t looks_left =
         UINT32_MAX;  // bounding boxes or balls it may look at; counted down, and none left ends it
-    // True: triangles whose planes are farther than reach_m from all of the way between two points may be left out too. That
-    // is most of those around a ball in its own groove.
-    bool by_plane = false;
+    // True: triangles that are farther than reach_m from all of the way between two points, or whose planes are, may be left out
+    // too. That is most of those around a ball in its own groove.
+    bool by_way = false;
     Vec3 from{0.0}, to{0.0};
 
     [[nodiscard]] bool look() noexcept {

@@ -7,6 +7,7 @@
 
 #include "geometry/local_surface_search.hpp"
 #include "haptics/contact/god_object.hpp"
+#include "haptics/contact/triangle_contact.hpp"
 #include "haptics/realtime.hpp"
 #include "tests/compute/random_solids.hpp"
 #include "tests/haptics/rig.hpp"
@@ -67,7 +68,55 @@ void expect_alike(const LocalSurface& tiles, const LocalSurface& loose, const Ve
     EXPECT_GT(in_contact, test::repeated(1500) / 8);
 }
 
+// At one of many places on it; never less than it is.
+double distance_from_way(const Vec3& from, const Vec3& to, const Triangle& t) {
+    constexpr int kPlaces = 40;
+    double least = HUGE_VAL;
+    for (int i = 0; i <= kPlaces; ++i) {
+        const Vec3 p = from + (static_cast<double>(i) / kPlaces) * (to - from);
+        least = std::min(least, glm::length(p - nearest_on_triangle(p, t).point));
+    }
+    return least;
+}
+
 }  // namespace
+
+TEST(TouchedTiles, EachTriangleNearAWayIsFoundOnceAndFewThatAreFar) {
+    WorkerPool pool(2);
+    Workpiece work;  // quads alone
+    work.cut({-0.2, 0.4, 0.0}, {0.2, 0.4, 0.05});
+    const Solid noise = test::noise_solid({20, 20, 20}, 0.4, test::Rays::agree, 4);  // with fans
+    Surface noisy(noise.lattice);
+    noisy.mesh_all(noise, pool);
+    for (const Surface* surface : {&*work.surface, &noisy}) {
+        const double cell = surface->lattice().spacing_m;
+        const Vec3 middle = surface == &noisy ? noise.lattice.origin_object + 10.0 * cell : Vec3(0.0, 0.4, 0.0);
+        const LocalSurface tiles = tiles_around(*surface, middle, surface == &noisy ? 1e3 * cell : 2.0 * cell);
+        ASSERT_GT(tiles.triangles(), 100u);
+        test::Random random(8);
+        const auto place = [&] {
+            const Vec3 off(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+            return middle - tiles.origin_object + 10.0 * cell * off;
+        };
+        for (int run = 0; run < test::repeated(16); ++run) {
+            const Vec3 from = place(), to = run % 4 == 0 ? from : from + random.between(0.01, 1.0) * (place() - from);
+            const double reach = cell * random.between(0.3, 5.0);
+            std::set<std::uint32_t> found;
+            Near near{glm::min(from, to), glm::max(from, to), reach, UINT32_MAX, true, from, to};
+            ASSERT_TRUE(for_each_triangle_near(tiles, near, [&](std::uint32_t id, const Triangle& t) {
+                EXPECT_TRUE(found.insert(id).second);
+                EXPECT_LT(distance_from_way(from, to, t), reach + 4.0 * cell);  // two corners of its quad's box
+                return true;
+            }));
+            for (std::uint32_t id = 0; id < tiles.triangles(); ++id) {
+                const Triangle t = tiles.triangle(id);
+                if (!is_degenerate(t) && distance_from_way(from, to, t) <= reach) {
+                    ASSERT_TRUE(found.contains(id)) << run;
+                }
+            }
+        }
+    }
+}
 
 TEST(TouchedTiles, TheProxyGoesAsOnTheSameTrianglesLoose) {
     Workpiece work;
