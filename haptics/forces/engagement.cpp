@@ -5,76 +5,135 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/lanes.hpp"
 #include "geometry/local_surface_search.hpp"
 
 namespace burin {
 namespace {
 
-constexpr double kReach = 1.1;           // of the radius
-constexpr double kSurroundings = 1.6;    // likewise
-constexpr double kPiece = 1.0 / 3.0;     // of the radius: the longest edge of a piece
+// All of the radius.
+constexpr double kReach = 1.1;
+constexpr double kSurroundings = 1.6;
+constexpr double kPiece = 1.0 / 3.0;     // the longest edge of a piece
 constexpr std::uint32_t kMostCuts = 24;  // of an edge; coarser than a third of the radius where a triangle is huge
 
-// What of the view from the centre is taken up by surface within reach.
+// A sum in double of what is in float.
+class Sum {
+public:
+    void add(LaneMask those, Lanes values) {
+        lanes_ += __builtin_convertvector(those != 0 ? values : Lanes{}, DoubleLanes);
+    }
+    [[nodiscard]] double all() const { return (lanes_[0] + lanes_[1]) + (lanes_[2] + lanes_[3]); }
+
+private:
+    using DoubleLanes [[gnu::vector_size(8 * kLanes)]] = double;
+    DoubleLanes lanes_{};
+};
+
+Lanes square_root(Lanes x) {
+    for (std::size_t k = 0; k < kLanes; ++k) x[k] = std::sqrt(x[k]);
+    return x;
+}
+
+// What of the view from the centre is taken up by surface within reach. Four triangles at a time, as seen from the centre in units
+// of the radius, in float: 1e-7 of the radius, as the surface itself is. The sums are double.
 class View {
 public:
     View(const Vec3& center, double radius_m, const Vec3& ahead)
         : center_(center),
-          ahead_(ahead),
-          bias_(std::sqrt(glm::dot(ahead, ahead))),
-          reach_m_(kReach * radius_m),
-          surroundings_m_(kSurroundings * radius_m),
-          piece_m_(kPiece * radius_m) {}
+          per_m_(1.0 / radius_m),
+          ahead_(in_all_lanes(Vec3f(ahead))),
+          bias_(static_cast<float>(std::sqrt(glm::dot(ahead, ahead)))) {}
 
     // False when enough has been looked at.
     bool add(const Triangle& t) {
-        const Vec3 u = t.b - t.a, v = t.c - t.a;
-        const Vec3 area = 0.5 * glm::cross(u, v);
-        if (!(glm::dot(area, center_ - t.a) > 0.0)) return true;  // turned away
-        const std::uint32_t cuts = cuts_of(t);
-        if (cuts == 1) {
-            add_piece((t.a + t.b + t.c) / 3.0, area);
-            return ++pieces_ < kMostEngagementPieces;
-        }
-        const double n = cuts;
-        for (std::uint32_t j = 0; j < cuts; ++j)
-            for (std::uint32_t i = 0; i + j < cuts; ++i) {  // an upright piece, and the one upside down beside it
-                add_piece(t.a + ((i + 1.0 / 3.0) / n) * u + ((j + 1.0 / 3.0) / n) * v, area / (n * n));
-                if (i + j + 1 < cuts)
-                    add_piece(t.a + ((i + 2.0 / 3.0) / n) * u + ((j + 2.0 / 3.0) / n) * v, area / (n * n));
-            }
-        pieces_ += cuts * cuts;
-        return pieces_ < kMostEngagementPieces;
+        put(Vec3f((t.a - center_) * per_m_), a_);
+        put(Vec3f((t.b - center_) * per_m_), b_);
+        put(Vec3f((t.c - center_) * per_m_), c_);
+        return ++count_ < kLanes || look();
+    }
+    // Looks at those that are left over.
+    void end() {
+        while (count_ > 0) add({center_, center_, center_});  // of no area, and so turned away
     }
 
-    [[nodiscard]] double solid_angle() const { return solid_angle_; }
+    [[nodiscard]] double solid_angle() const { return solid_angle_.all(); }
     [[nodiscard]] Vec3 into() const {
-        const double l = std::sqrt(glm::dot(area_, area_));
-        return l > 1e-9 * piece_m_ * piece_m_ ? -area_ / l : Vec3(0.0);
+        const Vec3 area(area_x_.all(), area_y_.all(), area_z_.all());
+        const double l = std::sqrt(glm::dot(area, area));
+        return l > 1e-9 * kPiece * kPiece ? -area / l : Vec3(0.0);
     }
 
 private:
-    [[nodiscard]] std::uint32_t cuts_of(const Triangle& t) const {
-        const Vec3 u = t.b - t.a, v = t.c - t.a, w = t.c - t.b;
-        const double longest = std::sqrt(std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)}));
-        if (longest <= piece_m_) return 1;
-        return static_cast<std::uint32_t>(std::min(std::ceil(longest / piece_m_), double{kMostCuts}));
+    void put(const Vec3f& p, Vec3Lanes& lanes) const {
+        lanes.x[count_] = p.x;
+        lanes.y[count_] = p.y;
+        lanes.z[count_] = p.z;
     }
-    void add_piece(const Vec3& middle, const Vec3& area) {
-        const Vec3 to = middle - center_;
-        const double r2 = glm::dot(to, to);
-        if (!(r2 <= surroundings_m_ * surroundings_m_) || !(r2 > 0.0)) return;
-        area_ += area;
-        if (r2 > reach_m_ * reach_m_) return;
-        const double weight = glm::dot(to, ahead_) > 0.0 ? 1.0 + bias_ : 1.0 - bias_;
-        solid_angle_ -= weight * glm::dot(area, to) / (r2 * std::sqrt(r2));
+    bool look() {
+        constexpr float kPiece2 = static_cast<float>(kPiece * kPiece);
+        const Vec3Lanes u = b_ - a_, v = c_ - a_, w = c_ - b_;
+        const Vec3Lanes area = Lanes{0.5f, 0.5f, 0.5f, 0.5f} * cross(u, v);
+        const LaneMask facing = dot(area, a_) < 0.0f;
+        const Lanes longest2 = greater(greater(dot(u, u), dot(v, v)), dot(w, w));
+        const LaneMask large = facing & (longest2 > kPiece2);
+        const Lanes third = Lanes{} + 1.0f / 3.0f;
+        add_pieces(facing & ~large, third * (a_ + b_ + c_), area);
+        pieces_ += count_;
+        count_ = 0;
+        if (any(large)) {
+            for (std::size_t k = 0; k < kLanes; ++k)
+                if (large[k] != 0) cut_up(in_lane(a_, k), in_lane(u, k), in_lane(v, k), in_lane(area, k), longest2[k]);
+        }
+        return pieces_ < kMostEngagementPieces;
+    }
+    [[nodiscard]] static Vec3f in_lane(const Vec3Lanes& lanes, std::size_t k) {
+        return {lanes.x[k], lanes.y[k], lanes.z[k]};
+    }
+    // Into n^2 pieces: n rows, in which upright ones and ones upside down alternate.
+    void cut_up(const Vec3f& a, const Vec3f& u, const Vec3f& v, const Vec3f& area, float longest2) {
+        const double edges = std::ceil(std::sqrt(static_cast<double>(longest2)) / kPiece);
+        const auto n = static_cast<std::uint32_t>(std::min(edges, double{kMostCuts}));
+        const float share = 1.0f / static_cast<float>(n);
+        const Vec3Lanes piece = in_all_lanes(area * (share * share));
+        for (std::uint32_t j = 0; j < n; ++j) {
+            const std::uint32_t in_row = 2 * (n - j) - 1;
+            for (std::uint32_t first = 0; first < in_row; first += kLanes) {
+                Lanes i{}, up{};
+                LaneMask there{};
+                for (std::uint32_t k = 0; k < kLanes; ++k) {
+                    i[k] = static_cast<float>((first + k) / 2);
+                    up[k] = (first + k) % 2 == 0 ? 1.0f / 3.0f : 2.0f / 3.0f;
+                    there[k] = first + k < in_row ? -1 : 0;
+                }
+                const Lanes along_u = (i + up) * share, along_v = (static_cast<float>(j) + up) * share;
+                add_pieces(there, in_all_lanes(a) + along_u * in_all_lanes(u) + along_v * in_all_lanes(v), piece);
+            }
+        }
+        pieces_ += n * n;
+    }
+    void add_pieces(LaneMask those, const Vec3Lanes& to, const Vec3Lanes& area) {
+        constexpr float kReach2 = static_cast<float>(kReach * kReach);
+        constexpr float kSurroundings2 = static_cast<float>(kSurroundings * kSurroundings);
+        const Lanes r2 = dot(to, to);
+        those &= (r2 <= kSurroundings2) & (r2 > 0.0f);
+        if (!any(those)) return;
+        area_x_.add(those, area.x);
+        area_y_.add(those, area.y);
+        area_z_.add(those, area.z);
+        those &= r2 <= kReach2;
+        if (!any(those)) return;
+        const Lanes weight = dot(to, ahead_) > 0.0f ? Lanes{} + (1.0f + bias_) : Lanes{} + (1.0f - bias_);
+        solid_angle_.add(those, weight * -dot(area, to) / (r2 * square_root(r2)));
     }
 
-    Vec3 center_, ahead_;
-    double bias_, reach_m_, surroundings_m_, piece_m_;
-    double solid_angle_ = 0.0;
-    Vec3 area_{0.0};
-    std::uint32_t pieces_ = 0;
+    Vec3 center_;
+    double per_m_;
+    Vec3Lanes ahead_;
+    float bias_;
+    Sum solid_angle_, area_x_, area_y_, area_z_;
+    Vec3Lanes a_{}, b_{}, c_{};
+    std::uint32_t count_ = 0, pieces_ = 0;
 };
 
 }  // namespace
@@ -84,12 +143,11 @@ EngagementLook engagement(const LocalSurface& surface, const Vec3& center_object
     EngagementLook look;
     if (!(radius_m > 0.0)) return look;
     const Vec3 center = center_object_m - surface.origin_object;
-    const Vec3 around(kSurroundings * radius_m);
     View view(center, radius_m, ahead_object);
-    for_each_triangle_near(surface, center - around, center + around, [&](std::uint32_t, const Triangle& t) {
-        ++look.triangles_seen;
-        return view.add(t);
-    });
+    Near near{center, center, kSurroundings * radius_m};
+    for_each_triangle_near(surface, near, [&](std::uint32_t, const Triangle& t) { return view.add(t); });
+    view.end();
+    look.triangles_seen = UINT32_MAX - near.looks_left;
     const double depth_m =
         kReach * radius_m * view.solid_angle() / (2.0 * std::numbers::pi) - (kReach - 1.0) * radius_m;
     look.engagement = {std::clamp(depth_m, 0.0, 2.0 * radius_m), view.into()};

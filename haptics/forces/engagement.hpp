@@ -27,7 +27,7 @@ struct Engagement {
 
 struct EngagementLook {
     Engagement engagement;
-    std::uint32_t triangles_seen = 0;
+    std::uint32_t triangles_seen = 0;  // by their boxes or balls; a quad is one
 };
 
 // Triangles larger than a third of the radius are looked at in pieces; beyond so many pieces in all the rest is left out.
