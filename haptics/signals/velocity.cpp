@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "haptics/signals/velocity.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace burin {
@@ -11,18 +12,21 @@ constexpr std::uint32_t kPlaces = VelocityWindow::kLongest + 1;
 // Positions are multiples of the encoder's step; rounding in their last bits must not shorten a window.
 constexpr double kRounding = 1.0 + 1e-6;
 
+// The longest window whose line from end to end passes all between within the noise. In one pass: a line through the newest
+// position passes the position i ticks ago within the noise when its slope is within a range, and these ranges only narrow.
 double velocity_of_axis(const VelocityWindow& window, int axis, double noise_m, double dt_s) {
-    const auto ago = [&](std::uint32_t ticks) {
-        return window.positions_m[(window.newest + kPlaces - ticks) % kPlaces][axis];
-    };
-    double best = 0.0;
+    const double newest_m = window.positions_m[window.newest][axis], most_m = noise_m * kRounding;
+    double best_a_tick = 0.0, least = -HUGE_VAL, greatest = HUGE_VAL;
+    std::uint32_t place = window.newest;
     for (std::uint32_t n = 1; n < window.count; ++n) {
-        const double a_tick = (ago(0) - ago(n)) / n;
-        for (std::uint32_t i = 1; i < n; ++i)
-            if (std::abs(ago(i) - (ago(0) - i * a_tick)) > noise_m * kRounding) return best;
-        best = a_tick / dt_s;
+        place = place == 0 ? kPlaces - 1 : place - 1;
+        const double moved_m = newest_m - window.positions_m[place][axis], a_tick = moved_m / n;
+        if (!(a_tick >= least && a_tick <= greatest)) break;
+        best_a_tick = a_tick;
+        least = std::max(least, (moved_m - most_m) / n);
+        greatest = std::min(greatest, (moved_m + most_m) / n);
     }
-    return best;
+    return best_a_tick / dt_s;
 }
 
 }  // namespace
