@@ -21,4 +21,9 @@ void MonotonicClock::sleep_until(Nanoseconds deadline_ns) noexcept {
     }
 }
 
+void MonotonicClock::spin_until(Nanoseconds deadline_ns) noexcept {
+    while (now_ns() < deadline_ns) {
+    }
+}
+
 }  // namespace burin

@@ -23,6 +23,8 @@ public:
     [[nodiscard]] virtual Nanoseconds now_ns() noexcept = 0;
     // Returns at or after the absolute deadline; at once when it has passed.
     virtual void sleep_until(Nanoseconds deadline_ns) noexcept = 0;
+    // The same without giving up the processor: to the nanosecond, at its price. For what is microseconds away.
+    virtual void spin_until(Nanoseconds deadline_ns) noexcept { sleep_until(deadline_ns); }
 };
 
 // CLOCK_MONOTONIC. Any thread.
@@ -30,6 +32,7 @@ class MonotonicClock final : public Clock {
 public:
     [[nodiscard]] Nanoseconds now_ns() noexcept override;
     void sleep_until(Nanoseconds deadline_ns) noexcept override;
+    void spin_until(Nanoseconds deadline_ns) noexcept override;
 };
 
 // Time moves only when someone sleeps. One thread.

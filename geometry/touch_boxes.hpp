@@ -51,6 +51,9 @@ struct alignas(32) TouchBoxes {
     void set(std::uint32_t i, const SteppedBox& box) noexcept {
         for (std::size_t k = 0; k < 3; ++k) lo[k][i] = box.lo[k], hi[k][i] = box.hi[k];
     }
+    // In steps; a side spans to the end of its last one.
+    [[nodiscard]] Vec3f lo_of(std::uint32_t i) const noexcept { return {lo[0][i], lo[1][i], lo[2][i]}; }
+    [[nodiscard]] Vec3f hi_of(std::uint32_t i) const noexcept { return {hi[0][i], hi[1][i], hi[2][i]}; }
     // Bit i: whether box i, one of the first `count`, meets this one.
     [[nodiscard]] std::uint32_t meeting(const SteppedBox& box, std::uint32_t count) const noexcept {
         const Row meets = (row(lo[0]) <= box.hi[0]) & (row(hi[0]) >= box.lo[0]) & (row(lo[1]) <= box.hi[1]) &

@@ -16,7 +16,7 @@
 #include <memory>
 #include <vector>
 
-#include "geometry/rounded_box.hpp"
+#include "geometry/componentwise.hpp"
 #include "geometry/touch_boxes.hpp"
 #include "geometry/triangle.hpp"
 
@@ -129,7 +129,7 @@ inline std::uint32_t TouchSnapshot::mesh_triangle(std::uint32_t number) const no
 // A search under way: what is asked, on floats.
 class TouchSearch {
 public:
-    explicit TouchSearch(Near& near) noexcept : near_(near), box_(near) { widen(); }
+    explicit TouchSearch(Near& near) noexcept : near_(near), lo_(near.lo), hi_(near.hi) { widen(); }
 
     template <typename Visit>
     bool run(const TouchNode& root, Visit&& visit) {
@@ -165,10 +165,15 @@ private:
     template <typename Visit>
     bool in_patch(const TouchPatch& patch, std::uint32_t first, Visit& visit) {
         if (!near_.look()) return false;
+        if (!within_reach(patch.frame.lo, patch.frame.hi)) return true;
         const SteppedBox asked = stepped(patch.frame);
+        const Vec3f step_m = 1.0f / patch.frame.steps_per_m;
         for (std::uint32_t leaves = patch.boxes.meeting(asked, patch.count); leaves != 0; leaves &= leaves - 1) {
-            if (!near_.look()) return false;
             const auto number = static_cast<std::uint32_t>(std::countr_zero(leaves));
+            if (!near_.look()) return false;
+            if (!within_reach(patch.frame.lo + step_m * patch.boxes.lo_of(number),
+                              patch.frame.lo + step_m * (patch.boxes.hi_of(number) + 1.0f)))
+                continue;
             const TouchPatch::Leaf& leaf = patch.leaves[number];
             for (std::uint32_t left = leaf.boxes.meeting(asked, patch.in_leaf(number)); left != 0; left &= left - 1) {
                 const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
@@ -184,29 +189,35 @@ private:
         if (!near_.look()) return false;
         const Vec3f &a = patch.positions_m[corner[0]], &b = patch.positions_m[corner[1]],
                     &c = patch.positions_m[corner[2]];
-        if (!box_.meets(lower_of(lower_of(a, b), c), upper_of(upper_of(a, b), c))) return true;
+        if (!within_reach(lower_of(lower_of(a, b), c), upper_of(upper_of(a, b), c))) return true;
         const double reach = near_.reach_m;
         if (!visit(number, Triangle{Vec3(a), Vec3(b), Vec3(c)})) return false;
-        if (near_.reach_m != reach) {
-            box_ = RoundedBox(near_);
-            widen();
-        }
+        if (near_.reach_m != reach) widen();
         return true;
     }
 
     [[nodiscard]] SteppedBox stepped(const TouchFrame& frame) const noexcept { return frame.stepped(from_, to_); }
 
+    // Most of what meets the box around a ball is beside the ball.
+    [[nodiscard]] bool within_reach(const Vec3f& lo, const Vec3f& hi) const noexcept {
+        const Vec3f outside = upper_of(upper_of(lo - hi_, lo_ - hi), Vec3f(0.0f));
+        return glm::dot(outside, outside) <= reach2_;
+    }
+
     void widen() noexcept {
-        const double reach = near_.reach_m * (1.0 + 1e-6);
         // A hair more than rounding to float takes away.
-        const Vec3 lo = near_.lo - reach, hi = near_.hi + reach;
-        from_ = Vec3f(lo - 2e-7 * glm::abs(lo));
-        to_ = Vec3f(hi + 2e-7 * glm::abs(hi));
+        const Vec3 size = upper_of(glm::abs(near_.lo), glm::abs(near_.hi)) + near_.reach_m;
+        const double rounding = 4e-7 * std::max({size.x, size.y, size.z});
+        const double reach = near_.reach_m * (1.0 + 1e-6) + rounding;
+        from_ = Vec3f(near_.lo - reach);
+        to_ = Vec3f(near_.hi + reach);
+        reach2_ = static_cast<float>(reach * reach);
     }
 
     Near& near_;
-    RoundedBox box_;
     Vec3f from_{0.0f}, to_{0.0f};
+    Vec3f lo_{0.0f}, hi_{0.0f};  // of the box asked about, without its reach
+    float reach2_ = 0.0f;
 };
 
 // As for_each_triangle_near (geometry/local_surface_search.hpp), visit(number, triangle), all relative to the snapshot's origin.

@@ -18,6 +18,8 @@ TickRecord HapticLoop::step(Nanoseconds lateness_ns) noexcept {
     FullTick full = full_tick(state_, sample, surface, parameters, device_.description(), now_ns, dt_s_);
     device_.write(full.record.given);
     state_ = full.next;
+    sample_ = sample;
+    velocity_device_m_per_s_ = full.record.velocity_device_m_per_s;
 
     full.record.tick = full.stroke.tick = ++ticks_;
     full.record.lateness_ns = lateness_ns;
@@ -51,14 +53,29 @@ TickRecord HapticLoop::step(Nanoseconds lateness_ns) noexcept {
     return full.record;
 }
 
-void HapticLoop::run(const std::atomic<bool>& stop) noexcept { run_ticks(UINT64_MAX, &stop); }
+void HapticLoop::rehearse() noexcept {
+    DeviceSample expected = sample_;
+    expected.time_ns += period_ns_;
+    expected.position_device_m += dt_s_ * velocity_device_m_per_s_;
+    const FullTick full = full_tick(state_, expected, channels_.surface.newest(), channels_.parameters.newest(),
+                                    device_.description(), clock_.now_ns(), dt_s_);
+    rehearsed_ += full.record.work.triangles_tested;
+}
 
-void HapticLoop::run_ticks(std::uint64_t count, const std::atomic<bool>* stop) noexcept {
+void HapticLoop::run(const std::atomic<bool>& stop, Nanoseconds lead_ns) noexcept {
+    run_ticks(UINT64_MAX, &stop, lead_ns);
+}
+
+void HapticLoop::run_ticks(std::uint64_t count, const std::atomic<bool>* stop, Nanoseconds lead_ns) noexcept {
     Nanoseconds deadline_ns = clock_.now_ns() + period_ns_;
     for (std::uint64_t i = 0; i < count; ++i) {
         // acquire: what the stopping thread did before it said stop is seen by whoever runs after this loop.
         if (stop != nullptr && stop->load(std::memory_order_acquire)) break;
-        clock_.sleep_until(deadline_ns);
+        clock_.sleep_until(deadline_ns - lead_ns);
+        if (lead_ns > 0) {
+            rehearse();
+            clock_.spin_until(deadline_ns);
+        }
         const Nanoseconds begin_ns = clock_.now_ns();
         const Nanoseconds lateness_ns = begin_ns - deadline_ns;
         step(lateness_ns);

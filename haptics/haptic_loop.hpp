@@ -7,6 +7,9 @@
 // or call run() with a SimulatedClock, which does just that.
 // Thread: one at a time calls step() or run(). Neither allocates, locks, throws or opens a file.
 // How late each tick began and how long it took is kept in histograms, which any thread may read while the loop runs.
+// Rehearsal: a thread that has slept finds its caches cold, and a tick then takes two or three times as long. So run() wakes a little
+// before the deadline, ticks once for nothing, from the sample that it expects, and spins out the rest: what the tick will
+// need is at hand when the device is read, and the tick begins on the dot. tick() is pure, so nothing comes of it.
 // A tick that starts late is flagged and counted; deadlines that were missed altogether are skipped and counted, so
 // that the loop never runs a burst of ticks to catch up.
 #pragma once
@@ -29,10 +32,17 @@ public:
     // record.
     TickRecord step(Nanoseconds lateness_ns = 0) noexcept;
 
-    // Steps at absolute deadlines, the first one period from now, until stop is true; then writes zero force.
-    void run(const std::atomic<bool>& stop) noexcept;
+    // The next tick as it will probably be, all of it but its effects.
+    void rehearse() noexcept;
+
+    // Wake-ups are some 50 us late on an ordinary kernel, and a tick takes 10 or 20: before a deadline this is the time for both.
+    static constexpr Nanoseconds kLead_ns = 100'000;
+
+    // Steps at absolute deadlines, the first one period from now, until stop is true; then writes zero force. Wakes up so long
+    // before each deadline for a rehearsal; 0: none.
+    void run(const std::atomic<bool>& stop, Nanoseconds lead_ns) noexcept;
     // As run(), for so many ticks at most.
-    void run_ticks(std::uint64_t count, const std::atomic<bool>* stop = nullptr) noexcept;
+    void run_ticks(std::uint64_t count, const std::atomic<bool>* stop = nullptr, Nanoseconds lead_ns = 0) noexcept;
 
     [[nodiscard]] Nanoseconds period_ns() const noexcept { return period_ns_; }
     [[nodiscard]] std::uint64_t ticks() const noexcept { return ticks_; }
@@ -50,7 +60,10 @@ private:
     Nanoseconds period_ns_;
     double dt_s_;
     FullTickState state_;
+    DeviceSample sample_;                // the last one
+    Vec3 velocity_device_m_per_s_{0.0};  // then
     std::uint64_t ticks_ = 0, late_ticks_ = 0, skipped_deadlines_ = 0;
+    std::uint64_t rehearsed_ = 0;  // triangles: so that a compiler that sees everything keeps the rehearsal
     Histogram lateness_, duration_;
 };
 

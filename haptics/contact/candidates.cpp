@@ -7,29 +7,33 @@
 
 namespace burin {
 
-void Candidates::add(std::uint32_t id, const Triangle& t, const Vec3& unit_normal) noexcept {
-    const Vec3f n(unit_normal);
-    normal_x_[count_] = n.x;
-    normal_y_[count_] = n.y;
-    normal_z_[count_] = n.z;
+Candidates::Ball Candidates::ball_around(const Triangle& t) const noexcept {
     const Vec3f a(t.a - way_.from), b(t.b - way_.from), c(t.c - way_.from);
-    height_[count_] = -glm::dot(a, n);
     const Vec3f middle = (a + b + c) * (1.0f / 3.0f), to_a = a - middle, to_b = b - middle, to_c = c - middle;
-    middle_x_[count_] = middle.x;
-    middle_y_[count_] = middle.y;
-    middle_z_[count_] = middle.z;
-    size_[count_] = std::sqrt(std::max({glm::dot(to_a, to_a), glm::dot(to_b, to_b), glm::dot(to_c, to_c)})) * 1.00001f;
+    const float size2 = std::max({glm::dot(to_a, to_a), glm::dot(to_b, to_b), glm::dot(to_c, to_c)});
+    return {middle, size2 * 1.00002f};
+}
+
+void Candidates::add(std::uint32_t id, const Triangle& t, const Vec3& unit_normal, const Ball& ball) noexcept {
+    normal_x_[count_] = static_cast<float>(unit_normal.x);
+    normal_y_[count_] = static_cast<float>(unit_normal.y);
+    normal_z_[count_] = static_cast<float>(unit_normal.z);
+    height_[count_] = static_cast<float>(glm::dot(way_.from - t.a, unit_normal));
+    middle_x_[count_] = ball.middle.x;
+    middle_y_[count_] = ball.middle.y;
+    middle_z_[count_] = ball.middle.z;
+    size2_[count_] = ball.size2;
     ids_[count_] = id;
     triangles_[count_] = t;
     ++count_;
 }
 
-// Planes that nothing reaches, so that a block of the passes is always whole.
+// Planes that nothing reaches, so that the last four of the passes are whole.
 void Candidates::fill_last_block() noexcept {
-    for (std::uint32_t i = count_; i % kBlock != 0; ++i) {
+    for (std::uint32_t i = count_; i % kLanes != 0; ++i) {
         normal_x_[i] = normal_y_[i] = normal_z_[i] = 0.0f;
         height_[i] = HUGE_VALF;
-        middle_x_[i] = middle_y_[i] = middle_z_[i] = size_[i] = 0.0f;
+        middle_x_[i] = middle_y_[i] = middle_z_[i] = size2_[i] = 0.0f;
     }
 }
 
@@ -40,28 +44,32 @@ Candidates::Gathered Candidates::gather(const LocalSurface& surface, const Way& 
     count_ = 0;
     const double reach = radius + slack, reach2 = reach * reach;
     const Vec3 motion = way.to - way.from;
-    const double length2 = glm::dot(motion, motion);
+    const double length2 = glm::dot(motion, motion), length = std::sqrt(length2);
     // Heights are at most reach + length where they matter; float keeps 6e-8 of each of four terms.
-    rounding_ = static_cast<float>(4e-7 * (reach + std::sqrt(length2)));
+    rounding_ = static_cast<float>(4e-7 * (reach + length));
+    size_ = static_cast<float>(0.6 * surface.mean_edge_m());  // the ball around an equilateral triangle
+    const Vec3f along = Vec3f(motion), by_length2 = length2 > 0.0 ? along / static_cast<float>(length2) : Vec3f(0.0f);
+    const float near_way = static_cast<float>(reach) + 4.0f * rounding_;
+    const Weights<2> of = weights<2>({near_way, size_});
     // What is near the box around a long way need not be near the way.
-    const bool is_long = length2 > 0.25 * radius * radius;
-    const auto beside = [&](const Triangle& t) {
-        const Vec3 lo = glm::min(glm::min(t.a, t.b), t.c), hi = glm::max(glm::max(t.a, t.b), t.c);
-        const double limit = reach + 0.5 * glm::length(hi - lo) * (1.0 + 1e-9);
-        return distance2(way, 0.5 * (lo + hi)) > limit * limit;
+    const auto beside = [&](const Ball& ball) {
+        const float share = glm::dot(ball.middle, by_length2);
+        const Vec3f off = ball.middle - (share < 0.0f ? 0.0f : (share > 1.0f ? 1.0f : share)) * along;
+        return glm::dot(off, off) * (1.0f - 4e-6f) > of[0] * near_way * near_way + of[1] * ball.size2;
     };
     bool room = true;
     Near near{glm::min(way.from, way.to), glm::max(way.from, way.to), reach, looks_left, true, way.from, way.to};
     const bool complete = for_each_triangle_near(surface, near, [&](std::uint32_t id, const Triangle& t) {
+        const Ball ball = ball_around(t);
+        if (beside(ball)) return true;
         // All squared and times the normal's length, so that those too far cost no root.
         const Vec3 normal = glm::cross(t.b - t.a, t.c - t.a);
         const double size2 = glm::dot(normal, normal);
         const double at_start = glm::dot(normal, way.from - t.a), at_end = at_start + glm::dot(normal, motion);
         const double limit = reach2 * size2;
         if (at_start * at_end > 0.0 && at_start * at_start > limit && at_end * at_end > limit) return true;
-        if (is_long && beside(t)) return true;
         if (count_ == kMost) return room = false;
-        add(id, t, normal / std::sqrt(size2));
+        add(id, t, normal / std::sqrt(size2), ball);
         return true;
     });
     looks_left = near.looks_left;

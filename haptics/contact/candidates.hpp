@@ -10,7 +10,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
+#include "geometry/lanes.hpp"
 #include "geometry/local_surface.hpp"
 
 namespace burin {
@@ -23,7 +25,8 @@ struct Way {
 [[nodiscard]] inline double distance2(const Way& way, const Vec3& p) noexcept {
     const Vec3 motion = way.to - way.from, off = p - way.from;
     const double length2 = glm::dot(motion, motion);
-    const double along = length2 > 0.0 ? std::fmin(1.0, std::fmax(0.0, glm::dot(off, motion) / length2)) : 0.0;
+    const double share = length2 > 0.0 ? glm::dot(off, motion) / length2 : 0.0;
+    const double along = share < 0.0 ? 0.0 : (share > 1.0 ? 1.0 : share);
     const Vec3 across = off - along * motion;
     return glm::dot(across, across);
 }
@@ -55,13 +58,14 @@ public:
     // visit(i) of those within reach of a covered centre, and of a few beyond. False when visit said so.
     template <typename Visit>
     bool for_each_at(const Vec3& center, double reach, Visit&& visit) const {
-        const Vec3f off(center - way_.from);
+        const Vec3Lanes at = place(center);
         const float limit = static_cast<float>(reach) + rounding_;
+        const Weights<2> of = weights<2>({std::fmin(limit, size_), size_});
         return for_each_of(
             [&](std::uint32_t i) {
-                const float height = height_at(i, off), beyond2 = limit * limit - height * height;
-                const float room2 = 2.0f * (beyond2 + size_[i] * size_[i]);  // at least (sqrt(beyond2) + size)^2
-                return static_cast<unsigned>(beyond2 >= 0.0f) & static_cast<unsigned>(aside2(i, off, height) <= room2);
+                const Lanes height = height_at(i, at), beyond2 = limit * limit - height * height;
+                const Lanes room2 = of[0] * beyond2 + of[1] * lanes_at(&size2_[i]);
+                return (beyond2 >= 0.0f) & (aside2(i, at, height) <= room2);
             },
             visit);
     }
@@ -70,61 +74,82 @@ public:
     // plane that it stays on the inner side of cannot be touched.
     template <typename Visit>
     bool for_each_on_way(const Way& way, double radius, Visit&& visit) const {
-        const Vec3f off(way.from - way_.from), end(way.to - way_.from), middle = 0.5f * (off + end);
-        const float limit = static_cast<float>(radius) + rounding_, half2 = 0.25f * glm::dot(end - off, end - off);
+        const Vec3Lanes start = place(way.from), end = place(way.to), middle = place(0.5 * (way.from + way.to));
+        const float limit = static_cast<float>(radius) + rounding_;
+        const float half = 0.5f * static_cast<float>(glm::length(way.to - way.from)) + rounding_;
+        const Weights<3> of = weights<3>({std::fmin(limit, size_), size_, half});
         return for_each_of(
             [&](std::uint32_t i) {
-                const float at_start = height_at(i, off), at_end = height_at(i, end);
-                const float lower = at_start < at_end ? at_start : at_end;
-                const float least = lower > 0.0f ? lower : 0.0f, beyond2 = limit * limit - least * least;
-                // at least the square of the sum of the three roots
-                const float room2 = 3.0f * (beyond2 + size_[i] * size_[i] + half2);
-                return static_cast<unsigned>(lower <= limit) &
-                       (static_cast<unsigned>(at_start >= -rounding_) | static_cast<unsigned>(at_end >= -rounding_)) &
-                       static_cast<unsigned>(aside2(i, middle, 0.5f * (at_start + at_end)) <= room2);
+                const Lanes at_start = height_at(i, start), at_end = height_at(i, end);
+                const Lanes lower = lesser(at_start, at_end);
+                const Lanes least = greater(lower, Lanes{}), beyond2 = limit * limit - least * least;
+                const Lanes room2 = of[0] * beyond2 + of[1] * lanes_at(&size2_[i]) + of[2] * (half * half);
+                return (lower <= limit) & ((at_start >= -rounding_) | (at_end >= -rounding_)) &
+                       (aside2(i, middle, 0.5f * (at_start + at_end)) <= room2);
             },
             visit);
     }
 
 private:
-    static constexpr std::uint32_t kBlock = 8;
+    template <std::size_t kCount>
+    using Weights = std::array<float, kCount>;
 
-    [[nodiscard]] float height_at(std::uint32_t i, const Vec3f& off) const {
-        return height_[i] + normal_x_[i] * off.x + normal_y_[i] * off.y + normal_z_[i] * off.z;
+    [[nodiscard]] static Lanes lanes_at(const float* first) {
+        Lanes lanes;
+        std::memcpy(&lanes, first, sizeof lanes);
+        return lanes;
+    }
+    // From way_.from, as everything here.
+    [[nodiscard]] Vec3Lanes place(const Vec3& at) const { return in_all_lanes(Vec3f(at - way_.from)); }
+    [[nodiscard]] Lanes height_at(std::uint32_t i, const Vec3Lanes& at) const {
+        return lanes_at(&height_[i]) + lanes_at(&normal_x_[i]) * at.x + lanes_at(&normal_y_[i]) * at.y +
+               lanes_at(&normal_z_[i]) * at.z;
     }
     // How far the ball around the triangle has its middle from the foot of a centre on the plane, squared; less its rounding.
-    [[nodiscard]] float aside2(std::uint32_t i, const Vec3f& off, float height) const {
-        const float x = middle_x_[i] - off.x, y = middle_y_[i] - off.y, z = middle_z_[i] - off.z;
-        const float distance2 = x * x + y * y + z * z;
-        return distance2 * (1.0f - 4e-6f) - height * height;
+    [[nodiscard]] Lanes aside2(std::uint32_t i, const Vec3Lanes& at, Lanes height) const {
+        const Vec3Lanes off = Vec3Lanes{lanes_at(&middle_x_[i]), lanes_at(&middle_y_[i]), lanes_at(&middle_z_[i])} - at;
+        return dot(off, off) * (1.0f - 4e-6f) - height * height;
     }
-    // In a form that the compiler makes vectors of: eight at a time, and a closer look only where there is one.
+    // The w_k for which sum w_k x_k^2 is at least (sum x_k)^2 for any x, and little more for those like these (Cauchy and Schwarz).
+    template <std::size_t kCount>
+    [[nodiscard]] static Weights<kCount> weights(const Weights<kCount>& likely) {
+        float sum = 0.0f;
+        for (const float x : likely) sum += x;
+        Weights<kCount> shares, result;
+        float all = 0.0f;
+        for (std::size_t k = 0; k < kCount; ++k) all += shares[k] = likely[k] + 0.02f * sum;
+        for (std::size_t k = 0; k < kCount; ++k) result[k] = all / shares[k];
+        return result;
+    }
+    // Four at a time, and a closer look only where there is one.
     template <typename Near, typename Visit>
     bool for_each_of(Near&& near, Visit&& visit) const {
-        for (std::uint32_t block = 0; block < count_; block += kBlock) {
-            std::array<unsigned, kBlock> is_near;
-            unsigned any = 0;
-            for (std::uint32_t k = 0; k < kBlock; ++k) {
-                is_near[k] = near(block + k);
-                any |= is_near[k];
-            }
-            if (any == 0) continue;
-            for (std::uint32_t k = 0; k < kBlock; ++k)
+        for (std::uint32_t block = 0; block < count_; block += kLanes) {
+            const LaneMask is_near = near(block);
+            if (!any(is_near)) continue;
+            for (std::uint32_t k = 0; k < kLanes; ++k)
                 if (is_near[k] != 0 && !visit(block + k)) return false;
         }
         return true;
     }
-    void add(std::uint32_t id, const Triangle& t, const Vec3& unit_normal) noexcept;
+    // The ball around a triangle, from way_.from.
+    struct Ball {
+        Vec3f middle;
+        float size2;
+    };
+    [[nodiscard]] Ball ball_around(const Triangle& t) const noexcept;
+    void add(std::uint32_t id, const Triangle& t, const Vec3& unit_normal, const Ball& ball) noexcept;
     void fill_last_block() noexcept;
 
     Way way_;
     double slack_ = -1.0;   // nothing is covered
     float rounding_ = 0.0;  // of a height
+    float size_ = 0.0;      // of most balls around triangles
     std::uint32_t count_ = 0;
     // Of the planes: unit normal, and height of way_.from above it. One array each, to be read four at a time.
-    std::array<float, kMost + kBlock> normal_x_, normal_y_, normal_z_, height_;
-    // Of the balls around them, from way_.from: middle, and radius.
-    std::array<float, kMost + kBlock> middle_x_, middle_y_, middle_z_, size_;
+    std::array<float, kMost + kLanes> normal_x_, normal_y_, normal_z_, height_;
+    // Of the balls around them, from way_.from: middle, and radius squared.
+    std::array<float, kMost + kLanes> middle_x_, middle_y_, middle_z_, size2_;
     std::array<std::uint32_t, kMost> ids_;
     std::array<Triangle, kMost> triangles_;
 };

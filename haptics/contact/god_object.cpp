@@ -82,13 +82,15 @@ public:
           still_(kStill * std::max(radius_, 0.05 * edge_)),
           hip_(hip_object_m - surface.origin_object),
           search_(surface, radius_, budget, result_.work) {
-        result_.next = {hip_object_m, surface.sequence, true, false, hip_object_m};
+        result_.next = {hip_object_m, surface.sequence, true};
         center_ = state.placed ? state.position_object_m - surface.origin_object : hip_;
         slips_ = state.slipping;
     }
 
     ProxyResult move(const ProxyState& state) {
+        began_ = center_;
         if (!begin(state)) return limited();
+        began_ = center_;
         for (;;) {
             ++result_.work.steps;
             const Goal goal = aim();
@@ -101,13 +103,14 @@ public:
     }
 
 private:
-    // Looks where the ball will probably go: as the HIP went. And puts it outside if it is inside material.
+    // Looks where the ball will probably go: on along the surface as it went, or to the HIP. And puts it outside if it is
+    // inside material.
     bool begin(const ProxyState& state) {
-        Vec3 went = state.placed ? hip_ - (state.hip_object_m - surface_.origin_object) : Vec3(0.0);
         const Vec3 pull = hip_ - center_;
-        if (glm::dot(went, went) > 4.0 * glm::dot(pull, pull) + radius_ * radius_)
-            went = Vec3(0.0);  // not of this walk
-        if (!search_.look_along({center_, center_ + went}) || !touch()) return false;
+        Vec3 onward = state.touching ? state.motion_object_m : pull;
+        if (glm::dot(onward, onward) > 4.0 * glm::dot(pull, pull) + radius_ * radius_)
+            onward = Vec3(0.0);  // not of this walk
+        if (!search_.look_along({center_, center_ + onward}) || !touch()) return false;
         const bool unsure = !state.placed || state.surface_sequence != surface_.sequence;
         if (unsure && !(nearest_.distance < HUGE_VAL))
             nearest_ = search_.nearest(center_, known_around(center_, surface_));
@@ -278,17 +281,20 @@ private:
 
     enum class Going : std::uint8_t { on, arrived_free, out_of_work };
 
+    // In contact the goal is near, and is looked at before the ball goes there. Out of contact it may be the HIP deep inside, while
+    // the surface is a hair's breadth away, beyond an edge: the ball goes as far as is known first.
     Going go(const Goal& goal) {
-        double share = 1.0;
-        if (!search_.knows(center_ + goal.step)) {
-            if (!search_.look_along({center_, center_ + goal.step}) || !touch()) return Going::out_of_work;
-            share = search_.known_share(center_, goal.step);
-        }
+        const Vec3 end = center_ + goal.step;
+        if (goal.in_contact && !search_.knows(end) && !(search_.look_along({center_, end}) && touch()))
+            return Going::out_of_work;
+        const double share = search_.known_share(center_, goal.step);
         const auto sweep = search_.sweep(center_, share * goal.step);
         if (!sweep.complete) return Going::out_of_work;
-        if (share * sweep.fraction >= 1.0 && goal.is_hip) return Going::arrived_free;
+        const bool all = share >= 1.0 && sweep.fraction >= 1.0;
+        if (all && goal.is_hip) return Going::arrived_free;
         center_ += (share * sweep.fraction) * goal.step;
-        return Going::on;
+        const bool unseen = share < 1.0 && sweep.fraction >= 1.0;
+        return unseen && !search_.look_along({center_, end}) ? Going::out_of_work : Going::on;
     }
 
     // The proxy is the HIP, exactly.
@@ -299,9 +305,8 @@ private:
     }
 
     ProxyResult at_rest(const Goal& goal) {
-        const bool all = goal.left <= still_;
-        result_.next.position_object_m = surface_.origin_object + (all ? center_ + goal.step : center_);
-        result_.next.slipping = slid_;
+        if (goal.left <= still_) center_ += goal.step;
+        stay();
         result_.sticking = !slid_ && settings_.static_friction > 0.0;
         result_.normal_object = goal.normal;
         return result_;
@@ -316,17 +321,23 @@ private:
             result_.constraints = last_.constraints;
             result_.active_triangle = last_.triangle;
         }
-        result_.next.position_object_m = surface_.origin_object + center_;
-        result_.next.slipping = slid_;
+        stay();
         result_.normal_object = unit_or_zero(center_ - hip_);
         return result_;
+    }
+
+    void stay() {
+        result_.next.position_object_m = surface_.origin_object + center_;
+        result_.next.slipping = slid_;
+        result_.next.touching = true;
+        result_.next.motion_object_m = center_ - began_;
     }
 
     ProxySettings settings_;
     const LocalSurface& surface_;
     ProxyBudget budget_;
     double edge_, radius_, still_;
-    Vec3 hip_, center_{0.0};
+    Vec3 hip_, center_{0.0}, began_{0.0};
     ProxyResult result_;
     ContactSearch search_;
     Touches touches_;
@@ -346,7 +357,7 @@ ProxyResult move_proxy(const ProxyState& state, const Vec3& hip_object_m, const 
                        const LocalSurface& surface, const ProxyBudget& budget) noexcept {
     if (!(surface.mean_edge_m() > 0.0)) {  // nothing there to touch
         ProxyResult free;
-        free.next = {hip_object_m, surface.sequence, true, false, hip_object_m};
+        free.next = {hip_object_m, surface.sequence, true};
         return free;
     }
     Mover mover(state, hip_object_m, settings, surface, budget);

@@ -35,7 +35,9 @@ struct ProxyState {
     std::uint64_t surface_sequence = 0;  // of the surface used last
     bool placed = false;                 // false: the next tick starts from the HIP
     bool slipping = false;               // with friction: it slid in the tick before
-    Vec3 hip_object_m{0.0};              // of the tick before: tells where to look first, and nothing else
+    // In the tick before it was held back from the HIP, and moved so far along the surface: where to look first, and nothing else.
+    bool touching = false;
+    Vec3 motion_object_m{0.0};
 };
 
 struct ProxySettings {

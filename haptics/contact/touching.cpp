@@ -10,7 +10,7 @@ namespace burin {
 namespace {
 
 // How much is looked at beside a way, as shares of the ball's radius, of an edge and of the way: enough that most ticks look once.
-constexpr double kBesideOfRadius = 0.001, kBesideOfEdge = 0.02, kBesideOfWay = 0.25;
+constexpr double kBesideOfRadius = 0.001, kBesideOfEdge = 0.02, kBesideOfWay = 0.12;
 
 // Whether the ball around the triangle's box is farther than `reach` from all of the way: a cheap look before a test.
 bool beside(const Triangle& t, const Way& way, double reach) {

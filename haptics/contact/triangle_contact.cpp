@@ -25,41 +25,31 @@ double entry(double A, double B, double C) {
 struct Sweep {
     Vec3 center, motion;
     double radius;
-    Vec3 normal;
+    double height, approach;  // of the centre above the plane: at the start, and how it changes on the way
 
-    // Touching from behind is not touching: the ball is on its way out of the material.
-    [[nodiscard]] bool from_outside(double t, const Vec3& touched) const {
-        return glm::dot(center + t * motion - touched, normal) >= -1e-6 * radius;
+    // Touching from behind is not touching: the ball is on its way out of the material. What is touched lies in the plane.
+    [[nodiscard]] double if_from_outside(double t) const {
+        return t <= 1.0 && height + t * approach >= -1e-6 * radius ? t : kNoTouch;
     }
-
     [[nodiscard]] double until_corner(const Vec3& corner) const {
         const Vec3 from = center - corner;
-        const double t =
-            entry(glm::dot(motion, motion), glm::dot(from, motion), glm::dot(from, from) - radius * radius);
-        return t <= 1.0 && from_outside(t, corner) ? t : kNoTouch;
+        const double from_motion = glm::dot(from, motion);
+        if (!(from_motion < 0.0)) return kNoTouch;
+        return if_from_outside(entry(glm::dot(motion, motion), from_motion, glm::dot(from, from) - radius * radius));
     }
-
     // The cylinder around the edge; its ends belong to the corners.
     [[nodiscard]] double until_edge(const Vec3& a, const Vec3& b) const {
-        const Vec3 e = b - a;
-        const double e2 = glm::dot(e, e);
-        const Vec3 from = center - a;
-        const double from_e = glm::dot(from, e), motion_e = glm::dot(motion, e);
-        const Vec3 from_across = from - e * (from_e / e2), motion_across = motion - e * (motion_e / e2);
-        const double t = entry(glm::dot(motion_across, motion_across), glm::dot(from_across, motion_across),
-                               glm::dot(from_across, from_across) - radius * radius);
-        if (t > 1.0) return kNoTouch;
-        const double along = (from_e + t * motion_e) / e2;
-        return along >= 0.0 && along <= 1.0 && from_outside(t, a + e * along) ? t : kNoTouch;
-    }
-
-    [[nodiscard]] double until_face(const Triangle& tri) const {
-        const double height = glm::dot(normal, center - tri.a) - radius;
-        const double approach = glm::dot(normal, motion);
-        if (height < 0.0 || approach >= 0.0) return kNoTouch;
-        const double t = height / -approach;
-        if (t > 1.0) return kNoTouch;
-        return nearest_on_triangle(center + t * motion - radius * normal, tri).on_face ? t : kNoTouch;
+        const Vec3 e = b - a, from = center - a;
+        const double per_e2 = 1.0 / glm::dot(e, e), from_e = glm::dot(from, e);
+        const Vec3 across = from - e * (from_e * per_e2);
+        const double across_motion = glm::dot(across, motion);
+        if (!(across_motion < 0.0)) return kNoTouch;
+        const double motion_e = glm::dot(motion, e);
+        const Vec3 motion_across = motion - e * (motion_e * per_e2);
+        const double t =
+            entry(glm::dot(motion_across, motion_across), across_motion, glm::dot(across, across) - radius * radius);
+        const double along = (from_e + t * motion_e) * per_e2;
+        return along >= 0.0 && along <= 1.0 ? if_from_outside(t) : kNoTouch;
     }
 };
 
@@ -94,10 +84,31 @@ NearestOnTriangle nearest_on_triangle(const Vec3& p, const Triangle& t) noexcept
     return best;
 }
 
+// Barycentric coordinates of the centre's foot, times (twice the area)^2, tell on which side of each edge it is, and so most
+// triangles from those whose edges and corners need a look.
 double fraction_until_touch(const Vec3& center, const Vec3& motion, double radius, const Triangle& t) noexcept {
-    const Sweep sweep{center, motion, radius, outward_normal(t)};
-    // The face comes first when it is hit at all: edges and corners lie behind its plane's offset.
-    if (const double face = sweep.until_face(t); face <= 1.0) return face;
+    const Vec3 u = t.b - t.a, v = t.c - t.a, w = center - t.a, n = glm::cross(u, v);
+    const double n2 = glm::dot(n, n), per_n = 1.0 / std::sqrt(n2);
+    const double height = glm::dot(n, w) * per_n, approach = glm::dot(n, motion) * per_n;
+    if (height >= radius && !(height + approach < radius)) return kNoTouch;
+
+    const double uu = glm::dot(u, u), uv = glm::dot(u, v), vv = glm::dot(v, v);
+    const double wu = glm::dot(w, u), wv = glm::dot(w, v), mu = glm::dot(motion, u), mv = glm::dot(motion, v);
+    const double at_u = vv * wu - uv * wv, at_v = uu * wv - uv * wu, at_a = n2 - at_u - at_v;
+    const double by_u = vv * mu - uv * mv, by_v = uu * mv - uv * mu, by_a = -by_u - by_v;
+    if (height >= radius) {
+        // The face comes first when it is hit at all: edges and corners lie behind its plane's offset.
+        const double face = (height - radius) / -approach;
+        if (at_u + face * by_u >= 0.0 && at_v + face * by_v >= 0.0 && at_a + face * by_a >= 0.0) return face;
+    }
+    const double beside2 = 1.000001 * radius * radius * n2;
+    const auto beside = [&](double at, double by, double edge2) {
+        const double nearer = by > 0.0 ? at + by : at;
+        return nearer < 0.0 && nearer * nearer > beside2 * edge2;
+    };
+    if (beside(at_u, by_u, vv) || beside(at_v, by_v, uu) || beside(at_a, by_a, uu + vv - 2.0 * uv)) return kNoTouch;
+
+    const Sweep sweep{center, motion, radius, height, approach};
     return std::min({sweep.until_edge(t.a, t.b), sweep.until_edge(t.b, t.c), sweep.until_edge(t.c, t.a),
                      sweep.until_corner(t.a), sweep.until_corner(t.b), sweep.until_corner(t.c)});
 }
