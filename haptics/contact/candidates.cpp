@@ -22,7 +22,7 @@ void Candidates::add(std::uint32_t id, const Triangle& t, const Vec3& unit_norma
     middle_x_[count_] = ball.middle.x;
     middle_y_[count_] = ball.middle.y;
     middle_z_[count_] = ball.middle.z;
-    size2_[count_] = ball.size2;
+    radius_[count_] = std::sqrt(ball.size2) * 1.000001f;
     ids_[count_] = id;
     triangles_[count_] = t;
     ++count_;
@@ -33,7 +33,7 @@ void Candidates::fill_last_block() noexcept {
     for (std::uint32_t i = count_; i % kLanes != 0; ++i) {
         normal_x_[i] = normal_y_[i] = normal_z_[i] = 0.0f;
         height_[i] = HUGE_VALF;
-        middle_x_[i] = middle_y_[i] = middle_z_[i] = size2_[i] = 0.0f;
+        middle_x_[i] = middle_y_[i] = middle_z_[i] = radius_[i] = 0.0f;
     }
 }
 

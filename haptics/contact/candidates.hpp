@@ -64,28 +64,34 @@ public:
         return for_each_of(
             [&](std::uint32_t i) {
                 const Lanes height = height_at(i, at), beyond2 = limit * limit - height * height;
-                const Lanes room2 = of[0] * beyond2 + of[1] * lanes_at(&size2_[i]);
+                const Lanes size = lanes_at(&radius_[i]);
+                const Lanes room2 = of[0] * beyond2 + of[1] * (size * size);
                 return (beyond2 >= 0.0f) & (aside2(i, at, height) <= room2);
             },
             visit);
     }
 
     // visit(i) of those that the ball comes to on its way between covered centres, from outside, and of a few more. A
-    // plane that it stays on the inner side of cannot be touched.
+    // plane that it stays on the inner side of cannot be touched. What is touched at a point q lies ahead, and near enough: from
+    // |c + t m - q| = r and (c + t m - q) m <= 0 with t <= 1 follows |q - c|^2 - r^2 <= 2 (q - c) m.
     template <typename Visit>
     bool for_each_on_way(const Way& way, double radius, Visit&& visit) const {
-        const Vec3Lanes start = place(way.from), end = place(way.to), middle = place(0.5 * (way.from + way.to));
+        const Vec3Lanes start = place(way.from), end = place(way.to), halfway = place(0.5 * (way.from + way.to));
+        const Vec3Lanes motion = end - start;
         const float limit = static_cast<float>(radius) + rounding_;
-        const float half = 0.5f * static_cast<float>(glm::length(way.to - way.from)) + rounding_;
-        const Weights<3> of = weights<3>({std::fmin(limit, size_), size_, half});
+        const float length = static_cast<float>(glm::length(way.to - way.from)) + rounding_;
+        const float rounding2 = 4.0f * rounding_ * (limit + length);
+        const Weights<3> of = weights<3>({std::fmin(limit, size_), size_, 0.5f * length});
         return for_each_of(
             [&](std::uint32_t i) {
-                const Lanes at_start = height_at(i, start), at_end = height_at(i, end);
+                const Lanes at_start = height_at(i, start), at_end = height_at(i, end), size = lanes_at(&radius_[i]);
+                const Lanes ahead = dot(middle_at(i) - start, motion) + (size + rounding_) * length;
                 const Lanes lower = lesser(at_start, at_end);
                 const Lanes least = greater(lower, Lanes{}), beyond2 = limit * limit - least * least;
-                const Lanes room2 = of[0] * beyond2 + of[1] * lanes_at(&size2_[i]) + of[2] * (half * half);
+                const Lanes room2 = of[0] * beyond2 + of[1] * (size * size) + of[2] * (0.25f * length * length);
                 return (lower <= limit) & ((at_start >= -rounding_) | (at_end >= -rounding_)) &
-                       (aside2(i, middle, 0.5f * (at_start + at_end)) <= room2);
+                       (at_start * at_start - limit * limit <= 2.0f * ahead + rounding2) & (ahead >= 0.0f) &
+                       (aside2(i, halfway, 0.5f * (at_start + at_end)) <= room2);
             },
             visit);
     }
@@ -104,6 +110,9 @@ private:
     [[nodiscard]] Lanes height_at(std::uint32_t i, const Vec3Lanes& at) const {
         return lanes_at(&height_[i]) + lanes_at(&normal_x_[i]) * at.x + lanes_at(&normal_y_[i]) * at.y +
                lanes_at(&normal_z_[i]) * at.z;
+    }
+    [[nodiscard]] Vec3Lanes middle_at(std::uint32_t i) const {
+        return {lanes_at(&middle_x_[i]), lanes_at(&middle_y_[i]), lanes_at(&middle_z_[i])};
     }
     // How far the ball around the triangle has its middle from the foot of a centre on the plane, squared; less its rounding.
     [[nodiscard]] Lanes aside2(std::uint32_t i, const Vec3Lanes& at, Lanes height) const {
@@ -148,8 +157,8 @@ private:
     std::uint32_t count_ = 0;
     // Of the planes: unit normal, and height of way_.from above it. One array each, to be read four at a time.
     std::array<float, kMost + kLanes> normal_x_, normal_y_, normal_z_, height_;
-    // Of the balls around them, from way_.from: middle, and radius squared.
-    std::array<float, kMost + kLanes> middle_x_, middle_y_, middle_z_, size2_;
+    // Of the balls around them, from way_.from: middle, and radius.
+    std::array<float, kMost + kLanes> middle_x_, middle_y_, middle_z_, radius_;
     std::array<std::uint32_t, kMost> ids_;
     std::array<Triangle, kMost> triangles_;
 };

@@ -81,7 +81,8 @@ public:
           radius_(std::max(settings.contact_radius_m, kPointProbeOfEdge * edge_)),
           still_(kStill * std::max(radius_, 0.05 * edge_)),
           hip_(hip_object_m - surface.origin_object),
-          search_(surface, radius_, budget, result_.work) {
+          search_(surface, radius_, budget, result_.work),
+          facets_(surface) {
         result_.next = {hip_object_m, surface.sequence, true};
         center_ = state.placed ? state.position_object_m - surface.origin_object : hip_;
         slips_ = state.slipping;
@@ -220,7 +221,7 @@ private:
     }
 
     void shade(Goal& goal, const NearestInside& plain, const Vec3& pull, bool through_center) {
-        ShadedPlanes planes = shaded(surface_, search_.candidates(), touches_, plain, center_, radius_);
+        ShadedPlanes planes = shaded(facets_, search_.candidates(), touches_, plain, center_, radius_);
         if (!planes.any) return;
         for (HalfSpace& plane : planes.planes)
             if (through_center) plane.offset = 0.0;
@@ -340,6 +341,7 @@ private:
     Vec3 hip_, center_{0.0}, began_{0.0};
     ProxyResult result_;
     ContactSearch search_;
+    SmoothFacets facets_;
     Touches touches_;
     Room<HalfSpace, Touches::kMost> flat_;
     Nearest nearest_;

@@ -71,10 +71,11 @@ struct ProxyResult {
 
 struct ProxyBudget {
     std::uint32_t max_steps = 12;
-    // Exact distance and sweep computations a tick, about 50 ns each. When used up the proxy waits where it is safe.
-    std::uint32_t max_triangles_tested = 12000;
+    // Exact distance and sweep computations a tick, about 0.2 us each with all that goes with them. When used up the proxy waits
+    // where it is safe, and goes on in the next tick: a tool torn out of a deep groove by force, say.
+    std::uint32_t max_triangles_tested = 4000;
     // Bounding boxes looked at a tick, about 10 ns each: a large tool on a fine lattice has many. Likewise.
-    std::uint32_t max_triangles_seen = 200000;
+    std::uint32_t max_triangles_seen = 60000;
 };
 
 // All settings finite and not negative, dynamic friction at most static friction, positions finite. Only reads through the

@@ -90,12 +90,27 @@ NearestInside exchange(std::span<const HalfSpace> spaces, const NearestInside& o
     return result;
 }
 
+// What most ticks ask.
+NearestInside on_one(const HalfSpace& space, const Vec3& goal, double tolerance) {
+    NearestInside result;
+    result.found = true;
+    result.point = goal;
+    const double lack = lack_at(space, goal);
+    if (!(lack > tolerance)) return result;
+    result.point += lack * space.normal;
+    result.weights[0] = lack;
+    result.bearing_count = 1;
+    result.exchanges = 1;
+    return result;
+}
+
 }  // namespace
 
 NearestInside nearest_inside(std::span<const HalfSpace> spaces, const Vec3& goal, double tolerance) noexcept {
     NearestInside best;
     best.found = true;
     best.point = goal;
+    if (spaces.size() == 1) return on_one(spaces[0], goal, tolerance);
     for (std::uint32_t exchanges = 0; exchanges <= kMostExchanges; ++exchanges) {
         std::uint32_t worst = 0;
         double worst_lack = tolerance;

@@ -18,13 +18,8 @@ constexpr std::uint32_t kMostTried = 24;
 constexpr std::uint32_t kManyTouches = 16;
 constexpr double kAsNear = 1.0 + 4e-4;  // of distances squared
 
-struct Facet {
-    Triangle triangle;
-    Vec3 normal;  // of any length
-    std::array<Vec3, 3> normals;
-};
+using Facet = SmoothFacet;
 
-// None if the facet is not known to be part of a smooth surface.
 std::optional<Facet> facet_of(const LocalSurface& surface, const Candidates& candidates, std::uint32_t candidate) {
     const CornerNormals corners = surface.corner_normals(candidates.id(candidate));
     if (!corners.known) return std::nullopt;
@@ -64,12 +59,12 @@ double least_of(const Vec3& v) { return std::min({v.x, v.y, v.z}); }
 
 class Shader {
 public:
-    Shader(const LocalSurface& surface, const Candidates& candidates, const Touches& touches, const Vec3& center,
+    Shader(SmoothFacets& facets, const Candidates& candidates, const Touches& touches, const Vec3& center,
            double radius)
-        : surface_(surface), candidates_(candidates), touches_(touches), center_(center), radius_(radius) {}
+        : facets_(facets), candidates_(candidates), touches_(touches), center_(center), radius_(radius) {}
 
     [[nodiscard]] std::optional<Vec3> normal_of(std::uint32_t touch) const {
-        const auto own = facet_of(surface_, candidates_, touches_.places[touch].candidate);
+        const auto own = facets_.of(candidates_, touches_.places[touch].candidate);
         if (!own || !agreed(*own, touch)) return std::nullopt;
         Best best;
         look_at(best, *own);
@@ -105,7 +100,7 @@ private:
             if (i == touch || glm::dot(touches_.planes[i].normal, way) < kOneRegion) continue;
             if (many && distance2_of(i) > nearest2 * kAsNear) continue;
             ++tried;
-            if (const auto facet = facet_of(surface_, candidates_, touches_.places[i].candidate)) look_at(best, *facet);
+            if (const auto facet = facets_.of(candidates_, touches_.places[i].candidate)) look_at(best, *facet);
             if (best.inside >= 0.0) return;
         }
     }
@@ -128,7 +123,7 @@ private:
             const Vec3 apart = touches_.places[i].point - place.point;
             if (i == touch || glm::dot(apart, apart) > tie * tie) continue;
             if (++tried > kMostTried) return false;
-            const auto other = facet_of(surface_, candidates_, touches_.places[i].candidate);
+            const auto other = facets_.of(candidates_, touches_.places[i].candidate);
             if (!other) return false;
             const auto there = coordinates(other->triangle, other->normal, place.point);
             if (!there) return false;
@@ -138,7 +133,7 @@ private:
         return true;
     }
 
-    const LocalSurface& surface_;
+    SmoothFacets& facets_;
     const Candidates& candidates_;
     const Touches& touches_;
     const Vec3& center_;
@@ -147,9 +142,21 @@ private:
 
 }  // namespace
 
-ShadedPlanes shaded(const LocalSurface& surface, const Candidates& candidates, const Touches& touches,
+std::optional<SmoothFacet> SmoothFacets::of(const Candidates& candidates, std::uint32_t candidate) noexcept {
+    const std::uint32_t id = candidates.id(candidate);
+    for (std::uint32_t i = 0; i < std::min(count_, kMost); ++i)
+        if (ids_[i] == id) return is_smooth_[i] ? std::optional(facets_[i]) : std::nullopt;
+    const std::uint32_t place = count_++ % kMost;
+    const auto facet = facet_of(surface_, candidates, candidate);
+    ids_[place] = id;
+    is_smooth_[place] = facet.has_value();
+    if (facet) facets_.put(place, *facet);
+    return facet;
+}
+
+ShadedPlanes shaded(SmoothFacets& facets, const Candidates& candidates, const Touches& touches,
                     const NearestInside& goal, const Vec3& center, double radius) noexcept {
-    const Shader shader(surface, candidates, touches, center, radius);
+    const Shader shader(facets, candidates, touches, center, radius);
     ShadedPlanes result;
     for (std::uint32_t i = 0; i < goal.bearing_count; ++i) {
         HalfSpace plane = touches.planes[goal.bearing[i]];

@@ -14,7 +14,9 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
+#include "haptics/contact/room.hpp"
 #include "haptics/contact/touching.hpp"
 
 namespace burin {
@@ -25,8 +27,32 @@ struct ShadedPlanes {
     bool any = false;  // false: all are as they were
 };
 
+// A triangle of a smooth piece of surface.
+struct SmoothFacet {
+    Triangle triangle;
+    Vec3 normal;  // of any length
+    std::array<Vec3, 3> normals;
+};
+
+// Remembers the last few that were asked about: a tick's steps ask about the same ones again, and finding normals takes a way
+// through the surface's tree.
+class SmoothFacets {
+public:
+    explicit SmoothFacets(const LocalSurface& surface) noexcept : surface_(surface) {}
+    // None if it is not known to be part of a smooth surface.
+    [[nodiscard]] std::optional<SmoothFacet> of(const Candidates& candidates, std::uint32_t candidate) noexcept;
+
+private:
+    static constexpr std::uint32_t kMost = 8;
+    const LocalSurface& surface_;
+    std::array<std::uint32_t, kMost> ids_;
+    std::array<bool, kMost> is_smooth_;
+    Room<SmoothFacet, kMost> facets_;
+    std::uint32_t count_ = 0;  // ever asked for; the newest is in place (count_ - 1) % kMost
+};
+
 // Of the planes that `goal` bears on. Corner normals looked up: at most about 30 for each of them.
-[[nodiscard]] ShadedPlanes shaded(const LocalSurface& surface, const Candidates& candidates, const Touches& touches,
+[[nodiscard]] ShadedPlanes shaded(SmoothFacets& facets, const Candidates& candidates, const Touches& touches,
                                   const NearestInside& goal, const Vec3& center, double radius) noexcept;
 
 // The way to where the shaded planes want the ball, `wish` along `normal`, onto the true planes: never through them, and not off

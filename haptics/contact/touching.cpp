@@ -11,6 +11,8 @@ namespace {
 
 // How much is looked at beside a way, as shares of the ball's radius, of an edge and of the way: enough that most ticks look once.
 constexpr double kBesideOfRadius = 0.001, kBesideOfEdge = 0.02, kBesideOfWay = 0.12;
+// A way deep into the material ends at its surface most of the time: the first look goes so far at most, each later one twice as far.
+constexpr double kFirstLookOfRadius = 2.0, kFirstLookOfEdge = 8.0;
 
 // Whether the ball around the triangle's box is farther than `reach` from all of the way: a cheap look before a test.
 bool beside(const Triangle& t, const Way& way, double reach) {
@@ -23,9 +25,10 @@ bool beside(const Triangle& t, const Way& way, double reach) {
 
 bool ContactSearch::look_along(const Way& way) noexcept {
     const Vec3 motion = way.to - way.from;
-    const double edge = surface_.mean_edge_m();
-    double slack = kBesideOfRadius * radius_ + kBesideOfEdge * edge + kBesideOfWay * glm::length(motion);
-    double share = 1.0;
+    const double edge = surface_.mean_edge_m(), length = glm::length(motion);
+    const double most = std::ldexp(kFirstLookOfRadius * radius_ + kFirstLookOfEdge * edge, looks_taken_++);
+    double share = length > most ? most / length : 1.0;
+    double slack = kBesideOfRadius * radius_ + kBesideOfEdge * edge + kBesideOfWay * share * length;
     for (int tries = 0; tries < 6; ++tries) {
         std::uint32_t looks = budget_.max_triangles_seen - work_.triangles_seen;
         const std::uint32_t before = looks;
@@ -102,7 +105,7 @@ ContactSearch::Sweep ContactSearch::sweep(const Vec3& center, const Vec3& motion
 
 Nearest ContactSearch::nearest(const Vec3& center, double most) noexcept {
     Nearest result;
-    Near near{center, center};
+    Near near{.lo = center, .hi = center, .by_way = true, .from = center, .to = center};
     const auto visit = [&](std::uint32_t, const Triangle& t) {
         if (beside(t, {center, center}, result.distance * (1.0 + kTie))) return true;
         if (!count_test()) return false;
@@ -115,7 +118,8 @@ Nearest ContactSearch::nearest(const Vec3& center, double most) noexcept {
     const Box all = bounds(surface_);
     const Vec3 span = glm::max(glm::abs(center - all.lo), glm::abs(center - all.hi));
     const double everything = std::min(most, std::max({span.x, span.y, span.z}));
-    for (double reach = std::max(radius_, 2.0 * surface_.mean_edge_m());; reach *= 2.0) {
+    // A little more than the radius: after a cut the surface is just out of touch.
+    for (double reach = std::max(1.1 * radius_, 2.0 * surface_.mean_edge_m());; reach *= 2.0) {
         near.reach_m = reach;
         const std::uint32_t looks = budget_.max_triangles_seen - work_.triangles_seen;
         near.looks_left = looks;
@@ -128,7 +132,7 @@ Nearest ContactSearch::nearest(const Vec3& center, double most) noexcept {
 
 bool ContactSearch::sees_backs(const Vec3& center, double reach) noexcept {
     double sum = 0.0;
-    Near near{center, center, reach};
+    Near near{.lo = center, .hi = center, .reach_m = reach, .by_way = true, .from = center, .to = center};
     const std::uint32_t looks = budget_.max_triangles_seen - work_.triangles_seen;
     near.looks_left = looks;
     const bool complete = for_each_triangle_near(surface_, near, [&](std::uint32_t, const Triangle& t) {

@@ -93,6 +93,7 @@ private:
     double radius_;
     ProxyBudget budget_;
     ProxyWork& work_;
+    int looks_taken_ = 0;
     Candidates candidates_;
     Room<bool, Candidates::kMost> touches_already_;  // of those below candidates_.count()
 };
