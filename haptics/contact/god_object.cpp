@@ -25,6 +25,9 @@ constexpr double kBears = 1e-4;
 
 constexpr double kSunk = 5e-3;
 
+// Less than this a slide may take the ball away from the HIP: sweeps leave it so deep, and it comes out again.
+constexpr double kLift = 4.0 * kTouch;
+
 // Inside or outside is voted on by what is within this many times the distance of the nearest triangle.
 constexpr double kVote = 1.5;
 
@@ -187,7 +190,14 @@ private:
         if (!goal.found || !goal.in_contact) return goal;
         if (settings_.shading) shade(goal, plain, pull, true);
         hold(goal, pull);
+        const Vec3 slide = goal.step;
         onto_surface(goal);
+        // Facets touched farther on, whose planes rise steeply, may lift the ball off what it slides on and away from the HIP, and it
+        // would fall back for ever. It slides up to the first of them instead, which then bears it too.
+        if (glm::length(pull - goal.step) > glm::length(pull) + kLift * radius_) {
+            goal.step = share_to_first_plane(slide) * slide;
+            goal.left = glm::length(goal.step);
+        }
         return goal;
     }
 
@@ -205,16 +215,21 @@ private:
         return count;
     }
 
-    // Towards the HIP until the first plane bears the ball.
-    Goal falling(const Vec3& pull) {
+    [[nodiscard]] double share_to_first_plane(const Vec3& way) const {
         double share = 1.0;
         for (const HalfSpace& plane : touches_.span()) {
-            const double sinking = glm::dot(plane.normal, pull);
+            const double sinking = glm::dot(plane.normal, way);
             if (sinking < 0.0) share = std::min(share, plane.offset / sinking);
         }
+        return std::max(share, 0.0);
+    }
+
+    // Towards the HIP until the first plane bears the ball.
+    Goal falling(const Vec3& pull) {
+        const double share = share_to_first_plane(pull);
         Goal goal;
         goal.found = true;
-        goal.step = std::max(share, 0.0) * pull;
+        goal.step = share * pull;
         goal.is_hip = share >= 1.0;
         note_active({});
         return goal;
