@@ -3,9 +3,9 @@
 // million triangles and on a solid under carving; the proxy against the true surface; contact that is lost; an edit until
 // it is felt; the force's jumps at the edges of facets.
 //
-// Ticks are whole steps of HapticLoop, from reading the device to publishing the tool. Paced: at 1 kHz, asleep until an
-// absolute deadline and timed from waking, so that caches are as cold as another's work left them. Back to back: one after
-// the other. The device is a path, pressed 1 to 2 mm deep at 100 mm/s, with no hand that gives way, so that every run
+// Ticks are whole steps of HapticLoop, from reading the device to publishing the tool. Paced: at 1 kHz, as HapticLoop::run does it,
+// with a rehearsal just before the deadline. Paced cold: asleep until the deadline and timed from waking, so that caches are
+// as cold as another's work left them. Back to back: one after the other. The device is a path, pressed 1 to 2 mm deep at 100 mm/s, with no hand that gives way, so that every run
 // touches the same places.
 #pragma once
 
@@ -35,9 +35,10 @@ struct HapticsOptions {
 
 // The ticks of one scene, probe and pacing.
 struct TickCosts {
-    std::string scene, probe, pacing;  // "sphere" or "carving"; "point", ..; "paced" or "back_to_back"
+    std::string scene, probe, pacing;  // "sphere" or "carving"; "point", ..; "paced", "paced_cold" or "back_to_back"
     std::size_t triangles = 0;
     std::vector<double> tick_us, lateness_us;  // one each; lateness of paced ticks only
+    std::vector<double> rehearsal_us;          // of those rehearsed
     std::vector<double> triangles_tested, triangles_seen;
     std::uint64_t in_contact = 0, skipped_deadlines = 0, surfaces_used = 0;
 };
@@ -80,7 +81,10 @@ struct Haptics {
     std::vector<TickCosts> ticks;
     ProxyErrors errors;
     std::vector<LostContact> contact;
-    double metres_and_millimetres_differ_um = 0.0;  // largest distance between the proxies of the two, in metres' terms
+    // Between the proxies of the two, in metres' terms. The same numbers times 1000 are rounded otherwise, so that now and then the
+    // ball goes another way around a corner; times 1024 they are not.
+    std::vector<double> metres_and_millimetres_differ_um;  // 1000 times as large: one each tick that any is inside
+    double metres_and_1024ths_differ_um = 0.0;             // 1024 times as large: the most
     EditCosts edits;
     std::vector<ForceJumps> jumps;
 };

@@ -75,11 +75,11 @@ void measure_errors(Haptics& all, const BumpySphere& shape, const LocalSurface& 
     }
 }
 
-// In and out of the surface again and again; the same way in both units.
+// In and out of the surface again and again; the same way in all units.
 void measure_contact(Haptics& all, const BumpySphere& shape, const LocalSurface& in_m, const LocalSurface& in_mm,
-                     double chord) {
+                     const LocalSurface& in_1024ths, double chord) {
     LostContact metres{.unit = "m"}, millimetres{.unit = "mm"};
-    Point of_m(in_m, 1.0), of_mm(in_mm, 1000.0);
+    Point of_m(in_m, 1.0), of_mm(in_mm, 1000.0), of_1024ths(in_1024ths, 1024.0);
     PressedPath path(shape, {.mean_m = 0.0005, .swing_m = 0.001});
     const auto count = [&](LostContact& counts, bool felt, double distance) {
         ++counts.ticks;
@@ -95,8 +95,10 @@ void measure_contact(Haptics& all, const BumpySphere& shape, const LocalSurface&
         const double distance = shape.distance_m(path.hip_m());
         count(metres, of_m.step(path.hip_m()), distance);
         count(millimetres, of_mm.step(path.hip_m()), distance);
-        all.metres_and_millimetres_differ_um =
-            std::max(all.metres_and_millimetres_differ_um, 1e6 * glm::length(of_m.proxy_m() - of_mm.proxy_m()));
+        of_1024ths.step(path.hip_m());
+        const auto differ_um = [&](const Point& other) { return 1e6 * glm::length(of_m.proxy_m() - other.proxy_m()); };
+        if (distance < 0.0) all.metres_and_millimetres_differ_um.push_back(differ_um(of_mm));
+        all.metres_and_1024ths_differ_um = std::max(all.metres_and_1024ths_differ_um, differ_um(of_1024ths));
     }
     all.contact = {metres, millimetres};
 }
@@ -137,14 +139,15 @@ Result<void> measure_jumps(Haptics& all) {
 Result<void> measure_accuracy(Haptics& all, const Tell& tell) {
     const BumpySphere shape;
     const TriangleMesh mesh = mesh_of(shape, squares_for(all.options.accuracy_size));
-    const auto in_m = surface_of(mesh, 1.0), in_mm = surface_of(mesh, 1000.0);
+    const auto in_m = surface_of(mesh, 1.0), in_mm = surface_of(mesh, 1000.0), in_1024ths = surface_of(mesh, 1024.0);
     if (!in_m) return std::unexpected(in_m.error());
     if (!in_mm) return std::unexpected(in_mm.error());
+    if (!in_1024ths) return std::unexpected(in_1024ths.error());
     const double chord = chord_m(shape, mesh);
     tell("the proxy against the true surface");
     measure_errors(all, shape, *in_m, chord);
     tell("contact lost, in metres and in millimetres");
-    measure_contact(all, shape, *in_m, *in_mm, chord);
+    measure_contact(all, shape, *in_m, *in_mm, *in_1024ths, chord);
     tell("jumps of the force at edges");
     return measure_jumps(all);
 }

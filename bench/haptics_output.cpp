@@ -45,6 +45,7 @@ Json row_of(const TickCosts& t) {
     row["triangles_seen_max"] = most(t.triangles_seen);
     row["ticks_in_contact"] = t.in_contact;
     row["surfaces_used"] = t.surfaces_used;
+    row["rehearsal_median_us"] = median(t.rehearsal_us);
     row["lateness_median_us"] = median(t.lateness_us);
     row["lateness_p99_us"] = quantile(t.lateness_us, 0.99);
     row["skipped_deadlines"] = t.skipped_deadlines;
@@ -134,8 +135,10 @@ std::string haptics_table(const Haptics& all) {
         text += line("contact lost, scene in %-2s: %llu of %llu ticks inside (of %llu in all)\n", c.unit.c_str(),
                      static_cast<unsigned long long>(c.lost), static_cast<unsigned long long>(c.inside),
                      static_cast<unsigned long long>(c.ticks));
-    text +=
-        line("proxies in metres and in millimetres differ by at most %.6f um\n", all.metres_and_millimetres_differ_um);
+    const std::vector<double>& differ = all.metres_and_millimetres_differ_um;
+    text += line("proxies in metres and in millimetres differ by, um: median %.6f, p99 %.6f, p99.99 %.4f, max %.1f\n",
+                 median(differ), quantile(differ, 0.99), quantile(differ, 0.9999), most(differ));
+    text += line("and in metres and in their 1024ths by at most %.6f um\n", all.metres_and_1024ths_differ_um);
     const EditCosts& d = all.edits;
     text += line("1 cm edit (%zu triangles) of %zu: median %.3f, p99 %.3f ms; %llu of %zu felt at the next tick\n",
                  d.edited_triangles, d.triangles, median(d.prepare_ms), quantile(d.prepare_ms, 0.99),
@@ -171,7 +174,9 @@ nlohmann::ordered_json haptics_json(const Haptics& all) {
     report["proxy_error"] = errors_of(all.errors);
     report["contact"] = Json::array();
     for (const LostContact& c : all.contact) report["contact"].push_back(contact_of(c));
-    report["metres_and_millimetres_differ_um"] = all.metres_and_millimetres_differ_um;
+    Json units = quantiles("metres_and_millimetres_differ", "um", all.metres_and_millimetres_differ_um);
+    units["metres_and_1024ths_differ_max_um"] = all.metres_and_1024ths_differ_um;
+    report["units"] = units;
     report["edit"] = edits_of(all.edits);
     report["force_jumps"] = Json::array();
     for (const ForceJumps& j : all.jumps) report["force_jumps"].push_back(jump_of(j));

@@ -3,6 +3,7 @@
 #include <pthread.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <memory>
@@ -84,10 +85,11 @@ public:
             between(i);
         }
     }
-    void paced(std::uint64_t ticks) {
+    void paced(std::uint64_t ticks, bool rehearsed) {
         Nanoseconds deadline_ns = clock_.now_ns() + kPeriod_ns;
         for (std::uint64_t i = 0; i < ticks; ++i) {
-            clock_.sleep_until(deadline_ns);
+            clock_.sleep_until(deadline_ns - (rehearsed ? HapticLoop::kLead_ns : 0));
+            if (rehearsed) rehearse(deadline_ns);
             const Nanoseconds lateness_ns = clock_.now_ns() - deadline_ns;
             tick(lateness_ns);
             costs_.lateness_us.push_back(1e-3 * static_cast<double>(lateness_ns));
@@ -98,6 +100,12 @@ public:
     }
 
 private:
+    void rehearse(Nanoseconds deadline_ns) {
+        const Nanoseconds began_ns = clock_.now_ns();
+        loop_.rehearse();
+        costs_.rehearsal_us.push_back(1e-3 * static_cast<double>(clock_.now_ns() - began_ns));
+        clock_.spin_until(deadline_ns);
+    }
     void tick(Nanoseconds lateness_ns) {
         path_.step();
         device_.go_to(path_.hip_m(), path_.orientation(), time_ns_ += kPeriod_ns);
@@ -124,10 +132,11 @@ private:
     std::uint64_t surface_ = 0;
 };
 
-// Carves where the tool rests, a little deeper: what app/carving does in a session, without its tools.
+// Carves from where the tool rests towards the hand: what app/carving does in a session, without its tools.
 class Carver {
 public:
-    static constexpr double kTool_m = 0.002, kDeeper_m = 0.0003, kPublished_m = 0.01;
+    // Of the way to the hand that an update cuts: the hand goes a millimetre meanwhile, is not left behind, and stays in contact.
+    static constexpr double kShare = 0.6, kTool_m = 0.002, kPublished_m = 0.01;
 
     Carver(Solid solid, HapticChannels& channels, const Vec3& begin_m)
         : channels_(channels),
@@ -142,9 +151,7 @@ public:
     [[nodiscard]] Result<void> update() {
         Vec3 to_m = at_m_;
         for (StrokeSample stroke; channels_.stroke.pop(stroke);) {
-            const Vec3 in = stroke.position_object_m - stroke.proxy_object_m;
-            const double depth = glm::length(in);
-            if (depth > 0.0) to_m = stroke.proxy_object_m + kDeeper_m / depth * in;
+            to_m = stroke.proxy_object_m + kShare * (stroke.position_object_m - stroke.proxy_object_m);
         }
         const BallSweep sweep{at_m_, to_m, kTool_m};
         if (const auto carved = engine_->carve({&sweep, 1}); !carved) return std::unexpected(carved.error());
@@ -209,34 +216,40 @@ void publish_mesh(HapticChannels& channels, const std::shared_ptr<const TouchSna
     channels.surface.publish();
 }
 
+enum class Pacing : std::uint8_t { paced, paced_cold, back_to_back };
+constexpr std::array kPacings{Pacing::paced, Pacing::paced_cold, Pacing::back_to_back};
+constexpr std::array kPacingNames{"paced", "paced_cold", "back_to_back"};
+
+std::string name_of(Pacing pacing) { return kPacingNames[static_cast<std::size_t>(pacing)]; }
+
 void touch_sphere(Haptics& all, const std::shared_ptr<const TouchSnapshot>& snapshot, const NamedProbe& probe,
-                  bool paced) {
+                  Pacing pacing) {
     MonotonicClock clock;
     TickCosts& costs = all.ticks.emplace_back();
-    costs.scene = "sphere", costs.probe = probe.name, costs.pacing = paced ? "paced" : "back_to_back";
+    costs.scene = "sphere", costs.probe = probe.name, costs.pacing = name_of(pacing);
     costs.triangles = snapshot->triangles();
     Run run(costs, clock, probe.probe, {});
     publish_mesh(run.channels(), snapshot);
     const auto nothing = [](std::uint64_t) {};
-    if (paced)
-        run.paced(all.options.paced_ticks);
+    if (pacing != Pacing::back_to_back)
+        run.paced(all.options.paced_ticks, pacing == Pacing::paced);
     else
         run.back_to_back(all.options.back_to_back_ticks, nothing);
 }
 
-Result<void> touch_while_carving(Haptics& all, bool paced) {
+Result<void> touch_while_carving(Haptics& all, Pacing pacing) {
     MonotonicClock clock;
     const BumpySphere ball{.bumps = 0.0};
     Result<Solid> solid = make_ball(ball.radius_m, all.options.solid_resolution, Material{});
     if (!solid) return std::unexpected(solid.error());
     TickCosts& costs = all.ticks.emplace_back();
-    costs.scene = "carving", costs.probe = "ball_2_mm", costs.pacing = paced ? "paced" : "back_to_back";
+    costs.scene = "carving", costs.probe = "ball_2_mm", costs.pacing = name_of(pacing);
     Run run(costs, clock, ball_probe(Carver::kTool_m), ball);
     Carver carver(std::move(*solid), run.channels(), run.hip_m());
     costs.triangles = carver.triangles();
-    if (paced) {
+    if (pacing != Pacing::back_to_back) {
         CarvingThread thread(carver);
-        run.paced(all.options.paced_ticks);
+        run.paced(all.options.paced_ticks, pacing == Pacing::paced);
         return thread.stop();
     }
     Result<void> done;
@@ -254,15 +267,15 @@ Result<void> measure_ticks(Haptics& all, const Tell& tell) {
         if (!mesh) return std::unexpected(mesh.error());
         const auto snapshot = mesh->snapshot();
         for (const NamedProbe& probe : all_probes())
-            for (const bool paced : {true, false}) {
-                tell("ticks on " + std::to_string(snapshot->triangles()) + " triangles, " + probe.name +
-                     (paced ? ", paced" : ", back to back"));
-                touch_sphere(all, snapshot, probe, paced);
+            for (const Pacing pacing : kPacings) {
+                tell("ticks on " + std::to_string(snapshot->triangles()) + " triangles, " + probe.name + ", " +
+                     name_of(pacing));
+                touch_sphere(all, snapshot, probe, pacing);
             }
     }
-    for (const bool paced : {true, false}) {
-        tell(paced ? "ticks under carving, paced" : "ticks under carving, back to back");
-        if (auto done = touch_while_carving(all, paced); !done) return done;
+    for (const Pacing pacing : kPacings) {
+        tell("ticks under carving, " + name_of(pacing));
+        if (auto done = touch_while_carving(all, pacing); !done) return done;
     }
     return {};
 }

@@ -116,10 +116,12 @@ TEST(BenchHaptics, EveryEditIsUsedAndFeltAtTheNextTick) {
 TEST(BenchHaptics, TicksTouchEverySceneWithEveryProbe) {
     Haptics all = small();
     ASSERT_TRUE(measure_ticks(all, kSilent).has_value());
-    EXPECT_EQ(all.ticks.size(), 2u * (4u * all.options.sizes.size() + 1u));
+    EXPECT_EQ(all.ticks.size(), 3u * (4u * all.options.sizes.size() + 1u));
     for (const TickCosts& t : all.ticks) {
-        EXPECT_EQ(t.tick_us.size(), t.pacing == "paced" ? all.options.paced_ticks : all.options.back_to_back_ticks);
-        EXPECT_EQ(t.lateness_us.size(), t.pacing == "paced" ? t.tick_us.size() : 0u);
+        const bool paced = t.pacing != "back_to_back";
+        EXPECT_EQ(t.tick_us.size(), paced ? all.options.paced_ticks : all.options.back_to_back_ticks);
+        EXPECT_EQ(t.lateness_us.size(), paced ? t.tick_us.size() : 0u);
+        EXPECT_EQ(t.rehearsal_us.size(), t.pacing == "paced" ? t.tick_us.size() : 0u);
         EXPECT_GT(t.in_contact, 9 * t.tick_us.size() / 10) << t.scene << " " << t.probe << " " << t.pacing;
         if (t.scene == "carving" && t.pacing == "back_to_back") {
             EXPECT_GE(t.surfaces_used, t.tick_us.size() / 10);
@@ -137,7 +139,7 @@ TEST(BenchHaptics, ReportsAsJson) {
     ASSERT_EQ(outcome.status, 0) << outcome.output;
     EXPECT_TRUE(place.read("out.csv").starts_with("# "));
     const auto report = nlohmann::json::parse(place.read("out.json"));
-    EXPECT_EQ(report["ticks"].size(), 18u);
+    EXPECT_EQ(report["ticks"].size(), 27u);
     EXPECT_TRUE(report["ticks"][0].contains("tick_p999_us"));
     EXPECT_EQ(report["contact"][0]["ticks"], 500);
     EXPECT_TRUE(report["edit"].contains("prepare_p99_ms"));
