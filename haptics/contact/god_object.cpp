@@ -25,9 +25,6 @@ constexpr double kBears = 1e-4;
 
 constexpr double kSunk = 5e-3;
 
-// Less than this a slide may take the ball away from the HIP: sweeps leave it so deep, and it comes out again.
-constexpr double kLift = 4.0 * kTouch;
-
 // Inside or outside is voted on by what is within this many times the distance of the nearest triangle.
 constexpr double kVote = 1.5;
 
@@ -194,11 +191,18 @@ private:
         onto_surface(goal);
         // Facets touched farther on, whose planes rise steeply, may lift the ball off what it slides on and away from the HIP, and it
         // would fall back for ever. It slides up to the first of them instead, which then bears it too.
-        if (glm::length(pull - goal.step) > glm::length(pull) + kLift * radius_) {
+        if (glm::length(pull - goal.step) > glm::length(pull) + deepest_of(bearing) + still_) {
             goal.step = share_to_first_plane(slide) * slide;
             goal.left = glm::length(goal.step);
         }
         return goal;
+    }
+
+    // How deep the ball is in what bears it, out of which it is lifted in any case.
+    [[nodiscard]] double deepest_of(std::uint32_t bearing) const {
+        double deepest = 0.0;
+        for (std::uint32_t i = 0; i < bearing; ++i) deepest = std::max(deepest, touches_.planes[i].offset);
+        return deepest;
     }
 
     // The planes that the ball is on, through its centre, in flat_; they come first among the touches too.

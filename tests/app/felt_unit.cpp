@@ -140,6 +140,22 @@ TEST(Felt, PressedOnTheSpotTheToolSinksAsTheClosedFormSays) {
     EXPECT_NEAR(resistance_Ns / impulse_Ns, 1.0, 0.2) << depth_m;
 }
 
+TEST(Felt, AToolThatCrossesItsOwnGroovesSettlesWithinATicksSteps) {
+    // Rounds within rounds: walls of earlier ones stand across the way.
+    Stroke stroke{row(0.0, 0.0, 0.003, false)};
+    for (int i = 0; i <= 240; ++i) {
+        const double angle = 2.0 * 3.14159265358979 * i / 40.0;
+        StrokeRow at = row(0.1 + 0.0125 * i, 0.005 * std::cos(angle) + 0.00001 * i, 0.0, true);
+        at.position_object_m.y += 0.003 * std::sin(1.5 * angle);
+        stroke.push_back(at);
+    }
+    const Felt felt = felt_on_a_block(stroke, feel(4.0, 1.2));
+    ASSERT_GT(felt.figures.ticks_cutting, 1500u);
+    const auto& degraded = felt.figures.degraded;
+    const auto used_up = degraded.find("the work of a tick was used up");
+    EXPECT_LE(used_up == degraded.end() ? 0u : used_up->second.ticks, 3u);
+}
+
 TEST(Felt, TheForceIsSmoothWhileSurfacesArrive) {
     const Felt felt = felt_on_a_block(along(0.04), feel(6.0, 1.0));
     ASSERT_GT(felt.figures.closeup.size(), 500u);

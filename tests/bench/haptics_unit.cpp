@@ -98,6 +98,7 @@ TEST(BenchHaptics, AProxyStaysOnTheSurfaceAndLosesNoContactInMetresOrMillimetres
         EXPECT_EQ(contact.lost, 0u) << contact.unit;
     }
     EXPECT_EQ(all.contact[0].inside, all.contact[1].inside);
+    EXPECT_EQ(all.metres_and_1024ths_differ_um, 0.0);  // to the last bit
     ASSERT_EQ(all.jumps.size(), 2u);
     EXPECT_TRUE(all.jumps[0].shading);
     EXPECT_LT(all.jumps[0].largest_percent, all.jumps[1].largest_percent);

@@ -110,6 +110,27 @@ TEST(HapticLoop, TheSameScriptGivesTheSameBitsTwice) {
     EXPECT_TRUE(touched);
 }
 
+TEST(HapticLoop, ARehearsalChangesNothing) {
+    Rig plain(press_and_drag()), rehearsed(press_and_drag());
+    TickParameters p = tool();
+    p.clearance_ratio = 0.02;
+    for (Rig* rig : {&plain, &rehearsed}) {
+        rig->publish(*test::groove(0.005, 0.08, 20, 100, 1e-5), 1);
+        rig->publish(p, 1);
+    }
+    bool touched = false;
+    for (int i = 0; i < 2300; ++i) {
+        rehearsed.loop.rehearse();
+        const TickRecord a = plain.tick(), b = rehearsed.tick();
+        touched = touched || a.penetration_m > 0.0;
+        ASSERT_EQ(std::memcmp(&a.proxy_object_m, &b.proxy_object_m, sizeof(Vec3)), 0) << i;
+        ASSERT_EQ(std::memcmp(&a.given.force_device_N, &b.given.force_device_N, sizeof(Vec3)), 0) << i;
+        ASSERT_EQ(a.flags, b.flags) << i;
+        ASSERT_EQ(a.tick, b.tick);
+    }
+    EXPECT_TRUE(touched);
+}
+
 TEST(HapticLoop, RunInSimulatedTimeEqualsStepping) {
     Rig stepped(press_and_drag()), run(press_and_drag());
     for (Rig* rig : {&stepped, &run}) {
@@ -206,6 +227,24 @@ TEST(HapticLoop, LateTicksAreFlaggedAndMissedDeadlinesSkippedNotCaughtUp) {
     std::uint64_t late = 0;
     while (channels.records.pop(record)) late += (record.flags & kTickLate) != 0;
     EXPECT_EQ(late, 1u);
+}
+
+TEST(HapticLoop, ALeadMakesUpForLateWakeUps) {
+    struct LateClock final : Clock {
+        Nanoseconds now = 0;
+        Nanoseconds now_ns() noexcept override { return now; }
+        void sleep_until(Nanoseconds deadline_ns) noexcept override { now = std::max(now, deadline_ns + 60'000); }
+        void spin_until(Nanoseconds deadline_ns) noexcept override { now = std::max(now, deadline_ns); }
+    };
+    for (const bool leads : {false, true}) {
+        LateClock clock;
+        SimulatedOmni omni(*SimulatedHand::create({{0.0, Vec3(0.0)}}), {}, &clock);
+        HapticChannels channels;
+        HapticLoop loop(omni, clock, channels);
+        loop.run_ticks(20, nullptr, leads ? HapticLoop::kLead_ns : 0);
+        EXPECT_EQ(loop.ticks(), 20u);
+        for (TickRecord record; channels.records.pop(record);) EXPECT_EQ(record.lateness_ns, leads ? 0 : 60'000);
+    }
 }
 
 TEST(HapticLoop, ARealTimeThreadTicksWhileOthersPublishAndStopsAtZeroForce) {
