@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A tick with its gate, and the records of what it used and did.
+#include <algorithm>
+
 #include "haptics/tick.hpp"
 
 namespace burin {
@@ -16,7 +18,7 @@ void describe(TickRecord& record, const TickOutput& out) {
     record.active_triangle = point.active_triangle;
     record.constraints = point.constraints;
     record.point_count = out.point_count;
-    record.points = out.points;
+    std::copy_n(out.points.begin(), out.point_count, record.points.begin());
     record.cut_object_m = out.cut_object_m;
     record.velocity_device_m_per_s = out.velocity_device_m_per_s;
     record.wanted = out.wanted;
@@ -62,7 +64,9 @@ FullTick full_tick(const FullTickState& state, const DeviceSample& sample, const
     GateInput input = gate_input(out, sample, device, now_ns);
     if (state.now_ns > 0) input.loop_gap_s = seconds(now_ns - state.now_ns);
     const GateOutput gate = pass_gate(state.gate, input, parameters.limits, dt_s);
-    full.next = {out.next, gate.next, now_ns};
+    full.next.tick = out.next;
+    full.next.gate = gate.next;
+    full.next.now_ns = now_ns;
     // The controller's account is of contact alone: what else was given is not its business.
     const Vec3 others_N = out.wanted.force_device_N - out.contact.force_device_N;
     const bool on = gate.cause == GateCause::none;

@@ -15,26 +15,18 @@ Candidates::Ball Candidates::ball_around(const Triangle& t) const noexcept {
 }
 
 void Candidates::add(std::uint32_t id, const Triangle& t, const Vec3& unit_normal, const Ball& ball) noexcept {
-    normal_x_[count_] = static_cast<float>(unit_normal.x);
-    normal_y_[count_] = static_cast<float>(unit_normal.y);
-    normal_z_[count_] = static_cast<float>(unit_normal.z);
-    height_[count_] = static_cast<float>(glm::dot(way_.from - t.a, unit_normal));
-    middle_x_[count_] = ball.middle.x;
-    middle_y_[count_] = ball.middle.y;
-    middle_z_[count_] = ball.middle.z;
-    radius_[count_] = std::sqrt(ball.size2) * 1.000001f;
+    fours_[count_ / kLanes].set(count_ % kLanes, Vec3f(unit_normal),
+                                static_cast<float>(glm::dot(way_.from - t.a, unit_normal)), ball.middle,
+                                std::sqrt(ball.size2) * 1.000001f);
     ids_[count_] = id;
     triangles_[count_] = t;
     ++count_;
 }
 
 // Planes that nothing reaches, so that the last four of the passes are whole.
-void Candidates::fill_last_block() noexcept {
-    for (std::uint32_t i = count_; i % kLanes != 0; ++i) {
-        normal_x_[i] = normal_y_[i] = normal_z_[i] = 0.0f;
-        height_[i] = HUGE_VALF;
-        middle_x_[i] = middle_y_[i] = middle_z_[i] = radius_[i] = 0.0f;
-    }
+void Candidates::fill_last_four() noexcept {
+    for (std::uint32_t i = count_; i % kLanes != 0; ++i)
+        fours_[i / kLanes].set(i % kLanes, Vec3f(0.0f), HUGE_VALF, Vec3f(0.0f), 0.0f);
 }
 
 Candidates::Gathered Candidates::gather(const LocalSurface& surface, const Way& way, double radius, double slack,
@@ -75,7 +67,7 @@ Candidates::Gathered Candidates::gather(const LocalSurface& surface, const Way& 
     looks_left = near.looks_left;
     if (!room) return Gathered::too_many;
     if (!complete) return Gathered::out_of_looks;
-    fill_last_block();
+    fill_last_four();
     slack_ = slack;
     return Gathered::all;
 }

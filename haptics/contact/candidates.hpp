@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
 #include "geometry/lanes.hpp"
 #include "geometry/local_surface.hpp"
@@ -62,11 +61,10 @@ public:
         const float limit = static_cast<float>(reach) + rounding_;
         const Weights<2> of = weights<2>({std::fmin(limit, size_), size_});
         return for_each_of(
-            [&](std::uint32_t i) {
-                const Lanes height = height_at(i, at), beyond2 = limit * limit - height * height;
-                const Lanes size = lanes_at(&radius_[i]);
-                const Lanes room2 = of[0] * beyond2 + of[1] * (size * size);
-                return (beyond2 >= 0.0f) & (aside2(i, at, height) <= room2);
+            [&](const Four& four) {
+                const Lanes height = four.height_at(at), beyond2 = limit * limit - height * height;
+                const Lanes room2 = of[0] * beyond2 + of[1] * (four.radius * four.radius);
+                return (beyond2 >= 0.0f) & (four.aside2(at, height) <= room2);
             },
             visit);
     }
@@ -83,15 +81,16 @@ public:
         const float rounding2 = 4.0f * rounding_ * (limit + length);
         const Weights<3> of = weights<3>({std::fmin(limit, size_), size_, 0.5f * length});
         return for_each_of(
-            [&](std::uint32_t i) {
-                const Lanes at_start = height_at(i, start), at_end = height_at(i, end), size = lanes_at(&radius_[i]);
-                const Lanes ahead = dot(middle_at(i) - start, motion) + (size + rounding_) * length;
+            [&](const Four& four) {
+                const Lanes at_start = four.height_at(start), at_end = four.height_at(end);
+                const Lanes ahead = dot(four.middle - start, motion) + (four.radius + rounding_) * length;
                 const Lanes lower = lesser(at_start, at_end);
                 const Lanes least = greater(lower, Lanes{}), beyond2 = limit * limit - least * least;
-                const Lanes room2 = of[0] * beyond2 + of[1] * (size * size) + of[2] * (0.25f * length * length);
+                const Lanes room2 =
+                    of[0] * beyond2 + of[1] * (four.radius * four.radius) + of[2] * (0.25f * length * length);
                 return (lower <= limit) & ((at_start >= -rounding_) | (at_end >= -rounding_)) &
                        (at_start * at_start - limit * limit <= 2.0f * ahead + rounding2) & (ahead >= 0.0f) &
-                       (aside2(i, halfway, 0.5f * (at_start + at_end)) <= room2);
+                       (four.aside2(halfway, 0.5f * (at_start + at_end)) <= room2);
             },
             visit);
     }
@@ -100,25 +99,29 @@ private:
     template <std::size_t kCount>
     using Weights = std::array<float, kCount>;
 
-    [[nodiscard]] static Lanes lanes_at(const float* first) {
-        Lanes lanes;
-        std::memcpy(&lanes, first, sizeof lanes);
-        return lanes;
-    }
+    // Of four triangles: the planes' unit normals, and heights of way_.from above them; the balls around them, from way_.from.
+    struct Four {
+        Vec3Lanes normal;
+        Lanes height;
+        Vec3Lanes middle;
+        Lanes radius;
+
+        [[nodiscard]] Lanes height_at(const Vec3Lanes& at) const { return height + dot(normal, at); }
+        // How far the ball has its middle from the foot of a centre on the plane, squared; less its rounding.
+        [[nodiscard]] Lanes aside2(const Vec3Lanes& at, Lanes height_there) const {
+            const Vec3Lanes off = middle - at;
+            return dot(off, off) * (1.0f - 4e-6f) - height_there * height_there;
+        }
+        void set(std::size_t lane, const Vec3f& unit_normal, float height_m, const Vec3f& middle_m, float radius_m) {
+            normal.x[lane] = unit_normal.x, normal.y[lane] = unit_normal.y, normal.z[lane] = unit_normal.z;
+            height[lane] = height_m;
+            middle.x[lane] = middle_m.x, middle.y[lane] = middle_m.y, middle.z[lane] = middle_m.z;
+            radius[lane] = radius_m;
+        }
+    };
+
     // From way_.from, as everything here.
     [[nodiscard]] Vec3Lanes place(const Vec3& at) const { return in_all_lanes(Vec3f(at - way_.from)); }
-    [[nodiscard]] Lanes height_at(std::uint32_t i, const Vec3Lanes& at) const {
-        return lanes_at(&height_[i]) + lanes_at(&normal_x_[i]) * at.x + lanes_at(&normal_y_[i]) * at.y +
-               lanes_at(&normal_z_[i]) * at.z;
-    }
-    [[nodiscard]] Vec3Lanes middle_at(std::uint32_t i) const {
-        return {lanes_at(&middle_x_[i]), lanes_at(&middle_y_[i]), lanes_at(&middle_z_[i])};
-    }
-    // How far the ball around the triangle has its middle from the foot of a centre on the plane, squared; less its rounding.
-    [[nodiscard]] Lanes aside2(std::uint32_t i, const Vec3Lanes& at, Lanes height) const {
-        const Vec3Lanes off = Vec3Lanes{lanes_at(&middle_x_[i]), lanes_at(&middle_y_[i]), lanes_at(&middle_z_[i])} - at;
-        return dot(off, off) * (1.0f - 4e-6f) - height * height;
-    }
     // The w_k for which sum w_k x_k^2 is at least (sum x_k)^2 for any x, and little more for those like these (Cauchy and Schwarz).
     template <std::size_t kCount>
     [[nodiscard]] static Weights<kCount> weights(const Weights<kCount>& likely) {
@@ -133,11 +136,11 @@ private:
     // Four at a time, and a closer look only where there is one.
     template <typename Near, typename Visit>
     bool for_each_of(Near&& near, Visit&& visit) const {
-        for (std::uint32_t block = 0; block < count_; block += kLanes) {
-            const LaneMask is_near = near(block);
+        for (std::uint32_t first = 0; first < count_; first += kLanes) {
+            const LaneMask is_near = near(fours_[first / kLanes]);
             if (!any(is_near)) continue;
             for (std::uint32_t k = 0; k < kLanes; ++k)
-                if (is_near[k] != 0 && !visit(block + k)) return false;
+                if (is_near[k] != 0 && !visit(first + k)) return false;
         }
         return true;
     }
@@ -148,17 +151,14 @@ private:
     };
     [[nodiscard]] Ball ball_around(const Triangle& t) const noexcept;
     void add(std::uint32_t id, const Triangle& t, const Vec3& unit_normal, const Ball& ball) noexcept;
-    void fill_last_block() noexcept;
+    void fill_last_four() noexcept;
 
     Way way_;
     double slack_ = -1.0;   // nothing is covered
     float rounding_ = 0.0;  // of a height
     float size_ = 0.0;      // of most balls around triangles
     std::uint32_t count_ = 0;
-    // Of the planes: unit normal, and height of way_.from above it. One array each, to be read four at a time.
-    std::array<float, kMost + kLanes> normal_x_, normal_y_, normal_z_, height_;
-    // Of the balls around them, from way_.from: middle, and radius.
-    std::array<float, kMost + kLanes> middle_x_, middle_y_, middle_z_, radius_;
+    std::array<Four, kMost / kLanes> fours_;
     std::array<std::uint32_t, kMost> ids_;
     std::array<Triangle, kMost> triangles_;
 };
