@@ -47,7 +47,9 @@ BenchSubcommand add_bench_haptics(CLI::App& bench) {
     command->add_flag("--quick", options->quick, "Small meshes and few ticks: whether it works, in seconds");
     command->add_option("--ticks", options->contact_ticks, "How many ticks are looked at for lost contact (1000000)")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
-    command->add_option("--paced-ticks", options->paced_ticks, "How many paced ticks of each scene, 1 ms each (5000)")
+    command
+        ->add_option("--paced-ticks", options->paced_ticks,
+                     "How many paced ticks of each scene, 1 ms each, rehearsed and again cold (5000)")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{10'000'000}));
     command->add_option("--csv", options->csv, "A file for the table of ticks; - for standard output");
     command->add_option("--svg", options->svg, "A file for the figure");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "haptics/haptic_loop.hpp"
 
+#include <algorithm>
+
 namespace burin {
 
 HapticLoop::HapticLoop(HapticDevice& device, Clock& clock, HapticChannels& channels) noexcept
@@ -67,6 +69,7 @@ void HapticLoop::run(const std::atomic<bool>& stop, Nanoseconds lead_ns) noexcep
 }
 
 void HapticLoop::run_ticks(std::uint64_t count, const std::atomic<bool>* stop, Nanoseconds lead_ns) noexcept {
+    lead_ns = std::min(lead_ns, period_ns_ / 4);  // most of a period is for sleep, however fast the device
     Nanoseconds deadline_ns = clock_.now_ns() + period_ns_;
     for (std::uint64_t i = 0; i < count; ++i) {
         // acquire: what the stopping thread did before it said stop is seen by whoever runs after this loop.

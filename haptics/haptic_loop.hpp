@@ -39,7 +39,7 @@ public:
     static constexpr Nanoseconds kLead_ns = 100'000;
 
     // Steps at absolute deadlines, the first one period from now, until stop is true; then writes zero force. Wakes up so long
-    // before each deadline for a rehearsal; 0: none.
+    // before each deadline for a rehearsal, a quarter of a period at most; 0: none.
     void run(const std::atomic<bool>& stop, Nanoseconds lead_ns) noexcept;
     // As run(), for so many ticks at most.
     void run_ticks(std::uint64_t count, const std::atomic<bool>* stop = nullptr, Nanoseconds lead_ns = 0) noexcept;

@@ -165,6 +165,15 @@ Vec3 bearing_of(TickOutput& out, const PointContact& point, const CoupledWall& w
     return step.bearing_object_m;
 }
 
+// What earlier points have left of the tick's work is shared by those still to come.
+ProxyBudget share_of_rest(const TickOutput& out, std::uint32_t point) {
+    ProxyBudget budget;
+    const std::uint32_t sharing = out.point_count - point;
+    budget.max_triangles_tested = (budget.max_triangles_tested - out.work.triangles_tested) / sharing;
+    budget.max_triangles_seen = (budget.max_triangles_seen - out.work.triangles_seen) / sharing;
+    return budget;
+}
+
 void note_deepest(TickOutput& out) {
     for (std::uint32_t i = 1; i < out.point_count; ++i)
         if (out.points[i].penetration_m > out.points[out.deepest].penetration_m) out.deepest = i;
@@ -177,13 +186,10 @@ DeviceWrench touch_surface(TickOutput& out, const DeviceSample& sample, const Lo
     const bool pressed = (sample.buttons & 1u) != 0;
     const bool painting = pressed && parameters.action == ToolAction::paint;
     const bool cutting = pressed && parameters.action == ToolAction::cut;
-    ProxyBudget budget;
-    budget.max_triangles_tested /= out.point_count;
-    budget.max_triangles_seen /= out.point_count;
     std::array<std::optional<PointContact>, kMostProbePoints> points;
     std::uint32_t in_contact = 0;
     for (std::uint32_t i = 0; i < out.point_count; ++i) {
-        points[i].emplace(out, sample, surface, parameters, i).touch(painting, budget);
+        points[i].emplace(out, sample, surface, parameters, i).touch(painting, share_of_rest(out, i));
         if (points[i]->in_contact()) ++in_contact;
     }
     std::array<PointForce, kMostProbePoints> forces;
