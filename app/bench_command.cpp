@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench_command.hpp"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
-#include <map>
 
+#include "app/bench_frame_command.hpp"
 #include "app/bench_haptics_command.hpp"
 #include "app/bench_stability_command.hpp"
 #include "app/bench_workspace_command.hpp"
@@ -17,9 +16,8 @@
 namespace burin {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-constexpr int kReferenceRays = 2048;  // a side, for the removed volume of a part of a scene
+constexpr int kMostThreads = 1024, kMostUpdates = 1000;  // the scenes have a thousand cuts
+constexpr int kReferenceRays = 2048;                     // a side, for the removed volume of a part of a scene
 
 }  // namespace
 
@@ -108,67 +106,63 @@ Result<void> BenchCommand::Options::run_pareto() const {
     return write_output(pareto_json, report.dump(2) + "\n");
 }
 
-BenchCommand::BenchCommand(CLI::App& app)
+BenchCommand::BenchCommand(Command app)
     : options_(std::make_unique<Options>()),
-      command_(app.add_subcommand("bench", "Measure carving, and reaching across the wall")) {
-    command_->require_subcommand(1);
-    const CLI::Range resolutions(kMinResolution, kMaxResolution), threads(0, 1024), updates(1, 1000);
+      command_(app.subcommand("bench", "Measure carving, touching and drawing, and reaching across the wall")) {
+    command_.require_subcommand();
     const std::string threads_help = "How many threads work; 0: one per core";
-    static const std::map<std::string, bool> engines{{"cpu", false}, {"vulkan", true}};
 
-    stroke_ = command_->add_subcommand("stroke", "STROKE-1000: a thousand cuts into a cube, every figure of one run");
+    stroke_ = command_.subcommand("stroke", "STROKE-1000: a thousand cuts into a cube, every figure of one run");
     Options& o = *options_;
-    stroke_->add_option("--resolution", o.stroke.resolution, "Lattice cells along the cube's side")
-        ->check(resolutions)
-        ->capture_default_str();
-    stroke_->add_option("--engine", o.stroke.on_vulkan, "cpu or vulkan")->transform(CLI::CheckedTransformer(engines));
-    stroke_->add_option("--tool", o.tool, "ball: a stamp at each place; capsule: swept from each place to the next")
-        ->check(CLI::IsMember({"ball", "capsule"}))
-        ->capture_default_str();
-    stroke_->add_option("--threads", o.stroke.threads, threads_help)->check(threads);
-    stroke_->add_option("--updates", o.updates, "Only so many of the cuts")->check(updates)->capture_default_str();
-    stroke_->add_option("--json", o.json, "A file for all figures; - for standard output");
-    stroke_->add_option("--export", o.exported, "Where to write the carved mesh: .stl, .ply or .obj");
-    stroke_->add_option("--peer", o.peer, "openvdb: do the same with it, and compare")
-        ->check(CLI::IsMember({"openvdb"}));
+    stroke_.option("--resolution", o.stroke.resolution, "Lattice cells along the cube's side")
+        .within(kMinResolution, kMaxResolution)
+        .show_default();
+    stroke_.choice("--engine", o.stroke.on_vulkan, "cpu or vulkan", {{"cpu", false}, {"vulkan", true}});
+    stroke_.option("--tool", o.tool, "ball: a stamp at each place; capsule: swept from each place to the next")
+        .one_of({"ball", "capsule"})
+        .show_default();
+    stroke_.option("--threads", o.stroke.threads, threads_help).within(0, kMostThreads);
+    stroke_.option("--updates", o.updates, "Only so many of the cuts").within(1, kMostUpdates).show_default();
+    stroke_.option("--json", o.json, "A file for all figures; - for standard output");
+    stroke_.option("--export", o.exported, "Where to write the carved mesh: .stl, .ply or .obj");
+    stroke_.option("--peer", o.peer, "openvdb: do the same with it, and compare").one_of({"openvdb"});
 
-    pareto_ = command_->add_subcommand("pareto", "Time against error over resolutions, for both engines and the peers");
-    pareto_->add_option("--smallest", o.pareto.smallest, "The coarsest resolution")
-        ->check(resolutions)
-        ->capture_default_str();
-    pareto_->add_option("--largest", o.pareto.largest, "The finest; each is twice the one before")
-        ->check(resolutions)
-        ->capture_default_str();
+    pareto_ = command_.subcommand("pareto", "Time against error over resolutions, for both engines and the peers");
+    pareto_.option("--smallest", o.pareto.smallest, "The coarsest resolution")
+        .within(kMinResolution, kMaxResolution)
+        .show_default();
+    pareto_.option("--largest", o.pareto.largest, "The finest; each is twice the one before")
+        .within(kMinResolution, kMaxResolution)
+        .show_default();
     pareto_
-        ->add_option("--largest-on-software-vulkan", o.pareto.largest_on_software_vulkan,
-                     "The finest for the Vulkan engine where its device is a software one; 0: none")
-        ->check(CLI::Range(0, kMaxResolution))
-        ->capture_default_str();
-    pareto_->add_option("--threads", o.pareto.threads, threads_help)->check(threads);
-    pareto_->add_option("--updates", o.pareto.updates, "Only so many of the cuts")
-        ->check(updates)
-        ->capture_default_str();
-    pareto_->add_option("--cgal-updates", o.pareto.cgal_updates, "Only so many of the cuts with CGAL, which is slow")
-        ->check(updates)
-        ->capture_default_str();
-    pareto_->add_option("--csv", o.csv, "A file for the table; - for standard output");
-    pareto_->add_option("--svg", o.svg, "A file for the figure");
-    pareto_->add_option("--json", o.pareto_json, "A file for every figure of every run; - for standard output");
+        .option("--largest-on-software-vulkan", o.pareto.largest_on_software_vulkan,
+                "The finest for the Vulkan engine where its device is a software one; 0: none")
+        .within(0, kMaxResolution)
+        .show_default();
+    pareto_.option("--threads", o.pareto.threads, threads_help).within(0, kMostThreads);
+    pareto_.option("--updates", o.pareto.updates, "Only so many of the cuts").within(1, kMostUpdates).show_default();
+    pareto_.option("--cgal-updates", o.pareto.cgal_updates, "Only so many of the cuts with CGAL, which is slow")
+        .within(1, kMostUpdates)
+        .show_default();
+    pareto_.option("--csv", o.csv, "A file for the table; - for standard output");
+    pareto_.option("--svg", o.svg, "A file for the figure");
+    pareto_.option("--json", o.pareto_json, "A file for every figure of every run; - for standard output");
 
-    others_.push_back(add_bench_haptics(*command_));
-    others_.push_back(add_bench_stability(*command_));
-    others_.push_back(add_bench_workspace(*command_));
+    others_.push_back(add_bench_frame(command_));
+    others_.push_back(add_bench_haptics(command_));
+    others_.push_back(add_bench_stability(command_));
+    others_.push_back(add_bench_workspace(command_));
 }
 
 BenchCommand::~BenchCommand() = default;
 
-bool BenchCommand::parsed() const { return command_->parsed(); }
+bool BenchCommand::parsed() const { return command_.parsed(); }
 
 Result<void> BenchCommand::run() const {
     for (const BenchSubcommand& other : others_) {
-        if (other.command->parsed()) return other.run();
+        if (other.command.parsed()) return other.run();
     }
-    return stroke_->parsed() ? options_->run_stroke() : options_->run_pareto();
+    return stroke_.parsed() ? options_->run_stroke() : options_->run_pareto();
 }
 
 }  // namespace burin

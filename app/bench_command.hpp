@@ -16,8 +16,8 @@ namespace burin {
 
 class BenchCommand {
 public:
-    // Adds the command and its options; `app` must outlive the object.
-    explicit BenchCommand(CLI::App& app);
+    // Adds the command and its options; the command line must outlive the object.
+    explicit BenchCommand(Command app);
     ~BenchCommand();
     BenchCommand(const BenchCommand&) = delete;
     BenchCommand& operator=(const BenchCommand&) = delete;
@@ -29,9 +29,9 @@ public:
 private:
     struct Options;
     std::unique_ptr<Options> options_;
-    CLI::App* command_;
-    CLI::App* stroke_ = nullptr;
-    CLI::App* pareto_ = nullptr;
+    Command command_;
+    Command stroke_;
+    Command pareto_;
     std::vector<BenchSubcommand> others_;
 };
 

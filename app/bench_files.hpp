@@ -5,11 +5,8 @@
 #include <functional>
 #include <string>
 
+#include "app/command_line.hpp"
 #include "base/error.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace burin {
 
@@ -22,7 +19,7 @@ inline constexpr const char* kStandardOutput = "-";
 
 // A subcommand of burin bench with options of its own.
 struct BenchSubcommand {
-    CLI::App* command = nullptr;
+    Command command;
     std::function<Result<void>()> run;
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench_haptics_command.hpp"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
@@ -40,20 +39,20 @@ Result<void> run(const Options& options) {
 
 }  // namespace
 
-BenchSubcommand add_bench_haptics(CLI::App& bench) {
-    CLI::App* command = bench.add_subcommand(
+BenchSubcommand add_bench_haptics(Command bench) {
+    Command command = bench.subcommand(
         "haptics", "Ticks of the haptic loop: their cost, the proxy's error, lost contact, edits, the force's jumps");
     const auto options = std::make_shared<Options>();
-    command->add_flag("--quick", options->quick, "Small meshes and few ticks: whether it works, in seconds");
-    command->add_option("--ticks", options->contact_ticks, "How many ticks are looked at for lost contact (1000000)")
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
+    command.flag("--quick", options->quick, "Small meshes and few ticks: whether it works, in seconds");
+    command.option("--ticks", options->contact_ticks, "How many ticks are looked at for lost contact (1000000)")
+        .within(std::uint64_t{1}, std::uint64_t{1'000'000'000});
     command
-        ->add_option("--paced-ticks", options->paced_ticks,
-                     "How many paced ticks of each scene, 1 ms each, rehearsed and again cold (5000)")
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{10'000'000}));
-    command->add_option("--csv", options->csv, "A file for the table of ticks; - for standard output");
-    command->add_option("--svg", options->svg, "A file for the figure");
-    command->add_option("--json", options->json, "A file for every figure; - for standard output");
+        .option("--paced-ticks", options->paced_ticks,
+                "How many paced ticks of each scene, 1 ms each, rehearsed and again cold (5000)")
+        .within(std::uint64_t{1}, std::uint64_t{10'000'000});
+    command.option("--csv", options->csv, "A file for the table of ticks; - for standard output");
+    command.option("--svg", options->svg, "A file for the figure");
+    command.option("--json", options->json, "A file for every figure; - for standard output");
     return {command, [options] { return run(*options); }};
 }
 

@@ -6,7 +6,7 @@
 
 namespace burin {
 
-// `bench` must outlive what is returned.
-[[nodiscard]] BenchSubcommand add_bench_haptics(CLI::App& bench);
+// The command line must outlive what is returned.
+[[nodiscard]] BenchSubcommand add_bench_haptics(Command bench);
 
 }  // namespace burin

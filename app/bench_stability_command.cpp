@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench_stability_command.hpp"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
@@ -32,17 +31,16 @@ Result<void> run(const Options& options) {
 
 }  // namespace
 
-BenchSubcommand add_bench_stability(CLI::App& bench) {
-    CLI::App* command = bench.add_subcommand(
+BenchSubcommand add_bench_stability(Command bench) {
+    Command command = bench.subcommand(
         "stability",
         "How stiff a wall may be before a simulated device shakes, over rate, delay, filter and controller");
     const auto options = std::make_shared<Options>();
-    command->add_flag("--quick", options->quick, "A few points of each table");
-    command->add_option("--csv", options->csv, "A file for the figures; - for standard output");
-    command->add_option("--svg", options->svg, "A file for the plots of the largest stable stiffness");
-    command->add_option("--figure7-svg", options->figure7_svg,
-                        "A file for the force over time with and without a filter");
-    command->add_option("--json", options->json, "A file for every figure; - for standard output");
+    command.flag("--quick", options->quick, "A few points of each table");
+    command.option("--csv", options->csv, "A file for the figures; - for standard output");
+    command.option("--svg", options->svg, "A file for the plots of the largest stable stiffness");
+    command.option("--figure7-svg", options->figure7_svg, "A file for the force over time with and without a filter");
+    command.option("--json", options->json, "A file for every figure; - for standard output");
     return {command, [options] { return run(*options); }};
 }
 

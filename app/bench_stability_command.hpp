@@ -6,7 +6,7 @@
 
 namespace burin {
 
-// `bench` must outlive what is returned.
-[[nodiscard]] BenchSubcommand add_bench_stability(CLI::App& bench);
+// The command line must outlive what is returned.
+[[nodiscard]] BenchSubcommand add_bench_stability(Command bench);
 
 }  // namespace burin

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench_workspace_command.hpp"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
@@ -34,18 +33,17 @@ Result<void> run(const Options& options) {
 
 }  // namespace
 
-BenchSubcommand add_bench_workspace(CLI::App& bench) {
-    CLI::App* command =
-        bench.add_subcommand("workspace", "Reach across the wall with a small device, by each workspace technique");
+BenchSubcommand add_bench_workspace(Command bench) {
+    Command command =
+        bench.subcommand("workspace", "Reach across the wall with a small device, by each workspace technique");
     const auto options = std::make_shared<Options>();
-    command->add_option("--targets", options->task.targets, "How many targets each technique reaches for")
-        ->check(CLI::Range(1, 10'000))
-        ->capture_default_str();
-    command->add_option("--seed", options->task.seed, "Where the targets lie, and how the hand misses")
-        ->capture_default_str();
-    command->add_option("--csv", options->csv, "A file for the table; - for standard output");
-    command->add_option("--svg", options->svg, "A file for the figure");
-    command->add_option("--json", options->json, "A file for the figures of every target; - for standard output");
+    command.option("--targets", options->task.targets, "How many targets each technique reaches for")
+        .within(1, 10'000)
+        .show_default();
+    command.option("--seed", options->task.seed, "Where the targets lie, and how the hand misses").show_default();
+    command.option("--csv", options->csv, "A file for the table; - for standard output");
+    command.option("--svg", options->svg, "A file for the figure");
+    command.option("--json", options->json, "A file for the figures of every target; - for standard output");
     return {command, [options] { return run(*options); }};
 }
 

@@ -6,7 +6,7 @@
 
 namespace burin {
 
-// `bench` must outlive what is returned.
-[[nodiscard]] BenchSubcommand add_bench_workspace(CLI::App& bench);
+// The command line must outlive what is returned.
+[[nodiscard]] BenchSubcommand add_bench_workspace(Command bench);
 
 }  // namespace burin

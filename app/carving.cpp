@@ -63,7 +63,7 @@ Result<void> Carving::update_on_host(std::span<const ToolSweep> sweeps) {
     const Changes changes = engine_->take_changes();
     const RemeshStats remeshed = surface_.update(engine_->solid(), changes, pool_);
     if (history_) history_->record(changes);
-    for (const std::uint32_t tile : surface_.changed_tiles()) tile_changed_[tile] = true;
+    note_changed_tiles();
     figures_.rays_touched += cut->rays_touched;
     figures_.rays_changed += cut->rays_changed;
     figures_.tiles_remeshed += remeshed.tiles;
@@ -141,7 +141,30 @@ Result<std::size_t> Carving::walk_history(std::size_t strokes, HistoryStep step)
 
 void Carving::follow_engine() {
     surface_.update(engine_->solid(), engine_->take_changes(), pool_);
+    note_changed_tiles();
+}
+
+// ---- For pictures
+
+Result<void> Carving::keep_light(const Lamp& lamp_object) {
+    if (light_) return light_->set_lamp(lamp_object);
+    SurfaceLight light(surface_.lattice(), Lamp{});
+    if (const auto set = light.set_lamp(lamp_object); !set) return set;
+    light_.emplace(std::move(light));
+    light_->follow(engine_->solid(), surface_, pool_);
+    return {};
+}
+
+std::size_t Carving::bake_light(const Vec3& near_object, std::size_t most_tiles) {
+    if (!light_) return 0;
+    const std::size_t baked = light_->step(near_object, most_tiles, pool_);
+    for (const std::uint32_t tile : light_->take_baked()) tile_changed_[tile] = true;
+    return baked;
+}
+
+void Carving::note_changed_tiles() {
     for (const std::uint32_t tile : surface_.changed_tiles()) tile_changed_[tile] = true;
+    if (light_) light_->follow(engine_->solid(), surface_, pool_);
 }
 
 std::vector<std::uint32_t> Carving::take_changed_tiles() {

@@ -15,6 +15,7 @@
 #include "compute/device_surface.hpp"
 #include "compute/history.hpp"
 #include "compute/surface.hpp"
+#include "compute/surface_light.hpp"
 
 namespace burin {
 
@@ -49,23 +50,33 @@ public:
     void end_stroke() {
         if (history_) history_->end_stroke();
     }
+    [[nodiscard]] Result<std::uint8_t> add_material(const Material& material) { return engine_->add_material(material); }
     // Takes back up to so many strokes, the last first; says how many there were. Redo likewise.
     [[nodiscard]] Result<std::size_t> undo(std::size_t strokes);
     [[nodiscard]] Result<std::size_t> redo(std::size_t strokes);
     [[nodiscard]] History* history() { return history_ ? &*history_ : nullptr; }
+
+    // From now on the light on the surface is kept up to date, for pictures; without it carving pays nothing for it.
+    [[nodiscard]] Result<void> keep_light(const Lamp& lamp_object);
+    void drop_light() { light_.reset(); }
+    // Null without keep_light(). Not while the device meshes (bring_home).
+    [[nodiscard]] const SurfaceLight* light() const { return light_ ? &*light_ : nullptr; }
+    // Bakes up to so many of the tiles that wait for it, the nearest to a place first; how many it did.
+    std::size_t bake_light(const Vec3& near_object, std::size_t most_tiles);
 
     [[nodiscard]] const CarvingEngine& engine() const { return *engine_; }
     [[nodiscard]] const Surface& surface() const { return surface_; }
     [[nodiscard]] const CarvingFigures& figures() const { return figures_; }
     [[nodiscard]] double initial_volume_m3() const { return initial_volume_m3_; }
     [[nodiscard]] double first_mesh_ms() const { return first_mesh_ms_; }
-    // Tiles meshed anew since the last call, for whoever draws them.
+    // Tiles meshed or lit anew since the last call, for whoever draws them.
     [[nodiscard]] std::vector<std::uint32_t> take_changed_tiles();
 
 private:
     using HistoryStep = Result<bool> (History::*)(CarvingEngine&);
     [[nodiscard]] Result<std::size_t> walk_history(std::size_t strokes, HistoryStep step);
     void follow_engine();
+    void note_changed_tiles();
     [[nodiscard]] Result<void> update_on_host(std::span<const ToolSweep> sweeps);
     [[nodiscard]] Result<void> update_on_device(std::span<const BallSweep> sweeps);
     [[nodiscard]] Result<void> finish_on_device();
@@ -78,6 +89,7 @@ private:
     DeviceSurfaceCounts counted_;  // before it
     double asked_radius_m_ = 0.0;  // of the last local surface; 0: none yet
     std::optional<History> history_;
+    std::optional<SurfaceLight> light_;
     CarvingFigures figures_;
     std::vector<bool> tile_changed_;
     double initial_volume_m3_ = 0.0;

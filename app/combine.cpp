@@ -15,8 +15,6 @@
 namespace burin {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 // b's materials must not pass for a's when neither file names any.
 void name_materials(ClosedMesh& closed, const std::string& file, const std::array<std::uint8_t, 3>& colour) {
     if (!closed.mesh.materials.empty()) return;

@@ -80,9 +80,9 @@ Result<Feel> parse_feel(const FeelOptions& options) {
     return feel;
 }
 
-nlohmann::ordered_json describe_feel_settings(const Feel& feel) {
+Json describe_feel_settings(const Feel& feel) {
     const TouchMaterial& m = feel.material;
-    nlohmann::ordered_json hardness = m.hardness_Ns_per_m3 / kHardnessUnit_Ns_per_m3;
+    Json hardness = m.hardness_Ns_per_m3 / kHardnessUnit_Ns_per_m3;
     if (!std::isfinite(m.hardness_Ns_per_m3)) hardness = "infinite";
     return {{"preset", feel.name},
             {"hardness_kPa_per_mm_s", hardness},

@@ -3,11 +3,11 @@
 // --grip name it.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
 #include "base/error.hpp"
+#include "base/json.hpp"
 #include "devices/simulated_hand.hpp"
 #include "haptics/forces/touch_material.hpp"
 
@@ -31,6 +31,6 @@ struct Feel {
 };
 
 [[nodiscard]] Result<Feel> parse_feel(const FeelOptions& options);
-[[nodiscard]] nlohmann::ordered_json describe_feel_settings(const Feel& feel);
+[[nodiscard]] Json describe_feel_settings(const Feel& feel);
 
 }  // namespace burin

@@ -13,9 +13,25 @@ constexpr double kSurroundings = 1.6;
 
 }  // namespace
 
+ToolAction action_of(Operation operation) {
+    switch (operation) {
+        case Operation::cut: return ToolAction::cut;
+        case Operation::fill: return ToolAction::fill;
+        case Operation::paint: return ToolAction::paint;
+        case Operation::smooth: break;
+    }
+    return ToolAction::touch;
+}
+
 CarvingSide::CarvingSide(Carving& carving, HapticChannels& channels, const Tool& tool, double hardness_Ns_per_m3,
                          double reach_m)
     : carving_(carving), channels_(channels), tool_(tool), hardness_Ns_per_m3_(hardness_Ns_per_m3), reach_m_(reach_m) {}
+
+void CarvingSide::use_tool(const Tool& tool, double hardness_Ns_per_m3) {
+    tool_ = tool;
+    hardness_Ns_per_m3_ = hardness_Ns_per_m3;
+    working_ = false;
+}
 
 Result<void> CarvingSide::update(Nanoseconds now_ns) {
     const std::vector<ToolSweep> sweeps = drain();
@@ -52,6 +68,7 @@ std::vector<ToolSweep> CarvingSide::drain() {
     StrokeSample sample;
     while (channels_.stroke.pop(sample)) {
         tool_position_ = sample.proxy_object_m;
+        pressed_ = (sample.buttons & 1u) != 0;
         const std::optional<Vec3> point = working_at(sample);
         working_ = point.has_value();
         if (!working_) {
@@ -59,6 +76,7 @@ std::vector<ToolSweep> CarvingSide::drain() {
             continue;
         }
         last_point_ = *point;
+        last_worked_ns_ = sample.time_ns;
         if (run.empty() || run.back().position_m != last_point_) run.push_back({last_point_});
     }
     end_run();

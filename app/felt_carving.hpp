@@ -17,6 +17,9 @@
 
 namespace burin {
 
+// What the tick does while the tool works so; a smoothing tool is only felt.
+[[nodiscard]] ToolAction action_of(Operation operation);
+
 class CarvingSide {
 public:
     // reach_m: how far the tool may go until the next surface arrives.
@@ -27,6 +30,14 @@ public:
     [[nodiscard]] Result<void> publish(Nanoseconds now_ns);
 
     void start_at(const Vec3& position_object) { tool_position_ = position_object; }
+    // From the next sample on. The material that it leaves must be in the solid's table.
+    void use_tool(const Tool& tool, double hardness_Ns_per_m3);
+    // Whether the button was down in the last sample of all: what the tool does until it comes up is one stroke, also where it loses touch
+    // on the way.
+    [[nodiscard]] bool pressed() const { return pressed_; }
+    [[nodiscard]] const Vec3& tool_position_object() const { return tool_position_; }
+    // When the tool worked last, by the samples' clock; 0: never.
+    [[nodiscard]] Nanoseconds last_worked_ns() const { return last_worked_ns_; }
     [[nodiscard]] std::uint64_t published() const { return sequence_; }
 
 private:
@@ -42,6 +53,8 @@ private:
     Vec3 tool_position_{0.0};  // what the next surface is about
     Vec3 last_point_{0.0};     // where the tool worked last
     bool working_ = false;     // in the last sample of all
+    bool pressed_ = false;     // likewise
+    Nanoseconds last_worked_ns_ = 0;
     std::uint64_t sequence_ = 0;
 };
 

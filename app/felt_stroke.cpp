@@ -16,16 +16,6 @@ namespace {
 
 constexpr Nanoseconds kUpdatePeriod_ns = 10'000'000;  // 100 carving updates a second
 
-ToolAction action_of(Operation operation) {
-    switch (operation) {
-        case Operation::cut: return ToolAction::cut;
-        case Operation::fill: return ToolAction::fill;
-        case Operation::paint: return ToolAction::paint;
-        case Operation::smooth: break;
-    }
-    return ToolAction::touch;
-}
-
 // Asks the workpiece as it is before the stroke.
 Result<SimulatedHand> pressing_hand(Carving& carving, const Stroke& stroke, const Tool& tool, const Feel& feel,
                                     const Similarity& object_from_device) {

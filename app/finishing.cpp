@@ -11,8 +11,6 @@
 namespace burin {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 Json as_json(const Vec3& p) { return {p.x, p.y, p.z}; }
 
 Json describe(const MendingReport& mending) {

@@ -3,9 +3,9 @@
 // triangles thinned out. Prints a line where something cannot be mended or shown; the figures go into the report.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/json.hpp"
 #include "compute/surface.hpp"
 #include "compute/thin_out.hpp"
 
@@ -13,9 +13,9 @@ namespace burin {
 
 struct FinishedMesh {
     TriangleMesh mesh;
-    nlohmann::ordered_json self_intersections;  // found, mended, left, ...
-    nlohmann::ordered_json slivers;
-    nlohmann::ordered_json simplification;  // null when none was asked for
+    Json self_intersections;  // found, mended, left, ...
+    Json slivers;
+    Json simplification;  // null when none was asked for
 };
 
 // For options, before any long step: a bound must be a distance above zero.
@@ -28,7 +28,7 @@ struct FinishedMesh {
 // thin_out with a progress line, and its figures.
 struct SimplifiedMesh {
     TriangleMesh mesh;
-    nlohmann::ordered_json figures;
+    Json figures;
 };
 [[nodiscard]] Result<SimplifiedMesh> simplify_with_progress(const TriangleMesh& mesh, double bound_m, WorkerPool& pool);
 

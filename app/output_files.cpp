@@ -57,7 +57,7 @@ Result<void> write_text(const std::string& path, const std::string& text) {
     return write_file_atomically(path, std::as_bytes(std::span(text.data(), text.size())));
 }
 
-Result<void> write_report(const std::string& path, const nlohmann::ordered_json& report) {
+Result<void> write_report(const std::string& path, const Json& report) {
     return write_text(path, report.dump(2) + "\n");
 }
 

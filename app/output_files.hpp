@@ -2,11 +2,11 @@
 // Where results go: looked at before hours of work, and not after.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 
 #include "base/error.hpp"
+#include "base/json.hpp"
 #include "compute/lattice.hpp"
 
 namespace burin {
@@ -16,6 +16,6 @@ namespace burin {
 // Whether the formats hold the lattice's details; only a mesh's coordinates tell, so this is found out after loading it.
 [[nodiscard]] Result<void> check_precision(std::span<const std::string> exports, const Lattice& lattice);
 [[nodiscard]] Result<void> write_text(const std::string& path, const std::string& text);
-[[nodiscard]] Result<void> write_report(const std::string& path, const nlohmann::ordered_json& report);
+[[nodiscard]] Result<void> write_report(const std::string& path, const Json& report);
 
 }  // namespace burin

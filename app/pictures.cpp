@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/pictures.hpp"
 
+#include "renderer/frame_setup.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,6 +15,8 @@ constexpr ImageSize kEyeSize{1280, 960};  // the wall is 4 : 3
 constexpr double kLargestOnWall_m = 1.15;
 const Vec3 kPlace_world{0.0, 1.22, -0.45};
 const Vec3 kHead_world{0.0, 1.60, 2.00};
+
+constexpr std::size_t kTilesAStep = 256;
 
 double longest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
 
@@ -46,11 +50,21 @@ Result<Pictures> Pictures::create(const std::filesystem::path& folder, const Box
     return Pictures(folder, std::move(*device), std::move(*renderer), bounds_object);
 }
 
-void Pictures::bring_up_to_date(Carving& carving) {
-    for (const std::uint32_t tile : carving.take_changed_tiles()) {
-        const TileMesh& mesh = carving.surface().tile(tile);
-        renderer_.set_patch(tile, mesh.vertices, mesh.indices);
+// Pictures are not in a hurry: all light is worked out before one is taken.
+Result<void> Pictures::bring_up_to_date(Carving& carving) {
+    const Vec3 to_light_object = inverse(world_from_object_.orientation) * direction_to_light();
+    if (const auto kept = carving.keep_light({to_light_object, kLightHalfAngleTangent}); !kept) return kept;
+    while (carving.bake_light(Vec3(0.0), kTilesAStep) > 0) {
     }
+    for (const std::uint32_t tile : carving.take_changed_tiles()) {
+        renderer_.set_patch(tile, carving.surface().shared_tile(tile));
+        if (const auto& light = carving.light()->shared_light(tile)) renderer_.set_patch_light(tile, light->vertices);
+    }
+    std::vector<Box> inner = carving.light()->inner_boxes_object();
+    const Vec3& origin = carving.surface().lattice().origin_object;
+    for (Box& box : inner) box = {box.lo - origin, box.hi - origin};
+    renderer_.set_occluders(std::move(inner));
+    return {};
 }
 
 Scene Pictures::wall_scene(const Carving& carving) const {
@@ -82,14 +96,15 @@ Scene Pictures::close_scene(const Carving& carving) const {
 }
 
 Result<void> Pictures::take_before(Carving& carving) {
-    bring_up_to_date(carving);
+    if (const auto ready = bring_up_to_date(carving); !ready) return std::unexpected(ready.error());
     const auto image = renderer_.render(close_scene(carving));
     if (!image) return std::unexpected(image.error());
+    carving.drop_light();  // until the next picture nobody sees it
     return write_png(folder_ / "before.png", image->left);
 }
 
 Result<void> Pictures::take_after(Carving& carving, const Staging& staging) {
-    bring_up_to_date(carving);
+    if (const auto ready = bring_up_to_date(carving); !ready) return std::unexpected(ready.error());
     const auto close = renderer_.render(close_scene(carving));
     if (!close) return std::unexpected(close.error());
     if (const auto done = write_png(folder_ / "after.png", close->left); !done) return done;
@@ -105,7 +120,7 @@ Result<void> Pictures::take_after(Carving& carving, const Staging& staging) {
 }
 
 Result<Image> Pictures::view_of_wall(Carving& carving, const Staging& staging) {
-    bring_up_to_date(carving);
+    if (const auto ready = bring_up_to_date(carving); !ready) return std::unexpected(ready.error());
     Scene scene = wall_scene(carving);
     scene.viewer.interpupillary_m = 0.0;
     stage(scene, staging, world_from_object_);

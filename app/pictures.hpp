@@ -29,7 +29,7 @@ public:
 
 private:
     Pictures(std::filesystem::path folder, gpu::Device device, Renderer renderer, const Box& bounds_object);
-    void bring_up_to_date(Carving& carving);
+    [[nodiscard]] Result<void> bring_up_to_date(Carving& carving);
     [[nodiscard]] Scene wall_scene(const Carving& carving) const;
     [[nodiscard]] Scene close_scene(const Carving& carving) const;
 

@@ -9,8 +9,6 @@
 
 namespace burin {
 
-using Json = nlohmann::ordered_json;
-
 double quantile(std::vector<double> values, double q) {
     if (values.empty()) return 0.0;
     const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(values.size())));
@@ -111,8 +109,8 @@ Json describe_timing(const Carving& carving, const FeltFigures* felt) {
 
 void print_table(const Json& report) {
     const auto number = [&](const char* pointer) {
-        const Json::json_pointer at(pointer);
-        return report.contains(at) && report[at].is_number() ? report[at].get<double>() : 0.0;
+        const Json* at = report.find(pointer);
+        return at != nullptr && at->is_number() ? at->get<double>() : 0.0;
     };
     const double updates = std::max(1.0, number("/carving/updates"));
     const auto row = [](const char* name, const std::string& value) {

@@ -19,15 +19,7 @@
 namespace burin {
 namespace {
 
-using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
-
-Box bounds_of(const Lattice& lattice) {
-    // The lattice has about one and a half empty cells around the workpiece.
-    const Vec3 inset(1.5 * lattice.spacing_m);
-    const Vec3 size = Vec3(lattice.cells[0], lattice.cells[1], lattice.cells[2]) * lattice.spacing_m;
-    return {lattice.origin_object + inset, lattice.origin_object + size - inset};
-}
 
 Staging staging_of(const Stroke& stroke, const Tool& tool, const std::optional<FeltFigures>& felt) {
     Staging staging;
@@ -90,7 +82,7 @@ Result<void> sculpt(const SculptOptions& options) {
         stroke = std::move(*read);
     }
     WorkerPool pool(options.threads);
-    Result<Workpiece> workpiece = load_workpiece(options.workpiece, pool);
+    Result<LoadedWorkpiece> workpiece = load_workpiece(options.workpiece, pool);
     if (!workpiece) return std::unexpected(workpiece.error());
     if (const auto ok = check_precision(options.exports, workpiece->solid.lattice); !ok) return ok;
     tool->material = static_cast<std::uint8_t>(workpiece->solid.materials.size());
@@ -99,7 +91,7 @@ Result<void> sculpt(const SculptOptions& options) {
 
     std::optional<Pictures> pictures;
     if (!options.pictures.empty()) {
-        Result<Pictures> opened = Pictures::create(options.pictures, bounds_of(workpiece->solid.lattice));
+        Result<Pictures> opened = Pictures::create(options.pictures, workpiece_bounds(workpiece->solid.lattice));
         if (!opened) return std::unexpected(opened.error());
         pictures.emplace(std::move(*opened));
     }

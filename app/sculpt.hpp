@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/feel_options.hpp"
+#include "app/session/session_options.hpp"
 #include "app/tool_option.hpp"
 #include "app/workpiece.hpp"
 
@@ -31,6 +32,7 @@ struct SculptOptions {
     std::string pictures;                // a folder; empty: none
     std::string report;                  // a JSON file; empty: none. Plots of what was felt go beside it
     unsigned threads = 0;                // 0: one per core
+    LiveOptions live;
 };
 
 // Writes nothing before all input has been read and all output places have been looked at.

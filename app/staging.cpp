@@ -15,6 +15,18 @@ void stage_tool(SceneTool& tool, const Staging& staging, const Similarity& world
         glm::normalize(Vec3(0.45, 0.8, 1.0))));
 }
 
+// The arrow's length goes by the screen's, so that a newton looks the same on a desk and on a wall.
+void stage_contact(Scene& scene, const Staging& staging, const Similarity& world_from_object) {
+    constexpr double kScreenHeightsPerN = 1.0 / 25.0;
+    const Quat world_from_device = world_from_object.orientation * staging.object_from_device.orientation;
+    scene.contact.visible = staging.contact_shown && staging.in_contact;
+    scene.contact.point_world = world_from_object * staging.contact_object;
+    scene.contact.normal_world = world_from_object.orientation * staging.contact_normal_object;
+    scene.contact.force_N = world_from_device * staging.force_device_N;
+    scene.contact.metres_per_N =
+        kScreenHeightsPerN * glm::length(scene.screen.upper_left_world - scene.screen.lower_left_world);
+}
+
 void stage_workspace(Scene& scene, const Staging& staging, const Similarity& world_from_object) {
     const Similarity world_from_device = world_from_object * staging.object_from_device;
     scene.box.visible = staging.box_visible;
@@ -44,11 +56,16 @@ Staging staging_of(const ToolState& tool, double tool_radius_object_m, const Vec
     staging.proposed_visible = tool.tick > 0 && picture.proposed_visible;
     staging.proposed_center_object = picture.proposed_center_object_m;
     staging.bubble_radius_object_m = tool.tick > 0 ? picture.bubble_radius_object_m : 0.0;
+    staging.in_contact = tool.tick > 0 && (tool.flags & kTickInContact) != 0;
+    staging.contact_object = tool.proxy_object_m - tool_radius_object_m * tool.contact_normal_object;
+    staging.contact_normal_object = tool.contact_normal_object;
+    staging.force_device_N = tool.given.force_device_N;
     return staging;
 }
 
 void stage(Scene& scene, const Staging& staging, const Similarity& world_from_object) {
     stage_tool(scene.tool, staging, world_from_object);
+    stage_contact(scene, staging, world_from_object);
     stage_workspace(scene, staging, world_from_object);
 }
 

@@ -18,6 +18,10 @@ struct Staging {
     bool proposed_visible = false;  // the moving algorithm's transparent box: as large and as turned as the device's
     Vec3 proposed_center_object{0.0};
     double bubble_radius_object_m = 0.0;  // around the box's middle; 0: none
+    bool in_contact = false;
+    Vec3 contact_object{0.0}, contact_normal_object{0.0};
+    Vec3 force_device_N{0.0};    // on the hand
+    bool contact_shown = false;  // while in contact: its ring and its force as an arrow
 };
 
 // The tool where it rests on the surface, and all that the workspace's technique wants shown.

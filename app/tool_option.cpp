@@ -115,7 +115,7 @@ Result<Material> parse_tool_material(const ToolOptions& options) {
     return material;
 }
 
-nlohmann::ordered_json describe_tool(const ToolOptions& options, const Material& material) {
+Json describe_tool(const ToolOptions& options, const Material& material) {
     return {{"shape", options.shape},
             {"operation", named(options.operation).name},
             {"material_rgb", material.colour},

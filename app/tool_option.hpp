@@ -2,12 +2,12 @@
 // The tool that a session works with, as --tool, --operation, --material and --sweep-tolerance name it.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/json.hpp"
 #include "compute/tool.hpp"
 
 namespace burin {
@@ -44,7 +44,7 @@ struct Tool {
 // What the tool leaves: named after the operation, so that cut, filled and painted surfaces can be told apart in display and
 // export.
 [[nodiscard]] Result<Material> parse_tool_material(const ToolOptions& options);
-[[nodiscard]] nlohmann::ordered_json describe_tool(const ToolOptions& options, const Material& material);
+[[nodiscard]] Json describe_tool(const ToolOptions& options, const Material& material);
 
 // The sweeps of a tool that was at those poses one after the other: the longest runs of poses of one orientation that a
 // straight sweep replaces to within tolerance_m, and one sweep from pose to pose where it turns. A single pose is a stamp. A ball

@@ -12,8 +12,6 @@
 namespace burin {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 const Material kPlainMaterial{"workpiece", {205, 195, 178}};
 
 Json describe(const MeshHealth& health) {
@@ -81,10 +79,10 @@ Result<void> make_ready(TriangleMesh& mesh, const std::string& file, bool fill_h
     return {};
 }
 
-Result<Workpiece> from_file(const WorkpieceOptions& options, WorkerPool& pool) {
+Result<LoadedWorkpiece> from_file(const WorkpieceOptions& options, WorkerPool& pool) {
     Result<ClosedMesh> closed = load_closed_mesh(options.source, options.close_holes);
     if (!closed) return std::unexpected(closed.error());
-    Workpiece workpiece{{}, std::move(closed->report)};
+    LoadedWorkpiece workpiece{{}, std::move(closed->report)};
     Result<ScanConversion> converted = scan_convert(closed->mesh, options.resolution, pool);
     if (!converted) {
         Error error = converted.error();
@@ -99,7 +97,7 @@ Result<Workpiece> from_file(const WorkpieceOptions& options, WorkerPool& pool) {
     return workpiece;
 }
 
-Result<Workpiece> from_shape(const WorkpieceOptions& options) {
+Result<LoadedWorkpiece> from_shape(const WorkpieceOptions& options) {
     const std::size_t colon = options.source.find(':');
     const std::string shape = options.source.substr(0, colon);
     const std::string_view sizes = std::string_view(options.source).substr(colon + 1);
@@ -109,7 +107,7 @@ Result<Workpiece> from_shape(const WorkpieceOptions& options) {
         shape == "block" ? make_block({(*numbers)[0], (*numbers)[1], (*numbers)[2]}, options.resolution, kPlainMaterial)
                          : make_ball((*numbers)[0], options.resolution, kPlainMaterial);
     if (!solid) return std::unexpected(solid.error());
-    return Workpiece{std::move(*solid), {{"source", options.source}}};
+    return LoadedWorkpiece{std::move(*solid), {{"source", options.source}}};
 }
 
 }  // namespace
@@ -149,9 +147,16 @@ Result<ClosedMesh> load_closed_mesh(const std::string& file, bool close_holes) {
     return closed;
 }
 
-Result<Workpiece> load_workpiece(const WorkpieceOptions& options, WorkerPool& pool) {
+Result<LoadedWorkpiece> load_workpiece(const WorkpieceOptions& options, WorkerPool& pool) {
     const bool shape = options.source.starts_with("block:") || options.source.starts_with("ball:");
     return shape ? from_shape(options) : from_file(options, pool);
+}
+
+Box workpiece_bounds(const Lattice& lattice) {
+    // The lattice has about one and a half empty cells around the workpiece.
+    const Vec3 inset(1.5 * lattice.spacing_m);
+    const Vec3 size = Vec3(lattice.cells[0], lattice.cells[1], lattice.cells[2]) * lattice.spacing_m;
+    return {lattice.origin_object + inset, lattice.origin_object + size - inset};
 }
 
 }  // namespace burin

@@ -26,6 +26,8 @@ using Quat = glm::dquat;  // glm stores w, x, y, z; files list x, y, z, w
 struct Pose {
     Vec3 position_m{0.0};
     Quat orientation{1.0, 0.0, 0.0, 0.0};
+
+    bool operator==(const Pose&) const = default;
 };
 
 [[nodiscard]] inline Vec3 operator*(const Pose& to_from_from, const Vec3& p) {
@@ -38,6 +40,8 @@ struct Similarity {
     Vec3 position_m{0.0};
     Quat orientation{1.0, 0.0, 0.0, 0.0};
     double scale = 1.0;
+
+    bool operator==(const Similarity&) const = default;
 };
 
 [[nodiscard]] inline Vec3 operator*(const Similarity& s, const Vec3& p) {
@@ -68,6 +72,7 @@ struct Box {
     Vec3 lo{1.0};
     Vec3 hi{-1.0};
 
+    bool operator==(const Box&) const = default;
     [[nodiscard]] bool empty() const { return lo.x > hi.x || lo.y > hi.y || lo.z > hi.z; }
     [[nodiscard]] Vec3 extent() const { return hi - lo; }
     [[nodiscard]] Vec3 center() const { return 0.5 * (lo + hi); }

@@ -10,11 +10,11 @@
 #pragma once
 
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/json.hpp"
 
 namespace burin::bench {
 
@@ -102,7 +102,7 @@ using Tell = std::function<void(const std::string&)>;
 [[nodiscard]] std::string haptics_table(const Haptics& all);
 // First a comment line that names the machine, then one of column names; a row for each scene of ticks.
 [[nodiscard]] std::string haptics_csv(const Haptics& all);
-[[nodiscard]] nlohmann::ordered_json haptics_json(const Haptics& all);
+[[nodiscard]] Json haptics_json(const Haptics& all);
 // How large a share of paced ticks takes as long or longer, a plot for each scene.
 [[nodiscard]] std::string haptics_svg(const Haptics& all);
 

@@ -11,8 +11,6 @@
 namespace burin::bench {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 template <typename... Values>
 std::string line(const char* format, Values... values) {
     std::array<char, 256> text{};
@@ -167,7 +165,7 @@ std::string haptics_csv(const Haptics& all) {
     return text;
 }
 
-nlohmann::ordered_json haptics_json(const Haptics& all) {
+Json haptics_json(const Haptics& all) {
     Json report = {{"machine", all.machine}, {"real_time", all.realtime}};
     report["ticks"] = Json::array();
     for (const TickCosts& t : all.ticks) report["ticks"].push_back(row_of(t));

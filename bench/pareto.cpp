@@ -15,8 +15,6 @@
 namespace burin::bench {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr int kReferenceRays = 2048;          // a side, for the volume of a part of the scene
 constexpr double kCellWithoutCells_m = 1e-2;  // how far measures look around for a mesh that has no cells
 

@@ -4,12 +4,12 @@
 #pragma once
 
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/json.hpp"
 
 namespace burin::bench {
 
@@ -25,7 +25,7 @@ struct ParetoOptions {
 // One row a run, keys as stroke_report.hpp gives them, with "series" and, for a peer, "burin_cpu_faster_at_equal_cut_error".
 struct Pareto {
     std::string machine;  // before the first run
-    std::vector<nlohmann::ordered_json> rows;
+    std::vector<Json> rows;
     std::vector<std::string> left_out;  // what could not run, and why
 };
 

@@ -11,8 +11,6 @@
 namespace burin::bench {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr std::array kCsvColumns{"series",
                                  "detail",
                                  "threads",

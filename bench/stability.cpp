@@ -8,8 +8,6 @@
 namespace burin::bench {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 // A smallest and largest stiffness that bisection looks between, N/m. What is stable up to there counts as "any".
 constexpr double kLowest = 10.0, kHighest = 1e5;
 

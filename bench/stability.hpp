@@ -3,10 +3,10 @@
 // and controller; against theory where there is one; and what a contact feels like under each controller.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "base/json.hpp"
 #include "bench/stability_figure7.hpp"
 #include "bench/stability_sim.hpp"
 
@@ -23,7 +23,7 @@ struct NamedGrip {
 // One row a figure. "section" is theory, rate, delay, filter, velocity, controller (each with
 // largest_stable_stiffness_N_per_m) or contact (with how one contact went).
 struct Stability {
-    std::vector<nlohmann::ordered_json> rows;
+    std::vector<Json> rows;
     Figure7 figure7;
 };
 
@@ -33,6 +33,6 @@ struct Stability {
 [[nodiscard]] std::string stability_table(const Stability& stability);
 [[nodiscard]] std::string stability_csv(const Stability& stability);
 [[nodiscard]] std::string stability_svg(const Stability& stability);
-[[nodiscard]] nlohmann::ordered_json stability_json(const Stability& stability);
+[[nodiscard]] Json stability_json(const Stability& stability);
 
 }  // namespace burin::bench

@@ -7,10 +7,10 @@
 // stiffness nor its damping nor the motion; these are of that kind (600 N/m, 2 Ns/m, a ball of 50 mm radius).
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "base/json.hpp"
 #include "base/space.hpp"
 #include "haptics/signals/smoothing.hpp"
 
@@ -37,6 +37,6 @@ struct Figure7 {
 
 [[nodiscard]] std::string figure7_table(const Figure7& figure);
 [[nodiscard]] std::string figure7_svg(const Figure7& figure);
-[[nodiscard]] nlohmann::ordered_json figure7_json(const Figure7& figure);
+[[nodiscard]] Json figure7_json(const Figure7& figure);
 
 }  // namespace burin::bench

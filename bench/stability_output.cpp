@@ -10,8 +10,6 @@
 namespace burin::bench {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 std::string line_of(const char* format, auto... values) {
     std::array<char, 400> text{};
     std::snprintf(text.data(), text.size(), format, values...);

@@ -12,8 +12,6 @@
 namespace burin::bench {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 // CGAL needs about 2 KB a triangle and half an hour for a mesh of 512 cells a side.
 constexpr std::size_t kMostTrianglesForCgal = 1'200'000;
 

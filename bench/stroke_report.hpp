@@ -3,11 +3,11 @@
 // that was not measured is null in JSON and a dash in the table.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/json.hpp"
 #include "bench/peers/peers.hpp"
 #include "bench/stroke.hpp"
 #include "bench/surface_errors.hpp"
@@ -27,16 +27,15 @@ struct Ageing {
 };
 [[nodiscard]] Ageing ageing(const std::vector<double>& update_ms);
 
-[[nodiscard]] nlohmann::ordered_json describe(const CarveScene& scene, const StrokeRun& run,
-                                              const SurfaceErrors& errors, const SelfIntersections& crossings);
+[[nodiscard]] Json describe(const CarveScene& scene, const StrokeRun& run, const SurfaceErrors& errors,
+                            const SelfIntersections& crossings);
 // A peer's, with the same keys where they mean the same. cell_m is 0 for a method without cells: figures in cells and of
 // edges, which only ask how far the mesh is and not how finely it follows, are then null.
-[[nodiscard]] nlohmann::ordered_json describe(const CarveScene& scene, const PeerRun& run, const SurfaceErrors& errors,
-                                              double cell_m);
+[[nodiscard]] Json describe(const CarveScene& scene, const PeerRun& run, const SurfaceErrors& errors, double cell_m);
 // Adds the peer's keys as openvdb_..., and how many times as long as Burin it takes: openvdb_ratio, openvdb_cpu_ratio.
-void add_openvdb(nlohmann::ordered_json& report, const nlohmann::ordered_json& peer);
+void add_openvdb(Json& report, const Json& peer);
 
 // One line a key.
-[[nodiscard]] std::string table(const nlohmann::ordered_json& report);
+[[nodiscard]] std::string table(const Json& report);
 
 }  // namespace burin::bench

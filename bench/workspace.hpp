@@ -13,10 +13,10 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "base/json.hpp"
 #include "bench/workspace_hand.hpp"
 #include "bench/workspace_strategy.hpp"
 
@@ -59,8 +59,7 @@ struct WorkspaceFigures {
 [[nodiscard]] std::string assumptions(const WorkspaceTask& task);
 [[nodiscard]] std::string workspace_table(const std::vector<WorkspaceFigures>& figures);
 [[nodiscard]] std::string workspace_csv(const std::vector<WorkspaceFigures>& figures);
-[[nodiscard]] nlohmann::ordered_json workspace_json(const std::vector<WorkspaceFigures>& figures,
-                                                    const WorkspaceTask& task);
+[[nodiscard]] Json workspace_json(const std::vector<WorkspaceFigures>& figures, const WorkspaceTask& task);
 [[nodiscard]] std::string workspace_svg(const std::vector<WorkspaceFigures>& figures, const WorkspaceTask& task);
 
 }  // namespace burin::bench

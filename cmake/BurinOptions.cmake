@@ -6,7 +6,7 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 
 option(BURIN_BUILD_TESTS "Build the tests" ON)
-option(BURIN_WITH_PEERS "Build the benchmarks' peers: OpenVDB and CGAL (scripts/setup --peers)" OFF)
+option(BURIN_WITH_PEERS "Build the benchmarks' peers: OpenVDB, CGAL, OpenSceneGraph and VTK (scripts/setup --peers)" OFF)
 option(BURIN_BUILD_FUZZERS "Build the libFuzzer targets (needs clang)" OFF)
 option(BURIN_WARNINGS_ARE_ERRORS "Stop the build at a warning" OFF)
 option(BURIN_COVERAGE "Instrument for gcov" OFF)

@@ -100,6 +100,9 @@ public:
 
     [[nodiscard]] const char* name() const override { return "cpu"; }
     [[nodiscard]] const Solid& solid() const override { return solid_; }
+    [[nodiscard]] Result<std::uint8_t> add_material(const Material& material) override {
+        return burin::add_material(solid_, material);
+    }
     [[nodiscard]] Changes take_changes() override { return changes_.take(); }
 
     [[nodiscard]] Result<CarveStats> carve(std::span<const BallSweep> sweeps) override {

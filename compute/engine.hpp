@@ -54,6 +54,8 @@ public:
     [[nodiscard]] virtual Result<CarveStats> assign(const RayBatch& rays) = 0;
     // Up to date when a call returns.
     [[nodiscard]] virtual const Solid& solid() const = 0;
+    // As add_material (solid.hpp), of the engine's solid. A DeviceSurface knows the materials that were there when it was made.
+    [[nodiscard]] virtual Result<std::uint8_t> add_material(const Material& material) = 0;
     // What has changed since this was last called; nothing at the start.
     [[nodiscard]] virtual Changes take_changes() = 0;
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compute/solid.hpp"
 
+#include <algorithm>
+
 #include <cmath>
 #include <string>
 
@@ -114,6 +116,19 @@ Result<Solid> make_ball(double radius_m, int resolution, Material material) {
             return shared::encode_normal({n[0], n[1], n[2]});
         });
     return solid;
+}
+
+Result<std::uint8_t> add_material(Solid& solid, const Material& material) {
+    constexpr std::size_t kMost = 255;
+    const auto same = [&](const Material& m) { return m.name == material.name && m.colour == material.colour; };
+    const auto found = std::ranges::find_if(solid.materials, same);
+    const auto number = static_cast<std::size_t>(found - solid.materials.begin());
+    if (number >= kMost) {
+        return fail("material '" + material.name + "'", "is one too many: a solid holds 255",
+                    "use a colour that was used before");
+    }
+    if (found == solid.materials.end()) solid.materials.push_back(material);
+    return static_cast<std::uint8_t>(number);
 }
 
 }  // namespace burin

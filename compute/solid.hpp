@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "base/error.hpp"
 #include "compute/dexel_set.hpp"
 #include "compute/lattice.hpp"
 #include "geometry/triangle_mesh.hpp"
@@ -29,6 +30,9 @@ struct Solid {
 
 // Every ray of a solid has sorted, strictly increasing depths within the lattice and matched ends.
 [[nodiscard]] bool well_formed(const Solid& solid);
+
+// The material's number in the solid's table, where it is put unless it is there already. Fails when the table is full.
+[[nodiscard]] Result<std::uint8_t> add_material(Solid& solid, const Material& material);
 
 // An axis-aligned block of the given size whose lowest corner is the object origin.
 [[nodiscard]] Result<Solid> make_block(const Vec3& size_m, int resolution, Material material);

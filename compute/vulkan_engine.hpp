@@ -51,6 +51,9 @@ public:
     [[nodiscard]] Result<CarveStats> assign(const RayBatch& rays) override;
     // Behind the device after deferred cuts, until read_back.
     [[nodiscard]] const Solid& solid() const override { return solid_; }
+    [[nodiscard]] Result<std::uint8_t> add_material(const Material& material) override {
+        return burin::add_material(solid_, material);
+    }
     [[nodiscard]] Changes take_changes() override { return changes_.take(); }
 
     [[nodiscard]] const VulkanEngineCounts& counts() const { return counts_; }

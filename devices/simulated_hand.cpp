@@ -5,23 +5,10 @@
 #include <cmath>
 
 #include "base/sensible.hpp"
+#include "devices/quaternion_path.hpp"
 
 namespace burin {
 namespace {
-
-double length2(const Quat& q) { return q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z; }
-
-Quat scaled(const Quat& q, double s) { return Quat(q.w * s, q.x * s, q.y * s, q.z * s); }
-
-// The shorter way round, so that q and -q, which are one rotation, do not pass through a half turn.
-Quat normalised_lerp(const Quat& a, const Quat& b, double t) {
-    const double dot = a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z;
-    const double s = dot < 0.0 ? -t : t;
-    const double r = 1.0 - t;
-    const Quat q(a.w * r + b.w * s, a.x * r + b.x * s, a.y * r + b.y * s, a.z * r + b.z * s);
-    const double l2 = length2(q);
-    return l2 > 1e-12 ? scaled(q, 1.0 / std::sqrt(l2)) : a;  // exactly opposite: no way is shorter, stay
-}
 
 // Fritsch and Carlson, in the weighted harmonic form of Fritsch and Butland 1984: zero at an extremum, else between
 // the neighbouring secants so that no piece overshoots.

@@ -30,7 +30,7 @@ Vec3 clamped(const Vec3& force_N, double max_N) {
 
 }  // namespace
 
-SimulatedOmni::SimulatedOmni(SimulatedHand hand, const OmniModel& model, Clock* clock)
+SimulatedOmni::SimulatedOmni(OmniHand hand, const OmniModel& model, Clock* clock)
     : hand_(std::move(hand)), model_(model), clock_(clock) {
     description_.name = "simulated PHANTOM Omni";
     description_.workspace_m = model_.workspace_m;
@@ -44,8 +44,19 @@ SimulatedOmni::SimulatedOmni(SimulatedHand hand, const OmniModel& model, Clock* 
     description_.delay_s = 0.001;  // one tick of transport
     if (clock_ != nullptr) clock_start_ns_ = clock_->now_ns();
     const Vec3 half = 0.5 * model_.workspace_m;
-    position_m_ = glm::clamp(hand_.target(0.0).position_device_m, -half, half);
+    position_m_ = glm::clamp(hand_target(0.0).position_device_m, -half, half);
     last_sample_ = honest_sample();
+}
+
+// get_if instead of visit, which could throw. A variant of two types that move without throwing always holds one.
+HandTarget SimulatedOmni::hand_target(double time_s) noexcept {
+    if (const auto* scripted = std::get_if<SimulatedHand>(&hand_)) return scripted->target(time_s);
+    return std::get_if<SteeredHand>(&hand_)->target(time_s);
+}
+
+const HandGrip& SimulatedOmni::grip() const noexcept {
+    if (const auto* scripted = std::get_if<SimulatedHand>(&hand_)) return scripted->grip();
+    return std::get_if<SteeredHand>(&hand_)->grip();
 }
 
 void SimulatedOmni::advance(Nanoseconds dt_ns) noexcept {
@@ -58,8 +69,8 @@ void SimulatedOmni::advance(Nanoseconds dt_ns) noexcept {
 }
 
 void SimulatedOmni::step() noexcept {
-    const HandGrip& grip = hand_.grip();
-    const HandTarget target = hand_.target(seconds(time_ns_ + kStep_ns));
+    const HandGrip& grip = this->grip();
+    const HandTarget target = hand_target(seconds(time_ns_ + kStep_ns));
     const double mass = model_.apparent_mass_kg + grip.mass_kg;
     const Vec3 pull = acting_force_N_ + grip.stiffness_N_per_m * (target.position_device_m - position_m_) +
                       grip.damping_Ns_per_m * target.velocity_device_m_per_s;
@@ -79,8 +90,8 @@ void SimulatedOmni::step() noexcept {
     velocity_m_per_s_ = v;
 }
 
-DeviceSample SimulatedOmni::honest_sample() const noexcept {
-    const HandTarget target = hand_.target(seconds(time_ns_));
+DeviceSample SimulatedOmni::honest_sample() noexcept {
+    const HandTarget target = hand_target(seconds(time_ns_));
     DeviceSample sample;
     sample.time_ns = clock_start_ns_ + time_ns_;
     sample.position_device_m = quantised(position_m_, model_.resolution_m);

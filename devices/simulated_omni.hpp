@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A PHANTOM Omni in software, held by a SimulatedHand.
+// A PHANTOM Omni in software, held by a hand with a script or by one that is steered live.
 //
 // Model, each axis alike, in the device frame: (m_device + m_hand) a = F_motor + F_grip - b v - Coulomb friction.
 // Friction holds the stylus exactly still until the other forces exceed it. Steps of 50 us, semi-implicit Euler with
@@ -13,8 +13,11 @@
 // Thread: create it anywhere, then one thread only. After create() nothing allocates, locks or throws.
 #pragma once
 
+#include <variant>
+
 #include "devices/haptic_device.hpp"
 #include "devices/simulated_hand.hpp"
+#include "devices/steered_hand.hpp"
 
 namespace burin {
 
@@ -37,6 +40,9 @@ enum class InjectedFault : std::uint8_t {
     frozen,        // samples repeat, time stamp included, with no fault reported
 };
 
+// Who holds the stylus.
+using OmniHand = std::variant<SimulatedHand, SteeredHand>;
+
 class SimulatedOmni final : public HapticDevice {
 public:
     static constexpr Nanoseconds kStep_ns = 50'000;
@@ -44,9 +50,9 @@ public:
     // pause must not cost thousands of steps in one tick).
     static constexpr Nanoseconds kMostCatchUp_ns = 100'000'000;
 
-    // clock may be null: then only advance() moves time. The clock must outlive the device. Starts at rest on the
-    // script's first pose, at time 0 of the script.
-    explicit SimulatedOmni(SimulatedHand hand, const OmniModel& model = {}, Clock* clock = nullptr);
+    // clock may be null: then only advance() moves time. The clock must outlive the device. Starts at rest where
+    // the hand is at time 0.
+    explicit SimulatedOmni(OmniHand hand, const OmniModel& model = {}, Clock* clock = nullptr);
 
     [[nodiscard]] const DeviceDescription& description() const noexcept override { return description_; }
     [[nodiscard]] DeviceSample read() noexcept override;
@@ -62,18 +68,21 @@ public:
     [[nodiscard]] const Vec3& true_velocity_device_m_per_s() const noexcept { return velocity_m_per_s_; }
     [[nodiscard]] const Vec3& acting_force_device_N() const noexcept { return acting_force_N_; }
     [[nodiscard]] Nanoseconds time_ns() const noexcept { return time_ns_; }
-    [[nodiscard]] const SimulatedHand& hand() const noexcept { return hand_; }
+    // Null when the hand is steered.
+    [[nodiscard]] const SimulatedHand* scripted_hand() const noexcept { return std::get_if<SimulatedHand>(&hand_); }
 
 private:
     void step() noexcept;
-    [[nodiscard]] DeviceSample honest_sample() const noexcept;
+    [[nodiscard]] HandTarget hand_target(double time_s) noexcept;
+    [[nodiscard]] const HandGrip& grip() const noexcept;
+    [[nodiscard]] DeviceSample honest_sample() noexcept;
 
-    SimulatedHand hand_;
+    OmniHand hand_;
     OmniModel model_;
     Clock* clock_;
-    Nanoseconds clock_start_ns_ = 0;  // the clock's reading at time 0 of the script
+    Nanoseconds clock_start_ns_ = 0;  // the clock's reading at time 0 of the hand
     DeviceDescription description_;
-    Nanoseconds time_ns_ = 0;  // of the model, since the script's start
+    Nanoseconds time_ns_ = 0;  // of the model and of the hand
     Nanoseconds owed_ns_ = 0;  // asked for by advance() but less than a step
     Vec3 position_m_{0.0}, velocity_m_per_s_{0.0};
     Vec3 written_force_N_{0.0};  // by the last write()

@@ -31,7 +31,7 @@ Needs needs_of(BufferUse use, bool unified_memory) {
         case BufferUse::readback:
             return {VK_BUFFER_USAGE_TRANSFER_DST_BIT, kSeen, VK_MEMORY_PROPERTY_HOST_CACHED_BIT, false};
         case BufferUse::uniform:
-            return {VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, kSeen, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, false};
+            return {VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | kCopied, kSeen, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, false};
     }
     return {};
 }

@@ -239,7 +239,7 @@ Stamp Commands::stamp() {
     return {stamps_++};
 }
 
-Result<Submission> Commands::submit() && {
+Result<Submission> Commands::submit(const QueueSync& sync) && {
     Core& c = *core_;
     // The timeline alone makes the writes visible to the GPU; this makes them visible to the CPU.
     auto to_host = structure<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
@@ -252,20 +252,27 @@ Result<Submission> Commands::submit() && {
     if (ended != VK_SUCCESS) return vulkan_failure(c.info.name, "recording failed", ended);
 
     const std::uint64_t serial = c.submitted + 1;
+    const VkSemaphore signals[2] = {c.timeline, sync.signal};
+    const std::uint64_t values[2] = {serial, 0};  // a binary semaphore's value is not looked at
+    constexpr VkPipelineStageFlags kDrawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
     auto timeline = structure<VkTimelineSemaphoreSubmitInfo>(VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO);
-    timeline.signalSemaphoreValueCount = 1;
-    timeline.pSignalSemaphoreValues = &serial;
+    timeline.signalSemaphoreValueCount = sync.signal == VK_NULL_HANDLE ? 1 : 2;
+    timeline.pSignalSemaphoreValues = values;
     auto info = structure<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
     info.pNext = &timeline;
     info.commandBufferCount = 1;
     info.pCommandBuffers = &set_.commands;
-    info.signalSemaphoreCount = 1;
-    info.pSignalSemaphores = &c.timeline;
-    if (const VkResult r = c.vk.vkQueueSubmit(c.queue, 1, &info, VK_NULL_HANDLE); r != VK_SUCCESS) {
+    info.waitSemaphoreCount = sync.wait == VK_NULL_HANDLE ? 0 : 1;
+    info.pWaitSemaphores = &sync.wait;
+    info.pWaitDstStageMask = &kDrawing;
+    info.signalSemaphoreCount = timeline.signalSemaphoreValueCount;
+    info.pSignalSemaphores = signals;
+    if (const VkResult r = c.submit(info); r != VK_SUCCESS) {
         return vulkan_failure(c.info.name, "the work was refused", r);
     }
     c.submitted = serial;
     kept_.clear();  // set aside until this submission is done
+    kept_objects_.clear();
     return Submission(std::move(core_), std::move(set_), std::move(staging_), serial);
 }
 

@@ -37,6 +37,12 @@ struct Stamp {
     std::uint32_t index = 0;
 };
 
+// Binary semaphores around one submission, as a window system asks for them (gpu/swapchain.hpp). Null: none.
+struct QueueSync {
+    VkSemaphore wait = VK_NULL_HANDLE;    // before the submission writes a colour attachment
+    VkSemaphore signal = VK_NULL_HANDLE;  // when all of it is done
+};
+
 // Work handed to the GPU. Dropping it does not wait; its resources are reused when the GPU has done with them.
 class Submission {
 public:
@@ -91,10 +97,16 @@ public:
     void upload(const Buffer& to, std::uint64_t offset_bytes, std::span<const std::byte> bytes);
     // Frees the buffer only when this work is done; for one that is replaced while recording.
     void keep_alive(Buffer buffer) { kept_.push_back(std::move(buffer)); }
+    // Likewise for any other object made for this work alone: a framebuffer, a descriptor pool.
+    template <typename T, VkObjectType Type>
+    void keep_alive(Handle<T, Type> object) {
+        kept_objects_.push_back(std::make_shared<Handle<T, Type>>(std::move(object)));
+    }
     // The GPU's time when all commands before it are done. At most kMaxStamps in one Commands.
     Stamp stamp();
 
-    [[nodiscard]] Result<Submission> submit() &&;
+    // After VK_ERROR_DEVICE_LOST device().core()->lost is set and every later submission fails too.
+    [[nodiscard]] Result<Submission> submit(const QueueSync& sync = {}) &&;
 
     // For code that records Vulkan commands of its own.
     [[nodiscard]] VkCommandBuffer raw() const { return set_.commands; }
@@ -113,6 +125,7 @@ private:
     CommandSet set_;
     std::vector<Buffer> staging_;
     std::vector<Buffer> kept_;
+    std::vector<std::shared_ptr<void>> kept_objects_;
     std::uint64_t staging_used_ = 0;  // bytes of staging_.back() that are taken
     std::size_t pool_in_use_ = 0;     // index into set_.descriptor_pools
     std::uint32_t stamps_ = 0;

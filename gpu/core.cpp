@@ -33,6 +33,13 @@ Core::~Core() {
     if (instance != VK_NULL_HANDLE) vkDestroyInstance(instance, nullptr);
 }
 
+VkResult Core::submit(const VkSubmitInfo& info) {
+    if (lose_at_next_submit) lost = true;
+    const VkResult result = lost ? VK_ERROR_DEVICE_LOST : vk.vkQueueSubmit(queue, 1, &info, VK_NULL_HANDLE);
+    if (result == VK_ERROR_DEVICE_LOST) lost = true;
+    return result;
+}
+
 std::uint64_t Core::completed() {
     std::uint64_t value = 0;
     if (vk.vkGetSemaphoreCounterValue(device, timeline, &value) != VK_SUCCESS) return 0;
@@ -48,6 +55,7 @@ Result<void> Core::wait_for(std::uint64_t serial) {
     if (result == VK_TIMEOUT) {
         return fail(info.name, "the GPU has not finished within 120 s", "lower the resolution or use --engine cpu");
     }
+    if (result == VK_ERROR_DEVICE_LOST) lost = true;
     if (result != VK_SUCCESS) return vulkan_failure(info.name, "waiting for the GPU failed", result);
     return {};
 }
@@ -143,6 +151,8 @@ void Core::destroy(VkObjectType type, std::uint64_t bits) {
         case VK_OBJECT_TYPE_RENDER_PASS: return vk.vkDestroyRenderPass(device, handle_of<VkRenderPass>(bits), nullptr);
         case VK_OBJECT_TYPE_FRAMEBUFFER:
             return vk.vkDestroyFramebuffer(device, handle_of<VkFramebuffer>(bits), nullptr);
+        case VK_OBJECT_TYPE_SEMAPHORE: return vk.vkDestroySemaphore(device, handle_of<VkSemaphore>(bits), nullptr);
+        case VK_OBJECT_TYPE_SURFACE_KHR: return surface.destroy(instance, handle_of<VkSurfaceKHR>(bits), nullptr);
         case VK_OBJECT_TYPE_SAMPLER: return vk.vkDestroySampler(device, handle_of<VkSampler>(bits), nullptr);
         default: BURIN_CHECK(false && "an object type that destroy() does not know");
     }

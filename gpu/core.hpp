@@ -22,6 +22,16 @@ struct CommandSet {
     std::vector<VkDescriptorPool> descriptor_pools;
 };
 
+// The functions of the instance extensions for windows; null where Device::create was not asked for them. They belong to
+// the instance they were loaded from, so they are kept here and not in volk's own variables.
+struct SurfaceFunctions {
+    PFN_vkDestroySurfaceKHR destroy = nullptr;
+    PFN_vkGetPhysicalDeviceSurfaceSupportKHR support = nullptr;
+    PFN_vkGetPhysicalDeviceSurfaceCapabilitiesKHR capabilities = nullptr;
+    PFN_vkGetPhysicalDeviceSurfaceFormatsKHR formats = nullptr;
+    PFN_vkGetPhysicalDeviceSurfaceCapabilities2EXT counters = nullptr;  // also needs VK_EXT_display_control
+};
+
 class Core {
 public:
     Core() = default;
@@ -42,10 +52,16 @@ public:
     VolkDeviceTable vk{};
     DeviceInfo info;
     Capabilities capabilities;
+    SurfaceFunctions surface;
 
     // The timeline: each submission signals the next number.
     VkSemaphore timeline = VK_NULL_HANDLE;
     std::uint64_t submitted = 0;
+    // Set by the first submission, wait or presentation that reports the device as lost; nothing works afterwards.
+    bool lost = false;
+    // For tests: the next submission is answered as a driver answers when the GPU has gone.
+    bool lose_at_next_submit = false;
+    [[nodiscard]] VkResult submit(const VkSubmitInfo& info);
     [[nodiscard]] std::uint64_t completed();
     [[nodiscard]] Result<void> wait_for(std::uint64_t serial);
 
@@ -121,6 +137,8 @@ using FramebufferHandle = Handle<VkFramebuffer, VK_OBJECT_TYPE_FRAMEBUFFER>;
 using SamplerHandle = Handle<VkSampler, VK_OBJECT_TYPE_SAMPLER>;
 using ImageHandle = Handle<VkImage, VK_OBJECT_TYPE_IMAGE>;
 using ImageViewHandle = Handle<VkImageView, VK_OBJECT_TYPE_IMAGE_VIEW>;
+using SemaphoreHandle = Handle<VkSemaphore, VK_OBJECT_TYPE_SEMAPHORE>;
+using SurfaceHandle = Handle<VkSurfaceKHR, VK_OBJECT_TYPE_SURFACE_KHR>;
 using BufferHandle = Handle<VkBuffer, VK_OBJECT_TYPE_BUFFER>;
 using MemoryHandle = Handle<VkDeviceMemory, VK_OBJECT_TYPE_DEVICE_MEMORY>;
 

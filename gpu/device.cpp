@@ -66,7 +66,56 @@ bool validation_layer_installed() {
                                [](const auto& layer) { return std::string_view(layer.layerName) == kValidationLayer; });
 }
 
-Result<void> create_instance(Core& core, bool validation) {
+std::vector<std::string> instance_extensions() {
+    std::uint32_t count = 0;
+    if (vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr) != VK_SUCCESS) return {};
+    std::vector<VkExtensionProperties> found(count);
+    if (vkEnumerateInstanceExtensionProperties(nullptr, &count, found.data()) < VK_SUCCESS) return {};
+    std::vector<std::string> names;
+    for (const auto& extension : found) names.emplace_back(extension.extensionName);
+    return names;
+}
+
+bool has(const std::vector<std::string>& names, std::string_view name) {
+    return std::ranges::find(names, name) != names.end();
+}
+
+// All that must be there, and of the rest what is there; each once.
+Result<std::vector<std::string>> extensions_to_enable(const DeviceOptions& options) {
+    std::vector<std::string> enabled = options.instance_extensions;
+    if (enabled.empty() && options.optional_instance_extensions.empty()) return enabled;
+    const std::vector<std::string> found = instance_extensions();
+    for (const std::string& name : enabled) {
+        if (!has(found, name)) {
+            return fail("Vulkan", "the driver cannot show pictures here: it lacks " + name,
+                        "install or update the graphics driver (mesa-vulkan-drivers)");
+        }
+    }
+    for (const std::string& name : options.optional_instance_extensions) {
+        if (has(found, name) && !has(enabled, name)) enabled.push_back(name);
+    }
+    return enabled;
+}
+
+template <typename Function>
+void load(Function& function, VkInstance instance, const char* name) {
+    function = reinterpret_cast<Function>(vkGetInstanceProcAddr(instance, name));
+}
+
+void load_surface_functions(Core& core, const std::vector<std::string>& enabled) {
+    if (has(enabled, VK_KHR_SURFACE_EXTENSION_NAME)) {
+        load(core.surface.destroy, core.instance, "vkDestroySurfaceKHR");
+        load(core.surface.support, core.instance, "vkGetPhysicalDeviceSurfaceSupportKHR");
+        load(core.surface.capabilities, core.instance, "vkGetPhysicalDeviceSurfaceCapabilitiesKHR");
+        load(core.surface.formats, core.instance, "vkGetPhysicalDeviceSurfaceFormatsKHR");
+    }
+    core.capabilities.display_stereo = has(enabled, "VK_NV_display_stereo");
+    if (has(enabled, VK_EXT_DISPLAY_SURFACE_COUNTER_EXTENSION_NAME)) {
+        load(core.surface.counters, core.instance, "vkGetPhysicalDeviceSurfaceCapabilities2EXT");
+    }
+}
+
+Result<void> create_instance(Core& core, bool validation, const DeviceOptions& options = {}) {
     if (!open_loader())
         return fail("Vulkan", "no Vulkan loader found", std::string("install libvulkan1 and ") + kNoDriver);
     if (volkGetInstanceVersion() < VK_API_VERSION_1_2) {
@@ -79,7 +128,11 @@ Result<void> create_instance(Core& core, bool validation) {
     auto app = structure<VkApplicationInfo>(VK_STRUCTURE_TYPE_APPLICATION_INFO);
     app.pApplicationName = "burin";
     app.apiVersion = VK_API_VERSION_1_2;
-    const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    auto extensions = extensions_to_enable(options);
+    if (!extensions) return std::unexpected(extensions.error());
+    if (validation) extensions->emplace_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    std::vector<const char*> names;
+    for (const std::string& name : *extensions) names.push_back(name.c_str());
     const VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info();
     auto info = structure<VkInstanceCreateInfo>(VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO);
     info.pApplicationInfo = &app;
@@ -87,13 +140,14 @@ Result<void> create_instance(Core& core, bool validation) {
         info.pNext = &messenger;  // reports on creation and destruction of the instance itself
         info.enabledLayerCount = 1;
         info.ppEnabledLayerNames = &kValidationLayer;
-        info.enabledExtensionCount = 1;
-        info.ppEnabledExtensionNames = &extension;
     }
+    info.enabledExtensionCount = static_cast<std::uint32_t>(names.size());
+    info.ppEnabledExtensionNames = names.data();
     const VkResult result = vkCreateInstance(&info, nullptr, &core.instance);
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER) return fail("Vulkan", "no Vulkan driver found", kNoDriver);
     if (result != VK_SUCCESS) return vulkan_failure("Vulkan", "the instance could not be created", result);
     load_instance_functions(core.instance);
+    load_surface_functions(core, *extensions);
     if (validation) {
         const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
             vkGetInstanceProcAddr(core.instance, "vkCreateDebugUtilsMessengerEXT"));
@@ -285,6 +339,24 @@ void read_limits(Core& core) {
     core.seconds_per_stamp = static_cast<double>(limits.timestampPeriod) * 1e-9;
 }
 
+std::vector<const char*> device_extensions(Core& core) {
+    std::vector<const char*> wanted;
+    if (core.surface.destroy == nullptr) return wanted;
+    std::uint32_t count = 0;
+    vkEnumerateDeviceExtensionProperties(core.physical, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> found(count);
+    vkEnumerateDeviceExtensionProperties(core.physical, nullptr, &count, found.data());
+    const auto exists = [&](std::string_view name) {
+        return std::ranges::any_of(found, [name](const auto& e) { return e.extensionName == name; });
+    };
+    core.capabilities.swapchain = exists(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    if (core.capabilities.swapchain) wanted.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    core.capabilities.display_control = core.capabilities.swapchain && core.surface.counters != nullptr &&
+                                        exists(VK_EXT_DISPLAY_CONTROL_EXTENSION_NAME);
+    if (core.capabilities.display_control) wanted.push_back(VK_EXT_DISPLAY_CONTROL_EXTENSION_NAME);
+    return wanted;
+}
+
 Result<void> open(Core& core) {
     read_limits(core);
     Features features;
@@ -298,6 +370,9 @@ Result<void> open(Core& core) {
     info.pNext = &features.core;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
+    const std::vector<const char*> extensions = device_extensions(core);
+    info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
     if (const VkResult r = vkCreateDevice(core.physical, &info, nullptr, &core.device); r != VK_SUCCESS) {
         return vulkan_failure(core.info.name, "the device could not be opened", r);
     }
@@ -346,7 +421,7 @@ Result<std::vector<DeviceInfo>> list_devices() {
 
 Result<Device> Device::create(const DeviceOptions& options) {
     auto core = std::make_shared<Core>();
-    auto done = create_instance(*core, options.validation || validation_asked_by_environment());
+    auto done = create_instance(*core, options.validation || validation_asked_by_environment(), options);
     if (done) done = pick(*core, options);
     if (done) done = open(*core);
     if (!done) return std::unexpected(done.error());
@@ -361,6 +436,8 @@ Result<void> Device::wait_idle() {
     if (done) core_->collect();
     return done;
 }
+
+bool Device::lost() const { return core_->lost; }
 
 std::uint64_t validation_messages() noexcept { return g_validation_messages.load(std::memory_order_relaxed); }
 

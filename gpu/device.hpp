@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The Vulkan device: what the compute engine and the renderer are built on. No window system is touched.
+// The Vulkan device: what the compute engine and the renderer are built on. No window system is touched unless the caller
+// names a window system's extensions (DeviceOptions::instance_extensions).
 //
 // Data flow: list_devices() shows what is there; Device::create() picks one and opens it; buffers, images and pipelines are
 // created on it; work is recorded into Commands (commands.hpp), submitted, and waited for.
@@ -51,7 +52,10 @@ struct Capabilities {
     bool buffer_address = false;        // shaders reach buffers by address (GL_EXT_buffer_reference)
     bool sampler_anisotropy = false;
     bool timestamps = false;
-    bool unified_memory = false;  // device_storage buffers are mapped: Buffer::mapped() is not empty
+    bool swapchain = false;        // can show pictures in windows; only when instance_extensions asked for surfaces
+    bool display_control = false;  // can count a display's refreshes (VK_EXT_display_control)
+    bool unified_memory = false;   // device_storage buffers are mapped: Buffer::mapped() is not empty
+    bool display_stereo = false;   // a display's own stereo (VK_NV_display_stereo)
     std::uint32_t subgroup_size = 0;
     std::uint32_t msaa_samples = 1;  // 4 where colour and depth both allow it
     std::uint64_t max_storage_buffer_bytes = 0;
@@ -66,9 +70,14 @@ enum class Prefer { hardware, software };  // an order, not a demand: with only 
 
 struct DeviceOptions {
     Prefer prefer = Prefer::hardware;
-    std::optional<unsigned> index;  // exactly this device of list_devices()
+    std::optional<unsigned> index = {};  // exactly this device of list_devices()
     // Runs the Khronos validation layer; an Error where it is not installed. Also asked for by BURIN_VULKAN_VALIDATION=1.
     bool validation = false;
+    // Instance extensions that must be there, such as window::required_extensions(); an Error names a missing one. With
+    // VK_KHR_surface among them the swapchain extension is enabled where the device has it.
+    std::vector<std::string> instance_extensions = {};
+    // Enabled where they exist, such as direct_display_extensions().
+    std::vector<std::string> optional_instance_extensions = {};
 };
 
 // Every Vulkan device of this machine, usable or not; an Error when there is no loader or no driver. Cost: 30-75 ms.
@@ -84,6 +93,8 @@ public:
 
     // Waits for everything submitted, and frees what was set aside.
     Result<void> wait_idle();
+    // True once the driver has said that the GPU is gone: all objects of this device are useless, and a new Device is due.
+    [[nodiscard]] bool lost() const;
 
     explicit Device(std::shared_ptr<Core> core) : core_(std::move(core)) {}  // another handle of an opened device
 

@@ -24,9 +24,6 @@ VkPipelineRasterizationStateCreateInfo rasterization_of(const GraphicsPipelineSp
     info.cullMode = spec.cull;
     info.frontFace = spec.front;
     info.lineWidth = 1.0f;
-    info.depthBiasEnable = spec.depth_bias_slope != 0.0f || spec.depth_bias_constant != 0.0f;
-    info.depthBiasSlopeFactor = spec.depth_bias_slope;
-    info.depthBiasConstantFactor = spec.depth_bias_constant;
     return info;
 }
 
@@ -58,6 +55,12 @@ Result<PipelineHandle> create_graphics_pipeline(Device& device, const GraphicsPi
         fragment = std::move(*shader);
         stages[1] = stage_of(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.raw());
     }
+
+    std::vector<VkSpecializationMapEntry> entries;
+    for (std::uint32_t i = 0; i < spec.constants.size(); ++i) entries.push_back({i, 4 * i, 4});
+    const VkSpecializationInfo constants{static_cast<std::uint32_t>(entries.size()), entries.data(),
+                                         spec.constants.size_bytes(), spec.constants.data()};
+    if (!entries.empty()) stages[0].pSpecializationInfo = stages[1].pSpecializationInfo = &constants;
 
     auto input =
         structure<VkPipelineVertexInputStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);

@@ -18,15 +18,14 @@ struct GraphicsPipelineSpec {
     VkPipelineLayout layout = VK_NULL_HANDLE;
     std::span<const VkVertexInputBindingDescription> bindings;
     std::span<const VkVertexInputAttributeDescription> attributes;
+    std::span<const std::uint32_t> constants;  // specialization constants of both stages: constant_id 0, 1, ...
     std::uint32_t samples = 1;
     std::uint32_t color_attachments = 1;
     VkCullModeFlags cull = VK_CULL_MODE_NONE;
     VkFrontFace front = VK_FRONT_FACE_COUNTER_CLOCKWISE;
     bool depth_test = true;
     bool depth_write = true;
-    bool blend = false;             // premultiplied alpha
-    float depth_bias_slope = 0.0f;  // both 0: no depth bias
-    float depth_bias_constant = 0.0f;
+    bool blend = false;                      // premultiplied alpha
     std::string name = "graphics pipeline";  // for error messages
 };
 

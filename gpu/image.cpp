@@ -22,6 +22,7 @@ Result<Image> Image::create(Device& device, const ImageSpec& spec) {
     info.samples = static_cast<VkSampleCountFlagBits>(spec.samples);
     info.tiling = VK_IMAGE_TILING_OPTIMAL;
     info.usage = spec.usage;
+    if (spec.other_formats) info.flags = VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT;
     VkImage raw = VK_NULL_HANDLE;
     if (const VkResult r = core->vk.vkCreateImage(core->device, &info, nullptr, &raw); r != VK_SUCCESS) {
         return vulkan_failure(where, "could not be created", r);
@@ -44,17 +45,26 @@ Result<Image> Image::create(Device& device, const ImageSpec& spec) {
     if (const VkResult r = core->vk.vkBindImageMemory(core->device, raw, memory, 0); r != VK_SUCCESS) {
         return vulkan_failure(where, "could not be bound to its memory", r);
     }
-    auto view = structure<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
-    view.image = raw;
-    view.viewType = spec.layers > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
-    view.format = spec.format;
-    view.subresourceRange = {spec.aspect, 0, 1, 0, spec.layers};
-    VkImageView raw_view = VK_NULL_HANDLE;
-    if (const VkResult r = core->vk.vkCreateImageView(core->device, &view, nullptr, &raw_view); r != VK_SUCCESS) {
-        return vulkan_failure(where, "has no view", r);
-    }
-    image.view_ = ImageViewHandle(core, raw_view);
+    image.aspect_ = spec.aspect;
+    image.layers_ = spec.layers;
+    auto view = image.view_as(device, spec.format);
+    if (!view) return std::unexpected(view.error());
+    image.view_ = std::move(*view);
     return image;
+}
+
+Result<ImageViewHandle> Image::view_as(Device& device, VkFormat format) const {
+    const std::shared_ptr<Core>& core = device.core();
+    auto info = structure<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
+    info.image = image_.raw();
+    info.viewType = layers_ > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
+    info.format = format;
+    info.subresourceRange = {aspect_, 0, 1, 0, layers_};
+    VkImageView view = VK_NULL_HANDLE;
+    if (const VkResult r = core->vk.vkCreateImageView(core->device, &info, nullptr, &view); r != VK_SUCCESS) {
+        return vulkan_failure("GPU image", "has no view", r);
+    }
+    return ImageViewHandle(core, view);
 }
 
 }  // namespace burin::gpu

@@ -17,6 +17,7 @@ struct ImageSpec {
     VkFormat format = VK_FORMAT_UNDEFINED;
     VkImageUsageFlags usage = 0;
     VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
+    bool other_formats = false;  // view_as() may show it in another format of the same size
     std::string name = "image";  // for error messages
 };
 
@@ -27,11 +28,15 @@ public:
 
     [[nodiscard]] VkImage raw() const { return image_.raw(); }
     [[nodiscard]] VkImageView view() const { return view_.raw(); }
+    // Another view of all its layers.
+    [[nodiscard]] Result<ImageViewHandle> view_as(Device& device, VkFormat format) const;
 
 private:
     MemoryHandle memory_;  // destroyed last
     ImageHandle image_;
     ImageViewHandle view_;
+    VkImageAspectFlags aspect_ = 0;
+    std::uint32_t layers_ = 1;
 };
 
 }  // namespace burin::gpu

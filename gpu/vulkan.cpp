@@ -21,6 +21,9 @@ std::string result_name(VkResult result) {
         case VK_ERROR_FORMAT_NOT_SUPPORTED: return "format not supported";
         case VK_ERROR_FRAGMENTED_POOL: return "fragmented pool";
         case VK_ERROR_OUT_OF_POOL_MEMORY: return "out of pool memory";
+        case VK_ERROR_SURFACE_LOST_KHR: return "surface lost";
+        case VK_ERROR_NATIVE_WINDOW_IN_USE_KHR: return "window already in use";
+        case VK_ERROR_OUT_OF_DATE_KHR: return "out of date";
         default: return "VkResult " + std::to_string(static_cast<int>(result));
     }
 }

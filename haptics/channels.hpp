@@ -166,6 +166,7 @@ struct ToolState {
     Nanoseconds time_ns = 0;
     Vec3 hip_object_m{0.0};
     Vec3 proxy_object_m{0.0};
+    Vec3 contact_normal_object{0.0};  // unit; zero in free space
     Quat orientation_object{1.0, 0.0, 0.0, 0.0};
     Vec3 position_device_m{0.0};
     DeviceWrench given;

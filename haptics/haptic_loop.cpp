@@ -38,6 +38,7 @@ TickRecord HapticLoop::step(Nanoseconds lateness_ns) noexcept {
     tool.time_ns = now_ns;
     tool.hip_object_m = full.record.hip_object_m;
     tool.proxy_object_m = full.record.proxy_object_m;
+    tool.contact_normal_object = full.record.contact_normal_object;
     tool.orientation_object = full.stroke.orientation_object;
     tool.position_device_m = sample.position_device_m;
     tool.given = full.record.given;

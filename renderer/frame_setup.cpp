@@ -7,7 +7,8 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "renderer/projection.hpp"
+#include "renderer/contact_marks.hpp"
+#include "renderer/stereo/projection.hpp"
 
 namespace burin {
 
@@ -16,7 +17,6 @@ namespace {
 // One lamp from above, slightly in front and to the left (Hornsey & Hibbard 2024: light above the target gives the most
 // certain sense of shape; Hubona et al.: two lamps are worse than one).
 const Vec3 kToLight = glm::normalize(Vec3{-0.30, 1.0, 0.52});
-constexpr double kLightHalfAngleTangent = 0.07;  // a lamp of 4 degrees: edges 7 mm wide at 100 mm
 const Vec3 kLightColour{0.93, 0.89, 0.83};
 const Vec3 kSkyColour{0.31, 0.33, 0.36};
 const Vec3 kGroundColour{0.16, 0.15, 0.14};
@@ -27,7 +27,13 @@ double linear_component(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((
 
 double stylus_radius_m(const SceneTool& tool) { return std::clamp(0.42 * tool.radius_m, 0.002, 0.012); }
 double stylus_length_m(const SceneTool& tool) { return std::max(20.0 * stylus_radius_m(tool), 6.0 * tool.radius_m); }
+// How thick the edges of a workspace box are.
+double bar_m(const SceneBox& box) {
+    return std::clamp(0.018 * std::min({box.size_m.x, box.size_m.y, box.size_m.z}), 0.0015, 0.008);
+}
 double half_diagonal(const Vec3& size) { return 0.5 * glm::length(size); }
+
+Ball ball_around(const Box& box) { return {box.center(), box.empty() ? 0.0 : half_diagonal(box.extent())}; }
 
 // The smallest ball around two.
 Ball around(const Ball& a, const Ball& b) {
@@ -39,34 +45,6 @@ Ball around(const Ball& a, const Ball& b) {
     if (distance + a.radius_m <= b.radius_m) return b;
     const double radius = 0.5 * (distance + a.radius_m + b.radius_m);
     return {a.center_world + apart * ((radius - a.radius_m) / distance), radius};
-}
-
-Ball box_ball(const SceneBox& box) {
-    return {box.center_world.position_m, box.visible ? half_diagonal(box.size_m) : 0.0};
-}
-
-Ball tool_ball(const SceneTool& tool) {
-    if (!tool.visible) return {};
-    const double half_length = 0.5 * stylus_length_m(tool);
-    const Ball stylus{tool.stylus_world * Vec3{0, 0, half_length}, half_length + stylus_radius_m(tool)};
-    return around({tool.center_world, tool.radius_m}, stylus);
-}
-
-// Orthographic, looking along the light at everything that casts a shadow.
-void set_shadow_frame(shared::FrameUniforms& frame, const Ball& casters, std::uint32_t shadow_texels) {
-    if (casters.radius_m <= 0.0) return;  // shadow_scale.w stays 0: no shadows
-    const Vec3 right = glm::normalize(glm::cross(Vec3{0, 1, 0}, kToLight));
-    const Vec3 up = glm::cross(kToLight, right);
-    // A margin for the edge filter; below the casters room for what catches their shadow.
-    const double half_m = casters.radius_m * 1.08, depth_m = casters.radius_m * 6.0;
-    const Vec3 c = casters.center_world;
-    Mat4 m(0.0);
-    const double xy = 0.5 / half_m, z = 1.0 / depth_m;
-    for (int i = 0; i < 3; ++i) m[i] = glm::dvec4(right[i] * xy, up[i] * xy, -kToLight[i] * z, 0.0);
-    m[3] = glm::dvec4(0.5 - glm::dot(right, c) * xy, 0.5 - glm::dot(up, c) * xy,
-                      (glm::dot(kToLight, c) + casters.radius_m * 1.08) * z, 1.0);
-    frame.shadow_from_world = glm::mat4(m);
-    frame.shadow_scale = {depth_m, 2.0 * half_m / shadow_texels, 1.0 / shadow_texels, 1.0f};
 }
 
 shared::DrawConstants constants_of(const Mat4& world_from_local, const Vec3& srgb, double opacity, double roughness,
@@ -94,7 +72,7 @@ void add_wall_frame(Shapes& shapes, const Screen& screen, const Primitives& prim
     const auto bar = [&](const Vec3& center, const Vec3& size) {
         const Mat4 m(glm::dvec4(x * size.x, 0), glm::dvec4(y * size.y, 0), glm::dvec4(z * size.z, 0),
                      glm::dvec4(center, 1));
-        shapes.solid.push_back({primitives.cube, constants_of(m, colour, 1.0, 0.6, 0.5), false});
+        shapes.solid.push_back({primitives.cube, constants_of(m, colour, 1.0, 0.6, 0.5)});
     };
     for (const double side : {-1.0, 1.0}) {
         bar(middle + side * 0.5 * (height - kWidth_m) * y, {width, kWidth_m, kDepth_m});
@@ -107,7 +85,7 @@ constexpr double kDenserEdges = 0.9;
 
 void add_box(Shapes& shapes, const SceneBox& box, const Primitives& primitives) {
     const Vec3 s = box.size_m;
-    const double bar = std::clamp(0.018 * std::min({s.x, s.y, s.z}), 0.0015, 0.008);
+    const double bar = bar_m(box);
     for (int axis = 0; axis < 3; ++axis) {
         for (int corner = 0; corner < 4; ++corner) {
             Vec3 offset(0.0), size(bar);
@@ -115,29 +93,52 @@ void add_box(Shapes& shapes, const SceneBox& box, const Primitives& primitives) 
             offset[(axis + 2) % 3] = ((corner & 2) != 0 ? 0.5 : -0.5) * s[(axis + 2) % 3];
             size[axis] = s[axis] + bar;
             const Pose pose{box.center_world * offset, box.center_world.orientation};
-            shapes.solid.push_back(
-                {primitives.cube, constants_of(matrix_of(pose, size), box.colour, 1.0, 0.5, 0.6), false});
+            shapes.solid.push_back({primitives.cube, constants_of(matrix_of(pose, size), box.colour, 1.0, 0.5, 0.6)});
         }
     }
     if (box.face_opacity <= 0.0) return;
-    shapes.glass.push_back({primitives.cube,
-                            constants_of(matrix_of(box.center_world, s), box.colour, box.face_opacity, kDenserEdges, 0),
-                            false});
+    shapes.glass.push_back(
+        {primitives.cube, constants_of(matrix_of(box.center_world, s), box.colour, box.face_opacity, kDenserEdges, 0)});
 }
 
 void add_bubble(Shapes& shapes, const SceneBubble& bubble, const Primitives& primitives) {
     const Pose pose{bubble.center_world, Quat{1, 0, 0, 0}};
     shapes.glass.push_back(
-        {primitives.ball, constants_of(matrix_of(pose, Vec3(bubble.radius_m)), bubble.colour, 0.16, 0, 0), false});
+        {primitives.ball, constants_of(matrix_of(pose, Vec3(bubble.radius_m)), bubble.colour, 0.16, 0, 0)});
 }
 
 void add_tool(Shapes& shapes, const SceneTool& tool, const Primitives& primitives) {
     const Pose ball{tool.center_world, tool.stylus_world.orientation};
     shapes.solid.push_back(
-        {primitives.ball, constants_of(matrix_of(ball, Vec3(tool.radius_m)), tool.colour, 1.0, 0.28, 1.0), true});
+        {primitives.ball, constants_of(matrix_of(ball, Vec3(tool.radius_m)), tool.colour, 1.0, 0.28, 1.0)});
     const double r = stylus_radius_m(tool);
     const Mat4 shaft = matrix_of(tool.stylus_world, {r, r, stylus_length_m(tool)});
-    shapes.solid.push_back({primitives.stylus, constants_of(shaft, {0.27, 0.28, 0.30}, 1.0, 0.35, 1.0), true});
+    shapes.solid.push_back({primitives.stylus, constants_of(shaft, {0.27, 0.28, 0.30}, 1.0, 0.35, 1.0)});
+}
+
+// Takes +Z to a direction, stretched by `size` along its own axes.
+Mat4 matrix_along(const Vec3& from, const Vec3& direction, const Vec3& size) {
+    const Vec3 aside = std::abs(direction.y) < 0.9 ? Vec3(0, 1, 0) : Vec3(1, 0, 0);
+    const Vec3 x = glm::normalize(glm::cross(aside, direction)), y = glm::cross(direction, x);
+    return {glm::dvec4(x * size.x, 0), glm::dvec4(y * size.y, 0), glm::dvec4(direction * size.z, 0),
+            glm::dvec4(from, 1)};
+}
+
+void add_contact(Shapes& shapes, const Scene& scene, const Primitives& primitives) {
+    const ContactMarks marks = contact_marks(scene);
+    const auto add = [&](const PrimitiveRange& range, const Mat4& place) {
+        shapes.solid.push_back({range, constants_of(place, marks.colour, 1.0, 0.4, 0.8)});
+    };
+    if (marks.ring) {
+        const ContactRing& ring = *marks.ring;
+        add(primitives.ring, matrix_along(ring.center_world, ring.axis_world, Vec3(ring.radius_m)));
+    }
+    if (!marks.arrow) return;
+    const ForceArrow& a = *marks.arrow;
+    const double shaft_m = a.length_m - a.head_m;
+    add(primitives.rod, matrix_along(a.from_world, a.direction_world, {a.shaft_radius_m, a.shaft_radius_m, shaft_m}));
+    add(primitives.cone, matrix_along(a.from_world + shaft_m * a.direction_world, a.direction_world,
+                                      {a.head_radius_m, a.head_radius_m, a.head_m}));
 }
 
 }  // namespace
@@ -150,7 +151,41 @@ Mat4 world_from_patch(const Scene& scene) {
     return matrix(scene.world_from_object) * glm::translate(Mat4(1.0), scene.lattice_origin_object);
 }
 
+Ball ball_of(const SceneTool& tool) {
+    if (!tool.visible) return {};
+    const double half_length = 0.5 * stylus_length_m(tool);
+    const Ball stylus{tool.stylus_world * Vec3{0, 0, half_length}, half_length + stylus_radius_m(tool)};
+    return around({tool.center_world, tool.radius_m}, stylus);
+}
+
+std::array<Ball, 9> balls_of(const SceneTool& tool) {
+    std::array<Ball, 9> balls;
+    if (!tool.visible) return balls;
+    balls[0] = {tool.center_world, tool.radius_m};
+    const std::size_t parts = balls.size() - 1;
+    const double half_m = 0.5 * stylus_length_m(tool) / static_cast<double>(parts);
+    for (std::size_t i = 0; i < parts; ++i) {
+        const Vec3 middle{0.0, 0.0, half_m * static_cast<double>(2 * i + 1)};
+        balls[i + 1] = {tool.stylus_world * middle, std::hypot(half_m, stylus_radius_m(tool))};
+    }
+    return balls;
+}
+
+Ball ball_of(const SceneBox& box) {
+    // Its edges are bars that stand a little out of it.
+    return {box.center_world.position_m, box.visible ? half_diagonal(box.size_m) + bar_m(box) : 0.0};
+}
+
+Ball ball_of(const SceneBubble& bubble) { return {bubble.center_world, bubble.visible ? bubble.radius_m : 0.0}; }
+
+const Vec3& direction_to_light() { return kToLight; }
+
 Workpiece place_workpiece(const Scene& scene, const Box& patch_bounds, double reach_m) {
+    if (!scene.workpiece_object.empty()) {
+        const Vec3 center = scene.world_from_object * scene.workpiece_object.center();
+        const Vec3 size = scene.workpiece_object.extent() * scene.world_from_object.scale;
+        return {{center, 0.5 * glm::length(size)}, {center, (size.x + size.y + size.z) / 6.0}};
+    }
     if (patch_bounds.empty()) return {};
     const Vec3 center = scene.world_from_object * (scene.lattice_origin_object + patch_bounds.center());
     const Vec3 size = patch_bounds.extent() * scene.world_from_object.scale;
@@ -161,36 +196,49 @@ DepthRange depth_range(const Scene& scene, const Workpiece& workpiece) {
     const Eyes eyes = eyes_of(scene.viewer);
     const double eye_m =
         std::min(distance_in_front(scene.screen, eyes.left_world), distance_in_front(scene.screen, eyes.right_world));
-    const Ball bubble{scene.bubble.center_world, scene.bubble.visible ? scene.bubble.radius_m : 0.0};
     DepthRange range;
-    for (const Ball& ball :
-         {workpiece.enclosing, tool_ball(scene.tool), box_ball(scene.box), box_ball(scene.proposed_box), bubble}) {
+    const std::array signs = boxes_of(contact_marks(scene));
+    Box panel;
+    if (scene.panel)
+        for (const Vec3& corner : corners_world(scene.panel->stand)) panel.include(corner);
+    for (const Ball& ball : {workpiece.enclosing, ball_of(scene.tool), ball_of(scene.box), ball_of(scene.proposed_box),
+                             ball_of(scene.bubble), ball_around(signs[0]), ball_around(signs[1]), ball_around(panel)}) {
         if (ball.radius_m <= 0.0) continue;
         const double center_m = eye_m - distance_in_front(scene.screen, ball.center_world);
         range.near_m = std::min(range.near_m, 0.9 * (center_m - ball.radius_m));
         range.far_m = std::max(range.far_m, 1.5 * (center_m + ball.radius_m));
     }
     // Something reaches to the eye or behind it: what is nearer than 1 cm cannot be seen anyway.
-    range.near_m = std::max(range.near_m, 0.01);
+    range.near_m = std::exp2(std::floor(std::log2(std::max(range.near_m, 0.01))));
+    range.far_m = std::exp2(std::ceil(std::log2(range.far_m)));
     return range;
 }
 
-shared::FrameUniforms frame_uniforms(const Scene& scene, const Workpiece& workpiece, std::uint32_t shadow_texels) {
+shared::FrameUniforms frame_uniforms(const Scene& scene, const Workpiece& workpiece) {
     shared::FrameUniforms frame{};
     const Eyes eyes = eyes_of(scene.viewer);
     const DepthRange depth = depth_range(scene, workpiece);
     const std::array eye_world{eyes.left_world, eyes.right_world};
     for (std::size_t i = 0; i < 2; ++i) {
+        const Mat4 guarded = glm::scale(Mat4(1.0), Vec3(1.0 / kGuard, 1.0 / kGuard, 1.0));
         frame.clip_from_world[i] =
-            glm::mat4(off_axis_projection(scene.screen, eye_world[i], depth.near_m, depth.far_m));
+            glm::mat4(guarded * off_axis_projection(scene.screen, eye_world[i], depth.near_m, depth.far_m));
         frame.eye_world[i] = vec4_of(eye_world[i], 1.0);
     }
-    set_shadow_frame(frame, around(workpiece.enclosing, tool_ball(scene.tool)), shadow_texels);
+    const Vec3 middle = middle_of(eyes);
+    frame.clip_from_world_middle = glm::mat4(off_axis_projection(scene.screen, middle, depth.near_m, depth.far_m));
+    frame.fade = {
+        glm::vec4(glm::dvec4(scene.edge_fade, scene.edge_fade_band, distance_in_front(scene.screen, middle), kGuard))};
     frame.light = vec4_of(kToLight, kLightHalfAngleTangent);
     frame.light_colour = vec4_of(kLightColour, 0.0);
     frame.sky_colour = vec4_of(kSkyColour, 0.0);
     frame.ground_colour = vec4_of(kGroundColour, 0.0);
-    if (scene.tool.visible) frame.tool = vec4_of(scene.tool.center_world, scene.tool.radius_m);
+    if (scene.tool.visible) {
+        const Pose& stylus = scene.tool.stylus_world;
+        frame.tool = vec4_of(scene.tool.center_world, scene.tool.radius_m);
+        frame.stylus_tip = vec4_of(stylus.position_m, stylus_radius_m(scene.tool));
+        frame.stylus_end = vec4_of(stylus * Vec3{0, 0, stylus_length_m(scene.tool)}, 0.0);
+    }
     frame.tool_colour = vec4_of(linear_of(scene.tool.colour), 0.0);
     frame.workpiece = vec4_of(workpiece.typical.center_world, workpiece.typical.radius_m);
     if (scene.pedestal.visible) frame.pedestal = vec4_of(scene.pedestal.top_center_world, scene.pedestal.radius_m);
@@ -201,12 +249,12 @@ shared::FrameUniforms frame_uniforms(const Scene& scene, const Workpiece& workpi
 Shapes shapes_of(const Scene& scene, const Primitives& primitives) {
     Shapes shapes;
     if (scene.tool.visible) add_tool(shapes, scene.tool, primitives);
+    add_contact(shapes, scene, primitives);
     if (scene.pedestal.visible) {
         const ScenePedestal& p = scene.pedestal;
         const Pose pose{p.top_center_world, Quat{1, 0, 0, 0}};
         const Vec3 size{p.radius_m, std::max(p.top_center_world.y, 0.001), p.radius_m};
-        shapes.solid.push_back(
-            {primitives.plinth, constants_of(matrix_of(pose, size), p.colour, 1.0, 0.75, 0.4), false});
+        shapes.solid.push_back({primitives.plinth, constants_of(matrix_of(pose, size), p.colour, 1.0, 0.75, 0.4)});
     }
     if (scene.show_wall_frame) add_wall_frame(shapes, scene.screen, primitives);
     for (const SceneBox* box : {&scene.box, &scene.proposed_box}) {

@@ -10,8 +10,9 @@ namespace {
 
 using gpu::structure;
 
-VkAttachmentDescription attachment(VkFormat format, std::uint32_t samples, bool clear, bool keep,
-                                   VkImageLayout final_layout) {
+// clear: within the render area. An initial layout other than UNDEFINED keeps what lies outside of it.
+VkAttachmentDescription attachment(VkFormat format, std::uint32_t samples, bool clear, bool keep, VkImageLayout before,
+                                   VkImageLayout after) {
     VkAttachmentDescription a{};
     a.format = format;
     a.samples = static_cast<VkSampleCountFlagBits>(samples);
@@ -19,13 +20,13 @@ VkAttachmentDescription attachment(VkFormat format, std::uint32_t samples, bool 
     a.storeOp = keep ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE;
     a.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     a.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-    a.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
-    a.finalLayout = final_layout;
+    a.initialLayout = before;
+    a.finalLayout = after;
     return a;
 }
 
 // Frames follow one another on one queue: a pass waits for all that was done with its targets before, and what comes after
-// (sampling the shadow map, copying the picture) waits for it.
+// (showing the picture, copying it) waits for it.
 std::array<VkSubpassDependency, 2> orderly() {
     constexpr VkPipelineStageFlags kFragments = VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT |
                                                 VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT |
@@ -88,36 +89,8 @@ Result<gpu::FramebufferHandle> create_framebuffer(gpu::Device& device, VkRenderP
     return gpu::FramebufferHandle(core, framebuffer);
 }
 
-Result<void> create_shadow(gpu::Device& device, FrameTargets& t) {
-    constexpr std::uint32_t n = FrameTargets::kShadowTexels;
-    auto image =
-        gpu::Image::create(device, {.width = n,
-                                    .height = n,
-                                    .layers = 1,
-                                    .samples = 1,
-                                    .format = FrameTargets::kDepthFormat,
-                                    .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
-                                    .aspect = VK_IMAGE_ASPECT_DEPTH_BIT,
-                                    .name = "shadow map"});
-    if (!image) return std::unexpected(image.error());
-    t.shadow_depth = std::move(*image);
-    const std::array attachments{
-        attachment(FrameTargets::kDepthFormat, 1, true, true, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL)};
-    const VkAttachmentReference depth{0, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
-    VkSubpassDescription subpass{};
-    subpass.pDepthStencilAttachment = &depth;
-    auto pass = create_pass(device, attachments, subpass, 0);
-    if (!pass) return std::unexpected(pass.error());
-    t.shadow_pass = std::move(*pass);
-    const std::array views{t.shadow_depth.view()};
-    auto framebuffer = create_framebuffer(device, t.shadow_pass.raw(), views, {n, n});
-    if (!framebuffer) return std::unexpected(framebuffer.error());
-    t.shadow_framebuffer = std::move(*framebuffer);
-    return {};
-}
-
-Result<gpu::Image> create_view_image(gpu::Device& device, const FrameTargets& t, std::uint32_t samples, VkFormat format,
-                                     VkImageUsageFlags usage, VkImageAspectFlags aspect, const char* name) {
+Result<gpu::Image> create_image(gpu::Device& device, const FrameTargets& t, std::uint32_t samples, VkFormat format,
+                                VkImageUsageFlags usage, VkImageAspectFlags aspect, const char* name) {
     return gpu::Image::create(device, {.width = t.size.width,
                                        .height = t.size.height,
                                        .layers = 2,
@@ -125,62 +98,75 @@ Result<gpu::Image> create_view_image(gpu::Device& device, const FrameTargets& t,
                                        .format = format,
                                        .usage = usage,
                                        .aspect = aspect,
+                                       .other_formats = format == FrameTargets::kEncodedFormat,
                                        .name = name});
 }
 
-Result<void> create_views(gpu::Device& device, FrameTargets& t) {
+Result<void> create_images(gpu::Device& device, FrameTargets& t) {
     constexpr VkImageUsageFlags kDrawn = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-    auto picture = create_view_image(device, t, 1, FrameTargets::kColourFormat,
-                                     kDrawn | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, VK_IMAGE_ASPECT_COLOR_BIT, "picture");
+    const VkFormat format = t.encodes ? FrameTargets::kEncodedFormat : FrameTargets::kLinearFormat;
+    auto picture =
+        create_image(device, t, 1, format, kDrawn | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                     VK_IMAGE_ASPECT_COLOR_BIT, "picture");
     if (!picture) return std::unexpected(picture.error());
-    auto depth = create_view_image(device, t, t.samples, FrameTargets::kDepthFormat,
-                                   VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_ASPECT_DEPTH_BIT, "depth");
+    auto depth = create_image(device, t, t.samples, FrameTargets::kDepthFormat,
+                              VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_ASPECT_DEPTH_BIT, "depth");
     if (!depth) return std::unexpected(depth.error());
     t.picture = std::move(*picture);
     t.depth = std::move(*depth);
-    const bool resolves = t.samples > 1;
-    if (resolves) {
-        auto colour = create_view_image(device, t, t.samples, FrameTargets::kColourFormat, kDrawn,
-                                        VK_IMAGE_ASPECT_COLOR_BIT, "samples");
-        if (!colour) return std::unexpected(colour.error());
-        t.colour = std::move(*colour);
-    }
+    auto view = t.picture.view_as(device, FrameTargets::kLinearFormat);
+    if (!view) return std::unexpected(view.error());
+    t.both_eyes = std::move(*view);
+    if (t.samples == 1) return {};
+    auto colour = create_image(device, t, t.samples, format, kDrawn, VK_IMAGE_ASPECT_COLOR_BIT, "samples");
+    if (!colour) return std::unexpected(colour.error());
+    t.colour = std::move(*colour);
+    return {};
+}
 
+// The finished picture, depth, and with several samples the colours that are resolved into the picture.
+Result<gpu::RenderPassHandle> create_view_pass(gpu::Device& device, const FrameTargets& t, bool whole) {
+    constexpr VkImageLayout kUndefined = VK_IMAGE_LAYOUT_UNDEFINED, kShown = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                            kColour = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                            kDepth = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+    const VkFormat format = t.encodes ? FrameTargets::kEncodedFormat : FrameTargets::kLinearFormat;
+    const bool resolves = t.samples > 1;
     std::vector<VkAttachmentDescription> attachments{
-        attachment(FrameTargets::kColourFormat, 1, !resolves, true, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL),
-        attachment(FrameTargets::kDepthFormat, t.samples, true, false,
-                   VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL)};
-    std::vector<VkImageView> views{t.picture.view(), t.depth.view()};
-    if (resolves) {
-        attachments.push_back(
-            attachment(FrameTargets::kColourFormat, t.samples, true, false, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL));
-        views.push_back(t.colour.view());
-    }
-    const VkAttachmentReference finished{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-    const VkAttachmentReference depth_reference{1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
-    const VkAttachmentReference sampled{2, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+        attachment(format, 1, !resolves, true, whole ? kUndefined : kShown, kShown),
+        attachment(FrameTargets::kDepthFormat, t.samples, true, false, kUndefined, kDepth)};
+    if (resolves) attachments.push_back(attachment(format, t.samples, true, false, kUndefined, kColour));
+    const VkAttachmentReference finished{0, kColour}, depth{1, kDepth}, sampled{2, kColour};
     VkSubpassDescription subpass{};
     subpass.colorAttachmentCount = 1;
     subpass.pColorAttachments = resolves ? &sampled : &finished;
     subpass.pResolveAttachments = resolves ? &finished : nullptr;
-    subpass.pDepthStencilAttachment = &depth_reference;
-    auto pass = create_pass(device, attachments, subpass, 0b11);
-    if (!pass) return std::unexpected(pass.error());
-    t.view_pass = std::move(*pass);
-    auto framebuffer = create_framebuffer(device, t.view_pass.raw(), views, t.size);
+    subpass.pDepthStencilAttachment = &depth;
+    return create_pass(device, attachments, subpass, 0b11);
+}
+
+Result<void> create_passes(gpu::Device& device, FrameTargets& t) {
+    for (const bool whole : {true, false}) {
+        auto pass = create_view_pass(device, t, whole);
+        if (!pass) return std::unexpected(pass.error());
+        (whole ? t.whole_pass : t.part_pass) = std::move(*pass);
+    }
+    std::vector<VkImageView> views{t.picture.view(), t.depth.view()};
+    if (t.samples > 1) views.push_back(t.colour.view());
+    auto framebuffer = create_framebuffer(device, t.whole_pass.raw(), views, t.size);
     if (!framebuffer) return std::unexpected(framebuffer.error());
-    t.view_framebuffer = std::move(*framebuffer);
+    t.framebuffer = std::move(*framebuffer);
     return {};
 }
 
 }  // namespace
 
-Result<FrameTargets> FrameTargets::create(gpu::Device& device, ImageSize size) {
+Result<FrameTargets> FrameTargets::create(gpu::Device& device, ImageSize size, std::uint32_t samples) {
     FrameTargets targets;
     targets.size = size;
-    targets.samples = device.capabilities().msaa_samples;
-    if (const auto done = create_shadow(device, targets); !done) return std::unexpected(done.error());
-    if (const auto done = create_views(device, targets); !done) return std::unexpected(done.error());
+    targets.samples = samples;
+    targets.encodes = samples == 1;
+    if (const auto done = create_images(device, targets); !done) return std::unexpected(done.error());
+    if (const auto done = create_passes(device, targets); !done) return std::unexpected(done.error());
     return targets;
 }
 

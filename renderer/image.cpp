@@ -1,9 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/image.hpp"
 
+#include <algorithm>
+
 #include "base/error.hpp"
 
 namespace burin {
+
+PixelRect around(const PixelRect& a, const PixelRect& b) {
+    if (a.empty()) return b;
+    if (b.empty()) return a;
+    const std::uint32_t x = std::min(a.x, b.x), y = std::min(a.y, b.y);
+    return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
+}
 
 Image side_by_side(const StereoImage& stereo) {
     const ImageSize size = stereo.left.size;

@@ -11,7 +11,21 @@ namespace burin {
 struct ImageSize {
     std::uint32_t width = 0;  // pixels
     std::uint32_t height = 0;
+
+    bool operator==(const ImageSize&) const = default;
 };
+
+// A part of a picture; (0, 0) is its upper left pixel.
+struct PixelRect {
+    std::uint32_t x = 0, y = 0;
+    std::uint32_t width = 0, height = 0;  // 0: nothing
+
+    [[nodiscard]] bool empty() const { return width == 0 || height == 0; }
+    [[nodiscard]] bool operator==(const PixelRect&) const = default;
+};
+[[nodiscard]] constexpr PixelRect all_of(ImageSize size) { return {0, 0, size.width, size.height}; }
+// The smallest one that holds both.
+[[nodiscard]] PixelRect around(const PixelRect& a, const PixelRect& b);
 
 struct Image {
     ImageSize size;
@@ -23,19 +37,8 @@ struct Image {
     }
 };
 
-// What a frame cost and drew. Times are the GPU's own; 0 where it has no timestamps.
-struct RenderStats {
-    double gpu_s = 0.0;           // the whole frame without the copy back
-    double shadow_gpu_s = 0.0;    // of it, the shadow map
-    std::uint64_t triangles = 0;  // of the workpiece, in one view
-    std::uint32_t draws = 0;      // draw calls of both passes
-    std::uint32_t patches = 0;
-    std::uint64_t uploaded_bytes = 0;  // changed patches brought to the GPU for this frame
-};
-
 struct StereoImage {
     Image left, right;  // the views of the left and of the right eye, of the same size
-    RenderStats stats;
 };
 
 // Left eye's view on the left, right eye's on the right: for parallel viewing and for displays that take side by side.

@@ -4,11 +4,13 @@
 #include <cstddef>
 
 #include "gpu/graphics_pipeline.hpp"
+#include "renderer/surface/patch_detail.hpp"
 #include "shaders/backdrop.frag.spv.hpp"
 #include "shaders/backdrop.vert.spv.hpp"
+#include "shaders/fine.frag.spv.hpp"
+#include "shaders/fine.vert.spv.hpp"
 #include "shaders/glass.frag.spv.hpp"
 #include "shaders/glass.vert.spv.hpp"
-#include "shaders/shadow.vert.spv.hpp"
 #include "shaders/shared/surface_vertex.h"
 #include "shaders/solid.frag.spv.hpp"
 #include "shaders/solid.vert.spv.hpp"
@@ -21,12 +23,14 @@ using gpu::structure;
 
 constexpr VkShaderStageFlags kAllStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
-const std::array<VkVertexInputBindingDescription, 1> kBindings{
-    {{0, sizeof(shared::SurfaceVertex), VK_VERTEX_INPUT_RATE_VERTEX}}};
-const std::array<VkVertexInputAttributeDescription, 3> kAttributes{
+const std::array<VkVertexInputBindingDescription, 2> kBindings{
+    {{0, sizeof(shared::SurfaceVertex), VK_VERTEX_INPUT_RATE_VERTEX},
+     {1, sizeof(VertexLight), VK_VERTEX_INPUT_RATE_VERTEX}}};
+const std::array<VkVertexInputAttributeDescription, 4> kAttributes{
     {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(shared::SurfaceVertex, x)},
      {1, 0, VK_FORMAT_R32_UINT, offsetof(shared::SurfaceVertex, normal)},
-     {2, 0, VK_FORMAT_R8G8B8A8_UNORM, offsetof(shared::SurfaceVertex, colour)}}};
+     {2, 0, VK_FORMAT_R8G8B8A8_UNORM, offsetof(shared::SurfaceVertex, colour)},
+     {3, 1, VK_FORMAT_R8G8_UNORM, 0}}};
 
 gpu::GraphicsPipelineSpec spec_of(PipelineKind kind) {
     gpu::GraphicsPipelineSpec spec;
@@ -34,18 +38,15 @@ gpu::GraphicsPipelineSpec spec_of(PipelineKind kind) {
     spec.attributes = kAttributes;
     spec.vertex_spirv = k_solid_vert;
     switch (kind) {
-        case PipelineKind::shadow:
-            spec.name = "shadow pipeline";
-            spec.vertex_spirv = k_shadow_vert;
-            spec.attributes = std::span(kAttributes).first(1);
-            spec.color_attachments = 0;
-            // Steep surfaces cover many depths within a texel of the map.
-            spec.depth_bias_slope = 2.0f;
-            spec.depth_bias_constant = 1.0f;
-            break;
         case PipelineKind::solid:
             spec.name = "solid pipeline";
             spec.fragment_spirv = k_solid_frag;
+            spec.cull = VK_CULL_MODE_BACK_BIT;
+            break;
+        case PipelineKind::fine:
+            spec.name = "fine surface pipeline";
+            spec.vertex_spirv = k_fine_vert;
+            spec.fragment_spirv = k_fine_frag;
             spec.cull = VK_CULL_MODE_BACK_BIT;
             break;
         case PipelineKind::backdrop:
@@ -60,6 +61,7 @@ gpu::GraphicsPipelineSpec spec_of(PipelineKind kind) {
             spec.name = "glass pipeline";
             spec.vertex_spirv = k_glass_vert;
             spec.fragment_spirv = k_glass_frag;
+            spec.attributes = std::span(kAttributes).first(3);
             spec.depth_write = false;
             spec.blend = true;
             spec.cull = kind == PipelineKind::glass_back ? VK_CULL_MODE_FRONT_BIT : VK_CULL_MODE_BACK_BIT;
@@ -71,48 +73,24 @@ gpu::GraphicsPipelineSpec spec_of(PipelineKind kind) {
 
 }  // namespace
 
-Result<Pipelines> Pipelines::create(gpu::Device& device, const FrameTargets& targets) {
+Result<Pipelines> Pipelines::create(gpu::Device& device) {
     Pipelines p;
     auto uniforms =
         gpu::Buffer::create(device, gpu::BufferUse::uniform, sizeof(shared::FrameUniforms), "frame uniforms");
     if (!uniforms) return std::unexpected(uniforms.error());
     p.uniforms_ = std::move(*uniforms);
-    auto done = p.create_samplers(device);
-    if (done) done = p.create_layouts(device);
-    if (done) done = p.create_set(device, targets);
+    auto done = p.create_layouts(device);
+    if (done) done = p.create_set(device);
     if (!done) return std::unexpected(done.error());
     return p;
 }
 
-Result<void> Pipelines::create_samplers(gpu::Device& device) {
-    const auto& core = device.core();
-    VkFormatProperties format{};
-    vkGetPhysicalDeviceFormatProperties(core->physical, FrameTargets::kDepthFormat, &format);
-    const bool linear = (format.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT) != 0;
-    auto info = structure<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
-    info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    for (const bool compare : {false, true}) {
-        info.compareEnable = compare ? VK_TRUE : VK_FALSE;
-        info.compareOp = VK_COMPARE_OP_LESS_OR_EQUAL;
-        info.minFilter = info.magFilter = compare && linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
-        VkSampler sampler = VK_NULL_HANDLE;
-        if (const VkResult r = core->vk.vkCreateSampler(core->device, &info, nullptr, &sampler); r != VK_SUCCESS) {
-            return gpu::vulkan_failure("renderer", "no sampler", r);
-        }
-        (compare ? compare_sampler_ : depth_sampler_) = gpu::SamplerHandle(core, sampler);
-    }
-    return {};
-}
-
 Result<void> Pipelines::create_layouts(gpu::Device& device) {
     const auto& core = device.core();
-    const std::array<VkDescriptorSetLayoutBinding, 3> bindings{
-        {{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, kAllStages, nullptr},
-         {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
-         {2, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}}};
+    const VkDescriptorSetLayoutBinding binding{0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, kAllStages, nullptr};
     auto set_info = structure<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
-    set_info.bindingCount = static_cast<std::uint32_t>(bindings.size());
-    set_info.pBindings = bindings.data();
+    set_info.bindingCount = 1;
+    set_info.pBindings = &binding;
     VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
     if (const VkResult r = core->vk.vkCreateDescriptorSetLayout(core->device, &set_info, nullptr, &set_layout);
         r != VK_SUCCESS) {
@@ -133,14 +111,13 @@ Result<void> Pipelines::create_layouts(gpu::Device& device) {
     return {};
 }
 
-Result<void> Pipelines::create_set(gpu::Device& device, const FrameTargets& targets) {
+Result<void> Pipelines::create_set(gpu::Device& device) {
     const auto& core = device.core();
-    const std::array<VkDescriptorPoolSize, 2> sizes{
-        {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2}}};
+    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1};
     auto pool_info = structure<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
     pool_info.maxSets = 1;
-    pool_info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
-    pool_info.pPoolSizes = sizes.data();
+    pool_info.poolSizeCount = 1;
+    pool_info.pPoolSizes = &size;
     VkDescriptorPool pool = VK_NULL_HANDLE;
     if (const VkResult r = core->vk.vkCreateDescriptorPool(core->device, &pool_info, nullptr, &pool); r != VK_SUCCESS) {
         return gpu::vulkan_failure("renderer", "no descriptor pool", r);
@@ -154,34 +131,30 @@ Result<void> Pipelines::create_set(gpu::Device& device, const FrameTargets& targ
         return gpu::vulkan_failure("renderer", "no descriptor set", r);
     }
     const VkDescriptorBufferInfo buffer{uniforms_.raw(), 0, VK_WHOLE_SIZE};
-    const VkImageLayout layout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
-    const std::array<VkDescriptorImageInfo, 2> images{{{compare_sampler_.raw(), targets.shadow_depth.view(), layout},
-                                                       {depth_sampler_.raw(), targets.shadow_depth.view(), layout}}};
-    std::array<VkWriteDescriptorSet, 2> writes{};
-    writes.fill(structure<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET));
-    writes[0].dstSet = writes[1].dstSet = set_;
-    writes[0].descriptorCount = 1;
-    writes[0].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-    writes[0].pBufferInfo = &buffer;
-    writes[1].dstBinding = 1;
-    writes[1].descriptorCount = 2;  // runs on into binding 2
-    writes[1].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    writes[1].pImageInfo = images.data();
-    core->vk.vkUpdateDescriptorSets(core->device, 2, writes.data(), 0, nullptr);
+    auto write = structure<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+    write.dstSet = set_;
+    write.descriptorCount = 1;
+    write.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    write.pBufferInfo = &buffer;
+    core->vk.vkUpdateDescriptorSets(core->device, 1, &write, 0, nullptr);
     return {};
 }
 
-Result<VkPipeline> Pipelines::pipeline(gpu::Device& device, PipelineKind kind, const FrameTargets& targets) {
-    gpu::PipelineHandle& kept = pipelines_[static_cast<std::size_t>(kind)];
+Result<VkPipeline> Pipelines::pipeline(gpu::Device& device, PipelineKind kind, bool fades,
+                                       const FrameTargets& targets) {
+    if (kind == PipelineKind::backdrop) fades = false;  // behind the screen nothing does
+    gpu::PipelineHandle& kept = pipelines_[fades ? 1 : 0][static_cast<std::size_t>(kind)];
     if (!kept) {
         gpu::GraphicsPipelineSpec spec = spec_of(kind);
-        const bool shadow = kind == PipelineKind::shadow;
+        const std::array<std::uint32_t, 2> constants{targets.encodes ? 1u : 0u, fades ? 1u : 0u};
         spec.layout = layout_.raw();
-        spec.render_pass = shadow ? targets.shadow_pass.raw() : targets.view_pass.raw();
-        spec.samples = shadow ? 1 : targets.samples;
+        spec.render_pass = targets.whole_pass.raw();
+        spec.samples = targets.samples;
+        spec.constants = constants;
         auto created = gpu::create_graphics_pipeline(device, spec);
         if (!created) return std::unexpected(created.error());
         kept = std::move(*created);
+        ++created_;
     }
     return kept.raw();
 }

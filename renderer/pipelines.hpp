@@ -12,8 +12,8 @@
 namespace burin {
 
 enum class PipelineKind : std::size_t {
-    shadow,       // depth only, for the light
-    solid,        // the workpiece and the shapes
+    solid,        // the shapes, and the workpiece where it is lit at every pixel
+    fine,         // the workpiece where it is lit at its vertices
     backdrop,     // the room
     glass_back,   // the far faces of the workspace's boxes and bubble, then
     glass_front,  // their near ones; neither writes depth
@@ -22,26 +22,29 @@ enum class PipelineKind : std::size_t {
 
 class Pipelines {
 public:
-    [[nodiscard]] static Result<Pipelines> create(gpu::Device& device, const FrameTargets& targets);
+    [[nodiscard]] static Result<Pipelines> create(gpu::Device& device);
 
-    [[nodiscard]] Result<VkPipeline> pipeline(gpu::Device& device, PipelineKind kind, const FrameTargets& targets);
+    // For the passes of these targets; the same number of samples each time. fades: parallax, towards the screen's edges.
+    [[nodiscard]] Result<VkPipeline> pipeline(gpu::Device& device, PipelineKind kind, bool fades,
+                                              const FrameTargets& targets);
+    [[nodiscard]] std::uint32_t created() const { return created_; }  // pipelines, so far
     [[nodiscard]] VkPipelineLayout layout() const { return layout_.raw(); }
     [[nodiscard]] VkDescriptorSet set() const { return set_; }
-    // To be filled before submit(), when no frame is in flight.
-    [[nodiscard]] shared::FrameUniforms& uniforms() { return uniforms_.mapped_as<shared::FrameUniforms>()[0]; }
+    [[nodiscard]] VkDescriptorSetLayout set_layout() const { return set_layout_.raw(); }
+    // For FrameUniforms; brought over with a frame's own commands, so that frames may follow one another unwaited for.
+    [[nodiscard]] const gpu::Buffer& uniforms() const { return uniforms_; }
 
 private:
-    [[nodiscard]] Result<void> create_samplers(gpu::Device& device);
     [[nodiscard]] Result<void> create_layouts(gpu::Device& device);
-    [[nodiscard]] Result<void> create_set(gpu::Device& device, const FrameTargets& targets);
+    [[nodiscard]] Result<void> create_set(gpu::Device& device);
 
     gpu::Buffer uniforms_;
-    gpu::SamplerHandle compare_sampler_, depth_sampler_;
     gpu::SetLayoutHandle set_layout_;
     gpu::PipelineLayoutHandle layout_;
     gpu::DescriptorPoolHandle pool_;
     VkDescriptorSet set_ = VK_NULL_HANDLE;  // freed with its pool
-    std::array<gpu::PipelineHandle, static_cast<std::size_t>(PipelineKind::count)> pipelines_;
+    std::array<std::array<gpu::PipelineHandle, static_cast<std::size_t>(PipelineKind::count)>, 2> pipelines_;
+    std::uint32_t created_ = 0;
 };
 
 }  // namespace burin

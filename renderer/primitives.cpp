@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/primitives.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -110,6 +111,30 @@ PrimitiveRange stylus(Builder& b) {
     return turned(b, profile, 48, true);
 }
 
+PrimitiveRange rod(Builder& b) {
+    constexpr int kRows = 8;  // small triangles: see plinth()
+    std::vector<ProfilePoint> profile{{0.0, 0.0, 0.0, -1.0}, {1.0, 0.0, 0.0, -1.0}};
+    for (int i = 0; i <= kRows; ++i) profile.push_back({1.0, static_cast<double>(i) / kRows, 1.0, 0.0});
+    return turned(b, profile, 32, true);
+}
+
+PrimitiveRange cone(Builder& b) {
+    return turned(b,
+                  std::array<ProfilePoint, 4>{
+                      {{0.0, 0.0, 0.0, -1.0}, {1.0, 0.0, 0.0, -1.0}, {1.0, 0.0, 1.0, 1.0}, {0.0, 1.0, 1.0, 1.0}}},
+                  48, true);
+}
+
+PrimitiveRange ring(Builder& b) {
+    constexpr int kAround = 16;  // its own roundness
+    std::vector<ProfilePoint> profile;
+    for (int i = 0; i <= kAround; ++i) {
+        const double a = 2.0 * kPi * i / kAround;
+        profile.push_back({1.0 + kRingThickness * std::cos(a), kRingThickness * std::sin(a), std::cos(a), std::sin(a)});
+    }
+    return turned(b, profile, 64, true);
+}
+
 PrimitiveRange plinth(Builder& b) {
     constexpr double kRound = 0.03, kRoundHeight = 0.012;  // of the radius; of the height
     std::vector<ProfilePoint> profile;
@@ -138,12 +163,16 @@ PrimitiveRange screen_quad(Builder& b) {
 
 Primitives make_primitives() {
     Builder b;
-    const PrimitiveRange ball_range = ball(b), cube_range = cube(b), stylus_range = stylus(b), plinth_range = plinth(b),
+    const PrimitiveRange ball_range = ball(b), cube_range = cube(b), stylus_range = stylus(b), rod_range = rod(b),
+                         cone_range = cone(b), ring_range = ring(b), plinth_range = plinth(b),
                          screen_range = screen_quad(b);
     Primitives out = b.take();
     out.ball = ball_range;
     out.cube = cube_range;
     out.stylus = stylus_range;
+    out.rod = rod_range;
+    out.cone = cone_range;
+    out.ring = ring_range;
     out.plinth = plinth_range;
     out.screen_quad = screen_range;
     return out;

@@ -15,12 +15,17 @@ struct PrimitiveRange {
     std::uint32_t index_count = 0;
 };
 
+inline constexpr double kRingThickness = 0.09;  // of its radius
+
 struct Primitives {
     std::vector<shared::SurfaceVertex> vertices;
     std::vector<std::uint32_t> indices;
     PrimitiveRange ball;         // radius 1 around the origin
     PrimitiveRange cube;         // -0.5 to 0.5
     PrimitiveRange stylus;       // along +Z from 0 to 1, radius at most 1, thin at z = 0
+    PrimitiveRange rod;          // along +Z from 0 to 1, radius 1; open at z = 1
+    PrimitiveRange cone;         // along +Z from 0 to its tip at 1, radius 1
+    PrimitiveRange ring;         // radius 1 around +Z, as thick as kRingThickness each way
     PrimitiveRange plinth;       // along +Y from -1 to 0, radius 1, its upper edge rounded for a height of 2 to 3 radii
     PrimitiveRange screen_quad;  // -1 to 1 in x and y, z = 0
 };

@@ -6,10 +6,12 @@
 #include "gpu/commands.hpp"
 #include "renderer/frame_setup.hpp"
 #include "renderer/frame_targets.hpp"
-#include "renderer/patch_store.hpp"
+#include "renderer/panel/panel_quad.hpp"
 #include "renderer/pipelines.hpp"
 #include "renderer/primitives.hpp"
-#include "renderer/projection.hpp"
+#include "renderer/redraw.hpp"
+#include "renderer/stereo/projection.hpp"
+#include "renderer/surface/patch_store.hpp"
 
 namespace burin {
 
@@ -21,28 +23,45 @@ constexpr std::uint32_t kMaxSide = 8192;
 
 std::uint64_t layer_bytes(ImageSize size) { return std::uint64_t{4} * size.width * size.height; }
 
-// For the room: world_from_local takes the picture's corners, -1 to 1, to the screen's.
+// For the room: world_from_local takes the viewport's corners, -1 to 1, which lie kGuard times as far out as the picture's, to places on the
+// screen's plane.
 shared::DrawConstants screen_constants(const Screen& screen) {
     const Vec3 half_x = 0.5 * (screen.lower_right_world - screen.lower_left_world);
     const Vec3 half_y = 0.5 * (screen.upper_left_world - screen.lower_left_world);
     shared::DrawConstants c{};
-    c.world_from_local[0] = glm::vec4(glm::vec3(half_x), 0.0f);
-    c.world_from_local[1] = glm::vec4(glm::vec3(half_y), 0.0f);
+    c.world_from_local[0] = glm::vec4(glm::vec3(kGuard * half_x), 0.0f);
+    c.world_from_local[1] = glm::vec4(glm::vec3(kGuard * half_y), 0.0f);
     c.world_from_local[3] = glm::vec4(glm::vec3(screen.lower_left_world + half_x + half_y), 1.0f);
     return c;
 }
 
 VkViewport viewport_of(ImageSize size) {
-    return {0.0f, 0.0f, static_cast<float>(size.width), static_cast<float>(size.height), 0.0f, 1.0f};
+    const auto width = static_cast<float>(size.width), height = static_cast<float>(size.height);
+    constexpr auto kTimes = static_cast<float>(kGuard);
+    return {
+        -0.5f * (kTimes - 1.0f) * width, -0.5f * (kTimes - 1.0f) * height, kTimes * width, kTimes * height, 0.0f, 1.0f};
 }
 
 }  // namespace
 
 class Renderer::Implementation {
 public:
-    static Result<std::unique_ptr<Implementation>> create(gpu::Device& device, ImageSize size);
+    static Result<std::unique_ptr<Implementation>> create(gpu::Device& device, ImageSize size,
+                                                          const RendererOptions& options);
+    Result<RenderStats> record(gpu::Commands& commands, const Scene& scene);
     Result<StereoImage> render(const Scene& scene);
+    void show_panel(VkImageView panel) {
+        if (panel == panel_) return;
+        panel_ = panel;
+        ++panel_pictures_;
+    }
+
     PatchStore patches;
+    std::vector<Box> occluders;
+    Savings savings;
+    FrameTargets targets;
+    std::optional<Shown> shown;  // nothing: no picture yet
+    RenderStats stats;
 
 private:
     explicit Implementation(const gpu::Device& device) : device_(device) {}
@@ -51,175 +70,257 @@ private:
     struct Recording {
         gpu::Commands& commands;
         const Scene& scene;
+        PixelRect part;
         Shapes shapes;
+        PatchDraws surface;
         std::uint32_t draws = 0;
     };
+    struct StandingPanel {
+        std::optional<PanelQuad> quad;
+        std::uint64_t shows = 0;  // which of the pictures given
+    };
     Result<void> upload_primitives();
-    Result<void> draw_shadow_map(Recording& r);
+    PixelRect part_to_draw(const Shown& wanted, const PatchStore::Flushed& flushed);
+    void upload_uniforms(gpu::Commands& commands, const Shown& wanted);
     Result<void> draw_views(Recording& r);
+    void begin_pass(Recording& r);
+    Result<void> draw_shapes(Recording& r);
+    Result<void> draw_surface(Recording& r);
+    Result<void> draw_surface(Recording& r, PipelineKind kind, std::span<const DrawRange> ranges);
+    Result<void> draw_room(Recording& r);
+    Result<void> draw_panel(Recording& r);
+    Result<void> make_ready(StandingPanel& panel, bool fades);
+    Result<void> draw_glass(Recording& r);
     Result<void> use(Recording& r, PipelineKind kind);
-    void begin_pass(Recording& r, VkRenderPass pass, VkFramebuffer framebuffer, ImageSize size,
-                    std::span<const VkClearValue> clears);
-    void end_pass(Recording& r) { vk().vkCmdEndRenderPass(r.commands.raw()); }
-    void draw_surface(Recording& r);
     void draw(Recording& r, const PrimitiveRange& range, const shared::DrawConstants& constants);
-    void bind(Recording& r, const gpu::Buffer& vertices, const gpu::Buffer& indices);
+    void bind(Recording& r, const gpu::Buffer& vertices, const gpu::Buffer& lights, const gpu::Buffer& indices);
+    void bind_primitives(Recording& r) { bind(r, primitive_vertices_, primitive_lights_, primitive_indices_); }
     void push(Recording& r, const shared::DrawConstants& constants);
-    void copy_picture(Recording& r);
+    void copy_picture(gpu::Commands& commands);
+    Result<void> make_readback();
     Image picture(std::uint32_t layer) const;
+    std::uint32_t pipelines_created() const {
+        return pipelines_.created() + (panels_[0].quad ? 1 : 0) + (panels_[1].quad ? 1 : 0);
+    }
     const VolkDeviceTable& vk() const { return device_.core()->vk; }
 
     gpu::Device device_;
-    FrameTargets targets_;
     Pipelines pipelines_;
     Primitives primitives_;
-    gpu::Buffer primitive_vertices_, primitive_indices_, readback_;
+    gpu::Buffer primitive_vertices_, primitive_lights_, primitive_indices_;
+    gpu::Buffer readback_;                 // made when first needed
+    std::array<StandingPanel, 2> panels_;  // likewise; the second one where parallax fades
+    VkImageView panel_ = VK_NULL_HANDLE;
+    std::uint64_t panel_pictures_ = 0;  // given to the renderer
 };
 
-Result<std::unique_ptr<Renderer::Implementation>> Renderer::Implementation::create(gpu::Device& device,
-                                                                                   ImageSize size) {
+Result<std::unique_ptr<Renderer::Implementation>> Renderer::Implementation::create(gpu::Device& device, ImageSize size,
+                                                                                   const RendererOptions& options) {
     if (size.width == 0 || size.height == 0 || size.width > kMaxSide || size.height > kMaxSide) {
         return fail("picture size",
                     std::to_string(size.width) + " x " + std::to_string(size.height) + " is not possible",
                     "choose 1 to " + std::to_string(kMaxSide) + " pixels each way");
     }
+    const std::uint32_t most = device.capabilities().msaa_samples;
+    const std::uint32_t samples = options.samples == 0 ? most : options.samples;
+    if (samples != 1 && samples != most) {
+        return fail(
+            "samples a pixel",
+            device.info().name + " draws with 1 or " + std::to_string(most) + ", not " + std::to_string(samples),
+            "choose one of these");
+    }
     auto made = std::unique_ptr<Implementation>(new Implementation(device));
-    auto targets = FrameTargets::create(device, size);
+    made->savings = options.savings;
+    auto targets = FrameTargets::create(device, size, samples);
     if (!targets) return std::unexpected(targets.error());
-    made->targets_ = std::move(*targets);
-    auto pipelines = Pipelines::create(device, made->targets_);
+    made->targets = std::move(*targets);
+    auto pipelines = Pipelines::create(device);
     if (!pipelines) return std::unexpected(pipelines.error());
     made->pipelines_ = std::move(*pipelines);
-    auto readback = gpu::Buffer::create(device, gpu::BufferUse::readback, 2 * layer_bytes(size), "pictures");
-    if (!readback) return std::unexpected(readback.error());
-    made->readback_ = std::move(*readback);
     if (const auto done = made->upload_primitives(); !done) return std::unexpected(done.error());
     return made;
 }
 
 Result<void> Renderer::Implementation::upload_primitives() {
     primitives_ = make_primitives();
-    const auto vertices = std::as_bytes(std::span(primitives_.vertices));
-    const auto indices = std::as_bytes(std::span(primitives_.indices));
-    auto vertex_buffer = gpu::Buffer::create(device_, gpu::BufferUse::vertex, vertices.size(), "shapes");
-    if (!vertex_buffer) return std::unexpected(vertex_buffer.error());
-    auto index_buffer = gpu::Buffer::create(device_, gpu::BufferUse::index, indices.size(), "shapes");
-    if (!index_buffer) return std::unexpected(index_buffer.error());
-    primitive_vertices_ = std::move(*vertex_buffer);
-    primitive_indices_ = std::move(*index_buffer);
-    if (const auto done = gpu::write(device_, primitive_vertices_, 0, vertices); !done) return done;
-    return gpu::write(device_, primitive_indices_, 0, indices);
+    const std::vector<VertexLight> lights(primitives_.vertices.size());
+    const auto put = [&](gpu::Buffer& buffer, gpu::BufferUse use, std::span<const std::byte> bytes) -> Result<void> {
+        auto made = gpu::Buffer::create(device_, use, bytes.size(), "shapes");
+        if (!made) return std::unexpected(made.error());
+        buffer = std::move(*made);
+        return gpu::write(device_, buffer, 0, bytes);
+    };
+    auto done = put(primitive_vertices_, gpu::BufferUse::vertex, std::as_bytes(std::span(primitives_.vertices)));
+    if (done) done = put(primitive_lights_, gpu::BufferUse::vertex, std::as_bytes(std::span(lights)));
+    if (done) done = put(primitive_indices_, gpu::BufferUse::index, std::as_bytes(std::span(primitives_.indices)));
+    return done;
 }
 
-Result<StereoImage> Renderer::Implementation::render(const Scene& scene) {
+Result<RenderStats> Renderer::Implementation::record(gpu::Commands& commands, const Scene& scene) {
     if (!can_be_seen(scene.screen, eyes_of(scene.viewer))) {
         return fail("viewer", "the eyes are behind the screen, or the screen is not a rectangle",
                     "check the wall's corners and the head pose");
     }
-    auto commands = gpu::Commands::begin(device_);
-    if (!commands) return std::unexpected(commands.error());
-    const auto uploaded = patches.flush(device_, *commands);
-    if (!uploaded) return std::unexpected(uploaded.error());
-    commands->barrier();
-    const Workpiece workpiece = place_workpiece(scene, patches.bounds(), patches.reach_m());
-    pipelines_.uniforms() = frame_uniforms(scene, workpiece, FrameTargets::kShadowTexels);
-
-    Recording recording{*commands, scene, shapes_of(scene, primitives_)};
-    const gpu::Stamp start = commands->stamp();
-    if (const auto done = draw_shadow_map(recording); !done) return std::unexpected(done.error());
-    const gpu::Stamp shadowed = commands->stamp();
-    if (const auto done = draw_views(recording); !done) return std::unexpected(done.error());
-    const gpu::Stamp drawn = commands->stamp();
-    copy_picture(recording);
-    auto submission = std::move(*commands).submit();
-    if (!submission) return std::unexpected(submission.error());
-    if (const auto done = submission->wait(); !done) return std::unexpected(done.error());
-
-    StereoImage result{picture(0), picture(1), {}};
-    result.stats = {.gpu_s = submission->seconds_between(start, drawn).value_or(0.0),
-                    .shadow_gpu_s = submission->seconds_between(start, shadowed).value_or(0.0),
-                    .triangles = patches.triangles(),
-                    .draws = recording.draws,
-                    .patches = patches.patches(),
-                    .uploaded_bytes = *uploaded};
-    return result;
-}
-
-Result<void> Renderer::Implementation::use(Recording& r, PipelineKind kind) {
-    const auto pipeline = pipelines_.pipeline(device_, kind, targets_);
-    if (!pipeline) return std::unexpected(pipeline.error());
-    vk().vkCmdBindPipeline(r.commands.raw(), VK_PIPELINE_BIND_POINT_GRAPHICS, *pipeline);
-    return {};
-}
-
-void Renderer::Implementation::begin_pass(Recording& r, VkRenderPass pass, VkFramebuffer framebuffer, ImageSize size,
-                                          std::span<const VkClearValue> clears) {
-    auto info = structure<VkRenderPassBeginInfo>(VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO);
-    info.renderPass = pass;
-    info.framebuffer = framebuffer;
-    info.renderArea = {{0, 0}, {size.width, size.height}};
-    info.clearValueCount = static_cast<std::uint32_t>(clears.size());
-    info.pClearValues = clears.data();
-    const VkCommandBuffer raw = r.commands.raw();
-    vk().vkCmdBeginRenderPass(raw, &info, VK_SUBPASS_CONTENTS_INLINE);
-    const VkViewport viewport = viewport_of(size);
-    vk().vkCmdSetViewport(raw, 0, 1, &viewport);
-    vk().vkCmdSetScissor(raw, 0, 1, &info.renderArea);
-    const VkDescriptorSet set = pipelines_.set();
-    vk().vkCmdBindDescriptorSets(raw, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.layout(), 0, 1, &set, 0, nullptr);
-}
-
-Result<void> Renderer::Implementation::draw_shadow_map(Recording& r) {
-    constexpr std::uint32_t n = FrameTargets::kShadowTexels;
-    VkClearValue clear{};
-    clear.depthStencil.depth = 1.0f;
-    begin_pass(r, targets_.shadow_pass.raw(), targets_.shadow_framebuffer.raw(), {n, n}, std::span(&clear, 1));
-    if (const auto done = use(r, PipelineKind::shadow); !done) return done;
-    draw_surface(r);
-    bind(r, primitive_vertices_, primitive_indices_);
-    for (const Shape& shape : r.shapes.solid) {
-        if (shape.casts_shadow) draw(r, shape.range, shape.constants);
+    if (!(scene.edge_fade >= 0.0 && scene.edge_fade <= 1.0 && scene.edge_fade_band >= 0.0)) {
+        return fail("fade of parallax", "is not from 0 to 1, or its band is below 0",
+                    "choose 0 to 1, and a band of 0.2");
     }
-    end_pass(r);
-    return {};
+    commands.barrier();  // the frame before has read what is written now
+    const auto flushed = patches.flush(device_, commands);
+    if (!flushed) return std::unexpected(flushed.error());
+    Shown wanted{
+        scene, place_workpiece(scene, patches.bounds(), patches.reach_m()), {}, patches.bounds(), panel_pictures_};
+    wanted.depth = depth_range(scene, wanted.workpiece);
+    const PixelRect part = part_to_draw(wanted, *flushed);
+    stats = {.part = part,
+             .triangles = patches.triangles(),
+             .patches = patches.patches(),
+             .patch_counts = {},
+             .draws = 0,
+             .uploaded_bytes = flushed->bytes,
+             .pipelines = pipelines_created()};
+    if (!part.empty()) {
+        upload_uniforms(commands, wanted);
+        commands.barrier();
+        Recording r{commands, scene, part, shapes_of(scene, primitives_), {}};
+        r.surface = choose_draws(patches.in_order(), scene, targets.size, part, savings, occluders);
+        if (const auto done = draw_views(r); !done) return std::unexpected(done.error());
+        stats.patch_counts = r.surface.counts;
+        stats.draws = r.draws;
+        stats.pipelines = pipelines_created();
+    }
+    shown = std::move(wanted);
+    return stats;
+}
+
+PixelRect Renderer::Implementation::part_to_draw(const Shown& wanted, const PatchStore::Flushed& flushed) {
+    std::vector<Box> changed = flushed.changed;
+    const auto whole = [&] {
+        choose_levels(patches.in_order(), wanted.scene, targets.size, savings, occluders);
+        return all_of(targets.size);
+    };
+    if (!savings.parts_only || !shown) return whole();
+    PixelRect part = changed_part(shown, wanted, targets.size, changed);
+    if (part == all_of(targets.size)) return whole();
+    const std::vector<Box> other_rates = choose_rates(patches.in_order(), wanted.scene, targets.size, savings);
+    changed.insert(changed.end(), other_rates.begin(), other_rates.end());
+    return changed_part(shown, wanted, targets.size, changed);
+}
+
+void Renderer::Implementation::upload_uniforms(gpu::Commands& commands, const Shown& wanted) {
+    const shared::FrameUniforms uniforms = frame_uniforms(wanted.scene, wanted.workpiece);
+    commands.upload(pipelines_.uniforms(), 0, gpu::bytes_of(uniforms));
 }
 
 Result<void> Renderer::Implementation::draw_views(Recording& r) {
-    const Vec3 background = linear_of(r.scene.background);
+    begin_pass(r);
+    // Front to back as far as it is known: what is drawn later and hidden costs little.
+    auto done = draw_shapes(r);
+    if (done) done = draw_surface(r);
+    if (done) done = draw_room(r);
+    if (done) done = draw_panel(r);
+    if (done) done = draw_glass(r);
+    vk().vkCmdEndRenderPass(r.commands.raw());
+    return done;
+}
+
+void Renderer::Implementation::begin_pass(Recording& r) {
+    const Vec3 background = targets.encodes ? r.scene.background : linear_of(r.scene.background);
     std::array<VkClearValue, 3> clears{};  // the finished picture is only cleared when it is drawn into directly
     for (const std::size_t i : {std::size_t{0}, std::size_t{2}}) {
         clears[i].color = {{static_cast<float>(background.x), static_cast<float>(background.y),
                             static_cast<float>(background.z), 1.0f}};
     }
     clears[1].depthStencil.depth = 1.0f;
-    begin_pass(r, targets_.view_pass.raw(), targets_.view_framebuffer.raw(), targets_.size, clears);
-    // Front to back as far as it is known: what is drawn later and hidden costs little.
+    const bool whole = r.part == all_of(targets.size);
+    auto info = structure<VkRenderPassBeginInfo>(VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO);
+    info.renderPass = whole ? targets.whole_pass.raw() : targets.part_pass.raw();
+    info.framebuffer = targets.framebuffer.raw();
+    info.renderArea = {{static_cast<std::int32_t>(r.part.x), static_cast<std::int32_t>(r.part.y)},
+                       {r.part.width, r.part.height}};
+    info.clearValueCount = static_cast<std::uint32_t>(clears.size());
+    info.pClearValues = clears.data();
+    const VkCommandBuffer raw = r.commands.raw();
+    vk().vkCmdBeginRenderPass(raw, &info, VK_SUBPASS_CONTENTS_INLINE);
+    const VkViewport viewport = viewport_of(targets.size);
+    vk().vkCmdSetViewport(raw, 0, 1, &viewport);
+    vk().vkCmdSetScissor(raw, 0, 1, &info.renderArea);
+    const VkDescriptorSet set = pipelines_.set();
+    vk().vkCmdBindDescriptorSets(raw, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_.layout(), 0, 1, &set, 0, nullptr);
+}
+
+Result<void> Renderer::Implementation::draw_shapes(Recording& r) {
+    if (r.shapes.solid.empty()) return {};
     if (const auto done = use(r, PipelineKind::solid); !done) return done;
-    bind(r, primitive_vertices_, primitive_indices_);
+    bind_primitives(r);
     for (const Shape& shape : r.shapes.solid) draw(r, shape.range, shape.constants);
-    draw_surface(r);
-    bind(r, primitive_vertices_, primitive_indices_);
-    if (r.scene.show_grid) {
-        if (const auto done = use(r, PipelineKind::backdrop); !done) return done;
-        draw(r, primitives_.screen_quad, screen_constants(r.scene.screen));
-    }
-    for (const PipelineKind faces : {PipelineKind::glass_back, PipelineKind::glass_front}) {
-        if (r.shapes.glass.empty()) break;
-        if (const auto done = use(r, faces); !done) return done;
-        for (const Shape& shape : r.shapes.glass) draw(r, shape.range, shape.constants);
-    }
-    end_pass(r);
     return {};
 }
 
-void Renderer::Implementation::draw_surface(Recording& r) {
-    if (patches.draws().empty()) return;
-    bind(r, patches.vertex_buffer(), patches.index_buffer());
+Result<void> Renderer::Implementation::draw_surface(Recording& r) {
+    if (const auto done = draw_surface(r, PipelineKind::fine, r.surface.fine); !done) return done;
+    return draw_surface(r, PipelineKind::solid, r.surface.solid);
+}
+
+Result<void> Renderer::Implementation::draw_surface(Recording& r, PipelineKind kind,
+                                                    std::span<const DrawRange> ranges) {
+    if (ranges.empty()) return {};
+    if (const auto done = use(r, kind); !done) return done;
+    bind(r, patches.vertex_buffer(), patches.light_buffer(), patches.index_buffer());
     push(r, surface_constants(r.scene));
-    for (const PatchStore::DrawRange& range : patches.draws()) {
+    for (const DrawRange& range : ranges) {
         vk().vkCmdDrawIndexed(r.commands.raw(), range.index_count, 1, range.first_index, 0, 0);
         ++r.draws;
     }
+    return {};
+}
+
+Result<void> Renderer::Implementation::draw_room(Recording& r) {
+    if (!r.scene.show_grid) return {};
+    if (const auto done = use(r, PipelineKind::backdrop); !done) return done;
+    bind_primitives(r);
+    draw(r, primitives_.screen_quad, screen_constants(r.scene.screen));
+    return {};
+}
+
+Result<void> Renderer::Implementation::draw_panel(Recording& r) {
+    if (!r.scene.panel || panel_ == VK_NULL_HANDLE) return {};
+    const bool fades = r.scene.edge_fade > 0.0;
+    StandingPanel& panel = panels_[fades ? 1 : 0];
+    if (const auto ready = make_ready(panel, fades); !ready) return ready;
+    panel.quad->record(r.commands.raw(), r.scene.panel->stand, pipelines_.set());
+    ++r.draws;
+    return {};
+}
+
+Result<void> Renderer::Implementation::make_ready(StandingPanel& panel, bool fades) {
+    if (!panel.quad) {
+        auto made = PanelQuad::create(
+            device_, {targets.whole_pass.raw(), targets.samples, targets.encodes, fades, pipelines_.set_layout()});
+        if (!made) return std::unexpected(made.error());
+        panel.quad = std::move(*made);
+    }
+    if (panel.shows == panel_pictures_) return {};
+    if (const auto done = panel.quad->show(panel_); !done) return done;
+    panel.shows = panel_pictures_;
+    return {};
+}
+
+Result<void> Renderer::Implementation::draw_glass(Recording& r) {
+    if (r.shapes.glass.empty()) return {};
+    bind_primitives(r);
+    for (const PipelineKind faces : {PipelineKind::glass_back, PipelineKind::glass_front}) {
+        if (const auto done = use(r, faces); !done) return done;
+        for (const Shape& shape : r.shapes.glass) draw(r, shape.range, shape.constants);
+    }
+    return {};
+}
+
+Result<void> Renderer::Implementation::use(Recording& r, PipelineKind kind) {
+    const auto pipeline = pipelines_.pipeline(device_, kind, r.scene.edge_fade > 0.0, targets);
+    if (!pipeline) return std::unexpected(pipeline.error());
+    vk().vkCmdBindPipeline(r.commands.raw(), VK_PIPELINE_BIND_POINT_GRAPHICS, *pipeline);
+    return {};
 }
 
 void Renderer::Implementation::draw(Recording& r, const PrimitiveRange& range, const shared::DrawConstants& constants) {
@@ -228,10 +329,11 @@ void Renderer::Implementation::draw(Recording& r, const PrimitiveRange& range, c
     ++r.draws;
 }
 
-void Renderer::Implementation::bind(Recording& r, const gpu::Buffer& vertices, const gpu::Buffer& indices) {
-    const VkBuffer vertex_buffer = vertices.raw();
-    const VkDeviceSize offset = 0;
-    vk().vkCmdBindVertexBuffers(r.commands.raw(), 0, 1, &vertex_buffer, &offset);
+void Renderer::Implementation::bind(Recording& r, const gpu::Buffer& vertices, const gpu::Buffer& lights,
+                                    const gpu::Buffer& indices) {
+    const std::array<VkBuffer, 2> buffers{vertices.raw(), lights.raw()};
+    const std::array<VkDeviceSize, 2> offsets{0, 0};
+    vk().vkCmdBindVertexBuffers(r.commands.raw(), 0, 2, buffers.data(), offsets.data());
     vk().vkCmdBindIndexBuffer(r.commands.raw(), indices.raw(), 0, VK_INDEX_TYPE_UINT32);
 }
 
@@ -241,24 +343,60 @@ void Renderer::Implementation::push(Recording& r, const shared::DrawConstants& c
                             &constants);
 }
 
-void Renderer::Implementation::copy_picture(Recording& r) {
+// ---- Reading back
+
+Result<StereoImage> Renderer::Implementation::render(const Scene& scene) {
+    if (const auto ready = make_readback(); !ready) return std::unexpected(ready.error());
+    auto commands = gpu::Commands::begin(device_);
+    if (!commands) return std::unexpected(commands.error());
+    if (const auto recorded = record(*commands, scene); !recorded) return std::unexpected(recorded.error());
+    copy_picture(*commands);
+    auto submission = std::move(*commands).submit();
+    if (!submission) return std::unexpected(submission.error());
+    if (const auto done = submission->wait(); !done) return std::unexpected(done.error());
+    return StereoImage{picture(0), picture(1)};
+}
+
+Result<void> Renderer::Implementation::make_readback() {
+    if (readback_.size_bytes() > 0) return {};
+    auto readback = gpu::Buffer::create(device_, gpu::BufferUse::readback, 2 * layer_bytes(targets.size), "pictures");
+    if (!readback) return std::unexpected(readback.error());
+    readback_ = std::move(*readback);
+    return {};
+}
+
+void Renderer::Implementation::copy_picture(gpu::Commands& commands) {
+    const auto turn = [&](VkImageLayout from, VkImageLayout to) {
+        auto change = structure<VkImageMemoryBarrier>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER);
+        change.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
+        change.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
+        change.oldLayout = from;
+        change.newLayout = to;
+        change.srcQueueFamilyIndex = change.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+        change.image = targets.picture.raw();
+        change.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 2};
+        vk().vkCmdPipelineBarrier(commands.raw(), VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+                                  VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, nullptr, 0, nullptr, 1, &change);
+    };
+    turn(VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     VkBufferImageCopy region{};
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 2};  // layers lie one after the other in the buffer
-    region.imageExtent = {targets_.size.width, targets_.size.height, 1};
-    vk().vkCmdCopyImageToBuffer(r.commands.raw(), targets_.picture.raw(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+    region.imageExtent = {targets.size.width, targets.size.height, 1};
+    vk().vkCmdCopyImageToBuffer(commands.raw(), targets.picture.raw(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                                 readback_.raw(), 1, &region);
+    turn(VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 
 Image Renderer::Implementation::picture(std::uint32_t layer) const {
-    const std::uint64_t bytes = layer_bytes(targets_.size);
+    const std::uint64_t bytes = layer_bytes(targets.size);
     const auto pixels = readback_.mapped_as<std::uint8_t>().subspan(layer * bytes, bytes);
-    return {targets_.size, {pixels.begin(), pixels.end()}};
+    return {targets.size, {pixels.begin(), pixels.end()}};
 }
 
 // ---- Renderer
 
-Result<Renderer> Renderer::create(gpu::Device& device, ImageSize size) {
-    auto implementation = Implementation::create(device, size);
+Result<Renderer> Renderer::create(gpu::Device& device, ImageSize size, const RendererOptions& options) {
+    auto implementation = Implementation::create(device, size, options);
     if (!implementation) return std::unexpected(implementation.error());
     return Renderer(std::move(*implementation));
 }
@@ -268,12 +406,35 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 
+void Renderer::set_patch(std::uint32_t id, std::shared_ptr<const SurfaceTile> surface) {
+    implementation_->patches.set(id, std::move(surface));
+}
 void Renderer::set_patch(std::uint32_t id, std::span<const shared::SurfaceVertex> vertices,
                          std::span<const std::uint32_t> indices) {
-    implementation_->patches.set(id, vertices, indices);
+    auto copy = std::make_shared<SurfaceTile>();
+    copy->vertices.assign(vertices.begin(), vertices.end());
+    copy->indices.assign(indices.begin(), indices.end());
+    set_patch(id, std::move(copy));
 }
 void Renderer::remove_patch(std::uint32_t id) { implementation_->patches.remove(id); }
 void Renderer::clear_patches() { implementation_->patches.clear(); }
+void Renderer::set_patch_light(std::uint32_t id, std::span<const VertexLight> light) {
+    implementation_->patches.set_light(id, light);
+}
+void Renderer::set_occluders(std::vector<Box> occluders) { implementation_->occluders = std::move(occluders); }
+void Renderer::show_panel(VkImageView panel) { implementation_->show_panel(panel); }
+std::size_t Renderer::refine(std::size_t most) { return implementation_->patches.refine(most); }
+Result<RenderStats> Renderer::record(gpu::Commands& commands, const Scene& scene) {
+    return implementation_->record(commands, scene);
+}
+VkImageView Renderer::both_eyes() const { return implementation_->targets.both_eyes.raw(); }
+ImageSize Renderer::size() const { return implementation_->targets.size; }
+void Renderer::forget_picture() { implementation_->shown.reset(); }
+void Renderer::set_savings(const Savings& savings) {
+    implementation_->savings = savings;
+    forget_picture();
+}
 Result<StereoImage> Renderer::render(const Scene& scene) { return implementation_->render(scene); }
+const RenderStats& Renderer::stats() const { return implementation_->stats; }
 
 }  // namespace burin

@@ -82,5 +82,5 @@ void main() {
         float from_foot = max(length(world.xz - frame.pedestal.xz) - frame.pedestal.w, 0.0) + world.y;
         c *= 1.0 - 0.35 * exp(-from_foot / 0.09);
     }
-    out_colour = vec4(dithered(c), 1.0);
+    out_colour = vec4(finished(c), 1.0);
 }

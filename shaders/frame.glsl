@@ -7,6 +7,9 @@
 #include "shaders/shared/octahedral.h"
 
 layout(std140, set = 0, binding = 0) uniform Frame { FrameUniforms frame; };
-layout(set = 0, binding = 1) uniform sampler2DShadow shadow_compare;
-layout(set = 0, binding = 2) uniform sampler2D shadow_depth;
 layout(push_constant) uniform Draw { DrawConstants draw; };
+
+// Whether the picture holds sRGB values as they are (true), or the device encodes what it is given (false).
+layout(constant_id = 0) const bool kEncodes = false;
+// Whether parallax fades towards the screen's edges; without, the fade is not even compiled.
+layout(constant_id = 1) const bool kFades = false;

@@ -2,7 +2,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // The workspace box.
-#define BURIN_WITH_COLOUR
 #define BURIN_WITH_LOCAL
 #include "shaders/frame.glsl"
 #include "shaders/vertex_stage.glsl"

@@ -1,44 +1,45 @@
 // SPDX-License-Identifier: MIT
 // Light on a surface. One light from above (two confuse the sense of depth), ambient light from the sky and the ground, and
 // three cues of contact: shadows that sharpen as the tool comes down, ambient darkening, and a ring of the tool's colour.
+// What the workpiece's own parts keep off comes with each vertex; what the tool keeps off is worked out here in closed form.
+
+#include "shaders/srgb.glsl"
 
 const float kPi = 3.14159265;
 
-// The i-th of n points spread evenly over the unit disc (a Vogel spiral: the golden angle between neighbours).
-vec2 disc_point(int i, int n) {
-    float r = sqrt((float(i) + 0.5) / float(n));
-    float a = float(i) * 2.39996323;
-    return r * vec2(cos(a), sin(a));
+// The share of the lamp that a round thing hides, which passes the line to the lamp at `miss`, `along` the line from the point: its
+// edge is as wide as the lamp seen from there, so that shadows sharpen towards contact.
+float hidden_share(float miss, float along, float radius) {
+    float soft = max(frame.light.w * along, 0.02 * radius);
+    float full = min(1.0, radius * radius / (soft * soft));  // a small thing does not cover the lamp
+    return full * (1.0 - smoothstep(radius - soft, radius + soft, miss));
 }
 
-// 0 in full shadow, 1 in full light. Percentage-closer soft shadows (Fernando 2005): the mean distance to what casts the
-// shadow gives the width of its edge. No random rotation: noise would differ from the surface in stereo.
-float sunlight(vec3 world, vec3 normal) {
-    const int kSearch = 9, kTaps = 16;
-    float texel_m = frame.shadow_scale.y;
-    vec3 lifted = world + normal * (2.0 * texel_m);  // clear of its own texels
-    vec3 at = (frame.shadow_from_world * vec4(lifted, 1.0)).xyz;
-    if (frame.shadow_scale.w == 0.0 || any(lessThan(at, vec3(0.0))) || any(greaterThan(at, vec3(1.0)))) return 1.0;
-    float texel = frame.shadow_scale.z;
-
-    const float kSearchTexels = 12.0;
-    float blockers = 0.0, gap = 0.0;
-    for (int i = 0; i < kSearch; ++i) {
-        float depth = textureLod(shadow_depth, at.xy + disc_point(i, kSearch) * kSearchTexels * texel, 0.0).r;
-        if (depth < at.z) {
-            blockers += 1.0;
-            gap += at.z - depth;
-        }
-    }
-    if (blockers == 0.0) return 1.0;
-    float gap_m = gap / blockers * frame.shadow_scale.x;
-    float radius = clamp(gap_m * frame.light.w / texel_m, 1.2, kSearchTexels);
-    float lit = 0.0;
-    for (int i = 0; i < kTaps; ++i) {
-        lit += textureLod(shadow_compare, vec3(at.xy + disc_point(i, kTaps) * radius * texel, at.z), 0.0);
-    }
-    return lit / float(kTaps);
+// Branches spare a software driver nothing, so what cannot matter is left out where it is compiled: BURIN_FAR_FROM_TOOL is for the
+// surface beyond the tool's ring and shadow (renderer/surface/patch_choice.cpp).
+#ifndef BURIN_FAR_FROM_TOOL
+// The shadow of the tool's ball and stylus, 0 to 1.
+float tool_shadow(vec3 world) {
+    if (frame.tool.w <= 0.0) return 0.0;
+    vec3 l = frame.light.xyz;
+    float r = frame.tool.w;
+    vec3 to_ball = frame.tool.xyz - world;
+    float along = dot(to_ball, l);
+    float reach = kToolShades * r;
+    float dark = hidden_share(length(to_ball - along * l), max(along, 0.0), r) * smoothstep(0.0, 0.5 * r, along);
+    dark *= 1.0 - smoothstep(0.6 * reach, reach, along);
+    // Seen along the light the stylus is a segment.
+    vec3 to_tip = frame.stylus_tip.xyz - world, to_end = frame.stylus_end.xyz - world;
+    float tip_along = dot(to_tip, l), end_along = dot(to_end, l);
+    vec3 tip = to_tip - tip_along * l, shaft = to_end - end_along * l - tip;
+    float t = clamp(-dot(tip, shaft) / max(dot(shaft, shaft), 1e-12), 0.0, 1.0);
+    along = mix(tip_along, end_along, t);
+    float radius = frame.stylus_tip.w * mix(0.4, 0.95, smoothstep(0.05, 0.25, t));
+    float shaft_dark = hidden_share(length(tip + t * shaft), max(along, 0.0), radius) * smoothstep(0.0, 0.5 * r, along);
+    shaft_dark *= 1.0 - smoothstep(0.6 * reach, reach, along);
+    return max(dark, shaft_dark);
 }
+#endif
 
 // How much of the hemisphere over a point a ball covers, cosine-weighted; exact while all of it is above the horizon.
 float ball_cover(vec3 world, vec3 normal, vec4 ball) {
@@ -51,7 +52,9 @@ float ball_cover(vec3 world, vec3 normal, vec4 ball) {
 
 // Ambient light that reaches a point beside the tool and over the plinth.
 float openness(vec3 world, vec3 normal) {
-    float open = 1.0 - 0.85 * ball_cover(world, normal, frame.tool);
+    float from_tool = length(frame.tool.xyz - world);
+    float near_tool = 1.0 - smoothstep(0.5 * kToolDarkens, kToolDarkens, from_tool / max(frame.tool.w, 1e-6));
+    float open = 1.0 - 0.85 * near_tool * ball_cover(world, normal, frame.tool);
     if (frame.pedestal.w > 0.0 && world.y >= frame.pedestal.y - 0.001) {
         // Looking down at a disc: the part of the lower hemisphere that it hides, seen from above its middle.
         float height = world.y - frame.pedestal.y;
@@ -83,10 +86,57 @@ float highlight(vec3 n, vec3 v, vec3 l, float roughness) {
     return nl * a2 / (kPi * d * d) * visibility * 0.25 * fresnel * kPi;  // light_colour is irradiance over pi
 }
 
+#ifndef BURIN_FAR_FROM_TOOL
+// The surface takes the tool's colour where it nears the tool: a ring that closes in on the point of contact. Its width
+// follows the tool's size.
+vec3 ringed(vec3 albedo, vec3 world) {
+    if (draw.material.z == 0.0 || frame.tool.w <= 0.0) return albedo;
+    float distance_r = length(world - frame.tool.xyz) / frame.tool.w;
+    float gap = distance_r - 1.0;
+    float near = exp(-gap * gap * 30.0) * 0.55 * (1.0 - smoothstep(1.4, kToolNears, distance_r));
+    return mix(albedo, frame.tool_colour.rgb, near);
+}
+#endif
+
+// Light from a point of a surface to an eye. sun, open: what of the lamp's and of the surroundings' light other parts of the
+// workpiece let through.
+vec3 lit(vec3 world, vec3 n, vec3 eye, vec3 colour, float sun, float open) {
+    vec3 v = normalize(eye - world);
+    vec3 l = frame.light.xyz;
+    float nl = dot(n, l);
+    open *= openness(world, n);
+#ifdef BURIN_FAR_FROM_TOOL
+    vec3 albedo = colour;
+    float light = nl > 0.0 ? sun : 0.0;
+#else
+    vec3 albedo = ringed(colour, world);
+    float light = nl > 0.0 ? sun * (1.0 - tool_shadow(world)) : 0.0;
+    if (draw.material.z == 0.0) open *= 1.0 - 0.8 * ball_cover(world, n, frame.workpiece);
+#endif
+    vec3 key = frame.light_colour.rgb * light;
+    float roughness = draw.material.x, gloss = draw.material.y;
+
+    vec3 c = albedo * (key * max(nl, 0.0) + ambient_light(n) * open);
+    c += key * highlight(n, v, l, roughness) * gloss;
+    // The room mirrored: brighter above, and a wide soft lamp around the light; stronger at grazing angles.
+    vec3 mirrored = reflect(-v, n);
+    float grazing = 1.0 - max(dot(n, v), 0.0);
+    float fresnel = 0.04 + 0.5 * grazing * grazing * grazing * (1.0 - 0.6 * roughness);
+    float lamp = smoothstep(0.75 - 0.3 * roughness, 0.98, dot(mirrored, l));
+    c += (ambient_light(mirrored) + frame.light_colour.rgb * lamp * 0.35 * light) * fresnel * open * gloss;
+    return shoulder(c);
+}
+
+#ifndef BURIN_VERTEX_STAGE
 // Adds half a step of the 8-bit picture in an ordered pattern, so that soft gradients show no bands. A step of
 // sRGB is 2.4 c^(1.4/2.4) / 1.055 steps of linear light.
-vec3 dithered(vec3 c) {
+float dither_step() {
     uvec2 at = uvec2(gl_FragCoord.xy);
     uint cell = ((at.x ^ at.y) & 1u) * 2u + (at.y & 1u);
-    return c + (float(cell) / 3.0 - 0.5) / 255.0 * 2.27 * pow(c, vec3(0.58));
+    return (float(cell) / 3.0 - 0.5) / 255.0;
 }
+// Of linear light, as the picture takes it.
+vec3 finished(vec3 c) {
+    return kEncodes ? srgb_of(c) + dither_step() : c + dither_step() * 2.27 * pow(c, vec3(0.58));
+}
+#endif

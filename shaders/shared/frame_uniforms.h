@@ -3,34 +3,37 @@
 // std140 and C++ lay it out alike. Lengths in metres, world frame; colours and light are linear.
 #ifndef BURIN_SHARED_FRAME_UNIFORMS_H
 #define BURIN_SHARED_FRAME_UNIFORMS_H
+#include "shaders/shared/glm_names.h"
 #include "shaders/shared/portable.h"
-
-#ifdef __cplusplus
-#include <glm/glm.hpp>
-#endif
 
 BURIN_SHARED_BEGIN
 
-#ifdef __cplusplus
-using vec4 = glm::vec4;
-using mat4 = glm::mat4;
-#endif
-
 struct FrameUniforms {
-    mat4 clip_from_world[2];  // left eye, right eye
+    mat4 clip_from_world[2];  // left eye, right eye; a guard band lies around the picture (renderer/frame_setup.hpp)
     vec4 eye_world[2];        // xyz
-    mat4 shadow_from_world;   // xy in 0..1 over the shadow map, z the depth from the light in 0..1
-    vec4 light;               // xyz: unit direction towards the light; w: tangent of its half angle
+    vec4 light;               // xyz: unit direction towards the lamp; w: tangent of its half angle
     vec4 light_colour;        // rgb
     vec4 sky_colour;          // rgb: ambient light from above
     vec4 ground_colour;       // rgb: ambient light from below
-    vec4 shadow_scale;  // x: depth of the map in metres, y: a texel in metres, z: a texel in map units, w: 1 = in use
-    vec4 tool;          // xyz: centre, w: radius; radius 0: no tool
-    vec4 tool_colour;   // rgb
-    vec4 workpiece;     // xyz: centre of its bounding sphere, w: radius; radius 0: none
-    vec4 pedestal;      // xyz: centre of its top, w: radius; radius 0: none
-    vec4 background;    // rgb
+    vec4 tool;                // xyz: centre, w: radius; radius 0: no tool
+    vec4 tool_colour;         // rgb
+    vec4 stylus_tip;          // xyz, w: radius
+    vec4 stylus_end;          // xyz
+    vec4 workpiece;           // xyz: centre of its bounding sphere, w: radius; radius 0: none
+    vec4 pedestal;            // xyz: centre of its top, w: radius; radius 0: none
+    vec4 background;          // rgb
+    mat4 clip_from_world_middle;  // as the point midway between the eyes sees it, without guard band; for the fade of parallax alone
+    vec4 fade;  // parallax_fade.h: x: strength, y: band, z: the middle's distance from the screen; w: the guard band
 };
+
+// A standing panel is drawn in so many cells each way where parallax is faded, which is worked out at vertices.
+const int kFadedPanelCells = 16;
+
+// How far the tool changes what is around it, in its ball's radii: nothing beyond is touched, so that a picture in which only the tool
+// has moved need be drawn anew only there.
+const float kToolNears = 1.8f;    // its ring of colour
+const float kToolDarkens = 5.0f;  // the ambient light that it keeps off
+const float kToolShades = 20.0f;  // its shadow, along the light
 
 struct DrawConstants {
     mat4 world_from_local;
@@ -42,7 +45,7 @@ struct DrawConstants {
 BURIN_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(burin::shared::FrameUniforms) == 3 * 64 + 12 * 16);
+static_assert(sizeof(burin::shared::FrameUniforms) == 3 * 64 + 14 * 16);
 static_assert(sizeof(burin::shared::DrawConstants) == 96,
               "must fit the 128 bytes of push constants that every device has");
 #endif

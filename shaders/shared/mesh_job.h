@@ -5,21 +5,8 @@
 #ifndef BURIN_SHARED_MESH_JOB_H
 #define BURIN_SHARED_MESH_JOB_H
 #include "shaders/shared/dexel.h"
+#include "shaders/shared/glm_names.h"
 #include "shaders/shared/surface_vertex.h"
-
-#ifdef __cplusplus
-namespace burin::shared {  // as far as the layout goes
-struct uvec2 {
-    uint x, y;
-};
-struct uvec4 {
-    uint x, y, z, w;
-};
-struct vec4 {
-    float x, y, z, w;
-};
-}  // namespace burin::shared
-#endif
 
 BURIN_SHARED_BEGIN
 

@@ -26,7 +26,7 @@ struct Felt {
 
 Felt felt_on_a_block(const Stroke& stroke, const FeelOptions& options, Operation operation = Operation::cut) {
     WorkerPool pool(2);
-    Result<Workpiece> workpiece = load_workpiece({"block:0.04,0.03,0.02", 96, false}, pool);
+    Result<LoadedWorkpiece> workpiece = load_workpiece({"block:0.04,0.03,0.02", 96, false}, pool);
     Tool tool{BallTool{kRadius_m}};
     tool.operation = operation;
     Carving carving(make_cpu_engine(std::move(workpiece->solid), pool), pool);

@@ -76,4 +76,30 @@ TEST(Staging, TheBubbleLiesAroundTheWorkspacesMiddle) {
     EXPECT_DOUBLE_EQ(scene.bubble.radius_m, 0.0625);
 }
 
+// The device lies turned in the workpiece, and that in the world: the arrow must point to where the hand is pushed.
+TEST(Staging, ShowsTheContactUnderTheBallAndTheForceAsTheHandFeelsIt) {
+    ToolState tool = paused_tool();
+    tool.workspace.proposed_visible = false;
+    tool.flags = kTickInContact;
+    tool.contact_normal_object = {0.0, 0.6, 0.8};
+    tool.given.force_device_N = {0.5, -1.0, 2.0};
+    Staging staging = staging_of(tool, 0.01, kWorkspace_m);
+    EXPECT_FALSE(staged(staging).contact.visible) << "unless asked for";
+    staging.contact_shown = true;
+    const Scene scene = staged(staging);
+    ASSERT_TRUE(scene.contact.visible);
+    EXPECT_TRUE(near(scene.contact.point_world, kWorldFromObject * (tool.proxy_object_m - Vec3(0.0, 0.006, 0.008))));
+    const Vec3 to_tool = scene.tool.center_world - scene.contact.point_world;
+    EXPECT_TRUE(near(to_tool, scene.tool.radius_m * scene.contact.normal_world)) << "the ball rests on the point";
+    // A step of the device along the force, seen in the world.
+    const Similarity world_from_device = kWorldFromObject * tool.workspace.object_from_device;
+    const Vec3 step = world_from_device * tool.given.force_device_N - world_from_device * Vec3(0.0);
+    EXPECT_NEAR(glm::dot(glm::normalize(step), glm::normalize(scene.contact.force_N)), 1.0, 1e-12);
+    EXPECT_NEAR(glm::length(scene.contact.force_N), glm::length(tool.given.force_device_N), 1e-12);
+    tool.flags = 0;
+    staging = staging_of(tool, 0.01, kWorkspace_m);
+    staging.contact_shown = true;
+    EXPECT_FALSE(staged(staging).contact.visible);
+}
+
 }  // namespace burin

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "bench/peers/peers.hpp"
 #include "tests/app/run_command.hpp"
+#include "tests/support/read_json.hpp"
 
 namespace burin::bench {
 namespace {
@@ -31,7 +31,7 @@ TEST(BenchCommand, WritesJsonToStandardOutputAndTheCarvedMesh) {
     const auto outcome = place.run(
         kBurin + " bench stroke --resolution 24 --updates 5 --threads 1 --engine cpu --json - --export part.ply");
     ASSERT_EQ(outcome.status, 0) << outcome.output;
-    const auto report = nlohmann::json::parse(outcome.output);
+    const auto report = read_json(outcome.output);
     EXPECT_EQ(report["resolution"], 24);
     EXPECT_EQ(report["threads"], 1);
     EXPECT_EQ(report["tool"], "ball");
@@ -45,7 +45,7 @@ TEST(BenchCommand, PrintsATableOfSweptCuts) {
     const auto outcome = place.run(kBurin + " bench stroke --resolution 24 --updates 5 --tool capsule --json out.json");
     ASSERT_EQ(outcome.status, 0) << outcome.output;
     EXPECT_NE(outcome.output.find("update_ms_median"), std::string::npos);
-    EXPECT_EQ(nlohmann::json::parse(place.read("out.json"))["tool"], "capsule");
+    EXPECT_EQ(read_json(place.read("out.json"))["tool"], "capsule");
 }
 
 TEST(BenchCommand, ComparesWithOpenVdbOrSaysHow) {
@@ -57,8 +57,9 @@ TEST(BenchCommand, ComparesWithOpenVdbOrSaysHow) {
     }
     const auto outcome = place.run(kBurin + " bench stroke --resolution 24 --updates 5 --peer openvdb --json -");
     ASSERT_EQ(outcome.status, 0) << outcome.output;
-    const auto report = nlohmann::json::parse(outcome.output);
-    const double ours = report["update_ms_median"], theirs = report["openvdb_update_ms_median"];
+    const auto report = read_json(outcome.output);
+    const auto ours = report["update_ms_median"].get<double>();
+    const auto theirs = report["openvdb_update_ms_median"].get<double>();
     EXPECT_GT(theirs, 0.0);
     EXPECT_NEAR(report["openvdb_ratio"].get<double>(), theirs / ours, 1e-9 * theirs / ours);
     for (const char* key : {"openvdb_cut_rms_h", "openvdb_edge_rms_h", "openvdb_rim_rms_h", "openvdb_brush_ratio"}) {
@@ -75,7 +76,7 @@ TEST(BenchCommand, WritesTheComparisonWhereAsked) {
     EXPECT_NE(outcome.output.find("Burin cpu"), std::string::npos);
     EXPECT_NE(place.read("p.csv").find("Burin cpu"), std::string::npos);
     EXPECT_TRUE(place.read("p.svg").starts_with("<svg "));
-    EXPECT_FALSE(nlohmann::json::parse(place.read("p.json"))["rows"].empty());
+    EXPECT_FALSE(read_json(place.read("p.json"))["rows"].empty());
 }
 
 TEST(BenchCommand, RefusesWhatItCannotDo) {

@@ -5,12 +5,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <random>
 #include <set>
 
 #include "bench/bumpy_sphere.hpp"
 #include "bench/pressed_path.hpp"
 #include "tests/app/run_command.hpp"
+#include "tests/support/read_json.hpp"
 
 namespace burin::bench {
 namespace {
@@ -139,7 +142,7 @@ TEST(BenchHaptics, ReportsAsJson) {
                                    " bench haptics --quick --paced-ticks 5 --ticks 500 --json out.json --csv out.csv");
     ASSERT_EQ(outcome.status, 0) << outcome.output;
     EXPECT_TRUE(place.read("out.csv").starts_with("# "));
-    const auto report = nlohmann::json::parse(place.read("out.json"));
+    const auto report = read_json(place.read("out.json"));
     EXPECT_EQ(report["ticks"].size(), 27u);
     EXPECT_TRUE(report["ticks"][0].contains("tick_p999_us"));
     EXPECT_EQ(report["contact"][0]["ticks"], 500);

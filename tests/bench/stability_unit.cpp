@@ -9,6 +9,7 @@
 #include "bench/stability.hpp"
 #include "bench/svg_plot.hpp"
 #include "tests/app/run_command.hpp"
+#include "tests/support/read_json.hpp"
 
 namespace burin::bench {
 namespace {
@@ -128,7 +129,8 @@ TEST(StabilityBench, TheControllerTakesEnergyOutOfAHardWallAndLeavesASoftOneAlon
 TEST(StabilityBench, AgreesWithAPublishedSimulationOfTheSameHand) {
     for (const auto& row : quick().rows) {
         if (!row.contains("published_N_per_m") || row["published_N_per_m"].is_null()) continue;
-        const double published = row["published_N_per_m"], found = row["largest_stable_stiffness_N_per_m"];
+        const auto published = row["published_N_per_m"].get<double>();
+        const auto found = row["largest_stable_stiffness_N_per_m"].get<double>();
         if (published > 20'000.0) continue;  // there the tool is thrown off by single steps here
         EXPECT_NEAR(found / published, 1.0, 0.2) << row.dump();
     }
@@ -194,7 +196,7 @@ TEST(BenchCommand, MeasuresStabilityAndWritesWhereAsked) {
     EXPECT_EQ(place.read("s.csv"), stability_csv(quick()));
     EXPECT_TRUE(place.read("s.svg").starts_with("<svg "));
     EXPECT_TRUE(place.read("f.svg").starts_with("<svg "));
-    EXPECT_FALSE(nlohmann::json::parse(place.read("s.json"))["rows"].empty());
+    EXPECT_FALSE(read_json(place.read("s.json"))["rows"].empty());
     EXPECT_EQ(place.run(kBurin + " bench stability --quick --csv nowhere/s.csv").status, 1);
 }
 

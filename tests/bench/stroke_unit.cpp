@@ -44,7 +44,7 @@ const std::vector<std::string> kPromisedKeys{"update_ms_median",
 
 CarveScene short_scene() { return beginning_of(stroke_1000_scene(), 30, 400); }
 
-nlohmann::ordered_json report_of(const CarveScene& scene, const StrokeRun& run) {
+Json report_of(const CarveScene& scene, const StrokeRun& run) {
     return describe(scene, run, measure(run.mesh, scene, run.cell_m), count_self_intersections(run.mesh, 1));
 }
 

@@ -9,6 +9,7 @@
 
 #include "bench/dot_chart.hpp"
 #include "tests/app/run_command.hpp"
+#include "tests/support/read_json.hpp"
 
 namespace burin::bench {
 namespace {
@@ -200,7 +201,8 @@ TEST(WorkspaceBench, SaysItAllAsTableCsvJsonAndFigure) {
     EXPECT_EQ(json["techniques"][0]["failures"], 5);
     EXPECT_EQ(svg.find("nan"), std::string::npos);
     EXPECT_EQ(csv.find("nan"), std::string::npos);
-    for (const std::string& line : json["assumptions"].get<std::vector<std::string>>()) {
+    for (const Json& assumption : json["assumptions"]) {
+        const auto line = assumption.get<std::string>();
         EXPECT_NE(svg.find(line), std::string::npos) << "the figure states its assumptions";
     }
 }
@@ -216,7 +218,7 @@ TEST(WorkspaceBench, IsASubcommandThatRefusesWhatItCannotDo) {
     const auto done = place.run(bench + "--targets 1 --seed 5 --csv t.csv --svg f.svg --json r.json");
     ASSERT_EQ(done.status, 0) << done.output;
     EXPECT_NE(done.output.find("not people"), std::string::npos);
-    EXPECT_EQ(nlohmann::json::parse(place.read("r.json"))["task"]["seed"], 5);
+    EXPECT_EQ(read_json(place.read("r.json"))["task"]["seed"], 5);
     EXPECT_TRUE(place.read("f.svg").ends_with("</svg>\n"));
 }
 

@@ -115,7 +115,7 @@ TEST(SimulatedOmni, TheHandFollowsASlowPathWithinTwoMillimetresInFreeAir) {
     double worst = 0.0;
     for (int i = 1; i <= 4000; ++i) {
         omni.advance(kMs);
-        const Vec3 wanted = omni.hand().target(1e-3 * i).position_device_m;
+        const Vec3 wanted = omni.scripted_hand()->target(1e-3 * i).position_device_m;
         worst = std::max(worst, glm::length(omni.true_position_device_m() - wanted));
     }
     EXPECT_LT(worst, 2e-3);

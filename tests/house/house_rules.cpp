@@ -6,6 +6,9 @@
 #include <sstream>
 #include <vector>
 
+#include "tests/house/layer_rules.hpp"
+#include "tests/house/source_tree.hpp"
+
 namespace burin::house {
 
 namespace {
@@ -51,6 +54,19 @@ std::string complaint_on_length(const std::string& text) {
     return lines <= kMostLines
                ? ""
                : "has " + std::to_string(lines) + " lines; split it (at most " + std::to_string(kMostLines) + ")";
+}
+
+std::string complaint_on_guard(const std::string& text) {
+    const std::string code = without_comments(text);
+    const std::size_t first = code.find_first_not_of(" \n");
+    return first != std::string::npos && code.compare(first, 12, "#pragma once") == 0
+               ? ""
+               : "does not begin with #pragma once";
+}
+
+std::string complaint_on_first_include(const std::string& text, const std::string& own_header) {
+    const std::vector<Include> includes = includes_of(text);
+    return !includes.empty() && includes.front().name == own_header ? "" : "does not include " + own_header + " first";
 }
 
 std::string complaint_on_whitespace(const std::string& text) {

@@ -17,6 +17,12 @@ namespace burin::house {
 inline constexpr int kMostLines = 500;
 [[nodiscard]] std::string complaint_on_length(const std::string& text);
 
+// A header says #pragma once before all else, so that it can be included twice.
+[[nodiscard]] std::string complaint_on_guard(const std::string& text);
+
+// A source with a header of its own includes it before all else: so every build proves that the header compiles alone.
+[[nodiscard]] std::string complaint_on_first_include(const std::string& text, const std::string& own_header);
+
 // No tabs, no blanks at line ends, a newline at the end, no merge markers, no carriage returns.
 [[nodiscard]] std::string complaint_on_whitespace(const std::string& text);
 

@@ -68,6 +68,24 @@ TEST(Words, HaveCleanLineEnds) {
     expect_everywhere([](const std::string& path) { return !keeps_its_own_line_ends(path); }, complaint_on_whitespace);
 }
 
+TEST(Words, EveryHeaderCanBeIncludedTwice) {
+    expect_everywhere([](const std::string& path) { return path.ends_with(".hpp"); }, complaint_on_guard);
+}
+
+// house.headers compiles only the headers without a source of their own, and counts on this.
+TEST(Words, EverySourceIncludesItsOwnHeaderFirst) {
+    const fs::path root = BURIN_SOURCE_FOLDER;
+    std::size_t looked_at = 0;
+    for (const std::string& path : repository_files(root)) {
+        const std::string header = fs::path(path).replace_extension(".hpp").generic_string();
+        if (!path.ends_with(".cpp") || !fs::is_regular_file(root / header)) continue;
+        ++looked_at;
+        const std::string found = complaint_on_first_include(read_text(root / path), header);
+        if (!found.empty()) ADD_FAILURE() << path << ": " << found;
+    }
+    EXPECT_GE(looked_at, 10u) << "hardly any source was read";
+}
+
 TEST(WordsRules, SeeAMachinesPath) {
     const std::string home = std::string("/ho") + "me/";
     EXPECT_NE(complaint_on_paths("a\nsee " + home + "anna/burin\n"), "");
@@ -89,6 +107,21 @@ TEST(WordsRules, SeeAMissingLicenceLine) {
 TEST(WordsRules, SeeAFileThatIsTooLong) {
     EXPECT_EQ(complaint_on_length(std::string(500, '\n')), "");
     EXPECT_NE(complaint_on_length(std::string(501, '\n')), "");
+}
+
+TEST(WordsRules, SeeAHeaderWithoutItsGuard) {
+    EXPECT_EQ(complaint_on_guard("// licence\n/* what\n it is */\n#pragma once\n#include <vector>\n"), "");
+    EXPECT_NE(complaint_on_guard("// licence\n#include <vector>\n#pragma once\n"), "");
+    EXPECT_NE(complaint_on_guard("// #pragma once\nint i;\n"), "");
+    EXPECT_NE(complaint_on_guard(""), "");
+}
+
+TEST(WordsRules, SeeAnotherIncludeBeforeTheOwnHeader) {
+    EXPECT_EQ(complaint_on_first_include("// #include <a>\n#include \"gpu/a.hpp\"\n#include <vector>\n", "gpu/a.hpp"),
+              "");
+    EXPECT_NE(complaint_on_first_include("#include <vector>\n#include \"gpu/a.hpp\"\n", "gpu/a.hpp"), "");
+    EXPECT_NE(complaint_on_first_include("#include \"gpu/b.hpp\"\n", "gpu/a.hpp"), "");
+    EXPECT_NE(complaint_on_first_include("int i;\n", "gpu/a.hpp"), "");
 }
 
 TEST(WordsRules, SeeUncleanWhitespace) {

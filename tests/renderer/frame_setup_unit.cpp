@@ -3,9 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 
-#include "renderer/projection.hpp"
+#include "renderer/stereo/projection.hpp"
 
 namespace burin {
 
@@ -14,7 +15,7 @@ namespace {
 Workpiece ball_at(const Vec3& center, double radius) { return {{center, radius}, {center, radius}}; }
 
 double depth_of(const Scene& scene, const Workpiece& workpiece, const Vec3& p) {
-    const shared::FrameUniforms frame = frame_uniforms(scene, workpiece, 1024);
+    const shared::FrameUniforms frame = frame_uniforms(scene, workpiece);
     const glm::vec4 clip = frame.clip_from_world[0] * glm::vec4(glm::vec3(p), 1.0f);
     return static_cast<double>(clip.z / clip.w);
 }
@@ -49,6 +50,7 @@ TEST(DepthRange, HoldsTheWorkspacesBoxesAndBubbleToo) {
     EXPECT_TRUE(shown([&](Scene& s) { s.box = {{close, Quat{1, 0, 0, 0}}, Vec3(0.02), {}, true}; }));
     EXPECT_TRUE(shown([&](Scene& s) { s.proposed_box = {{close, Quat{1, 0, 0, 0}}, Vec3(0.02), {}, true}; }));
     EXPECT_TRUE(shown([&](Scene& s) { s.bubble = {close, 0.01, {}, true}; }));
+    EXPECT_TRUE(shown([&](Scene& s) { s.contact = {close, {0, 1, 0}, {0, 1, 0}, 0.02, {}, true}; }));
 }
 
 TEST(DepthRange, StaysTheSameWhileThingsMoveInTheUsualRange) {
@@ -59,33 +61,31 @@ TEST(DepthRange, StaysTheSameWhileThingsMoveInTheUsualRange) {
     EXPECT_EQ(a.far_m, b.far_m);
 }
 
-TEST(ShadowFrame, HoldsAllThatCastsAShadow) {
-    Scene scene;
-    scene.tool.visible = true;
-    scene.tool.radius_m = 0.03;
-    scene.tool.center_world = scene.tool.stylus_world.position_m = {0.4, 1.5, 0.3};
-    const Workpiece workpiece = ball_at({0, 1, -0.2}, 0.3);
-    const shared::FrameUniforms frame = frame_uniforms(scene, workpiece, 2048);
-    ASSERT_EQ(frame.shadow_scale.w, 1.0f);
-    const auto inside = [&](const Vec3& p) {
-        const glm::vec4 s = frame.shadow_from_world * glm::vec4(glm::vec3(p), 1.0f);
-        for (int i = 0; i < 3; ++i) {
-            EXPECT_GT(s[i], 0.0f);
-            EXPECT_LT(s[i], 1.0f);
+// What the tool's shadow is bounded by must hold all that casts it.
+TEST(BallsOf, HoldEveryVertexOfTheToolAndLittleElse) {
+    const Primitives primitives = make_primitives();
+    for (const double radius_m : {0.002, 0.01, 0.066}) {
+        Scene scene;
+        scene.show_wall_frame = false;
+        scene.tool.visible = true;
+        scene.tool.radius_m = radius_m;
+        scene.tool.center_world = {0.1, 1.2, -0.3};
+        scene.tool.stylus_world = {scene.tool.center_world, glm::angleAxis(0.8, glm::normalize(Vec3{1, 2, -1}))};
+        const std::array balls = balls_of(scene.tool);
+        for (const Shape& shape : shapes_of(scene, primitives).solid) {
+            for (std::uint32_t k = 0; k < shape.range.index_count; ++k) {
+                const shared::SurfaceVertex& v = primitives.vertices[primitives.indices[shape.range.first_index + k]];
+                const Vec3 p(Mat4(shape.constants.world_from_local) * glm::dvec4(v.x, v.y, v.z, 1.0));
+                const bool held = std::ranges::any_of(balls, [&](const Ball& ball) {
+                    return glm::length(p - ball.center_world) <= ball.radius_m + 1e-6;  // float's rounding
+                });
+                ASSERT_TRUE(held) << radius_m;
+            }
         }
-    };
-    for (int i = 0; i < 3; ++i) {
-        for (const double side : {-1.0, 1.0}) {
-            Vec3 offset(0.0);
-            offset[i] = side;
-            inside(Vec3{0, 1, -0.2} + 0.3 * offset);
-            inside(scene.tool.center_world + 0.03 * offset);
-        }
+        for (const Ball& ball : balls) EXPECT_LT(ball.radius_m, 0.5 * ball_of(scene.tool).radius_m);
+        scene.tool.visible = false;
+        for (const Ball& ball : balls_of(scene.tool)) EXPECT_EQ(ball.radius_m, 0.0);
     }
-}
-
-TEST(ShadowFrame, IsNotUsedWhenNothingCastsAShadow) {
-    EXPECT_EQ(frame_uniforms(Scene{}, Workpiece{}, 2048).shadow_scale.w, 0.0f);
 }
 
 TEST(WorldFromPatch, AddsTheLatticesOriginBeforePlacingTheObject) {

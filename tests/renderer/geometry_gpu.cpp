@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Are things where they belong, in both eyes?
+#include <algorithm>
+
 #include "tests/renderer/test_scene.hpp"
 
 namespace burin {
@@ -77,6 +79,62 @@ TEST_F(Geometry, WhatStandsInFrontOfTheWallHasCrossedDisparity) {
         const double disparity_px = mean_x(pictures.right, background) - mean_x(pictures.left, background);
         const double predicted_m = -scene.viewer.interpupillary_m * z / (0.6 - z);
         EXPECT_NEAR(disparity_px, predicted_m / pixel_m(scene), 0.25) << "at z = " << z;
+    }
+}
+
+// A ball before the screen, at several places from its middle to its edge: its parallax is what the formula of
+// shaders/shared/parallax_fade.h leaves of it, worked out here from where lines of sight meet the screen.
+TEST_F(Geometry, ParallaxFadesTowardsTheEdges) {
+    constexpr double kBand = 0.4, kZ = 0.1;
+    for (const double strength : {0.5, 1.0}) {
+        for (const double x : {0.0, 0.06, 0.11, 0.13, 0.15}) {
+            Scene scene = bare_scene();
+            scene.edge_fade_band = kBand;
+            const Vec3 center{x, 0.15, kZ};
+            set(0, ball_surface(center, 0.005));
+            const auto disparity_px = [&](double fade) {
+                scene.edge_fade = fade;
+                const StereoImage pictures = render(scene);
+                const std::uint8_t* background = pictures.left.pixel(0, 0);
+                return mean_x(pictures.right, background) - mean_x(pictures.left, background);
+            };
+            const Eyes eyes = eyes_of(scene.viewer);
+            const auto seen = [&](const Vec3& eye) {
+                return 2.0 * point_on_screen(scene.screen, eye, center).x / scene.wall.width_m - 1.0;
+            };
+            const double m = seen(middle_of(eyes)), d = 0.5 * (seen(eyes.right_world) - seen(eyes.left_world));
+            const double band = std::max(kBand, 1.125 * std::abs(d));
+            const double t = std::clamp((band - (1.0 - std::abs(m))) / band, 0.0, 1.0);
+            const double left_m = (1.0 - strength * t * t * (3.0 - 2.0 * t)) * 2.0 * d * 0.5 * scene.wall.width_m;
+            // The outline of a ball aside is an ellipse around a place a little farther out, in whole pixels.
+            constexpr double kTolerance_px = 0.35;
+            EXPECT_NEAR(disparity_px(strength), left_m / pixel_m(scene), kTolerance_px) << strength << " at " << x;
+            EXPECT_NEAR(disparity_px(0.0), d * scene.wall.width_m / pixel_m(scene), kTolerance_px);
+        }
+    }
+}
+
+// Everything but the room is behind the screen or away from its edges: the fade changes no bit.
+TEST_F(Geometry, TheFadeOfParallaxLeavesTheMiddleAndWhatIsBehindTheScreenAsTheyAre) {
+    Scene scene = bare_scene();
+    scene.show_grid = scene.show_wall_frame = true;
+    scene.tool = {0.012, {0.02, 0.16, 0.05}, {0.9, 0.4, 0.1}, {{0.02, 0.16, 0.05}, Quat{1, 0, 0, 0}}, true};
+    scene.box = {{{0.0, 0.15, 0.02}, Quat{1, 0, 0, 0}}, {0.06, 0.05, 0.04}, {0.3, 0.6, 0.8}, true};
+    scene.bubble = {{-0.18, 0.1, -0.1}, 0.03, {0.4, 0.7, 0.6}, true};
+    set(0, ball_surface({0.0, 0.15, 0.0}, 0.04));
+    set(1, ball_surface({0.19, 0.15, -0.1}, 0.07));
+    const StereoImage without = render(scene);
+    scene.edge_fade = 1.0;
+    const StereoImage with = render(scene);
+    EXPECT_TRUE(with.left.rgba == without.left.rgba);
+    EXPECT_TRUE(with.right.rgba == without.right.rgba);
+}
+
+TEST_F(Geometry, RefusesAFadeThatIsNone) {
+    Scene scene = bare_scene();
+    for (const double strength : {-0.1, 1.1, std::nan("")}) {
+        scene.edge_fade = strength;
+        EXPECT_FALSE(renderer().render(scene)) << strength;
     }
 }
 

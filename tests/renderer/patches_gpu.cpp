@@ -34,8 +34,8 @@ TEST_F(Patches, SettingAnIdAgainReplacesIt) {
     set(1, ball_surface({0, 0.15, 0}, 0.03, kGrey, 8));
     const StereoImage again = render(scene);
     EXPECT_TRUE(again.left.rgba == wanted.left.rgba);
-    EXPECT_EQ(again.stats.patches, 1u);
-    EXPECT_EQ(again.stats.triangles, 8u * 16u * 2u);
+    EXPECT_EQ(renderer().stats().patches, 1u);
+    EXPECT_EQ(renderer().stats().triangles, 8u * 16u * 2u);
 }
 
 TEST_F(Patches, ClearingLeavesOnlyWhatIsSetAfterwards) {
@@ -45,7 +45,8 @@ TEST_F(Patches, ClearingLeavesOnlyWhatIsSetAfterwards) {
     renderer().clear_patches();
     EXPECT_TRUE(render(scene).left.rgba == empty.left.rgba);
     set(3, ball_surface({0, 0.15, 0}, 0.03));
-    EXPECT_EQ(render(scene).stats.patches, 1u);
+    static_cast<void>(render(scene));
+    EXPECT_EQ(renderer().stats().patches, 1u);
 }
 
 // Thousands of changes in random order, with growing and shrinking buffers, end in the same picture as setting the last
@@ -77,21 +78,25 @@ TEST_F(Patches, AnyHistoryWithTheSameEndGivesTheSamePicture) {
     ASSERT_TRUE(at_once);
     EXPECT_TRUE(grown.left.rgba == at_once->left.rgba);
     EXPECT_TRUE(grown.right.rgba == at_once->right.rgba);
-    EXPECT_EQ(grown.stats.triangles, at_once->stats.triangles);
-    EXPECT_EQ(at_once->stats.patches, last.size());
+    EXPECT_EQ(renderer().stats().triangles, fresh->stats().triangles);
+    EXPECT_EQ(fresh->stats().patches, last.size());
 }
 
-TEST_F(Patches, AFreshSurfaceOfManyPatchesIsOneDrawAPass) {
+TEST_F(Patches, AFreshSurfaceOfManyPatchesIsOneDraw) {
     for (std::uint32_t id = 0; id < 500; ++id) set(id, ball_surface({0, 0.15, 0}, 0.02, kGrey, 4));
-    EXPECT_EQ(render(bare_scene()).stats.draws, 2u);  // shadow map and views
+    static_cast<void>(render(bare_scene()));
+    EXPECT_EQ(renderer().stats().draws, 1u);
 }
 
 TEST_F(Patches, OnlyWhatChangedIsUploaded) {
     for (std::uint32_t id = 0; id < 100; ++id) set(id, ball_surface({0, 0.15, 0}, 0.02, kGrey, 8));
-    const std::uint64_t all = render(bare_scene()).stats.uploaded_bytes;
-    EXPECT_EQ(render(bare_scene()).stats.uploaded_bytes, 0u);
+    static_cast<void>(render(bare_scene()));
+    const std::uint64_t all = renderer().stats().uploaded_bytes;
+    static_cast<void>(render(bare_scene()));
+    EXPECT_EQ(renderer().stats().uploaded_bytes, 0u);
     set(7, ball_surface({0, 0.15, 0}, 0.03, kGrey, 8));
-    EXPECT_EQ(render(bare_scene()).stats.uploaded_bytes * 100, all);
+    static_cast<void>(render(bare_scene()));
+    EXPECT_EQ(renderer().stats().uploaded_bytes * 100, all);
 }
 
 }  // namespace burin

@@ -81,7 +81,7 @@ TEST(Png, RefusesAPictureWithoutPixelsAndKeepsTheOldFile) {
 }
 
 TEST(SideBySide, PutsTheLeftEyesViewOnTheLeft) {
-    StereoImage stereo{{{2, 2}, std::vector<std::uint8_t>(16, 10)}, {{2, 2}, std::vector<std::uint8_t>(16, 200)}, {}};
+    StereoImage stereo{{{2, 2}, std::vector<std::uint8_t>(16, 10)}, {{2, 2}, std::vector<std::uint8_t>(16, 200)}};
     const Image both = side_by_side(stereo);
     ASSERT_EQ(both.size.width, 4u);
     ASSERT_EQ(both.size.height, 2u);

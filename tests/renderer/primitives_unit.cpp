@@ -40,11 +40,15 @@ TEST(Primitives, HaveTheVolumesOfTheirShapes) {
     // Its foot is open, and stands in the plane y = -1: a third of pi is missing from the integral.
     EXPECT_NEAR(volume(p, p.plinth), 2.0 / 3.0 * std::numbers::pi, 0.02);
     EXPECT_GT(volume(p, p.stylus), 0.0);
+    // Open at z = 1: a third of pi is missing.
+    EXPECT_NEAR(volume(p, p.rod), 2.0 / 3.0 * std::numbers::pi, 0.02);
+    EXPECT_NEAR(volume(p, p.cone), std::numbers::pi / 3.0, 0.01);
+    EXPECT_NEAR(volume(p, p.ring), 2.0 * std::numbers::pi * std::numbers::pi * kRingThickness * kRingThickness, 0.005);
 }
 
 TEST(Primitives, HaveNormalsOnTheSideThatTheTrianglesFace) {
     const Primitives p = make_primitives();
-    for (const PrimitiveRange& range : {p.ball, p.cube, p.stylus, p.plinth, p.screen_quad}) {
+    for (const PrimitiveRange& range : {p.ball, p.cube, p.stylus, p.rod, p.cone, p.ring, p.plinth, p.screen_quad}) {
         ASSERT_GT(range.index_count, 0u);
         for (std::uint32_t i = range.first_index; i < range.first_index + range.index_count; i += 3) {
             const Vec3 a = position(p, i);

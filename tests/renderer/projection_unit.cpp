@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/projection.hpp"
+#include "renderer/stereo/projection.hpp"
 
 #include <gtest/gtest.h>
 

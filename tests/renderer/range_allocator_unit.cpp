@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/range_allocator.hpp"
+#include "renderer/surface/range_allocator.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-#include "renderer/projection.hpp"
+#include "renderer/stereo/projection.hpp"
 #include "renderer/renderer.hpp"
 #include "shaders/shared/octahedral.h"
 #include "tests/gpu/test_device.hpp"

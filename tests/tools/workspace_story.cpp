@@ -178,7 +178,7 @@ Result<void> make(const std::filesystem::path& file) {
     const Result<Material> material = parse_tool_material(options);
     if (!material) return std::unexpected(material.error());
     WorkerPool pool(0);
-    Result<Workpiece> workpiece = load_workpiece({"assets/workpieces/soccer_ball.obj", 256, false}, pool);
+    Result<LoadedWorkpiece> workpiece = load_workpiece({"assets/workpieces/soccer_ball.obj", 256, false}, pool);
     if (!workpiece) return std::unexpected(workpiece.error());
     tool->material = static_cast<std::uint8_t>(workpiece->solid.materials.size());
     workpiece->solid.materials.push_back(*material);

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "app/bench_frame_command.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "bench/frame.hpp"
+#include "bench/peers/frame_peers.hpp"
+#include "renderer/png.hpp"
+
+namespace burin {
+namespace {
+
+struct Options {
+    bench::FrameOptions frame;
+    std::string scene = "all", peer, json, csv, pictures;
+};
+
+bench::FrameOptions asked_for(const Options& options) {
+    bench::FrameOptions asked = options.frame;
+    const bool all = options.scene == "all";
+    std::erase_if(asked.motions,
+                  [&](bench::FrameMotion motion) { return !all && options.scene != bench::name_of(motion); });
+    asked.idle = all || options.scene == "idle";
+    asked.first = all || options.scene == "first";
+    asked.osg = options.peer == "osg" || options.peer == "all";
+    asked.vtk = options.peer == "vtk" || options.peer == "all";
+    return asked;
+}
+
+Result<void> check(const Options& options) {
+    for (const std::string& path : {options.json, options.csv}) {
+        if (const auto ok = check_place(path); !ok) return ok;
+    }
+    if (!options.pictures.empty() && !std::filesystem::is_directory(options.pictures)) {
+        return fail(options.pictures, "is not a folder", "make it first");
+    }
+    if (!options.peer.empty() && !bench::has_frame_peers()) {
+        return fail("--peer " + options.peer, "is not built into this program",
+                    "install it with scripts/setup --peers and configure with -DBURIN_WITH_PEERS=ON");
+    }
+    if (options.frame.samples != 1 && options.frame.samples != 4) {
+        return fail("--samples " + std::to_string(options.frame.samples), "is not possible", "choose 1 or 4");
+    }
+    return {};
+}
+
+// Named by who drew it and what moved: burin-moving.png, both eyes side by side.
+Result<void> write_pictures(const bench::FrameReport& report, const std::filesystem::path& folder) {
+    for (const bench::FrameTimes& times : report.times) {
+        std::string name = times.subject + "-" + bench::name_of(times.motion) + ".png";
+        for (char& c : name) c = c == ' ' || c == ',' ? '-' : static_cast<char>(std::tolower(c));
+        if (const auto done = write_png(folder / name, side_by_side(times.pictures)); !done) return done;
+    }
+    return {};
+}
+
+Result<void> run(const Options& options) {
+    if (const auto ok = check(options); !ok) return ok;
+    const auto report = bench::run_frames(
+        asked_for(options), [](const std::string& part) { std::fprintf(stderr, "measuring: %s\n", part.c_str()); });
+    if (!report) return std::unexpected(report.error());
+    if (options.json != kStandardOutput && options.csv != kStandardOutput) {
+        std::fputs(bench::frame_table(*report).c_str(), stdout);
+    }
+    if (!options.pictures.empty()) {
+        if (const auto done = write_pictures(*report, options.pictures); !done) return done;
+    }
+    if (const auto done = write_output(options.csv, bench::frame_csv(*report)); !done) return done;
+    return write_output(options.json, bench::frame_json(*report).dump(2) + "\n");
+}
+
+}  // namespace
+
+BenchSubcommand add_bench_frame(Command bench) {
+    Command command =
+        bench.subcommand("frame", "Stereo frames off screen: their cost, beside OpenSceneGraph's and VTK's");
+    const auto options = std::make_shared<Options>();
+    command.option("--triangles", options->frame.triangles, "How many the surface has, about")
+        .within(std::size_t{1'000}, std::size_t{10'000'000})
+        .show_default();
+    command
+        .option("--scene", options->scene,
+                "moving: the head goes about; still; carving: a few patches change; idle; first: the first picture")
+        .one_of({"moving", "still", "carving", "idle", "first", "all"})
+        .show_default();
+    command.option("--samples", options->frame.samples, "Samples a pixel, 1 or 4").show_default();
+    command.option("--frames", options->frame.frames, "Frames that are measured, of each scene")
+        .within(std::uint64_t{1}, std::uint64_t{1'000'000})
+        .show_default();
+    command.option("--peer", options->peer, "Let this library draw the same: osg, vtk or all")
+        .one_of({"osg", "vtk", "all"});
+    command.option("--device", options->frame.device, "Which Vulkan device, by its number in burin --version");
+    command.option("--pictures", options->pictures, "A folder for each last picture, both eyes side by side");
+    command.option("--csv", options->csv, "A file for the table; - for standard output");
+    command.option("--json", options->json, "A file for every figure; - for standard output");
+    return {command, [options] { return run(*options); }};
+}
+
+}  // namespace burin

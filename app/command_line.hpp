@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// The command line: commands, subcommands, and options that write to variables. Those variables, and the CommandLine itself, must
+// outlive the parse; Command and CommandOption only refer to it. One thread.
+//
+// This stands before CLI11, whose templates cost a compiler 20 seconds in every source that includes it: only
+// command_line.cpp does.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace burin {
+
+// What may be said of an option once it is there.
+class CommandOption {
+public:
+    explicit CommandOption(CLI::Option* option) : option_(option) {}
+
+    CommandOption required();
+    CommandOption show_default();  // in the help: the value of the variable as it is now
+    // Both ends belong to it; anything else is wrong usage.
+    CommandOption within(int least, int most);
+    CommandOption within(std::uint64_t least, std::uint64_t most);
+    CommandOption within(double least, double most);
+    CommandOption one_of(std::initializer_list<const char*> words);
+    CommandOption one_of(std::initializer_list<int> numbers);
+
+private:
+    CLI::Option* option_;
+};
+
+class Command {
+public:
+    explicit Command(CLI::App* app = nullptr) : app_(app) {}
+
+    Command subcommand(const std::string& name, const std::string& help);
+    // Wrong usage without one of them.
+    void require_subcommand();
+
+    // "--name" takes a value, "NAME" is the value at that place. An optional stays empty, and any other variable as it is, where
+    // the option is not given; a vector takes all values, also of a repeated option.
+    CommandOption option(const std::string& name, std::string& to, const std::string& help);
+    CommandOption option(const std::string& name, std::vector<std::string>& to, const std::string& help);
+    CommandOption option(const std::string& name, int& to, const std::string& help);
+    CommandOption option(const std::string& name, unsigned& to, const std::string& help);
+    CommandOption option(const std::string& name, std::uint64_t& to, const std::string& help);
+    CommandOption option(const std::string& name, double& to, const std::string& help);
+    CommandOption option(const std::string& name, std::optional<unsigned>& to, const std::string& help);
+    CommandOption option(const std::string& name, std::optional<double>& to, const std::string& help);
+    // "!--no-name" sets to false.
+    CommandOption flag(const std::string& name, bool& to, const std::string& help);
+
+    // One of an enumeration's values, by its word or its number.
+    template <typename Choice>
+    CommandOption choice(const std::string& name, Choice& to, const std::string& help,
+                         std::initializer_list<std::pair<const char*, Choice>> words) {
+        std::vector<std::pair<std::string, int>> numbered;
+        for (const auto& [word, value] : words) numbered.emplace_back(word, static_cast<int>(value));
+        return add_choice(name, help, numbered, [&to](int value) { to = static_cast<Choice>(value); });
+    }
+
+    [[nodiscard]] bool parsed() const;  // it was named on the command line
+
+private:
+    CommandOption add_choice(const std::string& name, const std::string& help,
+                             const std::vector<std::pair<std::string, int>>& words,
+                             const std::function<void(int)>& choose);
+
+    CLI::App* app_;
+};
+
+class CommandLine {
+public:
+    explicit CommandLine(const std::string& description);
+    ~CommandLine();
+    CommandLine(const CommandLine&) = delete;
+    CommandLine& operator=(const CommandLine&) = delete;
+
+    [[nodiscard]] Command program();
+    // Where nothing is left to do, the exit status: 0 after --help, 2 after wrong usage, told in one line on standard error.
+    [[nodiscard]] std::optional<int> parse(int argc, const char* const* argv);
+    [[nodiscard]] std::string help() const;
+
+private:
+    std::unique_ptr<CLI::App> app_;
+};
+
+}  // namespace burin

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "app/profile_command.hpp"
+
+#include <charconv>
+#include <cstdio>
+#include <cstdlib>
+
+#include "app/bench_files.hpp"
+#include "app/profile_report.hpp"
+#include "app/session/session.hpp"
+#include "compute/lattice.hpp"
+
+namespace burin {
+
+struct ProfileCommand::Options {
+    SculptOptions sculpt;
+    bool window = false;
+    std::string driver_threads;  // "0,1,2"; empty: as a live session has it
+    std::string json;
+};
+
+namespace {
+
+constexpr unsigned kMostDriverThreads = 32;
+
+// What the log that comes with the program was written for.
+SculptOptions first_carve() {
+    SculptOptions options;
+    options.workpiece.source = "ball:0.1";
+    options.tool.shape = "ball:0.01";
+    options.live.input = "assets/sessions/first-carve.txt";
+    return options;
+}
+
+Result<ProfiledRun> run_once(const SculptOptions& options, std::optional<unsigned> driver_threads) {
+    // The software driver reads it when the session opens its device.
+    if (driver_threads)
+        setenv("LP_NUM_THREADS", std::to_string(*driver_threads).c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
+    auto record = time_session(options);
+    if (!record) return std::unexpected(record.error());
+    return ProfiledRun{driver_threads, std::move(*record)};
+}
+
+// One session for each; one without a say in it where nothing is given.
+Result<std::vector<std::optional<unsigned>>> parse_driver_threads(const std::string& text) {
+    if (text.empty()) return std::vector<std::optional<unsigned>>{std::nullopt};
+    std::vector<std::optional<unsigned>> all;
+    const char *at = text.data(), *const end = at + text.size();
+    while (true) {
+        unsigned threads = 0;
+        const auto read = std::from_chars(at, end, threads);
+        const bool ends = read.ptr == end;
+        if (read.ec != std::errc() || threads > kMostDriverThreads || (!ends && *read.ptr != ',')) {
+            return fail("--driver-threads " + text, "is no list of numbers from 0 to 32", "give one, or some: 0,1,2");
+        }
+        all.emplace_back(threads);
+        if (ends) return all;
+        at = read.ptr + 1;
+    }
+}
+
+}  // namespace
+
+ProfileCommand::ProfileCommand(Command app)
+    : options_(std::make_unique<Options>()),
+      command_(app.subcommand("profile", "Time the frames and ticks of a session that a log leads")) {
+    Options& o = *options_;
+    o.sculpt = first_carve();
+    SculptOptions& s = o.sculpt;
+    command_.option("--input", s.live.input, "A recorded or written log of a session's input").show_default();
+    command_.flag("--window", o.window, "Show it in a window, instead of drawing what nobody sees");
+    command_.option("--workpiece", s.workpiece.source, "As burin sculpt has it").show_default();
+    command_.option("--tool", s.tool.shape, "As burin sculpt has it").show_default();
+    command_.option("--resolution", s.workpiece.resolution, "Lattice cells along the longest side")
+        .within(kMinResolution, kMaxResolution)
+        .show_default();
+    command_.option("--stereo", s.live.stereo, "side-by-side, anaglyph-red-cyan, ...; else mono");
+    command_.option("--wall", s.live.wall, "A wall file: all its screens");
+    command_.flag("--windowed", s.live.windowed, "With --wall and --window: its screens in windows on the desktop");
+    command_.option("--width", s.live.width, "Of the picture, in pixels").within(64, 8192).show_default();
+    command_.option("--height", s.live.height, "Of the picture, in pixels").within(64, 8192).show_default();
+    command_.option("--samples", s.live.samples, "A pixel: 1 or 4; 0: 4, but 1 on a software device")
+        .one_of({0, 1, 4})
+        .show_default();
+    command_.option("--threads", s.threads, "How many threads carve; 0: one per core").within(0, 1024);
+    command_.option("--driver-threads", o.driver_threads,
+                    "With a software device: how many threads draw, 0 to 32; several, with commas: a session for each");
+    command_.option("--json", o.json, "A file for all figures; - for standard output");
+}
+
+ProfileCommand::~ProfileCommand() = default;
+
+bool ProfileCommand::parsed() const { return command_.parsed(); }
+
+Result<void> ProfileCommand::run() const {
+    const Options& o = *options_;
+    if (const auto ok = check_place(o.json); !ok) return ok;
+    SculptOptions options = o.sculpt;
+    options.live.offscreen = !o.window;
+    const auto choices = parse_driver_threads(o.driver_threads);
+    if (!choices) return std::unexpected(choices.error());
+    std::vector<Json> runs;
+    for (const std::optional<unsigned> threads : *choices) {
+        const auto run = run_once(options, threads);
+        if (!run) return std::unexpected(run.error());
+        runs.push_back(describe_run(*run));
+        if (o.json != kStandardOutput) std::printf("%s\n", profile_table(runs.back()).c_str());
+    }
+    if (o.json != kStandardOutput) std::fputs(comparison_table(runs).c_str(), stdout);
+    const Json all = {{"input", options.live.input}, {"workpiece", options.workpiece.source}, {"runs", runs}};
+    return write_output(o.json, all.dump(2) + "\n");
+}
+
+}  // namespace burin

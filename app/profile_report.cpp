@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "app/profile_report.hpp"
+
+#include <array>
+#include <cstdio>
+
+namespace burin {
+namespace {
+
+double ms(Nanoseconds t_ns) { return 1e3 * seconds(t_ns); }
+
+Json in_ms(const FigureSummary& summary) {
+    if (summary.count == 0) return nullptr;
+    return {{"median", ms(summary.median_ns)}, {"p99", ms(summary.p99_ns)}, {"worst", ms(summary.most_ns)}};
+}
+
+Json in_us(const FigureSummary& summary) {
+    if (summary.count == 0) return nullptr;
+    return {{"median", 1e3 * ms(summary.median_ns)},
+            {"p99", 1e3 * ms(summary.p99_ns)},
+            {"worst", 1e3 * ms(summary.most_ns)}};
+}
+
+template <typename Of>
+FigureSummary summary_of(const std::vector<TimedFrame>& frames, const Of& of) {
+    std::vector<Nanoseconds> values;
+    for (const TimedFrame& frame : frames)
+        if (const std::optional<Nanoseconds> value = of(frame)) values.push_back(*value);
+    return summarised(std::move(values));
+}
+
+Json stages_of(const std::vector<TimedFrame>& frames) {
+    Json stages;
+    for (std::size_t i = 0; i < kFrameStages; ++i) {
+        stages[name_of(static_cast<FrameStage>(i))] =
+            in_ms(summary_of(frames, [i](const TimedFrame& f) { return std::optional(f.stage_ns[i]); }));
+    }
+    return stages;
+}
+
+Json ages_of_all(const std::vector<TimedFrame>& frames) {
+    Json ages;
+    for (std::size_t i = 0; i < kFrameFigures; ++i) {
+        const auto figure = static_cast<FrameFigure>(i);
+        ages[name_of(figure)] =
+            in_ms(summary_of(frames, [figure](const TimedFrame& f) { return worse_eye(f.ages, figure); }));
+    }
+    return ages;
+}
+
+std::string line(const char* format, auto... values) {
+    std::array<char, 256> text{};
+    std::snprintf(text.data(), text.size(), format, values...);
+    return text.data();
+}
+
+std::string row(const std::string& name, const Json& figure) {
+    if (figure.is_null()) return line("  %-22s%12s%12s%12s\n", name.c_str(), "-", "-", "-");
+    return line("  %-22s%12.2f%12.2f%12.2f\n", name.c_str(), figure["median"].get<double>(),
+                figure["p99"].get<double>(), figure["worst"].get<double>());
+}
+
+std::string rows(const Json& figures) {
+    std::string text;
+    for (const auto& [name, figure] : figures.items()) text += row(name, figure);
+    return text;
+}
+
+std::string heading(const char* title) { return line("%-24s%12s%12s%12s\n", title, "median", "p99", "worst"); }
+
+double number(const Json& figure, const char* key) { return figure.is_null() ? 0.0 : figure[key].get<double>(); }
+
+}  // namespace
+
+Json describe_run(const ProfiledRun& run) {
+    const SessionRecord& r = run.record;
+    const double wall_s = seconds(r.wall_ns);
+    Json json;
+    json["device"] = r.device;
+    json["driver_threads"] = run.driver_threads ? Json(*run.driver_threads) : Json(nullptr);
+    json["seconds"] = wall_s;
+    json["frames"] = {{"drawn", r.frames.size()},
+                      {"skipped", r.skipped},
+                      {"drawn_per_s", wall_s > 0.0 ? static_cast<double>(r.frames.size()) / wall_s : 0.0}};
+    json["stages_ms"] = stages_of(r.frames);
+    json["carve_update_ms"] = in_ms(r.carve_update);
+    json["processor_ms"] =
+        in_ms(summary_of(r.frames, [](const TimedFrame& f) { return std::optional(f.processor_ns); }));
+    json["cores_busy"] = wall_s > 0.0 ? seconds(r.processor_ns) / wall_s : 0.0;
+    json["ages_ms"] = ages_of_all(r.frames);
+    json["ticks"] = {{"count", r.ticks},
+                     {"late", r.late_ticks},
+                     {"missed_deadlines", r.missed_deadlines},
+                     {"duration_us", in_us(r.tick_duration)},
+                     {"lateness_us", in_us(r.tick_lateness)}};
+    json["warnings"] = r.warnings;
+    return json;
+}
+
+std::string profile_table(const Json& run) {
+    const Json &frames = run["frames"], &ticks = run["ticks"];
+    std::string text = line("%s", run["device"].get<std::string>().c_str());
+    if (!run["driver_threads"].is_null()) text += line(", driver threads: %u", run["driver_threads"].get<unsigned>());
+    text += line("\n%.1f s, %zu frames drawn (%.1f a second), %zu skipped, %.2f cores busy\n\n",
+                 run["seconds"].get<double>(), frames["drawn"].get<std::size_t>(), frames["drawn_per_s"].get<double>(),
+                 frames["skipped"].get<std::size_t>(), run["cores_busy"].get<double>());
+    text += heading("a frame, ms") + rows(run["stages_ms"]) + row("processor, all threads", run["processor_ms"]);
+    text += row("carving, beside it", run["carve_update_ms"]);
+    text += "\n" + heading("when seen, ms") + rows(run["ages_ms"]);
+    text += "\n" + heading("1 kHz loop, us") + row("tick", ticks["duration_us"]) + row("late by", ticks["lateness_us"]);
+    text += line("  %zu ticks, %zu late, %zu deadlines missed\n", ticks["count"].get<std::size_t>(),
+                 ticks["late"].get<std::size_t>(), ticks["missed_deadlines"].get<std::size_t>());
+    for (const Json& warning : run["warnings"]) text += "\nwarning: " + warning.get<std::string>();
+    if (!run["warnings"].empty()) text += "\n";
+    return text;
+}
+
+std::string comparison_table(const std::vector<Json>& runs) {
+    if (runs.size() < 2) return {};
+    std::string text = "driver threads   frames/s   draw, ms   late by, us: median       p99     worst   missed\n";
+    for (const Json& run : runs) {
+        const Json& late = run["ticks"]["lateness_us"];
+        const std::string threads =
+            run["driver_threads"].is_null() ? "-" : std::to_string(run["driver_threads"].get<unsigned>());
+        text += line("%14s%11.1f%11.2f%22.1f%10.1f%10.1f%9zu\n", threads.c_str(),
+                     run["frames"]["drawn_per_s"].get<double>(), number(run["stages_ms"]["draw"], "median"),
+                     number(late, "median"), number(late, "p99"), number(late, "worst"),
+                     run["ticks"]["missed_deadlines"].get<std::size_t>());
+    }
+    return text;
+}
+
+}  // namespace burin

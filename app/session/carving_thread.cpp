@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "app/session/carving_thread.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace burin {
+
+CarvingThread::CarvingThread(CarvingDesk& desk, Clock& clock, std::function<void()> on_news)
+    : desk_(desk), clock_(clock), on_news_(std::move(on_news)) {}
+
+void CarvingThread::start() {
+    thread_ = std::thread([this] { run(); });
+}
+
+void CarvingThread::stop() {
+    if (!thread_.joinable()) return;
+    {
+        const std::lock_guard lock(mutex_);
+        stopping_ = true;
+    }
+    woken_.notify_all();
+    thread_.join();
+}
+
+void CarvingThread::order(CarvingOrder order) {
+    {
+        const std::lock_guard lock(mutex_);
+        orders_.push_back(std::move(order));
+    }
+    woken_.notify_all();
+}
+
+std::optional<SurfaceNews> CarvingThread::take_news() {
+    const std::lock_guard lock(mutex_);
+    std::optional<SurfaceNews> taken = std::move(news_);
+    news_.reset();
+    return taken;
+}
+
+std::optional<Error> CarvingThread::failure() const {
+    const std::lock_guard lock(mutex_);
+    return failure_;
+}
+
+std::vector<CarvingOrder> CarvingThread::wait_for_orders(Nanoseconds until_ns) {
+    std::unique_lock lock(mutex_);
+    const std::chrono::nanoseconds left(std::max<Nanoseconds>(until_ns - clock_.now_ns(), 0));
+    woken_.wait_for(lock, left, [this] { return stopping_ || !orders_.empty(); });
+    return std::exchange(orders_, {});
+}
+
+void CarvingThread::run() {
+    Nanoseconds next_ns = clock_.now_ns();
+    while (true) {
+        next_ns = std::max(next_ns + kPeriod_ns, clock_.now_ns());
+        for (const CarvingOrder& order : wait_for_orders(next_ns)) desk_.order(order);
+        const Nanoseconds began_ns = clock_.now_ns();
+        const auto updated = desk_.update(began_ns);
+        const Nanoseconds took_ns = clock_.now_ns() - began_ns;
+        std::optional<SurfaceNews> news = desk_.take_news();
+        if (news && !news->tiles.empty()) update_duration_.add(took_ns);
+        const bool told = news.has_value();
+        bool end = false;
+        {
+            const std::lock_guard lock(mutex_);
+            if (news && news_) {
+                merge(*news_, std::move(*news));
+            } else if (news) {
+                news_ = std::move(news);
+            }
+            if (!updated) failure_ = updated.error();
+            end = stopping_ || failure_.has_value();
+        }
+        if (told || !updated) on_news_();
+        if (end) return;
+    }
+}
+
+void merge(SurfaceNews& into, SurfaceNews later) {
+    for (TileNews& tile : later.tiles) {
+        const auto known = std::ranges::find(into.tiles, tile.tile, &TileNews::tile);
+        if (known == into.tiles.end()) {
+            into.tiles.push_back(std::move(tile));
+        } else {
+            *known = std::move(tile);
+        }
+    }
+    into.inner_boxes_object = std::move(later.inner_boxes_object);
+    into.cut_ns = std::max(into.cut_ns, later.cut_ns);
+    into.undoable = later.undoable;
+    into.redoable = later.redoable;
+    into.export_progress = later.export_progress;
+    std::ranges::move(later.messages, std::back_inserter(into.messages));
+}
+
+}  // namespace burin

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "app/session/desk_input.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "app/session/input_wand.hpp"
+#include "base/error.hpp"
+
+namespace burin {
+namespace {
+
+constexpr std::uint32_t kCarve = 1u << 0, kMoveWorkspace = 1u << 1;
+
+std::optional<Gesture> gesture_of(MouseUse use, const Modifiers& held) {
+    for (const MouseGesture& g : mouse_gestures())
+        if (g.use == use && g.modifiers.shift == held.shift && g.modifiers.ctrl == held.ctrl) return g.gesture;
+    return std::nullopt;
+}
+
+// The events of one step, one after the other.
+struct Steps {
+    const DeskView& view;
+    const DeskSettings& settings;
+    DeskState state;
+    std::uint32_t clicked = 0;  // buttons pressed in this step, even if they are up again
+    Similarity change;
+    std::vector<Action> actions;
+
+    void operator()(const KeyInput& in) {
+        const auto key = static_cast<std::size_t>(in.key);
+        const bool down = in.motion != KeyMotion::release;
+        if (in.key == Key::shift) state.modifiers.shift = down;
+        if (in.key == Key::ctrl) state.modifiers.ctrl = down;
+        if (in.key == Key::alt) state.modifiers.alt = down;
+        if (in.key == Key::super) state.modifiers.super = down;
+        if (!down) {
+            state.keys.reset(key);
+            return;
+        }
+        if (view.keyboard_captured) return;
+        // With Ctrl, Alt or Super a key is a short cut or nothing: saving does not fly backwards.
+        if (!in.modifiers.ctrl && !in.modifiers.alt && !in.modifiers.super) state.keys.set(key);
+        for (const ShortCut& s : short_cuts())
+            if (s.key == in.key && s.modifiers == in.modifiers && (s.repeats || in.motion == KeyMotion::press))
+                act(s.action);
+    }
+
+    void act(Action action) {
+        actions.push_back(action);
+        if (action != Action::reset_view) return;
+        state.head_world = settings.home_head_world;
+        state.flight_m_per_s = Vec3(0.0);
+    }
+
+    void operator()(const MouseMove& in) {
+        const std::optional<Vec2> before = std::exchange(state.mouse_px, in.position_px);
+        if (!before) return;
+        const Vec2 moved(in.position_px.x - before->x, before->y - in.position_px.y);  // y up
+        if (state.drag)
+            drag(moved);
+        else if (!view.mouse_captured || state.buttons != 0)
+            move_stylus(moved);
+    }
+
+    void move_stylus(const Vec2& moved_px) {
+        const auto gesture = gesture_of(MouseUse::move, {.shift = state.modifiers.shift});
+        const Vec3 on_screen = gesture == Gesture::move_stylus_in_depth ? Vec3(moved_px.x, 0.0, -moved_px.y)
+                                                                        : Vec3(moved_px.x, moved_px.y, 0.0);
+        reach(view.device_from_screen * (view.device_m_per_px * on_screen));
+    }
+
+    void reach(const Vec3& by_device_m) {
+        const Vec3 half = 0.5 * settings.workspace_m;
+        state.target_device_m = glm::clamp(state.target_device_m + by_device_m, -half, half);
+    }
+
+    void drag(const Vec2& moved_px) {
+        const Quat& q = view.world_from_screen;
+        if (state.drag == Gesture::pan_scene) {
+            change = moved_by(change, q * Vec3(view.world_m_per_px * moved_px, 0.0));
+        } else {
+            const Vec2 angle = settings.turn_rad_per_px * moved_px;
+            change = turned_about(change, view.pivot_world, glm::angleAxis(angle.x, q * Vec3(0.0, 1.0, 0.0)));
+            change = turned_about(change, view.pivot_world, glm::angleAxis(-angle.y, q * Vec3(1.0, 0.0, 0.0)));
+        }
+    }
+
+    // Modifiers come with the event or as keys of their own.
+    [[nodiscard]] Modifiers held_with(const Modifiers& told) const {
+        return {told.shift || state.modifiers.shift, told.ctrl || state.modifiers.ctrl, false, false};
+    }
+
+    void operator()(const MouseClick& in) {
+        if (in.button == MouseButton::middle)
+            state.drag = in.pressed && !view.mouse_captured ? gesture_of(MouseUse::middle_drag, held_with(in.modifiers))
+                                                            : std::nullopt;
+        press_stylus(in, MouseButton::left, MouseUse::left_button);
+        press_stylus(in, MouseButton::right, MouseUse::right_button);
+    }
+
+    void press_stylus(const MouseClick& in, MouseButton button, MouseUse use) {
+        if (in.button != button) return;
+        const std::uint32_t bit = use == MouseUse::left_button ? kCarve : kMoveWorkspace;
+        if (!in.pressed) {
+            state.buttons &= ~bit;
+        } else if (!view.mouse_captured && gesture_of(use, held_with(in.modifiers))) {
+            state.buttons |= bit;
+            clicked |= bit;
+        }
+    }
+
+    void operator()(const Scroll& in) {
+        if (view.mouse_captured) return;
+        const auto gesture = gesture_of(MouseUse::wheel, held_with(in.modifiers));
+        // With Shift some window systems turn the wheel's axis.
+        const double steps = in.steps.y != 0.0 ? in.steps.y : held_with(in.modifiers).shift ? in.steps.x : 0.0;
+        if (gesture == Gesture::stylus_depth)
+            reach(view.device_from_screen * Vec3(0.0, 0.0, -settings.depth_per_wheel_step_m * steps));
+        if (gesture == Gesture::scale_scene)
+            scale(std::pow(settings.scale_per_wheel_step, std::clamp(steps, -50.0, 50.0)));
+    }
+
+    void scale(double factor) {
+        const double now = view.scene_scale * change.scale;
+        const double allowed = std::clamp(now * factor, settings.least_scale, settings.most_scale) / now;
+        change = scaled_about(change, view.pivot_world, allowed);
+    }
+
+    void operator()(const WindowFocus& in) {
+        if (in.gained) return;
+        state.keys.reset();
+        state.modifiers = {};
+        state.buttons = 0;
+        state.drag.reset();
+        state.mouse_px.reset();  // wherever it comes back is no motion
+    }
+
+    template <typename Other>
+    void operator()(const Other&) {}
+};
+
+Vec3 direction_of(const std::bitset<kKeyCount>& keys) {
+    constexpr std::array<Vec3, 6> kDirections = {Vec3(0.0, 0.0, -1.0), Vec3(0.0, 0.0, 1.0), Vec3(-1.0, 0.0, 0.0),
+                                                 Vec3(1.0, 0.0, 0.0),  Vec3(0.0, 1.0, 0.0), Vec3(0.0, -1.0, 0.0)};
+    std::array<bool, kDirections.size()> held{};  // two keys of one direction are no faster than one
+    for (const FlightKey& key : flight_keys())
+        if (keys.test(static_cast<std::size_t>(key.key))) held.at(static_cast<std::size_t>(key.flight)) = true;
+    Vec3 sum(0.0);
+    for (std::size_t i = 0; i < held.size(); ++i)
+        if (held[i]) sum += kDirections[i];
+    const double l = glm::length(sum);
+    return l > 0.0 ? sum / l : sum;
+}
+
+void fly(DeskState& state, double dt_s, const DeskSettings& settings) {
+    const Vec3 wanted = settings.flight_speed_m_per_s * (state.head_world.orientation * direction_of(state.keys));
+    // v' = (wanted - v) / lag, one implicit Euler step: stable for any dt.
+    state.flight_m_per_s =
+        (settings.flight_lag_s * state.flight_m_per_s + dt_s * wanted) / (settings.flight_lag_s + dt_s);
+    if (glm::length(state.flight_m_per_s) < 1e-4 && wanted == Vec3(0.0)) state.flight_m_per_s = Vec3(0.0);  // at rest
+    Vec3& p = state.head_world.position_m;
+    p += dt_s * state.flight_m_per_s;
+    if (settings.head_world.empty()) return;
+    p = glm::clamp(p, settings.head_world.lo, settings.head_world.hi);
+}
+
+}  // namespace
+
+DeskState desk_at_home(const DeskSettings& settings) {
+    DeskState state;
+    state.head_world = settings.home_head_world;
+    return state;
+}
+
+DeskStep step_desk(DeskState state, std::span<const InputEvent> events, double dt_s, const DeskView& view,
+                   const DeskSettings& settings) {
+    BURIN_CHECK(dt_s >= 0.0 && view.scene_scale > 0.0 && settings.flight_lag_s > 0.0);
+    Steps steps{view, settings, std::move(state), 0, {}, {}};
+    for (const InputEvent& event : events) std::visit(steps, event.input);
+    fly(steps.state, dt_s, settings);
+    DeskStep step;
+    step.target.position_device_m = steps.state.target_device_m;
+    step.target.buttons = steps.state.buttons | steps.clicked;
+    step.head_world = steps.state.head_world;
+    step.scene_change = steps.change;
+    step.actions = std::move(steps.actions);
+    step.state = std::move(steps.state);
+    return step;
+}
+
+double device_m_per_px(double screen_m_per_px, double eye_to_screen_m, double eye_to_tool_m, double world_per_device) {
+    BURIN_CHECK(eye_to_screen_m > 0.0 && eye_to_tool_m > 0.0 && world_per_device > 0.0);
+    return screen_m_per_px * (eye_to_tool_m / eye_to_screen_m) / world_per_device;
+}
+
+}  // namespace burin

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "app/session/desk_input_table.hpp"
+
+#include <array>
+
+#include "app/session/input_keys.hpp"
+
+namespace burin {
+namespace {
+
+constexpr Modifiers kNone{};
+constexpr Modifiers kShift{.shift = true};
+constexpr Modifiers kCtrl{.ctrl = true};
+constexpr Modifiers kCtrlShift{.shift = true, .ctrl = true};
+
+constexpr std::array kShortCuts = {
+    ShortCut{Key::z, kCtrl, Action::undo, true, "Undo"},
+    ShortCut{Key::z, kCtrlShift, Action::redo, true, "Redo"},
+    ShortCut{Key::y, kCtrl, Action::redo, true, "Redo"},
+    ShortCut{Key::digit_1, kNone, Action::tool_1, false, "Carve"},
+    ShortCut{Key::digit_2, kNone, Action::tool_2, false, "Add material"},
+    ShortCut{Key::digit_3, kNone, Action::tool_3, false, "Paint"},
+    ShortCut{Key::digit_4, kNone, Action::tool_4, false, "Smooth"},
+    ShortCut{Key::digit_5, kNone, Action::tool_5, false, "Only touch"},
+    ShortCut{Key::left_bracket, kNone, Action::smaller_radius, true, "Smaller tool"},
+    ShortCut{Key::right_bracket, kNone, Action::larger_radius, true, "Larger tool"},
+    ShortCut{Key::m, kNone, Action::next_stereo_mode, false, "Next stereo mode"},
+    ShortCut{Key::m, kShift, Action::swap_eyes, false, "Exchange the eyes"},
+    ShortCut{Key::t, kNone, Action::next_workspace_technique, false, "Next way to move the workspace"},
+    ShortCut{Key::home, kNone, Action::reset_view, false, "Back to the first view"},
+    ShortCut{Key::tab, kNone, Action::toggle_panel, false, "Show or hide the panel"},
+    ShortCut{Key::f1, kNone, Action::toggle_help, false, "Show or hide this help"},
+    ShortCut{Key::f2, kNone, Action::toggle_frame_figures, false, "Show or hide the figures of frames and ticks"},
+    ShortCut{Key::f11, kNone, Action::toggle_full_screen, false, "Full screen or window"},
+    ShortCut{Key::f12, kNone, Action::take_screenshot, false, "Save a picture of the screen"},
+    ShortCut{Key::e, kCtrl, Action::export_mesh, false, "Export the mesh"},
+    ShortCut{Key::s, kCtrl, Action::save_session, false, "Save the session"},
+    ShortCut{Key::q, kCtrl, Action::quit, false, "Quit"},
+};
+
+constexpr std::array kFlightKeys = {
+    FlightKey{Key::w, Flight::forwards, "Move closer"},
+    FlightKey{Key::s, Flight::backwards, "Move away"},
+    FlightKey{Key::a, Flight::left, "Move to the left"},
+    FlightKey{Key::d, Flight::right, "Move to the right"},
+    FlightKey{Key::left, Flight::left, "Move to the left"},
+    FlightKey{Key::right, Flight::right, "Move to the right"},
+    FlightKey{Key::up, Flight::up, "Move up"},
+    FlightKey{Key::down, Flight::down, "Move down"},
+    FlightKey{Key::page_up, Flight::forwards, "Move closer"},
+    FlightKey{Key::page_down, Flight::backwards, "Move away"},
+};
+
+constexpr std::array kMouseGestures = {
+    MouseGesture{MouseUse::move, kNone, Gesture::move_stylus, "Move the stylus along the screen"},
+    MouseGesture{MouseUse::move, kShift, Gesture::move_stylus_in_depth, "Move the stylus sideways and in depth"},
+    MouseGesture{MouseUse::wheel, kNone, Gesture::stylus_depth, "Move the stylus in depth"},
+    MouseGesture{MouseUse::wheel, kShift, Gesture::stylus_depth, "Move the stylus in depth"},
+    MouseGesture{MouseUse::wheel, kCtrl, Gesture::scale_scene, "Scale the scene"},
+    MouseGesture{MouseUse::left_button, kNone, Gesture::carve, "First button of the stylus: carve"},
+    MouseGesture{MouseUse::left_button, kShift, Gesture::carve, "First button of the stylus: carve"},
+    MouseGesture{MouseUse::right_button, kNone, Gesture::move_workspace,
+                 "Second button of the stylus: move the workspace"},
+    MouseGesture{MouseUse::right_button, kShift, Gesture::move_workspace,
+                 "Second button of the stylus: move the workspace"},
+    MouseGesture{MouseUse::middle_drag, kNone, Gesture::turn_scene, "Turn the scene"},
+    MouseGesture{MouseUse::middle_drag, kShift, Gesture::pan_scene, "Move the scene along the screen"},
+};
+
+constexpr std::array<std::string_view, 21> kActionNames = {"undo",
+                                                           "redo",
+                                                           "tool-1",
+                                                           "tool-2",
+                                                           "tool-3",
+                                                           "tool-4",
+                                                           "tool-5",
+                                                           "smaller-radius",
+                                                           "larger-radius",
+                                                           "next-stereo-mode",
+                                                           "swap-eyes",
+                                                           "next-workspace-technique",
+                                                           "toggle-panel",
+                                                           "toggle-help",
+                                                           "toggle-frame-figures",
+                                                           "toggle-full-screen",
+                                                           "take-screenshot",
+                                                           "export-mesh",
+                                                           "save-session",
+                                                           "reset-view",
+                                                           "quit"};
+static_assert(kActionNames[static_cast<std::size_t>(Action::quit)] == "quit");
+
+constexpr std::array<std::string_view, 5> kMouseUses = {"Mouse", "Left button", "Right button", "Middle drag", "Wheel"};
+
+std::string key_label(Key key) {
+    switch (key) {
+        case Key::left_bracket: return "[";
+        case Key::right_bracket: return "]";
+        default: break;
+    }
+    std::string label(name_of(key));
+    bool starts_word = true;
+    for (char& c : label) {
+        if (starts_word && c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+        starts_word = c == '-';
+        if (c == '-') c = ' ';
+    }
+    return label;
+}
+
+std::string with_modifiers(const Modifiers& modifiers, const std::string& label) {
+    std::string text;
+    if (modifiers.ctrl) text += "Ctrl+";
+    if (modifiers.alt) text += "Alt+";
+    if (modifiers.shift) text += "Shift+";
+    if (modifiers.super) text += "Super+";
+    return text + label;
+}
+
+}  // namespace
+
+std::span<const ShortCut> short_cuts() { return kShortCuts; }
+std::span<const FlightKey> flight_keys() { return kFlightKeys; }
+std::span<const MouseGesture> mouse_gestures() { return kMouseGestures; }
+
+std::string label_of(const ShortCut& s) { return with_modifiers(s.modifiers, key_label(s.key)); }
+std::string label_of(const FlightKey& key) { return key_label(key.key); }
+std::string label_of(const MouseGesture& g) {
+    return with_modifiers(g.modifiers, std::string(kMouseUses.at(static_cast<std::size_t>(g.use))));
+}
+
+std::string_view name_of(Action action) { return kActionNames.at(static_cast<std::size_t>(action)); }
+std::span<const std::string_view> action_names() { return kActionNames; }
+
+}  // namespace burin

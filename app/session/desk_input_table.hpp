@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// What keys and the mouse do at a desk, as tables: the step function looks up what to do in them, and the panel shows them, so
+// the two cannot differ.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "app/session/input_event.hpp"
+
+namespace burin {
+
+// What the session does when a key is pressed.
+enum class Action : std::uint8_t {
+    // clang-format off
+    undo, redo, tool_1, tool_2, tool_3, tool_4, tool_5, smaller_radius, larger_radius, next_stereo_mode, swap_eyes,
+    next_workspace_technique, toggle_panel, toggle_help, toggle_frame_figures, toggle_full_screen, take_screenshot,
+    export_mesh, save_session, reset_view, quit,
+    // clang-format on
+};
+// What goes on while a key is held: the head flies, in its own directions.
+enum class Flight : std::uint8_t { forwards, backwards, left, right, up, down };
+// What the mouse does.
+enum class Gesture : std::uint8_t {
+    // clang-format off
+    move_stylus, move_stylus_in_depth, carve, move_workspace, turn_scene, pan_scene, stylus_depth, scale_scene,
+    // clang-format on
+};
+
+struct ShortCut {
+    Key key;
+    Modifiers modifiers;  // exactly these
+    Action action;
+    bool repeats;  // while the key is held
+    std::string_view description;
+};
+struct FlightKey {
+    Key key;
+    Flight flight;
+    std::string_view description;
+};
+enum class MouseUse : std::uint8_t { move, left_button, right_button, middle_drag, wheel };
+struct MouseGesture {
+    MouseUse use;
+    Modifiers modifiers;  // exactly these, of shift and ctrl; a use without an entry for what is held does nothing
+    Gesture gesture;
+    std::string_view description;
+};
+
+[[nodiscard]] std::span<const ShortCut> short_cuts();
+[[nodiscard]] std::span<const FlightKey> flight_keys();
+[[nodiscard]] std::span<const MouseGesture> mouse_gestures();
+
+// "Ctrl+Shift+Z", "[", "Middle drag", for people.
+[[nodiscard]] std::string label_of(const ShortCut& short_cut);
+[[nodiscard]] std::string label_of(const FlightKey& key);
+[[nodiscard]] std::string label_of(const MouseGesture& gesture);
+
+// "undo": what the command of that name in a log or the panel does.
+[[nodiscard]] std::string_view name_of(Action action);
+[[nodiscard]] std::span<const std::string_view> action_names();  // in the order of Action
+
+}  // namespace burin

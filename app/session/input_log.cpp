@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "app/session/input_log.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <utility>
+
+#include "app/session/input_line.hpp"
+#include "geometry/file_io.hpp"
+
+namespace burin {
+namespace {
+
+constexpr std::string_view kMagic = "burin-input";
+
+bool is_settings_line(const std::string& settings) {
+    const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+    return settings.size() <= kMostSettingsBytes && std::ranges::none_of(settings, control) &&
+           (settings.empty() || (settings.front() != ' ' && settings.back() != ' '));
+}
+
+// The settings behind "burin-input 1 ".
+Result<std::string> read_header(std::string_view line, const std::string& where) {
+    const std::string remedy =
+        "its first line must read: burin-input " + std::to_string(kInputLogVersion) + " SETTINGS";
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    const bool ours = line.starts_with(kMagic) && line.size() > kMagic.size() && line[kMagic.size()] == ' ';
+    if (!ours) return fail(where, "this is no input log", remedy);
+    line.remove_prefix(kMagic.size() + 1);
+    int version = 0;
+    const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), version);
+    line.remove_prefix(static_cast<std::size_t>(end - line.data()));
+    if (error != std::errc{} || (!line.empty() && line.front() != ' '))
+        return fail(where, "the log has no version", remedy);
+    if (version != kInputLogVersion)
+        return fail(where, "the log is of version " + std::to_string(version),
+                    "this program reads version " + std::to_string(kInputLogVersion) + "; use the one that wrote it");
+    while (line.starts_with(' ')) line.remove_prefix(1);
+    while (line.ends_with(' ')) line.remove_suffix(1);
+    std::string settings(line.substr(0, kMostSettingsBytes + 1));
+    if (!is_settings_line(settings))
+        return fail(where, "the settings are too long or hold control characters", "write them as one short line");
+    return settings;
+}
+
+// Takes the next line off the text; nothing when no line end is left.
+std::optional<std::string_view> take_line(std::string_view& text) {
+    const std::size_t end = text.find('\n');
+    if (end == std::string_view::npos) return std::nullopt;
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end + 1);
+    return line;
+}
+
+Error file_error(const std::string& name, const std::string& what, int code, std::string remedy) {
+    return {what + ": " + std::strerror(code), name, std::move(remedy)};
+}
+
+}  // namespace
+
+Result<InputLog> parse_input_log(std::string_view text, const std::string& name) {
+    InputLog log;
+    std::size_t line_number = 1;
+    const auto where = [&] { return name + ":" + std::to_string(line_number); };
+    const auto header = take_line(text);
+    auto settings = read_header(header.value_or(text.substr(0, 100)), where());
+    if (!settings) return std::unexpected(settings.error());
+    if (!header) return fail(where(), "the header line has no end", "end it with a line feed");
+    log.settings = std::move(*settings);
+    Nanoseconds last_ns = 0;
+    while (const auto line = take_line(text)) {
+        ++line_number;
+        auto event = parse_line(*line, where());
+        if (!event) return std::unexpected(event.error());
+        if (!*event) continue;
+        if ((*event)->time_ns < last_ns)
+            return fail(where(),
+                        "its time " + text_of_time((*event)->time_ns) + " is before " + text_of_time(last_ns) +
+                            ", that of the event before",
+                        "sort the lines by time");
+        last_ns = (*event)->time_ns;
+        log.events.push_back(std::move(**event));
+    }
+    ++line_number;
+    if (!text.empty())
+        log.torn_line = where() + ": the last line has no end and is left out; if it is whole, end it with a line feed";
+    return log;
+}
+
+Result<InputLog> read_input_log(const std::filesystem::path& path) {
+    const auto bytes = read_file(path, kMostLogBytes);
+    if (!bytes) return std::unexpected(bytes.error());
+    return parse_input_log({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string());
+}
+
+Result<InputLogWriter> InputLogWriter::create(const std::filesystem::path& path, const std::string& settings) {
+    const std::string name = path.string();
+    if (!is_settings_line(settings))
+        return fail(name, "the session's settings do not fit on one line of a log", "shorten them");
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666);
+    if (file < 0) {
+        const std::string remedy =
+            errno == EEXIST ? "name another file, or remove this one first" : "name a place where files can be created";
+        return std::unexpected(file_error(name, "the input log cannot be created", errno, remedy));
+    }
+    InputLogWriter writer;
+    writer.name_ = name;
+    writer.file_ = file;
+    std::string header = std::string(kMagic) + " " + std::to_string(kInputLogVersion);
+    if (!settings.empty()) header += " " + settings;
+    if (auto ok = writer.write_line(std::move(header)); !ok) return std::unexpected(ok.error());
+    return writer;
+}
+
+InputLogWriter::InputLogWriter(InputLogWriter&& other) noexcept
+    : name_(std::move(other.name_)),
+      file_(std::exchange(other.file_, -1)),
+      last_ns_(other.last_ns_),
+      broken_(other.broken_) {}
+
+InputLogWriter& InputLogWriter::operator=(InputLogWriter&& other) noexcept {
+    std::swap(name_, other.name_);
+    std::swap(file_, other.file_);
+    last_ns_ = other.last_ns_;
+    broken_ = other.broken_;
+    return *this;
+}
+
+InputLogWriter::~InputLogWriter() {
+    if (file_ >= 0) ::close(file_);
+}
+
+Result<void> InputLogWriter::append(const InputEvent& event) {
+    if (broken_) return fail(name_, "an earlier event could not be written", "free space on the disk and record anew");
+    if (!is_sensible(event.input) || event.time_ns > kLongestSession_ns)
+        return fail(name_, "an event is out of range and is not recorded",
+                    "look for a tracker or device that sends nonsense");
+    if (event.time_ns < last_ns_)
+        return fail(name_, "an event is before the one before it", "record events in their order");
+    last_ns_ = event.time_ns;
+    return write_line(line_of(event));
+}
+
+Result<void> InputLogWriter::write_line(std::string line) {
+    line += '\n';
+    for (std::string_view rest = line; !rest.empty();) {
+        const ssize_t written = ::write(file_, rest.data(), rest.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) {
+            broken_ = true;
+            return std::unexpected(file_error(name_, "the input log cannot be written", written < 0 ? errno : ENOSPC,
+                                              "free space on the disk and record anew"));
+        }
+        rest.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return {};
+}
+
+}  // namespace burin

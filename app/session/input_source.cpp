@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "app/session/input_source.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace burin {
+namespace {
+
+bool is_frame(const InputEvent& event) { return std::holds_alternative<FrameStart>(event.input); }
+
+}  // namespace
+
+Nanoseconds head_sampled_ns(const FrameInput& frame) {
+    Nanoseconds sampled_ns = -1;
+    for (const InputEvent& event : frame.events)
+        if (std::holds_alternative<HeadInput>(event.input)) sampled_ns = event.time_ns;
+    return sampled_ns < 0 ? frame.time_ns : sampled_ns;
+}
+
+InputSource InputSource::live(std::optional<InputLogWriter> recorder) {
+    InputSource source;
+    source.recorder_ = std::move(recorder);
+    return source;
+}
+
+InputSource InputSource::replay(InputLog log, Nanoseconds period_ns) {
+    BURIN_CHECK(period_ns > 0);
+    InputSource source;
+    source.kind_ = Kind::replay;
+    source.log_ = std::move(log);
+    source.log_has_frames_ = std::ranges::any_of(source.log_.events, is_frame);
+    source.period_ns_ = period_ns;
+    return source;
+}
+
+InputSource InputSource::play(InputLog log) {
+    InputSource source;
+    source.kind_ = Kind::play;
+    std::erase_if(log.events, is_frame);
+    source.log_ = std::move(log);
+    return source;
+}
+
+std::optional<Nanoseconds> InputSource::next_event_ns() const {
+    if (kind_ != Kind::play || next_ == log_.events.size()) return std::nullopt;
+    return log_.events[next_].time_ns;
+}
+
+void InputSource::push(Nanoseconds now_ns, Input input) {
+    if (kind_ != Kind::live) return;
+    if (std::holds_alternative<FrameStart>(input) || !is_sensible(input)) {
+        ++refused_;
+        return;
+    }
+    last_ns_ = std::clamp(now_ns, last_ns_, kLongestSession_ns);
+    waiting_.push_back({last_ns_, std::move(input)});
+    record(waiting_.back());
+}
+
+void InputSource::record(const InputEvent& event) {
+    if (!recorder_) return;
+    if (auto ok = recorder_->append(event); !ok) {
+        recording_error_ = ok.error();
+        recorder_.reset();
+    }
+}
+
+std::optional<FrameInput> InputSource::begin_frame(Nanoseconds now_ns, Nanoseconds display_ns) {
+    if (kind_ == Kind::live) return live_frame(now_ns, display_ns);
+    if (kind_ == Kind::play) return played_frame(now_ns, display_ns);
+    return log_has_frames_ ? recorded_frame() : made_up_frame();
+}
+
+FrameInput InputSource::live_frame(Nanoseconds now_ns, Nanoseconds display_ns) {
+    last_ns_ = std::clamp(now_ns, last_ns_, kLongestSession_ns);
+    display_ns = std::clamp(display_ns, last_ns_, kLongestSession_ns);
+    record({last_ns_, FrameStart{display_ns}});
+    taken_.clear();
+    std::swap(taken_, waiting_);
+    return {last_ns_, display_ns, taken_};
+}
+
+std::optional<FrameInput> InputSource::played_frame(Nanoseconds now_ns, Nanoseconds display_ns) {
+    if (over_) return std::nullopt;
+    last_ns_ = std::clamp(now_ns, last_ns_, kLongestSession_ns);
+    const std::span all(log_.events);
+    const std::size_t first = next_;
+    while (next_ < all.size() && all[next_].time_ns <= last_ns_) ++next_;
+    over_ = next_ == all.size();
+    return FrameInput{last_ns_, std::max(display_ns, last_ns_), all.subspan(first, next_ - first)};
+}
+
+std::optional<FrameInput> InputSource::recorded_frame() {
+    const std::span all(log_.events);
+    std::size_t end = next_;
+    while (end < all.size() && !is_frame(all[end])) ++end;
+    if (end == all.size()) return std::nullopt;
+    const FrameInput frame{all[end].time_ns, std::get<FrameStart>(all[end].input).display_ns,
+                           all.subspan(next_, end - next_)};
+    next_ = end + 1;
+    return frame;
+}
+
+std::optional<FrameInput> InputSource::made_up_frame() {
+    if (over_) return std::nullopt;
+    const std::span all(log_.events);
+    const std::size_t first = next_;
+    while (next_ < all.size() && all[next_].time_ns <= next_frame_ns_) ++next_;
+    const FrameInput frame{next_frame_ns_, next_frame_ns_, all.subspan(first, next_ - first)};
+    next_frame_ns_ += period_ns_;
+    over_ = next_ == all.size();
+    return frame;
+}
+
+}  // namespace burin

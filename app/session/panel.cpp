@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+#include "app/session/panel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/session/panel_input.hpp"
+#include "app/session/panel_sections.hpp"
+
+namespace burin {
+
+namespace {
+
+using panel::Kit;
+
+// How often a panel is laid out after it has been touched before it is taken to rest: lists that close, fields that lose the keys.
+constexpr int kSettling = 3;
+
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                                    ImGuiWindowFlags_NoNav;
+
+PixelRect clip_of(const ImVec4& clip, ImageSize size) {
+    const auto within = [](float value, std::uint32_t most) {
+        return static_cast<std::uint32_t>(std::clamp(value, 0.0f, static_cast<float>(most)));
+    };
+    const std::uint32_t x0 = within(clip.x, size.width), y0 = within(clip.y, size.height);
+    const std::uint32_t x1 = within(clip.z, size.width), y1 = within(clip.w, size.height);
+    return {x0, y0, x1 > x0 ? x1 - x0 : 0, y1 > y0 ? y1 - y0 : 0};
+}
+
+PanelMesh mesh_of(const ImDrawData& data, ImageSize size) {
+    PanelMesh mesh;
+    mesh.vertices.reserve(static_cast<std::size_t>(data.TotalVtxCount));
+    mesh.indices.reserve(static_cast<std::size_t>(data.TotalIdxCount));
+    for (int l = 0; l < data.CmdListsCount; ++l) {
+        const ImDrawList& list = *data.CmdLists[l];
+        const auto first_vertex = static_cast<std::uint32_t>(mesh.vertices.size());
+        const auto first_index = static_cast<std::uint32_t>(mesh.indices.size());
+        for (const ImDrawVert& v : list.VtxBuffer) mesh.vertices.push_back({v.pos.x, v.pos.y, v.uv.x, v.uv.y, v.col});
+        for (const ImDrawIdx i : list.IdxBuffer) mesh.indices.push_back(first_vertex + i);
+        for (const ImDrawCmd& command : list.CmdBuffer) {
+            if (command.ElemCount == 0) continue;
+            mesh.draws.push_back({clip_of(command.ClipRect, size), first_index + command.IdxOffset, command.ElemCount});
+        }
+    }
+    return mesh;
+}
+
+}  // namespace
+
+double panel_scale(double reading_distance_m, double metres_per_px) {
+    // Capitals are 0.6 of the letters' 16 px, and shall be seen under 21 minutes of arc.
+    constexpr double kCapital_px = 0.6 * 16.0, kAngle_rad = 21.0 / 60.0 * std::numbers::pi / 180.0;
+    return reading_distance_m * kAngle_rad / (kCapital_px * metres_per_px);
+}
+
+// Makes its own context the toolkit's current one for as long as it is at work.
+class Panel::Implementation {
+public:
+    Implementation(ImageSize size, float scale) : size_(size) {
+        kit_.scale = scale;
+        ImGuiContext* const before = ImGui::GetCurrentContext();
+        context_ = ImGui::CreateContext();
+        ImGui::SetCurrentContext(context_);
+        ImGuiIO& io = ImGui::GetIO();
+        io.IniFilename = io.LogFilename = nullptr;
+        io.ConfigInputTextCursorBlink = false;  // a panel at rest is not painted
+        panel::name_keys();
+        panel::apply_style(scale);
+        ImGui::SetCurrentContext(before);
+    }
+    ~Implementation() { ImGui::DestroyContext(context_); }
+    Implementation(const Implementation&) = delete;
+    Implementation& operator=(const Implementation&) = delete;
+
+    Result<void> load_letters(const std::string& file) {
+        const Current current(context_);
+        auto type = panel::load_type(file, kit_.scale);
+        if (!type) return std::unexpected(type.error());
+        kit_.type = std::move(*type);
+        atlas_ = panel::atlas_of_context();
+        return {};
+    }
+
+    const PanelFrame& show(const PanelModel& model, Nanoseconds time_ns) {
+        frame_.actions.clear();
+        const bool still = events_.empty() && resting_ <= 0 && model_ && *model_ == model;
+        if (still) {
+            ++spared_;
+            frame_.changed = false;
+            last_ns_ = time_ns;
+            return frame_;
+        }
+        resting_ = !events_.empty() || !model_ ? kSettling : std::max(resting_ - 1, 0);
+        model_ = model;
+        const Current current(context_);
+        PanelMesh mesh = model.visible ? lay_out(model, time_ns) : hidden();
+        frame_.changed = laid_out_before_ ? mesh != frame_.mesh : true;
+        laid_out_before_ = true;
+        frame_.mesh = std::move(mesh);
+        last_ns_ = time_ns;
+        return frame_;
+    }
+
+    // Restores whoever's context it was.
+    class Current {
+    public:
+        explicit Current(ImGuiContext* context) : before_(ImGui::GetCurrentContext()) {
+            ImGui::SetCurrentContext(context);
+        }
+        ~Current() { ImGui::SetCurrentContext(before_); }
+        Current(const Current&) = delete;
+        Current& operator=(const Current&) = delete;
+
+    private:
+        ImGuiContext* before_;
+    };
+
+    ImageSize size_;
+    Kit kit_;
+    PanelAtlas atlas_;
+    panel::PanelEvents events_;
+    PanelFrame frame_;
+    std::optional<PanelModel> model_;
+    bool wand_pressed_ = false;
+    std::optional<Vec2> wand_px_;
+    bool laid_out_before_ = false;
+    int resting_ = 0;
+    std::uint64_t laid_out_ = 0, spared_ = 0;
+
+private:
+    // Once for each step of what happened since the last time, and once more for a list that has opened.
+    PanelMesh lay_out(const PanelModel& model, Nanoseconds time_ns) {
+        double dt_s = std::clamp(1e-9 * static_cast<double>(time_ns - last_ns_), 1e-4, 0.25);
+        do {
+            ImGuiIO& io = ImGui::GetIO();
+            io.DisplaySize = {static_cast<float>(size_.width), static_cast<float>(size_.height)};
+            io.DeltaTime = static_cast<float>(dt_s);
+            dt_s = 1e-4;
+            events_.hand_over();
+            ImGui::NewFrame();
+            ImGui::PushFont(kit_.type.text);
+            kit_.places.clear();
+            kit_.actions.clear();
+            kit_.again = false;
+            show_column(model);
+            ImGui::PopFont();
+            ImGui::Render();
+            ++laid_out_;
+            std::ranges::move(kit_.actions, std::back_inserter(frame_.actions));
+        } while (!events_.empty() || kit_.again);
+        frame_.wants_mouse = ImGui::GetIO().WantCaptureMouse;
+        frame_.wants_keyboard = ImGui::GetIO().WantTextInput;
+        return mesh_of(*ImGui::GetDrawData(), size_);
+    }
+
+    PanelMesh hidden() {
+        events_.drop();
+        kit_.places.clear();
+        ImGuiIO& io = ImGui::GetIO();
+        for (bool& down : io.MouseDown) down = false;
+        for (bool& down : io.KeysDown) down = false;
+        frame_.wants_mouse = frame_.wants_keyboard = false;
+        return {};
+    }
+
+    void show_column(const PanelModel& model) {
+        const ImVec2 screen = ImGui::GetIO().DisplaySize;
+        const float margin = kit_.px(12.0f);
+        ImGui::SetNextWindowPos({0.0f, 0.0f});
+        ImGui::SetNextWindowSize(screen);
+        ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {margin, kit_.px(8.0f)});
+        ImGui::Begin("panel", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+        ImGui::PopStyleVar();
+        ImDrawList& ground = *ImGui::GetWindowDrawList();
+        ground.PushClipRectFullScreen();
+        ground.AddRectFilled({0.0f, 0.0f}, screen, panel::kGround);
+        ground.PopClipRect();
+        kit_.visible_lo = {0.0f, 0.0f};
+        kit_.visible_hi = screen;
+        panel::show_header(kit_, model);
+        const float footer = kit_.px(26.0f + 56.0f + 8.0f + 14.0f);
+        const ImVec2 top = ImGui::GetCursorScreenPos();
+        const ImVec2 inside{ImGui::GetContentRegionAvail().x + 0.8f * margin,
+                            ImGui::GetContentRegionAvail().y - footer};
+        ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
+        ImGui::BeginChild(model.show_help ? "help" : "sections", inside, false,
+                          ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysVerticalScrollbar);
+        ImGui::PopStyleVar();
+        kit_.visible_lo = top;
+        kit_.visible_hi = {top.x + inside.x, top.y + inside.y};
+        show_inside(model);
+        ImGui::EndChild();
+        kit_.visible_lo = {0.0f, 0.0f};
+        kit_.visible_hi = screen;
+        ImGui::SetCursorScreenPos({margin, screen.y - footer + kit_.px(4.0f)});
+        panel::show_plots(kit_, model);
+        ImGui::SetCursorScreenPos({margin, screen.y - kit_.px(26.0f + 8.0f)});
+        panel::show_footer(kit_, model);
+        ImGui::End();
+    }
+
+    void show_inside(const PanelModel& model) {
+        if (model.show_help) {
+            panel::show_help(kit_);
+            return;
+        }
+        if (model.show_figures) panel::show_figures(kit_, model);  // first: whoever asks for them wants to see them
+        panel::show_tool(kit_, model);
+        panel::show_material(kit_, model);
+        panel::show_touch(kit_, model);
+        panel::show_workspace(kit_, model);
+        panel::show_view(kit_, model);
+        panel::show_history(kit_, model);
+        panel::show_state(kit_, model);
+    }
+
+    ImGuiContext* context_ = nullptr;
+    Nanoseconds last_ns_ = 0;
+};
+
+Panel::Panel(std::unique_ptr<Implementation> implementation) : implementation_(std::move(implementation)) {}
+Panel::Panel(Panel&&) noexcept = default;
+Panel& Panel::operator=(Panel&&) noexcept = default;
+Panel::~Panel() = default;
+
+Result<Panel> Panel::create(const PanelOptions& options) {
+    BURIN_CHECK(options.size.width > 0 && options.size.height > 0 && options.scale > 0.0);
+    auto made = std::make_unique<Implementation>(options.size, static_cast<float>(options.scale));
+    if (const auto done = made->load_letters(options.type_file); !done) return std::unexpected(done.error());
+    return Panel(std::move(made));
+}
+
+void Panel::resize(ImageSize size) {
+    BURIN_CHECK(size.width > 0 && size.height > 0);
+    if (size == implementation_->size_) return;
+    implementation_->size_ = size;
+    implementation_->resting_ = kSettling;
+}
+ImageSize Panel::size() const { return implementation_->size_; }
+const PanelAtlas& Panel::atlas() const { return implementation_->atlas_; }
+const std::string& Panel::notice() const { return implementation_->kit_.type.notice; }
+std::uint64_t Panel::laid_out() const { return implementation_->laid_out_; }
+std::uint64_t Panel::spared() const { return implementation_->spared_; }
+
+void Panel::feed(std::span<const InputEvent> events, const PanelPlace& place) {
+    for (const InputEvent& event : events) {
+        auto input = panel::panel_input(event.input, place.origin_px, place.px_per_panel_px);
+        if (input) implementation_->events_.add(std::move(*input));
+    }
+}
+
+void Panel::point(const std::optional<Vec2>& at_px, bool pressed) {
+    Implementation& p = *implementation_;
+    if (at_px != p.wand_px_) {
+        if (at_px)
+            p.events_.add(MouseMove{*at_px});
+        else
+            p.events_.add(panel::PointerGone{});
+    }
+    p.wand_px_ = at_px;
+    if (pressed != p.wand_pressed_) p.events_.add(MouseClick{MouseButton::left, pressed, {}});
+    p.wand_pressed_ = pressed;
+}
+
+const PanelFrame& Panel::show(const PanelModel& model, Nanoseconds time_ns) {
+    return implementation_->show(model, time_ns);
+}
+
+std::optional<PixelRect> Panel::place_of(std::string_view label) const {
+    const auto at = implementation_->kit_.places.find(label);
+    return at == implementation_->kit_.places.end() ? std::nullopt : std::optional(at->second);
+}
+
+std::vector<std::string> Panel::labels() const {
+    std::vector<std::string> labels;
+    for (const auto& [label, place] : implementation_->kit_.places) labels.push_back(label);
+    return labels;
+}
+
+}  // namespace burin

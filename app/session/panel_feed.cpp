@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "app/session/panel_feed.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace burin {
+namespace {
+
+constexpr float kForceLimit_N = 3.3f;  // of the Omni
+
+// Full from the start, so that what rests stands still at once.
+void go_on(PanelPlot& plot, double value) {
+    plot.values.resize(PanelFeed::kPlotLength, 0.0f);
+    plot.values.erase(plot.values.begin());
+    plot.values.push_back(static_cast<float>(value));
+}
+
+std::optional<double> median_ms(const FrameHistory& history, FrameFigure figure, std::size_t frames) {
+    const FigureSummary summary = history.recent(figure, frames);
+    if (summary.count == 0) return std::nullopt;
+    return 1e3 * seconds(summary.median_ns);
+}
+
+PanelSavings savings_of(const RenderStats& drawn, const PanelFacts& facts) {
+    const PatchCounts& counts = drawn.patch_counts;
+    const PixelRect& part = drawn.part;
+    const double whole = static_cast<double>(facts.eye.width) * facts.eye.height;
+    const double redrawn = static_cast<double>(part.width) * part.height;
+    return {drawn.patches,
+            counts.drawn,
+            counts.beside,
+            counts.turned_away,
+            counts.behind,
+            counts.coarser,
+            whole > 0.0 ? 100.0 * redrawn / whole : 0.0,
+            facts.times.skipped()};
+}
+
+}  // namespace
+
+void PanelFeed::feed(const PanelFacts& facts) {
+    if (facts.stirring) stirred_ns_ = facts.time_ns;
+    const bool was_awake = awake_;
+    awake_ = facts.time_ns - stirred_ns_ < kRest_ns;
+    longest_force_N_ = std::max(longest_force_N_, facts.force_N);
+    if (!facts.drawn.part.empty()) drawn_ = facts.drawn;
+    if (awake_ && facts.time_ns >= plotted_ns_ + kPlotStep_ns) {
+        plotted_ns_ = facts.time_ns;
+        go_on(force_N_, std::exchange(longest_force_N_, 0.0));
+        if (facts.times.running()) plot_times(facts);
+    }
+    if ((awake_ && facts.time_ns >= renewed_ns_ + kNumberStep_ns) || (was_awake && !awake_)) renew_numbers(facts);
+}
+
+void PanelFeed::plot_times(const PanelFacts& facts) {
+    const double tick_us = 1e6 * seconds(ticks_.look(facts.tick_duration).longest_ns);
+    longest_tick_us_ = std::max(longest_tick_us_, tick_us);
+    go_on(tick_us_, tick_us);
+    tick_us_.limit = 1000.0f;
+    const std::uint64_t frames = facts.times.drawn() - std::exchange(plotted_frames_, facts.times.drawn());
+    const FigureSummary summary = facts.times.history().recent(FrameFigure::frame_time, frames);
+    // No frame, or none that followed another: the display still shows the last one.
+    const float before = frame_ms_.values.empty() ? 0.0f : frame_ms_.values.back();
+    go_on(frame_ms_, summary.count > 0 ? 1e3 * seconds(summary.most_ns) : double{before});
+    frame_ms_.limit = static_cast<float>(1e3 * seconds(facts.times.period_ns()));
+}
+
+void PanelFeed::renew_numbers(const PanelFacts& facts) {
+    const double since_s = seconds(facts.time_ns - std::exchange(renewed_ns_, facts.time_ns));
+    force_now_N_ = facts.force_N;
+    late_ticks_ = facts.late_ticks;
+    dropped_samples_ = facts.dropped_samples;
+    if (!facts.times.running()) return;
+    const std::uint64_t frames = facts.times.drawn() - std::exchange(renewed_frames_, facts.times.drawn());
+    const FrameHistory& history = facts.times.history();
+    const double tick_us = std::exchange(longest_tick_us_, 0.0);
+    savings_ = savings_of(drawn_, facts);
+    warnings_.clear();
+    for (const FrameWarning& warning : facts.times.warnings()) warnings_.push_back(warning.title);
+    figures_.frames_per_s = awake_ ? static_cast<double>(frames) / since_s : 0.0;
+    if (!awake_) return;
+    if (tick_us > 0.0) figures_.tick_us = tick_us;
+    if (frames == 0) return;
+    figures_.head_age_ms = median_ms(history, FrameFigure::head_age, frames);
+    figures_.motion_to_photon_ms = median_ms(history, FrameFigure::motion_to_photon, frames);
+    figures_.touch_before_sight_ms = median_ms(history, FrameFigure::touch_before_sight, frames);
+    figures_.draw_ms = median_ms(history, FrameFigure::draw_time, frames);
+    if (const auto cut = median_ms(history, FrameFigure::carve_age, frames)) figures_.carve_age_ms = cut;
+    if (const auto frame = median_ms(history, FrameFigure::frame_time, frames)) figures_.frame_ms = frame;
+}
+
+void PanelFeed::show_on(PanelModel& model) const {
+    model.force_N = force_N_;
+    model.force_N.limit = kForceLimit_N;
+    model.tick_us = tick_us_;
+    model.frame_ms = frame_ms_;
+    model.touch.force_N = force_now_N_;
+    model.touch.late_ticks = late_ticks_;
+    model.touch.dropped_samples = dropped_samples_;
+    model.figures = figures_;
+    model.savings = savings_;
+    model.warnings.insert(model.warnings.end(), warnings_.begin(), warnings_.end());
+}
+
+}  // namespace burin

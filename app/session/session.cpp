@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+#include "app/session/session.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/session/carving_thread.hpp"
+#include "app/session/frame_pacing.hpp"
+#include "app/session/live_session.hpp"
+#include "app/session/session_stage.hpp"
+#include "app/session/tracker_port.hpp"
+#include "haptics/realtime.hpp"
+
+namespace burin {
+namespace {
+
+constexpr Nanoseconds kUpdatePeriod_ns = CarvingThread::kPeriod_ns;
+constexpr Nanoseconds kRest_ns = 100'000'000;    // between looks at what may have changed, when nothing happens
+constexpr Nanoseconds kActive_ns = 300'000'000;  // after the last change frames follow the display's beat
+constexpr std::size_t kRefinedAtRest = 8;        // patches, between two looks
+
+Result<InputLog> open_log(const std::string& path) {
+    Result<InputLog> log = read_input_log(path);
+    if (log && log->torn_line) std::fprintf(stderr, "burin: %s\n", log->torn_line->c_str());
+    return log;
+}
+
+Result<InputSource> open_input(const LiveOptions& options) {
+    if (!options.input.empty()) {
+        Result<InputLog> log = open_log(options.input);
+        if (!log) return std::unexpected(log.error());
+        return InputSource::replay(std::move(*log));
+    }
+    if (options.record.empty()) return InputSource::live();
+    Result<InputLogWriter> writer = InputLogWriter::create(options.record, "burin sculpt");
+    if (!writer) return std::unexpected(writer.error());
+    return InputSource::live(std::move(*writer));
+}
+
+// ---- Simulated time
+
+Result<void> run_in_simulated_time(const SculptOptions& options, const SessionWall& wall, InputSource input) {
+    SimulatedClock clock;
+    auto session = LiveSession::create(options, wall, clock);
+    if (!session) return std::unexpected(session.error());
+    Result<SessionStage> stage = SessionStage::open(options.live, wall);
+    if (!stage) return std::unexpected(stage.error());
+    LiveSession& s = **session;
+    if (auto news = s.desk().take_news()) s.take(std::move(*news));
+    Nanoseconds next_update_ns = kUpdatePeriod_ns;
+    while (const auto frame = input.begin_frame(0, 0)) {
+        while (clock.now_ns() + s.loop().period_ns() <= frame->time_ns) {
+            clock.sleep_until(clock.now_ns() + s.loop().period_ns());
+            s.loop().step();
+            if (clock.now_ns() < next_update_ns) continue;
+            if (const auto updated = s.desk().update(clock.now_ns()); !updated) return updated;
+            next_update_ns += kUpdatePeriod_ns;
+        }
+        s.step(*frame, stage->size(), [&](CarvingOrder order) {
+            s.desk().order(order);
+            s.desk().finish_export();  // so that what comes after finds it done
+        });
+        if (auto news = s.desk().take_news()) s.take(std::move(*news));
+        if (stage->has_windows()) static_cast<void>(stage->inputs(0.0));  // the script has the say
+        // Without a window nobody sees a frame that is not photographed.
+        if (stage->has_windows() || s.wants_screenshots()) {
+            if (const auto drawn = stage->draw(s, frame->display_ns); !drawn) return std::unexpected(drawn.error());
+        }
+        if (s.state().quit) break;
+    }
+    return {};
+}
+
+// ---- Real time
+
+// What has happened when the time has come, or something happens before.
+std::vector<Input> wait_for_input(SessionStage& stage, Clock& clock, Nanoseconds until_ns) {
+    if (stage.has_windows()) return stage.inputs(std::max(seconds(until_ns - clock.now_ns()), 0.0));
+    clock.sleep_until(until_ns);
+    return {};
+}
+
+void hear(TrackerPort& tracker, InputSource& input, LiveSession& session) {
+    for (TrackerPort::Heard& heard : tracker.take())
+        input.push(heard.time_ns - session.start_ns(), std::move(heard.input));
+    for (const std::string& message : tracker.take_messages()) session.say(message);
+}
+
+DisplayBeat beat_of(const PacingState& pacing) {
+    DisplayBeat beat;
+    beat.period_ns = static_cast<Nanoseconds>(pacing.period_ns);
+    if (pacing.flips_seen) beat.vblank_ns = pacing.vblank_ns;
+    return beat;
+}
+
+// After the threads have ended.
+SessionRecord record_of(LiveSession& session, const CarvingThread& carving) {
+    SessionRecord record;
+    record.frames = session.times().frames();
+    record.skipped = session.times().skipped();
+    record.carve_update = summarised(carving.update_duration());
+    const HapticLoop& loop = session.loop();
+    record.ticks = loop.ticks();
+    record.late_ticks = loop.late_ticks();
+    record.missed_deadlines = loop.skipped_deadlines();
+    record.tick_lateness = summarised(loop.lateness());
+    record.tick_duration = summarised(loop.duration());
+    for (const FrameWarning& warning : session.times().warnings()) record.warnings.push_back(warning.line);
+    return record;
+}
+
+Result<SessionRecord> run_in_real_time(const SculptOptions& options, const SessionWall& wall, InputSource input,
+                                       bool keep_frames) {
+    MonotonicClock clock;
+    Result<SessionStage> stage = SessionStage::open(options.live, wall);
+    if (!stage) return std::unexpected(stage.error());
+    auto session = LiveSession::create(options, wall, clock);
+    if (!session) return std::unexpected(session.error());
+    LiveSession& s = **session;
+    if (auto news = s.desk().take_news()) s.take(std::move(*news));
+    CarvingThread carving(s.desk(), clock, [shown = stage->has_windows()] {
+        if (shown) window::wake();
+    });
+    // The hand is simulated: nobody feels it. What is measured is what a device's user would.
+    HapticThread touch(s.loop(), keep_frames ? HapticLoop::kLead_ns : 0);
+    const RealtimeNotice notice = touch.start();
+    if (!notice.text.empty()) s.say(notice.text);
+    carving.start();
+
+    std::unique_ptr<TrackerPort> tracker;
+    if (!options.live.tracker.empty()) {
+        auto opened = TrackerPort::open(options.live.tracker, clock, [shown = stage->has_windows()] {
+            if (shown) window::wake();
+        });
+        if (!opened) return std::unexpected(opened.error());
+        tracker = std::move(*opened);
+    }
+
+    PacingState pacing = begin_pacing({.period_ns = nanoseconds(1.0 / stage->refresh_Hz())});
+    SessionTimes& times = s.times();
+    if (keep_frames) times.keep_frames();
+    const Nanoseconds began_ns = clock.now_ns(), processor_ns = process_cpu_ns();
+    Nanoseconds changed_ns = began_ns;
+    Result<void> outcome;
+    while (outcome && !s.state().quit) {
+        times.begin();
+        const bool active = stage->takes_turns(s) || clock.now_ns() - changed_ns < kActive_ns;
+        const PlannedFrame planned = plan_frame(pacing, clock.now_ns());
+        pacing = planned.state;
+        if (!active) stage->refine(kRefinedAtRest);
+        Nanoseconds until_ns = active ? planned.plan.wake_ns : clock.now_ns() + kRest_ns;
+        if (const auto due_ns = input.next_event_ns()) until_ns = std::min(until_ns, s.start_ns() + *due_ns);
+        std::vector<Input> happened = wait_for_input(*stage, clock, until_ns);
+        times.reached(FrameStage::wait);
+        if (tracker) hear(*tracker, input, s);  // first: it happened before
+        for (Input& event : happened) input.push(clock.now_ns() - s.start_ns(), std::move(event));
+        const auto frame = input.begin_frame(clock.now_ns() - s.start_ns(), planned.plan.display_ns - s.start_ns());
+        if (!frame) break;
+        times.reached(FrameStage::input);
+        s.step(*frame, stage->size(), [&](CarvingOrder order) { carving.order(std::move(order)); });
+        if (auto news = carving.take_news()) s.take(std::move(*news));
+        if (const auto failed = carving.failure()) outcome = std::unexpected(*failed);
+        if (stage->has_windows() && s.wants_full_screen_exchanged()) stage->exchange_full_screen();
+        for (const std::string& message : stage->take_messages()) s.say(message);
+        times.reached(FrameStage::step);
+        const Result<bool> drawn = stage->draw(s, frame->display_ns);
+        if (!drawn) outcome = stage->recover(s, drawn.error());
+        if (drawn && *drawn) {
+            changed_ns = clock.now_ns();
+            pacing = frame_finished(pacing, planned.plan, clock.now_ns());
+        }
+        times.finished(drawn && *drawn, beat_of(pacing));
+    }
+    const Nanoseconds wall_ns = clock.now_ns() - began_ns, worked_ns = process_cpu_ns() - processor_ns;
+    touch.stop();
+    carving.stop();
+    s.desk().finish_export();
+    if (const auto news = s.desk().take_news())
+        for (const std::string& message : news->messages) s.say(message);
+    if (!outcome) return std::unexpected(outcome.error());
+    SessionRecord record = record_of(s, carving);
+    record.wall_ns = wall_ns;
+    record.processor_ns = worked_ns;
+    record.device = stage->device_name();
+    return record;
+}
+
+// What is wrong with the options is said before a window opens.
+Result<void> check(const SculptOptions& options) {
+    if (const auto tool = parse_tool(options.tool); !tool) return std::unexpected(tool.error());
+    if (const auto material = parse_tool_material(options.tool); !material) return std::unexpected(material.error());
+    if (const auto feel = parse_feel(options.feel); !feel) return std::unexpected(feel.error());
+    return {};
+}
+
+bool writes_a_file(const InputEvent& event) {
+    const auto* command = std::get_if<CommandInput>(&event.input);
+    return command != nullptr && (command->name == "screenshot" || command->name == "export");
+}
+
+}  // namespace
+
+bool wants_session(const SculptOptions& options) {
+    const LiveOptions& live = options.live;
+    const bool named = live.live || live.offscreen || !live.wall.empty() || !live.input.empty() || !live.record.empty();
+    return named ||
+           (options.stroke.empty() && options.exports.empty() && options.pictures.empty() && options.report.empty());
+}
+
+Result<void> run_session(const SculptOptions& options) {
+    if (options.live.offscreen && options.live.input.empty()) {
+        return fail("--offscreen", "needs an --input: without a window nobody can do anything",
+                    "give a log or a script, or leave --offscreen out");
+    }
+    if (const auto ok = check(options); !ok) return ok;
+    const Result<SessionWall> wall = session_wall(options.live);
+    if (!wall) return std::unexpected(wall.error());
+    Result<InputSource> input = open_input(options.live);
+    if (!input) return std::unexpected(input.error());
+    if (input->replays()) return run_in_simulated_time(options, *wall, std::move(*input));
+    const auto run = run_in_real_time(options, *wall, std::move(*input), false);
+    return run ? Result<void>{} : std::unexpected(run.error());
+}
+
+Result<SessionRecord> time_session(const SculptOptions& options) {
+    if (const auto ok = check(options); !ok) return std::unexpected(ok.error());
+    const Result<SessionWall> wall = session_wall(options.live);
+    if (!wall) return std::unexpected(wall.error());
+    Result<InputLog> log = open_log(options.live.input);
+    if (!log) return std::unexpected(log.error());
+    std::erase_if(log->events, writes_a_file);
+    return run_in_real_time(options, *wall, InputSource::play(std::move(*log)), true);
+}
+
+}  // namespace burin

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "app/session/session_picture.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "renderer/output/canvas.hpp"
+#include "renderer/output/compose.hpp"
+#include "renderer/output/eye_images.hpp"
+#include "renderer/output/test_pattern.hpp"
+
+namespace burin {
+namespace {
+
+constexpr VkFormat kPhotoFormat = VK_FORMAT_R8G8B8A8_SRGB;
+constexpr VkImageLayout kPhotoLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+
+}  // namespace
+
+Result<SessionPicture> SessionPicture::create(gpu::Device& device, std::uint32_t samples) {
+    return SessionPicture(device, samples);
+}
+
+void SessionPicture::take(const SurfaceNews& news, const Vec3& lattice_origin_object) {
+    for (const TileNews& tile : news.tiles) {
+        if (tile.tile >= tiles_.size()) tiles_.resize(tile.tile + 1);
+        const bool same_mesh = tiles_[tile.tile].surface == tile.surface;
+        tiles_[tile.tile] = tile;
+        if (!renderer_) continue;
+        if (!same_mesh) renderer_->set_patch(tile.tile, tile.surface);
+        if (tile.light) renderer_->set_patch_light(tile.tile, tile.light->vertices);
+    }
+    occluders_.clear();
+    for (const Box& box : news.inner_boxes_object)
+        occluders_.push_back({box.lo - lattice_origin_object, box.hi - lattice_origin_object});
+    if (renderer_) renderer_->set_occluders(occluders_);
+}
+
+void SessionPicture::put(const TileNews& tile) {
+    if (!tile.surface) return;
+    renderer_->set_patch(tile.tile, tile.surface);
+    if (tile.light) renderer_->set_patch_light(tile.tile, tile.light->vertices);
+}
+
+Result<void> SessionPicture::fit(ImageSize eye) {
+    if (renderer_ && eye.width == eye_.width && eye.height == eye_.height) return {};
+    renderer_.reset();
+    auto made = Renderer::create(device_, eye, {.samples = samples_, .savings = {}});
+    if (!made) return std::unexpected(made.error());
+    renderer_ = std::move(*made);
+    eye_ = eye;
+    for (const TileNews& tile : tiles_) put(tile);
+    renderer_->set_occluders(occluders_);
+    return {};
+}
+
+Result<void> SessionPicture::draw(gpu::Commands& commands, std::optional<Scene> scene, ImageSize output,
+                                  const OutputSettings& settings) {
+    if (const auto fits = fit(eye_size(settings.mode, output)); !fits) return fits;
+    const bool was_dark = std::exchange(dark_, !scene.has_value());
+    if (dark_) {
+        stats_ = {};
+        if (!was_dark) stats_.part = all_of(eye_);
+        return {};
+    }
+    if (was_dark) renderer_->forget_picture();
+    renderer_->show_panel(standing_ ? painter_->view() : VK_NULL_HANDLE);
+    scene->panel = standing_;
+    const auto recorded = renderer_->record(commands, *scene);
+    if (!recorded) return std::unexpected(recorded.error());
+    stats_ = *recorded;
+    return {};
+}
+
+Result<void> SessionPicture::paint(gpu::Commands& commands, const PanelMesh& mesh, const PanelAtlas& atlas,
+                                   ImageSize size, const std::optional<PanelStand>& stand) {
+    const bool appears = !std::exchange(panel_shown_, true);
+    if (!painter_) {
+        auto made = PanelPainter::create(device_, size, atlas);
+        if (!made) return std::unexpected(made.error());
+        painter_ = std::move(*made);
+    }
+    if (const auto fits = painter_->resize(size); !fits) return std::unexpected(fits.error());
+    const Result<bool> painted = painter_->record(commands, mesh);
+    if (!painted) return std::unexpected(painted.error());
+    panel_changed_ = *painted || appears;
+    if (*painted) ++paintings_;
+    standing_ = stand ? std::optional(ScenePanel{*stand, paintings_}) : std::nullopt;
+    return {};
+}
+
+void SessionPicture::hide_panel() {
+    panel_changed_ = std::exchange(panel_shown_, false);
+    standing_.reset();
+}
+
+std::vector<PixelRect> SessionPicture::changed(const OutputPlace& place, const OutputSettings& settings) const {
+    std::vector<PixelRect> parts;
+    const auto add = [&](const PixelRect& in_eye) {
+        if (in_eye.empty()) return;
+        const ChangedParts changed = changed_parts(in_eye, eye_, settings, place);
+        parts.insert(parts.end(), changed.parts, changed.parts + changed.count);
+    };
+    add(stats_.part);
+    if (panel_changed_ && painter_ && !standing_) {
+        const std::uint32_t width = std::min(painter_->size().width, eye_.width);
+        add({eye_.width - width, 0, width, std::min(painter_->size().height, eye_.height)});
+    }
+    return parts;
+}
+
+std::optional<OverlayView> SessionPicture::overlay() const {
+    if (!painter_ || !panel_shown_ || standing_) return std::nullopt;
+    return painter_->overlay(static_cast<int>(eye_.width) - static_cast<int>(painter_->size().width), 0);
+}
+
+// The scene; or in its place a test pattern, or darkness.
+EyesView SessionPicture::eyes_to_show(const OutputSettings& settings, Result<void>& failed) {
+    if (settings.test_pattern == TestPattern::none && !dark_) return {renderer_->both_eyes(), eye_};
+    const bool fits = pattern_ && pattern_kind_ == settings.test_pattern && pattern_size_.width == eye_.width &&
+                      pattern_size_.height == eye_.height;
+    if (!fits) {
+        StereoImage drawn;
+        if (settings.test_pattern == TestPattern::none) {
+            drawn.left = drawn.right = Canvas(eye_, {0, 0, 0}).take();
+        } else {
+            drawn = draw_test_pattern(settings.test_pattern, {.pixels = eye_});
+        }
+        auto uploaded = upload_eyes(device_, drawn.left, drawn.right);
+        if (!uploaded) {
+            failed = std::unexpected(uploaded.error());
+            return {};
+        }
+        pattern_ = std::move(*uploaded);
+        pattern_kind_ = settings.test_pattern;
+        pattern_size_ = eye_;
+    }
+    return {pattern_->view(), eye_};
+}
+
+Result<void> SessionPicture::show(gpu::Commands& commands, const OutputTarget& target, VkFormat format,
+                                  const OutputSettings& settings, const PresentedParts::Parts& parts) {
+    if (!window_stage_ || window_stage_->format() != format) {
+        auto made = OutputStage::create(device_, format, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
+        if (!made) return std::unexpected(made.error());
+        window_stage_ = std::move(*made);
+    }
+    Result<void> done;
+    const EyesView eyes = eyes_to_show(settings, done);
+    if (!done) return done;
+    if (parts.whole) return window_stage_->record(commands, eyes, target, settings, overlay());
+    return window_stage_->record_parts(commands, eyes, target, settings, parts.parts, overlay());
+}
+
+Result<Image> SessionPicture::photograph(const OutputPlace& place, const OutputSettings& settings) {
+    if (!photo_stage_) {
+        auto made = OutputStage::create(device_, kPhotoFormat, kPhotoLayout);
+        if (!made) return std::unexpected(made.error());
+        photo_stage_ = std::move(*made);
+    }
+    auto image =
+        gpu::Image::create(device_, {.width = place.size.width,
+                                     .height = place.size.height,
+                                     .format = kPhotoFormat,
+                                     .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                                     .name = "photograph"});
+    if (!image) return std::unexpected(image.error());
+    Result<void> done;
+    const EyesView eyes = eyes_to_show(settings, done);
+    if (!done) return std::unexpected(done.error());
+    auto commands = gpu::Commands::begin(device_);
+    if (!commands) return std::unexpected(commands.error());
+    done = photo_stage_->record(*commands, eyes, {.view = image->view(), .place = place}, settings, overlay());
+    if (!done) return std::unexpected(done.error());
+    auto submission = std::move(*commands).submit();
+    if (!submission) return std::unexpected(submission.error());
+    if (const auto waited = submission->wait(); !waited) return std::unexpected(waited.error());
+    return read_back(device_, image->raw(), place.size, kPhotoFormat, kPhotoLayout);
+}
+
+}  // namespace burin

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "app/session/session_screens.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "app/wall_file.hpp"
+#include "renderer/output/warp.hpp"
+
+namespace burin {
+namespace {
+
+constexpr double kDeskHeight_m = 2.286;  // of the wall that a window stands for; as wide as the window is
+
+ImageSize asked_size(const LiveOptions& options) {
+    return {static_cast<std::uint32_t>(options.width), static_cast<std::uint32_t>(options.height)};
+}
+
+SessionWall desk_wall(const LiveOptions& options) {
+    SessionWall wall;
+    wall.setup.name = "desk";
+    wall.setup.screens.emplace_back();
+    wall.screens.push_back({.name = {}, .monitor = options.full_screen, .size = asked_size(options), .shown = {}});
+    fit_desk_screen(wall, asked_size(options));
+    return wall;
+}
+
+EdgeFade fade_of(const EdgeBlend& blend) {
+    EdgeFade fade;
+    fade.left = blend.left;
+    fade.right = blend.right;
+    fade.top = blend.top;
+    fade.bottom = blend.bottom;
+    fade.gamma = blend.gamma;
+    return fade;
+}
+
+// Shrunk as little as possible into the size asked for, its shape kept.
+ImageSize fitted(ImageSize size, ImageSize into) {
+    const double by =
+        std::min({1.0, static_cast<double>(into.width) / size.width, static_cast<double>(into.height) / size.height});
+    const auto pixels = [&](std::uint32_t n) { return static_cast<std::uint32_t>(std::max(1L, std::lround(by * n))); };
+    return {pixels(size.width), pixels(size.height)};
+}
+
+Result<SessionScreen> screen_shown(const WallScreen& screen, const LiveOptions& options) {
+    SessionScreen shown;
+    shown.name = screen.name;
+    const auto mode = parse_stereo_mode(screen.mode);
+    if (!mode) return fail(options.wall + ", screen " + screen.name, mode.error().what, mode.error().remedy);
+    shown.shown.mode = *mode;
+    shown.shown.swap_eyes = screen.swap_eyes;
+    shown.shown.blend = fade_of(screen.blend);
+    if (screen.homography) {
+        const auto homography = homography_from_rows(*screen.homography);
+        if (!homography) return std::unexpected(homography.error());
+        shown.shown.homography = *homography;
+    }
+    if (const auto sound = check_output(shown.shown); !sound) return std::unexpected(sound.error());
+    shown.size = {static_cast<std::uint32_t>(screen.pixels[0]), static_cast<std::uint32_t>(screen.pixels[1])};
+    if (options.windowed || options.offscreen) {
+        shown.size = fitted(shown.size, asked_size(options));
+    } else {
+        shown.monitor = screen.output;
+    }
+    return shown;
+}
+
+Vec3 out_of(const Screen& s) {
+    return glm::normalize(
+        glm::cross(s.lower_right_world - s.lower_left_world, s.upper_left_world - s.lower_left_world));
+}
+
+// The screen that the fallback head looks at most squarely.
+std::size_t faced_screen(const WallSetup& setup) {
+    const Vec3 back = setup.world_from_tracker.orientation * setup.fallback_head_tracker.orientation * Vec3(0, 0, 1);
+    std::size_t best = 0;
+    double most = -2.0;
+    for (std::size_t i = 0; i < setup.screens.size(); ++i) {
+        const double faces = glm::dot(out_of(screen_world(setup, setup.screens[i])), back);
+        if (faces <= most + 1e-6) continue;  // of two alike the first
+        most = faces;
+        best = i;
+    }
+    return best;
+}
+
+}  // namespace
+
+Result<SessionWall> session_wall(const LiveOptions& options) {
+    if (options.wall.empty()) return desk_wall(options);
+    SessionWall wall;
+    wall.desk = false;
+    auto setup = read_wall(options.wall);
+    if (!setup) return std::unexpected(setup.error());
+    for (const WallProblem& problem : check(*setup)) {
+        if (problem.error) return fail(options.wall + ", " + problem.where, problem.what, problem.remedy);
+        std::fprintf(stderr, "burin: %s: %s\n", options.wall.c_str(), line_of(problem).c_str());
+    }
+    wall.setup = std::move(*setup);
+    for (const WallScreen& screen : wall.setup.screens) {
+        auto shown = screen_shown(screen, options);
+        if (!shown) return std::unexpected(shown.error());
+        wall.screens.push_back(std::move(*shown));
+    }
+    wall.main = faced_screen(wall.setup);
+    return wall;
+}
+
+void fit_desk_screen(SessionWall& wall, ImageSize eye) {
+    if (!wall.desk || eye.width == 0 || eye.height == 0) return;
+    const Screen screen = screen_of(Wall{kDeskHeight_m * eye.width / eye.height, kDeskHeight_m});
+    WallScreen& desk = wall.setup.screens.front();
+    desk.lower_left_tracker = screen.lower_left_world;
+    desk.lower_right_tracker = screen.lower_right_world;
+    desk.upper_left_tracker = screen.upper_left_world;
+}
+
+OutputSettings output_on(const SessionWall& wall, std::size_t screen, const OutputSettings& told) {
+    const OutputSettings& main = wall.screens[wall.main].shown;
+    OutputSettings output = told;
+    const OutputSettings& own = wall.screens[screen].shown;
+    if (told.mode == main.mode) output.mode = own.mode;
+    output.swap_eyes = own.swap_eyes != (told.swap_eyes != main.swap_eyes);
+    output.homography = own.homography;
+    output.blend = own.blend;
+    return output;
+}
+
+Quat world_from_screen(const Screen& s) {
+    const Vec3 right = glm::normalize(s.lower_right_world - s.lower_left_world);
+    const Vec3 out = out_of(s);
+    return glm::normalize(glm::quat_cast(glm::dmat3(right, glm::cross(out, right), out)));
+}
+
+}  // namespace burin

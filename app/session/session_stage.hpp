@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// What a session's pictures appear on: for each screen a window (two where each eye has its own), or nothing but screenshots. All
+// on one graphics device, which may be lost and replaced.
+//
+// One frame: draw() has the session record each screen's picture, submits what has changed, and shows it in the windows' images, into
+// which only what they lack is drawn.
+// Main thread alone.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/session/live_session.hpp"
+#include "app/session/session_picture.hpp"
+#include "app/session/session_window.hpp"
+#include "renderer/output/parity.hpp"
+
+namespace burin {
+
+class SessionStage {
+public:
+    // The wall must outlive it.
+    [[nodiscard]] static Result<SessionStage> open(const LiveOptions& options, const SessionWall& wall);
+
+    [[nodiscard]] ImageSize size() const { return size_of(screens_[wall_->main]); }  // of the main screen's output
+    [[nodiscard]] bool has_windows() const { return screens_.front().window != nullptr; }
+    [[nodiscard]] double refresh_Hz() const;
+    [[nodiscard]] const std::string& device_name() const { return device_->info().name; }
+
+    // What happened in the windows, waiting for at most so long (0: not at all). The mouse counts in the main screen's alone.
+    [[nodiscard]] std::vector<Input> inputs(double wait_s);
+
+    // One frame, if there is anything new; whether there was. frame_ns: when it is to be seen, by the session's time.
+    [[nodiscard]] Result<bool> draw(LiveSession& session, Nanoseconds frame_ns);
+    // Eyes shown by turns need a picture at each refresh.
+    [[nodiscard]] bool takes_turns(const LiveSession& session) const;
+    // Prepares coarser levels while nothing else is to be done.
+    void refine(std::size_t most);
+
+    void exchange_full_screen() { screens_[wall_->main].window->exchange_full_screen(); }
+    [[nodiscard]] std::vector<std::string> take_messages();  // for people
+
+    // Drops what was made on a device that is gone and starts anew on one that is there; any other error is given back.
+    [[nodiscard]] Result<void> recover(LiveSession& session, const Error& error);
+
+private:
+    // Where one eye's, or both eyes' picture goes.
+    struct Outlet {
+        SessionWindow* window = nullptr;
+        Eye eye = Eye::left;
+        PresentedParts* parts = nullptr;
+    };
+    struct ScreenStage {
+        std::unique_ptr<SessionWindow> window, right_window;
+        PresentedParts parts, right_parts;
+        std::optional<SessionPicture> picture;
+        ImageSize offscreen;
+        FieldParity parity;
+        OutputSettings shown;  // with which the windows' images were drawn
+        OutputPlace shown_place;
+    };
+
+    SessionStage(const LiveOptions& options, const SessionWall& wall) : options_(options), wall_(&wall) {}
+    [[nodiscard]] Result<void> open_windows();
+    [[nodiscard]] Result<void> open_device();
+    [[nodiscard]] static ImageSize size_of(const ScreenStage& screen);
+    [[nodiscard]] static OutputPlace place_of(const ScreenStage& screen);
+    // Opens and closes what the mode needs: a second window, images of two layers. An Error leaves the screen as it can be.
+    [[nodiscard]] Result<void> fit_mode(std::size_t screen, StereoMode mode);
+    [[nodiscard]] Result<bool> draw_screen(std::size_t screen, LiveSession& session, Nanoseconds frame_ns);
+    bool note_changes(ScreenStage& screen, const OutputSettings& settings, const OutputPlace& place);
+    [[nodiscard]] Result<void> show(ScreenStage& screen, const OutputSettings& settings, Nanoseconds frame_ns);
+    [[nodiscard]] Result<void> show_in(ScreenStage& screen, const Outlet& outlet, const OutputSettings& settings);
+    [[nodiscard]] Eye eye_in_turn(ScreenStage& screen, const OutputSettings& settings, Nanoseconds frame_ns);
+    void photograph(std::size_t screen, LiveSession& session, const std::vector<std::filesystem::path>& paths);
+
+    LiveOptions options_;
+    const SessionWall* wall_;
+    std::optional<gpu::Device> device_;
+    std::vector<ScreenStage> screens_;
+    std::vector<std::string> messages_;
+};
+
+}  // namespace burin

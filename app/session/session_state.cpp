@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+#include "app/session/session_state.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/staging.hpp"
+#include "haptics/contact/probe.hpp"
+#include "renderer/stereo/projection.hpp"
+
+namespace burin {
+namespace {
+
+// The workpiece's longest side, in the height of the screen, and where it stands: its front about in the screen's own plane,
+// where eyes rest best.
+constexpr double kHeightOnScreen = 0.52;
+constexpr double kBehindScreen = 0.4;       // its middle, in its own longest side
+constexpr double kAboveLowerEdge = 0.55;    // likewise, in the height of the screen
+constexpr double kWorkspaceCovers = 1.1;    // of the workpiece's width and height
+constexpr double kClearsBorder_m = 0.0005;  // of the workspace
+
+double longest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
+
+Similarity place_workpiece(const Room& room) {
+    const Screen s = room.screen();
+    const Vec3 across = s.lower_right_world - s.lower_left_world, upright = s.upper_left_world - s.lower_left_world;
+    const Vec3 out = glm::normalize(glm::cross(across, upright));
+    const double height_m = glm::length(upright), size_m = longest(room.workpiece_object.extent());
+    Similarity world_from_object;
+    world_from_object.scale = kHeightOnScreen * height_m / size_m;
+    world_from_object.orientation = world_from_screen(s);
+    const Vec3 place = s.lower_left_world + 0.5 * across + kAboveLowerEdge * upright -
+                       kBehindScreen * kHeightOnScreen * height_m * out;
+    const Vec3 middle = room.workpiece_object.center();
+    world_from_object.position_m = place - world_from_object.scale * (world_from_object.orientation * middle);
+    return world_from_object;
+}
+
+// Its middle at the workpiece's front, large enough to reach over its width and height.
+Similarity place_workspace(const Room& room, const Similarity& world_from_object) {
+    const Vec3 size = room.workpiece_object.extent() * world_from_object.scale;
+    const Vec3 needed = kWorkspaceCovers * size / room.workspace_device_m;
+    Vec3 front = room.workpiece_object.center();
+    front.z = room.workpiece_object.hi.z;
+    return {world_from_object * front, world_from_object.orientation, std::max(needed.x, needed.y)};
+}
+
+// Before a wall, back or forth as far as its viewer's eyes ask for at the start.
+void move_into_comfort(SessionState& state, const Room& room) {
+    if (room.wall.desk) return;
+    const Sight sight = sight_of(room.wall.setup, room.wall.main, state.head, state.interpupillary_m);
+    if (!sight.visible) return;
+    const double radius_m = 0.5 * state.world_from_object.scale * longest(room.workpiece_object.extent());
+    const Similarity world_from_device = place_workspace(room, state.world_from_object);
+    const std::array<ContentBall, 2> content{
+        {{state.world_from_object * room.workpiece_object.center(), radius_m},
+         {world_from_device * Vec3(0.0, 0.0, 0.5 * room.workspace_device_m.z), 0.2 * radius_m}}};  // the tool at rest
+    const ComfortFinding finding = judge(room.wall.setup.budget, sight.screen, eyes_of(sight.viewer), {content, {}});
+    if (!finding.move_m) return;
+    state.world_from_object.position_m += *finding.move_m * (world_from_screen(sight.screen) * Vec3(0.0, 0.0, 1.0));
+}
+
+// What cannot be cut is only touched.
+FeelOptions feel_of(const SessionState& state) {
+    FeelOptions feel = state.feel;
+    if (state.only_touch) feel.hardness = "inf";
+    return feel;
+}
+
+double ball_radius_m(const SessionState& state) {
+    const Result<Tool> tool = parse_tool(state.tool);
+    return tool ? tool->ball_radius_m() : 0.0;
+}
+
+// From the main screen to the head; never 0, also where the head is beside or behind it.
+double head_distance_m(const SessionState& state, const Screen& screen, const WallSetup& setup) {
+    return std::max(distance_in_front(screen, head_world(setup, state.head).position_m), 0.05);
+}
+
+DeskView view_of(const SessionState& state, const Room& room, const SessionView& seen) {
+    const Screen screen = room.screen();
+    const double width_m = glm::length(screen.lower_right_world - screen.lower_left_world);
+    const double screen_m_per_px = width_m / std::max(seen.eye_size.width, 1u);
+    const double eye_m = head_distance_m(state, screen, room.wall.setup);
+    const Vec3 tool_world = state.world_from_object * seen.tool.hip_object_m;
+    const double to_tool_m = std::max(eye_m - distance_in_front(screen, tool_world), 0.1);
+    DeskView view;
+    view.device_m_per_px = device_m_per_px(screen_m_per_px, eye_m, to_tool_m, state.world_from_device.scale);
+    view.world_m_per_px = screen_m_per_px;
+    view.world_from_screen = world_from_screen(screen);
+    view.pivot_world = state.world_from_object * room.workpiece_object.center();
+    view.scene_scale = state.world_from_object.scale / state.home_world_from_object.scale;
+    view.mouse_captured = seen.captured.mouse;
+    view.keyboard_captured = seen.captured.keyboard;
+    return view;
+}
+
+// A large box around the whole workpiece must not dim it.
+constexpr double kBoxOpacity = 0.04;
+
+// Of what it leaves behind; a cutting tool has its own.
+Vec3 tool_colour(const SessionState& state) {
+    const Result<Material> material = parse_tool_material(state.tool);
+    if (state.tool.operation == Operation::cut || !material) return SceneTool{}.colour;
+    const auto& c = material->colour;
+    return Vec3(c[0], c[1], c[2]) / 255.0;
+}
+
+}  // namespace
+
+SessionState begin_session(const Room& room, const ToolOptions& tool, const FeelOptions& feel,
+                           const OutputSettings& output) {
+    SessionState state;
+    state.desk = desk_at_home(room.desk);
+    state.head = follow_head({}, room.wall.setup, {}, 0, state.desk.head_world);
+    state.interpupillary_m = interpupillary_m(room.wall.setup.eyes);
+    state.world_from_object = place_workpiece(room);
+    move_into_comfort(state, room);
+    state.home_world_from_object = state.world_from_object;
+    state.world_from_device = place_workspace(room, state.world_from_object);
+    // The hand rests before the workpiece.
+    state.desk.target_device_m.z = 0.5 * room.workspace_device_m.z - kClearsBorder_m;
+    state.tool = tool;
+    state.feel = feel;
+    state.output = output;
+    return state;
+}
+
+SessionStep step_session(SessionState state, const Room& room, std::span<const InputEvent> events,
+                         const SessionView& view) {
+    SessionStep step;
+    DeskStep desk = step_desk(state.desk, events, view.dt_s, view_of(state, room, view), room.desk);
+    state.desk = desk.state;
+    state.head = follow_head(state.head, room.wall.setup, events, view.display_ns, state.desk.head_world);
+    step.hand = desk.target;
+    const Similarity before = state.world_from_object;
+    if (desk.scene_change != Similarity{}) state.world_from_object = desk.scene_change * before;
+    WandStep wands =
+        step_wands(state.wands, events, view.dt_s, state.world_from_object, head_world(room.wall.setup, state.head),
+                   {.home_world_from_scene = state.home_world_from_object});
+    state.wands = wands.state;
+    state.world_from_object = wands.world_from_scene;
+    if (state.world_from_object != before) {
+        state.world_from_object.orientation = glm::normalize(state.world_from_object.orientation);
+        step.orders.parameters = true;  // the workpiece has moved under the hand
+    }
+    const auto run = [&](const CommandInput& command) {
+        if (const auto done = run_command(state, step.orders, command); !done)
+            step.orders.messages.push_back(done.error().line());
+    };
+    for (const Action action : desk.actions) run({std::string(name_of(action)), {}});
+    for (const InputEvent& event : events) {
+        if (const auto* command = std::get_if<CommandInput>(&event.input)) run(*command);
+        if (std::holds_alternative<WindowClose>(event.input)) state.quit = true;
+    }
+    step.state = std::move(state);
+    return step;
+}
+
+TickParameters parameters_of(const SessionState& state, const Room& room) {
+    TickParameters p;
+    const double radius_m = ball_radius_m(state);
+    p.workspace.technique = state.technique;
+    Similarity world_from_device = state.world_from_device;
+    world_from_device.scale *= state.workspace_gain;
+    p.workspace.object_from_device = inverse(state.world_from_object) * world_from_device;
+    p.workspace.workspace_device_m = room.workspace_device_m;
+    p.workspace.reach_object = room.workpiece_object;
+    const Vec3 around = Vec3(2.0 * radius_m) + 0.25 * room.workpiece_object.extent();
+    p.workspace.reach_object.lo -= around;
+    p.workspace.reach_object.hi += around;
+    p.probe = ball_probe(radius_m);
+    const Result<Tool> tool = parse_tool(state.tool);
+    if (tool) p.action = action_of(tool->operation);
+    if (const Result<Feel> feel = parse_feel(feel_of(state))) p.materials.fill(feel->material);
+    p.signals.force_alpha = state.force_filter;
+    if (state.velocity_filter > 0.0) {
+        p.signals.velocity = VelocityMethod::moving_average;
+        p.signals.velocity_alpha = state.velocity_filter;
+    }
+    p.enabled = state.force_on;
+    return p;
+}
+
+Result<UseTool> tool_of(const SessionState& state) {
+    const Result<Tool> tool = parse_tool(state.tool);
+    if (!tool) return std::unexpected(tool.error());
+    const Result<Material> material = parse_tool_material(state.tool);
+    if (!material) return std::unexpected(material.error());
+    const Result<Feel> feel = parse_feel(feel_of(state));
+    if (!feel) return std::unexpected(feel.error());
+    if (tool->ball_radius_m() == 0.0) {
+        return fail("tool " + state.tool.shape, "cannot be felt: the hand feels with a ball", "use ball:R");
+    }
+    return UseTool{*tool, *material, feel->material.hardness_Ns_per_m3};
+}
+
+std::optional<Scene> scene_of(const SessionState& state, const Room& room, std::size_t screen,
+                              const Vec3& lattice_origin_object, const ToolState& tool) {
+    const Sight sight = sight_of(room.wall.setup, screen, state.head, state.interpupillary_m);
+    if (!sight.visible) return std::nullopt;
+    Scene scene;
+    scene.screen = sight.screen;
+    scene.viewer = sight.viewer;
+    const bool one_eye = needs_of(output_on(room.wall, screen, state.output).mode).one_eye_point;
+    if (one_eye) scene.viewer.interpupillary_m = 0.0;
+    // Where screens adjoin there is no edge to violate, and a fade would break the picture apart there.
+    if (!one_eye && room.wall.screens.size() == 1) scene.edge_fade = 1.0;
+    scene.world_from_object = state.world_from_object;
+    scene.lattice_origin_object = lattice_origin_object;
+    scene.workpiece_object = room.workpiece_object;
+    scene.show_wall_frame = false;
+    const Vec3 size = room.workpiece_object.extent() * state.home_world_from_object.scale;
+    const Vec3 middle = state.home_world_from_object * room.workpiece_object.center();
+    scene.pedestal.visible = true;
+    scene.pedestal.top_center_world = {middle.x, middle.y - 0.5 * size.y, middle.z};
+    scene.pedestal.radius_m = 0.25 * glm::length(size);
+    Staging staging = staging_of(tool, ball_radius_m(state), room.workspace_device_m);
+    staging.contact_shown = state.force_shown;
+    stage(scene, staging, state.world_from_object);
+    scene.tool.colour = tool_colour(state);
+    if (scene.box.face_opacity > kBoxOpacity) scene.box.face_opacity = kBoxOpacity;
+    return scene;
+}
+
+ComfortFinding comfort_of(const SessionState& state, const Room& room, const ToolState& tool) {
+    const Sight sight = sight_of(room.wall.setup, room.wall.main, state.head, state.interpupillary_m);
+    if (!sight.visible) return {};
+    const double scale = state.world_from_object.scale;
+    const Box& workpiece = room.workpiece_object;
+    // As a ball: the workpiece may be turned anyhow.
+    const std::array<ContentBall, 2> balls{
+        {{state.world_from_object * workpiece.center(), 0.5 * scale * longest(workpiece.extent())},
+         {state.world_from_object * tool.proxy_object_m, scale * ball_radius_m(state)}}};
+    return judge(room.wall.setup.budget, sight.screen, eyes_of(sight.viewer), {balls, {}});
+}
+
+}  // namespace burin

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "app/session/session_window.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "app/session/input_keys.hpp"
+
+namespace burin {
+namespace {
+
+// The window library's names differ from the log's where these are easier to type.
+std::optional<Key> key_of(std::string name) {
+    static const std::vector<std::pair<std::string, std::string>> others{{"'", "apostrophe"},
+                                                                         {",", "comma"},
+                                                                         {"-", "minus"},
+                                                                         {".", "period"},
+                                                                         {"/", "slash"},
+                                                                         {";", "semicolon"},
+                                                                         {"=", "equal"},
+                                                                         {"[", "left-bracket"},
+                                                                         {"]", "right-bracket"},
+                                                                         {"\\", "backslash"},
+                                                                         {"`", "grave"},
+                                                                         {"left_shift", "shift"},
+                                                                         {"right_shift", "shift"},
+                                                                         {"left_control", "ctrl"},
+                                                                         {"right_control", "ctrl"},
+                                                                         {"left_alt", "alt"},
+                                                                         {"right_alt", "alt"},
+                                                                         {"left_super", "super"},
+                                                                         {"right_super", "super"},
+                                                                         {"keypad_decimal", "keypad-period"}};
+    const auto other = std::ranges::find(others, name, &std::pair<std::string, std::string>::first);
+    if (other != others.end()) return key_named(other->second);
+    std::ranges::replace(name, '_', '-');
+    return key_named(name);
+}
+
+Modifiers modifiers_of(const window::Modifiers& held) { return {held.shift, held.control, held.alt, held.super}; }
+
+std::string utf8_of(char32_t c) {
+    std::string text;
+    const auto byte = [&](std::uint32_t value) { text.push_back(static_cast<char>(value)); };
+    const auto code = static_cast<std::uint32_t>(c);
+    if (code < 0x80) {
+        byte(code);
+    } else if (code < 0x800) {
+        byte(0xc0 | (code >> 6));
+        byte(0x80 | (code & 0x3f));
+    } else if (code < 0x10000) {
+        byte(0xe0 | (code >> 12));
+        byte(0x80 | ((code >> 6) & 0x3f));
+        byte(0x80 | (code & 0x3f));
+    } else {
+        byte(0xf0 | (code >> 18));
+        byte(0x80 | ((code >> 12) & 0x3f));
+        byte(0x80 | ((code >> 6) & 0x3f));
+        byte(0x80 | (code & 0x3f));
+    }
+    return text;
+}
+
+std::uint32_t pixels(int n) { return static_cast<std::uint32_t>(std::max(n, 0)); }
+
+}  // namespace
+
+Result<SessionWindow> SessionWindow::open(const std::string& title, const std::string& monitor, ImageSize size,
+                                          std::optional<window::Window::Position> place) {
+    window::WindowOptions wanted{
+        .title = title, .width = static_cast<int>(size.width), .height = static_cast<int>(size.height)};
+    if (!monitor.empty()) wanted.full_screen = monitor;
+    if (place) {
+        wanted.x = place->x;
+        wanted.y = place->y;
+    }
+    auto opened = window::Window::create(wanted);
+    if (!opened) return std::unexpected(opened.error());
+    return SessionWindow(std::move(*opened));
+}
+
+Result<gpu::Device> SessionWindow::open_device() {
+    const auto extensions = window::required_extensions();
+    if (!extensions) return std::unexpected(extensions.error());
+    return gpu::Device::create({.instance_extensions = *extensions});
+}
+
+Result<void> SessionWindow::open_images(gpu::Device& device, std::uint32_t layers) {
+    images_.reset();
+    auto surface = window_.create_surface(device);
+    if (!surface) return std::unexpected(surface.error());
+    const ImageSize now = size();
+    auto images = gpu::Swapchain::create(device, std::move(*surface),
+                                         {.width = now.width, .height = now.height, .layers = layers});
+    if (!images) return std::unexpected(images.error());
+    images_ = std::move(*images);
+    exposed_ = true;
+    return {};
+}
+
+std::vector<Input> SessionWindow::inputs(double wait_s) {
+    std::vector<Input> inputs;
+    for (const window::WindowEvent& event : wait_s > 0.0 ? window_.wait(wait_s) : window_.poll()) {
+        if (auto input = input_of(event)) inputs.push_back(std::move(*input));
+    }
+    return inputs;
+}
+
+std::optional<Input> SessionWindow::input_of(const window::WindowEvent& event) {
+    if (const auto* e = std::get_if<window::KeyEvent>(&event)) {
+        const std::optional<Key> key = key_of(e->key);
+        if (!key) return std::nullopt;
+        const KeyMotion motion = e->press == window::Press::down     ? KeyMotion::press
+                                 : e->press == window::Press::repeat ? KeyMotion::repeat
+                                                                     : KeyMotion::release;
+        return KeyInput{*key, motion, modifiers_of(e->held)};
+    }
+    if (const auto* e = std::get_if<window::TextEvent>(&event)) return TextInput{utf8_of(e->character)};
+    if (const auto* e = std::get_if<window::MouseMoveEvent>(&event)) return MouseMove{{e->x, e->y}};
+    if (const auto* e = std::get_if<window::MouseButtonEvent>(&event)) {
+        if (e->button > 4) return std::nullopt;
+        return MouseClick{static_cast<MouseButton>(e->button), e->down, modifiers_of(e->held)};
+    }
+    if (const auto* e = std::get_if<window::ScrollEvent>(&event)) return Scroll{{e->x, e->y}, {}};
+    if (const auto* e = std::get_if<window::ResizeEvent>(&event)) {
+        exposed_ = true;
+        return WindowResize{pixels(e->width), pixels(e->height)};
+    }
+    if (const auto* e = std::get_if<window::FocusEvent>(&event)) return WindowFocus{e->focused};
+    if (std::holds_alternative<window::CloseEvent>(event)) return WindowClose{};
+    if (std::holds_alternative<window::ExposeEvent>(event)) exposed_ = true;
+    if (const auto* e = std::get_if<window::MonitorEvent>(&event)) {
+        messages_.push_back("monitor " + e->monitor + (e->connected ? " is there" : " has gone") +
+                            (e->fell_back_to_window ? ": the picture is in a window now" : ""));
+    }
+    return std::nullopt;
+}
+
+gpu::SwapchainFrame SessionWindow::acquire() {
+    const ImageSize now = size();
+    return images_->acquire(now.width, now.height);
+}
+
+ImageSize SessionWindow::size() const {
+    const window::Window::Size now = window_.framebuffer();
+    return {pixels(now.width), pixels(now.height)};
+}
+
+double SessionWindow::refresh_Hz() const {
+    const double told = window_.monitor().refresh_Hz;
+    return told > 0.0 ? told : 60.0;
+}
+
+bool SessionWindow::needs_showing() { return std::exchange(exposed_, false); }
+
+void SessionWindow::exchange_full_screen() {
+    if (window_.full_screen()) {
+        window_.leave_full_screen();
+    } else if (const auto filled = window_.fill_monitor(std::to_string(window_.monitor().index)); !filled) {
+        messages_.push_back(filled.error().line());
+    }
+    exposed_ = true;
+}
+
+std::vector<std::string> SessionWindow::take_messages() { return std::exchange(messages_, {}); }
+
+}  // namespace burin

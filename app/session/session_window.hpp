@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// The window of a live session: its events as the session's input, and its images as targets.
+// Main thread alone, but for window::wake().
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "app/session/input_event.hpp"
+#include "app/session/session_options.hpp"
+#include "gpu/swapchain.hpp"
+#include "renderer/image.hpp"
+#include "window/window.hpp"
+
+namespace burin {
+
+class SessionWindow {
+public:
+    // Fills a monitor, or (empty) is a window on the desktop whose contents have this size. An Error without a display says what to do.
+    [[nodiscard]] static Result<SessionWindow> open(const std::string& title, const std::string& monitor,
+                                                    ImageSize size,
+                                                    std::optional<window::Window::Position> place = std::nullopt);
+    // A device that can present to windows.
+    [[nodiscard]] static Result<gpu::Device> open_device();
+
+    // Its images on a device, of one layer or one for each eye; anew after a lost surface or device. On an Error there are none.
+    [[nodiscard]] Result<void> open_images(gpu::Device& device, std::uint32_t layers);
+    void close_images() { images_.reset(); }
+    [[nodiscard]] std::uint32_t layers() const { return images_ ? images_->layers() : 0; }
+
+    // What happened, waiting for at most so long (0: not at all).
+    [[nodiscard]] std::vector<Input> inputs(double wait_s);
+
+    [[nodiscard]] gpu::SwapchainFrame acquire();
+    gpu::FrameAnswer present(const gpu::SwapchainFrame& frame) { return images_->present(frame); }
+    gpu::FrameAnswer abandon(const gpu::SwapchainFrame& frame) { return images_->abandon(frame); }
+    [[nodiscard]] VkFormat format() const { return images_->format(); }
+    [[nodiscard]] ImageSize size() const;
+    [[nodiscard]] std::optional<std::uint64_t> vblank_count() const { return images_->vblank_count(); }
+    [[nodiscard]] window::Window::Position on_monitor() const { return window_.on_monitor(); }
+    [[nodiscard]] double refresh_Hz() const;
+    [[nodiscard]] bool needs_showing();  // the window's contents were lost since the last call
+    void show_again() { exposed_ = true; }
+    void exchange_full_screen();
+    // For people: monitors that came and went, since the last call.
+    [[nodiscard]] std::vector<std::string> take_messages();
+
+private:
+    explicit SessionWindow(window::Window window) : window_(std::move(window)) {}
+    [[nodiscard]] std::optional<Input> input_of(const window::WindowEvent& event);
+
+    window::Window window_;  // outlives its images
+    std::optional<gpu::Swapchain> images_;
+    bool exposed_ = true;
+    std::vector<std::string> messages_;
+};
+
+}  // namespace burin

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "app/wall_command.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/bench_files.hpp"
+#include "app/wall_calibration.hpp"
+#include "app/wall_figures.hpp"
+#include "app/wall_file.hpp"
+#include "renderer/output/stereo_mode.hpp"
+
+namespace burin {
+
+struct WallCommand::Options {
+    std::string file, svg, json;
+    WallCalibrationOptions calibration;
+
+    [[nodiscard]] Result<void> show() const;
+    [[nodiscard]] Result<void> check_file() const;
+};
+
+Result<void> WallCommand::Options::show() const {
+    for (const std::string& path : {svg, json}) {
+        if (const auto ok = check_place(path); !ok) return ok;
+    }
+    const auto setup = read_wall(file);
+    if (!setup) return std::unexpected(setup.error());
+    const auto figures = wall_figures(*setup);
+    if (json != kStandardOutput && svg != kStandardOutput) std::fputs(wall_table(figures).c_str(), stdout);
+    if (const auto ok = write_output(svg, wall_drawing(*setup)); !ok) return ok;
+    return write_output(json, figures.dump(2) + "\n");
+}
+
+Result<void> WallCommand::Options::check_file() const {
+    const auto setup = read_wall(file);
+    if (!setup) return std::unexpected(setup.error());
+    std::vector<WallProblem> problems = check(*setup);
+    for (const WallScreen& s : setup->screens) {
+        const auto mode = parse_stereo_mode(s.mode);
+        if (!mode) problems.push_back({true, s.name, "mode: " + mode.error().what, mode.error().remedy});
+    }
+    for (const WallProblem& p : problems) std::printf("%s\n", line_of(p).c_str());
+    const auto errors = std::ranges::count(problems, true, &WallProblem::error);
+    if (errors > 0) {
+        std::fflush(stdout);
+        return fail(file, std::to_string(errors) + (errors == 1 ? " error" : " errors"), "mend it and check again");
+    }
+    if (problems.empty()) std::printf("%s: nothing wrong\n", file.c_str());
+    return {};
+}
+
+WallCommand::WallCommand(Command app)
+    : options_(std::make_unique<Options>()),
+      command_(app.subcommand("wall", "Show, check or calibrate a stereo wall")) {
+    command_.require_subcommand();
+    Options& o = *options_;
+    show_ = command_.subcommand("show", "Its screens in metres, degrees and pixels");
+    show_.option("FILE", o.file, "A wall file, see docs/formats.md").required();
+    show_.option("--svg", o.svg, "A file for a drawing, plan and side view; - for standard output");
+    show_.option("--json", o.json, "A file for all figures; - for standard output");
+
+    check_ = command_.subcommand("check", "What is wrong with it; exit status 1 when there is an error");
+    check_.option("FILE", o.file, "A wall file").required();
+
+    Command calibrate = command_.subcommand("calibrate", "A screen's corners from touches with a tracked wand");
+    WallCalibrationOptions& c = o.calibration;
+    calibrate.option("--wall", c.wall, "The wall file as it is").required();
+    calibrate
+        .option("--samples", c.samples,
+                "CSV with place,x,y,z in the wall's unit and the tracker's frame; - for standard input, with a "
+                "prompt for each touch")
+        .required();
+    calibrate.option("--screen", c.screen, "Which screen was touched").required();
+    calibrate.option("--out", c.out, "Where to write the new wall file; may be the old one").required();
+    calibrate.option("--json", c.json, "A file for the residuals; - for standard output");
+    calibrate.flag("--keep-size", c.keep_size, "Move and turn the screen, but leave its width and height");
+}
+
+WallCommand::~WallCommand() = default;
+
+bool WallCommand::parsed() const { return command_.parsed(); }
+
+Result<void> WallCommand::run() const {
+    if (show_.parsed()) return options_->show();
+    if (check_.parsed()) return options_->check_file();
+    return calibrate_wall(options_->calibration);
+}
+
+}  // namespace burin

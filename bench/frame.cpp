@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#include "bench/frame.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "bench/flip.hpp"
+#include "bench/frame_display.hpp"
+#include "bench/frame_start.hpp"
+#include "bench/machine.hpp"
+#include "bench/peers/frame_peers.hpp"
+#include "bench/timing.hpp"
+
+namespace burin::bench {
+namespace {
+
+constexpr const char* kOwn = "Burin";
+// The bumps move the outline by up to 2 % of the radius, both ways; eight hundredths of an outline's worth of pixels at most.
+constexpr double kCoverageTolerance = 0.02;
+
+Viewer viewer_in(const FrameScene& scene, FrameMotion motion, unsigned frame) {
+    return motion == FrameMotion::moving ? moving_viewer(scene, frame) : still_viewer(scene);
+}
+
+// Adds a frame's counts; at the end they are divided by the number of frames.
+void add(FrameCounters& sums, const FrameCounters& counts) {
+    if (sums.empty())
+        sums = counts;
+    else
+        for (std::size_t i = 0; i < std::min(sums.size(), counts.size()); ++i) sums[i].second += counts[i].second;
+}
+
+Result<void> check_coverage(const FrameTimes& times) {
+    const double apart = times.coverage - times.expected_coverage;
+    if (std::abs(apart) <= kCoverageTolerance) return {};
+    const auto percent = [](double share) {
+        return std::to_string(static_cast<int>(std::lround(100.0 * share))) + " %";
+    };
+    return fail(times.subject,
+                "its picture shows the surface on " + percent(times.coverage) + " of the pixels instead of " +
+                    percent(times.expected_coverage),
+                "its times mean nothing; look at its picture with --pictures");
+}
+
+class Run {
+public:
+    Run(const FrameOptions& options, const std::function<void(const std::string&)>& tell) : tell_(tell) {
+        report_.options = options;
+        report_.machine = machine();
+    }
+
+    Result<FrameReport> all() {
+        if (const auto done = open(); !done) return std::unexpected(done.error());
+        if (const auto done = measure_own(); !done) return std::unexpected(done.error());
+        own_.subject.reset();
+        measure_peers();
+        compare_pictures();
+        return std::move(report_);
+    }
+
+private:
+    [[nodiscard]] const FrameOptions& options() const { return report_.options; }
+    Result<void> open();
+    Result<void> measure_own();
+    void measure_peers();
+    void measure_peer(const char* name, Result<std::unique_ptr<FrameSubject>> subject);
+    void compare_pictures();
+
+    std::function<void(const std::string&)> tell_;
+    FrameReport report_;
+    FrameScene scene_;
+    OwnSubject own_;
+};
+
+// What a user waits for, but for making the surface, which here is arithmetic and there a file.
+Result<void> Run::open() {
+    const double before_wall_ms = wall_since_start_ms(), before_cpu_ms = process_cpu_ms();
+    scene_ = make_frame_scene(options().triangles, options().triangles_a_patch);
+    const double making_wall_ms = wall_since_start_ms() - before_wall_ms,
+                 making_cpu_ms = process_cpu_ms() - before_cpu_ms;
+    report_.triangles = scene_.triangles();
+    report_.patches = scene_.patches.size();
+
+    auto own = open_own(scene_, options());
+    if (!own) return std::unexpected(own.error());
+    own_ = std::move(*own);
+    report_.device = own_.device_name;
+    if (const auto done = own_.subject->draw({still_viewer(scene_), {}}); !done) return done;
+    if (options().first) report_.first = {wall_since_start_ms() - making_wall_ms, process_cpu_ms() - making_cpu_ms};
+    return {};
+}
+
+Result<void> Run::measure_own() {
+    for (const FrameMotion motion : options().motions) {
+        tell_(std::string(kOwn) + ", " + name_of(motion));
+        auto times = time_frames(*own_.subject, scene_, motion, options());
+        if (!times) return std::unexpected(times.error());
+        report_.times.push_back(std::move(*times));
+    }
+    if (!options().idle) return {};
+    tell_(std::string(kOwn) + ", idle");
+    const auto idle = time_idle(*own_.subject, options().idle_s);
+    if (!idle) return std::unexpected(idle.error());
+    report_.idle = *idle;
+    return {};
+}
+
+void Run::measure_peers() {
+    if ((!options().osg && !options().vtk) || options().motions.empty()) return;
+    const auto display = FrameDisplay::open();
+    if (!display) {
+        report_.left_out.push_back("peers: " + display.error().line());
+        return;
+    }
+    if (options().osg) {
+        measure_peer("OpenSceneGraph", open_osg(scene_, options().samples, OsgDrawables::patches));
+        measure_peer("OpenSceneGraph", open_osg(scene_, options().samples, OsgDrawables::one));
+    }
+    if (options().vtk) measure_peer("VTK", open_vtk(scene_, options().samples));
+}
+
+void Run::measure_peer(const char* name, Result<std::unique_ptr<FrameSubject>> subject) {
+    if (!subject) {
+        report_.left_out.push_back(std::string(name) + ": " + subject.error().line());
+        return;
+    }
+    for (const FrameMotion motion : options().motions) {
+        tell_((*subject)->name() + ", " + name_of(motion));
+        auto times = time_frames(**subject, scene_, motion, options());
+        if (times) {
+            report_.times.push_back(std::move(*times));
+        } else {
+            report_.left_out.push_back((*subject)->name() + ", " + name_of(motion) + ": " + times.error().line());
+        }
+    }
+}
+
+void Run::compare_pictures() {
+    for (FrameTimes& times : report_.times) {
+        const auto own = std::ranges::find_if(
+            report_.times, [&](const FrameTimes& t) { return t.subject == kOwn && t.motion == times.motion; });
+        if (times.subject == kOwn || own == report_.times.end()) continue;
+        if (const auto map = flip(own->pictures.left, times.pictures.left)) times.flip_from_own = map->mean;
+    }
+}
+
+}  // namespace
+
+Result<void> FrameSubject::wait(double at_most_s) {
+    std::this_thread::sleep_for(std::chrono::duration<double>(at_most_s));
+    return {};
+}
+
+std::string name_of(FrameMotion motion) {
+    switch (motion) {
+        case FrameMotion::moving: return "moving";
+        case FrameMotion::still: return "still";
+        case FrameMotion::carving: return "carving";
+    }
+    return {};
+}
+
+Result<FrameTimes> time_frames(FrameSubject& subject, const FrameScene& scene, FrameMotion motion,
+                               const FrameOptions& options) {
+    FrameTimes times;
+    times.subject = subject.name();
+    times.note = subject.note();
+    times.motion = motion;
+    Viewer viewer;
+    for (unsigned frame = 0; frame < options.warm_up + options.frames; ++frame) {
+        viewer = viewer_in(scene, motion, frame);
+        const std::vector<PatchChange> changes =
+            motion == FrameMotion::carving ? wandering_dent(scene, frame) : std::vector<PatchChange>{};
+        Stopwatch watch;
+        const double before_ms = process_cpu_ms();
+        if (const auto drawn = subject.draw({viewer, changes}); !drawn) return std::unexpected(drawn.error());
+        const double cpu_ms = process_cpu_ms() - before_ms, wall_ms = watch.lap_ms();
+        if (frame < options.warm_up) {
+            if (const auto done = subject.settle(); !done) return std::unexpected(done.error());
+            continue;
+        }
+        times.cpu_ms.push_back(cpu_ms);
+        times.wall_ms.push_back(wall_ms);
+        add(times.counters, subject.counters());
+    }
+    for (auto& [name, value] : times.counters) value /= static_cast<double>(times.cpu_ms.size());
+    auto pictures = subject.picture();
+    if (!pictures) return std::unexpected(pictures.error());
+    times.pictures = std::move(*pictures);
+    times.coverage = coverage(scene.look, times.pictures.left);
+    times.expected_coverage = expected_coverage(scene, eyes_of(viewer).left_world);
+    if (const auto ok = check_coverage(times); !ok) return std::unexpected(ok.error());
+    return times;
+}
+
+Result<IdleCost> time_idle(FrameSubject& subject, double seconds) {
+    Stopwatch watch;
+    const double before_ms = process_cpu_ms();
+    double passed_s = 0.0;
+    while (passed_s < seconds) {
+        if (const auto done = subject.wait(seconds - passed_s); !done) return std::unexpected(done.error());
+        passed_s += 1e-3 * watch.lap_ms();
+    }
+    return IdleCost{passed_s, 1e-3 * (process_cpu_ms() - before_ms) / passed_s};
+}
+
+Result<FrameReport> run_frames(const FrameOptions& options, const std::function<void(const std::string&)>& tell) {
+    return Run(options, tell).all();
+}
+
+std::optional<double> own_over_peer(const FrameReport& report, FrameMotion motion, const std::string& peer) {
+    double own = 0.0, theirs = 0.0;
+    for (const FrameTimes& times : report.times) {
+        if (times.motion != motion) continue;
+        const double ms = median(times.cpu_ms);
+        if (times.subject == kOwn) own = ms;
+        if (times.subject.starts_with(peer) && (theirs == 0.0 || ms < theirs)) theirs = ms;
+    }
+    if (own <= 0.0 || theirs <= 0.0) return std::nullopt;
+    return own / theirs;
+}
+
+}  // namespace burin::bench

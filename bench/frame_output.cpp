@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// What drawing costs, as table, CSV and JSON.
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "bench/frame.hpp"
+#include "bench/timing.hpp"
+
+namespace burin::bench {
+namespace {
+
+constexpr std::array<std::pair<const char*, const char*>, 2> kPeers{
+    {{"OpenSceneGraph", "own_over_osg"}, {"VTK", "own_over_vtk"}}};
+
+template <typename... Values>
+std::string line(const char* format, Values... values) {
+    std::array<char, 320> text{};
+    std::snprintf(text.data(), text.size(), format, values...);
+    return text.data();
+}
+
+double least(const std::vector<double>& values) { return values.empty() ? 0.0 : *std::ranges::min_element(values); }
+
+Json row_of(const FrameReport& report, const FrameTimes& t) {
+    Json row = {{"subject", t.subject},
+                {"scene", name_of(t.motion)},
+                {"triangles", report.triangles},
+                {"samples", report.options.samples},
+                {"frames", t.cpu_ms.size()},
+                {"cpu_min_ms", least(t.cpu_ms)},
+                {"cpu_median_ms", median(t.cpu_ms)},
+                {"cpu_p99_ms", quantile(t.cpu_ms, 0.99)},
+                {"wall_min_ms", least(t.wall_ms)},
+                {"wall_median_ms", median(t.wall_ms)},
+                {"wall_p99_ms", quantile(t.wall_ms, 0.99)},
+                {"coverage", t.coverage},
+                {"expected_coverage", t.expected_coverage},
+                {"flip_from_own", t.flip_from_own ? Json(*t.flip_from_own) : Json()},
+                {"note", t.note}};
+    return row;
+}
+
+// A field with a comma or quote is quoted (RFC 4180).
+std::string csv_field(const Json& value) {
+    if (value.is_null()) return {};
+    if (!value.is_string()) return value.dump();
+    const auto text = value.get<std::string>();
+    if (text.find_first_of(",\"") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+    return quoted + "\"";
+}
+
+std::string counters_line(const FrameTimes& t) {
+    std::string text;
+    for (const auto& [name, value] : t.counters)
+        text += line("%s%s %.0f", text.empty() ? "" : ", ", name.c_str(), value);
+    return text;
+}
+
+Json ratios(const FrameReport& report) {
+    Json all = Json::array();
+    for (const FrameMotion motion : report.options.motions) {
+        Json row = {{"scene", name_of(motion)}};
+        for (const auto& [peer, key] : kPeers)
+            if (const auto ratio = own_over_peer(report, motion, peer)) row[key] = *ratio;
+        if (row.size() > 1) all.push_back(row);
+    }
+    return all;
+}
+
+}  // namespace
+
+std::string frame_table(const FrameReport& report) {
+    std::string text = report.machine + "\nBurin on " + report.device + "\n";
+    text += line(
+        "%zu triangles in %zu patches, 2 x 1280 x 720, %u sample%s a pixel; ms a frame of processor time, and of "
+        "wall\n\n",
+        report.triangles, report.patches, report.options.samples, report.options.samples == 1 ? "" : "s");
+    text += line("%-30s %-8s %8s %8s %8s | %8s %8s | %8s %7s\n", "", "scene", "min", "median", "p99", "median", "p99",
+                 "covered", "FLIP");
+    for (const FrameTimes& t : report.times) {
+        text += line("%-30s %-8s %8.2f %8.2f %8.2f | %8.2f %8.2f | %6.1f %%", t.subject.c_str(),
+                     name_of(t.motion).c_str(), least(t.cpu_ms), median(t.cpu_ms), quantile(t.cpu_ms, 0.99),
+                     median(t.wall_ms), quantile(t.wall_ms, 0.99), 100.0 * t.coverage);
+        text += t.flip_from_own ? line(" %7.3f\n", *t.flip_from_own) : "\n";
+    }
+    text += "\n";
+    for (const FrameTimes& t : report.times) {
+        if (!t.counters.empty()) text += t.subject + ", " + name_of(t.motion) + ", a frame: " + counters_line(t) + "\n";
+    }
+    for (const FrameMotion motion : report.options.motions)
+        for (const auto& [peer, key] : kPeers)
+            if (const auto ratio = own_over_peer(report, motion, peer))
+                text += line("%s: Burin uses %.3f of what %s uses\n", name_of(motion).c_str(), *ratio, peer);
+    std::vector<std::string> notes;  // each once
+    for (const FrameTimes& t : report.times) {
+        const std::string note = t.subject + ": " + t.note + "\n";
+        if (!t.note.empty() && std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
+    }
+    for (const std::string& note : notes) text += note;
+    if (report.idle)
+        text += line("idle: %.3f %% of a core over %.1f s\n", 100.0 * report.idle->cpu_share, report.idle->seconds);
+    if (report.first)
+        text += line("first picture: %.0f ms after the start (%.0f ms of processor time), without making the surface\n",
+                     report.first->wall_ms, report.first->cpu_ms);
+    for (const std::string& why : report.left_out) text += "left out: " + why + "\n";
+    return text;
+}
+
+std::string frame_csv(const FrameReport& report) {
+    std::string text = "# " + report.machine + "; Burin on " + report.device + "\n";
+    for (std::size_t i = 0; i < report.times.size(); ++i) {
+        std::string names, values;
+        const Json row = row_of(report, report.times[i]);
+        for (const auto& [name, value] : row.items()) {
+            names += (names.empty() ? "" : ",") + name;
+            values += (values.empty() ? "" : ",") + csv_field(value);
+        }
+        if (i == 0) text += names + "\n";
+        text += values + "\n";
+    }
+    return text;
+}
+
+Json frame_json(const FrameReport& report) {
+    Json json = {{"machine", report.machine},
+                 {"device", report.device},
+                 {"triangles", report.triangles},
+                 {"patches", report.patches},
+                 {"samples", report.options.samples}};
+    json["times"] = Json::array();
+    for (const FrameTimes& t : report.times) {
+        Json row = row_of(report, t);
+        for (const auto& [name, value] : t.counters) row["counters"][name] = value;
+        json["times"].push_back(row);
+    }
+    json["ratios"] = ratios(report);
+    if (report.idle) json["idle"] = {{"seconds", report.idle->seconds}, {"cpu_share", report.idle->cpu_share}};
+    if (report.first) json["first_picture"] = {{"wall_ms", report.first->wall_ms}, {"cpu_ms", report.first->cpu_ms}};
+    json["left_out"] = report.left_out;
+    return json;
+}
+
+}  // namespace burin::bench

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// Burin's own frames, as a session draws them: the surface's patches are given to the renderer as a carving gives its tiles,
+// frames follow one another, and nothing is read back.
+#include "bench/frame.hpp"
+#include "bench/timing.hpp"
+#include "compute/normal_code.hpp"
+#include "gpu/device.hpp"
+#include "renderer/renderer.hpp"
+
+namespace burin::bench {
+namespace {
+
+std::uint32_t colour_code(const Vec3& colour) {
+    const glm::uvec3 c(glm::round(255.0 * colour));
+    return c.x | c.y << 8U | c.z << 16U | 255U << 24U;
+}
+
+class RendererSubject final : public FrameSubject {
+public:
+    RendererSubject(const FrameScene& scene, gpu::Device device, Renderer renderer)
+        : scene_(scene),
+          colour_(colour_code(scene.look.surface)),
+          device_(std::move(device)),
+          renderer_(std::move(renderer)) {
+        drawn_.screen = scene.screen;
+        drawn_.show_wall_frame = false;
+        drawn_.show_grid = false;
+        drawn_.background = scene.look.background;
+        for (std::uint32_t i = 0; i < scene.patches.size(); ++i) set(i, scene.patches[i].vertices);
+    }
+
+    std::string name() const override { return "Burin"; }
+    std::string note() const override { return "lit by lamp, sky and room, in sRGB"; }
+
+    Result<void> draw(const FrameStep& step) override {
+        for (const PatchChange& change : step.changes) set(change.patch, change.vertices);
+        drawn_.viewer = step.viewer;
+        auto commands = gpu::Commands::begin(device_);
+        if (!commands) return std::unexpected(commands.error());
+        if (const auto recorded = renderer_.record(*commands, drawn_); !recorded) {
+            return std::unexpected(recorded.error());
+        }
+        auto submission = std::move(*commands).submit();
+        if (!submission) return std::unexpected(submission.error());
+        return submission->wait();
+    }
+
+    // What a session does while nothing happens.
+    Result<void> settle() override {
+        const double before_ms = process_cpu_ms();
+        refined_ += static_cast<double>(renderer_.refine(static_cast<std::size_t>(-1)));
+        refine_ms_ += process_cpu_ms() - before_ms;
+        return {};
+    }
+
+    Result<StereoImage> picture() override { return renderer_.render(drawn_); }
+
+    FrameCounters counters() const override {
+        const RenderStats& s = renderer_.stats();
+        const PatchCounts& p = s.patch_counts;
+        return {{"triangles", static_cast<double>(p.triangles)},
+                {"draws", s.draws},
+                {"patches", p.drawn},
+                {"beside", p.beside},
+                {"turned away", p.turned_away},
+                {"behind", p.behind},
+                {"coarser", p.coarser},
+                {"vertex rate", p.vertex_rate},
+                {"1000 pixels", 1e-3 * s.part.width * s.part.height},
+                {"KiB brought over", static_cast<double>(s.uploaded_bytes) / 1024.0},
+                {"patches refined", refined_},
+                {"ms to refine them", refine_ms_}};
+    }
+
+private:
+    void set(std::uint32_t patch, const std::vector<FrameVertex>& vertices) {
+        auto tile = std::make_shared<SurfaceTile>();
+        tile->vertices.reserve(vertices.size());
+        for (const FrameVertex& v : vertices) {
+            const Vec3f& p = v.position_world_m;
+            tile->vertices.push_back({p.x, p.y, p.z, normal_code(Vec3(v.normal_world)), colour_});
+        }
+        tile->indices = scene_.patches[patch].indices;
+        renderer_.set_patch(patch, std::move(tile));
+    }
+
+    const FrameScene& scene_;
+    std::uint32_t colour_;
+    gpu::Device device_;
+    Renderer renderer_;
+    Scene drawn_;
+    double refined_ = 0.0, refine_ms_ = 0.0;
+};
+
+}  // namespace
+
+Result<OwnSubject> open_own(const FrameScene& scene, const FrameOptions& options) {
+    auto device = gpu::Device::create({.index = options.device});
+    if (!device) return std::unexpected(device.error());
+    auto renderer = Renderer::create(*device, scene.size, {.samples = options.samples});
+    if (!renderer) return std::unexpected(renderer.error());
+    std::string name = device->info().line();
+    return OwnSubject{std::make_unique<RendererSubject>(scene, std::move(*device), std::move(*renderer)),
+                      std::move(name)};
+}
+
+}  // namespace burin::bench

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+// OpenSceneGraph as a user who cares for speed sets it up: vertex buffers and no display lists, 16-bit indices where they do,
+// static data, one program with the look's numbers in its text, back faces culled by the state, no near and far planes
+// computed anew, one thread for update, cull and draw (threads of their own cost processor time for handing over), the
+// context kept current. Each eye is a camera with an absolute projection that draws into a texture; with several samples
+// OpenSceneGraph resolves them into it, as it does for any user. Small features are left out as usual.
+#include <osg/Camera>
+#include <osg/CullFace>
+#include <osg/Geometry>
+#include <osg/GraphicsContext>
+#include <osg/Image>
+#include <osg/Program>
+#include <osg/Shader>
+#include <osg/Texture2D>
+#include <osgViewer/Viewer>
+
+#include <array>
+#include <cstdio>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "bench/peers/frame_peers.hpp"
+#include "bench/peers/gl_views.hpp"
+
+namespace burin::bench {
+namespace {
+
+constexpr const char* kVertexShader = R"(#version 120
+varying vec3 normal_eye, to_eye;
+void main() {
+    normal_eye = gl_NormalMatrix * gl_Normal;
+    to_eye = -(gl_ModelViewMatrix * gl_Vertex).xyz;
+    gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
+}
+)";
+
+// The eye's axes are the world's: the light's direction is the same in both.
+std::string fragment_shader(const FrameLook& look) {
+    std::array<char, 1024> text{};
+    std::snprintf(text.data(), text.size(), R"(#version 120
+varying vec3 normal_eye, to_eye;
+const vec3 to_light = vec3(%.6f, %.6f, %.6f);
+void main() {
+    vec3 n = normalize(normal_eye);
+    vec3 h = normalize(normalize(to_eye) + to_light);
+    float lit = %.6f + %.6f * max(dot(n, to_light), 0.0);
+    gl_FragColor = vec4(lit * vec3(%.6f, %.6f, %.6f) + %.6f * pow(max(dot(n, h), 0.0), %.6f), 1.0);
+}
+)",
+                  look.to_light_world.x, look.to_light_world.y, look.to_light_world.z, look.ambient, look.diffuse,
+                  look.surface.x, look.surface.y, look.surface.z, look.specular, look.exponent);
+    return text.data();
+}
+
+osg::ref_ptr<osg::PrimitiveSet> triangles_of(const FrameMesh& mesh) {
+    const auto count = static_cast<unsigned>(mesh.indices.size());
+    if (mesh.vertices.size() > 65536) return new osg::DrawElementsUInt(GL_TRIANGLES, count, mesh.indices.data());
+    osg::ref_ptr<osg::DrawElementsUShort> small = new osg::DrawElementsUShort(GL_TRIANGLES, count);
+    for (unsigned i = 0; i < count; ++i) (*small)[i] = static_cast<unsigned short>(mesh.indices[i]);
+    return small;
+}
+
+osg::Vec3 osg_of(const Vec3f& v) { return {v.x, v.y, v.z}; }
+
+osg::ref_ptr<osg::Geometry> geometry_of(const FrameMesh& mesh) {
+    osg::ref_ptr<osg::Vec3Array> positions = new osg::Vec3Array, normals = new osg::Vec3Array;
+    for (const FrameVertex& vertex : mesh.vertices) {
+        positions->push_back(osg_of(vertex.position_world_m));
+        normals->push_back(osg_of(vertex.normal_world));
+    }
+    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->setDataVariance(osg::Object::STATIC);
+    geometry->setUseDisplayList(false);
+    geometry->setUseVertexBufferObjects(true);
+    geometry->setVertexArray(positions);
+    geometry->setNormalArray(normals, osg::Array::BIND_PER_VERTEX);
+    geometry->addPrimitiveSet(triangles_of(mesh));
+    return geometry;
+}
+
+osg::Matrixd osg_of(const Mat4& m) { return osg::Matrixd(glm::value_ptr(m)); }  // both keep columns of glm's together
+
+class OsgSubject final : public FrameSubject {
+public:
+    OsgSubject(const FrameScene& scene, unsigned samples, OsgDrawables drawables)
+        : scene_(scene), samples_(samples), drawables_(drawables) {}
+
+    Result<void> open();
+    std::string name() const override {
+        return drawables_ == OsgDrawables::patches ? "OpenSceneGraph, patches" : "OpenSceneGraph, one drawable";
+    }
+    // With 4 its frames were measured to cost what they do with 1: they are not known to be multisampled at all.
+    std::string note() const override {
+        return samples_ > 1 ? "its frames are not known to have the samples that were asked for" : "";
+    }
+    Result<void> draw(const FrameStep& step) override;
+    Result<StereoImage> picture() override;
+
+private:
+    osg::ref_ptr<osg::Group> surface();
+    osg::ref_ptr<osg::Camera> eye_camera(int eye, osg::Node* surface);
+    void change(const PatchChange& change);
+    static void put(osg::Geometry& geometry, std::size_t place, const FrameVertex& vertex);
+
+    const FrameScene& scene_;
+    unsigned samples_;
+    OsgDrawables drawables_;
+    osg::ref_ptr<osg::GraphicsContext> context_;
+    osg::ref_ptr<osgViewer::Viewer> viewer_;
+    std::vector<osg::ref_ptr<osg::Geometry>> geometries_;
+    std::array<osg::ref_ptr<osg::Camera>, 2> eyes_;
+    std::array<osg::ref_ptr<osg::Texture2D>, 2> pictures_;
+};
+
+Result<void> OsgSubject::open() {
+    osg::setNotifyLevel(osg::FATAL);
+    osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
+    traits->width = traits->height = 16;
+    traits->pbuffer = true;
+    traits->doubleBuffer = false;
+    traits->vsync = false;
+    traits->readDISPLAY();
+    traits->setUndefinedScreenDetailsToDefaultScreen();
+    context_ = osg::GraphicsContext::createGraphicsContext(traits);
+    if (!context_) return fail("OpenSceneGraph", "opened no OpenGL context", "check that the display has GLX");
+
+    const osg::ref_ptr<osg::Group> root = new osg::Group, drawn = surface();
+    for (int eye = 0; eye < 2; ++eye) root->addChild(eye_camera(eye, drawn));
+    viewer_ = new osgViewer::Viewer;
+    viewer_->setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
+    viewer_->setReleaseContextAtEndOfFrameHint(false);
+    osg::Camera* camera = viewer_->getCamera();
+    camera->setGraphicsContext(context_);
+    camera->setViewport(0, 0, 16, 16);
+    camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+    viewer_->setLightingMode(osg::View::NO_LIGHT);
+    viewer_->setSceneData(root);
+    viewer_->setCameraManipulator(nullptr);
+    viewer_->realize();
+    if (!viewer_->isRealized()) return fail("OpenSceneGraph", "could not open its viewer", "check the display");
+    return {};
+}
+
+osg::ref_ptr<osg::Group> OsgSubject::surface() {
+    osg::ref_ptr<osg::Group> group = new osg::Group;
+    if (drawables_ == OsgDrawables::one)
+        geometries_.push_back(geometry_of(scene_.whole));
+    else
+        for (const FrameMesh& patch : scene_.patches) geometries_.push_back(geometry_of(patch));
+    for (const auto& geometry : geometries_) group->addChild(geometry);
+
+    osg::ref_ptr<osg::Program> program = new osg::Program;
+    program->addShader(new osg::Shader(osg::Shader::VERTEX, kVertexShader));
+    program->addShader(new osg::Shader(osg::Shader::FRAGMENT, fragment_shader(scene_.look)));
+    osg::StateSet* state = group->getOrCreateStateSet();
+    state->setAttributeAndModes(program);
+    state->setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK));
+    return group;
+}
+
+osg::ref_ptr<osg::Camera> OsgSubject::eye_camera(int eye, osg::Node* surface) {
+    const auto width = static_cast<int>(scene_.size.width), height = static_cast<int>(scene_.size.height);
+    const auto at = static_cast<std::size_t>(eye);
+    osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D;
+    texture->setTextureSize(width, height);
+    texture->setInternalFormat(GL_RGBA8);
+    texture->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST);
+    texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::NEAREST);
+    pictures_[at] = texture;
+
+    osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+    camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+    camera->setRenderOrder(osg::Camera::PRE_RENDER, eye);
+    camera->setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
+    camera->setViewport(0, 0, width, height);
+    const Vec3& b = scene_.look.background;
+    camera->setClearColor({static_cast<float>(b.x), static_cast<float>(b.y), static_cast<float>(b.z), 1.0f});
+    camera->setClearMask(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+    const unsigned samples = samples_ > 1 ? samples_ : 0;
+    camera->attach(osg::Camera::COLOR_BUFFER, texture, 0, 0, false, samples, samples);
+    camera->attach(osg::Camera::DEPTH_BUFFER, GL_DEPTH_COMPONENT24);
+    camera->addChild(surface);
+    eyes_[at] = camera;
+    return camera;
+}
+
+void OsgSubject::put(osg::Geometry& geometry, std::size_t place, const FrameVertex& vertex) {
+    (*static_cast<osg::Vec3Array*>(geometry.getVertexArray()))[place] = osg_of(vertex.position_world_m);
+    (*static_cast<osg::Vec3Array*>(geometry.getNormalArray()))[place] = osg_of(vertex.normal_world);
+}
+
+void OsgSubject::change(const PatchChange& change) {
+    const bool patches = drawables_ == OsgDrawables::patches;
+    osg::Geometry& geometry = *geometries_[patches ? change.patch : 0];
+    const std::vector<std::uint32_t>& whole = scene_.whole_vertices[change.patch];
+    for (std::size_t i = 0; i < change.vertices.size(); ++i) put(geometry, patches ? i : whole[i], change.vertices[i]);
+    geometry.getVertexArray()->dirty();
+    geometry.getNormalArray()->dirty();
+    if (patches) geometry.dirtyBound();  // the whole's stays as it is, within the dent's depth
+}
+
+Result<void> OsgSubject::draw(const FrameStep& step) {
+    for (const PatchChange& c : step.changes) change(c);
+    const Eyes eyes = eyes_of(step.viewer);
+    const std::array eye_world{eyes.left_world, eyes.right_world};
+    for (std::size_t i = 0; i < 2; ++i) {
+        const GlView view = gl_view(scene_, eye_world[i]);
+        eyes_[i]->setViewMatrix(osg_of(view.eye_from_world));
+        eyes_[i]->setProjectionMatrix(osg_of(view.clip_from_eye));
+    }
+    viewer_->frame();
+    glFinish();
+    return {};
+}
+
+Result<StereoImage> OsgSubject::picture() {
+    StereoImage both;
+    const std::array images{&both.left, &both.right};
+    if (!context_->makeCurrent()) return fail("OpenSceneGraph", "lost its OpenGL context", "check the display");
+    osg::State& state = *context_->getState();
+    for (std::size_t i = 0; i < 2; ++i) {
+        const osg::ref_ptr<osg::Image> image = new osg::Image;
+        state.applyTextureAttribute(0, pictures_[i]);
+        image->readImageFromCurrentTexture(state.getContextID(), false, GL_UNSIGNED_BYTE);
+        if (image->s() != static_cast<int>(scene_.size.width) || image->t() != static_cast<int>(scene_.size.height) ||
+            image->getPixelFormat() != GL_RGBA) {
+            return fail("OpenSceneGraph", "its picture cannot be read", "check the OpenGL driver");
+        }
+        *images[i] = image_of_gl(scene_.size, image->data(), scene_.size.width);
+    }
+    return both;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<FrameSubject>> open_osg(const FrameScene& scene, unsigned samples, OsgDrawables drawables) {
+    auto subject = std::make_unique<OsgSubject>(scene, samples, drawables);
+    if (const auto done = subject->open(); !done) return std::unexpected(done.error());
+    return subject;
+}
+
+}  // namespace burin::bench

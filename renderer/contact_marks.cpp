@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/contact_marks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/primitives.hpp"
+
+namespace burin {
+namespace {
+
+constexpr double kLeastForce_N = 0.05;
+// Lengths of the arrow, in those of 1 N.
+constexpr double kShortest = 0.6, kLongest = 4.0;
+constexpr double kFullHeadFrom = 1.0, kHead = 0.55, kHeadRadius = 0.25, kShaftRadius = 0.095;
+constexpr double kBareRing = 0.35;
+// The ring around a ball, in its radii: wider than the ball, so that it shows around it as seen from above, and lifted, so that it
+// is not buried in a shallow groove.
+constexpr double kRingAroundBall = 1.2, kRingLift = 0.3;
+constexpr double kClearOfBall = 1.06;
+
+bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+// Whether the contact is the ball's own, and not that of another part of a tool.
+bool ball_touches(const SceneTool& tool, const Vec3& point) {
+    return tool.visible && glm::length(point - tool.center_world) < 1.5 * tool.radius_m;
+}
+
+std::optional<ContactRing> ring_of(const SceneContact& contact, const SceneTool& tool) {
+    const double length = glm::length(contact.normal_world);
+    if (!(length > 0.0)) return std::nullopt;
+    const Vec3 axis = contact.normal_world / length;
+    if (ball_touches(tool, contact.point_world)) {
+        return ContactRing{contact.point_world + kRingLift * tool.radius_m * axis, axis,
+                           kRingAroundBall * tool.radius_m};
+    }
+    const double radius = kBareRing * contact.metres_per_N;
+    return ContactRing{contact.point_world + kRingThickness * radius * axis, axis, radius};
+}
+
+// How far along a line from a point a ball ends; 0 where the line misses it.
+double end_of_ball(const Vec3& from, const Vec3& direction, const Vec3& center, double radius_m) {
+    const Vec3 to = center - from;
+    const double along = glm::dot(to, direction);
+    const double square = radius_m * radius_m - glm::dot(to, to) + along * along;
+    return square > 0.0 ? std::max(along + std::sqrt(square), 0.0) : 0.0;
+}
+
+std::optional<ForceArrow> arrow_of(const SceneContact& contact, const SceneTool& tool) {
+    const double force_N = glm::length(contact.force_N);
+    if (!(force_N >= kLeastForce_N) || !(contact.metres_per_N > 0.0)) return std::nullopt;
+    const double unit = contact.metres_per_N;
+    const double length = std::clamp(force_N, kShortest, kLongest);
+    const double size = std::min(1.0, length / kFullHeadFrom);
+    ForceArrow arrow;
+    arrow.direction_world = contact.force_N / force_N;
+    arrow.length_m = length * unit;
+    arrow.head_m = kHead * size * unit;
+    arrow.head_radius_m = kHeadRadius * size * unit;
+    arrow.shaft_radius_m = kShaftRadius * size * unit;
+    const double clear_m =
+        ball_touches(tool, contact.point_world)
+            ? end_of_ball(contact.point_world, arrow.direction_world, tool.center_world, kClearOfBall * tool.radius_m)
+            : 0.0;
+    arrow.from_world = contact.point_world + clear_m * arrow.direction_world;
+    return arrow;
+}
+
+}  // namespace
+
+ContactMarks contact_marks(const Scene& scene) {
+    const SceneContact& c = scene.contact;
+    if (!c.visible || !std::isfinite(c.metres_per_N)) return {};
+    for (const Vec3& v : {c.point_world, c.normal_world, c.force_N})
+        if (!finite(v)) return {};
+    return {ring_of(c, scene.tool), arrow_of(c, scene.tool), c.colour};
+}
+
+std::array<Box, 2> boxes_of(const ContactMarks& marks) {
+    std::array<Box, 2> boxes;
+    if (marks.ring) {
+        const Vec3& a = marks.ring->axis_world;
+        Vec3 half;
+        for (int i = 0; i < 3; ++i)  // of a circle: its radius times the sine between its axis and the world's
+            half[i] = marks.ring->radius_m * (std::sqrt(std::max(1.0 - a[i] * a[i], 0.0)) + kRingThickness);
+        boxes[0].include(marks.ring->center_world - half);
+        boxes[0].include(marks.ring->center_world + half);
+    }
+    if (marks.arrow) {
+        const ForceArrow& arrow = *marks.arrow;
+        const Vec3 thick(std::max(arrow.head_radius_m, arrow.shaft_radius_m));
+        for (const double along_m : {0.0, arrow.length_m}) {
+            const Vec3 p = arrow.from_world + along_m * arrow.direction_world;
+            boxes[1].include(p - thick);
+            boxes[1].include(p + thick);
+        }
+    }
+    return boxes;
+}
+
+}  // namespace burin

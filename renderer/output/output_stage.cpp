@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/output/output_stage.hpp"
+
+#include <array>
+
+#include "gpu/graphics_pipeline.hpp"
+#include "renderer/output/eye_images.hpp"
+#include "shaders/output.frag.spv.hpp"
+#include "shaders/output.vert.spv.hpp"
+
+namespace burin {
+
+namespace {
+
+using gpu::structure;
+
+constexpr const char* kWhere = "output stage";
+
+static_assert(static_cast<int>(StereoMode::side_by_side) == shared::kModeSideBySide);
+static_assert(static_cast<int>(StereoMode::side_by_side_half) == shared::kModeSideBySideHalf);
+static_assert(static_cast<int>(StereoMode::top_bottom) == shared::kModeTopBottom);
+static_assert(static_cast<int>(StereoMode::top_bottom_half) == shared::kModeTopBottomHalf);
+static_assert(static_cast<int>(StereoMode::row_interlaced) == shared::kModeRows);
+static_assert(static_cast<int>(StereoMode::column_interlaced) == shared::kModeColumns);
+static_assert(static_cast<int>(StereoMode::checkerboard) == shared::kModeCheckerboard);
+static_assert(static_cast<int>(StereoMode::anaglyph_red_cyan) == shared::kModeRedCyan);
+static_assert(static_cast<int>(StereoMode::anaglyph_green_magenta) == shared::kModeGreenMagenta);
+static_assert(static_cast<int>(StereoMode::anaglyph_amber_blue) == shared::kModeAmberBlue);
+
+bool encodes_srgb(VkFormat format) { return format == VK_FORMAT_R8G8B8A8_SRGB || format == VK_FORMAT_B8G8R8A8_SRGB; }
+
+bool is_known(VkFormat format) {
+    return encodes_srgb(format) || format == VK_FORMAT_R8G8B8A8_UNORM || format == VK_FORMAT_B8G8R8A8_UNORM;
+}
+
+bool shows_right_eye(const OutputSettings& settings, const OutputPlace& place) {
+    return settings.mode == StereoMode::right || (shows_one_eye_at_a_time(settings.mode) && place.eye == Eye::right);
+}
+
+// Column 0 of the target is the second eye's where its column on the monitor is odd, or where the right eye comes first.
+int phase_flags(const OutputSettings& settings, const OutputPlace& place) {
+    int flags = 0;
+    if ((place.monitor_x & 1) != 0) flags ^= shared::kOutputPhaseX;
+    if ((place.monitor_y & 1) != 0) flags ^= shared::kOutputPhaseY;
+    if (settings.first_eye == Eye::right) {
+        flags ^= settings.mode == StereoMode::column_interlaced ? shared::kOutputPhaseX : shared::kOutputPhaseY;
+    }
+    return flags;
+}
+
+glm::vec4 column(const Homography& h, int i, double w) {
+    return {static_cast<float>(h[i].x), static_cast<float>(h[i].y), static_cast<float>(h[i].z), static_cast<float>(w)};
+}
+
+Result<gpu::FramebufferHandle> create_framebuffer(gpu::Device& device, VkRenderPass pass, const OutputTarget& target) {
+    auto info = structure<VkFramebufferCreateInfo>(VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO);
+    info.renderPass = pass;
+    info.attachmentCount = 1;
+    info.pAttachments = &target.view;
+    info.width = target.place.size.width;
+    info.height = target.place.size.height;
+    info.layers = 1;
+    const auto& core = device.core();
+    VkFramebuffer framebuffer = VK_NULL_HANDLE;
+    if (const VkResult r = core->vk.vkCreateFramebuffer(core->device, &info, nullptr, &framebuffer); r != VK_SUCCESS) {
+        return gpu::vulkan_failure(kWhere, "no framebuffer", r);
+    }
+    return gpu::FramebufferHandle(core, framebuffer);
+}
+
+}  // namespace
+
+Result<OutputStage> OutputStage::create(gpu::Device& device, VkFormat target_format, VkImageLayout final_layout) {
+    if (!is_known(target_format)) {
+        return fail(kWhere, "the target is not of 8 bits a channel", "set the display to 24 bits a pixel");
+    }
+    OutputStage stage(device);
+    stage.format_ = target_format;
+    auto whole = stage.create_pass(false, final_layout);
+    if (!whole) return std::unexpected(whole.error());
+    auto parts = stage.create_pass(true, final_layout);
+    if (!parts) return std::unexpected(parts.error());
+    stage.whole_pass_ = std::move(*whole);
+    stage.parts_pass_ = std::move(*parts);
+    if (const auto done = stage.create_layouts(); !done) return std::unexpected(done.error());
+    auto none = upload_image(device, {{1, 1}, {0, 0, 0, 0}}, VK_FORMAT_R8G8B8A8_SRGB);
+    if (!none) return std::unexpected(none.error());
+    stage.no_overlay_ = std::move(*none);
+    return stage;
+}
+
+Result<VkPipeline> OutputStage::pipeline(int mode, int built_in) {
+    gpu::PipelineHandle& kept = pipelines_[{mode, built_in}];
+    if (kept) return kept.raw();
+    const std::array constants{static_cast<std::uint32_t>(mode), static_cast<std::uint32_t>(built_in)};
+    gpu::GraphicsPipelineSpec spec;
+    spec.vertex_spirv = k_output_vert;
+    spec.fragment_spirv = k_output_frag;
+    spec.constants = constants;
+    spec.render_pass = whole_pass_.raw();
+    spec.layout = layout_.raw();
+    spec.depth_test = spec.depth_write = false;
+    spec.name = "output pipeline";
+    auto made = gpu::create_graphics_pipeline(device_, spec);
+    if (!made) return std::unexpected(made.error());
+    kept = std::move(*made);
+    return kept.raw();
+}
+
+Result<gpu::RenderPassHandle> OutputStage::create_pass(bool keep, VkImageLayout final_layout) {
+    VkAttachmentDescription target{};
+    target.format = format_;
+    target.samples = VK_SAMPLE_COUNT_1_BIT;
+    target.loadOp = keep ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+    target.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    target.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+    target.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    target.initialLayout = keep ? final_layout : VK_IMAGE_LAYOUT_UNDEFINED;
+    target.finalLayout = final_layout;
+    const VkAttachmentReference reference{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+    VkSubpassDescription subpass{};
+    subpass.colorAttachmentCount = 1;
+    subpass.pColorAttachments = &reference;
+    // Before: the window system's semaphore is waited for at colour output; a copy out of an earlier picture too.
+    // After: the presentation waits for a semaphore; a copy out of the target waits for this.
+    VkSubpassDependency before{};
+    before.srcSubpass = VK_SUBPASS_EXTERNAL;
+    before.srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
+    before.srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
+    before.dstStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+    before.dstAccessMask = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
+    VkSubpassDependency after{};
+    after.dstSubpass = VK_SUBPASS_EXTERNAL;
+    after.srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+    after.srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
+    after.dstStageMask = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
+    after.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT;
+    const std::array dependencies{before, after};
+    auto info = structure<VkRenderPassCreateInfo>(VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO);
+    info.attachmentCount = 1;
+    info.pAttachments = &target;
+    info.subpassCount = 1;
+    info.pSubpasses = &subpass;
+    info.dependencyCount = static_cast<std::uint32_t>(dependencies.size());
+    info.pDependencies = dependencies.data();
+    const auto& core = device_.core();
+    VkRenderPass pass = VK_NULL_HANDLE;
+    if (const VkResult r = core->vk.vkCreateRenderPass(core->device, &info, nullptr, &pass); r != VK_SUCCESS) {
+        return gpu::vulkan_failure(kWhere, "no render pass", r);
+    }
+    return gpu::RenderPassHandle(core, pass);
+}
+
+Result<void> OutputStage::create_layouts() {
+    const auto& core = device_.core();
+    const std::array<VkDescriptorSetLayoutBinding, 2> bindings{
+        {{0, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
+         {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr}}};
+    auto set_info = structure<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
+    set_info.bindingCount = static_cast<std::uint32_t>(bindings.size());
+    set_info.pBindings = bindings.data();
+    VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+    if (const VkResult r = core->vk.vkCreateDescriptorSetLayout(core->device, &set_info, nullptr, &set_layout);
+        r != VK_SUCCESS) {
+        return gpu::vulkan_failure(kWhere, "no descriptor set layout", r);
+    }
+    set_layout_ = gpu::SetLayoutHandle(core, set_layout);
+    const VkPushConstantRange push{VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(shared::OutputConstants)};
+    auto info = structure<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
+    info.setLayoutCount = 1;
+    info.pSetLayouts = set_layout_.pointer();
+    info.pushConstantRangeCount = 1;
+    info.pPushConstantRanges = &push;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    if (const VkResult r = core->vk.vkCreatePipelineLayout(core->device, &info, nullptr, &layout); r != VK_SUCCESS) {
+        return gpu::vulkan_failure(kWhere, "no pipeline layout", r);
+    }
+    layout_ = gpu::PipelineLayoutHandle(core, layout);
+    return {};
+}
+
+// A pool and a set for this one recording: views come and go with windows, and their handles may be used again, so that
+// keeping sets for them would need to be told.
+Result<VkDescriptorSet> OutputStage::bind_images(gpu::Commands& commands, VkImageView eyes, VkImageView overlay) {
+    const auto& core = device_.core();
+    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 2};
+    auto pool_info = structure<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
+    pool_info.maxSets = 1;
+    pool_info.poolSizeCount = 1;
+    pool_info.pPoolSizes = &size;
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    if (const VkResult r = core->vk.vkCreateDescriptorPool(core->device, &pool_info, nullptr, &pool); r != VK_SUCCESS) {
+        return gpu::vulkan_failure(kWhere, "no descriptor pool", r);
+    }
+    commands.keep_alive(gpu::DescriptorPoolHandle(core, pool));
+    auto info = structure<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
+    info.descriptorPool = pool;
+    info.descriptorSetCount = 1;
+    info.pSetLayouts = set_layout_.pointer();
+    VkDescriptorSet set = VK_NULL_HANDLE;
+    if (const VkResult r = core->vk.vkAllocateDescriptorSets(core->device, &info, &set); r != VK_SUCCESS) {
+        return gpu::vulkan_failure(kWhere, "no descriptor set", r);
+    }
+    const std::array<VkDescriptorImageInfo, 2> images{
+        {{VK_NULL_HANDLE, eyes, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
+         {VK_NULL_HANDLE, overlay, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}}};
+    auto write = structure<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+    write.dstSet = set;
+    write.descriptorCount = 2;  // runs on into binding 1
+    write.descriptorType = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+    write.pImageInfo = images.data();
+    core->vk.vkUpdateDescriptorSets(core->device, 1, &write, 0, nullptr);
+    return set;
+}
+
+shared::OutputConstants OutputStage::constants(const EyesView& eyes, const OutputPlace& place,
+                                               const OutputSettings& settings,
+                                               const std::optional<OverlayView>& overlay) const {
+    shared::OutputConstants c{};
+    const Homography h = settings.homography.value_or(Homography(1.0));
+    c.picture_from_output[0] = column(h, 0, 1.0 / settings.blend.gamma);
+    c.picture_from_output[1] = column(h, 1, settings.blend.curve);
+    c.picture_from_output[2] = column(h, 2, 0.0);
+    c.blend = {static_cast<float>(settings.blend.left), static_cast<float>(settings.blend.right),
+               static_cast<float>(settings.blend.top), static_cast<float>(settings.blend.bottom)};
+    const bool panel = overlay && overlay->place.width > 0 && overlay->place.height > 0;
+    if (panel) c.overlay = {overlay->place.x, overlay->place.y, overlay->place.width, overlay->place.height};
+    c.eye_size = {static_cast<int>(eyes.eye_size.width), static_cast<int>(eyes.eye_size.height)};
+    c.target_size = {static_cast<int>(place.size.width), static_cast<int>(place.size.height)};
+    c.flags = phase_flags(settings, place);
+    if (settings.swap_eyes && settings.mode != StereoMode::mono) c.flags |= shared::kOutputSwap;
+    if (!encodes_srgb(format_)) c.flags |= shared::kOutputEncode;
+    if (settings.homography) c.flags |= shared::kOutputWarp;
+    if (settings.blend.in_use()) c.flags |= shared::kOutputBlend;
+    if (shows_right_eye(settings, place)) c.flags |= shared::kOutputRightEye;
+    if (panel) c.flags |= shared::kOutputOverlay;
+    if (panel && overlay->colour == OverlayColour::coded) c.flags |= shared::kOutputCodedOverlay;
+    return c;
+}
+
+Result<void> OutputStage::record(gpu::Commands& commands, const EyesView& eyes, const OutputTarget& target,
+                                 const OutputSettings& settings, const std::optional<OverlayView>& overlay) {
+    const PixelRect all = all_of(target.place.size);
+    return draw(commands, whole_pass_.raw(), eyes, target, settings, std::span(&all, 1), overlay);
+}
+
+Result<void> OutputStage::record_parts(gpu::Commands& commands, const EyesView& eyes, const OutputTarget& target,
+                                       const OutputSettings& settings, std::span<const PixelRect> parts,
+                                       const std::optional<OverlayView>& overlay) {
+    return parts.empty() ? Result<void>{} : draw(commands, parts_pass_.raw(), eyes, target, settings, parts, overlay);
+}
+
+Result<void> OutputStage::draw(gpu::Commands& commands, VkRenderPass pass, const EyesView& eyes,
+                               const OutputTarget& target, const OutputSettings& settings,
+                               std::span<const PixelRect> parts, const std::optional<OverlayView>& overlay) {
+    const ImageSize size = target.place.size;
+    BURIN_CHECK(size.width > 0 && size.height > 0 && eyes.eye_size.width > 0 && eyes.eye_size.height > 0);
+    auto framebuffer = create_framebuffer(device_, pass, target);
+    if (!framebuffer) return std::unexpected(framebuffer.error());
+    const auto set = bind_images(commands, eyes.eyes, overlay ? overlay->view : no_overlay_.view());
+    if (!set) return std::unexpected(set.error());
+
+    const shared::OutputConstants c = constants(eyes, target.place, settings, overlay);
+    const auto pipeline_for_mode =
+        pipeline(std::min(static_cast<int>(settings.mode), shared::kModeOneEye), c.flags & shared::kOutputBuiltIn);
+    if (!pipeline_for_mode) return std::unexpected(pipeline_for_mode.error());
+
+    const VolkDeviceTable& vk = device_.core()->vk;
+    const VkCommandBuffer raw = commands.raw();
+    auto begin = structure<VkRenderPassBeginInfo>(VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO);
+    begin.renderPass = pass;
+    begin.framebuffer = framebuffer->raw();
+    begin.renderArea = {{0, 0}, {size.width, size.height}};
+    vk.vkCmdBeginRenderPass(raw, &begin, VK_SUBPASS_CONTENTS_INLINE);
+    vk.vkCmdBindPipeline(raw, VK_PIPELINE_BIND_POINT_GRAPHICS, *pipeline_for_mode);
+    vk.vkCmdBindDescriptorSets(raw, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.raw(), 0, 1, &*set, 0, nullptr);
+    vk.vkCmdPushConstants(raw, layout_.raw(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(c), &c);
+    const VkViewport viewport{0.0f, 0.0f, static_cast<float>(size.width), static_cast<float>(size.height), 0.0f, 1.0f};
+    vk.vkCmdSetViewport(raw, 0, 1, &viewport);
+    for (const PixelRect& part : parts) {
+        BURIN_CHECK(part.x + part.width <= size.width && part.y + part.height <= size.height);
+        const VkRect2D scissor{{static_cast<std::int32_t>(part.x), static_cast<std::int32_t>(part.y)},
+                               {part.width, part.height}};
+        vk.vkCmdSetScissor(raw, 0, 1, &scissor);
+        vk.vkCmdDraw(raw, 3, 1, 0, 0);
+    }
+    vk.vkCmdEndRenderPass(raw);
+    commands.keep_alive(std::move(*framebuffer));
+    return {};
+}
+
+}  // namespace burin

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/panel/panel_quad.hpp"
+
+#include <array>
+
+#include "gpu/graphics_pipeline.hpp"
+#include "shaders/panel_quad.frag.spv.hpp"
+#include "shaders/panel_quad.vert.spv.hpp"
+#include "shaders/shared/frame_uniforms.h"
+
+namespace burin {
+namespace {
+
+// As the renderer's other pipelines have it: the frame's set stays bound from one to the next.
+constexpr VkShaderStageFlags kPushStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+
+Mat4 world_from_local(const PanelStand& stand) {
+    Mat4 m = matrix(Similarity{stand.world_from_panel.position_m, stand.world_from_panel.orientation, 1.0});
+    m[0] *= stand.size_m.x;
+    m[1] *= stand.size_m.y;
+    return m;
+}
+
+}  // namespace
+
+Result<PanelQuad> PanelQuad::create(gpu::Device& device, const PanelQuadTarget& target) {
+    PanelQuad quad(device);
+    auto sampler = create_linear_sampler(device);
+    if (!sampler) return std::unexpected(sampler.error());
+    quad.sampler_ = std::move(*sampler);
+    auto set_layout = create_picture_set_layout(device);
+    if (!set_layout) return std::unexpected(set_layout.error());
+    quad.set_layout_ = std::move(*set_layout);
+    const std::array set_layouts{target.frame, quad.set_layout_.raw()};
+    auto layout = create_push_layout(device, set_layouts, kPushStages, sizeof(shared::DrawConstants));
+    if (!layout) return std::unexpected(layout.error());
+    quad.layout_ = std::move(*layout);
+    const std::array<std::uint32_t, 2> constants{target.encodes ? 1u : 0u, target.fades ? 1u : 0u};
+    quad.vertices_ = target.fades ? 6 * shared::kFadedPanelCells * shared::kFadedPanelCells : 6;
+    gpu::GraphicsPipelineSpec spec;
+    spec.vertex_spirv = k_panel_quad_vert;
+    spec.fragment_spirv = k_panel_quad_frag;
+    spec.render_pass = target.pass;
+    spec.layout = quad.layout_.raw();
+    spec.samples = target.samples;
+    spec.constants = constants;
+    spec.blend = true;
+    spec.name = "standing panel pipeline";
+    auto pipeline = gpu::create_graphics_pipeline(device, spec);
+    if (!pipeline) return std::unexpected(pipeline.error());
+    quad.pipeline_ = std::move(*pipeline);
+    return quad;
+}
+
+Result<void> PanelQuad::show(VkImageView panel) {
+    auto made = create_picture_set(device_, set_layout_, sampler_, panel);
+    if (!made) return std::unexpected(made.error());
+    picture_ = std::move(*made);
+    return {};
+}
+
+void PanelQuad::record(VkCommandBuffer commands, const PanelStand& stand, VkDescriptorSet frame) const {
+    if (!picture_) return;
+    shared::DrawConstants constants{};
+    constants.world_from_local = glm::mat4(world_from_local(stand));
+    const std::array sets{frame, picture_->set};
+    const VolkDeviceTable& vk = device_.core()->vk;
+    vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.raw());
+    vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.raw(), 0, 2, sets.data(), 0, nullptr);
+    vk.vkCmdPushConstants(commands, layout_.raw(), kPushStages, 0, sizeof(constants), &constants);
+    vk.vkCmdDraw(commands, vertices_, 1, 0, 0);
+}
+
+}  // namespace burin

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/redraw.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "renderer/contact_marks.hpp"
+#include "renderer/stereo/projection.hpp"
+
+namespace burin {
+namespace {
+
+constexpr double kNearest_m = 0.02;  // nearer to an eye's plane nothing is projected
+
+Box box_around(const Ball& ball) {
+    return {ball.center_world - Vec3(ball.radius_m), ball.center_world + Vec3(ball.radius_m)};
+}
+
+Vec3 corner_of(const Box& box, int corner) {
+    return {(corner & 1) != 0 ? box.hi.x : box.lo.x, (corner & 2) != 0 ? box.hi.y : box.lo.y,
+            (corner & 4) != 0 ? box.hi.z : box.lo.z};
+}
+
+Box world_box(const Scene& scene, const Box& patch) {
+    Box world;
+    for (int i = 0; i < 8; ++i)
+        world.include(scene.world_from_object * (scene.lattice_origin_object + corner_of(patch, i)));
+    return world;
+}
+
+// What the tool's shadow can be seen on: the workpiece and the solid shapes. Neither room nor glass nor panel has it.
+std::vector<Box> lit_things(const Shown& in) {
+    const Scene& scene = in.scene;
+    std::vector<Box> things;
+    if (!in.patches.empty()) things.push_back(world_box(scene, in.patches));
+    for (const SceneBox* box : {&scene.box, &scene.proposed_box})
+        if (box->visible) things.push_back(box_around(ball_of(*box)));
+    for (const Box& mark : boxes_of(contact_marks(scene)))
+        if (!mark.empty()) things.push_back(mark);
+    if (scene.pedestal.visible) {
+        const ScenePedestal& p = scene.pedestal;
+        const double height_m = std::max(p.top_center_world.y, 0.001);
+        things.push_back({p.top_center_world - Vec3(p.radius_m, height_m, p.radius_m),
+                          p.top_center_world + Vec3(p.radius_m, 0.0, p.radius_m)});
+    }
+    if (scene.show_wall_frame) {
+        constexpr double kFrame_m = 0.06;  // its bars' depth and width
+        const Screen& s = scene.screen;
+        const Vec3 upper_right = s.upper_left_world + (s.lower_right_world - s.lower_left_world);
+        for (const auto& [a, b] :
+             {std::pair(s.lower_left_world, s.lower_right_world), std::pair(s.lower_left_world, s.upper_left_world),
+              std::pair(s.lower_right_world, upper_right), std::pair(s.upper_left_world, upper_right)})
+            things.push_back({glm::min(a, b) - Vec3(kFrame_m), glm::max(a, b) + Vec3(kFrame_m)});
+    }
+    return things;
+}
+
+// The shadow of a ball of the tool, from the ball on, in slices: one box around all of it would hold much that is not in it.
+std::array<Box, 12> shadow_of(const Ball& ball, double tool_radius_m) {
+    std::array<Box, 12> slices;
+    const double length_m = double{shared::kToolShades} * tool_radius_m;
+    const auto at = [&](double along_m, double radius_m) {
+        return box_around({ball.center_world - along_m * direction_to_light(), radius_m});
+    };
+    for (std::size_t i = 0; i < slices.size(); ++i) {
+        const double from_m = length_m * static_cast<double>(i) / slices.size(),
+                     to_m = length_m * static_cast<double>(i + 1) / slices.size();
+        // Its edge is as wide as the lamp is seen from there, or a fiftieth of the ball (hidden_share in shaders/lighting.glsl); twice
+        // the ball for what lies behind its own middle.
+        const double edge_m = kLightHalfAngleTangent * (to_m + 2.0 * ball.radius_m) + 0.02 * tool_radius_m;
+        const Box a = at(from_m, ball.radius_m + edge_m), b = at(to_m, ball.radius_m + edge_m);
+        slices[i] = {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)};
+    }
+    return slices;
+}
+
+// Rectangles of things that are where they are in one scene.
+class Parts {
+public:
+    Parts(const Scene& scene, ImageSize size) : scene_(scene), size_(size) {}
+
+    void add(const Box& box_world) { part = around(part, seen_part(scene_, size_, std::span(&box_world, 1))); }
+    void add(const Ball& ball) {
+        if (ball.radius_m > 0.0) add(box_around(ball));
+    }
+    // All that the tool changes around it.
+    void add_tool(const Shown& in) {
+        const SceneTool& tool = in.scene.tool;
+        if (!tool.visible) return;
+        const std::vector<Box> lit = lit_things(in);
+        add_where(box_around({tool.center_world, double{shared::kToolDarkens} * tool.radius_m}), lit);
+        for (const Ball& ball : balls_of(tool)) {
+            add(ball);
+            for (const Box& slice : shadow_of(ball, tool.radius_m)) add_where(slice, lit);
+        }
+    }
+    void add(const ContactMarks& marks) {
+        for (const Box& box : boxes_of(marks))
+            if (!box.empty()) add(box);
+    }
+    void add(const std::optional<ScenePanel>& panel) {
+        if (!panel) return;
+        std::array<Box, 4> corners;
+        const std::array places = corners_world(panel->stand);
+        for (std::size_t i = 0; i < 4; ++i) corners[i].include(places[i]);
+        part = around(part, seen_part(scene_, size_, corners));
+    }
+    void add_patch(const Box& box) { add(world_box(scene_, box)); }
+
+    PixelRect part;
+
+private:
+    void add_where(const Box& box, std::span<const Box> things) {
+        for (const Box& thing : things) {
+            const Box common{glm::max(box.lo, thing.lo), glm::min(box.hi, thing.hi)};
+            if (!common.empty()) add(common);
+        }
+    }
+
+    const Scene& scene_;
+    ImageSize size_;
+};
+
+// All but what is drawn anew by parts is the same.
+bool same_room(const Shown& a, const Shown& b) {
+    Scene s = a.scene;
+    s.tool = b.scene.tool;
+    s.contact = b.scene.contact;
+    s.box = b.scene.box;
+    s.proposed_box = b.scene.proposed_box;
+    s.bubble = b.scene.bubble;
+    s.panel = b.scene.panel;
+    return s == b.scene && a.workpiece == b.workpiece && a.depth == b.depth;
+}
+
+}  // namespace
+
+PixelRect seen_part(const Scene& scene, ImageSize size, std::span<const Box> boxes_world) {
+    const Screen& screen = scene.screen;
+    const double width_m = glm::length(screen.lower_right_world - screen.lower_left_world);
+    const double height_m = glm::length(screen.upper_left_world - screen.lower_left_world);
+    const Eyes eyes = eyes_of(scene.viewer);
+    Vec2 lo(HUGE_VAL), hi(-HUGE_VAL);
+    // Faded, a point is drawn between where the eye sees it and where the middle does, which lies between the eyes.
+    for (const Vec3& eye :
+         {eyes.left_world, eyes.right_world, scene.edge_fade > 0.0 ? middle_of(eyes) : eyes.left_world}) {
+        const double eye_m = distance_in_front(screen, eye);
+        for (std::size_t i = 0; i < 8 * boxes_world.size(); ++i) {
+            const Vec3 p = corner_of(boxes_world[i / 8], static_cast<int>(i % 8));
+            if (eye_m - distance_in_front(screen, p) < kNearest_m) return all_of(size);
+            const Vec2 at = point_on_screen(screen, eye, p);
+            const Vec2 px{at.x / width_m * size.width, (1.0 - at.y / height_m) * size.height};
+            lo = glm::min(lo, px);
+            hi = glm::max(hi, px);
+        }
+    }
+    // Two pixels more for rounding, and for what touches a pixel without covering its middle.
+    const auto clamped = [](double v, std::uint32_t most) {
+        return static_cast<std::uint32_t>(std::clamp(v, 0.0, static_cast<double>(most)));
+    };
+    const std::uint32_t x0 = clamped(std::floor(lo.x) - 2.0, size.width),
+                        x1 = clamped(std::ceil(hi.x) + 2.0, size.width);
+    const std::uint32_t y0 = clamped(std::floor(lo.y) - 2.0, size.height),
+                        y1 = clamped(std::ceil(hi.y) + 2.0, size.height);
+    return {x0, y0, x1 - x0, y1 - y0};
+}
+
+PixelRect changed_part(const std::optional<Shown>& shown, const Shown& wanted, ImageSize size,
+                       std::span<const Box> changed) {
+    if (!shown || !same_room(*shown, wanted)) return all_of(size);
+    Parts parts(wanted.scene, size);
+    const auto if_changed = [&](const auto& before, const auto& now, const auto& place) {
+        if (before == now) return;
+        parts.add(place(before));
+        parts.add(place(now));
+    };
+    const auto itself = [](const auto& thing) { return thing; };
+    const auto ball = [](const auto& thing) { return ball_of(thing); };
+    const Scene &before = shown->scene, &now = wanted.scene;
+    if (before.tool != now.tool) {
+        parts.add_tool(*shown);
+        parts.add_tool(wanted);
+    }
+    if_changed(contact_marks(before), contact_marks(now), itself);
+    if_changed(before.box, now.box, ball);
+    if_changed(before.proposed_box, now.proposed_box, ball);
+    if_changed(before.bubble, now.bubble, ball);
+    if_changed(std::pair(before.panel, shown->panel_pictures), std::pair(now.panel, wanted.panel_pictures),
+               [](const auto& panel) { return panel.first; });
+    for (const Box& box : changed) parts.add_patch(box);
+    return parts.part;
+}
+
+}  // namespace burin

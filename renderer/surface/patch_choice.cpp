@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/surface/patch_choice.hpp"
+
+#include <algorithm>
+
+#include "renderer/frame_setup.hpp"
+#include "renderer/stereo/projection.hpp"
+
+namespace burin {
+namespace {
+
+// The surface may lie this far off where it is drawn coarser: below what a sample's place can show.
+constexpr double kMostError_px = 0.25;
+// Up to this length of edges light is worked out at vertices: between them it changes too little to be seen. Farther apart they may
+// be where the surface is smooth.
+constexpr double kFineEdge_px = 12.0, kSmoothEdge_px = 32.0;
+
+// Lengths in the patches' frame over pixels of the picture, at the place of a patch that is nearest to an eye.
+class PixelLength {
+public:
+    PixelLength(const Scene& scene, ImageSize size) : scene_(scene) {
+        const double width_m = glm::length(scene.screen.lower_right_world - scene.screen.lower_left_world);
+        const double height_m = glm::length(scene.screen.upper_left_world - scene.screen.lower_left_world);
+        const double pixel_m = std::min(width_m / size.width, height_m / size.height);
+        const Eyes eyes = eyes_of(scene.viewer);
+        eye_m_ = std::min(distance_in_front(scene.screen, eyes.left_world),
+                          distance_in_front(scene.screen, eyes.right_world));
+        per_metre_ = pixel_m / eye_m_ / scene.world_from_object.scale;
+    }
+    [[nodiscard]] double at(const PatchShape& patch) const {
+        const Vec3 center_world = scene_.world_from_object * (scene_.lattice_origin_object + patch.center);
+        const double away_m =
+            eye_m_ - distance_in_front(scene_.screen, center_world) - patch.radius_m * scene_.world_from_object.scale;
+        return per_metre_ * std::max(away_m, 0.01);
+    }
+
+private:
+    const Scene& scene_;
+    double eye_m_ = 0.0, per_metre_ = 0.0;
+};
+
+// Where the tool's ring and shadow are, which are finer than any vertices: a ball, and some that are drawn out along the light.
+class ToolZone {
+public:
+    explicit ToolZone(const Scene& scene) {
+        const SceneTool& tool = scene.tool;
+        if (!tool.visible) return;
+        there_ = true;
+        const Similarity object_from_world = inverse(scene.world_from_object);
+        const double scale = object_from_world.scale;
+        const auto local = [&](const Vec3& p) { return object_from_world * p - scene.lattice_origin_object; };
+        const double reach_m = double{shared::kToolShades} * tool.radius_m;
+        const Ball all = ball_of(tool);
+        center_ = local(tool.center_world);
+        radius_m_ = double{shared::kToolNears} * tool.radius_m * scale;
+        from_ = local(all.center_world);
+        to_ = local(all.center_world - (reach_m + all.radius_m) * direction_to_light());
+        shadow_radius_m_ = (all.radius_m + kLightHalfAngleTangent * reach_m) * scale;
+        const std::array balls = balls_of(tool);
+        for (std::size_t i = 0; i < balls.size(); ++i) {
+            // Twice the ball: its points lie before and behind its middle, as seen from the lamp.
+            const double edge_m = kLightHalfAngleTangent * (reach_m + 2.0 * balls[i].radius_m) + 0.02 * tool.radius_m;
+            shadows_[i] = {local(balls[i].center_world), (balls[i].radius_m + edge_m) * scale};
+        }
+        along_ = local(tool.center_world - reach_m * direction_to_light()) - center_;
+    }
+    [[nodiscard]] bool touches(const PatchShape& patch) const {
+        if (!there_) return false;
+        if (glm::length(patch.center - center_) <= patch.radius_m + radius_m_) return true;
+        // All at once before each by itself.
+        if (!near(patch, from_, to_ - from_, shadow_radius_m_)) return false;
+        return std::ranges::any_of(shadows_, [&](const Shadow& s) { return near(patch, s.from, along_, s.radius_m); });
+    }
+
+private:
+    struct Shadow {
+        Vec3 from{0.0};
+        double radius_m = 0.0;
+    };
+    static bool near(const PatchShape& patch, const Vec3& from, const Vec3& along, double radius_m) {
+        const double t = std::clamp(glm::dot(patch.center - from, along) / glm::dot(along, along), 0.0, 1.0);
+        return glm::length(from + t * along - patch.center) <= patch.radius_m + radius_m;
+    }
+
+    bool there_ = false;
+    Vec3 center_{0.0}, from_{0.0}, to_{0.0}, along_{0.0};
+    double radius_m_ = 0.0, shadow_radius_m_ = 0.0;
+    std::array<Shadow, 9> shadows_;  // of the tool's balls
+};
+
+ShadingRate rate_of(const PatchStore::Patch& patch, const PixelLength& pixel, const ToolZone& zone,
+                    const Savings& savings) {
+    const double most_px = patch.smooth ? kSmoothEdge_px : kFineEdge_px;
+    const bool fine =
+        savings.vertex_rate && patch.shape.edge_m <= most_px * pixel.at(patch.shape) && !zone.touches(patch.shape);
+    return fine ? ShadingRate::vertex : ShadingRate::pixel;
+}
+
+// Bent patches may uncover what is behind.
+std::span<const Box> hiding(std::span<const Box> occluders, const EyePair& eyes,
+                            std::span<PatchStore::Patch* const> patches) {
+    const bool bends = eyes.fade && std::ranges::any_of(patches, [&](const PatchStore::Patch* patch) {
+                           return bent(eyes, patch->shape.bounds);
+                       });
+    return bends ? std::span<const Box>{} : occluders;
+}
+
+std::uint8_t level_of(const PatchStore::Patch& patch, const PixelLength& pixel) {
+    const double most_m = kMostError_px * pixel.at(patch.shape);
+    std::uint8_t level = 0;
+    for (std::size_t i = 1; i < patch.levels.size(); ++i)
+        if (patch.levels[i].error_m <= most_m) level = static_cast<std::uint8_t>(i);
+    return level;
+}
+
+void append(std::vector<DrawRange>& draws, const PatchStore::Level& level) {
+    if (!draws.empty() && draws.back().first_index + draws.back().index_count == level.first_index) {
+        draws.back().index_count += level.index_count;
+    } else {
+        draws.push_back({level.first_index, level.index_count});
+    }
+}
+
+bool spared(Hidden reason, const Savings& savings, PatchCounts& counts) {
+    switch (reason) {
+        case Hidden::no: return false;
+        case Hidden::beside: counts.beside += savings.cull_beside ? 1 : 0; return savings.cull_beside;
+        case Hidden::turned_away:
+            counts.turned_away += savings.cull_turned_away ? 1 : 0;
+            return savings.cull_turned_away;
+        case Hidden::behind: counts.behind += savings.cull_behind ? 1 : 0; return savings.cull_behind;
+    }
+    return false;
+}
+
+}  // namespace
+
+void choose_levels(std::span<PatchStore::Patch* const> patches, const Scene& scene, ImageSize size,
+                   const Savings& savings, std::span<const Box> occluders) {
+    const PixelLength pixel(scene, size);
+    const ToolZone zone(scene);
+    const EyePair eyes = eye_frusta(scene, size, all_of(size));
+    occluders = hiding(occluders, eyes, patches);
+    for (PatchStore::Patch* patch : patches) {
+        // The fade is worked out at vertices, so where it bends the picture all of them are needed.
+        const bool coarser = savings.coarser_levels && !bent(eyes, patch->shape.bounds);
+        patch->drawn = {coarser ? level_of(*patch, pixel) : std::uint8_t{0}, rate_of(*patch, pixel, zone, savings)};
+        patch->wanted = savings.coarser_levels && hidden(eyes, patch->shape, occluders) == Hidden::no;
+    }
+}
+
+std::vector<Box> choose_rates(std::span<PatchStore::Patch* const> patches, const Scene& scene, ImageSize size,
+                              const Savings& savings) {
+    const PixelLength pixel(scene, size);
+    const ToolZone zone(scene);
+    std::vector<Box> changed;
+    for (PatchStore::Patch* patch : patches) {
+        const ShadingRate rate = rate_of(*patch, pixel, zone, savings);
+        if (rate == patch->drawn.rate) continue;
+        patch->drawn.rate = rate;
+        changed.push_back(patch->shape.bounds);
+    }
+    return changed;
+}
+
+PatchDraws choose_draws(std::span<PatchStore::Patch* const> patches, const Scene& scene, ImageSize size,
+                        const PixelRect& part, const Savings& savings, std::span<const Box> occluders) {
+    PatchDraws draws;
+    const EyePair eyes = eye_frusta(scene, size, part);
+    occluders = hiding(occluders, eyes, patches);
+    for (const PatchStore::Patch* patch : patches) {
+        if (spared(hidden(eyes, patch->shape, occluders), savings, draws.counts)) continue;
+        const PatchStore::Level& level = patch->levels[patch->drawn.level];
+        const bool fine = patch->drawn.rate == ShadingRate::vertex;
+        append(fine ? draws.fine : draws.solid, level);
+        ++draws.counts.drawn;
+        draws.counts.coarser += patch->drawn.level > 0 ? 1 : 0;
+        draws.counts.vertex_rate += fine ? 1 : 0;
+        draws.counts.triangles += level.index_count / 3;
+    }
+    return draws;
+}
+
+}  // namespace burin

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Which patches of the surface a frame draws, how finely, and where they are lit. Each kind of saving has a switch, and what it
+// saved is counted. Where the fade of parallax bends the picture, patches keep all their triangles and are left out only beside it.
+// Pure but for the patches' own notes of how they stand in the picture; any thread.
+#pragma once
+
+#include <vector>
+
+#include "renderer/image.hpp"
+#include "renderer/scene.hpp"
+#include "renderer/surface/patch_store.hpp"
+
+namespace burin {
+
+struct Savings {
+    bool cull_beside = true;       // what lies outside both eyes' frusta
+    bool cull_turned_away = true;  // what turns its back to both eyes
+    bool cull_behind = true;       // what solid material hides from both eyes
+    bool coarser_levels = true;    // fewer triangles where a picture cannot show more
+    bool vertex_rate = true;       // light worked out at vertices where they are close
+    bool parts_only = true;        // only what changed is drawn anew
+};
+
+struct PatchCounts {
+    std::uint32_t drawn = 0, beside = 0, turned_away = 0, behind = 0;
+    std::uint32_t coarser = 0;      // drawn with fewer triangles than they have
+    std::uint32_t vertex_rate = 0;  // drawn, lit at their vertices
+    std::uint64_t triangles = 0;    // drawn, in one view
+};
+
+// A run of the index buffer.
+struct DrawRange {
+    std::uint32_t first_index = 0, index_count = 0;
+};
+struct PatchDraws {
+    std::vector<DrawRange> fine, solid;  // lit at vertices, lit at pixels
+    PatchCounts counts;
+};
+
+// Level and shading rate of every patch, for a picture that is drawn as a whole; marks those in view as wanted.
+void choose_levels(std::span<PatchStore::Patch* const> patches, const Scene& scene, ImageSize size,
+                   const Savings& savings, std::span<const Box> occluders);
+// The shading rate alone, which depends on the tool too. Bounds of the patches whose rate has changed.
+[[nodiscard]] std::vector<Box> choose_rates(std::span<PatchStore::Patch* const> patches, const Scene& scene,
+                                            ImageSize size, const Savings& savings);
+// What has to be drawn for this part of the picture.
+[[nodiscard]] PatchDraws choose_draws(std::span<PatchStore::Patch* const> patches, const Scene& scene, ImageSize size,
+                                      const PixelRect& part, const Savings& savings, std::span<const Box> occluders);
+
+}  // namespace burin

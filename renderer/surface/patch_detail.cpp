@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/surface/patch_detail.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <meshoptimizer.h>
+
+#include "base/space.hpp"
+#include "shaders/shared/octahedral.h"
+
+namespace burin {
+namespace {
+
+using shared::SurfaceVertex;
+
+// Of an edge: how far the surface may move for each level. A level is drawn where that is a fraction of a pixel.
+constexpr std::array<double, 3> kErrors{0.01, 0.04, 0.15};
+constexpr double kWorthIt = 0.75;  // of the triangles before: a level with more is not kept
+
+// The most that a vertex may change by: a step of 8 of 255 in light or colour, and a turn of the normal that changes the light
+// on it as much.
+constexpr double kMostChange = 8.0 / 255.0;
+constexpr double kMostTurn = 0.06;  // |difference of unit normals|
+
+struct Look {
+    Vec3 normal, colour;
+    double sun, open;
+};
+
+Look look_of(const SurfaceVertex& v, VertexLight light) {
+    const shared::Direction n = shared::decode_normal(v.normal);
+    const auto byte = [](std::uint32_t word, int shift) {
+        return static_cast<double>((word >> shift) & 0xffu) / 255.0;
+    };
+    return {{n.x, n.y, n.z},
+            {byte(v.colour, 0), byte(v.colour, 8), byte(v.colour, 16)},
+            light.sun / 255.0,
+            light.open / 255.0};
+}
+
+bool close(const Look& a, const Look& b) {
+    const Vec3 colour = glm::abs(a.colour - b.colour);
+    return std::max({colour.x, colour.y, colour.z, std::abs(a.sun - b.sun), std::abs(a.open - b.open)}) <=
+               kMostChange &&
+           glm::length(a.normal - b.normal) <= kMostTurn;
+}
+
+Vec3 place(const SurfaceVertex& v) { return {v.x, v.y, v.z}; }
+
+// Along an edge of a smooth patch. Light that is linear in the angle is off by an eighth of its square: less than 1 of 255.
+constexpr double kSmoothTurn = 0.12;
+constexpr double kSmoothChange = 24.0 / 255.0;
+
+struct Foot {
+    double distance = 1e30;
+    std::size_t triangle = 0;  // its first index
+    Vec3 weights{0.0};         // of its three corners
+};
+
+// Of p on a triangle, in barycentric coordinates (Ericson, Real-Time Collision Detection, 5.1.5).
+Vec3 nearest_weights(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 ab = b - a, ac = c - a, ap = p - a;
+    const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
+    if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
+    const Vec3 bp = p - b;
+    const double d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp);
+    if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
+    const double vc = d1 * d4 - d3 * d2;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0) return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
+    const Vec3 cp = p - c;
+    const double d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
+    if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
+    const double vb = d5 * d2 - d1 * d6;
+    if (vb <= 0 && d2 >= 0 && d6 <= 0) return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
+    const double va = d3 * d6 - d5 * d4;
+    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+        const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+        return {0, 1 - w, w};
+    }
+    const double scale = 1.0 / (va + vb + vc);
+    return {1 - (vb + vc) * scale, vb * scale, vc * scale};
+}
+
+// One patch and the checks of its coarser forms.
+class Judge {
+public:
+    Judge(std::span<const SurfaceVertex> vertices, std::span<const std::uint32_t> indices,
+          std::span<const VertexLight> light)
+        : vertices_(vertices), used_(vertices.size(), false) {
+        looks_.reserve(vertices.size());
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            looks_.push_back(look_of(vertices[i], i < light.size() ? light[i] : VertexLight{}));
+        for (const std::uint32_t i : indices) used_[i] = true;
+    }
+
+    // How far the farthest vertex lies from the coarser form; nothing when one of them would look different.
+    [[nodiscard]] double deviation(std::span<const std::uint32_t> coarse) const {
+        std::vector<bool> kept(vertices_.size(), false);
+        for (const std::uint32_t i : coarse) kept[i] = true;
+        double worst = 0.0;
+        for (std::size_t i = 0; i < vertices_.size(); ++i) {
+            if (!used_[i] || kept[i]) continue;
+            const Foot foot = foot_of(i, coarse);
+            if (!close(looks_[i], look_at(foot, coarse))) return HUGE_VAL;
+            worst = std::max(worst, foot.distance);
+        }
+        return worst;
+    }
+
+private:
+    // The nearest place on a coarse triangle that faces as the vertex does: on the other side of an edge lies another face.
+    [[nodiscard]] Foot foot_of(std::size_t vertex, std::span<const std::uint32_t> coarse) const {
+        const Vec3 p = place(vertices_[vertex]);
+        Foot best;
+        for (std::size_t t = 0; t + 2 < coarse.size(); t += 3) {
+            const Vec3 a = place(vertices_[coarse[t]]), b = place(vertices_[coarse[t + 1]]),
+                       c = place(vertices_[coarse[t + 2]]);
+            if (glm::dot(glm::cross(b - a, c - a), looks_[vertex].normal) <= 0.0) continue;
+            const Vec3 w = nearest_weights(p, a, b, c);
+            const double distance = glm::length(w.x * a + w.y * b + w.z * c - p);
+            if (distance < best.distance) best = {distance, t, w};
+        }
+        return best;
+    }
+
+    [[nodiscard]] Look look_at(const Foot& foot, std::span<const std::uint32_t> coarse) const {
+        Look sum{Vec3(0.0), Vec3(0.0), 0.0, 0.0};
+        for (int k = 0; k < 3; ++k) {
+            const Look& corner = looks_[coarse[foot.triangle + static_cast<std::size_t>(k)]];
+            sum.normal += foot.weights[k] * corner.normal;
+            sum.colour += foot.weights[k] * corner.colour;
+            sum.sun += foot.weights[k] * corner.sun;
+            sum.open += foot.weights[k] * corner.open;
+        }
+        const double length = glm::length(sum.normal);
+        if (length > 0.0) sum.normal /= length;
+        return sum;
+    }
+
+    std::span<const SurfaceVertex> vertices_;
+    std::vector<bool> used_;
+    std::vector<Look> looks_;
+};
+
+bool differ_little(const Look& a, const Look& b) {
+    const Vec3 turn = a.normal - b.normal, colour = glm::abs(a.colour - b.colour);
+    return glm::dot(turn, turn) <= kSmoothTurn * kSmoothTurn &&
+           std::max({colour.x, colour.y, colour.z, std::abs(a.sun - b.sun), std::abs(a.open - b.open)}) <=
+               kSmoothChange;
+}
+
+// Triangles between different colours stay as they are, and so do the borders of each colour's own.
+struct ByColour {
+    std::vector<std::uint32_t> between;
+    std::vector<std::vector<std::uint32_t>> groups;
+};
+
+ByColour by_colour(std::span<const SurfaceVertex> vertices, std::span<const std::uint32_t> indices) {
+    ByColour parts;
+    std::vector<std::uint32_t> colours;
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        const std::uint32_t colour = vertices[indices[i]].colour;
+        const bool one = vertices[indices[i + 1]].colour == colour && vertices[indices[i + 2]].colour == colour;
+        std::vector<std::uint32_t>* to = &parts.between;
+        if (one) {
+            const auto known = std::ranges::find(colours, colour);
+            const auto group = static_cast<std::size_t>(known - colours.begin());
+            if (known == colours.end()) {
+                colours.push_back(colour);
+                parts.groups.emplace_back();
+            }
+            to = &parts.groups[group];
+        }
+        to->insert(to->end(), indices.begin() + static_cast<std::ptrdiff_t>(i),
+                   indices.begin() + static_cast<std::ptrdiff_t>(i) + 3);
+    }
+    return parts;
+}
+
+void append_simplified(std::vector<std::uint32_t>& out, std::span<const std::uint32_t> group,
+                       std::span<const SurfaceVertex> vertices, double error_m, double scale_m) {
+    const std::size_t begin = out.size();
+    out.resize(begin + group.size());
+    const std::size_t count =
+        meshopt_simplify(out.data() + begin, group.data(), group.size(), &vertices[0].x, vertices.size(),
+                         sizeof(SurfaceVertex), 0, static_cast<float>(error_m / scale_m), meshopt_SimplifyLockBorder);
+    out.resize(begin + count);
+}
+
+}  // namespace
+
+bool is_smooth(std::span<const SurfaceVertex> vertices, std::span<const std::uint32_t> indices,
+               std::span<const VertexLight> light) {
+    std::vector<Look> looks;
+    looks.reserve(vertices.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        looks.push_back(look_of(vertices[i], i < light.size() ? light[i] : VertexLight{}));
+    for (std::size_t t = 0; t + 2 < indices.size(); t += 3) {
+        const Look &a = looks[indices[t]], &b = looks[indices[t + 1]], &c = looks[indices[t + 2]];
+        if (!differ_little(a, b) || !differ_little(b, c) || !differ_little(c, a)) return false;
+    }
+    return true;
+}
+
+std::vector<PatchLevel> coarser_levels(std::span<const SurfaceVertex> vertices, std::span<const std::uint32_t> indices,
+                                       std::span<const VertexLight> light, double edge_m) {
+    std::vector<PatchLevel> levels;
+    if (indices.empty() || !(edge_m > 0.0)) return levels;
+    const double scale_m = meshopt_simplifyScale(&vertices[0].x, vertices.size(), sizeof(SurfaceVertex));
+    if (!(scale_m > 0.0)) return levels;
+    const ByColour parts = by_colour(vertices, indices);
+    const Judge judge(vertices, indices, light);
+    std::size_t before = indices.size();
+    for (const double error : kErrors) {
+        PatchLevel level;
+        level.indices = parts.between;
+        for (const auto& group : parts.groups)
+            append_simplified(level.indices, group, vertices, error * edge_m, scale_m);
+        if (static_cast<double>(level.indices.size()) > kWorthIt * static_cast<double>(before)) continue;
+        level.error_m = judge.deviation(level.indices);
+        if (level.error_m == HUGE_VAL) break;  // a coarser one would look more different still
+        before = level.indices.size();
+        levels.push_back(std::move(level));
+    }
+    return levels;
+}
+
+}  // namespace burin

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/surface/visibility.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "renderer/stereo/projection.hpp"
+
+namespace burin {
+namespace {
+
+constexpr double kPad_px = 1.0;
+// Of the screen's distance: nearer than this to a plane of an eye a box counts as bent without a closer look.
+constexpr double kNearest = 0.02;
+
+Vec3 place(const shared::SurfaceVertex& v) { return {v.x, v.y, v.z}; }
+
+// Does the way from the eye to p meet the box? By the slabs of its three axes.
+bool meets(const Vec3& eye, const Vec3& p, const Box& box) {
+    double enters = 0.0, leaves = 1.0;
+    for (int i = 0; i < 3; ++i) {
+        const double step = p[i] - eye[i];
+        if (step == 0.0) {
+            if (eye[i] < box.lo[i] || eye[i] > box.hi[i]) return false;
+            continue;
+        }
+        const double a = (box.lo[i] - eye[i]) / step, b = (box.hi[i] - eye[i]) / step;
+        enters = std::max(enters, std::min(a, b));
+        leaves = std::min(leaves, std::max(a, b));
+    }
+    return enters <= leaves;
+}
+
+// The plane through the eye and an edge of the screen, given by two of its points, with the third on its inner side.
+glm::dvec4 plane_through(const Vec3& eye, const Vec3& a, const Vec3& b, const Vec3& inner) {
+    Vec3 n = glm::normalize(glm::cross(a - eye, b - eye));
+    if (glm::dot(n, inner - eye) < 0.0) n = -n;
+    return {n, -glm::dot(n, eye)};
+}
+
+bool outside(const glm::dvec4& plane, const Box& box) {
+    Vec3 farthest_inside;
+    for (int i = 0; i < 3; ++i) farthest_inside[i] = plane[i] > 0.0 ? box.hi[i] : box.lo[i];
+    return glm::dot(Vec3(plane), farthest_inside) + plane.w < 0.0;
+}
+
+Vec3 corner_of(const Box& box, int corner) {
+    return {(corner & 1) != 0 ? box.hi.x : box.lo.x, (corner & 2) != 0 ? box.hi.y : box.lo.y,
+            (corner & 4) != 0 ? box.hi.z : box.lo.z};
+}
+
+FadedEdges faded_edges(const Scene& scene, const EyeFrustum& middle) {
+    const Eyes eyes = eyes_of(scene.viewer);
+    const Vec3 middle_world = middle_of(eyes);
+    const Mat4 world_from_patch =
+        matrix(scene.world_from_object) * glm::translate(Mat4(1.0), scene.lattice_origin_object);
+    FadedEdges fade{middle, {}, distance_in_front(scene.screen, middle_world), scene.edge_fade_band};
+    const std::array from{eyes.left_world, eyes.right_world, middle_world};
+    for (std::size_t i = 0; i < 3; ++i)  // the places of its planes in depth do not matter
+        fade.clip_from_patch[i] = off_axis_projection(scene.screen, from[i], 0.01, 100.0) * world_from_patch;
+    return fade;
+}
+
+}  // namespace
+
+PatchShape shape_of(std::span<const shared::SurfaceVertex> vertices, std::span<const std::uint32_t> indices) {
+    PatchShape shape;
+    for (const shared::SurfaceVertex& v : vertices) shape.bounds.include(place(v));
+    shape.center = shape.bounds.center();
+    shape.radius_m = 0.5 * glm::length(shape.bounds.extent());
+    Vec3 sum(0.0);
+    double edges_squared = 0.0;
+    const auto normal_of = [&](std::size_t i) {
+        const Vec3 a = place(vertices[indices[i]]), b = place(vertices[indices[i + 1]]),
+                   c = place(vertices[indices[i + 2]]);
+        edges_squared += glm::dot(b - a, b - a) + glm::dot(c - b, c - b) + glm::dot(a - c, a - c);
+        return glm::cross(b - a, c - a);
+    };
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) sum += normal_of(i);
+    if (!indices.empty()) shape.edge_m = std::sqrt(edges_squared / static_cast<double>(indices.size()));
+    const double length = glm::length(sum);
+    if (!(length > 0.0)) return shape;
+    shape.cone_axis = sum / length;
+    double least_cosine = 1.0;
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        const Vec3 n = normal_of(i);
+        const double area = glm::length(n);
+        if (area > 0.0) least_cosine = std::min(least_cosine, glm::dot(n, shape.cone_axis) / area);
+    }
+    constexpr double kSpare = 1e-4;  // for the rounding of narrow triangles' normals
+    least_cosine -= kSpare;
+    if (least_cosine > 0.0) shape.cone_sine = std::sqrt(1.0 - least_cosine * least_cosine);
+    return shape;
+}
+
+EyePair eye_frusta(const Scene& scene, ImageSize size, const PixelRect& part) {
+    const Screen& s = scene.screen;
+    const Vec3 across = s.lower_right_world - s.lower_left_world, upright = s.upper_left_world - s.lower_left_world;
+    const auto at = [&](double x_px, double y_px) {
+        return s.lower_left_world + across * (x_px / size.width) + upright * (1.0 - y_px / size.height);
+    };
+    const double x0 = part.x - kPad_px, x1 = part.x + (part.width + kPad_px);
+    const double y0 = part.y - kPad_px, y1 = part.y + (part.height + kPad_px);
+    const Similarity object_from_world = inverse(scene.world_from_object);
+    const auto local = [&](const Vec3& p) { return object_from_world * p - scene.lattice_origin_object; };
+    const Vec3 lower_left = local(at(x0, y1)), lower_right = local(at(x1, y1)), upper_left = local(at(x0, y0)),
+               upper_right = local(at(x1, y0));
+    const auto frustum = [&](const Vec3& eye_world) {
+        const Vec3 eye = local(eye_world);
+        return EyeFrustum{eye,
+                          {plane_through(eye, lower_left, upper_left, lower_right),
+                           plane_through(eye, lower_right, upper_right, lower_left),
+                           plane_through(eye, lower_left, lower_right, upper_left),
+                           plane_through(eye, upper_left, upper_right, lower_left)}};
+    };
+    const Eyes world = eyes_of(scene.viewer);
+    EyePair pair{{frustum(world.left_world), frustum(world.right_world)}};
+    if (scene.edge_fade > 0.0) pair.fade = faded_edges(scene, frustum(middle_of(world)));
+    return pair;
+}
+
+bool bent(const EyePair& eyes, const Box& box) {
+    if (!eyes.fade) return false;
+    const FadedEdges& fade = *eyes.fade;
+    std::array<Box, 3> seen;  // by each of the three, on the screen; without depth
+    double farthest_m = 0.0, nearest_m = HUGE_VAL;
+    for (int corner = 0; corner < 8; ++corner) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const glm::dvec4 clip = fade.clip_from_patch[i] * glm::dvec4(corner_of(box, corner), 1.0);
+            nearest_m = std::min(nearest_m, clip.w);
+            if (i == 2) farthest_m = std::max(farthest_m, fade.middle_to_screen_m - clip.w);
+            seen[i].include({clip.x / clip.w, clip.y / clip.w, 0.0});
+        }
+    }
+    if (farthest_m <= 0.0) return false;                              // at or behind the screen
+    if (nearest_m < kNearest * fade.middle_to_screen_m) return true;  // has no place on the screen
+    constexpr double kRounding = 1e-4;
+    for (int axis = 0; axis < 2; ++axis) {
+        const double lo = seen[2].lo[axis], hi = seen[2].hi[axis];
+        double half_parallax = 0.0;
+        for (std::size_t i = 0; i < 2; ++i)
+            half_parallax = std::max({half_parallax, seen[i].hi[axis] - lo, hi - seen[i].lo[axis]});
+        const double band = std::max(fade.band, 1.125 * half_parallax) + kRounding;
+        if (std::max(hi, -lo) > 1.0 - band) return true;
+    }
+    return false;
+}
+
+bool beside(const EyeFrustum& eye, const Box& box) {
+    return std::ranges::any_of(eye.planes, [&](const glm::dvec4& plane) { return outside(plane, box); });
+}
+
+bool beside(const EyeFrustum& eye, const EyeFrustum& middle, const Box& box) {
+    for (std::size_t i = 0; i < eye.planes.size(); ++i)
+        if (outside(eye.planes[i], box) && outside(middle.planes[i], box)) return true;
+    return false;
+}
+
+bool turned_away(const EyeFrustum& eye, const PatchShape& patch) {
+    if (patch.cone_sine > 1.0) return false;
+    const Vec3 to = patch.center - eye.eye;
+    return glm::dot(to, patch.cone_axis) > patch.cone_sine * glm::length(to) + patch.radius_m;
+}
+
+bool behind(const Vec3& eye, const Box& box, const Box& occluder) {
+    for (int corner = 0; corner < 8; ++corner) {
+        if (!meets(eye, corner_of(box, corner), occluder)) return false;
+    }
+    return true;
+}
+
+Hidden hidden(const EyePair& eyes, const PatchShape& patch, std::span<const Box> occluders) {
+    if (bent(eyes, patch.bounds)) {
+        const bool none_sees = std::ranges::all_of(
+            eyes.eyes, [&](const EyeFrustum& eye) { return beside(eye, eyes.fade->middle, patch.bounds); });
+        return none_sees ? Hidden::beside : Hidden::no;
+    }
+    Hidden reason = Hidden::no;
+    for (const EyeFrustum& eye : eyes.eyes) {
+        if (beside(eye, patch.bounds)) {
+            reason = Hidden::beside;
+        } else if (turned_away(eye, patch)) {
+            reason = Hidden::turned_away;
+        } else if (std::ranges::any_of(occluders,
+                                       [&](const Box& solid) { return behind(eye.eye, patch.bounds, solid); })) {
+            reason = Hidden::behind;
+        } else {
+            return Hidden::no;
+        }
+    }
+    return reason;
+}
+
+}  // namespace burin

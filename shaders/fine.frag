@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/frame.glsl"
+#include "shaders/lighting.glsl"
+
+layout(location = 0) in vec3 in_light;
+
+layout(location = 0) out vec4 out_colour;
+
+void main() { out_colour = vec4(kEncodes ? in_light + dither_step() : finished(in_light), 1.0); }

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The workpiece away from the tool where light changes little from one vertex to the next: lit here, once a vertex.
+#define BURIN_VERTEX_STAGE
+#define BURIN_WITH_LIGHT
+#define BURIN_FAR_FROM_TOOL
+#include "shaders/frame.glsl"
+#include "shaders/lighting.glsl"
+#include "shaders/placed.glsl"
+#include "shaders/vertex_input.glsl"
+
+layout(location = 0) out vec3 out_light;  // as the picture takes it
+
+void main() {
+    vec4 world = draw.world_from_local * vec4(in_position, 1.0);
+    gl_Position = placed(world);
+    vec3 eye = frame.eye_world[gl_ViewIndex].xyz;
+    vec3 c = lit(world.xyz, normalize(world_normal()), eye, linear_colour(), in_light.x, in_light.y);
+    out_light = kEncodes ? srgb_of(c) : c;
+}

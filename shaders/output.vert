@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+#version 460
+// One triangle over the whole target. It hands nothing on: each pixel finds its source from its own place.
+
+void main() {
+    const vec2 corner = vec2((gl_VertexIndex << 1) & 2, gl_VertexIndex & 2);
+    gl_Position = vec4(2.0 * corner - 1.0, 0.0, 1.0);
+}

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "app/profile_report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "tests/app/run_command.hpp"
+
+namespace burin {
+namespace {
+
+constexpr Nanoseconds kMs = 1'000'000;
+
+// A hundred frames in a shuffled order: their stages take i, 2 i, ... ms, their heads are as old as i ms, no tool is known.
+ProfiledRun hundred_frames() {
+    ProfiledRun run;
+    run.record.device = "a device";
+    run.record.wall_ns = 5 * kNanosecondsPerSecond;
+    run.record.processor_ns = 8 * kNanosecondsPerSecond;
+    run.record.skipped = 33;
+    for (int n = 0; n < 100; ++n) {
+        const Nanoseconds i = 1 + n * 37 % 100;
+        TimedFrame frame;
+        for (std::size_t stage = 0; stage < kFrameStages; ++stage)
+            frame.stage_ns[stage] = static_cast<Nanoseconds>(stage + 1) * i * kMs;
+        frame.processor_ns = 10 * i * kMs;
+        frame.times.head_sampled_ns = 1000 * kMs - i * kMs;
+        frame.times.seen_ns = 1000 * kMs;
+        frame.ages = ages_of(frame.times, nullptr, {});
+        run.record.frames.push_back(frame);
+    }
+    run.record.ticks = 5000;
+    run.record.late_ticks = 7;
+    run.record.missed_deadlines = 3;
+    run.record.tick_duration = {5000, 1'000, 12'500, 20'000, 30'000, 40'000};
+    run.record.tick_lateness = {5000, 0, 250, 500, 1'500, 900'000};
+    run.record.warnings = {"too late"};
+    return run;
+}
+
+std::size_t lines_with(const std::string& text, const std::string& part) {
+    std::istringstream lines(text);
+    std::size_t count = 0;
+    for (std::string line; std::getline(lines, line);) count += line.find(part) != std::string::npos ? 1 : 0;
+    return count;
+}
+
+}  // namespace
+
+TEST(ProfileReport, GivesTheMedianThe99thPercentileAndTheWorst) {
+    const auto run = describe_run(hundred_frames());
+    for (std::size_t stage = 0; stage < kFrameStages; ++stage) {
+        const auto& figure = run["stages_ms"][name_of(static_cast<FrameStage>(stage))];
+        const auto unit = static_cast<double>(stage + 1);
+        EXPECT_DOUBLE_EQ(figure["median"].get<double>(), 50.0 * unit);
+        EXPECT_DOUBLE_EQ(figure["p99"].get<double>(), 99.0 * unit);
+        EXPECT_DOUBLE_EQ(figure["worst"].get<double>(), 100.0 * unit);
+    }
+    EXPECT_DOUBLE_EQ(run["processor_ms"]["median"].get<double>(), 500.0);
+    EXPECT_DOUBLE_EQ(run["ages_ms"]["head age"]["p99"].get<double>(), 99.0);
+    EXPECT_TRUE(run["ages_ms"]["tool age"].is_null());
+    EXPECT_TRUE(run["carve_update_ms"].is_null());
+    EXPECT_DOUBLE_EQ(run["frames"]["drawn_per_s"].get<double>(), 20.0);
+    EXPECT_EQ(run["frames"]["skipped"].get<int>(), 33);
+    EXPECT_DOUBLE_EQ(run["cores_busy"].get<double>(), 1.6);
+    EXPECT_DOUBLE_EQ(run["ticks"]["duration_us"]["median"].get<double>(), 12.5);
+    EXPECT_DOUBLE_EQ(run["ticks"]["lateness_us"]["worst"].get<double>(), 900.0);
+    EXPECT_EQ(run["ticks"]["missed_deadlines"].get<int>(), 3);
+    EXPECT_TRUE(run["driver_threads"].is_null());
+}
+
+TEST(ProfileReport, TheTableHasALineForEachFigure) {
+    const std::string table = profile_table(describe_run(hundred_frames()));
+    for (std::size_t stage = 0; stage < kFrameStages; ++stage)
+        EXPECT_GE(lines_with(table, "  " + std::string(name_of(static_cast<FrameStage>(stage)))), 1u) << stage;
+    for (std::size_t figure = 0; figure < kFrameFigures; ++figure)
+        EXPECT_EQ(lines_with(table, "  " + std::string(name_of(static_cast<FrameFigure>(figure))) + " "), 1u);
+    EXPECT_EQ(lines_with(table, "100 frames drawn (20.0 a second), 33 skipped, 1.60 cores busy"), 1u);
+    EXPECT_EQ(lines_with(table, "5000 ticks, 7 late, 3 deadlines missed"), 1u);
+    EXPECT_EQ(lines_with(table, "warning: too late"), 1u);
+    EXPECT_EQ(lines_with(table, "median"), 3u);
+    EXPECT_EQ(lines_with(table, "nan"), 0u);
+}
+
+TEST(ProfileReport, ASessionWithoutFramesHasATableToo) {
+    const auto run = describe_run({});
+    EXPECT_TRUE(run["stages_ms"]["draw"].is_null());
+    EXPECT_EQ(run["frames"]["drawn_per_s"].get<double>(), 0.0);
+    EXPECT_EQ(lines_with(profile_table(run), "0 frames drawn"), 1u);
+}
+
+TEST(ProfileReport, ComparesTheDriversThreads) {
+    ProfiledRun one = hundred_frames(), two = hundred_frames();
+    one.driver_threads = 1;
+    two.driver_threads = 2;
+    two.record.missed_deadlines = 444;
+    EXPECT_TRUE(comparison_table({describe_run(one)}).empty());
+    const std::string table = comparison_table({describe_run(one), describe_run(two)});
+    EXPECT_EQ(std::ranges::count(table, '\n'), 3);
+    EXPECT_EQ(lines_with(table, "444"), 1u);
+    std::istringstream lines(table);
+    std::string title, row;
+    std::getline(lines, title);
+    while (std::getline(lines, row)) EXPECT_EQ(row.size(), title.size());
+}
+
+TEST(ProfileCommand, NamesTheInputThatIsNotThere) {
+    const Workplace place;
+    const auto outcome = place.run(std::string(BURIN_COMMAND) + " profile");
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.output.find("first-carve.txt"), std::string::npos) << outcome.output;
+    const auto wrong = place.run(std::string(BURIN_COMMAND) + " profile --width 3");
+    EXPECT_EQ(wrong.status, 2);
+    EXPECT_NE(wrong.output.find("burin profile --help"), std::string::npos) << wrong.output;
+    for (const std::string threads : {"-1", "0,,1", "1,", "33", "two"}) {
+        const auto refused = place.run(std::string(BURIN_COMMAND) + " profile --driver-threads=" + threads);
+        EXPECT_EQ(refused.status, 1) << threads;
+        EXPECT_NE(refused.output.find("0,1,2"), std::string::npos) << refused.output;
+    }
+}
+
+}  // namespace burin

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// Trackers by the network, over this machine's own loopback.
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <chrono>
+
+#include "app/session/tracker_port.hpp"
+
+namespace burin {
+namespace {
+
+class Sender {
+public:
+    explicit Sender(std::uint16_t port) : socket_(socket(AF_INET, SOCK_DGRAM, 0)) {
+        to_.sin_family = AF_INET;
+        to_.sin_port = htons(port);
+        to_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    }
+    ~Sender() { close(socket_); }
+    void send(const std::string& text) const {
+        ASSERT_EQ(sendto(socket_, text.data(), text.size(), 0, reinterpret_cast<const sockaddr*>(&to_), sizeof(to_)),
+                  static_cast<ssize_t>(text.size()));
+    }
+
+private:
+    int socket_;
+    sockaddr_in to_{};
+};
+
+std::unique_ptr<TrackerPort> open_port(Clock& clock) {
+    auto port = TrackerPort::open("udp:0", clock, {});
+    EXPECT_TRUE(port) << port.error().line();
+    return std::move(*port);
+}
+
+// Waits until so many have come, but not for ever.
+std::vector<TrackerPort::Heard> heard_by(TrackerPort& port, std::size_t count) {
+    std::vector<TrackerPort::Heard> all;
+    for (int i = 0; i < 3000 && all.size() < count; ++i) {
+        for (TrackerPort::Heard& heard : port.take()) all.push_back(std::move(heard));
+        if (all.size() < count) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return all;
+}
+
+}  // namespace
+
+TEST(TrackerPort, HearsHeadsAndWandsInTheirOrder) {
+    MonotonicClock clock;
+    const auto port = open_port(clock);
+    const Sender sender(port->port());
+    const Nanoseconds before_ns = clock.now_ns();
+    sender.send("head 0.1 1.6 2 0 0 0 1\n\nwand 1 0 1 1 0 0 0 1 lost\nwand-button 0 press 2");
+    sender.send("wand-stick 0 -0.5 1\n");
+    const auto heard = heard_by(*port, 4);
+    ASSERT_EQ(heard.size(), 4u);
+    EXPECT_EQ(heard[0].input, Input(HeadInput{{{0.1, 1.6, 2.0}, Quat{1, 0, 0, 0}}, true}));
+    EXPECT_EQ(heard[1].input, Input(WandInput{1, {{0.0, 1.0, 1.0}, Quat{1, 0, 0, 0}}, false}));
+    EXPECT_EQ(heard[2].input, Input(WandClick{0, 2, true}));
+    EXPECT_EQ(heard[3].input, Input(WandStick{0, {-0.5, 1.0}}));
+    EXPECT_GE(heard[0].time_ns, before_ns);
+    EXPECT_GE(heard[3].time_ns, heard[0].time_ns);
+    EXPECT_LE(heard[3].time_ns, clock.now_ns());
+}
+
+TEST(TrackerPort, PassesOverNonsenseAndSaysSoOnce) {
+    MonotonicClock clock;
+    const auto port = open_port(clock);
+    const Sender sender(port->port());
+    sender.send("haed 0 0 0 0 0 0 1\nhead nan 0 0 0 0 0 1\nhead 0 0 0 0 0 0 0\ncommand quit\n" +
+                std::string(300, '\x80') + "\nhead 1 2 3");
+    sender.send(std::string(5000, 'x'));
+    sender.send("head 0 1.6 2 0 0 0 1");
+    const auto heard = heard_by(*port, 1);
+    ASSERT_EQ(heard.size(), 1u);
+    EXPECT_GE(port->refused(), 6u);
+    const auto said = port->take_messages();
+    ASSERT_FALSE(said.empty());
+    EXPECT_NE(said[0].find("head"), std::string::npos) << "the nearest word: " << said[0];
+}
+
+TEST(TrackerPort, NamesWhatItCannotListenTo) {
+    MonotonicClock clock;
+    for (const char* where : {"", "5005", "udp:", "udp:x", "udp:70000", "udp:1.2.3:80", "udp:300.1.1.1:80", "tcp:80"}) {
+        const auto port = TrackerPort::open(where, clock, {});
+        ASSERT_FALSE(port) << where;
+        EXPECT_NE(port.error().line().find(std::string("tracker ") + where), std::string::npos);
+        EXPECT_NE(port.error().line().find("udp:"), std::string::npos);
+    }
+    const auto first = open_port(clock);
+    const auto second = TrackerPort::open("udp:" + std::to_string(first->port()), clock, {});
+    ASSERT_FALSE(second) << "the port is taken";
+}
+
+}  // namespace burin

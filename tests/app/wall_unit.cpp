@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+// Wall files, and burin wall as its user meets it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#include "app/wall_calibration.hpp"
+#include "app/wall_file.hpp"
+#include "tests/app/run_command.hpp"
+#include "tests/support/read_json.hpp"
+
+namespace burin {
+namespace {
+
+const std::string kBurin = BURIN_COMMAND;
+const std::filesystem::path kWalls = BURIN_WALLS;
+
+const std::string kSmall =
+    "units = \"cm\"\n"               // 1
+    "[[screen]]\n"                   // 2
+    "name = \"front\"\n"             // 3
+    "lower_left = [-100, 0, 0]\n"    // 4
+    "lower_right = [100, 0, 0]\n"    // 5
+    "upper_left = [-100, 150, 0]\n"  // 6
+    "pixels = [1200, 900]\n"         // 7
+    "[viewer.fallback_head]\n"       // 8
+    "position = [0, 120, 150]\n";    // 9
+
+std::string with(const std::string& from, const std::string& to) {
+    std::string text = kSmall;
+    return text.replace(text.find(from), from.size(), to);
+}
+
+void expect_refused(const std::string& text, const std::vector<std::string>& parts) {
+    const auto setup = parse_wall(text, "w.toml");
+    ASSERT_FALSE(setup) << text;
+    EXPECT_FALSE(setup.error().remedy.empty()) << setup.error().line();
+    for (const std::string& part : parts) {
+        EXPECT_NE(setup.error().line().find(part), std::string::npos)
+            << "expected '" << part << "' in: " << setup.error().line();
+    }
+}
+
+// A wall of 2 by 1.5 m that stands 40 mm nearer than the file says, and leans back by 2 degrees; centimetres.
+std::string touches(int wrong = -1) {
+    std::ostringstream csv;
+    csv << "place,x,y,z\n# the tracker's frame, cm\n";
+    int row = 0;
+    const double c = std::cos(0.0349), s = std::sin(0.0349);
+    for (const auto& [place, u, v] :
+         {std::tuple{"lower_left", -1, 0}, {"lower_right", 1, 0}, {"upper_left", -1, 1}, {"upper_right", 1, 1}}) {
+        for (const double e : {-0.05, 0.0, 0.05}) {
+            csv << place << ',' << 100 * u + e << ", " << 150 * v * c - e << ','
+                << 4 - 150 * v * s + (row == wrong ? 20.0 : e) << '\n';
+            ++row;
+        }
+    }
+    return csv.str();
+}
+
+}  // namespace
+
+TEST(WallFile, ReadsEveryWallThatComesWithBurinAndNothingIsWrongWithThem) {
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(kWalls)) {
+        if (entry.path().extension() != ".toml") continue;
+        const auto setup = read_wall(entry.path());
+        ASSERT_TRUE(setup) << setup.error().line();
+        for (const WallProblem& p : check(*setup)) ADD_FAILURE() << entry.path() << ": " << line_of(p);
+        ++count;
+    }
+    EXPECT_EQ(count, 3);
+}
+
+TEST(WallFile, GivesThePowerWallInMetres) {
+    const auto setup = read_wall(kWalls / "powerwall.toml");
+    ASSERT_TRUE(setup) << setup.error().line();
+    const Screen s = screen_world(*setup, setup->screens.at(0));
+    EXPECT_NEAR(s.lower_right_world.x - s.lower_left_world.x, 3.048, 1e-12);
+    EXPECT_NEAR(s.upper_left_world.y, 2.286, 1e-12);
+    EXPECT_EQ(setup->timing.refresh_Hz, 120.0);
+    EXPECT_EQ(setup->timing.eye_order, EyeOrder::left_first);
+}
+
+TEST(WallFile, WritingAndReadingKeepsEverySetting) {
+    WallSetup odd = *read_wall(kWalls / "cave.toml");
+    odd.unit = LengthUnit::ft;
+    odd.name = "a \"quoted\" \\ name";
+    odd.world_from_tracker = {{1.0 / 3.0, -2, 0.1}, glm::normalize(Quat{0.3, 0.1, -0.7, 0.2})};
+    odd.screens[1].homography = {{{0.9, 1.0 / 3.0, 0}, {0.01, 0.8, 1e-5}, {0.1, 0, 1}}};
+    odd.screens[1].blend = {0.1, 0.2, 0.03, 0.04, 1.8};
+    odd.screens[1].swap_eyes = true;
+    odd.screens[2].output = "DP-1";
+    odd.budget = {1.25, 0.75};
+    odd.timing = {96.0, EyeOrder::right_first};
+    const std::string text = wall_text(odd);
+    const auto read = parse_wall(text, "odd");
+    ASSERT_TRUE(read) << read.error().line();
+    EXPECT_EQ(wall_text(*read), text);
+    EXPECT_EQ(read->name, odd.name);
+    EXPECT_EQ(read->unit, odd.unit);
+    EXPECT_LT(glm::length(read->world_from_tracker.position_m - odd.world_from_tracker.position_m), 1e-11);
+    EXPECT_EQ(read->world_from_tracker.orientation, odd.world_from_tracker.orientation);
+    ASSERT_EQ(read->screens.size(), odd.screens.size());
+    for (std::size_t i = 0; i < odd.screens.size(); ++i) {
+        const WallScreen &a = odd.screens[i], &b = read->screens[i];
+        EXPECT_EQ(a.name, b.name);
+        EXPECT_LT(glm::length(a.upper_left_tracker - b.upper_left_tracker), 1e-11);
+        EXPECT_LT(glm::length(a.lower_left_tracker - b.lower_left_tracker), 1e-11);
+        EXPECT_LT(glm::length(a.lower_right_tracker - b.lower_right_tracker), 1e-11);
+        EXPECT_EQ(a.pixels, b.pixels);
+        EXPECT_EQ(a.output, b.output);
+        EXPECT_EQ(a.mode, b.mode);
+        EXPECT_EQ(a.swap_eyes, b.swap_eyes);
+        EXPECT_EQ(a.homography, b.homography);
+        EXPECT_EQ(a.blend.left, b.blend.left);
+        EXPECT_EQ(a.blend.bottom, b.blend.bottom);
+        EXPECT_EQ(a.blend.gamma, b.blend.gamma);
+    }
+    EXPECT_LT(glm::length(read->eyes.left_sensor - odd.eyes.left_sensor), 1e-11);
+    EXPECT_LT(glm::length(read->fallback_head_tracker.position_m - odd.fallback_head_tracker.position_m), 1e-11);
+    EXPECT_EQ(read->budget.crossed_deg, 1.25);
+    EXPECT_EQ(read->timing.refresh_Hz, 96.0);
+    EXPECT_EQ(read->timing.eye_order, EyeOrder::right_first);
+}
+
+TEST(WallFile, RefusesWhatItDoesNotUnderstandByLineWithTheRemedy) {
+    ASSERT_TRUE(parse_wall(kSmall, "w.toml"));
+    expect_refused(with("pixels", "pixles"), {"w.toml:7", "pixles", "did you mean pixels?"});
+    expect_refused(with("units", "unit"), {"w.toml", "units"});
+    expect_refused(with("\"cm\"", "\"yd\""), {"w.toml:1", "yd", "ft"});
+    expect_refused(with("\"cm\"", "3"), {"w.toml:1", "quotes"});
+    expect_refused(with("[-100, 0, 0]", "[-100, 0]"), {"w.toml:4", "3 numbers"});
+    expect_refused(with("[-100, 0, 0]", "[-100, 0, nan]"), {"w.toml:4", "3 numbers"});
+    expect_refused(with("[-100, 0, 0]", "[-100, 0,"), {"w.toml:", "not TOML"});
+    expect_refused(with("lower_left = [-100, 0, 0]\n", ""), {"w.toml:2", "lower_left"});
+    expect_refused(with("[1200, 900]", "[1200.5, 900]"), {"w.toml:7", "whole"});
+    expect_refused(with("[[screen]]", "[screen]"), {"w.toml:", "[[screen]]"});
+    expect_refused("units = \"m\"\n", {"w.toml", "[[screen]]"});
+    expect_refused("", {"w.toml", "units"});
+    expect_refused(kSmall + "[comfort]\ncrossed = 1\n", {"w.toml:11", "crossed_deg"});
+    expect_refused(kSmall + "[display]\neye_order = \"both\"\n", {"w.toml:11", "left-first"});
+    expect_refused(kSmall + "orientation = [0, 0, 0, 0]\n", {"w.toml:10", "no length"});
+    expect_refused(
+        "units = \"m\"\nzebra = 1\n[[screen]]\nlower_left=[0,0,0]\nlower_right=[1,0,0]\nupper_left=[0,1,0]\n",
+        {"w.toml:2", "zebra", "its keys are"});
+    expect_refused(with("name = \"front\"", "output = -1"), {"w.toml:3", "output"});
+    expect_refused(with("name = \"front\"", "swap_eyes = 1"), {"w.toml:3", "true or false"});
+    expect_refused(with("name = \"front\"", "homography = [[1, 0, 0], [0, 1, 0]]"), {"w.toml:3", "homography"});
+    expect_refused(with("[viewer.fallback_head]", "[viewer]\nleft_eye = [0, 0, 0]\n[viewer.fallback_head]"),
+                   {"w.toml:8", "right_eye"});
+    expect_refused("[[[", {"w.toml:1"});
+    expect_refused(std::string(3000, '['), {"w.toml:1"});
+}
+
+TEST(WallCommand, ShowsChecksAndDraws) {
+    Workplace place;
+    const auto shown =
+        place.run(kBurin + " wall show '" + (kWalls / "powerwall.toml").string() + "' --svg w.svg --json w.json");
+    EXPECT_EQ(shown.status, 0) << shown.output;
+    EXPECT_NE(shown.output.find("3.048 m, 2.286 m"), std::string::npos) << shown.output;
+    const auto figures = read_json(place.read("w.json"));
+    EXPECT_NEAR(figures["screens"][0]["viewing_distance_m"].get<double>(), 6.56 * 0.3048, 1e-9);
+    EXPECT_NEAR(figures["screens"][0]["pixel_mm"][0].get<double>(), 3048.0 / 1440.0, 1e-9);
+    EXPECT_NEAR(figures["screens"][0]["nearest_comfortable_m"].get<double>(), 0.99, 0.01);
+    EXPECT_NE(place.read("w.svg").find("</svg>"), std::string::npos);
+    EXPECT_EQ(place.run(kBurin + " wall check '" + (kWalls / "cave.toml").string() + "'").status, 0);
+
+    place.write("bad.toml", with("[-100, 150, 0]", "[0, 0, 0]"));
+    const auto bad = place.run(kBurin + " wall check bad.toml");
+    EXPECT_EQ(bad.status, 1) << bad.output;
+    EXPECT_NE(bad.output.find("front"), std::string::npos);
+    EXPECT_NE(bad.output.find("on a line"), std::string::npos) << bad.output;
+    place.write("mode.toml", with("pixels", "mode = \"shutter\"\npixels"));
+    EXPECT_EQ(place.run(kBurin + " wall check mode.toml").status, 1);
+    EXPECT_EQ(place.run(kBurin + " wall").status, 2);
+    const auto missing = place.run(kBurin + " wall show none.toml");
+    EXPECT_EQ(missing.status, 1);
+    EXPECT_NE(missing.output.find("none.toml"), std::string::npos);
+}
+
+TEST(WallCommand, CalibratesAScreenFromTouchesAndTellsTheResiduals) {
+    Workplace place;
+    place.write("wall.toml", kSmall);
+    place.write("touches.csv", touches());
+    const std::string start = kBurin + " wall calibrate --wall wall.toml --samples touches.csv --screen front ";
+    const auto outcome = place.run(start + "--out new.toml --json r.json");
+    ASSERT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_EQ(place.read("wall.toml"), kSmall) << "the old file was not to be touched";
+    const auto setup = parse_wall(place.read("new.toml"), "new.toml");
+    ASSERT_TRUE(setup) << setup.error().line();
+    EXPECT_NEAR(setup->screens[0].lower_left_tracker.z, 0.04, 1e-4);
+    EXPECT_NEAR(setup->screens[0].upper_left_tracker.z, 0.04 - 1.5 * std::sin(0.0349), 1e-4);
+    EXPECT_EQ(setup->screens[0].pixels, (std::array{1200, 900}));
+    const auto residuals = read_json(place.read("r.json"));
+    EXPECT_GT(residuals["before_rms_mm"].get<double>(), 20.0);
+    EXPECT_LT(residuals["rms_mm"].get<double>(), 1.0);
+    // In place, with one touch that went wrong and is named.
+    place.write("touches.csv", touches(4));
+    const auto again = place.run(start + "--out wall.toml");
+    ASSERT_EQ(again.status, 0) << again.output;
+    EXPECT_NE(again.output.find("set aside: sample 5 (lower_right)"), std::string::npos) << again.output;
+    EXPECT_NEAR(parse_wall(place.read("wall.toml"), "")->screens[0].lower_left_tracker.z, 0.04, 1e-3);
+    EXPECT_EQ(place.files(), 4u) << "something was left behind";
+}
+
+TEST(WallCommand, LeavesTheWallFileAloneWhenItCannotCalibrate) {
+    Workplace place;
+    place.write("wall.toml", kSmall);
+    const auto refused = [&](const std::string& csv, const std::string& arguments, const std::string& part) {
+        place.write("touches.csv", csv);
+        const auto outcome =
+            place.run(kBurin + " wall calibrate --wall wall.toml --samples touches.csv --out wall.toml " + arguments);
+        EXPECT_EQ(outcome.status, 1) << outcome.output;
+        EXPECT_NE(outcome.output.find(part), std::string::npos) << outcome.output;
+        EXPECT_EQ(place.read("wall.toml"), kSmall);
+    };
+    refused(touches(), "--screen back", "its screens are front");
+    refused("lower_left,0,0,0\nlower_right,100,0,0\n", "--screen front", "three corners");
+    refused("lower_left,0,0\n", "--screen front", "touches.csv:1");
+    refused("lower_left,0,0,x\n", "--screen front", "touches.csv:1");
+    refused("middle,0,0,0\n", "--screen front", "upper_right");
+    // Left and right exchanged while touching: a mirrored screen.
+    std::string mirrored = touches();
+    for (std::size_t at = 0; (at = mirrored.find("lower_", at)) != std::string::npos; at += 6) {
+        const bool left = mirrored.compare(at + 6, 4, "left") == 0;
+        mirrored.replace(at + 6, left ? 4 : 5, left ? "right" : "left");
+    }
+    for (std::size_t at = 0; (at = mirrored.find("upper_", at)) != std::string::npos; at += 6) {
+        const bool left = mirrored.compare(at + 6, 4, "left") == 0;
+        mirrored.replace(at + 6, left ? 4 : 5, left ? "right" : "left");
+    }
+    refused(mirrored, "--screen front", "exchanged");
+}
+
+TEST(WallCommand, AsksForTouchAfterTouch) {
+    std::istringstream in("1,2,3\nnonsense\n4,5,6\n\n7,8,9\nupper_right,0,0,1\n10,11,12\ndone\n1,1,1\n");
+    std::ostringstream prompts;
+    const auto samples = guided_samples(in, prompts, 0.01);
+    ASSERT_EQ(samples.size(), 5u);
+    EXPECT_EQ(samples[2].place, "lower_left");
+    EXPECT_EQ(samples[2].tip_tracker, (Vec3{0.07, 0.08, 0.09}));
+    EXPECT_EQ(samples[3].place, "upper_right");
+    EXPECT_EQ(samples[4].place, "lower_right") << "the next corner, after three touches";
+    EXPECT_NE(prompts.str().find("touch lower_right with the wand's tip, 1 of 3"), std::string::npos) << prompts.str();
+    EXPECT_NE(prompts.str().find("is not a sample"), std::string::npos);
+}
+
+}  // namespace burin

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+// Drawing only what has changed gives, bit for bit, the picture that drawing everything gives: random changes of the scene before
+// a still head, each drawn by one renderer in part and by another as a whole.
+#include <random>
+
+#include "tests/renderer/panel_pictures.hpp"
+#include "tests/renderer/test_scene.hpp"
+
+namespace burin {
+namespace {
+
+constexpr ImageSize kSize{120, 90};
+
+// A ball in patches of a few rings and segments each, which meet without cracks.
+std::vector<Surface> ball_in_patches(const Vec3& center, double radius, std::uint32_t colour) {
+    constexpr int kParts = 6, kRings = 8;
+    std::vector<Surface> parts;
+    for (int i = 0; i < kParts; ++i)
+        for (int j = 0; j < kParts; ++j) {
+            Surface s;
+            for (int y = 0; y <= kRings; ++y)
+                for (int x = 0; x <= kRings; ++x) {
+                    const double latitude = std::numbers::pi * ((i * kRings + y) / double(kParts * kRings) - 0.5);
+                    const double a = 2.0 * std::numbers::pi * (j * kRings + x) / double(kParts * kRings);
+                    const Vec3 n{std::cos(latitude) * std::cos(a), std::sin(latitude),
+                                 -std::cos(latitude) * std::sin(a)};
+                    s.vertex(center + radius * n, n, colour);
+                }
+            constexpr std::uint32_t kRow = kRings + 1;
+            for (std::uint32_t y = 0; y < kRings; ++y)
+                for (std::uint32_t x = 0; x < kRings; ++x) {
+                    const std::uint32_t a = y * kRow + x;
+                    s.indices.insert(s.indices.end(), {a, a + 1, a + kRow + 1, a, a + kRow + 1, a + kRow});
+                }
+            parts.push_back(std::move(s));
+        }
+    return parts;
+}
+
+Scene furnished_scene() {
+    Scene scene = bare_scene();
+    scene.show_grid = scene.show_wall_frame = true;
+    scene.pedestal = {{0, 0.06, -0.1}, 0.08, {0.7, 0.7, 0.7}, true};
+    scene.workpiece_object.include({-0.08, 0.07, -0.18});
+    scene.workpiece_object.include({0.08, 0.23, -0.02});
+    scene.box = {{{0.05, 0.15, -0.03}, Quat{1, 0, 0, 0}}, {0.12, 0.1, 0.08}, {0.3, 0.6, 0.8}, true};
+    return scene;
+}
+
+// What a session may do between two frames, to the scene and to both renderers.
+class Changes {
+public:
+    Changes(gpu::Device& device, PanelPainter& painter, Scene& scene, std::array<Renderer*, 2> renderers)
+        : device_(device), painter_(painter), scene_(scene), renderers_(renderers) {
+        for (Renderer* r : renderers_) r->show_panel(painter.view());
+        paint_panel();
+        for (const std::uint32_t colour : {kGrey, kRed})
+            looks_.push_back(ball_in_patches({0, 0.15, -0.1}, 0.07, colour));
+        for (std::uint32_t id = 0; id < looks_[0].size(); ++id) set(id, looks_[0][id]);
+    }
+    void make() {
+        const std::uint32_t id = number(static_cast<std::uint32_t>(looks_[0].size()));
+        switch (number(16)) {
+            case 0:
+            case 1:
+            case 2: move_tool(); break;
+            case 3: scene_.tool.visible = !scene_.tool.visible; break;
+            case 4: scene_.box.center_world.position_m = somewhere(); break;
+            case 5:
+                scene_.proposed_box = {{somewhere(), turn()}, {0.06, 0.05, 0.04}, {0.9, 0.6, 0.2}, number(2) == 0, 0.2};
+                break;
+            case 6: scene_.bubble = {somewhere(), between(0.01, 0.05), {0.4, 0.7, 0.6}, number(3) > 0}; break;
+            case 7: set(id, looks_[number(2)][id]); break;
+            case 8:
+                for (Renderer* r : renderers_) r->remove_patch(id);
+                break;
+            case 9: light(id); break;
+            case 10:
+            case 11: touch(); break;
+            case 12: scene_.contact.visible = !scene_.contact.visible; break;
+            case 13: stand_panel(); break;
+            case 14: scene_.panel.reset(); break;
+            case 15: paint_panel(); break;
+            default: break;
+        }
+    }
+
+private:
+    std::uint32_t number(std::uint32_t below) { return static_cast<std::uint32_t>(random_() % below); }
+    double between(double a, double b) { return std::uniform_real_distribution<double>(a, b)(random_); }
+    Vec3 somewhere() { return {between(-0.1, 0.1), between(0.05, 0.25), between(-0.12, 0.1)}; }
+    Quat turn() { return glm::angleAxis(between(-2.0, 2.0), glm::normalize(somewhere())); }
+    void move_tool() {
+        scene_.tool.visible = true;
+        scene_.tool.radius_m = between(0.002, 0.015);
+        scene_.tool.center_world = somewhere();
+        scene_.tool.stylus_world = {scene_.tool.center_world, turn()};
+        scene_.tool.colour = {between(0, 1), between(0, 1), between(0, 1)};
+    }
+    // At the tool's ball or away from it, with any force from none to too much.
+    void touch() {
+        SceneContact& c = scene_.contact;
+        const Vec3 normal = turn() * Vec3(0, 0, 1);
+        c.point_world = number(2) == 0 ? somewhere() : scene_.tool.center_world - scene_.tool.radius_m * normal;
+        c.normal_world = normal;
+        c.force_N = between(0.0, 6.0) * (turn() * Vec3(0, 0, 1));
+        c.metres_per_N = between(0.005, 0.02);
+        c.colour = {between(0, 1), between(0, 1), between(0, 1)};
+        c.visible = true;
+    }
+    void stand_panel() {
+        const std::uint64_t version = scene_.panel ? scene_.panel->version : 0;
+        scene_.panel = ScenePanel{{{somewhere(), turn()}, {between(0.02, 0.2), between(0.02, 0.2)}}, version};
+    }
+    void paint_panel() {
+        PanelMesh mesh;
+        add_box(mesh, {0, 0, 64, 48}, rgba(number(256), number(256), number(256), 200));
+        add_box(mesh, {number(30), number(20), 30, 20}, rgba(number(256), 200, 100, 255), kThird);
+        auto commands = gpu::Commands::begin(device_);
+        ASSERT_TRUE(painter_.record(*commands, mesh));
+        ASSERT_TRUE(std::move(*commands).submit());
+        if (scene_.panel) ++scene_.panel->version;
+    }
+    void set(std::uint32_t id, const Surface& s) {
+        for (Renderer* r : renderers_) r->set_patch(id, s.vertices, s.indices);
+    }
+    void light(std::uint32_t id) {
+        std::vector<VertexLight> lights(looks_[0][id].vertices.size());
+        for (VertexLight& l : lights)
+            l = {static_cast<std::uint8_t>(number(256)), static_cast<std::uint8_t>(number(256))};
+        for (Renderer* r : renderers_) r->set_patch_light(id, lights);
+    }
+
+    gpu::Device& device_;
+    PanelPainter& painter_;
+    Scene& scene_;
+    std::array<Renderer*, 2> renderers_;
+    std::mt19937 random_{7};
+    std::vector<std::vector<Surface>> looks_;
+};
+
+std::size_t different_pixels(const Image& a, const Image& b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); i += 4) count += same_colour(&a.rgba[i], &b.rgba[i]) ? 0 : 1;
+    return count;
+}
+
+class Redraw : public gpu::DeviceTest {
+protected:
+    // refined: the first picture has coarser levels, and later ones keep them.
+    void compare(std::uint32_t samples, bool refined, int frames, double fade = 0.0) {
+        std::vector<Renderer> made;
+        for (int i = 0; i < 2; ++i) {
+            auto renderer = Renderer::create(device(), kSize, {.samples = samples});
+            ASSERT_TRUE(renderer) << renderer.error().line();
+            made.push_back(std::move(*renderer));
+        }
+        Scene scene = furnished_scene();
+        scene.edge_fade = fade;
+        scene.edge_fade_band = 0.7;
+        auto painter = PanelPainter::create(device(), {64, 48}, plain_atlas());
+        ASSERT_TRUE(painter) << painter.error().line();
+        Changes changes(device(), *painter, scene, {&made[0], &made[1]});
+        for (Renderer& r : made) {
+            ASSERT_TRUE(r.render(scene));
+            const std::size_t made_coarser = refined ? r.refine(1000) : 0;
+            ASSERT_EQ(made_coarser > 0, refined);
+            r.forget_picture();
+            ASSERT_TRUE(r.render(scene));
+            ASSERT_EQ(r.stats().patch_counts.coarser > 0, refined);
+        }
+        std::size_t parts = 0;
+        for (int frame = 0; frame < frames; ++frame) {
+            for (int change = 0; change <= frame % 3; ++change) changes.make();
+            const auto part = made[0].render(scene);
+            made[1].forget_picture();
+            const auto whole = made[1].render(scene);
+            ASSERT_TRUE(part && whole);
+            if (made[0].stats().part != all_of(kSize)) ++parts;
+            ASSERT_EQ(different_pixels(part->left, whole->left), 0u) << "left, frame " << frame;
+            ASSERT_EQ(different_pixels(part->right, whole->right), 0u) << "right, frame " << frame;
+        }
+        EXPECT_GT(3 * parts, 2 * static_cast<std::size_t>(frames)) << "most frames were drawn in part";
+    }
+};
+
+}  // namespace
+
+TEST_F(Redraw, OfWhatChangedEqualsDrawingEverything) { compare(1, false, 60); }
+
+TEST_F(Redraw, OfWhatChangedEqualsDrawingEverythingWithSeveralSamples) { compare(0, false, 30); }
+
+TEST_F(Redraw, OfWhatChangedEqualsDrawingEverythingWithCoarserLevels) {
+    compare(1, true, 30);
+    if (!HasFatalFailure()) compare(0, true, 15);
+}
+
+TEST_F(Redraw, OfWhatChangedEqualsDrawingEverythingWhereParallaxFades) {
+    compare(1, true, 20, 0.9);
+    if (!HasFatalFailure()) compare(0, false, 6, 1.0);
+}
+
+TEST_F(Redraw, OfNothingDrawsNothing) {
+    auto renderer = Renderer::create(device(), kSize);
+    ASSERT_TRUE(renderer);
+    const Scene scene = furnished_scene();
+    const Surface ball = ball_surface({0, 0.15, -0.1}, 0.07);
+    renderer->set_patch(0, ball.vertices, ball.indices);
+    const auto first = renderer->render(scene), second = renderer->render(scene);
+    ASSERT_TRUE(first && second);
+    EXPECT_TRUE(renderer->stats().part.empty());
+    EXPECT_EQ(renderer->stats().draws, 0u);
+    EXPECT_TRUE(first->left.rgba == second->left.rgba);
+}
+
+}  // namespace burin

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "window/window_system.hpp"
+
+#include <unistd.h>
+
+#include <charconv>
+#include <cstdlib>
+#include <filesystem>
+#include <mutex>
+#include <utility>
+
+namespace burin::window {
+
+namespace {
+
+// GLFW's callbacks for errors and monitors carry no pointer of ours, so these two are the process's own, as GLFW is.
+std::mutex g_errors_mutex;
+std::string g_errors;
+std::weak_ptr<WindowSystem> g_running;  // main thread
+
+void on_error(int, const char* text) {
+    const std::lock_guard lock(g_errors_mutex);
+    if (g_errors.size() > 2000) return;  // a loop of complaints says nothing new
+    g_errors += (g_errors.empty() ? "" : "; ") + std::string(text);
+}
+
+// Mesa's layer that sorts devices looks for a Wayland display and prints an error where this variable is missing. Any folder
+// that exists keeps it quiet; the user's own is right where there is one.
+void name_a_runtime_folder() {
+    if (std::getenv("XDG_RUNTIME_DIR") != nullptr) return;
+    std::error_code ignored;
+    const std::string own = "/run/user/" + std::to_string(getuid());
+    const std::string folder =
+        std::filesystem::is_directory(own, ignored) ? own : std::filesystem::temp_directory_path(ignored).string();
+    setenv("XDG_RUNTIME_DIR", folder.c_str(), 0);
+}
+
+std::unexpected<Error> no_display(const std::string& complaint) {
+    const char* display = std::getenv("DISPLAY");
+    const std::string remedy =
+        "start Burin on the desktop, or name its display (export DISPLAY=:0), or run a virtual one (xvfb-run burin "
+        "...)";
+    if (display == nullptr || *display == '\0')
+        return fail("window", "there is no display: DISPLAY is not set", remedy);
+    return fail("window", "no display answers at DISPLAY=" + std::string(display) + " (" + complaint + ")", remedy);
+}
+
+}  // namespace
+
+Result<std::shared_ptr<WindowSystem>> WindowSystem::use() {
+    if (auto running = g_running.lock()) return running;
+    name_a_runtime_folder();
+    glfwSetErrorCallback(on_error);
+    if (glfwInit() != GLFW_TRUE) return no_display(take_errors());
+    std::shared_ptr<WindowSystem> started(new WindowSystem);
+    g_running = started;
+    glfwSetMonitorCallback(on_monitor);
+    return started;
+}
+
+WindowSystem::~WindowSystem() { glfwTerminate(); }
+
+std::string WindowSystem::take_errors() {
+    const std::lock_guard lock(g_errors_mutex);
+    return std::exchange(g_errors, {});
+}
+
+void WindowSystem::on_monitor(GLFWmonitor* monitor, int event) {
+    const auto running = g_running.lock();
+    if (!running) return;
+    const std::string name = glfwGetMonitorName(monitor);
+    for (MonitorListener* listener : running->listeners_) {
+        listener->monitor_changed(name, monitor, event == GLFW_CONNECTED);
+    }
+}
+
+Monitor WindowSystem::describe(GLFWmonitor* monitor, int index) {
+    Monitor m;
+    m.index = index;
+    if (monitor == nullptr) return m;
+    m.name = glfwGetMonitorName(monitor);
+    glfwGetMonitorPos(monitor, &m.x, &m.y);
+    glfwGetMonitorPhysicalSize(monitor, &m.width_mm, &m.height_mm);
+    if (const GLFWvidmode* mode = glfwGetVideoMode(monitor)) {
+        m.width = mode->width;
+        m.height = mode->height;
+        m.refresh_Hz = mode->refreshRate;
+    }
+    return m;
+}
+
+std::vector<Monitor> WindowSystem::monitors() const {
+    int count = 0;
+    GLFWmonitor** found = glfwGetMonitors(&count);
+    std::vector<Monitor> list;
+    for (int i = 0; i < count; ++i) list.push_back(describe(found[i], i));
+    return list;
+}
+
+Result<GLFWmonitor*> WindowSystem::find(const std::string& name_or_index) const {
+    int count = 0;
+    GLFWmonitor** found = glfwGetMonitors(&count);
+    int index = name_or_index.empty() ? 0 : -1;
+    const char* end = name_or_index.data() + name_or_index.size();
+    if (const auto parsed = std::from_chars(name_or_index.data(), end, index); parsed.ptr != end) index = -1;
+    std::string names;
+    for (int i = 0; i < count; ++i) {
+        const std::string name = glfwGetMonitorName(found[i]);
+        if (i == index || name == name_or_index) return found[i];
+        names += (names.empty() ? "" : ", ") + std::to_string(i) + " (" + name + ")";
+    }
+    return fail("monitor", "there is no monitor '" + name_or_index + "'",
+                names.empty() ? "plug one in" : "choose one of: " + names);
+}
+
+Result<std::vector<Monitor>> monitors() {
+    const auto system = WindowSystem::use();
+    if (!system) return std::unexpected(system.error());
+    return (*system)->monitors();
+}
+
+Result<std::vector<std::string>> required_extensions() {
+    const auto system = WindowSystem::use();
+    if (!system) return std::unexpected(system.error());
+    std::uint32_t count = 0;
+    const char** names = glfwVulkanSupported() == GLFW_TRUE ? glfwGetRequiredInstanceExtensions(&count) : nullptr;
+    if (names == nullptr) {
+        return fail("window", "Vulkan cannot show pictures on this display: " + WindowSystem::take_errors(),
+                    "install the graphics driver's Vulkan part, such as mesa-vulkan-drivers");
+    }
+    return std::vector<std::string>(names, names + count);
+}
+
+void wake() { glfwPostEmptyEvent(); }
+
+}  // namespace burin::window

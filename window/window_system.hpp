@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// GLFW itself: started once, stopped when nobody uses it; its errors; its monitors. For window/ alone.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gpu/vulkan.hpp"
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include "window/window.hpp"
+
+namespace burin::window {
+
+// Told of monitors that come and go.
+class MonitorListener {
+public:
+    virtual void monitor_changed(const std::string& name, GLFWmonitor* monitor, bool connected) = 0;
+
+protected:
+    ~MonitorListener() = default;
+};
+
+class WindowSystem {
+public:
+    // The running one, or a new one. Main thread.
+    [[nodiscard]] static Result<std::shared_ptr<WindowSystem>> use();
+    ~WindowSystem();
+    WindowSystem(const WindowSystem&) = delete;
+    WindowSystem& operator=(const WindowSystem&) = delete;
+
+    [[nodiscard]] std::vector<Monitor> monitors() const;
+    [[nodiscard]] Result<GLFWmonitor*> find(const std::string& name_or_index) const;
+    [[nodiscard]] static Monitor describe(GLFWmonitor* monitor, int index);
+
+    void add(MonitorListener* listener) { listeners_.push_back(listener); }
+    void remove(MonitorListener* listener) { std::erase(listeners_, listener); }
+
+    // What GLFW complained of since the last call, in one line.
+    [[nodiscard]] static std::string take_errors();
+
+private:
+    WindowSystem() = default;
+    static void on_monitor(GLFWmonitor* monitor, int event);
+    std::vector<MonitorListener*> listeners_;
+};
+
+}  // namespace burin::window
