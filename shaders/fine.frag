@@ -4,7 +4,7 @@
 #include "shaders/frame.glsl"
 #include "shaders/lighting.glsl"
 
-layout(location = 0) in vec3 in_light;
+layout(location = 0) noperspective in vec3 in_light;
 
 layout(location = 0) out vec4 out_colour;
 

@@ -10,10 +10,10 @@ namespace burin {
 namespace {
 
 // The surface may lie this far off where it is drawn coarser: below what a sample's place can show.
-constexpr double kMostError_px = 0.25;
+constexpr double kMostError_px = 0.5;
 // Up to this length of edges light is worked out at vertices: between them it changes too little to be seen. Farther apart they may
-// be where the surface is smooth.
-constexpr double kFineEdge_px = 12.0, kSmoothEdge_px = 32.0;
+// be in smooth triangles.
+constexpr double kFineEdge_px = 12.0, kSmoothEdge_px = 64.0;
 
 // Lengths in the patches' frame over pixels of the picture, at the place of a patch that is nearest to an eye.
 class PixelLength {
@@ -90,10 +90,10 @@ private:
 
 ShadingRate rate_of(const PatchStore::Patch& patch, const PixelLength& pixel, const ToolZone& zone,
                     const Savings& savings) {
-    const double most_px = patch.smooth ? kSmoothEdge_px : kFineEdge_px;
-    const bool fine =
-        savings.vertex_rate && patch.shape.edge_m <= most_px * pixel.at(patch.shape) && !zone.touches(patch.shape);
-    return fine ? ShadingRate::vertex : ShadingRate::pixel;
+    if (!savings.vertex_rate || zone.touches(patch.shape)) return ShadingRate::pixel;
+    const double edge_px = patch.shape.edge_m / pixel.at(patch.shape);
+    if (edge_px <= kFineEdge_px) return ShadingRate::vertex;
+    return edge_px <= kSmoothEdge_px ? ShadingRate::by_triangle : ShadingRate::pixel;
 }
 
 // Bent patches may uncover what is behind.
@@ -113,12 +113,22 @@ std::uint8_t level_of(const PatchStore::Patch& patch, const PixelLength& pixel) 
     return level;
 }
 
-void append(std::vector<DrawRange>& draws, const PatchStore::Level& level) {
-    if (!draws.empty() && draws.back().first_index + draws.back().index_count == level.first_index) {
-        draws.back().index_count += level.index_count;
+void append(std::vector<DrawRange>& draws, std::uint32_t first, std::uint32_t count) {
+    if (count == 0) return;
+    if (!draws.empty() && draws.back().first_index + draws.back().index_count == first) {
+        draws.back().index_count += count;
     } else {
-        draws.push_back({level.first_index, level.index_count});
+        draws.push_back({first, count});
     }
+}
+
+std::uint32_t lit_at_vertices(const PatchStore::Level& level, ShadingRate rate) {
+    switch (rate) {
+        case ShadingRate::vertex: return level.index_count;
+        case ShadingRate::by_triangle: return level.smooth_count;
+        case ShadingRate::pixel: return 0;
+    }
+    return 0;
 }
 
 bool spared(Hidden reason, const Savings& savings, PatchCounts& counts) {
@@ -171,11 +181,12 @@ PatchDraws choose_draws(std::span<PatchStore::Patch* const> patches, const Scene
     for (const PatchStore::Patch* patch : patches) {
         if (spared(hidden(eyes, patch->shape, occluders), savings, draws.counts)) continue;
         const PatchStore::Level& level = patch->levels[patch->drawn.level];
-        const bool fine = patch->drawn.rate == ShadingRate::vertex;
-        append(fine ? draws.fine : draws.solid, level);
+        const std::uint32_t fine = lit_at_vertices(level, patch->drawn.rate);
+        append(draws.fine, level.first_index, fine);
+        append(draws.solid, level.first_index + fine, level.index_count - fine);
         ++draws.counts.drawn;
         draws.counts.coarser += patch->drawn.level > 0 ? 1 : 0;
-        draws.counts.vertex_rate += fine ? 1 : 0;
+        draws.counts.vertex_rate += fine > 0 ? 1 : 0;
         draws.counts.triangles += level.index_count / 3;
     }
     return draws;

@@ -24,7 +24,7 @@ struct Savings {
 struct PatchCounts {
     std::uint32_t drawn = 0, beside = 0, turned_away = 0, behind = 0;
     std::uint32_t coarser = 0;      // drawn with fewer triangles than they have
-    std::uint32_t vertex_rate = 0;  // drawn, lit at their vertices
+    std::uint32_t vertex_rate = 0;  // drawn, some or all of their triangles lit at vertices
     std::uint64_t triangles = 0;    // drawn, in one view
 };
 

@@ -16,8 +16,8 @@ namespace {
 using shared::SurfaceVertex;
 
 // Of an edge: how far the surface may move for each level. A level is drawn where that is a fraction of a pixel.
-constexpr std::array<double, 3> kErrors{0.01, 0.04, 0.15};
-constexpr double kWorthIt = 0.75;  // of the triangles before: a level with more is not kept
+constexpr std::array<double, 7> kErrors{0.01, 0.02, 0.03, 0.05, 0.08, 0.15, 0.5};
+constexpr double kWorthIt = 0.85;  // of the triangles before: a level with more is not kept
 
 // The most that a vertex may change by: a step of 8 of 255 in light or colour, and a turn of the normal that changes the light
 // on it as much.
@@ -49,7 +49,7 @@ bool close(const Look& a, const Look& b) {
 
 Vec3 place(const SurfaceVertex& v) { return {v.x, v.y, v.z}; }
 
-// Along an edge of a smooth patch. Light that is linear in the angle is off by an eighth of its square: less than 1 of 255.
+// Along an edge of a smooth triangle. Light that is linear in the angle is off by an eighth of its square: less than 1 of 255.
 constexpr double kSmoothTurn = 0.12;
 constexpr double kSmoothChange = 24.0 / 255.0;
 
@@ -191,17 +191,24 @@ void append_simplified(std::vector<std::uint32_t>& out, std::span<const std::uin
 
 }  // namespace
 
-bool is_smooth(std::span<const SurfaceVertex> vertices, std::span<const std::uint32_t> indices,
-               std::span<const VertexLight> light) {
+SmoothFirst smooth_first(std::span<const SurfaceVertex> vertices, std::span<const std::uint32_t> indices,
+                         std::span<const VertexLight> light) {
     std::vector<Look> looks;
     looks.reserve(vertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i)
         looks.push_back(look_of(vertices[i], i < light.size() ? light[i] : VertexLight{}));
+    SmoothFirst sorted;
+    sorted.indices.reserve(indices.size());
+    std::vector<std::uint32_t> others;
     for (std::size_t t = 0; t + 2 < indices.size(); t += 3) {
         const Look &a = looks[indices[t]], &b = looks[indices[t + 1]], &c = looks[indices[t + 2]];
-        if (!differ_little(a, b) || !differ_little(b, c) || !differ_little(c, a)) return false;
+        const bool smooth = differ_little(a, b) && differ_little(b, c) && differ_little(c, a);
+        std::vector<std::uint32_t>& to = smooth ? sorted.indices : others;
+        to.insert(to.end(), {indices[t], indices[t + 1], indices[t + 2]});
     }
-    return true;
+    sorted.smooth = sorted.indices.size();
+    sorted.indices.insert(sorted.indices.end(), others.begin(), others.end());
+    return sorted;
 }
 
 std::vector<PatchLevel> coarser_levels(std::span<const SurfaceVertex> vertices, std::span<const std::uint32_t> indices,

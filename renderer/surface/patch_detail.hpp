@@ -18,17 +18,22 @@
 
 namespace burin {
 
-// Light interpolated between its vertices looks like light worked out between them, also where these are far apart: along no edge does
-// the normal turn, or colour or light change, by more than a little.
-[[nodiscard]] bool is_smooth(std::span<const shared::SurfaceVertex> vertices, std::span<const std::uint32_t> indices,
-                             std::span<const VertexLight> light);
+// Between the vertices of a smooth triangle interpolated light looks like light worked out at every pixel, also where they are far
+// apart: along none of its edges does the normal turn, or colour or light change, by more than a little.
+struct SmoothFirst {
+    std::vector<std::uint32_t> indices;  // three a triangle: the smooth ones, then the others, each in the order given
+    std::size_t smooth = 0;              // indices of smooth ones
+};
+// light: one for each vertex, or empty: full.
+[[nodiscard]] SmoothFirst smooth_first(std::span<const shared::SurfaceVertex> vertices,
+                                       std::span<const std::uint32_t> indices, std::span<const VertexLight> light);
 
 struct PatchLevel {
     std::vector<std::uint32_t> indices;  // three a triangle, of the patch's own vertices
     double error_m = 0.0;                // no vertex of the patch is farther from it
 };
 
-// From fine to coarse; none where nothing is gained. light: one for each vertex, or empty: full.
+// From fine to coarse; none where nothing is gained. light: as above.
 [[nodiscard]] std::vector<PatchLevel> coarser_levels(std::span<const shared::SurfaceVertex> vertices,
                                                      std::span<const std::uint32_t> indices,
                                                      std::span<const VertexLight> light, double edge_m);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "renderer/surface/patch_change.hpp"
+
 namespace burin {
 
 namespace {
@@ -100,10 +102,6 @@ Result<PatchStore::Flushed> PatchStore::flush(gpu::Device& device, gpu::Commands
     Flushed flushed;
     bytes_ = 0;
     if (!cleared_ && pending_.empty() && pending_light_.empty() && !levels_ready_) return flushed;
-    const auto note = [&](std::uint32_t id) {
-        if (const auto known = placed_.find(id); known != placed_.end())
-            flushed.changed.push_back(known->second.shape.bounds);
-    };
     if (cleared_) {
         if (!bounds_.empty()) flushed.changed.push_back(bounds_);
         placed_.clear();
@@ -114,32 +112,38 @@ Result<PatchStore::Flushed> PatchStore::flush(gpu::Device& device, gpu::Commands
         index_ranges_ = RangeAllocator(index_ranges_.capacity());
         cleared_ = false;
     }
-    std::map<std::uint32_t, Drawn> before;  // a patch that changes goes on as it was drawn, but for its level
+    std::map<std::uint32_t, Patch> before;
     for (const auto& [id, patch] : pending_) {
-        note(id);
-        if (const auto known = placed_.find(id); known != placed_.end()) before[id] = {0, known->second.drawn.rate};
+        if (const auto known = placed_.find(id); known != placed_.end()) before[id] = known->second;
         release(id);
     }
     Result<void> done = make_room(device, commands);
     for (auto& [id, patch] : pending_) {
         if (!done) break;
-        if (!patch.surface) continue;
-        done = place(device, commands, id, patch);
+        const auto was = before.find(id);
+        if (patch.surface) done = place(device, commands, id, patch);
         if (!done) break;
-        if (const auto was = before.find(id); was != before.end()) placed_[id].drawn = was->second;
-        placed_[id].wanted = before.contains(id);
-        note(id);
+        const auto now = placed_.find(id);
+        if (was != before.end() && now != placed_.end()) {
+            note_change(was->second, now->second, flushed.changed);
+            // It goes on as it was drawn, but for its level.
+            now->second.drawn.rate = was->second.drawn.rate;
+            now->second.wanted = true;
+        } else if (was != before.end() || now != placed_.end()) {
+            flushed.changed.push_back((was != before.end() ? was : now)->second.shape.bounds);
+        }
     }
     for (auto& [id, light] : pending_light_) {
         const auto known = placed_.find(id);
         if (!done || known == placed_.end()) continue;
         if (light.size() != known->second.surface->vertices.size() || light == known->second.light) continue;
-        known->second.light = std::move(light);
-        known->second.smooth =
-            is_smooth(known->second.surface->vertices, known->second.surface->indices, known->second.light);
-        release_levels(known->second, 1);
-        upload_light(commands, known->second);
-        note(id);
+        Patch& patch = known->second;
+        const Patch was = patch;
+        patch.light = std::move(light);
+        release_levels(patch, 1);
+        upload_indices(commands, patch, patch.levels.front(), patch.surface->indices);
+        upload_light(commands, patch);
+        note_change(was, patch, flushed.changed);
     }
     if (done) done = place_ready_levels(device, commands);
     pending_.clear();
@@ -148,6 +152,16 @@ Result<PatchStore::Flushed> PatchStore::flush(gpu::Device& device, gpu::Commands
     if (!done) return std::unexpected(done.error());
     flushed.bytes = bytes_;
     return flushed;
+}
+
+void PatchStore::note_change(const Patch& was, const Patch& now, std::vector<Box>& changed) {
+    if (was.drawn.level > 0) {  // nearly all triangles were others
+        changed.insert(changed.end(), {was.shape.bounds, now.shape.bounds});
+        return;
+    }
+    const auto look = [](const Patch& p) { return PatchLook{p.surface->vertices, p.surface->indices, p.light}; };
+    const Box box = changed_bounds(look(was), look(now));
+    if (!box.empty()) changed.push_back(box);
 }
 
 // Grows at most once for all that is new, instead of by doubling along the way.
@@ -180,7 +194,6 @@ Result<void> PatchStore::place(gpu::Device& device, gpu::Commands& commands, std
     patch.light = std::move(pending.light);
     if (patch.light.size() != patch.surface->vertices.size()) patch.light.clear();
     patch.shape = shape_of(patch.surface->vertices, patch.surface->indices);
-    patch.smooth = is_smooth(patch.surface->vertices, patch.surface->indices, patch.light);
     patch.vertex_count = round_up(patch.surface->vertices.size(), kVertexStep);
     auto first = vertex_ranges_.allocate(patch.vertex_count);
     if (!first) {  // the free ranges are too scattered
@@ -222,13 +235,26 @@ Result<void> PatchStore::place_level(gpu::Device& device, gpu::Commands& command
         index_ranges_.grow(static_cast<std::uint32_t>(capacity));
         first = index_ranges_.allocate(count).value();
     }
-    std::vector<std::uint32_t> absolute(count, patch.first_vertex);
-    std::ranges::transform(indices, absolute.begin(), [&](std::uint32_t i) { return i + patch.first_vertex; });
-    const auto bytes = std::as_bytes(std::span(absolute));
-    commands.upload(indices_, std::uint64_t{*first} * kIndexKind.bytes, bytes);
-    bytes_ += bytes.size();
-    patch.levels.push_back({*first, count, error_m});
+    Level& level = patch.levels.emplace_back();
+    level.first_index = *first;
+    level.index_count = count;
+    level.error_m = error_m;
+    upload_indices(commands, patch, level, indices);
     return {};
+}
+
+void PatchStore::upload_indices(gpu::Commands& commands, const Patch& patch, Level& level,
+                                std::span<const std::uint32_t> indices) {
+    const SmoothFirst sorted = smooth_first(patch.surface->vertices, indices, patch.light);
+    // A level of a smooth patch was judged by the patch's own vertices: none of them looks different on it.
+    const bool all = sorted.smooth == indices.size() ||
+                     (level.error_m > 0.0 && patch.levels.front().smooth_count == patch.levels.front().index_count);
+    level.smooth_count = all ? level.index_count : static_cast<std::uint32_t>(sorted.smooth);
+    std::vector<std::uint32_t> absolute(level.index_count, patch.first_vertex);
+    std::ranges::transform(sorted.indices, absolute.begin(), [&](std::uint32_t i) { return i + patch.first_vertex; });
+    const auto bytes = std::as_bytes(std::span(absolute));
+    commands.upload(indices_, std::uint64_t{level.first_index} * kIndexKind.bytes, bytes);
+    bytes_ += bytes.size();
 }
 
 Result<void> PatchStore::place_ready_levels(gpu::Device& device, gpu::Commands& commands) {

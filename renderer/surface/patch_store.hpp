@@ -22,13 +22,14 @@
 
 namespace burin {
 
-// How a patch is shaded: lit at its vertices, which are as close as pixels, or at every pixel.
-enum class ShadingRate : std::uint8_t { vertex, pixel };
+// How a patch is shaded: lit at its vertices, or at every pixel, or smooth triangles in the first way and the others in the second.
+enum class ShadingRate : std::uint8_t { vertex, by_triangle, pixel };
 
 class PatchStore {
 public:
     struct Level {
         std::uint32_t first_index = 0, index_count = 0;  // with padding: triangles without area
+        std::uint32_t smooth_count = 0;                  // of them, from the first on (smooth_first)
         double error_m = 0.0;                            // 0: the patch as it is
     };
     // How it stands in the picture now.
@@ -41,7 +42,6 @@ public:
         std::shared_ptr<const SurfaceTile> surface;
         std::vector<VertexLight> light;  // empty: full
         PatchShape shape;
-        bool smooth = false;  // is_smooth
         std::uint32_t first_vertex = 0, vertex_count = 0;
         std::vector<Level> levels;      // from fine to coarse; the first is always there
         std::vector<PatchLevel> ready;  // worked out, not on the GPU yet
@@ -57,7 +57,7 @@ public:
 
     struct Flushed {
         std::uint64_t bytes = 0;   // brought over
-        std::vector<Box> changed;  // bounds of patches that came, went or look different
+        std::vector<Box> changed;  // around patches that came or went and what looks different of others
     };
     // The GPU must not be drawing from the buffers on another submission.
     [[nodiscard]] Result<Flushed> flush(gpu::Device& device, gpu::Commands& commands);
@@ -88,7 +88,10 @@ private:
     [[nodiscard]] Result<void> place(gpu::Device& device, gpu::Commands& commands, std::uint32_t id, Pending& pending);
     [[nodiscard]] Result<void> place_level(gpu::Device& device, gpu::Commands& commands, Patch& patch,
                                            std::span<const std::uint32_t> indices, double error_m);
+    void upload_indices(gpu::Commands& commands, const Patch& patch, Level& level,
+                        std::span<const std::uint32_t> indices);
     [[nodiscard]] Result<void> place_ready_levels(gpu::Device& device, gpu::Commands& commands);
+    static void note_change(const Patch& was, const Patch& now, std::vector<Box>& changed);
     void upload_light(gpu::Commands& commands, const Patch& patch);
     void enter(Patch& patch);
     void leave(const Patch& patch);

@@ -135,17 +135,20 @@ class SavingsTest : public gpu::DeviceTest {
 protected:
     void SetUp() override {
         gpu::DeviceTest::SetUp();
-        if (IsSkipped()) return;
-        for (auto* renderer : {&tried_, &plain_}) {
-            auto made = Renderer::create(device(), kSize, {.samples = 1, .savings = kNone});
-            ASSERT_TRUE(made) << made.error().line();
-            renderer->emplace(std::move(*made));
-        }
+        if (!IsSkipped()) draw_at(kSize);
     }
     void TearDown() override {
         tried_.reset();
         plain_.reset();
         gpu::DeviceTest::TearDown();
+    }
+
+    void draw_at(ImageSize size) {
+        for (auto* renderer : {&tried_, &plain_}) {
+            auto made = Renderer::create(device(), size, {.samples = 1, .savings = kNone});
+            ASSERT_TRUE(made) << made.error().line();
+            renderer->emplace(std::move(*made));
+        }
     }
 
     Outcome compare(const Workpiece& workpiece, const Savings& savings, int heads, double scale = 1.0) {
@@ -258,6 +261,20 @@ TEST_F(SavingsTest, LightAtVerticesAloneDoesNotShow) {
     one.vertex_rate = true;
     EXPECT_LE(compare(bumpy_sphere(6'000), one, 3).worst, kMostFlip);
     EXPECT_LE(compare(grooved_plate(0.002), one, 3).worst, kMostFlip);
+}
+
+// Edges of some 20 to 60 pixels: smooth triangles are lit at vertices, those across a groove's edge at pixels.
+TEST_F(SavingsTest, LightAtVerticesOfLargeTrianglesDoesNotShow) {
+    draw_at({720, 540});
+    Savings one = kNone;
+    one.vertex_rate = true;
+    constexpr double kNear = 1.6;
+    const Outcome sphere = compare(bumpy_sphere(6'000), one, 3, kNear),
+                  plate = compare(grooved_plate(0.006), one, 3, kNear);
+    EXPECT_LE(sphere.worst, kMostFlip);
+    EXPECT_GT(sphere.counts.vertex_rate, 0u);
+    EXPECT_LE(plate.worst, kMostFlip);
+    EXPECT_GT(plate.counts.vertex_rate, 0u);
 }
 
 }  // namespace burin::bench
