@@ -104,13 +104,13 @@ void add_box(Shapes& shapes, const SceneBox& box, const Primitives& primitives) 
 void add_bubble(Shapes& shapes, const SceneBubble& bubble, const Primitives& primitives) {
     const Pose pose{bubble.center_world, Quat{1, 0, 0, 0}};
     shapes.glass.push_back(
-        {primitives.ball, constants_of(matrix_of(pose, Vec3(bubble.radius_m)), bubble.colour, 0.16, 0, 0)});
+        {primitives.balls.back(), constants_of(matrix_of(pose, Vec3(bubble.radius_m)), bubble.colour, 0.16, 0, 0)});
 }
 
 void add_tool(Shapes& shapes, const SceneTool& tool, const Primitives& primitives) {
     const Pose ball{tool.center_world, tool.stylus_world.orientation};
     shapes.solid.push_back(
-        {primitives.ball, constants_of(matrix_of(ball, Vec3(tool.radius_m)), tool.colour, 1.0, 0.28, 1.0)});
+        {primitives.balls.back(), constants_of(matrix_of(ball, Vec3(tool.radius_m)), tool.colour, 1.0, 0.28, 1.0)});
     const double r = stylus_radius_m(tool);
     const Mat4 shaft = matrix_of(tool.stylus_world, {r, r, stylus_length_m(tool)});
     shapes.solid.push_back({primitives.stylus, constants_of(shaft, {0.27, 0.28, 0.30}, 1.0, 0.35, 1.0)});

@@ -37,7 +37,14 @@ public:
         out_.indices.insert(out_.indices.end(), {a, b, c, a, c, d});
     }
     [[nodiscard]] std::uint32_t here() const { return static_cast<std::uint32_t>(out_.indices.size()); }
-    [[nodiscard]] PrimitiveRange since(std::uint32_t first) const { return {first, here() - first}; }
+    [[nodiscard]] PrimitiveRange since(std::uint32_t first) const {
+        Box bounds;
+        for (std::uint32_t i = first; i < here(); ++i) {
+            const shared::SurfaceVertex& v = out_.vertices[out_.indices[i]];
+            bounds.include({v.x, v.y, v.z});
+        }
+        return {first, here() - first, bounds};
+    }
     Primitives take() { return std::move(out_); }
 
 private:
@@ -65,14 +72,13 @@ PrimitiveRange turned(Builder& b, std::span<const ProfilePoint> profile, int seg
     return b.since(first);
 }
 
-PrimitiveRange ball(Builder& b) {
-    constexpr int kRings = 48;
+PrimitiveRange ball(Builder& b, int rings) {
     std::vector<ProfilePoint> profile;
-    for (int i = 0; i <= kRings; ++i) {
-        const double a = kPi * (static_cast<double>(i) / kRings - 0.5);
+    for (int i = 0; i <= rings; ++i) {
+        const double a = kPi * (static_cast<double>(i) / rings - 0.5);
         profile.push_back({std::cos(a), std::sin(a), std::cos(a), std::sin(a)});
     }
-    return turned(b, profile, 2 * kRings, false);
+    return turned(b, profile, 2 * rings, false);
 }
 
 PrimitiveRange cube(Builder& b) {
@@ -163,11 +169,12 @@ PrimitiveRange screen_quad(Builder& b) {
 
 Primitives make_primitives() {
     Builder b;
-    const PrimitiveRange ball_range = ball(b), cube_range = cube(b), stylus_range = stylus(b), rod_range = rod(b),
-                         cone_range = cone(b), ring_range = ring(b), plinth_range = plinth(b),
-                         screen_range = screen_quad(b);
+    std::array<PrimitiveRange, kBallRings.size()> balls;
+    for (std::size_t i = 0; i < balls.size(); ++i) balls[i] = ball(b, kBallRings[i]);
+    const PrimitiveRange cube_range = cube(b), stylus_range = stylus(b), rod_range = rod(b), cone_range = cone(b),
+                         ring_range = ring(b), plinth_range = plinth(b), screen_range = screen_quad(b);
     Primitives out = b.take();
-    out.ball = ball_range;
+    out.balls = balls;
     out.cube = cube_range;
     out.stylus = stylus_range;
     out.rod = rod_range;

@@ -10,6 +10,7 @@
 #include "renderer/pipelines.hpp"
 #include "renderer/primitives.hpp"
 #include "renderer/redraw.hpp"
+#include "renderer/shape_choice.hpp"
 #include "renderer/stereo/projection.hpp"
 #include "renderer/surface/patch_store.hpp"
 
@@ -176,13 +177,16 @@ Result<RenderStats> Renderer::Implementation::record(gpu::Commands& commands, co
              .triangles = patches.triangles(),
              .patches = patches.patches(),
              .patch_counts = {},
+             .shapes_left_out = 0,
              .draws = 0,
              .uploaded_bytes = flushed->bytes,
              .pipelines = pipelines_created()};
     if (!part.empty()) {
         upload_uniforms(commands, wanted);
         commands.barrier();
-        Recording r{commands, scene, part, shapes_of(scene, primitives_), {}};
+        ShownShapes shapes = shapes_in(part, scene, primitives_, targets.size, savings);
+        stats.shapes_left_out = shapes.left_out;
+        Recording r{commands, scene, part, std::move(shapes.shapes), {}};
         r.surface = choose_draws(patches.in_order(), scene, targets.size, part, savings, occluders);
         if (const auto done = draw_views(r); !done) return std::unexpected(done.error());
         stats.patch_counts = r.surface.counts;

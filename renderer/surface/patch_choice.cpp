@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "renderer/frame_setup.hpp"
-#include "renderer/stereo/projection.hpp"
+#include "renderer/pixel_length.hpp"
 
 namespace burin {
 namespace {
@@ -15,28 +15,20 @@ constexpr double kMostError_px = 0.5;
 // be in smooth triangles.
 constexpr double kFineEdge_px = 12.0, kSmoothEdge_px = 64.0;
 
-// Lengths in the patches' frame over pixels of the picture, at the place of a patch that is nearest to an eye.
-class PixelLength {
+// The length of a pixel in the patches' frame, at the place of a patch that is nearest to an eye.
+class PatchPixel {
 public:
-    PixelLength(const Scene& scene, ImageSize size) : scene_(scene) {
-        const double width_m = glm::length(scene.screen.lower_right_world - scene.screen.lower_left_world);
-        const double height_m = glm::length(scene.screen.upper_left_world - scene.screen.lower_left_world);
-        const double pixel_m = std::min(width_m / size.width, height_m / size.height);
-        const Eyes eyes = eyes_of(scene.viewer);
-        eye_m_ = std::min(distance_in_front(scene.screen, eyes.left_world),
-                          distance_in_front(scene.screen, eyes.right_world));
-        per_metre_ = pixel_m / eye_m_ / scene.world_from_object.scale;
-    }
+    PatchPixel(const Scene& scene, ImageSize size) : scene_(scene), pixel_(scene, size) {}
     [[nodiscard]] double at(const PatchShape& patch) const {
-        const Vec3 center_world = scene_.world_from_object * (scene_.lattice_origin_object + patch.center);
-        const double away_m =
-            eye_m_ - distance_in_front(scene_.screen, center_world) - patch.radius_m * scene_.world_from_object.scale;
-        return per_metre_ * std::max(away_m, 0.01);
+        const double scale = scene_.world_from_object.scale;
+        return pixel_.at(scene_.world_from_object * (scene_.lattice_origin_object + patch.center),
+                         patch.radius_m * scale) /
+               scale;
     }
 
 private:
     const Scene& scene_;
-    double eye_m_ = 0.0, per_metre_ = 0.0;
+    PixelLength pixel_;
 };
 
 // Where the tool's ring and shadow are, which are finer than any vertices: a ball, and some that are drawn out along the light.
@@ -88,7 +80,7 @@ private:
     std::array<Shadow, 9> shadows_;  // of the tool's balls
 };
 
-ShadingRate rate_of(const PatchStore::Patch& patch, const PixelLength& pixel, const ToolZone& zone,
+ShadingRate rate_of(const PatchStore::Patch& patch, const PatchPixel& pixel, const ToolZone& zone,
                     const Savings& savings) {
     if (!savings.vertex_rate || zone.touches(patch.shape)) return ShadingRate::pixel;
     const double edge_px = patch.shape.edge_m / pixel.at(patch.shape);
@@ -105,7 +97,7 @@ std::span<const Box> hiding(std::span<const Box> occluders, const EyePair& eyes,
     return bends ? std::span<const Box>{} : occluders;
 }
 
-std::uint8_t level_of(const PatchStore::Patch& patch, const PixelLength& pixel) {
+std::uint8_t level_of(const PatchStore::Patch& patch, const PatchPixel& pixel) {
     const double most_m = kMostError_px * pixel.at(patch.shape);
     std::uint8_t level = 0;
     for (std::size_t i = 1; i < patch.levels.size(); ++i)
@@ -147,7 +139,7 @@ bool spared(Hidden reason, const Savings& savings, PatchCounts& counts) {
 
 void choose_levels(std::span<PatchStore::Patch* const> patches, const Scene& scene, ImageSize size,
                    const Savings& savings, std::span<const Box> occluders) {
-    const PixelLength pixel(scene, size);
+    const PatchPixel pixel(scene, size);
     const ToolZone zone(scene);
     const EyePair eyes = eye_frusta(scene, size, all_of(size));
     occluders = hiding(occluders, eyes, patches);
@@ -161,7 +153,7 @@ void choose_levels(std::span<PatchStore::Patch* const> patches, const Scene& sce
 
 std::vector<Box> choose_rates(std::span<PatchStore::Patch* const> patches, const Scene& scene, ImageSize size,
                               const Savings& savings) {
-    const PixelLength pixel(scene, size);
+    const PatchPixel pixel(scene, size);
     const ToolZone zone(scene);
     std::vector<Box> changed;
     for (PatchStore::Patch* patch : patches) {

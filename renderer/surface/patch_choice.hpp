@@ -13,10 +13,10 @@
 namespace burin {
 
 struct Savings {
-    bool cull_beside = true;       // what lies outside both eyes' frusta
+    bool cull_beside = true;       // what lies outside both eyes' frusta, shapes as well as patches
     bool cull_turned_away = true;  // what turns its back to both eyes
     bool cull_behind = true;       // what solid material hides from both eyes
-    bool coarser_levels = true;    // fewer triangles where a picture cannot show more
+    bool coarser_levels = true;    // fewer triangles where a picture cannot show more, of patches and of balls
     bool vertex_rate = true;       // light worked out at vertices where they are close
     bool parts_only = true;        // only what changed is drawn anew
 };

@@ -35,7 +35,7 @@ double volume(const Primitives& p, const PrimitiveRange& range) {
 
 TEST(Primitives, HaveTheVolumesOfTheirShapes) {
     const Primitives p = make_primitives();
-    EXPECT_NEAR(volume(p, p.ball), 4.0 / 3.0 * std::numbers::pi, 0.01);
+    EXPECT_NEAR(volume(p, p.balls.back()), 4.0 / 3.0 * std::numbers::pi, 0.01);
     EXPECT_NEAR(volume(p, p.cube), 1.0, 1e-6);
     // Its foot is open, and stands in the plane y = -1: a third of pi is missing from the integral.
     EXPECT_NEAR(volume(p, p.plinth), 2.0 / 3.0 * std::numbers::pi, 0.02);
@@ -48,7 +48,8 @@ TEST(Primitives, HaveTheVolumesOfTheirShapes) {
 
 TEST(Primitives, HaveNormalsOnTheSideThatTheTrianglesFace) {
     const Primitives p = make_primitives();
-    for (const PrimitiveRange& range : {p.ball, p.cube, p.stylus, p.rod, p.cone, p.ring, p.plinth, p.screen_quad}) {
+    for (const PrimitiveRange& range : {p.balls[0], p.balls[1], p.balls[2], p.balls[3], p.cube, p.stylus, p.rod, p.cone,
+                                        p.ring, p.plinth, p.screen_quad}) {
         ASSERT_GT(range.index_count, 0u);
         for (std::uint32_t i = range.first_index; i < range.first_index + range.index_count; i += 3) {
             const Vec3 a = position(p, i);

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/shape_choice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "renderer/stereo/wall.hpp"
+
+namespace burin {
+namespace {
+
+constexpr ImageSize kSize{640, 480};
+
+Scene scene_with_tool(double radius_m) {
+    Scene scene;
+    scene.wall = {0.4, 0.3};
+    scene.screen = screen_of(scene.wall);
+    scene.viewer.head_world.position_m = {0.0, 0.15, 0.6};
+    scene.show_wall_frame = false;
+    scene.tool = {radius_m, {0.1, 0.2, 0.0}, {0.8, 0.4, 0.2}, {{0.1, 0.2, 0.0}, Quat{1, 0, 0, 0}}, true};
+    return scene;
+}
+
+}  // namespace
+
+TEST(BallFor, LiesOffByAQuarterOfAPixelAtMost) {
+    const Primitives primitives = make_primitives();
+    for (double radius_px = 0.5; radius_px < 400.0; radius_px *= 1.3) {
+        const PrimitiveRange& ball = ball_for(primitives, radius_px);
+        if (ball == primitives.balls.back()) continue;
+        for (std::uint32_t i = 0; i < ball.index_count; i += 6) {  // a quad's: a, b, c, a, c, d
+            const auto at = [&](std::uint32_t corner) {
+                const auto& v = primitives.vertices[primitives.indices[ball.first_index + i + corner]];
+                return Vec3(v.x, v.y, v.z);
+            };
+            for (const std::uint32_t corner : {0u, 1u}) {
+                const double off = 1.0 - 0.5 * glm::length(at(corner) + at(corner + 1));
+                ASSERT_LE(off * radius_px, 0.25 + 1e-4) << radius_px;
+            }
+        }
+    }
+    EXPECT_EQ(ball_for(primitives, 1e6), primitives.balls.back());
+    EXPECT_LT(ball_for(primitives, 5.0).index_count, 2000u);
+}
+
+TEST(ShapesIn, AreThoseThatThePartShows) {
+    const Primitives primitives = make_primitives();
+    const Scene scene = scene_with_tool(0.01);
+    const std::size_t all = shapes_of(scene, primitives).solid.size();
+    const auto count = [&](const PixelRect& part, const Savings& savings) {
+        const ShownShapes shown = shapes_in(part, scene, primitives, kSize, savings);
+        EXPECT_EQ(shown.shapes.solid.size() + shown.left_out, all);
+        return shown.shapes.solid.size();
+    };
+    EXPECT_EQ(count(all_of(kSize), {}), all);
+    EXPECT_EQ(count({460, 140, 40, 40}, {}), all);  // about (0.1 m, 0.2 m)
+    EXPECT_EQ(count({0, 300, 100, 100}, {}), 0u);
+    Savings none;
+    none.cull_beside = false;
+    EXPECT_EQ(count({0, 300, 100, 100}, none), all);
+}
+
+TEST(ShapesIn, BallsAreTheSameWhateverThePart) {
+    const Primitives primitives = make_primitives();
+    for (const double radius_m : {0.002, 0.01, 0.3}) {
+        Scene scene = scene_with_tool(radius_m);
+        scene.tool.center_world.x = 0.2;  // cut by the picture's edge
+        const PrimitiveRange whole = shapes_in(all_of(kSize), scene, primitives, kSize, {}).shapes.solid.front().range;
+        const PrimitiveRange part =
+            shapes_in({600, 140, 40, 40}, scene, primitives, kSize, {}).shapes.solid.front().range;
+        EXPECT_EQ(whole, part);
+        EXPECT_EQ(whole == primitives.balls.back(), radius_m > 0.1);
+    }
+}
+
+}  // namespace burin
