@@ -57,6 +57,8 @@ public:
         ++panel_pictures_;
     }
 
+    void refine_beside(bool resting);
+
     PatchStore patches;
     std::vector<Box> occluders;
     Savings savings;
@@ -113,6 +115,8 @@ private:
     std::array<StandingPanel, 2> panels_;  // likewise; the second one where parallax fades
     VkImageView panel_ = VK_NULL_HANDLE;
     std::uint64_t panel_pictures_ = 0;  // given to the renderer
+    DetailWorker detail_;
+    std::size_t detail_come_ = 0;  // patches with new levels that no whole picture has shown yet
 };
 
 Result<std::unique_ptr<Renderer::Implementation>> Renderer::Implementation::create(gpu::Device& device, ImageSize size,
@@ -201,6 +205,7 @@ PixelRect Renderer::Implementation::part_to_draw(const Shown& wanted, const Patc
     std::vector<Box> changed = flushed.changed;
     const auto whole = [&] {
         choose_levels(patches.in_order(), wanted.scene, targets.size, savings, occluders);
+        detail_come_ = 0;
         return all_of(targets.size);
     };
     if (!savings.parts_only || !shown) return whole();
@@ -347,6 +352,19 @@ void Renderer::Implementation::push(Recording& r, const shared::DrawConstants& c
                             &constants);
 }
 
+// A level lies off by half a pixel at most, so that nobody sees when it is taken up; but it costs a whole picture.
+void Renderer::Implementation::refine_beside(bool resting) {
+    constexpr std::size_t kAhead = 32, kWorthAPicture = 64;
+    for (DetailDone& done : detail_.take()) detail_come_ += patches.take(std::move(done)) ? 1 : 0;
+    while (detail_.waiting() < kAhead) {
+        auto job = patches.next_detail(resting);
+        if (!job) break;
+        detail_.give(std::move(*job));
+    }
+    const bool rest_done = resting && detail_.waiting() == 0 && detail_come_ > 0;
+    if (rest_done || detail_come_ >= kWorthAPicture) shown.reset();
+}
+
 // ---- Reading back
 
 Result<StereoImage> Renderer::Implementation::render(const Scene& scene) {
@@ -427,7 +445,17 @@ void Renderer::set_patch_light(std::uint32_t id, std::span<const VertexLight> li
 }
 void Renderer::set_occluders(std::vector<Box> occluders) { implementation_->occluders = std::move(occluders); }
 void Renderer::show_panel(VkImageView panel) { implementation_->show_panel(panel); }
-std::size_t Renderer::refine(std::size_t most) { return implementation_->patches.refine(most); }
+std::size_t Renderer::refine(std::size_t most) {
+    std::size_t refined = 0;
+    for (; refined < most; ++refined) {
+        auto job = implementation_->patches.next_detail(true);
+        if (!job) break;
+        std::vector<PatchLevel> levels = job->levels();
+        implementation_->patches.take({std::move(*job), std::move(levels)});
+    }
+    return refined;
+}
+void Renderer::refine_beside(bool resting) { implementation_->refine_beside(resting); }
 Result<RenderStats> Renderer::record(gpu::Commands& commands, const Scene& scene) {
     return implementation_->record(commands, scene);
 }

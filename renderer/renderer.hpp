@@ -78,8 +78,11 @@ public:
     // the next, since a driver may give a later view an earlier one's handle. VK_NULL_HANDLE: no panel is drawn.
     void show_panel(VkImageView panel);
     // Works out coarser levels for at most so many patches in view; how many it did. They are used from the next frame on that is drawn
-    // as a whole. For times when nothing else is to be done; 0.3 ms each.
+    // as a whole. For times when nothing else is to be done; some 1 ms each.
     std::size_t refine(std::size_t most);
+    // The same on a thread of the renderer's own, behind everything else; to be called between frames. Patches that still change come last:
+    // while not resting they are left alone. When enough is done, the next frame is drawn as a whole, with it.
+    void refine_beside(bool resting);
 
     // Records what brings the picture from the scene before to this one. The picture may be sampled by later commands.
     [[nodiscard]] Result<RenderStats> record(gpu::Commands& commands, const Scene& scene);

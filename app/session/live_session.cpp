@@ -168,6 +168,7 @@ void LiveSession::give_news(std::span<SessionPicture* const> pictures) {
 Result<void> LiveSession::draw(gpu::Commands& commands, std::size_t screen, SessionPicture& picture, ImageSize size) {
     const auto scene = scene_of(state_, room_, screen, carving_->surface().lattice().origin_object, tool_);
     if (const auto painted = paint_panel(commands, screen, picture); !painted) return painted;
+    picture.draw_in_full(wants_screenshots());
     if (const auto drawn = picture.draw(commands, scene, size, output_on(screen)); !drawn) return drawn;
     if (screen == room_.wall.main) render_stats_ = picture.stats();
     return {};

@@ -17,7 +17,6 @@ namespace {
 constexpr Nanoseconds kUpdatePeriod_ns = CarvingThread::kPeriod_ns;
 constexpr Nanoseconds kRest_ns = 100'000'000;    // between looks at what may have changed, when nothing happens
 constexpr Nanoseconds kActive_ns = 300'000'000;  // after the last change frames follow the display's beat
-constexpr std::size_t kRefinedAtRest = 8;        // patches, between two looks
 
 Result<InputLog> open_log(const std::string& path) {
     Result<InputLog> log = read_input_log(path);
@@ -147,7 +146,7 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
         const bool active = stage->takes_turns(s) || clock.now_ns() - changed_ns < kActive_ns;
         const PlannedFrame planned = plan_frame(pacing, clock.now_ns());
         pacing = planned.state;
-        if (!active) stage->refine(kRefinedAtRest);
+        stage->refine_beside(!active);
         Nanoseconds until_ns = active ? planned.plan.wake_ns : clock.now_ns() + kRest_ns;
         if (const auto due_ns = input.next_event_ns()) until_ns = std::min(until_ns, s.start_ns() + *due_ns);
         std::vector<Input> happened = wait_for_input(*stage, clock, until_ns);

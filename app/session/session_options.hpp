@@ -14,9 +14,9 @@ struct LiveOptions {
     bool offscreen = false;  // no window; needs an input
     std::string stereo;      // a mode's name; empty: mono in a window
     bool swap_eyes = false;
-    std::string wall;       // a wall file: its screens, eyes and tracker; empty: one window, on a desk
-    std::string tracker;    // where one is heard, "udp:PORT"; empty: keys fly the head
-    bool windowed = false;  // the wall's screens in windows on the desktop, fitted into width x height
+    std::string wall;         // a wall file: its screens, eyes and tracker; empty: one window, on a desk
+    std::string tracker;      // where one is heard, "udp:PORT"; empty: keys fly the head
+    bool windowed = false;    // the wall's screens in windows on the desktop, fitted into width x height
     std::string full_screen;  // a monitor's name or index; empty: a window
     int width = 1280, height = 720;
     std::uint32_t samples = 0;  // a pixel: 1 or 4; 0: 4 on hardware, 1 on a software device

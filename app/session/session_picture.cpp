@@ -48,6 +48,7 @@ Result<void> SessionPicture::fit(ImageSize eye) {
     auto made = Renderer::create(device_, eye, {.samples = samples_, .savings = {}});
     if (!made) return std::unexpected(made.error());
     renderer_ = std::move(*made);
+    renderer_in_full_ = false;
     eye_ = eye;
     for (const TileNews& tile : tiles_) put(tile);
     renderer_->set_occluders(occluders_);
@@ -64,6 +65,7 @@ Result<void> SessionPicture::draw(gpu::Commands& commands, std::optional<Scene> 
         return {};
     }
     if (was_dark) renderer_->forget_picture();
+    if (std::exchange(renderer_in_full_, full_) != full_) renderer_->set_savings({.coarser_levels = !full_});
     renderer_->show_panel(standing_ ? painter_->view() : VK_NULL_HANDLE);
     scene->panel = standing_;
     const auto recorded = renderer_->record(commands, *scene);

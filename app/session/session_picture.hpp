@@ -27,6 +27,8 @@ public:
     [[nodiscard]] std::vector<TileNews> take_tiles() { return std::move(tiles_); }
     void give_tiles(std::vector<TileNews> tiles) { tiles_ = std::move(tiles); }
 
+    // A picture to keep is drawn with all triangles: how far refine_beside() has come shall not show in it.
+    void draw_in_full(bool full) { full_ = full; }
     // Records the scene for an output of this size and mode; without one it is dark. stats().part says what of the eyes' pictures changed.
     [[nodiscard]] Result<void> draw(gpu::Commands& commands, std::optional<Scene> scene, ImageSize output,
                                     const OutputSettings& settings);
@@ -44,7 +46,10 @@ public:
                                     const OutputSettings& settings, const PresentedParts::Parts& parts);
     // The same into a picture of its own; waits. After the commands of draw() have been submitted.
     [[nodiscard]] Result<Image> photograph(const OutputPlace& place, const OutputSettings& settings);
-    std::size_t refine(std::size_t most) { return renderer_ ? renderer_->refine(most) : 0; }
+    // As Renderer::refine_beside().
+    void refine_beside(bool resting) {
+        if (renderer_) renderer_->refine_beside(resting);
+    }
 
 private:
     explicit SessionPicture(const gpu::Device& device, std::uint32_t samples) : device_(device), samples_(samples) {}
@@ -67,6 +72,7 @@ private:
     std::optional<gpu::Image> pattern_;        // a test pattern, or darkness
     std::optional<TestPattern> pattern_kind_;  // none: darkness
     bool dark_ = false;
+    bool full_ = false, renderer_in_full_ = false;
     ImageSize pattern_size_;
     ImageSize eye_;
     RenderStats stats_;

@@ -177,8 +177,8 @@ std::vector<std::string> SessionStage::take_messages() {
     return messages;
 }
 
-void SessionStage::refine(std::size_t most) {
-    for (ScreenStage& screen : screens_) static_cast<void>(screen.picture->refine(most));
+void SessionStage::refine_beside(bool resting) {
+    for (ScreenStage& screen : screens_) screen.picture->refine_beside(resting);
 }
 
 // ---- One frame

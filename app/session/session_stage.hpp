@@ -36,8 +36,8 @@ public:
     [[nodiscard]] Result<bool> draw(LiveSession& session, Nanoseconds frame_ns);
     // Eyes shown by turns need a picture at each refresh.
     [[nodiscard]] bool takes_turns(const LiveSession& session) const;
-    // Prepares coarser levels while nothing else is to be done.
-    void refine(std::size_t most);
+    // Has coarser levels of the surface worked out beside the frames; between these. resting: nothing has happened for a while.
+    void refine_beside(bool resting);
 
     void exchange_full_screen() { screens_[wall_->main].window->exchange_full_screen(); }
     [[nodiscard]] std::vector<std::string> take_messages();  // for people

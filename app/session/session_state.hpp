@@ -39,8 +39,8 @@ struct SessionState {
     double workspace_gain = 1.0;  // on top of what the workspace has at home
     bool force_on = true;
     bool force_shown = false;  // as an arrow
-    bool only_touch = false;  // the tool feels and leaves all as it is
-    OutputSettings output;    // of the main screen (output_on(), session_screens.hpp)
+    bool only_touch = false;   // the tool feels and leaves all as it is
+    OutputSettings output;     // of the main screen (output_on(), session_screens.hpp)
     bool panel = true, help = false, figures = false;
     std::string export_path = "part.stl";
     bool quit = false;

@@ -13,6 +13,7 @@ namespace {
 // vertex, triangles without area.
 constexpr std::uint32_t kVertexStep = 32;
 constexpr std::uint32_t kIndexStep = 96;
+constexpr std::uint64_t kRestingFlushes = 30;  // after so many frames without a change a patch is worth its levels
 
 std::uint32_t round_up(std::size_t count, std::uint32_t step) {
     return static_cast<std::uint32_t>((count + step - 1) / step * step);
@@ -101,6 +102,7 @@ void PatchStore::release(std::uint32_t id) {
 Result<PatchStore::Flushed> PatchStore::flush(gpu::Device& device, gpu::Commands& commands) {
     Flushed flushed;
     bytes_ = 0;
+    ++flushes_;
     if (!cleared_ && pending_.empty() && pending_light_.empty() && !levels_ready_) return flushed;
     if (cleared_) {
         if (!bounds_.empty()) flushed.changed.push_back(bounds_);
@@ -139,6 +141,7 @@ Result<PatchStore::Flushed> PatchStore::flush(gpu::Device& device, gpu::Commands
         if (light.size() != known->second.surface->vertices.size() || light == known->second.light) continue;
         Patch& patch = known->second;
         const Patch was = patch;
+        patch.changed_at = flushes_;
         patch.light = std::move(light);
         release_levels(patch, 1);
         upload_indices(commands, patch, patch.levels.front(), patch.surface->indices);
@@ -190,6 +193,7 @@ Result<void> PatchStore::make_room(gpu::Device& device, gpu::Commands& commands)
 
 Result<void> PatchStore::place(gpu::Device& device, gpu::Commands& commands, std::uint32_t id, Pending& pending) {
     Patch patch;
+    patch.changed_at = flushes_;
     patch.surface = std::move(pending.surface);
     patch.light = std::move(pending.light);
     if (patch.light.size() != patch.surface->vertices.size()) patch.light.clear();
@@ -270,21 +274,28 @@ Result<void> PatchStore::place_ready_levels(gpu::Device& device, gpu::Commands& 
     return {};
 }
 
-std::size_t PatchStore::refine(std::size_t most) {
-    std::size_t refined = 0;
+std::optional<DetailJob> PatchStore::next_detail(bool resting) {
     const std::size_t count = placed_.size();
     auto at = placed_.lower_bound(refine_from_);
-    for (std::size_t seen = 0; seen < count && refined < most; ++seen, ++at) {
+    for (std::size_t seen = 0; seen < count; ++seen, ++at) {
         if (at == placed_.end()) at = placed_.begin();
         Patch& patch = at->second;
-        refine_from_ = at->first + 1;
-        if (patch.refined || !patch.wanted) continue;
-        patch.ready = coarser_levels(patch.surface->vertices, patch.surface->indices, patch.light, patch.shape.edge_m);
+        if (patch.refined || !patch.wanted || (!resting && flushes_ < patch.changed_at + kRestingFlushes)) continue;
         patch.refined = true;
-        levels_ready_ = levels_ready_ || !patch.ready.empty();
-        ++refined;
+        refine_from_ = at->first + 1;
+        return DetailJob{at->first, patch.surface, patch.light, patch.shape.edge_m};
     }
-    return refined;
+    return std::nullopt;
+}
+
+bool PatchStore::take(DetailDone done) {
+    const auto found = placed_.find(done.job.patch);
+    if (found == placed_.end()) return false;
+    Patch& patch = found->second;
+    if (patch.surface != done.job.surface || patch.light != done.job.light || patch.levels.size() > 1) return false;
+    patch.ready = std::move(done.levels);
+    levels_ready_ = levels_ready_ || !patch.ready.empty();
+    return !patch.ready.empty();
 }
 
 // ---- What there is

@@ -3,20 +3,21 @@
 //
 // Data flow: set() keeps a reference to a patch that never changes (geometry/surface_tile.hpp), set_light() the light on its vertices;
 // flush() records the copies of all that changed since the last frame into the frame's commands, growing the buffers by doubling where
-// needed. refine() works out coarser levels of patches that are drawn and have none (patch_detail.hpp); they come over with the next
-// flush. Indices are stored absolute, so that patches that are neighbours in the buffer merge into one draw call.
+// needed. next_detail() and take() lend out patches that are drawn and have no coarser levels, and take these when they are worked out
+// (detail_worker.hpp); they come over with the next flush. Indices are stored absolute, so that patches that are neighbours in the buffer merge into one draw call.
 // Limits: 128 MiB a buffer on the software driver, which is 6.7 million vertices and 11 million triangles; beyond: Error.
 #pragma once
 
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "geometry/surface_tile.hpp"
 #include "gpu/commands.hpp"
-#include "renderer/surface/patch_detail.hpp"
+#include "renderer/surface/detail_worker.hpp"
 #include "renderer/surface/range_allocator.hpp"
 #include "renderer/surface/visibility.hpp"
 
@@ -45,7 +46,8 @@ public:
         std::uint32_t first_vertex = 0, vertex_count = 0;
         std::vector<Level> levels;      // from fine to coarse; the first is always there
         std::vector<PatchLevel> ready;  // worked out, not on the GPU yet
-        bool refined = false;           // nothing more is to be worked out
+        bool refined = false;           // nothing more is to be worked out, or it is being done
+        std::uint64_t changed_at = 0;   // which flush brought its surface or its light
         bool wanted = false;            // it was in view when the picture was last drawn as a whole
         Drawn drawn;
     };
@@ -62,8 +64,11 @@ public:
     // The GPU must not be drawing from the buffers on another submission.
     [[nodiscard]] Result<Flushed> flush(gpu::Device& device, gpu::Commands& commands);
 
-    // Levels for at most so many patches that are wanted and have none; how many it did.
-    std::size_t refine(std::size_t most);
+    // The next patch that is wanted and has no levels yet, to be worked out by whoever asks; all of them in turn. resting: also one that
+    // changed a moment ago, and may soon change again.
+    [[nodiscard]] std::optional<DetailJob> next_detail(bool resting);
+    // Levels of a patch, if it still is as it was; they come over with the next flush. Whether there were any.
+    bool take(DetailDone done);
 
     // In the order of the index buffer, after flush.
     [[nodiscard]] std::span<Patch* const> in_order() const { return in_order_; }
@@ -110,7 +115,8 @@ private:
     bool measured_ = true;  // bounds_ and reach_m_ are right
     Box bounds_;
     double reach_m_ = 0.0;
-    std::uint32_t refine_from_ = 0;  // the id after the last one that was looked at
+    std::uint64_t flushes_ = 0;
+    std::uint32_t refine_from_ = 0;  // the id after the last one that was lent out
 };
 
 }  // namespace burin

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Patches come and go; the picture shows exactly those that are there.
+#include <chrono>
 #include <map>
 #include <random>
+#include <thread>
 
 #include "tests/renderer/test_scene.hpp"
 
@@ -97,6 +99,54 @@ TEST_F(Patches, OnlyWhatChangedIsUploaded) {
     set(7, ball_surface({0, 0.15, 0}, 0.03, kGrey, 8));
     static_cast<void>(render(bare_scene()));
     EXPECT_EQ(renderer().stats().uploaded_bytes * 100, all);
+}
+
+// Levels are worked out beside the frames, and taken up by one whole picture.
+TEST_F(Patches, CoarserLevelsComeBesideTheFrames) {
+    const Scene scene = bare_scene();
+    set(1, ball_surface({0, 0.15, 0}, 0.01, kGrey, 40));  // of pixels
+    static_cast<void>(render(scene));
+    const auto frames_until_coarser = [&] {
+        for (int frame = 0; frame < 10'000; ++frame) {
+            renderer().refine_beside(true);
+            static_cast<void>(render(scene));
+            if (renderer().stats().part == all_of(renderer().size())) return frame;
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        return -1;
+    };
+    ASSERT_GE(frames_until_coarser(), 0) << "it never came";
+    EXPECT_EQ(renderer().stats().patch_counts.coarser, 1u);
+    renderer().refine_beside(true);
+    static_cast<void>(render(scene));
+    EXPECT_TRUE(renderer().stats().part.empty()) << "once it is there nothing more is drawn";
+}
+
+// A patch that changes all the time is not worth it; once it rests it is.
+TEST_F(Patches, PatchesThatChangeAreLeftAloneUntilTheyRest) {
+    const Scene scene = bare_scene();
+    const auto wait_for_any = [&](bool resting) {
+        bool coarser = false;
+        for (int turn = 0; turn < 50 && !coarser; ++turn) {
+            renderer().refine_beside(resting);
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            static_cast<void>(render(scene));
+            coarser = renderer().stats().patch_counts.coarser > 0;
+        }
+        return coarser;
+    };
+    for (int change = 0; change < 5; ++change) {
+        set(1, ball_surface({0, 0.15, 0}, 0.01 + 0.0001 * change, kGrey, 40));
+        static_cast<void>(render(scene));
+        for (int frame = 0; frame < 10; ++frame) {
+            renderer().refine_beside(false);
+            static_cast<void>(render(scene));
+            ASSERT_EQ(renderer().stats().patch_counts.coarser, 0u);
+        }
+    }
+    for (int turn = 0; turn < 200; ++turn)
+        if (wait_for_any(true)) return;
+    FAIL() << "it never came";
 }
 
 }  // namespace burin
