@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/session/input_wand.hpp"
+#include "app/session/seen_place.hpp"
 #include "base/error.hpp"
 
 namespace burin {
@@ -57,8 +58,9 @@ struct Steps {
 
     void operator()(const MouseMove& in) {
         const std::optional<Vec2> before = std::exchange(state.mouse_px, in.position_px);
-        if (!before) return;
-        const Vec2 moved(in.position_px.x - before->x, before->y - in.position_px.y);  // y up
+        if (!before || in_right_window(*before) != in_right_window(in.position_px)) return;
+        const Vec2 moved =
+            view.picture_px_per_px * Vec2(in.position_px.x - before->x, before->y - in.position_px.y);  // y up
         if (state.drag)
             drag(moved);
         else if (!view.mouse_captured || state.buttons != 0)

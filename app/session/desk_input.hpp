@@ -40,6 +40,7 @@ struct DeskSettings {
 struct DeskView {
     double device_m_per_px = 0.00025;             // how far a pixel of mouse motion moves the stylus
     double world_m_per_px = 0.001;                // how far it moves the scene when panning
+    Vec2 picture_px_per_px{1.0};                  // the mouse's pixels, where an eye's picture is squeezed
     Quat device_from_screen{1.0, 0.0, 0.0, 0.0};  // the screen's right, up and towards the viewer, in the device frame
     Quat world_from_screen{1.0, 0.0, 0.0, 0.0};
     Vec3 pivot_world{0.0};     // what turning and scaling keep in place

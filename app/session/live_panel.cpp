@@ -68,12 +68,9 @@ PanelModel LiveSession::panel_model() const {
     return m;
 }
 
-// In output pixels; where an eye's picture is squeezed the mouse meets the left eye's panel.
+// In pixels of an eye's picture.
 PanelPlace LiveSession::panel_place() const {
-    const ImageSize eye = main_eye();
-    const double x = state_.output.mode == StereoMode::side_by_side_half ? 0.5 : 1.0;
-    const double y = state_.output.mode == StereoMode::top_bottom_half ? 0.5 : 1.0;
-    return {{x * (static_cast<double>(eye.width) - panel_->size().width), 0.0}, {x, y}};
+    return {{static_cast<double>(main_eye().width) - panel_->size().width, 0.0}, {1.0, 1.0}};
 }
 
 // At the right of the screen that the viewer faces and turned towards them.
@@ -96,6 +93,9 @@ Captured LiveSession::feed_panel(const FrameInput& input) {
                       stirring, times_, loop_->duration(), render_stats_, main_eye()});
     for (const std::string& line : times_.take_new_warnings()) std::fprintf(stderr, "burin: %s\n", line.c_str());
     const ImageSize eye = main_eye();
+    const OutputSettings shown = output_on(room_.wall.main);
+    OnPicture on = mouse_on_picture(panel_pointer_, input.events, shown, output_);
+    const PanelPointer pointer = std::exchange(panel_pointer_, {.mouse_px = on.pointer.mouse_px});
     const bool stands = !room_.wall.desk;
     const auto width = static_cast<std::uint32_t>(kPanelWidth_px);
     // A window too narrow for both shows the scene alone.
@@ -113,14 +113,15 @@ Captured LiveSession::feed_panel(const FrameInput& input) {
     }
     panel_->resize(size);
     if (stands) {
-        const MouseView mouse{room_.screen(), head_world(room_.wall.setup, state_.head).position_m,
-                              Vec2(output_.width, output_.height)};
-        Pointed pointed = point_at_panel(panel_pointer_, input.events, panel_stand(), size, mouse);
+        const Sight sight = sight_of(room_.wall.setup, room_.wall.main, state_.head, state_.interpupillary_m);
+        const MouseView mouse{sight.screen, eyes_of(sight.viewer), shown, output_};
+        Pointed pointed = point_at_panel(pointer, input.events, panel_stand(), size, mouse);
         panel_pointer_ = pointed.pointer;
         scene_events_ = std::move(pointed.rest);
         panel_->feed(pointed.panel);
     } else {
-        panel_->feed(input.events, panel_place());
+        panel_pointer_ = on.pointer;
+        panel_->feed(on.events, panel_place());
     }
     panel_frame_ = &panel_->show(panel_model(), input.time_ns);
     panel_actions_ = panel_frame_->actions;

@@ -84,7 +84,7 @@ void LiveSession::publish_parameters() {
     channels_.parameters.publish();
 }
 
-void LiveSession::step(const FrameInput& input, ImageSize output, const Carve& carve) {
+void LiveSession::step(const FrameInput& input, const OutputPlace& output, const Carve& carve) {
     output_ = output;
     fit_desk_screen(room_.wall, main_eye());
     tool_ = channels_.tool.newest();

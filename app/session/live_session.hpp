@@ -32,9 +32,9 @@ public:
     [[nodiscard]] static Result<std::unique_ptr<LiveSession>> create(const SculptOptions& options,
                                                                      const SessionWall& wall, Clock& clock);
 
-    // One frame's input, for an output of this size. What the carving side is to do goes to `carve`.
+    // One frame's input, for the main screen's output. What the carving side is to do goes to `carve`.
     using Carve = std::function<void(CarvingOrder)>;
-    void step(const FrameInput& input, ImageSize output, const Carve& carve);
+    void step(const FrameInput& input, const OutputPlace& output, const Carve& carve);
     // What the carving side tells.
     void take(SurfaceNews news);
     // Hands the surface's news to every picture, before the first is drawn.
@@ -74,7 +74,7 @@ private:
     Captured feed_panel(const FrameInput& input);
     [[nodiscard]] PanelStand panel_stand() const;
     [[nodiscard]] Result<void> paint_panel(gpu::Commands& commands, std::size_t screen, SessionPicture& picture);
-    [[nodiscard]] ImageSize main_eye() const { return eye_size(output_on(room_.wall.main).mode, output_); }
+    [[nodiscard]] ImageSize main_eye() const { return eye_size(output_on(room_.wall.main).mode, output_.size); }
 
     Clock& clock_;
     Nanoseconds start_ns_ = 0;
@@ -94,11 +94,11 @@ private:
     std::vector<SurfaceNews> news_;    // not given to the picture yet
     std::vector<std::string> screenshots_;
     std::string screenshot_folder_;
-    ImageSize output_;  // of the main screen
+    OutputPlace output_;  // of the main screen
     std::optional<Panel> panel_;
     const PanelFrame* panel_frame_ = nullptr;  // of the last step; null while the panel is hidden
     std::vector<CommandInput> panel_actions_;
-    PanelPointer panel_pointer_;            // before a wall, where the panel stands in the scene
+    PanelPointer panel_pointer_;
     std::vector<InputEvent> scene_events_;  // of this step, without those that the panel alone has
     SessionTimes times_{clock_};
     PanelFeed panel_feed_;

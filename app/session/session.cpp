@@ -55,7 +55,7 @@ Result<void> run_in_simulated_time(const SculptOptions& options, const SessionWa
             if (const auto updated = s.desk().update(clock.now_ns()); !updated) return updated;
             next_update_ns += kUpdatePeriod_ns;
         }
-        s.step(*frame, stage->size(), [&](CarvingOrder order) {
+        s.step(*frame, stage->place(), [&](CarvingOrder order) {
             s.desk().order(order);
             s.desk().finish_export();  // so that what comes after finds it done
         });
@@ -156,7 +156,7 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
         const auto frame = input.begin_frame(clock.now_ns() - s.start_ns(), planned.plan.display_ns - s.start_ns());
         if (!frame) break;
         times.reached(FrameStage::input);
-        s.step(*frame, stage->size(), [&](CarvingOrder order) { carving.order(std::move(order)); });
+        s.step(*frame, stage->place(), [&](CarvingOrder order) { carving.order(std::move(order)); });
         if (auto news = carving.take_news()) s.take(std::move(*news));
         if (const auto failed = carving.failure()) outcome = std::unexpected(*failed);
         if (stage->has_windows() && s.wants_full_screen_exchanged()) stage->exchange_full_screen();

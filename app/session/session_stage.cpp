@@ -150,7 +150,8 @@ OutputPlace SessionStage::place_of(const ScreenStage& screen) {
 double SessionStage::refresh_Hz() const { return has_windows() ? screens_[wall_->main].window->refresh_Hz() : 60.0; }
 
 std::vector<Input> SessionStage::inputs(double wait_s) {
-    std::vector<Input> inputs = screens_[wall_->main].window->inputs(wait_s);
+    const ScreenStage& main = screens_[wall_->main];
+    std::vector<Input> inputs = main.window->inputs(wait_s);
     const auto add_all_but_mouse = [&](SessionWindow* window) {
         if (window == nullptr) return;
         for (Input& input : window->inputs(0.0)) {
@@ -163,8 +164,26 @@ std::vector<Input> SessionStage::inputs(double wait_s) {
     };
     for (std::size_t i = 0; i < screens_.size(); ++i) {
         if (i != wall_->main) add_all_but_mouse(screens_[i].window.get());
-        add_all_but_mouse(screens_[i].right_window.get());
+        if (i != wall_->main) add_all_but_mouse(screens_[i].right_window.get());
     }
+    for (Input& input : right_eyes_inputs(main)) inputs.push_back(std::move(input));
+    return inputs;
+}
+
+// The mouse as if the windows were of one size.
+std::vector<Input> SessionStage::right_eyes_inputs(const ScreenStage& screen) {
+    if (!screen.right_window) return {};
+    std::vector<Input> inputs = screen.right_window->inputs(0.0);
+    const ImageSize left = size_of(screen), right = screen.right_window->size();
+    for (Input& input : inputs) {
+        auto* move = std::get_if<MouseMove>(&input);
+        if (move == nullptr || is_empty(right)) continue;
+        move->position_px *= Vec2(left.width, left.height) / Vec2(right.width, right.height);
+        move->position_px.x += kRightWindow_px;
+    }
+    std::erase_if(inputs, [](const Input& input) {
+        return std::holds_alternative<WindowResize>(input) || std::holds_alternative<WindowFocus>(input);
+    });
     return inputs;
 }
 

@@ -24,12 +24,13 @@ public:
     // The wall must outlive it.
     [[nodiscard]] static Result<SessionStage> open(const LiveOptions& options, const SessionWall& wall);
 
-    [[nodiscard]] ImageSize size() const { return size_of(screens_[wall_->main]); }  // of the main screen's output
+    [[nodiscard]] OutputPlace place() const { return place_of(screens_[wall_->main]); }  // of the main screen's output
     [[nodiscard]] bool has_windows() const { return screens_.front().window != nullptr; }
     [[nodiscard]] double refresh_Hz() const;
     [[nodiscard]] const std::string& device_name() const { return device_->info().name; }
 
-    // What happened in the windows, waiting for at most so long (0: not at all). The mouse counts in the main screen's alone.
+    // What happened in the windows, waiting for at most so long (0: not at all). The mouse counts in the main screen's alone; in the window
+    // of its right eye it is told kRightWindow_px (seen_place.hpp) further to the right.
     [[nodiscard]] std::vector<Input> inputs(double wait_s);
 
     // One frame, if there is anything new; whether there was. frame_ns: when it is to be seen, by the session's time.
@@ -67,6 +68,7 @@ private:
     [[nodiscard]] Result<void> open_device();
     [[nodiscard]] static ImageSize size_of(const ScreenStage& screen);
     [[nodiscard]] static OutputPlace place_of(const ScreenStage& screen);
+    [[nodiscard]] static std::vector<Input> right_eyes_inputs(const ScreenStage& screen);
     // Opens and closes what the mode needs: a second window, images of two layers. An Error leaves the screen as it can be.
     [[nodiscard]] Result<void> fit_mode(std::size_t screen, StereoMode mode);
     [[nodiscard]] Result<bool> draw_screen(std::size_t screen, LiveSession& session, Nanoseconds frame_ns);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "app/session/seen_place.hpp"
 #include "app/staging.hpp"
 #include "haptics/contact/probe.hpp"
 #include "renderer/stereo/projection.hpp"
@@ -88,6 +89,7 @@ DeskView view_of(const SessionState& state, const Room& room, const SessionView&
     DeskView view;
     view.device_m_per_px = device_m_per_px(screen_m_per_px, eye_m, to_tool_m, state.world_from_device.scale);
     view.world_m_per_px = screen_m_per_px;
+    view.picture_px_per_px = picture_px_per_px(output_on(room.wall, room.wall.main, state.output).mode);
     view.world_from_screen = world_from_screen(screen);
     view.pivot_world = state.world_from_object * room.workpiece_object.center();
     view.scene_scale = state.world_from_object.scale / state.home_world_from_object.scale;

@@ -8,6 +8,7 @@
 #include "app/session/desk_input.hpp"
 #include "app/session/input_keys.hpp"
 #include "app/session/input_wand.hpp"
+#include "app/session/seen_place.hpp"
 
 namespace burin {
 namespace {
@@ -74,9 +75,21 @@ TEST(DeskInput, TheMouseMovesTheStylusAlongTheScreenAndTheWheelInDepth) {
 TEST(DeskInput, TheStylusStaysInItsWorkspaceAndTheWayBackHasNoDeadTravel) {
     Desk desk;
     desk.step({MouseMove{{0.0, 0.0}}});
-    EXPECT_EQ(desk.step({MouseMove{{1e6, 0.0}}}).target.position_device_m, Vec3(0.0813, 0.0, 0.0));
-    const double back = desk.step({MouseMove{{1e6 - 4.0, 0.0}}}).target.position_device_m.x;
+    EXPECT_EQ(desk.step({MouseMove{{3e4, 0.0}}}).target.position_device_m, Vec3(0.0813, 0.0, 0.0));
+    const double back = desk.step({MouseMove{{3e4 - 4.0, 0.0}}}).target.position_device_m.x;
     EXPECT_NEAR(back, 0.0813 - 0.001, 1e-12);
+}
+
+TEST(DeskInput, ASqueezedPictureIsFollowedAndChangingWindowsIsNoMotion) {
+    Desk desk;
+    desk.view.device_m_per_px = 0.001;
+    desk.view.picture_px_per_px = {2.0, 1.0};
+    desk.step({MouseMove{{100.0, 100.0}}});
+    EXPECT_LT(apart(desk.step({MouseMove{{105.0, 90.0}}}).target.position_device_m, {0.01, 0.01, 0.0}), 1e-12);
+    const DeskStep right = desk.step({MouseMove{{kRightWindow_px + 300.0, 50.0}}});
+    EXPECT_LT(apart(right.target.position_device_m, {0.01, 0.01, 0.0}), 1e-12);
+    const DeskStep on = desk.step({MouseMove{{kRightWindow_px + 305.0, 50.0}}});
+    EXPECT_LT(apart(on.target.position_device_m, {0.02, 0.01, 0.0}), 1e-12);
 }
 
 TEST(DeskInput, ATurnedWorkspaceIsSteeredAsItIsSeen) {

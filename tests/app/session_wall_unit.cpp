@@ -4,7 +4,6 @@
 
 #include <random>
 
-#include "app/session/panel_pointer.hpp"
 #include "app/session/presented_parts.hpp"
 #include "app/session/session_state.hpp"
 #include "app/wall_file.hpp"
@@ -174,64 +173,6 @@ TEST(SessionState, AWandCarriesTheScene) {
     EXPECT_LT(
         glm::length(step.state.world_from_object.position_m - state.world_from_object.position_m - Vec3(0.25, 0, 0)),
         1e-9);
-}
-
-namespace {
-
-// A panel of 200 x 400 pixels, 0.5 m wide, a metre before the wall and turned.
-const PanelStand kStand =
-    stand_of_width({{0.4, 1.2, 1.0}, glm::angleAxis(-0.3, Vec3(0, 1, 0))}, 0.5, ImageSize{200, 400});
-const ImageSize kPanel{200, 400};
-
-Vec3 on_panel(const Vec2& px) {
-    return kStand.world_from_panel *
-           Vec3((px.x / kPanel.width - 0.5) * kStand.size_m.x, (0.5 - px.y / kPanel.height) * kStand.size_m.y, 0.0);
-}
-
-template <typename Event>
-std::vector<Event> only(const std::vector<InputEvent>& events) {
-    std::vector<Event> found;
-    for (const InputEvent& event : events)
-        if (const auto* e = std::get_if<Event>(&event.input)) found.push_back(*e);
-    return found;
-}
-
-}  // namespace
-
-TEST(PanelPointer, TheMouseIsWhereTheEyesSeeIt) {
-    const MouseView mouse{screen_of(Wall{}), {0.1, 1.7, 2.5}, {1280.0, 960.0}};
-    std::mt19937 random(3);
-    std::uniform_real_distribution<double> part(0.02, 0.98);
-    for (int i = 0; i < 100; ++i) {
-        const Vec2 wanted{part(random) * kPanel.width, part(random) * kPanel.height};
-        // Where the line from the eye through that point of the panel meets the wall, in the plane z = 0.
-        const Vec3 at = on_panel(wanted);
-        const Vec3 wall = mouse.eye_world + (at - mouse.eye_world) * (mouse.eye_world.z / (mouse.eye_world.z - at.z));
-        const Vec2 px{(wall.x / 3.048 + 0.5) * 1280.0, (1.0 - wall.y / 2.286) * 960.0};
-        const std::vector<InputEvent> events{{0, MouseMove{px}}};
-        const Pointed pointed = point_at_panel({}, events, kStand, kPanel, mouse);
-        ASSERT_TRUE(pointed.pointer.over);
-        const auto moves = only<MouseMove>(pointed.panel);
-        ASSERT_EQ(moves.size(), 1u);
-        EXPECT_LT(glm::length(moves[0].position_px - wanted), 1e-6);
-    }
-}
-
-TEST(PanelPointer, AWandThatPressesThePanelDoesNotGrabTheScene) {
-    const auto wand = [](const Vec3& at) { return WandInput{0, {at + Vec3(0, 0, 1), Quat{1, 0, 0, 0}}, true}; };
-    const std::vector<InputEvent> on{{0, wand(on_panel({50, 60}))}, {1, WandClick{0, 0, true}}};
-    Pointed pointed = point_at_panel({}, on, kStand, kPanel, {});
-    EXPECT_EQ(only<WandClick>(pointed.rest).size(), 0u);
-    ASSERT_EQ(only<MouseClick>(pointed.panel).size(), 1u);
-    EXPECT_LT(glm::length(only<MouseMove>(pointed.panel)[0].position_px - Vec2(50, 60)), 1e-6);
-    // Released beside it: the panel is told, and the scene still is not.
-    const std::vector<InputEvent> beside{
-        {2, wand({-3, 1, 0})}, {3, WandClick{0, 0, false}}, {4, WandClick{0, 0, true}}};
-    pointed = point_at_panel(pointed.pointer, beside, kStand, kPanel, {});
-    ASSERT_EQ(only<MouseClick>(pointed.panel).size(), 1u);
-    EXPECT_FALSE(only<MouseClick>(pointed.panel)[0].pressed);
-    ASSERT_EQ(only<WandClick>(pointed.rest).size(), 1u) << "what begins beside the panel is the scene's";
-    EXPECT_TRUE(only<WandClick>(pointed.rest)[0].pressed);
 }
 
 TEST(PresentedParts, BringEveryImageUpToDateWhateverItsAge) {
