@@ -339,6 +339,26 @@ void read_limits(Core& core) {
     core.seconds_per_stamp = static_cast<double>(limits.timestampPeriod) * 1e-9;
 }
 
+// Enabled where both exist.
+struct PresentFeatures {
+    VkPhysicalDevicePresentIdFeaturesKHR id =
+        structure<VkPhysicalDevicePresentIdFeaturesKHR>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRESENT_ID_FEATURES_KHR);
+    VkPhysicalDevicePresentWaitFeaturesKHR wait =
+        structure<VkPhysicalDevicePresentWaitFeaturesKHR>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRESENT_WAIT_FEATURES_KHR);
+
+    PresentFeatures() { id.pNext = &wait; }
+    PresentFeatures(const PresentFeatures&) = delete;
+    PresentFeatures& operator=(const PresentFeatures&) = delete;
+};
+
+bool can_wait_for_presents(const Core& core) {
+    PresentFeatures found;
+    auto features = structure<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
+    features.pNext = &found.id;
+    vkGetPhysicalDeviceFeatures2(core.physical, &features);
+    return found.id.presentId == VK_TRUE && found.wait.presentWait == VK_TRUE;
+}
+
 std::vector<const char*> device_extensions(Core& core) {
     std::vector<const char*> wanted;
     if (core.surface.destroy == nullptr) return wanted;
@@ -354,6 +374,12 @@ std::vector<const char*> device_extensions(Core& core) {
     core.capabilities.display_control = core.capabilities.swapchain && core.surface.counters != nullptr &&
                                         exists(VK_EXT_DISPLAY_CONTROL_EXTENSION_NAME);
     if (core.capabilities.display_control) wanted.push_back(VK_EXT_DISPLAY_CONTROL_EXTENSION_NAME);
+    core.capabilities.present_wait = core.capabilities.swapchain && exists(VK_KHR_PRESENT_ID_EXTENSION_NAME) &&
+                                     exists(VK_KHR_PRESENT_WAIT_EXTENSION_NAME) && can_wait_for_presents(core);
+    if (core.capabilities.present_wait) {
+        wanted.push_back(VK_KHR_PRESENT_ID_EXTENSION_NAME);
+        wanted.push_back(VK_KHR_PRESENT_WAIT_EXTENSION_NAME);
+    }
     return wanted;
 }
 
@@ -371,6 +397,9 @@ Result<void> open(Core& core) {
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
     const std::vector<const char*> extensions = device_extensions(core);
+    PresentFeatures presents;
+    presents.id.presentId = presents.wait.presentWait = VK_TRUE;
+    if (core.capabilities.present_wait) features.v12.pNext = &presents.id;
     info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
     if (const VkResult r = vkCreateDevice(core.physical, &info, nullptr, &core.device); r != VK_SUCCESS) {

@@ -54,6 +54,7 @@ struct Capabilities {
     bool timestamps = false;
     bool swapchain = false;        // can show pictures in windows; only when instance_extensions asked for surfaces
     bool display_control = false;  // can count a display's refreshes (VK_EXT_display_control)
+    bool present_wait = false;     // tells when a picture is on the display (VK_KHR_present_id and VK_KHR_present_wait)
     bool unified_memory = false;   // device_storage buffers are mapped: Buffer::mapped() is not empty
     bool display_stereo = false;   // a display's own stereo (VK_NV_display_stereo)
     std::uint32_t subgroup_size = 0;

@@ -155,6 +155,16 @@ std::optional<std::uint64_t> Swapchain::vblank_count() const {
     return count;
 }
 
+std::optional<bool> Swapchain::was_shown(std::uint64_t picture) const {
+    const bool of_this_chain = picture > presented_before_ && picture <= presented_;
+    if (!core_->capabilities.present_wait || core_->lost || swapchain_ == VK_NULL_HANDLE || !of_this_chain)
+        return std::nullopt;
+    const VkResult r = core_->vk.vkWaitForPresentKHR(core_->device, swapchain_, picture, 0);
+    if (r == VK_SUCCESS || r == VK_SUBOPTIMAL_KHR) return true;
+    if (r == VK_TIMEOUT) return false;
+    return std::nullopt;
+}
+
 VkResult Swapchain::create_swapchain(const VkSurfaceCapabilitiesKHR& caps) {
     auto info = structure<VkSwapchainCreateInfoKHR>(VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR);
     auto counter = structure<VkSwapchainCounterCreateInfoEXT>(VK_STRUCTURE_TYPE_SWAPCHAIN_COUNTER_CREATE_INFO_EXT);
@@ -179,6 +189,7 @@ VkResult Swapchain::create_swapchain(const VkSurfaceCapabilitiesKHR& caps) {
     const VkResult r = core_->vk.vkCreateSwapchainKHR(core_->device, &info, nullptr, &made);
     core_->vk.vkDestroySwapchainKHR(core_->device, swapchain_, nullptr);  // retired even when the new one failed
     swapchain_ = made;
+    presented_before_ = presented_;
     return r;
 }
 
@@ -291,6 +302,11 @@ FrameAnswer Swapchain::present(const SwapchainFrame& frame) {
     info.swapchainCount = 1;
     info.pSwapchains = &swapchain_;
     info.pImageIndices = &frame.image;
+    auto numbered = structure<VkPresentIdKHR>(VK_STRUCTURE_TYPE_PRESENT_ID_KHR);
+    const std::uint64_t number = presented_ + 1;
+    numbered.swapchainCount = 1;
+    numbered.pPresentIds = &number;
+    if (core_->capabilities.present_wait) info.pNext = &numbered;
     const VkResult r = core_->lost ? VK_ERROR_DEVICE_LOST : core_->vk.vkQueuePresentKHR(core_->queue, &info);
     const FrameAnswer answer = answer_of(r);
     if (answer == FrameAnswer::presented) slots_[frame.image].presented_as = ++presented_;

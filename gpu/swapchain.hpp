@@ -78,6 +78,9 @@ public:
     [[nodiscard]] bool can_copy_from() const { return can_copy_; }  // images may be read back (tests, screenshots)
     // How often the display has been refreshed; nothing where that is unknown (most window systems).
     [[nodiscard]] std::optional<std::uint64_t> vblank_count() const;
+    // Whether the picture of this number (of presented()) has been on the display; nothing where that cannot be known: without
+    // Capabilities::present_wait, or its images are gone. Does not wait.
+    [[nodiscard]] std::optional<bool> was_shown(std::uint64_t picture) const;
 
 private:
     struct Slot {  // one image
@@ -111,7 +114,8 @@ private:
     std::size_t next_ready_ = 0, taken_ready_ = 0;
     std::uint32_t wanted_width_ = 0, wanted_height_ = 0, width_ = 0, height_ = 0, layers_ = 1;
     std::uint64_t presented_ = 0;
-    bool stale_ = false;  // the images no longer fit the surface
+    std::uint64_t presented_before_ = 0;  // to the swapchains before the present one
+    bool stale_ = false;                  // the images no longer fit the surface
     bool can_copy_ = false, count_vblanks_ = false;
 };
 

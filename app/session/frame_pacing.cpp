@@ -214,8 +214,11 @@ PlannedFrame plan_frame(PacingState state, Nanoseconds now_ns) {
 }
 
 PacingState frame_finished(PacingState state, const FramePlan& plan, Nanoseconds finished_ns) {
-    if (plan.frame != state.last_plan.frame || finished_ns <= plan.finish_by_ns) return state;
+    if (plan.frame != state.last_plan.frame) return state;
     const Nanoseconds ready_ns = finished_ns + state.settings.lead_ns;
+    // Where no vblank is waited for, one that was expected to take much longer must not hold up the next.
+    const bool early = !state.flips_seen && ready_ns + whole(state.period_ns) < plan.display_ns;
+    if (finished_ns <= plan.finish_by_ns && !early) return state;
     state.last_plan.display_ns = state.flips_seen ? vblank(state, periods_until(state, ready_ns)) : ready_ns;
     return state;
 }

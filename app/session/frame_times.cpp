@@ -73,7 +73,8 @@ FrameAges ages_of(const FrameTimes& frame, const FrameTimes* before, const Laten
         ages[static_cast<std::size_t>(figure)][eye] = value_ns;
     };
     for (const std::size_t eye : {kLeftEye, kRightEye}) {
-        const Nanoseconds vblank_ns = frame.seen_ns + (eye == kRightEye ? settings.right_eye_later_ns : 0);
+        const Nanoseconds later_ns = eye == kRightEye ? settings.right_eye_later_ns : -settings.right_eye_later_ns;
+        const Nanoseconds vblank_ns = frame.seen_ns + std::max<Nanoseconds>(later_ns, 0);
         const Nanoseconds light_ns = vblank_ns + settings.display_ns;
         if (frame.head_sampled_ns) {
             set(FrameFigure::head_age, eye, vblank_ns - *frame.head_sampled_ns);

@@ -24,10 +24,11 @@ namespace burin {
 
 // Latencies that no clock of this machine sees; 0 where nobody has measured them.
 struct LatencySettings {
-    Nanoseconds tracker_ns = 0;          // from the head's motion to its sample here
-    Nanoseconds display_ns = 0;          // from the vblank to light, the projector's own processing included
-    Nanoseconds device_ns = 1'000'000;   // from the tick's sample until its force acts
-    Nanoseconds right_eye_later_ns = 0;  // frame-sequential at 120 Hz: 8.33 ms
+    Nanoseconds tracker_ns = 0;         // from the head's motion to its sample here
+    Nanoseconds display_ns = 0;         // from the vblank to light, the projector's own processing included
+    Nanoseconds device_ns = 1'000'000;  // from the tick's sample until its force acts
+    Nanoseconds right_eye_later_ns =
+        0;  // frame-sequential at 120 Hz: 8.33 ms; below 0 where the left eye's comes second
 };
 
 struct FrameTimes {

@@ -8,6 +8,7 @@
 #include "app/session/frame_pacing.hpp"
 #include "app/session/live_session.hpp"
 #include "app/session/session_stage.hpp"
+#include "app/session/shown_frames.hpp"
 #include "app/session/tracker_port.hpp"
 #include "haptics/realtime.hpp"
 
@@ -72,11 +73,56 @@ Result<void> run_in_simulated_time(const SculptOptions& options, const SessionWa
 
 // ---- Real time
 
+// What the display tells of the frames that it was handed, to the pacing.
+struct DisplayWatch {
+    ShownFrames frames;
+    PacingState pacing;
+
+    FramePlan plan(Nanoseconds now_ns) {
+        const PlannedFrame planned = plan_frame(pacing, now_ns);
+        pacing = planned.state;
+        return planned.plan;
+    }
+    void look(const SessionStage& stage, Nanoseconds now_ns) {
+        const auto was_shown = [&](std::uint64_t picture) { return stage.was_shown(picture); };
+        for (const FrameMeasure& measure : frames.look(now_ns, was_shown)) pacing = after_frame(pacing, measure);
+    }
+    void finished(SessionStage& stage, const FramePlan& plan, Nanoseconds sampled_ns, Nanoseconds now_ns) {
+        const SessionWindow::Blocked blocked = stage.take_blocked();
+        FrameMeasure measure;
+        measure.plan = plan;
+        measure.sampled_ns = sampled_ns;
+        measure.finished_ns = measure.submitted_ns = now_ns - blocked.for_ns;  // waiting is no work
+        measure.blocked_ns = blocked.for_ns;
+        measure.flip_ns = blocked.until_ns;
+        pacing = frame_finished(pacing, plan, now_ns);
+        frames.handed(measure, stage.presented(), now_ns);
+        look(stage, now_ns);
+    }
+    // To another monitor, perhaps.
+    void shown_at(double refresh_Hz) {
+        const Nanoseconds period_ns = nanoseconds(1.0 / refresh_Hz);
+        if (period_ns != pacing.settings.period_ns) pacing = display_changed(pacing, period_ns);
+    }
+};
+
 // What has happened when the time has come, or something happens before.
 std::vector<Input> wait_for_input(SessionStage& stage, Clock& clock, Nanoseconds until_ns) {
     if (stage.has_windows()) return stage.inputs(std::max(seconds(until_ns - clock.now_ns()), 0.0));
     clock.sleep_until(until_ns);
     return {};
+}
+
+// All that happens until the frame's time, which is as late as it can be; the display is watched meanwhile.
+std::vector<Input> gather_input(SessionStage& stage, Clock& clock, Nanoseconds until_ns, DisplayWatch& display) {
+    std::vector<Input> gathered;
+    do {
+        const Nanoseconds look_ns = display.frames.next_look_ns().value_or(until_ns);
+        for (Input& input : wait_for_input(stage, clock, std::min(until_ns, look_ns)))
+            gathered.push_back(std::move(input));
+        display.look(stage, clock.now_ns());
+    } while (clock.now_ns() < until_ns);
+    return gathered;
 }
 
 void hear(TrackerPort& tracker, InputSource& input, LiveSession& session) {
@@ -85,8 +131,11 @@ void hear(TrackerPort& tracker, InputSource& input, LiveSession& session) {
     for (const std::string& message : tracker.take_messages()) session.say(message);
 }
 
-DisplayBeat beat_of(const PacingState& pacing) {
+DisplayBeat beat_of(const PacingState& pacing, const LiveSession& session) {
     DisplayBeat beat;
+    const SessionWall& wall = session.room().wall;
+    const EyeTimes eyes = eye_times(timing_in(wall.setup, session.output_on(wall.main).mode), 0);
+    beat.right_eye_later_ns = eyes.right_ns - eyes.left_ns;
     beat.period_ns = static_cast<Nanoseconds>(pacing.period_ns);
     if (pacing.flips_seen) beat.vblank_ns = pacing.vblank_ns;
     return beat;
@@ -135,7 +184,7 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
         tracker = std::move(*opened);
     }
 
-    PacingState pacing = begin_pacing({.period_ns = nanoseconds(1.0 / stage->refresh_Hz())});
+    DisplayWatch display{.frames = {}, .pacing = begin_pacing({.period_ns = nanoseconds(1.0 / stage->refresh_Hz())})};
     SessionTimes& times = s.times();
     if (keep_frames) times.keep_frames();
     const Nanoseconds began_ns = clock.now_ns(), processor_ns = process_cpu_ns();
@@ -144,16 +193,24 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
     while (outcome && !s.state().quit) {
         times.begin();
         const bool active = stage->takes_turns(s) || clock.now_ns() - changed_ns < kActive_ns;
-        const PlannedFrame planned = plan_frame(pacing, clock.now_ns());
-        pacing = planned.state;
         stage->refine_beside(!active);
-        Nanoseconds until_ns = active ? planned.plan.wake_ns : clock.now_ns() + kRest_ns;
-        if (const auto due_ns = input.next_event_ns()) until_ns = std::min(until_ns, s.start_ns() + *due_ns);
-        std::vector<Input> happened = wait_for_input(*stage, clock, until_ns);
+        display.shown_at(stage->refresh_Hz());
+        FramePlan plan;
+        std::vector<Input> happened;
+        if (active) {
+            plan = display.plan(clock.now_ns());
+            happened = gather_input(*stage, clock, plan.wake_ns, display);
+        } else {
+            Nanoseconds until_ns = clock.now_ns() + kRest_ns;
+            if (const auto due_ns = input.next_event_ns()) until_ns = std::min(until_ns, s.start_ns() + *due_ns);
+            happened = wait_for_input(*stage, clock, until_ns);
+            plan = display.plan(clock.now_ns());
+            plan.wake_ns = clock.now_ns();  // it begins at once
+        }
         times.reached(FrameStage::wait);
         if (tracker) hear(*tracker, input, s);  // first: it happened before
         for (Input& event : happened) input.push(clock.now_ns() - s.start_ns(), std::move(event));
-        const auto frame = input.begin_frame(clock.now_ns() - s.start_ns(), planned.plan.display_ns - s.start_ns());
+        const auto frame = input.begin_frame(clock.now_ns() - s.start_ns(), plan.display_ns - s.start_ns());
         if (!frame) break;
         times.reached(FrameStage::input);
         s.step(*frame, stage->place(), [&](CarvingOrder order) { carving.order(std::move(order)); });
@@ -166,9 +223,10 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
         if (!drawn) outcome = stage->recover(s, drawn.error());
         if (drawn && *drawn) {
             changed_ns = clock.now_ns();
-            pacing = frame_finished(pacing, planned.plan, clock.now_ns());
+            display.finished(*stage, plan, s.start_ns() + frame->time_ns, changed_ns);
         }
-        times.finished(drawn && *drawn, beat_of(pacing));
+        static_cast<void>(stage->take_blocked());  // of a turn without a new picture
+        times.finished(drawn && *drawn, beat_of(display.pacing, s));
     }
     const Nanoseconds wall_ns = clock.now_ns() - began_ns, worked_ns = process_cpu_ns() - processor_ns;
     touch.stop();

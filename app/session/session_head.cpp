@@ -28,8 +28,14 @@ SensorEyes spread(const SensorEyes& eyes, double distance_m) {
 
 double interpupillary_m(const SensorEyes& eyes) { return glm::length(eyes.right_sensor - eyes.left_sensor); }
 
-SessionHead follow_head(SessionHead head, const WallSetup& setup, std::span<const InputEvent> events,
-                        Nanoseconds display_ns, const Pose& flown_world) {
+DisplayTiming timing_in(const WallSetup& setup, StereoMode mode) {
+    DisplayTiming timing = setup.timing;
+    if (mode == StereoMode::frame_sequential) timing.eye_order = EyeOrder::simultaneous;
+    return timing;
+}
+
+SessionHead follow_head(SessionHead head, const WallSetup& setup, const DisplayTiming& timing,
+                        std::span<const InputEvent> events, Nanoseconds display_ns, const Pose& flown_world) {
     const HeadSettings settings = head_settings(setup);
     for (const InputEvent& event : events) {
         const auto* said = std::get_if<HeadInput>(&event.input);
@@ -42,7 +48,7 @@ SessionHead follow_head(SessionHead head, const WallSetup& setup, std::span<cons
         head.poses = {flown, flown};
         return head;
     }
-    DrawnHead drawn = draw(settings, head.track, eye_times(setup.timing, display_ns));
+    DrawnHead drawn = draw(settings, head.track, eye_times(timing, display_ns));
     head.track = drawn.track;
     head.poses = drawn.poses;
     return head;

@@ -21,9 +21,14 @@ struct SessionHead {
     HeadPoses poses;       // at the times when the eyes' pictures are shown
 };
 
+// When each eye sees a frame: as the wall file says; but where the session itself shows the eyes by turns, each turn has a frame of its
+// own, made for its own time.
+[[nodiscard]] DisplayTiming timing_in(const WallSetup& setup, StereoMode mode);
+
 // Takes what a tracker said, and predicts to the frame's display time. flown_world: the head that keys fly.
-[[nodiscard]] SessionHead follow_head(SessionHead head, const WallSetup& setup, std::span<const InputEvent> events,
-                                      Nanoseconds display_ns, const Pose& flown_world);
+[[nodiscard]] SessionHead follow_head(SessionHead head, const WallSetup& setup, const DisplayTiming& timing,
+                                      std::span<const InputEvent> events, Nanoseconds display_ns,
+                                      const Pose& flown_world);
 
 // The head's pose in the room, for what does not care about eyes: at the left one's time.
 [[nodiscard]] Pose head_world(const WallSetup& setup, const SessionHead& head);

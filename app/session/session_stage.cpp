@@ -149,6 +149,25 @@ OutputPlace SessionStage::place_of(const ScreenStage& screen) {
 
 double SessionStage::refresh_Hz() const { return has_windows() ? screens_[wall_->main].window->refresh_Hz() : 60.0; }
 
+SessionWindow::Blocked SessionStage::take_blocked() {
+    SessionWindow::Blocked blocked;
+    for (ScreenStage& screen : screens_) {
+        for (SessionWindow* window : {screen.window.get(), screen.right_window.get()}) {
+            if (window == nullptr) continue;
+            const SessionWindow::Blocked one = window->take_blocked();
+            blocked.for_ns += one.for_ns;
+            if (window == screens_[wall_->main].window.get()) blocked.until_ns = one.until_ns;
+        }
+    }
+    return blocked;
+}
+
+std::uint64_t SessionStage::presented() const { return has_windows() ? screens_[wall_->main].window->presented() : 0; }
+
+std::optional<bool> SessionStage::was_shown(std::uint64_t picture) const {
+    return has_windows() ? screens_[wall_->main].window->was_shown(picture) : std::nullopt;
+}
+
 std::vector<Input> SessionStage::inputs(double wait_s) {
     const ScreenStage& main = screens_[wall_->main];
     std::vector<Input> inputs = main.window->inputs(wait_s);

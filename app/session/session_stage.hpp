@@ -27,6 +27,10 @@ public:
     [[nodiscard]] OutputPlace place() const { return place_of(screens_[wall_->main]); }  // of the main screen's output
     [[nodiscard]] bool has_windows() const { return screens_.front().window != nullptr; }
     [[nodiscard]] double refresh_Hz() const;
+    // What the main screen's window (the left eye's of two) knows of its display; nothing of it without a window.
+    [[nodiscard]] SessionWindow::Blocked take_blocked();
+    [[nodiscard]] std::uint64_t presented() const;
+    [[nodiscard]] std::optional<bool> was_shown(std::uint64_t picture) const;
     [[nodiscard]] const std::string& device_name() const { return device_->info().name; }
 
     // What happened in the windows, waiting for at most so long (0: not at all). The mouse counts in the main screen's alone; in the window

@@ -115,7 +115,7 @@ SessionState begin_session(const Room& room, const ToolOptions& tool, const Feel
                            const OutputSettings& output) {
     SessionState state;
     state.desk = desk_at_home(room.desk);
-    state.head = follow_head({}, room.wall.setup, {}, 0, state.desk.head_world);
+    state.head = follow_head({}, room.wall.setup, room.wall.setup.timing, {}, 0, state.desk.head_world);
     state.interpupillary_m = interpupillary_m(room.wall.setup.eyes);
     state.world_from_object = place_workpiece(room);
     move_into_comfort(state, room);
@@ -134,7 +134,9 @@ SessionStep step_session(SessionState state, const Room& room, std::span<const I
     SessionStep step;
     DeskStep desk = step_desk(state.desk, events, view.dt_s, view_of(state, room, view), room.desk);
     state.desk = desk.state;
-    state.head = follow_head(state.head, room.wall.setup, events, view.display_ns, state.desk.head_world);
+    const StereoMode mode = output_on(room.wall, room.wall.main, state.output).mode;
+    state.head = follow_head(state.head, room.wall.setup, timing_in(room.wall.setup, mode), events, view.display_ns,
+                             state.desk.head_world);
     step.hand = desk.target;
     const Similarity before = state.world_from_object;
     if (desk.scene_change != Similarity{}) state.world_from_object = desk.scene_change * before;

@@ -36,7 +36,7 @@ inline constexpr std::size_t kFrameStages = 6;
 struct DisplayBeat {
     Nanoseconds period_ns = 16'666'667;
     std::optional<Nanoseconds> vblank_ns;  // the time of any one; nothing where none is seen
-    Nanoseconds right_eye_later_ns = 0;
+    Nanoseconds right_eye_later_ns = 0;    // as LatencySettings
 };
 // When a display begins to show what it was handed: at the next vblank, or half a period later, which is the mean, where they are unknown.
 [[nodiscard]] Nanoseconds begins_to_show_ns(Nanoseconds handed_ns, const DisplayBeat& beat);

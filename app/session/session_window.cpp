@@ -9,6 +9,8 @@
 namespace burin {
 namespace {
 
+constexpr Nanoseconds kBlocks_ns = 1'000'000;  // shorter is the driver's own work
+
 // The window library's names differ from the log's where these are easier to type.
 std::optional<Key> key_of(std::string name) {
     static const std::vector<std::pair<std::string, std::string>> others{{"'", "apostrophe"},
@@ -90,10 +92,12 @@ Result<void> SessionWindow::open_images(gpu::Device& device, std::uint32_t layer
     auto surface = window_.create_surface(device);
     if (!surface) return std::unexpected(surface.error());
     const ImageSize now = size();
-    auto images = gpu::Swapchain::create(device, std::move(*surface),
-                                         {.width = now.width, .height = now.height, .layers = layers});
+    auto images =
+        gpu::Swapchain::create(device, std::move(*surface),
+                               {.width = now.width, .height = now.height, .layers = layers, .count_vblanks = true});
     if (!images) return std::unexpected(images.error());
     images_ = std::move(*images);
+    display_blocks_ = !device.info().is_software();  // that one copies by itself, whatever the display does
     exposed_ = true;
     return {};
 }
@@ -138,7 +142,14 @@ std::optional<Input> SessionWindow::input_of(const window::WindowEvent& event) {
 
 gpu::SwapchainFrame SessionWindow::acquire() {
     const ImageSize now = size();
-    return images_->acquire(now.width, now.height);
+    const Nanoseconds before_ns = clock_.now_ns();
+    const gpu::SwapchainFrame frame = images_->acquire(now.width, now.height);
+    const Nanoseconds until_ns = clock_.now_ns();
+    if (frame.answer == gpu::FrameAnswer::presented && until_ns - before_ns >= kBlocks_ns) {
+        blocked_.for_ns += until_ns - before_ns;
+        if (display_blocks_) blocked_.until_ns = until_ns;
+    }
+    return frame;
 }
 
 ImageSize SessionWindow::size() const {

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "app/session/input_event.hpp"
 #include "app/session/session_options.hpp"
+#include "base/clock.hpp"
 #include "gpu/swapchain.hpp"
 #include "renderer/image.hpp"
 #include "window/window.hpp"
@@ -32,6 +34,17 @@ public:
     [[nodiscard]] std::vector<Input> inputs(double wait_s);
 
     [[nodiscard]] gpu::SwapchainFrame acquire();
+    // Waiting for the display since the last call: acquire() blocks while all images are in its queue, until it takes the next one.
+    struct Blocked {
+        Nanoseconds for_ns = 0;
+        std::optional<Nanoseconds> until_ns;  // the last time, where the display itself ended it: a vblank
+    };
+    [[nodiscard]] Blocked take_blocked() { return std::exchange(blocked_, {}); }
+    // As Swapchain.
+    [[nodiscard]] std::uint64_t presented() const { return images_ ? images_->presented() : 0; }
+    [[nodiscard]] std::optional<bool> was_shown(std::uint64_t picture) const {
+        return images_ ? images_->was_shown(picture) : std::nullopt;
+    }
     gpu::FrameAnswer present(const gpu::SwapchainFrame& frame) { return images_->present(frame); }
     gpu::FrameAnswer abandon(const gpu::SwapchainFrame& frame) { return images_->abandon(frame); }
     [[nodiscard]] VkFormat format() const { return images_->format(); }
@@ -52,6 +65,9 @@ private:
     window::Window window_;  // outlives its images
     std::optional<gpu::Swapchain> images_;
     bool exposed_ = true;
+    MonotonicClock clock_;
+    bool display_blocks_ = false;
+    Blocked blocked_;
     std::vector<std::string> messages_;
 };
 

@@ -280,6 +280,15 @@ TEST(FramePacing, ADisplayThatDoesNotThrottleIsFedAtThePeriodOrAsFastAsTheWorkAl
     EXPECT_LE(oldest_head(frames), 43 * kMs);
 }
 
+TEST(FramePacing, WithoutFlipsALoadThatFallsHoldsNoFrameUp) {
+    Session session;
+    session.display.throttles = session.display.tells_display = false;
+    session.graphics = [](std::uint64_t frame) { return frame < 50 ? 300 * kMs : 20 * kMs; };
+    const auto frames = last(session.run(100), 45);
+    for (std::size_t i = 1; i < frames.size(); ++i)
+        EXPECT_LE(frames[i].sampled_ns - frames[i - 1].finished_ns, k60) << i;
+}
+
 TEST(FramePacing, AQueueThatHasFilledIsEmptiedAgain) {
     // A burst before anything is known fills the swapchain's queue: every frame is then in time and yet seen late.
     for (const bool tells : {true, false}) {

@@ -96,6 +96,11 @@ TEST(SessionTimes, AgesAreFromTheSampleToTheMiddleOfTheScanOut) {
     loop.frame(3 * kMs, 6 * kMs, true, {10 * kMs, 1000 * kMs, 4 * kMs});
     // Sampled at 1021, shown from 1030 to one eye and 1034 to the other.
     EXPECT_EQ(age(loop.times.frames()[2], FrameFigure::motion_to_photon), 18 * kMs);
+    loop.frame(3 * kMs, 6 * kMs, true, {10 * kMs, 1000 * kMs, -4 * kMs});
+    // Sampled at 1030, shown from 1040 to the right eye and 1044 to the left one.
+    const auto& ages = loop.times.frames()[3].ages[static_cast<std::size_t>(FrameFigure::motion_to_photon)];
+    EXPECT_EQ(ages[kRightEye], 15 * kMs);
+    EXPECT_EQ(ages[kLeftEye], 19 * kMs);
 }
 
 TEST(SessionTimes, KnowNoFrameTimeWhereFramesWereSkipped) {

@@ -108,7 +108,8 @@ TEST(SessionHead, IsTheFlownOneUntilATrackerSpeaks) {
     const Vec3 place = home + Vec3(-0.4, 0.1, 0.2);
     std::vector<InputEvent> said;
     for (int i = 0; i < 20; ++i) said.push_back(head_at(i * 5'000'000, place));
-    SessionHead head = follow_head(state.head, room.wall.setup, said, 100'000'000, state.desk.head_world);
+    SessionHead head =
+        follow_head(state.head, room.wall.setup, room.wall.setup.timing, said, 100'000'000, state.desk.head_world);
     EXPECT_TRUE(head.tracked);
     EXPECT_LT(glm::length(head_world(room.wall.setup, head).position_m - place), 1e-9);
 }
@@ -121,9 +122,17 @@ TEST(SessionHead, IsPredictedToEachEyesOwnTime) {
     const auto x_at = [&](Nanoseconds t) { return speed_m_per_s * seconds(t); };
     for (int i = 0; i <= 20; ++i) said.push_back(head_at(i * 5'000'000, {x_at(i * 5'000'000), 1.6, 2.0}));
     const Nanoseconds shown_ns = 120'000'000;
-    const SessionHead head = follow_head({}, room.wall.setup, said, shown_ns, {});
+    const SessionHead head = follow_head({}, room.wall.setup, room.wall.setup.timing, said, shown_ns, {});
     EXPECT_NEAR(head.poses.left_tracker.position_m.x, x_at(shown_ns), 1e-6);
     EXPECT_NEAR(head.poses.right_tracker.position_m.x, x_at(shown_ns) + speed_m_per_s / 120.0, 1e-6);
+}
+
+TEST(SessionHead, SeesATurnOfTheSessionsOwnWithBothEyesAtItsTime) {
+    const WallSetup setup = wall_of("powerwall.toml").setup;
+    ASSERT_EQ(setup.timing.eye_order, EyeOrder::left_first);
+    EXPECT_EQ(timing_in(setup, StereoMode::two_layers).eye_order, EyeOrder::left_first);
+    EXPECT_EQ(timing_in(setup, StereoMode::frame_sequential).eye_order, EyeOrder::simultaneous)
+        << "the other eye's turn has a frame of its own, predicted to its own time";
 }
 
 TEST(SessionHead, GivesEveryScreenTheSameEyes) {
@@ -143,7 +152,8 @@ TEST(SessionHead, GivesEveryScreenTheSameEyes) {
 TEST(SessionHead, BehindAScreenLeavesThatOneDark) {
     const Room room = room_before(wall_of("cave.toml"));
     SessionState state = state_in(room);
-    state.head = follow_head(state.head, room.wall.setup, {}, 0, {{-1.8, 1.6, 1.5}, Quat{1, 0, 0, 0}});
+    state.head =
+        follow_head(state.head, room.wall.setup, room.wall.setup.timing, {}, 0, {{-1.8, 1.6, 1.5}, Quat{1, 0, 0, 0}});
     EXPECT_FALSE(scene_of(state, room, 0, Vec3(0.0), {})) << "the left wall";
     EXPECT_TRUE(scene_of(state, room, 1, Vec3(0.0), {}));
 }
