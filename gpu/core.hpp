@@ -59,8 +59,10 @@ public:
     std::uint64_t submitted = 0;
     // Set by the first submission, wait or presentation that reports the device as lost; nothing works afterwards.
     bool lost = false;
-    // For tests: the next submission is answered as a driver answers when the GPU has gone.
+    // For tests: the next submission is answered as a driver answers when the GPU has gone, the next acquisition of an image as when
+    // the window's surface has.
     bool lose_at_next_submit = false;
+    bool lose_surface_at_next_acquire = false;
     [[nodiscard]] VkResult submit(const VkSubmitInfo& info);
     [[nodiscard]] std::uint64_t completed();
     [[nodiscard]] Result<void> wait_for(std::uint64_t serial);

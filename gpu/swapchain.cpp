@@ -2,6 +2,7 @@
 #include "gpu/swapchain.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace burin::gpu {
 
@@ -277,8 +278,10 @@ SwapchainFrame Swapchain::acquire(std::uint32_t window_width, std::uint32_t wind
         frame.answer = core_->lost ? FrameAnswer::device_lost : FrameAnswer::surface_lost;
         return frame;
     }
-    const VkResult r = core_->vk.vkAcquireNextImageKHR(core_->device, swapchain_, kAcquireLimit_ns,
-                                                       ready.semaphore.raw(), VK_NULL_HANDLE, &frame.image);
+    const VkResult r = std::exchange(core_->lose_surface_at_next_acquire, false)
+                           ? VK_ERROR_SURFACE_LOST_KHR
+                           : core_->vk.vkAcquireNextImageKHR(core_->device, swapchain_, kAcquireLimit_ns,
+                                                             ready.semaphore.raw(), VK_NULL_HANDLE, &frame.image);
     frame.answer = answer_of(r);
     if (frame.answer != FrameAnswer::presented) return frame;
     taken_ready_ = next_ready_;

@@ -23,17 +23,17 @@ Result<SessionPicture> SessionPicture::create(gpu::Device& device, std::uint32_t
 
 void SessionPicture::take(const SurfaceNews& news, const Vec3& lattice_origin_object) {
     for (const TileNews& tile : news.tiles) {
-        if (tile.tile >= tiles_.size()) tiles_.resize(tile.tile + 1);
-        const bool same_mesh = tiles_[tile.tile].surface == tile.surface;
-        tiles_[tile.tile] = tile;
+        if (tile.tile >= kept_.tiles.size()) kept_.tiles.resize(tile.tile + 1);
+        const bool same_mesh = kept_.tiles[tile.tile].surface == tile.surface;
+        kept_.tiles[tile.tile] = tile;
         if (!renderer_) continue;
         if (!same_mesh) renderer_->set_patch(tile.tile, tile.surface);
         if (tile.light) renderer_->set_patch_light(tile.tile, tile.light->vertices);
     }
-    occluders_.clear();
+    kept_.occluders.clear();
     for (const Box& box : news.inner_boxes_object)
-        occluders_.push_back({box.lo - lattice_origin_object, box.hi - lattice_origin_object});
-    if (renderer_) renderer_->set_occluders(occluders_);
+        kept_.occluders.push_back({box.lo - lattice_origin_object, box.hi - lattice_origin_object});
+    if (renderer_) renderer_->set_occluders(kept_.occluders);
 }
 
 void SessionPicture::put(const TileNews& tile) {
@@ -50,8 +50,8 @@ Result<void> SessionPicture::fit(ImageSize eye) {
     renderer_ = std::move(*made);
     renderer_in_full_ = false;
     eye_ = eye;
-    for (const TileNews& tile : tiles_) put(tile);
-    renderer_->set_occluders(occluders_);
+    for (const TileNews& tile : kept_.tiles) put(tile);
+    renderer_->set_occluders(kept_.occluders);
     return {};
 }
 

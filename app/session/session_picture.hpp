@@ -24,8 +24,12 @@ public:
     void take(const SurfaceNews& news, const Vec3& lattice_origin_object);
 
     // For a picture on another device.
-    [[nodiscard]] std::vector<TileNews> take_tiles() { return std::move(tiles_); }
-    void give_tiles(std::vector<TileNews> tiles) { tiles_ = std::move(tiles); }
+    struct Kept {
+        std::vector<TileNews> tiles;  // by their numbers
+        std::vector<Box> occluders;
+    };
+    [[nodiscard]] Kept take_kept() { return std::move(kept_); }
+    void give_kept(Kept kept) { kept_ = std::move(kept); }
 
     // A picture to keep is drawn with all triangles: how far refine_beside() has come shall not show in it.
     void draw_in_full(bool full) { full_ = full; }
@@ -61,8 +65,7 @@ private:
     void put(const TileNews& tile);
     [[nodiscard]] std::optional<OverlayView> overlay() const;
 
-    std::vector<TileNews> tiles_;  // by their numbers
-    std::vector<Box> occluders_;
+    Kept kept_;
     std::optional<Renderer> renderer_;
     std::optional<OutputStage> window_stage_, photo_stage_;
     std::optional<PanelPainter> painter_;

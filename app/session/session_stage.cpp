@@ -2,6 +2,7 @@
 #include "app/session/session_stage.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <thread>
 
@@ -9,6 +10,9 @@
 
 namespace burin {
 namespace {
+
+constexpr int kMostLosses = 3, kMostTries = 10;
+constexpr std::chrono::milliseconds kBetweenTries{300};
 
 std::uint32_t samples_for(const gpu::Device& device, std::uint32_t asked) {
     if (asked != 0) return asked;
@@ -118,17 +122,28 @@ Result<void> SessionStage::open_device() {
 
 Result<void> SessionStage::recover(LiveSession& session, const Error& error) {
     if (!device_->lost()) return std::unexpected(error);
+    if (++losses_ > kMostLosses) {
+        return fail("graphics device", "it was lost " + std::to_string(losses_) + " times without a picture in between",
+                    "update the graphics driver, or try a smaller window");
+    }
     session.say("the graphics device was lost; starting on a new one");
-    std::vector<std::vector<TileNews>> tiles;
+    std::vector<SessionPicture::Kept> kept;
     for (ScreenStage& screen : screens_) {
-        tiles.push_back(screen.picture->take_tiles());
+        kept.push_back(screen.picture->take_kept());
         screen.picture.reset();
         for (SessionWindow* window : {screen.window.get(), screen.right_window.get()})
             if (window != nullptr) window->close_images();
     }
     device_.reset();
-    if (const auto opened = open_device(); !opened) return opened;
-    for (std::size_t i = 0; i < screens_.size(); ++i) screens_[i].picture->give_tiles(std::move(tiles[i]));
+    Result<void> opened = open_device();
+    for (int i = 0; !opened && i < kMostTries; ++i) {  // a driver that starts anew takes a while
+        device_.reset();
+        std::this_thread::sleep_for(kBetweenTries);
+        opened = open_device();
+    }
+    if (!opened) return opened;
+    for (std::size_t i = 0; i < screens_.size(); ++i) screens_[i].picture->give_kept(std::move(kept[i]));
+    session.say("the graphics device is " + device_name());
     return {};
 }
 
@@ -242,6 +257,7 @@ Result<bool> SessionStage::draw(LiveSession& session, Nanoseconds frame_ns) {
         const std::vector<std::filesystem::path> paths = session.take_screenshots();
         for (std::size_t i = 0; i < screens_.size(); ++i) photograph(i, session, paths);
     }
+    if (any) losses_ = 0;
     return any;
 }
 

@@ -32,6 +32,7 @@ public:
     [[nodiscard]] std::uint64_t presented() const;
     [[nodiscard]] std::optional<bool> was_shown(std::uint64_t picture) const;
     [[nodiscard]] const std::string& device_name() const { return device_->info().name; }
+    [[nodiscard]] gpu::Device& device() { return *device_; }  // another one after recover()
 
     // What happened in the windows, waiting for at most so long (0: not at all). The mouse counts in the main screen's alone; in the window
     // of its right eye it is told kRightWindow_px (seen_place.hpp) further to the right.
@@ -47,7 +48,8 @@ public:
     void exchange_full_screen() { screens_[wall_->main].window->exchange_full_screen(); }
     [[nodiscard]] std::vector<std::string> take_messages();  // for people
 
-    // Drops what was made on a device that is gone and starts anew on one that is there; any other error is given back.
+    // Drops what was made on a device that is gone and starts anew on one that is there, for which it waits some seconds at most. What is
+    // carved is the session's and stays. Any other error is given back, and so is a device that is lost over and over.
     [[nodiscard]] Result<void> recover(LiveSession& session, const Error& error);
 
 private:
@@ -87,6 +89,7 @@ private:
     std::optional<gpu::Device> device_;
     std::vector<ScreenStage> screens_;
     std::vector<std::string> messages_;
+    int losses_ = 0;  // of the device, since the last picture
 };
 
 }  // namespace burin
