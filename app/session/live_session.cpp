@@ -85,7 +85,7 @@ void LiveSession::publish_parameters() {
 }
 
 void LiveSession::step(const FrameInput& input, const OutputPlace& output, const Carve& carve) {
-    output_ = output;
+    if (output.size.width > 0 && output.size.height > 0) output_ = output;  // minimised: as it was
     fit_desk_screen(room_.wall, main_eye());
     tool_ = channels_.tool.newest();
     times_.sampled(start_ns_ + head_sampled_ns(input), tool_.time_ns);

@@ -35,7 +35,8 @@ public:
     [[nodiscard]] gpu::Device& device() { return *device_; }  // another one after recover()
 
     // What happened in the windows, waiting for at most so long (0: not at all). The mouse counts in the main screen's alone; in the window
-    // of its right eye it is told kRightWindow_px (seen_place.hpp) further to the right.
+    // of its right eye it is told kRightWindow_px (seen_place.hpp) further to the right. Whichever is closed, the session is asked to end:
+    // none of a wall's windows can be had back alone.
     [[nodiscard]] std::vector<Input> inputs(double wait_s);
 
     // One frame, if there is anything new; whether there was. frame_ns: when it is to be seen, by the session's time.

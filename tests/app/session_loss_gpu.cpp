@@ -61,7 +61,8 @@ protected:
     }
 
     // As run_session(), in simulated time. Folders have one letter: their names are on the panel, and lines of one length are broken alike.
-    Played play(const std::string& folder, LiveOptions live, const Mishap& mishap = {}) {
+    Played play(const std::string& folder, LiveOptions live, const Mishap& mishap = {},
+                const std::set<int>& minimised = {}) {
         std::filesystem::create_directory(place / folder);
         live.screenshots = (place / folder).string();
         SculptOptions options;
@@ -72,7 +73,8 @@ protected:
         script.replace(script.find("carved.stl"), 10, (place / folder).string() + "/carved.stl");
         testing::internal::CaptureStderr();
         Played played;
-        played.outcome = run(options, InputSource::replay(parse_input_log(script, "script").value()), mishap, played);
+        played.outcome =
+            run(options, InputSource::replay(parse_input_log(script, "script").value()), mishap, minimised, played);
         played.said = testing::internal::GetCapturedStderr();
         return played;
     }
@@ -90,7 +92,8 @@ protected:
 private:
     std::uint64_t messages_before_ = 0;
 
-    static Result<void> run(const SculptOptions& options, InputSource input, const Mishap& mishap, Played& played) {
+    static Result<void> run(const SculptOptions& options, InputSource input, const Mishap& mishap,
+                            const std::set<int>& minimised, Played& played) {
         SimulatedClock clock;
         const Result<SessionWall> wall = session_wall(options.live);
         if (!wall) return std::unexpected(wall.error());
@@ -109,12 +112,14 @@ private:
                 if (const auto updated = s.desk().update(clock.now_ns()); !updated) return updated;
                 next_update_ns += kUpdatePeriod_ns;
             }
-            s.step(*frame, stage->place(), [&](CarvingOrder order) {
+            const OutputPlace place = minimised.contains(i) ? OutputPlace{} : stage->place();
+            s.step(*frame, place, [&](CarvingOrder order) {
                 s.desk().order(order);
                 s.desk().finish_export();
             });
             if (auto news = s.desk().take_news()) s.take(std::move(*news));
             if (stage->has_windows()) static_cast<void>(stage->inputs(0.0));
+            if (minimised.contains(i)) continue;
             if (const auto drawn = draw(s, *stage, i, frame->display_ns, mishap, played); !drawn) return drawn;
             if (s.state().quit) break;
         }
@@ -208,6 +213,18 @@ TEST_F(SessionLoss, BeforeAWallTakesEveryScreenAndThePanelThatStandsThereUpAgain
         const Played in_windows = play(folder, cave(false), mishap);
         ASSERT_TRUE(in_windows.outcome) << in_windows.outcome.error().line();
         expect_same("a", folder, names);
+    }
+}
+
+// What is done meanwhile (with a device; the mouse has nowhere to move) is done as before.
+TEST_F(SessionLoss, OfAllSizeForAWhileIsNoLossOfWhatIsDoneMeanwhile) {
+    for (const LiveOptions& live : {desk(true), cave(true)}) {
+        const bool stands = !live.wall.empty();
+        const std::string before = stands ? "c" : "a", after = stands ? "d" : "b";
+        ASSERT_TRUE(play(before, live).outcome);
+        const Played played = play(after, live, {}, {20, 21, 22, 23, 24, 25, 26});
+        ASSERT_TRUE(played.outcome) << played.outcome.error().line();
+        expect_same(before, after, {"carved.stl", stands ? "end-front.png" : "end.png"});
     }
 }
 
