@@ -76,6 +76,7 @@ private:
     [[nodiscard]] static ImageSize size_of(const ScreenStage& screen);
     [[nodiscard]] static OutputPlace place_of(const ScreenStage& screen);
     [[nodiscard]] static std::vector<Input> right_eyes_inputs(const ScreenStage& screen);
+    // ---- session_drawing.cpp
     // Opens and closes what the mode needs: a second window, images of two layers. An Error leaves the screen as it can be.
     [[nodiscard]] Result<void> fit_mode(std::size_t screen, StereoMode mode);
     [[nodiscard]] Result<bool> draw_screen(std::size_t screen, LiveSession& session, Nanoseconds frame_ns);

@@ -216,7 +216,7 @@ TEST_F(SessionLoss, BeforeAWallTakesEveryScreenAndThePanelThatStandsThereUpAgain
     }
 }
 
-// What is done meanwhile (with a device; the mouse has nowhere to move) is done as before.
+// A hand that goes on carving is measured as before.
 TEST_F(SessionLoss, OfAllSizeForAWhileIsNoLossOfWhatIsDoneMeanwhile) {
     for (const LiveOptions& live : {desk(true), cave(true)}) {
         const bool stands = !live.wall.empty();
