@@ -7,14 +7,16 @@ namespace burin {
 
 void ShownFrames::handed(const FrameMeasure& measure, std::uint64_t picture, Nanoseconds now_ns) {
     if (waiting_.empty()) looked_ns_ = now_ns;  // it cannot have been seen before
-    waiting_.push_back({measure, picture, now_ns});
+    const bool shown_anew = picture != last_picture_;
+    last_picture_ = picture;
+    waiting_.push_back({measure, shown_anew ? std::optional(picture) : std::nullopt, now_ns});
 }
 
 std::vector<FrameMeasure> ShownFrames::look(Nanoseconds now_ns, const WasShown& was_shown) {
     std::vector<FrameMeasure> known;
     while (!waiting_.empty()) {
         Frame& oldest = waiting_.front();
-        const std::optional<bool> shown = was_shown(oldest.picture);
+        const std::optional<bool> shown = oldest.picture ? was_shown(*oldest.picture) : std::nullopt;
         if (shown == false && now_ns - oldest.handed_ns < kPatience_ns) {
             looked_ns_ = now_ns;
             break;

@@ -7,6 +7,7 @@
 
 #include <deque>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "app/session/frame_pacing.hpp"
@@ -19,7 +20,7 @@ public:
     static constexpr Nanoseconds kSharp_ns = 2'000'000;
     static constexpr Nanoseconds kPatience_ns = 250'000'000;  // a hidden window may never be seen
 
-    // picture: how many the display was handed until then, this one included.
+    // picture: how many the display was handed until then, this one included; the same as before, where this frame was only for others.
     void handed(const FrameMeasure& measure, std::uint64_t picture, Nanoseconds now_ns);
 
     // Whether the picture of a number has been seen; nothing where nobody knows, or will any more.
@@ -33,10 +34,11 @@ public:
 private:
     struct Frame {
         FrameMeasure measure;
-        std::uint64_t picture = 0;
+        std::optional<std::uint64_t> picture;
         Nanoseconds handed_ns = 0;
     };
     std::deque<Frame> waiting_;
+    std::uint64_t last_picture_ = 0;
     std::optional<Nanoseconds> looked_ns_;  // when the oldest was not seen yet
     bool sharp_ = false;                    // the last one's time was: the next comes about when it was planned for
 };

@@ -108,6 +108,17 @@ TEST(ShownFrames, TellNoTimeThatIsNotKnownSharply) {
     EXPECT_EQ(frames.next_look_ns(), 21 * kMs) << "all the time, until one is sharp";
 }
 
+TEST(ShownFrames, ThatThisDisplayWasNotHandedTellNothingOfIt) {
+    ShownFrames frames;
+    frames.handed(planned_for(10 * kMs), 7, 0);
+    ASSERT_TRUE(frames.look(9 * kMs, [](auto) { return false; }).empty());
+    EXPECT_TRUE(frames.look(10 * kMs, [](auto) { return true; })[0].flip_ns);
+    frames.handed(planned_for(30 * kMs), 7, 20 * kMs);  // only another screen of the wall has changed
+    const auto known = frames.look(20 * kMs, [](auto) { return true; });
+    ASSERT_EQ(known.size(), 1u);
+    EXPECT_FALSE(known[0].flip_ns) << "the picture before has been there for long";
+}
+
 TEST(ShownFrames, GiveFramesBackInTheirOrderAlsoWhereNothingIsTold) {
     ShownFrames frames;
     FrameMeasure blocked = planned_for(5 * kMs);
