@@ -33,8 +33,8 @@ void CarvingSide::use_tool(const Tool& tool, double hardness_Ns_per_m3) {
     working_ = false;
 }
 
-Result<void> CarvingSide::update(Nanoseconds now_ns) {
-    const std::vector<ToolSweep> sweeps = drain();
+Result<void> CarvingSide::update(Nanoseconds now_ns, std::uint64_t last_tick) {
+    const std::vector<ToolSweep> sweeps = drain(last_tick);
     if (!sweeps.empty()) {
         if (const auto updated = carving_.update(sweeps); !updated) return updated;
     }
@@ -52,7 +52,7 @@ Result<void> CarvingSide::publish(Nanoseconds now_ns) {
 }
 
 // What the working tool has swept since the last update.
-std::vector<ToolSweep> CarvingSide::drain() {
+std::vector<ToolSweep> CarvingSide::drain(std::uint64_t last_tick) {
     std::vector<ToolSweep> sweeps;
     std::vector<Pose> run;    // where the tool worked without a break
     bool goes_on = working_;  // the run began before this update: its first point has been cut already
@@ -65,8 +65,11 @@ std::vector<ToolSweep> CarvingSide::drain() {
         run.clear();
         goes_on = false;
     };
-    StrokeSample sample;
-    while (channels_.stroke.pop(sample)) {
+    while (const StrokeSample* oldest = channels_.stroke.oldest()) {
+        if (oldest->tick > last_tick) break;
+        StrokeSample sample;
+        channels_.stroke.pop(sample);
+        last_tick_ = sample.tick;
         tool_position_ = sample.proxy_object_m;
         pressed_ = (sample.buttons & 1u) != 0;
         const std::optional<Vec3> point = working_at(sample);

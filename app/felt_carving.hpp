@@ -26,7 +26,8 @@ public:
     CarvingSide(Carving& carving, HapticChannels& channels, const Tool& tool, double hardness_Ns_per_m3,
                 double reach_m);
 
-    [[nodiscard]] Result<void> update(Nanoseconds now_ns);
+    // With the samples that have come, but none after last_tick.
+    [[nodiscard]] Result<void> update(Nanoseconds now_ns, std::uint64_t last_tick = UINT64_MAX);
     [[nodiscard]] Result<void> publish(Nanoseconds now_ns);
 
     void start_at(const Vec3& position_object) { tool_position_ = position_object; }
@@ -39,9 +40,11 @@ public:
     // When the tool worked last, by the samples' clock; 0: never.
     [[nodiscard]] Nanoseconds last_worked_ns() const { return last_worked_ns_; }
     [[nodiscard]] std::uint64_t published() const { return sequence_; }
+    // Of the last sample of all; 0: none yet.
+    [[nodiscard]] std::uint64_t last_tick() const { return last_tick_; }
 
 private:
-    [[nodiscard]] std::vector<ToolSweep> drain();
+    [[nodiscard]] std::vector<ToolSweep> drain(std::uint64_t last_tick);
     // Where the tool works in this sample; none when it only moves.
     [[nodiscard]] std::optional<Vec3> working_at(const StrokeSample& sample) const;
 
@@ -55,7 +58,7 @@ private:
     bool working_ = false;     // in the last sample of all
     bool pressed_ = false;     // likewise
     Nanoseconds last_worked_ns_ = 0;
-    std::uint64_t sequence_ = 0;
+    std::uint64_t sequence_ = 0, last_tick_ = 0;
 };
 
 }  // namespace burin

@@ -34,6 +34,13 @@ public:
         return true;
     }
 
+    // Consumer only: the oldest value, which stays until it is popped; null when the ring is empty.
+    [[nodiscard]] const T* oldest() const noexcept {
+        const std::size_t head = head_.load(std::memory_order_relaxed);     // only the consumer writes it
+        if (head == tail_.load(std::memory_order_acquire)) return nullptr;  // acquire: pairs with push's release
+        return &values_[head & mask_];
+    }
+
     // Consumer only: true and the oldest value, or false when the ring is empty.
     bool pop(T& value) noexcept {
         const std::size_t head = head_.load(std::memory_order_relaxed);   // only the consumer writes it

@@ -17,6 +17,11 @@ TickRecord HapticLoop::step(Nanoseconds lateness_ns) noexcept {
     const DeviceSample sample = device_.read();
     const LocalSurface& surface = channels_.surface.newest();
     const TickParameters& parameters = channels_.parameters.newest();
+    return repeat(sample, surface, parameters, now_ns, lateness_ns);
+}
+
+TickRecord HapticLoop::repeat(const DeviceSample& sample, const LocalSurface& surface, const TickParameters& parameters,
+                              Nanoseconds now_ns, Nanoseconds lateness_ns) noexcept {
     FullTick full = full_tick(state_, sample, surface, parameters, device_.description(), now_ns, dt_s_);
     device_.write(full.record.given);
     state_ = full.next;

@@ -31,6 +31,10 @@ public:
     // One tick at the clock's present time. lateness_ns is only recorded. Returns what was published as the tick
     // record.
     TickRecord step(Nanoseconds lateness_ns = 0) noexcept;
+    // The next tick as another session had it: with what that read, saw and took for the time, whatever is in the channels. The rest is
+    // as in step(): the same inputs give the same ticks.
+    TickRecord repeat(const DeviceSample& sample, const LocalSurface& surface, const TickParameters& parameters,
+                      Nanoseconds now_ns, Nanoseconds lateness_ns) noexcept;
 
     // The next tick as it will probably be, all of it but its effects.
     void rehearse() noexcept;

@@ -78,10 +78,8 @@ void CarvingDesk::carry_out(const LightFrom& from) {
 
 void CarvingDesk::say(std::string message) { messages_.push_back(std::move(message)); }
 
-void CarvingDesk::look_after_export() {
-    if (!export_.valid() || export_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-    say(export_.get());
-    anything_ = true;
+bool CarvingDesk::export_is_done() const {
+    return export_.valid() && export_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
 void CarvingDesk::finish_export() {
@@ -91,8 +89,20 @@ void CarvingDesk::finish_export() {
 }
 
 Result<void> CarvingDesk::update(Nanoseconds now_ns) {
-    look_after_export();
-    if (const auto updated = side_.update(now_ns); !updated) return updated;
+    seen_ = {.time_ns = now_ns, .last_tick = 0, .orders = 0, .export_ended = export_is_done()};
+    if (seen_.export_ended) finish_export();
+    return carve(now_ns, UINT64_MAX);
+}
+
+Result<void> CarvingDesk::repeat(const UpdateSeen& seen) {
+    seen_ = seen;
+    if (seen.export_ended) finish_export();
+    return carve(seen.time_ns, seen.last_tick);
+}
+
+Result<void> CarvingDesk::carve(Nanoseconds now_ns, std::uint64_t last_tick) {
+    if (const auto updated = side_.update(now_ns, last_tick); !updated) return updated;
+    seen_.last_tick = side_.last_tick();
     if (stroke_open_ && !side_.pressed()) {  // the button came up: a stroke is what can be undone at once
         carving_.end_stroke();
         anything_ = true;

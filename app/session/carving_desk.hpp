@@ -51,6 +51,15 @@ struct SurfaceNews {
     std::vector<std::string> messages;      // for people
 };
 
+// What an update depended on besides the orders before it: enough to do the same again.
+struct UpdateSeen {
+    Nanoseconds time_ns = 0;
+    std::uint64_t last_tick = 0;  // whose stroke sample it took
+    std::size_t orders = 0;       // that were new to it; whoever gives them counts
+    bool export_ended = false;    // it was the first to know
+    friend bool operator==(const UpdateSeen&, const UpdateSeen&) = default;
+};
+
 class CarvingDesk {
 public:
     // All must outlive it. Strokes are kept for undoing within the memory given.
@@ -63,6 +72,10 @@ public:
     void order(const CarvingOrder& order);
     // Fails when the engine does: the solid is then as before the update.
     [[nodiscard]] Result<void> update(Nanoseconds now_ns);
+    // The same update again: takes the samples that it took, and waits for an export that it knew to have ended.
+    [[nodiscard]] Result<void> repeat(const UpdateSeen& seen);
+    // What the last update depended on, but for the orders.
+    [[nodiscard]] const UpdateSeen& seen() const { return seen_; }
     // Nothing when nothing has happened.
     [[nodiscard]] std::optional<SurfaceNews> take_news();
     // Waits for an export that goes on.
@@ -75,7 +88,8 @@ private:
     void carry_out(const ExportSurface& wanted);
     void carry_out(const LightFrom& from);
     void say(std::string message);
-    void look_after_export();
+    [[nodiscard]] bool export_is_done() const;
+    [[nodiscard]] Result<void> carve(Nanoseconds now_ns, std::uint64_t last_tick);
 
     Carving& carving_;
     WorkerPool& pool_;
@@ -85,6 +99,7 @@ private:
     std::future<std::string> export_;  // what to say about it
     std::vector<std::string> messages_;
     bool anything_ = true;  // to be told, besides tiles
+    UpdateSeen seen_;
 };
 
 }  // namespace burin

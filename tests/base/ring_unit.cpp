@@ -44,6 +44,22 @@ TEST(Ring, AFullRingRefusesAndCountsWithoutLosingWhatItHolds) {
     EXPECT_FALSE(ring.pop(value));
 }
 
+TEST(Ring, TheOldestStaysUntilItIsPopped) {
+    Ring<int> ring(2);
+    EXPECT_EQ(ring.oldest(), nullptr);
+    ring.push(5);
+    ring.push(6);
+    ASSERT_NE(ring.oldest(), nullptr);
+    EXPECT_EQ(*ring.oldest(), 5);
+    EXPECT_EQ(*ring.oldest(), 5);
+    int value = 0;
+    EXPECT_TRUE(ring.pop(value));
+    EXPECT_EQ(value, 5);
+    EXPECT_EQ(*ring.oldest(), 6);
+    EXPECT_TRUE(ring.pop(value));
+    EXPECT_EQ(ring.oldest(), nullptr);
+}
+
 TEST(Ring, BehavesAsAQueueThroughManyWrapArounds) {
     Ring<int> ring(8);
     std::deque<int> model;
