@@ -184,7 +184,8 @@ struct ToolState {
 // The five channels in one place. The session owns it and outlives the threads; allocates in the constructor only.
 // Capacities: four seconds of ticks for a carving side that stalls, one second for a recorder that writes.
 struct HapticChannels {
-    explicit HapticChannels(std::size_t stroke_capacity = 4096, std::size_t record_capacity = 1024)
+    static constexpr std::size_t kStrokes = 4096, kRecords = 1024;
+    explicit HapticChannels(std::size_t stroke_capacity = kStrokes, std::size_t record_capacity = kRecords)
         : stroke(stroke_capacity), records(record_capacity) {}
 
     NewestSlot<LocalSurface> surface;       // carving side -> haptic thread

@@ -31,11 +31,9 @@ void CarvingThread::order(CarvingOrder order) {
     woken_.notify_all();
 }
 
-std::optional<SurfaceNews> CarvingThread::take_news() {
+CarvingThread::Taken CarvingThread::take_news() {
     const std::lock_guard lock(mutex_);
-    std::optional<SurfaceNews> taken = std::move(news_);
-    news_.reset();
-    return taken;
+    return std::exchange(done_, {});
 }
 
 std::optional<Error> CarvingThread::failure() const {
@@ -54,7 +52,8 @@ void CarvingThread::run() {
     Nanoseconds next_ns = clock_.now_ns();
     while (true) {
         next_ns = std::max(next_ns + kPeriod_ns, clock_.now_ns());
-        for (const CarvingOrder& order : wait_for_orders(next_ns)) desk_.order(order);
+        const std::vector<CarvingOrder> orders = wait_for_orders(next_ns);
+        for (const CarvingOrder& order : orders) desk_.order(order);
         const Nanoseconds began_ns = clock_.now_ns();
         const auto updated = desk_.update(began_ns);
         const Nanoseconds took_ns = clock_.now_ns() - began_ns;
@@ -64,16 +63,24 @@ void CarvingThread::run() {
         bool end = false;
         {
             const std::lock_guard lock(mutex_);
-            if (news && news_) {
-                merge(*news_, std::move(*news));
-            } else if (news) {
-                news_ = std::move(news);
+            add(done_.news, std::move(news));
+            if (updated) {
+                done_.updates.push_back(desk_.seen());
+                done_.updates.back().orders = orders.size();
             }
             if (!updated) failure_ = updated.error();
             end = stopping_ || failure_.has_value();
         }
         if (told || !updated) on_news_();
         if (end) return;
+    }
+}
+
+void add(std::optional<SurfaceNews>& to, std::optional<SurfaceNews> later) {
+    if (to && later) {
+        merge(*to, std::move(*later));
+    } else if (later) {
+        to = std::move(later);
     }
 }
 

@@ -29,7 +29,11 @@ public:
     void start();
     void stop();  // after the update that goes on; orders not yet carried out are
     void order(CarvingOrder order);
-    [[nodiscard]] std::optional<SurfaceNews> take_news();
+    struct Taken {
+        std::optional<SurfaceNews> news;
+        std::vector<UpdateSeen> updates;  // that told it, and those that had nothing to tell
+    };
+    [[nodiscard]] Taken take_news();
     // How long the updates took in which the surface changed. Any thread.
     [[nodiscard]] const Histogram& update_duration() const { return update_duration_; }
     // Why carving ended; nothing while all is well. What is carved is kept.
@@ -46,7 +50,7 @@ private:
     mutable std::mutex mutex_;  // guards all that follows
     std::condition_variable woken_;
     std::vector<CarvingOrder> orders_;
-    std::optional<SurfaceNews> news_;
+    Taken done_;
     std::optional<Error> failure_;
     bool stopping_ = false;
     std::thread thread_;
@@ -54,5 +58,7 @@ private:
 
 // Adds later news to those not yet taken.
 void merge(SurfaceNews& into, SurfaceNews later);
+// The same where there may be none.
+void add(std::optional<SurfaceNews>& to, std::optional<SurfaceNews> later);
 
 }  // namespace burin

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "app/session/input_line.hpp"
+#include "app/session/input_words.hpp"
 #include "geometry/file_io.hpp"
 
 namespace burin {
@@ -24,8 +25,12 @@ bool is_settings_line(const std::string& settings) {
            (settings.empty() || (settings.front() != ' ' && settings.back() != ' '));
 }
 
-// The settings behind "burin-input 1 ".
-Result<std::string> read_header(std::string_view line, const std::string& where) {
+struct Header {
+    int version = 0;
+    std::string settings;
+};
+
+Result<Header> read_header(std::string_view line, const std::string& where) {
     const std::string remedy =
         "its first line must read: burin-input " + std::to_string(kInputLogVersion) + " SETTINGS";
     if (line.ends_with('\r')) line.remove_suffix(1);
@@ -37,15 +42,41 @@ Result<std::string> read_header(std::string_view line, const std::string& where)
     line.remove_prefix(static_cast<std::size_t>(end - line.data()));
     if (error != std::errc{} || (!line.empty() && line.front() != ' '))
         return fail(where, "the log has no version", remedy);
-    if (version != kInputLogVersion)
-        return fail(where, "the log is of version " + std::to_string(version),
-                    "this program reads version " + std::to_string(kInputLogVersion) + "; use the one that wrote it");
+    if (version < 1 || version > kInputLogVersion)
+        return fail(
+            where, "the log is of version " + std::to_string(version),
+            "this program reads versions up to " + std::to_string(kInputLogVersion) + "; use the one that wrote it");
     while (line.starts_with(' ')) line.remove_prefix(1);
     while (line.ends_with(' ')) line.remove_suffix(1);
-    std::string settings(line.substr(0, kMostSettingsBytes + 1));
-    if (!is_settings_line(settings))
+    Header header{version, std::string(line.substr(0, kMostSettingsBytes + 1))};
+    if (!is_settings_line(header.settings))
         return fail(where, "the settings are too long or hold control characters", "write them as one short line");
-    return settings;
+    return header;
+}
+
+// The word that follows the time.
+std::string_view kind_on(std::string_view line) {
+    constexpr std::string_view kBlanks = " \t\r";
+    for (int skipped = 0; skipped < 2; ++skipped) {
+        line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
+        const std::string_view word = line.substr(0, line.find_first_of(kBlanks));
+        if (skipped == 1) return word;
+        line.remove_prefix(word.size());
+    }
+    return {};
+}
+
+// A line of what the threads did: its time.
+Result<Nanoseconds> read_threads(ThreadLogReader& threads, std::string_view line, std::size_t number,
+                                 const std::string& where) {
+    if (line.size() > kMostLineBytes) return fail(where, "the line is longer than any", "take it out");
+    const Result<std::vector<std::string>> words = words_of(line, where);
+    if (!words) return std::unexpected(words.error());
+    const auto time_ns = words->size() < 2 ? std::nullopt : time_of_text(words->front());
+    if (!time_ns) return fail(where, "it begins with no time", "begin it with seconds since the session's start");
+    if (const auto taken = threads.take({words->begin() + 1, words->end()}, number, where); !taken)
+        return std::unexpected(taken.error());
+    return *time_ns;
 }
 
 // Takes the next line off the text; nothing when no line end is left.
@@ -65,30 +96,41 @@ Error file_error(const std::string& name, const std::string& what, int code, std
 
 Result<InputLog> parse_input_log(std::string_view text, const std::string& name) {
     InputLog log;
+    ThreadLogReader threads;
     std::size_t line_number = 1;
     const auto where = [&] { return name + ":" + std::to_string(line_number); };
-    const auto header = take_line(text);
-    auto settings = read_header(header.value_or(text.substr(0, 100)), where());
-    if (!settings) return std::unexpected(settings.error());
-    if (!header) return fail(where(), "the header line has no end", "end it with a line feed");
-    log.settings = std::move(*settings);
+    const auto header_line = take_line(text);
+    auto header = read_header(header_line.value_or(text.substr(0, 100)), where());
+    if (!header) return std::unexpected(header.error());
+    if (!header_line) return fail(where(), "the header line has no end", "end it with a line feed");
+    log.settings = std::move(header->settings);
     Nanoseconds last_ns = 0;
     while (const auto line = take_line(text)) {
         ++line_number;
-        auto event = parse_line(*line, where());
-        if (!event) return std::unexpected(event.error());
-        if (!*event) continue;
-        if ((*event)->time_ns < last_ns)
+        Nanoseconds time_ns = 0;
+        if (header->version > 1 && ThreadLogReader::knows(kind_on(*line))) {
+            const auto taken = read_threads(threads, *line, line_number, where());
+            if (!taken) return std::unexpected(taken.error());
+            time_ns = *taken;
+        } else {
+            auto event = parse_line(*line, where());
+            if (!event) return std::unexpected(event.error());
+            if (!*event) continue;
+            time_ns = (*event)->time_ns;
+            if (std::holds_alternative<FrameStart>((*event)->input)) threads.frame_begins();
+            log.events.push_back(std::move(**event));
+        }
+        if (time_ns < last_ns)
             return fail(where(),
-                        "its time " + text_of_time((*event)->time_ns) + " is before " + text_of_time(last_ns) +
+                        "its time " + text_of_time(time_ns) + " is before " + text_of_time(last_ns) +
                             ", that of the event before",
                         "sort the lines by time");
-        last_ns = (*event)->time_ns;
-        log.events.push_back(std::move(**event));
+        last_ns = time_ns;
     }
     ++line_number;
     if (!text.empty())
         log.torn_line = where() + ": the last line has no end and is left out; if it is whole, end it with a line feed";
+    log.threads = threads.finish();
     return log;
 }
 
@@ -140,10 +182,20 @@ Result<void> InputLogWriter::append(const InputEvent& event) {
     if (!is_sensible(event.input) || event.time_ns > kLongestSession_ns)
         return fail(name_, "an event is out of range and is not recorded",
                     "look for a tracker or device that sends nonsense");
-    if (event.time_ns < last_ns_)
-        return fail(name_, "an event is before the one before it", "record events in their order");
-    last_ns_ = event.time_ns;
+    if (const auto come = come_to(event.time_ns); !come) return come;
     return write_line(line_of(event));
+}
+
+Result<void> InputLogWriter::append_threads(Nanoseconds time_ns, const std::string& text) {
+    if (broken_) return fail(name_, "an earlier event could not be written", "free space on the disk and record anew");
+    if (const auto come = come_to(time_ns); !come) return come;
+    return write_line(text_of_time(time_ns) + " " + text);
+}
+
+Result<void> InputLogWriter::come_to(Nanoseconds time_ns) {
+    if (time_ns < last_ns_) return fail(name_, "an event is before the one before it", "record events in their order");
+    last_ns_ = time_ns;
+    return {};
 }
 
 Result<void> InputLogWriter::write_line(std::string line) {

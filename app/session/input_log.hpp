@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // All input of a session as a text file: what is recorded, and what a user with a script writes by hand. The format is
-// described in docs/formats.md, "The input log": a header line with version and settings, then a line an event.
+// described in docs/formats.md, "The input log": a header line with version and settings, then a line an event; in a recording, between
+// them, lines for what the threads did (thread_log.hpp).
 //
 // Reading what was written gives the same events exactly. A file whose last line has no end was torn off by a crash: that line
 // is reported and left out, since nobody can tell whether it is whole.
@@ -15,17 +16,19 @@
 #include <vector>
 
 #include "app/session/input_event.hpp"
+#include "app/session/thread_log.hpp"
 #include "base/error.hpp"
 
 namespace burin {
 
-inline constexpr int kInputLogVersion = 1;
-inline constexpr std::uint64_t kMostLogBytes = 256u << 20;  // an hour of two thousand inputs a second
+inline constexpr int kInputLogVersion = 2;                  // 1, without threads, is read as well
+inline constexpr std::uint64_t kMostLogBytes = 256u << 20;  // three hours of a session with its threads
 inline constexpr std::size_t kMostSettingsBytes = 16384;
 
 struct InputLog {
     std::string settings;  // what the session was started with, on one line
     std::vector<InputEvent> events;
+    std::optional<ThreadLog> threads;      // what a live session's did; none: made up in simulated time
     std::optional<std::string> torn_line;  // a message, when the last line had no end and was left out
 };
 
@@ -47,9 +50,12 @@ public:
     // Refused: an event that is not sensible, or before the one before it; nothing is written then. After a failure of the file
     // (a full disk) every later event is refused too, so that what is in the file stays a log.
     [[nodiscard]] Result<void> append(const InputEvent& event);
+    // A line of what the threads did (thread_log.hpp), without its time. Refused as an event is.
+    [[nodiscard]] Result<void> append_threads(Nanoseconds time_ns, const std::string& text);
 
 private:
     InputLogWriter() = default;
+    [[nodiscard]] Result<void> come_to(Nanoseconds time_ns);
     [[nodiscard]] Result<void> write_line(std::string line);
 
     std::string name_;

@@ -34,8 +34,9 @@ InputSource InputSource::replay(InputLog log, Nanoseconds period_ns) {
     return source;
 }
 
-InputSource InputSource::play(InputLog log) {
+InputSource InputSource::play(InputLog log, std::optional<InputLogWriter> recorder) {
     InputSource source;
+    source.recorder_ = std::move(recorder);
     source.kind_ = Kind::play;
     std::erase_if(log.events, is_frame);
     source.log_ = std::move(log);
@@ -60,10 +61,17 @@ void InputSource::push(Nanoseconds now_ns, Input input) {
 
 void InputSource::record(const InputEvent& event) {
     if (!recorder_) return;
-    if (auto ok = recorder_->append(event); !ok) {
-        recording_error_ = ok.error();
-        recorder_.reset();
-    }
+    if (auto ok = recorder_->append(event); !ok) stop_recording(ok.error());
+}
+
+void InputSource::record_threads(const std::string& text) {
+    if (!recorder_) return;
+    if (auto ok = recorder_->append_threads(last_ns_, text); !ok) stop_recording(ok.error());
+}
+
+void InputSource::stop_recording(Error why) {
+    recording_error_ = std::move(why);
+    recorder_.reset();
 }
 
 std::optional<FrameInput> InputSource::begin_frame(Nanoseconds now_ns, Nanoseconds display_ns) {
@@ -88,7 +96,11 @@ std::optional<FrameInput> InputSource::played_frame(Nanoseconds now_ns, Nanoseco
     const std::size_t first = next_;
     while (next_ < all.size() && all[next_].time_ns <= last_ns_) ++next_;
     over_ = next_ == all.size();
-    return FrameInput{last_ns_, std::max(display_ns, last_ns_), all.subspan(first, next_ - first)};
+    const FrameInput frame{last_ns_, std::clamp(display_ns, last_ns_, kLongestSession_ns),
+                           all.subspan(first, next_ - first)};
+    for (const InputEvent& event : frame.events) record(event);
+    record({last_ns_, FrameStart{frame.display_ns}});
+    return frame;
 }
 
 std::optional<FrameInput> InputSource::recorded_frame() {

@@ -33,7 +33,7 @@ public:
 
     // A log in real time, as if its user were there: each event is seen by the first frame that begins at its time or later. The
     // frames of a recording are not those that are made now, so FrameStart events are left out.
-    [[nodiscard]] static InputSource play(InputLog log);
+    [[nodiscard]] static InputSource play(InputLog log, std::optional<InputLogWriter> recorder = std::nullopt);
 
     // Whether time is the log's.
     [[nodiscard]] bool replays() const { return kind_ == Kind::replay; }
@@ -47,6 +47,11 @@ public:
     // All input for the next frame; nothing when a log is over. Live and in real time the frame is now; in a replay now_ns and
     // display_ns are not looked at. The events are borrowed until the next call.
     [[nodiscard]] std::optional<FrameInput> begin_frame(Nanoseconds now_ns, Nanoseconds display_ns);
+
+    // In real time, while it is recorded: a line of what the threads did (thread_log.hpp), and the end of recording for a reason.
+    [[nodiscard]] bool records() const { return recorder_.has_value(); }
+    void record_threads(const std::string& text);
+    void stop_recording(Error why);
 
     // Live: whether anything is waiting to be seen by a frame.
     [[nodiscard]] bool has_news() const { return !waiting_.empty(); }

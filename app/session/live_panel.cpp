@@ -90,7 +90,8 @@ Captured LiveSession::feed_panel(const FrameInput& input) {
     const bool stirring = !input.events.empty() || (tool_.flags & kTickInContact) != 0 ||
                           tool_.workspace.phase != WorkspacePhase::editing;
     panel_feed_.feed({input.time_ns, glm::length(tool_.given.force_device_N), tool_.late_ticks, tool_.dropped_samples,
-                      stirring, times_, loop_->duration(), render_stats_, main_eye()});
+                      stirring, times_, loop_->duration(), render_stats_, main_eye(),
+                      recorded_ ? &*recorded_ : nullptr});
     for (const std::string& line : times_.take_new_warnings()) std::fprintf(stderr, "burin: %s\n", line.c_str());
     const ImageSize eye = main_eye();
     const OutputSettings shown = output_on(room_.wall.main);

@@ -12,6 +12,9 @@ namespace {
 
 constexpr double kShadowsFollow = 0.1;  // of a radian
 
+// The frame's thread takes ticks to the recording: it may stall for so many.
+constexpr std::size_t kTicksToRecord = 8192;
+
 Room room_of(const Lattice& lattice, const SessionWall& wall) {
     Room room;
     room.workpiece_object = workpiece_bounds(lattice);
@@ -25,9 +28,14 @@ Room room_of(const Lattice& lattice, const SessionWall& wall) {
 
 }  // namespace
 
+LiveSession::LiveSession(Clock& clock, const SculptOptions& options)
+    : clock_(clock),
+      pool_(options.threads),
+      channels_(HapticChannels::kStrokes, options.live.record.empty() ? HapticChannels::kRecords : kTicksToRecord) {}
+
 Result<std::unique_ptr<LiveSession>> LiveSession::create(const SculptOptions& options, const SessionWall& wall,
                                                          Clock& clock) {
-    auto session = std::unique_ptr<LiveSession>(new LiveSession(clock, options.threads));
+    auto session = std::unique_ptr<LiveSession>(new LiveSession(clock, options));
     if (const auto loaded = session->load(options, wall); !loaded) return std::unexpected(loaded.error());
     if (const auto taken = session->take_up_tool(options); !taken) return std::unexpected(taken.error());
     return session;
@@ -74,7 +82,7 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
                   options.undo_memory_MiB << 20);
     desk_->order(*use);
     desk_->start_at(inverse(state_.world_from_object) * (state_.world_from_device * rest.position_device_m));
-    return desk_->update(clock_.now_ns());
+    return desk_->update(start_ns_);
 }
 
 void LiveSession::publish_parameters() {
@@ -84,10 +92,10 @@ void LiveSession::publish_parameters() {
     channels_.parameters.publish();
 }
 
-void LiveSession::step(const FrameInput& input, const OutputPlace& output, const Carve& carve) {
+void LiveSession::step(const FrameInput& input, const OutputPlace& output, const ToolState& tool, const Carve& carve) {
     if (output.size.width > 0 && output.size.height > 0) output_ = output;  // minimised: as it was
     fit_desk_screen(room_.wall, main_eye());
-    tool_ = channels_.tool.newest();
+    tool_ = tool;
     times_.sampled(start_ns_ + head_sampled_ns(input), tool_.time_ns);
     const double dt_s = seconds(std::max<Nanoseconds>(input.time_ns - last_step_ns_, 0));
     last_step_ns_ = input.time_ns;
@@ -159,6 +167,17 @@ void LiveSession::say(const std::string& message) {
     std::fprintf(stderr, "burin: %s\n", message.c_str());
 }
 
+void LiveSession::hear(const std::string& message) {
+    if (!follows_recording_) message_ = message;
+    std::fprintf(stderr, "burin: %s\n", message.c_str());
+    outside_.heard.push_back(message);
+}
+
+void LiveSession::hear_again(std::span<const std::string> recorded) {
+    follows_recording_ = true;
+    if (!recorded.empty()) message_ = recorded.back();
+}
+
 void LiveSession::give_news(std::span<SessionPicture* const> pictures) {
     for (const SurfaceNews& news : news_)
         for (SessionPicture* picture : pictures) picture->take(news, carving_->surface().lattice().origin_object);
@@ -176,7 +195,8 @@ Result<void> LiveSession::draw(gpu::Commands& commands, std::size_t screen, Sess
 
 void LiveSession::refuse_mode(StereoMode working, const Error& error) {
     state_.output.mode = working;
-    say(error.line());
+    outside_.refused = working;
+    hear(error.line());
 }
 
 std::vector<std::filesystem::path> LiveSession::take_screenshots() {

@@ -6,7 +6,8 @@
 //                 |-> orders                           ->   the carving desk (its own thread, or stepped)
 //   the desk's news -> take() -> tiles of the picture
 //
-// run_session() (session.hpp) drives it.
+// run_session() (session.hpp) drives it. What the threads did in real time can be recorded (thread_recorder.hpp) and done again
+// (thread_replay.hpp).
 #pragma once
 
 #include <filesystem>
@@ -32,9 +33,11 @@ public:
     [[nodiscard]] static Result<std::unique_ptr<LiveSession>> create(const SculptOptions& options,
                                                                      const SessionWall& wall, Clock& clock);
 
-    // One frame's input, for the main screen's output. What the carving side is to do goes to `carve`.
+    // One frame's input, for the main screen's output, with the tool as it is drawn. What the carving side is to do goes to `carve`.
     using Carve = std::function<void(CarvingOrder)>;
-    void step(const FrameInput& input, const OutputPlace& output, const Carve& carve);
+    void step(const FrameInput& input, const OutputPlace& output, const ToolState& tool, const Carve& carve);
+    // The tool as the haptic loop has it now.
+    [[nodiscard]] const ToolState& newest_tool() { return channels_.tool.newest(); }
     // What the carving side tells.
     void take(SurfaceNews news);
     // Hands the surface's news to every picture, before the first is drawn.
@@ -47,6 +50,7 @@ public:
     }
     // When a screen cannot be shown in the mode asked for.
     void refuse_mode(StereoMode working, const Error& error);
+    void go_back_to(StereoMode mode) { state_.output.mode = mode; }
     // Pictures asked for by command since the last call: where to write them.
     [[nodiscard]] bool wants_screenshots() const { return !screenshots_.empty(); }
     [[nodiscard]] std::vector<std::filesystem::path> take_screenshots();
@@ -58,10 +62,28 @@ public:
     [[nodiscard]] SessionTimes& times() { return times_; }
     [[nodiscard]] Nanoseconds start_ns() const { return start_ns_; }
     [[nodiscard]] bool wants_full_screen_exchanged() { return std::exchange(exchange_full_screen_, false); }
-    void say(const std::string& message);
+    void say(const std::string& message);  // what follows from the input
+    // What comes from outside: of windows, files, trackers, the system. The panel shows it as well; in a session that follows a recording it
+    // shows what was heard then.
+    void hear(const std::string& message);
+    void hear_again(std::span<const std::string> recorded);
+    // What clocks told the panel in the last step; in a session that follows a recording, in the next.
+    [[nodiscard]] const PanelMeasured& measured() const { return panel_feed_.measured(); }
+    void measure_again(const PanelMeasured& recorded) { recorded_ = recorded; }
+    // Heard and refused since the last call, for who records it.
+    struct Outside {
+        std::vector<std::string> heard;
+        std::optional<StereoMode> refused;
+    };
+    [[nodiscard]] Outside take_outside() { return std::exchange(outside_, {}); }
+
+    [[nodiscard]] const DeviceDescription& device() const { return omni_->description(); }
+    [[nodiscard]] HapticChannels& channels() { return channels_; }
+    // Of the surface as it is carved now.
+    [[nodiscard]] const Surface& surface() const { return carving_->surface(); }
 
 private:
-    explicit LiveSession(Clock& clock, unsigned threads) : clock_(clock), pool_(threads) {}
+    LiveSession(Clock& clock, const SculptOptions& options);
     [[nodiscard]] Result<void> load(const SculptOptions& options, const SessionWall& wall);
     [[nodiscard]] Result<void> take_up_tool(const SculptOptions& options);
     void publish_parameters();
@@ -81,6 +103,8 @@ private:
     WorkerPool pool_;
     std::unique_ptr<Carving> carving_;
     HapticChannels channels_;
+    bool follows_recording_ = false;
+    Outside outside_;
     HandSteering steering_;
     std::optional<SimulatedOmni> omni_;
     std::optional<HapticLoop> loop_;
@@ -102,6 +126,7 @@ private:
     std::vector<InputEvent> scene_events_;  // of this step, without those that the panel alone has
     SessionTimes times_{clock_};
     PanelFeed panel_feed_;
+    std::optional<PanelMeasured> recorded_;
     RenderStats render_stats_;
     std::string workpiece_name_, message_;
     bool exchange_full_screen_ = false;

@@ -40,6 +40,7 @@ PanelSavings savings_of(const RenderStats& drawn, const PanelFacts& facts) {
 }  // namespace
 
 void PanelFeed::feed(const PanelFacts& facts) {
+    measured_ = {};
     if (facts.stirring) stirred_ns_ = facts.time_ns;
     const bool was_awake = awake_;
     awake_ = facts.time_ns - stirred_ns_ < kRest_ns;
@@ -48,22 +49,31 @@ void PanelFeed::feed(const PanelFacts& facts) {
     if (awake_ && facts.time_ns >= plotted_ns_ + kPlotStep_ns) {
         plotted_ns_ = facts.time_ns;
         go_on(force_N_, std::exchange(longest_force_N_, 0.0));
-        if (facts.times.running()) plot_times(facts);
+        if (facts.times.running()) measured_.plotted = plotted_times(facts);
+        if (facts.recorded != nullptr) measured_.plotted = facts.recorded->plotted;
+        if (measured_.plotted) plot(*measured_.plotted);
     }
     if ((awake_ && facts.time_ns >= renewed_ns_ + kNumberStep_ns) || (was_awake && !awake_)) renew_numbers(facts);
 }
 
-void PanelFeed::plot_times(const PanelFacts& facts) {
-    const double tick_us = 1e6 * seconds(ticks_.look(facts.tick_duration).longest_ns);
-    longest_tick_us_ = std::max(longest_tick_us_, tick_us);
-    go_on(tick_us_, tick_us);
-    tick_us_.limit = 1000.0f;
+PanelPlotted PanelFeed::plotted_times(const PanelFacts& facts) {
+    PanelPlotted plotted;
+    plotted.tick_us = 1e6 * seconds(ticks_.look(facts.tick_duration).longest_ns);
+    longest_tick_us_ = std::max(longest_tick_us_, plotted.tick_us);
     const std::uint64_t frames = facts.times.drawn() - std::exchange(plotted_frames_, facts.times.drawn());
     const FigureSummary summary = facts.times.history().recent(FrameFigure::frame_time, frames);
     // No frame, or none that followed another: the display still shows the last one.
     const float before = frame_ms_.values.empty() ? 0.0f : frame_ms_.values.back();
-    go_on(frame_ms_, summary.count > 0 ? 1e3 * seconds(summary.most_ns) : double{before});
-    frame_ms_.limit = static_cast<float>(1e3 * seconds(facts.times.period_ns()));
+    plotted.frame_ms = summary.count > 0 ? 1e3 * seconds(summary.most_ns) : double{before};
+    plotted.frame_limit_ms = 1e3 * seconds(facts.times.period_ns());
+    return plotted;
+}
+
+void PanelFeed::plot(const PanelPlotted& plotted) {
+    go_on(tick_us_, plotted.tick_us);
+    tick_us_.limit = 1000.0f;
+    go_on(frame_ms_, plotted.frame_ms);
+    frame_ms_.limit = static_cast<float>(plotted.frame_limit_ms);
 }
 
 void PanelFeed::renew_numbers(const PanelFacts& facts) {
@@ -71,23 +81,31 @@ void PanelFeed::renew_numbers(const PanelFacts& facts) {
     force_now_N_ = facts.force_N;
     late_ticks_ = facts.late_ticks;
     dropped_samples_ = facts.dropped_samples;
-    if (!facts.times.running()) return;
+    if (facts.times.running()) measured_.numbers = new_numbers(facts, since_s);
+    if (facts.recorded != nullptr) measured_.numbers = facts.recorded->numbers;
+    if (measured_.numbers) numbers_ = measured_.numbers;
+}
+
+PanelNumbers PanelFeed::new_numbers(const PanelFacts& facts, double since_s) {
+    PanelNumbers numbers;
+    if (numbers_) numbers.figures = numbers_->figures;  // what nothing is known of stays as it was
+    PanelFigures& figures = numbers.figures;
     const std::uint64_t frames = facts.times.drawn() - std::exchange(renewed_frames_, facts.times.drawn());
     const FrameHistory& history = facts.times.history();
     const double tick_us = std::exchange(longest_tick_us_, 0.0);
-    savings_ = savings_of(drawn_, facts);
-    warnings_.clear();
-    for (const FrameWarning& warning : facts.times.warnings()) warnings_.push_back(warning.title);
-    figures_.frames_per_s = awake_ ? static_cast<double>(frames) / since_s : 0.0;
-    if (!awake_) return;
-    if (tick_us > 0.0) figures_.tick_us = tick_us;
-    if (frames == 0) return;
-    figures_.head_age_ms = median_ms(history, FrameFigure::head_age, frames);
-    figures_.motion_to_photon_ms = median_ms(history, FrameFigure::motion_to_photon, frames);
-    figures_.touch_before_sight_ms = median_ms(history, FrameFigure::touch_before_sight, frames);
-    figures_.draw_ms = median_ms(history, FrameFigure::draw_time, frames);
-    if (const auto cut = median_ms(history, FrameFigure::carve_age, frames)) figures_.carve_age_ms = cut;
-    if (const auto frame = median_ms(history, FrameFigure::frame_time, frames)) figures_.frame_ms = frame;
+    numbers.savings = savings_of(drawn_, facts);
+    for (const FrameWarning& warning : facts.times.warnings()) numbers.warnings.push_back(warning.title);
+    figures.frames_per_s = awake_ ? static_cast<double>(frames) / since_s : 0.0;
+    if (!awake_) return numbers;
+    if (tick_us > 0.0) figures.tick_us = tick_us;
+    if (frames == 0) return numbers;
+    figures.head_age_ms = median_ms(history, FrameFigure::head_age, frames);
+    figures.motion_to_photon_ms = median_ms(history, FrameFigure::motion_to_photon, frames);
+    figures.touch_before_sight_ms = median_ms(history, FrameFigure::touch_before_sight, frames);
+    figures.draw_ms = median_ms(history, FrameFigure::draw_time, frames);
+    if (const auto cut = median_ms(history, FrameFigure::carve_age, frames)) figures.carve_age_ms = cut;
+    if (const auto frame = median_ms(history, FrameFigure::frame_time, frames)) figures.frame_ms = frame;
+    return numbers;
 }
 
 void PanelFeed::show_on(PanelModel& model) const {
@@ -98,9 +116,10 @@ void PanelFeed::show_on(PanelModel& model) const {
     model.touch.force_N = force_now_N_;
     model.touch.late_ticks = late_ticks_;
     model.touch.dropped_samples = dropped_samples_;
-    model.figures = figures_;
-    model.savings = savings_;
-    model.warnings.insert(model.warnings.end(), warnings_.begin(), warnings_.end());
+    if (!numbers_) return;
+    model.figures = numbers_->figures;
+    model.savings = numbers_->savings;
+    model.warnings.insert(model.warnings.end(), numbers_->warnings.begin(), numbers_->warnings.end());
 }
 
 }  // namespace burin

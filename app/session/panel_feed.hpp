@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the panel shows of a session's times: plots that go on ten times a second, and numbers that change twice a second, so that one
 // can read them. While the session rests both stand still: a panel that moves would be all there is to draw.
-// Force is known in simulated time as well; ticks and frames take none there, and nothing is shown of them.
+// Force is known in simulated time as well; ticks and frames take none there, and nothing is shown of them. A session that follows a
+// recording shows what was measured then.
 // One thread, the frame's.
 #pragma once
 
@@ -10,6 +11,21 @@
 #include "renderer/renderer.hpp"
 
 namespace burin {
+
+// What clocks said, of one step of the session: new points of plots, new numbers, where it is time for them.
+struct PanelPlotted {
+    double tick_us = 0.0, frame_ms = 0.0;  // the longest since the points before
+    double frame_limit_ms = 0.0;
+};
+struct PanelNumbers {
+    PanelFigures figures;
+    PanelSavings savings;
+    std::vector<std::string> warnings;
+};
+struct PanelMeasured {
+    std::optional<PanelPlotted> plotted;
+    std::optional<PanelNumbers> numbers;
+};
 
 // Of one step of the session.
 struct PanelFacts {
@@ -21,6 +37,7 @@ struct PanelFacts {
     const Histogram& tick_duration;
     const RenderStats& drawn;  // of the frame before
     ImageSize eye;
+    const PanelMeasured* recorded = nullptr;  // what to show in place of times; null: the session's own
 };
 
 class PanelFeed {
@@ -31,10 +48,14 @@ public:
 
     void feed(const PanelFacts& facts);
     void show_on(PanelModel& model) const;
+    // What was new in the last step, for who records it.
+    [[nodiscard]] const PanelMeasured& measured() const { return measured_; }
 
 private:
-    void plot_times(const PanelFacts& facts);
+    [[nodiscard]] PanelPlotted plotted_times(const PanelFacts& facts);
+    void plot(const PanelPlotted& plotted);
     void renew_numbers(const PanelFacts& facts);
+    [[nodiscard]] PanelNumbers new_numbers(const PanelFacts& facts, double since_s);
 
     Nanoseconds plotted_ns_ = -kPlotStep_ns, renewed_ns_ = -kNumberStep_ns, stirred_ns_ = 0;
     bool awake_ = false;
@@ -45,9 +66,8 @@ private:
     double force_now_N_ = 0.0;
     std::uint64_t late_ticks_ = 0, dropped_samples_ = 0;
     RenderStats drawn_;  // of the last frame in which anything was
-    PanelFigures figures_;
-    std::optional<PanelSavings> savings_;
-    std::vector<std::string> warnings_;
+    std::optional<PanelNumbers> numbers_;
+    PanelMeasured measured_;
 };
 
 }  // namespace burin

@@ -7,8 +7,11 @@
 #include "app/session/carving_thread.hpp"
 #include "app/session/frame_pacing.hpp"
 #include "app/session/live_session.hpp"
+#include "app/session/recorded_session.hpp"
+#include "app/session/session_settings.hpp"
 #include "app/session/session_stage.hpp"
 #include "app/session/shown_frames.hpp"
+#include "app/session/thread_recorder.hpp"
 #include "app/session/tracker_port.hpp"
 #include "haptics/realtime.hpp"
 
@@ -25,16 +28,15 @@ Result<InputLog> open_log(const std::string& path) {
     return log;
 }
 
-Result<InputSource> open_input(const LiveOptions& options) {
-    if (!options.input.empty()) {
-        Result<InputLog> log = open_log(options.input);
-        if (!log) return std::unexpected(log.error());
-        return InputSource::replay(std::move(*log));
+// Of a user, or of a log in their place; recorded if that is asked for.
+Result<InputSource> open_input(const SculptOptions& options, std::optional<InputLog> log) {
+    std::optional<InputLogWriter> recorder;
+    if (!options.live.record.empty()) {
+        Result<InputLogWriter> writer = InputLogWriter::create(options.live.record, settings_line(options));
+        if (!writer) return std::unexpected(writer.error());
+        recorder = std::move(*writer);
     }
-    if (options.record.empty()) return InputSource::live();
-    Result<InputLogWriter> writer = InputLogWriter::create(options.record, "burin sculpt");
-    if (!writer) return std::unexpected(writer.error());
-    return InputSource::live(std::move(*writer));
+    return log ? InputSource::play(std::move(*log), std::move(recorder)) : InputSource::live(std::move(recorder));
 }
 
 // ---- Simulated time
@@ -56,7 +58,8 @@ Result<void> run_in_simulated_time(const SculptOptions& options, const SessionWa
             if (const auto updated = s.desk().update(clock.now_ns()); !updated) return updated;
             next_update_ns += kUpdatePeriod_ns;
         }
-        s.step(*frame, stage->place(), [&](CarvingOrder order) {
+        stage->look();
+        s.step(*frame, stage->place(), s.newest_tool(), [&](CarvingOrder order) {
             s.desk().order(order);
             s.desk().finish_export();  // so that what comes after finds it done
         });
@@ -128,7 +131,7 @@ std::vector<Input> gather_input(SessionStage& stage, Clock& clock, Nanoseconds u
 void hear(TrackerPort& tracker, InputSource& input, LiveSession& session) {
     for (TrackerPort::Heard& heard : tracker.take())
         input.push(heard.time_ns - session.start_ns(), std::move(heard.input));
-    for (const std::string& message : tracker.take_messages()) session.say(message);
+    for (const std::string& message : tracker.take_messages()) session.hear(message);
 }
 
 DisplayBeat beat_of(const PacingState& pacing, const LiveSession& session) {
@@ -166,13 +169,14 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
     if (!session) return std::unexpected(session.error());
     LiveSession& s = **session;
     if (auto news = s.desk().take_news()) s.take(std::move(*news));
+    ThreadRecorder recorder(input, s);
     CarvingThread carving(s.desk(), clock, [shown = stage->has_windows()] {
         if (shown) window::wake();
     });
     // The hand is simulated: nobody feels it. What is measured is what a device's user would.
     HapticThread touch(s.loop(), keep_frames ? HapticLoop::kLead_ns : 0);
     const RealtimeNotice notice = touch.start();
-    if (!notice.text.empty()) s.say(notice.text);
+    if (!notice.text.empty()) s.hear(notice.text);
     carving.start();
 
     std::unique_ptr<TrackerPort> tracker;
@@ -210,14 +214,19 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
         times.reached(FrameStage::wait);
         if (tracker) hear(*tracker, input, s);  // first: it happened before
         for (Input& event : happened) input.push(clock.now_ns() - s.start_ns(), std::move(event));
+        recorder.outside();
         const auto frame = input.begin_frame(clock.now_ns() - s.start_ns(), plan.display_ns - s.start_ns());
         if (!frame) break;
         times.reached(FrameStage::input);
-        s.step(*frame, stage->place(), [&](CarvingOrder order) { carving.order(std::move(order)); });
-        if (auto news = carving.take_news()) s.take(std::move(*news));
+        stage->look();
+        const ToolState tool = s.newest_tool();
+        s.step(*frame, stage->place(), tool, [&](CarvingOrder order) { carving.order(std::move(order)); });
+        CarvingThread::Taken carved = carving.take_news();
+        if (carved.news) s.take(std::move(*carved.news));
         if (const auto failed = carving.failure()) outcome = std::unexpected(*failed);
+        recorder.frame(tool.tick, carved.updates, !active, stage->places());
         if (stage->has_windows() && s.wants_full_screen_exchanged()) stage->exchange_full_screen();
-        for (const std::string& message : stage->take_messages()) s.say(message);
+        for (const std::string& message : stage->take_messages()) s.hear(message);
         times.reached(FrameStage::step);
         const Result<bool> drawn = stage->draw(s, frame->display_ns);
         if (!drawn) outcome = stage->recover(s, drawn.error());
@@ -232,8 +241,13 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
     touch.stop();
     carving.stop();
     s.desk().finish_export();
-    if (const auto news = s.desk().take_news())
-        for (const std::string& message : news->messages) s.say(message);
+    recorder.outside();
+    CarvingThread::Taken last = carving.take_news();
+    recorder.finish(last.updates);
+    add(last.news, s.desk().take_news());
+    if (last.news)
+        for (const std::string& message : last.news->messages) s.say(message);
+    if (const auto& broken = input.recording_error()) std::fprintf(stderr, "burin: %s\n", broken->line().c_str());
     if (!outcome) return std::unexpected(outcome.error());
     SessionRecord record = record_of(s, carving);
     record.wall_ns = wall_ns;
@@ -248,6 +262,17 @@ Result<void> check(const SculptOptions& options) {
     if (const auto material = parse_tool_material(options.tool); !material) return std::unexpected(material.error());
     if (const auto feel = parse_feel(options.feel); !feel) return std::unexpected(feel.error());
     return {};
+}
+
+// What decides on its frames is the recording's.
+Result<void> run_as_recorded(const SculptOptions& given, InputLog log) {
+    const Result<RecordedOptions> recorded = options_as_recorded(log.settings, given);
+    if (!recorded) return std::unexpected(recorded.error());
+    for (const std::string& message : recorded->overruled) std::fprintf(stderr, "burin: %s\n", message.c_str());
+    if (const auto ok = check(recorded->options); !ok) return ok;
+    const Result<SessionWall> wall = session_wall(recorded->options.live);
+    if (!wall) return std::unexpected(wall.error());
+    return replay_as_recorded(recorded->options, *wall, std::move(log));
 }
 
 bool writes_a_file(const InputEvent& event) {
@@ -269,12 +294,20 @@ Result<void> run_session(const SculptOptions& options) {
         return fail("--offscreen", "needs an --input: without a window nobody can do anything",
                     "give a log or a script, or leave --offscreen out");
     }
+    std::optional<InputLog> log;
+    if (!options.live.input.empty()) {
+        Result<InputLog> read = open_log(options.live.input);
+        if (!read) return std::unexpected(read.error());
+        if (read->threads && options.live.record.empty()) return run_as_recorded(options, std::move(*read));
+        log = std::move(*read);
+    }
     if (const auto ok = check(options); !ok) return ok;
     const Result<SessionWall> wall = session_wall(options.live);
     if (!wall) return std::unexpected(wall.error());
-    Result<InputSource> input = open_input(options.live);
+    if (log && options.live.record.empty())
+        return run_in_simulated_time(options, *wall, InputSource::replay(std::move(*log)));
+    Result<InputSource> input = open_input(options, std::move(log));
     if (!input) return std::unexpected(input.error());
-    if (input->replays()) return run_in_simulated_time(options, *wall, std::move(*input));
     const auto run = run_in_real_time(options, *wall, std::move(*input), false);
     return run ? Result<void>{} : std::unexpected(run.error());
 }

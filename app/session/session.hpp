@@ -3,7 +3,8 @@
 //
 // With a window and its user time is real: haptics and carving have threads of their own, and a frame is drawn when something has changed, as
 // late as the display allows. With an input log time is simulated: ticks, carving and frames follow one another on one thread, so that
-// the same log gives the same frames, in a window or without any.
+// the same log gives the same frames, in a window or without any. A recording (live.record) also holds what the threads did, and given as an
+// input gives the frames that were seen. A log that is recorded takes its user's place in real time.
 #pragma once
 
 #include "app/sculpt.hpp"

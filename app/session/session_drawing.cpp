@@ -64,7 +64,7 @@ Result<void> SessionStage::fit_mode(std::size_t i, StereoMode mode) {
     }
     if (!needs.two_windows) screen.right_window.reset();
     if (!needs.two_windows || screen.right_window) return {};
-    auto right = SessionWindow::open("Burin, right eye", {}, size_of(screen));
+    auto right = SessionWindow::open("Burin, right eye", {}, screen.place.size);
     if (!right) return std::unexpected(right.error());
     screen.right_window = std::make_unique<SessionWindow>(std::move(*right));
     const auto images = screen.right_window->open_images(*device_, 1);
@@ -74,13 +74,13 @@ Result<void> SessionStage::fit_mode(std::size_t i, StereoMode mode) {
 
 Result<bool> SessionStage::draw_screen(std::size_t i, LiveSession& session, Nanoseconds frame_ns) {
     ScreenStage& screen = screens_[i];
-    if (is_empty(size_of(screen))) return false;  // minimised
+    if (is_empty(screen.place.size)) return false;  // minimised
     if (const auto fits = fit_mode(i, session.output_on(i).mode); !fits) {
         if (device_->lost()) return std::unexpected(fits.error());
         session.refuse_mode(screen.shown.mode, fits.error());
     }
     const OutputSettings settings = session.output_on(i);
-    const OutputPlace place = place_of(screen);
+    const OutputPlace place = screen.place;
     auto commands = gpu::Commands::begin(*device_);
     if (!commands) return std::unexpected(commands.error());
     if (const auto drawn = session.draw(*commands, i, *screen.picture, place.size); !drawn)
@@ -187,7 +187,7 @@ void SessionStage::photograph(std::size_t i, LiveSession& session, const std::ve
     for (const std::filesystem::path& name : paths) {
         const std::filesystem::path path = screens_.size() > 1 ? named_after(name, wall_->screens[i].name) : name;
         const Result<void> written = image ? write_png(path, *image) : std::unexpected(image.error());
-        session.say(written ? "wrote " + path.string() : written.error().line());
+        session.hear(written ? "wrote " + path.string() : written.error().line());
     }
 }
 

@@ -66,7 +66,7 @@ private:
 Result<SessionStage> SessionStage::open(const LiveOptions& options, const SessionWall& wall) {
     leave_a_core_to_touch();
     SessionStage stage(options, wall);
-    for (const SessionScreen& screen : wall.screens) stage.screens_.emplace_back().offscreen = screen.size;
+    for (const SessionScreen& screen : wall.screens) stage.screens_.emplace_back().place.size = screen.size;
     if (!options.offscreen) {
         if (const auto opened = stage.open_windows(); !opened) return std::unexpected(opened.error());
     }
@@ -113,7 +113,7 @@ Result<void> SessionStage::recover(LiveSession& session, const Error& error) {
         return fail("graphics device", "it was lost " + std::to_string(losses_) + " times without a picture in between",
                     "update the graphics driver, or try a smaller window");
     }
-    session.say("the graphics device was lost; starting on a new one");
+    session.hear("the graphics device was lost; starting on a new one");
     std::vector<SessionPicture::Kept> kept;
     for (ScreenStage& screen : screens_) {
         kept.push_back(screen.picture->take_kept());
@@ -130,23 +130,24 @@ Result<void> SessionStage::recover(LiveSession& session, const Error& error) {
     }
     if (!opened) return opened;
     for (std::size_t i = 0; i < screens_.size(); ++i) screens_[i].picture->give_kept(std::move(kept[i]));
-    session.say("the graphics device is " + device_name());
+    session.hear("the graphics device is " + device_name());
     return {};
 }
 
 // ---- What the windows say
 
-ImageSize SessionStage::size_of(const ScreenStage& screen) {
-    return screen.window ? screen.window->size() : screen.offscreen;
+void SessionStage::look() {
+    for (ScreenStage& screen : screens_) {
+        if (!screen.window) continue;
+        const window::Window::Position at = screen.window->on_monitor();
+        screen.place = {.size = screen.window->size(), .monitor_x = at.x, .monitor_y = at.y};
+    }
 }
 
-OutputPlace SessionStage::place_of(const ScreenStage& screen) {
-    OutputPlace place{.size = size_of(screen)};
-    if (screen.window) {
-        place.monitor_x = screen.window->on_monitor().x;
-        place.monitor_y = screen.window->on_monitor().y;
-    }
-    return place;
+std::vector<OutputPlace> SessionStage::places() const {
+    std::vector<OutputPlace> places;
+    for (const ScreenStage& screen : screens_) places.push_back(screen.place);
+    return places;
 }
 
 double SessionStage::refresh_Hz() const { return has_windows() ? screens_[wall_->main].window->refresh_Hz() : 60.0; }
@@ -195,7 +196,7 @@ std::vector<Input> SessionStage::inputs(double wait_s) {
 std::vector<Input> SessionStage::right_eyes_inputs(const ScreenStage& screen) {
     if (!screen.right_window) return {};
     std::vector<Input> inputs = screen.right_window->inputs(0.0);
-    const ImageSize left = size_of(screen), right = screen.right_window->size();
+    const ImageSize left = screen.place.size, right = screen.right_window->size();
     for (Input& input : inputs) {
         auto* move = std::get_if<MouseMove>(&input);
         if (move == nullptr || is_empty(right)) continue;

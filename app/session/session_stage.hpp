@@ -24,7 +24,13 @@ public:
     // The wall must outlive it.
     [[nodiscard]] static Result<SessionStage> open(const LiveOptions& options, const SessionWall& wall);
 
-    [[nodiscard]] OutputPlace place() const { return place_of(screens_[wall_->main]); }  // of the main screen's output
+    // Where the windows are now: so they stay for whoever asks until the next look, once a frame.
+    void look();
+    [[nodiscard]] std::vector<OutputPlace> places() const;                              // of all screens' outputs
+    [[nodiscard]] const OutputPlace& place() const { return screens_[wall_->main].place; }  // of the main screen's
+    // Instead: as it is to be drawn, whatever the window is like.
+    void put(std::size_t screen, const OutputPlace& place) { screens_[screen].place = place; }
+    [[nodiscard]] std::size_t screens() const { return screens_.size(); }
     [[nodiscard]] bool has_windows() const { return screens_.front().window != nullptr; }
     [[nodiscard]] double refresh_Hz() const;
     // What the main screen's window (the left eye's of two) knows of its display; nothing of it without a window.
@@ -64,7 +70,7 @@ private:
         std::unique_ptr<SessionWindow> window, right_window;
         PresentedParts parts, right_parts;
         std::optional<SessionPicture> picture;
-        ImageSize offscreen;
+        OutputPlace place;
         FieldParity parity;
         OutputSettings shown;  // with which the windows' images were drawn
         OutputPlace shown_place;
@@ -73,8 +79,6 @@ private:
     SessionStage(const LiveOptions& options, const SessionWall& wall) : options_(options), wall_(&wall) {}
     [[nodiscard]] Result<void> open_windows();
     [[nodiscard]] Result<void> open_device();
-    [[nodiscard]] static ImageSize size_of(const ScreenStage& screen);
-    [[nodiscard]] static OutputPlace place_of(const ScreenStage& screen);
     [[nodiscard]] static std::vector<Input> right_eyes_inputs(const ScreenStage& screen);
     // ---- session_drawing.cpp
     // Opens and closes what the mode needs: a second window, images of two layers. An Error leaves the screen as it can be.

@@ -206,13 +206,7 @@ TEST(CarvingThread, CarvesAndTakesOrdersBesideTheFrame) {
     std::optional<SurfaceNews> seen;
     const auto gather_until = [&](auto&& enough) {
         for (int i = 0; i < 3000 && !(seen && enough(*seen)); ++i) {  // a guard against hanging, not a measure
-            if (auto news = thread.take_news()) {
-                if (seen) {
-                    merge(*seen, std::move(*news));
-                } else {
-                    seen = std::move(news);
-                }
-            }
+            add(seen, thread.take_news().news);
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
     };

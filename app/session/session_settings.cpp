@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "app/session/session_settings.hpp"
+
+#include <array>
+#include <charconv>
+#include <map>
+#include <optional>
+
+#include "app/session/command_table.hpp"
+#include "app/session/input_words.hpp"
+
+namespace burin {
+namespace {
+
+constexpr const char* kCommand = "burin sculpt";
+
+template <typename Options, typename Visit>
+void visit_settings(Options& o, Visit&& visit) {
+    visit("--workpiece", o.workpiece.source);
+    visit("--close-holes", o.workpiece.close_holes);
+    visit("--resolution", o.workpiece.resolution);
+    visit("--tool", o.tool.shape);
+    visit("--operation", o.tool.operation);
+    visit("--material", o.tool.material);
+    visit("--sweep-tolerance", o.tool.sweep_tolerance_cells);
+    visit("--smooth-strength", o.tool.smooth_strength);
+    visit("--hardness", o.feel.hardness);
+    visit("--stiffness", o.feel.stiffness_N_per_m);
+    visit("--friction", o.feel.friction);
+    visit("--undo-memory", o.undo_memory_MiB);
+    visit("--wall", o.live.wall);
+    visit("--stereo", o.live.stereo);
+    visit("--swap-eyes", o.live.swap_eyes);
+    visit("--width", o.live.width);
+    visit("--height", o.live.height);
+    visit("--samples", o.live.samples);
+}
+
+// ---- What stands behind an option; nothing: the option is not there. A flag has nothing behind it.
+
+std::optional<std::string> text(const std::string& value) {
+    return value.empty() ? std::nullopt : std::optional(value);
+}
+std::optional<std::string> text(bool on) { return on ? std::optional<std::string>("") : std::nullopt; }
+std::optional<std::string> text(Operation operation) { return std::string(file_name_of(operation)); }
+template <typename T>
+std::optional<std::string> text(T number) {
+    std::array<char, 32> digits;
+    return std::string(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
+}
+template <typename T>
+std::optional<std::string> text(const std::optional<T>& value) {
+    return value ? text(*value) : std::nullopt;
+}
+
+bool read(const std::string& text, std::string& value) {
+    value = text;
+    return true;
+}
+bool read(const std::string&, bool& on) { return on = true; }
+bool read(const std::string& text, Operation& value) {
+    for (const Operation known : {Operation::cut, Operation::fill, Operation::paint, Operation::smooth}) {
+        value = known;
+        if (file_name_of(known) == text) return true;
+    }
+    return false;
+}
+template <typename T>
+bool read(const std::string& text, T& number) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc{} && end == text.data() + text.size();
+}
+template <typename T>
+bool read(const std::string& text, std::optional<T>& value) {
+    return read(text, value.emplace());
+}
+
+using Words = std::map<std::string, std::string>;
+
+// By their options.
+Words words_behind(const SculptOptions& options) {
+    Words words;
+    visit_settings(options, [&](const char* name, const auto& value) {
+        if (const auto behind = text(value)) words.emplace(name, *behind);
+    });
+    return words;
+}
+
+Result<Words> words_on(const std::string& line) {
+    Result<std::vector<std::string>> all = words_of(line, "the recording's first line");
+    if (!all) return std::unexpected(all.error());
+    Words words;
+    std::string option;
+    for (const std::string& word : *all) {
+        if (word.starts_with("--")) {
+            option = word;
+            words[option] = "";
+        } else if (!option.empty()) {
+            words[std::exchange(option, {})] = word;
+        }
+    }
+    return words;
+}
+
+std::string shown(const std::string& name, const Words& words) {
+    const auto found = words.find(name);
+    if (found == words.end()) return "no " + name;
+    return found->second.empty() ? name : name + " " + as_word(found->second);
+}
+
+}  // namespace
+
+std::string settings_line(const SculptOptions& options) {
+    std::string line = kCommand;
+    visit_settings(options, [&](const char* name, const auto& value) {
+        const auto behind = text(value);
+        if (!behind) return;
+        line += std::string(" ") + name;
+        if (!behind->empty()) line += " " + as_word(*behind);
+    });
+    return line;
+}
+
+Result<RecordedOptions> options_as_recorded(const std::string& line, const SculptOptions& given) {
+    RecordedOptions recorded{given, {}};
+    if (!line.starts_with(std::string(kCommand) + " --")) return recorded;  // of a recording without options
+    Result<Words> words = words_on(line);
+    if (!words) return std::unexpected(words.error());
+    const Words given_words = words_behind(given), left_out = words_behind(SculptOptions{});
+    std::string wrong;
+    visit_settings(recorded.options, [&]<typename T>(const std::string& name, T& value) {
+        const std::string now = shown(name, given_words), then = shown(name, *words);
+        if (now != then && now != shown(name, left_out))
+            recorded.overruled.push_back("it was recorded with " + then + ", which is done again; " + now +
+                                         " does not count");
+        value = T{};
+        if (const auto found = words->extract(name); found && !read(found.mapped(), value)) wrong = then;
+    });
+    if (!words->empty()) wrong = words->begin()->first;
+    if (!wrong.empty())
+        return fail("the recording's first line", wrong + " is no option that a session knows",
+                    "replay it with the program that recorded it");
+    return recorded;
+}
+
+}  // namespace burin

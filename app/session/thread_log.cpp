@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+#include "app/session/thread_log.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "app/session/input_event.hpp"
+#include "app/session/input_words.hpp"
+
+namespace burin {
+namespace {
+
+constexpr Nanoseconds kLatestStart_ns = Nanoseconds{1} << 60;  // 36 years after a machine's start
+
+struct Kind {
+    std::string_view name, arguments;
+};
+constexpr std::array kKinds = {
+    Kind{"clock", "START_NS TICK_PERIOD_NS RESOLUTION_M"},
+    Kind{"ticks", "FIRST TICK;TICK;..."},
+    Kind{"updates", "FIRST UPDATE;UPDATE;..."},
+    Kind{"output", "SCREEN WIDTH_PX HEIGHT_PX X_PX Y_PX"},
+    Kind{"plotted", "TICK_US FRAME_MS FRAME_LIMIT_MS"},
+    Kind{"figures", "FIGURES OF THE PANEL, AND ITS WARNINGS"},
+    Kind{"saw", "TICK UPDATES CHECK [rested]"},
+    Kind{"refused", "STEREO_MODE"},
+    Kind{"said", "\"MESSAGE\""},
+    Kind{"end", "CHECK"},
+};
+
+template <typename T>
+std::optional<T> number(const std::string& word) {
+    T value{};
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
+    if constexpr (std::is_floating_point_v<T>) {
+        if (!std::isfinite(value)) return std::nullopt;
+    }
+    return value;
+}
+
+template <typename T>
+std::string text(T number) {
+    std::array<char, 32> digits;
+    return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr};
+}
+
+// The panel's figures, in the order of their line; nothing is '-'.
+template <typename Figures, typename Visit>
+void visit_figures(Figures& f, Visit&& visit) {
+    visit(f.head_age_ms);
+    visit(f.motion_to_photon_ms);
+    visit(f.touch_before_sight_ms);
+    visit(f.draw_ms);
+    visit(f.tick_us);
+    visit(f.frame_ms);
+    visit(f.carve_age_ms);
+}
+
+template <typename Savings, typename Visit>
+void visit_savings(Savings& s, Visit&& visit) {
+    visit(s.patches);
+    visit(s.drawn);
+    visit(s.beside);
+    visit(s.turned_away);
+    visit(s.behind);
+    visit(s.coarser);
+    visit(s.redrawn_percent);
+    visit(s.frames_skipped);
+}
+constexpr std::size_t kFigureWords = 1 + 1 + 7 + 8;  // the kind, frames a second, the two above
+
+}  // namespace
+
+std::size_t line_of(const std::vector<std::pair<std::size_t, std::size_t>>& lines, std::size_t index) {
+    const auto after =
+        std::ranges::upper_bound(lines, index, {}, [](const auto& first_and_line) { return first_and_line.first; });
+    return after == lines.begin() ? 0 : std::prev(after)->second;
+}
+
+// ---- Writing
+
+std::string text_of(const ThreadClock& clock) {
+    return "clock " + text(clock.start_ns) + " " + text(clock.period_ns) + " " + text(clock.resolution_m);
+}
+
+std::string text_of(const OutputSeen& output) {
+    const OutputPlace& p = output.place;
+    return "output " + text(output.screen) + " " + text(p.size.width) + " " + text(p.size.height) + " " +
+           text(p.monitor_x) + " " + text(p.monitor_y);
+}
+
+std::string text_of(const PanelPlotted& p) {
+    return "plotted " + text(p.tick_us) + " " + text(p.frame_ms) + " " + text(p.frame_limit_ms);
+}
+
+std::string text_of(const PanelNumbers& numbers) {
+    std::string line = "figures " + text(numbers.figures.frames_per_s);
+    visit_figures(numbers.figures, [&](const std::optional<double>& x) { line += " " + (x ? text(*x) : "-"); });
+    visit_savings(numbers.savings, [&](const auto& x) { line += " " + text(x); });
+    for (const std::string& warning : numbers.warnings) line += " " + burin::quoted(warning);
+    return line;
+}
+
+std::string text_of(const FrameSeen& frame) {
+    return "saw " + text(frame.tick) + " " + text(frame.updates) + " " + text(frame.check) +
+           (frame.rested ? " rested" : "");
+}
+
+std::string refused_text(StereoMode mode) { return "refused " + std::string(file_name_of(mode)); }
+std::string said_text(const std::string& message) { return "said " + burin::quoted(message); }
+std::string end_text(std::uint64_t check) { return "end " + text(check); }
+
+// ---- Reading
+
+bool ThreadLogReader::knows(std::string_view kind) {
+    return std::ranges::find(kKinds, kind, &Kind::name) != kKinds.end();
+}
+
+Result<void> ThreadLogReader::take(const std::vector<std::string>& words, std::size_t line, const std::string& where) {
+    const std::string& kind = words.front();
+    const auto wrong = [&](const std::string& what) {
+        const Kind& known = *std::ranges::find(kKinds, std::string_view(kind), &Kind::name);
+        return fail(where, kind + ": " + what,
+                    "write: TIME_S " + kind + " " + std::string(known.arguments) +
+                        "; or take such lines out, all of them: the rest is a log of the input alone");
+    };
+    if (!log_ && kind != "clock") return wrong("what the threads did comes before the line with their clock");
+    bool right = false;
+    if (kind == "clock") right = take_clock(words);
+    if (kind == "ticks") right = take_ticks(words, line);
+    if (kind == "updates") right = take_updates(words, line);
+    if (kind == "saw") right = take_saw(words, line);
+    if (kind == "output") right = take_output(words);
+    if (kind == "plotted") right = take_plotted(words);
+    if (kind == "figures") right = take_figures(words);
+    if (kind == "refused" || kind == "said" || kind == "end") right = take_rest(words);
+    if (!right) return wrong("an argument is missing, not understood, or at odds with the lines before");
+    return {};
+}
+
+bool ThreadLogReader::take_clock(const std::vector<std::string>& words) {
+    if (log_ || words.size() != 4) return false;
+    const auto start = number<Nanoseconds>(words[1]);
+    const auto period = number<Nanoseconds>(words[2]);
+    const auto resolution = number<double>(words[3]);
+    if (!start || *start < 0 || *start > kLatestStart_ns) return false;
+    if (!period || *period < 1 || *period > kNanosecondsPerSecond) return false;
+    if (!resolution || !std::isfinite(*resolution) || *resolution < 0.0) return false;
+    log_.emplace().clock = {*start, *period, *resolution};
+    ticks_.emplace(log_->clock);
+    updates_.emplace(log_->clock);
+    return true;
+}
+
+bool ThreadLogReader::take_ticks(const std::vector<std::string>& words, std::size_t line) {
+    if (words.size() != 3 || number<std::size_t>(words[1]) != log_->ticks.size() + 1) return false;
+    log_->tick_lines.emplace_back(log_->ticks.size(), line);
+    for (std::string_view rest = words[2]; !rest.empty();) {
+        const auto tick = ticks_->read(rest);
+        if (!tick) return false;
+        log_->ticks.push_back(*tick);
+    }
+    return true;
+}
+
+bool ThreadLogReader::take_updates(const std::vector<std::string>& words, std::size_t line) {
+    if (words.size() != 3 || number<std::size_t>(words[1]) != log_->updates.size() + 1) return false;
+    log_->update_lines.emplace_back(log_->updates.size(), line);
+    for (std::string_view rest = words[2]; !rest.empty();) {
+        const auto update = updates_->read(rest);
+        if (!update) return false;
+        log_->updates.push_back(*update);
+    }
+    return true;
+}
+
+// Of the frame that has begun, once.
+bool ThreadLogReader::take_saw(const std::vector<std::string>& words, std::size_t line) {
+    if (words.size() < 4 || words.size() > 5 || log_->frames.size() + 1 != begun_) return false;
+    const auto tick = number<std::uint64_t>(words[1]), updates = number<std::uint64_t>(words[2]);
+    const auto check = number<std::uint64_t>(words[3]);
+    if (!tick || !updates || !check || (words.size() == 5 && words[4] != "rested")) return false;
+    if (!log_->frames.empty() && (*tick < log_->frames.back().tick || *updates < log_->frames.back().updates))
+        return false;
+    FrameSeen& frame = log_->frames.emplace_back(std::exchange(frame_, {}));
+    frame.tick = *tick;
+    frame.updates = *updates;
+    frame.check = *check;
+    frame.rested = words.size() == 5;
+    frame.line = line;
+    return true;
+}
+
+bool ThreadLogReader::take_output(const std::vector<std::string>& words) {
+    if (words.size() != 6) return false;
+    const auto screen = number<std::size_t>(words[1]);
+    const auto width = number<std::uint32_t>(words[2]), height = number<std::uint32_t>(words[3]);
+    const auto x = number<int>(words[4]), y = number<int>(words[5]);
+    if (!screen || !width || !height || !x || !y || *width > kMostWindow_px || *height > kMostWindow_px) return false;
+    frame_.outputs.push_back({*screen, {.size = {*width, *height}, .monitor_x = *x, .monitor_y = *y}});
+    return true;
+}
+
+bool ThreadLogReader::take_plotted(const std::vector<std::string>& words) {
+    if (words.size() != 4) return false;
+    const auto tick = number<double>(words[1]), frame = number<double>(words[2]), limit = number<double>(words[3]);
+    if (!tick || !frame || !limit) return false;
+    frame_.measured.plotted = {*tick, *frame, *limit};
+    return true;
+}
+
+bool ThreadLogReader::take_figures(const std::vector<std::string>& words) {
+    if (words.size() < kFigureWords) return false;
+    bool right = true;
+    std::size_t next = 1;
+    const auto take = [&](auto& x) {
+        const auto value = number<std::remove_reference_t<decltype(x)>>(words[next++]);
+        right = right && value;
+        if (value) x = *value;
+    };
+    PanelNumbers numbers;
+    take(numbers.figures.frames_per_s);
+    visit_figures(numbers.figures, [&](std::optional<double>& x) {
+        if (words[next] == "-") {
+            ++next;
+        } else {
+            take(x.emplace());
+        }
+    });
+    visit_savings(numbers.savings, take);
+    numbers.warnings.assign(words.begin() + static_cast<std::ptrdiff_t>(next), words.end());
+    frame_.measured.numbers = std::move(numbers);
+    return right;
+}
+
+bool ThreadLogReader::take_rest(const std::vector<std::string>& words) {
+    if (words.size() != 2) return false;
+    const bool before = log_->frames.empty();
+    if (words[0] == "said") {
+        (before ? log_->said_before : log_->frames.back().said).push_back(words[1]);
+        return true;
+    }
+    if (words[0] == "end") {
+        log_->end_check = number<std::uint64_t>(words[1]);
+        return log_->end_check.has_value();
+    }
+    const auto mode = parse_stereo_mode(words[1]);
+    if (!mode || before) return false;
+    log_->frames.back().refused = *mode;
+    return true;
+}
+
+}  // namespace burin

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// A session in real time with its threads, recorded, and the recording done again: byte for byte the same pictures.
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "gpu/device.hpp"
+#include "tests/app/run_command.hpp"
+
+namespace burin {
+namespace {
+
+// Wide enough for the panel, whose plots and figures are measured.
+const std::string kScript = R"(burin-input 1 test
+0.05 mouse 480 270
+0.1 scroll 0 15
+0.4 command screenshot before.png
+0.45 command figures
+0.5 button press left
+0.55 scroll 0 8
+0.7 mouse 490 272
+0.8 mouse 510 275
+0.85 command screenshot carving.png
+0.9 mouse 530 278
+1.1 command screenshot carved.png
+1.15 button release left
+1.3 command undo
+1.35 command export undone.ply
+1.5 command screenshot undone.png
+1.55 button press middle
+1.6 command stereo-mode anaglyph_red_cyan
+1.65 mouse 600 290
+1.7 button release middle
+1.8 command screenshot anaglyph.png
+3 command screenshot late.png
+3.1 command quit
+)";
+const std::string kPictures[] = {"before.png", "carving.png", "carved.png", "undone.png", "anaglyph.png", "late.png"};
+
+std::string sculpt(const std::string& more) { return std::string(BURIN_COMMAND) + " sculpt --offscreen " + more; }
+
+// Where the lines of the frame end that took this picture.
+std::size_t end_of_frame_with(const std::string& log, const std::string& name) {
+    return log.find('\n', log.find(" saw ", log.find("screenshot " + name))) + 1;
+}
+
+class Recording : public testing::Test {
+protected:
+    void SetUp() override {
+        const auto devices = gpu::list_devices();
+        if (!devices) GTEST_SKIP() << "no Vulkan device: " << devices.error().line();
+        place.write("script.txt", kScript);
+        for (const char* folder : {"live", "again"}) std::filesystem::create_directory(place / folder);
+        live =
+            place.run(sculpt("--workpiece ball:0.1 --resolution 48 --tool ball:0.012 --width 960 --height 540 "
+                             "--screenshots live --input script.txt --record live.log"));
+        ASSERT_EQ(live.status, 0) << live.output;
+    }
+    [[nodiscard]] std::string picture(const std::string& folder, const std::string& name) const {
+        return place.read(folder + "/" + name);
+    }
+
+    Workplace place;
+    Workplace::Outcome live;
+};
+
+}  // namespace
+
+TEST_F(Recording, GivesThePicturesThatWereTaken) {
+    std::filesystem::rename(place / "undone.ply", place / "undone-live.ply");
+    // Other options than it was recorded with do not count.
+    const auto again = place.run(sculpt("--tool ball:0.03 --screenshots again --input live.log"));
+    ASSERT_EQ(again.status, 0) << again.output;
+    EXPECT_NE(again.output.find("--tool ball:0.012"), std::string::npos) << again.output;
+    for (const std::string& name : kPictures) {
+        EXPECT_FALSE(picture("live", name).empty()) << name;
+        EXPECT_TRUE(picture("live", name) == picture("again", name)) << name;
+    }
+    EXPECT_TRUE(place.read("undone.ply") == place.read("undone-live.ply"));
+    // That pictures can tell one moment from another; those between may be of one frame, where a machine is slow.
+    EXPECT_TRUE(picture("live", "before.png") != picture("live", "late.png"));
+}
+
+TEST_F(Recording, FailsWhenATickGoesAnotherWay) {
+    std::string log = place.read("live.log");
+    // After the first picture the hand is 5 mm beside where it was, for good.
+    const auto after = log.cbegin() + static_cast<std::ptrdiff_t>(end_of_frame_with(log, "before.png"));
+    std::smatch quiet;  // a tick in which nothing changes
+    ASSERT_TRUE(std::regex_search(after, log.cend(), quiet, std::regex(";-?[0-9]+;")));
+    log.insert(static_cast<std::size_t>(quiet[0].second - log.cbegin()) - 1, "z90");
+    place.write("bent.log", log);
+    const auto bent = place.run(sculpt("--screenshots again --input bent.log"));
+    EXPECT_EQ(bent.status, 1) << bent.output;
+    EXPECT_NE(bent.output.find("departs from the recording"), std::string::npos) << bent.output;
+    EXPECT_TRUE(picture("live", "before.png") == picture("again", "before.png"));  // until then all was well
+    EXPECT_TRUE(picture("live", "late.png") != picture("again", "late.png"));
+}
+
+TEST_F(Recording, IsReplayedAsFarAsItGoes) {
+    const std::string log = place.read("live.log");
+    // In the line behind that frame.
+    place.write("torn.log", log.substr(0, end_of_frame_with(log, "carving.png") + 5));
+    const auto torn = place.run(sculpt("--screenshots again --input torn.log"));
+    EXPECT_EQ(torn.status, 0) << torn.output;
+    EXPECT_TRUE(picture("live", "carving.png") == picture("again", "carving.png"));
+    EXPECT_TRUE(picture("again", "late.png").empty());
+}
+
+}  // namespace burin
