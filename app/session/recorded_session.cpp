@@ -14,7 +14,7 @@ namespace {
 class Replaying {
 public:
     Replaying(LiveSession& session, SessionStage& stage, const ThreadLog& log, const std::string& name)
-        : session_(session), stage_(stage), threads_(session, log, name), name_(name), size_(stage.size()) {
+        : session_(session), stage_(stage), threads_(session, log, name), name_(name) {
         session_.hear_again(log.said_before);
     }
 
@@ -24,7 +24,7 @@ public:
         const Result<ToolState> tool = threads_.tool_of(seen);
         if (!tool) return std::unexpected(tool.error());
         session_.measure_again(seen.measured);
-        session_.step(input, size_, *tool, [&](CarvingOrder order) { threads_.order(std::move(order)); });
+        session_.step(input, stage_.size(), *tool, [&](CarvingOrder order) { threads_.order(std::move(order)); });
         auto news = threads_.news_of(seen);
         if (!news) return std::unexpected(news.error());
         if (*news) session_.take(std::move(**news));
@@ -57,15 +57,13 @@ private:
     static constexpr const char* kRemedy = "replay it with the program and the options that recorded it";
 
     Result<void> put_outputs(const FrameSeen& seen) {
-        stage_.look();
         for (const OutputSeen& output : seen.outputs) {
             if (output.screen >= stage_.screens())
                 return fail(name_ + ":" + std::to_string(seen.line),
                             "the recording has " + std::to_string(output.screen + 1) +
                                 " screens or more, this session " + std::to_string(stage_.screens()),
                             "give the --wall that it was recorded with");
-            if (output.screen == session_.room().wall.main) size_ = output.place.size;
-            if (!stage_.has_windows()) stage_.put(output.screen, output.place);
+            stage_.put(output.screen, output.place);
         }
         return {};
     }
@@ -80,7 +78,6 @@ private:
     SessionStage& stage_;
     ThreadReplay threads_;
     std::string name_;
-    ImageSize size_;  // of the main screen's output, then
     std::optional<Error> departed_;
 };
 
