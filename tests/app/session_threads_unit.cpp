@@ -91,6 +91,47 @@ Live live(const Workplace& place) {
     return {place.read("live.log"), untouched, check_of(s.surface()), tool.given.force_device_N, s.loop().ticks()};
 }
 
+// What threads come to now and then, each time: ticks after a frame has asked for its tool see older parameters than that frame sets; and
+// ticks whose samples an update has not taken see the surface before it.
+Live overtaking(const Workplace& place) {
+    const std::string path = (place / "live.log").string();
+    SimulatedClock clock;
+    const SculptOptions options = options_for(path);
+    const auto wall = session_wall(options.live);
+    auto session = LiveSession::create(options, *wall, clock);
+    auto writer = InputLogWriter::create(path, settings_line(options));
+    auto script = parse_input_log(kScript, "script");
+    if (!session || !writer || !script) return {};
+    LiveSession& s = **session;
+    const std::uint64_t untouched = check_of(s.surface());
+    InputSource input = InputSource::play(std::move(*script), std::move(*writer));
+    ThreadRecorder recorder(input, s);
+    const auto tick = [&](int times) {
+        for (int i = 0; i < times; ++i) {
+            clock.sleep_until(clock.now_ns() + 1'000'000);
+            s.loop().step();
+        }
+    };
+    while (const auto frame = input.begin_frame(clock.now_ns(), clock.now_ns())) {
+        tick(4);
+        const ToolState tool = s.newest_tool();
+        tick(3);
+        std::size_t orders = 0;
+        s.step(*frame, kSize, tool, [&](const CarvingOrder& order) {
+            s.desk().order(order);
+            ++orders;
+        });
+        tick(5);
+        UpdateSeen update{clock.now_ns(), s.loop().ticks() - 3, orders, false};
+        if (!s.desk().repeat(update)) return {};
+        if (auto news = s.desk().take_news()) s.take(std::move(*news));
+        recorder.frame(tool.tick, {update}, false, {{.size = kSize}});
+    }
+    recorder.finish({});
+    return {place.read("live.log"), untouched, check_of(s.surface()), s.newest_tool().given.force_device_N,
+            s.loop().ticks()};
+}
+
 // The same again. How many frames were not as recorded; an Error where there is no going on.
 struct Again {
     std::size_t frames = 0, departed = 0;
@@ -174,6 +215,19 @@ TEST(ThreadReplay, DoesTheSameAsTheThreadsDid) {
     EXPECT_EQ(is.force_N, was.force_N);
     EXPECT_NE(was.surface, was.untouched);  // it carved
     EXPECT_TRUE(has(was.log, "o1"));
+}
+
+TEST(ThreadReplay, KeepsWhatTicksSawThatTheRestHasOvertaken) {
+    const Workplace place;
+    const Live was = overtaking(place);
+    ASSERT_GT(was.ticks, 500u);
+    EXPECT_NE(was.surface, was.untouched);
+    const Again is = again(was.log);
+    ASSERT_FALSE(is.error) << is.error->line();
+    EXPECT_GT(is.frames, 50u);
+    EXPECT_EQ(is.departed, 0u);
+    EXPECT_EQ(is.surface, was.surface);
+    EXPECT_EQ(is.force_N, was.force_N);
 }
 
 TEST(ThreadReplay, NoticesWhatIsNotAsItWas) {
