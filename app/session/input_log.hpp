@@ -22,7 +22,7 @@
 namespace burin {
 
 inline constexpr int kInputLogVersion = 2;                  // 1, without threads, is read as well
-inline constexpr std::uint64_t kMostLogBytes = 256u << 20;  // three hours of a session with its threads
+inline constexpr std::uint64_t kMostLogBytes = 256u << 20;  // some six hours of a session with its threads
 inline constexpr std::size_t kMostSettingsBytes = 16384;
 
 struct InputLog {

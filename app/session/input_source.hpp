@@ -32,7 +32,7 @@ public:
     [[nodiscard]] static InputSource replay(InputLog log, Nanoseconds period_ns = kNanosecondsPerSecond / 60);
 
     // A log in real time, as if its user were there: each event is seen by the first frame that begins at its time or later. The
-    // frames of a recording are not those that are made now, so FrameStart events are left out.
+    // frames of a recording are not those that are made now, so FrameStart events are left out. Recorded if wanted, as live input is.
     [[nodiscard]] static InputSource play(InputLog log, std::optional<InputLogWriter> recorder = std::nullopt);
 
     // Whether time is the log's.

@@ -241,13 +241,11 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
     touch.stop();
     carving.stop();
     s.desk().finish_export();
-    recorder.outside();
     CarvingThread::Taken last = carving.take_news();
     recorder.finish(last.updates);
     add(last.news, s.desk().take_news());
     if (last.news)
         for (const std::string& message : last.news->messages) s.say(message);
-    if (const auto& broken = input.recording_error()) std::fprintf(stderr, "burin: %s\n", broken->line().c_str());
     if (!outcome) return std::unexpected(outcome.error());
     SessionRecord record = record_of(s, carving);
     record.wall_ns = wall_ns;

@@ -72,13 +72,18 @@ void visit_savings(Savings& s, Visit&& visit) {
 }
 constexpr std::size_t kFigureWords = 1 + 1 + 7 + 8;  // the kind, frames a second, the two above
 
-}  // namespace
-
-std::size_t line_of(const std::vector<std::pair<std::size_t, std::size_t>>& lines, std::size_t index) {
-    const auto after =
-        std::ranges::upper_bound(lines, index, {}, [](const auto& first_and_line) { return first_and_line.first; });
-    return after == lines.begin() ? 0 : std::prev(after)->second;
+// Ticks or updates.
+template <typename Text>
+bool take_lines(const std::vector<std::string>& words, std::size_t line, Text& text, ThreadLines& into) {
+    if (words.size() != 3 || number<std::size_t>(words[1]) != into.count + 1) return false;
+    for (std::string_view rest = words[2]; !rest.empty(); ++into.count) {
+        if (!text.read(rest)) return false;
+    }
+    into.lines.push_back({line, words[2]});
+    return true;
 }
+
+}  // namespace
 
 // ---- Writing
 
@@ -130,8 +135,8 @@ Result<void> ThreadLogReader::take(const std::vector<std::string>& words, std::s
     if (!log_ && kind != "clock") return wrong("what the threads did comes before the line with their clock");
     bool right = false;
     if (kind == "clock") right = take_clock(words);
-    if (kind == "ticks") right = take_ticks(words, line);
-    if (kind == "updates") right = take_updates(words, line);
+    if (kind == "ticks") right = take_lines(words, line, *ticks_, log_->ticks);
+    if (kind == "updates") right = take_lines(words, line, *updates_, log_->updates);
     if (kind == "saw") right = take_saw(words, line);
     if (kind == "output") right = take_output(words);
     if (kind == "plotted") right = take_plotted(words);
@@ -152,28 +157,6 @@ bool ThreadLogReader::take_clock(const std::vector<std::string>& words) {
     log_.emplace().clock = {*start, *period, *resolution};
     ticks_.emplace(log_->clock);
     updates_.emplace(log_->clock);
-    return true;
-}
-
-bool ThreadLogReader::take_ticks(const std::vector<std::string>& words, std::size_t line) {
-    if (words.size() != 3 || number<std::size_t>(words[1]) != log_->ticks.size() + 1) return false;
-    log_->tick_lines.emplace_back(log_->ticks.size(), line);
-    for (std::string_view rest = words[2]; !rest.empty();) {
-        const auto tick = ticks_->read(rest);
-        if (!tick) return false;
-        log_->ticks.push_back(*tick);
-    }
-    return true;
-}
-
-bool ThreadLogReader::take_updates(const std::vector<std::string>& words, std::size_t line) {
-    if (words.size() != 3 || number<std::size_t>(words[1]) != log_->updates.size() + 1) return false;
-    log_->update_lines.emplace_back(log_->updates.size(), line);
-    for (std::string_view rest = words[2]; !rest.empty();) {
-        const auto update = updates_->read(rest);
-        if (!update) return false;
-        log_->updates.push_back(*update);
-    }
     return true;
 }
 

@@ -58,19 +58,24 @@ struct ThreadClock {
     friend bool operator==(const ThreadClock&, const ThreadClock&) = default;
 };
 
+// Ticks or updates as they stand in the file: read whole once, to see that they can be, and again when they are wanted. An hour has
+// millions of them.
+struct ThreadLines {
+    struct Line {
+        std::size_t number = 0;
+        std::string text;
+    };
+    std::vector<Line> lines;
+    std::size_t count = 0;  // of ticks or updates
+};
+
 struct ThreadLog {
     ThreadClock clock;
-    std::vector<TickSeen> ticks;  // from the first on
-    std::vector<UpdateSeen> updates;
+    ThreadLines ticks, updates;            // from the first on
     std::vector<std::string> said_before;  // the first frame
     std::vector<FrameSeen> frames;         // those that were finished
     std::optional<std::uint64_t> end_check;
-    // Where ticks and updates stand in the file: the first of a line, and the line.
-    std::vector<std::pair<std::size_t, std::size_t>> tick_lines, update_lines;
 };
-
-// The line in which number `index` (from 0) stands.
-[[nodiscard]] std::size_t line_of(const std::vector<std::pair<std::size_t, std::size_t>>& lines, std::size_t index);
 
 // ---- Text: ticks and updates as differences from the one before
 
@@ -101,6 +106,27 @@ private:
     UpdateSeen last_;
 };
 
+// Reads them one after the other.
+template <typename Text>
+class ThreadLinesReader {
+public:
+    // The log must outlive it.
+    ThreadLinesReader(const ThreadClock& clock, const ThreadLines& lines) : text_(clock), lines_(lines) {}
+    // Nothing after the last.
+    [[nodiscard]] auto next() {
+        while (rest_.empty() && next_line_ < lines_.lines.size()) rest_ = lines_.lines[next_line_++].text;
+        return text_.read(rest_);
+    }
+    // In which the last one stood.
+    [[nodiscard]] std::size_t line() const { return next_line_ == 0 ? 0 : lines_.lines[next_line_ - 1].number; }
+
+private:
+    Text text_;
+    const ThreadLines& lines_;
+    std::size_t next_line_ = 0;
+    std::string_view rest_;
+};
+
 // ---- Lines, without their time
 
 inline constexpr std::size_t kMostTicksALine = 500;
@@ -128,8 +154,6 @@ public:
 
 private:
     [[nodiscard]] bool take_clock(const std::vector<std::string>& words);
-    [[nodiscard]] bool take_ticks(const std::vector<std::string>& words, std::size_t line);
-    [[nodiscard]] bool take_updates(const std::vector<std::string>& words, std::size_t line);
     [[nodiscard]] bool take_saw(const std::vector<std::string>& words, std::size_t line);
     [[nodiscard]] bool take_output(const std::vector<std::string>& words);
     [[nodiscard]] bool take_plotted(const std::vector<std::string>& words);

@@ -15,13 +15,20 @@ bool same(const OutputPlace& a, const OutputPlace& b) {
 }  // namespace
 
 ThreadRecorder::ThreadRecorder(InputSource& input, LiveSession& session)
-    : input_(input), session_(session), clock_(clock_of(session)), tick_text_(clock_), update_text_(clock_) {
+    : input_(input),
+      session_(session),
+      clock_(clock_of(session)),
+      tick_text_(clock_),
+      update_text_(clock_),
+      recording_(input.records()) {
     input_.record_threads(text_of(clock_));
 }
 
 void ThreadRecorder::outside() {
     const LiveSession::Outside outside = session_.take_outside();
-    if (!input_.records()) return;
+    if (recording_ && !input_.records()) session_.say(input_.recording_error()->line());
+    recording_ = input_.records();
+    if (!recording_) return;
     if (outside.refused) input_.record_threads(refused_text(*outside.refused));
     for (const std::string& message : outside.heard) input_.record_threads(said_text(message));
 }
@@ -44,10 +51,12 @@ void ThreadRecorder::frame(std::uint64_t tick, const std::vector<UpdateSeen>& up
 }
 
 void ThreadRecorder::finish(const std::vector<UpdateSeen>& updates) {
-    if (!input_.records()) return;
+    outside();
+    if (!recording_) return;
     write_ticks();
     write_updates(updates);
-    input_.record_threads(end_text(check_of(session_.surface())));
+    if (input_.records()) input_.record_threads(end_text(check_of(session_.surface())));
+    outside();
 }
 
 void ThreadRecorder::write_ticks() {

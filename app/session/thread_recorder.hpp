@@ -20,7 +20,7 @@ public:
     // Before the threads start. Both must outlive it. Where the input is not recorded it does nothing.
     ThreadRecorder(InputSource& input, LiveSession& session);
 
-    // What was heard from outside since the frame before.
+    // What was heard from outside since the frame before. Says why the recording has ended, once.
     void outside();
     // tick: whose tool the frame draws. updates: that it took. rested: the pictures were refined before it.
     void frame(std::uint64_t tick, const std::vector<UpdateSeen>& updates, bool rested,
@@ -41,6 +41,7 @@ private:
     std::uint64_t ticks_ = 0, updates_ = 0;  // written
     std::vector<OutputPlace> places_;
     SessionCheck check_;
+    bool recording_;
 };
 
 }  // namespace burin

@@ -14,7 +14,11 @@ const T* seen(std::deque<T>& values, std::uint64_t sequence) {
 }  // namespace
 
 ThreadReplay::ThreadReplay(LiveSession& session, const ThreadLog& log, const std::string& name)
-    : session_(session), log_(log), name_(name) {
+    : session_(session),
+      log_(log),
+      name_(name),
+      tick_lines_(log.clock, log.ticks),
+      update_lines_(log.clock, log.updates) {
     keep_surface();
     tools_.push_back(session_.newest_tool());
 }
@@ -43,8 +47,8 @@ bool ThreadReplay::is_as_recorded(const FrameSeen& frame) {
 
 Result<std::optional<SurfaceNews>> ThreadReplay::finish() {
     FrameSeen last;
-    last.tick = log_.ticks.size();
-    last.updates = log_.updates.size();
+    last.tick = log_.ticks.count;
+    last.updates = log_.updates.count;
     auto news = news_of(last);
     if (!news) return news;
     if (const auto tool = tool_of(last); !tool) return std::unexpected(tool.error());
@@ -54,7 +58,7 @@ Result<std::optional<SurfaceNews>> ThreadReplay::finish() {
 // ---- Ticks
 
 Result<void> ThreadReplay::run_ticks(std::uint64_t last) {
-    if (last > log_.ticks.size()) return ends("tick " + std::to_string(last));
+    if (last > log_.ticks.count) return ends("tick " + std::to_string(last));
     while (ticks_ < last) {
         if (const auto run = run_tick(); !run) return run;
     }
@@ -62,8 +66,8 @@ Result<void> ThreadReplay::run_ticks(std::uint64_t last) {
 }
 
 Result<void> ThreadReplay::run_tick() {
-    const TickSeen& tick = log_.ticks[ticks_];
-    const std::size_t line = line_of(log_.tick_lines, ticks_);
+    const TickSeen tick = *tick_lines_.next();  // the log has counted them
+    const std::size_t line = tick_lines_.line();
     const std::string what = "tick " + std::to_string(ticks_ + 1) + " saw ";
     ticking_ = ticks_ + 1;
     if (updating_ && tick.surface_sequence > updates_ + 1)
@@ -97,7 +101,7 @@ void ThreadReplay::keep_parameters() {
 // ---- Updates
 
 Result<void> ThreadReplay::run_updates(std::uint64_t last) {
-    if (last > log_.updates.size()) return ends("update " + std::to_string(last) + " of the carving side");
+    if (last > log_.updates.count) return ends("update " + std::to_string(last) + " of the carving side");
     while (updates_ < last) {
         if (const auto run = run_update(); !run) return run;
     }
@@ -105,9 +109,9 @@ Result<void> ThreadReplay::run_updates(std::uint64_t last) {
 }
 
 Result<void> ThreadReplay::run_update() {
-    const UpdateSeen& update = log_.updates[updates_];
+    const UpdateSeen update = *update_lines_.next();
     updating_ = true;
-    const std::size_t line = line_of(log_.update_lines, updates_);
+    const std::size_t line = update_lines_.line();
     const std::string what = "update " + std::to_string(updates_ + 1) + " took ";
     if (ticking_ > 0 && update.last_tick >= ticking_)
         return contradiction(line, what + "the sample of a tick that saw its surface");

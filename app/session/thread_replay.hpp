@@ -51,6 +51,8 @@ private:
     LiveSession& session_;
     const ThreadLog& log_;
     std::string name_;
+    ThreadLinesReader<TickText> tick_lines_;
+    ThreadLinesReader<UpdateText> update_lines_;
     std::uint64_t ticks_ = 0, updates_ = 0;  // done
     bool updating_ = false;
     std::uint64_t ticking_ = 0;          // the tick that is begun; 0: none

@@ -307,6 +307,12 @@ TEST(ThreadRecorder, EndsTheRecordingWhenTicksWereLost) {
     frame();
     ASSERT_TRUE(input.recording_error());
     EXPECT_TRUE(has(input.recording_error()->line(), "ticks were lost"));
+    testing::internal::CaptureStderr();
+    recorder.outside();
+    recorder.outside();
+    const std::string told = testing::internal::GetCapturedStderr();
+    EXPECT_TRUE(has(told, "ticks were lost"));
+    EXPECT_EQ(told.find("ticks were lost"), told.rfind("ticks were lost"));  // once
     const auto log = read_input_log(path);
     ASSERT_TRUE(log) << log.error().line();
     EXPECT_EQ(log->threads->frames.size(), 1u);
