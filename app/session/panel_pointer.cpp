@@ -88,7 +88,7 @@ struct Pointing {
             const double bent = std::abs(e->position.y) < kStickScrolls ? 0.0 : e->position.y;
             return e->wand == kPointingWand && bent != 0.0 && scroll(t, bent > 0.0 ? 1.0 : -1.0);
         }
-        if (const auto* e = std::get_if<MouseMove>(&event.input)) {
+        if (std::holds_alternative<MouseMove>(event.input)) {
             if (mouse.place.size.width > 0 && mouse.place.size.height > 0) point(t, along_mouse());
             return false;
         }

@@ -20,11 +20,10 @@ public:
 
     Result<void> frame(const FrameInput& input, const FrameSeen& seen) {
         if (const auto put = put_outputs(seen); !put) return put;
-        if (seen.rested) stage_.refine();
         const Result<ToolState> tool = threads_.tool_of(seen);
         if (!tool) return std::unexpected(tool.error());
         session_.measure_again(seen.measured);
-        session_.step(input, stage_.size(), *tool, [&](CarvingOrder order) { threads_.order(std::move(order)); });
+        session_.step(input, stage_.place(), *tool, [&](CarvingOrder order) { threads_.order(std::move(order)); });
         auto news = threads_.news_of(seen);
         if (!news) return std::unexpected(news.error());
         if (*news) session_.take(std::move(**news));

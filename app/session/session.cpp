@@ -224,7 +224,7 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
         CarvingThread::Taken carved = carving.take_news();
         if (carved.news) s.take(std::move(*carved.news));
         if (const auto failed = carving.failure()) outcome = std::unexpected(*failed);
-        recorder.frame(tool.tick, carved.updates, !active, stage->places());
+        recorder.frame(tool.tick, carved.updates, stage->places());
         if (stage->has_windows() && s.wants_full_screen_exchanged()) stage->exchange_full_screen();
         for (const std::string& message : stage->take_messages()) s.hear(message);
         times.reached(FrameStage::step);

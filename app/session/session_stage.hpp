@@ -26,7 +26,7 @@ public:
 
     // Where the windows are now: so they stay for whoever asks until the next look, once a frame.
     void look();
-    [[nodiscard]] std::vector<OutputPlace> places() const;                              // of all screens' outputs
+    [[nodiscard]] std::vector<OutputPlace> places() const;                                  // of all screens' outputs
     [[nodiscard]] const OutputPlace& place() const { return screens_[wall_->main].place; }  // of the main screen's
     // Instead: as it is to be drawn, whatever the window is like.
     void put(std::size_t screen, const OutputPlace& place) { screens_[screen].place = place; }

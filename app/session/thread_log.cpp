@@ -24,7 +24,7 @@ constexpr std::array kKinds = {
     Kind{"output", "SCREEN WIDTH_PX HEIGHT_PX X_PX Y_PX"},
     Kind{"plotted", "TICK_US FRAME_MS FRAME_LIMIT_MS"},
     Kind{"figures", "FIGURES OF THE PANEL, AND ITS WARNINGS"},
-    Kind{"saw", "TICK UPDATES CHECK [rested]"},
+    Kind{"saw", "TICK UPDATES CHECK"},
     Kind{"refused", "STEREO_MODE"},
     Kind{"said", "\"MESSAGE\""},
     Kind{"end", "CHECK"},
@@ -110,8 +110,7 @@ std::string text_of(const PanelNumbers& numbers) {
 }
 
 std::string text_of(const FrameSeen& frame) {
-    return "saw " + text(frame.tick) + " " + text(frame.updates) + " " + text(frame.check) +
-           (frame.rested ? " rested" : "");
+    return "saw " + text(frame.tick) + " " + text(frame.updates) + " " + text(frame.check);
 }
 
 std::string refused_text(StereoMode mode) { return "refused " + std::string(file_name_of(mode)); }
@@ -162,17 +161,16 @@ bool ThreadLogReader::take_clock(const std::vector<std::string>& words) {
 
 // Of the frame that has begun, once.
 bool ThreadLogReader::take_saw(const std::vector<std::string>& words, std::size_t line) {
-    if (words.size() < 4 || words.size() > 5 || log_->frames.size() + 1 != begun_) return false;
+    if (words.size() != 4 || log_->frames.size() + 1 != begun_) return false;
     const auto tick = number<std::uint64_t>(words[1]), updates = number<std::uint64_t>(words[2]);
     const auto check = number<std::uint64_t>(words[3]);
-    if (!tick || !updates || !check || (words.size() == 5 && words[4] != "rested")) return false;
+    if (!tick || !updates || !check) return false;
     if (!log_->frames.empty() && (*tick < log_->frames.back().tick || *updates < log_->frames.back().updates))
         return false;
     FrameSeen& frame = log_->frames.emplace_back(std::exchange(frame_, {}));
     frame.tick = *tick;
     frame.updates = *updates;
     frame.check = *check;
-    frame.rested = words.size() == 5;
     frame.line = line;
     return true;
 }

@@ -42,7 +42,6 @@ struct FrameSeen {
     std::uint64_t tick = 0;     // the newest that was done; 0: none yet
     std::uint64_t updates = 0;  // of the carving side, whose news it had
     std::uint64_t check = 0;    // of what came of all that (SessionCheck)
-    bool rested = false;        // time was left to refine the pictures before it
     std::vector<OutputSeen> outputs;
     PanelMeasured measured;
     std::optional<StereoMode> refused;  // the main screen went back to this mode while the frame was drawn

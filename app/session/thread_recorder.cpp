@@ -33,7 +33,7 @@ void ThreadRecorder::outside() {
     for (const std::string& message : outside.heard) input_.record_threads(said_text(message));
 }
 
-void ThreadRecorder::frame(std::uint64_t tick, const std::vector<UpdateSeen>& updates, bool rested,
+void ThreadRecorder::frame(std::uint64_t tick, const std::vector<UpdateSeen>& updates,
                            const std::vector<OutputPlace>& places) {
     if (!input_.records()) return;
     write_ticks();  // a tick is in the ring before its tool can be seen
@@ -46,7 +46,6 @@ void ThreadRecorder::frame(std::uint64_t tick, const std::vector<UpdateSeen>& up
     frame.tick = tick;
     frame.updates = updates_;
     frame.check = check_.frame(tick, session_.state());
-    frame.rested = rested;
     input_.record_threads(text_of(frame));
 }
 

@@ -22,9 +22,8 @@ public:
 
     // What was heard from outside since the frame before. Says why the recording has ended, once.
     void outside();
-    // tick: whose tool the frame draws. updates: that it took. rested: the pictures were refined before it.
-    void frame(std::uint64_t tick, const std::vector<UpdateSeen>& updates, bool rested,
-               const std::vector<OutputPlace>& places);
+    // tick: whose tool the frame draws. updates: that it took.
+    void frame(std::uint64_t tick, const std::vector<UpdateSeen>& updates, const std::vector<OutputPlace>& places);
     void finish(const std::vector<UpdateSeen>& updates);
 
 private:
