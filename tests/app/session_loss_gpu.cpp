@@ -112,8 +112,9 @@ private:
                 if (const auto updated = s.desk().update(clock.now_ns()); !updated) return updated;
                 next_update_ns += kUpdatePeriod_ns;
             }
+            stage->look();
             const OutputPlace place = minimised.contains(i) ? OutputPlace{} : stage->place();
-            s.step(*frame, place, [&](CarvingOrder order) {
+            s.step(*frame, place, s.newest_tool(), [&](CarvingOrder order) {
                 s.desk().order(order);
                 s.desk().finish_export();
             });
