@@ -9,6 +9,11 @@ namespace {
 
 bool is_frame(const InputEvent& event) { return std::holds_alternative<FrameStart>(event.input); }
 
+bool asks_for_a_picture(const InputEvent& event) {
+    const auto* command = std::get_if<CommandInput>(&event.input);
+    return command != nullptr && command->name == "screenshot";
+}
+
 }  // namespace
 
 Nanoseconds head_sampled_ns(const FrameInput& frame) {
@@ -94,7 +99,8 @@ std::optional<FrameInput> InputSource::played_frame(Nanoseconds now_ns, Nanoseco
     last_ns_ = std::clamp(now_ns, last_ns_, kLongestSession_ns);
     const std::span all(log_.events);
     const std::size_t first = next_;
-    while (next_ < all.size() && all[next_].time_ns <= last_ns_) ++next_;
+    while (next_ < all.size() && all[next_].time_ns <= last_ns_)
+        if (asks_for_a_picture(all[next_++])) break;
     over_ = next_ == all.size();
     const FrameInput frame{last_ns_, std::clamp(display_ns, last_ns_, kLongestSession_ns),
                            all.subspan(first, next_ - first)};

@@ -31,7 +31,8 @@ public:
     // each shown when it is drawn. period_ns > 0.
     [[nodiscard]] static InputSource replay(InputLog log, Nanoseconds period_ns = kNanosecondsPerSecond / 60);
 
-    // A log in real time, as if its user were there: each event is seen by the first frame that begins at its time or later. The
+    // A log in real time, as if its user were there: each event is seen by the first frame that begins at its time or later, but what comes
+    // after the command for a screenshot by the next frame, so that the picture shows what it was asked of on slow machines too. The
     // frames of a recording are not those that are made now, so FrameStart events are left out. Recorded if wanted, as live input is.
     [[nodiscard]] static InputSource play(InputLog log, std::optional<InputLogWriter> recorder = std::nullopt);
 

@@ -407,6 +407,21 @@ TEST(InputSource, MakesUpFramesForALogWrittenByHand) {
     EXPECT_EQ(times, (std::vector<Nanoseconds>{0, 100'000'000, 200'000'000, 300'000'000}));
 }
 
+// However late a frame is: a picture shows what it was asked of.
+TEST(InputSource, PlayingEndsAFrameAtAScreenshot) {
+    const auto log = parse_input_log(
+        kHeader + "0.1 mouse 1 1\n0.2 command screenshot a.png\n0.3 mouse 3 3\n0.4 command quit\n", "in.log");
+    ASSERT_TRUE(log) << log.error().line();
+    InputSource source = InputSource::play(*log);
+    const auto first = source.begin_frame(kNanosecondsPerSecond, kNanosecondsPerSecond);
+    ASSERT_TRUE(first);
+    EXPECT_EQ(first->events.size(), 2u);
+    const auto second = source.begin_frame(kNanosecondsPerSecond, kNanosecondsPerSecond);
+    ASSERT_TRUE(second);
+    EXPECT_EQ(second->events.size(), 2u);
+    EXPECT_FALSE(source.begin_frame(kNanosecondsPerSecond, kNanosecondsPerSecond));
+}
+
 TEST(InputSource, PlaysALogAtItsTimes) {
     const auto log =
         parse_input_log(kHeader + "0.1 mouse 1 1\n0.2 frame 0.3\n0.2 mouse 2 2\n0.25 mouse 3 3\n", "in.log");

@@ -77,7 +77,7 @@ TEST_F(Recording, GivesThePicturesThatWereTaken) {
         EXPECT_TRUE(picture("live", name) == picture("again", name)) << name;
     }
     EXPECT_TRUE(place.read("undone.ply") == place.read("undone-live.ply"));
-    // That pictures can tell one moment from another; those between may be of one frame, where a machine is slow.
+    // That pictures can tell one moment from another.
     EXPECT_TRUE(picture("live", "before.png") != picture("live", "late.png"));
 }
 
