@@ -2,6 +2,8 @@
 // What asking a display now and then tells of its frames, with a display and a clock that are made up.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <cmath>
 #include <optional>
 #include <vector>
