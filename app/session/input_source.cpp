@@ -96,15 +96,18 @@ FrameInput InputSource::live_frame(Nanoseconds now_ns, Nanoseconds display_ns) {
 
 std::optional<FrameInput> InputSource::played_frame(Nanoseconds now_ns, Nanoseconds display_ns) {
     if (over_) return std::nullopt;
+    const Nanoseconds before_ns = last_ns_;
     last_ns_ = std::clamp(now_ns, last_ns_, kLongestSession_ns);
-    const std::span all(log_.events);
     const std::size_t first = next_;
-    while (next_ < all.size() && all[next_].time_ns <= last_ns_)
-        if (asks_for_a_picture(all[next_++])) break;
-    over_ = next_ == all.size();
+    while (next_ < log_.events.size() && log_.events[next_].time_ns <= last_ns_) {
+        InputEvent& event = log_.events[next_++];
+        event.time_ns = std::max(event.time_ns, before_ns);  // what the frame before left is of this one
+        record(event);
+        if (asks_for_a_picture(event)) break;
+    }
+    over_ = next_ == log_.events.size();
     const FrameInput frame{last_ns_, std::clamp(display_ns, last_ns_, kLongestSession_ns),
-                           all.subspan(first, next_ - first)};
-    for (const InputEvent& event : frame.events) record(event);
+                           std::span(log_.events).subspan(first, next_ - first)};
     record({last_ns_, FrameStart{frame.display_ns}});
     return frame;
 }

@@ -407,19 +407,28 @@ TEST(InputSource, MakesUpFramesForALogWrittenByHand) {
     EXPECT_EQ(times, (std::vector<Nanoseconds>{0, 100'000'000, 200'000'000, 300'000'000}));
 }
 
-// However late a frame is: a picture shows what it was asked of.
+// However late a frame is: a picture shows what it was asked of. And a recording of it has its events in their order.
 TEST(InputSource, PlayingEndsAFrameAtAScreenshot) {
+    const auto path = fresh_file("played.log");
     const auto log = parse_input_log(
         kHeader + "0.1 mouse 1 1\n0.2 command screenshot a.png\n0.3 mouse 3 3\n0.4 command quit\n", "in.log");
     ASSERT_TRUE(log) << log.error().line();
-    InputSource source = InputSource::play(*log);
+    auto writer = InputLogWriter::create(path, "");
+    ASSERT_TRUE(writer) << writer.error().line();
+    InputSource source = InputSource::play(*log, std::move(*writer));
     const auto first = source.begin_frame(kNanosecondsPerSecond, kNanosecondsPerSecond);
     ASSERT_TRUE(first);
     EXPECT_EQ(first->events.size(), 2u);
     const auto second = source.begin_frame(kNanosecondsPerSecond, kNanosecondsPerSecond);
     ASSERT_TRUE(second);
     EXPECT_EQ(second->events.size(), 2u);
+    EXPECT_EQ(second->events[0].time_ns, kNanosecondsPerSecond);
     EXPECT_FALSE(source.begin_frame(kNanosecondsPerSecond, kNanosecondsPerSecond));
+    EXPECT_FALSE(source.recording_error());
+    const auto recorded = read_input_log(path);
+    ASSERT_TRUE(recorded) << recorded.error().line();
+    EXPECT_EQ(recorded->events.size(), 4u + 2u);
+    std::filesystem::remove(path);
 }
 
 TEST(InputSource, PlaysALogAtItsTimes) {

@@ -55,6 +55,8 @@ protected:
             place.run(sculpt("--workpiece ball:0.1 --resolution 48 --tool ball:0.012 --width 960 --height 540 "
                              "--screenshots live --input script.txt --record live.log"));
         ASSERT_EQ(live.status, 0) << live.output;
+        ASSERT_NE(place.read("live.log").find(" end "), std::string::npos)
+            << "it was not recorded to its end: " << live.output;
     }
     [[nodiscard]] std::string picture(const std::string& folder, const std::string& name) const {
         return place.read(folder + "/" + name);
