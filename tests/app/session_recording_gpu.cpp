@@ -100,8 +100,8 @@ TEST_F(Recording, FailsWhenATickGoesAnotherWay) {
 
 TEST_F(Recording, IsReplayedAsFarAsItGoes) {
     const std::string log = place.read("live.log");
-    // In the line behind that frame.
-    place.write("torn.log", log.substr(0, end_of_frame_with(log, "carving.png") + 5));
+    // In the line behind that frame. It may be lost itself: the record of a tick that an update has taken can come a moment later.
+    place.write("torn.log", log.substr(0, end_of_frame_with(log, "carved.png") + 5));
     const auto torn = place.run(sculpt("--screenshots again --input torn.log"));
     EXPECT_EQ(torn.status, 0) << torn.output;
     EXPECT_TRUE(picture("live", "carving.png") == picture("again", "carving.png"));
