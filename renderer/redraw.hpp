@@ -28,7 +28,7 @@ struct Shown {
 // Where either eye may see boxes of the world or what lies between them; all of the picture where they come too near to an eye.
 [[nodiscard]] PixelRect seen_part(const Scene& scene, ImageSize size, std::span<const Box> boxes_world);
 
-// shown: nothing when there is no picture yet. changed: bounds of patches, in their frame.
+// shown: nothing when there is no picture yet. changed: around patches and parts of patches, in their frame.
 [[nodiscard]] PixelRect changed_part(const std::optional<Shown>& shown, const Shown& wanted, ImageSize size,
                                      std::span<const Box> changed);
 

@@ -6,7 +6,7 @@
 // with the coarser surface beneath it: how far it lies off, and how its colour, normal and light differ from what is
 // interpolated there. A form that would change the look of a single vertex by more than kMostChange is not kept, so a shadow's edge on
 // a flat face keeps its triangles. A patch of several colours keeps those along their border.
-// Pure; any thread. Cost: some 300 us for a patch of 500 triangles.
+// Pure; any thread. Cost: one or two milliseconds for a patch of 500 triangles.
 #pragma once
 
 #include <cstdint>
