@@ -24,6 +24,7 @@ TickRecord HapticLoop::repeat(const DeviceSample& sample, const LocalSurface& su
                               Nanoseconds now_ns, Nanoseconds lateness_ns) noexcept {
     FullTick full = full_tick(state_, sample, surface, parameters, device_.description(), now_ns, dt_s_);
     device_.write(full.record.given);
+    watch_stillness(full.record);
     state_ = full.next;
     sample_ = sample;
     velocity_device_m_per_s_ = full.record.velocity_device_m_per_s;
@@ -61,6 +62,16 @@ TickRecord HapticLoop::repeat(const DeviceSample& sample, const LocalSurface& su
     return full.record;
 }
 
+void HapticLoop::watch_stillness(const TickRecord& tick) noexcept {
+    const bool still = tick.given.force_device_N == Vec3(0.0) && tick.given.torque_device_Nm == Vec3(0.0) &&
+                       tick.sample.position_device_m == still_.sample.position_device_m &&
+                       tick.sample.orientation_device == still_.sample.orientation_device &&
+                       tick.sample.buttons == still_.sample.buttons && tick.sample.fault == still_.sample.fault &&
+                       tick.parameter_sequence == still_.parameter_sequence;
+    if (!still) still_ = {tick.time_ns, tick.sample, tick.parameter_sequence};
+    newest_ns_ = tick.time_ns;
+}
+
 void HapticLoop::rehearse() noexcept {
     DeviceSample expected = sample_;
     expected.time_ns += period_ns_;
@@ -70,12 +81,13 @@ void HapticLoop::rehearse() noexcept {
     rehearsed_ += full.record.work.triangles_tested;
 }
 
-void HapticLoop::run(const std::atomic<bool>& stop, Nanoseconds lead_ns) noexcept {
-    run_ticks(UINT64_MAX, &stop, lead_ns);
+void HapticLoop::run(const std::atomic<bool>& stop, const LoopPace& pace) noexcept {
+    run_ticks(UINT64_MAX, &stop, pace);
 }
 
-void HapticLoop::run_ticks(std::uint64_t count, const std::atomic<bool>* stop, Nanoseconds lead_ns) noexcept {
-    lead_ns = std::min(lead_ns, period_ns_ / 4);  // most of a period is for sleep, however fast the device
+void HapticLoop::run_ticks(std::uint64_t count, const std::atomic<bool>* stop, const LoopPace& pace) noexcept {
+    const Nanoseconds lead_ns =
+        std::min(pace.lead_ns, period_ns_ / 4);  // most of a period is for sleep, however fast the device
     Nanoseconds deadline_ns = clock_.now_ns() + period_ns_;
     for (std::uint64_t i = 0; i < count; ++i) {
         // acquire: what the stopping thread did before it said stop is seen by whoever runs after this loop.
@@ -93,6 +105,7 @@ void HapticLoop::run_ticks(std::uint64_t count, const std::atomic<bool>* stop, N
         const Nanoseconds missed = lateness_ns / period_ns_;
         skipped_deadlines_ += static_cast<std::uint64_t>(missed);
         deadline_ns += (missed + 1) * period_ns_;
+        if (pace.rests && is_still()) deadline_ns += std::max<Nanoseconds>(kRest_ns - period_ns_, 0);
     }
     device_.write({});
 }

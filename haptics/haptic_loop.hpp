@@ -10,6 +10,9 @@
 // Rehearsal: a thread that has slept finds its caches cold, and a tick then takes two or three times as long. So run() wakes a little
 // before the deadline, ticks once for nothing, from the sample that it expects, and spins out the rest: what the tick will
 // need is at hand when the device is read, and the tick begins on the dot. tick() is pure, so nothing comes of it.
+// Rest: a loop whose force nobody feels need not tick a thousand times a second while nothing happens. Where it may rest (LoopPace), it
+// does so after a second in which the hand and the parameters stayed as they were and no force was given; the first change, or force,
+// that it sees ends it. A loop that drives a device never rests.
 // A tick that starts late is flagged and counted; deadlines that were missed altogether are skipped and counted, so
 // that the loop never runs a burst of ticks to catch up.
 #pragma once
@@ -22,6 +25,13 @@
 #include "haptics/tick.hpp"
 
 namespace burin {
+
+// How run() keeps time.
+struct LoopPace {
+    // Before each deadline it wakes up for a rehearsal; a quarter of a period at most; 0: it does not.
+    Nanoseconds lead_ns = 0;
+    bool rests = false;  // only where nobody feels the force
+};
 
 class HapticLoop {
 public:
@@ -42,11 +52,13 @@ public:
     // Wake-ups are some 50 us late on an ordinary kernel, and a tick takes 10 or 20: before a deadline this is the time for both.
     static constexpr Nanoseconds kLead_ns = 100'000;
 
-    // Steps at absolute deadlines, the first one period from now, until stop is true; then writes zero force. Wakes up so long
-    // before each deadline for a rehearsal, a quarter of a period at most; 0: none.
-    void run(const std::atomic<bool>& stop, Nanoseconds lead_ns) noexcept;
+    // Before it rests, and between ticks while it does: well below what the gate takes for a lost loop.
+    static constexpr Nanoseconds kStill_ns = 1'000'000'000, kRest_ns = 12'000'000;
+
+    // Steps at absolute deadlines, the first one period from now, until stop is true; then writes zero force.
+    void run(const std::atomic<bool>& stop, const LoopPace& pace) noexcept;
     // As run(), for so many ticks at most.
-    void run_ticks(std::uint64_t count, const std::atomic<bool>* stop = nullptr, Nanoseconds lead_ns = 0) noexcept;
+    void run_ticks(std::uint64_t count, const std::atomic<bool>* stop = nullptr, const LoopPace& pace = {}) noexcept;
 
     [[nodiscard]] Nanoseconds period_ns() const noexcept { return period_ns_; }
     [[nodiscard]] std::uint64_t ticks() const noexcept { return ticks_; }
@@ -58,6 +70,9 @@ public:
     [[nodiscard]] const FullTickState& state() const noexcept { return state_; }
 
 private:
+    void watch_stillness(const TickRecord& tick) noexcept;
+    [[nodiscard]] bool is_still() const noexcept { return newest_ns_ - still_.since_ns >= kStill_ns; }
+
     HapticDevice& device_;
     Clock& clock_;
     HapticChannels& channels_;
@@ -67,6 +82,13 @@ private:
     DeviceSample sample_;                // the last one
     Vec3 velocity_device_m_per_s_{0.0};  // then
     std::uint64_t ticks_ = 0, late_ticks_ = 0, skipped_deadlines_ = 0;
+    struct Still {
+        Nanoseconds since_ns = 0;
+        DeviceSample sample;
+        std::uint64_t parameter_sequence = 0;
+    };
+    Still still_;                  // nothing else was seen since then
+    Nanoseconds newest_ns_ = 0;    // of the last tick
     std::uint64_t rehearsed_ = 0;  // triangles: so that a compiler that sees everything keeps the rehearsal
     Histogram lateness_, duration_;
 };

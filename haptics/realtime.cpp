@@ -69,7 +69,7 @@ RealtimeNotice HapticThread::start() {
     // The promise moves into the thread: were it on this stack it could be gone before set_value has quite returned.
     thread_ = std::thread([this, ready = std::move(ready)]() mutable {
         ready.set_value(ask_for_realtime());
-        loop_.run(stop_, lead_ns_);
+        loop_.run(stop_, pace_);
     });
     return notice.get();
 }

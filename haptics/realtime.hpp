@@ -27,9 +27,9 @@ struct RealtimeNotice {
 // the loop meanwhile.
 class HapticThread {
 public:
-    // lead_ns: as HapticLoop::run(). 0 where nobody feels when a tick begins: a simulated hand's thread then takes a tenth of a core less.
-    explicit HapticThread(HapticLoop& loop, Nanoseconds lead_ns = HapticLoop::kLead_ns)
-        : loop_(loop), lead_ns_(lead_ns) {}
+    // Where nobody feels when a tick begins, a thread without a lead takes a tenth of a core less, and one that rests next to nothing.
+    explicit HapticThread(HapticLoop& loop, const LoopPace& pace = {.lead_ns = HapticLoop::kLead_ns})
+        : loop_(loop), pace_(pace) {}
     ~HapticThread() { stop(); }
     HapticThread(const HapticThread&) = delete;
     HapticThread& operator=(const HapticThread&) = delete;
@@ -41,7 +41,7 @@ public:
 
 private:
     HapticLoop& loop_;
-    Nanoseconds lead_ns_;
+    LoopPace pace_;
     std::atomic<bool> stop_{false};
     std::thread thread_;
 };

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "haptics/haptic_loop.hpp"
+
 namespace burin {
 
 CarvingThread::CarvingThread(CarvingDesk& desk, Clock& clock, std::function<void()> on_news)
@@ -48,12 +50,20 @@ std::vector<CarvingOrder> CarvingThread::wait_for_orders(Nanoseconds until_ns) {
     return std::exchange(orders_, {});
 }
 
+// Then the hand is where it was, and ticks come a tenth as often.
+bool CarvingThread::loop_rests(const UpdateSeen& before) const {
+    const UpdateSeen& now = desk_.seen();
+    const auto most = static_cast<std::uint64_t>(2 * (now.time_ns - before.time_ns) / HapticLoop::kRest_ns);
+    return now.last_tick - before.last_tick <= std::max<std::uint64_t>(most, 1);
+}
+
 void CarvingThread::run() {
-    Nanoseconds next_ns = clock_.now_ns();
+    Nanoseconds next_ns = clock_.now_ns(), period_ns = kPeriod_ns;
     while (true) {
-        next_ns = std::max(next_ns + kPeriod_ns, clock_.now_ns());
+        next_ns = std::max(next_ns + period_ns, clock_.now_ns());
         const std::vector<CarvingOrder> orders = wait_for_orders(next_ns);
         for (const CarvingOrder& order : orders) desk_.order(order);
+        const UpdateSeen before = desk_.seen();
         const Nanoseconds began_ns = clock_.now_ns();
         const auto updated = desk_.update(began_ns);
         const Nanoseconds took_ns = clock_.now_ns() - began_ns;
@@ -71,6 +81,7 @@ void CarvingThread::run() {
             if (!updated) failure_ = updated.error();
             end = stopping_ || failure_.has_value();
         }
+        period_ns = !told && orders.empty() && loop_rests(before) ? kRest_ns : kPeriod_ns;
         if (told || !updated) on_news_();
         if (end) return;
     }

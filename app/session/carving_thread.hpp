@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The carving desk on a thread of its own, 100 updates a second, beside the haptic thread and the frame.
+// The carving desk on a thread of its own, 100 updates a second, beside the haptic thread and the frame; 25 while the haptic loop rests.
 // Orders go in and news come out under a lock that neither holds while carving; the haptic thread knows nothing of it.
 // Threads: order() and take_news() from one thread, the frame's. The desk must outlive the object and be left alone meanwhile.
 #pragma once
@@ -18,7 +18,7 @@ namespace burin {
 
 class CarvingThread {
 public:
-    static constexpr Nanoseconds kPeriod_ns = 10'000'000;
+    static constexpr Nanoseconds kPeriod_ns = 10'000'000, kRest_ns = 40'000'000;
 
     // on_news is called on the carving thread when there is something to take; it must not wait.
     CarvingThread(CarvingDesk& desk, Clock& clock, std::function<void()> on_news);
@@ -41,6 +41,7 @@ public:
 
 private:
     void run();
+    [[nodiscard]] bool loop_rests(const UpdateSeen& before) const;
     [[nodiscard]] std::vector<CarvingOrder> wait_for_orders(Nanoseconds until_ns);
 
     CarvingDesk& desk_;

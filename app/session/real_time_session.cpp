@@ -14,7 +14,7 @@
 namespace burin {
 namespace {
 
-constexpr Nanoseconds kRest_ns = 100'000'000;    // between looks at what may have changed, when nothing happens
+constexpr Nanoseconds kRest_ns = 500'000'000;    // between looks at what may have changed, when nothing happens
 constexpr Nanoseconds kActive_ns = 300'000'000;  // after the last change frames follow the display's beat
 
 // What has happened when the time has come, or something happens before.
@@ -89,7 +89,7 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
         if (shown) window::wake();
     });
     // The hand is simulated: nobody feels it. What is measured is what a device's user would.
-    HapticThread touch(s.loop(), keep_frames ? HapticLoop::kLead_ns : 0);
+    HapticThread touch(s.loop(), keep_frames ? LoopPace{.lead_ns = HapticLoop::kLead_ns} : LoopPace{.rests = true});
     const RealtimeNotice notice = touch.start();
     if (!notice.text.empty()) s.hear(notice.text);
     carving.start();

@@ -69,7 +69,7 @@ Live live(const Workplace& place) {
     InputSource input = InputSource::play(std::move(*script), std::move(*writer));
     ThreadRecorder recorder(input, s);
     CarvingThread carving(s.desk(), clock, [] {});
-    HapticThread touch(s.loop(), 0);
+    HapticThread touch(s.loop(), {});
     static_cast<void>(touch.start());
     carving.start();
     while (!s.state().quit) {

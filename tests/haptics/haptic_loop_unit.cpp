@@ -241,9 +241,41 @@ TEST(HapticLoop, ALeadMakesUpForLateWakeUps) {
         SimulatedOmni omni(*SimulatedHand::create({{0.0, Vec3(0.0)}}), {}, &clock);
         HapticChannels channels;
         HapticLoop loop(omni, clock, channels);
-        loop.run_ticks(20, nullptr, leads ? HapticLoop::kLead_ns : 0);
+        loop.run_ticks(20, nullptr, {.lead_ns = leads ? HapticLoop::kLead_ns : 0});
         EXPECT_EQ(loop.ticks(), 20u);
         for (TickRecord record; channels.records.pop(record);) EXPECT_EQ(record.lateness_ns, leads ? 0 : 60'000);
+    }
+}
+
+TEST(HapticLoop, RestsOnlyWhereItMayAndNothingHappens) {
+    // Still for 3 s in the air, moved, still for 2 s, then pressed on the plane for good.
+    const std::vector<HandPose> script{{0.0, Vec3(0.0, 0.015, 0.0)},
+                                       {3.0, Vec3(0.0, 0.015, 0.0)},
+                                       {3.1, Vec3(0.01, 0.015, 0.0)},
+                                       {5.1, Vec3(0.01, 0.015, 0.0)},
+                                       {5.4, Vec3(0.01, -0.001, 0.0)}};
+    for (const bool rests : {false, true}) {
+        Rig rig(script);
+        rig.publish(*test::plane(0.1, 20), 1);
+        rig.publish(tool(), 1);
+        rig.loop.run_ticks(4000, nullptr, {.rests = rests});
+        Nanoseconds last_ns = 0, changed_ns = kMs;
+        DeviceSample last;
+        int rested = 0, pressed = 0;
+        for (TickRecord r; rig.channels.records.pop(r); last_ns = r.time_ns, last = r.sample) {
+            const bool may_rest = rests && last_ns - changed_ns >= HapticLoop::kStill_ns;
+            ASSERT_EQ(r.time_ns - last_ns, may_rest ? HapticLoop::kRest_ns : kMs) << r.tick;
+            EXPECT_EQ(r.cause, GateCause::none) << r.tick;
+            const bool moved = last_ns > 0 && r.sample.position_device_m != last.position_device_m;
+            if (moved || r.given.force_device_N != Vec3(0.0)) changed_ns = r.time_ns;
+            rested += may_rest ? 1 : 0;
+            pressed += r.given.force_device_N.y > 0.1 ? 1 : 0;
+        }
+        EXPECT_EQ(rig.loop.skipped_deadlines(), 0u);
+        if (!rests) continue;
+        EXPECT_GT(last_ns, 5'500 * kMs);
+        EXPECT_GT(rested, 200);  // of 3 s and 2 s all but the first second, 80 a second
+        EXPECT_GT(pressed, 100);
     }
 }
 
