@@ -100,9 +100,10 @@ public:
         std::vector<bool> kept(vertices_.size(), false);
         for (const std::uint32_t i : coarse) kept[i] = true;
         double worst = 0.0;
+        const std::vector<Ground> grounds = grounds_of(coarse);
         for (std::size_t i = 0; i < vertices_.size(); ++i) {
             if (!used_[i] || kept[i]) continue;
-            const Foot foot = foot_of(i, coarse);
+            const Foot foot = foot_of(i, grounds);
             if (!close(looks_[i], look_at(foot, coarse))) return HUGE_VAL;
             worst = std::max(worst, foot.distance);
         }
@@ -110,17 +111,36 @@ public:
     }
 
 private:
-    // The nearest place on a coarse triangle that faces as the vertex does: on the other side of an edge lies another face.
-    [[nodiscard]] Foot foot_of(std::size_t vertex, std::span<const std::uint32_t> coarse) const {
-        const Vec3 p = place(vertices_[vertex]);
-        Foot best;
+    // A coarse triangle, and a ball around it.
+    struct Ground {
+        Vec3 a, b, c, normal, middle;
+        double radius = 0.0;
+    };
+    [[nodiscard]] std::vector<Ground> grounds_of(std::span<const std::uint32_t> coarse) const {
+        std::vector<Ground> grounds;
+        grounds.reserve(coarse.size() / 3);
         for (std::size_t t = 0; t + 2 < coarse.size(); t += 3) {
             const Vec3 a = place(vertices_[coarse[t]]), b = place(vertices_[coarse[t + 1]]),
                        c = place(vertices_[coarse[t + 2]]);
-            if (glm::dot(glm::cross(b - a, c - a), looks_[vertex].normal) <= 0.0) continue;
-            const Vec3 w = nearest_weights(p, a, b, c);
-            const double distance = glm::length(w.x * a + w.y * b + w.z * c - p);
-            if (distance < best.distance) best = {distance, t, w};
+            const Vec3 middle = (a + b + c) / 3.0;
+            const double radius = std::max({glm::length(a - middle), glm::length(b - middle), glm::length(c - middle)});
+            grounds.push_back({a, b, c, glm::cross(b - a, c - a), middle, radius});
+        }
+        return grounds;
+    }
+
+    // The nearest place on a coarse triangle that faces as the vertex does: on the other side of an edge lies another face.
+    [[nodiscard]] Foot foot_of(std::size_t vertex, std::span<const Ground> grounds) const {
+        const Vec3 p = place(vertices_[vertex]);
+        Foot best;
+        for (std::size_t i = 0; i < grounds.size(); ++i) {
+            const Ground& g = grounds[i];
+            const Vec3 way = p - g.middle;
+            const double reach = best.distance + g.radius;
+            if (glm::dot(way, way) > reach * reach || glm::dot(g.normal, looks_[vertex].normal) <= 0.0) continue;
+            const Vec3 w = nearest_weights(p, g.a, g.b, g.c);
+            const double distance = glm::length(w.x * g.a + w.y * g.b + w.z * g.c - p);
+            if (distance < best.distance) best = {distance, 3 * i, w};
         }
         return best;
     }
@@ -219,6 +239,7 @@ std::vector<PatchLevel> coarser_levels(std::span<const SurfaceVertex> vertices, 
     if (!(scale_m > 0.0)) return levels;
     const ByColour parts = by_colour(vertices, indices);
     const Judge judge(vertices, indices, light);
+    const bool all_smooth = smooth_first(vertices, indices, light).smooth == indices.size();
     std::size_t before = indices.size();
     for (const double error : kErrors) {
         PatchLevel level;
@@ -229,6 +250,9 @@ std::vector<PatchLevel> coarser_levels(std::span<const SurfaceVertex> vertices, 
         level.error_m = judge.deviation(level.indices);
         if (level.error_m == HUGE_VAL) break;  // a coarser one would look more different still
         before = level.indices.size();
+        SmoothFirst sorted = smooth_first(vertices, level.indices, light);
+        level.indices = std::move(sorted.indices);
+        level.smooth = all_smooth ? level.indices.size() : sorted.smooth;
         levels.push_back(std::move(level));
     }
     return levels;

@@ -29,8 +29,10 @@ struct SmoothFirst {
                                        std::span<const std::uint32_t> indices, std::span<const VertexLight> light);
 
 struct PatchLevel {
-    std::vector<std::uint32_t> indices;  // three a triangle, of the patch's own vertices
-    double error_m = 0.0;                // no vertex of the patch is farther from it
+    std::vector<std::uint32_t> indices;  // three a triangle, of the patch's own vertices, as smooth_first
+    std::size_t smooth =
+        0;  // all of them, where all of the patch's own triangles are smooth: none of its vertices looks different
+    double error_m = 0.0;  // no vertex of the patch is farther from it
 };
 
 // From fine to coarse; none where nothing is gained. light: as above.

@@ -2,6 +2,7 @@
 #include "renderer/surface/patch_store.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "renderer/surface/patch_change.hpp"
 
@@ -144,7 +145,7 @@ Result<PatchStore::Flushed> PatchStore::flush(gpu::Device& device, gpu::Commands
         patch.changed_at = flushes_;
         patch.light = std::move(light);
         release_levels(patch, 1);
-        upload_indices(commands, patch, patch.levels.front(), patch.surface->indices);
+        upload_finest(commands, patch);
         upload_light(commands, patch);
         note_change(was, patch, flushed.changed);
     }
@@ -213,7 +214,7 @@ Result<void> PatchStore::place(gpu::Device& device, gpu::Commands& commands, std
     commands.upload(vertices_, std::uint64_t{patch.first_vertex} * kVertexKind.bytes, bytes);
     bytes_ += bytes.size();
     upload_light(commands, patch);
-    if (const auto done = place_level(device, commands, patch, patch.surface->indices, 0.0); !done) {
+    if (const auto done = place_finest(device, commands, patch); !done) {
         vertex_ranges_.release(patch.first_vertex, patch.vertex_count);
         return done;
     }
@@ -229,48 +230,61 @@ void PatchStore::upload_light(gpu::Commands& commands, const Patch& patch) {
     bytes_ += bytes.size();
 }
 
-Result<void> PatchStore::place_level(gpu::Device& device, gpu::Commands& commands, Patch& patch,
-                                     std::span<const std::uint32_t> indices, double error_m) {
-    const std::uint32_t count = round_up(indices.size(), kIndexStep);
-    auto first = index_ranges_.allocate(count);
-    if (!first) {
-        const std::uint64_t capacity = grown_capacity(device, index_ranges_, kFirstIndices, count, kIndexKind);
-        if (const auto done = enlarge(device, commands, indices_, kIndexKind, capacity); !done) return done;
-        index_ranges_.grow(static_cast<std::uint32_t>(capacity));
-        first = index_ranges_.allocate(count).value();
-    }
-    Level& level = patch.levels.emplace_back();
-    level.first_index = *first;
-    level.index_count = count;
-    level.error_m = error_m;
-    upload_indices(commands, patch, level, indices);
+// A place in the index buffer; nothing where it is full, but not needed.
+Result<std::optional<std::uint32_t>> PatchStore::room_for(gpu::Device& device, gpu::Commands& commands,
+                                                          std::uint32_t indices, bool needed) {
+    if (const auto first = index_ranges_.allocate(indices)) return first;
+    const std::uint64_t capacity = grown_capacity(device, index_ranges_, kFirstIndices, indices, kIndexKind);
+    if (!needed && capacity * kIndexKind.bytes > device.capabilities().max_storage_buffer_bytes) return std::nullopt;
+    if (const auto done = enlarge(device, commands, indices_, kIndexKind, capacity); !done)
+        return std::unexpected(done.error());
+    index_ranges_.grow(static_cast<std::uint32_t>(capacity));
+    return index_ranges_.allocate(indices);
+}
+
+Result<void> PatchStore::place_finest(gpu::Device& device, gpu::Commands& commands, Patch& patch) {
+    const std::uint32_t count = round_up(patch.surface->indices.size(), kIndexStep);
+    const auto first = room_for(device, commands, count, true);
+    if (!first) return std::unexpected(first.error());
+    patch.levels.push_back({.first_index = **first, .index_count = count});
+    upload_finest(commands, patch);
     return {};
 }
 
-void PatchStore::upload_indices(gpu::Commands& commands, const Patch& patch, Level& level,
-                                std::span<const std::uint32_t> indices) {
-    const SmoothFirst sorted = smooth_first(patch.surface->vertices, indices, patch.light);
-    // A level of a smooth patch was judged by the patch's own vertices: none of them looks different on it.
-    const bool all = sorted.smooth == indices.size() ||
-                     (level.error_m > 0.0 && patch.levels.front().smooth_count == patch.levels.front().index_count);
-    level.smooth_count = all ? level.index_count : static_cast<std::uint32_t>(sorted.smooth);
+void PatchStore::upload_finest(gpu::Commands& commands, Patch& patch) {
+    const SmoothFirst sorted = smooth_first(patch.surface->vertices, patch.surface->indices, patch.light);
+    Level& level = patch.levels.front();
+    level.smooth_count =
+        sorted.smooth == sorted.indices.size() ? level.index_count : static_cast<std::uint32_t>(sorted.smooth);
     std::vector<std::uint32_t> absolute(level.index_count, patch.first_vertex);
     std::ranges::transform(sorted.indices, absolute.begin(), [&](std::uint32_t i) { return i + patch.first_vertex; });
-    const auto bytes = std::as_bytes(std::span(absolute));
-    commands.upload(indices_, std::uint64_t{level.first_index} * kIndexKind.bytes, bytes);
+    upload_indices(commands, level.first_index, absolute);
+}
+
+void PatchStore::upload_indices(gpu::Commands& commands, std::uint32_t first, std::span<const std::uint32_t> indices) {
+    const auto bytes = std::as_bytes(indices);
+    commands.upload(indices_, std::uint64_t{first} * kIndexKind.bytes, bytes);
     bytes_ += bytes.size();
+}
+
+Result<void> PatchStore::place_ready(gpu::Device& device, gpu::Commands& commands, Patch& patch) {
+    for (PatchLevel& level : std::exchange(patch.ready, {})) {
+        const auto count = static_cast<std::uint32_t>(level.indices.size());
+        const auto first = room_for(device, commands, count, false);
+        if (!first) return std::unexpected(first.error());
+        if (!*first) return {};
+        patch.levels.push_back({**first, count, static_cast<std::uint32_t>(level.smooth), level.error_m});
+        for (std::uint32_t& index : level.indices) index += patch.first_vertex;
+        upload_indices(commands, **first, level.indices);
+    }
+    return {};
 }
 
 Result<void> PatchStore::place_ready_levels(gpu::Device& device, gpu::Commands& commands) {
     if (!levels_ready_) return {};
     levels_ready_ = false;
-    for (auto& [id, patch] : placed_) {
-        for (const PatchLevel& level : patch.ready) {
-            const auto done = place_level(device, commands, patch, level.indices, level.error_m);
-            if (!done) return done;
-        }
-        patch.ready.clear();
-    }
+    for (auto& [id, patch] : placed_)
+        if (const auto done = place_ready(device, commands, patch); !done) return done;
     return {};
 }
 

@@ -29,7 +29,7 @@ enum class ShadingRate : std::uint8_t { vertex, by_triangle, pixel };
 class PatchStore {
 public:
     struct Level {
-        std::uint32_t first_index = 0, index_count = 0;  // with padding: triangles without area
+        std::uint32_t first_index = 0, index_count = 0;  // of the finest with padding: triangles without area
         std::uint32_t smooth_count = 0;                  // of them, from the first on (smooth_first)
         double error_m = 0.0;                            // 0: the patch as it is
     };
@@ -91,10 +91,12 @@ private:
     void release_levels(Patch& patch, std::size_t keep);
     [[nodiscard]] Result<void> make_room(gpu::Device& device, gpu::Commands& commands);
     [[nodiscard]] Result<void> place(gpu::Device& device, gpu::Commands& commands, std::uint32_t id, Pending& pending);
-    [[nodiscard]] Result<void> place_level(gpu::Device& device, gpu::Commands& commands, Patch& patch,
-                                           std::span<const std::uint32_t> indices, double error_m);
-    void upload_indices(gpu::Commands& commands, const Patch& patch, Level& level,
-                        std::span<const std::uint32_t> indices);
+    [[nodiscard]] Result<std::optional<std::uint32_t>> room_for(gpu::Device& device, gpu::Commands& commands,
+                                                                std::uint32_t indices, bool needed);
+    [[nodiscard]] Result<void> place_finest(gpu::Device& device, gpu::Commands& commands, Patch& patch);
+    void upload_finest(gpu::Commands& commands, Patch& patch);
+    void upload_indices(gpu::Commands& commands, std::uint32_t first, std::span<const std::uint32_t> indices);
+    [[nodiscard]] Result<void> place_ready(gpu::Device& device, gpu::Commands& commands, Patch& patch);
     [[nodiscard]] Result<void> place_ready_levels(gpu::Device& device, gpu::Commands& commands);
     static void note_change(const Patch& was, const Patch& now, std::vector<Box>& changed);
     void upload_light(gpu::Commands& commands, const Patch& patch);
