@@ -2,8 +2,9 @@
 #include "gpu/direct_display.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
 
 namespace burin::gpu {
 
@@ -54,7 +55,9 @@ struct Functions {
         load(plane_capabilities, instance, "vkGetDisplayPlaneCapabilitiesKHR");
         load(create_surface, instance, "vkCreateDisplayPlaneSurfaceKHR");
     }
-    [[nodiscard]] bool complete() const { return displays && planes && plane_displays && modes && create_surface; }
+    [[nodiscard]] bool complete() const {
+        return displays && planes && plane_displays && modes && plane_capabilities && create_surface;
+    }
 
 private:
     template <typename F>
@@ -119,43 +122,54 @@ Result<std::vector<Display>> find_displays(const Core& core, const Functions& f)
     return displays;
 }
 
-std::string listed(const std::vector<Display>& displays) {
-    std::string names;
-    for (const Display& d : displays) names += (names.empty() ? "" : ", ") + d.info.name;
+std::vector<std::string> names_of(const std::vector<Display>& displays) {
+    std::vector<std::string> names;
+    for (const Display& d : displays) names.push_back(d.info.name);
     return names;
 }
 
-// A plane that can show on the display: one that is free or already on it.
-std::optional<std::uint32_t> find_plane(const Core& core, const Functions& f, VkDisplayKHR display,
-                                        std::uint32_t& stack_index) {
+std::string in_words(const std::vector<std::string>& names) {
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        text += (i == 0 ? "" : ", ") + std::to_string(i) + " (" + names[i] + ")";
+    return text;
+}
+
+struct Planes {
+    std::vector<DisplayPlane> planes;
+    std::vector<std::uint32_t> stack_indices;
+};
+
+// The planes as one display in one of its modes sees them.
+Planes planes_for(const Core& core, const Functions& f, VkDisplayKHR display, VkDisplayModeKHR mode) {
     std::uint32_t count = 0;
     f.planes(core.physical, &count, nullptr);
-    std::vector<VkDisplayPlanePropertiesKHR> planes(count);
-    if (count == 0 || f.planes(core.physical, &count, planes.data()) < VK_SUCCESS) return std::nullopt;
+    std::vector<VkDisplayPlanePropertiesKHR> found(count);
+    if (count == 0 || f.planes(core.physical, &count, found.data()) < VK_SUCCESS) return {};
+    found.resize(count);
+    Planes result;
     for (std::uint32_t i = 0; i < count; ++i) {
-        if (planes[i].currentDisplay != VK_NULL_HANDLE && planes[i].currentDisplay != display) continue;
+        DisplayPlane plane;
+        plane.shows = found[i].currentDisplay == display;
+        plane.taken = found[i].currentDisplay != VK_NULL_HANDLE && !plane.shows;
         std::uint32_t shown = 0;
         f.plane_displays(core.physical, i, &shown, nullptr);
         std::vector<VkDisplayKHR> on(shown);
-        if (shown == 0 || f.plane_displays(core.physical, i, &shown, on.data()) < VK_SUCCESS) continue;
-        if (std::ranges::find(on, display) == on.end()) continue;
-        stack_index = planes[i].currentStackIndex;
-        return i;
+        const bool told = shown > 0 && f.plane_displays(core.physical, i, &shown, on.data()) >= VK_SUCCESS;
+        plane.reaches = told && std::ranges::find(on, display) != on.end();
+        VkDisplayPlaneCapabilitiesKHR can{};
+        if (plane.reaches && f.plane_capabilities(core.physical, mode, i, &can) == VK_SUCCESS) {
+            plane.alpha = can.supportedAlpha;
+            plane.most_width = can.maxDstExtent.width;
+            plane.most_height = can.maxDstExtent.height;
+        }
+        result.planes.push_back(plane);
+        result.stack_indices.push_back(found[i].currentStackIndex);
     }
-    return std::nullopt;
+    return result;
 }
 
 }  // namespace
-
-const char* name_of(DisplayStereo stereo) {
-    switch (stereo) {
-        case DisplayStereo::none: return "none";
-        case DisplayStereo::onboard_din: return "onboard_din";
-        case DisplayStereo::hdmi_3d: return "hdmi_3d";
-        case DisplayStereo::inband_displayport: return "inband_displayport";
-    }
-    return "?";
-}
 
 std::vector<std::string> direct_display_extensions() {
     return {VK_KHR_SURFACE_EXTENSION_NAME, VK_KHR_DISPLAY_EXTENSION_NAME,
@@ -166,20 +180,6 @@ std::vector<std::string> direct_display_optional_extensions() {
     return {VK_EXT_DISPLAY_SURFACE_COUNTER_EXTENSION_NAME, kStereoExtension};
 }
 
-int choose_mode(const std::vector<DisplayMode>& modes, const DisplayChoice& choice) {
-    int best = -1;
-    const auto worth = [&](const DisplayMode& m) {
-        return choice.refresh_Hz > 0.0 ? -std::abs(m.refresh_Hz - choice.refresh_Hz) : m.refresh_Hz;
-    };
-    for (std::size_t i = 0; i < modes.size(); ++i) {
-        const bool right_size = (choice.width == 0 || modes[i].width == choice.width) &&
-                                (choice.height == 0 || modes[i].height == choice.height);
-        if (!right_size || (choice.stereo == DisplayStereo::hdmi_3d && !modes[i].hdmi_3d)) continue;
-        if (best < 0 || worth(modes[i]) > worth(modes[static_cast<std::size_t>(best)])) best = static_cast<int>(i);
-    }
-    return best;
-}
-
 Result<std::vector<DisplayInfo>> list_displays(Device& device) {
     const auto displays = find_displays(*device.core(), Functions(device.core()->instance));
     if (!displays) return std::unexpected(displays.error());
@@ -188,7 +188,7 @@ Result<std::vector<DisplayInfo>> list_displays(Device& device) {
     return infos;
 }
 
-Result<SurfaceHandle> create_display_surface(Device& device, const DisplayChoice& choice) {
+Result<DisplaySurface> create_display_surface(Device& device, const DisplayChoice& choice) {
     const Core& core = *device.core();
     const Functions f(core.instance);
     const auto displays = find_displays(core, f);
@@ -197,38 +197,47 @@ Result<SurfaceHandle> create_display_surface(Device& device, const DisplayChoice
         return fail(kWhere, core.info.name + std::string(" offers no stereo (") + kStereoExtension + ")",
                     "update the graphics driver, or choose another output mode, such as side_by_side");
     }
-    const auto display =
-        std::ranges::find_if(*displays, [&](const Display& d) { return d.info.name.contains(choice.display); });
-    if (display == displays->end()) {
-        return fail(kWhere, "no display is called '" + choice.display + "'", "choose one of: " + listed(*displays));
+    const std::vector<std::string> names = names_of(*displays);
+    const int meant = choose_display(names, choice.display);
+    if (meant < 0) {
+        return fail(kWhere, "there is no display '" + choice.display + "'", "choose one of: " + in_words(names));
     }
+    const Display& display = (*displays)[static_cast<std::size_t>(meant)];
     DisplayChoice wanted = choice;
-    if (wanted.width == 0) wanted.width = display->native.width;
-    if (wanted.height == 0) wanted.height = display->native.height;
-    const int mode = choose_mode(display->info.modes, wanted);
+    if (wanted.width == 0) wanted.width = display.native.width;
+    if (wanted.height == 0) wanted.height = display.native.height;
+    const int mode = choose_mode(display.info.modes, wanted);
     if (mode < 0) {
-        return fail(display->info.name,
-                    "has no mode of " + std::to_string(wanted.width) + " x " + std::to_string(wanted.height) +
-                        (choice.stereo == DisplayStereo::hdmi_3d ? " in HDMI 3D" : ""),
-                    "choose a size that the display lists");
+        return fail("display " + display.info.name,
+                    "it has no mode of " + std::to_string(wanted.width) + " x " + std::to_string(wanted.height) +
+                        " pixels" + (choice.stereo == DisplayStereo::hdmi_3d ? " in HDMI 3D" : ""),
+                    display.info.modes.empty() ? "switch it on, and plug it in again"
+                                               : "choose one of: " + listed(display.info.modes));
     }
+    const DisplayMode& chosen = display.info.modes[static_cast<std::size_t>(mode)];
+    const VkDisplayModeKHR mode_handle = display.mode_handles[static_cast<std::size_t>(mode)];
+    const Planes planes = planes_for(core, f, display.handle, mode_handle);
+    const int plane = choose_plane(planes.planes, chosen.width, chosen.height);
+    if (plane < 0) {
+        return fail("display " + display.info.name, "it is taken by another program",
+                    "end the desktop or the program on it");
+    }
+    const auto at = static_cast<std::size_t>(plane);
     auto info = structure<VkDisplaySurfaceCreateInfoKHR>(VK_STRUCTURE_TYPE_DISPLAY_SURFACE_CREATE_INFO_KHR);
-    const auto plane = find_plane(core, f, display->handle, info.planeStackIndex);
-    if (!plane) return fail(display->info.name, "is taken by another program", "end the desktop or the program on it");
     DisplaySurfaceStereoCreateInfo stereo{kSurfaceStereoCreateInfo, nullptr, vulkan_type(choice.stereo)};
     if (choice.stereo != DisplayStereo::none) info.pNext = &stereo;
-    const DisplayMode& chosen = display->info.modes[static_cast<std::size_t>(mode)];
-    info.displayMode = display->mode_handles[static_cast<std::size_t>(mode)];
-    info.planeIndex = *plane;
+    info.displayMode = mode_handle;
+    info.planeIndex = static_cast<std::uint32_t>(plane);
+    info.planeStackIndex = planes.stack_indices[at];
     info.transform = VK_SURFACE_TRANSFORM_IDENTITY_BIT_KHR;
     info.globalAlpha = 1.0f;
-    info.alphaMode = VK_DISPLAY_PLANE_ALPHA_OPAQUE_BIT_KHR;
+    info.alphaMode = static_cast<VkDisplayPlaneAlphaFlagBitsKHR>(choose_alpha(planes.planes[at].alpha));
     info.imageExtent = {chosen.width, chosen.height};
     VkSurfaceKHR surface = VK_NULL_HANDLE;
     if (const VkResult r = f.create_surface(core.instance, &info, nullptr, &surface); r != VK_SUCCESS) {
-        return vulkan_failure(display->info.name, "could not be opened", r);
+        return vulkan_failure("display " + display.info.name, "it could not be opened", r);
     }
-    return SurfaceHandle(device.core(), surface);
+    return DisplaySurface{SurfaceHandle(device.core(), surface), display.info.name, chosen};
 }
 
 }  // namespace burin::gpu

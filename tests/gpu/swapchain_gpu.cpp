@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a swapchain refuses, and how a display of its own is chosen. Pictures in windows: tests/window/present_gpu.cpp.
+// What a swapchain refuses, and what a machine without a display of its own says. Pictures in windows: tests/window/present_gpu.cpp.
 #include <gtest/gtest.h>
 
 #include "gpu/direct_display.hpp"
@@ -63,17 +63,6 @@ TEST(DirectDisplay, SaysThatThereIsNoneOrListsThem) {
     auto plain = Device::create();
     ASSERT_TRUE(plain);
     EXPECT_TRUE(list_displays(*plain).error().line().contains("VK_KHR_display"));
-}
-
-TEST(DirectDisplay, ChoosesTheModeOfTheRightSizeAndTheNearestRate) {
-    const std::vector<DisplayMode> modes{
-        {1920, 1080, 60.0, true}, {1920, 1080, 120.0, false}, {1280, 720, 60.0, true}, {1920, 1080, 24.0, true}};
-    EXPECT_EQ(choose_mode(modes, {.width = 1920, .height = 1080}), 1) << "the fastest";
-    EXPECT_EQ(choose_mode(modes, {.width = 1920, .height = 1080, .refresh_Hz = 50.0}), 0);
-    EXPECT_EQ(choose_mode(modes, {.width = 1920, .height = 1080, .stereo = DisplayStereo::hdmi_3d}), 0);
-    EXPECT_EQ(choose_mode(modes, {.width = 1280}), 2);
-    EXPECT_EQ(choose_mode(modes, {.width = 640}), -1);
-    EXPECT_EQ(choose_mode({}, {}), -1);
 }
 
 }  // namespace burin::gpu
