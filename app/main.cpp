@@ -119,7 +119,8 @@ void add_live_options(Command command, burin::LiveOptions& options) {
     command.flag("--offscreen", options.offscreen, "With --input: no window, only screenshots");
     command.option("--stereo", options.stereo, "side-by-side, anaglyph-red-cyan, row-interlaced, ...; else mono");
     command.flag("--swap-eyes", options.swap_eyes, "For exchanged cables or glasses");
-    command.option("--wall", options.wall, "A wall file: its screens, each on its monitor, its eyes and its tracker");
+    command.option("--wall", options.wall,
+                   "A wall file: its screens, each on its monitor or display, its eyes and its tracker");
     command.option("--tracker", options.tracker,
                    "Where head and wands are heard: udp:PORT, or udp:ADDRESS:PORT for other machines");
     command.flag("--windowed", options.windowed,

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "app/bench_files.hpp"
 #include "app/wall_calibration.hpp"
 #include "app/wall_figures.hpp"
 #include "app/wall_file.hpp"
-#include "renderer/output/stereo_mode.hpp"
+#include "app/wall_modes.hpp"
 
 namespace burin {
 
@@ -36,10 +39,7 @@ Result<void> WallCommand::Options::check_file() const {
     const auto setup = read_wall(file);
     if (!setup) return std::unexpected(setup.error());
     std::vector<WallProblem> problems = check(*setup);
-    for (const WallScreen& s : setup->screens) {
-        const auto mode = parse_stereo_mode(s.mode);
-        if (!mode) problems.push_back({true, s.name, "mode: " + mode.error().what, mode.error().remedy});
-    }
+    for (WallProblem& problem : check_modes(*setup)) problems.push_back(std::move(problem));
     for (const WallProblem& p : problems) std::printf("%s\n", line_of(p).c_str());
     const auto errors = std::ranges::count(problems, true, &WallProblem::error);
     if (errors > 0) {

@@ -55,6 +55,7 @@ Json screen_figures(const WallSetup& setup, const WallScreen& screen, const Eyes
     out["lower_right_world_m"] = list(s.lower_right_world);
     out["upper_left_world_m"] = list(s.upper_left_world);
     out["output"] = screen.output;
+    out["direct"] = screen.direct ? Json(gpu::name_of(*screen.direct)) : Json(nullptr);
     out["mode"] = screen.mode;
     out["swap_eyes"] = screen.swap_eyes;
     out["warped"] = screen.homography.has_value();
@@ -81,8 +82,10 @@ std::string screen_table(const Json& s) {
     text += row("normal in the world",
                 text_of("%.3f, %.3f, %.3f", at("normal_world", 0), at("normal_world", 1), at("normal_world", 2)));
     text += row("leans back from upright", text_of("%.1f degrees", s["tilt_deg"].get<double>()));
-    text += row("output, mode", s["output"].get<std::string>() + ", " + s["mode"].get<std::string>() +
-                                    (s["swap_eyes"].get<bool>() ? ", eyes swapped" : ""));
+    text +=
+        row("output, mode", s["output"].get<std::string>() + ", " + s["mode"].get<std::string>() +
+                                (s["direct"].is_null() ? "" : ", driven directly: " + s["direct"].get<std::string>()) +
+                                (s["swap_eyes"].get<bool>() ? ", eyes swapped" : ""));
     if (!s["seen_from_fallback_head"].get<bool>()) return text + row("from the fallback head", "cannot be seen");
     const double distance_m = s["viewing_distance_m"].get<double>();
     const double nearest_m = s["nearest_comfortable_m"].get<double>();

@@ -28,6 +28,18 @@ std::array<std::array<double, 3>, 3> matrix_of(const std::vector<std::vector<dou
     return h;
 }
 
+std::optional<gpu::DisplayStereo> read_direct(TableReader& t) {
+    const auto word = t.text("direct");
+    if (!word) return std::nullopt;
+    std::string words;
+    for (const gpu::DisplayStereo stereo : gpu::display_stereos()) {
+        if (*word == gpu::name_of(stereo)) return stereo;
+        words += (words.empty() ? "" : ", ") + std::string(gpu::name_of(stereo));
+    }
+    t.refuse("direct", "is " + *word, "write one of: " + words + "; or leave it out for a monitor of the desktop");
+    return std::nullopt;
+}
+
 WallScreen read_screen(TableReading& reading, const toml::table* table, std::size_t index, double unit_m) {
     TableReader t(reading, table, "[[screen]]");
     WallScreen s;
@@ -48,6 +60,7 @@ WallScreen read_screen(TableReading& reading, const toml::table* table, std::siz
         }
     }
     s.output = t.text_or_index("output").value_or(std::to_string(index));
+    s.direct = read_direct(t);
     s.mode = t.text("mode").value_or(s.mode);
     s.swap_eyes = t.flag("swap_eyes").value_or(s.swap_eyes);
     if (const auto rows = t.rows("homography", 3)) s.homography = matrix_of(*rows);

@@ -74,6 +74,7 @@ private:
         length("upper_left", s.upper_left_tracker);
         line("pixels = [" + std::to_string(s.pixels[0]) + ", " + std::to_string(s.pixels[1]) + "]");
         line("output = " + quoted(s.output));
+        if (s.direct) line("direct = " + quoted(gpu::name_of(*s.direct)));
         line("mode = " + quoted(s.mode));
         line(std::string("swap_eyes = ") + (s.swap_eyes ? "true" : "false"));
         if (s.homography) {

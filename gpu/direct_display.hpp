@@ -12,7 +12,7 @@
 // desktop (NVIDIA's X driver: Option "AllowHMD", or the display switched off in the desktop's settings).
 //
 // What is chosen is tested as pure functions (display_choice.hpp), a session on such a display with another surface in its place
-// (tests/app/direct_output_gpu.cpp). Of this file itself the tests reach the answer "no display": the rest follows the specification and
+// (tests/app/session_direct_gpu.cpp). Of this file itself the tests reach the answer "no display": the rest follows the specification and
 // waits for a machine with a stereo projector. The stereo structures are declared here by hand, as Debian 12's headers are older than
 // the extension; they are those of VK_NV_display_stereo revision 1 (Vulkan registry, extension 552).
 // Thread and lifetime: as Device.

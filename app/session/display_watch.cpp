@@ -17,7 +17,7 @@ void DisplayWatch::look(const SessionStage& stage, Nanoseconds now_ns) {
 }
 
 void DisplayWatch::finished(SessionStage& stage, const FramePlan& plan, Nanoseconds sampled_ns, Nanoseconds now_ns) {
-    const SessionWindow::Blocked blocked = stage.take_blocked();
+    const SessionOutput::Blocked blocked = stage.take_blocked();
     FrameMeasure measure;
     measure.plan = plan;
     measure.sampled_ns = sampled_ns;

@@ -2,9 +2,11 @@
 #include "app/session/real_time_session.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "app/session/carving_thread.hpp"
 #include "app/session/display_watch.hpp"
+#include "app/session/end_signals.hpp"
 #include "app/session/live_session.hpp"
 #include "app/session/session_stage.hpp"
 #include "app/session/thread_recorder.hpp"
@@ -19,7 +21,7 @@ constexpr Nanoseconds kActive_ns = 300'000'000;  // after the last change frames
 
 // What has happened when the time has come, or something happens before.
 std::vector<Input> wait_for_input(SessionStage& stage, Clock& clock, Nanoseconds until_ns) {
-    if (stage.has_windows()) return stage.inputs(std::max(seconds(until_ns - clock.now_ns()), 0.0));
+    if (stage.shows()) return stage.inputs(std::max(seconds(until_ns - clock.now_ns()), 0.0));
     clock.sleep_until(until_ns);
     return {};
 }
@@ -76,18 +78,16 @@ SessionRecord record_of(LiveSession& session, const CarvingThread& carving) {
 }  // namespace
 
 Result<SessionRecord> run_in_real_time(const SculptOptions& options, const SessionWall& wall, InputSource input,
-                                       bool keep_frames) {
+                                       bool keep_frames, DirectDriver driver) {
     MonotonicClock clock;
-    Result<SessionStage> stage = SessionStage::open(options.live, wall);
+    Result<SessionStage> stage = SessionStage::open(options.live, wall, std::move(driver));
     if (!stage) return std::unexpected(stage.error());
     auto session = LiveSession::create(options, wall, clock);
     if (!session) return std::unexpected(session.error());
     LiveSession& s = **session;
     if (auto news = s.desk().take_news()) s.take(std::move(*news));
     ThreadRecorder recorder(input, s);
-    CarvingThread carving(s.desk(), clock, [shown = stage->has_windows()] {
-        if (shown) window::wake();
-    });
+    CarvingThread carving(s.desk(), clock, [&to = *stage] { to.wake(); });
     // The hand is simulated: nobody feels it. What is measured is what a device's user would.
     HapticThread touch(s.loop(), keep_frames ? LoopPace{.lead_ns = HapticLoop::kLead_ns} : LoopPace{.rests = true});
     const RealtimeNotice notice = touch.start();
@@ -96,9 +96,7 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
 
     std::unique_ptr<TrackerPort> tracker;
     if (!options.live.tracker.empty()) {
-        auto opened = TrackerPort::open(options.live.tracker, clock, [shown = stage->has_windows()] {
-            if (shown) window::wake();
-        });
+        auto opened = TrackerPort::open(options.live.tracker, clock, [&to = *stage] { to.wake(); });
         if (!opened) return std::unexpected(opened.error());
         tracker = std::move(*opened);
     }
@@ -109,7 +107,8 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
     const Nanoseconds began_ns = clock.now_ns(), processor_ns = process_cpu_ns();
     Nanoseconds changed_ns = began_ns;
     Result<void> outcome;
-    while (outcome && !s.state().quit) {
+    const EndSignals end;
+    while (outcome && !s.state().quit && !end.came()) {
         times.begin();
         const bool active = stage->takes_turns(s) || clock.now_ns() - changed_ns < kActive_ns;
         stage->refine_beside(!active);
@@ -131,7 +130,7 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
         if (carved.news) s.take(std::move(*carved.news));
         if (const auto failed = carving.failure()) outcome = std::unexpected(*failed);
         recorder.frame(tool.tick, carved.updates, stage->places());
-        if (stage->has_windows() && s.wants_full_screen_exchanged()) stage->exchange_full_screen();
+        if (stage->shows() && s.wants_full_screen_exchanged()) stage->exchange_full_screen();
         for (const std::string& message : stage->take_messages()) s.hear(message);
         times.reached(FrameStage::step);
         const Result<bool> drawn = stage->draw(s, frame->display_ns);

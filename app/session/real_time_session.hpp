@@ -4,6 +4,7 @@
 #pragma once
 
 #include "app/sculpt.hpp"
+#include "app/session/direct_output.hpp"
 #include "app/session/input_source.hpp"
 #include "app/session/session_screens.hpp"
 #include "app/session/session_times.hpp"
@@ -12,6 +13,7 @@ namespace burin {
 
 // keep_frames: each frame's times are in the record, and ticks are as punctual as a device's user needs them.
 [[nodiscard]] Result<SessionRecord> run_in_real_time(const SculptOptions& options, const SessionWall& wall,
-                                                     InputSource input, bool keep_frames);
+                                                     InputSource input, bool keep_frames,
+                                                     DirectDriver driver = direct_driver());
 
 }  // namespace burin

@@ -29,7 +29,7 @@ public:
         if (*news) session_.take(std::move(**news));
         if (!threads_.is_as_recorded(seen)) note_departure(seen.line);
         if (seen.refused) session_.go_back_to(*seen.refused);
-        if (stage_.has_windows()) static_cast<void>(stage_.inputs(0.0));  // the recording has the say
+        if (stage_.shows()) static_cast<void>(stage_.inputs(0.0));  // the recording has the say
         // Also what nobody sees: what a frame draws anew depends on the one before.
         if (const auto drawn = stage_.draw(session_, input.display_ns); !drawn) return std::unexpected(drawn.error());
         session_.hear_again(seen.said);

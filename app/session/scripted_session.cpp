@@ -30,9 +30,9 @@ Result<void> run_in_simulated_time(const SculptOptions& options, const SessionWa
             s.desk().finish_export();  // so that what comes after finds it done
         });
         if (auto news = s.desk().take_news()) s.take(std::move(*news));
-        if (stage->has_windows()) static_cast<void>(stage->inputs(0.0));  // the script has the say
-        // Without a window nobody sees a frame that is not photographed.
-        if (stage->has_windows() || s.wants_screenshots()) {
+        if (stage->shows()) static_cast<void>(stage->inputs(0.0));  // the script has the say
+        // Without an output nobody sees a frame that is not photographed.
+        if (stage->shows() || s.wants_screenshots()) {
             if (const auto drawn = stage->draw(s, frame->display_ns); !drawn) return std::unexpected(drawn.error());
         }
         if (s.state().quit) break;

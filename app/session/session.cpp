@@ -49,6 +49,13 @@ Result<void> run_as_recorded(const SculptOptions& given, InputLog log) {
     return replay_as_recorded(recorded->options, *wall, std::move(log));
 }
 
+Result<void> check_somebody_leads(const LiveOptions& live, const SessionWall& wall) {
+    const bool has_window = std::ranges::any_of(wall.screens, [](const SessionScreen& s) { return !s.direct; });
+    if (has_window || !live.tracker.empty() || !live.input.empty()) return {};
+    return fail(live.wall, "has no screen in a window, and so neither keys nor a mouse",
+                "give a --tracker whose wand works the panel, or an --input; or try the wall with --windowed");
+}
+
 bool writes_a_file(const InputEvent& event) {
     const auto* command = std::get_if<CommandInput>(&event.input);
     return command != nullptr && (command->name == "screenshot" || command->name == "export");
@@ -78,6 +85,7 @@ Result<void> run_session(const SculptOptions& options) {
     if (const auto ok = check(options); !ok) return ok;
     const Result<SessionWall> wall = session_wall(options.live);
     if (!wall) return std::unexpected(wall.error());
+    if (const auto ok = check_somebody_leads(options.live, *wall); !ok) return ok;
     if (log && options.live.record.empty())
         return run_in_simulated_time(options, *wall, InputSource::replay(std::move(*log)));
     Result<InputSource> input = open_input(options, std::move(log));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Drawing into the windows that a session's stage has: one frame, and what of it each window shows.
+// Drawing into the outputs that a session's stage has: one frame, and what of it each output shows.
 #include <algorithm>
 
 #include "app/session/session_stage.hpp"
@@ -26,7 +26,7 @@ std::filesystem::path named_after(const std::filesystem::path& path, const std::
 // ---- One frame
 
 bool SessionStage::takes_turns(const LiveSession& session) const {
-    if (!has_windows()) return false;
+    if (!shows()) return false;
     for (std::size_t i = 0; i < screens_.size(); ++i)
         if (session.output_on(i).mode == StereoMode::frame_sequential) return true;
     return false;
@@ -52,13 +52,18 @@ Result<bool> SessionStage::draw(LiveSession& session, Nanoseconds frame_ns) {
 
 Result<void> SessionStage::fit_mode(std::size_t i, StereoMode mode) {
     ScreenStage& screen = screens_[i];
-    if (!screen.window || mode == screen.shown.mode) return {};
+    if (!screen.output || mode == screen.shown.mode) return {};
     const ModeNeeds needs = needs_of(mode);
+    if (needs.two_windows && screen.window == nullptr) {
+        return fail("screen " + wall_->screens[i].name, "it is driven directly, so that the right eye has no window",
+                    "choose two_layers, or a screen in a window");
+    }
     const std::uint32_t layers = needs.two_layers ? 2 : 1;
-    if (screen.window->layers() != layers) {
-        const auto images = screen.window->open_images(*device_, layers);
+    const std::uint32_t layers_before = std::max(screen.output->layers(), 1u);
+    if (layers_before != layers) {
+        const auto images = screen.output->open_images(*device_, layers);
         if (!images) {
-            if (const auto back = screen.window->open_images(*device_, 1); !back) return back;
+            if (const auto back = screen.output->open_images(*device_, layers_before); !back) return back;
             return images;
         }
     }
@@ -66,7 +71,7 @@ Result<void> SessionStage::fit_mode(std::size_t i, StereoMode mode) {
     if (!needs.two_windows || screen.right_window) return {};
     auto right = SessionWindow::open("Burin, right eye", {}, screen.place.size);
     if (!right) return std::unexpected(right.error());
-    screen.right_window = std::make_unique<SessionWindow>(std::move(*right));
+    screen.right_window = std::move(*right);
     const auto images = screen.right_window->open_images(*device_, 1);
     if (!images) screen.right_window.reset();
     return images;
@@ -87,31 +92,31 @@ Result<bool> SessionStage::draw_screen(std::size_t i, LiveSession& session, Nano
         return std::unexpected(drawn.error());
     session.times().reached(FrameStage::record);
     const bool anew = note_changes(screen, settings, place);
-    const bool turns = screen.window && settings.mode == StereoMode::frame_sequential;
+    const bool turns = screen.output && settings.mode == StereoMode::frame_sequential;
     if (anew || screen.picture->stats().uploaded_bytes > 0) {
         auto submission = std::move(*commands).submit();
         if (!submission) return std::unexpected(submission.error());
         if (const auto done = submission->wait(); !done) return std::unexpected(done.error());
     }
     session.times().reached(FrameStage::draw);
-    if (screen.window && (anew || turns)) {
+    if (screen.output && (anew || turns)) {
         if (const auto shown = show(screen, settings, frame_ns); !shown) return std::unexpected(shown.error());
     }
     session.times().reached(FrameStage::show);
     return anew;
 }
 
-// Whether the windows have to be shown something.
+// Whether the outputs have to be shown something.
 bool SessionStage::note_changes(ScreenStage& screen, const OutputSettings& settings, const OutputPlace& place) {
     bool whole = settings != screen.shown || !same_place(place, screen.shown_place, settings);
-    for (SessionWindow* window : {screen.window.get(), screen.right_window.get()})
-        if (window != nullptr && window->needs_showing()) whole = true;
+    for (SessionOutput* output : outputs_of(screen))
+        if (output != nullptr && output->needs_showing()) whole = true;
     screen.shown = settings;
     screen.shown_place = place;
     const std::vector<PixelRect> parts = screen.picture->changed(place, settings);
-    for (PresentedParts* windows_parts : {&screen.parts, &screen.right_parts}) {
-        if (whole) windows_parts->change_all();
-        for (const PixelRect& part : parts) windows_parts->change(part);
+    for (PresentedParts* images_parts : {&screen.parts, &screen.right_parts}) {
+        if (whole) images_parts->change_all();
+        for (const PixelRect& part : parts) images_parts->change(part);
     }
     return whole || !parts.empty();
 }
@@ -119,7 +124,7 @@ bool SessionStage::note_changes(ScreenStage& screen, const OutputSettings& setti
 // ---- Showing
 
 Result<void> SessionStage::show(ScreenStage& screen, const OutputSettings& settings, Nanoseconds frame_ns) {
-    Outlet outlet{screen.window.get(), Eye::left, &screen.parts};
+    Outlet outlet{screen.output.get(), Eye::left, &screen.parts};
     if (settings.mode == StereoMode::frame_sequential) {
         outlet.eye = eye_in_turn(screen, settings, frame_ns);
         screen.parts.change_all();
@@ -131,15 +136,15 @@ Result<void> SessionStage::show(ScreenStage& screen, const OutputSettings& setti
 
 // Without a count of the display's own, by the clock: eyes may then be exchanged now and then.
 Eye SessionStage::eye_in_turn(ScreenStage& screen, const OutputSettings& settings, Nanoseconds frame_ns) {
-    const auto counted = screen.window->vblank_count();
-    const auto by_clock = static_cast<std::uint64_t>(std::max(0.0, seconds(frame_ns) * screen.window->refresh_Hz()));
+    const auto counted = screen.output->vblank_count();
+    const auto by_clock = static_cast<std::uint64_t>(std::max(0.0, seconds(frame_ns) * screen.output->refresh_Hz()));
     const FieldChoice choice = choose_field(screen.parity, counted.value_or(by_clock), settings.first_eye);
     screen.parity = choice.state;
     return choice.eye;
 }
 
 Result<void> SessionStage::show_in(ScreenStage& screen, const Outlet& outlet, const OutputSettings& settings) {
-    const gpu::SwapchainFrame frame = outlet.window->acquire();
+    const gpu::SwapchainFrame frame = outlet.output->acquire();
     gpu::FrameAnswer answer = frame.answer;
     if (answer == gpu::FrameAnswer::presented) {
         auto commands = gpu::Commands::begin(*device_);
@@ -148,28 +153,29 @@ Result<void> SessionStage::show_in(ScreenStage& screen, const Outlet& outlet, co
         place.size = {frame.width, frame.height};
         place.eye = outlet.eye;
         PresentedParts::Parts parts = outlet.parts->since(frame.age);
-        if (place.size != screen.shown_place.size) parts = {};  // the window has just grown
+        if (place.size != screen.shown_place.size) parts = {};  // the output has just grown
         Result<void> recorded = screen.picture->show(*commands, {.view = frame.views[0], .place = place},
-                                                     outlet.window->format(), settings, parts);
+                                                     outlet.output->format(), settings, parts);
         if (recorded && frame.views[1] != VK_NULL_HANDLE) {
             place.eye = Eye::right;
             recorded = screen.picture->show(*commands, {.view = frame.views[1], .place = place},
-                                            outlet.window->format(), settings, parts);
+                                            outlet.output->format(), settings, parts);
         }
         if (!recorded) {
-            outlet.window->abandon(frame);
+            outlet.output->abandon(frame);
             return recorded;
         }
         auto submission = std::move(*commands).submit(frame.sync);
         if (submission) {
             if (const auto done = submission->wait(); !done) return done;
         }
-        answer = submission ? outlet.window->present(frame) : outlet.window->abandon(frame);
+        answer = submission ? outlet.output->present(frame) : outlet.output->abandon(frame);
         if (submission && answer == gpu::FrameAnswer::presented) outlet.parts->presented();
     }
     if (answer == gpu::FrameAnswer::device_lost) return fail("graphics device", "it was lost", "");
-    if (answer == gpu::FrameAnswer::surface_lost) return outlet.window->open_images(*device_, outlet.window->layers());
-    if (answer == gpu::FrameAnswer::resized) outlet.window->show_again();
+    if (answer == gpu::FrameAnswer::surface_lost)
+        return outlet.output->reopen_images(*device_, outlet.output->layers());
+    if (answer == gpu::FrameAnswer::resized) outlet.output->show_again();
     return {};
 }
 

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <utility>
 
 #include "app/wall_file.hpp"
+#include "app/wall_modes.hpp"
 #include "renderer/output/warp.hpp"
 
 namespace burin {
@@ -21,7 +24,8 @@ SessionWall desk_wall(const LiveOptions& options) {
     SessionWall wall;
     wall.setup.name = "desk";
     wall.setup.screens.emplace_back();
-    wall.screens.push_back({.name = {}, .monitor = options.full_screen, .size = asked_size(options), .shown = {}});
+    wall.screens.push_back(
+        {.name = {}, .monitor = options.full_screen, .direct = {}, .size = asked_size(options), .shown = {}});
     fit_desk_screen(wall, asked_size(options));
     return wall;
 }
@@ -44,7 +48,18 @@ ImageSize fitted(ImageSize size, ImageSize into) {
     return {pixels(size.width), pixels(size.height)};
 }
 
-Result<SessionScreen> screen_shown(const WallScreen& screen, const LiveOptions& options) {
+// The wall file tells fields a second; a frame of HDMI 3D holds two.
+gpu::DisplayChoice display_of(const WallScreen& screen, const DisplayTiming& timing) {
+    gpu::DisplayChoice choice;
+    choice.display = screen.output;
+    choice.width = static_cast<std::uint32_t>(screen.pixels[0]);
+    choice.height = static_cast<std::uint32_t>(screen.pixels[1]);
+    choice.stereo = *screen.direct;
+    choice.refresh_Hz = (choice.stereo == gpu::DisplayStereo::hdmi_3d ? 0.5 : 1.0) * timing.refresh_Hz;
+    return choice;
+}
+
+Result<SessionScreen> screen_shown(const WallScreen& screen, const DisplayTiming& timing, const LiveOptions& options) {
     SessionScreen shown;
     shown.name = screen.name;
     const auto mode = parse_stereo_mode(screen.mode);
@@ -61,6 +76,8 @@ Result<SessionScreen> screen_shown(const WallScreen& screen, const LiveOptions& 
     shown.size = {static_cast<std::uint32_t>(screen.pixels[0]), static_cast<std::uint32_t>(screen.pixels[1])};
     if (options.windowed || options.offscreen) {
         shown.size = fitted(shown.size, asked_size(options));
+    } else if (screen.direct) {
+        shown.direct = display_of(screen, timing);
     } else {
         shown.monitor = screen.output;
     }
@@ -94,13 +111,15 @@ Result<SessionWall> session_wall(const LiveOptions& options) {
     wall.desk = false;
     auto setup = read_wall(options.wall);
     if (!setup) return std::unexpected(setup.error());
-    for (const WallProblem& problem : check(*setup)) {
+    std::vector<WallProblem> problems = check(*setup);
+    for (WallProblem& problem : check_modes(*setup)) problems.push_back(std::move(problem));
+    for (const WallProblem& problem : problems) {
         if (problem.error) return fail(options.wall + ", " + problem.where, problem.what, problem.remedy);
         std::fprintf(stderr, "burin: %s: %s\n", options.wall.c_str(), line_of(problem).c_str());
     }
     wall.setup = std::move(*setup);
     for (const WallScreen& screen : wall.setup.screens) {
-        auto shown = screen_shown(screen, options);
+        auto shown = screen_shown(screen, wall.setup.timing, options);
         if (!shown) return std::unexpected(shown.error());
         wall.screens.push_back(std::move(*shown));
     }

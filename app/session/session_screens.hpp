@@ -3,20 +3,23 @@
 // Pure data and functions; any thread.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/session/session_options.hpp"
+#include "gpu/display_choice.hpp"
 #include "renderer/output/output_settings.hpp"
 #include "renderer/stereo/wall.hpp"
 
 namespace burin {
 
 struct SessionScreen {
-    std::string name;      // empty at a desk
-    std::string monitor;   // which it fills; empty: a window on the desktop
-    ImageSize size;        // of its output in pixels; a window on the desktop begins with it
-    OutputSettings shown;  // as the wall file has it
+    std::string name;     // empty at a desk
+    std::string monitor;  // which it fills; empty: a window on the desktop, or a display of its own
+    std::optional<gpu::DisplayChoice> direct;  // that display; nothing: a window
+    ImageSize size;                            // of its output in pixels; a window on the desktop begins with it
+    OutputSettings shown;                      // as the wall file has it
 };
 
 struct SessionWall {
@@ -26,7 +29,7 @@ struct SessionWall {
     bool desk = true;                    // of one screen that follows its window's shape, and no wall file
 };
 
-// As the options say. Errors: those of the wall file, a screen whose mode is unknown.
+// As the options say. Errors: those of the wall file, a screen whose mode is unknown or contradicts the way in which it is driven.
 [[nodiscard]] Result<SessionWall> session_wall(const LiveOptions& options);
 
 // A desk's screen takes the shape of an eye's picture.

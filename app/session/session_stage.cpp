@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <cstdlib>
 #include <thread>
+#include <utility>
+#include <variant>
 
 namespace burin {
 namespace {
@@ -24,12 +27,27 @@ void leave_a_core_to_touch() {
 }
 
 Error with_ways_out(Error e, const SessionScreen& screen) {
-    if (!screen.monitor.empty() && !screen.name.empty()) {
+    const auto add = [&](const std::string& way) { e.remedy += (e.remedy.empty() ? "" : "; ") + way; };
+    if ((!screen.monitor.empty() || screen.direct) && !screen.name.empty()) {
         e.where = "screen " + screen.name + ", " + e.where;
-        e.remedy += "; or try the wall with --windowed";
+        add("or try the wall with --windowed");
     }
-    e.remedy += "; without a display carve a --stroke, or give --offscreen and an --input";
+    add("without a display carve a --stroke, or give --offscreen and an --input");
     return e;
+}
+
+// What an output is opened for. A display that is driven directly would have to change to the mode it is meant for right afterwards, which
+// takes it seconds, and what it cannot do is to be said at once; of a window the session finds out when it comes to it.
+StereoMode begins_with(const SessionScreen& screen) { return screen.direct ? screen.shown.mode : StereoMode::mono; }
+
+Error with_reason(Error e, const SessionScreen& screen) {
+    return screen.direct ? with_ways_out(std::move(e), screen) : e;
+}
+
+bool is_of_main_alone(const Input& input) {
+    return std::holds_alternative<MouseMove>(input) || std::holds_alternative<MouseClick>(input) ||
+           std::holds_alternative<Scroll>(input) || std::holds_alternative<WindowResize>(input) ||
+           std::holds_alternative<WindowFocus>(input);
 }
 
 bool is_empty(ImageSize size) { return size.width == 0 || size.height == 0; }
@@ -63,44 +81,69 @@ private:
 
 // ---- Opening
 
-Result<SessionStage> SessionStage::open(const LiveOptions& options, const SessionWall& wall) {
+Result<SessionStage> SessionStage::open(const LiveOptions& options, const SessionWall& wall, DirectDriver driver) {
     leave_a_core_to_touch();
-    SessionStage stage(options, wall);
+    SessionStage stage(options, wall, std::move(driver));
     for (const SessionScreen& screen : wall.screens) stage.screens_.emplace_back().place.size = screen.size;
     if (!options.offscreen) {
-        if (const auto opened = stage.open_windows(); !opened) return std::unexpected(opened.error());
+        if (const auto opened = stage.open_outputs(); !opened) return std::unexpected(opened.error());
     }
     if (const auto opened = stage.open_device(); !opened) return std::unexpected(opened.error());
     return stage;
 }
 
-Result<void> SessionStage::open_windows() {
+Result<void> SessionStage::open_outputs() {
     Rows beside;
     for (std::size_t i = 0; i < screens_.size(); ++i) {
         const SessionScreen& screen = wall_->screens[i];
+        if (screen.direct) {
+            screens_[i].output = std::make_unique<DirectOutput>(*screen.direct, driver_);
+            continue;
+        }
         const std::string title = screen.name.empty() ? "Burin" : "Burin, screen " + screen.name;
         std::optional<window::Window::Position> place;
         if (screens_.size() > 1 && screen.monitor.empty()) place = beside.next(screen.size);
         auto window = SessionWindow::open(title, screen.monitor, screen.size, place);
         if (!window) return std::unexpected(with_ways_out(window.error(), screen));
-        screens_[i].window = std::make_unique<SessionWindow>(std::move(*window));
+        screens_[i].window = window->get();
+        screens_[i].output = std::move(*window);
     }
+    const auto is_window = [](const ScreenStage& screen) { return screen.window != nullptr; };
+    if (std::ranges::none_of(screens_, is_window)) waker_ = std::make_unique<SessionWaker>();
     return {};
 }
 
+// One that can present to all there is.
+Result<gpu::Device> SessionStage::create_device() const {
+    gpu::DeviceOptions options;
+    if (has_windows()) {
+        auto extensions = window::required_extensions();
+        if (!extensions) return std::unexpected(extensions.error());
+        options.instance_extensions = std::move(*extensions);
+    }
+    const auto is_direct = [](const SessionScreen& screen) { return screen.direct.has_value(); };
+    if (std::ranges::any_of(wall_->screens, is_direct)) options.optional_instance_extensions = driver_.extensions;
+    return gpu::Device::create(options);
+}
+
 Result<void> SessionStage::open_device() {
-    auto device = has_windows() ? SessionWindow::open_device() : gpu::Device::create();
+    auto device = create_device();
     if (!device) return std::unexpected(device.error());
     device_ = std::move(*device);
-    for (ScreenStage& screen : screens_) {
-        for (SessionWindow* window : {screen.window.get(), screen.right_window.get()}) {
-            if (window == nullptr) continue;
-            if (const auto images = window->open_images(*device_, 1); !images) return images;
+    for (std::size_t i = 0; i < screens_.size(); ++i) {
+        ScreenStage& screen = screens_[i];
+        const StereoMode mode = begins_with(wall_->screens[i]);
+        for (SessionOutput* output : outputs_of(screen)) {
+            if (output == nullptr) continue;
+            const std::uint32_t layers = needs_of(mode).two_layers ? 2 : 1;
+            const auto images =
+                losses_ > 0 ? output->reopen_images(*device_, layers) : output->open_images(*device_, layers);
+            if (!images) return std::unexpected(with_reason(images.error(), wall_->screens[i]));
         }
         auto picture = SessionPicture::create(*device_, samples_for(*device_, options_.samples));
         if (!picture) return std::unexpected(picture.error());
         screen.picture = std::move(*picture);
-        screen.shown.mode = StereoMode::mono;  // as the windows' images are now
+        screen.shown.mode = mode;  // as the outputs' images are now
         screen.parts.change_all();
         screen.right_parts.change_all();
     }
@@ -118,8 +161,8 @@ Result<void> SessionStage::recover(LiveSession& session, const Error& error) {
     for (ScreenStage& screen : screens_) {
         kept.push_back(screen.picture->take_kept());
         screen.picture.reset();
-        for (SessionWindow* window : {screen.window.get(), screen.right_window.get()})
-            if (window != nullptr) window->close_images();
+        for (SessionOutput* output : outputs_of(screen))
+            if (output != nullptr) output->close_images();
     }
     device_.reset();
     Result<void> opened = open_device();
@@ -134,13 +177,14 @@ Result<void> SessionStage::recover(LiveSession& session, const Error& error) {
     return {};
 }
 
-// ---- What the windows say
+// ---- What the outputs say
 
 void SessionStage::look() {
     for (ScreenStage& screen : screens_) {
-        if (!screen.window) continue;
-        const window::Window::Position at = screen.window->on_monitor();
-        screen.place = {.size = screen.window->size(), .monitor_x = at.x, .monitor_y = at.y};
+        if (!screen.output) continue;
+        screen.output->look_after(*device_);
+        const SessionOutput::Position at = screen.output->on_monitor();
+        screen.place = {.size = screen.output->size(), .monitor_x = at.x, .monitor_y = at.y};
     }
 }
 
@@ -150,46 +194,55 @@ std::vector<OutputPlace> SessionStage::places() const {
     return places;
 }
 
-double SessionStage::refresh_Hz() const { return has_windows() ? screens_[wall_->main].window->refresh_Hz() : 60.0; }
+double SessionStage::refresh_Hz() const { return shows() ? screens_[wall_->main].output->refresh_Hz() : 60.0; }
 
-SessionWindow::Blocked SessionStage::take_blocked() {
-    SessionWindow::Blocked blocked;
+SessionOutput::Blocked SessionStage::take_blocked() {
+    SessionOutput::Blocked blocked;
     for (ScreenStage& screen : screens_) {
-        for (SessionWindow* window : {screen.window.get(), screen.right_window.get()}) {
-            if (window == nullptr) continue;
-            const SessionWindow::Blocked one = window->take_blocked();
+        for (SessionOutput* output : outputs_of(screen)) {
+            if (output == nullptr) continue;
+            const SessionOutput::Blocked one = output->take_blocked();
             blocked.for_ns += one.for_ns;
-            if (window == screens_[wall_->main].window.get()) blocked.until_ns = one.until_ns;
+            if (output == screens_[wall_->main].output.get()) blocked.until_ns = one.until_ns;
         }
     }
     return blocked;
 }
 
-std::uint64_t SessionStage::presented() const { return has_windows() ? screens_[wall_->main].window->presented() : 0; }
+std::uint64_t SessionStage::presented() const { return shows() ? screens_[wall_->main].output->presented() : 0; }
 
 std::optional<bool> SessionStage::was_shown(std::uint64_t picture) const {
-    return has_windows() ? screens_[wall_->main].window->was_shown(picture) : std::nullopt;
+    return shows() ? screens_[wall_->main].output->was_shown(picture) : std::nullopt;
 }
 
 std::vector<Input> SessionStage::inputs(double wait_s) {
-    const ScreenStage& main = screens_[wall_->main];
-    std::vector<Input> inputs = main.window->inputs(wait_s);
-    const auto add_all_but_mouse = [&](SessionWindow* window) {
+    if (waker_) {
+        waker_->wait(wait_s);
+        return {};
+    }
+    std::vector<Input> inputs;
+    const auto add = [&](SessionWindow* window, bool of_main) {  // the first one asked waits for all
         if (window == nullptr) return;
-        for (Input& input : window->inputs(0.0)) {
-            const bool of_main = std::holds_alternative<MouseMove>(input) ||
-                                 std::holds_alternative<MouseClick>(input) || std::holds_alternative<Scroll>(input) ||
-                                 std::holds_alternative<WindowResize>(input) ||
-                                 std::holds_alternative<WindowFocus>(input);
-            if (!of_main) inputs.push_back(std::move(input));
-        }
+        for (Input& input : window->inputs(std::exchange(wait_s, 0.0)))
+            if (of_main || !is_of_main_alone(input)) inputs.push_back(std::move(input));
     };
-    for (std::size_t i = 0; i < screens_.size(); ++i) {
-        if (i != wall_->main) add_all_but_mouse(screens_[i].window.get());
-        if (i != wall_->main) add_all_but_mouse(screens_[i].right_window.get());
+    const ScreenStage& main = screens_[wall_->main];
+    add(main.window, true);
+    for (const ScreenStage& screen : screens_) {
+        if (&screen == &main) continue;
+        add(screen.window, false);
+        add(screen.right_window.get(), false);
     }
     for (Input& input : right_eyes_inputs(main)) inputs.push_back(std::move(input));
     return inputs;
+}
+
+void SessionStage::wake() {
+    if (waker_) {
+        waker_->wake();
+    } else if (shows()) {
+        window::wake();
+    }
 }
 
 // The mouse as if the windows were of one size.
@@ -212,8 +265,8 @@ std::vector<Input> SessionStage::right_eyes_inputs(const ScreenStage& screen) {
 std::vector<std::string> SessionStage::take_messages() {
     std::vector<std::string> messages = std::exchange(messages_, {});
     for (ScreenStage& screen : screens_) {
-        if (!screen.window) continue;
-        for (std::string& message : screen.window->take_messages()) messages.push_back(std::move(message));
+        if (!screen.output) continue;
+        for (std::string& message : screen.output->take_messages()) messages.push_back(std::move(message));
     }
     return messages;
 }

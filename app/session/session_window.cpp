@@ -9,8 +9,6 @@
 namespace burin {
 namespace {
 
-constexpr Nanoseconds kBlocks_ns = 1'000'000;  // shorter is the driver's own work
-
 // The window library's names differ from the log's where these are easier to type.
 std::optional<Key> key_of(std::string name) {
     static const std::vector<std::pair<std::string, std::string>> others{{"'", "apostrophe"},
@@ -67,8 +65,9 @@ std::uint32_t pixels(int n) { return static_cast<std::uint32_t>(std::max(n, 0));
 
 }  // namespace
 
-Result<SessionWindow> SessionWindow::open(const std::string& title, const std::string& monitor, ImageSize size,
-                                          std::optional<window::Window::Position> place) {
+Result<std::unique_ptr<SessionWindow>> SessionWindow::open(const std::string& title, const std::string& monitor,
+                                                           ImageSize size,
+                                                           std::optional<window::Window::Position> place) {
     window::WindowOptions wanted{
         .title = title, .width = static_cast<int>(size.width), .height = static_cast<int>(size.height)};
     if (!monitor.empty()) wanted.full_screen = monitor;
@@ -78,28 +77,11 @@ Result<SessionWindow> SessionWindow::open(const std::string& title, const std::s
     }
     auto opened = window::Window::create(wanted);
     if (!opened) return std::unexpected(opened.error());
-    return SessionWindow(std::move(*opened));
+    return std::unique_ptr<SessionWindow>(new SessionWindow(std::move(*opened)));
 }
 
-Result<gpu::Device> SessionWindow::open_device() {
-    const auto extensions = window::required_extensions();
-    if (!extensions) return std::unexpected(extensions.error());
-    return gpu::Device::create({.instance_extensions = *extensions});
-}
-
-Result<void> SessionWindow::open_images(gpu::Device& device, std::uint32_t layers) {
-    images_.reset();
-    auto surface = window_.create_surface(device);
-    if (!surface) return std::unexpected(surface.error());
-    const ImageSize now = size();
-    auto images =
-        gpu::Swapchain::create(device, std::move(*surface),
-                               {.width = now.width, .height = now.height, .layers = layers, .count_vblanks = true});
-    if (!images) return std::unexpected(images.error());
-    images_ = std::move(*images);
-    display_blocks_ = !device.info().is_software();  // that one copies by itself, whatever the display does
-    exposed_ = true;
-    return {};
+Result<gpu::SurfaceHandle> SessionWindow::make_surface(gpu::Device& device, std::uint32_t) {
+    return window_.create_surface(device);
 }
 
 std::vector<Input> SessionWindow::inputs(double wait_s) {
@@ -127,29 +109,17 @@ std::optional<Input> SessionWindow::input_of(const window::WindowEvent& event) {
     }
     if (const auto* e = std::get_if<window::ScrollEvent>(&event)) return Scroll{{e->x, e->y}, {}};
     if (const auto* e = std::get_if<window::ResizeEvent>(&event)) {
-        exposed_ = true;
+        show_again();
         return WindowResize{pixels(e->width), pixels(e->height)};
     }
     if (const auto* e = std::get_if<window::FocusEvent>(&event)) return WindowFocus{e->focused};
     if (std::holds_alternative<window::CloseEvent>(event)) return WindowClose{};
-    if (std::holds_alternative<window::ExposeEvent>(event)) exposed_ = true;
+    if (std::holds_alternative<window::ExposeEvent>(event)) show_again();
     if (const auto* e = std::get_if<window::MonitorEvent>(&event)) {
-        messages_.push_back("monitor " + e->monitor + (e->connected ? " is there" : " has gone") +
-                            (e->fell_back_to_window ? ": the picture is in a window now" : ""));
+        tell("monitor " + e->monitor + (e->connected ? " is there" : " has gone") +
+             (e->fell_back_to_window ? ": the picture is in a window now" : ""));
     }
     return std::nullopt;
-}
-
-gpu::SwapchainFrame SessionWindow::acquire() {
-    const ImageSize now = size();
-    const Nanoseconds before_ns = clock_.now_ns();
-    const gpu::SwapchainFrame frame = images_->acquire(now.width, now.height);
-    const Nanoseconds until_ns = clock_.now_ns();
-    if (frame.answer == gpu::FrameAnswer::presented && until_ns - before_ns >= kBlocks_ns) {
-        blocked_.for_ns += until_ns - before_ns;
-        if (display_blocks_) blocked_.until_ns = until_ns;
-    }
-    return frame;
 }
 
 ImageSize SessionWindow::size() const {
@@ -157,22 +127,23 @@ ImageSize SessionWindow::size() const {
     return {pixels(now.width), pixels(now.height)};
 }
 
+SessionOutput::Position SessionWindow::on_monitor() const {
+    const window::Window::Position at = window_.on_monitor();
+    return {at.x, at.y};
+}
+
 double SessionWindow::refresh_Hz() const {
     const double told = window_.monitor().refresh_Hz;
     return told > 0.0 ? told : 60.0;
 }
 
-bool SessionWindow::needs_showing() { return std::exchange(exposed_, false); }
-
 void SessionWindow::exchange_full_screen() {
     if (window_.full_screen()) {
         window_.leave_full_screen();
     } else if (const auto filled = window_.fill_monitor(std::to_string(window_.monitor().index)); !filled) {
-        messages_.push_back(filled.error().line());
+        tell(filled.error().line());
     }
-    exposed_ = true;
+    show_again();
 }
-
-std::vector<std::string> SessionWindow::take_messages() { return std::exchange(messages_, {}); }
 
 }  // namespace burin

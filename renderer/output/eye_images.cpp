@@ -86,16 +86,18 @@ Result<gpu::Image> upload_image(gpu::Device& device, const Image& image, VkForma
     return upload(device, layers, format);
 }
 
-Result<Image> read_back(gpu::Device& device, VkImage image, ImageSize size, VkFormat format, VkImageLayout layout) {
+Result<Image> read_back(gpu::Device& device, VkImage image, ImageSize size, VkFormat format, VkImageLayout layout,
+                        std::uint32_t layer) {
     auto buffer = gpu::Buffer::create(device, gpu::BufferUse::readback, bytes_in(size), "picture");
     if (!buffer) return std::unexpected(buffer.error());
     auto commands = gpu::Commands::begin(device);
     if (!commands) return std::unexpected(commands.error());
-    move_layout(device, *commands, image, 1, layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-    const VkBufferImageCopy copy = whole(size, 1);
+    move_layout(device, *commands, image, layer + 1, layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    VkBufferImageCopy copy = whole(size, 1);
+    copy.imageSubresource.baseArrayLayer = layer;
     device.core()->vk.vkCmdCopyImageToBuffer(commands->raw(), image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                                              buffer->raw(), 1, &copy);
-    move_layout(device, *commands, image, 1, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout);
+    move_layout(device, *commands, image, layer + 1, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout);
     if (const auto done = finish(std::move(*commands)); !done) return std::unexpected(done.error());
     Image picture{size, std::vector<std::uint8_t>(bytes_in(size))};
     std::memcpy(picture.rgba.data(), buffer->mapped().data(), picture.rgba.size());

@@ -3,6 +3,8 @@
 // Thread and lifetime: as gpu::Device.
 #pragma once
 
+#include <cstdint>
+
 #include "gpu/image.hpp"
 #include "renderer/image.hpp"
 
@@ -14,9 +16,9 @@ namespace burin {
 // One layer; format R8G8B8A8_SRGB or R8G8B8A8_UNORM. For overlays.
 [[nodiscard]] Result<gpu::Image> upload_image(gpu::Device& device, const Image& image, VkFormat format);
 
-// What an image of one layer, 4 bytes a pixel and usage TRANSFER_SRC holds, as red, green, blue, alpha whatever its format
+// What a layer of an image of 4 bytes a pixel and usage TRANSFER_SRC holds, as red, green, blue, alpha whatever its format
 // is called. The image is in `layout` and is left in it.
 [[nodiscard]] Result<Image> read_back(gpu::Device& device, VkImage image, ImageSize size, VkFormat format,
-                                      VkImageLayout layout);
+                                      VkImageLayout layout, std::uint32_t layer = 0);
 
 }  // namespace burin

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "gpu/display_choice.hpp"
 #include "renderer/scene.hpp"
 
 namespace burin {
@@ -37,7 +38,9 @@ struct WallScreen {
     Vec3 lower_right_tracker{1.524, 0.0, 0.0};
     Vec3 upper_left_tracker{-1.524, 2.286, 0.0};
     std::array<int, 2> pixels{1440, 1080};
-    std::string output = "0";   // a monitor's name, or its index
+    std::string output = "0";  // a monitor's name, or its index; with `direct` a display's, or a part of its name
+    // Driven without a window system, and how that display separates the eyes; nothing: the output is a monitor of the desktop.
+    std::optional<gpu::DisplayStereo> direct = std::nullopt;
     std::string mode = "mono";  // the name of a stereo mode; its meaning is the output stage's
     bool swap_eyes = false;
     // Where a point of the picture belongs on the projector's own: both in 0..1, x to the right, y downwards; rows.

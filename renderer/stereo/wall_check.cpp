@@ -199,7 +199,7 @@ void check_screens(Problems& problems, const WallSetup& setup) {
         for (std::size_t j = i + 1; j < setup.screens.size(); ++j) {
             const WallScreen &a = setup.screens[i], &b = setup.screens[j];
             if (a.name == b.name) problems.error(a.name, "two screens have this name", "give each a name of its own");
-            if (a.output == b.output) {
+            if (a.output == b.output && a.direct.has_value() == b.direct.has_value()) {
                 problems.error(b.name, "it is on output " + b.output + ", as is screen " + a.name,
                                "give each screen an output of its own");
             }

@@ -7,6 +7,7 @@
 #include "app/session/presented_parts.hpp"
 #include "app/session/session_state.hpp"
 #include "app/wall_file.hpp"
+#include "tests/app/run_command.hpp"
 
 namespace burin {
 namespace {
@@ -70,6 +71,36 @@ TEST(SessionWall, OfACaveIsFacedAtItsFrontAndShownOnItsMonitors) {
         EXPECT_EQ(screen.size, (ImageSize{270, 270}));
         EXPECT_TRUE(screen.monitor.empty());
     }
+}
+
+TEST(SessionWall, DrivesADisplayDirectlyButNotInWindowsOrOffScreen) {
+    Workplace place;
+    WallSetup setup = *read_wall(wall_file("powerwall.toml"));
+    setup.screens[0].output = "HDMI";
+    setup.screens[0].direct = gpu::DisplayStereo::hdmi_3d;
+    place.write("wall.toml", wall_text(setup));
+    LiveOptions options;
+    options.wall = (place / "wall.toml").string();
+    const auto wall = session_wall(options);
+    ASSERT_TRUE(wall) << wall.error().line();
+    const SessionScreen& screen = wall->screens[0];
+    ASSERT_TRUE(screen.direct);
+    EXPECT_TRUE(screen.monitor.empty());
+    EXPECT_EQ(screen.direct->display, "HDMI");
+    EXPECT_EQ(screen.direct->width, 1440u);
+    EXPECT_EQ(screen.direct->height, 1080u);
+    EXPECT_EQ(screen.direct->stereo, gpu::DisplayStereo::hdmi_3d);
+    EXPECT_EQ(screen.direct->refresh_Hz, 60.0) << "a frame holds both of 120 fields a second";
+    for (bool LiveOptions::* const option : {&LiveOptions::windowed, &LiveOptions::offscreen}) {
+        LiveOptions other = options;
+        other.*option = true;
+        EXPECT_FALSE(session_wall(other).value().screens[0].direct);
+    }
+    setup.screens[0].mode = "mono";
+    place.write("wall.toml", wall_text(setup));
+    const auto refused = session_wall(options);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().line().find("wall.toml, front: "), std::string::npos) << refused.error().line();
 }
 
 TEST(SessionWall, TellsAllScreensWhatIsChosenAndKeepsTheirOwn) {

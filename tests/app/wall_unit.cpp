@@ -93,6 +93,8 @@ TEST(WallFile, WritingAndReadingKeepsEverySetting) {
     odd.screens[1].blend = {0.1, 0.2, 0.03, 0.04, 1.8};
     odd.screens[1].swap_eyes = true;
     odd.screens[2].output = "DP-1";
+    odd.screens[2].direct = gpu::DisplayStereo::inband_displayport;
+    odd.screens[3].direct = gpu::DisplayStereo::none;
     odd.budget = {1.25, 0.75};
     odd.timing = {96.0, EyeOrder::right_first};
     const std::string text = wall_text(odd);
@@ -112,6 +114,7 @@ TEST(WallFile, WritingAndReadingKeepsEverySetting) {
         EXPECT_LT(glm::length(a.lower_right_tracker - b.lower_right_tracker), 1e-11);
         EXPECT_EQ(a.pixels, b.pixels);
         EXPECT_EQ(a.output, b.output);
+        EXPECT_EQ(a.direct, b.direct);
         EXPECT_EQ(a.mode, b.mode);
         EXPECT_EQ(a.swap_eyes, b.swap_eyes);
         EXPECT_EQ(a.homography, b.homography);
@@ -147,6 +150,9 @@ TEST(WallFile, RefusesWhatItDoesNotUnderstandByLineWithTheRemedy) {
         "units = \"m\"\nzebra = 1\n[[screen]]\nlower_left=[0,0,0]\nlower_right=[1,0,0]\nupper_left=[0,1,0]\n",
         {"w.toml:2", "zebra", "its keys are"});
     expect_refused(with("name = \"front\"", "output = -1"), {"w.toml:3", "output"});
+    expect_refused(with("pixels", "direct = \"hdmi\"\npixels"),
+                   {"w.toml:7", "hdmi-3d", "onboard-din", "inband-displayport", "plain"});
+    expect_refused(with("pixels", "direct = true\npixels"), {"w.toml:7", "quotes"});
     expect_refused(with("name = \"front\"", "swap_eyes = 1"), {"w.toml:3", "true or false"});
     expect_refused(with("name = \"front\"", "homography = [[1, 0, 0], [0, 1, 0]]"), {"w.toml:3", "homography"});
     expect_refused(with("[viewer.fallback_head]", "[viewer]\nleft_eye = [0, 0, 0]\n[viewer.fallback_head]"),
@@ -179,6 +185,31 @@ TEST(WallCommand, ShowsChecksAndDraws) {
     const auto missing = place.run(kBurin + " wall show none.toml");
     EXPECT_EQ(missing.status, 1);
     EXPECT_NE(missing.output.find("none.toml"), std::string::npos);
+}
+
+TEST(WallCommand, ChecksAndShowsADisplayDrivenDirectly) {
+    Workplace place;
+    const auto check = [&](const std::string& keys) {
+        place.write("w.toml", with("pixels", keys + "\npixels"));
+        return place.run(kBurin + " wall check w.toml");
+    };
+    const auto sound = check("direct = \"hdmi-3d\"\nmode = \"two_layers\"");
+    EXPECT_EQ(sound.status, 0) << sound.output;
+    const auto shown = place.run(kBurin + " wall show w.toml --json w.json");
+    EXPECT_NE(shown.output.find("0, two_layers, driven directly: hdmi-3d"), std::string::npos) << shown.output;
+    const auto figures = read_json(place.read("w.json"));
+    EXPECT_EQ(figures["screens"][0]["direct"].get<std::string>(), "hdmi-3d");
+    EXPECT_EQ(check("direct = \"plain\"\nmode = \"frame_sequential\"").status, 0);
+    for (const auto& [keys, part] :
+         {std::pair{"direct = \"hdmi-3d\"\nmode = \"side_by_side\"", "separates two pictures"},
+          {"direct = \"onboard-din\"", "mode mono has one"},
+          {"direct = \"plain\"\nmode = \"two_layers\"", "hdmi-3d"},
+          {"direct = \"plain\"\nmode = \"two_windows\"", "without windows"}}) {
+        const auto refused = check(keys);
+        EXPECT_EQ(refused.status, 1) << keys;
+        EXPECT_NE(refused.output.find("error: front: "), std::string::npos) << refused.output;
+        EXPECT_NE(refused.output.find(part), std::string::npos) << refused.output;
+    }
 }
 
 TEST(WallCommand, CalibratesAScreenFromTouchesAndTellsTheResiduals) {
