@@ -14,7 +14,7 @@ namespace burin {
 
 struct ProfileCommand::Options {
     SculptOptions sculpt;
-    bool window = false;
+    bool window = false, simulated_hand = false;
     std::string driver_threads;  // "0,1,2"; empty: as a live session has it
     std::string json;
 };
@@ -32,11 +32,11 @@ SculptOptions first_carve() {
     return options;
 }
 
-Result<ProfiledRun> run_once(const SculptOptions& options, std::optional<unsigned> driver_threads) {
+Result<ProfiledRun> run_once(const SculptOptions& options, bool for_a_device, std::optional<unsigned> driver_threads) {
     // The software driver reads it when the session opens its device.
     if (driver_threads)
         setenv("LP_NUM_THREADS", std::to_string(*driver_threads).c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
-    auto record = time_session(options);
+    auto record = time_session(options, for_a_device);
     if (!record) return std::unexpected(record.error());
     return ProfiledRun{driver_threads, std::move(*record)};
 }
@@ -69,6 +69,8 @@ ProfileCommand::ProfileCommand(Command app)
     SculptOptions& s = o.sculpt;
     command_.option("--input", s.live.input, "A recorded or written log of a session's input").show_default();
     command_.flag("--window", o.window, "Show it in a window, instead of drawing what nobody sees");
+    command_.flag("--simulated-hand", o.simulated_hand,
+                  "Ticks as a session without a device has them, which may rest; else as a device's user needs them");
     command_.option("--workpiece", s.workpiece.source, "As burin sculpt has it").show_default();
     command_.option("--tool", s.tool.shape, "As burin sculpt has it").show_default();
     command_.option("--resolution", s.workpiece.resolution, "Lattice cells along the longest side")
@@ -101,7 +103,7 @@ Result<void> ProfileCommand::run() const {
     if (!choices) return std::unexpected(choices.error());
     std::vector<Json> runs;
     for (const std::optional<unsigned> threads : *choices) {
-        const auto run = run_once(options, threads);
+        const auto run = run_once(options, !o.simulated_hand, threads);
         if (!run) return std::unexpected(run.error());
         runs.push_back(describe_run(*run));
         if (o.json != kStandardOutput) std::printf("%s\n", profile_table(runs.back()).c_str());

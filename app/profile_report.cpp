@@ -87,6 +87,9 @@ Json describe_run(const ProfiledRun& run) {
     json["processor_ms"] =
         in_ms(summary_of(r.frames, [](const TimedFrame& f) { return std::optional(f.processor_ns); }));
     json["cores_busy"] = wall_s > 0.0 ? seconds(r.processor_ns) / wall_s : 0.0;
+    const double rested_s = seconds(r.rested_ns);
+    json["at_rest"] = {{"seconds", rested_s},
+                       {"cores_busy", rested_s > 0.0 ? seconds(r.rested_processor_ns) / rested_s : 0.0}};
     json["ages_ms"] = ages_of_all(r.frames);
     json["ticks"] = {{"count", r.ticks},
                      {"late", r.late_ticks},
@@ -104,6 +107,11 @@ std::string profile_table(const Json& run) {
     text += line("\n%.1f s, %zu frames drawn (%.1f a second), %zu skipped, %.2f cores busy\n\n",
                  run["seconds"].get<double>(), frames["drawn"].get<std::size_t>(), frames["drawn_per_s"].get<double>(),
                  frames["skipped"].get<std::size_t>(), run["cores_busy"].get<double>());
+    if (const Json& rest = run["at_rest"]; rest["seconds"].get<double>() > 0.0) {
+        text.pop_back();
+        text += line("at rest for %.1f s of these, with %.2f %% of a core\n\n", rest["seconds"].get<double>(),
+                     100.0 * rest["cores_busy"].get<double>());
+    }
     text += heading("a frame, ms") + rows(run["stages_ms"]) + row("processor, all threads", run["processor_ms"]);
     text += row("carving, beside it", run["carve_update_ms"]);
     text += "\n" + heading("when seen, ms") + rows(run["ages_ms"]);

@@ -16,8 +16,9 @@
 namespace burin {
 namespace {
 
-constexpr Nanoseconds kRest_ns = 500'000'000;    // between looks at what may have changed, when nothing happens
-constexpr Nanoseconds kActive_ns = 300'000'000;  // after the last change frames follow the display's beat
+constexpr Nanoseconds kRest_ns = 500'000'000;       // between looks at what may have changed, when nothing happens
+constexpr Nanoseconds kActive_ns = 300'000'000;     // after the last change frames follow the display's beat
+constexpr Nanoseconds kSettled_ns = 3'000'000'000;  // then all threads rest, and levels of detail are worked out
 
 // What has happened when the time has come, or something happens before.
 std::vector<Input> wait_for_input(SessionStage& stage, Clock& clock, Nanoseconds until_ns) {
@@ -78,9 +79,9 @@ SessionRecord record_of(LiveSession& session, const CarvingThread& carving) {
 }  // namespace
 
 Result<SessionRecord> run_in_real_time(const SculptOptions& options, const SessionWall& wall, InputSource input,
-                                       bool keep_frames, DirectDriver driver) {
+                                       RealTimeRun run) {
     MonotonicClock clock;
-    Result<SessionStage> stage = SessionStage::open(options.live, wall, std::move(driver));
+    Result<SessionStage> stage = SessionStage::open(options.live, wall, std::move(run.driver));
     if (!stage) return std::unexpected(stage.error());
     auto session = LiveSession::create(options, wall, clock);
     if (!session) return std::unexpected(session.error());
@@ -88,8 +89,7 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
     if (auto news = s.desk().take_news()) s.take(std::move(*news));
     ThreadRecorder recorder(input, s);
     CarvingThread carving(s.desk(), clock, [&to = *stage] { to.wake(); });
-    // The hand is simulated: nobody feels it. What is measured is what a device's user would.
-    HapticThread touch(s.loop(), keep_frames ? LoopPace{.lead_ns = HapticLoop::kLead_ns} : LoopPace{.rests = true});
+    HapticThread touch(s.loop(), run.pace);
     const RealtimeNotice notice = touch.start();
     if (!notice.text.empty()) s.hear(notice.text);
     carving.start();
@@ -103,13 +103,14 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
 
     DisplayWatch display(stage->refresh_Hz());
     SessionTimes& times = s.times();
-    if (keep_frames) times.keep_frames();
+    if (run.keep_frames) times.keep_frames();
     const Nanoseconds began_ns = clock.now_ns(), processor_ns = process_cpu_ns();
-    Nanoseconds changed_ns = began_ns;
+    Nanoseconds changed_ns = began_ns, rested_ns = 0, rested_processor_ns = 0;
     Result<void> outcome;
     const EndSignals end;
     while (outcome && !s.state().quit && !end.came()) {
         times.begin();
+        const Nanoseconds turn_ns = clock.now_ns(), turn_processor_ns = process_cpu_ns();
         const bool active = stage->takes_turns(s) || clock.now_ns() - changed_ns < kActive_ns;
         stage->refine_beside(!active);
         display.shown_at(stage->refresh_Hz());
@@ -141,6 +142,9 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
         }
         static_cast<void>(stage->take_blocked());  // of a turn without a new picture
         times.finished(drawn && *drawn, display.beat(s));
+        if (turn_ns - changed_ns < kSettled_ns || !drawn || *drawn) continue;
+        rested_ns += clock.now_ns() - turn_ns;
+        rested_processor_ns += process_cpu_ns() - turn_processor_ns;
     }
     const Nanoseconds wall_ns = clock.now_ns() - began_ns, worked_ns = process_cpu_ns() - processor_ns;
     touch.stop();
@@ -155,6 +159,8 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
     SessionRecord record = record_of(s, carving);
     record.wall_ns = wall_ns;
     record.processor_ns = worked_ns;
+    record.rested_ns = rested_ns;
+    record.rested_processor_ns = rested_processor_ns;
     record.device = stage->device_name();
     return record;
 }

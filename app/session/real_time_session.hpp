@@ -8,12 +8,17 @@
 #include "app/session/input_source.hpp"
 #include "app/session/session_screens.hpp"
 #include "app/session/session_times.hpp"
+#include "haptics/haptic_loop.hpp"
 
 namespace burin {
 
-// keep_frames: each frame's times are in the record, and ticks are as punctual as a device's user needs them.
+// A session to be worked in: the hand is simulated, so that nobody feels when a tick comes.
+struct RealTimeRun {
+    bool keep_frames = false;  // in the record, each with its times
+    LoopPace pace = {.rests = true};
+    DirectDriver driver = direct_driver();
+};
 [[nodiscard]] Result<SessionRecord> run_in_real_time(const SculptOptions& options, const SessionWall& wall,
-                                                     InputSource input, bool keep_frames,
-                                                     DirectDriver driver = direct_driver());
+                                                     InputSource input, RealTimeRun run = {});
 
 }  // namespace burin

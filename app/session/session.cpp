@@ -90,18 +90,20 @@ Result<void> run_session(const SculptOptions& options) {
         return run_in_simulated_time(options, *wall, InputSource::replay(std::move(*log)));
     Result<InputSource> input = open_input(options, std::move(log));
     if (!input) return std::unexpected(input.error());
-    const auto run = run_in_real_time(options, *wall, std::move(*input), false);
+    const auto run = run_in_real_time(options, *wall, std::move(*input));
     return run ? Result<void>{} : std::unexpected(run.error());
 }
 
-Result<SessionRecord> time_session(const SculptOptions& options) {
+Result<SessionRecord> time_session(const SculptOptions& options, bool for_a_device) {
     if (const auto ok = check(options); !ok) return std::unexpected(ok.error());
     const Result<SessionWall> wall = session_wall(options.live);
     if (!wall) return std::unexpected(wall.error());
     Result<InputLog> log = open_log(options.live.input);
     if (!log) return std::unexpected(log.error());
     std::erase_if(log->events, writes_a_file);
-    return run_in_real_time(options, *wall, InputSource::play(std::move(*log)), true);
+    RealTimeRun run{.keep_frames = true};
+    if (for_a_device) run.pace = {.lead_ns = HapticLoop::kLead_ns};
+    return run_in_real_time(options, *wall, InputSource::play(std::move(*log)), std::move(run));
 }
 
 }  // namespace burin

@@ -18,7 +18,8 @@ namespace burin {
 [[nodiscard]] Result<void> run_session(const SculptOptions& options);
 
 // The session of an input log in real time, with the threads and the loop of a live one, and what all of it took. In a window or
-// without (options.live.offscreen). Commands of the log that write files are left out.
-[[nodiscard]] Result<SessionRecord> time_session(const SculptOptions& options);
+// without (options.live.offscreen). Commands of the log that write files are left out. for_a_device: ticks are as punctual as its user needs
+// them; otherwise as those of a simulated hand, which may rest.
+[[nodiscard]] Result<SessionRecord> time_session(const SculptOptions& options, bool for_a_device);
 
 }  // namespace burin

@@ -122,7 +122,8 @@ struct SessionRecord {
     std::vector<TimedFrame> frames;  // drawn
     std::uint64_t skipped = 0;       // looked at, and nothing had changed
     Nanoseconds wall_ns = 0, processor_ns = 0;
-    FigureSummary carve_update;  // on the carving thread, of those that changed the surface
+    Nanoseconds rested_ns = 0, rested_processor_ns = 0;  // of these when nothing had been drawn for 3 s
+    FigureSummary carve_update;                          // on the carving thread, of those that changed the surface
     std::uint64_t ticks = 0, late_ticks = 0, missed_deadlines = 0;
     FigureSummary tick_lateness, tick_duration;
     std::vector<std::string> warnings;  // of the last frames

@@ -82,6 +82,14 @@ TEST(ProfileReport, TheTableHasALineForEachFigure) {
     EXPECT_EQ(lines_with(table, "warning: too late"), 1u);
     EXPECT_EQ(lines_with(table, "median"), 3u);
     EXPECT_EQ(lines_with(table, "nan"), 0u);
+    EXPECT_EQ(lines_with(table, "at rest"), 0u);
+}
+
+TEST(ProfileReport, RestIsToldByItself) {
+    ProfiledRun run = hundred_frames();
+    run.record.rested_ns = 2'000'000'000;
+    run.record.rested_processor_ns = 18'000'000;
+    EXPECT_EQ(lines_with(profile_table(describe_run(run)), "at rest for 2.0 s of these, with 0.90 % of a core"), 1u);
 }
 
 TEST(ProfileReport, ASessionWithoutFramesHasATableToo) {

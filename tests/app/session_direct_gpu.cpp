@@ -302,7 +302,7 @@ TEST_F(DirectSession, RunsInRealTimeUntilTheScriptQuits) {
         "burin-input 1 test\n0.05 wand 0 0 1 1 0 0 0 1\n0.1 command screenshot a.png\n0.4 command quit\n", "script");
     ASSERT_TRUE(log) << log.error().line();
     const auto record =
-        run_in_real_time(sculpt(live), *room, InputSource::play(std::move(*log)), false, displays.driver());
+        run_in_real_time(sculpt(live), *room, InputSource::play(std::move(*log)), {.driver = displays.driver()});
     ASSERT_TRUE(record) << record.error().line();
     EXPECT_FALSE(place.read("a.png").empty());
     EXPECT_EQ(displays.asked.size(), 1u);
@@ -323,7 +323,7 @@ TEST_F(DirectSession, EndsAtASignalAndFinishesItsRecording) {
         if (now.sa_handler != SIG_DFL) kill(getpid(), SIGTERM);
     });
     const auto record =
-        run_in_real_time(sculpt(live), *room, InputSource::live(std::move(*writer)), false, displays.driver());
+        run_in_real_time(sculpt(live), *room, InputSource::live(std::move(*writer)), {.driver = displays.driver()});
     ASSERT_TRUE(record) << record.error().line();
     const auto log = read_input_log((place / "live.log").string());
     ASSERT_TRUE(log) << log.error().line();
