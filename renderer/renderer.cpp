@@ -36,6 +36,12 @@ shared::DrawConstants screen_constants(const Screen& screen) {
     return c;
 }
 
+Result<void> check_size(ImageSize size) {
+    if (size.width > 0 && size.height > 0 && size.width <= kMaxSide && size.height <= kMaxSide) return {};
+    return fail("picture size", std::to_string(size.width) + " x " + std::to_string(size.height) + " is not possible",
+                "choose 1 to " + std::to_string(kMaxSide) + " pixels each way");
+}
+
 VkViewport viewport_of(ImageSize size) {
     const auto width = static_cast<float>(size.width), height = static_cast<float>(size.height);
     constexpr auto kTimes = static_cast<float>(kGuard);
@@ -58,6 +64,7 @@ public:
     }
 
     void refine_beside(bool resting);
+    Result<void> resize(ImageSize size);
 
     PatchStore patches;
     std::vector<Box> occluders;
@@ -121,11 +128,7 @@ private:
 
 Result<std::unique_ptr<Renderer::Implementation>> Renderer::Implementation::create(gpu::Device& device, ImageSize size,
                                                                                    const RendererOptions& options) {
-    if (size.width == 0 || size.height == 0 || size.width > kMaxSide || size.height > kMaxSide) {
-        return fail("picture size",
-                    std::to_string(size.width) + " x " + std::to_string(size.height) + " is not possible",
-                    "choose 1 to " + std::to_string(kMaxSide) + " pixels each way");
-    }
+    if (const auto ok = check_size(size); !ok) return std::unexpected(ok.error());
     const std::uint32_t most = device.capabilities().msaa_samples;
     const std::uint32_t samples = options.samples == 0 ? most : options.samples;
     if (samples != 1 && samples != most) {
@@ -144,6 +147,17 @@ Result<std::unique_ptr<Renderer::Implementation>> Renderer::Implementation::crea
     made->pipelines_ = std::move(*pipelines);
     if (const auto done = made->upload_primitives(); !done) return std::unexpected(done.error());
     return made;
+}
+
+// Pipelines fit any targets of the same formats and number of samples.
+Result<void> Renderer::Implementation::resize(ImageSize size) {
+    if (const auto ok = check_size(size); !ok) return ok;
+    auto other = FrameTargets::create(device_, size, targets.samples);
+    if (!other) return std::unexpected(other.error());
+    targets = std::move(*other);
+    readback_ = {};
+    shown.reset();
+    return {};
 }
 
 Result<void> Renderer::Implementation::upload_primitives() {
@@ -354,7 +368,7 @@ void Renderer::Implementation::push(Recording& r, const shared::DrawConstants& c
 
 // A level lies off by half a pixel at most, so that nobody sees when it is taken up; but it costs a whole picture.
 void Renderer::Implementation::refine_beside(bool resting) {
-    constexpr std::size_t kAhead = 32, kWorthAPicture = 64;
+    constexpr std::size_t kAhead = 512, kWorthAPicture = 64;
     for (DetailDone& done : detail_.take()) detail_come_ += patches.take(std::move(done)) ? 1 : 0;
     while (detail_.waiting() < kAhead) {
         auto job = patches.next_detail(resting);
@@ -461,6 +475,7 @@ Result<RenderStats> Renderer::record(gpu::Commands& commands, const Scene& scene
 }
 VkImageView Renderer::both_eyes() const { return implementation_->targets.both_eyes.raw(); }
 ImageSize Renderer::size() const { return implementation_->targets.size; }
+Result<void> Renderer::resize(ImageSize size) { return implementation_->resize(size); }
 void Renderer::forget_picture() { implementation_->shown.reset(); }
 void Renderer::set_savings(const Savings& savings) {
     implementation_->savings = savings;

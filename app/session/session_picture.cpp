@@ -44,7 +44,11 @@ void SessionPicture::put(const TileNews& tile) {
 
 Result<void> SessionPicture::fit(ImageSize eye) {
     if (renderer_ && eye.width == eye_.width && eye.height == eye_.height) return {};
-    renderer_.reset();
+    if (renderer_) {
+        const auto done = renderer_->resize(eye);
+        if (done) eye_ = eye;
+        return done;
+    }
     auto made = Renderer::create(device_, eye, {.samples = samples_, .savings = {}});
     if (!made) return std::unexpected(made.error());
     renderer_ = std::move(*made);

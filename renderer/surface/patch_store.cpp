@@ -14,7 +14,7 @@ namespace {
 // vertex, triangles without area.
 constexpr std::uint32_t kVertexStep = 32;
 constexpr std::uint32_t kIndexStep = 96;
-constexpr std::uint64_t kRestingFlushes = 30;  // after so many frames without a change a patch is worth its levels
+constexpr std::uint64_t kRestingFlushes = 12;  // after so many frames without a change a patch is worth its levels
 
 std::uint32_t round_up(std::size_t count, std::uint32_t step) {
     return static_cast<std::uint32_t>((count + step - 1) / step * step);
@@ -130,6 +130,7 @@ Result<PatchStore::Flushed> PatchStore::flush(gpu::Device& device, gpu::Commands
         if (was != before.end() && now != placed_.end()) {
             note_change(was->second, now->second, flushed.changed);
             // It goes on as it was drawn, but for its level.
+            now->second.changed_at = flushes_;
             now->second.drawn.rate = was->second.drawn.rate;
             now->second.wanted = true;
         } else if (was != before.end() || now != placed_.end()) {
@@ -142,7 +143,7 @@ Result<PatchStore::Flushed> PatchStore::flush(gpu::Device& device, gpu::Commands
         if (light.size() != known->second.surface->vertices.size() || light == known->second.light) continue;
         Patch& patch = known->second;
         const Patch was = patch;
-        patch.changed_at = flushes_;
+        if (!patch.light.empty()) patch.changed_at = flushes_;
         patch.light = std::move(light);
         release_levels(patch, 1);
         upload_finest(commands, patch);
@@ -194,7 +195,6 @@ Result<void> PatchStore::make_room(gpu::Device& device, gpu::Commands& commands)
 
 Result<void> PatchStore::place(gpu::Device& device, gpu::Commands& commands, std::uint32_t id, Pending& pending) {
     Patch patch;
-    patch.changed_at = flushes_;
     patch.surface = std::move(pending.surface);
     patch.light = std::move(pending.light);
     if (patch.light.size() != patch.surface->vertices.size()) patch.light.clear();
@@ -294,7 +294,8 @@ std::optional<DetailJob> PatchStore::next_detail(bool resting) {
     for (std::size_t seen = 0; seen < count; ++seen, ++at) {
         if (at == placed_.end()) at = placed_.begin();
         Patch& patch = at->second;
-        if (patch.refined || !patch.wanted || (!resting && flushes_ < patch.changed_at + kRestingFlushes)) continue;
+        const bool changes = patch.changed_at > 0 && flushes_ < patch.changed_at + kRestingFlushes;
+        if (patch.refined || !patch.wanted || (changes && !resting)) continue;
         patch.refined = true;
         refine_from_ = at->first + 1;
         return DetailJob{at->first, patch.surface, patch.light, patch.shape.edge_m};

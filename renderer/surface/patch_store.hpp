@@ -47,7 +47,7 @@ public:
         std::vector<Level> levels;      // from fine to coarse; the first is always there
         std::vector<PatchLevel> ready;  // worked out, not on the GPU yet
         bool refined = false;           // nothing more is to be worked out, or it is being done
-        std::uint64_t changed_at = 0;   // which flush brought its surface or its light
+        std::uint64_t changed_at = 0;   // which flush brought another surface or other light than the first; 0: none did
         bool wanted = false;            // it was in view when the picture was last drawn as a whole
         Drawn drawn;
     };

@@ -149,4 +149,68 @@ TEST_F(Patches, PatchesThatChangeAreLeftAloneUntilTheyRest) {
     FAIL() << "it never came";
 }
 
+// What has just come may stay as it is, and so may its first light; only what has changed may soon change again.
+TEST_F(Patches, NeedRestForLevelsOnlyOnceTheyHaveChanged) {
+    PatchStore store;
+    const auto tile = [](double radius) {
+        const Surface ball = ball_surface({0, 0.15, 0}, radius, kGrey, 8);
+        auto made = std::make_shared<SurfaceTile>();
+        made->vertices.assign(ball.vertices.begin(), ball.vertices.end());
+        made->indices.assign(ball.indices.begin(), ball.indices.end());
+        return made;
+    };
+    const auto flush = [&] {
+        auto commands = gpu::Commands::begin(device());
+        ASSERT_TRUE(commands && store.flush(device(), *commands));
+        auto submission = std::move(*commands).submit();
+        ASSERT_TRUE(submission && submission->wait());
+        for (PatchStore::Patch* patch : store.in_order()) patch->wanted = true;
+    };
+    const auto first = tile(0.02);
+    const auto light = [&](std::uint8_t sun) {
+        return std::vector<VertexLight>(first->vertices.size(), {.sun = sun, .open = 255});
+    };
+    store.set(1, first);
+    flush();
+    EXPECT_TRUE(store.next_detail(false)) << "new";
+    store.set_light(1, light(200));
+    flush();
+    EXPECT_TRUE(store.next_detail(false)) << "its first light";
+    store.set_light(1, light(100));
+    flush();
+    EXPECT_FALSE(store.next_detail(false)) << "other light";
+    EXPECT_TRUE(store.next_detail(true));
+    store.set(1, tile(0.03));
+    flush();
+    EXPECT_FALSE(store.next_detail(false)) << "another surface";
+    for (int frame = 0; frame < 100; ++frame) flush();
+    EXPECT_TRUE(store.next_detail(false)) << "it has rested";
+}
+
+TEST_F(Patches, KeepTheirLevelsInPicturesOfAnotherSize) {
+    const Scene scene = bare_scene();
+    const Surface ball = ball_surface({0, 0.15, 0}, 0.01, kGrey, 40);
+    constexpr ImageSize kOther{100, 160};
+    set(1, ball);
+    static_cast<void>(render(scene));
+    ASSERT_GT(renderer().refine(10), 0u);
+    ASSERT_TRUE(renderer().resize(kOther));
+    const StereoImage resized = render(scene);
+    EXPECT_EQ(renderer().stats().patch_counts.coarser, 1u);
+    EXPECT_EQ(renderer().stats().pipelines, 1u) << "pipelines stay as well";
+
+    auto fresh = Renderer::create(device(), kOther);
+    ASSERT_TRUE(fresh);
+    fresh->set_patch(1, ball.vertices, ball.indices);
+    ASSERT_TRUE(fresh->render(scene));
+    ASSERT_GT(fresh->refine(10), 0u);
+    fresh->forget_picture();
+    const auto expected = fresh->render(scene);
+    ASSERT_TRUE(expected);
+    EXPECT_TRUE(resized.left.size == kOther && resized.left.rgba == expected->left.rgba);
+    EXPECT_TRUE(resized.right.rgba == expected->right.rgba);
+    EXPECT_FALSE(renderer().resize({0, 160}));
+    EXPECT_TRUE(render(scene).left.rgba == expected->left.rgba) << "an Error leaves it as it was";
+}
+
 }  // namespace burin
