@@ -58,6 +58,8 @@ public:
     FrameCounters counters() const override {
         const RenderStats& s = renderer_.stats();
         const PatchCounts& p = s.patch_counts;
+        double pixels = 0.0;
+        for (const PixelRect& part : s.parts) pixels += static_cast<double>(part.width) * part.height;
         return {{"triangles", static_cast<double>(p.triangles)},
                 {"draws", s.draws},
                 {"patches", p.drawn},
@@ -66,7 +68,7 @@ public:
                 {"behind", p.behind},
                 {"coarser", p.coarser},
                 {"vertex rate", p.vertex_rate},
-                {"1000 pixels", 1e-3 * s.part.width * s.part.height},
+                {"1000 pixels", 1e-3 * pixels},
                 {"KiB brought over", static_cast<double>(s.uploaded_bytes) / 1024.0},
                 {"patches refined", refined_},
                 {"ms to refine them", refine_ms_}};

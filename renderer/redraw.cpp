@@ -30,11 +30,10 @@ Box world_box(const Scene& scene, const Box& patch) {
     return world;
 }
 
-// What the tool's shadow can be seen on: the workpiece and the solid shapes. Neither room nor glass nor panel has it.
+// What the tool's shadow can be seen on, beside the workpiece: the solid shapes. Neither room nor glass nor panel has it.
 std::vector<Box> lit_things(const Shown& in) {
     const Scene& scene = in.scene;
     std::vector<Box> things;
-    if (!in.patches.empty()) things.push_back(world_box(scene, in.patches));
     for (const SceneBox* box : {&scene.box, &scene.proposed_box})
         if (box->visible) things.push_back(box_around(ball_of(*box)));
     for (const Box& mark : boxes_of(contact_marks(scene)))
@@ -81,11 +80,11 @@ class Parts {
 public:
     Parts(const Scene& scene, ImageSize size) : scene_(scene), size_(size) {}
 
-    void add(const Box& box_world) { part = around(part, seen_part(scene_, size_, std::span(&box_world, 1))); }
+    void add(const Box& box_world) { rects.push_back(seen_part(scene_, size_, std::span(&box_world, 1))); }
     void add(const Ball& ball) {
         if (ball.radius_m > 0.0) add(box_around(ball));
     }
-    // All that the tool changes around it.
+    // All that the tool changes around it, but for the workpiece.
     void add_tool(const Shown& in) {
         const SceneTool& tool = in.scene.tool;
         if (!tool.visible) return;
@@ -105,11 +104,11 @@ public:
         std::array<Box, 4> corners;
         const std::array places = corners_world(panel->stand);
         for (std::size_t i = 0; i < 4; ++i) corners[i].include(places[i]);
-        part = around(part, seen_part(scene_, size_, corners));
+        rects.push_back(seen_part(scene_, size_, corners));
     }
     void add_patch(const Box& box) { add(world_box(scene_, box)); }
 
-    PixelRect part;
+    std::vector<PixelRect> rects;
 
 private:
     void add_where(const Box& box, std::span<const Box> things) {
@@ -123,7 +122,8 @@ private:
     ImageSize size_;
 };
 
-// All but what is drawn anew by parts is the same.
+}  // namespace
+
 bool same_room(const Shown& a, const Shown& b) {
     Scene s = a.scene;
     s.tool = b.scene.tool;
@@ -134,8 +134,6 @@ bool same_room(const Shown& a, const Shown& b) {
     s.panel = b.scene.panel;
     return s == b.scene && a.workpiece == b.workpiece && a.depth == b.depth;
 }
-
-}  // namespace
 
 PixelRect seen_part(const Scene& scene, ImageSize size, std::span<const Box> boxes_world) {
     const Screen& screen = scene.screen;
@@ -167,9 +165,8 @@ PixelRect seen_part(const Scene& scene, ImageSize size, std::span<const Box> box
     return {x0, y0, x1 - x0, y1 - y0};
 }
 
-PixelRect changed_part(const std::optional<Shown>& shown, const Shown& wanted, ImageSize size,
-                       std::span<const Box> changed) {
-    if (!shown || !same_room(*shown, wanted)) return all_of(size);
+std::vector<PixelRect> changed_rects(const Shown& shown, const Shown& wanted, ImageSize size,
+                                     std::span<const Box> changed) {
     Parts parts(wanted.scene, size);
     const auto if_changed = [&](const auto& before, const auto& now, const auto& place) {
         if (before == now) return;
@@ -178,19 +175,19 @@ PixelRect changed_part(const std::optional<Shown>& shown, const Shown& wanted, I
     };
     const auto itself = [](const auto& thing) { return thing; };
     const auto ball = [](const auto& thing) { return ball_of(thing); };
-    const Scene &before = shown->scene, &now = wanted.scene;
+    const Scene &before = shown.scene, &now = wanted.scene;
     if (before.tool != now.tool) {
-        parts.add_tool(*shown);
+        parts.add_tool(shown);
         parts.add_tool(wanted);
     }
     if_changed(contact_marks(before), contact_marks(now), itself);
     if_changed(before.box, now.box, ball);
     if_changed(before.proposed_box, now.proposed_box, ball);
     if_changed(before.bubble, now.bubble, ball);
-    if_changed(std::pair(before.panel, shown->panel_pictures), std::pair(now.panel, wanted.panel_pictures),
+    if_changed(std::pair(before.panel, shown.panel_pictures), std::pair(now.panel, wanted.panel_pictures),
                [](const auto& panel) { return panel.first; });
     for (const Box& box : changed) parts.add_patch(box);
-    return parts.part;
+    return std::move(parts.rects);
 }
 
 }  // namespace burin

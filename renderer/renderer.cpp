@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/renderer.hpp"
 
+#include <algorithm>
 #include <array>
+#include <numeric>
 
 #include "gpu/commands.hpp"
+#include "renderer/few_parts.hpp"
 #include "renderer/frame_setup.hpp"
 #include "renderer/frame_targets.hpp"
 #include "renderer/panel/panel_quad.hpp"
@@ -90,7 +93,8 @@ private:
         std::uint64_t shows = 0;  // which of the pictures given
     };
     Result<void> upload_primitives();
-    PixelRect part_to_draw(const Shown& wanted, const PatchStore::Flushed& flushed);
+    std::vector<PixelRect> parts_to_draw(const Shown& wanted, const PatchStore::Flushed& flushed);
+    Result<void> draw_part(gpu::Commands& commands, const Scene& scene, const PixelRect& part);
     void upload_uniforms(gpu::Commands& commands, const Shown& wanted);
     Result<void> draw_views(Recording& r);
     void begin_pass(Recording& r);
@@ -187,11 +191,10 @@ Result<RenderStats> Renderer::Implementation::record(gpu::Commands& commands, co
     commands.barrier();  // the frame before has read what is written now
     const auto flushed = patches.flush(device_, commands);
     if (!flushed) return std::unexpected(flushed.error());
-    Shown wanted{
-        scene, place_workpiece(scene, patches.bounds(), patches.reach_m()), {}, patches.bounds(), panel_pictures_};
+    Shown wanted{scene, place_workpiece(scene, patches.bounds(), patches.reach_m()), {}, panel_pictures_};
     wanted.depth = depth_range(scene, wanted.workpiece);
-    const PixelRect part = part_to_draw(wanted, *flushed);
-    stats = {.part = part,
+    stats = {.part = {},
+             .parts = parts_to_draw(wanted, *flushed),
              .triangles = patches.triangles(),
              .patches = patches.patches(),
              .patch_counts = {},
@@ -199,35 +202,48 @@ Result<RenderStats> Renderer::Implementation::record(gpu::Commands& commands, co
              .draws = 0,
              .uploaded_bytes = flushed->bytes,
              .pipelines = pipelines_created()};
-    if (!part.empty()) {
+    if (!stats.parts.empty()) {
         upload_uniforms(commands, wanted);
         commands.barrier();
-        ShownShapes shapes = shapes_in(part, scene, primitives_, targets.size, savings);
-        stats.shapes_left_out = shapes.left_out;
-        Recording r{commands, scene, part, std::move(shapes.shapes), {}};
-        r.surface = choose_draws(patches.in_order(), scene, targets.size, part, savings, occluders);
-        if (const auto done = draw_views(r); !done) return std::unexpected(done.error());
-        stats.patch_counts = r.surface.counts;
-        stats.draws = r.draws;
-        stats.pipelines = pipelines_created();
     }
+    for (const PixelRect& part : stats.parts)
+        if (const auto done = draw_part(commands, scene, part); !done) return std::unexpected(done.error());
+    stats.pipelines = pipelines_created();
     shown = std::move(wanted);
     return stats;
 }
 
-PixelRect Renderer::Implementation::part_to_draw(const Shown& wanted, const PatchStore::Flushed& flushed) {
-    std::vector<Box> changed = flushed.changed;
-    const auto whole = [&] {
+std::vector<PixelRect> Renderer::Implementation::parts_to_draw(const Shown& wanted,
+                                                               const PatchStore::Flushed& flushed) {
+    const PixelRect all = all_of(targets.size);
+    std::vector<PixelRect> parts{all};
+    if (savings.parts_only && shown && same_room(*shown, wanted)) {
+        std::vector<Box> changed = flushed.changed;
+        const auto add = [&](const std::vector<Box>& more) { changed.insert(changed.end(), more.begin(), more.end()); };
+        add(changed_near_tool(patches.in_order(), shown->scene, wanted.scene, targets.size, occluders));
+        add(choose_rates(patches.in_order(), wanted.scene, targets.size, savings));
+        parts = few_parts(changed_rects(*shown, wanted, targets.size, changed), targets.size);
+        if (!savings.parts_apart && !parts.empty())
+            parts = {std::accumulate(parts.begin(), parts.end(), PixelRect{}, around)};
+    }
+    if (std::ranges::find(parts, all) != parts.end()) {
         choose_levels(patches.in_order(), wanted.scene, targets.size, savings, occluders);
         detail_come_ = 0;
-        return all_of(targets.size);
-    };
-    if (!savings.parts_only || !shown) return whole();
-    PixelRect part = changed_part(shown, wanted, targets.size, changed);
-    if (part == all_of(targets.size)) return whole();
-    const std::vector<Box> other_rates = choose_rates(patches.in_order(), wanted.scene, targets.size, savings);
-    changed.insert(changed.end(), other_rates.begin(), other_rates.end());
-    return changed_part(shown, wanted, targets.size, changed);
+        parts = {all};
+    }
+    return parts;
+}
+
+Result<void> Renderer::Implementation::draw_part(gpu::Commands& commands, const Scene& scene, const PixelRect& part) {
+    ShownShapes shapes = shapes_in(part, scene, primitives_, targets.size, savings);
+    Recording r{commands, scene, part, std::move(shapes.shapes), {}};
+    r.surface = choose_draws(patches.in_order(), scene, targets.size, part, savings, occluders);
+    const auto done = draw_views(r);
+    stats.part = around(stats.part, part);
+    stats.shapes_left_out += shapes.left_out;
+    stats.patch_counts += r.surface.counts;
+    stats.draws += r.draws;
+    return done;
 }
 
 void Renderer::Implementation::upload_uniforms(gpu::Commands& commands, const Shown& wanted) {

@@ -40,10 +40,11 @@ struct RendererOptions {
 
 // What a frame drew, and what it spared.
 struct RenderStats {
-    PixelRect part;               // of the picture that was drawn anew; empty: nothing was
-    std::uint64_t triangles = 0;  // of the workpiece, all there are
+    PixelRect part;                // around all that was drawn anew; empty: nothing was
+    std::vector<PixelRect> parts;  // what was: rectangles that hardly overlap
+    std::uint64_t triangles = 0;   // of the workpiece, all there are
     std::uint32_t patches = 0;
-    PatchCounts patch_counts;           // of this frame
+    PatchCounts patch_counts;           // of this frame, each part's added up
     std::uint32_t shapes_left_out = 0;  // beside the part: of the tool, the room and the workspace
     std::uint32_t draws = 0;            // draw calls
     std::uint64_t uploaded_bytes = 0;   // changed patches brought to the GPU for this frame

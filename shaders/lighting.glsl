@@ -53,7 +53,7 @@ float ball_cover(vec3 world, vec3 normal, vec4 ball) {
 // Ambient light that reaches a point beside the tool and over the plinth.
 float openness(vec3 world, vec3 normal) {
     float from_tool = length(frame.tool.xyz - world);
-    float near_tool = 1.0 - smoothstep(0.5 * kToolDarkens, kToolDarkens, from_tool / max(frame.tool.w, 1e-6));
+    float near_tool = 1.0 - smoothstep(0.4 * kToolDarkens, kToolDarkens, from_tool / max(frame.tool.w, 1e-6));
     float open = 1.0 - 0.85 * near_tool * ball_cover(world, normal, frame.tool);
     if (frame.pedestal.w > 0.0 && world.y >= frame.pedestal.y - 0.001) {
         // Looking down at a disc: the part of the lower hemisphere that it hides, seen from above its middle.

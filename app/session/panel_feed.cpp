@@ -24,9 +24,9 @@ std::optional<double> median_ms(const FrameHistory& history, FrameFigure figure,
 
 PanelSavings savings_of(const RenderStats& drawn, const PanelFacts& facts) {
     const PatchCounts& counts = drawn.patch_counts;
-    const PixelRect& part = drawn.part;
     const double whole = static_cast<double>(facts.eye.width) * facts.eye.height;
-    const double redrawn = static_cast<double>(part.width) * part.height;
+    double redrawn = 0.0;
+    for (const PixelRect& part : drawn.parts) redrawn += static_cast<double>(part.width) * part.height;
     return {drawn.patches,
             counts.drawn,
             counts.beside,
@@ -45,7 +45,7 @@ void PanelFeed::feed(const PanelFacts& facts) {
     const bool was_awake = awake_;
     awake_ = facts.time_ns - stirred_ns_ < kRest_ns;
     longest_force_N_ = std::max(longest_force_N_, facts.force_N);
-    if (!facts.drawn.part.empty()) drawn_ = facts.drawn;
+    if (!facts.drawn.parts.empty()) drawn_ = facts.drawn;
     if (awake_ && facts.time_ns >= plotted_ns_ + kPlotStep_ns) {
         plotted_ns_ = facts.time_ns;
         go_on(force_N_, std::exchange(longest_force_N_, 0.0));

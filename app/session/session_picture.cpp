@@ -65,7 +65,7 @@ Result<void> SessionPicture::draw(gpu::Commands& commands, std::optional<Scene> 
     const bool was_dark = std::exchange(dark_, !scene.has_value());
     if (dark_) {
         stats_ = {};
-        if (!was_dark) stats_.part = all_of(eye_);
+        if (!was_dark) stats_.parts = {stats_.part = all_of(eye_)};
         return {};
     }
     if (was_dark) renderer_->forget_picture();
@@ -107,7 +107,7 @@ std::vector<PixelRect> SessionPicture::changed(const OutputPlace& place, const O
         const ChangedParts changed = changed_parts(in_eye, eye_, settings, place);
         parts.insert(parts.end(), changed.parts, changed.parts + changed.count);
     };
-    add(stats_.part);
+    for (const PixelRect& part : stats_.parts) add(part);
     if (panel_changed_ && painter_ && !standing_) {
         const std::uint32_t width = std::min(painter_->size().width, eye_.width);
         add({eye_.width - width, 0, width, std::min(painter_->size().height, eye_.height)});

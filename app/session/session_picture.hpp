@@ -33,7 +33,7 @@ public:
 
     // A picture to keep is drawn with all triangles: how far refine_beside() has come shall not show in it.
     void draw_in_full(bool full) { full_ = full; }
-    // Records the scene for an output of this size and mode; without one it is dark. stats().part says what of the eyes' pictures changed.
+    // Records the scene for an output of this size and mode; without one it is dark. stats().parts says what of the eyes' pictures changed.
     [[nodiscard]] Result<void> draw(gpu::Commands& commands, std::optional<Scene> scene, ImageSize output,
                                     const OutputSettings& settings);
     // The panel of the picture that is drawn next, at the right of each eye's; or where a stand is given, in the scene.

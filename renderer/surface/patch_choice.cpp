@@ -45,6 +45,7 @@ public:
         const Ball all = ball_of(tool);
         center_ = local(tool.center_world);
         radius_m_ = double{shared::kToolNears} * tool.radius_m * scale;
+        darkens_m_ = double{shared::kToolDarkens} * tool.radius_m * scale;
         from_ = local(all.center_world);
         to_ = local(all.center_world - (reach_m + all.radius_m) * direction_to_light());
         shadow_radius_m_ = (all.radius_m + kLightHalfAngleTangent * reach_m) * scale;
@@ -55,6 +56,12 @@ public:
             shadows_[i] = {local(balls[i].center_world), (balls[i].radius_m + edge_m) * scale};
         }
         along_ = local(tool.center_world - reach_m * direction_to_light()) - center_;
+    }
+    // Or keeps light of the surroundings off the patch.
+    [[nodiscard]] bool changes(const PatchShape& patch) const {
+        if (!there_) return false;
+        const Vec3 nearest = glm::clamp(center_, patch.bounds.lo, patch.bounds.hi);
+        return glm::length(nearest - center_) <= darkens_m_ || touches(patch);
     }
     [[nodiscard]] bool touches(const PatchShape& patch) const {
         if (!there_) return false;
@@ -76,7 +83,7 @@ private:
 
     bool there_ = false;
     Vec3 center_{0.0}, from_{0.0}, to_{0.0}, along_{0.0};
-    double radius_m_ = 0.0, shadow_radius_m_ = 0.0;
+    double radius_m_ = 0.0, darkens_m_ = 0.0, shadow_radius_m_ = 0.0;
     std::array<Shadow, 9> shadows_;  // of the tool's balls
 };
 
@@ -162,6 +169,20 @@ std::vector<Box> choose_rates(std::span<PatchStore::Patch* const> patches, const
         patch->drawn.rate = rate;
         changed.push_back(patch->shape.bounds);
     }
+    return changed;
+}
+
+std::vector<Box> changed_near_tool(std::span<PatchStore::Patch* const> patches, const Scene& before, const Scene& now,
+                                   ImageSize size, std::span<const Box> occluders) {
+    std::vector<Box> changed;
+    if (before.tool == now.tool) return changed;
+    const ToolZone was(before), is(now);
+    const EyePair eyes = eye_frusta(now, size, all_of(size));
+    occluders = hiding(occluders, eyes, patches);
+    for (const PatchStore::Patch* patch : patches)
+        if ((was.changes(patch->shape) || is.changes(patch->shape)) &&
+            hidden(eyes, patch->shape, occluders) == Hidden::no)
+            changed.push_back(patch->shape.bounds);
     return changed;
 }
 

@@ -19,6 +19,7 @@ struct Savings {
     bool coarser_levels = true;    // fewer triangles where a picture cannot show more, of patches and of balls
     bool vertex_rate = true;       // light worked out at vertices where they are close
     bool parts_only = true;        // only what changed is drawn anew
+    bool parts_apart = true;       // in several rectangles where one around all would hold much else
 };
 
 struct PatchCounts {
@@ -26,6 +27,17 @@ struct PatchCounts {
     std::uint32_t coarser = 0;      // drawn with fewer triangles than they have
     std::uint32_t vertex_rate = 0;  // drawn, some or all of their triangles lit at vertices
     std::uint64_t triangles = 0;    // drawn, in one view
+
+    PatchCounts& operator+=(const PatchCounts& other) {
+        drawn += other.drawn;
+        beside += other.beside;
+        turned_away += other.turned_away;
+        behind += other.behind;
+        coarser += other.coarser;
+        vertex_rate += other.vertex_rate;
+        triangles += other.triangles;
+        return *this;
+    }
 };
 
 // A run of the index buffer.
@@ -43,6 +55,9 @@ void choose_levels(std::span<PatchStore::Patch* const> patches, const Scene& sce
 // The shading rate alone, which depends on the tool too. Bounds of the patches whose rate has changed.
 [[nodiscard]] std::vector<Box> choose_rates(std::span<PatchStore::Patch* const> patches, const Scene& scene,
                                             ImageSize size, const Savings& savings);
+// Bounds of the patches in view that may look different because the tool is no longer as it was: near either, or in its shadow.
+[[nodiscard]] std::vector<Box> changed_near_tool(std::span<PatchStore::Patch* const> patches, const Scene& before,
+                                                 const Scene& now, ImageSize size, std::span<const Box> occluders);
 // What has to be drawn for this part of the picture.
 [[nodiscard]] PatchDraws choose_draws(std::span<PatchStore::Patch* const> patches, const Scene& scene, ImageSize size,
                                       const PixelRect& part, const Savings& savings, std::span<const Box> occluders);

@@ -83,6 +83,19 @@ Vec3 nearest_weights(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c)
     return {1 - (vb + vc) * scale, vb * scale, vc * scale};
 }
 
+// A triangle of a coarser form, ready to be asked for the places nearest to many vertices.
+struct Corners {
+    Vec3 a, b, c, normal;
+    Box box;
+};
+
+// No place on the triangle is nearer than its box is.
+bool surely_farther(const Box& box, const Vec3& p, double distance) {
+    const Vec3 away = p - glm::clamp(p, box.lo, box.hi);
+    constexpr double kRounding = 1.0 + 1e-9;
+    return glm::dot(away, away) > kRounding * distance * distance;
+}
+
 // One patch and the checks of its coarser forms.
 class Judge {
 public:
@@ -100,10 +113,10 @@ public:
         std::vector<bool> kept(vertices_.size(), false);
         for (const std::uint32_t i : coarse) kept[i] = true;
         double worst = 0.0;
-        const std::vector<Ground> grounds = grounds_of(coarse);
+        const std::vector<Corners> triangles = corners_of(coarse);
         for (std::size_t i = 0; i < vertices_.size(); ++i) {
             if (!used_[i] || kept[i]) continue;
-            const Foot foot = foot_of(i, grounds);
+            const Foot foot = foot_of(i, triangles);
             if (!close(looks_[i], look_at(foot, coarse))) return HUGE_VAL;
             worst = std::max(worst, foot.distance);
         }
@@ -111,36 +124,28 @@ public:
     }
 
 private:
-    // A coarse triangle, and a ball around it.
-    struct Ground {
-        Vec3 a, b, c, normal, middle;
-        double radius = 0.0;
-    };
-    [[nodiscard]] std::vector<Ground> grounds_of(std::span<const std::uint32_t> coarse) const {
-        std::vector<Ground> grounds;
-        grounds.reserve(coarse.size() / 3);
+    [[nodiscard]] std::vector<Corners> corners_of(std::span<const std::uint32_t> coarse) const {
+        std::vector<Corners> triangles;
+        triangles.reserve(coarse.size() / 3);
         for (std::size_t t = 0; t + 2 < coarse.size(); t += 3) {
             const Vec3 a = place(vertices_[coarse[t]]), b = place(vertices_[coarse[t + 1]]),
                        c = place(vertices_[coarse[t + 2]]);
-            const Vec3 middle = (a + b + c) / 3.0;
-            const double radius = std::max({glm::length(a - middle), glm::length(b - middle), glm::length(c - middle)});
-            grounds.push_back({a, b, c, glm::cross(b - a, c - a), middle, radius});
+            triangles.push_back(
+                {a, b, c, glm::cross(b - a, c - a), {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))}});
         }
-        return grounds;
+        return triangles;
     }
 
     // The nearest place on a coarse triangle that faces as the vertex does: on the other side of an edge lies another face.
-    [[nodiscard]] Foot foot_of(std::size_t vertex, std::span<const Ground> grounds) const {
+    [[nodiscard]] Foot foot_of(std::size_t vertex, std::span<const Corners> triangles) const {
         const Vec3 p = place(vertices_[vertex]);
         Foot best;
-        for (std::size_t i = 0; i < grounds.size(); ++i) {
-            const Ground& g = grounds[i];
-            const Vec3 way = p - g.middle;
-            const double reach = best.distance + g.radius;
-            if (glm::dot(way, way) > reach * reach || glm::dot(g.normal, looks_[vertex].normal) <= 0.0) continue;
-            const Vec3 w = nearest_weights(p, g.a, g.b, g.c);
-            const double distance = glm::length(w.x * g.a + w.y * g.b + w.z * g.c - p);
-            if (distance < best.distance) best = {distance, 3 * i, w};
+        for (std::size_t t = 0; t < triangles.size(); ++t) {
+            const Corners& at = triangles[t];
+            if (surely_farther(at.box, p, best.distance) || glm::dot(at.normal, looks_[vertex].normal) <= 0.0) continue;
+            const Vec3 w = nearest_weights(p, at.a, at.b, at.c);
+            const double distance = glm::length(w.x * at.a + w.y * at.b + w.z * at.c - p);
+            if (distance < best.distance) best = {distance, 3 * t, w};
         }
         return best;
     }

@@ -32,7 +32,7 @@ const int kFadedPanelCells = 16;
 // How far the tool changes what is around it, in its ball's radii: nothing beyond is touched, so that a picture in which only the tool
 // has moved need be drawn anew only there.
 const float kToolNears = 1.8f;    // its ring of colour
-const float kToolDarkens = 5.0f;  // the ambient light that it keeps off
+const float kToolDarkens = 3.5f;  // the ambient light that it keeps off
 const float kToolShades = 20.0f;  // its shadow, along the light
 
 struct DrawConstants {

@@ -26,7 +26,7 @@ struct Session {
         clock.sleep_until(clock.now_ns() + 10 * kMs);
         ticks.add(20'000 + 50 * frame++);
         times.sampled(clock.now_ns() - 4 * kMs, clock.now_ns() - 2 * kMs);
-        drawn.part = {0, 0, 10, 10};
+        drawn.parts = {{0, 0, 10, 10}};
         drawn.patches = static_cast<std::uint32_t>(frame);
         feed.feed({clock.now_ns(), force_N, 0, 0, stirring, times, ticks, drawn, {100, 50}});
         times.finished(true, {10 * kMs, std::nullopt, 0});

@@ -9,7 +9,7 @@
 namespace burin {
 namespace {
 
-constexpr ImageSize kSize{120, 90};
+constexpr ImageSize kSize{240, 180};
 
 // A ball in patches of a few rings and segments each, which meet without cracks.
 std::vector<Surface> ball_in_patches(const Vec3& center, double radius, std::uint32_t colour) {
@@ -177,16 +177,22 @@ protected:
             const auto whole = made[1].render(scene);
             ASSERT_TRUE(part && whole);
             if (made[0].stats().part != all_of(kSize)) ++parts;
+            if (made[0].stats().parts.size() > 1) ++apart_;
             ASSERT_EQ(different_pixels(part->left, whole->left), 0u) << "left, frame " << frame;
             ASSERT_EQ(different_pixels(part->right, whole->right), 0u) << "right, frame " << frame;
         }
         EXPECT_GT(3 * parts, 2 * static_cast<std::size_t>(frames)) << "most frames were drawn in part";
     }
+
+    std::size_t apart_ = 0;  // frames that were drawn in several parts
 };
 
 }  // namespace
 
-TEST_F(Redraw, OfWhatChangedEqualsDrawingEverything) { compare(1, false, 60); }
+TEST_F(Redraw, OfWhatChangedEqualsDrawingEverything) {
+    compare(1, false, 60);
+    EXPECT_GT(apart_, 0u);
+}
 
 TEST_F(Redraw, OfWhatChangedEqualsDrawingEverythingWithSeveralSamples) { compare(0, false, 30); }
 
@@ -211,6 +217,39 @@ TEST_F(Redraw, OfNothingDrawsNothing) {
     EXPECT_TRUE(renderer->stats().part.empty());
     EXPECT_EQ(renderer->stats().draws, 0u);
     EXPECT_TRUE(first->left.rgba == second->left.rgba);
+}
+
+// A tool that moves: its stylus, its shadow and where it touches are far apart, and with one rectangle around all of them as well the
+// picture is the same.
+TEST_F(Redraw, OfPartsApartDrawsFewerPixelsThanOneAroundThem) {
+    std::vector<Renderer> made;
+    for (const bool apart : {true, false}) {
+        auto renderer = Renderer::create(device(), {960, 720}, {.samples = 1, .savings = {.parts_apart = apart}});
+        ASSERT_TRUE(renderer);
+        made.push_back(std::move(*renderer));
+    }
+    Scene scene = furnished_scene();
+    scene.box.visible = false;
+    const std::vector<Surface> ball = ball_in_patches({0, 0.15, -0.1}, 0.07, kGrey);
+    std::array<std::uint64_t, 2> pixels{};
+    for (Renderer& r : made)
+        for (std::uint32_t id = 0; id < ball.size(); ++id) r.set_patch(id, ball[id].vertices, ball[id].indices);
+    for (int frame = 0; frame < 4; ++frame) {
+        const Vec3 at{0.004 * frame, 0.19, -0.04};
+        scene.tool = {0.003, at, {0.9, 0.5, 0.2}, {at, glm::angleAxis(1.2, glm::normalize(Vec3(-1, 1, 0)))}, true};
+        std::array<std::optional<StereoImage>, 2> pictures;
+        for (std::size_t i = 0; i < 2; ++i) {
+            auto picture = made[i].render(scene);
+            ASSERT_TRUE(picture);
+            pictures[i] = std::move(*picture);
+            if (frame == 0) continue;
+            for (const PixelRect& part : made[i].stats().parts) pixels[i] += std::uint64_t{part.width} * part.height;
+        }
+        EXPECT_TRUE(pictures[0]->left.rgba == pictures[1]->left.rgba);
+        EXPECT_TRUE(pictures[0]->right.rgba == pictures[1]->right.rgba);
+    }
+    EXPECT_LT(pixels[0], pixels[1]);
+    EXPECT_GT(pixels[0], 0u);
 }
 
 }  // namespace burin
