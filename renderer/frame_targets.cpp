@@ -141,7 +141,10 @@ Result<gpu::RenderPassHandle> create_view_pass(gpu::Device& device, const FrameT
     subpass.pColorAttachments = resolves ? &sampled : &finished;
     subpass.pResolveAttachments = resolves ? &finished : nullptr;
     subpass.pDepthStencilAttachment = &depth;
-    return create_pass(device, attachments, subpass, 0b11);
+    return create_pass(device, attachments, subpass,
+                       t.views == Views::both   ? 0b11
+                       : t.views == Views::left ? 0b01
+                                                : 0b10);
 }
 
 Result<void> create_passes(gpu::Device& device, FrameTargets& t) {
@@ -160,10 +163,11 @@ Result<void> create_passes(gpu::Device& device, FrameTargets& t) {
 
 }  // namespace
 
-Result<FrameTargets> FrameTargets::create(gpu::Device& device, ImageSize size, std::uint32_t samples) {
+Result<FrameTargets> FrameTargets::create(gpu::Device& device, ImageSize size, std::uint32_t samples, Views views) {
     FrameTargets targets;
     targets.size = size;
     targets.samples = samples;
+    targets.views = views;
     targets.encodes = samples == 1;
     if (const auto done = create_images(device, targets); !done) return std::unexpected(done.error());
     if (const auto done = create_passes(device, targets); !done) return std::unexpected(done.error());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a frame is drawn into: both eyes' pictures as two layers of one image, and the render passes that fill them. A pass runs once and
-// draws into both layers (multiview).
+// draws into both layers (multiview), or into one of them where the other is never looked at.
 // With several samples a pixel, shaders write linear light and the device mixes and encodes it. With one sample nothing is mixed, and shaders
 // write sRGB values themselves (`encodes`): on a software driver that saves a third of the time of a pixel.
 // The finished picture lies in layout SHADER_READ_ONLY_OPTIMAL between frames, for whoever shows it or copies it.
@@ -19,6 +19,7 @@ struct FrameTargets {
 
     ImageSize size;
     std::uint32_t samples = 1;
+    Views views = Views::both;  // drawn by the passes
     bool encodes = true;
     gpu::Image colour, depth;          // `samples` a pixel; colour only when there are several
     gpu::Image picture;                // the two finished views
@@ -28,7 +29,8 @@ struct FrameTargets {
     gpu::FramebufferHandle framebuffer;
 
     // samples: 1 or capabilities().msaa_samples.
-    [[nodiscard]] static Result<FrameTargets> create(gpu::Device& device, ImageSize size, std::uint32_t samples);
+    [[nodiscard]] static Result<FrameTargets> create(gpu::Device& device, ImageSize size, std::uint32_t samples,
+                                                     Views views = Views::both);
 };
 
 }  // namespace burin

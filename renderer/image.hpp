@@ -15,6 +15,10 @@ struct ImageSize {
     bool operator==(const ImageSize&) const = default;
 };
 
+// Which of the two eyes' pictures are drawn. The other one's pixels are then undefined.
+enum class Views : std::uint8_t { both, left, right };
+inline constexpr std::size_t kViewChoices = 3;
+
 // A part of a picture; (0, 0) is its upper left pixel.
 struct PixelRect {
     std::uint32_t x = 0, y = 0;

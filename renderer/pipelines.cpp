@@ -143,7 +143,8 @@ Result<void> Pipelines::create_set(gpu::Device& device) {
 Result<VkPipeline> Pipelines::pipeline(gpu::Device& device, PipelineKind kind, bool fades,
                                        const FrameTargets& targets) {
     if (kind == PipelineKind::backdrop) fades = false;  // behind the screen nothing does
-    gpu::PipelineHandle& kept = pipelines_[fades ? 1 : 0][static_cast<std::size_t>(kind)];
+    OfEachKind& kinds = pipelines_[static_cast<std::size_t>(targets.views)][fades ? 1 : 0];
+    gpu::PipelineHandle& kept = kinds[static_cast<std::size_t>(kind)];
     if (!kept) {
         gpu::GraphicsPipelineSpec spec = spec_of(kind);
         const std::array<std::uint32_t, 2> constants{targets.encodes ? 1u : 0u, fades ? 1u : 0u};

@@ -24,7 +24,7 @@ class Pipelines {
 public:
     [[nodiscard]] static Result<Pipelines> create(gpu::Device& device);
 
-    // For the passes of these targets; the same number of samples each time. fades: parallax, towards the screen's edges.
+    // For the passes of these targets; the same number of samples each time, any views. fades: parallax, towards the screen's edges.
     [[nodiscard]] Result<VkPipeline> pipeline(gpu::Device& device, PipelineKind kind, bool fades,
                                               const FrameTargets& targets);
     [[nodiscard]] std::uint32_t created() const { return created_; }  // pipelines, so far
@@ -43,7 +43,8 @@ private:
     gpu::PipelineLayoutHandle layout_;
     gpu::DescriptorPoolHandle pool_;
     VkDescriptorSet set_ = VK_NULL_HANDLE;  // freed with its pool
-    std::array<std::array<gpu::PipelineHandle, static_cast<std::size_t>(PipelineKind::count)>, 2> pipelines_;
+    using OfEachKind = std::array<gpu::PipelineHandle, static_cast<std::size_t>(PipelineKind::count)>;
+    std::array<std::array<OfEachKind, 2>, kViewChoices> pipelines_;  // by views, and by whether parallax fades
     std::uint32_t created_ = 0;
 };
 

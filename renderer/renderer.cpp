@@ -67,7 +67,7 @@ public:
     }
 
     void refine_beside(bool resting);
-    Result<void> resize(ImageSize size);
+    Result<void> resize(ImageSize size, Views views);
 
     PatchStore patches;
     std::vector<Box> occluders;
@@ -114,7 +114,10 @@ private:
     Result<void> make_readback();
     Image picture(std::uint32_t layer) const;
     std::uint32_t pipelines_created() const {
-        return pipelines_.created() + (panels_[0].quad ? 1 : 0) + (panels_[1].quad ? 1 : 0);
+        std::uint32_t created = pipelines_.created();
+        for (const auto& panels : panels_)
+            for (const StandingPanel& panel : panels) created += panel.quad ? 1 : 0;
+        return created;
     }
     const VolkDeviceTable& vk() const { return device_.core()->vk; }
 
@@ -122,8 +125,9 @@ private:
     Pipelines pipelines_;
     Primitives primitives_;
     gpu::Buffer primitive_vertices_, primitive_lights_, primitive_indices_;
-    gpu::Buffer readback_;                 // made when first needed
-    std::array<StandingPanel, 2> panels_;  // likewise; the second one where parallax fades
+    gpu::Buffer readback_;  // made when first needed
+    // Likewise; by views, and by whether parallax fades.
+    std::array<std::array<StandingPanel, 2>, kViewChoices> panels_;
     VkImageView panel_ = VK_NULL_HANDLE;
     std::uint64_t panel_pictures_ = 0;  // given to the renderer
     DetailWorker detail_;
@@ -143,7 +147,7 @@ Result<std::unique_ptr<Renderer::Implementation>> Renderer::Implementation::crea
     }
     auto made = std::unique_ptr<Implementation>(new Implementation(device));
     made->savings = options.savings;
-    auto targets = FrameTargets::create(device, size, samples);
+    auto targets = FrameTargets::create(device, size, samples, options.views);
     if (!targets) return std::unexpected(targets.error());
     made->targets = std::move(*targets);
     auto pipelines = Pipelines::create(device);
@@ -153,10 +157,10 @@ Result<std::unique_ptr<Renderer::Implementation>> Renderer::Implementation::crea
     return made;
 }
 
-// Pipelines fit any targets of the same formats and number of samples.
-Result<void> Renderer::Implementation::resize(ImageSize size) {
+// Pipelines fit any targets of the same formats, views and number of samples.
+Result<void> Renderer::Implementation::resize(ImageSize size, Views views) {
     if (const auto ok = check_size(size); !ok) return ok;
-    auto other = FrameTargets::create(device_, size, targets.samples);
+    auto other = FrameTargets::create(device_, size, targets.samples, views);
     if (!other) return std::unexpected(other.error());
     targets = std::move(*other);
     readback_ = {};
@@ -325,7 +329,7 @@ Result<void> Renderer::Implementation::draw_room(Recording& r) {
 Result<void> Renderer::Implementation::draw_panel(Recording& r) {
     if (!r.scene.panel || panel_ == VK_NULL_HANDLE) return {};
     const bool fades = r.scene.edge_fade > 0.0;
-    StandingPanel& panel = panels_[fades ? 1 : 0];
+    StandingPanel& panel = panels_[static_cast<std::size_t>(targets.views)][fades ? 1 : 0];
     if (const auto ready = make_ready(panel, fades); !ready) return ready;
     panel.quad->record(r.commands.raw(), r.scene.panel->stand, pipelines_.set());
     ++r.draws;
@@ -491,7 +495,7 @@ Result<RenderStats> Renderer::record(gpu::Commands& commands, const Scene& scene
 }
 VkImageView Renderer::both_eyes() const { return implementation_->targets.both_eyes.raw(); }
 ImageSize Renderer::size() const { return implementation_->targets.size; }
-Result<void> Renderer::resize(ImageSize size) { return implementation_->resize(size); }
+Result<void> Renderer::resize(ImageSize size, Views views) { return implementation_->resize(size, views); }
 void Renderer::forget_picture() { implementation_->shown.reset(); }
 void Renderer::set_savings(const Savings& savings) {
     implementation_->savings = savings;

@@ -36,6 +36,7 @@ namespace burin {
 struct RendererOptions {
     std::uint32_t samples = 0;  // a pixel: 1, or what the device has; 0: what the device has
     Savings savings{};
+    Views views = Views::both;  // drawn; render() gives something else for the other one
 };
 
 // What a frame drew, and what it spared.
@@ -90,9 +91,9 @@ public:
     // The two views: an array of two layers that gives linear light, in layout SHADER_READ_ONLY_OPTIMAL after the first frame.
     [[nodiscard]] VkImageView both_eyes() const;
     [[nodiscard]] ImageSize size() const;
-    // Another size of one eye's picture: the next frame is drawn as a whole. Patches stay, and what has been worked out of them. The GPU
+    // Another size of one eye's picture, or other views: the next frame is drawn as a whole. Patches stay, and what has been worked out of them. The GPU
     // must have done with frames before, and both_eyes() is another one. After an Error the renderer is as it was.
-    [[nodiscard]] Result<void> resize(ImageSize size);
+    [[nodiscard]] Result<void> resize(ImageSize size, Views views = Views::both);
     // The next frame is drawn as a whole; or the savings change, which has the same effect.
     void forget_picture();
     void set_savings(const Savings& savings);

@@ -15,6 +15,13 @@ namespace {
 constexpr VkFormat kPhotoFormat = VK_FORMAT_R8G8B8A8_SRGB;
 constexpr VkImageLayout kPhotoLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
 
+// Nothing is drawn that the mode never shows.
+Views views_shown(const OutputSettings& settings) {
+    if (needs_of(settings.mode).both_eyes) return Views::both;
+    const bool right = settings.mode != StereoMode::mono && (settings.mode == StereoMode::right) != settings.swap_eyes;
+    return right ? Views::right : Views::left;
+}
+
 }  // namespace
 
 Result<SessionPicture> SessionPicture::create(gpu::Device& device, std::uint32_t samples) {
@@ -42,18 +49,21 @@ void SessionPicture::put(const TileNews& tile) {
     if (tile.light) renderer_->set_patch_light(tile.tile, tile.light->vertices);
 }
 
-Result<void> SessionPicture::fit(ImageSize eye) {
-    if (renderer_ && eye.width == eye_.width && eye.height == eye_.height) return {};
+Result<void> SessionPicture::fit(ImageSize eye, Views views) {
+    if (renderer_ && eye == eye_ && views == views_) return {};
     if (renderer_) {
-        const auto done = renderer_->resize(eye);
-        if (done) eye_ = eye;
-        return done;
+        const auto done = renderer_->resize(eye, views);
+        if (!done) return done;
+        eye_ = eye;
+        views_ = views;
+        return {};
     }
-    auto made = Renderer::create(device_, eye, {.samples = samples_, .savings = {}});
+    auto made = Renderer::create(device_, eye, {.samples = samples_, .savings = {}, .views = views});
     if (!made) return std::unexpected(made.error());
     renderer_ = std::move(*made);
     renderer_in_full_ = false;
     eye_ = eye;
+    views_ = views;
     for (const TileNews& tile : kept_.tiles) put(tile);
     renderer_->set_occluders(kept_.occluders);
     return {};
@@ -61,7 +71,7 @@ Result<void> SessionPicture::fit(ImageSize eye) {
 
 Result<void> SessionPicture::draw(gpu::Commands& commands, std::optional<Scene> scene, ImageSize output,
                                   const OutputSettings& settings) {
-    if (const auto fits = fit(eye_size(settings.mode, output)); !fits) return fits;
+    if (const auto fits = fit(eye_size(settings.mode, output), views_shown(settings)); !fits) return fits;
     const bool was_dark = std::exchange(dark_, !scene.has_value());
     if (dark_) {
         stats_ = {};

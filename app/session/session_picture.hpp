@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A session's pictures: the scene drawn by the renderer, and shown in a stereo mode with the panel over it, in a window's images or in one of
 // its own for screenshots.
-// Thread: that of the device. All is made anew when the size or the mode asks for it, when first needed.
+// Thread: that of the device. What depends on the size or the mode is made anew when these change; the surface stays.
 #pragma once
 
 #include <filesystem>
@@ -57,7 +57,7 @@ public:
 
 private:
     explicit SessionPicture(const gpu::Device& device, std::uint32_t samples) : device_(device), samples_(samples) {}
-    [[nodiscard]] Result<void> fit(ImageSize eye);
+    [[nodiscard]] Result<void> fit(ImageSize eye, Views views);
     [[nodiscard]] EyesView eyes_to_show(const OutputSettings& settings, Result<void>& failed);
 
     gpu::Device device_;
@@ -78,6 +78,7 @@ private:
     bool full_ = false, renderer_in_full_ = false;
     ImageSize pattern_size_;
     ImageSize eye_;
+    Views views_ = Views::both;  // that the renderer draws
     RenderStats stats_;
 };
 

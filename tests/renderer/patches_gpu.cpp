@@ -213,4 +213,25 @@ TEST_F(Patches, KeepTheirLevelsInPicturesOfAnotherSize) {
     EXPECT_TRUE(render(scene).left.rgba == expected->left.rgba) << "an Error leaves it as it was";
 }
 
+// A mode that never shows one of the eyes has the other one's picture alone, which is the same bit for bit.
+TEST_F(Patches, AreDrawnForOneEyeAsForBoth) {
+    Scene scene = bare_scene();
+    scene.show_grid = scene.show_wall_frame = true;
+    scene.tool = {0.01, {0.0, 0.16, 0.05}, {0.9, 0.5, 0.2}, {}, true};
+    set(1, ball_surface({0, 0.15, 0}, 0.05));
+    const StereoImage both = render(scene);
+    ASSERT_FALSE(both.left.rgba == both.right.rgba);
+    const std::uint32_t pipelines = renderer().stats().pipelines;
+    ASSERT_TRUE(renderer().resize(kTestSize, Views::left));
+    EXPECT_TRUE(render(scene).left.rgba == both.left.rgba);
+    ASSERT_TRUE(renderer().resize(kTestSize, Views::right));
+    EXPECT_TRUE(render(scene).right.rgba == both.right.rgba);
+    scene.tool.center_world.x += 0.02;
+    const StereoImage part = render(scene);
+    EXPECT_FALSE(renderer().stats().part == all_of(kTestSize));
+    ASSERT_TRUE(renderer().resize(kTestSize, Views::both));
+    EXPECT_TRUE(render(scene).right.rgba == part.right.rgba) << "also in part";
+    EXPECT_EQ(renderer().stats().pipelines, 3 * pipelines) << "those of both were kept";
+}
+
 }  // namespace burin
