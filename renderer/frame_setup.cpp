@@ -243,6 +243,7 @@ shared::FrameUniforms frame_uniforms(const Scene& scene, const Workpiece& workpi
     frame.workpiece = vec4_of(workpiece.typical.center_world, workpiece.typical.radius_m);
     if (scene.pedestal.visible) frame.pedestal = vec4_of(scene.pedestal.top_center_world, scene.pedestal.radius_m);
     frame.background = vec4_of(linear_of(scene.background), 1.0);
+    frame.background_root = vec4_of(glm::pow(linear_of(scene.background), Vec3(1.0 / 2.4)), 0.0);
     return frame;
 }
 

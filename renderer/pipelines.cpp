@@ -50,6 +50,8 @@ gpu::GraphicsPipelineSpec spec_of(PipelineKind kind) {
             spec.cull = VK_CULL_MODE_BACK_BIT;
             break;
         case PipelineKind::backdrop:
+        case PipelineKind::backdrop_without_shadows:
+        case PipelineKind::backdrop_plain:
             spec.name = "backdrop pipeline";
             spec.vertex_spirv = k_backdrop_vert;
             spec.attributes = std::span(kAttributes).first(1);
@@ -142,12 +144,15 @@ Result<void> Pipelines::create_set(gpu::Device& device) {
 
 Result<VkPipeline> Pipelines::pipeline(gpu::Device& device, PipelineKind kind, bool fades,
                                        const FrameTargets& targets) {
-    if (kind == PipelineKind::backdrop) fades = false;  // behind the screen nothing does
+    const bool shadows = kind == PipelineKind::backdrop,
+               grid = shadows || kind == PipelineKind::backdrop_without_shadows;
+    if (grid || kind == PipelineKind::backdrop_plain) fades = false;  // behind the screen nothing does
     OfEachKind& kinds = pipelines_[static_cast<std::size_t>(targets.views)][fades ? 1 : 0];
     gpu::PipelineHandle& kept = kinds[static_cast<std::size_t>(kind)];
     if (!kept) {
         gpu::GraphicsPipelineSpec spec = spec_of(kind);
-        const std::array<std::uint32_t, 2> constants{targets.encodes ? 1u : 0u, fades ? 1u : 0u};
+        const std::array<std::uint32_t, 4> constants{targets.encodes ? 1u : 0u, fades ? 1u : 0u, grid ? 1u : 0u,
+                                                     shadows ? 1u : 0u};
         spec.layout = layout_.raw();
         spec.render_pass = targets.whole_pass.raw();
         spec.samples = targets.samples;

@@ -12,11 +12,13 @@
 namespace burin {
 
 enum class PipelineKind : std::size_t {
-    solid,        // the shapes, and the workpiece where it is lit at every pixel
-    fine,         // the workpiece where it is lit at its vertices
-    backdrop,     // the room
-    glass_back,   // the far faces of the workspace's boxes and bubble, then
-    glass_front,  // their near ones; neither writes depth
+    solid,     // the shapes, and the workpiece where it is lit at every pixel
+    fine,      // the workpiece where it is lit at its vertices
+    backdrop,  // the room
+    backdrop_without_shadows,
+    backdrop_plain,  // without shadows and grid
+    glass_back,      // the far faces of the workspace's boxes and bubble, then
+    glass_front,     // their near ones; neither writes depth
     count
 };
 

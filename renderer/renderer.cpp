@@ -13,6 +13,7 @@
 #include "renderer/pipelines.hpp"
 #include "renderer/primitives.hpp"
 #include "renderer/redraw.hpp"
+#include "renderer/room_parts.hpp"
 #include "renderer/shape_choice.hpp"
 #include "renderer/stereo/projection.hpp"
 #include "renderer/surface/patch_store.hpp"
@@ -86,6 +87,7 @@ private:
         PixelRect part;
         Shapes shapes;
         PatchDraws surface;
+        Workpiece workpiece{};
         std::uint32_t draws = 0;
     };
     struct StandingPanel {
@@ -94,7 +96,7 @@ private:
     };
     Result<void> upload_primitives();
     std::vector<PixelRect> parts_to_draw(const Shown& wanted, const PatchStore::Flushed& flushed);
-    Result<void> draw_part(gpu::Commands& commands, const Scene& scene, const PixelRect& part);
+    Result<void> draw_part(gpu::Commands& commands, const Shown& wanted, const PixelRect& part);
     void upload_uniforms(gpu::Commands& commands, const Shown& wanted);
     Result<void> draw_views(Recording& r);
     void begin_pass(Recording& r);
@@ -110,6 +112,7 @@ private:
     void bind(Recording& r, const gpu::Buffer& vertices, const gpu::Buffer& lights, const gpu::Buffer& indices);
     void bind_primitives(Recording& r) { bind(r, primitive_vertices_, primitive_lights_, primitive_indices_); }
     void push(Recording& r, const shared::DrawConstants& constants);
+    void clip(Recording& r, const PixelRect& part);
     void copy_picture(gpu::Commands& commands);
     Result<void> make_readback();
     Image picture(std::uint32_t layer) const;
@@ -203,6 +206,7 @@ Result<RenderStats> Renderer::Implementation::record(gpu::Commands& commands, co
              .patches = patches.patches(),
              .patch_counts = {},
              .shapes_left_out = 0,
+             .plain_room = 0,
              .draws = 0,
              .uploaded_bytes = flushed->bytes,
              .pipelines = pipelines_created()};
@@ -211,7 +215,7 @@ Result<RenderStats> Renderer::Implementation::record(gpu::Commands& commands, co
         commands.barrier();
     }
     for (const PixelRect& part : stats.parts)
-        if (const auto done = draw_part(commands, scene, part); !done) return std::unexpected(done.error());
+        if (const auto done = draw_part(commands, wanted, part); !done) return std::unexpected(done.error());
     stats.pipelines = pipelines_created();
     shown = std::move(wanted);
     return stats;
@@ -238,9 +242,11 @@ std::vector<PixelRect> Renderer::Implementation::parts_to_draw(const Shown& want
     return parts;
 }
 
-Result<void> Renderer::Implementation::draw_part(gpu::Commands& commands, const Scene& scene, const PixelRect& part) {
+Result<void> Renderer::Implementation::draw_part(gpu::Commands& commands, const Shown& wanted, const PixelRect& part) {
+    const Scene& scene = wanted.scene;
     ShownShapes shapes = shapes_in(part, scene, primitives_, targets.size, savings);
     Recording r{commands, scene, part, std::move(shapes.shapes), {}};
+    r.workpiece = wanted.workpiece;
     r.surface = choose_draws(patches.in_order(), scene, targets.size, part, savings, occluders);
     const auto done = draw_views(r);
     stats.part = around(stats.part, part);
@@ -320,10 +326,28 @@ Result<void> Renderer::Implementation::draw_surface(Recording& r, PipelineKind k
 
 Result<void> Renderer::Implementation::draw_room(Recording& r) {
     if (!r.scene.show_grid) return {};
-    if (const auto done = use(r, PipelineKind::backdrop); !done) return done;
+    std::vector<RoomPart> parts{{r.part, RoomLook::full}};
+    if (savings.plain_room) parts = room_parts(r.scene, r.workpiece, targets.size, r.part);
     bind_primitives(r);
-    draw(r, primitives_.screen_quad, screen_constants(r.scene.screen));
+    for (const auto& [look, kind] : {std::pair(RoomLook::full, PipelineKind::backdrop),
+                                     std::pair(RoomLook::without_shadows, PipelineKind::backdrop_without_shadows),
+                                     std::pair(RoomLook::plain, PipelineKind::backdrop_plain)}) {
+        for (const RoomPart& part : parts) {
+            if (part.look != look) continue;
+            if (const auto done = use(r, kind); !done) return done;
+            clip(r, part.rect);
+            draw(r, primitives_.screen_quad, screen_constants(r.scene.screen));
+            if (look != RoomLook::full) stats.plain_room += std::uint64_t{part.rect.width} * part.rect.height;
+        }
+    }
+    clip(r, r.part);
     return {};
+}
+
+void Renderer::Implementation::clip(Recording& r, const PixelRect& part) {
+    const VkRect2D scissor{{static_cast<std::int32_t>(part.x), static_cast<std::int32_t>(part.y)},
+                           {part.width, part.height}};
+    vk().vkCmdSetScissor(r.commands.raw(), 0, 1, &scissor);
 }
 
 Result<void> Renderer::Implementation::draw_panel(Recording& r) {

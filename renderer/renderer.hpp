@@ -47,6 +47,7 @@ struct RenderStats {
     std::uint32_t patches = 0;
     PatchCounts patch_counts;           // of this frame, each part's added up
     std::uint32_t shapes_left_out = 0;  // beside the part: of the tool, the room and the workspace
+    std::uint64_t plain_room = 0;       // pixels of the room, or of what stands before it, drawn without its shadows
     std::uint32_t draws = 0;            // draw calls
     std::uint64_t uploaded_bytes = 0;   // changed patches brought to the GPU for this frame
     std::uint32_t pipelines = 0;        // compiled so far

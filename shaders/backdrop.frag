@@ -6,6 +6,10 @@
 // The room: a floor that rises softly into a backdrop, graded around mid-grey, with a fine grid and with the shadows of the
 // workpiece and the plinth. These fall from far above, so closed forms of a ball and a cylinder serve better than a map.
 
+// Whether the grid and the shadows are there to be seen (renderer/room_parts.cpp).
+layout(constant_id = 2) const bool kGrid = true;
+layout(constant_id = 3) const bool kShadows = true;
+
 layout(location = 0) in vec3 in_screen;
 
 layout(location = 0) out vec4 out_colour;
@@ -64,23 +68,33 @@ vec3 place_in_room(vec3 eye, vec3 d, out float level) {
     return p;
 }
 
+// srgb_of(frame.background.rgb * share) with one power instead of three.
+vec3 srgb_of_background(float share) {
+    vec3 light = frame.background.rgb * share;
+    vec3 bright = 1.055 * pow(share, 1.0 / 2.4) * frame.background_root.rgb - 0.055;
+    return mix(light * 12.92, bright, greaterThan(light, vec3(0.0031308)));
+}
+
 void main() {
     vec3 eye = frame.eye_world[gl_ViewIndex].xyz;
     float level;
     vec3 world = place_in_room(eye, in_screen - eye, level);
     // Brightest around the work, falling off to the sides: the eye is led to the middle without any edge.
     float away = length((world - vec3(0.0, 0.9, -2.2)) * vec3(0.75, 1.0, 0.55));
-    vec3 c = frame.background.rgb * mix(1.25, 0.60, smoothstep(0.2, 4.2, away));
+    float c = mix(1.25, 0.60, smoothstep(0.2, 4.2, away));  // of the background's own light
 
-    float floor_part = smoothstep(0.975, 1.0, level);  // the grid fades where the floor begins to rise
-    float lines = 0.16 * grid(world.xz, 1.0, 0.010) + 0.10 * grid(world.xz, 0.25, 0.005);
-    c *= 1.0 - floor_part * min(lines, 0.2);
-
-    float dark = 1.0 - (1.0 - 0.55 * ball_shadow(world, frame.workpiece)) * (1.0 - 0.62 * pedestal_shadow(world));
-    c *= 1.0 - dark * max(level, 0.25);
-    if (frame.pedestal.w > 0.0) {  // ambient light kept off by the foot of the plinth
-        float from_foot = max(length(world.xz - frame.pedestal.xz) - frame.pedestal.w, 0.0) + world.y;
-        c *= 1.0 - 0.35 * exp(-from_foot / 0.09);
+    if (kGrid) {
+        float floor_part = smoothstep(0.975, 1.0, level);  // the grid fades where the floor begins to rise
+        float lines = 0.16 * grid(world.xz, 1.0, 0.010) + 0.10 * grid(world.xz, 0.25, 0.005);
+        c *= 1.0 - floor_part * min(lines, 0.2);
     }
-    out_colour = vec4(finished(c), 1.0);
+    if (kShadows) {
+        float dark = 1.0 - (1.0 - 0.55 * ball_shadow(world, frame.workpiece)) * (1.0 - 0.62 * pedestal_shadow(world));
+        c *= 1.0 - dark * max(level, 0.25);
+        if (frame.pedestal.w > 0.0) {  // ambient light kept off by the foot of the plinth
+            float from_foot = max(length(world.xz - frame.pedestal.xz) - frame.pedestal.w, 0.0) + world.y;
+            c *= 1.0 - 0.35 * exp(-from_foot / 0.09) * (1.0 - smoothstep(0.7 * kFootDarkens, kFootDarkens, from_foot));
+        }
+    }
+    out_colour = vec4(kEncodes ? srgb_of_background(c) + dither_step() : finished(frame.background.rgb * c), 1.0);
 }

@@ -19,6 +19,7 @@ struct Savings {
     bool coarser_levels = true;    // fewer triangles where a picture cannot show more, of patches and of balls
     bool vertex_rate = true;       // light worked out at vertices where they are close
     bool parts_only = true;        // only what changed is drawn anew
+    bool plain_room = true;        // the room without grid and shadows where there are none
     bool parts_apart = true;       // in several rectangles where one around all would hold much else
 };
 

@@ -22,6 +22,7 @@ struct FrameUniforms {
     vec4 workpiece;           // xyz: centre of its bounding sphere, w: radius; radius 0: none
     vec4 pedestal;            // xyz: centre of its top, w: radius; radius 0: none
     vec4 background;          // rgb
+    vec4 background_root;     // rgb: its components to the power of 1 / 2.4, as sRGB values have them
     mat4 clip_from_world_middle;  // as the point midway between the eyes sees it, without guard band; for the fade of parallax alone
     vec4 fade;  // parallax_fade.h: x: strength, y: band, z: the middle's distance from the screen; w: the guard band
 };
@@ -35,6 +36,9 @@ const float kToolNears = 1.8f;    // its ring of colour
 const float kToolDarkens = 3.5f;  // the ambient light that it keeps off
 const float kToolShades = 20.0f;  // its shadow, along the light
 
+// How far from its foot the plinth keeps ambient light off the floor, in metres.
+const float kFootDarkens = 0.5f;
+
 struct DrawConstants {
     mat4 world_from_local;
     vec4 tint;      // rgb multiplies the vertex colour; a: opacity, for glass
@@ -45,7 +49,7 @@ struct DrawConstants {
 BURIN_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(burin::shared::FrameUniforms) == 3 * 64 + 14 * 16);
+static_assert(sizeof(burin::shared::FrameUniforms) == 3 * 64 + 15 * 16);
 static_assert(sizeof(burin::shared::DrawConstants) == 96,
               "must fit the 128 bytes of push constants that every device has");
 #endif
