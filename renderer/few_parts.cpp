@@ -79,6 +79,13 @@ std::optional<std::pair<std::size_t, std::size_t>> best_pair(const std::vector<P
     return best;
 }
 
+// The smallest rectangle around what a part holds of those wanted.
+PixelRect within(const PixelRect& part, std::span<const PixelRect> rects) {
+    PixelRect wanted;
+    for (const PixelRect& r : rects) wanted = around(wanted, common(part, r));
+    return wanted;
+}
+
 }  // namespace
 
 std::vector<PixelRect> few_parts(std::span<const PixelRect> rects, ImageSize size) {
@@ -89,6 +96,7 @@ std::vector<PixelRect> few_parts(std::span<const PixelRect> rects, ImageSize siz
         parts[pair->first] = around(parts[pair->first], parts[pair->second]);
         parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(pair->second));
     }
+    for (PixelRect& part : parts) part = within(part, rects);  // cells at its edges may be wanted in part
     std::int64_t sum = 0;
     for (const PixelRect& part : parts) sum += area(part);
     if (100 * sum > kMostOfAll * area(all_of(size))) return {all_of(size)};

@@ -14,6 +14,12 @@ PixelRect around(const PixelRect& a, const PixelRect& b) {
     return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
 }
 
+PixelRect common(const PixelRect& a, const PixelRect& b) {
+    const std::uint32_t x0 = std::max(a.x, b.x), y0 = std::max(a.y, b.y);
+    const std::uint32_t x1 = std::min(a.x + a.width, b.x + b.width), y1 = std::min(a.y + a.height, b.y + b.height);
+    return x1 > x0 && y1 > y0 ? PixelRect{x0, y0, x1 - x0, y1 - y0} : PixelRect{};
+}
+
 Image side_by_side(const StereoImage& stereo) {
     const ImageSize size = stereo.left.size;
     BURIN_CHECK(stereo.right.size.width == size.width && stereo.right.size.height == size.height);

@@ -30,6 +30,8 @@ struct PixelRect {
 [[nodiscard]] constexpr PixelRect all_of(ImageSize size) { return {0, 0, size.width, size.height}; }
 // The smallest one that holds both.
 [[nodiscard]] PixelRect around(const PixelRect& a, const PixelRect& b);
+// What lies in both.
+[[nodiscard]] PixelRect common(const PixelRect& a, const PixelRect& b);
 
 struct Image {
     ImageSize size;

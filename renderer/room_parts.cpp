@@ -13,12 +13,6 @@ namespace {
 // Of the room in shaders/backdrop.frag: where the floor begins to rise, and where its grid has faded on the rise.
 constexpr double kBend_m = -2.4, kGridEndZ_m = -2.76, kGridEndY_m = 0.045;
 
-PixelRect common(const PixelRect& a, const PixelRect& b) {
-    const std::uint32_t x0 = std::max(a.x, b.x), y0 = std::max(a.y, b.y);
-    const std::uint32_t x1 = std::min(a.x + a.width, b.x + b.width), y1 = std::min(a.y + a.height, b.y + b.height);
-    return x1 > x0 && y1 > y0 ? PixelRect{x0, y0, x1 - x0, y1 - y0} : PixelRect{};
-}
-
 void include_disc(Box& box, const Vec3& center, double radius_m) {
     box.include({center.x - radius_m, 0.0, center.z - radius_m});
     box.include({center.x + radius_m, 0.0, center.z + radius_m});
