@@ -12,6 +12,7 @@
 #include "renderer/panel/panel_quad.hpp"
 #include "renderer/pipelines.hpp"
 #include "renderer/primitives.hpp"
+#include "renderer/readback.hpp"
 #include "renderer/redraw.hpp"
 #include "renderer/room_parts.hpp"
 #include "renderer/shape_choice.hpp"
@@ -25,8 +26,6 @@ namespace {
 using gpu::structure;
 
 constexpr std::uint32_t kMaxSide = 8192;
-
-std::uint64_t layer_bytes(ImageSize size) { return std::uint64_t{4} * size.width * size.height; }
 
 // For the room: world_from_local takes the viewport's corners, -1 to 1, which lie kGuard times as far out as the picture's, to places on the
 // screen's plane.
@@ -113,9 +112,6 @@ private:
     void bind_primitives(Recording& r) { bind(r, primitive_vertices_, primitive_lights_, primitive_indices_); }
     void push(Recording& r, const shared::DrawConstants& constants);
     void clip(Recording& r, const PixelRect& part);
-    void copy_picture(gpu::Commands& commands);
-    Result<void> make_readback();
-    Image picture(std::uint32_t layer) const;
     std::uint32_t pipelines_created() const {
         std::uint32_t created = pipelines_.created();
         for (const auto& panels : panels_)
@@ -128,7 +124,7 @@ private:
     Pipelines pipelines_;
     Primitives primitives_;
     gpu::Buffer primitive_vertices_, primitive_lights_, primitive_indices_;
-    gpu::Buffer readback_;  // made when first needed
+    Readback readback_;  // made when first needed
     // Likewise; by views, and by whether parallax fades.
     std::array<std::array<StandingPanel, 2>, kViewChoices> panels_;
     VkImageView panel_ = VK_NULL_HANDLE;
@@ -166,7 +162,6 @@ Result<void> Renderer::Implementation::resize(ImageSize size, Views views) {
     auto other = FrameTargets::create(device_, size, targets.samples, views);
     if (!other) return std::unexpected(other.error());
     targets = std::move(*other);
-    readback_ = {};
     shown.reset();
     return {};
 }
@@ -426,51 +421,15 @@ void Renderer::Implementation::refine_beside(bool resting) {
 // ---- Reading back
 
 Result<StereoImage> Renderer::Implementation::render(const Scene& scene) {
-    if (const auto ready = make_readback(); !ready) return std::unexpected(ready.error());
+    if (const auto ready = readback_.fit(device_, targets.size); !ready) return std::unexpected(ready.error());
     auto commands = gpu::Commands::begin(device_);
     if (!commands) return std::unexpected(commands.error());
     if (const auto recorded = record(*commands, scene); !recorded) return std::unexpected(recorded.error());
-    copy_picture(*commands);
+    readback_.copy(device_, *commands, targets.picture.raw());
     auto submission = std::move(*commands).submit();
     if (!submission) return std::unexpected(submission.error());
     if (const auto done = submission->wait(); !done) return std::unexpected(done.error());
-    return StereoImage{picture(0), picture(1)};
-}
-
-Result<void> Renderer::Implementation::make_readback() {
-    if (readback_.size_bytes() > 0) return {};
-    auto readback = gpu::Buffer::create(device_, gpu::BufferUse::readback, 2 * layer_bytes(targets.size), "pictures");
-    if (!readback) return std::unexpected(readback.error());
-    readback_ = std::move(*readback);
-    return {};
-}
-
-void Renderer::Implementation::copy_picture(gpu::Commands& commands) {
-    const auto turn = [&](VkImageLayout from, VkImageLayout to) {
-        auto change = structure<VkImageMemoryBarrier>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER);
-        change.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
-        change.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
-        change.oldLayout = from;
-        change.newLayout = to;
-        change.srcQueueFamilyIndex = change.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-        change.image = targets.picture.raw();
-        change.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 2};
-        vk().vkCmdPipelineBarrier(commands.raw(), VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
-                                  VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, nullptr, 0, nullptr, 1, &change);
-    };
-    turn(VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-    VkBufferImageCopy region{};
-    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 2};  // layers lie one after the other in the buffer
-    region.imageExtent = {targets.size.width, targets.size.height, 1};
-    vk().vkCmdCopyImageToBuffer(commands.raw(), targets.picture.raw(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                                readback_.raw(), 1, &region);
-    turn(VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-}
-
-Image Renderer::Implementation::picture(std::uint32_t layer) const {
-    const std::uint64_t bytes = layer_bytes(targets.size);
-    const auto pixels = readback_.mapped_as<std::uint8_t>().subspan(layer * bytes, bytes);
-    return {targets.size, {pixels.begin(), pixels.end()}};
+    return readback_.pictures();
 }
 
 // ---- Renderer
