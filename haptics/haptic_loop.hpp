@@ -53,7 +53,7 @@ public:
     static constexpr Nanoseconds kLead_ns = 100'000;
 
     // Before it rests, and between ticks while it does: well below what the gate takes for a lost loop.
-    static constexpr Nanoseconds kStill_ns = 1'000'000'000, kRest_ns = 12'000'000;
+    static constexpr Nanoseconds kStill_ns = 1'000'000'000, kRest_ns = 14'000'000;
 
     // Steps at absolute deadlines, the first one period from now, until stop is true; then writes zero force.
     void run(const std::atomic<bool>& stop, const LoopPace& pace) noexcept;

@@ -16,7 +16,7 @@
 namespace burin {
 namespace {
 
-constexpr Nanoseconds kRest_ns = 500'000'000;       // between looks at what may have changed, when nothing happens
+constexpr Nanoseconds kRest_ns = 1'000'000'000;     // between looks at what may have changed, when nothing happens
 constexpr Nanoseconds kActive_ns = 300'000'000;     // after the last change frames follow the display's beat
 constexpr Nanoseconds kSettled_ns = 3'000'000'000;  // then all threads rest, and levels of detail are worked out
 
