@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
-#include <cstdlib>
 #include <thread>
 #include <utility>
 #include <variant>
+
+#include "app/driver_threads.hpp"
 
 namespace burin {
 namespace {
@@ -18,12 +19,6 @@ constexpr std::chrono::milliseconds kBetweenTries{300};
 std::uint32_t samples_for(const gpu::Device& device, std::uint32_t asked) {
     if (asked != 0) return asked;
     return device.info().is_software() ? 1 : device.capabilities().msaa_samples;
-}
-
-// On a software device drawing takes the same cores as touch: it leaves one of them free.
-void leave_a_core_to_touch() {
-    const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-    setenv("LP_NUM_THREADS", std::to_string(std::max(1u, cores - 1)).c_str(), 0);  // NOLINT(concurrency-mt-unsafe)
 }
 
 Error with_ways_out(Error e, const SessionScreen& screen) {
