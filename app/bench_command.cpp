@@ -2,22 +2,22 @@
 #include "app/bench_command.hpp"
 
 #include <cstdio>
+#include <filesystem>
 
-#include "app/bench_frame_command.hpp"
-#include "app/bench_haptics_command.hpp"
-#include "app/bench_stability_command.hpp"
-#include "app/bench_workspace_command.hpp"
-#include "bench/machine.hpp"
-#include "bench/pareto.hpp"
-#include "bench/stroke_report.hpp"
-#include "compute/lattice.hpp"
-#include "geometry/mesh_export.hpp"
+#include "app/output_files.hpp"
+#include "bench/measure/machine.hpp"
+#include "bench/stroke/pareto.hpp"
+#include "bench/stroke/stroke_report.hpp"
+#include "compute/rays/lattice.hpp"
+#include "geometry/files/mesh_export.hpp"
+#include "sculpt/workpiece.hpp"
 
-namespace burin {
+namespace burin::app {
 namespace {
 
 constexpr int kMostThreads = 1024, kMostUpdates = 1000;  // the scenes have a thousand cuts
 constexpr int kReferenceRays = 2048;                     // a side, for the removed volume of a part of a scene
+constexpr const char *kCubeScene = "cube", *kTurnedCubeScene = "turned-cube", *kMeshScene = "mesh:";
 
 }  // namespace
 
@@ -25,6 +25,8 @@ struct BenchCommand::Options {
     bench::StrokeOptions stroke;
     bench::ParetoOptions pareto;
     std::string tool = "ball", peer, json, exported;  // of stroke
+    std::vector<std::string> scenes{kCubeScene};
+    bool plain = false;
     std::size_t updates = 1000;
     std::string csv, svg, pareto_json;
 
@@ -33,6 +35,8 @@ struct BenchCommand::Options {
 
 private:
     [[nodiscard]] Result<void> check_stroke() const;
+    [[nodiscard]] Result<bench::CarveScene> scene_named(const std::string& name) const;
+    [[nodiscard]] Result<Json> report_of(const std::string& scene_name) const;
     [[nodiscard]] Result<void> add_peer(Json& report, const bench::CarveScene& scene) const;
 };
 
@@ -41,10 +45,21 @@ Result<void> BenchCommand::Options::check_stroke() const {
         if (const auto ok = check_place(path); !ok) return ok;
     }
     if (!exported.empty()) {
-        const auto format = mesh_format_of(exported);
-        if (!format || *format == MeshFormat::off) {
+        const auto format = geometry::mesh_format_of(exported);
+        if (!format || *format == geometry::MeshFormat::off) {
             return fail(exported, "has no extension that Burin exports", "name it .stl, .ply or .obj");
         }
+    }
+    for (const std::string& scene : scenes) {
+        if (scene != kCubeScene && scene != kTurnedCubeScene && !scene.starts_with(kMeshScene)) {
+            return fail("--scene " + scene, "is no scene", "choose cube, turned-cube or mesh:FILE");
+        }
+    }
+    if (!exported.empty() && scenes.size() > 1) {
+        return fail("--export " + exported, "takes one mesh, and there are several scenes", "give one --scene");
+    }
+    if (!peer.empty() && scenes != std::vector<std::string>{kCubeScene}) {
+        return fail("--peer " + peer, "carves only a cube along the lattice", "leave --scene at cube");
     }
     if (!peer.empty() && tool != "ball") {
         return fail("--peer " + peer, "carves with a ball at one place after the other", "leave --tool at ball");
@@ -57,7 +72,7 @@ Result<void> BenchCommand::Options::check_stroke() const {
 }
 
 Result<void> BenchCommand::Options::add_peer(Json& report, const bench::CarveScene& scene) const {
-    const Result<Lattice> lattice = lattice_around({Vec3(0.0), Vec3(1.0)}, stroke.resolution);
+    const Result<compute::Lattice> lattice = compute::lattice_around({Vec3(0.0), Vec3(1.0)}, stroke.resolution);
     if (!lattice) return std::unexpected(lattice.error());
     const auto threads = report["threads"].get<unsigned>();
     for (const auto method : {bench::VdbMethod::csg_difference, bench::VdbMethod::leaf_brush}) {
@@ -69,25 +84,61 @@ Result<void> BenchCommand::Options::add_peer(Json& report, const bench::CarveSce
     return {};
 }
 
-Result<void> BenchCommand::Options::run_stroke() const {
-    if (const auto ok = check_stroke(); !ok) return ok;
-    bench::CarveScene scene = tool == "ball" ? bench::stroke_1000_scene() : bench::stroke_1000_swept_scene();
+Result<bench::CarveScene> BenchCommand::Options::scene_named(const std::string& name) const {
+    const bool swept = tool == "capsule";
+    bench::CarveScene scene;
+    if (name.starts_with(kMeshScene)) {
+        const std::string file = name.substr(std::string(kMeshScene).size());
+        Result<sculpt::ClosedMesh> closed = sculpt::load_closed_mesh(file, true);
+        if (!closed) return std::unexpected(closed.error());
+        const std::string stem = std::filesystem::path(file).stem().string();
+        Result<bench::CarveScene> on_mesh = bench::stroke_on_mesh_scene(stem, std::move(closed->mesh), swept);
+        if (!on_mesh) return on_mesh;
+        scene = std::move(*on_mesh);
+    } else {
+        scene = swept ? bench::stroke_1000_swept_scene() : bench::stroke_1000_scene();
+    }
     if (updates < scene.sweeps.size()) scene = bench::beginning_of(scene, updates, kReferenceRays);
+    return name == kTurnedCubeScene ? bench::turned(std::move(scene)) : scene;
+}
+
+Result<Json> BenchCommand::Options::report_of(const std::string& scene_name) const {
+    const Result<bench::CarveScene> scene = scene_named(scene_name);
+    if (!scene) return std::unexpected(scene.error());
     const std::string on = bench::machine();
-    const auto run = bench::run_stroke(scene, stroke);
+    bench::StrokeOptions run_options = stroke;
+    run_options.with_undo = run_options.with_light = !plain;
+    const auto run = bench::run_stroke(*scene, run_options);
     if (!run) return std::unexpected(run.error());
-    Json report = bench::describe(scene, *run, bench::measure(run->mesh, scene, run->cell_m),
+    Json report = bench::describe(*scene, *run, bench::measure(run->mesh, *scene, run->cell_m),
                                   bench::count_self_intersections(run->mesh, stroke.threads));
     report["tool"] = tool;
     report["machine"] = on;
     if (!peer.empty()) {
-        if (const auto added = add_peer(report, scene); !added) return added;
+        if (const auto added = add_peer(report, *scene); !added) return std::unexpected(added.error());
     }
     if (!exported.empty()) {
-        if (const auto written = export_mesh(run->mesh, exported); !written) return written;
+        if (const auto written = geometry::export_mesh(run->mesh, exported); !written) {
+            return std::unexpected(written.error());
+        }
     }
-    if (json != kStandardOutput) std::fputs(bench::table(report).c_str(), stdout);
-    return write_output(json, report.dump(2) + "\n");
+    return report;
+}
+
+Result<void> BenchCommand::Options::run_stroke() const {
+    if (const auto ok = check_stroke(); !ok) return ok;
+    std::vector<Json> reports;
+    for (const std::string& scene : scenes) {
+        Result<Json> report = report_of(scene);
+        if (!report) return std::unexpected(report.error());
+        reports.push_back(std::move(*report));
+    }
+    bench::sort_worst_first(reports);
+    const bool one = reports.size() == 1;
+    if (json != kStandardOutput) {
+        std::fputs((one ? bench::table(reports.front()) : bench::scene_table(reports)).c_str(), stdout);
+    }
+    return write_output(json, json_text(one ? reports.front() : Json(reports)));
 }
 
 Result<void> BenchCommand::Options::run_pareto() const {
@@ -103,7 +154,7 @@ Result<void> BenchCommand::Options::run_pareto() const {
     }
     if (const auto written = write_output(csv, bench::pareto_csv(*compared)); !written) return written;
     if (const auto written = write_output(svg, bench::pareto_svg(*compared)); !written) return written;
-    return write_output(pareto_json, report.dump(2) + "\n");
+    return write_output(pareto_json, json_text(report));
 }
 
 BenchCommand::BenchCommand(Command app)
@@ -112,15 +163,20 @@ BenchCommand::BenchCommand(Command app)
     command_.require_subcommand();
     const std::string threads_help = "How many threads work; 0: one per core";
 
-    stroke_ = command_.subcommand("stroke", "STROKE-1000: a thousand cuts into a cube, every figure of one run");
+    stroke_ = command_.subcommand("stroke", "STROKE-1000: a thousand cuts into a workpiece, every figure of one run");
     Options& o = *options_;
-    stroke_.option("--resolution", o.stroke.resolution, "Lattice cells along the cube's side")
-        .within(kMinResolution, kMaxResolution)
+    stroke_.option("--resolution", o.stroke.resolution, "Lattice cells along the cube's side, or a mesh's longest")
+        .within(compute::kMinResolution, compute::kMaxResolution)
         .show_default();
     stroke_.choice("--engine", o.stroke.on_vulkan, "cpu or vulkan", {{"cpu", false}, {"vulkan", true}});
     stroke_.option("--tool", o.tool, "ball: a stamp at each place; capsule: swept from each place to the next")
         .one_of({"ball", "capsule"})
         .show_default();
+    stroke_.option(
+        "--scene", o.scenes,
+        "cube: along the lattice; turned-cube: turned by 20 degrees; mesh:FILE: a scan, say, whose holes are "
+        "closed. Several give one table, the worst first, and their figures as a list");
+    stroke_.flag("--plain", o.plain, "Leave out the updates with undo and with light, a run each");
     stroke_.option("--threads", o.stroke.threads, threads_help).within(0, kMostThreads);
     stroke_.option("--updates", o.updates, "Only so many of the cuts").within(1, kMostUpdates).show_default();
     stroke_.option("--json", o.json, "A file for all figures; - for standard output");
@@ -129,15 +185,15 @@ BenchCommand::BenchCommand(Command app)
 
     pareto_ = command_.subcommand("pareto", "Time against error over resolutions, for both engines and the peers");
     pareto_.option("--smallest", o.pareto.smallest, "The coarsest resolution")
-        .within(kMinResolution, kMaxResolution)
+        .within(compute::kMinResolution, compute::kMaxResolution)
         .show_default();
     pareto_.option("--largest", o.pareto.largest, "The finest; each is twice the one before")
-        .within(kMinResolution, kMaxResolution)
+        .within(compute::kMinResolution, compute::kMaxResolution)
         .show_default();
     pareto_
         .option("--largest-on-software-vulkan", o.pareto.largest_on_software_vulkan,
                 "The finest for the Vulkan engine where its device is a software one; 0: none")
-        .within(0, kMaxResolution)
+        .within(0, compute::kMaxResolution)
         .show_default();
     pareto_.option("--threads", o.pareto.threads, threads_help).within(0, kMostThreads);
     pareto_.option("--updates", o.pareto.updates, "Only so many of the cuts").within(1, kMostUpdates).show_default();
@@ -165,4 +221,4 @@ Result<void> BenchCommand::run() const {
     return stroke_.parsed() ? options_->run_stroke() : options_->run_pareto();
 }
 
-}  // namespace burin
+}  // namespace burin::app

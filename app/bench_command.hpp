@@ -10,9 +10,9 @@
 #include <memory>
 #include <vector>
 
-#include "app/bench_files.hpp"
+#include "app/commands.hpp"
 
-namespace burin {
+namespace burin::app {
 
 class BenchCommand {
 public:
@@ -35,4 +35,4 @@ private:
     std::vector<BenchSubcommand> others_;
 };
 
-}  // namespace burin
+}  // namespace burin::app

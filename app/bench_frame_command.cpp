@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "app/bench_frame_command.hpp"
-
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
-#include "app/driver_threads.hpp"
-#include "bench/frame.hpp"
-#include "bench/peers/frame_peers.hpp"
+#include "app/commands.hpp"
+#include "app/output_files.hpp"
+#include "bench/frame/frame.hpp"
+#include "bench/frame/frame_peers.hpp"
+#include "gpu/driver_threads.hpp"
 #include "renderer/png.hpp"
 
-namespace burin {
+namespace burin::app {
 namespace {
 
 struct Options {
@@ -18,16 +18,16 @@ struct Options {
     std::string scene = "all", peer, json, csv, pictures;
 };
 
-bench::FrameOptions asked_for(const Options& options) {
-    bench::FrameOptions asked = options.frame;
+bench::FrameOptions frame_options(const Options& options) {
+    bench::FrameOptions wanted = options.frame;
     const bool all = options.scene == "all";
-    std::erase_if(asked.motions,
+    std::erase_if(wanted.motions,
                   [&](bench::FrameMotion motion) { return !all && options.scene != bench::name_of(motion); });
-    asked.idle = all || options.scene == "idle";
-    asked.first = all || options.scene == "first";
-    asked.osg = options.peer == "osg" || options.peer == "all";
-    asked.vtk = options.peer == "vtk" || options.peer == "all";
-    return asked;
+    wanted.idle = all || options.scene == "idle";
+    wanted.first = all || options.scene == "first";
+    wanted.osg = options.peer == "osg" || options.peer == "all";
+    wanted.vtk = options.peer == "vtk" || options.peer == "all";
+    return wanted;
 }
 
 Result<void> check(const Options& options) {
@@ -47,34 +47,35 @@ Result<void> check(const Options& options) {
     return {};
 }
 
-// Named by who drew it and what moved: burin-moving.png, both eyes side by side.
+// Writes each subject's last picture, both eyes side by side, to a file named after subject and scene:
+// burin-moving.png.
 Result<void> write_pictures(const bench::FrameReport& report, const std::filesystem::path& folder) {
     for (const bench::FrameTimes& times : report.times) {
         std::string name = times.subject + "-" + bench::name_of(times.motion) + ".png";
         for (char& c : name) c = c == ' ' || c == ',' ? '-' : static_cast<char>(std::tolower(c));
-        if (const auto done = write_png(folder / name, side_by_side(times.pictures)); !done) return done;
+        if (const auto done = renderer::write_png(folder / name, side_by_side(times.pictures)); !done) return done;
     }
     return {};
 }
 
 Result<void> run(const Options& options) {
     if (const auto ok = check(options); !ok) return ok;
-    leave_a_core_to_touch();  // as in a session
+    gpu::leave_a_core_to_touch();  // as a session does, so that the figures are those of a session
     const auto report = bench::run_frames(
-        asked_for(options), [](const std::string& part) { std::fprintf(stderr, "measuring: %s\n", part.c_str()); });
+        frame_options(options), [](const std::string& part) { std::fprintf(stderr, "measuring: %s\n", part.c_str()); });
     if (!report) return std::unexpected(report.error());
     if (options.json != kStandardOutput && options.csv != kStandardOutput) {
         std::fputs(bench::frame_table(*report).c_str(), stdout);
         std::printf("a software driver draws with %s thread(s), as in a session; LP_NUM_THREADS says otherwise\n",
-                    driver_threads());
+                    gpu::driver_threads());
     }
     if (!options.pictures.empty()) {
         if (const auto done = write_pictures(*report, options.pictures); !done) return done;
     }
     if (const auto done = write_output(options.csv, bench::frame_csv(*report)); !done) return done;
     Json json = bench::frame_json(*report);
-    json["driver_threads"] = driver_threads();
-    return write_output(options.json, json.dump(2) + "\n");
+    json["driver_threads"] = gpu::driver_threads();
+    return write_output(options.json, json_text(json));
 }
 
 }  // namespace
@@ -104,4 +105,4 @@ BenchSubcommand add_bench_frame(Command bench) {
     return {command, [options] { return run(*options); }};
 }
 
-}  // namespace burin
+}  // namespace burin::app

@@ -1,40 +1,41 @@
 // SPDX-License-Identifier: MIT
-#include "app/bench_haptics_command.hpp"
-
 #include <cstdio>
 #include <memory>
 
-#include "bench/haptics.hpp"
+#include "app/commands.hpp"
+#include "app/output_files.hpp"
+#include "bench/haptics/haptics.hpp"
 
-namespace burin {
+namespace burin::app {
 namespace {
 
 struct Options {
     bool quick = false;
-    std::uint64_t contact_ticks = 0, paced_ticks = 0;  // 0: as many as usual
+    std::uint64_t contact_ticks = 0, paced_ticks = 0;  // 0: the default number
     std::string csv, svg, json;
 };
 
-bench::HapticsOptions asked_for(const Options& options) {
-    bench::HapticsOptions asked = options.quick ? bench::quick_haptics() : bench::HapticsOptions{};
-    if (options.contact_ticks > 0) asked.contact_ticks = options.contact_ticks;
-    if (options.paced_ticks > 0) asked.paced_ticks = options.paced_ticks;
-    return asked;
+bench::HapticsOptions haptics_options(const Options& options) {
+    bench::HapticsOptions wanted = options.quick ? bench::quick_haptics() : bench::HapticsOptions{};
+    if (options.contact_ticks > 0) wanted.contact_ticks = options.contact_ticks;
+    if (options.paced_ticks > 0) wanted.paced_ticks = options.paced_ticks;
+    return wanted;
 }
 
 Result<void> run(const Options& options) {
     for (const std::string& path : {options.csv, options.svg, options.json}) {
         if (const auto ok = check_place(path); !ok) return ok;
     }
-    const auto all = bench::run_haptics(
-        asked_for(options), [](const std::string& part) { std::fprintf(stderr, "measuring: %s\n", part.c_str()); });
+    const auto all = bench::run_haptics(haptics_options(options), [](const std::string& part) {
+        std::fprintf(stderr, "measuring: %s\n", part.c_str());
+    });
     if (!all) return std::unexpected(all.error());
     if (options.json != kStandardOutput && options.csv != kStandardOutput && options.svg != kStandardOutput) {
         std::fputs(bench::haptics_table(*all).c_str(), stdout);
     }
     if (const auto done = write_output(options.csv, bench::haptics_csv(*all)); !done) return done;
     if (const auto done = write_output(options.svg, bench::haptics_svg(*all)); !done) return done;
-    return write_output(options.json, bench::haptics_json(*all).dump(2) + "\n");
+    return write_output(options.json, json_text(bench::haptics_json(*all)));
 }
 
 }  // namespace
@@ -56,4 +57,4 @@ BenchSubcommand add_bench_haptics(Command bench) {
     return {command, [options] { return run(*options); }};
 }
 
-}  // namespace burin
+}  // namespace burin::app

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "app/bench_stability_command.hpp"
-
 #include <cstdio>
 #include <memory>
 
-#include "bench/stability.hpp"
+#include "app/commands.hpp"
+#include "app/output_files.hpp"
+#include "bench/stability/stability.hpp"
 
-namespace burin {
+namespace burin::app {
 namespace {
 
 struct Options {
@@ -26,7 +26,7 @@ Result<void> run(const Options& options) {
     if (const auto done = write_output(options.csv, bench::stability_csv(stability)); !done) return done;
     if (const auto done = write_output(options.svg, bench::stability_svg(stability)); !done) return done;
     if (const auto done = write_output(options.figure7_svg, bench::figure7_svg(stability.figure7)); !done) return done;
-    return write_output(options.json, bench::stability_json(stability).dump(2) + "\n");
+    return write_output(options.json, json_text(bench::stability_json(stability)));
 }
 
 }  // namespace
@@ -44,4 +44,4 @@ BenchSubcommand add_bench_stability(Command bench) {
     return {command, [options] { return run(*options); }};
 }
 
-}  // namespace burin
+}  // namespace burin::app

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "app/bench_workspace_command.hpp"
-
 #include <cstdio>
 #include <memory>
 
-#include "bench/workspace.hpp"
+#include "app/commands.hpp"
+#include "app/output_files.hpp"
+#include "bench/workspace/workspace.hpp"
 
-namespace burin {
+namespace burin::app {
 namespace {
 
 struct Options {
@@ -28,7 +28,7 @@ Result<void> run(const Options& options) {
     }
     if (const auto done = write_output(options.csv, bench::workspace_csv(figures)); !done) return done;
     if (const auto done = write_output(options.svg, bench::workspace_svg(figures, options.task)); !done) return done;
-    return write_output(options.json, bench::workspace_json(figures, options.task).dump(2) + "\n");
+    return write_output(options.json, json_text(bench::workspace_json(figures, options.task)));
 }
 
 }  // namespace
@@ -47,4 +47,4 @@ BenchSubcommand add_bench_workspace(Command bench) {
     return {command, [options] { return run(*options); }};
 }
 
-}  // namespace burin
+}  // namespace burin::app

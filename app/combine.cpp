@@ -1,29 +1,28 @@
 // SPDX-License-Identifier: MIT
-#include "app/combine.hpp"
-
 #include <cstdio>
 #include <filesystem>
 
+#include "app/commands.hpp"
 #include "app/output_files.hpp"
 #include "app/report.hpp"
-#include "app/workpiece.hpp"
 #include "base/clock.hpp"
-#include "compute/scan_convert.hpp"
-#include "compute/surface.hpp"
-#include "geometry/mesh_export.hpp"
+#include "compute/mesher/surface.hpp"
+#include "compute/rays/scan_convert.hpp"
+#include "geometry/files/mesh_export.hpp"
+#include "sculpt/workpiece.hpp"
 
-namespace burin {
+namespace burin::app {
 namespace {
 
-// b's materials must not pass for a's when neither file names any.
-void name_materials(ClosedMesh& closed, const std::string& file, const std::array<std::uint8_t, 3>& colour) {
+// Names the material of a mesh without any after its file, so that b's does not pass for a's in the result.
+void name_materials(sculpt::ClosedMesh& closed, const std::string& file, const std::array<std::uint8_t, 3>& colour) {
     if (!closed.mesh.materials.empty()) return;
     closed.mesh.materials = {{std::filesystem::path(file).stem().string(), colour}};
 }
 
-Result<Solid> convert_onto(const ClosedMesh& closed, const std::string& file, const Lattice& lattice, WorkerPool& pool,
-                           Json& report) {
-    Result<ScanConversion> converted = scan_convert_onto(closed.mesh, lattice, pool);
+Result<compute::Solid> convert_onto(const sculpt::ClosedMesh& closed, const std::string& file,
+                                    const compute::Lattice& lattice, WorkerPool& pool, Json& report) {
+    Result<compute::ScanConversion> converted = compute::scan_convert_onto(closed.mesh, lattice, pool);
     if (!converted) {
         Error error = converted.error();
         if (error.where == "mesh") error.where = file;
@@ -35,11 +34,11 @@ Result<Solid> convert_onto(const ClosedMesh& closed, const std::string& file, co
     return std::move(converted->solid);
 }
 
-const char* text(Combination operation) {
+const char* text(compute::Combination operation) {
     switch (operation) {
-        case Combination::subtract: return "difference";
-        case Combination::intersect: return "intersection";
-        case Combination::unite: break;
+        case compute::Combination::subtract: return "difference";
+        case compute::Combination::intersect: return "intersection";
+        case compute::Combination::unite: break;
     }
     return "union";
 }
@@ -58,18 +57,18 @@ void print(const Json& report) {
 
 Result<void> combine_files(const CombineOptions& options) {
     if (const auto ok = check_outputs(options.exports, options.report); !ok) return ok;
-    Result<ClosedMesh> a = load_closed_mesh(options.a, options.close_holes);
+    Result<sculpt::ClosedMesh> a = sculpt::load_closed_mesh(options.a, options.close_holes);
     if (!a) return std::unexpected(a.error());
-    Result<ClosedMesh> b = load_closed_mesh(options.b, options.close_holes);
+    Result<sculpt::ClosedMesh> b = sculpt::load_closed_mesh(options.b, options.close_holes);
     if (!b) return std::unexpected(b.error());
     name_materials(*a, options.a, {205, 195, 178});
     name_materials(*b, options.b, {224, 142, 54});
 
-    Box bounds = bounds_of_triangles(a->mesh);
-    const Box of_b = bounds_of_triangles(b->mesh);
+    Box bounds = compute::bounds_of_triangles(a->mesh);
+    const Box of_b = compute::bounds_of_triangles(b->mesh);
     bounds.include(of_b.lo);
     bounds.include(of_b.hi);
-    const Result<Lattice> lattice = lattice_around(bounds, options.resolution);
+    const Result<compute::Lattice> lattice = compute::lattice_around(bounds, options.resolution);
     if (!lattice) return std::unexpected(lattice.error());
     if (const auto ok = check_precision(options.exports, *lattice); !ok) return ok;
 
@@ -77,15 +76,15 @@ Result<void> combine_files(const CombineOptions& options) {
     const Nanoseconds start_ns = clock.now_ns();
     WorkerPool pool(options.threads);
     Json report = {{"burin", BURIN_VERSION}, {"operation", text(options.operation)}};
-    const Result<Solid> solid_a = convert_onto(*a, options.a, *lattice, pool, report["a"]);
+    const Result<compute::Solid> solid_a = convert_onto(*a, options.a, *lattice, pool, report["a"]);
     if (!solid_a) return std::unexpected(solid_a.error());
-    const Result<Solid> solid_b = convert_onto(*b, options.b, *lattice, pool, report["b"]);
+    const Result<compute::Solid> solid_b = convert_onto(*b, options.b, *lattice, pool, report["b"]);
     if (!solid_b) return std::unexpected(solid_b.error());
-    const Result<Solid> result = combine(*solid_a, *solid_b, options.operation, pool);
+    const Result<compute::Solid> result = compute::combine(*solid_a, *solid_b, options.operation, pool);
     if (!result) return std::unexpected(result.error());
-    Surface surface(*lattice);
+    compute::Surface surface(*lattice);
     surface.mesh_all(*result, pool);
-    const TriangleMesh mesh = surface.welded();
+    const geometry::TriangleMesh mesh = surface.welded();
     if (mesh.triangles.empty()) {
         return fail(options.a + " and " + options.b,
                     "leave nothing: their " + std::string(text(options.operation)) + " is empty",
@@ -96,7 +95,7 @@ Result<void> combine_files(const CombineOptions& options) {
     report["disagreeing_edges"] = surface.disagreeing_edges();
     report["mesh"] = describe_mesh(mesh);
     for (const std::string& path : options.exports) {
-        if (const auto written = export_mesh(mesh, path); !written) return written;
+        if (const auto written = geometry::export_mesh(mesh, path); !written) return written;
         report["exports"].push_back(std::filesystem::path(path).filename().string());
     }
     report["timing"] = {{"total_ms", static_cast<double>(clock.now_ns() - start_ns) * 1e-6}};
@@ -107,4 +106,4 @@ Result<void> combine_files(const CombineOptions& options) {
     return {};
 }
 
-}  // namespace burin
+}  // namespace burin::app

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <map>
 
-namespace burin {
+namespace burin::app {
 
 CommandOption CommandOption::required() {
     option_->required();
@@ -121,4 +121,4 @@ std::optional<int> CommandLine::parse(int argc, const char* const* argv) {
 
 std::string CommandLine::help() const { return app_->help(); }
 
-}  // namespace burin
+}  // namespace burin::app

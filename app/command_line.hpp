@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The command line: commands, subcommands, and options that write to variables. Those variables, and the CommandLine itself, must
-// outlive the parse; Command and CommandOption only refer to it. One thread.
+// The command line: commands, subcommands, and options that write to variables. Those variables, and the CommandLine
+// itself, must outlive the parse; Command and CommandOption only refer to it. One thread.
 //
-// This stands before CLI11, whose templates cost a compiler 20 seconds in every source that includes it: only
-// command_line.cpp does.
+// Hides CLI11, whose templates cost a compiler 20 seconds in every source that includes it: only command_line.cpp does.
 #pragma once
 
 #include <cstdint>
@@ -20,16 +19,16 @@ class App;
 class Option;
 }  // namespace CLI
 
-namespace burin {
+namespace burin::app {
 
-// What may be said of an option once it is there.
+// An option that has been added; its functions restrict and document it, and return it to be chained.
 class CommandOption {
 public:
     explicit CommandOption(CLI::Option* option) : option_(option) {}
 
     CommandOption required();
-    CommandOption show_default();  // in the help: the value of the variable as it is now
-    // Both ends belong to it; anything else is wrong usage.
+    CommandOption show_default();  // shows the present value of the variable in the help
+    // Restrict the value; anything else is wrong usage. Both ends of a range belong to it.
     CommandOption within(int least, int most);
     CommandOption within(std::uint64_t least, std::uint64_t most);
     CommandOption within(double least, double most);
@@ -45,11 +44,11 @@ public:
     explicit Command(CLI::App* app = nullptr) : app_(app) {}
 
     Command subcommand(const std::string& name, const std::string& help);
-    // Wrong usage without one of them.
+    // Makes it wrong usage to name none of the subcommands.
     void require_subcommand();
 
-    // "--name" takes a value, "NAME" is the value at that place. An optional stays empty, and any other variable as it is, where
-    // the option is not given; a vector takes all values, also of a repeated option.
+    // Add an option: "--name" takes a value, "NAME" is the value at that place. Where the option is not given, an
+    // optional stays empty and any other variable as it is; a vector takes all values, also of a repeated option.
     CommandOption option(const std::string& name, std::string& to, const std::string& help);
     CommandOption option(const std::string& name, std::vector<std::string>& to, const std::string& help);
     CommandOption option(const std::string& name, int& to, const std::string& help);
@@ -58,19 +57,19 @@ public:
     CommandOption option(const std::string& name, double& to, const std::string& help);
     CommandOption option(const std::string& name, std::optional<unsigned>& to, const std::string& help);
     CommandOption option(const std::string& name, std::optional<double>& to, const std::string& help);
-    // "!--no-name" sets to false.
+    // Adds a flag, which sets its variable to true; "!--no-name" sets it to false.
     CommandOption flag(const std::string& name, bool& to, const std::string& help);
 
-    // One of an enumeration's values, by its word or its number.
+    // Adds an option that takes one of an enumeration's values, by its word or its number.
     template <typename Choice>
     CommandOption choice(const std::string& name, Choice& to, const std::string& help,
-                         std::initializer_list<std::pair<const char*, Choice>> words) {
+                         const std::vector<std::pair<std::string, Choice>>& words) {
         std::vector<std::pair<std::string, int>> numbered;
         for (const auto& [word, value] : words) numbered.emplace_back(word, static_cast<int>(value));
         return add_choice(name, help, numbered, [&to](int value) { to = static_cast<Choice>(value); });
     }
 
-    [[nodiscard]] bool parsed() const;  // it was named on the command line
+    [[nodiscard]] bool parsed() const;  // whether it was named on the command line
 
 private:
     CommandOption add_choice(const std::string& name, const std::string& help,
@@ -88,7 +87,8 @@ public:
     CommandLine& operator=(const CommandLine&) = delete;
 
     [[nodiscard]] Command program();
-    // Where nothing is left to do, the exit status: 0 after --help, 2 after wrong usage, told in one line on standard error.
+    // Parses the arguments. Returns the exit status where nothing is left to do: 0 after --help, 2 after wrong usage,
+    // which it reports in one line on standard error.
     [[nodiscard]] std::optional<int> parse(int argc, const char* const* argv);
     [[nodiscard]] std::string help() const;
 
@@ -96,4 +96,4 @@ private:
     std::unique_ptr<CLI::App> app_;
 };
 
-}  // namespace burin
+}  // namespace burin::app

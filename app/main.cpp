@@ -3,37 +3,31 @@
 #include <cstdio>
 
 #include "app/bench_command.hpp"
-#include "app/combine.hpp"
 #include "app/command_line.hpp"
-#include "app/profile_command.hpp"
-#include "app/sculpt.hpp"
-#include "app/session/session.hpp"
-#include "app/wall_command.hpp"
-#include "compute/lattice.hpp"
+#include "app/commands.hpp"
+#include "app/profile.hpp"
+#include "app/wall_commands.hpp"
+#include "compute/rays/lattice.hpp"
+#include "devices/haptic/device_registry.hpp"
+#include "devices/trackers/tracker.hpp"
+#include "gpu/device.hpp"
+#include "session/drive/session.hpp"
 
+namespace burin::app {
 namespace {
 
-using burin::Combination;
-using burin::Command;
-using burin::EngineChoice;
-using burin::HandChoice;
-using burin::Operation;
-using burin::SculptOptions;
-
-void add_sculpt_options(Command command, SculptOptions& options) {
+void add_sculpt_options(Command command, session::SculptOptions& options) {
     command
         .option("--workpiece", options.workpiece.source, "FILE (STL, OBJ, PLY, OFF), block:X,Y,Z or ball:R, in metres")
         .show_default();
     command.flag("--close-holes", options.workpiece.close_holes, "Fill the holes of a mesh that is not closed");
-    command
-        .option("--tool", options.tool.shape,
-                "ball:R, cylinder:R,L, cone:R0,R1,L, bullnose:R,C,L, box:X,Y,Z or mesh:FILE, in metres")
+    command.option("--tool", options.tool.shape, sculpt::alternatives(sculpt::tool_synopses()) + ", in metres")
         .show_default();
-    command.choice("--operation", options.tool.operation, "cut, fill, paint or smooth",
-                   {{"cut", Operation::cut},
-                    {"fill", Operation::fill},
-                    {"paint", Operation::paint},
-                    {"smooth", Operation::smooth}});
+    std::vector<std::pair<std::string, compute::Operation>> operations;
+    for (const sculpt::OperationDescriptor& known : sculpt::operations())
+        operations.emplace_back(known.name, known.operation);
+    command.choice("--operation", options.tool.operation, sculpt::alternatives(sculpt::names_in(sculpt::operations())),
+                   operations);
     command.option("--material", options.tool.material, "R,G,B, the colour of the surface that the tool leaves");
     command
         .option("--sweep-tolerance", options.tool.sweep_tolerance_cells,
@@ -49,13 +43,15 @@ void add_sculpt_options(Command command, SculptOptions& options) {
                  "One update for each row of the stroke, instead of one for a straight run of rows");
     command.option("--stroke", options.stroke, "CSV with the columns time_s,x_m,y_m,z_m,qx,qy,qz,qw,button");
     command.option("--resolution", options.workpiece.resolution, "Lattice cells along the longest side")
-        .within(burin::kMinResolution, burin::kMaxResolution)
+        .within(compute::kMinResolution, compute::kMaxResolution)
         .show_default();
     command.choice("--engine", options.engine, "auto, cpu or vulkan",
-                   {{"auto", EngineChoice::automatic}, {"cpu", EngineChoice::cpu}, {"vulkan", EngineChoice::vulkan}});
+                   {{"auto", sculpt::EngineChoice::automatic},
+                    {"cpu", sculpt::EngineChoice::cpu},
+                    {"vulkan", sculpt::EngineChoice::vulkan}});
     command.choice("--hand", options.hand,
                    "rigid: the tool follows the stroke exactly; simulated: a hand feels its way",
-                   {{"rigid", HandChoice::rigid}, {"simulated", HandChoice::simulated}});
+                   {{"rigid", session::HandChoice::rigid}, {"simulated", session::HandChoice::simulated}});
     command
         .option("--hardness", options.feel.hardness,
                 "With --hand simulated: soft, medium, hard, or the pressure in kPa under which a millimetre of "
@@ -89,17 +85,17 @@ void add_sculpt_options(Command command, SculptOptions& options) {
     command.option("--threads", options.threads, "How many threads carve; 0: one per core").within(0, 1024);
 }
 
-void add_combine_options(Command command, burin::CombineOptions& options) {
+void add_combine_options(Command command, CombineOptions& options) {
     command.option("A", options.a, "STL, OBJ, PLY or OFF").required();
     command.option("B", options.b, "STL, OBJ, PLY or OFF").required();
     command
         .choice("--operation", options.operation, "union, difference (A without B) or intersection",
-                {{"union", Combination::unite},
-                 {"difference", Combination::subtract},
-                 {"intersection", Combination::intersect}})
+                {{"union", compute::Combination::unite},
+                 {"difference", compute::Combination::subtract},
+                 {"intersection", compute::Combination::intersect}})
         .required();
     command.option("--resolution", options.resolution, "Lattice cells along the longest side of both together")
-        .within(burin::kMinResolution, burin::kMaxResolution)
+        .within(compute::kMinResolution, compute::kMaxResolution)
         .show_default();
     command.flag("--close-holes", options.close_holes, "Fill the holes of meshes that are not closed");
     command.option("--export", options.exports,
@@ -108,7 +104,7 @@ void add_combine_options(Command command, burin::CombineOptions& options) {
     command.option("--threads", options.threads, "How many threads work; 0: one per core").within(0, 1024);
 }
 
-void add_live_options(Command command, burin::LiveOptions& options) {
+void add_live_options(Command command, session::LiveOptions& options) {
     command.flag("--live", options.live,
                  "Open a window to carve in; also without this when neither a stroke nor an output is given");
     command.option("--input", options.input,
@@ -121,8 +117,8 @@ void add_live_options(Command command, burin::LiveOptions& options) {
     command.flag("--swap-eyes", options.swap_eyes, "For exchanged cables or glasses");
     command.option("--wall", options.wall,
                    "A wall file: its screens, each on its monitor or display, its eyes and its tracker");
-    command.option("--tracker", options.tracker,
-                   "Where head and wands are heard: udp:PORT, or udp:ADDRESS:PORT for other machines");
+    command.option("--tracker", options.tracker, "Where head and wands are heard: " + devices::tracker_usage());
+    command.option("--device", options.device, "The force-feedback device; " + devices::haptic_usage()).show_default();
     command.flag("--windowed", options.windowed,
                  "With --wall: its screens in windows, fitted into --width by --height");
     command.option("--full-screen", options.full_screen, "Fill this monitor: its name or index");
@@ -134,7 +130,22 @@ void add_live_options(Command command, burin::LiveOptions& options) {
     command.option("--screenshots", options.screenshots, "The folder for the session's screenshots");
 }
 
-int finish(const burin::Result<void>& outcome) {
+// burin --version: prints the version and the Vulkan devices found.
+void print_version() {
+    std::printf("burin %s\n", BURIN_VERSION);
+    const auto devices = gpu::list_devices();
+    if (!devices) {
+        std::printf("Vulkan: %s\n", devices.error().line().c_str());
+        return;
+    }
+    std::printf("Vulkan devices:\n");
+    for (const gpu::DeviceInfo& device : *devices) {
+        std::printf("  %s%s%s\n", device.line().c_str(),
+                    device.unusable.empty() ? "" : " - not usable: ", device.unusable.c_str());
+    }
+}
+
+int finish(const Result<void>& outcome) {
     if (outcome) return 0;
     std::fprintf(stderr, "burin: %s\n", outcome.error().line().c_str());
     return 1;
@@ -142,18 +153,18 @@ int finish(const burin::Result<void>& outcome) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-    burin::CommandLine line("Burin, an immersive haptic workbench");
+int run(int argc, char** argv) {
+    CommandLine line("Burin, an immersive haptic workbench");
     Command app = line.program();
     bool version = false;
     app.flag("--version", version, "The version, and the Vulkan devices found");
 
-    SculptOptions sculpt_options;
+    session::SculptOptions sculpt_options;
     Command sculpt = app.subcommand("sculpt", "Carve a workpiece, in a window or along a stroke");
     add_sculpt_options(sculpt, sculpt_options);
     add_live_options(sculpt, sculpt_options.live);
 
-    burin::ConvertOptions convert_options;
+    ConvertOptions convert_options;
     Command convert = app.subcommand("convert", "Convert a mesh file to STL, PLY or OBJ and print its health");
     convert.option("IN", convert_options.in, "STL, OBJ, PLY or OFF").required();
     convert.option("OUT", convert_options.out, ".stl, .ply or .obj").required();
@@ -161,26 +172,30 @@ int main(int argc, char** argv) {
     convert.option("--simplify", convert_options.simplify_m,
                    "Fewer triangles: the surface moves at most this far, in metres");
 
-    burin::CombineOptions combine_options;
+    CombineOptions combine_options;
     Command combine = app.subcommand("combine", "Unite, subtract or intersect two closed meshes");
     add_combine_options(combine, combine_options);
 
-    const burin::BenchCommand bench(app);
-    const burin::WallCommand wall(app);
-    const burin::ProfileCommand profile(app);
+    const BenchCommand bench(app);
+    const WallCommand wall(app);
+    const ProfileCommand profile(app);
 
     if (const auto status = line.parse(argc, argv)) return *status;
     if (version) {
-        burin::print_version();
+        print_version();
         return 0;
     }
-    if (sculpt.parsed() && burin::wants_session(sculpt_options)) return finish(burin::run_session(sculpt_options));
-    if (sculpt.parsed()) return finish(burin::sculpt(sculpt_options));
+    if (sculpt.parsed() && session::wants_session(sculpt_options)) return finish(session::run_session(sculpt_options));
+    if (sculpt.parsed()) return finish(app::sculpt(sculpt_options));
     if (bench.parsed()) return finish(bench.run());
     if (wall.parsed()) return finish(wall.run());
     if (profile.parsed()) return finish(profile.run());
-    if (convert.parsed()) return finish(burin::convert(convert_options));
-    if (combine.parsed()) return finish(burin::combine_files(combine_options));
+    if (convert.parsed()) return finish(app::convert(convert_options));
+    if (combine.parsed()) return finish(combine_files(combine_options));
     std::fputs(line.help().c_str(), stdout);
     return 2;
 }
+
+}  // namespace burin::app
+
+int main(int argc, char** argv) { return burin::app::run(argc, argv); }

@@ -3,18 +3,17 @@
 
 #include <unistd.h>
 
+#include <cstdio>
 #include <filesystem>
 
-#include "geometry/file_io.hpp"
-#include "geometry/mesh_export.hpp"
+#include "base/file_io.hpp"
+#include "geometry/files/mesh_export.hpp"
 
-namespace burin {
-namespace {
-
+namespace burin::app {
 namespace fs = std::filesystem;
 
-// Whether a file can appear there, found out before hours of work and not after.
-Result<void> check_output(const std::string& path) {
+Result<void> check_place(const std::string& path) {
+    if (path.empty() || path == kStandardOutput) return {};
     const fs::path folder = fs::absolute(path).parent_path();
     std::error_code ignored;
     if (!fs::is_directory(folder, ignored)) {
@@ -28,23 +27,20 @@ Result<void> check_output(const std::string& path) {
     return {};
 }
 
-}  // namespace
-
 Result<void> check_outputs(std::span<const std::string> exports, const std::string& report) {
     for (const std::string& path : exports) {
-        const auto format = mesh_format_of(path);
-        if (!format || *format == MeshFormat::off) {
+        const auto format = geometry::mesh_format_of(path);
+        if (!format || *format == geometry::MeshFormat::off) {
             return fail(path, "has no extension that Burin exports", "name it .stl, .ply or .obj");
         }
-        if (const auto ok = check_output(path); !ok) return ok;
+        if (const auto ok = check_place(path); !ok) return ok;
     }
-    if (!report.empty()) return check_output(report);
-    return {};
+    return check_place(report);
 }
 
-Result<void> check_precision(std::span<const std::string> exports, const Lattice& lattice) {
+Result<void> check_precision(std::span<const std::string> exports, const compute::Lattice& lattice) {
     for (const std::string& path : exports) {
-        if (lattice.fits_floats() || mesh_format_of(path) == MeshFormat::obj) continue;
+        if (lattice.fits_floats() || geometry::mesh_format_of(path) == geometry::MeshFormat::obj) continue;
         return fail(path,
                     "would hold single-precision numbers, which cannot tell the workpiece's details apart so far from "
                     "its origin",
@@ -53,12 +49,17 @@ Result<void> check_precision(std::span<const std::string> exports, const Lattice
     return {};
 }
 
+Result<void> write_output(const std::string& path, const std::string& text) {
+    if (path.empty()) return {};
+    if (path != kStandardOutput) return write_text(path, text);
+    std::fputs(text.c_str(), stdout);
+    return {};
+}
+
 Result<void> write_text(const std::string& path, const std::string& text) {
     return write_file_atomically(path, std::as_bytes(std::span(text.data(), text.size())));
 }
 
-Result<void> write_report(const std::string& path, const Json& report) {
-    return write_text(path, report.dump(2) + "\n");
-}
+Result<void> write_report(const std::string& path, const Json& report) { return write_text(path, json_text(report)); }
 
-}  // namespace burin
+}  // namespace burin::app

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where results go: looked at before hours of work, and not after.
+// Checks and writes what the commands put out: meshes, reports, tables and figures. Places are checked before the first
+// long step, so that hours of work do not end at a missing folder. Files are written as base/file_io.hpp writes them.
 #pragma once
 
 #include <span>
@@ -7,15 +8,26 @@
 
 #include "base/error.hpp"
 #include "base/json.hpp"
-#include "compute/lattice.hpp"
+#include "compute/rays/lattice.hpp"
 
-namespace burin {
+namespace burin::app {
 
-// Whether meshes of a known format and a report (empty: none) can appear there.
+inline constexpr const char* kStandardOutput = "-";
+
+// Checks whether a file can be written there. Nothing to check for standard output and for an empty path, where no file
+// is wanted.
+[[nodiscard]] Result<void> check_place(const std::string& path);
+
+// Checks whether meshes of a known format and a report (empty: none) can be written there.
 [[nodiscard]] Result<void> check_outputs(std::span<const std::string> exports, const std::string& report);
-// Whether the formats hold the lattice's details; only a mesh's coordinates tell, so this is found out after loading it.
-[[nodiscard]] Result<void> check_precision(std::span<const std::string> exports, const Lattice& lattice);
+
+// Checks whether the formats hold the lattice's details. Only a mesh's coordinates tell, so call this after loading it.
+[[nodiscard]] Result<void> check_precision(std::span<const std::string> exports, const compute::Lattice& lattice);
+
+// Writes a file, or to standard output; nothing where the path is empty.
+[[nodiscard]] Result<void> write_output(const std::string& path, const std::string& text);
+
 [[nodiscard]] Result<void> write_text(const std::string& path, const std::string& text);
 [[nodiscard]] Result<void> write_report(const std::string& path, const Json& report);
 
-}  // namespace burin
+}  // namespace burin::app

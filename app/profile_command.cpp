@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "app/profile_command.hpp"
-
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
 
-#include "app/bench_files.hpp"
-#include "app/profile_report.hpp"
-#include "app/session/session.hpp"
-#include "compute/lattice.hpp"
+#include "app/output_files.hpp"
+#include "app/profile.hpp"
+#include "compute/rays/lattice.hpp"
+#include "session/drive/session.hpp"
 
-namespace burin {
+namespace burin::app {
 
 struct ProfileCommand::Options {
-    SculptOptions sculpt;
+    session::SculptOptions sculpt;
     bool window = false, simulated_hand = false;
-    std::string driver_threads;  // "0,1,2"; empty: as a live session has it
+    std::string driver_threads;  // "0,1,2"; empty: one run with as many as a live session has
     std::string json;
 };
 
@@ -23,25 +21,26 @@ namespace {
 
 constexpr unsigned kMostDriverThreads = 32;
 
-// What the log that comes with the program was written for.
-SculptOptions first_carve() {
-    SculptOptions options;
+// Returns the options for which the log that comes with the program was written.
+session::SculptOptions first_carve() {
+    session::SculptOptions options;
     options.workpiece.source = "ball:0.1";
     options.tool.shape = "ball:0.01";
     options.live.input = "assets/sessions/first-carve.txt";
     return options;
 }
 
-Result<ProfiledRun> run_once(const SculptOptions& options, bool for_a_device, std::optional<unsigned> driver_threads) {
-    // The software driver reads it when the session opens its device.
+Result<ProfiledRun> run_once(const session::SculptOptions& options, bool for_a_device,
+                             std::optional<unsigned> driver_threads) {
+    // The software driver reads the variable when the session opens its device.
     if (driver_threads)
         setenv("LP_NUM_THREADS", std::to_string(*driver_threads).c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
-    auto record = time_session(options, for_a_device);
+    auto record = session::time_session(options, for_a_device);
     if (!record) return std::unexpected(record.error());
     return ProfiledRun{driver_threads, std::move(*record)};
 }
 
-// One session for each; one without a say in it where nothing is given.
+// Parses "0,1,2" to a choice for each run; an empty text to one run that leaves the choice to the session.
 Result<std::vector<std::optional<unsigned>>> parse_driver_threads(const std::string& text) {
     if (text.empty()) return std::vector<std::optional<unsigned>>{std::nullopt};
     std::vector<std::optional<unsigned>> all;
@@ -66,7 +65,7 @@ ProfileCommand::ProfileCommand(Command app)
       command_(app.subcommand("profile", "Time the frames and ticks of a session that a log leads")) {
     Options& o = *options_;
     o.sculpt = first_carve();
-    SculptOptions& s = o.sculpt;
+    session::SculptOptions& s = o.sculpt;
     command_.option("--input", s.live.input, "A recorded or written log of a session's input").show_default();
     command_.flag("--window", o.window, "Show it in a window, instead of drawing what nobody sees");
     command_.flag("--simulated-hand", o.simulated_hand,
@@ -74,7 +73,7 @@ ProfileCommand::ProfileCommand(Command app)
     command_.option("--workpiece", s.workpiece.source, "As burin sculpt has it").show_default();
     command_.option("--tool", s.tool.shape, "As burin sculpt has it").show_default();
     command_.option("--resolution", s.workpiece.resolution, "Lattice cells along the longest side")
-        .within(kMinResolution, kMaxResolution)
+        .within(compute::kMinResolution, compute::kMaxResolution)
         .show_default();
     command_.option("--stereo", s.live.stereo, "side-by-side, anaglyph-red-cyan, ...; else mono");
     command_.option("--wall", s.live.wall, "A wall file: all its screens");
@@ -97,7 +96,7 @@ bool ProfileCommand::parsed() const { return command_.parsed(); }
 Result<void> ProfileCommand::run() const {
     const Options& o = *options_;
     if (const auto ok = check_place(o.json); !ok) return ok;
-    SculptOptions options = o.sculpt;
+    session::SculptOptions options = o.sculpt;
     options.live.offscreen = !o.window;
     const auto choices = parse_driver_threads(o.driver_threads);
     if (!choices) return std::unexpected(choices.error());
@@ -110,7 +109,7 @@ Result<void> ProfileCommand::run() const {
     }
     if (o.json != kStandardOutput) std::fputs(comparison_table(runs).c_str(), stdout);
     const Json all = {{"input", options.live.input}, {"workpiece", options.workpiece.source}, {"runs", runs}};
-    return write_output(o.json, all.dump(2) + "\n");
+    return write_output(o.json, json_text(all));
 }
 
-}  // namespace burin
+}  // namespace burin::app

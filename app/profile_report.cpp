@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-#include "app/profile_report.hpp"
-
 #include <array>
 #include <cstdio>
 
-namespace burin {
+#include "app/profile.hpp"
+
+namespace burin::app {
 namespace {
 
 double ms(Nanoseconds t_ns) { return 1e3 * seconds(t_ns); }
 
-Json in_ms(const FigureSummary& summary) {
+Json in_ms(const session::FigureSummary& summary) {
     if (summary.count == 0) return nullptr;
     return {{"median", ms(summary.median_ns)}, {"p99", ms(summary.p99_ns)}, {"worst", ms(summary.most_ns)}};
 }
 
-Json in_us(const FigureSummary& summary) {
+Json in_us(const session::FigureSummary& summary) {
     if (summary.count == 0) return nullptr;
     return {{"median", 1e3 * ms(summary.median_ns)},
             {"p99", 1e3 * ms(summary.p99_ns)},
@@ -22,28 +22,28 @@ Json in_us(const FigureSummary& summary) {
 }
 
 template <typename Of>
-FigureSummary summary_of(const std::vector<TimedFrame>& frames, const Of& of) {
+session::FigureSummary summary_of(const std::vector<session::TimedFrame>& frames, const Of& of) {
     std::vector<Nanoseconds> values;
-    for (const TimedFrame& frame : frames)
+    for (const session::TimedFrame& frame : frames)
         if (const std::optional<Nanoseconds> value = of(frame)) values.push_back(*value);
-    return summarised(std::move(values));
+    return session::summarised(std::move(values));
 }
 
-Json stages_of(const std::vector<TimedFrame>& frames) {
+Json stages_of(const std::vector<session::TimedFrame>& frames) {
     Json stages;
-    for (std::size_t i = 0; i < kFrameStages; ++i) {
-        stages[name_of(static_cast<FrameStage>(i))] =
-            in_ms(summary_of(frames, [i](const TimedFrame& f) { return std::optional(f.stage_ns[i]); }));
+    for (std::size_t i = 0; i < session::kFrameStages; ++i) {
+        stages[name_of(static_cast<session::FrameStage>(i))] =
+            in_ms(summary_of(frames, [i](const session::TimedFrame& f) { return std::optional(f.stage_ns[i]); }));
     }
     return stages;
 }
 
-Json ages_of_all(const std::vector<TimedFrame>& frames) {
+Json ages_of_all(const std::vector<session::TimedFrame>& frames) {
     Json ages;
-    for (std::size_t i = 0; i < kFrameFigures; ++i) {
-        const auto figure = static_cast<FrameFigure>(i);
-        ages[name_of(figure)] =
-            in_ms(summary_of(frames, [figure](const TimedFrame& f) { return worse_eye(f.ages, figure); }));
+    for (std::size_t i = 0; i < session::kFrameFigures; ++i) {
+        const auto figure = static_cast<session::FrameFigure>(i);
+        ages[name_of(figure)] = in_ms(
+            summary_of(frames, [figure](const session::TimedFrame& f) { return session::worse_eye(f.ages, figure); }));
     }
     return ages;
 }
@@ -73,7 +73,7 @@ double number(const Json& figure, const char* key) { return figure.is_null() ? 0
 }  // namespace
 
 Json describe_run(const ProfiledRun& run) {
-    const SessionRecord& r = run.record;
+    const session::SessionRecord& r = run.record;
     const double wall_s = seconds(r.wall_ns);
     Json json;
     json["device"] = r.device;
@@ -85,7 +85,7 @@ Json describe_run(const ProfiledRun& run) {
     json["stages_ms"] = stages_of(r.frames);
     json["carve_update_ms"] = in_ms(r.carve_update);
     json["processor_ms"] =
-        in_ms(summary_of(r.frames, [](const TimedFrame& f) { return std::optional(f.processor_ns); }));
+        in_ms(summary_of(r.frames, [](const session::TimedFrame& f) { return std::optional(f.processor_ns); }));
     json["cores_busy"] = wall_s > 0.0 ? seconds(r.processor_ns) / wall_s : 0.0;
     const double rested_s = seconds(r.rested_ns);
     json["at_rest"] = {{"seconds", rested_s},
@@ -138,4 +138,4 @@ std::string comparison_table(const std::vector<Json>& runs) {
     return text;
 }
 
-}  // namespace burin
+}  // namespace burin::app

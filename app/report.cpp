@@ -5,22 +5,15 @@
 #include <cmath>
 #include <cstdio>
 
-#include "geometry/mesh_health.hpp"
+#include "base/statistics.hpp"
+#include "geometry/mesh/mesh_health.hpp"
 
-namespace burin {
+namespace burin::app {
 
-double quantile(std::vector<double> values, double q) {
-    if (values.empty()) return 0.0;
-    const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(values.size())));
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::clamp<std::size_t>(rank, 1, values.size()) - 1);
-    std::ranges::nth_element(values, at);
-    return *at;
-}
-
-Json describe_carving(const Carving& carving) {
-    const CarvingFigures& f = carving.figures();
-    const Solid& solid = carving.engine().solid();
-    const Lattice& lattice = solid.lattice;
+Json describe_carving(const sculpt::Sculpture& carving) {
+    const sculpt::SculptFigures& f = carving.figures();
+    const compute::Solid& solid = carving.engine().solid();
+    const compute::Lattice& lattice = solid.lattice;
     const double volume_m3 = carving.surface().volume_m3();
     return {{"lattice_cells", lattice.cells},
             {"lattice_spacing_m", lattice.spacing_m},
@@ -39,8 +32,8 @@ Json describe_carving(const Carving& carving) {
             {"volume_removed_m3", carving.initial_volume_m3() - volume_m3}};
 }
 
-Json describe_mesh(const TriangleMesh& mesh) {
-    const MeshHealth health = examine(mesh);
+Json describe_mesh(const geometry::TriangleMesh& mesh) {
+    const geometry::MeshHealth health = geometry::examine(mesh);
     return {{"triangles", health.triangles},
             {"vertices", health.vertices},
             {"open_edges", health.boundary_edges},
@@ -54,7 +47,7 @@ Json describe_mesh(const TriangleMesh& mesh) {
 
 namespace {
 
-Json occurrences(const std::map<std::string, Occurrence>& of) {
+Json occurrences(const std::map<std::string, session::Occurrence>& of) {
     Json list = Json::array();
     for (const auto& [what, o] : of)
         list.push_back({{"what", what}, {"ticks", o.ticks}, {"times", o.times}, {"first_s", o.first_s}});
@@ -63,9 +56,9 @@ Json occurrences(const std::map<std::string, Occurrence>& of) {
 
 }  // namespace
 
-Json describe_feel(const FeltFigures& felt, const Feel& feel) {
+Json describe_feel(const session::FeltFigures& felt, const sculpt::Feel& feel) {
     return {{"device", "simulated Omni, held by a simulated hand"},
-            {"material", describe_feel_settings(feel)},
+            {"material", sculpt::describe_feel_settings(feel)},
             {"object_from_device_scale", felt.object_from_device.scale},
             {"duration_s", felt.duration_s},
             {"ticks", felt.ticks},
@@ -84,7 +77,7 @@ Json describe_feel(const FeltFigures& felt, const Feel& feel) {
             {"notices", felt.notices}};
 }
 
-Json describe_timing(const Carving& carving, const FeltFigures* felt) {
+Json describe_timing(const sculpt::Sculpture& carving, const session::FeltFigures* felt) {
     const std::vector<double>& update_ms = carving.figures().update_ms;
     Json timing = {{"first_mesh_ms", carving.first_mesh_ms()},
                    {"update_ms_median", quantile(update_ms, 0.5)},
@@ -97,7 +90,7 @@ Json describe_timing(const Carving& carving, const FeltFigures* felt) {
         timing["tick_us_p999"] = quantile(tick_us, 0.999);
     }
     if (felt != nullptr && felt->loop.known) {
-        const LoopTimes& l = felt->loop;
+        const session::LoopTimes& l = felt->loop;
         timing["skipped_deadlines"] = l.skipped_deadlines;
         timing["wake_up_late_us"] = {
             {"median", l.late_us_median}, {"p99", l.late_us_p99}, {"p999", l.late_us_p999}, {"max", l.late_us_max}};
@@ -109,7 +102,7 @@ Json describe_timing(const Carving& carving, const FeltFigures* felt) {
 
 void print_table(const Json& report) {
     const auto number = [&](const char* pointer) {
-        const Json* at = report.find(pointer);
+        const Json* at = find_value(report, pointer);
         return at != nullptr && at->is_number() ? at->get<double>() : 0.0;
     };
     const double updates = std::max(1.0, number("/carving/updates"));
@@ -158,4 +151,4 @@ void print_table(const Json& report) {
              number("/mesh/open_edges"), number("/mesh/nonmanifold_edges"), number("/mesh/misoriented_edges")));
 }
 
-}  // namespace burin
+}  // namespace burin::app

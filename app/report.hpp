@@ -6,22 +6,19 @@
 #include <span>
 #include <string>
 
-#include "app/carving.hpp"
-#include "app/felt_stroke.hpp"
 #include "base/json.hpp"
+#include "sculpt/sculpture.hpp"
+#include "session/felt/felt_stroke.hpp"
 
-namespace burin {
+namespace burin::app {
 
-// The q-quantile of the values (nearest rank); 0 when there are none.
-[[nodiscard]] double quantile(std::vector<double> values, double q);
-
-[[nodiscard]] Json describe_carving(const Carving& carving);
-[[nodiscard]] Json describe_mesh(const TriangleMesh& mesh);
-[[nodiscard]] Json describe_feel(const FeltFigures& felt, const Feel& feel);
+[[nodiscard]] Json describe_carving(const sculpt::Sculpture& carving);
+[[nodiscard]] Json describe_mesh(const geometry::TriangleMesh& mesh);
+[[nodiscard]] Json describe_feel(const session::FeltFigures& felt, const sculpt::Feel& feel);
 // Wall-clock figures: these differ from run to run.
-[[nodiscard]] Json describe_timing(const Carving& carving, const FeltFigures* felt);
+[[nodiscard]] Json describe_timing(const sculpt::Sculpture& carving, const session::FeltFigures* felt);
 
 // The table of docs and demo, from a finished report.
 void print_table(const Json& report);
 
-}  // namespace burin
+}  // namespace burin::app

@@ -1,28 +1,27 @@
 // SPDX-License-Identifier: MIT
-#include "app/sculpt.hpp"
-
 #include <cstdio>
 #include <filesystem>
 #include <optional>
 
-#include "app/engine_choice.hpp"
-#include "app/felt_plot.hpp"
-#include "app/felt_stroke.hpp"
-#include "app/finishing.hpp"
+#include "app/commands.hpp"
 #include "app/output_files.hpp"
-#include "app/pictures.hpp"
 #include "app/report.hpp"
-#include "app/rigid_stroke.hpp"
-#include "compute/tool_spans.hpp"
-#include "geometry/mesh_export.hpp"
+#include "compute/tools/tool_spans.hpp"
+#include "geometry/files/mesh_export.hpp"
+#include "sculpt/finishing.hpp"
+#include "sculpt/stroke_file.hpp"
+#include "sculpt/workpiece.hpp"
+#include "session/felt/felt_stroke.hpp"
+#include "session/picture/pictures.hpp"
 
-namespace burin {
+namespace burin::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-Staging staging_of(const Stroke& stroke, const Tool& tool, const std::optional<FeltFigures>& felt) {
-    Staging staging;
+session::Staging staging_of(const sculpt::Stroke& stroke, const sculpt::Tool& tool,
+                            const std::optional<session::FeltFigures>& felt) {
+    session::Staging staging;
     staging.tool_radius_object_m = tool.ball_radius_m();
     staging.tool_visible = !stroke.empty() && tool.ball_radius_m() > 0.0;
     if (!stroke.empty()) staging.tool_center_object = stroke.back().position_object_m;
@@ -35,17 +34,17 @@ Staging staging_of(const Stroke& stroke, const Tool& tool, const std::optional<F
     return staging;
 }
 
-// Beside the report, which names them.
-Result<void> write_plots(const std::string& report_path, const FeltFigures& felt, Json& report) {
-    const std::string figure = felt_figure_path(report_path), table = felt_table_path(report_path);
-    if (const auto written = write_text(figure, felt_figure(felt)); !written) return written;
-    if (const auto written = write_text(table, felt_table(felt)); !written) return written;
+// Writes the plots of the felt stroke beside the report, and their names into it.
+Result<void> write_plots(const std::string& report_path, const session::FeltFigures& felt, Json& report) {
+    const std::string figure = session::felt_figure_path(report_path), table = session::felt_table_path(report_path);
+    if (const auto written = write_text(figure, session::felt_figure(felt)); !written) return written;
+    if (const auto written = write_text(table, session::felt_table(felt)); !written) return written;
     report["feel"]["plots"] = {fs::path(figure).filename().string(), fs::path(table).filename().string()};
     return {};
 }
 
-// Undoes the last strokes; what there is to say about it.
-Result<Json> take_back(Carving& carving, std::size_t strokes) {
+// Undoes the last strokes and describes what was undone for the report.
+Result<Json> take_back(sculpt::Sculpture& carving, std::size_t strokes) {
     carving.end_stroke();
     const std::size_t kept = carving.history()->undoable();
     const Result<std::size_t> undone = carving.undo(strokes);
@@ -62,60 +61,64 @@ Result<Json> take_back(Carving& carving, std::size_t strokes) {
 
 }  // namespace
 
-Result<void> sculpt(const SculptOptions& options) {
-    // Everything that can be wrong with the input is found before the first long step.
-    Result<Tool> tool = parse_tool(options.tool);
+Result<void> sculpt(const session::SculptOptions& options) {
+    // Finds everything that can be wrong with the input before the first long step.
+    const Result<sculpt::ToolSettings> settings = sculpt::parse_tool_settings(options.tool);
+    if (!settings) return std::unexpected(settings.error());
+    Result<sculpt::Tool> tool = sculpt::make_tool(*settings);
     if (!tool) return std::unexpected(tool.error());
-    const Result<Material> material = parse_tool_material(options.tool);
-    if (!material) return std::unexpected(material.error());
-    if (options.hand == HandChoice::simulated && tool->ball_radius_m() == 0.0) {
+    const geometry::Material material = sculpt::material_of(*settings);
+    if (options.hand == session::HandChoice::simulated && tool->ball_radius_m() == 0.0) {
         return fail("--hand simulated", "feels with a ball only", "use --tool ball:R, or --hand rigid");
     }
-    const Result<Feel> feel = parse_feel(options.feel);
+    const Result<sculpt::Feel> feel = sculpt::parse_feel(options.feel);
     if (!feel) return std::unexpected(feel.error());
     if (const auto ok = check_outputs(options.exports, options.report); !ok) return ok;
-    if (const auto ok = check_simplification(options.simplify_m); !ok) return ok;
-    Stroke stroke;
+    if (const auto ok = sculpt::check_simplification(options.simplify_m); !ok) return ok;
+    sculpt::Stroke stroke;
     if (!options.stroke.empty()) {
-        Result<Stroke> read = read_stroke(options.stroke);
+        Result<sculpt::Stroke> read = sculpt::read_stroke(options.stroke);
         if (!read) return std::unexpected(read.error());
         stroke = std::move(*read);
     }
     WorkerPool pool(options.threads);
-    Result<LoadedWorkpiece> workpiece = load_workpiece(options.workpiece, pool);
+    Result<sculpt::LoadedWorkpiece> workpiece = sculpt::load_workpiece(options.workpiece, pool);
     if (!workpiece) return std::unexpected(workpiece.error());
     if (const auto ok = check_precision(options.exports, workpiece->solid.lattice); !ok) return ok;
     tool->material = static_cast<std::uint8_t>(workpiece->solid.materials.size());
-    workpiece->solid.materials.push_back(*material);
-    if (const auto ok = check_sweep(workpiece->solid, tool->sweep(Pose{}, Pose{})); !ok) return ok;
+    workpiece->solid.materials.push_back(material);
+    if (const auto ok = compute::check_sweep(workpiece->solid, tool->sweep(Pose{}, Pose{})); !ok) return ok;
 
-    std::optional<Pictures> pictures;
+    std::optional<session::Pictures> pictures;
     if (!options.pictures.empty()) {
-        Result<Pictures> opened = Pictures::create(options.pictures, workpiece_bounds(workpiece->solid.lattice));
+        Result<session::Pictures> opened =
+            session::Pictures::create(options.pictures, sculpt::workpiece_bounds(workpiece->solid.lattice));
         if (!opened) return std::unexpected(opened.error());
         pictures.emplace(std::move(*opened));
     }
-    Result<ChosenEngine> chosen = choose_engine(options.engine, std::move(workpiece->solid), pool);
+    Result<sculpt::ChosenEngine> chosen = sculpt::choose_engine(options.engine, std::move(workpiece->solid), pool);
     if (!chosen) return std::unexpected(chosen.error());
-    Carving carving(std::move(chosen->engine), pool);
+    sculpt::Sculpture carving(std::move(chosen->engine), pool);
     if (pictures) {
         if (const auto taken = pictures->take_before(carving); !taken) return taken;
     }
 
     if (options.undo > 0) carving.keep_history(options.undo_memory_MiB << 20);
-    if (std::holds_alternative<BallTool>(tool->shape) && tool->operation != Operation::smooth) {
+    if (std::holds_alternative<compute::BallTool>(tool->shape) && tool->operation != compute::Operation::smooth) {
         if (const auto ready = carving.mesh_on_device(); !ready) return ready;
     }
-    std::optional<FeltFigures> felt;
-    if (!stroke.empty() && options.hand == HandChoice::rigid) {
-        if (const auto carved = carve_rigidly(carving, stroke, *tool, options.merge_rows); !carved) return carved;
+    std::optional<session::FeltFigures> felt;
+    if (!stroke.empty() && options.hand == session::HandChoice::rigid) {
+        if (const auto carved = sculpt::carve_rigidly(carving, stroke, *tool, options.merge_rows); !carved)
+            return carved;
     } else if (!stroke.empty()) {
-        Result<FeltFigures> carved = carve_by_feel(carving, stroke, *tool, {*feel, options.real_time});
+        Result<session::FeltFigures> carved =
+            session::carve_by_feel(carving, stroke, *tool, {*feel, options.real_time});
         if (!carved) return std::unexpected(carved.error());
         felt = std::move(*carved);
     }
 
-    if (const auto home = carving.bring_home(); !home) return home;
+    if (const auto home = carving.read_back(); !home) return home;
     Json undone;
     if (options.undo > 0) {
         Result<Json> taken_back = take_back(carving, options.undo);
@@ -123,12 +126,12 @@ Result<void> sculpt(const SculptOptions& options) {
         undone = std::move(*taken_back);
     }
 
-    const Result<FinishedMesh> finished =
-        finish_mesh(carving.surface(), carving.engine().solid(), options.simplify_m, pool);
+    const Result<sculpt::FinishedMesh> finished =
+        sculpt::finish_mesh(carving.surface(), carving.engine().solid(), options.simplify_m, pool);
     if (!finished) return std::unexpected(finished.error());
-    const TriangleMesh& mesh = finished->mesh;
+    const geometry::TriangleMesh& mesh = finished->mesh;
     Json report = {{"burin", BURIN_VERSION}, {"workpiece", workpiece->report}};
-    report["tool"] = describe_tool(options.tool, *material);
+    report["tool"] = sculpt::describe_tool(options.tool, material);
     report["engine"] = {
         {"name", carving.engine().name()}, {"device", chosen->device}, {"chosen_because", chosen->reason}};
     report["carving"] = describe_carving(carving);
@@ -144,7 +147,7 @@ Result<void> sculpt(const SculptOptions& options) {
                     "use a smaller tool or a shorter stroke");
     }
     for (const std::string& path : options.exports) {
-        if (const auto written = export_mesh(mesh, path); !written) return written;
+        if (const auto written = geometry::export_mesh(mesh, path); !written) return written;
         report["exports"].push_back(fs::path(path).filename().string());
     }
     if (pictures) {
@@ -161,4 +164,4 @@ Result<void> sculpt(const SculptOptions& options) {
     return {};
 }
 
-}  // namespace burin
+}  // namespace burin::app

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "app/wall_calibration.hpp"
-
 #include <array>
 #include <charconv>
 #include <cstdio>
 #include <iostream>
 
-#include "app/bench_files.hpp"
 #include "app/output_files.hpp"
-#include "app/wall_file.hpp"
+#include "app/wall_commands.hpp"
+#include "base/file_io.hpp"
 #include "base/json.hpp"
-#include "geometry/file_io.hpp"
+#include "wall/wall_file.hpp"
 
-namespace burin {
+namespace burin::app {
 namespace {
 
 constexpr std::array kAsked{"lower_left", "lower_right", "upper_left", "upper_right"};
@@ -35,11 +33,11 @@ std::vector<std::string_view> fields_of(std::string_view line) {
     }
 }
 
-// `asked`: the place of a line of three numbers; empty when the line must name one.
-Result<CalibrationSample> parse_sample(std::string_view line, const std::string& where, const std::string& asked,
-                                       double unit_m) {
+// Parses a line. `asked` is the place of a line of three numbers; empty: the line must name its place.
+Result<wall::CalibrationSample> parse_sample(std::string_view line, const std::string& where, const std::string& asked,
+                                             double unit_m) {
     std::vector<std::string_view> fields = fields_of(line);
-    CalibrationSample sample{asked, {}};
+    wall::CalibrationSample sample{asked, {}};
     if (fields.size() == 4) {
         sample.place = std::string(fields[0]);
         fields.erase(fields.begin());
@@ -47,7 +45,7 @@ Result<CalibrationSample> parse_sample(std::string_view line, const std::string&
     if (fields.size() != 3 || sample.place.empty()) {
         return fail(where, "is not a sample", "write place,x,y,z, such as lower_left,0.1,0.2,0.3");
     }
-    if (!screen_place(sample.place)) {
+    if (!wall::screen_place(sample.place)) {
         return fail(
             where, "names no place on a screen: " + sample.place,
             "use lower_left, lower_right, upper_left, upper_right, left, right, bottom, top or u:v from 0 to 1");
@@ -67,14 +65,14 @@ Result<CalibrationSample> parse_sample(std::string_view line, const std::string&
 
 bool skipped(std::string_view line) { return line.empty() || line.front() == '#'; }
 
-Result<std::vector<CalibrationSample>> read_samples(const WallCalibrationOptions& options, double unit_m) {
+Result<std::vector<wall::CalibrationSample>> read_samples(const WallCalibrationOptions& options, double unit_m) {
     if (options.samples == kStandardOutput) return guided_samples(std::cin, std::cerr, unit_m);
     const auto bytes = read_file(options.samples, 1 << 24);
     if (!bytes) return std::unexpected(bytes.error());
     return parse_samples({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, options.samples, unit_m);
 }
 
-Result<std::size_t> find_screen(const WallSetup& setup, const WallCalibrationOptions& options) {
+Result<std::size_t> find_screen(const wall::WallSetup& setup, const WallCalibrationOptions& options) {
     std::string names;
     for (std::size_t i = 0; i < setup.screens.size(); ++i) {
         if (setup.screens[i].name == options.screen) return i;
@@ -83,36 +81,37 @@ Result<std::size_t> find_screen(const WallSetup& setup, const WallCalibrationOpt
     return fail(options.wall, "has no screen named " + options.screen, "its screens are " + names);
 }
 
-Json describe(const ScreenFit& fit, const SampleDistances& before) {
+Json describe(const wall::ScreenFit& fit, const wall::SampleDistances& before) {
     Json out{{"before_rms_mm", before.rms_mm}, {"before_max_mm", before.max_mm}, {"rms_mm", fit.rms_mm},
              {"max_mm", fit.max_mm},           {"width_m", fit.width_m},         {"height_m", fit.height_m}};
     out["places"] = Json::array();
-    for (const PlaceResidual& p : fit.places) {
+    for (const wall::PlaceResidual& p : fit.places) {
         out["places"].push_back({{"place", p.place}, {"samples", p.samples}, {"rms_mm", p.rms_mm}});
     }
     out["outliers"] = Json::array();
-    for (const SampleOutlier& o : fit.outliers) {
+    for (const wall::SampleOutlier& o : fit.outliers) {
         out["outliers"].push_back({{"sample", o.index + 1}, {"place", o.place}, {"distance_mm", o.distance_mm}});
     }
     return out;
 }
 
-void print(const ScreenFit& fit, const SampleDistances& before, const std::string& screen) {
+void print(const wall::ScreenFit& fit, const wall::SampleDistances& before, const std::string& screen) {
     std::printf("screen %s: %.4f by %.4f m\n", screen.c_str(), fit.width_m, fit.height_m);
     std::printf("  %-34s %.2f mm RMS, %.2f mm at most\n", "samples from the screen, before", before.rms_mm,
                 before.max_mm);
     std::printf("  %-34s %.2f mm RMS, %.2f mm at most\n", "after", fit.rms_mm, fit.max_mm);
-    for (const PlaceResidual& p : fit.places) {
+    for (const wall::PlaceResidual& p : fit.places) {
         std::printf("  %-34s %.2f mm RMS of %d\n", p.place.c_str(), p.rms_mm, p.samples);
     }
-    for (const SampleOutlier& o : fit.outliers) {
+    for (const wall::SampleOutlier& o : fit.outliers) {
         std::printf("  set aside: sample %zu (%s), %.1f mm off\n", o.index + 1, o.place.c_str(), o.distance_mm);
     }
 }
 
-// A screen that cannot be drawn, say because left and right were exchanged while touching, is not written.
-Result<void> refuse_errors(const WallSetup& setup, const std::string& screen) {
-    for (const WallProblem& p : check(setup)) {
+// Refuses a screen that cannot be drawn, say because left and right were exchanged while touching, before it is
+// written; prints its warnings.
+Result<void> refuse_errors(const wall::WallSetup& setup, const std::string& screen) {
+    for (const wall::WallProblem& p : wall::check(setup)) {
         if (p.where != screen) continue;
         if (p.error) return fail("screen " + screen, "as touched " + p.what, p.remedy);
         std::printf("  %s\n", line_of(p).c_str());
@@ -122,8 +121,9 @@ Result<void> refuse_errors(const WallSetup& setup, const std::string& screen) {
 
 }  // namespace
 
-Result<std::vector<CalibrationSample>> parse_samples(std::string_view text, const std::string& name, double unit_m) {
-    std::vector<CalibrationSample> samples;
+Result<std::vector<wall::CalibrationSample>> parse_samples(std::string_view text, const std::string& name,
+                                                           double unit_m) {
+    std::vector<wall::CalibrationSample> samples;
     bool first = true;
     for (std::size_t number = 1; !text.empty(); ++number) {
         const std::size_t end = text.find('\n');
@@ -140,8 +140,8 @@ Result<std::vector<CalibrationSample>> parse_samples(std::string_view text, cons
     return samples;
 }
 
-std::vector<CalibrationSample> guided_samples(std::istream& in, std::ostream& prompts, double unit_m) {
-    std::vector<CalibrationSample> samples;
+std::vector<wall::CalibrationSample> guided_samples(std::istream& in, std::ostream& prompts, double unit_m) {
+    std::vector<wall::CalibrationSample> samples;
     std::string line;
     std::size_t asked = 0;
     const auto prompt = [&] {
@@ -173,29 +173,29 @@ Result<void> calibrate_wall(const WallCalibrationOptions& options) {
     for (const std::string& place : {options.out, options.json}) {
         if (const auto ok = check_place(place); !ok) return ok;
     }
-    auto setup = read_wall(options.wall);
+    auto setup = wall::read_wall(options.wall);
     if (!setup) return std::unexpected(setup.error());
     const auto index = find_screen(*setup, options);
     if (!index) return std::unexpected(index.error());
-    WallScreen& screen = setup->screens[*index];
-    const auto samples = read_samples(options, metres_in(setup->unit));
+    wall::WallScreen& screen = setup->screens[*index];
+    const auto samples = read_samples(options, wall::metres_in(setup->unit));
     if (!samples) return std::unexpected(samples.error());
-    std::optional<ScreenSize> size;
+    std::optional<wall::ScreenSize> size;
     if (options.keep_size) {
-        size = ScreenSize{glm::length(screen.lower_right_tracker - screen.lower_left_tracker),
-                          glm::length(screen.upper_left_tracker - screen.lower_left_tracker)};
+        size = wall::ScreenSize{glm::length(screen.lower_right_tracker - screen.lower_left_tracker),
+                                glm::length(screen.upper_left_tracker - screen.lower_left_tracker)};
     }
-    const auto fit = fit_screen(*samples, size);
+    const auto fit = wall::fit_screen(*samples, size);
     if (!fit) return std::unexpected(fit.error());
-    const auto before = distances_from(screen, *samples);
+    const auto before = wall::distances_from(screen, *samples);
     if (!before) return std::unexpected(before.error());
     if (options.json != kStandardOutput) print(*fit, *before, screen.name);
     screen.lower_left_tracker = fit->lower_left_tracker;
     screen.lower_right_tracker = fit->lower_right_tracker;
     screen.upper_left_tracker = fit->upper_left_tracker;
     if (const auto ok = refuse_errors(*setup, screen.name); !ok) return ok;
-    if (const auto ok = write_text(options.out, wall_text(*setup)); !ok) return ok;
-    return write_output(options.json, describe(*fit, *before).dump(2) + "\n");
+    if (const auto ok = write_text(options.out, wall::wall_text(*setup)); !ok) return ok;
+    return write_output(options.json, json_text(describe(*fit, *before)));
 }
 
-}  // namespace burin
+}  // namespace burin::app

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "app/wall_command.hpp"
-
 #include <algorithm>
 #include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "app/bench_files.hpp"
-#include "app/wall_calibration.hpp"
-#include "app/wall_figures.hpp"
-#include "app/wall_file.hpp"
-#include "app/wall_modes.hpp"
+#include "app/output_files.hpp"
+#include "app/wall_commands.hpp"
+#include "wall/wall.hpp"
+#include "wall/wall_figures.hpp"
+#include "wall/wall_file.hpp"
 
-namespace burin {
+namespace burin::app {
 
 struct WallCommand::Options {
     std::string file, svg, json;
@@ -27,24 +25,24 @@ Result<void> WallCommand::Options::show() const {
     for (const std::string& path : {svg, json}) {
         if (const auto ok = check_place(path); !ok) return ok;
     }
-    const auto setup = read_wall(file);
+    const auto setup = wall::read_wall(file);
     if (!setup) return std::unexpected(setup.error());
-    const auto figures = wall_figures(*setup);
-    if (json != kStandardOutput && svg != kStandardOutput) std::fputs(wall_table(figures).c_str(), stdout);
-    if (const auto ok = write_output(svg, wall_drawing(*setup)); !ok) return ok;
-    return write_output(json, figures.dump(2) + "\n");
+    const auto figures = wall::wall_figures(*setup);
+    if (json != kStandardOutput && svg != kStandardOutput) std::fputs(wall::wall_table(figures).c_str(), stdout);
+    if (const auto ok = write_output(svg, wall::wall_drawing(*setup)); !ok) return ok;
+    return write_output(json, json_text(figures));
 }
 
 Result<void> WallCommand::Options::check_file() const {
-    const auto setup = read_wall(file);
+    const auto setup = wall::read_wall(file);
     if (!setup) return std::unexpected(setup.error());
-    std::vector<WallProblem> problems = check(*setup);
-    for (WallProblem& problem : check_modes(*setup)) problems.push_back(std::move(problem));
-    for (const WallProblem& p : problems) std::printf("%s\n", line_of(p).c_str());
-    const auto errors = std::ranges::count(problems, true, &WallProblem::error);
+    std::vector<wall::WallProblem> problems = wall::check(*setup);
+    for (wall::WallProblem& problem : wall::check_modes(*setup)) problems.push_back(std::move(problem));
+    for (const wall::WallProblem& p : problems) std::printf("%s\n", line_of(p).c_str());
+    const auto errors = std::ranges::count(problems, true, &wall::WallProblem::error);
     if (errors > 0) {
         std::fflush(stdout);
-        return fail(file, std::to_string(errors) + (errors == 1 ? " error" : " errors"), "mend it and check again");
+        return fail(file, std::to_string(errors) + (errors == 1 ? " error" : " errors"), "correct it and check again");
     }
     if (problems.empty()) std::printf("%s: nothing wrong\n", file.c_str());
     return {};
@@ -87,4 +85,4 @@ Result<void> WallCommand::run() const {
     return calibrate_wall(options_->calibration);
 }
 
-}  // namespace burin
+}  // namespace burin::app

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
-// One monotonic clock in nanoseconds, and a simulated clock with the same interface. Real-time and simulated sessions run
-// the same code; only the clock differs. now_ns() and sleep_until() are wait-free or block in the kernel; none allocates.
+// One monotonic clock in nanoseconds, and a simulated clock with the same interface. Real-time and simulated sessions
+// run the same code; only the clock differs. now_ns() and sleep_until() are wait-free or block in the kernel; none
+// allocates.
 #pragma once
 
+#include <time.h>
+
+#include <cerrno>
 #include <cstdint>
 
 namespace burin {
@@ -23,19 +27,34 @@ public:
     [[nodiscard]] virtual Nanoseconds now_ns() noexcept = 0;
     // Returns at or after the absolute deadline; at once when it has passed.
     virtual void sleep_until(Nanoseconds deadline_ns) noexcept = 0;
-    // The same without giving up the processor: to the nanosecond, at its price. For what is microseconds away.
+    // Waits until the deadline without giving up the processor: exact to the nanosecond, but a core is busy. For
+    // deadlines that are microseconds away.
     virtual void spin_until(Nanoseconds deadline_ns) noexcept { sleep_until(deadline_ns); }
 };
 
 // CLOCK_MONOTONIC. Any thread.
 class MonotonicClock final : public Clock {
 public:
-    [[nodiscard]] Nanoseconds now_ns() noexcept override;
-    void sleep_until(Nanoseconds deadline_ns) noexcept override;
-    void spin_until(Nanoseconds deadline_ns) noexcept override;
+    [[nodiscard]] Nanoseconds now_ns() noexcept override {
+        timespec t{};
+        clock_gettime(CLOCK_MONOTONIC, &t);
+        return static_cast<Nanoseconds>(t.tv_sec) * kNanosecondsPerSecond + t.tv_nsec;
+    }
+    void sleep_until(Nanoseconds deadline_ns) noexcept override {
+        timespec t{};
+        t.tv_sec = deadline_ns / kNanosecondsPerSecond;
+        t.tv_nsec = deadline_ns % kNanosecondsPerSecond;
+        // An absolute deadline does not drift; after a signal the loop sleeps again.
+        while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == EINTR) {
+        }
+    }
+    void spin_until(Nanoseconds deadline_ns) noexcept override {
+        while (now_ns() < deadline_ns) {
+        }
+    }
 };
 
-// Time moves only when someone sleeps. One thread.
+// Advances only when its user sleeps. One thread.
 class SimulatedClock final : public Clock {
 public:
     [[nodiscard]] Nanoseconds now_ns() noexcept override { return now_ns_; }

@@ -36,11 +36,11 @@ using Result = std::expected<T, Error>;
 // Called by BURIN_CHECK. Wait-free; usable on any thread.
 void contract_broken(const char* expression, const char* file, int line) noexcept;
 
-// How many contracts were broken since the start of the process. Tests assert that it stays 0.
+// Returns the number of contracts broken since the start of the process. Tests assert that it stays 0.
 [[nodiscard]] std::uint64_t broken_contracts() noexcept;
 
 }  // namespace burin
 
-// A contract between functions of this program; never for input from outside.
+// Checks a contract between functions of this program; never for input from outside.
 #define BURIN_CHECK(expression) \
     ((expression) ? static_cast<void>(0) : ::burin::contract_broken(#expression, __FILE__, __LINE__))

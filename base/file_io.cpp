@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/file_io.hpp"
+#include "base/file_io.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Closes at the end of a scope unless close() already did.
+// Closes the file at the end of a scope unless close() already did.
 class Descriptor {
 public:
     explicit Descriptor(int fd) : fd_(fd) {}
@@ -71,11 +71,11 @@ std::unexpected<Error> cannot_write(const fs::path& path, int code) {
     return fail(path.string(), "cannot be written: " + reason(code), writing_remedy(code));
 }
 
-// 0, or the error number.
+// Returns 0, or the error number.
 int write_all(int fd, std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
-        const std::size_t chunk =
-            std::min(bytes.size(), std::size_t{1} << 30);  // the kernel writes at most 2 GiB at once
+        // The kernel writes at most 2 GiB at once.
+        const std::size_t chunk = std::min(bytes.size(), std::size_t{1} << 30);
         const ssize_t written = ::write(fd, bytes.data(), chunk);
         if (written < 0 && errno == EINTR) continue;
         if (written < 0) return errno;
@@ -112,11 +112,11 @@ Result<Target> examine_target(const fs::path& asked) {
     return target;
 }
 
-// Distinct for every call in every process, so that two writers never share a temporary file.
+// Returns a name distinct for every call in every process, so that two writers never share a temporary file.
 fs::path temporary_beside(const fs::path& target) {
     static std::atomic<unsigned> counter{0};  // only its uniqueness matters, hence relaxed
     const unsigned serial = counter.fetch_add(1, std::memory_order_relaxed);
-    // Cut, so that a target name near the file system's limit still has room for the suffix.
+    // Truncates the name, so that a target name near the file system's limit still has room for the suffix.
     const std::string stem = target.filename().string().substr(0, 120);
     return target.parent_path() /
            ("." + stem + "." + std::to_string(::getpid()) + "." + std::to_string(serial) + ".part");
@@ -131,7 +131,7 @@ int write_and_flush(const fs::path& path, const Target& target, std::span<const 
     return file.close() ? 0 : errno;
 }
 
-// The rename itself must survive a power cut. A file system that cannot flush folders loses only that guarantee.
+// Makes the rename itself survive a power cut. A file system that cannot flush folders loses only that guarantee.
 void flush_folder(const fs::path& folder) {
     const Descriptor directory(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (directory.valid()) static_cast<void>(::fsync(directory.number()));
@@ -140,7 +140,7 @@ void flush_folder(const fs::path& folder) {
 }  // namespace
 
 Result<std::vector<std::byte>> read_file(const fs::path& path, std::uint64_t max_bytes) {
-    // O_NONBLOCK: opening a pipe that nobody writes must not wait; it is refused just below.
+    // O_NONBLOCK: opening a pipe that nobody writes must not block; it is refused just below.
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (!file.valid()) return cannot_read(path, errno);
     struct stat info{};
@@ -173,7 +173,7 @@ Result<void> write_file_atomically(const fs::path& path, std::span<const std::by
     int code = write_and_flush(temporary, *target, bytes);
     if (code == 0 && ::rename(temporary.c_str(), target->path.c_str()) != 0) code = errno;
     if (code != 0) {
-        if (code != EEXIST) ::unlink(temporary.c_str());  // EEXIST: it is not ours
+        if (code != EEXIST) ::unlink(temporary.c_str());  // EEXIST: another writer's file
         return cannot_write(path, code);
     }
     flush_folder(target->path.parent_path());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whole files in and out of memory, for import, export and everything else that must not damage a user's file.
+// Reads and writes whole files, for import, export and everything else that must not damage a user's file.
 //
 // Threads: any; nothing shared. Failure: an Error that names the path and the remedy. Cost: the file's size in memory
 // and one write with fsync (milliseconds on a disk). Never called from the haptic thread.
@@ -17,14 +17,15 @@ namespace burin {
 
 inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{2} << 30;  // enough for 40 million binary STL triangles
 
-// The bytes of a regular file. Refused: folders, pipes and devices (they could block for ever), files above max_bytes.
+// Reads the bytes of a regular file. Refuses folders, pipes and devices (they could block for ever) and files above
+// max_bytes.
 [[nodiscard]] Result<std::vector<std::byte>> read_file(const std::filesystem::path& path,
                                                        std::uint64_t max_bytes = kMaxFileBytes);
 
-// Writes the bytes under a temporary name in the target's folder, flushes them to the disk and then renames, so that the
-// target holds either its old content or all of the new, whatever happens. A symbolic link is followed; an existing
-// target keeps its permissions; a target that is not a regular file, or not writable, is refused. After a failure nothing
-// is left behind.
+// Writes the bytes under a temporary name in the target's folder, flushes them to the disk and then renames, so that
+// the target holds either its old content or all of the new, whatever happens. A symbolic link is followed; an existing
+// target keeps its permissions; a target that is not a regular file, or not writable, is refused. A failure leaves no
+// temporary file behind.
 [[nodiscard]] Result<void> write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
 }  // namespace burin

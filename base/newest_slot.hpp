@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The newest-value channel: one writer, one reader, three preallocated slots, wait-free on both sides, nothing copied.
 //
-// Data flow: the writer fills its own slot in place and publishes it; the reader borrows the newest published slot until it
-// asks again. A value not fetched in time is overwritten by a newer one. The hardest case is a writer that publishes many
-// times while the reader holds a slot: the third slot keeps the two from ever sharing one.
+// Data flow: the writer fills its own slot in place and publishes it; the reader borrows the newest published slot
+// until it asks again. A value not fetched in time is overwritten by a newer one. The hardest case is a writer that
+// publishes many times while the reader holds a slot: the third slot keeps the two from ever sharing one.
 //
-// Each of the three slots is at any moment owned by the writer, by the reader, or lies in the middle. `middle_` holds the
-// index of the middle slot and whether it is newer than the reader's; both sides swap their own slot with it.
+// Each of the three slots is at any moment owned by the writer or by the reader, or is the middle slot. `middle_` holds
+// the index of the middle slot and whether it is newer than the reader's; both sides exchange their own slot for it.
 #pragma once
 
 #include <array>
@@ -26,8 +26,8 @@ public:
 
     // Writer only: hands the draft over and takes another slot.
     void publish() noexcept {
-        // release: the reader that takes this slot sees all that was written to it; acquire: the writer may overwrite the
-        // slot it receives only after the reader's last read of it.
+        // release: the reader that takes this slot sees all that was written to it; acquire: the writer may overwrite
+        // the slot it receives only after the reader's last read of it.
         const std::uint32_t given = middle_.exchange(writer_ | kNew, std::memory_order_acq_rel);
         writer_ = given & kIndex;
     }

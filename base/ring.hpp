@@ -14,7 +14,7 @@ namespace burin {
 template <typename T>
 class Ring {
 public:
-    // Rounds the capacity up to a power of two. Allocates here and never again.
+    // Rounds the capacity up to a power of two. The only allocation.
     explicit Ring(std::size_t least_capacity)
         : mask_(std::bit_ceil(least_capacity < 2 ? std::size_t{2} : least_capacity) - 1),
           values_(std::make_unique<T[]>(mask_ + 1)) {}
@@ -24,7 +24,7 @@ public:
     // Producer only.
     bool push(const T& value) noexcept {
         const std::size_t tail = tail_.load(std::memory_order_relaxed);  // only the producer writes it
-        // acquire: the consumer has finished reading the place we are about to overwrite.
+        // acquire: the consumer has finished reading the slot we are about to overwrite.
         if (tail - head_.load(std::memory_order_acquire) > mask_) {
             refused_.fetch_add(1, std::memory_order_relaxed);  // a statistic; orders nothing
             return false;
@@ -46,11 +46,11 @@ public:
         const std::size_t head = head_.load(std::memory_order_relaxed);   // only the consumer writes it
         if (head == tail_.load(std::memory_order_acquire)) return false;  // acquire: pairs with push's release
         value = values_[head & mask_];
-        head_.store(head + 1, std::memory_order_release);  // our read is done before the place is free
+        head_.store(head + 1, std::memory_order_release);  // our read is done before the slot is free
         return true;
     }
 
-    // How many pushes found the ring full. Any thread.
+    // Returns the number of pushes refused by a full ring. Any thread.
     [[nodiscard]] std::uint64_t refused() const noexcept { return refused_.load(std::memory_order_relaxed); }
 
 private:

@@ -11,6 +11,7 @@
 #pragma once
 
 #define GLM_FORCE_SILENT_WARNINGS
+#include <cmath>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
@@ -48,7 +49,7 @@ struct Similarity {
     return s.position_m + s.scale * (s.orientation * p);
 }
 
-// For differences (velocities, directions): rotation and scale, no translation.
+// Transforms differences (velocities, directions): rotation and scale, no translation.
 [[nodiscard]] inline Vec3 apply_to_vector(const Similarity& s, const Vec3& v) { return s.scale * (s.orientation * v); }
 
 [[nodiscard]] inline Similarity inverse(const Similarity& s) {
@@ -85,5 +86,16 @@ struct Box {
         }
     }
 };
+
+// Check whether numbers from outside are fit for computation.
+[[nodiscard]] inline bool finite(const Vec3& v) noexcept {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+[[nodiscard]] inline bool not_negative(double x) noexcept { return std::isfinite(x) && x >= 0.0; }
+
+[[nodiscard]] inline bool not_negative(const Vec3& v) noexcept {
+    return not_negative(v.x) && not_negative(v.y) && not_negative(v.z);
+}
 
 }  // namespace burin

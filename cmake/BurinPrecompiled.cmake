@@ -1,5 +1,5 @@
-# What nearly every source reads first is compiled once for all of them (docs/decisions/016-build-time.md). Preset ci does without,
-# so that a source that forgets an include does not go unnoticed.
+# What nearly every source reads first is compiled once for all of them (docs/decisions/016-build-time.md). Preset ci
+# does without, so that a source that forgets an include does not go unnoticed.
 #   burin_precompile(TARGET [tests])   with GoogleTest, for test programs
 option(BURIN_PRECOMPILE "Compile the common headers once for all sources" ON)
 
@@ -9,11 +9,13 @@ function(burin_precompiled_headers NAME)
   endif()
   file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/precompiled/${NAME}.cpp CONTENT "" @ONLY)
   add_library(${NAME} OBJECT ${CMAKE_BINARY_DIR}/precompiled/${NAME}.cpp)
-  target_link_libraries(${NAME} PRIVATE burin_options Threads::Threads glm::glm)
+  target_link_libraries(${NAME} PRIVATE burin_options Threads::Threads glm::glm nlohmann_json::nlohmann_json)
   target_precompile_headers(${NAME} PRIVATE
-    <algorithm> <array> <atomic> <bit> <charconv> <cmath> <cstdint> <cstdio> <cstring> <expected> <filesystem> <functional> <limits> <map>
-    <memory> <numbers> <numeric> <optional> <random> <span> <string> <string_view> <tuple> <utility> <variant> <vector>
-    ${CMAKE_SOURCE_DIR}/base/space.hpp ${CMAKE_SOURCE_DIR}/base/error.hpp ${ARGN})
+    <algorithm> <array> <atomic> <bit> <charconv> <cmath> <cstdint> <cstdio> <cstring> <expected> <filesystem>
+    <functional> <limits> <map> <memory> <numbers> <numeric> <optional> <random> <span>
+    <string> <string_view> <tuple> <utility> <variant> <vector>
+    ${CMAKE_SOURCE_DIR}/base/space.hpp ${CMAKE_SOURCE_DIR}/base/error.hpp ${CMAKE_SOURCE_DIR}/base/json.hpp
+    ${ARGN})
 endfunction()
 
 function(burin_precompile TARGET)

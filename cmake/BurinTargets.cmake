@@ -1,38 +1,44 @@
-# burin_folder(NAME SOURCES ... MAY_INCLUDE folder... [LINKS library...])
-# One target a folder: burin_NAME, also burin::NAME. MAY_INCLUDE is the layer rule of docs/architecture.md; the folders
-# named there are linked, and the test house.layers fails on an include of any other.
+# burin_folder(NAME MAY_INCLUDE folder... [EXCEPT file...] [LINKS library...])
+# One target a folder: burin_NAME, also burin::NAME, of all sources in the folder and its rooms (subfolders) but those
+# after EXCEPT. MAY_INCLUDE is the layer rule of docs/architecture.md; the folders named there are linked, and the test
+# house.layers fails on an include of any other.
 function(burin_folder NAME)
-  cmake_parse_arguments(ARG "" "" "SOURCES;MAY_INCLUDE;LINKS" ${ARGN})
-  if(ARG_SOURCES)
-    add_library(burin_${NAME} STATIC ${ARG_SOURCES})
-    burin_precompile(burin_${NAME})
-    set(scope PUBLIC)
-  else()
-    add_library(burin_${NAME} INTERFACE)
-    set(scope INTERFACE)
-  endif()
+  cmake_parse_arguments(ARG "" "" "EXCEPT;MAY_INCLUDE;LINKS" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *.cpp)
+  list(REMOVE_ITEM sources main.cpp ${ARG_EXCEPT})
+  add_library(burin_${NAME} STATIC ${sources})
+  burin_precompile(burin_${NAME})
   add_library(burin::${NAME} ALIAS burin_${NAME})
-  target_link_libraries(burin_${NAME} ${scope} burin_options Threads::Threads glm::glm ${ARG_LINKS})
+  target_link_libraries(burin_${NAME} PUBLIC burin_options Threads::Threads glm::glm ${ARG_LINKS})
   foreach(layer IN LISTS ARG_MAY_INCLUDE)
     string(REPLACE "/" "_" target "${layer}")
-    target_link_libraries(burin_${NAME} ${scope} burin_${target})
+    target_link_libraries(burin_${NAME} PUBLIC burin_${target})
   endforeach()
   string(REPLACE ";" " " allowed "${ARG_MAY_INCLUDE}")
   set_property(GLOBAL APPEND PROPERTY BURIN_LAYER_RULES "${NAME}: ${allowed}")
 endfunction()
 
-# burin_test(FOLDER compute KIND unit SOURCES a_unit.cpp ... [FOLDERS folder...] [LINKS library...])
-# One program for each folder and kind; the ctest name is FOLDER.KIND and the label is KIND. Each writes
+# burin_test(FOLDER compute KIND unit [SOURCES a_unit.cpp ...] [FOLDERS folder...] [LINKS library...] [RUNS_BURIN])
+# One program for each folder and kind, of the files *_KIND.cpp in the folder and its rooms that no program before has
+# taken, or of SOURCES alone; the ctest name is FOLDER.KIND and the label is KIND. RUNS_BURIN: it starts the program
+# (BURIN_COMMAND) on files of assets/ (BURIN_WALLS, BURIN_SESSIONS) and judges meshes by MESH_AUDIT. Each writes
 # test-reports/FOLDER.KIND.xml in the build directory, which scripts/test reads for its counts and the reasons of skips.
-# Kind realtime runs alone on the machine. Kind soak is random use with a new seed each time, short by default. Kind fuzz is a libFuzzer program (no GoogleTest), built by preset fuzz only;
-# its ctest replays tests/FOLDER/corpus and then mutates it for a fixed number of runs.
+# Kind realtime runs alone on the machine. Kind soak is random use with a new seed each time, short by default. Kind
+# fuzz is a libFuzzer program (no GoogleTest), built by preset fuzz only; its ctest replays tests/FOLDER/corpus and then
+# mutates it for a fixed number of runs.
 function(burin_test)
-  cmake_parse_arguments(ARG "" "FOLDER;KIND" "SOURCES;FOLDERS;LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "RUNS_BURIN" "FOLDER;KIND" "SOURCES;FOLDERS;LINKS" ${ARGN})
   set(target ${ARG_FOLDER}_${ARG_KIND})
   if(ARG_KIND STREQUAL "fuzz")
     burin_fuzzer(${target} ${ARGN})
     return()
   endif()
+  if(NOT ARG_SOURCES)
+    file(GLOB_RECURSE ARG_SOURCES CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *_${ARG_KIND}.cpp)
+    get_directory_property(taken BURIN_TAKEN_TESTS)
+    list(REMOVE_ITEM ARG_SOURCES ${taken})
+  endif()
+  set_property(DIRECTORY APPEND PROPERTY BURIN_TAKEN_TESTS ${ARG_SOURCES})
   add_executable(${target} ${ARG_SOURCES})
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   target_link_libraries(${target} PRIVATE burin_test_support ${ARG_LINKS})
@@ -40,6 +46,12 @@ function(burin_test)
   foreach(folder IN LISTS ARG_FOLDERS)
     target_link_libraries(${target} PRIVATE burin_${folder})
   endforeach()
+  if(ARG_RUNS_BURIN)
+    add_dependencies(${target} burin mesh_audit)
+    target_compile_definitions(${target} PRIVATE BURIN_COMMAND="$<TARGET_FILE:burin>"
+      MESH_AUDIT="$<TARGET_FILE:mesh_audit>"
+      BURIN_SESSIONS="${CMAKE_SOURCE_DIR}/assets/sessions" BURIN_WALLS="${CMAKE_SOURCE_DIR}/assets/walls")
+  endif()
   add_test(NAME ${ARG_FOLDER}.${ARG_KIND}
     COMMAND ${target} --gtest_output=xml:${CMAKE_BINARY_DIR}/test-reports/${ARG_FOLDER}.${ARG_KIND}.xml
     WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})

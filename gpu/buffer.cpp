@@ -17,7 +17,7 @@ Needs needs_of(BufferUse use, bool unified_memory) {
     constexpr VkMemoryPropertyFlags kSeen = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     constexpr VkBufferUsageFlags kCopied = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | kCopied;
-    // With unified memory all of it is as fast, so the CPU may as well see it.
+    // With unified memory all of it is equally fast, so the CPU may see it too.
     const VkMemoryPropertyFlags local = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | (unified_memory ? kSeen : 0u);
     switch (use) {
         case BufferUse::device_storage: return {kStorage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT, 0, local, true};

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A buffer, asked for by what it is for. Each buffer is one allocation of its own: ask for few and large ones (drivers
+// A GPU buffer, created by its intended use. Each buffer is one memory allocation: create few and large ones (drivers
 // allow about 4000 allocations in all).
 //
-// Ownership: move-only; freed when the GPU has done with it. Thread and lifetime: as Device.
+// Ownership: move-only; freed when the GPU no longer uses it. Thread and lifetime: as Device.
 // Contents are undefined after creation. Limits are checked before anything is allocated: a buffer beyond
-// capabilities().max_storage_buffer_bytes (128 MiB on the software driver) is refused with an Error. Only what a binding shows
-// is bounded by it: buffers that are reached by address are not.
+// capabilities().max_storage_buffer_bytes (128 MiB on the software driver) is refused with an Error. That limit holds
+// for buffers bound through descriptors only, not for `addressed` ones.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ enum class BufferUse {
     device_storage,  // read and written by shaders, also indirect arguments; mapped only with unified memory
     upload,          // written by the CPU through mapped(), copied from
     readback,        // copied to, read by the CPU through mapped()
-    addressed,       // like device_storage, but reached by address(): as large as an allocation may be
+    addressed,       // like device_storage, but reached by address(): up to the size of an allocation
     vertex,          // vertices; also a storage buffer, so that a compute shader can write it
     index,           // indices; also a storage buffer
     uniform          // small, written by the CPU through mapped()
@@ -30,24 +30,25 @@ enum class BufferUse {
 class Buffer {
 public:
     Buffer() = default;  // empty: size_bytes() is 0
-    // name appears in error messages. size_bytes must not be 0.
+    // Creates a buffer. name appears in error messages. size_bytes must not be 0.
     [[nodiscard]] static Result<Buffer> create(Device& device, BufferUse use, std::uint64_t size_bytes,
                                                const std::string& name);
 
     [[nodiscard]] std::uint64_t size_bytes() const { return size_bytes_; }
-    // The buffer's memory as the CPU sees it, for as long as the buffer lives; empty when the CPU cannot see it. Coherent:
-    // no flush is needed. Not to be touched between submit() and the end of a submission that uses the buffer.
+    // Returns the buffer's memory as the CPU sees it, valid as long as the buffer lives; empty when the CPU cannot see
+    // it. Coherent: no flush is needed. Must not be accessed between submit() and the end of a submission that uses the
+    // buffer.
     [[nodiscard]] std::span<std::byte> mapped() const { return mapped_; }
     template <typename T>
     [[nodiscard]] std::span<T> mapped_as() const {
         return {reinterpret_cast<T*>(mapped_.data()), mapped_.size() / sizeof(T)};
     }
-    // Where shaders find an `addressed` buffer; 0 for all others.
+    // Returns the device address of an `addressed` buffer for shaders; 0 for all others.
     [[nodiscard]] std::uint64_t address() const { return address_; }
     [[nodiscard]] VkBuffer raw() const { return buffer_.raw(); }
 
 private:
-    MemoryHandle memory_;  // before the buffer: destroyed after it
+    MemoryHandle memory_;  // declared before the buffer, hence destroyed after it
     BufferHandle buffer_;
     std::uint64_t size_bytes_ = 0, address_ = 0;
     std::span<std::byte> mapped_;
@@ -65,7 +66,7 @@ struct BufferRange {
         : buffer(&part), offset_bytes(offset), size_bytes(size) {}
 };
 
-// Any plain values as the bytes that upload, push constants and write take.
+// Returns the bytes of a plain value, as upload, push constants and write take them.
 template <typename T>
 [[nodiscard]] std::span<const std::byte> bytes_of(const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);

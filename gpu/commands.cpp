@@ -77,7 +77,7 @@ Result<Commands> Commands::begin(Device& device) {
     if (const VkResult r = core.vk.vkBeginCommandBuffer(commands.raw(), &info); r != VK_SUCCESS) {
         return vulkan_failure(core.info.name, "recording could not begin", r);
     }
-    commands.barrier();  // after all that earlier submissions wrote
+    commands.barrier();  // orders this work after all writes of earlier submissions
     return commands;
 }
 
@@ -113,7 +113,7 @@ bool Commands::bind(const ComputePipeline& pipeline, std::span<const BufferRange
     return true;
 }
 
-// The set to bind; null when the one bound already holds these buffers.
+// Returns the set to bind; null when the one bound already holds these buffers.
 VkDescriptorSet Commands::descriptor_set(const ComputePipeline& pipeline, std::span<const BufferRange> buffers) {
     std::vector<VkDescriptorBufferInfo> infos;
     infos.reserve(buffers.size());
@@ -241,7 +241,7 @@ Stamp Commands::stamp() {
 
 Result<Submission> Commands::submit(const QueueSync& sync) && {
     Core& c = *core_;
-    // The timeline alone makes the writes visible to the GPU; this makes them visible to the CPU.
+    // Makes the writes visible to the CPU; the timeline alone makes them visible to the GPU only.
     auto to_host = structure<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
     to_host.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
     to_host.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
@@ -253,7 +253,7 @@ Result<Submission> Commands::submit(const QueueSync& sync) && {
 
     const std::uint64_t serial = c.submitted + 1;
     const VkSemaphore signals[2] = {c.timeline, sync.signal};
-    const std::uint64_t values[2] = {serial, 0};  // a binary semaphore's value is not looked at
+    const std::uint64_t values[2] = {serial, 0};  // a binary semaphore ignores its value
     constexpr VkPipelineStageFlags kDrawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
     auto timeline = structure<VkTimelineSemaphoreSubmitInfo>(VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO);
     timeline.signalSemaphoreValueCount = sync.signal == VK_NULL_HANDLE ? 1 : 2;
@@ -271,7 +271,7 @@ Result<Submission> Commands::submit(const QueueSync& sync) && {
         return vulkan_failure(c.info.name, "the work was refused", r);
     }
     c.submitted = serial;
-    kept_.clear();  // set aside until this submission is done
+    kept_.clear();  // deferred until this submission is done
     kept_objects_.clear();
     return Submission(std::move(core_), std::move(set_), std::move(staging_), serial);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Recording and submitting work.
+// Recording and submitting GPU work.
 //
-//   auto commands = gpu::Commands::begin(device);            // Result<Commands>
+//   auto commands = Commands::begin(device);            // Result<Commands>
 //   commands->upload(positions, 0, bytes);                   // through a staging buffer of its own
 //   commands->barrier();
 //   commands->dispatch(cut, {rays, strokes}, gpu::bytes_of(parameters), {groups, 1, 1});
@@ -10,12 +10,13 @@
 //   auto submission = std::move(*commands).submit();         // Result<Submission>
 //   auto done = submission->wait();                          // then readback.mapped() holds the result
 //
-// Nothing is ordered by itself: between commands where the second reads or overwrites what the first wrote stands a
-// barrier(). Each submission starts after the ones before it have finished all their writes, and what the CPU wrote to
-// mapped buffers before submit() is visible to it; what it wrote is visible to the CPU after wait().
+// No ordering is implicit: a barrier() belongs between two commands of which the second reads or overwrites what the
+// first wrote. Each submission starts after the ones before it have finished all their writes, and the CPU's writes to
+// mapped buffers before submit() are visible to it; its own writes are visible to the CPU after wait().
 // Failure: recording functions return nothing; the first failure among them (memory for staging or descriptors) is kept
 // and returned by submit(), which then submits nothing. Using buffers beyond their end breaks a contract (BURIN_CHECK).
-// Lifetime: pipelines and buffers named in a command must live until submit(); after that they may be destroyed at will.
+// Lifetime: pipelines and buffers named in a command must live until submit(); after that they may be destroyed at any
+// time.
 // Thread: as Device. Cost: 10-30 us a submission, below 1 us a dispatch on the CPU side.
 #pragma once
 
@@ -43,17 +44,18 @@ struct QueueSync {
     VkSemaphore signal = VK_NULL_HANDLE;  // when all of it is done
 };
 
-// Work handed to the GPU. Dropping it does not wait; its resources are reused when the GPU has done with them.
+// Work handed to the GPU. Destroying the Submission does not wait; its resources are reused when the GPU no longer uses
+// them.
 class Submission {
 public:
     Submission(Submission&&) noexcept = default;
     Submission& operator=(Submission&& other) noexcept;
     ~Submission() { release(); }
 
-    // Blocks until the work is done; an Error after 120 s or when the device is lost.
+    // Blocks until the work is done; returns an Error after 120 s or when the device is lost.
     [[nodiscard]] Result<void> wait();
     [[nodiscard]] bool done() const;
-    // GPU time between two stamps, after wait(); nothing where capabilities().timestamps is false.
+    // Returns the GPU time between two stamps, after wait(); nothing where capabilities().timestamps is false.
     [[nodiscard]] std::optional<double> seconds_between(Stamp earlier, Stamp later) const;
 
 private:
@@ -75,40 +77,42 @@ public:
     [[nodiscard]] static Result<Commands> begin(Device& device);
     Commands(Commands&&) noexcept = default;
     Commands& operator=(Commands&&) = delete;
-    ~Commands();  // not submitted: forgotten
+    ~Commands();  // discards the commands if they were not submitted
 
-    // As many buffers as the pipeline has bindings, and exactly its push constants. A dispatch of zero groups does nothing.
+    // Dispatches a compute shader. Requires as many buffers as the pipeline has bindings, and exactly its push
+    // constants. A dispatch of zero groups does nothing.
     void dispatch(const ComputePipeline& pipeline, std::initializer_list<BufferRange> buffers,
                   std::span<const std::byte> push_constants, Groups groups) {
         dispatch(pipeline, std::span(buffers.begin(), buffers.size()), push_constants, groups);
     }
     void dispatch(const ComputePipeline& pipeline, std::span<const BufferRange> buffers,
                   std::span<const std::byte> push_constants, Groups groups);
-    // The three group counts are read from `arguments` (a device_storage buffer) when the GPU gets there.
+    // Dispatches with the three group counts that the GPU reads from `arguments` (a device_storage buffer) on
+    // execution.
     void dispatch_indirect(const ComputePipeline& pipeline, std::span<const BufferRange> buffers,
                            std::span<const std::byte> push_constants, const Buffer& arguments,
                            std::uint64_t offset_bytes);
-    // All writes before it are seen by all reads and writes after it, whatever made them.
+    // Makes all earlier writes, of any kind, visible to all later reads and writes.
     void barrier();
     void copy(const Buffer& from, std::uint64_t from_offset, const Buffer& to, std::uint64_t to_offset,
               std::uint64_t size_bytes);
-    // Sets whole words; offset and size are multiples of 4.
+    // Fills with a 32-bit word; offset and size are multiples of 4.
     void fill(const Buffer& buffer, std::uint64_t offset_bytes, std::uint64_t size_bytes, std::uint32_t word);
     void upload(const Buffer& to, std::uint64_t offset_bytes, std::span<const std::byte> bytes);
-    // Frees the buffer only when this work is done; for one that is replaced while recording.
+    // Keeps the buffer alive until this work is done; for one that is replaced while recording.
     void keep_alive(Buffer buffer) { kept_.push_back(std::move(buffer)); }
-    // Likewise for any other object made for this work alone: a framebuffer, a descriptor pool.
+    // Keeps any other object made for this work alone (a framebuffer, a descriptor pool) alive until it is done.
     template <typename T, VkObjectType Type>
     void keep_alive(Handle<T, Type> object) {
         kept_objects_.push_back(std::make_shared<Handle<T, Type>>(std::move(object)));
     }
-    // The GPU's time when all commands before it are done. At most kMaxStamps in one Commands.
+    // Records the GPU's time when all commands before it are done. At most kMaxStamps in one Commands.
     Stamp stamp();
 
-    // After VK_ERROR_DEVICE_LOST device().core()->lost is set and every later submission fails too.
+    // Submits the work. After VK_ERROR_DEVICE_LOST device().core()->lost is set and every later submission fails too.
     [[nodiscard]] Result<Submission> submit(const QueueSync& sync = {}) &&;
 
-    // For code that records Vulkan commands of its own.
+    // Returns the command buffer, for code that records Vulkan commands of its own.
     [[nodiscard]] VkCommandBuffer raw() const { return set_.commands; }
 
 private:
@@ -126,16 +130,16 @@ private:
     std::vector<Buffer> staging_;
     std::vector<Buffer> kept_;
     std::vector<std::shared_ptr<void>> kept_objects_;
-    std::uint64_t staging_used_ = 0;  // bytes of staging_.back() that are taken
+    std::uint64_t staging_used_ = 0;  // bytes of staging_.back() in use
     std::size_t pool_in_use_ = 0;     // index into set_.descriptor_pools
     std::uint32_t stamps_ = 0;
     std::optional<Error> first_error_;
-    // The set bound last: dispatches that follow with the same buffers reuse it.
+    // The descriptor set bound last: following dispatches with the same buffers reuse it.
     VkPipeline bound_pipeline_ = VK_NULL_HANDLE;
     std::vector<VkDescriptorBufferInfo> bound_buffers_;
 };
 
-// Uploads and waits; reads back and waits. For tests, start-up and end of work; a frame or an update records its own.
+// Upload and wait; read back and wait. For tests, start-up and shutdown; a frame or an update records its own commands.
 [[nodiscard]] Result<void> write(Device& device, const Buffer& to, std::uint64_t offset_bytes,
                                  std::span<const std::byte> bytes);
 [[nodiscard]] Result<std::vector<std::byte>> read(Device& device, const Buffer& from, std::uint64_t offset_bytes,

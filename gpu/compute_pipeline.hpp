@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A compute shader ready to dispatch. Its storage buffers are bindings 0 .. n-1 of set 0; it may have push constants.
-// Cost: compiling takes 30-150 ms the first time with a software driver (1 ms from the driver's disk cache): create each
-// pipeline once, when first needed.
+// Cost: compilation takes 30-150 ms the first time with a software driver (1 ms from the driver's disk cache): create
+// each pipeline once, when first needed.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace burin::gpu {
 
 struct ComputePipelineSpec {
-    std::span<const std::uint32_t> spirv;  // only read during create
+    std::span<const std::uint32_t> spirv;  // read during create only
     std::uint32_t storage_buffers = 0;
     std::uint32_t push_constant_bytes = 0;          // a multiple of 4, at most capabilities().max_push_constant_bytes
     std::span<const std::uint32_t> constants = {};  // specialization constants: constant_id 0, 1, ...
@@ -40,7 +40,7 @@ private:
     std::uint32_t push_constant_bytes_ = 0;
 };
 
-// A shader module from SPIR-V words; for pipelines of any kind. Not needed once the pipeline exists.
+// Creates a shader module from SPIR-V words, for pipelines of any kind. It is not needed once the pipeline exists.
 [[nodiscard]] Result<ShaderHandle> create_shader(Device& device, std::span<const std::uint32_t> spirv,
                                                  const std::string& name);
 

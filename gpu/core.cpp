@@ -6,7 +6,7 @@
 namespace burin::gpu {
 
 namespace {
-// Long enough for the slowest dispatch of a software device; a longer wait means a hung GPU.
+// Long enough for the slowest dispatch of a software device; a longer wait means that the GPU hangs.
 constexpr std::uint64_t kWaitLimit_ns = 120'000'000'000;
 
 template <typename T>
@@ -74,7 +74,7 @@ void Core::retire(CommandSet set, std::uint64_t after_serial) {
 
 void Core::collect() {
     const std::uint64_t done = completed();
-    // In order of retirement, as an object may be retired before the memory it is bound to.
+    // Destroys in order of retirement, as an object may be retired before the memory it is bound to.
     const auto first_kept = std::ranges::find_if(retired_, [done](const Retired& r) { return r.serial > done; });
     for (auto r = retired_.begin(); r != first_kept; ++r) destroy(r->type, r->handle);
     retired_.erase(retired_.begin(), first_kept);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The inside of a Device, shared by the objects made on it: Vulkan handles, the function table, the timeline of
-// submissions, and the things set aside until the GPU has done with them. For gpu/ and for code that records Vulkan
-// commands of its own (renderer/). Threads: as Device.
+// The internals of a Device, shared by the objects made on it: Vulkan handles, the function table, the timeline of
+// submissions, and the queue of objects to destroy once the GPU no longer uses them. For gpu/ and for code that records
+// Vulkan commands of its own (renderer/). Threads: as Device.
 #pragma once
 
 #include <bit>
@@ -14,16 +14,16 @@
 
 namespace burin::gpu {
 
-// What one submission is recorded with; reused by a later one.
+// The Vulkan objects one submission is recorded with; reused by a later submission.
 struct CommandSet {
     VkCommandPool pool = VK_NULL_HANDLE;
     VkCommandBuffer commands = VK_NULL_HANDLE;
-    VkQueryPool stamps = VK_NULL_HANDLE;  // made at the first stamp()
+    VkQueryPool stamps = VK_NULL_HANDLE;  // created by the first stamp()
     std::vector<VkDescriptorPool> descriptor_pools;
 };
 
-// The functions of the instance extensions for windows; null where Device::create was not asked for them. They belong to
-// the instance they were loaded from, so they are kept here and not in volk's own variables.
+// Functions of the instance extensions for windows; null where Device::create was not asked for them. They belong to
+// the instance they were loaded from, hence they are kept here and not in volk's global variables.
 struct SurfaceFunctions {
     PFN_vkDestroySurfaceKHR destroy = nullptr;
     PFN_vkGetPhysicalDeviceSurfaceSupportKHR support = nullptr;
@@ -59,8 +59,8 @@ public:
     std::uint64_t submitted = 0;
     // Set by the first submission, wait or presentation that reports the device as lost; nothing works afterwards.
     bool lost = false;
-    // For tests: the next submission is answered as a driver answers when the GPU has gone, the next acquisition of an image as when
-    // the window's surface has.
+    // For tests: makes the next submission fail as if the GPU were gone, or the next acquisition of an image as if the
+    // window's surface were gone.
     bool lose_at_next_submit = false;
     bool lose_surface_at_next_acquire = false;
     [[nodiscard]] VkResult submit(const VkSubmitInfo& info);
@@ -73,11 +73,11 @@ public:
         if (handle != VK_NULL_HANDLE) retire_handle(type, std::bit_cast<std::uint64_t>(handle));
     }
     void retire(CommandSet set, std::uint64_t after_serial);
-    void collect();  // frees what is no longer in use; called by each Commands::begin
+    void collect();  // destroys retired objects no longer in use; called by each Commands::begin
 
     [[nodiscard]] Result<CommandSet> take_command_set();
 
-    // A memory type that has `required`, the one with most of `preferred`; -1 when none.
+    // Returns the index of the memory type that has all of `required` and most of `preferred`; -1 when there is none.
     [[nodiscard]] int memory_type(std::uint32_t allowed_bits, VkMemoryPropertyFlags required,
                                   VkMemoryPropertyFlags preferred) const;
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <mutex>
+#include <span>
 #include <string_view>
 
 #include "gpu/core.hpp"
@@ -31,30 +32,38 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info() {
     auto info = structure<VkDebugUtilsMessengerCreateInfoEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT);
     info.messageSeverity =
         VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-    // Not GENERAL: there the loader reports on other drivers of the machine, which are none of ours.
+    // Leaves out GENERAL, with which the loader reports on other drivers of the machine.
     info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
     info.pfnUserCallback = on_message;
     return info;
 }
 
-// The loader's entry points are the same for every instance, so they are loaded once; opening devices on two threads at
-// once is then safe.
+// The loader's entry points are the same for every instance, so they are loaded once; it is then safe to open devices
+// on two threads at the same time.
 std::mutex g_load_mutex;
-VkInstance g_keeper = VK_NULL_HANDLE;  // never destroyed
+VkInstance g_driver_keeper = VK_NULL_HANDLE, g_layer_keeper = VK_NULL_HANDLE;  // never destroyed
 
 bool open_loader() {
     static const bool opened = volkInitialize() == VK_SUCCESS;
     return opened;
 }
 
-// An instance that lives as long as the process keeps the drivers loaded: loading them again for every device costs time,
-// and Mesa 22.3.6 loses some memory whenever it is unloaded after drawing.
-void load_instance_functions(VkInstance instance) {
+// Instances that live as long as the process keep the drivers and the validation layer loaded: loading them again for
+// every device costs time, and Mesa 22.3.6 and the layer 1.3.239 leak some memory whenever they are unloaded.
+void keep_loaded(VkInstance& keeper, VkInstance instance, std::span<const char* const> layers) {
+    if (keeper != VK_NULL_HANDLE) return;
+    auto info = structure<VkInstanceCreateInfo>(VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO);
+    info.enabledLayerCount = static_cast<std::uint32_t>(layers.size());
+    info.ppEnabledLayerNames = layers.data();
+    // If that fails, marks the keeper as made all the same; the caller still owns `instance`.
+    if (vkCreateInstance(&info, nullptr, &keeper) != VK_SUCCESS) keeper = instance;
+}
+
+void load_instance_functions(VkInstance instance, bool validation) {
     const std::lock_guard lock(g_load_mutex);
-    if (g_keeper != VK_NULL_HANDLE) return;
-    volkLoadInstanceOnly(instance);
-    const auto info = structure<VkInstanceCreateInfo>(VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO);
-    if (vkCreateInstance(&info, nullptr, &g_keeper) != VK_SUCCESS) g_keeper = instance;  // kept in name only
+    if (g_driver_keeper == VK_NULL_HANDLE) volkLoadInstanceOnly(instance);
+    keep_loaded(g_driver_keeper, instance, {});
+    if (validation) keep_loaded(g_layer_keeper, instance, {&kValidationLayer, 1});
 }
 
 bool validation_layer_installed() {
@@ -80,7 +89,7 @@ bool has(const std::vector<std::string>& names, std::string_view name) {
     return std::ranges::find(names, name) != names.end();
 }
 
-// All that must be there, and of the rest what is there; each once.
+// Returns all required extensions and those of the optional ones that exist, each once.
 Result<std::vector<std::string>> extensions_to_enable(const DeviceOptions& options) {
     std::vector<std::string> enabled = options.instance_extensions;
     if (enabled.empty() && options.optional_instance_extensions.empty()) return enabled;
@@ -130,14 +139,23 @@ Result<void> create_instance(Core& core, bool validation, const DeviceOptions& o
     app.apiVersion = VK_API_VERSION_1_2;
     auto extensions = extensions_to_enable(options);
     if (!extensions) return std::unexpected(extensions.error());
-    if (validation) extensions->emplace_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    if (validation) {
+        extensions->emplace_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+        extensions->emplace_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+    }
     std::vector<const char*> names;
     for (const std::string& name : *extensions) names.push_back(name.c_str());
     const VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info();
+    // Adds checks for missing barriers to the default checks.
+    constexpr VkValidationFeatureEnableEXT kAlsoChecked = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+    auto features = structure<VkValidationFeaturesEXT>(VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT);
+    features.pNext = &messenger;  // reports on creation and destruction of the instance itself
+    features.enabledValidationFeatureCount = 1;
+    features.pEnabledValidationFeatures = &kAlsoChecked;
     auto info = structure<VkInstanceCreateInfo>(VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO);
     info.pApplicationInfo = &app;
     if (validation) {
-        info.pNext = &messenger;  // reports on creation and destruction of the instance itself
+        info.pNext = &features;
         info.enabledLayerCount = 1;
         info.ppEnabledLayerNames = &kValidationLayer;
     }
@@ -146,7 +164,7 @@ Result<void> create_instance(Core& core, bool validation, const DeviceOptions& o
     const VkResult result = vkCreateInstance(&info, nullptr, &core.instance);
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER) return fail("Vulkan", "no Vulkan driver found", kNoDriver);
     if (result != VK_SUCCESS) return vulkan_failure("Vulkan", "the instance could not be created", result);
-    load_instance_functions(core.instance);
+    load_instance_functions(core.instance, validation);
     load_surface_functions(core, *extensions);
     if (validation) {
         const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
@@ -173,7 +191,7 @@ DeviceKind kind_of(VkPhysicalDeviceType type) {
     }
 }
 
-// One family that can do all; every desktop driver has one.
+// Returns a queue family for graphics and compute, as every desktop driver has; -1 when there is none.
 int family_for_all(VkPhysicalDevice physical) {
     std::uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
@@ -339,7 +357,7 @@ void read_limits(Core& core) {
     core.seconds_per_stamp = static_cast<double>(limits.timestampPeriod) * 1e-9;
 }
 
-// Enabled where both exist.
+// The features for waiting for presentations; enabled where both exist.
 struct PresentFeatures {
     VkPhysicalDevicePresentIdFeaturesKHR id =
         structure<VkPhysicalDevicePresentIdFeaturesKHR>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PRESENT_ID_FEATURES_KHR);

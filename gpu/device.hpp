@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The Vulkan device: what the compute engine and the renderer are built on. No window system is touched unless the caller
+// The Vulkan device on which the compute engine and the renderer are built. Touches no window system unless the caller
 // names a window system's extensions (DeviceOptions::instance_extensions).
 //
-// Data flow: list_devices() shows what is there; Device::create() picks one and opens it; buffers, images and pipelines are
-// created on it; work is recorded into Commands (commands.hpp), submitted, and waited for.
+// Data flow: list_devices() lists the machine's devices; Device::create() picks one and opens it; buffers, images and
+// pipelines are created on it; work is recorded into Commands (commands.hpp), submitted, and waited for.
 //
-// Lifetime: every object keeps its device's core alive, so the order of destruction is free. A destroyed object that the
-// GPU may still be using is set aside and freed when the submissions made so far are done (deferred destruction).
-// Thread: a Device and all its objects belong to one thread at a time. Different Devices may be used by different threads
-// at once: a thread that needs the GPU of its own opens a Device of its own (30-75 ms with a software driver).
+// Lifetime: every object keeps its device's core alive, so the order of destruction is free. A destroyed object that
+// the GPU may still be using is freed when the submissions made so far are done (deferred destruction).
+// Thread: a Device and all its objects belong to one thread at a time. Different Devices may be used by different
+// threads at once: a thread that needs a GPU to itself opens its own Device (30-75 ms with a software driver).
 // Failure: no loader, no driver, no device, out of memory: Error, with the remedy. Wrong use: BURIN_CHECK.
 #pragma once
 
@@ -39,7 +39,7 @@ struct DeviceInfo {
     [[nodiscard]] std::string line() const;  // "0: name (software, driver, Vulkan 1.3.230)"
 };
 
-// What the opened device can do. Everything listed as true has been enabled.
+// Features and limits of the opened device. Every feature listed as true has been enabled.
 struct Capabilities {
     bool shader_int64 = false;
     bool shader_float64 = false;
@@ -52,36 +52,38 @@ struct Capabilities {
     bool buffer_address = false;        // shaders reach buffers by address (GL_EXT_buffer_reference)
     bool sampler_anisotropy = false;
     bool timestamps = false;
-    bool swapchain = false;        // can show pictures in windows; only when instance_extensions asked for surfaces
+    bool swapchain = false;        // can present to windows; only when instance_extensions asked for surfaces
     bool display_control = false;  // can count a display's refreshes (VK_EXT_display_control)
-    bool present_wait = false;     // tells when a picture is on the display (VK_KHR_present_id and VK_KHR_present_wait)
-    bool unified_memory = false;   // device_storage buffers are mapped: Buffer::mapped() is not empty
-    bool display_stereo = false;   // a display's own stereo (VK_NV_display_stereo)
+    bool present_wait = false;    // reports when an image is on the display (VK_KHR_present_id and VK_KHR_present_wait)
+    bool unified_memory = false;  // device_storage buffers are mapped: Buffer::mapped() is not empty
+    bool display_stereo = false;  // supports a display's own stereo (VK_NV_display_stereo)
     std::uint32_t subgroup_size = 0;
     std::uint32_t msaa_samples = 1;  // 4 where colour and depth both allow it
     std::uint64_t max_storage_buffer_bytes = 0;
-    std::uint64_t storage_offset_alignment = 1;  // of BufferRange::offset
+    std::uint64_t storage_offset_alignment = 1;  // BufferRange::offset_bytes must be a multiple of it
     std::uint32_t max_push_constant_bytes = 0;
     std::uint32_t max_workgroup_invocations = 0;
-    std::uint32_t max_workgroup_count = 0;  // the least of the three axes
+    std::uint32_t max_workgroup_count = 0;  // the smallest of the three axes
     std::uint32_t max_image_size = 0;       // width and height of a 2D image
 };
 
-enum class Prefer { hardware, software };  // an order, not a demand: with only the other kind there, that one is taken
+enum class Prefer { hardware, software };  // a preference: where there is only the other kind, it is taken
 
 struct DeviceOptions {
     Prefer prefer = Prefer::hardware;
     std::optional<unsigned> index = {};  // exactly this device of list_devices()
-    // Runs the Khronos validation layer; an Error where it is not installed. Also asked for by BURIN_VULKAN_VALIDATION=1.
+    // Runs the Khronos validation layer with synchronisation validation; an Error where it is not installed.
+    // BURIN_VULKAN_VALIDATION=1 turns it on too.
     bool validation = false;
-    // Instance extensions that must be there, such as window::required_extensions(); an Error names a missing one. With
+    // Required instance extensions, such as those of required_extensions(); an Error names a missing one. With
     // VK_KHR_surface among them the swapchain extension is enabled where the device has it.
     std::vector<std::string> instance_extensions = {};
-    // Enabled where they exist, such as direct_display_extensions().
+    // Extensions enabled where they exist, such as direct_display_optional_extensions().
     std::vector<std::string> optional_instance_extensions = {};
 };
 
-// Every Vulkan device of this machine, usable or not; an Error when there is no loader or no driver. Cost: 30-75 ms.
+// Lists every Vulkan device of this machine, usable or not; an Error when there is no loader or no driver. Cost: 30-75
+// ms.
 [[nodiscard]] Result<std::vector<DeviceInfo>> list_devices();
 
 class Device {
@@ -92,9 +94,10 @@ public:
     [[nodiscard]] const Capabilities& capabilities() const;
     [[nodiscard]] const std::shared_ptr<Core>& core() const { return core_; }
 
-    // Waits for everything submitted, and frees what was set aside.
+    // Waits for everything submitted, and frees objects whose destruction was deferred.
     Result<void> wait_idle();
-    // True once the driver has said that the GPU is gone: all objects of this device are useless, and a new Device is due.
+    // Tells whether the driver has reported the GPU as lost: all objects of this device are then useless, and a new
+    // Device must be opened.
     [[nodiscard]] bool lost() const;
 
     explicit Device(std::shared_ptr<Core> core) : core_(std::move(core)) {}  // another handle of an opened device
@@ -103,8 +106,8 @@ private:
     std::shared_ptr<Core> core_;
 };
 
-// Warnings and errors that the validation layer has reported since the start of the process, over all devices. Tests
-// assert that it stays 0; each message also goes to standard error. Any thread.
+// Returns the number of warnings and errors that the validation layer has reported since the start of the process, over
+// all devices. Tests assert that it stays 0; each message also goes to standard error. Any thread.
 [[nodiscard]] std::uint64_t validation_messages() noexcept;
 
 }  // namespace burin::gpu

@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kStereoExtension = "VK_NV_display_stereo";
 constexpr const char* kWhere = "direct display";
 
-// VK_NV_display_stereo, by hand: extension 552 numbers its values from 1000551000.
+// VK_NV_display_stereo, declared by hand: the values of extension 552 begin at 1000551000.
 enum StereoType : std::int32_t { kStereoNone = 0, kStereoDin = 1, kStereoHdmi = 2, kStereoInband = 3 };
 constexpr auto kSurfaceStereoCreateInfo = static_cast<VkStructureType>(1000551000);
 constexpr auto kModeStereoProperties = static_cast<VkStructureType>(1000551001);
@@ -140,7 +140,7 @@ struct Planes {
     std::vector<std::uint32_t> stack_indices;
 };
 
-// The planes as one display in one of its modes sees them.
+// Returns the planes from the point of view of one display in one of its modes.
 Planes planes_for(const Core& core, const Functions& f, VkDisplayKHR display, VkDisplayModeKHR mode) {
     std::uint32_t count = 0;
     f.planes(core.physical, &count, nullptr);

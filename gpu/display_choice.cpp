@@ -28,22 +28,6 @@ bool holds(const DisplayPlane& plane, std::uint32_t width, std::uint32_t height)
 
 }  // namespace
 
-const char* name_of(DisplayStereo stereo) {
-    switch (stereo) {
-        case DisplayStereo::none: return "plain";
-        case DisplayStereo::onboard_din: return "onboard-din";
-        case DisplayStereo::hdmi_3d: return "hdmi-3d";
-        case DisplayStereo::inband_displayport: return "inband-displayport";
-    }
-    return "?";
-}
-
-std::span<const DisplayStereo> display_stereos() {
-    static constexpr std::array kAll{DisplayStereo::none, DisplayStereo::hdmi_3d, DisplayStereo::onboard_din,
-                                     DisplayStereo::inband_displayport};
-    return kAll;
-}
-
 int choose_display(const std::vector<std::string>& names, const std::string& wanted) {
     if (wanted.empty()) return names.empty() ? -1 : 0;
     const auto index_of = [&](auto found) { return static_cast<int>(found - names.begin()); };
@@ -83,7 +67,8 @@ int choose_plane(const std::vector<DisplayPlane>& planes, std::uint32_t width, s
 }
 
 std::uint32_t choose_alpha(std::uint32_t supported) {
-    // Opaque, one alpha for all, that of each pixel: the last is right for pictures whose alpha is 1 everywhere, as ours is.
+    // Tries opaque, one alpha for all, then that of each pixel: the last ones are right for images whose alpha is 1
+    // everywhere, as ours is.
     for (const std::uint32_t bit : {1u, 2u, 4u, 8u})
         if ((supported & bit) != 0) return bit;
     return 1u;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "app/driver_threads.hpp"
+#include "gpu/driver_threads.hpp"
 
 #include <algorithm>
 #include <cstdlib>
 #include <string>
 #include <thread>
 
-namespace burin {
+namespace burin::gpu {
 namespace {
 
 constexpr const char* kVariable = "LP_NUM_THREADS";
@@ -23,4 +23,4 @@ const char* driver_threads() {
     return threads != nullptr ? threads : "";
 }
 
-}  // namespace burin
+}  // namespace burin::gpu

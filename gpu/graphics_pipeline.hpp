@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A graphics pipeline for triangle lists, with the viewport and the scissor dynamic; all else is fixed by the spec.
-// The default front face is counter-clockwise as the viewer sees it, given a projection that puts +Y up in the picture.
+// A graphics pipeline for triangle lists with dynamic viewport and scissor; all other state is fixed by the spec. The
+// default front face is counter-clockwise as the viewer sees it, given a projection that puts +Y up in the image.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A 2D image of one or more layers with its view over all of them. Each image is one allocation of its own.
-// Ownership: move-only; freed when the GPU has done with it. Thread and lifetime: as Device.
+// A 2D image of one or more layers with a view of all of them. Each image is one memory allocation. Ownership:
+// move-only; freed when the GPU no longer uses it. Thread and lifetime: as Device.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@ namespace burin::gpu {
 
 struct ImageSpec {
     std::uint32_t width = 0, height = 0;  // pixels, each 1 to capabilities().max_image_size
-    std::uint32_t layers = 1;             // the view is an array for more than one
+    std::uint32_t layers = 1;             // with more than one, the view is an array view
     std::uint32_t samples = 1;            // 1 or capabilities().msaa_samples
     VkFormat format = VK_FORMAT_UNDEFINED;
     VkImageUsageFlags usage = 0;
     VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
-    bool other_formats = false;  // view_as() may show it in another format of the same size
+    bool other_formats = false;  // view_as() may reinterpret it in another format of the same size
     std::string name = "image";  // for error messages
 };
 
@@ -28,7 +28,7 @@ public:
 
     [[nodiscard]] VkImage raw() const { return image_.raw(); }
     [[nodiscard]] VkImageView view() const { return view_.raw(); }
-    // Another view of all its layers.
+    // Creates another view of all layers in the given format.
     [[nodiscard]] Result<ImageViewHandle> view_as(Device& device, VkFormat format) const;
 
 private:

@@ -8,9 +8,10 @@ namespace burin::gpu {
 
 namespace {
 
-// A picture that nobody takes within this time will not be seen soon; the caller looks after its events meanwhile.
+// Limit of the wait for a free image: if nobody takes an image within this time, none will be seen soon, and the caller
+// handles its events meanwhile.
 constexpr std::uint64_t kAcquireLimit_ns = 100'000'000;
-// Where the surface leaves its size to us (Wayland), a size of its own is marked so.
+// The width by which a surface says that the swapchain determines its size (Wayland).
 constexpr std::uint32_t kAnySize = 0xffffffffu;
 
 VkResult create_semaphore(const std::shared_ptr<Core>& core, SemaphoreHandle& into) {
@@ -90,7 +91,7 @@ void Swapchain::release() {
     core_.reset();
 }
 
-// Presentations cannot be waited for one by one, so all work is: this happens at a resize and at the end.
+// Waits for all work, since presentations cannot be waited for one by one: this happens at a resize and at the end.
 void Swapchain::drop_images() {
     if (slots_.empty()) return;
     core_->vk.vkDeviceWaitIdle(core_->device);
@@ -119,7 +120,7 @@ Result<void> Swapchain::check_surface(std::uint32_t layers) {
     return {};
 }
 
-// sRGB pictures where they can be had: then the hardware encodes what shaders write.
+// Prefers sRGB formats, with which the hardware encodes what shaders write.
 Result<void> Swapchain::choose_format() {
     std::uint32_t count = 0;
     core_->surface.formats(core_->physical, surface_.raw(), &count, nullptr);
@@ -184,11 +185,12 @@ VkResult Swapchain::create_swapchain(const VkSurfaceCapabilitiesKHR& caps) {
     info.preTransform = caps.currentTransform;
     info.compositeAlpha = opaque_or_first(caps.supportedCompositeAlpha);
     info.presentMode = VK_PRESENT_MODE_FIFO_KHR;
-    info.clipped = VK_FALSE;  // pictures stay whole, so that parts of them can be kept (SwapchainFrame::age)
+    // covered pixels are kept too, so that later frames can reuse parts of the image (SwapchainFrame::age)
+    info.clipped = VK_FALSE;
     info.oldSwapchain = swapchain_;
     VkSwapchainKHR made = VK_NULL_HANDLE;
     const VkResult r = core_->vk.vkCreateSwapchainKHR(core_->device, &info, nullptr, &made);
-    core_->vk.vkDestroySwapchainKHR(core_->device, swapchain_, nullptr);  // retired even when the new one failed
+    core_->vk.vkDestroySwapchainKHR(core_->device, swapchain_, nullptr);  // retired even if the new one failed
     swapchain_ = made;
     presented_before_ = presented_;
     return r;
@@ -242,7 +244,7 @@ FrameAnswer Swapchain::answer_of(VkResult result) {
         case VK_ERROR_OUT_OF_DATE_KHR:
         case VK_ERROR_FULL_SCREEN_EXCLUSIVE_MODE_LOST_EXT: stale_ = true; return FrameAnswer::resized;
         case VK_ERROR_DEVICE_LOST: core_->lost = true; return FrameAnswer::device_lost;
-        // Out of memory too: a new surface and a new swapchain are all that can be tried.
+        // Includes out of memory: all that can be tried is a new surface and a new swapchain.
         default: return FrameAnswer::surface_lost;
     }
 }
@@ -313,7 +315,7 @@ FrameAnswer Swapchain::present(const SwapchainFrame& frame) {
     const VkResult r = core_->lost ? VK_ERROR_DEVICE_LOST : core_->vk.vkQueuePresentKHR(core_->queue, &info);
     const FrameAnswer answer = answer_of(r);
     if (answer == FrameAnswer::presented) slots_[frame.image].presented_as = ++presented_;
-    if (r == VK_SUBOPTIMAL_KHR) {  // some drivers say so for good: only a new size is worth new images
+    if (r == VK_SUBOPTIMAL_KHR) {  // some drivers report this for good: only a new size is worth new images
         VkSurfaceCapabilitiesKHR caps{};
         const VkResult asked = core_->surface.capabilities(core_->physical, surface_.raw(), &caps);
         stale_ = asked != VK_SUCCESS || (caps.currentExtent.width != kAnySize &&
@@ -325,7 +327,7 @@ FrameAnswer Swapchain::present(const SwapchainFrame& frame) {
 FrameAnswer Swapchain::abandon(const SwapchainFrame& frame) {
     stale_ = true;
     if (core_->lost) return FrameAnswer::device_lost;
-    // The semaphore that the window system signals must be waited for before it can go.
+    // Waits for the semaphore that the window system signals, which must happen before it can be destroyed.
     Device device(core_);
     auto commands = Commands::begin(device);
     if (!commands) return FrameAnswer::surface_lost;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Plain vulkan.h through volk: no prototypes, nothing linked, the loader is opened at run time. Device functions are called
-// through the table of their device (core.vk.vkCmdDispatch), so that several devices can live in one process.
+// Plain vulkan.h through volk: no prototypes, nothing linked, the loader is opened at run time. Device functions are
+// called through their device's table (core.vk.vkCmdDispatch), so that one process may have several devices.
 #pragma once
 
 #ifndef VK_NO_PROTOTYPES
@@ -14,7 +14,7 @@
 
 namespace burin::gpu {
 
-// A Vulkan structure with its type set and all else zero.
+// Returns a Vulkan structure with its type set and all other members zero.
 template <typename T>
 [[nodiscard]] T structure(VkStructureType type) {
     T value{};
@@ -24,7 +24,7 @@ template <typename T>
 
 [[nodiscard]] std::string result_name(VkResult result);
 
-// The Error of a failed Vulkan call, with the remedy that fits the result.
+// Returns the Error of a failed Vulkan call, with the remedy that fits the result.
 [[nodiscard]] std::unexpected<Error> vulkan_failure(std::string where, std::string what, VkResult result);
 
 }  // namespace burin::gpu

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-namespace burin {
+namespace burin::haptics {
 
-HapticLoop::HapticLoop(HapticDevice& device, Clock& clock, HapticChannels& channels) noexcept
+HapticLoop::HapticLoop(devices::HapticDevice& device, Clock& clock, HapticChannels& channels) noexcept
     : device_(device),
       clock_(clock),
       channels_(channels),
@@ -14,56 +14,37 @@ HapticLoop::HapticLoop(HapticDevice& device, Clock& clock, HapticChannels& chann
 
 TickRecord HapticLoop::step(Nanoseconds lateness_ns) noexcept {
     const Nanoseconds now_ns = clock_.now_ns();
-    const DeviceSample sample = device_.read();
-    const LocalSurface& surface = channels_.surface.newest();
+    const devices::DeviceSample sample = device_.read();
+    const geometry::LocalSurface& surface = channels_.surface.newest();
     const TickParameters& parameters = channels_.parameters.newest();
     return repeat(sample, surface, parameters, now_ns, lateness_ns);
 }
 
-TickRecord HapticLoop::repeat(const DeviceSample& sample, const LocalSurface& surface, const TickParameters& parameters,
-                              Nanoseconds now_ns, Nanoseconds lateness_ns) noexcept {
+TickRecord HapticLoop::repeat(const devices::DeviceSample& sample, const geometry::LocalSurface& surface,
+                              const TickParameters& parameters, Nanoseconds now_ns, Nanoseconds lateness_ns) noexcept {
     FullTick full = full_tick(state_, sample, surface, parameters, device_.description(), now_ns, dt_s_);
-    device_.write(full.record.given);
-    watch_stillness(full.record);
+    TickRecord& record = full.record;
+    device_.write(record.gate.given);
+    watch_stillness(record);
     state_ = full.next;
     sample_ = sample;
-    velocity_device_m_per_s_ = full.record.velocity_device_m_per_s;
+    velocity_device_m_per_s_ = record.motion.velocity_device_m_per_s;
 
-    full.record.tick = full.stroke.tick = ++ticks_;
-    full.record.lateness_ns = lateness_ns;
+    record.tick = ++ticks_;
+    record.lateness_ns = lateness_ns;
     if (lateness_ns > period_ns_ / 2) {
         ++late_ticks_;
-        full.record.flags |= kTickLate;
-        full.stroke.flags |= kTickLate;
+        record.flags |= kTickLate;
     }
-    if (!channels_.stroke.push(full.stroke)) full.record.flags |= kTickSampleDropped;
-    channels_.records.push(full.record);  // a full ring counts what it refuses
-
-    ToolState& tool = channels_.tool.draft();
-    tool.tick = ticks_;
-    tool.time_ns = now_ns;
-    tool.hip_object_m = full.record.hip_object_m;
-    tool.proxy_object_m = full.record.proxy_object_m;
-    tool.contact_normal_object = full.record.contact_normal_object;
-    tool.orientation_object = full.stroke.orientation_object;
-    tool.position_device_m = sample.position_device_m;
-    tool.given = full.record.given;
-    tool.point_count = full.record.point_count;
-    for (std::uint32_t i = 0; i < tool.point_count; ++i)
-        tool.proxies_object_m[i] = full.record.points[i].proxy_object_m;
-    tool.workspace = full.workspace;
-    tool.stiffness_bound = full.record.stiffness_bound;
-    tool.buttons = sample.buttons;
-    tool.flags = full.record.flags;
-    tool.cause = full.record.cause;
-    tool.late_ticks = late_ticks_;
-    tool.dropped_samples = channels_.stroke.refused();
+    if (!channels_.stroke.push(stroke_of(record))) record.flags |= kTickSampleDropped;
+    channels_.records.push(record);  // a full ring counts the records it refuses
+    channels_.tool.draft() = tool_of(record, late_ticks_, channels_.stroke.refused());
     channels_.tool.publish();
-    return full.record;
+    return record;
 }
 
 void HapticLoop::watch_stillness(const TickRecord& tick) noexcept {
-    const bool still = tick.given.force_device_N == Vec3(0.0) && tick.given.torque_device_Nm == Vec3(0.0) &&
+    const bool still = tick.gate.given.force_device_N == Vec3(0.0) && tick.gate.given.torque_device_Nm == Vec3(0.0) &&
                        tick.sample.position_device_m == still_.sample.position_device_m &&
                        tick.sample.orientation_device == still_.sample.orientation_device &&
                        tick.sample.buttons == still_.sample.buttons && tick.sample.fault == still_.sample.fault &&
@@ -72,13 +53,13 @@ void HapticLoop::watch_stillness(const TickRecord& tick) noexcept {
     newest_ns_ = tick.time_ns;
 }
 
-void HapticLoop::rehearse() noexcept {
-    DeviceSample expected = sample_;
+void HapticLoop::warm_up() noexcept {
+    devices::DeviceSample expected = sample_;
     expected.time_ns += period_ns_;
     expected.position_device_m += dt_s_ * velocity_device_m_per_s_;
     const FullTick full = full_tick(state_, expected, channels_.surface.newest(), channels_.parameters.newest(),
                                     device_.description(), clock_.now_ns(), dt_s_);
-    rehearsed_ += full.record.work.triangles_tested;
+    warmed_up_ += full.record.contact.work.triangles_tested;
 }
 
 void HapticLoop::run(const std::atomic<bool>& stop, const LoopPace& pace) noexcept {
@@ -87,14 +68,15 @@ void HapticLoop::run(const std::atomic<bool>& stop, const LoopPace& pace) noexce
 
 void HapticLoop::run_ticks(std::uint64_t count, const std::atomic<bool>* stop, const LoopPace& pace) noexcept {
     const Nanoseconds lead_ns =
-        std::min(pace.lead_ns, period_ns_ / 4);  // most of a period is for sleep, however fast the device
+        // At most a quarter, so that most of a period is sleep, however fast the device.
+        std::min(pace.lead_ns, period_ns_ / 4);
     Nanoseconds deadline_ns = clock_.now_ns() + period_ns_;
     for (std::uint64_t i = 0; i < count; ++i) {
-        // acquire: what the stopping thread did before it said stop is seen by whoever runs after this loop.
+        // acquire: what the stopping thread wrote before it set `stop` is visible to whoever runs after this loop.
         if (stop != nullptr && stop->load(std::memory_order_acquire)) break;
         clock_.sleep_until(deadline_ns - lead_ns);
         if (lead_ns > 0) {
-            rehearse();
+            warm_up();
             clock_.spin_until(deadline_ns);
         }
         const Nanoseconds begin_ns = clock_.now_ns();
@@ -110,4 +92,4 @@ void HapticLoop::run_ticks(std::uint64_t count, const std::atomic<bool>* stop, c
     device_.write({});
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

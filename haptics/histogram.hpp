@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// How often a time was how long: counts in buckets of equal ratio, without locks, so that a 1 kHz loop can keep one and anybody
-// can read it meanwhile.
+// A histogram of durations without locks: a 1 kHz loop can fill it while any thread reads it.
 //
-// Buckets: exact up to 15 ns, from there eight to each doubling, so a value is known to within an eighth. 2^40 ns (18 minutes)
-// and more share the last one; below zero counts as zero.
-// One writer; any number of readers, at any time. A reader sees each count as it was at some moment, not all of the same one:
-// good for a display while the loop runs, exact when it has stopped. add() is wait-free, a few nanoseconds.
+// Buckets: exact up to 15 ns, from there eight to each doubling, so a value is known to within an eighth. 2^40 ns (18
+// minutes) and more share the last bucket; below zero counts as zero.
+// One writer; any number of readers, at any time. A reader sees each count as it was at some moment, but not all at the
+// same moment: good for a display while the loop runs, exact when it has stopped. add() is wait-free, a few
+// nanoseconds.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 #include "base/clock.hpp"
 
-namespace burin {
+namespace burin::haptics {
 
 class Histogram {
 public:
@@ -26,7 +26,7 @@ public:
 
     void add(Nanoseconds value_ns) noexcept {
         std::atomic<std::uint64_t>& count = counts_[bucket_of(value_ns)];
-        // relaxed, and no read-modify-write: there is one writer, and a count orders nothing.
+        // relaxed, and no read-modify-write: there is one writer, and no other data are ordered by a count.
         count.store(count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
         if (value_ns > largest_ns_.load(std::memory_order_relaxed))
             largest_ns_.store(value_ns, std::memory_order_relaxed);
@@ -42,8 +42,8 @@ public:
     }
     [[nodiscard]] Nanoseconds largest_ns() const noexcept { return largest_ns_.load(std::memory_order_relaxed); }
 
-    // The value that a share q of all values do not exceed (nearest rank), as the end of its bucket, but never more than the
-    // largest; 0 when there are none.
+    // The q-quantile by nearest rank, as the upper end of its bucket but never more than the largest value; 0 when
+    // empty.
     [[nodiscard]] Nanoseconds quantile_ns(double q) const noexcept {
         const std::uint64_t all = total();
         const auto rank = static_cast<std::uint64_t>(std::ceil(q * static_cast<double>(all)));
@@ -65,7 +65,7 @@ public:
         const std::size_t bucket = 16 + octave * kPerDoubling + within;
         return bucket < kBuckets ? bucket : kBuckets - 1;
     }
-    // The largest value of a bucket but the last, which has none.
+    // The largest value of a bucket; not defined for the last one, which is open.
     [[nodiscard]] static constexpr Nanoseconds last_of(std::size_t bucket) noexcept {
         if (bucket < 16) return static_cast<Nanoseconds>(bucket);
         const std::size_t octave = (bucket - 16) / kPerDoubling, within = (bucket - 16) % kPerDoubling;
@@ -77,4 +77,4 @@ private:
     std::atomic<Nanoseconds> largest_ns_{0};
 };
 
-}  // namespace burin
+}  // namespace burin::haptics

@@ -12,7 +12,7 @@
 #include <cstring>
 #include <future>
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 // Above ordinary real-time work, below the kernel's own threads (which sit at 99, interrupts at 50 unless tuned).
@@ -23,7 +23,7 @@ void add_line(std::string& text, const std::string& line) {
     text += line;
 }
 
-// A tick needs some tens of kilobytes; a page that is missing would be brought in during one.
+// Touches the stack in advance. A tick needs some tens of kilobytes; a missing page would be faulted in during one.
 void touch_stack() {
     std::array<volatile char, 256 * 1024> stack;
     for (std::size_t i = 0; i < stack.size(); i += 1024) stack[i] = 0;
@@ -38,7 +38,7 @@ void lock_memory(RealtimeNotice& notice) {
     }
     rlimit limit{};
     const bool unlimited = getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY;
-    // As it is touched, not when it is taken: a driver reserves gigabytes that it never uses.
+    // Locks pages as they are touched, not as they are allocated: a driver reserves gigabytes that it never uses.
     if (unlimited && mlockall(MCL_FUTURE | MCL_ONFAULT) == 0) {
         notice.memory_locked = true;
         return;
@@ -57,7 +57,8 @@ RealtimeNotice ask_for_realtime() {
     else
         add_line(notice.text, std::string("real-time priority refused (") + std::strerror(error) +
                                   "); ticks may come late; allow it with 'rtprio 80' in /etc/security/limits.d");
-    prctl(PR_SET_TIMERSLACK, 1UL);  // ns; the usual 50 us are a wake-up's lateness. Real-time threads have none
+    // In ns; the usual slack of 50 us would delay every wake-up. Real-time threads have none.
+    prctl(PR_SET_TIMERSLACK, 1UL);
     lock_memory(notice);
     touch_stack();
     return notice;
@@ -66,7 +67,7 @@ RealtimeNotice ask_for_realtime() {
 RealtimeNotice HapticThread::start() {
     std::promise<RealtimeNotice> ready;
     std::future<RealtimeNotice> notice = ready.get_future();
-    // The promise moves into the thread: were it on this stack it could be gone before set_value has quite returned.
+    // Moves the promise into the thread: on this stack it could be destroyed before set_value() has returned.
     thread_ = std::thread([this, ready = std::move(ready)]() mutable {
         ready.set_value(ask_for_realtime());
         loop_.run(stop_, pace_);
@@ -75,9 +76,9 @@ RealtimeNotice HapticThread::start() {
 }
 
 void HapticThread::stop() {
-    // release: pairs with the loop's acquire.
+    // release: pairs with the acquire in HapticLoop::run_ticks().
     stop_.store(true, std::memory_order_release);
     if (thread_.joinable()) thread_.join();
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

@@ -4,31 +4,30 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/sensible.hpp"
-#include "haptics/probe_contact.hpp"
+#include "base/space.hpp"
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 bool unit(const Quat& q) {
-    // A comparison that a NaN fails.
+    // NaN fails this comparison.
     return std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0) <= 2e-6;
 }
 
-// The encoders of a wrist are coarser than those of an arm; this is one step of a common one, 4096 a turn.
+// Noise bound of the orientation: one step of a common wrist encoder, 4096 a turn; a wrist's are coarser than an arm's.
 constexpr double kTurnNoise_rad = 0.0016;
 
-// The rotation from one orientation to the next as axis times angle; small.
+// Rotation vector from one orientation to the next, for small angles.
 Vec3 turn_between(const Quat& from, const Quat& to) {
     Quat q = to * glm::conjugate(from);
     if (q.w < 0.0) q = -q;
     return {2.0 * q.x, 2.0 * q.y, 2.0 * q.z};
 }
 
-// New samples only; after a gap the old ones would make the motion look faster than it was.
-void take_sample(TickState& state, const DeviceSample& sample, bool turns, double dt_s) {
+// Adds new samples only; clears the windows after a gap, since older samples would overestimate the speed.
+MotionState with_sample(MotionState state, const devices::DeviceSample& sample, bool turns, double dt_s) {
     const double gap_s = seconds(sample.time_ns - state.sample_ns);
-    if (state.window.count > 0 && gap_s <= 0.0) return;
+    if (state.window.count > 0 && gap_s <= 0.0) return state;
     if (gap_s > 1.5 * dt_s) state.window.count = state.turning.count = 0;
     state.window = with_position(state.window, sample.position_device_m);
     state.sample_ns = sample.time_ns;
@@ -40,134 +39,163 @@ void take_sample(TickState& state, const DeviceSample& sample, bool turns, doubl
         state.turning = with_position(w, turned);
     }
     state.orientation_device = sample.orientation_device;
+    return state;
 }
 
-void estimate_motion(TickOutput& out, const TickParameters& parameters, double dt_s) {
-    const VelocityEstimate estimate = estimate_velocity(parameters.signals, out.next.window, out.next.velocity_average,
-                                                        parameters.position_noise_m, dt_s);
-    out.velocity_device_m_per_s = estimate.velocity_m_per_s;
-    out.next.velocity_average = estimate.average;
-    if (out.point_count > 1) {
-        out.angular_velocity_device_rad_per_s = velocity_m_per_s(out.next.turning, kTurnNoise_rad, dt_s);
-    }
-}
-
-void forget_contact(TickState& state) {
+void end_contact(ProbeState& state) {
     for (ProxyState& proxy : state.proxies) proxy.placed = false;
     state.cutting.engaged = false;
 }
 
-// Where the device is in the scene, by the workspace's technique. What a jump has made meaningless is forgotten.
-WorkspaceStep map_workspace(TickOutput& out, const DeviceSample& sample, const TickParameters& parameters,
-                            double dt_s) {
-    const WorkspaceInput input{sample.position_device_m, out.velocity_device_m_per_s, sample.buttons,
-                               out.next.in_contact, dt_s};
-    const WorkspaceStep step = step_workspace(out.next.workspace, parameters.workspace, input);
-    out.next.workspace = step.next;
-    out.object_from_device = step.object_from_device;
-    out.orientation_object = step.object_from_device.orientation * sample.orientation_device;
-    out.workspace = step.picture;
-    if (step.paused) out.flags |= kTickPaused;
-    if (step.jumped || step.paused || !parameters.enabled) forget_contact(out.next);
-    if (!out.next.proxies[0].placed) out.flags |= kTickProxyReset;
-    return step;
+// The tick of input that makes no sense: contact starts afresh when it is valid again, and so does the velocity, for a
+// sample is missing then (with_sample).
+Tick refused(Tick t) {
+    // The last known position of the tool.
+    const Vec3 last_object_m = t.next.probe.proxies[0].position_object_m;
+    end_contact(t.next.probe);
+    t.next.passivity.known = false;
+    t.record.contact.point_count = 1;
+    t.record.contact.points[0].hip_object_m = t.record.contact.points[0].proxy_object_m = last_object_m;
+    t.record.motion.object_from_device = t.next.workspace.object_from_device;
+    return t;
 }
 
-// The force filter of choice, and the controller that takes back what the sampled wall gives out too much.
-void condition_contact(TickOutput& out, const DeviceSample& sample, const TickParameters& parameters,
-                       const DeviceDescription& device, double dt_s) {
-    const double alpha = parameters.signals.force_alpha;
-    out.next.force_average = with_input(out.next.force_average, out.contact.force_device_N, alpha);
-    if (alpha > 0.0) out.contact.force_device_N = out.next.force_average.value;
+// Applies the passivity controller to the contact's force.
+PassivityStep kept_passive(const PassivityState& state, const TickRecord& record, const TickParameters& parameters,
+                           const devices::DeviceDescription& device, double dt_s) {
     PassivityInput input;
-    input.position_device_m = sample.position_device_m;
-    input.wanted_force_device_N = out.contact.force_device_N;
-    input.stored_J = out.spring_energy_J;
+    input.position_device_m = record.sample.position_device_m;
+    input.wanted_force_device_N = record.contact.wrench.force_device_N;
+    input.stored_J = record.contact.spring_energy_J;
     input.max_force_N = std::min(parameters.limits.max_force_N, device.max_force_N);
-    input.in_contact = (out.flags & kTickInContact) != 0;
-    input.jumped = out.contact_jumped;
-    const PassivityStep kept = keep_passive(out.next.passivity, input, parameters.passivity, device, dt_s);
-    out.next.passivity = kept.next;
-    out.contact.force_device_N = kept.force_device_N;
-    out.passivity_energy_J = kept.energy_J;
-    out.passivity_damping_Ns_per_m = kept.damping_Ns_per_m;
-    if (kept.damping_Ns_per_m > 0.0) out.flags |= kTickPassivityActs;
+    input.in_contact = record.in_contact();
+    input.jumped = record.contact.jumped;
+    return keep_passive(state, input, parameters.passivity, device, dt_s);
 }
 
-// What acts in free space too: the tool's weight, the curve that draws it, the workspace's elastic border.
-DeviceWrench other_forces(TickOutput& out, const DeviceSample& sample, const TickParameters& parameters,
-                          const Vec3& workspace_force_device_N, double dt_s) {
-    DeviceWrench sum = weight_wrench(parameters.weight, sample.orientation_device);
-    const GuidanceStep guided = guide(out.next.guidance,
-                                      {out.points[0].hip_object_m, out.velocity_device_m_per_s,
-                                       out.object_from_device.orientation, out.object_from_device.scale, dt_s},
-                                      parameters.curve, parameters.guidance);
-    out.next.guidance = guided.next;
-    if (guided.next.held) out.flags |= kTickGuided;
-    sum.force_device_N += guided.force_device_N + workspace_force_device_N;
-    return sum;
+GuidanceStep guided(const GuidanceState& state, const TickRecord& record, const TickParameters& parameters,
+                    double dt_s) {
+    const MotionRecord& motion = record.motion;
+    return guide(state,
+                 {record.contact.points[0].hip_object_m, motion.velocity_device_m_per_s,
+                  motion.object_from_device.orientation, motion.object_from_device.scale, dt_s},
+                 parameters.curve, parameters.guidance);
 }
 
 }  // namespace
 
-TickOutput tick(const TickState& state, const DeviceSample& sample, const LocalSurface& surface,
-                const TickParameters& parameters, const DeviceDescription& device, Nanoseconds now_ns,
-                double dt_s) noexcept {
-    TickOutput out;
-    out.next = state;
-    out.sample_finite = finite(sample.position_device_m) && unit(sample.orientation_device);
-    out.parameters_sensible = parameters_are_sensible(parameters);
-    if (!out.sample_finite || !out.parameters_sensible) {
-        forget_contact(out.next);  // start afresh when all is well again
-        out.next.window.count = out.next.turning.count = 0;
-        out.next.passivity.known = false;
-        out.point_count = 1;
-        // where the tool was last known to be
-        out.points[0].hip_object_m = out.points[0].proxy_object_m = state.proxies[0].position_object_m;
-        out.object_from_device = state.workspace.object_from_device;
-        return out;
-    }
-    out.point_count = parameters.probe.count;
-    take_sample(out.next, sample, out.point_count > 1, dt_s);
-    estimate_motion(out, parameters, dt_s);
-    const WorkspaceStep workspace = map_workspace(out, sample, parameters, dt_s);
+Tick tick(const TickState& state, const devices::DeviceSample& sample, const geometry::LocalSurface& surface,
+          const TickParameters& parameters, const devices::DeviceDescription& device, Nanoseconds now_ns,
+          double dt_s) noexcept {
+    Tick t;
+    TickState& next = t.next = state;
+    TickRecord& record = t.record;
+    record.time_ns = now_ns;
+    record.sample = sample;
+    record.surface_sequence = surface.sequence;
+    record.parameter_sequence = parameters.sequence;
+    record.sample_finite = finite(sample.position_device_m) && unit(sample.orientation_device);
+    record.parameters_sensible = parameters_are_sensible(parameters);
+    if (!record.sample_finite || !record.parameters_sensible) return refused(t);
 
+    // Motion of the hand.
+    MotionRecord& motion = record.motion;
+    const bool turns = parameters.probe.count > 1;
+    next.motion = with_sample(state.motion, sample, turns, dt_s);
+    const VelocityEstimate estimate = estimate_velocity(
+        parameters.signals, next.motion.window, next.motion.velocity_average, parameters.position_noise_m, dt_s);
+    next.motion.velocity_average = estimate.average;
+    motion.velocity_device_m_per_s = estimate.velocity_m_per_s;
+    if (turns) motion.angular_velocity_device_rad_per_s = velocity_m_per_s(next.motion.turning, kTurnNoise_rad, dt_s);
+
+    // Mapping into the scene by the workspace technique.
+    const WorkspaceStep workspace = step_workspace(
+        state.workspace, parameters.workspace,
+        {sample.position_device_m, motion.velocity_device_m_per_s, sample.buttons, state.in_contact, dt_s});
+    next.workspace = workspace.next;
+    motion.object_from_device = workspace.object_from_device;
+    motion.orientation_object = workspace.object_from_device.orientation * sample.orientation_device;
+    motion.workspace = workspace.picture;
+    if (workspace.paused) record.flags |= kTickPaused;
+
+    // Contact; it starts afresh after a jump of the mapping.
+    if (workspace.jumped || workspace.paused || !parameters.enabled) end_contact(next.probe);
+    if (!next.probe.proxies[0].placed) record.flags |= kTickProxyReset;
     const bool searchable = surface.sequence > 0;
-    if (!searchable) out.flags |= kTickNoSurface;
-    if (searchable && parameters.enabled && !workspace.paused) {
-        out.contact = touch_surface(out, sample, surface, parameters, device, dt_s);
-    } else {
-        follow_hand(out, sample, surface, parameters);
-    }
-    out.next.in_contact = (out.flags & kTickInContact) != 0;
+    if (!searchable) record.flags |= kTickNoSurface;
+    const bool touches = searchable && parameters.enabled && !workspace.paused;
+    const ProbeInput input{sample, motion, surface, parameters, device, dt_s};
+    const ProbeStep probe = touches ? touch_surface(next.probe, input) : follow_hand(next.probe, input);
+    next.probe = probe.next;
+    record.contact = probe.contact;
+    record.flags |= probe.flags;
+    next.in_contact = record.in_contact();
     const double age_s = seconds(now_ns - surface.made_ns);
-    if (out.next.in_contact && parameters.max_surface_age_s > 0.0 && age_s > parameters.max_surface_age_s)
-        out.flags |= kTickStaleSurface;
-    condition_contact(out, sample, parameters, device, dt_s);
-    const DeviceWrench others = other_forces(out, sample, parameters, workspace.force_device_N, dt_s);
-    out.wanted = driven_part(
-        {out.contact.force_device_N + others.force_device_N, out.contact.torque_device_Nm + others.torque_device_Nm},
-        device);
-    return out;
+    if (next.in_contact && parameters.max_surface_age_s > 0.0 && age_s > parameters.max_surface_age_s)
+        record.flags |= kTickStaleSurface;
+
+    // The chosen force filter, then the passivity controller.
+    devices::DeviceWrench& contact = record.contact.wrench;
+    const double alpha = parameters.signals.force_alpha;
+    next.force_average = with_input(state.force_average, contact.force_device_N, alpha);
+    if (alpha > 0.0) contact.force_device_N = next.force_average.value;
+    const PassivityStep passive = kept_passive(state.passivity, record, parameters, device, dt_s);
+    next.passivity = passive.next;
+    record.passivity = passive.record;
+    contact.force_device_N = passive.force_device_N;
+    if (passive.record.damping_Ns_per_m > 0.0) record.flags |= kTickPassivityActs;
+
+    // Forces that act in free space too: the tool's weight, guidance, the workspace's elastic border.
+    devices::DeviceWrench others = weight_wrench(parameters.weight, sample.orientation_device);
+    const GuidanceStep guidance = guided(state.guidance, record, parameters, dt_s);
+    next.guidance = guidance.next;
+    if (guidance.next.held) record.flags |= kTickGuided;
+    others.force_device_N += guidance.force_device_N + workspace.force_device_N;
+    record.wanted = driven_part(
+        {contact.force_device_N + others.force_device_N, contact.torque_device_Nm + others.torque_device_Nm}, device);
+    return t;
 }
 
-GateInput gate_input(const TickOutput& out, const DeviceSample& sample, const DeviceDescription& device,
-                     Nanoseconds now_ns) noexcept {
+GateInput gate_input(const TickRecord& record, const devices::DeviceDescription& device) noexcept {
     GateInput in;
-    in.wanted = out.wanted;
-    in.velocity_device_m_per_s = out.velocity_device_m_per_s;
+    in.wanted = record.wanted;
+    in.velocity_device_m_per_s = record.motion.velocity_device_m_per_s;
     in.device_max_force_N = device.max_force_N;
     in.device_axis_max_force_N = device.axis_max_force_N;
     in.device_max_torque_Nm = device.max_torque_Nm;
-    in.sample_age_s = seconds(now_ns - sample.time_ns);
-    in.device_fault = sample.fault;
-    in.sample_finite = out.sample_finite;
-    in.parameters_sensible = out.parameters_sensible;
-    in.in_contact = (out.flags & kTickInContact) != 0;
-    in.contact_jumped = out.contact_jumped;
-    in.surface_stale = (out.flags & kTickStaleSurface) != 0;
-    in.outside_known = (out.flags & kTickOutsideKnown) != 0;
+    in.sample_age_s = seconds(record.time_ns - record.sample.time_ns);
+    in.device_fault = record.sample.fault;
+    in.sample_finite = record.sample_finite;
+    in.parameters_sensible = record.parameters_sensible;
+    in.in_contact = record.in_contact();
+    in.contact_jumped = record.contact.jumped;
+    in.surface_stale = (record.flags & kTickStaleSurface) != 0;
+    in.outside_known = (record.flags & kTickOutsideKnown) != 0;
     return in;
 }
 
-}  // namespace burin
+FullTick full_tick(const FullTickState& state, const devices::DeviceSample& sample,
+                   const geometry::LocalSurface& surface, const TickParameters& parameters,
+                   const devices::DeviceDescription& device, Nanoseconds now_ns, double dt_s) noexcept {
+    const Tick t = tick(state.tick, sample, surface, parameters, device, now_ns, dt_s);
+    FullTick full{{t.next, {}, now_ns}, t.record};
+    TickRecord& record = full.record;
+    GateInput input = gate_input(record, device);
+    if (state.now_ns > 0) input.loop_gap_s = seconds(now_ns - state.now_ns);
+    const GateStep gate = pass_gate(state.gate, input, parameters.limits, dt_s);
+    full.next.gate = gate.next;
+    record.gate = gate.output;
+    const bool on = record.gate.cause == GateCause::none;
+    if (!on) record.flags |= kTickFault;
+    if (record.gate.saturated) record.flags |= kTickForceSaturated;
+    if (record.gate.slew_limited) record.flags |= kTickSlewLimited;
+    if (record.gate.ramping) record.flags |= kTickRamping;
+    if (input.loop_gap_s > 1.5 * dt_s) record.flags |= kTickLoopGap;
+    // The passivity controller accounts for contact forces only, so the other forces are subtracted.
+    const Vec3 others_N = record.wanted.force_device_N - record.contact.wrench.force_device_N;
+    full.next.tick.passivity =
+        with_commanded_force(t.next.passivity, on ? record.gate.given.force_device_N - others_N : Vec3(0.0));
+    return full;
+}
+
+}  // namespace burin::haptics

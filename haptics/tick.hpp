@@ -4,9 +4,9 @@
 // Data flow, one line each, all in haptics/:
 //   device sample -> velocity (signals/) -> mapping into the scene (workspace/)
 //   for each point of the probe: proxy on the surface (contact/) -> spring, damper, friction (forces/touch_force.hpp)
-//   -> the point that cuts eats its way in (forces/cutting.hpp) -> one force and torque (forces/wrench.hpp)
-//   -> filter (signals/smoothing.hpp) -> passivity (stability/passivity.hpp) -> weight, guidance, the workspace's own force
-//   -> the gate (stability/safety_gate.hpp): up to there it is what is wanted, from there what is given.
+//   -> the cutting point advances (forces/cutting.hpp) -> one force and torque (forces/wrench.hpp)
+//   -> filter (signals/smoothing.hpp) -> passivity (stability/passivity.hpp) -> weight, guidance, workspace force
+//   -> the gate (stability/safety_gate.hpp): turns the desired wrench into the commanded wrench.
 // Position gain g: points are scaled by g, forces divided by g, so that stiffness and damping are felt at the device as
 // set, whatever the scale of the scene. Damping acts along the contact normal, in contact only, and never pulls
 // the tool into the surface.
@@ -15,81 +15,63 @@
 #pragma once
 
 #include "haptics/channels.hpp"
-#include "haptics/contact/god_object.hpp"
-#include "haptics/forces/cutting.hpp"
-#include "haptics/signals/velocity.hpp"
+#include "haptics/probe_contact.hpp"
+#include "haptics/signals/filters.hpp"
 
-namespace burin {
+namespace burin::haptics {
+
+// What is known of the hand's motion.
+struct MotionState {
+    VelocityWindow window;
+    // Window of the accumulated rotation vector; filled only where the probe has several points.
+    VelocityWindow turning;
+    MovingAverage velocity_average;
+    Quat orientation_device{1.0, 0.0, 0.0, 0.0};  // of the last sample
+    Nanoseconds sample_ns = 0;                    // of the last sample that went into the windows
+};
 
 struct TickState {
+    MotionState motion;
     WorkspaceState workspace;
-    std::array<ProxyState, kMostProbePoints> proxies{};
-    std::array<std::uint8_t, kMostProbePoints> materials{};  // what each point touched in the tick before
-    CuttingState cutting;
+    ProbeState probe;
     GuidanceState guidance;
-    VelocityWindow window;
-    VelocityWindow turning;  // of the rotation vector summed up; only where the probe has several points
-    Quat orientation_device{1.0, 0.0, 0.0, 0.0};  // of the tick before
-    MovingAverage velocity_average, force_average;
+    MovingAverage force_average;
     PassivityState passivity;
-    Nanoseconds sample_ns = 0;  // of the last sample that went into the windows
     bool in_contact = false;
-    bool paused = false;
 };
 
-struct TickOutput {
+struct Tick {
     TickState next;
-    Similarity object_from_device;
-    WorkspacePicture workspace;
-    Quat orientation_object{1.0, 0.0, 0.0, 0.0};
-    Vec3 velocity_device_m_per_s{0.0};
-    Vec3 angular_velocity_device_rad_per_s{0.0};
-    std::uint32_t point_count = 0;
-    std::array<PointRecord, kMostProbePoints> points{};
-    std::uint32_t deepest = 0;  // the point deepest in contact; 0 in free space
-    Vec3 cut_object_m{0.0};
-    DeviceWrench contact;  // of contact, after filter and passivity
-    DeviceWrench wanted;   // all of it
-    StiffnessBound stiffness_bound = StiffnessBound::none;
-    double spring_energy_J = 0.0;  // what the walls touched hold
-    double passivity_energy_J = 0.0;
-    double passivity_damping_Ns_per_m = 0.0;
-    std::uint32_t flags = 0;
-    bool contact_jumped = false;
-    bool sample_finite = true;
-    bool parameters_sensible = true;
-    TickWork work;
+    TickRecord record;  // but for the gate's output, the tick number and the lateness
 };
 
-// now_ns is compared with LocalSurface::made_ns only; pass the loop's time, or the recorded one on replay. dt_s is the
-// nominal period, above 0.
-[[nodiscard]] TickOutput tick(const TickState& state, const DeviceSample& sample, const LocalSurface& surface,
-                              const TickParameters& parameters, const DeviceDescription& device, Nanoseconds now_ns,
-                              double dt_s) noexcept;
+// Computes a tick up to the desired wrench. now_ns is compared with LocalSurface::made_ns only; pass the loop's time,
+// or the recorded one on replay. dt_s is the nominal period, above 0.
+[[nodiscard]] Tick tick(const TickState& state, const devices::DeviceSample& sample,
+                        const geometry::LocalSurface& surface, const TickParameters& parameters,
+                        const devices::DeviceDescription& device, Nanoseconds now_ns, double dt_s) noexcept;
 
-// Finite, positive scale, a unit rotation (to 1e-6), nothing negative, a clearance below 1, limits above 0.
+// Checks all parameters: finite, positive scale, a unit rotation (to 1e-6), nothing negative, a clearance below 1,
+// limits above 0.
 [[nodiscard]] bool parameters_are_sensible(const TickParameters& parameters) noexcept;
 
-// What the gate needs to know of a tick.
-[[nodiscard]] GateInput gate_input(const TickOutput& out, const DeviceSample& sample, const DeviceDescription& device,
-                                   Nanoseconds now_ns) noexcept;
+// Collects the gate's inputs from a tick; all but loop_gap_s.
+[[nodiscard]] GateInput gate_input(const TickRecord& record, const devices::DeviceDescription& device) noexcept;
 
 // The whole of a tick, gate included: what HapticLoop runs, and what replay runs again.
 struct FullTickState {
     TickState tick;
     GateState gate;
-    Nanoseconds now_ns = 0;  // of the tick before; 0: there was none
+    Nanoseconds now_ns = 0;  // of the last tick; 0: there was none
 };
 
 struct FullTick {
     FullTickState next;
-    TickRecord record;  // all but tick number, lateness and the loop's own flags
-    StrokeSample stroke;
-    WorkspacePicture workspace;
+    TickRecord record;  // all but the tick number, the lateness and the loop's own flags
 };
 
-[[nodiscard]] FullTick full_tick(const FullTickState& state, const DeviceSample& sample, const LocalSurface& surface,
-                                 const TickParameters& parameters, const DeviceDescription& device, Nanoseconds now_ns,
-                                 double dt_s) noexcept;
+[[nodiscard]] FullTick full_tick(const FullTickState& state, const devices::DeviceSample& sample,
+                                 const geometry::LocalSurface& surface, const TickParameters& parameters,
+                                 const devices::DeviceDescription& device, Nanoseconds now_ns, double dt_s) noexcept;
 
-}  // namespace burin
+}  // namespace burin::haptics

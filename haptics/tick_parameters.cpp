@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Which settings of a tick make sense.
+// Validation of tick parameters.
 #include <cmath>
 
-#include "base/sensible.hpp"
+#include "base/space.hpp"
 #include "haptics/tick.hpp"
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 bool share(double x) { return not_negative(x) && x < 1.0; }
@@ -13,7 +13,7 @@ bool share(double x) { return not_negative(x) && x < 1.0; }
 bool sensible(const TouchMaterial& m) {
     return not_negative(m.stiffness_N_per_m) && not_negative(m.damping_Ns_per_m) && not_negative(m.static_friction) &&
            not_negative(m.dynamic_friction) && m.dynamic_friction <= m.static_friction &&
-           not_negative(m.coulomb_velocity_m_per_s) && m.hardness_Ns_per_m3 >= 0.0 &&  // infinite: not to be cut
+           not_negative(m.coulomb_velocity_m_per_s) && m.hardness_Ns_per_m3 >= 0.0 &&  // infinite: cannot be cut
            not_negative(m.cutting_drag_Ns_per_m3);
 }
 
@@ -48,4 +48,4 @@ bool parameters_are_sensible(const TickParameters& p) noexcept {
            not_negative(p.max_surface_age_s);
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

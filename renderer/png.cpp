@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <system_error>
 
-#include "geometry/file_io.hpp"
+#include "base/file_io.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 namespace {
 
@@ -22,7 +22,7 @@ void append(png_structp png, png_bytep data, png_size_t size) {
 void ignore_flush(png_structp) {}
 void ignore_warning(png_structp, png_const_charp) {}
 
-// libpng reports errors by longjmp, so nothing with a destructor is made in here.
+// Constructs nothing with a destructor: libpng reports errors by longjmp.
 bool write_rows(png_structp png, png_infop info, const Image& image, std::vector<std::byte>& bytes,
                 std::vector<std::uint8_t>& row) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
@@ -63,4 +63,4 @@ Result<void> write_png(const std::filesystem::path& path, const Image& image) {
     return write_file_atomically(path, *bytes);
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

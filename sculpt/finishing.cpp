@@ -1,33 +1,33 @@
 // SPDX-License-Identifier: MIT
-#include "app/finishing.hpp"
+#include "sculpt/finishing.hpp"
 
 #include <cmath>
 #include <cstdio>
 
-#include "app/progress.hpp"
-#include "compute/mend_intersections.hpp"
-#include "compute/slivers.hpp"
+#include "compute/repair/repair_intersections.hpp"
+#include "compute/repair/slivers.hpp"
+#include "sculpt/progress.hpp"
 
-namespace burin {
+namespace burin::sculpt {
 namespace {
 
 Json as_json(const Vec3& p) { return {p.x, p.y, p.z}; }
 
-Json describe(const MendingReport& mending) {
-    return {{"found", mending.found},
-            {"mended", mending.found - mending.left},
-            {"left", mending.left},
-            {"diagonals_turned", mending.diagonals_turned},
-            {"vertices_moved", mending.vertices_moved},
-            {"deviation_max_m", mending.deviation_max_m}};
+Json describe(const compute::RepairReport& repair) {
+    return {{"found", repair.found},
+            {"mended", repair.found - repair.left},
+            {"left", repair.left},
+            {"diagonals_turned", repair.diagonals_turned},
+            {"vertices_moved", repair.vertices_moved},
+            {"deviation_max_m", repair.deviation_max_m}};
 }
 
-Json describe(const SliverReport& slivers) {
+Json describe(const compute::SliverReport& slivers) {
     Json json = {{"solid", slivers.solid}, {"gaps", slivers.gaps}};
     if (slivers.count() == 0) return json;
     json["thinnest_m"] = slivers.thinnest_m;
     json["where_m"] = {{"lo", as_json(slivers.bounds_object_m.lo)}, {"hi", as_json(slivers.bounds_object_m.hi)}};
-    for (const Sliver& s : slivers.first) {
+    for (const compute::Sliver& s : slivers.first) {
         json["first"].push_back({{"place_m", as_json(s.place_object_m)},
                                  {"thickness_m", s.thickness_m},
                                  {"axis", std::string(1, "xyz"[s.axis])},
@@ -44,29 +44,30 @@ Result<void> check_simplification(std::optional<double> bound_m) {
                 "give how far the surface may move, in metres, or leave the option out");
 }
 
-Result<SimplifiedMesh> simplify_with_progress(const TriangleMesh& mesh, double bound_m, WorkerPool& pool) {
+Result<SimplifiedMesh> simplify_with_progress(const geometry::TriangleMesh& mesh, double bound_m, WorkerPool& pool) {
     Progress progress("simplifying");
-    Result<ThinnedOut> thinned = thin_out(mesh, bound_m, pool, [&](double done) { progress.show(done); });
-    if (!thinned) return std::unexpected(thinned.error());
-    Json figures = {{"triangles_before", thinned->triangles_before},
-                    {"triangles_after", thinned->mesh.triangles.size()},
-                    {"bound_m", thinned->bound_m},
-                    {"error_max_m", thinned->error_m},
-                    {"self_intersections", thinned->self_intersections}};
-    return SimplifiedMesh{std::move(thinned->mesh), std::move(figures)};
+    Result<compute::ThinnedOut> decimated =
+        compute::decimate(mesh, bound_m, pool, [&](double done) { progress.show(done); });
+    if (!decimated) return std::unexpected(decimated.error());
+    Json figures = {{"triangles_before", decimated->triangles_before},
+                    {"triangles_after", decimated->mesh.triangles.size()},
+                    {"bound_m", decimated->bound_m},
+                    {"error_max_m", decimated->error_m},
+                    {"self_intersections", decimated->self_intersections}};
+    return SimplifiedMesh{std::move(decimated->mesh), std::move(figures)};
 }
 
-Result<FinishedMesh> finish_mesh(const Surface& surface, const Solid& solid, std::optional<double> simplify_bound_m,
-                                 WorkerPool& pool) {
+Result<FinishedMesh> finish_mesh(const compute::Surface& surface, const compute::Solid& solid,
+                                 std::optional<double> simplify_bound_m, WorkerPool& pool) {
     FinishedMesh finished;
     finished.mesh = surface.welded();
-    const MendingReport mending = mend_intersections(finished.mesh, surface, solid, pool);
-    finished.self_intersections = describe(mending);
-    if (mending.left > 0) {
+    const compute::RepairReport repair = compute::repair_intersections(finished.mesh, surface, solid, pool);
+    finished.self_intersections = describe(repair);
+    if (repair.left > 0) {
         std::fprintf(stderr, "burin: %llu pairs of triangles still pass through each other\n",
-                     static_cast<unsigned long long>(mending.left));
+                     static_cast<unsigned long long>(repair.left));
     }
-    const SliverReport slivers = find_slivers(solid, pool);
+    const compute::SliverReport slivers = compute::find_slivers(solid, pool);
     finished.slivers = describe(slivers);
     if (slivers.count() > 0) {
         std::printf(
@@ -82,4 +83,4 @@ Result<FinishedMesh> finish_mesh(const Surface& surface, const Solid& solid, std
     return finished;
 }
 
-}  // namespace burin
+}  // namespace burin::sculpt

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// One progress line on standard error for work that takes longer than a moment: rewritten in place on a terminal, a new line
-// now and then elsewhere, nothing at all for short work.
+// Shows the progress of long work in a line on standard error: rewritten in place on a terminal, a new line every ten
+// seconds elsewhere, and nothing for work of less than a second.
 #pragma once
 
 #include <string>
 
 #include "base/clock.hpp"
 
-namespace burin {
+namespace burin::sculpt {
 
 class Progress {
 public:
@@ -15,7 +15,7 @@ public:
     ~Progress();  // ends the line
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
-    void show(double done);  // 0 to 1; cheap, may be called often
+    void show(double done);  // 0 to 1; cheap enough to be called at every step
 
 private:
     std::string what_;
@@ -24,4 +24,4 @@ private:
     bool terminal_, shown_ = false;
 };
 
-}  // namespace burin
+}  // namespace burin::sculpt

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/carving_thread.hpp"
+#include "sculpt/sculpt_thread.hpp"
 
 #include <algorithm>
 #include <chrono>
 
 #include "haptics/haptic_loop.hpp"
 
-namespace burin {
+namespace burin::sculpt {
 
-CarvingThread::CarvingThread(CarvingDesk& desk, Clock& clock, std::function<void()> on_news)
-    : desk_(desk), clock_(clock), on_news_(std::move(on_news)) {}
+SculptThread::SculptThread(SculptService& service, Clock& clock, std::function<void()> on_update)
+    : service_(service), clock_(clock), on_update_(std::move(on_update)) {}
 
-void CarvingThread::start() {
+void SculptThread::start() {
     thread_ = std::thread([this] { run(); });
 }
 
-void CarvingThread::stop() {
+void SculptThread::stop() {
     if (!thread_.joinable()) return;
     {
         const std::lock_guard lock(mutex_);
@@ -25,7 +25,7 @@ void CarvingThread::stop() {
     thread_.join();
 }
 
-void CarvingThread::order(CarvingOrder order) {
+void SculptThread::order(SculptOrder order) {
     {
         const std::lock_guard lock(mutex_);
         orders_.push_back(std::move(order));
@@ -33,61 +33,61 @@ void CarvingThread::order(CarvingOrder order) {
     woken_.notify_all();
 }
 
-CarvingThread::Taken CarvingThread::take_news() {
+SculptThread::Taken SculptThread::take_surface_update() {
     const std::lock_guard lock(mutex_);
     return std::exchange(done_, {});
 }
 
-std::optional<Error> CarvingThread::failure() const {
+std::optional<Error> SculptThread::failure() const {
     const std::lock_guard lock(mutex_);
     return failure_;
 }
 
-std::vector<CarvingOrder> CarvingThread::wait_for_orders(Nanoseconds until_ns) {
+std::vector<SculptOrder> SculptThread::wait_for_orders(Nanoseconds until_ns) {
     std::unique_lock lock(mutex_);
     const std::chrono::nanoseconds left(std::max<Nanoseconds>(until_ns - clock_.now_ns(), 0));
     woken_.wait_for(lock, left, [this] { return stopping_ || !orders_.empty(); });
     return std::exchange(orders_, {});
 }
 
-// Then the hand is where it was, and ticks come a tenth as often.
-bool CarvingThread::loop_rests(const UpdateSeen& before) const {
-    const UpdateSeen& now = desk_.seen();
-    const auto most = static_cast<std::uint64_t>(2 * (now.time_ns - before.time_ns) / HapticLoop::kRest_ns);
+// Returns whether the haptic loop rests, which it does while the hand stands still: ticks then come a tenth as often.
+bool SculptThread::loop_rests(const UpdateSeen& before) const {
+    const UpdateSeen& now = service_.seen();
+    const auto most = static_cast<std::uint64_t>(2 * (now.time_ns - before.time_ns) / haptics::HapticLoop::kRest_ns);
     return now.last_tick - before.last_tick <= std::max<std::uint64_t>(most, 1);
 }
 
-void CarvingThread::run() {
+void SculptThread::run() {
     Nanoseconds next_ns = clock_.now_ns(), period_ns = kPeriod_ns;
     while (true) {
         next_ns = std::max(next_ns + period_ns, clock_.now_ns());
-        const std::vector<CarvingOrder> orders = wait_for_orders(next_ns);
-        for (const CarvingOrder& order : orders) desk_.order(order);
-        const UpdateSeen before = desk_.seen();
+        const std::vector<SculptOrder> orders = wait_for_orders(next_ns);
+        for (const SculptOrder& order : orders) service_.order(order);
+        const UpdateSeen before = service_.seen();
         const Nanoseconds began_ns = clock_.now_ns();
-        const auto updated = desk_.update(began_ns);
+        const auto updated = service_.update(began_ns);
         const Nanoseconds took_ns = clock_.now_ns() - began_ns;
-        std::optional<SurfaceNews> news = desk_.take_news();
-        if (news && !news->tiles.empty()) update_duration_.add(took_ns);
-        const bool told = news.has_value();
+        std::optional<SurfaceUpdate> surface = service_.take_surface_update();
+        if (surface && !surface->tiles.empty()) update_duration_.add(took_ns);
+        const bool changed = surface.has_value();
         bool end = false;
         {
             const std::lock_guard lock(mutex_);
-            add(done_.news, std::move(news));
+            add(done_.surface, std::move(surface));
             if (updated) {
-                done_.updates.push_back(desk_.seen());
+                done_.updates.push_back(service_.seen());
                 done_.updates.back().orders = orders.size();
             }
             if (!updated) failure_ = updated.error();
             end = stopping_ || failure_.has_value();
         }
-        period_ns = !told && orders.empty() && loop_rests(before) ? kRest_ns : kPeriod_ns;
-        if (told || !updated) on_news_();
+        period_ns = !changed && orders.empty() && loop_rests(before) ? kRest_ns : kPeriod_ns;
+        if (changed || !updated) on_update_();
         if (end) return;
     }
 }
 
-void add(std::optional<SurfaceNews>& to, std::optional<SurfaceNews> later) {
+void add(std::optional<SurfaceUpdate>& to, std::optional<SurfaceUpdate> later) {
     if (to && later) {
         merge(*to, std::move(*later));
     } else if (later) {
@@ -95,9 +95,9 @@ void add(std::optional<SurfaceNews>& to, std::optional<SurfaceNews> later) {
     }
 }
 
-void merge(SurfaceNews& into, SurfaceNews later) {
-    for (TileNews& tile : later.tiles) {
-        const auto known = std::ranges::find(into.tiles, tile.tile, &TileNews::tile);
+void merge(SurfaceUpdate& into, SurfaceUpdate later) {
+    for (TileUpdate& tile : later.tiles) {
+        const auto known = std::ranges::find(into.tiles, tile.tile, &TileUpdate::tile);
         if (known == into.tiles.end()) {
             into.tiles.push_back(std::move(tile));
         } else {
@@ -108,8 +108,8 @@ void merge(SurfaceNews& into, SurfaceNews later) {
     into.cut_ns = std::max(into.cut_ns, later.cut_ns);
     into.undoable = later.undoable;
     into.redoable = later.redoable;
-    into.export_progress = later.export_progress;
+    into.exporting = later.exporting;
     std::ranges::move(later.messages, std::back_inserter(into.messages));
 }
 
-}  // namespace burin
+}  // namespace burin::sculpt

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
-#include "app/stroke_file.hpp"
+#include "sculpt/stroke_file.hpp"
 
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
 
-#include "geometry/file_io.hpp"
+#include "base/file_io.hpp"
+#include "sculpt/progress.hpp"
 
-namespace burin {
+namespace burin::sculpt {
 namespace {
 
 constexpr std::string_view kHeader = "time_s,x_m,y_m,z_m,qx,qy,qz,qw,button";
 constexpr std::size_t kColumns = 9;
-constexpr double kLargest_m = 1e9;  // as for meshes: far from overflow
+constexpr double kLargest_m = 1e9;  // the limit for meshes, far from overflow
 
 std::string_view trimmed(std::string_view text) {
     const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
@@ -29,7 +30,7 @@ std::string without_blanks(std::string_view text) {
     return result;
 }
 
-// The nine numbers of a line; nothing when there are not nine, or one is not a number.
+// Parses the nine numbers of a line; returns nullopt when there are not nine, or one is not a number.
 std::optional<std::array<double, kColumns>> numbers(std::string_view line) {
     std::array<double, kColumns> values{};
     for (std::size_t i = 0; i < kColumns; ++i) {
@@ -94,4 +95,26 @@ Result<Stroke> read_stroke(const std::filesystem::path& path) {
     return parse_stroke({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string());
 }
 
-}  // namespace burin
+Result<void> carve_rigidly(Sculpture& sculpture, const Stroke& stroke, const Tool& tool, bool merge_rows) {
+    Progress progress("carving");
+    const double tolerance_m = merge_rows ? tool.tolerance_cells * sculpture.surface().lattice().spacing_m : -1.0;
+    std::vector<Pose> run;  // the rows from press to release
+    for (std::size_t i = 0; i < stroke.size(); i += run.empty() ? 1 : run.size()) {
+        run.clear();
+        for (std::size_t k = i; k < stroke.size() && stroke[k].button; ++k) {
+            run.push_back({stroke[k].position_object_m, stroke[k].orientation_object});
+        }
+        std::vector<compute::ToolSweep> sweeps = sweeps_along(run, tool, tolerance_m);
+        // Without merging, the first row is an update of its own, as if the tool had been set down before it moved.
+        if (!merge_rows && run.size() > 1) sweeps.insert(sweeps.begin(), tool.sweep(run.front(), run.front()));
+        for (std::size_t done = 0; done < sweeps.size(); ++done) {
+            if (const auto updated = sculpture.update({&sweeps[done], 1}); !updated) return updated;
+            const double of_run = static_cast<double>(done * run.size()) / static_cast<double>(sweeps.size());
+            progress.show((static_cast<double>(i) + of_run) / static_cast<double>(stroke.size()));
+        }
+        sculpture.end_stroke();
+    }
+    return {};
+}
+
+}  // namespace burin::sculpt

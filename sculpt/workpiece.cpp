@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "app/workpiece.hpp"
+#include "sculpt/workpiece.hpp"
 
 #include <charconv>
 #include <cmath>
 
-#include "compute/scan_convert.hpp"
-#include "geometry/mesh_health.hpp"
-#include "geometry/mesh_import.hpp"
-#include "geometry/mesh_mend.hpp"
+#include "compute/rays/scan_convert.hpp"
+#include "geometry/files/mesh_import.hpp"
+#include "geometry/mesh/mesh_health.hpp"
+#include "geometry/mesh/mesh_repair.hpp"
+#include "gpu/device.hpp"
 
-namespace burin {
+namespace burin::sculpt {
 namespace {
 
-const Material kPlainMaterial{"workpiece", {205, 195, 178}};
+const geometry::Material kPlainMaterial{"workpiece", {205, 195, 178}};
 
-Json describe(const MeshHealth& health) {
+Json describe(const geometry::MeshHealth& health) {
     const auto point = [](const Vec3& p) { return Json::array({p.x, p.y, p.z}); };
     return {{"triangles", health.triangles},
             {"vertices", health.vertices},
@@ -31,7 +32,7 @@ Json describe(const MeshHealth& health) {
             {"closed", health.closed}};
 }
 
-Json describe(const ImportReport& import) {
+Json describe(const geometry::ImportReport& import) {
     return {{"format", import.format},
             {"faces_in_file", import.faces_in_file},
             {"triangles_in_file", import.triangles_in_file},
@@ -41,9 +42,9 @@ Json describe(const ImportReport& import) {
             {"remarks", import.remarks}};
 }
 
-Json describe(const ClosingReport& closing) {
+Json describe(const geometry::ClosingReport& closing) {
     Json holes = Json::array();
-    for (const ClosedHole& hole : closing.holes) {
+    for (const geometry::ClosedHole& hole : closing.holes) {
         holes.push_back({{"edges", hole.edges},
                          {"perimeter_m", hole.perimeter_m},
                          {"area_added_m2", hole.area_added_m2},
@@ -58,21 +59,21 @@ std::string joined(const std::vector<std::string>& sentences) {
     return text;
 }
 
-// Closed and facing outwards, or an Error.
-Result<void> make_ready(TriangleMesh& mesh, const std::string& file, bool fill_holes, Json& report) {
-    report["vertices_welded"] = weld_vertices(mesh).vertices_merged;
-    MeshHealth health = examine(mesh);
+// Closes the mesh where that is asked for, and turns it to face outwards.
+Result<void> make_ready(geometry::TriangleMesh& mesh, const std::string& file, bool fill_holes, Json& report) {
+    report["vertices_welded"] = geometry::weld_vertices(mesh).vertices_merged;
+    geometry::MeshHealth health = geometry::examine(mesh);
     report["health"] = describe(health);
     if (!health.closed) {
         if (!fill_holes) {
-            return fail(file, "is not closed, so it has no inside: " + joined(complaints(health)),
+            return fail(file, "is not closed, so it has no inside: " + joined(geometry::complaints(health)),
                         "close it in a mesh editor, or pass --close-holes to have its holes filled");
         }
         report["closed_holes"] = describe(close_holes(mesh));
-        health = examine(mesh);
+        health = geometry::examine(mesh);
     }
     if (!health.consistently_oriented || health.inside_out()) {
-        const OrientationReport turned = orient_outward(mesh);
+        const geometry::OrientationReport turned = geometry::orient_outward(mesh);
         report["triangles_turned"] = turned.triangles_turned;
         report["orientation_conflicts"] = turned.conflicts;
     }
@@ -83,7 +84,7 @@ Result<LoadedWorkpiece> from_file(const WorkpieceOptions& options, WorkerPool& p
     Result<ClosedMesh> closed = load_closed_mesh(options.source, options.close_holes);
     if (!closed) return std::unexpected(closed.error());
     LoadedWorkpiece workpiece{{}, std::move(closed->report)};
-    Result<ScanConversion> converted = scan_convert(closed->mesh, options.resolution, pool);
+    Result<compute::ScanConversion> converted = compute::scan_convert(closed->mesh, options.resolution, pool);
     if (!converted) {
         Error error = converted.error();
         if (error.where == "mesh") error.where = options.source;
@@ -103,14 +104,28 @@ Result<LoadedWorkpiece> from_shape(const WorkpieceOptions& options) {
     const std::string_view sizes = std::string_view(options.source).substr(colon + 1);
     const auto numbers = parse_numbers(sizes, shape == "block" ? 3 : 1, "--workpiece " + options.source);
     if (!numbers) return std::unexpected(numbers.error());
-    Result<Solid> solid =
-        shape == "block" ? make_block({(*numbers)[0], (*numbers)[1], (*numbers)[2]}, options.resolution, kPlainMaterial)
-                         : make_ball((*numbers)[0], options.resolution, kPlainMaterial);
+    Result<compute::Solid> solid =
+        shape == "block"
+            ? compute::make_block({(*numbers)[0], (*numbers)[1], (*numbers)[2]}, options.resolution, kPlainMaterial)
+            : compute::make_ball((*numbers)[0], options.resolution, kPlainMaterial);
     if (!solid) return std::unexpected(solid.error());
     return LoadedWorkpiece{std::move(*solid), {{"source", options.source}}};
 }
 
+ChosenEngine native(compute::Solid solid, WorkerPool& pool, std::string reason) {
+    return {compute::make_cpu_engine(std::move(solid), pool), std::to_string(pool.threads()) + " threads", false,
+            std::move(reason)};
+}
+
+Result<ChosenEngine> on_vulkan(compute::Solid solid, gpu::Device& device, std::string reason) {
+    auto engine = compute::make_vulkan_engine(std::move(solid), device);
+    if (!engine) return std::unexpected(engine.error());
+    return ChosenEngine{std::move(*engine), device.info().name, device.info().is_software(), std::move(reason)};
+}
+
 }  // namespace
+
+// ---- Workpiece
 
 Result<std::vector<double>> parse_numbers(std::string_view text, std::size_t count, const std::string& what) {
     std::vector<double> numbers;
@@ -136,7 +151,7 @@ Result<std::vector<double>> parse_numbers(std::string_view text, std::size_t cou
 }
 
 Result<ClosedMesh> load_closed_mesh(const std::string& file, bool close_holes) {
-    Result<ImportedMesh> imported = import_mesh(file);
+    Result<geometry::ImportedMesh> imported = geometry::import_mesh(file);
     if (!imported) return std::unexpected(imported.error());
     ClosedMesh closed{std::move(imported->mesh), {}};
     closed.report["source"] = file;
@@ -152,11 +167,29 @@ Result<LoadedWorkpiece> load_workpiece(const WorkpieceOptions& options, WorkerPo
     return shape ? from_shape(options) : from_file(options, pool);
 }
 
-Box workpiece_bounds(const Lattice& lattice) {
+Box workpiece_bounds(const compute::Lattice& lattice) {
     // The lattice has about one and a half empty cells around the workpiece.
     const Vec3 inset(1.5 * lattice.spacing_m);
     const Vec3 size = Vec3(lattice.cells[0], lattice.cells[1], lattice.cells[2]) * lattice.spacing_m;
     return {lattice.origin_object + inset, lattice.origin_object + size - inset};
 }
 
-}  // namespace burin
+// ---- Engine
+
+Result<ChosenEngine> choose_engine(EngineChoice choice, compute::Solid solid, WorkerPool& pool) {
+    if (choice == EngineChoice::cpu) return native(std::move(solid), pool, "");
+    Result<gpu::Device> device = gpu::Device::create();
+    if (choice == EngineChoice::vulkan) {
+        if (!device) return std::unexpected(device.error());
+        return on_vulkan(std::move(solid), *device, "");
+    }
+    if (!device) return native(std::move(solid), pool, "no Vulkan device");
+    if (device->info().is_software()) return native(std::move(solid), pool, "the only Vulkan device is a software one");
+    const gpu::Capabilities& can = device->capabilities();
+    if (!can.shader_int64 || !can.shader_float64) {
+        return native(std::move(solid), pool, "the Vulkan device lacks 64-bit shader arithmetic");
+    }
+    return on_vulkan(std::move(solid), *device, "a hardware Vulkan device");
+}
+
+}  // namespace burin::sculpt

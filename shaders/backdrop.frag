@@ -3,10 +3,11 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/frame.glsl"
 #include "shaders/lighting.glsl"
-// The room: a floor that rises softly into a backdrop, graded around mid-grey, with a fine grid and with the shadows of the
-// workpiece and the plinth. These fall from far above, so closed forms of a ball and a cylinder serve better than a map.
+// The environment: a floor that rises softly into a backdrop, graded around mid-grey, with a fine grid and with the
+// shadows of the workpiece and the plinth. The light comes from far above, so closed forms of a ball and a cylinder
+// serve better than a shadow map.
 
-// Whether the grid and the shadows are there to be seen (renderer/room_parts.cpp).
+// Whether grid and shadows are visible and therefore drawn (renderer/frame/room_parts.cpp).
 layout(constant_id = 2) const bool kGrid = true;
 layout(constant_id = 3) const bool kShadows = true;
 
@@ -14,7 +15,7 @@ layout(location = 0) in vec3 in_screen;
 
 layout(location = 0) out vec4 out_colour;
 
-// How near a grid line is, 0 to 1, anti-aliased over one pixel and fading where lines would crowd.
+// Returns the strength of the grid at a point, 0 to 1: anti-aliased over one pixel and fading where lines would crowd.
 float grid(vec2 p, float cell_m, float width_m) {
     vec2 pixel = fwidth(p);
     vec2 to_line = abs(fract(p / cell_m - 0.5) - 0.5) * cell_m;
@@ -25,7 +26,7 @@ float grid(vec2 p, float cell_m, float width_m) {
     return max(on.x, on.y);
 }
 
-// Shadow of a ball far above, with an edge as wide as the gap times the light's size.
+// Returns the shadow of a ball far above, with an edge as wide as the gap times the light's size.
 float ball_shadow(vec3 world, vec4 ball) {
     if (ball.w <= 0.0) return 0.0;
     vec3 to_ball = ball.xyz - world;
@@ -37,7 +38,8 @@ float ball_shadow(vec3 world, vec4 ball) {
     return full * (1.0 - smoothstep(ball.w - soft, ball.w + soft, miss));
 }
 
-// Shadow of the upright plinth on the floor: the discs from its base to its top, moved along the light, are a capsule.
+// Returns the shadow of the upright plinth on the floor: the discs from its base to its top, projected along the light,
+// form a capsule.
 float pedestal_shadow(vec3 world) {
     if (frame.pedestal.w <= 0.0) return 0.0;
     vec2 reach = -frame.light.xz / frame.light.y * frame.pedestal.y;
@@ -48,16 +50,18 @@ float pedestal_shadow(vec3 world) {
     return 1.0 - smoothstep(frame.pedestal.w - soft, frame.pedestal.w + soft, away);
 }
 
-// The room's shape in y and z: the floor y = 0 from the front to kBend_m, a quarter circle, and the wall behind.
+// Shape of the environment in y and z: the floor y = 0 from the front to kBend_m, a quarter circle, and the wall
+// behind.
 const float kBend_m = -2.4, kRadius_m = 1.6;
 
-// Where the line of sight ends, and how far the room rises there: 1 on the floor, 0 on the wall.
+// Returns where the line of sight along d meets the environment, and in `level` how level it is there: 1 on the floor,
+// 0 on the wall.
 vec3 place_in_room(vec3 eye, vec3 d, out float level) {
     level = 1.0;
     float to_floor = d.y < 0.0 ? -eye.y / d.y : 1e9;
     if (d.y < 0.0 && eye.z + to_floor * d.z >= kBend_m) return eye + to_floor * d;
     level = 0.0;
-    if (d.z >= -1e-4) return eye + d * (30.0 / length(d));  // past the side of the wall: as far away
+    if (d.z >= -1e-4) return eye + d * (30.0 / length(d));  // does not meet the wall: a point 30 m away
     float to_wall = (kBend_m - kRadius_m - eye.z) / d.z;
     if (eye.y + to_wall * d.y >= kRadius_m) return eye + to_wall * d;
     // The far side of the circle around (kRadius_m, kBend_m) in (y, z).
@@ -68,7 +72,7 @@ vec3 place_in_room(vec3 eye, vec3 d, out float level) {
     return p;
 }
 
-// srgb_of(frame.background.rgb * share) with one power instead of three.
+// Equals srgb_of(frame.background.rgb * share), with one power instead of three.
 vec3 srgb_of_background(float share) {
     vec3 light = frame.background.rgb * share;
     vec3 bright = 1.055 * pow(share, 1.0 / 2.4) * frame.background_root.rgb - 0.055;
@@ -79,9 +83,9 @@ void main() {
     vec3 eye = frame.eye_world[gl_ViewIndex].xyz;
     float level;
     vec3 world = place_in_room(eye, in_screen - eye, level);
-    // Brightest around the work, falling off to the sides: the eye is led to the middle without any edge.
+    // Brightest around the work, falling off to the sides: this leads the eye to the middle without any edge.
     float away = length((world - vec3(0.0, 0.9, -2.2)) * vec3(0.75, 1.0, 0.55));
-    float c = mix(1.25, 0.60, smoothstep(0.2, 4.2, away));  // of the background's own light
+    float c = mix(1.25, 0.60, smoothstep(0.2, 4.2, away));  // share of the background's light
 
     if (kGrid) {
         float floor_part = smoothstep(0.975, 1.0, level);  // the grid fades where the floor begins to rise

@@ -2,9 +2,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/frame.glsl"
-// The room fills the picture from behind, so one quad at the greatest depth will do; each pixel finds its own place in the
-// room. A mesh of the room would be cut by the picture's edges, and Mesa 22.3's software driver gives cut triangles wrong
-// attributes in every view but the first.
+// The environment fills the picture behind everything else, so one quad at the greatest depth suffices; each pixel
+// finds its own point of the environment. A mesh would be clipped by the picture's edges, and Mesa 22.3's software
+// driver gives clipped triangles wrong attributes in every view but the first.
 
 layout(location = 0) in vec3 in_position;
 layout(location = 0) out vec3 out_screen;  // the point on the screen, world frame

@@ -3,14 +3,16 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_buffer_reference : require
-// Takes capsules out of rays: one invocation owns one ray and gives it all its capsules in order. What one capsule does to
-// one ray is shaders/shared/capsule.h and span_edit.h, the same text that the CPU engine compiles.
+// Cuts, fills or paints rays with capsules: one invocation owns one ray and applies all its capsules in order. The
+// effect of one capsule on one ray is defined in shaders/shared/capsule.h and span_edit.h, the same text that the CPU
+// engine compiles.
 //
-// A ray that cannot go on is left as it was before the capsule at hand and put on the pending list; the host makes the
-// space and dispatches the list again. Nothing is ever dropped.
+// A ray that cannot continue is left as it was before the current capsule and added to the pending list; the host
+// provides the space and dispatches the list again. Nothing is ever dropped.
 //
-// A pass is bounded: in it a ray takes at most parameters.cuts capsules and looks at no more than parameters.looks. Drivers
-// stop what runs for seconds, and a software driver ends an invocation's loops, silently, after 65535 turns of all of them.
+// A pass is bounded: in it a ray takes at most parameters.cuts capsules and tests at most parameters.looks. Drivers
+// stop work that runs for seconds, and a software driver ends an invocation's loops, silently, after 65535 iterations
+// of all of them.
 #include "shaders/shared/cut_job.h"
 
 layout(local_size_x = 64) in;
@@ -28,13 +30,13 @@ layout(std430, binding = 8) readonly buffer Continued { PendingRay continued[]; 
 layout(std430, binding = 9) writeonly buffer Pending { PendingRay pending[]; };
 #include "shaders/dexel_rooms.glsl"
 
-uint first_end = 0u;  // where the ray at hand begins
+uint first_end = 0u;  // index of the current ray's first end
 DexelEnd load_end(uint i) { return store.at[first_end + i]; }
 #include "shaders/shared/span_edit.h"
 
 const uint kNoPlace = 0xffffffffu;
 
-// Software drivers read piece by piece, so by twos is faster than by ones.
+// Reads words in pairs: software drivers load component by component, so pairs are faster than single words.
 Capsule capsule_at(uint number) {
     ivec2 start_xy = capsule_words[5u * number + 1u];
     ivec2 start_z_along_x = capsule_words[5u * number + 2u];
@@ -53,7 +55,7 @@ Capsule capsule_at(uint number) {
     return c;
 }
 
-// A cheap test that spares most capsules of a long list: false only where capsule_span would find nothing.
+// Returns false only where capsule_span would find nothing; a cheap test that skips most capsules of a long list.
 bool near(Capsule c, int axis, int u, int v) {
     int start_u = pick(axis, c.start_y, c.start_z, c.start_x);
     int start_v = pick(axis, c.start_z, c.start_x, c.start_y);
@@ -63,18 +65,19 @@ bool near(Capsule c, int axis, int u, int v) {
            v >= min(start_v, end_v) - c.reach && v <= max(start_v, end_v) + c.reach;
 }
 
-// The first capsule from `next` on that comes near the ray; `stop` when none does.
+// Returns the first capsule from `next` on that comes near the ray, or `stop` when none does.
 uint next_near(uint next, uint stop, int axis, int ray_u, int ray_v) {
     while (next < stop && !near(capsule_at(order[next]), axis, ray_u, ray_v)) ++next;
     return next;
 }
 
-// Carries the edit out; the ray has the room.
+// Applies the edit to the ray's ends; the ray must have room for the result.
 void apply_edit(uint count, SpanEdit edit, DexelEnd end_lo, DexelEnd end_hi) {
     uint fresh = edit.insert_lo + edit.insert_hi;
     uint removed = edit.to - edit.from;
-    if (fresh > removed) {  // by two at most; the tail moves up
-        for (uint i = count; i > edit.to; --i) store.at[first_end + i - 1u + fresh - removed] = store.at[first_end + i - 1u];
+    if (fresh > removed) {  // by two at most; moves the tail up
+        for (uint i = count; i > edit.to; --i)
+            store.at[first_end + i - 1u + fresh - removed] = store.at[first_end + i - 1u];
     } else if (fresh < removed) {
         for (uint i = edit.to; i < count; ++i) store.at[first_end + i + fresh - removed] = store.at[first_end + i];
     }
@@ -82,7 +85,7 @@ void apply_edit(uint count, SpanEdit edit, DexelEnd end_lo, DexelEnd end_hi) {
     if (edit.insert_hi == 1u) store.at[first_end + edit.from + edit.insert_lo] = end_hi;
 }
 
-// Gives the ends within the span the material; the depths between which some changed, none when lo > hi.
+// Sets the material of the ends within the span. Returns the range of depths in which some changed, empty when lo > hi.
 RaySpan paint_ends(uint count, RaySpan span, uint material) {
     RaySpan changed;
     changed.lo = kMaxDepth;
@@ -98,7 +101,7 @@ RaySpan paint_ends(uint count, RaySpan span, uint material) {
     return changed;
 }
 
-// The ray this invocation works on; ray = kNoPlace when there is none.
+// Returns the ray this invocation works on; ray = kNoPlace when there is none.
 PendingRay take_job() {
     PendingRay job;
     job.ray = kNoPlace;
@@ -108,7 +111,8 @@ PendingRay take_job() {
     }
     CutTask task = tasks[gl_WorkGroupID.x];
     int number = task.offset + int(gl_LocalInvocationID.x);
-    if (number < task.width * task.height) job.ray = ray_code(task.axis, task.u + number % task.width, task.v + number / task.width);
+    if (number < task.width * task.height)
+        job.ray = ray_code(task.axis, task.u + number % task.width, task.v + number / task.width);
     job.next = task.first;
     job.end = task.end;
     job.changed_lo = kMaxDepth;
@@ -133,8 +137,8 @@ void main() {
     bool waits = false;
     job.next = next_near(job.next, stop, axis, ray_u, ray_v);
     if (job.next < stop) {
-        // The condition stands at the end: with it at the beginning, a driver that runs both sides of a branch under a mask
-        // would run the long body once more for nothing.
+        // The condition stands at the end: otherwise a driver that runs both sides of a branch under a mask would
+        // execute the long body once more for nothing.
         do {
             Capsule capsule = capsule_at(order[job.next]);
             CapsuleRay from_ray = capsule_from_ray(capsule, axis, ray_u, ray_v);
@@ -142,7 +146,7 @@ void main() {
             uint count = count_of(ray);
             first_end = ray.first;
             int operation = operation_of(capsule);
-            // Rays without material are not there for a cut, nor is the lattice's border for filling.
+            // A cut skips rays without material, and filling skips the lattice's border.
             bool there =
                 operation == kFill ? may_fill_ray(u_of(job.ray), v_of(job.ray), rays_u, rays_v) : count > 0u;
             if (there && span.lo <= span.hi) touched = 1u;
@@ -153,12 +157,13 @@ void main() {
                     job.changed_hi = max(job.changed_hi, painted.hi);
                 }
             } else if (there) {
-                int cells = parameters.rays_v[(axis + 1) % 3] - 1;  // v of the next axis runs along this one
+                int cells = parameters.rays_v[(axis + 1) % 3] - 1;  // the next axis' v runs along this axis
                 if (operation == kFill && span.lo <= span.hi) span = fill_within(span, cells);
                 SpanEdit edit = plan_span(count, span, operation == kFill ? 1u : 0u);
                 if (changes_anything(edit)) {
                     uint new_count = count_after(count, edit);
-                    if (new_count > room_of(ray)) {  // a ray without a place of its own says that it has room for one
+                    // A ray without a range of its own states room for 1 end, too little for any interval.
+                    if (new_count > room_of(ray)) {
                         ray = with_larger_room(ray, new_count);
                         waits = new_count > room_of(ray);
                     }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Rays that grow: a place for more ends at the end of the store. Needs dexel_store.glsl and the CutCounters `counters`.
+// Grows rays: moves a ray to a larger range at the end of the store. Needs dexel_store.glsl and the CutCounters
+// `counters`.
 
-// log2 of the room for so many ends, in the high bits of a RayRef's count_room.
+// Returns log2 of the room for `count` ends, in the high bits of a RayRef's count_room.
 uint room_for(uint count) { return count <= 1u ? 0u : uint(findMSB(count - 1u) + 1) << 24; }
 
-// The ray with its ends moved to where there is room for so many; as it was when the store has no such place left.
+// Returns the ray with its ends moved to a range with room for `needed` ends; unchanged when the store is full.
 RayRef with_larger_room(RayRef ray, uint needed) {
     uint larger = room_for(needed);
     uint room = 1u << (larger >> 24);

@@ -3,8 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_buffer_reference : require
-// Lays out, one invocation a ray, what rays on the list of stale ones hold now, for the host to read. Where there is not
-// enough space for all ends the counter says how much is needed, and the host runs it again.
+// Exports the current ends of rays on the list of stale rays for the host to read: one invocation per ray. If the space
+// is too small for all ends, the counter states how much is needed, and the host runs the shader again.
 #include "shaders/shared/cut_job.h"
 
 layout(local_size_x = 64) in;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
+// The fragment stage for fine.vert: writes the light that was computed at the vertices.
 #include "shaders/frame.glsl"
 #include "shaders/lighting.glsl"
 

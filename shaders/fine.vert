@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The workpiece away from the tool where light changes little from one vertex to the next: lit here, once a vertex.
+// The workpiece away from the tool, where light changes little from one vertex to the next: lit here, once per vertex.
 #define BURIN_VERTEX_STAGE
 #define BURIN_WITH_LIGHT
 #define BURIN_FAR_FROM_TOOL
@@ -10,8 +10,8 @@
 #include "shaders/placed.glsl"
 #include "shaders/vertex_input.glsl"
 
-// As the picture takes it. Interpolated over the screen: over triangles of some pixels the depth hardly differs, and a software driver is
-// spared three divisions a pixel.
+// Light in the encoding of the picture. Interpolated in screen space: over triangles of some pixels the depth hardly
+// differs, and a software driver is spared three divisions a pixel.
 layout(location = 0) noperspective out vec3 out_light;
 
 void main() {

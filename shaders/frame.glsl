@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The resources of every graphics shader.
+// The resources that all graphics shaders share.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
 #define BURIN_NO_INT64
@@ -9,7 +9,7 @@
 layout(std140, set = 0, binding = 0) uniform Frame { FrameUniforms frame; };
 layout(push_constant) uniform Draw { DrawConstants draw; };
 
-// Whether the picture holds sRGB values as they are (true), or the device encodes what it is given (false).
+// Whether the shader writes sRGB values (true), or the device encodes its linear output (false).
 layout(constant_id = 0) const bool kEncodes = false;
-// Whether parallax fades towards the screen's edges; without, the fade is not even compiled.
+// Whether parallax fades towards the screen's edges; if not, the fade is not even compiled.
 layout(constant_id = 1) const bool kFades = false;

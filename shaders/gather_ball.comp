@@ -4,8 +4,9 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
-// The triangles whose box comes within a ball, by the pool's vertices, and the places of these relative to the ball's centre
-// (compute/local_surface.cpp): one work group a tile. What is too much is counted all the same.
+// Gathers the triangles whose box comes within a ball, as indices of the pool's vertices, and the positions of these
+// vertices relative to the ball's centre (compute/mesher/local_surface.cpp): one work group per tile. What exceeds the
+// capacity is still counted.
 #include "shaders/gather_buffers.glsl"
 
 layout(local_size_x = 64) in;
@@ -13,7 +14,7 @@ layout(local_size_x = 64) in;
 Vertices pool_vertices = Vertices(parameters.vertex_address);
 Members members = Members(parameters.member_address);
 
-// 1: the binding shows the whole pool.
+// 1: the binding covers the whole pool of vertices.
 layout(constant_id = 0) const uint kBound = 0u;
 
 vec3 place_of(uint vertex) { return kBound == 1u ? bound_vertices[vertex].place : pool_vertices.at[vertex].place; }
@@ -23,11 +24,12 @@ void take(uint vertex, vec3 place) {
     uint number = atomicAdd(counters.ball_vertices, 1u);
     members.at[vertex].number = number;
     if (number >= uint(kBallVertices)) return;
-    ball_places[number] = vec3(float(double(place.x) - parameters.center[0]), float(double(place.y) - parameters.center[1]),
-                               float(double(place.z) - parameters.center[2]));
+    ball_places[number] =
+        vec3(float(double(place.x) - parameters.center[0]), float(double(place.y) - parameters.center[1]),
+             float(double(place.z) - parameters.center[2]));
 }
 
-// Whether the box around a triangle comes within the ball.
+// Tells whether the box around a triangle comes within the ball.
 bool near(vec3 a, vec3 b, vec3 c, vec3 center) {
     vec3 lo = min(a, min(b, c));
     vec3 hi = max(a, max(b, c));
@@ -47,18 +49,18 @@ void main() {
     TrianglePairs pairs = TrianglePairs(parameters.index_address + 4ul * ranges[tile].first_index);
     uint end = ranges[tile].index_count / 3u;
     vec3 center = vec3(parameters.center_float[0], parameters.center_float[1], parameters.center_float[2]);
-    // A tile's triangles reach at most one and a half cells beyond its own; two, for the rounding.
+    // A tile's triangles reach at most one and a half cells beyond its own cells; two allow for the rounding.
     vec3 tile_lo = (vec3(at * kMeshTile) - 2.0) * parameters.spacing_m;
     vec3 tile_hi = (vec3(at * kMeshTile + kMeshTile) + 2.0) * parameters.spacing_m;
     vec3 to_tile = max(max(tile_lo - center, center - tile_hi), vec3(0.0));
     if (dot(to_tile, to_tile) > parameters.radius_m * parameters.radius_m) end = 0u;
-    // Two triangles at a time: those of a quad, or two of a fan, share their first corner and another one.
+    // Tests two triangles at a time: those of a quad, or two of a fan, share their first corner and another one.
     for (uint i = 2u * gl_LocalInvocationID.x; i < end; i += 128u) {
         TrianglePair pair = pairs.at[i / 2u];
         bool two = i + 1u < end;
         bool shares_c = two && pair.d == pair.a && pair.e == pair.c;
         bool shares_b = two && pair.d == pair.a && pair.f == pair.b;
-        bool alone = two && !shares_b && !shares_c;  // the second has a turn of its own
+        bool alone = two && !shares_b && !shares_c;  // the second triangle is tested in an iteration of its own
         uvec3 corners = uvec3(pair.a, pair.b, pair.c);
         uint fourth = shares_b ? pair.e : (shares_c ? pair.f : pair.a);
         for (;;) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What gather_ball.comp and gather_corners.comp share.
+// The buffers and push constants of gather_ball.comp and gather_corners.comp.
 #include "shaders/shared/mesh_job.h"
 
 layout(push_constant) uniform Push { GatherParameters parameters; };
@@ -8,7 +8,7 @@ layout(std430, binding = 1) readonly buffer Ranges { TileRange ranges[]; };
 layout(scalar, binding = 2) writeonly buffer BallPlaces { vec3 ball_places[]; };
 layout(scalar, binding = 3) buffer BallTriangles { uvec3 ball_triangles[]; };
 
-// The pool of vertices again, as far as a binding shows it: software drivers read whole vectors of what is bound.
+// The pool of vertices again, as far as a binding covers it: software drivers read whole vectors through a binding.
 struct PlacedVertex {
     vec3 place;
     uint normal;
@@ -16,7 +16,7 @@ struct PlacedVertex {
 };
 layout(scalar, binding = 4) readonly buffer BoundVertices { PlacedVertex bound_vertices[]; };
 
-// For each vertex of the pool the ball that it was last in, and its number there.
+// For each vertex of the pool, the ball that it was last in and its number there.
 struct Member {
     uint stamp;
     uint number;

@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: MIT
-// Light on a surface. One light from above (two confuse the sense of depth), ambient light from the sky and the ground, and
-// three cues of contact: shadows that sharpen as the tool comes down, ambient darkening, and a ring of the tool's colour.
-// What the workpiece's own parts keep off comes with each vertex; what the tool keeps off is worked out here in closed form.
+// The lighting of a surface: one light from above (two confuse the sense of depth), ambient light from the sky and the
+// ground, and three cues of contact: shadows that sharpen as the tool comes down, ambient darkening, and a ring of the
+// tool's colour. Occlusion by the workpiece itself comes with each vertex; occlusion by the tool is computed here in
+// closed form.
 
-#include "shaders/srgb.glsl"
+#include "shaders/shared/srgb.h"
 
 const float kPi = 3.14159265;
 
-// The share of the lamp that a round thing hides, which passes the line to the lamp at `miss`, `along` the line from the point: its
-// edge is as wide as the lamp seen from there, so that shadows sharpen towards contact.
+// Returns the share of the lamp that a round object hides. The object passes the line to the lamp at distance `miss`,
+// `along` that line from the point. The shadow's edge is as wide as the lamp seen from there, so that shadows sharpen
+// towards contact.
 float hidden_share(float miss, float along, float radius) {
     float soft = max(frame.light.w * along, 0.02 * radius);
-    float full = min(1.0, radius * radius / (soft * soft));  // a small thing does not cover the lamp
+    float full = min(1.0, radius * radius / (soft * soft));  // a small object does not cover the lamp
     return full * (1.0 - smoothstep(radius - soft, radius + soft, miss));
 }
 
-// Branches spare a software driver nothing, so what cannot matter is left out where it is compiled: BURIN_FAR_FROM_TOOL is for the
-// surface beyond the tool's ring and shadow (renderer/surface/patch_choice.cpp).
+// A branch saves a software driver nothing, so what cannot matter is left out at compile time: BURIN_FAR_FROM_TOOL is
+// for the surface beyond the tool's ring and shadow (renderer/surface/patch_choice.cpp).
 #ifndef BURIN_FAR_FROM_TOOL
-// The shadow of the tool's ball and stylus, 0 to 1.
+// Returns the shadow of the tool's ball and stylus, 0 to 1.
 float tool_shadow(vec3 world) {
     if (frame.tool.w <= 0.0) return 0.0;
     vec3 l = frame.light.xyz;
@@ -41,7 +43,8 @@ float tool_shadow(vec3 world) {
 }
 #endif
 
-// How much of the hemisphere over a point a ball covers, cosine-weighted; exact while all of it is above the horizon.
+// Returns how much of the hemisphere over a point a ball covers, cosine-weighted; exact while all of it is above the
+// horizon.
 float ball_cover(vec3 world, vec3 normal, vec4 ball) {
     if (ball.w <= 0.0) return 0.0;
     vec3 to_ball = ball.xyz - world;
@@ -50,13 +53,14 @@ float ball_cover(vec3 world, vec3 normal, vec4 ball) {
     return max(dot(normal, to_ball) / distance_m, 0.0) * sine * sine;
 }
 
-// Ambient light that reaches a point beside the tool and over the plinth.
+// Returns the share of ambient light that reaches a point beside the tool and over the plinth.
 float openness(vec3 world, vec3 normal) {
     float from_tool = length(frame.tool.xyz - world);
     float near_tool = 1.0 - smoothstep(0.4 * kToolDarkens, kToolDarkens, from_tool / max(frame.tool.w, 1e-6));
     float open = 1.0 - 0.85 * near_tool * ball_cover(world, normal, frame.tool);
     if (frame.pedestal.w > 0.0 && world.y >= frame.pedestal.y - 0.001) {
-        // Looking down at a disc: the part of the lower hemisphere that it hides, seen from above its middle.
+        // The plinth's top is a disc below the point: the part of the lower hemisphere that it hides, as seen above its
+        // centre.
         float height = world.y - frame.pedestal.y;
         float r2 = frame.pedestal.w * frame.pedestal.w;
         vec2 from_axis = world.xz - frame.pedestal.xz;
@@ -66,7 +70,7 @@ float openness(vec3 world, vec3 normal) {
     return open;
 }
 
-// A soft shoulder instead of clipping: the identity below 0.7, never beyond 1.
+// Compresses highlights with a soft shoulder instead of clipping: the identity below 0.7, never beyond 1.
 vec3 shoulder(vec3 c) { return mix(c, 1.0 - 0.3 * exp(-(max(c, vec3(0.7)) - 0.7) / 0.3), greaterThan(c, vec3(0.7))); }
 
 vec3 ambient_light(vec3 normal) {
@@ -87,7 +91,7 @@ float highlight(vec3 n, vec3 v, vec3 l, float roughness) {
 }
 
 #ifndef BURIN_FAR_FROM_TOOL
-// The surface takes the tool's colour where it nears the tool: a ring that closes in on the point of contact. Its width
+// Blends the tool's colour into the surface near the tool: a ring that closes in on the point of contact. Its width
 // follows the tool's size.
 vec3 ringed(vec3 albedo, vec3 world) {
     if (draw.material.z == 0.0 || frame.tool.w <= 0.0) return albedo;
@@ -98,8 +102,8 @@ vec3 ringed(vec3 albedo, vec3 world) {
 }
 #endif
 
-// Light from a point of a surface to an eye. sun, open: what of the lamp's and of the surroundings' light other parts of the
-// workpiece let through.
+// Returns the light from a point of a surface to an eye. sun, open: the shares of the lamp's and of the surroundings'
+// light that other parts of the workpiece let through.
 vec3 lit(vec3 world, vec3 n, vec3 eye, vec3 colour, float sun, float open) {
     vec3 v = normalize(eye - world);
     vec3 l = frame.light.xyz;
@@ -118,7 +122,7 @@ vec3 lit(vec3 world, vec3 n, vec3 eye, vec3 colour, float sun, float open) {
 
     vec3 c = albedo * (key * max(nl, 0.0) + ambient_light(n) * open);
     c += key * highlight(n, v, l, roughness) * gloss;
-    // The room mirrored: brighter above, and a wide soft lamp around the light; stronger at grazing angles.
+    // The reflected environment: brighter above, with a wide soft lamp around the light; stronger at grazing angles.
     vec3 mirrored = reflect(-v, n);
     float grazing = 1.0 - max(dot(n, v), 0.0);
     float fresnel = 0.04 + 0.5 * grazing * grazing * grazing * (1.0 - 0.6 * roughness);
@@ -128,14 +132,14 @@ vec3 lit(vec3 world, vec3 n, vec3 eye, vec3 colour, float sun, float open) {
 }
 
 #ifndef BURIN_VERTEX_STAGE
-// Half a step of the 8-bit picture more or less, in an ordered pattern in which every 2 x 2 pixels have four values, so that soft
-// gradients show no bands. Without integers, which cost a software driver more than the light. A step of sRGB is
-// 2.4 c^(1.4/2.4) / 1.055 steps of linear light.
+// Returns a dither of up to half a step of the 8-bit picture, in an ordered pattern in which every 2 x 2 pixels have
+// four values, so that soft gradients show no bands. Without integers, which cost a software driver more than the
+// lighting. A step of sRGB is 2.4 c^(1.4/2.4) / 1.055 steps of linear light.
 float dither_step() {
     float quarter = fract(dot(gl_FragCoord.xy, vec2(0.5, 0.75)) - 0.625);  // 0, 1/4, 1/2 or 3/4
     return (quarter * (4.0 / 3.0) - 0.5) / 255.0;
 }
-// Of linear light, as the picture takes it.
+// Converts linear light to the encoding of the picture, dithered.
 vec3 finished(vec3 c) {
     return kEncodes ? srgb_of(c) + dither_step() : c + dither_step() * 2.27 * pow(c, vec3(0.58));
 }

@@ -3,9 +3,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_buffer_reference : require
-// Takes a range of each pool for the tiles that need one and writes what is drawn: one invocation a tile. A tile that finds no
-// room, or had no space in an earlier stage, is put on the list of those that wait; until the host has grown what was too
-// small it keeps the picture that it had, or none where its range is gone.
+// Allocates a range of each pool for the tiles that need one and writes the tile's draw command: one invocation per
+// tile. A tile that finds no range, or had no space in an earlier stage, is added to the list of waiting tiles; until
+// the host has enlarged the list or pool that was too small, it is drawn as before, or not at all if its range is gone.
 #include "shaders/mesh_buffers.glsl"
 #include "shaders/mesh_ranges.glsl"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Ranges of the two pools, 0: vertices, 1: indices. Of each class of size there is a list of free places. A place that finds
-// the list full is not remembered; it is won back when the pools are laid out anew.
+// Allocation of ranges in the two pools, 0: vertices, 1: indices. Each size class has a list of free ranges. A range
+// that finds its list full is lost until the pools are laid out again.
 
-// The smallest class that holds so many; kNoClass for none at all.
+// Returns the smallest class that holds `size` entries; kNoClass for none at all.
 uint class_for(uint size) {
     if (size == 0u) return kNoClass;
     return uint(max(findMSB(size - 1u) + 1, 6) - 6);  // findMSB(0) is -1

@@ -3,8 +3,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_buffer_reference : require
-// Numbers the vertices of each tile, cell after cell, and gives back the ranges that have become too small or too large. One
-// work group a tile. Ranges are only given back here and only taken in mesh_places.comp, so that the lists need no locks.
+// Numbers the vertices of each tile, cell after cell, and frees the ranges that have become too small or too large. One
+// work group per tile. Ranges are only freed here and only allocated in mesh_places.comp, so that the lists need no
+// locks.
 #include "shaders/mesh_buffers.glsl"
 #include "shaders/mesh_ranges.glsl"
 

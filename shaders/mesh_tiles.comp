@@ -3,8 +3,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_buffer_reference : require
-// What there is to mesh in a tile, one work group a tile: the signs of its nodes from the z rays, the cells that its own
-// crossed edges touch, all crossed edges of these cells; and a place for each in the lists of the stages that follow.
+// Finds what is to be meshed in a tile, one work group per tile: the signs of its nodes from the z rays, the cells that
+// its own crossed edges touch, and all crossed edges of these cells; allocates entries for them in the lists of the
+// following stages.
 #include "shaders/mesh_buffers.glsl"
 
 layout(local_size_x = 64) in;
@@ -22,48 +23,34 @@ shared uint edges_asked;
 shared uint any_inside;
 shared uint all_inside;
 
-const uint kOwn = 0xffffu << 1;
-
-// Bits of the tile's nodes that are inside. A node at depth d is inside when lo <= d < hi.
-uint node_bits(RayRef ray, int first) {
-    uint bits = 0u;
-    uint count = count_of(ray);
-    for (uint i = 0u; i < count; i += 2u) {
-        int from = (depth_of(store.at[ray.first + i]) + kUnitsPerCell - 1) / kUnitsPerCell - (first - 1);
-        int to = (depth_of(store.at[ray.first + i + 1u]) + kUnitsPerCell - 1) / kUnitsPerCell - (first - 1);
-        from = max(from, 0);
-        to = min(to, kMeshNodes);
-        if (from >= kMeshNodes) break;
-        if (from < to) bits |= ((1u << uint(to)) - 1u) & ~((1u << uint(from)) - 1u);
-    }
-    return bits;
-}
+RayRef ray;
+DexelEnd load_end(uint index) { return store.at[ray.first + index]; }
+#include "shaders/shared/ray_crossing.h"
 
 bool own(int x, int y) { return x >= 0 && y >= 0 && x < kMeshTile && y < kMeshTile; }
-uint both_cells(uint edge_bits) { return edge_bits | edge_bits >> 1; }  // an edge along x or y touches z and z - 1
-uint both_nodes(uint cell_bits) { return cell_bits | cell_bits << 1; }
-uint along_z(uint column) { return (column ^ (column >> 1)) & ((1u << uint(kMeshNodes - 1)) - 1u); }
-
-// The cells of a column that own crossed edges touch. An edge is own when it starts at an own node.
+// Returns the cells of a column that touch own crossed edges. An edge is own when it starts at an own node.
 uint needed_cells(int x, int y) {
     int column = node_column(x, y);
     uint low = signs[column];
     uint right = signs[column + 1];
     uint upper = signs[column + kMeshNodes];
     uint across = signs[column + kMeshNodes + 1];
-    uint at_low = own(x, y) ? kOwn : 0u;
-    uint at_right = own(x + 1, y) ? kOwn : 0u;
-    uint at_upper = own(x, y + 1) ? kOwn : 0u;
-    uint at_across = own(x + 1, y + 1) ? kOwn : 0u;
+    uint at_low = own(x, y) ? kOwnNodes : 0u;
+    uint at_right = own(x + 1, y) ? kOwnNodes : 0u;
+    uint at_upper = own(x, y + 1) ? kOwnNodes : 0u;
+    uint at_across = own(x + 1, y + 1) ? kOwnNodes : 0u;
     uint sideways = ((low ^ right) | (low ^ upper)) & at_low;
     sideways |= (upper ^ across) & at_upper;
     sideways |= (right ^ across) & at_right;
-    return both_cells(sideways) | (along_z(low) & at_low) | (along_z(right) & at_right) | (along_z(upper) & at_upper) |
-           (along_z(across) & at_across);
+    uint upright = (crossed_upwards(low) & at_low) | (crossed_upwards(right) & at_right) |
+                   (crossed_upwards(upper) & at_upper) | (crossed_upwards(across) & at_across);
+    return cells_beside_edges(sideways, upright);
 }
-uint cells_at(int x, int y) { return x >= -1 && y >= -1 && x < kMeshTile && y < kMeshTile ? needed[cell_column(x, y)] : 0u; }
+uint cells_at(int x, int y) {
+    return x >= -1 && y >= -1 && x < kMeshTile && y < kMeshTile ? needed[cell_column(x, y)] : 0u;
+}
 
-// The crossed edges of these cells that start in a column of nodes, along each axis.
+// Returns the crossed edges of these cells that start in a column of nodes, along each axis.
 uvec3 needed_edges(int x, int y) {
     uint here = cells_at(x, y);
     uint left = cells_at(x - 1, y);
@@ -72,8 +59,8 @@ uvec3 needed_edges(int x, int y) {
     uint bits = signs[node_column(x, y)];
     uint along_x = x < kMeshTile ? bits ^ signs[node_column(x + 1, y)] : 0u;
     uint along_y = y < kMeshTile ? bits ^ signs[node_column(x, y + 1)] : 0u;
-    return uvec3(along_x & both_nodes(here | low), along_y & both_nodes(here | left),
-                 along_z(bits) & (here | left | low | across));
+    return uvec3(along_x & level_edges_of(here | low), along_y & level_edges_of(here | left),
+                 crossed_upwards(bits) & (here | left | low | across));
 }
 
 void main() {
@@ -89,7 +76,8 @@ void main() {
     uint any_of_lane = 0u;
     uint all_of_lane = 0xffffffffu;
     for (int c = lane; c < kNodeColumns; c += kMeshGroup) {
-        uint bits = node_bits(ray_at(2, node.x + c % kMeshNodes - 1, node.y + c / kMeshNodes - 1), node.z);
+        ray = ray_at(2, node.x + c % kMeshNodes - 1, node.y + c / kMeshNodes - 1);
+        uint bits = node_bits(count_of(ray), node.z);
         signs[c] = bits;
         jobs[slot].signs[c] = bits;
         any_of_lane |= bits;
@@ -98,7 +86,7 @@ void main() {
     atomicOr(any_inside, any_of_lane);
     atomicAnd(all_inside, all_of_lane);
     barrier();
-    // Most tiles of a solid are empty or full: there is nothing to count in them.
+    // Most tiles of a solid are empty or full and have nothing to count.
     bool has_surface = any_inside != 0u && all_inside != (1u << uint(kMeshNodes)) - 1u;
     int cell_columns = has_surface ? kCellColumns : 0;
     int node_columns = has_surface ? kNodeColumns : 0;
@@ -106,7 +94,7 @@ void main() {
         needed[c] = needed_cells(c % kMeshCells - 1, c / kMeshCells - 1);
     }
     barrier();
-    // Each lane counts neighbouring columns, so that the lists are in the order of the columns.
+    // Each lane counts adjacent columns, so that the lists are in the order of the columns.
     const int kCellShare = (kCellColumns + kMeshGroup - 1) / kMeshGroup;
     const int kNodeShare = (kNodeColumns + kMeshGroup - 1) / kMeshGroup;
     int cells_from = lane * kCellShare;
@@ -125,7 +113,7 @@ void main() {
         edge_bits[i] = uvec3(0u);
         if (c < nodes_to) edge_bits[i] = needed_edges(x, y);
         edge_sum += uvec3(bitCount(edge_bits[i]));
-        quad_sum += own(x, y) ? uvec3(bitCount(edge_bits[i] & kOwn)) : uvec3(0u);
+        quad_sum += own(x, y) ? uvec3(bitCount(edge_bits[i] & kOwnNodes)) : uvec3(0u);
     }
     cell_sums[lane] = cell_sum;
     for (int axis = 0; axis < 3; ++axis) {
@@ -152,7 +140,9 @@ void main() {
         }
         first_cell = atomicAdd(counters.cells, all_cells);
         first_edge = atomicAdd(counters.edges, all_edges);
-        fits = first_cell + all_cells <= parameters.most_cells && first_edge + all_edges <= parameters.most_edges ? 1u : 0u;
+        fits = first_cell + all_cells <= parameters.most_cells && first_edge + all_edges <= parameters.most_edges
+                   ? 1u
+                   : 0u;
         cells_asked = all_cells;
         edges_asked = all_edges;
         if (fits == 1u) {
@@ -172,7 +162,9 @@ void main() {
         jobs[slot].disagreeing = 0u;
     }
     barrier();
-    if (fits == 0u) {  // what it asked for in vain may lie between what others got, and holds an older frame's entries
+    // The entries of a failed allocation may lie between those of other tiles and hold an older frame's data: void
+    // them.
+    if (fits == 0u) {
         uint end_of_cells = min(first_cell + cells_asked, parameters.most_cells);
         uint end_of_edges = min(first_edge + edges_asked, parameters.most_edges);
         for (uint i = first_cell + uint(lane); i < end_of_cells; i += uint(kMeshGroup)) cells[i].what.x = kNoSlot;
@@ -189,10 +181,8 @@ void main() {
         uint p11 = signs[column + kMeshNodes + 1];
         for (; bits != 0u; bits &= bits - 1u) {
             int bit = findLSB(bits);
-            uint lower = (p00 >> bit & 1u) | (p10 >> bit & 1u) << 1 | (p01 >> bit & 1u) << 2 | (p11 >> bit & 1u) << 3;
-            int next = bit + 1;
-            uint upper = (p00 >> next & 1u) | (p10 >> next & 1u) << 1 | (p01 >> next & 1u) << 2 | (p11 >> next & 1u) << 3;
-            cells[at].what = uvec4(slot, uint(c * kMeshCells + bit) | (lower | upper << 4) << 16, 0u, 0u);
+            uint pattern = corner_pattern(p00, p10, p01, p11, uint(bit));
+            cells[at].what = uvec4(slot, uint(c * kMeshCells + bit) | pattern << 16, 0u, 0u);
             ++at;
         }
     }
@@ -201,7 +191,7 @@ void main() {
         uint quad = quad_sums[axis * kMeshGroup + lane];
         for (int i = 0; i < kNodeShare; ++i) {
             uint bits = fits == 1u ? edge_bits[i][axis] : 0u;
-            if (bits == 0u) continue;  // nobody asks where these begin
+            if (bits == 0u) continue;  // the first entry of an empty column is never read
             int c = nodes_from + i;
             int x = c % kMeshNodes - 1;
             int y = c / kMeshNodes - 1;
@@ -209,8 +199,9 @@ void main() {
             jobs[slot].edge_columns[axis * kNodeColumns + c] = uvec2(bits, at);
             do {
                 int bit = findLSB(bits);
-                bool is_own = own(x, y) && (kOwn >> bit & 1u) != 0u;
-                edges[at].what = uvec4(slot, edge_place(axis, ivec3(x, y, bit - 1), inside >> bit & 1u), is_own ? quad : kNotOwn, 0u);
+                bool is_own = own(x, y) && (kOwnNodes >> bit & 1u) != 0u;
+                edges[at].what = uvec4(slot, edge_place(axis, ivec3(x, y, bit - 1), inside >> bit & 1u),
+                                       is_own ? quad : kNotOwn, 0u);
                 quad += is_own ? 1u : 0u;
                 ++at;
                 bits &= bits - 1u;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #version 460
-// One triangle over the whole target. It hands nothing on: each pixel finds its source from its own place.
+// One triangle that covers the whole target. It has no outputs: each pixel finds its source from its own position.
 
 void main() {
     const vec2 corner = vec2((gl_VertexIndex << 1) & 2, gl_VertexIndex & 2);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #version 460
-// Colours are sRGB values and stay so: letters are designed to be mixed in them. Premultiplied for the overlay.
+// Draws the panel's triangles. Colours stay sRGB values, since letters are designed to be blended in them.
+// Premultiplied for the overlay.
 
-layout(set = 0, binding = 0) uniform sampler2D atlas;  // how much of a pixel a letter covers
+layout(set = 0, binding = 0) uniform sampler2D atlas;  // coverage of a pixel by a letter
 layout(location = 0) in vec2 in_uv;
 layout(location = 1) in vec4 in_colour;
 layout(location = 0) out vec4 out_colour;

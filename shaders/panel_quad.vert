@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A panel standing in the scene, without any vertex buffer. Its corners are at -0.5 and 0.5 of its own size, which world_from_local has
-// in it. Where parallax is faded it is cut into cells, since it is flat no longer as the eyes see it.
+// The corners of a panel that stands in the scene, without any vertex buffer: at -0.5 and 0.5 of its own size, which
+// world_from_local contains. Where parallax is faded the panel is divided into cells, since it no longer appears flat
+// to the eyes.
 #include "shaders/frame.glsl"
 #include "shaders/placed.glsl"
 

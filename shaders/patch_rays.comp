@@ -3,8 +3,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_EXT_buffer_reference : require
-// Gives rays the ends that the host has worked out for them: one invocation a ray. A ray that finds no room is left alone and
-// counted; the host then makes space and runs the whole patch again, which does no harm to those that were written.
+// Replaces the ends of rays by those that the host has computed: one invocation per ray. A ray that finds no room is
+// left unchanged and counted; the host then provides space and runs the whole patch again, which is harmless for the
+// rays already written.
 #include "shaders/shared/cut_job.h"
 
 layout(local_size_x = 64) in;
@@ -23,8 +24,9 @@ void main() {
     int axis = axis_of(patched.ray);
     uint index = parameters.first_ray[axis] + uint(v_of(patched.ray) * parameters.rays_u[axis] + u_of(patched.ray));
     RayRef ray = rays[index];
-    if (patched.count > room_of(ray)) {  // a ray without a place of its own says that it has room for one
-        ray.count_room = 0u;  // what it holds need not be moved
+    // A ray without a range of its own states room for 1 end, too little for any interval.
+    if (patched.count > room_of(ray)) {
+        ray.count_room = 0u;  // its present ends need not be moved
         ray = with_larger_room(ray, patched.count);
         if (patched.count > room_of(ray)) return;
     }

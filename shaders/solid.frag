@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
+// The fragment stage of opaque surfaces: lights them at every pixel.
 #include "shaders/frame.glsl"
 #include "shaders/lighting.glsl"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A vertex as it comes: SurfaceVertex, and the light on it.
-#include "shaders/srgb.glsl"
+// The vertex attributes: SurfaceVertex, and the light on it.
+#include "shaders/shared/srgb.h"
 
 layout(location = 0) in vec3 in_position;
 layout(location = 1) in uint in_normal;
@@ -11,7 +11,8 @@ layout(location = 3) in vec2 in_light;  // sun, open
 
 vec3 linear_colour() { return linear_of(in_colour.rgb) * draw.tint.rgb; }
 
-// Of any length. Normals turn with the cofactor matrix, so that shapes may be stretched along their axes.
+// Returns the normal in the world frame, of any length. Normals are transformed by the cofactor matrix, so that shapes
+// may be stretched along their axes.
 vec3 world_normal() {
     Direction n = decode_normal(in_normal);
     mat3 m = mat3(draw.world_from_local);

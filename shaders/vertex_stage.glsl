@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The vertex stage of what is lit at every pixel, and of glass; vertices are SurfaceVertex with VertexLight. A program asks for
-// what its fragment stage reads, by BURIN_WITH_LIGHT and BURIN_WITH_LOCAL.
+// The vertex stage of surfaces that are lit at every pixel, and of glass; vertices are SurfaceVertex with VertexLight.
+// A program selects what its fragment stage reads by BURIN_WITH_LIGHT and BURIN_WITH_LOCAL.
 #include "shaders/placed.glsl"
 #include "shaders/vertex_input.glsl"
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/stereo/calibration.hpp"
+#include "wall/calibration.hpp"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 
-#include "base/sensible.hpp"
-#include "renderer/stereo/rectangle_fit.hpp"
+#include "base/space.hpp"
+#include "base/text.hpp"
+#include "wall/rectangle_fit.hpp"
 
-namespace burin {
+namespace burin::wall {
 namespace {
 
-constexpr double kOutlierSigmas = 5.0;  // 1.5e-5 of a Gaussian's samples in three dimensions
+constexpr double kOutlierSigmas = 5.0;  // 1.5e-5 of the samples of a Gaussian in three dimensions exceed it
 constexpr double kOutlierFloor_m = 0.0005;
 constexpr double kLeastSize_m = 0.05;
 constexpr double kMostSize_m = 100.0;
@@ -38,12 +38,6 @@ std::optional<double> share(std::string_view text) {
     if (error != std::errc{} || end != text.data() + text.size() || !(value >= 0.0 && value <= 1.0))
         return std::nullopt;
     return value;
-}
-
-std::string text_of(const char* format, auto... values) {
-    std::array<char, 300> text{};
-    std::snprintf(text.data(), text.size(), format, values...);
-    return text.data();
 }
 
 std::string sample_name(std::size_t index, const std::string& place) {
@@ -75,7 +69,7 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-// One point for each place whose both coordinates are known: the medians of its samples' coordinates.
+// Reduces each place whose both coordinates are known to one point: the medians of its samples' coordinates.
 std::vector<FitPoint> medians(std::span<const CalibrationSample> samples, std::span<const FitPoint> points) {
     std::vector<FitPoint> result;
     std::vector<bool> done(points.size(), false);
@@ -94,26 +88,27 @@ std::vector<FitPoint> medians(std::span<const CalibrationSample> samples, std::s
     return result;
 }
 
-Error left_open() {
+Error underdetermined() {
     return {"the samples do not fix the screen: they must cover three corners at least, not on a line", "samples",
             "touch lower_left, lower_right and upper_left, better all four corners, three times each"};
 }
 
-// Of one coordinate, from the median of its sizes, with the correction for few samples and kUnknowns parameters of Rousseeuw
-// and Leroy ("Robust Regression and Outlier Detection", 1987). Too few samples to tell: anything goes.
+// Standard deviation of one coordinate from the median of the magnitudes, with the correction for few samples and
+// kUnknowns parameters of Rousseeuw and Leroy ("Robust Regression and Outlier Detection", 1987). Infinite for too few
+// samples, so that none is an outlier.
 double standard_deviation(const std::vector<double>& sizes) {
     constexpr double kOfAGaussian = 1.4826, kUnknowns = 8.0;
     const double spare = static_cast<double>(sizes.size()) - kUnknowns;
     return spare > 0.0 ? kOfAGaussian * (1.0 + 5.0 / spare) * median(sizes) : HUGE_VAL;
 }
 
-// The samples that lie near enough to the rectangle.
-std::vector<bool> near_ones(std::span<const FitPoint> points, const FitRectangle& rectangle) {
+// Flags the samples that are not outliers of the rectangle.
+std::vector<bool> inliers(std::span<const FitPoint> points, const FitRectangle& rectangle) {
     std::vector<double> coordinates, distances;
     for (const FitPoint& p : points) {
         const FitResidual r = residual(rectangle, p);
         for (const double c : {r.right_m, r.up_m, r.out_m})
-            if (c != 0.0) coordinates.push_back(std::abs(c));  // 0: what an edge leaves free
+            if (c != 0.0) coordinates.push_back(std::abs(c));  // 0: a coordinate that an edge leaves free
         distances.push_back(r.length_m());
     }
     const double sigma_m = standard_deviation(coordinates);
@@ -126,7 +121,7 @@ std::vector<bool> near_ones(std::span<const FitPoint> points, const FitRectangle
 Result<FitRectangle> fit_without_outliers(std::span<const FitPoint> points, FitRectangle rectangle,
                                           const std::optional<ScreenSize>& size, std::vector<bool>& used) {
     for (int round = 0; round < kMostRounds; ++round) {
-        std::vector<bool> near = near_ones(points, rectangle);
+        std::vector<bool> near = inliers(points, rectangle);
         if (round > 0 && near == used) break;
         used = std::move(near);
         std::vector<FitPoint> kept;
@@ -134,7 +129,7 @@ Result<FitRectangle> fit_without_outliers(std::span<const FitPoint> points, FitR
             if (used[i]) kept.push_back(points[i]);
         }
         const auto better = refine(rectangle, kept, size.has_value());
-        if (!better) return std::unexpected(left_open());
+        if (!better) return std::unexpected(underdetermined());
         rectangle = *better;
     }
     return rectangle;
@@ -150,7 +145,7 @@ Result<void> check_places(std::span<const CalibrationSample> samples, const std:
         }
         if (2 * good > all) continue;
         return fail("place " + samples[i].place,
-                    text_of("%d of its %d samples do not fit the others' rectangle", all - good, all),
+                    formatted("%d of its %d samples do not fit the others' rectangle", all - good, all),
                     "touch it again, and see that the tracker sees the wand there");
     }
     return {};
@@ -169,7 +164,7 @@ void add_residuals(ScreenFit& fit, std::span<const CalibrationSample> samples, s
         auto at = std::ranges::find(fit.places, samples[i].place, &PlaceResidual::place);
         if (at == fit.places.end()) at = fit.places.insert(at, {samples[i].place, 0, 0.0});
         ++at->samples;
-        at->rms_mm += mm * mm;  // the sum, until below
+        at->rms_mm += mm * mm;  // sum of squares; divided and rooted below
         sum_mm2 += mm * mm;
         ++count;
         fit.max_mm = std::max(fit.max_mm, mm);
@@ -181,7 +176,7 @@ void add_residuals(ScreenFit& fit, std::span<const CalibrationSample> samples, s
 Result<ScreenFit> described(const FitRectangle& r) {
     if (!(r.width_m >= kLeastSize_m && r.height_m >= kLeastSize_m && r.width_m <= kMostSize_m &&
           r.height_m <= kMostSize_m)) {
-        return fail("samples", text_of("they make a screen of %.3g by %.3g m", r.width_m, r.height_m),
+        return fail("samples", formatted("they make a screen of %.3g by %.3g m", r.width_m, r.height_m),
                     "look at the samples' unit and at the names of the places");
     }
     const Vec3 right = r.width_m * r.right, up = r.height_m * r.up, corner = r.centre - 0.5 * right - 0.5 * up;
@@ -211,7 +206,7 @@ Result<ScreenFit> fit_screen(std::span<const CalibrationSample> samples, const s
     const auto points = points_of(samples);
     if (!points) return std::unexpected(points.error());
     auto start = rough_rectangle(medians(samples, *points));
-    if (!start) return std::unexpected(left_open());
+    if (!start) return std::unexpected(underdetermined());
     if (known_size) start->width_m = known_size->width_m, start->height_m = known_size->height_m;
     std::vector<bool> used;
     const auto rectangle = fit_without_outliers(*points, *start, known_size, used);
@@ -240,4 +235,4 @@ Result<SampleDistances> distances_from(const WallScreen& screen, std::span<const
     return distances;
 }
 
-}  // namespace burin
+}  // namespace burin::wall

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Where a screen stands, from where the tip of a tracked wand was while it touched known places on it.
+// Screen calibration: the position of a screen from where the tip of a tracked wand was while it touched known places
+// on it.
 //
-// The rectangle of least squares: centre C, unit vectors r (right) and s (up) at right angles, width W, height H, such that
-// sum |x_i - C - (u_i - 1/2) W r - (v_i - 1/2) H s|^2 is least over the samples x_i, where (u, v) is the place on the screen,
-// 0 to 1 rightwards and upwards. Of a place on an edge only one of u, v is known; along the edge such a sample says nothing.
-// Gauss-Newton over a small rotation, C, W and H, from a plane through the medians of each place's samples.
+// The least-squares rectangle: centre C, unit vectors r (right) and s (up) at right angles, width W, height H, such
+// that sum |x_i - C - (u_i - 1/2) W r - (v_i - 1/2) H s|^2 is least over the samples x_i, where (u, v) is the position
+// on the screen, 0 to 1 rightwards and upwards. For a place on an edge only one of u, v is known; such a sample has no
+// residual along the edge. Solved by Gauss-Newton over a small rotation, C, W and H, from a plane through the medians
+// of each place's samples.
 //
-// Outliers: a sample whose distance from the fit exceeds five standard deviations (of one coordinate, from the median of
-// all, and at least 0.5 mm) is set aside and named; the fit is done again without it, until nothing changes.
-// With noise of standard deviation s in each coordinate and no outlier the residuals' mean square is s^2 (3 N - 8) / N for N
-// samples of known places (N - 6 where the size is known).
+// Outliers: a sample whose distance from the fit exceeds five standard deviations (of one coordinate, from the median
+// of all, and at least 0.5 mm) is excluded and reported; the fit is repeated without it, until nothing changes.
+// With noise of standard deviation s in each coordinate and no outlier the residuals' mean square is s^2 (3 N - 8) / N
+// for N samples of known places (N - 6 where the size is known).
 //
 // Tracker frame, metres. Pure, any thread; allocates.
 #pragma once
@@ -20,21 +22,21 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "renderer/stereo/wall.hpp"
+#include "wall/wall.hpp"
 
-namespace burin {
+namespace burin::wall {
 
 // A place on a screen: both coordinates, or the one that an edge fixes.
 struct ScreenPlace {
     std::optional<double> u, v;  // 0 to 1: from left to right, from bottom to top
 };
 
-// "lower_left", "lower_right", "upper_left", "upper_right"; "left", "right", "bottom", "top" for a point anywhere on that
-// edge; "0.25:0.5" for u:v. Nothing for any other text.
+// Parses a place: "lower_left", "lower_right", "upper_left", "upper_right"; "left", "right", "bottom", "top" for a
+// point anywhere on that edge; "0.25:0.5" for u:v. Nothing for any other text.
 [[nodiscard]] std::optional<ScreenPlace> screen_place(const std::string& name);
 
 struct CalibrationSample {
-    std::string place;  // as above
+    std::string place;  // in the syntax of screen_place()
     Vec3 tip_tracker{0.0};
 };
 
@@ -44,7 +46,7 @@ struct ScreenSize {
 
 struct PlaceResidual {
     std::string place;
-    int samples = 0;  // without those set aside
+    int samples = 0;  // without outliers
     double rms_mm = 0.0;
 };
 
@@ -57,18 +59,19 @@ struct SampleOutlier {
 struct ScreenFit {
     Vec3 lower_left_tracker{0.0}, lower_right_tracker{0.0}, upper_left_tracker{0.0};
     double width_m = 0.0, height_m = 0.0;
-    double rms_mm = 0.0;  // root of the mean square distance of the samples that count
+    double rms_mm = 0.0;  // root mean square distance of the samples used
     double max_mm = 0.0;
     std::vector<PlaceResidual> places;  // in the order of their first samples
     std::vector<SampleOutlier> outliers;
 };
 
-// Refused: names that are no place, numbers that are not finite, samples that leave the rectangle open (fewer than three
-// corners' worth of places, places on one line), places whose samples contradict one another, a result without size.
+// Fits a screen to samples. Fails on unknown place names, numbers that are not finite, samples that do not determine
+// the rectangle (fewer than three corners' worth of places, places on one line), places whose samples contradict one
+// another, and a result of implausible size.
 [[nodiscard]] Result<ScreenFit> fit_screen(std::span<const CalibrationSample> samples,
                                            const std::optional<ScreenSize>& known_size = std::nullopt);
 
-// How far samples lie from a screen as it is: what fit_screen() improves on.
+// Distances of samples from an existing screen: what fit_screen() improves on.
 struct SampleDistances {
     double rms_mm = 0.0;
     double max_mm = 0.0;
@@ -76,4 +79,4 @@ struct SampleDistances {
 [[nodiscard]] Result<SampleDistances> distances_from(const WallScreen& screen,
                                                      std::span<const CalibrationSample> samples);
 
-}  // namespace burin
+}  // namespace burin::wall

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/stereo/comfort.hpp"
+#include "wall/comfort.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,15 +7,15 @@
 #include <cstdio>
 #include <numbers>
 
-#include "renderer/stereo/projection.hpp"
+#include "wall/projection.hpp"
 
-namespace burin {
+namespace burin::wall {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-constexpr double kNearestShare = 0.1;  // of the screen's distance: nothing nearer can be fused
+constexpr double kNearestShare = 0.1;  // of the screen's distance; content nearer than this cannot be fused
 
-// atan2 keeps its digits where the angle is small.
+// Uses atan2, which keeps its digits for small angles.
 double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)); }
 
 double vergence(const Eyes& eyes, const Vec3& p) { return angle_between(p - eyes.left_world, p - eyes.right_world); }
@@ -40,28 +40,28 @@ public:
           middle_(middle_of(eyes)),
           nearest_m_(kNearestShare * plane_.in_front_m(middle_)) {}
 
-    void look_at(const ContentBall& ball) {
+    void include(const ContentBall& ball) {
         const Vec3 from_eyes = ball.center_world - middle_;
         const double l = glm::length(from_eyes);
         const Vec3 along = l > 0.0 ? from_eyes / l : -plane_.normal;
         const double radius_m = std::max(ball.radius_m, 0.0);
         for (const Vec3& direction : {along, plane_.normal}) {
-            look_at_point(ball.center_world + radius_m * direction);
-            look_at_point(ball.center_world - radius_m * direction);
+            include_point(ball.center_world + radius_m * direction);
+            include_point(ball.center_world - radius_m * direction);
         }
     }
-    void look_at(const Box& box) {
+    void include(const Box& box) {
         if (box.empty()) return;
         for (unsigned i = 0; i < 8; ++i) {
-            look_at_point({(i & 1u) != 0 ? box.hi.x : box.lo.x, (i & 2u) != 0 ? box.hi.y : box.lo.y,
+            include_point({(i & 1u) != 0 ? box.hi.x : box.lo.x, (i & 2u) != 0 ? box.hi.y : box.lo.y,
                            (i & 4u) != 0 ? box.hi.z : box.lo.z});
         }
-        look_at_point(glm::clamp(middle_, box.lo, box.hi));
+        include_point(glm::clamp(middle_, box.lo, box.hi));
     }
     [[nodiscard]] const ContentParallax& found() const { return found_; }
 
 private:
-    void look_at_point(Vec3 p) {
+    void include_point(Vec3 p) {
         const double in_front_m = plane_.in_front_m(p);
         const double from_eyes_m = plane_.in_front_m(middle_) - in_front_m;
         if (from_eyes_m < nearest_m_) p -= plane_.normal * (nearest_m_ - from_eyes_m);
@@ -95,7 +95,7 @@ bool too_uncrossed(const ParallaxBudget& budget, const ContentParallax& p, const
     return p.uncrossed.deg > budget.uncrossed_deg || p.uncrossed.m > eyes_m;
 }
 
-// Both measures fall as content moves back, so the least move that keeps one side is found by halving.
+// The smallest displacement that keeps one side of the budget, by bisection: both measures fall as content moves back.
 double least_move(const ParallaxBudget& budget, const Screen& screen, const Eyes& eyes, const Content& content,
                   bool back) {
     const Vec3 normal = Plane(screen).normal;
@@ -131,7 +131,7 @@ Parallax parallax_of(const Screen& screen, const Eyes& eyes, const Vec3& point_w
 
 ComfortRange comfort_range(const ParallaxBudget& budget, double interpupillary_m, double distance_m) {
     const double half_m = 0.5 * interpupillary_m;
-    const double at_screen = std::atan(half_m / distance_m);  // half the vergence
+    const double at_screen = std::atan(half_m / distance_m);  // half the vergence angle
     const double near = at_screen + 0.5 * budget.crossed_deg / kDegrees;
     const double far = at_screen - 0.5 * budget.uncrossed_deg / kDegrees;
     ComfortRange range;
@@ -148,8 +148,8 @@ BudgetOnScreen budget_on_screen(const ParallaxBudget& budget, double interpupill
 
 ContentParallax largest_parallax(const Screen& screen, const Eyes& eyes, const Content& content) {
     Extremes extremes(screen, eyes);
-    for (const ContentBall& ball : content.balls) extremes.look_at(ball);
-    for (const Box& box : content.boxes_world) extremes.look_at(box);
+    for (const ContentBall& ball : content.balls) extremes.include(ball);
+    for (const Box& box : content.boxes_world) extremes.include(box);
     return extremes.found();
 }
 
@@ -176,7 +176,7 @@ std::string warning_of(const ComfortFinding& finding, const ParallaxBudget& budg
     std::array<char, 300> text{};
     std::array<char, 80> remedy{};
     if (finding.move_m) {
-        // Rounded up, so that what it says suffices.
+        // Rounded up, so that the displacement given suffices.
         std::snprintf(remedy.data(), remedy.size(), "move the scene %.2f m %s",
                       std::ceil(std::abs(*finding.move_m) * 100.0) / 100.0, front ? "back" : "forward");
     } else {
@@ -189,4 +189,4 @@ std::string warning_of(const ComfortFinding& finding, const ParallaxBudget& budg
     return text.data();
 }
 
-}  // namespace burin
+}  // namespace burin::wall

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/stereo/head.hpp"
+#include "wall/head_prediction.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "base/error.hpp"
-#include "base/sensible.hpp"
+#include "base/space.hpp"
+#include "base/text.hpp"
 
-namespace burin {
+namespace burin::wall {
 namespace {
 
 Vec3 rotation_vector(const Quat& q) {
-    const Quat p = q.w < 0.0 ? -q : q;  // the short way round
+    const Quat p = q.w < 0.0 ? -q : q;  // the shorter way round
     const Vec3 v{p.x, p.y, p.z};
     const double sine = glm::length(v);
     return sine < 1e-12 ? 2.0 * v : v * (2.0 * std::atan2(sine, p.w) / sine);
@@ -56,17 +56,17 @@ bool follows(const HeadSettings& s, const TrackerSample& a, const TrackerSample&
     return speed.m_per_s <= s.max_speed_m_per_s && speed.rad_per_s <= s.max_turn_rad_per_s;
 }
 
-void believe(HeadTrack& track, const TrackerSample& sample) {
+void accept(HeadTrack& track, const TrackerSample& sample) {
     if (track.count == HeadTrack::kMostSamples) {
         std::shift_left(track.samples.begin(), track.samples.end(), 1);
         --track.count;
     }
     track.samples[static_cast<std::size_t>(track.count++)] = sample;
-    track.doubted_run = 0;
+    track.pending_run = 0;
     track.fault = SampleFault::none;
 }
 
-// Why a sample is not believed after the newest one.
+// Records why a sample is not accepted after the newest one.
 void note_fault(const HeadSettings& s, HeadTrack& track, const TrackerSample& newest, const TrackerSample& sample) {
     if (sample.time_ns <= newest.time_ns) {
         track.fault = SampleFault::back_in_time;
@@ -79,12 +79,12 @@ void note_fault(const HeadSettings& s, HeadTrack& track, const TrackerSample& ne
     track.fault_speed = track.fault_turned ? speed.rad_per_s : speed.m_per_s;
 }
 
-void doubt(const HeadSettings& s, HeadTrack& track, const TrackerSample& sample) {
-    track.doubted_run = track.doubted_run > 0 && follows(s, track.doubted, sample) ? track.doubted_run + 1 : 1;
-    track.doubted = sample;
-    if (track.doubted_run < kSamplesToTrust) return;
+void await_confirmation(const HeadSettings& s, HeadTrack& track, const TrackerSample& sample) {
+    track.pending_run = track.pending_run > 0 && follows(s, track.pending, sample) ? track.pending_run + 1 : 1;
+    track.pending = sample;
+    if (track.pending_run < kSamplesToTrust) return;
     track.count = 0;
-    believe(track, sample);
+    accept(track, sample);
 }
 
 struct Velocity {
@@ -92,7 +92,7 @@ struct Velocity {
     Vec3 m_per_s{0.0}, rad_per_s{0.0};
 };
 
-// Slopes of the straight lines of least squares through the newest samples.
+// Slopes of the least-squares lines through the newest samples.
 Velocity velocity_of(const HeadSettings& s, const HeadTrack& track) {
     const TrackerSample& newest = track.samples[static_cast<std::size_t>(track.count - 1)];
     double n = 0.0, sum_t = 0.0, sum_tt = 0.0;
@@ -100,7 +100,7 @@ Velocity velocity_of(const HeadSettings& s, const HeadTrack& track) {
     for (int i = track.count - 1; i >= 0; --i) {
         const TrackerSample& sample = track.samples[static_cast<std::size_t>(i)];
         const Nanoseconds age_ns = newest.time_ns - sample.time_ns;
-        // A slow tracker still has two samples, if they are not older than what is predicted.
+        // Uses two samples of a slow tracker even outside the window, unless older than the end of prediction.
         if (age_ns > s.velocity_window_ns && (n >= 2.0 || age_ns > s.end_of_prediction_ns)) break;
         const double t = -seconds(age_ns);
         const Vec3 p = sample.sensor_tracker.position_m - newest.sensor_tracker.position_m;
@@ -114,7 +114,7 @@ Velocity velocity_of(const HeadSettings& s, const HeadTrack& track) {
             at_most((n * sum_tr - sum_t * sum_r) / spread, s.max_turn_rad_per_s)};
 }
 
-// The integral of the velocity's share over the time since the newest sample.
+// The integral of the velocity's weight over the time since the newest sample.
 double seconds_ahead(const HeadSettings& s, Nanoseconds since_ns) {
     if (since_ns <= s.full_prediction_ns) return seconds(since_ns);
     const double full_s = seconds(s.full_prediction_ns), fall_s = seconds(s.end_of_prediction_ns) - full_s;
@@ -139,7 +139,7 @@ Pose with_offset(const HeadSettings& s, const HeadTrack& track, const Pose& targ
             glm::normalize(rotation(shrunk(track.offset_rad, s.glide_rad_per_s * since_s)) * target.orientation)};
 }
 
-// From here on the picture glides from one pose to the target.
+// Starts a glide from one pose to the target.
 void start_glide(HeadTrack& track, const Pose& target, const Pose& from, Nanoseconds time_ns) {
     track.offset_ns = time_ns;
     track.offset_m = from.position_m - target.position_m;
@@ -160,24 +160,18 @@ void keep_continuous(const HeadSettings& s, HeadTrack& track, const Pose& target
                 time_ns);
 }
 
-std::string text_of(const char* format, auto... values) {
-    std::array<char, 200> text{};
-    std::snprintf(text.data(), text.size(), format, values...);
-    return text.data();
-}
-
 std::string cause_of(const HeadTrack& track) {
     switch (track.fault) {
         case SampleFault::none: break;
         case SampleFault::not_a_number:
             return "the tracker's sample is not a number; check its calibration and line of sight";
         case SampleFault::back_in_time:
-            return text_of("the tracker's time went back by %.3f s; check its clock", track.fault_back_s);
+            return formatted("the tracker's time went back by %.3f s; check its clock", track.fault_back_s);
         case SampleFault::too_fast:
-            return text_of(track.fault_turned
-                               ? "the tracker turned at %.0f rad/s; look for reflections or a loose sensor"
-                               : "the tracker jumped at %.1f m/s; look for reflections or a loose sensor",
-                           track.fault_speed);
+            return formatted(track.fault_turned
+                                 ? "the tracker turned at %.0f rad/s; look for reflections or a loose sensor"
+                                 : "the tracker jumped at %.1f m/s; look for reflections or a loose sensor",
+                             track.fault_speed);
     }
     return {};
 }
@@ -194,24 +188,24 @@ HeadTrack take(const HeadSettings& settings, HeadTrack track, const TrackerSampl
     if (!usable(given.sensor_tracker)) {
         ++track.refused;
         track.fault = SampleFault::not_a_number;
-        track.doubted_run = 0;
+        track.pending_run = 0;
         return track;
     }
     TrackerSample sample = given;
     sample.sensor_tracker.orientation = glm::normalize(given.sensor_tracker.orientation);
     if (track.count == 0) {
-        believe(track, sample);
+        accept(track, sample);
         return track;
     }
     const TrackerSample newest = track.samples[static_cast<std::size_t>(track.count - 1)];
-    if (sample.time_ns == newest.time_ns) return track;  // asked for more often than the tracker measures
+    if (sample.time_ns == newest.time_ns) return track;  // the tracker was polled faster than it measures
     if (follows(settings, newest, sample)) {
-        believe(track, sample);
+        accept(track, sample);
         return track;
     }
     ++track.refused;
     note_fault(settings, track, newest, sample);
-    doubt(settings, track, sample);
+    await_confirmation(settings, track, sample);
     return track;
 }
 
@@ -268,11 +262,11 @@ TrackerReport report(const HeadSettings& settings, const HeadTrack& track, Nanos
     if (is_lost(settings, track, time_ns)) {
         made.state = TrackerState::lost;
         if (made.cause.empty()) {
-            made.cause = text_of("no sample for %.1f s; check the tracker's line of sight, cable and battery",
-                                 made.sample_age_s);
+            made.cause = formatted("no sample for %.1f s; check the tracker's line of sight, cable and battery",
+                                   made.sample_age_s);
         }
     }
     return made;
 }
 
-}  // namespace burin
+}  // namespace burin::wall

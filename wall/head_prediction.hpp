@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: MIT
-// Where the head will be when a picture is shown, from a tracker's samples; and a watch over the tracker.
+// Head prediction: the head's pose at the time when a picture is shown, from a tracker's samples; and a plausibility
+// check of the tracker.
 //
-// A state and pure functions: take() adds a sample, draw() asks for the poses of one frame. No clock, no thread, no heap but
-// for the text of a report. Lengths in metres, tracker frame (renderer/stereo/wall.hpp); times on the process's one clock
+// A state and pure functions: take() adds a sample, draw() computes the poses of one frame. No clock, no thread, no
+// heap but for the text of a report. Lengths in metres, tracker frame (wall/wall.hpp); times on the process's one clock
 // (base/clock.hpp), stamped when the head was measured.
 //
-// Prediction. Position: the newest sample, moved on with the slope of the straight line of least squares through the samples
-// of the last 25 ms. Orientation: likewise with the rotation vectors log(q_i q_newest^-1), whose slope is the angular
+// Prediction. Position: the newest sample, extrapolated with the slope of the least-squares line through the samples of
+// the last 25 ms. Orientation: likewise with the rotation vectors log(q_i q_newest^-1), whose slope is the angular
 // velocity in the tracker frame; q = exp(w t) q_newest. Uniform motion and uniform turning are exact. For a motion with
-// acceleration at most a, samples at even times over a window W and a time T ahead: the slope is the velocity W/2 ago to
-// within a W/2, so the error is at most a T (T + W) / 2. A line over several samples instead of the last two costs that W/2
-// and lowers the noise of the slope, which T multiplies.
-// So that nothing overshoots, the velocity is kept for 50 ms beyond the newest sample, falls linearly to nothing at 100 ms,
-// and stays there: a tracker that falls silent leaves the head at most 75 ms ahead.
+// acceleration at most a, samples at even times over a window W and a time T ahead: the slope is the velocity W/2 ago
+// to within a W/2, so the error is at most a T (T + W) / 2. A line over several samples instead of the last two costs
+// that W/2 and lowers the noise of the slope, which T multiplies.
+// To avoid overshoot, the velocity is kept for 50 ms beyond the newest sample, falls linearly to zero at 100 ms, and
+// stays zero: a tracker that stops sending leaves the head at most 75 ms ahead.
 //
-// The watch. A sample that is not a number, that goes back in time or that would need a speed above the limit is not used;
-// the pictures go on with those before. When kSamplesToTrust samples in a row agree among themselves (a tracker that was
-// restarted, or whose first samples were the wrong ones), they are believed. After lost_after_ns without a sample the head
-// glides to the fallback pose, and back when samples return.
+// Plausibility check. A sample that is not a number, that goes back in time or that would need a speed above the limit
+// is not used; prediction goes on from the samples before. When kSamplesToTrust samples in a row agree among themselves
+// (a tracker was restarted, or its first samples were the wrong ones), they are accepted. After lost_after_ns without a
+// sample the head glides to the fallback pose, and back when samples return.
 //
-// What is drawn never jumps: whenever the head is lost or found, and whenever the target leaves the last drawn pose by more
-// than the speed limit allows for the time passed, the difference is kept as an offset, which then glides to zero.
+// The drawn pose never jumps: whenever the head is lost or found, and whenever the target leaves the last drawn pose by
+// more than the speed limit allows for the time passed, the difference is kept as an offset, which then glides to zero.
 #pragma once
 
 #include <array>
@@ -28,9 +29,9 @@
 #include <string>
 
 #include "base/clock.hpp"
-#include "renderer/stereo/wall.hpp"
+#include "wall/wall.hpp"
 
-namespace burin {
+namespace burin::wall {
 
 struct TrackerSample {
     Nanoseconds time_ns = 0;
@@ -42,66 +43,71 @@ struct HeadSettings {
     double max_speed_m_per_s = 3.0;    // a brisk walk is 2; faster is a jump
     double max_turn_rad_per_s = 12.0;  // quick head turns reach about 10
     Nanoseconds velocity_window_ns = 25'000'000;
-    Nanoseconds full_prediction_ns = 50'000'000;     // the velocity is kept so long,
-    Nanoseconds end_of_prediction_ns = 100'000'000;  // and is nothing from here on
+    // How long beyond the newest sample the full velocity is kept.
+    Nanoseconds full_prediction_ns = 50'000'000;
+    // From when on the velocity is zero.
+    Nanoseconds end_of_prediction_ns = 100'000'000;
     Nanoseconds lost_after_ns = 200'000'000;
     double glide_m_per_s = 0.5;
     double glide_rad_per_s = 0.8;
 };
 
-[[nodiscard]] HeadSettings head_settings(const WallSetup& setup);  // with the setup's fallback pose
+// Default settings with the setup's fallback pose.
+[[nodiscard]] HeadSettings head_settings(const WallSetup& setup);
 
 enum class TrackerState : std::uint8_t {
     waiting,  // no sample yet: the fallback pose is drawn
     ok,
-    jumped,  // the newest samples are not believed
+    jumped,  // the newest samples are not accepted
     lost,
 };
 
 enum class SampleFault : std::uint8_t { none, not_a_number, back_in_time, too_fast };
 
-// What a frame was drawn from: at a change the picture glides.
+// Source of a frame's pose; when it changes the picture glides.
 enum class DrawnFrom : std::uint8_t {
     fallback,
-    one_sample,  // whose velocity is not known yet
+    one_sample,  // its velocity is not known yet
     prediction,
 };
 
 inline constexpr int kSamplesToTrust = 5;
 
-// Plain data, to be recorded and replayed. Start with {}.
+// State of the prediction: plain data, to be recorded and replayed. Start with {}.
 struct HeadTrack {
     static constexpr int kMostSamples = 16;
-    std::array<TrackerSample, kMostSamples> samples{};  // the believed ones, oldest first
+    std::array<TrackerSample, kMostSamples> samples{};  // the accepted samples, oldest first
     int count = 0;
 
-    TrackerSample doubted;  // the newest of a run that is not believed yet
-    int doubted_run = 0;
+    TrackerSample pending;  // the newest of a run that is not accepted yet
+    int pending_run = 0;
     SampleFault fault = SampleFault::none;  // of the newest sample
     double fault_speed = 0.0;               // m/s, or rad/s when fault_turned
     bool fault_turned = false;
     double fault_back_s = 0.0;
-    std::uint64_t refused = 0;  // samples, since the start
+    std::uint64_t refused = 0;  // refused samples since the start
 
     bool drawn_before = false;
     DrawnFrom drawn_from = DrawnFrom::fallback;
-    Nanoseconds drawn_ns = 0;  // of the later eye
+    Nanoseconds drawn_ns = 0;  // display time of the later eye
     Pose drawn_tracker;
-    Nanoseconds offset_ns = 0;  // when the offset was as below; it glides to zero from then
+    // When the offset had the value below; it glides to zero from then on.
+    Nanoseconds offset_ns = 0;
     Vec3 offset_m{0.0};
     Vec3 offset_rad{0.0};  // rotation vector
 };
 
+// Adds a tracker sample to the state, or counts it as refused.
 [[nodiscard]] HeadTrack take(const HeadSettings& settings, HeadTrack track, const TrackerSample& sample);
 
-// The pose at a time, by prediction alone, without watch and glide. The track must hold a sample.
+// The predicted pose at a time, without plausibility check and glide. The track must hold a sample.
 [[nodiscard]] Pose predicted(const HeadSettings& settings, const HeadTrack& track, Nanoseconds time_ns);
 
 struct EyeTimes {
     Nanoseconds left_ns = 0, right_ns = 0;
 };
 
-// When each eye's picture is shown, if the first field's is at first_field_ns (count to the middle of its scan-out): a
+// Display times of both eyes, if the first field is shown at first_field_ns (the middle of its scan-out): a
 // frame-sequential display shows the second eye one field later, 1 / refresh_Hz.
 [[nodiscard]] EyeTimes eye_times(const DisplayTiming& timing, Nanoseconds first_field_ns);
 
@@ -110,15 +116,16 @@ struct DrawnHead {
     HeadPoses poses;
 };
 
-// Once a frame, with times that rise from frame to frame.
+// Computes the head poses of a frame. Call it once a frame, with times that rise from frame to frame.
 [[nodiscard]] DrawnHead draw(const HeadSettings& settings, HeadTrack track, const EyeTimes& times);
 
 struct TrackerReport {
     TrackerState state = TrackerState::waiting;
     std::string cause;  // empty when ok
     bool gliding = false;
-    double sample_age_s = 0.0;  // at the time asked for; 0 while waiting
+    double sample_age_s = 0.0;  // at the time given; 0 while waiting
 };
+// State of the tracker for the log and the panel.
 [[nodiscard]] TrackerReport report(const HeadSettings& settings, const HeadTrack& track, Nanoseconds time_ns);
 
-}  // namespace burin
+}  // namespace burin::wall

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/stereo/projection.hpp"
+#include "wall/projection.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/error.hpp"
 
-namespace burin {
+namespace burin::wall {
 
 namespace {
 
-// The screen's own directions: right, up, and out of it towards the viewer.
+// The screen's axes: right, up, and outwards to the viewer.
 struct Axes {
     Vec3 right, up, normal;
 };
@@ -29,7 +29,7 @@ Mat4 off_axis_projection(const Screen& screen, const Vec3& eye_world, double nea
     const Vec3 to_lower_left = screen.lower_left_world - eye_world;
     const double eye_to_screen_m = -glm::dot(to_lower_left, axes.normal);
     BURIN_CHECK(near_m > 0.0 && far_m > near_m && eye_to_screen_m > 0.0);
-    // The screen's edges, moved to the near plane.
+    // Projects the screen's edges onto the near plane.
     const double scale = near_m / eye_to_screen_m;
     const double left = glm::dot(axes.right, to_lower_left) * scale;
     const double right = glm::dot(axes.right, screen.lower_right_world - eye_world) * scale;
@@ -45,7 +45,7 @@ Mat4 off_axis_projection(const Screen& screen, const Vec3& eye_world, double nea
     clip_from_eye[2][3] = -1.0;
     clip_from_eye[3][2] = near_m * far_m / (near_m - far_m);
 
-    // The eye's axes are the screen's: rows of the rotation.
+    // The eye's axes are parallel to the screen's: rows of the rotation.
     Mat4 eye_from_world(1.0);
     for (int i = 0; i < 3; ++i) {
         eye_from_world[i] = glm::dvec4(axes.right[i], axes.up[i], axes.normal[i], 0.0);
@@ -73,10 +73,10 @@ bool can_be_seen(const Screen& screen, const Eyes& eyes) {
         if (!finite(v)) return false;
     }
     if (glm::length(right) < kLeastSize_m || glm::length(up) < kLeastSize_m) return false;
-    // Kooima's frustum is for a rectangle: corners that do not form a right angle would shear the picture.
+    // Kooima's frustum requires a rectangle: other corners would shear the picture.
     if (std::abs(glm::dot(glm::normalize(right), glm::normalize(up))) > 1e-3) return false;
     return distance_in_front(screen, eyes.left_world) >= kLeastDistance_m &&
            distance_in_front(screen, eyes.right_world) >= kLeastDistance_m;
 }
 
-}  // namespace burin
+}  // namespace burin::wall

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/stereo/screen_overlap.hpp"
+#include "wall/screen.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace burin {
+namespace burin::wall {
 namespace {
 
 constexpr double kTouching_m = 0.01;
 
-// A screen, drawn in by kTouching_m at each side.
+// A screen shrunk by kTouching_m on each side.
 struct Rectangle {
     Vec3 centre, right, up, normal;
     double half_width_m, half_height_m;
@@ -39,7 +39,7 @@ bool in_one_plane(const Rectangle& a, const Rectangle& b) {
         b.corners(), [&](const Vec3& p) { return std::abs(glm::dot(p - a.centre, a.normal)) <= kTouching_m; });
 }
 
-// Separating axes: two rectangles of a plane are apart just when a side of one separates them.
+// Separating axis test: two rectangles in a plane are disjoint exactly when a side of one separates them.
 bool share_area(const Rectangle& a, const Rectangle& b) {
     for (const Vec3& axis : {a.right, a.up, b.right, b.up}) {
         const auto reach = [&](const Rectangle& r) {
@@ -51,7 +51,8 @@ bool share_area(const Rectangle& a, const Rectangle& b) {
     return true;
 }
 
-// Two rectangles that cross share a segment, each of whose ends lies on a side of one of them.
+// Whether a side of `a` passes through `b`. Two rectangles that cross share a segment, each of whose ends lies on a
+// side of one of them.
 bool side_pierces(const Rectangle& a, const Rectangle& b) {
     const std::array<Vec3, 4> corners = a.corners();
     for (std::size_t i = 0; i < 4; ++i) {
@@ -71,4 +72,4 @@ Overlap overlap_of(const Screen& a, const Screen& b) {
     return side_pierces(first, second) || side_pierces(second, first) ? Overlap::crossing : Overlap::none;
 }
 
-}  // namespace burin
+}  // namespace burin::wall

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/seen_place.hpp"
+#include "wall/seen_place.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/output/warp.hpp"
+#include "wall/output_settings.hpp"
 
-namespace burin {
+namespace burin::wall {
 namespace {
 
 // An eye's share of the output.
@@ -45,7 +45,7 @@ std::optional<Share> share_at(const OutputSettings& s, const OutputPlace& place,
             share.eye = in_right_window(px) ? Eye::right : Eye::left;
             if (in_right_window(px)) share.origin_px.x = kRightWindow_px;
             break;
-        default: break;  // mono; anaglyphs, layers and turns show both
+        default: break;  // mono; anaglyphs, layers and turns show both eyes
     }
     if (!shown) return std::nullopt;
     if (s.swap_eyes && share.eye) share.eye = other(*share.eye);
@@ -74,4 +74,4 @@ std::optional<SeenPlace> seen_at(const OutputSettings& settings, const OutputPla
     return SeenPlace{share->eye, uv};
 }
 
-}  // namespace burin
+}  // namespace burin::wall

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/output/stereo_mode.hpp"
+#include "wall/stereo_mode.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <numeric>
-#include <vector>
 
-namespace burin {
+#include "base/text.hpp"
+
+namespace burin::wall {
 
 namespace {
 
@@ -56,33 +56,11 @@ std::string normal_form(std::string_view text) {
     return name;
 }
 
-// How many single-character edits lie between two words (Levenshtein 1966), row by row.
-std::size_t edits_between(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
-        }
-    }
-    return row[b.size()];
-}
-
-template <typename Names>
-std::unexpected<Error> unknown(const char* where, std::string_view text, const Names& names) {
-    const std::string wanted = normal_form(text.substr(0, 40));  // a whole file pasted here is no name
-    std::string_view nearest = names[0];
-    std::string all;
-    for (const std::string_view name : names) {
-        if (edits_between(wanted, name) < edits_between(wanted, nearest)) nearest = name;
-        all += (all.empty() ? "" : ", ") + std::string(name);
-    }
+std::unexpected<Error> unknown(const char* where, std::string_view text, std::span<const std::string_view> names) {
+    // Limits the length: a whole file pasted here is not a name.
+    const std::string wanted = normal_form(text.substr(0, 40));
     return fail(where, "'" + std::string(text.substr(0, 40)) + "' is unknown",
-                "did you mean " + std::string(nearest) + "? There are: " + all);
+                "did you mean " + std::string(nearest_name(wanted, names)) + "? There are: " + joined(names));
 }
 
 }  // namespace
@@ -155,4 +133,4 @@ Result<TestPattern> parse_test_pattern(std::string_view text) {
     return unknown("test pattern", text, kPatterns);
 }
 
-}  // namespace burin
+}  // namespace burin::wall

@@ -1,41 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "app/wall_tables.hpp"
+#include "wall/toml_table.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace burin {
-namespace {
+#include "base/text.hpp"
 
-// Levenshtein's distance: how many letters to add, drop or change.
-std::size_t distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t changed = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({changed, row[j] + 1, row[j - 1] + 1});
-        }
-    }
-    return row[b.size()];
-}
-
-std::string nearest_key(const std::string& key, const std::vector<std::string>& known) {
-    const auto nearest = std::ranges::min_element(known, {}, [&](const std::string& k) { return distance(key, k); });
-    return nearest == known.end() ? "" : *nearest;
-}
-
-std::string joined(const std::vector<std::string>& names) {
-    std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-    return text;
-}
-
-}  // namespace
-
+namespace burin::wall {
 void TableReading::refuse(const toml::node& node, std::string what, std::string remedy) {
     if (error) return;
     error = Error{std::move(what), file + ":" + std::to_string(node.source().begin.line), std::move(remedy)};
@@ -118,7 +89,8 @@ std::optional<Quat> TableReader::quaternion(const char* key) {
         refuse(key, "has no length", "write [0, 0, 0, 1] (x, y, z, w) for no rotation");
         return std::nullopt;
     }
-    // What is a unit quaternion but for its printed digits stays as it is, so that writing and reading changes nothing.
+    // A quaternion that is of unit length up to its printed digits is not normalised, so that writing and reading a
+    // file changes nothing.
     return std::abs(length - 1.0) < 1e-12 ? q : q / length;
 }
 
@@ -184,13 +156,13 @@ void TableReader::refuse_unknown() {
         const std::string name(key.str());
         if (std::ranges::find(asked_, name) != asked_.end()) continue;
         if (reading_.error) return;
-        const std::string nearest = nearest_key(name, asked_);
+        const std::string nearest(asked_.empty() ? std::string_view() : nearest_name(name, asked_));
         reading_.error =
             Error{name_ + " has no key named " + name, reading_.file + ":" + std::to_string(key.source().begin.line),
-                  distance(name, nearest) <= 2 + name.size() / 3 ? "did you mean " + nearest + "?"
-                                                                 : "its keys are " + joined(asked_)};
+                  edit_distance(name, nearest) <= 2 + name.size() / 3 ? "did you mean " + nearest + "?"
+                                                                      : "its keys are " + joined(asked_)};
         return;
     }
 }
 
-}  // namespace burin
+}  // namespace burin::wall

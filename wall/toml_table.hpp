@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: MIT
-// Reads the values of a TOML table key by key, and then knows which keys nobody asked for. Errors are kept, the first one
-// wins, so that reading code is a list of keys.
+// Reads the values of a TOML table key by key and reports keys that were never requested. The first error is kept, so
+// that reading code is a plain list of keys.
 #pragma once
 
+// This header alone includes toml++. Version 3.3 asserts conditions that a malformed file can break ("[[["), before it
+// reports the error itself; bad input must not stop a debug build, so its assertions are off everywhere.
+#define TOML_ASSERT(expression) static_cast<void>(0)
+#include <toml++/toml.h>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "app/toml.hpp"
 #include "base/error.hpp"
 #include "base/space.hpp"
 
-namespace burin {
+namespace burin::wall {
 
-// What is shared by all tables of a file.
+// State shared by all tables of a file.
 struct TableReading {
     std::string file;
     std::optional<Error> error;
@@ -23,7 +27,7 @@ struct TableReading {
 
 class TableReader {
 public:
-    // The table may be missing (null): then nothing is found in it. `name` as in the file, for messages.
+    // The table may be missing (null): then every key is absent. `name` as in the file, for messages.
     TableReader(TableReading& reading, const toml::table* table, std::string name);
 
     [[nodiscard]] bool has(const char* key) const;
@@ -40,7 +44,7 @@ public:
 
     void refuse(const char* key, const std::string& what, const std::string& remedy);
     void require(const char* key, const std::string& remedy);
-    // After all keys were asked for: complains of the first other one.
+    // After all keys have been read: reports the first other key as an error.
     void refuse_unknown();
 
 private:
@@ -50,7 +54,7 @@ private:
     TableReading& reading_;
     const toml::table* table_;
     std::string name_;
-    std::vector<std::string> asked_;
+    std::vector<std::string_view> asked_;  // keys that were requested: literals of the reading code
 };
 
-}  // namespace burin
+}  // namespace burin::wall

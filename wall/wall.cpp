@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/stereo/wall.hpp"
+#include "wall/wall.hpp"
 
-#include "renderer/stereo/projection.hpp"
+#include "wall/projection.hpp"
 
-namespace burin {
+namespace burin::wall {
 namespace {
 
 struct NamedUnit {
@@ -25,10 +25,10 @@ const NamedUnit& entry(LengthUnit unit) {
     return kUnits[0];
 }
 
-// The least rotation that takes one unit vector to the other.
+// The smallest rotation that takes one unit vector to the other.
 Quat rotation_between(const Vec3& from, const Vec3& to) {
     const Vec3 half = from + to;
-    if (glm::dot(half, half) < 1e-12) {  // opposite: half a turn about anything across
+    if (glm::dot(half, half) < 1e-12) {  // opposite: half a turn about any perpendicular axis
         const Vec3 across = std::abs(from.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
         return glm::angleAxis(glm::pi<double>(), glm::normalize(glm::cross(from, across)));
     }
@@ -94,4 +94,4 @@ Viewer viewer_with(const Eyes& eyes, const Quat& near) {
     return {{middle, glm::normalize(turned)}, apart_m};
 }
 
-}  // namespace burin
+}  // namespace burin::wall

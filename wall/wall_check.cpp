@@ -1,30 +1,27 @@
 // SPDX-License-Identifier: MIT
-// What may be wrong with a wall (wall.hpp: check). Each rule looks at one thing and says it in numbers.
+// Checks of a wall setup (check() and check_modes() in wall.hpp). Each rule examines one property and reports it with
+// numbers.
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
+#include <optional>
 
-#include "base/sensible.hpp"
-#include "renderer/stereo/projection.hpp"
-#include "renderer/stereo/screen_overlap.hpp"
-#include "renderer/stereo/wall.hpp"
+#include "base/space.hpp"
+#include "base/text.hpp"
+#include "wall/output_settings.hpp"
+#include "wall/projection.hpp"
+#include "wall/stereo_mode.hpp"
+#include "wall/wall.hpp"
 
-namespace burin {
+namespace burin::wall {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-constexpr double kSmallest_m = 0.1, kLargest_m = 30.0;       // of a screen's side: a telephone, a cinema
+constexpr double kSmallest_m = 0.1, kLargest_m = 30.0;       // a screen's side: from a telephone to a cinema
 constexpr double kOnALine = 0.05;                            // sine of the angle at the corner
-constexpr double kRightAngle = 1e-3;                         // cosine; what can_be_seen() demands: 3 mm over 3 m
-constexpr double kLeastEyes_m = 0.045, kMostEyes_m = 0.080;  // almost all adults (Dodgson 2004)
-
-std::string text_of(const char* format, auto... values) {
-    std::array<char, 300> text{};
-    std::snprintf(text.data(), text.size(), format, values...);
-    return text.data();
-}
+constexpr double kRightAngle = 1e-3;                         // cosine, as can_be_seen() demands: 3 mm over 3 m
+constexpr double kLeastEyes_m = 0.045, kMostEyes_m = 0.080;  // range of almost all adults (Dodgson 2004)
 
 class Problems {
 public:
@@ -52,19 +49,19 @@ Sides sides_of(const Screen& s) {
 
 Vec3 centre_of(const Screen& s) { return 0.5 * (s.lower_right_world + s.upper_left_world); }
 
-// The unit in which the same numbers would be a sensible size.
+// Suggests the unit in which the same numbers would give a sensible size.
 std::string unit_hint(LengthUnit unit, double size_m) {
     for (const LengthUnit other : {LengthUnit::m, LengthUnit::mm, LengthUnit::cm, LengthUnit::ft, LengthUnit::inch}) {
         const double there_m = size_m / metres_in(unit) * metres_in(other);
         if (other != unit && there_m >= 0.25 && there_m <= 12.0) {
-            return text_of("units = \"%s\" would make it %.3g m; correct units or the corners", name_of(other),
-                           there_m);
+            return formatted("units = \"%s\" would make it %.3g m; correct units or the corners", name_of(other),
+                             there_m);
         }
     }
     return "correct its corners";
 }
 
-// Whether the three corners span something; the other rules need that.
+// Whether the three corners form a rectangle of sensible size, which the other rules require.
 bool check_shape(Problems& problems, const WallSetup& setup, const WallScreen& screen) {
     const Screen s = screen_world(setup, screen);
     if (!finite(s.lower_left_world) || !finite(s.lower_right_world) || !finite(s.upper_left_world)) {
@@ -74,7 +71,7 @@ bool check_shape(Problems& problems, const WallSetup& setup, const WallScreen& s
     const Sides sides = sides_of(s);
     for (const auto& [what, size_m] : {std::pair{"wide", sides.width_m}, std::pair{"high", sides.height_m}}) {
         if (size_m >= kSmallest_m && size_m <= kLargest_m) continue;
-        problems.error(screen.name, text_of("it is %.4g m %s", size_m, what), unit_hint(setup.unit, size_m));
+        problems.error(screen.name, formatted("it is %.4g m %s", size_m, what), unit_hint(setup.unit, size_m));
         return false;
     }
     const double sine = glm::length(glm::cross(sides.right, sides.up)) / (sides.width_m * sides.height_m);
@@ -85,8 +82,8 @@ bool check_shape(Problems& problems, const WallSetup& setup, const WallScreen& s
     }
     if (std::abs(cosine) > kRightAngle) {
         problems.error(screen.name,
-                       text_of("the angle at its lower left corner is %.2f degrees and not a right one",
-                               std::atan2(sine, cosine) * kDegrees),
+                       formatted("the angle at its lower left corner is %.2f degrees and not a right one",
+                                 std::atan2(sine, cosine) * kDegrees),
                        "measure it again, or let burin wall calibrate find the best rectangle");
         return false;
     }
@@ -96,12 +93,12 @@ bool check_shape(Problems& problems, const WallSetup& setup, const WallScreen& s
 void check_pixels(Problems& problems, const WallScreen& screen, const Sides& sides) {
     const auto [across, down] = screen.pixels;
     if (across < 1 || down < 1 || across > 16384 || down > 16384) {
-        problems.error(screen.name, text_of("%d by %d pixels cannot be drawn", across, down), "correct its pixels");
+        problems.error(screen.name, formatted("%d by %d pixels cannot be drawn", across, down), "correct its pixels");
         return;
     }
     const double x_mm = 1e3 * sides.width_m / across, y_mm = 1e3 * sides.height_m / down;
     if (std::abs(x_mm / y_mm - 1.0) > 0.05) {
-        problems.warning(screen.name, text_of("its pixels are %.2f mm wide and %.2f mm high", x_mm, y_mm),
+        problems.warning(screen.name, formatted("its pixels are %.2f mm wide and %.2f mm high", x_mm, y_mm),
                          "see that the picture fills the screen, and correct pixels or corners");
     }
 }
@@ -109,21 +106,21 @@ void check_pixels(Problems& problems, const WallScreen& screen, const Sides& sid
 void check_viewing(Problems& problems, const WallSetup& setup, const WallScreen& screen) {
     const Screen s = screen_world(setup, screen);
     const Eyes eyes = eyes_world(setup, {setup.fallback_head_tracker, setup.fallback_head_tracker});
-    if (!finite(eyes.left_world) || !finite(eyes.right_world)) return;  // told once, for the viewer
+    if (!finite(eyes.left_world) || !finite(eyes.right_world)) return;  // reported once, by check_eyes()
     const double nearest_m = std::min(distance_in_front(s, eyes.left_world), distance_in_front(s, eyes.right_world));
     const Vec3 head = 0.5 * (eyes.left_world + eyes.right_world);
     const Quat orientation = setup.world_from_tracker.orientation * setup.fallback_head_tracker.orientation;
     const bool looks_at_it = glm::dot(orientation * Vec3{0, 0, -1}, centre_of(s) - head) > 0.0;
     if (nearest_m <= 0.0) {
         problems.error(
-            screen.name, text_of("its back is turned to the fallback head, which is %.2f m behind it", -nearest_m),
+            screen.name, formatted("its back is turned to the fallback head, which is %.2f m behind it", -nearest_m),
             looks_at_it ? "its left and right corners are exchanged: exchange lower_left and lower_right, and "
                           "set upper_left above the new lower_left"
                         : "correct the fallback head, or exchange its left and right corners");
         return;
     }
     if (nearest_m < 0.01) {
-        problems.error(screen.name, text_of("the fallback head's eyes are %.1f mm before it", 1e3 * nearest_m),
+        problems.error(screen.name, formatted("the fallback head's eyes are %.1f mm before it", 1e3 * nearest_m),
                        "move the fallback head away from it");
     }
     const Sides sides = sides_of(s);
@@ -153,7 +150,7 @@ void check_homography(Problems& problems, const WallScreen& screen) {
     for (const auto& [x, y] : {std::pair{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {1.0, 1.0}}) {
         const double w = h[2][0] * x + h[2][1] * y + h[2][2];
         if (w / h[2][2] <= 1e-6) {
-            problems.error(screen.name, text_of("its homography sends the corner (%g, %g) beyond infinity", x, y),
+            problems.error(screen.name, formatted("its homography sends the corner (%g, %g) beyond infinity", x, y),
                            remedy);
             return;
         }
@@ -165,7 +162,7 @@ void check_homography(Problems& problems, const WallScreen& screen) {
     if (outside > 0.01) {
         problems.warning(
             screen.name,
-            text_of("its homography moves a corner off the projector's picture by %.0f %%", 100.0 * outside),
+            formatted("its homography moves a corner off the projector's picture by %.0f %%", 100.0 * outside),
             "what lies outside 0..1 is not shown: " + remedy);
     }
 }
@@ -175,11 +172,12 @@ void check_blend(Problems& problems, const WallScreen& screen) {
     for (const auto& [edge, width] :
          {std::pair{"left", b.left}, {"right", b.right}, {"top", b.top}, {"bottom", b.bottom}}) {
         if (width >= 0.0 && width <= 0.5) continue;
-        problems.error(screen.name, text_of("its %s edge blends over %.3g of the picture", edge, width),
+        problems.error(screen.name, formatted("its %s edge blends over %.3g of the picture", edge, width),
                        "give the part of the picture that the neighbour covers, from 0 to 0.5");
     }
-    if (!(b.gamma >= 0.5 && b.gamma <= 4.0)) {
-        problems.error(screen.name, text_of("its blend gamma is %.3g", b.gamma), "give the projector's, about 2.2");
+    if (!is_projector_gamma(b.gamma)) {
+        problems.error(screen.name, formatted("its blend gamma is %.3g", b.gamma),
+                       formatted("give the projector's, from %.3g to %.3g, about 2.2", kLeastGamma, kMostGamma));
     }
 }
 
@@ -215,7 +213,7 @@ void check_screens(Problems& problems, const WallSetup& setup) {
     }
 }
 
-// The screen that the fallback head looks at most squarely: where left and right are plain.
+// The screen that the fallback head faces most squarely, on which left and right are unambiguous.
 const WallScreen* frontal_screen(const WallSetup& setup) {
     const Vec3 ahead =
         setup.world_from_tracker.orientation * (setup.fallback_head_tracker.orientation * Vec3{0, 0, -1});
@@ -239,7 +237,8 @@ void check_eyes(Problems& problems, const WallSetup& setup) {
     const Vec3 apart = eyes.right_world - eyes.left_world;
     const double apart_m = glm::length(apart);
     if (apart_m < kLeastEyes_m || apart_m > kMostEyes_m) {
-        const std::string what = text_of("the eyes are %.4g mm apart; almost all adults have 45 to 80", 1e3 * apart_m);
+        const std::string what =
+            formatted("the eyes are %.4g mm apart; almost all adults have 45 to 80", 1e3 * apart_m);
         if (apart_m > 0.3 || apart_m < 0.001) {
             problems.error("viewer", what, "correct the eyes, and look whether units is right");
         } else {
@@ -254,8 +253,8 @@ void check_eyes(Problems& problems, const WallSetup& setup) {
                        "exchange left_eye and right_eye, or correct the fallback head's orientation");
     } else if (apart_m > 0.0 && rightwards < 0.5 * apart_m) {
         problems.warning("viewer",
-                         text_of("the fallback head's eyes stand %.0f degrees from level on screen %s",
-                                 std::acos(rightwards / apart_m) * kDegrees, screen->name.c_str()),
+                         formatted("the fallback head's eyes stand %.0f degrees from level on screen %s",
+                                   std::acos(rightwards / apart_m) * kDegrees, screen->name.c_str()),
                          "correct the eyes or the fallback head's orientation");
     }
 }
@@ -263,11 +262,11 @@ void check_eyes(Problems& problems, const WallSetup& setup) {
 void check_budget(Problems& problems, const ParallaxBudget& budget) {
     for (const auto& [what, deg] : {std::pair{"crossed", budget.crossed_deg}, {"uncrossed", budget.uncrossed_deg}}) {
         if (!(deg > 0.0 && deg <= 20.0)) {
-            problems.error("comfort", text_of("a budget of %.3g degrees of %s parallax makes no sense", deg, what),
+            problems.error("comfort", formatted("a budget of %.3g degrees of %s parallax makes no sense", deg, what),
                            "give degrees, about 2");
         } else if (deg > 3.5) {
             problems.warning("comfort",
-                             text_of("%.3g degrees of %s parallax are more than most people fuse", deg, what),
+                             formatted("%.3g degrees of %s parallax are more than most people fuse", deg, what),
                              "about 2 suits 84 % of people");
         }
     }
@@ -275,14 +274,39 @@ void check_budget(Problems& problems, const ParallaxBudget& budget) {
 
 void check_timing(Problems& problems, const DisplayTiming& timing) {
     if (!(timing.refresh_Hz >= 20.0 && timing.refresh_Hz <= 1000.0)) {
-        problems.error("display", text_of("a refresh rate of %.4g Hz makes no sense", timing.refresh_Hz),
+        problems.error("display", formatted("a refresh rate of %.4g Hz makes no sense", timing.refresh_Hz),
                        "give fields a second, such as 60 or 120");
     } else if (timing.eye_order != EyeOrder::simultaneous && timing.refresh_Hz < 100.0) {
         problems.warning("display",
-                         text_of("one eye after the other at %.4g Hz leaves %.4g Hz an eye, which flickers",
-                                 timing.refresh_Hz, 0.5 * timing.refresh_Hz),
+                         formatted("one eye after the other at %.4g Hz leaves %.4g Hz an eye, which flickers",
+                                   timing.refresh_Hz, 0.5 * timing.refresh_Hz),
                          "use 120 Hz, or eye_order = \"simultaneous\" when both eyes are shown at once");
     }
+}
+
+// Returns what speaks against a mode where a display is driven without windows.
+std::optional<WallProblem> contradiction(const WallScreen& screen, StereoMode mode) {
+    if (!screen.direct) return std::nullopt;
+    const std::string direct = name_of(*screen.direct);
+    const ModeNeeds needs = needs_of(mode);
+    if (needs.two_windows) {
+        return WallProblem{true, screen.name,
+                           "mode two_windows needs a window for the right eye, and it is driven without windows",
+                           "choose another mode, or leave direct out"};
+    }
+    const bool separates = *screen.direct != DisplayStereo::none;
+    if (needs.two_layers && !separates) {
+        return WallProblem{true, screen.name,
+                           "direct = \"plain\" gives the display one picture, mode two_layers has two",
+                           "say how the display separates them: direct = \"hdmi-3d\", \"onboard-din\" or "
+                           "\"inband-displayport\""};
+    }
+    if (separates && !needs.two_layers) {
+        return WallProblem{true, screen.name,
+                           "direct = \"" + direct + "\" separates two pictures, mode " + screen.mode + " has one",
+                           "choose mode = \"two_layers\", or direct = \"plain\""};
+    }
+    return std::nullopt;
 }
 
 }  // namespace
@@ -296,8 +320,21 @@ std::vector<WallProblem> check(const WallSetup& setup) {
     return problems.take();
 }
 
+std::vector<WallProblem> check_modes(const WallSetup& setup) {
+    std::vector<WallProblem> problems;
+    for (const WallScreen& screen : setup.screens) {
+        const auto mode = parse_stereo_mode(screen.mode);
+        if (!mode) {
+            problems.push_back({true, screen.name, "mode: " + mode.error().what, mode.error().remedy});
+        } else if (auto problem = contradiction(screen, *mode)) {
+            problems.push_back(std::move(*problem));
+        }
+    }
+    return problems;
+}
+
 std::string line_of(const WallProblem& problem) {
     return (problem.error ? "error: " : "warning: ") + problem.where + ": " + problem.what + "; " + problem.remedy;
 }
 
-}  // namespace burin
+}  // namespace burin::wall

@@ -1,44 +1,31 @@
 // SPDX-License-Identifier: MIT
-// Plan (from above) and side view (from the left) of a wall: burin wall show --svg.
+// Draws the plan (from above) and the side view (from the left) of a wall: burin wall show --svg.
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 
-#include "app/wall_figures.hpp"
-#include "renderer/stereo/comfort.hpp"
-#include "renderer/stereo/projection.hpp"
+#include "base/plot/svg.hpp"
+#include "base/text.hpp"
+#include "wall/comfort.hpp"
+#include "wall/projection.hpp"
+#include "wall/wall_figures.hpp"
 
-namespace burin {
+namespace burin::wall {
 namespace {
 
-// Pixels.
+// Layout in pixels.
 constexpr double kView = 430, kMargin = 46, kTop = 92;
 
-// Okabe and Ito's colours, which people with any kind of colour vision tell apart.
-constexpr std::array kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
-
-std::string text_of(const char* format, auto... values) {
-    std::array<char, 300> text{};
-    std::snprintf(text.data(), text.size(), format, values...);
-    return text.data();
+// Returns the colour of a screen. Black, which is the head's, is left out.
+const char* colour_of_screen(std::size_t index) {
+    constexpr std::size_t kBlack = 4;
+    index %= plot::kColours.size() - 1;
+    return plot::kColours[index < kBlack ? index : index + 1];
 }
 
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '&' || c == '<' || c == '>') {
-            out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : "&gt;";
-        } else {
-            out += c;
-        }
-    }
-    return out;
-}
-
-std::string write(const Vec2& at, const std::string& attributes, const std::string& text) {
-    return text_of("<text x=\"%.1f\" y=\"%.1f\" ", at.x, at.y) + attributes + ">" + escaped(text) + "</text>\n";
+std::string write(const Vec2& at, std::string_view attributes, std::string_view text) {
+    return plot::write(at.x, at.y, attributes, text);
 }
 
 std::array<Vec3, 4> corners_of(const Screen& s) {
@@ -46,7 +33,7 @@ std::array<Vec3, 4> corners_of(const Screen& s) {
             s.upper_left_world};
 }
 
-// The room drawn along one of its axes: metres to pixels, y of the picture downwards.
+// A view of the environment along one of its axes: metres to pixels, y of the picture downwards.
 struct View {
     const char* title;
     const char *x_label, *y_label;
@@ -62,7 +49,8 @@ struct View {
     }
 };
 
-// Both views to one scale, square, half a metre or a tenth around everything.
+// Fits a square view to the points with a margin of a tenth of the larger extent on each side. Returns its size in
+// metres.
 double fit(View& view, const std::vector<Vec3>& points) {
     Vec2 lo = view.flat(points[0]), hi = lo;
     for (const Vec3& p : points) lo = glm::min(lo, view.flat(p)), hi = glm::max(hi, view.flat(p));
@@ -74,60 +62,56 @@ double fit(View& view, const std::vector<Vec3>& points) {
 std::string grid(const View& v) {
     const double step = v.size_m > 12.0 ? 5.0 : v.size_m > 2.5 ? 1.0 : v.size_m > 1.2 ? 0.5 : 0.1;
     const double scale = kView / v.size_m, x0 = v.left + kMargin;
-    std::string text =
-        text_of("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"#fafafa\" stroke=\"#888888\"/>\n",
-                x0, kTop, kView, kView);
+    std::string text = plot::rectangle(x0, kTop, kView, kView, "#fafafa", "#888888");
     for (double m = step * std::ceil(v.lo_m.x / step); m < v.lo_m.x + v.size_m; m += step) {
         const double x = x0 + (m - v.lo_m.x) * scale;
-        text += text_of("<path d=\"M%.1f %.1f v%.1f\" stroke=\"#e2e2e2\"/>\n", x, kTop, kView);
-        text += write({x, kTop + kView + 15}, "text-anchor=\"middle\"", text_of("%.3g", std::abs(m) < 1e-9 ? 0.0 : m));
+        text += plot::line_down(x, kTop, kView, "#e2e2e2");
+        text +=
+            write({x, kTop + kView + 15}, "text-anchor=\"middle\"", formatted("%.3g", std::abs(m) < 1e-9 ? 0.0 : m));
     }
     for (double m = step * std::ceil(v.lo_m.y / step); m < v.lo_m.y + v.size_m; m += step) {
         const double y = kTop + kView - (m - v.lo_m.y) * scale;
-        text += text_of("<path d=\"M%.1f %.1f h%.1f\" stroke=\"#e2e2e2\"/>\n", x0, y, kView);
+        text += plot::line_across(x0, y, kView, "#e2e2e2");
         const double shown = v.y_label[0] == 'z' ? -m : m;
-        text += write({x0 - 6, y + 4}, "text-anchor=\"end\"", text_of("%.3g", std::abs(shown) < 1e-9 ? 0.0 : shown));
+        text += write({x0 - 6, y + 4}, "text-anchor=\"end\"", formatted("%.3g", std::abs(shown) < 1e-9 ? 0.0 : shown));
     }
     text += write({x0, kTop - 12}, "font-size=\"13\" font-weight=\"bold\"", v.title);
     text += write({x0 + kView / 2, kTop + kView + 32}, "text-anchor=\"middle\"", v.x_label);
-    const double y = kTop + kView / 2;
-    return text + write({v.left + 14, y},
-                        text_of("text-anchor=\"middle\" transform=\"rotate(-90 %.1f %.1f)\"", v.left + 14, y),
-                        v.y_label);
+    return text + plot::write_upright(v.left + 14, kTop + kView / 2, v.y_label);
 }
 
 std::string polygon(const View& v, const std::vector<Vec3>& points, const std::string& attributes) {
     std::string path = "<path d=\"";
-    for (const Vec3& p : points) path += text_of("%s%.1f %.1f", path.size() < 10 ? "M" : "L", v.at(p).x, v.at(p).y);
+    for (const Vec3& p : points) path += formatted("%s%.1f %.1f", path.size() < 10 ? "M" : "L", v.at(p).x, v.at(p).y);
     return path + "Z\" " + attributes + "/>\n";
 }
 
 std::string screen_lines(const View& v, const Screen& s, const Vec3& eye, const char* colour) {
     const auto corners = corners_of(s);
     std::string text;
-    // The pyramid of sight of the fallback head.
+    // The fallback head's view pyramid.
     for (std::size_t i = 0; i < 4; ++i) {
         text += polygon(v, {eye, corners[i], corners[(i + 1) % 4]},
-                        text_of("fill=\"%s\" fill-opacity=\"0.05\" stroke=\"none\"", colour));
+                        formatted("fill=\"%s\" fill-opacity=\"0.05\" stroke=\"none\"", colour));
     }
-    text +=
-        polygon(v, {corners.begin(), corners.end()},
-                text_of("fill=\"%s\" fill-opacity=\"0.12\" stroke=\"%s\" stroke-width=\"3\" stroke-linejoin=\"round\"",
-                        colour, colour));
+    text += polygon(
+        v, {corners.begin(), corners.end()},
+        formatted("fill=\"%s\" fill-opacity=\"0.12\" stroke=\"%s\" stroke-width=\"3\" stroke-linejoin=\"round\"",
+                  colour, colour));
     const Vec3 middle = 0.5 * (s.lower_right_world + s.upper_left_world);
     const Vec3 right = s.lower_right_world - s.lower_left_world, up = s.upper_left_world - s.lower_left_world;
     const Vec2 a = v.at(middle), b = v.at(middle + 0.08 * v.size_m * glm::normalize(glm::cross(right, up)));
-    if (glm::length(b - a) < 3.0) return text;  // it points at the reader
+    if (glm::length(b - a) < 3.0) return text;  // the normal points at the reader
     const Vec2 d = glm::normalize(b - a), n{-d.y, d.x};
     const Vec2 l = b - 7.0 * d + 3.5 * n, r = b - 7.0 * d - 3.5 * n;
     return text +
-           text_of("<path d=\"M%.1f %.1f L%.1f %.1f\" stroke=\"%s\" stroke-width=\"1.2\"/>\n", a.x, a.y, b.x, b.y,
-                   colour) +
-           text_of("<path d=\"M%.1f %.1f L%.1f %.1f L%.1f %.1fZ\" fill=\"%s\"/>\n", b.x, b.y, l.x, l.y, r.x, r.y,
-                   colour);
+           formatted("<path d=\"M%.1f %.1f L%.1f %.1f\" stroke=\"%s\" stroke-width=\"1.2\"/>\n", a.x, a.y, b.x, b.y,
+                     colour) +
+           formatted("<path d=\"M%.1f %.1f L%.1f %.1f L%.1f %.1fZ\" fill=\"%s\"/>\n", b.x, b.y, l.x, l.y, r.x, r.y,
+                     colour);
 }
 
-// Where comfortable content begins: a piece of the plane parallel to the screen.
+// Marks where comfortable content begins: a piece of the plane parallel to the screen.
 std::string comfort_lines(const View& v, const WallSetup& setup, const Screen& s, const Eyes& eyes,
                           const char* colour) {
     if (!can_be_seen(s, eyes)) return {};
@@ -138,19 +122,19 @@ std::string comfort_lines(const View& v, const WallSetup& setup, const Screen& s
     std::vector<Vec3> points;
     for (const Vec3& c : corners_of(s)) points.push_back(eye + share * (c - eye));
     return polygon(v, points,
-                   text_of("fill=\"none\" stroke=\"%s\" stroke-width=\"1.2\" stroke-dasharray=\"5 4\"", colour));
+                   formatted("fill=\"none\" stroke=\"%s\" stroke-width=\"1.2\" stroke-dasharray=\"5 4\"", colour));
 }
 
 std::string head_mark(const View& v, const WallSetup& setup, const Eyes& eyes) {
     std::string text;
     for (const Vec3& e : {eyes.left_world, eyes.right_world}) {
-        text += text_of("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.4\" fill=\"#000000\"/>\n", v.at(e).x, v.at(e).y);
+        text += formatted("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.4\" fill=\"#000000\"/>\n", v.at(e).x, v.at(e).y);
     }
     const Vec3 middle = 0.5 * (eyes.left_world + eyes.right_world);
     const Vec3 ahead =
         setup.world_from_tracker.orientation * (setup.fallback_head_tracker.orientation * Vec3{0, 0, -1});
     const Vec2 a = v.at(middle), b = v.at(middle + 0.1 * v.size_m * ahead);
-    text += text_of("<path d=\"M%.1f %.1f L%.1f %.1f\" stroke=\"#000000\"/>\n", a.x, a.y, b.x, b.y);
+    text += formatted("<path d=\"M%.1f %.1f L%.1f %.1f\" stroke=\"#000000\"/>\n", a.x, a.y, b.x, b.y);
     return text +
            write(a + Vec2{8, 14}, a.x - v.left > kMargin + kView - 100 ? "text-anchor=\"end\"" : "", "fallback head");
 }
@@ -159,12 +143,12 @@ std::string legend(const WallSetup& setup) {
     std::string text;
     double x = kMargin;
     for (std::size_t i = 0; i < setup.screens.size(); ++i) {
-        text +=
-            text_of("<path d=\"M%.1f 53 h18\" stroke=\"%s\" stroke-width=\"3\"/>\n", x, kColours[i % kColours.size()]);
+        text += formatted("<path d=\"M%.1f 53 h18\" stroke=\"%s\" stroke-width=\"3\"/>\n", x, colour_of_screen(i));
         text += write({x + 23, 57}, "", setup.screens[i].name);
         x += 46 + 6.6 * static_cast<double>(setup.screens[i].name.size());
     }
-    text += text_of("<path d=\"M%.1f 53 h18\" stroke=\"#444444\" stroke-width=\"1.2\" stroke-dasharray=\"5 4\"/>\n", x);
+    text +=
+        formatted("<path d=\"M%.1f 53 h18\" stroke=\"#444444\" stroke-width=\"1.2\" stroke-dasharray=\"5 4\"/>\n", x);
     return text + write({x + 23, 57}, "", "comfortable content begins here");
 }
 
@@ -181,27 +165,21 @@ std::string wall_drawing(const WallSetup& setup) {
                                {"Side view, from the left", "z, m (wall left, viewer right)", "y, m",
                                 [](const Vec3& p) { return Vec2{p.z, p.y}; }}}};
     const double width = 2 * (kView + kMargin) + 30, height = kTop + kView + 46;
-    std::string text = text_of(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" "
-        "font-family=\"DejaVu Sans, Arial, sans-serif\" font-size=\"11\">\n"
-        "<rect width=\"100%%\" height=\"100%%\" fill=\"#ffffff\"/>\n",
-        width, height, width, height);
-    text += write({width / 2, 28}, "text-anchor=\"middle\" font-size=\"16\" font-weight=\"bold\"",
-                  setup.name.empty() ? "wall" : setup.name);
+    std::string text = plot::svg_begin(width, height, setup.name.empty() ? "wall" : setup.name, 28);
     text += legend(setup);
     views[1].left = kView + kMargin + 14;
     for (View& v : views) {
         v.size_m = fit(v, points);
         text += grid(v);
         for (std::size_t i = 0; i < setup.screens.size(); ++i) {
-            text += screen_lines(v, screen_world(setup, setup.screens[i]), eye, kColours[i % kColours.size()]);
+            text += screen_lines(v, screen_world(setup, setup.screens[i]), eye, colour_of_screen(i));
         }
         for (std::size_t i = 0; i < setup.screens.size(); ++i) {
-            text += comfort_lines(v, setup, screen_world(setup, setup.screens[i]), eyes, kColours[i % kColours.size()]);
+            text += comfort_lines(v, setup, screen_world(setup, setup.screens[i]), eyes, colour_of_screen(i));
         }
         text += head_mark(v, setup, eyes);
     }
     return text + "</svg>\n";
 }
 
-}  // namespace burin
+}  // namespace burin::wall

@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: MIT
-#include "app/wall_figures.hpp"
+#include "wall/wall_figures.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
-#include "renderer/stereo/comfort.hpp"
-#include "renderer/stereo/projection.hpp"
+#include "base/text.hpp"
+#include "wall/comfort.hpp"
+#include "wall/projection.hpp"
 
-namespace burin {
+namespace burin::wall {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 Json list(const Vec3& v) { return {v.x, v.y, v.z}; }
 
-// The angle that a side takes up, seen from the eye's foot at `at` of its length, distance_m away.
+// The angle of a side seen from the eye, whose foot lies at at_m along the side, distance_m away.
 double angle_deg(double at_m, double length_m, double distance_m) {
     return kDegrees * (std::atan(at_m / distance_m) + std::atan((length_m - at_m) / distance_m));
 }
@@ -49,13 +48,13 @@ Json screen_figures(const WallSetup& setup, const WallScreen& screen, const Eyes
     out["pixels"] = screen.pixels;
     out["pixel_mm"] = {1e3 * size_m.x / screen.pixels[0], 1e3 * size_m.y / screen.pixels[1]};
     out["normal_world"] = list(normal);
-    // From upright: a floor leans back by 90 degrees, a ceiling forward.
-    out["tilt_deg"] = kDegrees * std::asin(std::clamp(normal.y, -1.0, 1.0)) + 0.0;  // never -0
+    // Angle from upright: a floor leans back by 90 degrees, a ceiling forward.
+    out["tilt_deg"] = kDegrees * std::asin(std::clamp(normal.y, -1.0, 1.0)) + 0.0;  // + 0.0 turns -0 into 0
     out["lower_left_world_m"] = list(s.lower_left_world);
     out["lower_right_world_m"] = list(s.lower_right_world);
     out["upper_left_world_m"] = list(s.upper_left_world);
     out["output"] = screen.output;
-    out["direct"] = screen.direct ? Json(gpu::name_of(*screen.direct)) : Json(nullptr);
+    out["direct"] = screen.direct ? Json(name_of(*screen.direct)) : Json(nullptr);
     out["mode"] = screen.mode;
     out["swap_eyes"] = screen.swap_eyes;
     out["warped"] = screen.homography.has_value();
@@ -65,23 +64,17 @@ Json screen_figures(const WallSetup& setup, const WallScreen& screen, const Eyes
     return out;
 }
 
-std::string text_of(const char* format, auto... values) {
-    std::array<char, 200> text{};
-    std::snprintf(text.data(), text.size(), format, values...);
-    return text.data();
-}
-
-std::string row(const char* name, const std::string& value) { return text_of("  %-30s ", name) + value + "\n"; }
+std::string row(const char* name, const std::string& value) { return formatted("  %-30s ", name) + value + "\n"; }
 
 std::string screen_table(const Json& s) {
     const auto at = [&](const char* key, std::size_t i) { return s[key][i].get<double>(); };
     std::string text = "screen " + s["name"].get<std::string>() + "\n";
-    text += row("width, height", text_of("%.3f m, %.3f m", at("size_m", 0), at("size_m", 1)));
-    text += row("pixels", text_of("%d by %d, each %.3f by %.3f mm", s["pixels"][0].get<int>(),
-                                  s["pixels"][1].get<int>(), at("pixel_mm", 0), at("pixel_mm", 1)));
+    text += row("width, height", formatted("%.3f m, %.3f m", at("size_m", 0), at("size_m", 1)));
+    text += row("pixels", formatted("%d by %d, each %.3f by %.3f mm", s["pixels"][0].get<int>(),
+                                    s["pixels"][1].get<int>(), at("pixel_mm", 0), at("pixel_mm", 1)));
     text += row("normal in the world",
-                text_of("%.3f, %.3f, %.3f", at("normal_world", 0), at("normal_world", 1), at("normal_world", 2)));
-    text += row("leans back from upright", text_of("%.1f degrees", s["tilt_deg"].get<double>()));
+                formatted("%.3f, %.3f, %.3f", at("normal_world", 0), at("normal_world", 1), at("normal_world", 2)));
+    text += row("leans back from upright", formatted("%.1f degrees", s["tilt_deg"].get<double>()));
     text +=
         row("output, mode", s["output"].get<std::string>() + ", " + s["mode"].get<std::string>() +
                                 (s["direct"].is_null() ? "" : ", driven directly: " + s["direct"].get<std::string>()) +
@@ -89,19 +82,19 @@ std::string screen_table(const Json& s) {
     if (!s["seen_from_fallback_head"].get<bool>()) return text + row("from the fallback head", "cannot be seen");
     const double distance_m = s["viewing_distance_m"].get<double>();
     const double nearest_m = s["nearest_comfortable_m"].get<double>();
-    text += row("viewing distance", text_of("%.3f m", distance_m));
+    text += row("viewing distance", formatted("%.3f m", distance_m));
     text +=
-        row("field of view", text_of("%.1f by %.1f degrees", at("field_of_view_deg", 0), at("field_of_view_deg", 1)));
+        row("field of view", formatted("%.1f by %.1f degrees", at("field_of_view_deg", 0), at("field_of_view_deg", 1)));
     text +=
-        row("parallax budget in front", text_of("%.1f mm on the screen", 1e3 * s["crossed_budget_m"].get<double>()));
+        row("parallax budget in front", formatted("%.1f mm on the screen", 1e3 * s["crossed_budget_m"].get<double>()));
     text +=
-        row("parallax budget behind", text_of("%.1f mm on the screen", 1e3 * s["uncrossed_budget_m"].get<double>()));
+        row("parallax budget behind", formatted("%.1f mm on the screen", 1e3 * s["uncrossed_budget_m"].get<double>()));
     text += row("nearest comfortable content",
-                text_of("%.2f m from the eyes, %.2f m in front", nearest_m, distance_m - nearest_m));
+                formatted("%.2f m from the eyes, %.2f m in front", nearest_m, distance_m - nearest_m));
     return text + row("farthest comfortable content",
                       s["farthest_comfortable_m"].is_null()
                           ? "no limit"
-                          : text_of("%.2f m from the eyes", s["farthest_comfortable_m"].get<double>()));
+                          : formatted("%.2f m from the eyes", s["farthest_comfortable_m"].get<double>()));
 }
 
 }  // namespace
@@ -124,14 +117,14 @@ Json wall_figures(const WallSetup& setup) {
 std::string wall_table(const Json& figures) {
     const std::string name = figures["name"].get<std::string>();
     std::string text = (name.empty() ? "wall" : name) + "\n";
-    text += row("eyes apart", text_of("%.1f mm", figures["eyes_apart_mm"].get<double>()));
+    text += row("eyes apart", formatted("%.1f mm", figures["eyes_apart_mm"].get<double>()));
     text += row("fields, eye order",
-                text_of("%.4g Hz, ", figures["refresh_Hz"].get<double>()) + figures["eye_order"].get<std::string>());
+                formatted("%.4g Hz, ", figures["refresh_Hz"].get<double>()) + figures["eye_order"].get<std::string>());
     text += row("parallax budget",
-                text_of("%.2f degrees crossed, %.2f uncrossed", figures["crossed_budget_deg"].get<double>(),
-                        figures["uncrossed_budget_deg"].get<double>()));
+                formatted("%.2f degrees crossed, %.2f uncrossed", figures["crossed_budget_deg"].get<double>(),
+                          figures["uncrossed_budget_deg"].get<double>()));
     for (const Json& s : figures["screens"]) text += screen_table(s);
     return text;
 }
 
-}  // namespace burin
+}  // namespace burin::wall

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-// What a wall is in numbers, seen from its fallback head: for burin wall show.
+// Figures, table and drawing of a wall as seen from its fallback head, for burin wall show.
 #pragma once
 
 #include <string>
 
 #include "base/json.hpp"
-#include "renderer/stereo/wall.hpp"
+#include "wall/wall.hpp"
 
-namespace burin {
+namespace burin::wall {
 
-// Keys are snake_case with the unit at the end; the same for the same setup.
+// Figures of a wall. Keys are snake_case with the unit at the end; the same setup gives the same figures.
 [[nodiscard]] Json wall_figures(const WallSetup& setup);
-// For the terminal, from those figures.
+// The figures as text for the terminal.
 [[nodiscard]] std::string wall_table(const Json& figures);
-// Plan and side view of screens, head and comfortable depths, as an SVG picture.
+// A plan and a side view of screens, head and comfortable depths, as an SVG picture.
 [[nodiscard]] std::string wall_drawing(const WallSetup& setup);
 
-}  // namespace burin
+}  // namespace burin::wall

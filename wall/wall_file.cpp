@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "app/wall_file.hpp"
+#include "wall/wall_file.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/wall_tables.hpp"
-#include "geometry/file_io.hpp"
+#include "base/file_io.hpp"
+#include "wall/toml_table.hpp"
 
-namespace burin {
+namespace burin::wall {
 namespace {
 
 constexpr std::uint64_t kMostBytes = 1 << 20;
@@ -28,13 +28,13 @@ std::array<std::array<double, 3>, 3> matrix_of(const std::vector<std::vector<dou
     return h;
 }
 
-std::optional<gpu::DisplayStereo> read_direct(TableReader& t) {
+std::optional<DisplayStereo> read_direct(TableReader& t) {
     const auto word = t.text("direct");
     if (!word) return std::nullopt;
     std::string words;
-    for (const gpu::DisplayStereo stereo : gpu::display_stereos()) {
-        if (*word == gpu::name_of(stereo)) return stereo;
-        words += (words.empty() ? "" : ", ") + std::string(gpu::name_of(stereo));
+    for (const DisplayStereo stereo : display_stereos()) {
+        if (*word == name_of(stereo)) return stereo;
+        words += (words.empty() ? "" : ", ") + std::string(name_of(stereo));
     }
     t.refuse("direct", "is " + *word, "write one of: " + words + "; or leave it out for a monitor of the desktop");
     return std::nullopt;
@@ -166,4 +166,4 @@ Result<WallSetup> read_wall(const std::filesystem::path& path) {
     return parse_wall({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string());
 }
 
-}  // namespace burin
+}  // namespace burin::wall

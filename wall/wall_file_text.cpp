@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT
-// Writing a wall file (wall_file.hpp).
+// Writes a wall file (wall_file.hpp).
 #include <array>
 #include <cstdio>
 #include <sstream>
 
-#include "app/toml.hpp"
-#include "app/wall_file.hpp"
+#include "wall/toml_table.hpp"
+#include "wall/wall_file.hpp"
 
-namespace burin {
+namespace burin::wall {
 namespace {
 
-// Twelve digits: a length read as 10 ft is written as 10 and not as 10.000000000000002.
+// Formats with twelve digits: a length read as 10 ft is written as 10 and not as 10.000000000000002.
 std::string number(double value) {
     std::array<char, 40> text{};
     std::snprintf(text.data(), text.size(), "%.12g", std::abs(value) < 1e-13 ? 0.0 : value);
     return text.data();
 }
 
-// Quaternions and matrices keep all digits.
+// Formats with all digits, for quaternions and matrices.
 std::string exact(double value) {
     std::array<char, 40> text{};
     std::snprintf(text.data(), text.size(), "%.17g", value);
@@ -74,7 +74,7 @@ private:
         length("upper_left", s.upper_left_tracker);
         line("pixels = [" + std::to_string(s.pixels[0]) + ", " + std::to_string(s.pixels[1]) + "]");
         line("output = " + quoted(s.output));
-        if (s.direct) line("direct = " + quoted(gpu::name_of(*s.direct)));
+        if (s.direct) line("direct = " + quoted(name_of(*s.direct)));
         line("mode = " + quoted(s.mode));
         line(std::string("swap_eyes = ") + (s.swap_eyes ? "true" : "false"));
         if (s.homography) {
@@ -106,4 +106,4 @@ private:
 
 std::string wall_text(const WallSetup& setup) { return Writer(setup).text(); }
 
-}  // namespace burin
+}  // namespace burin::wall

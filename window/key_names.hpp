@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Names of keys that do not depend on the window library. Pure; any thread.
+// Names of keys that do not depend on the window library. Pure functions; any thread.
 #pragma once
 
 #include <string_view>
 
 namespace burin::window {
 
-// For one of GLFW's key numbers; "unknown" for keys that it does not know.
+// Returns the name of one of GLFW's key numbers; "unknown" for keys without a name here.
 [[nodiscard]] std::string_view key_name(int glfw_key);
 
 }  // namespace burin::window

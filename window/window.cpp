@@ -28,7 +28,7 @@ public:
     const WindowSystem& system() const { return *system_; }
     std::vector<WindowEvent> take() { return std::exchange(events_, {}); }
 
-    // The place of the window on the desktop, kept for when it leaves full screen.
+    // The window's position and size on the desktop, restored when it leaves full screen.
     struct Place {
         int x = 64, y = 64, width = 1280, height = 800;
     };
@@ -49,7 +49,7 @@ public:
 
     void monitor_changed(const std::string& name, GLFWmonitor*, bool connected) override {
         const bool ours = !connected && name == filled_monitor;
-        // GLFW has already taken the window off a monitor that is gone; it comes back where it was before.
+        // GLFW has already moved the window off a monitor that is gone; returns it to its earlier position.
         if (ours) return_to_desktop();
         push(MonitorEvent{name, connected, ours});
     }
@@ -66,7 +66,7 @@ private:
                 (mods & GLFW_MOD_SUPER) != 0};
     }
 
-    // GLFW's units are the desktop's; ours are pixels.
+    // Converts from GLFW's desktop units to pixels.
     MouseMoveEvent in_pixels(double x, double y) const {
         int width = 0, height = 0, pixels_x = 0, pixels_y = 0;
         glfwGetWindowSize(handle_, &width, &height);
@@ -116,9 +116,9 @@ void set_hints(const WindowOptions& options, GLFWmonitor* monitor) {
     glfwWindowHint(GLFW_VISIBLE, hint(options.visible));
     glfwWindowHint(GLFW_RESIZABLE, hint(options.resizable));
     glfwWindowHint(GLFW_DECORATED, hint(options.decorated));
-    glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);  // a wall stays on while somebody works at the desk
+    glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);  // a wall stays full screen while somebody works on another monitor
     if (monitor == nullptr) return;
-    // The monitor's own mode: the desktop around it stays as it is.
+    // Takes the monitor's present mode, so that the desktop around it stays unchanged.
     if (const GLFWvidmode* mode = glfwGetVideoMode(monitor)) {
         glfwWindowHint(GLFW_RED_BITS, mode->redBits);
         glfwWindowHint(GLFW_GREEN_BITS, mode->greenBits);
@@ -127,7 +127,8 @@ void set_hints(const WindowOptions& options, GLFWmonitor* monitor) {
     }
 }
 
-// How much of a window lies on a monitor is not asked: its middle decides, and the nearest monitor where that lies on none.
+// The distance of a point from a monitor. The monitor of a window is the one nearest to the window's middle, however
+// much of the window lies on others.
 long distance_to(const Monitor& m, int x, int y) {
     const long dx = std::max({m.x - x, 0, x - (m.x + m.width - 1)}),
                dy = std::max({m.y - y, 0, y - (m.y + m.height - 1)});
@@ -272,7 +273,7 @@ void Window::ask_to_close() {
 
 std::string Window::clipboard() const {
     const char* text = glfwGetClipboardString(implementation_->handle());
-    static_cast<void>(WindowSystem::take_errors());  // an empty clipboard is one for GLFW
+    static_cast<void>(WindowSystem::take_errors());  // GLFW reports an empty clipboard as an error
     return text != nullptr ? text : "";
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Windows on the desktop, through GLFW, which shows in no header.
+// Windows on the desktop, through GLFW, which appears in no header.
 //
 //   auto extensions = window::required_extensions();                       // Result; before the Device
 //   auto device = gpu::Device::create({.instance_extensions = *extensions});
@@ -8,8 +8,8 @@
 //   auto swapchain = gpu::Swapchain::create(*device, std::move(*surface), {.width = ..., .height = ...});
 //   for (const WindowEvent& event : window->poll()) ...                    // or wait(): sleeps until something happens
 //
-// Without a display everything returns an Error that says so; nothing else of Burin needs one.
-// The window library is started by the first call and stopped when the last Window has gone.
+// Without a display everything returns an Error that says so; nothing else of Burin needs a display. The first call
+// starts the window library; it stops when the last Window is destroyed.
 // Order of destruction: Swapchain and its surface before the Window.
 // Thread: the main thread alone, except wake().
 #pragma once
@@ -27,24 +27,24 @@ namespace burin::window {
 
 struct Monitor {
     std::string name;
-    int index = 0;                    // 0: the desktop's main monitor
-    int x = 0, y = 0;                 // of its upper left pixel among all monitors
+    int index = 0;                    // 0: the desktop's primary monitor
+    int x = 0, y = 0;                 // position of its upper left pixel on the desktop
     int width = 0, height = 0;        // pixels, in its present mode
     double refresh_Hz = 0.0;          // 0: unknown
-    int width_mm = 0, height_mm = 0;  // as it says itself, often wrong
+    int width_mm = 0, height_mm = 0;  // as the monitor reports it, often wrong
 };
 
-// An Error without a display; else at least one, or none on a machine whose monitors are all off.
+// Lists the monitors; empty on a machine whose monitors are all off. An Error without a display.
 [[nodiscard]] Result<std::vector<Monitor>> monitors();
 
-// For DeviceOptions::instance_extensions. An Error without a display or without Vulkan.
+// Returns the extensions for DeviceOptions::instance_extensions. An Error without a display or without Vulkan.
 [[nodiscard]] Result<std::vector<std::string>> required_extensions();
 
 struct WindowOptions {
     std::string title = "Burin";
-    int width = 1280, height = 800;               // of a window on the desktop
-    std::optional<std::string> full_screen = {};  // a monitor's name or its index; "" means the main one
-    std::optional<int> x = {}, y = {};            // of a window on the desktop, among all monitors
+    int width = 1280, height = 800;               // size of a window on the desktop
+    std::optional<std::string> full_screen = {};  // a monitor's name or its index; "" means the primary one
+    std::optional<int> x = {}, y = {};            // position of a window that is not full screen, on the desktop
     bool visible = true;
     bool resizable = true;
     bool decorated = true;
@@ -59,8 +59,8 @@ public:
 
     [[nodiscard]] Result<gpu::SurfaceHandle> create_surface(gpu::Device& device);
 
-    // What happened since the last call, in order. poll() does not wait. wait() sleeps until something happens in any window,
-    // wake() is called, or the time is over. Both also look after the other windows, whose events are kept for them.
+    // Return the events since the last call, in order. poll() does not wait. wait() sleeps until an event in any
+    // window, a call of wake(), or the timeout. Both also process the other windows, whose events are kept for them.
     [[nodiscard]] std::vector<WindowEvent> poll();
     [[nodiscard]] std::vector<WindowEvent> wait(double timeout_s);
 
@@ -71,11 +71,11 @@ public:
     struct Position {
         int x = 0, y = 0;
     };
-    // Where the upper left pixel of the contents lies on the monitor that holds the window's middle: for interlaced modes.
-    // Negative where the window reaches beyond it.
+    // Returns the position of the contents' upper left pixel on the monitor that holds the window's middle, for
+    // interlaced modes. Negative where the window reaches beyond the monitor.
     [[nodiscard]] Position on_monitor() const;
-    [[nodiscard]] Monitor monitor() const;  // that monitor
-    // Pixels of the framebuffer for each unit of the desktop's coordinates: above 1 on scaled displays.
+    [[nodiscard]] Monitor monitor() const;  // the monitor that holds the window's middle
+    // Returns the framebuffer's pixels for each unit of desktop coordinates: above 1 on scaled displays.
     [[nodiscard]] double content_scale() const;
     [[nodiscard]] bool full_screen() const;
     [[nodiscard]] bool minimised() const;
@@ -88,7 +88,7 @@ public:
     void minimise();
     void restore();
     void show_pointer(bool shown);
-    // A monitor's name or index. An Error names the monitors there are.
+    // Makes the window full screen on a monitor, by name or index. An Error names the available monitors.
     [[nodiscard]] Result<void> fill_monitor(const std::string& monitor);
     void leave_full_screen();
     void ask_to_close();
@@ -102,7 +102,7 @@ private:
     std::unique_ptr<Implementation> implementation_;
 };
 
-// Ends a wait() early. Any thread, while a Window exists.
+// Makes a wait() return early. Any thread, while a Window exists.
 void wake();
 
 }  // namespace burin::window

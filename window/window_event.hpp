@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What happens in a window, as plain data: nothing of the window library shows, so that events can be recorded and fed back.
+// Events of a window as plain data: nothing of the window library shows, so that events can be recorded and fed back.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace burin::window {
 
-// Held while something happens.
+// The modifier keys held during an event.
 struct Modifiers {
     bool shift = false, control = false, alt = false, super = false;
     [[nodiscard]] bool operator==(const Modifiers&) const = default;
@@ -17,10 +17,10 @@ struct Modifiers {
 enum class Press : std::uint8_t { down, repeat, up };
 
 struct KeyEvent {
-    // The key's place on the keyboard, named by what a US keyboard has there: "a", "7", "f5", "left", "left_shift", "escape",
-    // "keypad_4", "unknown".
+    // The key's position on the keyboard, named by what a US keyboard has there: "a", "7", "f5", "left", "left_shift",
+    // "escape", "keypad_4", "unknown".
     std::string key;
-    // What this keyboard has printed on it ("z" on a German one for the key "y"); empty for keys that print nothing.
+    // The key's label on this keyboard ("z" on a German one for the key "y"); empty for keys without a character.
     std::string label;
     Press press = Press::down;
     Modifiers held;
@@ -31,7 +31,7 @@ struct TextEvent {
     char32_t character = 0;
 };
 
-// Framebuffer pixels from the upper left corner; may lie outside the window while a button is held.
+// A position in framebuffer pixels from the upper left corner; may lie outside the window while a button is held.
 struct MouseMoveEvent {
     double x = 0.0, y = 0.0;
 };
@@ -53,7 +53,7 @@ struct ResizeEvent {
     int width = 0, height = 0;
 };
 
-struct MoveEvent {  // of the window on its monitors
+struct MoveEvent {  // the window's position on the desktop
     int x = 0, y = 0;
 };
 
@@ -64,12 +64,12 @@ struct FocusEvent {
 struct MinimiseEvent {
     bool minimised = false;
 };
-struct ExposeEvent {};  // the window's contents must be shown anew
+struct ExposeEvent {};  // the window's contents must be drawn again
 
 struct MonitorEvent {
     std::string monitor;
     bool connected = false;
-    bool fell_back_to_window = false;  // this window filled that monitor, and is an ordinary window now
+    bool fell_back_to_window = false;  // this window filled that monitor and is an ordinary window now
 };
 
 using WindowEvent = std::variant<KeyEvent, TextEvent, MouseMoveEvent, MouseButtonEvent, ScrollEvent, ResizeEvent,

@@ -13,19 +13,19 @@ namespace burin::window {
 
 namespace {
 
-// GLFW's callbacks for errors and monitors carry no pointer of ours, so these two are the process's own, as GLFW is.
+// GLFW's callbacks for errors and monitors carry no user pointer, so this state is global, as GLFW's own is.
 std::mutex g_errors_mutex;
 std::string g_errors;
 std::weak_ptr<WindowSystem> g_running;  // main thread
 
 void on_error(int, const char* text) {
     const std::lock_guard lock(g_errors_mutex);
-    if (g_errors.size() > 2000) return;  // a loop of complaints says nothing new
+    if (g_errors.size() > 2000) return;  // a loop of errors adds nothing new
     g_errors += (g_errors.empty() ? "" : "; ") + std::string(text);
 }
 
-// Mesa's layer that sorts devices looks for a Wayland display and prints an error where this variable is missing. Any folder
-// that exists keeps it quiet; the user's own is right where there is one.
+// Sets XDG_RUNTIME_DIR where it is missing: Mesa's device selection layer looks for a Wayland display and prints an
+// error without it. Any existing folder prevents that; the user's own is right where there is one.
 void name_a_runtime_folder() {
     if (std::getenv("XDG_RUNTIME_DIR") != nullptr) return;
     std::error_code ignored;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// GLFW itself: started once, stopped when nobody uses it; its errors; its monitors. For window/ alone.
+// GLFW's process-wide state: started once, stopped when nobody uses it; its errors; its monitors. For window/ alone.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@
 
 namespace burin::window {
 
-// Told of monitors that come and go.
+// Notified of monitors that are connected or disconnected.
 class MonitorListener {
 public:
     virtual void monitor_changed(const std::string& name, GLFWmonitor* monitor, bool connected) = 0;
@@ -26,7 +26,7 @@ protected:
 
 class WindowSystem {
 public:
-    // The running one, or a new one. Main thread.
+    // Returns the running system, or starts it. Main thread.
     [[nodiscard]] static Result<std::shared_ptr<WindowSystem>> use();
     ~WindowSystem();
     WindowSystem(const WindowSystem&) = delete;
@@ -39,7 +39,7 @@ public:
     void add(MonitorListener* listener) { listeners_.push_back(listener); }
     void remove(MonitorListener* listener) { std::erase(listeners_, listener); }
 
-    // What GLFW complained of since the last call, in one line.
+    // Returns and clears GLFW's error messages since the last call, in one line.
     [[nodiscard]] static std::string take_errors();
 
 private:

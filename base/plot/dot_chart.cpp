@@ -1,30 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "bench/dot_chart.hpp"
-
 #include <algorithm>
 #include <cmath>
 
-#include "bench/svg_text.hpp"
+#include "base/plot/figures.hpp"
+#include "base/plot/svg.hpp"
 
-namespace burin::bench {
+namespace burin::plot {
 namespace {
 
-// Pixels. Three panels to a row of them; the names stand left of the first.
+// Lengths in pixels. Three panels stand side by side; the names stand left of the first.
 constexpr double kNames = 168, kPanelWidth = 262, kPlotWidth = 190, kTop = 84, kRow = 24, kBetween = 74, kNoteRow = 17;
 constexpr std::size_t kAcross = 3;
 
-// 1, 2 or 5 times a power of ten, about a quarter of the span.
-double tick_step(double span) {
-    const double raw = span / 4.0, decade = std::pow(10.0, std::floor(std::log10(raw)));
-    for (const double step : {1.0, 2.0, 5.0}) {
-        if (raw <= step * decade) return step * decade;
-    }
-    return 10.0 * decade;
-}
+// Returns a round step, about four of them to the span.
+double tick_step(double span) { return round_step(span / 4.0); }
 
 struct DotAxis {
     bool logarithmic;
-    double lo = 0.0, hi = 1.0;  // of the value, or of its log10
+    double lo = 0.0, hi = 1.0;  // in values, or in their log10
 
     explicit DotAxis(const DotPanel& panel) : logarithmic(panel.logarithmic) {
         double least = INFINITY, most = 0.0;
@@ -51,21 +44,20 @@ struct DotAxis {
 
 std::string grid_of(const DotAxis& axis, double left, double top, double height) {
     std::string text;
-    const auto line = [&](double value, bool labelled) {
+    const auto draw = [&](double value, bool labelled) {
         const double x = left + axis.place(value);
-        text += text_of("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\"/>\n", x, top, x,
-                        top + height, labelled ? "#cccccc" : "#eeeeee");
-        if (labelled) text += write(x, top + height + 14, "text-anchor=\"middle\"", text_of("%.6g", value));
+        text += line(x, top, x, top + height, labelled ? "#cccccc" : "#eeeeee");
+        if (labelled) text += write(x, top + height + 14, "text-anchor=\"middle\"", formatted("%.6g", value));
     };
     if (!axis.logarithmic) {
         const double step = tick_step(axis.hi);
-        for (int i = 0; i * step <= axis.hi * (1.0 + 1e-9); ++i) line(i * step, true);
+        for (int i = 0; i * step <= axis.hi * (1.0 + 1e-9); ++i) draw(i * step, true);
         return text;
     }
     for (int decade = static_cast<int>(std::floor(axis.lo)); decade <= axis.hi; ++decade) {
         for (const int times : {1, 2, 5}) {
             const double value = times * std::pow(10.0, decade), place = axis.place(value);
-            if (place >= 0.0 && place <= kPlotWidth) line(value, times == 1);
+            if (place >= 0.0 && place <= kPlotWidth) draw(value, times == 1);
         }
     }
     return text;
@@ -79,18 +71,15 @@ std::string row_of(const DotAxis& axis, const DotValue& v, int digits, double le
     const double end = v.upper > v.value ? left + axis.place(v.upper) : x;
     std::string text;
     if (!axis.logarithmic) {
-        text += text_of("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-width=\"5\"/>\n",
-                        left, y, x, y, colour);
+        text += line(left, y, x, y, colour, " stroke-width=\"5\"");
     }
-    text += text_of("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-width=\"1.5\"/>\n", x,
-                    y, end, y, colour);
+    text += line(x, y, end, y, colour, " stroke-width=\"1.5\"");
     if (end > x) {
-        text += text_of("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-width=\"1.5\"/>\n",
-                        end, y - 4, end, y + 4, colour);
+        text += line(end, y - 4, end, y + 4, colour, " stroke-width=\"1.5\"");
     }
-    text += text_of("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"5\" fill=\"%s\"/>\n", x, y, colour);
+    text += formatted("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"5\" fill=\"%s\"/>\n", x, y, colour);
     return text + write(end + 9, y + 4, "fill=\"#222222\" stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\"",
-                        text_of("%.*f", digits, v.value));
+                        formatted("%.*f", digits, v.value));
 }
 
 std::string panel_of(const DotPanel& panel, std::size_t rows, double left, double top) {
@@ -101,7 +90,7 @@ std::string panel_of(const DotPanel& panel, std::size_t rows, double left, doubl
                   panel.title);
     for (std::size_t i = 0; i < std::min(rows, panel.values.size()); ++i) {
         text += row_of(axis, panel.values[i], panel.digits, left, top + kRow * (static_cast<double>(i) + 0.5),
-                       kColours[i % kColours.size()]);
+                       colour_of(i));
     }
     return text;
 }
@@ -114,7 +103,7 @@ std::string dot_chart(const std::string& title, const std::vector<std::string>& 
     const auto lines = static_cast<double>((panels.size() + kAcross - 1) / kAcross);
     const double width = kNames + kPanelWidth * static_cast<double>(kAcross);
     const double notes_top = kTop + lines * block - 26;
-    std::string text = svg_begin(width, notes_top + kNoteRow * static_cast<double>(notes.size()) + 4, title);
+    std::string text = svg_begin(width, notes_top + kNoteRow * static_cast<double>(notes.size()) + 4, title, 30);
     for (std::size_t p = 0; p < panels.size(); ++p) {
         const double top = kTop + block * static_cast<double>(p / kAcross);
         const double left = kNames + kPanelWidth * static_cast<double>(p % kAcross);
@@ -130,4 +119,4 @@ std::string dot_chart(const std::string& title, const std::vector<std::string>& 
     return text + "</svg>\n";
 }
 
-}  // namespace burin::bench
+}  // namespace burin::plot

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "bench/svg_plot.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "bench/svg_text.hpp"
+#include "base/plot/figures.hpp"
+#include "base/plot/svg.hpp"
 
-namespace burin::bench {
+namespace burin::plot {
 namespace {
 
-// Pixels. A plot's frame within its cell leaves room for the labels.
+// Lengths in pixels. A plot's frame within its cell leaves room for the labels.
 constexpr double kCellWidth = 430, kFrameLeft = 72, kFrameTop = 84, kFrameWidth = 335, kFrameHeight = 300;
 constexpr double kLegendTop = kFrameTop + kFrameHeight + 66, kLegendRow = 20, kLegendColumn = 430;
 
@@ -18,18 +17,18 @@ bool drawable(const Plot& plot, const PlotPoint& p) {
     return (plot.x_linear || p.x > 0.0) && (plot.y_linear || p.y > 0.0) && std::isfinite(p.x) && std::isfinite(p.y);
 }
 
-// From value to place along the axis, 0 to 1.
+// Maps values to positions along the axis, 0 to 1.
 struct Axis {
     bool linear = false;
-    double lo = std::numeric_limits<double>::infinity(),
-           hi = -std::numeric_limits<double>::infinity();  // of log10, or as is
+    // The range shown: of the values on a linear axis, else of their log10.
+    double lo = std::numeric_limits<double>::infinity(), hi = -std::numeric_limits<double>::infinity();
 
     [[nodiscard]] double scaled(double value) const { return linear ? value : std::log10(value); }
     void include(double value) {
         lo = std::min(lo, scaled(value));
         hi = std::max(hi, scaled(value));
     }
-    // A margin on both sides, and at least one decade of a logarithmic axis, so that there are ticks.
+    // Adds a margin on both sides, and makes a logarithmic axis at least one decade long, so that there are ticks.
     void widen() {
         if (lo > hi) lo = hi = 0.0;
         double margin = 0.08 * (hi - lo);
@@ -49,10 +48,10 @@ struct Frame {
     [[nodiscard]] double at_y(double value) const { return top + kFrameHeight * (1.0 - y.place(value)); }
 };
 
-// 0.001, 0.2, 50, or 1e-05 where that is shorter.
-std::string tick_label(double value) { return text_of("%.12g", value); }
+// Formats as 0.001, 0.2, 50, or 1e-05 where that is shorter.
+std::string tick_label(double value) { return formatted("%.12g", value); }
 
-// draw(value, strong, labelled) for every fifth or so of a linear axis, at 1, 2 or 5 times a power of ten.
+// Calls draw(value, strong, labelled) at multiples of 1, 2 or 5 times a power of ten, about five to a linear axis.
 template <typename Draw>
 void linear_ticks(const Axis& axis, Draw&& draw) {
     const double wanted = (axis.hi - axis.lo) / 5.0, power = std::pow(10.0, std::floor(std::log10(wanted)));
@@ -75,32 +74,28 @@ std::string grid_of(const Frame& f) {
     };
     ticks(f.x, [&](double value, bool strong, bool labelled) {
         const double x = f.at_x(value);
-        text += text_of("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\"/>\n", x, f.top, x,
-                        f.top + kFrameHeight, strong ? "#bbbbbb" : "#e6e6e6");
+        text += line(x, f.top, x, f.top + kFrameHeight, strong ? "#bbbbbb" : "#e6e6e6");
         if (labelled) text += write(x, f.top + kFrameHeight + 16, "text-anchor=\"middle\"", tick_label(value));
     });
     ticks(f.y, [&](double value, bool strong, bool labelled) {
         const double y = f.at_y(value);
-        text += text_of("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\"/>\n", f.left, y,
-                        f.left + kFrameWidth, y, strong ? "#bbbbbb" : "#e6e6e6");
+        text += line(f.left, y, f.left + kFrameWidth, y, strong ? "#bbbbbb" : "#e6e6e6");
         if (labelled) text += write(f.left - 6, y + 4, "text-anchor=\"end\"", tick_label(value));
     });
-    return text +
-           text_of("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" stroke=\"#444444\"/>\n",
-                   f.left, f.top, kFrameWidth, kFrameHeight);
+    return text + rectangle(f.left, f.top, kFrameWidth, kFrameHeight, "none", "#444444");
 }
 
-// A filled shape that goes with the colour, so that series differ in print too.
+// Draws a filled shape that goes with the colour, so that series differ in print too.
 std::string marker(std::size_t style, double x, double y) {
-    const char* colour = kColours[style % kColours.size()];
+    const char* colour = colour_of(style);
     constexpr double r = 4.5;
     switch (style % 4) {
-        case 0: return text_of("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"%s\"/>\n", x, y, r, colour);
+        case 0: return formatted("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"%s\"/>\n", x, y, r, colour);
         case 1:
-            return text_of("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\"/>\n", x - 4, y - 4,
-                           8.0, 8.0, colour);
-        case 2: return text_of("<path d=\"M%.1f %.1f l5 9 h-10 z\" fill=\"%s\"/>\n", x, y - 6, colour);
-        default: return text_of("<path d=\"M%.1f %.1f l6 6 l-6 6 l-6 -6 z\" fill=\"%s\"/>\n", x, y - 6, colour);
+            return formatted("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\"/>\n", x - 4, y - 4,
+                             8.0, 8.0, colour);
+        case 2: return formatted("<path d=\"M%.1f %.1f l5 9 h-10 z\" fill=\"%s\"/>\n", x, y - 6, colour);
+        default: return formatted("<path d=\"M%.1f %.1f l6 6 l-6 6 l-6 -6 z\" fill=\"%s\"/>\n", x, y - 6, colour);
     }
 }
 
@@ -109,7 +104,7 @@ std::string line_through(const Plot& plot, const PlotSeries& series, std::size_t
     for (const PlotPoint& p : series.points) {
         if (!drawable(plot, p)) continue;
         const double x = f.at_x(p.x), y = f.at_y(p.y);
-        path += text_of("%s%.1f %.1f", path.empty() ? "M" : " L", x, y);
+        path += formatted("%s%.1f %.1f", path.empty() ? "M" : " L", x, y);
         if (plot.markers) points += marker(style, x, y);
         if (p.label.empty()) continue;
         const bool room = x + 7 + 6.2 * static_cast<double>(p.label.size()) < f.left + kFrameWidth;  // to the right
@@ -119,7 +114,7 @@ std::string line_through(const Plot& plot, const PlotSeries& series, std::size_t
                   p.label);
     }
     if (path.empty()) return "";
-    return "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + kColours[style % kColours.size()] +
+    return "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + colour_of(style) +
            (plot.markers ? "\" stroke-width=\"1.8\"/>\n" : "\" stroke-width=\"1\"/>\n") + points;
 }
 
@@ -145,9 +140,7 @@ std::string plot_text(const Plot& plot, double left, const std::vector<std::stri
     std::string text = grid_of(f);
     text += write(middle, f.top - 12, "text-anchor=\"middle\" font-size=\"13\" font-weight=\"bold\"", plot.title);
     text += write(middle, f.top + kFrameHeight + 38, "text-anchor=\"middle\"", plot.x_label);
-    const std::string turned =
-        text_of("text-anchor=\"middle\" transform=\"rotate(-90 %.1f %.1f)\"", left + 16, half_up);
-    text += write(left + 16, half_up, turned.c_str(), plot.y_label);
+    text += write_upright(left + 16, half_up, plot.y_label);
     for (const PlotSeries& s : plot.series) {
         text += line_through(plot, s, static_cast<std::size_t>(std::ranges::find(names, s.name) - names.begin()), f);
     }
@@ -166,7 +159,7 @@ std::string svg_figure(const std::string& title, const std::vector<Plot>& plots)
     const double width = kCellWidth * static_cast<double>(std::max<std::size_t>(1, plots.size()));
     const auto columns = static_cast<std::size_t>(std::max(1.0, std::floor(width / kLegendColumn)));
     const double height = kLegendTop + kLegendRow * static_cast<double>((names.size() + columns - 1) / columns) + 6;
-    std::string text = svg_begin(width, height, title);
+    std::string text = svg_begin(width, height, title, 30);
     for (std::size_t i = 0; i < plots.size(); ++i) {
         text += plot_text(plots[i], kCellWidth * static_cast<double>(i), names);
     }
@@ -178,4 +171,4 @@ std::string svg_figure(const std::string& title, const std::vector<Plot>& plots)
     return text + "</svg>\n";
 }
 
-}  // namespace burin::bench
+}  // namespace burin::plot

@@ -1,39 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "app/time_plot.hpp"
-
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
-namespace burin {
+#include "base/plot/figures.hpp"
+#include "base/plot/svg.hpp"
+
+namespace burin::plot {
 namespace {
 
-// Pixels.
+// Lengths in pixels.
 constexpr double kCellWidth = 560, kCellHeight = 270, kLeft = 66, kTop = 44, kWidth = 474, kHeight = 176, kHeader = 44;
-
-// Okabe and Ito's colours, which people with any kind of colour vision tell apart.
-constexpr std::array kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000"};
-
-std::string text_of(const char* format, auto... values) {
-    std::array<char, 300> text{};
-    std::snprintf(text.data(), text.size(), format, values...);
-    return text.data();
-}
-
-std::string write(double x, double y, const char* attributes, const std::string& text) {
-    return text_of("<text x=\"%.1f\" y=\"%.1f\" %s>", x, y, attributes) + text + "</text>\n";
-}
 
 struct Axis {
     double lo = 0.0, hi = 0.0, step = 1.0;
 
-    // About five round steps.
+    // Chooses a round step, about five of them to the axis.
     static Axis around(double lo, double hi) {
         if (!(hi > lo)) hi = lo + 1.0;
-        const double rough = (hi - lo) / 5.0, decade = std::pow(10.0, std::floor(std::log10(rough)));
-        const double of_decade = rough / decade;
-        const double step = decade * (of_decade <= 1.0 ? 1.0 : of_decade <= 2.0 ? 2.0 : of_decade <= 5.0 ? 5.0 : 10.0);
+        const double step = round_step((hi - lo) / 5.0);
         return {step * std::floor(lo / step), step * std::ceil(hi / step), step};
     }
     [[nodiscard]] double place(double value) const { return (value - lo) / (hi - lo); }
@@ -56,7 +40,7 @@ Axis values_of(const TimePlot& plot) {
 
 std::string label(double value, double step) {
     const int digits = static_cast<int>(std::clamp(std::ceil(-std::log10(step) - 1e-9), 0.0, 6.0));
-    return text_of("%.*f", digits, value == 0.0 ? 0.0 : value);
+    return formatted("%.*f", digits, value == 0.0 ? 0.0 : value);
 }
 
 std::string grid(const Frame& f) {
@@ -64,20 +48,18 @@ std::string grid(const Frame& f) {
     for (double v = f.x.lo; v <= f.x.hi + 0.5 * f.x.step; v += f.x.step) {
         const double x = f.at_x(v);
         if (x > f.left + kWidth + 0.5) break;
-        text += text_of("<path d=\"M%.1f %.1f v%.1f\" stroke=\"#dddddd\"/>\n", x, f.top, kHeight);
+        text += line_down(x, f.top, kHeight, "#dddddd");
         text += write(x, f.top + kHeight + 15, "text-anchor=\"middle\"", label(v, f.x.step));
     }
     for (double v = f.y.lo; v <= f.y.hi + 0.5 * f.y.step; v += f.y.step) {
         const double y = f.at_y(v);
-        text += text_of("<path d=\"M%.1f %.1f h%.1f\" stroke=\"#dddddd\"/>\n", f.left, y, kWidth);
+        text += line_across(f.left, y, kWidth, "#dddddd");
         text += write(f.left - 6, y + 4, "text-anchor=\"end\"", label(v, f.y.step));
     }
-    return text +
-           text_of("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" stroke=\"#444444\"/>\n",
-                   f.left, f.top, kWidth, kHeight);
+    return text + rectangle(f.left, f.top, kWidth, kHeight, "none", "#444444");
 }
 
-std::string line(const TimePlot& plot, const TimeSeries& series, const Frame& f, const char* colour) {
+std::string curve(const TimePlot& plot, const TimeSeries& series, const Frame& f, const char* colour) {
     std::string path;
     bool drawing = false;
     for (std::size_t i = 0; i < std::min(plot.times_s.size(), series.values.size()); ++i) {
@@ -85,7 +67,7 @@ std::string line(const TimePlot& plot, const TimeSeries& series, const Frame& f,
             drawing = false;
             continue;
         }
-        path += text_of("%s%.2f %.2f", drawing ? "L" : "M", f.at_x(plot.times_s[i]), f.at_y(series.values[i]));
+        path += formatted("%s%.2f %.2f", drawing ? "L" : "M", f.at_x(plot.times_s[i]), f.at_y(series.values[i]));
         drawing = true;
     }
     if (path.empty()) return "";
@@ -97,8 +79,8 @@ std::string legend(const TimePlot& plot, const Frame& f) {
     std::string text;
     double x = f.left;
     for (std::size_t i = 0; i < plot.series.size(); ++i) {
-        text += text_of("<path d=\"M%.1f %.1f h16\" stroke=\"%s\" stroke-width=\"2.5\"/>\n", x, f.top - 10,
-                        kColours[i % kColours.size()]);
+        text +=
+            formatted("<path d=\"M%.1f %.1f h16\" stroke=\"%s\" stroke-width=\"2.5\"/>\n", x, f.top - 10, colour_of(i));
         text += write(x + 20, f.top - 6, "", plot.series[i].name);
         x += 34 + 6.3 * static_cast<double>(plot.series[i].name.size());
     }
@@ -112,13 +94,9 @@ std::string plot_text(const TimePlot& plot, double left, double top) {
     const Frame f{left + kLeft, top + kTop, x, values_of(plot)};
     std::string text = grid(f);
     text += write(f.left, f.top - 26, "font-size=\"13\" font-weight=\"bold\"", plot.title);
-    const double middle = f.top + kHeight / 2;
-    text += write(left + 14, middle,
-                  text_of("text-anchor=\"middle\" transform=\"rotate(-90 %.1f %.1f)\"", left + 14, middle).c_str(),
-                  plot.y_label);
+    text += write_upright(left + 14, f.top + kHeight / 2, plot.y_label);
     text += write(f.left + kWidth / 2, f.top + kHeight + 32, "text-anchor=\"middle\"", "time, s");
-    for (std::size_t i = 0; i < plot.series.size(); ++i)
-        text += line(plot, plot.series[i], f, kColours[i % kColours.size()]);
+    for (std::size_t i = 0; i < plot.series.size(); ++i) text += curve(plot, plot.series[i], f, colour_of(i));
     return text + legend(plot, f);
 }
 
@@ -128,12 +106,7 @@ std::string time_figure(const std::string& title, const std::vector<TimePlot>& p
     const std::size_t rows = (plots.size() + columns - 1) / columns;
     const double width = kCellWidth * static_cast<double>(columns);
     const double height = kHeader + kCellHeight * static_cast<double>(rows);
-    std::string text = text_of(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" "
-        "font-family=\"DejaVu Sans, Arial, sans-serif\" font-size=\"11\">\n"
-        "<rect width=\"100%%\" height=\"100%%\" fill=\"#ffffff\"/>\n",
-        width, height, width, height);
-    text += write(width / 2, 28, "text-anchor=\"middle\" font-size=\"16\" font-weight=\"bold\"", title);
+    std::string text = svg_begin(width, height, title, 28);
     for (std::size_t i = 0; i < plots.size(); ++i) {
         text += plot_text(plots[i], kCellWidth * static_cast<double>(i % columns),
                           kHeader + kCellHeight * static_cast<double>(i / columns));
@@ -141,4 +114,4 @@ std::string time_figure(const std::string& title, const std::vector<TimePlot>& p
     return text + "</svg>\n";
 }
 
-}  // namespace burin
+}  // namespace burin::plot

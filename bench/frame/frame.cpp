@@ -1,30 +1,32 @@
 // SPDX-License-Identifier: MIT
-#include "bench/frame.hpp"
+#include "bench/frame/frame.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <thread>
 
-#include "bench/flip.hpp"
-#include "bench/frame_display.hpp"
-#include "bench/frame_start.hpp"
-#include "bench/machine.hpp"
-#include "bench/peers/frame_peers.hpp"
-#include "bench/timing.hpp"
+#include "base/statistics.hpp"
+#include "bench/frame/frame_display.hpp"
+#include "bench/frame/frame_peers.hpp"
+#include "bench/frame/frame_start.hpp"
+#include "bench/measure/flip.hpp"
+#include "bench/measure/machine.hpp"
+#include "bench/measure/timing.hpp"
 
 namespace burin::bench {
 namespace {
 
 constexpr const char* kOwn = "Burin";
-// The bumps move the outline by up to 2 % of the radius, both ways; eight hundredths of an outline's worth of pixels at most.
+// The bumps move the outline by up to 2 % of the radius, both
+// ways; eight hundredths of an outline's worth of pixels at most.
 constexpr double kCoverageTolerance = 0.02;
 
-Viewer viewer_in(const FrameScene& scene, FrameMotion motion, unsigned frame) {
+wall::Viewer viewer_in(const FrameScene& scene, FrameMotion motion, unsigned frame) {
     return motion == FrameMotion::moving ? moving_viewer(scene, frame) : still_viewer(scene);
 }
 
-// Adds a frame's counts; at the end they are divided by the number of frames.
+// Adds a frame's counts to the sums, which are divided by the number of frames at the end.
 void add(FrameCounters& sums, const FrameCounters& counts) {
     if (sums.empty())
         sums = counts;
@@ -46,7 +48,7 @@ Result<void> check_coverage(const FrameTimes& times) {
 
 class Run {
 public:
-    Run(const FrameOptions& options, const std::function<void(const std::string&)>& tell) : tell_(tell) {
+    Run(const FrameOptions& options, const std::function<void(const std::string&)>& notify) : tell_(notify) {
         report_.options = options;
         report_.machine = machine();
     }
@@ -74,7 +76,8 @@ private:
     OwnSubject own_;
 };
 
-// What a user waits for, but for making the surface, which here is arithmetic and there a file.
+// Measures what a user waits for, except the making of the surface,
+// which is computed here and read from a file in a session.
 Result<void> Run::open() {
     const double before_wall_ms = wall_since_start_ms(), before_cpu_ms = process_cpu_ms();
     scene_ = make_frame_scene(options().triangles, options().triangles_a_patch);
@@ -168,7 +171,7 @@ Result<FrameTimes> time_frames(FrameSubject& subject, const FrameScene& scene, F
     times.subject = subject.name();
     times.note = subject.note();
     times.motion = motion;
-    Viewer viewer;
+    wall::Viewer viewer;
     for (unsigned frame = 0; frame < options.warm_up + options.frames; ++frame) {
         viewer = viewer_in(scene, motion, frame);
         const std::vector<PatchChange> changes =
@@ -190,7 +193,7 @@ Result<FrameTimes> time_frames(FrameSubject& subject, const FrameScene& scene, F
     if (!pictures) return std::unexpected(pictures.error());
     times.pictures = std::move(*pictures);
     times.coverage = coverage(scene.look, times.pictures.left);
-    times.expected_coverage = expected_coverage(scene, eyes_of(viewer).left_world);
+    times.expected_coverage = expected_coverage(scene, wall::eyes_of(viewer).left_world);
     if (const auto ok = check_coverage(times); !ok) return std::unexpected(ok.error());
     return times;
 }
@@ -206,8 +209,8 @@ Result<IdleCost> time_idle(FrameSubject& subject, double seconds) {
     return IdleCost{passed_s, 1e-3 * (process_cpu_ms() - before_ms) / passed_s};
 }
 
-Result<FrameReport> run_frames(const FrameOptions& options, const std::function<void(const std::string&)>& tell) {
-    return Run(options, tell).all();
+Result<FrameReport> run_frames(const FrameOptions& options, const std::function<void(const std::string&)>& notify) {
+    return Run(options, notify).all();
 }
 
 std::optional<double> own_over_peer(const FrameReport& report, FrameMotion motion, const std::string& peer) {

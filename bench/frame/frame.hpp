@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What drawing costs: frames of one scene (bench/frame_scene.hpp) drawn by Burin and by its peers, off screen, both eyes, nothing
-// read back; the process's processor time of each frame with everything that the program does for it, and wall time beside it.
+// Measures the cost of drawing: frames of one scene (bench/frame/frame_scene.hpp) drawn by Burin and by its peers, off
+// screen, both eyes, without read-back. The figure is the processor time of the process for each frame with everything
+// that the program does for it, and wall time beside it.
 //
-// moving: the head goes on its path, so that all is drawn anew. still: head and surface stay. carving: the head stays and a
-// few patches change each frame; making their vertices is not timed, bringing them to the device is. idle: what a session's loop uses
-// while nothing happens. first: from the start of the process to the first finished picture, without making the surface.
+// moving: the head moves along its path, so that everything is redrawn. still: head and surface stay. carving: the head
+// stays and a few patches change each frame; computing their vertices is not timed, uploading them is. idle: what a
+// session's loop uses while nothing happens. first: from the start of the process to the first finished picture,
+// without making the surface.
 #pragma once
 
 #include <functional>
@@ -17,18 +19,18 @@
 
 #include "base/error.hpp"
 #include "base/json.hpp"
-#include "bench/frame_scene.hpp"
+#include "bench/frame/frame_scene.hpp"
 
 namespace burin::bench {
 
 struct FrameStep {
-    Viewer viewer;
+    wall::Viewer viewer;
     std::span<const PatchChange> changes;
 };
 
 using FrameCounters = std::vector<std::pair<std::string, double>>;
 
-// Whoever draws the scene. Made with the scene's surface already in place. One thread.
+// A renderer under test. Constructed with the scene's surface already loaded. One thread.
 class FrameSubject {
 public:
     virtual ~FrameSubject() = default;
@@ -37,17 +39,19 @@ public:
     FrameSubject& operator=(const FrameSubject&) = delete;
 
     [[nodiscard]] virtual std::string name() const = 0;
-    // How it differs from what was asked for; empty: not at all.
+    // Returns how it differs from what was asked for; empty: not at all.
     [[nodiscard]] virtual std::string note() const { return {}; }
-    // Both eyes' pictures are finished when it returns. All of it is timed.
+    // Draws both eyes' pictures and returns when they are finished. All of it is timed.
     [[nodiscard]] virtual Result<void> draw(const FrameStep& step) = 0;
-    // Called after each frame of the warm-up: what a session does while nothing happens and later frames gain from. Not timed.
+    // Called after each warm-up frame: work that a session does
+    // in idle time and that speeds up later frames. Not timed.
     [[nodiscard]] virtual Result<void> settle() { return {}; }
-    // The frame drawn last. Not timed.
+    // Reads back the last frame. Not timed.
     [[nodiscard]] virtual Result<StereoImage> picture() = 0;
-    // Of the frame drawn last: triangles, draw calls, patches left out, whatever it counts.
+    // Returns the last frame's counts of triangles, draw calls, culled patches and whatever else the subject counts.
     [[nodiscard]] virtual FrameCounters counters() const { return {}; }
-    // A turn of a session's loop in which nothing happens: returns after at most so long, having drawn nothing.
+    // Runs an iteration of a session's loop in which nothing happens:
+    // returns after at most this time, having drawn nothing.
     [[nodiscard]] virtual Result<void> wait(double at_most_s);
 };
 
@@ -58,18 +62,18 @@ struct FrameOptions {
     std::size_t triangles = 200'000, triangles_a_patch = kTrianglesAPatch;
     unsigned samples = 1;  // a pixel: 1 or 4
     unsigned frames = 60;
-    unsigned warm_up = 10;  // frames that are drawn before and dropped
+    unsigned warm_up = 10;  // frames that are drawn first and not counted
     std::vector<FrameMotion> motions{FrameMotion::moving, FrameMotion::still, FrameMotion::carving};
     bool idle = true, first = true;
     double idle_s = 2.0;
     bool osg = false, vtk = false;
-    std::optional<unsigned> device;  // of `burin --version`'s list; else the best
+    std::optional<unsigned> device;  // index in `burin --version`'s list; unset: the best device
 };
 
 struct FrameTimes {
     std::string subject, note;
     FrameMotion motion = FrameMotion::moving;
-    std::vector<double> cpu_ms, wall_ms;  // a frame each
+    std::vector<double> cpu_ms, wall_ms;  // one value a frame
     FrameCounters counters;               // means
     double coverage = 0.0;                // of the left eye's last picture
     double expected_coverage = 0.0;
@@ -92,31 +96,32 @@ struct FrameReport {
     std::vector<FrameTimes> times;
     std::optional<IdleCost> idle;
     std::optional<FirstPicture> first;
-    std::vector<std::string> left_out;  // and why
+    std::vector<std::string> left_out;  // with the reason
 };
 
-// Burin's own renderer, with the surface set; `device_name` says on what.
+// Burin's own renderer with the surface loaded; `device_name` is the device that it draws on.
 struct OwnSubject {
     std::unique_ptr<FrameSubject> subject;
     std::string device_name;
 };
 [[nodiscard]] Result<OwnSubject> open_own(const FrameScene& scene, const FrameOptions& options);
 
-// An Error when a draw fails, or the picture shows more or less of the surface than it should.
+// Returns an Error when a draw fails, or when the picture shows more or less of the surface than it should.
 [[nodiscard]] Result<FrameTimes> time_frames(FrameSubject& subject, const FrameScene& scene, FrameMotion motion,
                                              const FrameOptions& options);
 [[nodiscard]] Result<IdleCost> time_idle(FrameSubject& subject, double seconds);
 
-// tell(line) is called before each part. A peer that cannot run is left out, and the report says why.
+// notify(line) is called before each part. A peer that cannot run is left out, and the report gives the reason.
 [[nodiscard]] Result<FrameReport> run_frames(const FrameOptions& options,
-                                             const std::function<void(const std::string&)>& tell);
+                                             const std::function<void(const std::string&)>& notify);
 
-// Burin's median processor time over the faster variant's of a peer whose name begins so; none where either was not measured.
+// Returns Burin's median processor time over that of the faster variant of a peer whose name begins with `peer`;
+// nullopt where either was not measured.
 [[nodiscard]] std::optional<double> own_over_peer(const FrameReport& report, FrameMotion motion,
                                                   const std::string& peer);
 
 [[nodiscard]] std::string frame_table(const FrameReport& report);
-// A comment line that names the machine, one of column names, a row for each subject and motion.
+// Returns a comment line that names the machine, one of column names, and a row for each subject and motion.
 [[nodiscard]] std::string frame_csv(const FrameReport& report);
 [[nodiscard]] Json frame_json(const FrameReport& report);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/frame_display.hpp"
+#include "bench/frame/frame_display.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -18,9 +18,10 @@ namespace {
 
 constexpr int kPatience_ms = 10'000;
 
-// After fork: only what may be called between fork and exec. Xvfb writes the number of the display that it found free.
+// Runs after fork, so it calls only what is allowed between fork and
+// exec. Xvfb writes the number of the free display that it found.
 [[noreturn]] void become_xvfb(int number_to) {
-    prctl(PR_SET_PDEATHSIG, SIGTERM);  // does not outlive us, whatever ends us
+    prctl(PR_SET_PDEATHSIG, SIGTERM);  // ends when this process ends for any reason
     const int nowhere = ::open("/dev/null", O_RDWR);
     for (const int output : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, output);
     constexpr int kNumber = 3;
@@ -33,7 +34,7 @@ constexpr int kPatience_ms = 10'000;
     _exit(127);
 }
 
-// The display's number as text; empty when none came.
+// Returns the display's number as text; empty if none was received.
 std::string read_number(int from) {
     std::string text;
     pollfd waiting{from, POLLIN, 0};

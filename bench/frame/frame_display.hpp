@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A display for those who need one to draw off screen: the one named by DISPLAY, or an Xvfb of our own that ends with it.
-// Ownership: move-only. Thread: it sets and clears DISPLAY, so before other threads read the environment.
+// An X display for libraries that need one to draw off screen: the one named by DISPLAY, or an Xvfb that is started
+// here and ends with this object.
+// Ownership: move-only. Thread: it sets and clears DISPLAY, so use it before other threads read the environment.
 #pragma once
 
 #include <sys/types.h>
@@ -11,7 +12,7 @@ namespace burin::bench {
 
 class FrameDisplay {
 public:
-    // Errors: Xvfb is not installed, or does not say its number within 10 s.
+    // Errors: Xvfb is not installed, or does not report its display number within 10 s.
     [[nodiscard]] static Result<FrameDisplay> open();
     FrameDisplay(FrameDisplay&& other) noexcept;
     FrameDisplay& operator=(FrameDisplay&& other) noexcept;
@@ -20,7 +21,7 @@ public:
 private:
     explicit FrameDisplay(pid_t server) : server_(server) {}
     void close();
-    pid_t server_ = 0;  // 0: the display is not ours
+    pid_t server_ = 0;  // process of the Xvfb; 0: the display was there before
 };
 
 }  // namespace burin::bench

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What drawing costs, as table, CSV and JSON.
+// Writes the cost of drawing as table, CSV and JSON.
 #include <algorithm>
 #include <array>
 #include <cstdio>
 
-#include "bench/frame.hpp"
-#include "bench/timing.hpp"
+#include "base/statistics.hpp"
+#include "bench/frame/frame.hpp"
 
 namespace burin::bench {
 namespace {
@@ -19,8 +19,6 @@ std::string line(const char* format, Values... values) {
     std::snprintf(text.data(), text.size(), format, values...);
     return text.data();
 }
-
-double least(const std::vector<double>& values) { return values.empty() ? 0.0 : *std::ranges::min_element(values); }
 
 Json row_of(const FrameReport& report, const FrameTimes& t) {
     Json row = {{"subject", t.subject},
@@ -41,7 +39,7 @@ Json row_of(const FrameReport& report, const FrameTimes& t) {
     return row;
 }
 
-// A field with a comma or quote is quoted (RFC 4180).
+// Returns a CSV field; one with a comma or quote is quoted (RFC 4180).
 std::string csv_field(const Json& value) {
     if (value.is_null()) return {};
     if (!value.is_string()) return value.dump();
@@ -94,7 +92,7 @@ std::string frame_table(const FrameReport& report) {
         for (const auto& [peer, key] : kPeers)
             if (const auto ratio = own_over_peer(report, motion, peer))
                 text += line("%s: Burin uses %.3f of what %s uses\n", name_of(motion).c_str(), *ratio, peer);
-    std::vector<std::string> notes;  // each once
+    std::vector<std::string> notes;  // each note once
     for (const FrameTimes& t : report.times) {
         const std::string note = t.subject + ": " + t.note + "\n";
         if (!t.note.empty() && std::ranges::find(notes, note) == notes.end()) notes.push_back(note);

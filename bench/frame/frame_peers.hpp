@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: MIT
-// The same frames drawn by other libraries, for comparison: OpenSceneGraph and VTK. Built only with -DBURIN_WITH_PEERS=ON
-// (scripts/setup --peers installs them); without them every function here fails and says so. No header of theirs is seen
-// outside bench/peers/. They draw with OpenGL and need a display (bench/frame_display.hpp).
-// Each is set up as a user who cares for speed would: see the files.
+// Draws the same frames with other libraries, for comparison: OpenSceneGraph and VTK.
+// Built only with -DBURIN_WITH_PEERS=ON (scripts/setup --peers installs them); without
+// them every function here fails with a message. Their headers are not included outside
+// bench/peers/. They draw with OpenGL and need a display (bench/frame/frame_display.hpp).
+// Each is set up as a user who cares for speed would: see the source files.
 #pragma once
 
 #include <memory>
 
 #include "base/error.hpp"
-#include "bench/frame.hpp"
+#include "bench/frame/frame.hpp"
 
 namespace burin::bench {
 
 [[nodiscard]] bool has_frame_peers();
 
 enum class OsgDrawables {
-    patches,  // each patch a drawable, culled as OpenSceneGraph does it
-    one       // the whole surface as one
+    patches,  // each patch a drawable, culled by OpenSceneGraph
+    one       // the whole surface as one drawable
 };
 
-// Names: "OpenSceneGraph, patches", "OpenSceneGraph, one drawable", "VTK". samples: 1 or 4 a pixel.
+// Create subjects named "OpenSceneGraph, patches", "OpenSceneGraph, one drawable" and "VTK". samples: 1 or 4 a pixel.
 [[nodiscard]] Result<std::unique_ptr<FrameSubject>> open_osg(const FrameScene& scene, unsigned samples,
                                                              OsgDrawables drawables);
 [[nodiscard]] Result<std::unique_ptr<FrameSubject>> open_vtk(const FrameScene& scene, unsigned samples);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Burin's own frames, as a session draws them: the surface's patches are given to the renderer as a carving gives its tiles,
-// frames follow one another, and nothing is read back.
-#include "bench/frame.hpp"
-#include "bench/timing.hpp"
-#include "compute/normal_code.hpp"
+// Draws Burin's own frames as a session does: the surface's patches are given to the renderer as carving gives its
+// tiles, frames follow one another, and nothing is read back.
+#include "bench/frame/frame.hpp"
+#include "bench/measure/timing.hpp"
+#include "compute/rays/normal_code.hpp"
 #include "gpu/device.hpp"
-#include "renderer/renderer.hpp"
+#include "renderer/frame/renderer.hpp"
 
 namespace burin::bench {
 namespace {
@@ -17,7 +17,7 @@ std::uint32_t colour_code(const Vec3& colour) {
 
 class RendererSubject final : public FrameSubject {
 public:
-    RendererSubject(const FrameScene& scene, gpu::Device device, Renderer renderer)
+    RendererSubject(const FrameScene& scene, gpu::Device device, renderer::Renderer renderer)
         : scene_(scene),
           colour_(colour_code(scene.look.surface)),
           device_(std::move(device)),
@@ -45,10 +45,10 @@ public:
         return submission->wait();
     }
 
-    // What a session does while nothing happens.
+    // Does what a session does while nothing happens.
     Result<void> settle() override {
         const double before_ms = process_cpu_ms();
-        refined_ += static_cast<double>(renderer_.refine(static_cast<std::size_t>(-1)));
+        refined_ += static_cast<double>(renderer_.surface().refine(static_cast<std::size_t>(-1)));
         refine_ms_ += process_cpu_ms() - before_ms;
         return {};
     }
@@ -56,8 +56,8 @@ public:
     Result<StereoImage> picture() override { return renderer_.render(drawn_); }
 
     FrameCounters counters() const override {
-        const RenderStats& s = renderer_.stats();
-        const PatchCounts& p = s.patch_counts;
+        const renderer::RenderStats& s = renderer_.stats();
+        const renderer::PatchCounts& p = s.patch_counts;
         double pixels = 0.0;
         for (const PixelRect& part : s.parts) pixels += static_cast<double>(part.width) * part.height;
         return {{"triangles", static_cast<double>(p.triangles)},
@@ -76,21 +76,21 @@ public:
 
 private:
     void set(std::uint32_t patch, const std::vector<FrameVertex>& vertices) {
-        auto tile = std::make_shared<SurfaceTile>();
+        auto tile = std::make_shared<geometry::SurfaceTile>();
         tile->vertices.reserve(vertices.size());
         for (const FrameVertex& v : vertices) {
             const Vec3f& p = v.position_world_m;
-            tile->vertices.push_back({p.x, p.y, p.z, normal_code(Vec3(v.normal_world)), colour_});
+            tile->vertices.push_back({p.x, p.y, p.z, compute::normal_code(Vec3(v.normal_world)), colour_});
         }
         tile->indices = scene_.patches[patch].indices;
-        renderer_.set_patch(patch, std::move(tile));
+        renderer_.surface().set_patch(patch, std::move(tile));
     }
 
     const FrameScene& scene_;
     std::uint32_t colour_;
     gpu::Device device_;
-    Renderer renderer_;
-    Scene drawn_;
+    renderer::Renderer renderer_;
+    renderer::Scene drawn_;
     double refined_ = 0.0, refine_ms_ = 0.0;
 };
 
@@ -99,7 +99,7 @@ private:
 Result<OwnSubject> open_own(const FrameScene& scene, const FrameOptions& options) {
     auto device = gpu::Device::create({.index = options.device});
     if (!device) return std::unexpected(device.error());
-    auto renderer = Renderer::create(*device, scene.size, {.samples = options.samples});
+    auto renderer = renderer::Renderer::create(*device, scene.size, {.samples = options.samples});
     if (!renderer) return std::unexpected(renderer.error());
     std::string name = device->info().line();
     return OwnSubject{std::make_unique<RendererSubject>(scene, std::move(*device), std::move(*renderer)),

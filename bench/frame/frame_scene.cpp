@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/frame_scene.hpp"
+#include "bench/frame/frame_scene.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "bench/bumpy_sphere.hpp"
+#include "bench/haptics/bumpy_sphere.hpp"
 
 namespace burin::bench {
 namespace {
@@ -17,14 +17,14 @@ constexpr double kHeightDegrees = 37.0;
 constexpr double kPathHalf_m = 0.05;
 constexpr double kDentRadius_m = 0.06, kDentDepth_m = 0.004, kDentPath_m = 0.1;
 
-Screen screen_around(const Vec3& head, double aspect) {
+wall::Screen screen_around(const Vec3& head, double aspect) {
     const double half_height = head.z * std::tan(0.5 * kHeightDegrees * std::numbers::pi / 180.0);
     const double half_width = aspect * half_height;
     return {{-half_width, -half_height, 0.0}, {half_width, -half_height, 0.0}, {-half_width, half_height, 0.0}};
 }
 
 FrameMesh mesh_with_normals(std::size_t triangles) {
-    const TriangleMesh mesh = mesh_of(kSurface, squares_for(triangles));
+    const geometry::TriangleMesh mesh = mesh_of(kSurface, squares_for(triangles));
     FrameMesh made;
     made.vertices.reserve(mesh.positions_m.size());
     for (const Vec3& p : mesh.positions_m)
@@ -35,7 +35,7 @@ FrameMesh mesh_with_normals(std::size_t triangles) {
     return made;
 }
 
-// The side of cubes that hold about so many triangles of the sphere each, were each crossed by a flat square.
+// Returns the side of cubes that hold about so many triangles of the sphere each, if a flat square crosses each cube.
 double cube_side_m(std::size_t triangles, std::size_t triangles_a_patch) {
     return std::sqrt(4.0 * std::numbers::pi * static_cast<double>(triangles_a_patch) / static_cast<double>(triangles));
 }
@@ -73,7 +73,7 @@ void add_patch(FrameScene& scene, const std::vector<std::uint32_t>& whole_indice
     scene.whole_vertices.push_back(std::move(members));
 }
 
-Viewer viewer_at(const FrameScene& scene, const Vec3& head_world) {
+wall::Viewer viewer_at(const FrameScene& scene, const Vec3& head_world) {
     return {{head_world, Quat{1.0, 0.0, 0.0, 0.0}}, scene.interpupillary_m};
 }
 
@@ -83,7 +83,8 @@ Vec3 dent_middle(unsigned frame) {
     return kSurface.radius_at_m(direction) * direction;
 }
 
-// Pushed in by g = depth (1 - r^2 / R^2)^2 along the normal n; the normal becomes n plus g's gradient along the surface.
+// Pushes the vertex in by g = depth (1 - r^2 / R^2)^2 along the
+// normal n; the normal becomes n plus g's gradient along the surface.
 FrameVertex dented(const FrameVertex& vertex, const Vec3& middle) {
     const Vec3 n(vertex.normal_world), from_middle = Vec3(vertex.position_world_m) - middle;
     const double rest = 1.0 - glm::dot(from_middle, from_middle) / (kDentRadius_m * kDentRadius_m);
@@ -112,13 +113,13 @@ FrameScene make_frame_scene(std::size_t triangles, std::size_t triangles_a_patch
     return scene;
 }
 
-Viewer moving_viewer(const FrameScene& scene, unsigned frame) {
+wall::Viewer moving_viewer(const FrameScene& scene, unsigned frame) {
     const double turn = 2.0 * std::numbers::pi * (frame % kFramesAround) / kFramesAround;
     return viewer_at(
         scene, scene.head_middle_world + Vec3(kPathHalf_m * std::sin(turn), kPathHalf_m * std::sin(2.0 * turn), 0.0));
 }
 
-Viewer still_viewer(const FrameScene& scene) { return viewer_at(scene, scene.head_middle_world); }
+wall::Viewer still_viewer(const FrameScene& scene) { return viewer_at(scene, scene.head_middle_world); }
 
 std::vector<PatchChange> wandering_dent(const FrameScene& scene, unsigned frame) {
     const Vec3 middle = dent_middle(frame), before = dent_middle(frame + kFramesAround - 1);
@@ -135,7 +136,7 @@ std::vector<PatchChange> wandering_dent(const FrameScene& scene, unsigned frame)
 }
 
 double expected_coverage(const FrameScene& scene, const Vec3& eye_world) {
-    const Screen& s = scene.screen;
+    const wall::Screen& s = scene.screen;
     std::size_t covered = 0;
     for (std::uint32_t y = 0; y < scene.size.height; ++y)
         for (std::uint32_t x = 0; x < scene.size.width; ++x) {
@@ -143,7 +144,7 @@ double expected_coverage(const FrameScene& scene, const Vec3& eye_world) {
                                (s.lower_right_world - s.lower_left_world) * ((x + 0.5) / scene.size.width) +
                                (s.upper_left_world - s.lower_left_world) * ((y + 0.5) / scene.size.height);
             const Vec3 along = glm::normalize(pixel - eye_world);
-            // The line's distance from the sphere's middle, the origin.
+            // Compares the line's distance from the sphere's centre, the origin, with the radius.
             if (glm::length(eye_world - glm::dot(eye_world, along) * along) < kSurface.radius_m) ++covered;
         }
     return static_cast<double>(covered) / (static_cast<double>(scene.size.width) * scene.size.height);
@@ -154,7 +155,7 @@ double coverage(const FrameLook& look, const Image& image) {
     std::size_t covered = 0;
     for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
         const Vec3 away = glm::abs(Vec3(image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]) - background);
-        if (std::max({away.x, away.y, away.z}) > 6.0) ++covered;  // a dither or rounding is no surface
+        if (std::max({away.x, away.y, away.z}) > 6.0) ++covered;  // smaller differences are dither or rounding
     }
     return image.rgba.empty() ? 0.0 : 4.0 * static_cast<double>(covered) / static_cast<double>(image.rgba.size());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/frame_start.hpp"
+#include "bench/frame/frame_start.hpp"
 
 #include <time.h>
 #include <unistd.h>
@@ -11,7 +11,8 @@
 namespace burin::bench {
 namespace {
 
-// proc(5): field 22 of /proc/pid/stat, in clock ticks since boot. The second field, in brackets, may hold blanks.
+// Returns the start time since boot: proc(5), field 22 of /proc/pid/stat, in clock ticks. The second field, in
+// brackets, may contain blanks.
 double started_ms() {
     std::ifstream file("/proc/self/stat");
     std::string line;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// An eye's off-axis view as OpenGL wants it: y upwards, depth -1 to 1.
+// Converts an eye's off-axis view to OpenGL's conventions: y upwards, depth -1 to 1.
 #pragma once
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "bench/frame_scene.hpp"
-#include "renderer/stereo/projection.hpp"
+#include "bench/frame/frame_scene.hpp"
+#include "wall/projection.hpp"
 
 namespace burin::bench {
 
 struct GlView {
-    Mat4 eye_from_world;  // the screen stands upright in the plane z = 0: a translation alone
+    Mat4 eye_from_world;  // a translation alone, as the screen stands upright in the plane z = 0
     Mat4 clip_from_eye;
 };
 
@@ -24,7 +24,7 @@ struct GlView {
     return {glm::translate(Mat4(1.0), -eye_world), clip_from_world * glm::translate(Mat4(1.0), eye_world)};
 }
 
-// Rows from the bottom, as OpenGL gives them, to rows from the top; opaque. `row_pixels` may be more than the picture's width.
+// Converts OpenGL's pixels, rows from the bottom, to an opaque image. `row_pixels` may exceed the picture's width.
 [[nodiscard]] inline Image image_of_gl(ImageSize size, const unsigned char* rgba, std::size_t row_pixels) {
     Image image{size, {}};
     image.rgba.reserve(std::size_t{4} * size.width * size.height);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// OpenSceneGraph as a user who cares for speed sets it up: vertex buffers and no display lists, 16-bit indices where they do,
-// static data, one program with the look's numbers in its text, back faces culled by the state, no near and far planes
-// computed anew, one thread for update, cull and draw (threads of their own cost processor time for handing over), the
-// context kept current. Each eye is a camera with an absolute projection that draws into a texture; with several samples
-// OpenSceneGraph resolves them into it, as it does for any user. Small features are left out as usual.
+// Draws with OpenSceneGraph as a user who cares for speed sets it up: vertex buffers and no display
+// lists, 16-bit indices where they suffice, static data, one program with the shading constants in its
+// text, back faces culled by the state, near and far planes not recomputed, one thread for update, cull
+// and draw (separate threads cost processor time for handing over), the context kept current. Each eye
+// is a camera with an absolute projection that draws into a texture; with several samples OpenSceneGraph
+// resolves them into it, as it does for any user. Small-feature culling is on, as by default.
 #include <osg/Camera>
 #include <osg/CullFace>
 #include <osg/Geometry>
@@ -18,8 +19,8 @@
 #include <cstdio>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "bench/peers/frame_peers.hpp"
-#include "bench/peers/gl_views.hpp"
+#include "bench/frame/frame_peers.hpp"
+#include "bench/frame/gl_views.hpp"
 
 namespace burin::bench {
 namespace {
@@ -33,7 +34,7 @@ void main() {
 }
 )";
 
-// The eye's axes are the world's: the light's direction is the same in both.
+// The eye's axes are the world's, so the light's direction is the same in both frames.
 std::string fragment_shader(const FrameLook& look) {
     std::array<char, 1024> text{};
     std::snprintf(text.data(), text.size(), R"(#version 120
@@ -77,7 +78,8 @@ osg::ref_ptr<osg::Geometry> geometry_of(const FrameMesh& mesh) {
     return geometry;
 }
 
-osg::Matrixd osg_of(const Mat4& m) { return osg::Matrixd(glm::value_ptr(m)); }  // both keep columns of glm's together
+// Copies the bytes: both store the columns of glm contiguously.
+osg::Matrixd osg_of(const Mat4& m) { return osg::Matrixd(glm::value_ptr(m)); }
 
 class OsgSubject final : public FrameSubject {
 public:
@@ -88,7 +90,8 @@ public:
     std::string name() const override {
         return drawables_ == OsgDrawables::patches ? "OpenSceneGraph, patches" : "OpenSceneGraph, one drawable";
     }
-    // With 4 its frames were measured to cost what they do with 1: they are not known to be multisampled at all.
+    // With 4 samples its frames were measured to cost as much as
+    // with 1: it is not known whether they are multisampled at all.
     std::string note() const override {
         return samples_ > 1 ? "its frames are not known to have the samples that were asked for" : "";
     }
@@ -196,12 +199,12 @@ void OsgSubject::change(const PatchChange& change) {
     for (std::size_t i = 0; i < change.vertices.size(); ++i) put(geometry, patches ? i : whole[i], change.vertices[i]);
     geometry.getVertexArray()->dirty();
     geometry.getNormalArray()->dirty();
-    if (patches) geometry.dirtyBound();  // the whole's stays as it is, within the dent's depth
+    if (patches) geometry.dirtyBound();  // the whole surface's bound stays valid within the dent's depth
 }
 
 Result<void> OsgSubject::draw(const FrameStep& step) {
     for (const PatchChange& c : step.changes) change(c);
-    const Eyes eyes = eyes_of(step.viewer);
+    const wall::Eyes eyes = wall::eyes_of(step.viewer);
     const std::array eye_world{eyes.left_world, eyes.right_world};
     for (std::size_t i = 0; i < 2; ++i) {
         const GlView view = gl_view(scene_, eye_world[i]);

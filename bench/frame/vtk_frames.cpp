@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// VTK as a user who cares for speed sets it up: one polygon mapper whose buffers stay on the device, Phong interpolation with
-// one directional scene light, back faces culled, no light or clipping range found anew, no swapping of buffers. Both eyes
-// are renderers side by side in one off-screen window, each with a camera whose projection is given. VTK's highlight is
-// Phong's: an exponent of a quarter looks like Blinn's.
+// Draws with VTK as a user who cares for speed sets it up: one polygon mapper whose buffers stay on the device, Phong
+// interpolation with one directional scene light, back faces culled, light and clipping range not recomputed, no
+// swapping of buffers. Both eyes are renderers side by side in one off-screen window, each with a camera whose
+// projection is given. VTK's highlight is Phong's: an exponent of a quarter looks like Blinn's.
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
@@ -21,8 +21,8 @@
 
 #include <array>
 
-#include "bench/peers/frame_peers.hpp"
-#include "bench/peers/gl_views.hpp"
+#include "bench/frame/frame_peers.hpp"
+#include "bench/frame/gl_views.hpp"
 
 namespace burin::bench {
 namespace {
@@ -147,7 +147,7 @@ Result<void> VtkSubject::draw(const FrameStep& step) {
         points_->Modified();
         data_->Modified();
     }
-    const Eyes eyes = eyes_of(step.viewer);
+    const wall::Eyes eyes = wall::eyes_of(step.viewer);
     aim(0, eyes.left_world);
     aim(1, eyes.right_world);
     window_->Render();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Stands in for the peers where they are not built.
-#include "bench/peers/frame_peers.hpp"
+// Replaces the peers in a build without them.
+#include "bench/frame/frame_peers.hpp"
 
 namespace burin::bench {
 namespace {

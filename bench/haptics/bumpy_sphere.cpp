@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/bumpy_sphere.hpp"
+#include "bench/haptics/bumpy_sphere.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@
 namespace burin::bench {
 namespace {
 
-constexpr double kBend = 0.31;  // radians that the walk turns for each radian it goes
+constexpr double kBend = 0.31;  // radians that the path turns for each radian that it advances
 
-// The gradient's own derivatives, by central differences.
+// Returns the Hessian, by central differences of the gradient.
 glm::dmat3 curvature(const BumpySphere& shape, const Vec3& p) {
     const double h = 1e-5 * shape.radius_m;
     glm::dmat3 hessian(0.0);
@@ -44,7 +44,8 @@ Vec3 BumpySphere::gradient(const Vec3& p) const {
 
 double BumpySphere::distance_m(const Vec3& p) const { return value_m(p) / glm::length(gradient(p)); }
 
-// x - from + l g(x) = 0 and f(x) = 0. With A = 1 + l H, a step is dx = -A^-1 (x - from + l g + dl g), and dl makes f + g dx zero.
+// Solves x - from + l g(x) = 0 and f(x) = 0. With A = 1 + l H, a step
+// is dx = -A^-1 (x - from + l g + dl g), where dl makes f + g dx zero.
 BumpySphere::Nearest BumpySphere::nearest(const Vec3& from, const Vec3& begin) const {
     Vec3 x = begin;
     const Vec3 g0 = gradient(x);
@@ -62,9 +63,9 @@ BumpySphere::Nearest BumpySphere::nearest(const Vec3& from, const Vec3& begin) c
     return {x, false};
 }
 
-TriangleMesh mesh_of(const BumpySphere& shape, int n) {
-    TriangleMesh mesh;
-    // A vertex by its place on the cube, counted in squares.
+geometry::TriangleMesh mesh_of(const BumpySphere& shape, int n) {
+    geometry::TriangleMesh mesh;
+    // Vertices by their position on the cube, counted in squares.
     std::unordered_map<std::uint64_t, std::uint32_t> vertex_of;
     const auto vertex = [&](const std::array<int, 3>& at) {
         const auto side = static_cast<std::uint64_t>(n) + 1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "bench/haptics.hpp"
+#include "bench/haptics/haptics.hpp"
 
-#include "bench/machine.hpp"
+#include "bench/measure/machine.hpp"
 #include "haptics/realtime.hpp"
 
 namespace burin::bench {
@@ -20,19 +20,19 @@ HapticsOptions quick_haptics() {
     return quick;
 }
 
-Result<Haptics> run_haptics(const HapticsOptions& options, const Tell& tell) {
+Result<Haptics> run_haptics(const HapticsOptions& options, const Tell& notify) {
     Haptics all;
     all.options = options;
     all.machine = machine();
     all.realtime = "not asked for";
-    // Edits first, and without priority: they are the publisher's work.
-    if (auto done = measure_edits(all, tell); !done) return std::unexpected(done.error());
-    if (auto done = measure_accuracy(all, tell); !done) return std::unexpected(done.error());
+    // Edits come first, and without real-time priority: they are the publisher's work.
+    if (auto done = measure_edits(all, notify); !done) return std::unexpected(done.error());
+    if (auto done = measure_accuracy(all, notify); !done) return std::unexpected(done.error());
     if (options.ask_for_realtime) {
-        const RealtimeNotice notice = ask_for_realtime();
+        const haptics::RealtimeNotice notice = haptics::ask_for_realtime();
         all.realtime = notice.text.empty() ? "priority and locked memory" : notice.text;
     }
-    if (auto done = measure_ticks(all, tell); !done) return std::unexpected(done.error());
+    if (auto done = measure_ticks(all, notify); !done) return std::unexpected(done.error());
     return all;
 }
 

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-// An edit of a large surface until it is felt, and a body that deforms all over.
+// Measures the time from an edit of a large surface until it is felt, and a body that deforms as a whole.
 #include <algorithm>
 #include <memory>
 #include <random>
 
-#include "bench/bumpy_sphere.hpp"
-#include "bench/haptics.hpp"
-#include "bench/path_device.hpp"
-#include "bench/timing.hpp"
-#include "geometry/touch_mesh.hpp"
+#include "bench/haptics/bumpy_sphere.hpp"
+#include "bench/haptics/haptics.hpp"
+#include "bench/haptics/path_device.hpp"
+#include "bench/measure/timing.hpp"
+#include "geometry/contact/touch_mesh.hpp"
 #include "haptics/haptic_loop.hpp"
 
 namespace burin::bench {
 namespace {
 
-constexpr double kEdit_m = 0.01;     // across
-constexpr double kDent_m = 0.00005;  // in the middle
-constexpr double kPress_m = 0.001;   // how deep the point is pressed to feel it
+constexpr double kEdit_m = 0.01;     // diameter
+constexpr double kDent_m = 0.00005;  // depth in the middle
+constexpr double kPress_m = 0.001;   // depth to which the point is pressed to feel it
 
 struct Edit {
     Vec3 at_m{0.0};
@@ -24,8 +24,8 @@ struct Edit {
     std::vector<Vec3> places_m;
 };
 
-// A smooth dent; further edits go on from there.
-Edit dent(TriangleMesh& mesh, const Vec3& at_m) {
+// Makes a smooth dent in the mesh; further edits continue from there.
+Edit dent(geometry::TriangleMesh& mesh, const Vec3& at_m) {
     Edit edit{at_m, {}, {}};
     for (std::uint32_t v = 0; v < mesh.positions_m.size(); ++v) {
         Vec3& p = mesh.positions_m[v];
@@ -38,14 +38,14 @@ Edit dent(TriangleMesh& mesh, const Vec3& at_m) {
     return edit;
 }
 
-std::size_t triangles_within(const TriangleMesh& mesh, const Edit& edit) {
+std::size_t triangles_within(const geometry::TriangleMesh& mesh, const Edit& edit) {
     std::vector<bool> moved(mesh.positions_m.size(), false);
     for (const std::uint32_t v : edit.vertices) moved[v] = true;
     return static_cast<std::size_t>(std::ranges::count_if(
         mesh.triangles, [&](const auto& t) { return moved[t[0]] || moved[t[1]] || moved[t[2]]; }));
 }
 
-// A point that rests on the surface where it is edited.
+// A haptic loop whose point rests on the surface where it is edited.
 class Finger {
 public:
     Finger() {
@@ -53,15 +53,15 @@ public:
         channels_->parameters.draft().max_surface_age_s = 0.0;
         channels_->parameters.publish();
     }
-    void publish(const std::shared_ptr<const TouchSnapshot>& snapshot) {
-        LocalSurface& draft = channels_->surface.draft();
+    void publish(const std::shared_ptr<const geometry::TouchSnapshot>& snapshot) {
+        geometry::LocalSurface& draft = channels_->surface.draft();
         draft.sequence = ++sequence_;
         draft.radius_m = 1e3;
         draft.meshes.assign(1, {snapshot, 0});
         channels_->surface.publish();
     }
-    // One tick, pressed there.
-    TickRecord tick(const Vec3& at_m) {
+    // Runs one tick, pressed at this position.
+    haptics::TickRecord tick(const Vec3& at_m) {
         clock_.sleep_until(clock_.now_ns() + 1'000'000);
         device_.go_to(at_m, {1.0, 0.0, 0.0, 0.0}, clock_.now_ns());
         return loop_.step();
@@ -69,19 +69,19 @@ public:
     [[nodiscard]] std::uint64_t sequence() const { return sequence_; }
 
 private:
-    std::unique_ptr<HapticChannels> channels_ = std::make_unique<HapticChannels>();
+    std::unique_ptr<haptics::HapticChannels> channels_ = std::make_unique<haptics::HapticChannels>();
     PathDevice device_;
     SimulatedClock clock_;
-    HapticLoop loop_{device_, clock_, *channels_};
+    haptics::HapticLoop loop_{device_, clock_, *channels_};
     std::uint64_t sequence_ = 0;
 };
 
-void edit_once(EditCosts& costs, TouchMesh& mesh, TriangleMesh& source, const Vec3& at_m) {
-    Finger finger;  // a new one: it has not come here through the material
+void edit_once(EditCosts& costs, geometry::TouchMesh& mesh, geometry::TriangleMesh& source, const Vec3& at_m) {
+    Finger finger;  // a new one, as the last one would have to travel here through the material
     finger.publish(mesh.snapshot());
     const Vec3 outward = glm::normalize(at_m), pressed_m = at_m - kPress_m * outward;
     for (int i = 0; i < 4; ++i) finger.tick(at_m + (0.0005 - 0.0005 * i) * outward);
-    const double depth_before = finger.tick(pressed_m).penetration_m;
+    const double depth_before = finger.tick(pressed_m).deepest().penetration_m;
     const Edit edit = dent(source, at_m);
     const std::uint64_t patches = mesh.patches_made();
     Stopwatch watch;
@@ -91,18 +91,18 @@ void edit_once(EditCosts& costs, TouchMesh& mesh, TriangleMesh& source, const Ve
     costs.prepare_ms.push_back(watch.lap_ms());
     costs.patches_made += mesh.patches_made() - patches;
     costs.edited_triangles += triangles_within(source, edit);
-    const TickRecord next = finger.tick(pressed_m);
+    const haptics::TickRecord next = finger.tick(pressed_m);
     if (next.surface_sequence == finger.sequence()) ++costs.used_at_next_tick;
-    // The surface has gone down under the point by the dent's depth.
-    const double change = depth_before - next.penetration_m;
+    // The surface has moved down under the point by the dent's depth.
+    const double change = depth_before - next.deepest().penetration_m;
     if (change > 0.5 * kDent_m && change < 1.5 * kDent_m) ++costs.felt_at_next_tick;
 }
 
 Result<void> measure_large(Haptics& all) {
     EditCosts& costs = all.edits;
-    TriangleMesh source = mesh_of({}, squares_for(all.options.sizes.back()));
+    geometry::TriangleMesh source = mesh_of({}, squares_for(all.options.sizes.back()));
     Stopwatch watch;
-    auto mesh = TouchMesh::create(source);
+    auto mesh = geometry::TouchMesh::create(source);
     costs.create_ms = watch.lap_ms();
     if (!mesh) return std::unexpected(mesh.error());
     const auto first = mesh->snapshot();
@@ -116,11 +116,11 @@ Result<void> measure_large(Haptics& all) {
 }
 
 Result<void> measure_deforming(Haptics& all) {
-    TriangleMesh source = mesh_of({}, squares_for(all.options.sizes.front()));
-    auto mesh = TouchMesh::create(source);
+    geometry::TriangleMesh source = mesh_of({}, squares_for(all.options.sizes.front()));
+    auto mesh = geometry::TouchMesh::create(source);
     if (!mesh) return std::unexpected(mesh.error());
     all.edits.deformed_triangles = mesh->triangles();
-    std::shared_ptr<const TouchSnapshot> newest = mesh->snapshot();
+    std::shared_ptr<const geometry::TouchSnapshot> newest = mesh->snapshot();
     for (std::uint64_t i = 0; i < all.options.edits; ++i) {
         for (Vec3& p : source.positions_m) p *= i % 2 == 0 ? 1.001 : 1.0 / 1.001;
         Stopwatch watch;
@@ -133,10 +133,10 @@ Result<void> measure_deforming(Haptics& all) {
 
 }  // namespace
 
-Result<void> measure_edits(Haptics& all, const Tell& tell) {
-    tell("edits of 1 cm");
+Result<void> measure_edits(Haptics& all, const Tell& log_progress) {
+    log_progress("edits of 1 cm");
     if (auto done = measure_large(all); !done) return done;
-    tell("a body that deforms");
+    log_progress("a body that deforms");
     return measure_deforming(all);
 }
 

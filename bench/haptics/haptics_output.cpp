@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// What touching costs, as table, CSV, JSON and figure.
+// Writes the figures of touch as table, CSV, JSON and figure.
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <optional>
 
-#include "bench/haptics.hpp"
-#include "bench/svg_plot.hpp"
-#include "bench/timing.hpp"
+#include "base/plot/figures.hpp"
+#include "base/statistics.hpp"
+#include "bench/haptics/haptics.hpp"
 
 namespace burin::bench {
 namespace {
@@ -18,16 +19,18 @@ std::string line(const char* format, Values... values) {
     return text.data();
 }
 
-double mean(const std::vector<double>& values) {
-    return values.empty() ? 0.0 : sum(values) / static_cast<double>(values.size());
-}
-double most(const std::vector<double>& values) { return values.empty() ? 0.0 : *std::ranges::max_element(values); }
-
 Json quantiles(const std::string& name, const std::string& unit, const std::vector<double>& values) {
     return {{name + "_median_" + unit, median(values)},
             {name + "_p99_" + unit, quantile(values, 0.99)},
             {name + "_p999_" + unit, quantile(values, 0.999)},
             {name + "_max_" + unit, most(values)}};
+}
+
+// Returns the share of deadlines that passed while an earlier tick was still late; none where nothing paces the ticks.
+std::optional<double> skipped_percent(const TickCosts& t) {
+    if (t.lateness_us.empty()) return std::nullopt;
+    const auto skipped = static_cast<double>(t.skipped_deadlines);
+    return 100.0 * skipped / (skipped + static_cast<double>(t.tick_us.size()));
 }
 
 Json row_of(const TickCosts& t) {
@@ -47,6 +50,8 @@ Json row_of(const TickCosts& t) {
     row["lateness_median_us"] = median(t.lateness_us);
     row["lateness_p99_us"] = quantile(t.lateness_us, 0.99);
     row["skipped_deadlines"] = t.skipped_deadlines;
+    const auto percent = skipped_percent(t);
+    row["skipped_deadlines_percent"] = percent ? Json(*percent) : Json(nullptr);
     return row;
 }
 
@@ -62,11 +67,8 @@ Json errors_of(const ProxyErrors& e) {
 }
 
 Json contact_of(const LostContact& c) {
-    return {{"coordinates", c.unit},
-            {"ticks", c.ticks},
-            {"ticks_inside", c.inside},
-            {"ticks_lost", c.lost},
-            {"ticks_felt_outside", c.felt_outside}};
+    return {{"part", c.part},           {"coordinates", c.unit}, {"ticks", c.ticks},
+            {"ticks_inside", c.inside}, {"ticks_lost", c.lost},  {"ticks_felt_outside", c.felt_outside}};
 }
 
 Json edits_of(const EditCosts& e) {
@@ -92,26 +94,32 @@ Json jump_of(const ForceJumps& j) {
             {"turn_of_surface_percent", j.turn_of_surface_percent}};
 }
 
+std::string skipped_text(const TickCosts& t) {
+    const auto percent = skipped_percent(t);
+    return percent ? line("%.2f", *percent) : "-";
+}
+
 std::string ticks_table(const Haptics& all) {
-    std::string text = line("%-8s %9s %-10s %-12s %8s %8s %8s %8s %8s %8s\n", "scene", "triangles", "probe", "pacing",
-                            "median", "p99", "p99.9", "max us", "tested", "seen");
+    std::string text = line("%-8s %9s %-10s %-12s %8s %8s %8s %8s %8s %8s %9s\n", "scene", "triangles", "probe",
+                            "pacing", "median", "p99", "p99.9", "max us", "tested", "seen", "skipped %");
     for (const TickCosts& t : all.ticks)
-        text += line("%-8s %9zu %-10s %-12s %8.1f %8.1f %8.1f %8.1f %8.1f %8.1f\n", t.scene.c_str(), t.triangles,
+        text += line("%-8s %9zu %-10s %-12s %8.1f %8.1f %8.1f %8.1f %8.1f %8.1f %9s\n", t.scene.c_str(), t.triangles,
                      t.probe.c_str(), t.pacing.c_str(), median(t.tick_us), quantile(t.tick_us, 0.99),
-                     quantile(t.tick_us, 0.999), most(t.tick_us), mean(t.triangles_tested), mean(t.triangles_seen));
+                     quantile(t.tick_us, 0.999), most(t.tick_us), mean(t.triangles_tested), mean(t.triangles_seen),
+                     skipped_text(t).c_str());
     return text;
 }
 
-// The longest ticks, down to one in as many as there are: where the curve is drawn.
-PlotSeries exceeding(const TickCosts& t) {
-    PlotSeries series{.name = t.probe, .points = {}};
+// Returns the curve of the share of ticks that take a time or longer, down to a single tick.
+plot::PlotSeries exceeding(const TickCosts& t) {
+    plot::PlotSeries series{.name = t.probe, .points = {}};
     std::vector<double> sorted = t.tick_us;
     std::ranges::sort(sorted);
     const auto count = static_cast<double>(sorted.size());
     double last_share = 2.0;
     for (std::size_t i = 0; i < sorted.size(); ++i) {
         const double share = (count - static_cast<double>(i)) / count;
-        if (share > 0.93 * last_share) continue;  // a curve needs no more points than can be told apart
+        if (share > 0.93 * last_share) continue;  // skips points too close to be told apart
         last_share = share;
         series.points.push_back({sorted[i], share, ""});
     }
@@ -130,8 +138,8 @@ std::string haptics_table(const Haptics& all) {
     text += line("  from the nearest to the HIP    %8.4f %8.4f %8.4f\n", median(e.lag_mm), quantile(e.lag_mm, 0.99),
                  most(e.lag_mm));
     for (const LostContact& c : all.contact)
-        text += line("contact lost, scene in %-2s: %llu of %llu ticks inside (of %llu in all)\n", c.unit.c_str(),
-                     static_cast<unsigned long long>(c.lost), static_cast<unsigned long long>(c.inside),
+        text += line("contact lost, %-10s, scene in %-2s: %llu of %llu ticks inside (of %llu in all)\n", c.part.c_str(),
+                     c.unit.c_str(), static_cast<unsigned long long>(c.lost), static_cast<unsigned long long>(c.inside),
                      static_cast<unsigned long long>(c.ticks));
     const std::vector<double>& differ = all.metres_and_millimetres_differ_um;
     text += line("proxies in metres and in millimetres differ by, um: median %.6f, p99 %.6f, p99.99 %.4f, max %.1f\n",
@@ -182,12 +190,12 @@ Json haptics_json(const Haptics& all) {
 }
 
 std::string haptics_svg(const Haptics& all) {
-    std::vector<Plot> plots;
+    std::vector<plot::Plot> plots;
     for (const TickCosts& t : all.ticks) {
         if (t.pacing != "paced") continue;
         const std::string title = t.scene + ", " + std::to_string(t.triangles) + " triangles";
         if (plots.empty() || plots.back().title != title) {
-            Plot& plot = plots.emplace_back();
+            plot::Plot& plot = plots.emplace_back();
             plot.title = title;
             plot.x_label = "tick, us";
             plot.y_label = "share of ticks as long or longer";
@@ -195,7 +203,7 @@ std::string haptics_svg(const Haptics& all) {
         }
         plots.back().series.push_back(exceeding(t));
     }
-    return svg_figure("What a tick costs, paced at 1 kHz: " + all.machine, plots);
+    return plot::svg_figure("What a tick costs, paced at 1 kHz: " + all.machine, plots);
 }
 
 }  // namespace burin::bench

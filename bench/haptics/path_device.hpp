@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A haptic device that goes where it is told and gives way to no force: for runs that touch the same places every time.
+// A haptic device that is moved by the caller and does not yield to force, for runs that touch the same places every
+// time.
 #pragma once
 
-#include "devices/haptic_device.hpp"
+#include "devices/haptic/haptic_device.hpp"
 
 namespace burin::bench {
 
-class PathDevice final : public HapticDevice {
+class PathDevice final : public devices::HapticDevice {
 public:
     PathDevice() {
         description_.name = "path";
@@ -22,13 +23,13 @@ public:
         sample_.orientation_device = orientation_device;
         sample_.time_ns = time_ns;
     }
-    [[nodiscard]] const DeviceDescription& description() const noexcept override { return description_; }
-    [[nodiscard]] DeviceSample read() noexcept override { return sample_; }
-    void write(const DeviceWrench&) noexcept override {}
+    [[nodiscard]] const devices::DeviceDescription& description() const noexcept override { return description_; }
+    [[nodiscard]] devices::DeviceSample read() noexcept override { return sample_; }
+    void write(const devices::DeviceWrench&) noexcept override {}
 
 private:
-    DeviceDescription description_;
-    DeviceSample sample_;
+    devices::DeviceDescription description_;
+    devices::DeviceSample sample_;
 };
 
 }  // namespace burin::bench

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The way of the hand in bench haptics: along a bumpy sphere at 100 mm/s, a tick a millisecond, pressed so deep into it.
+// The path of the hand in bench haptics: along a bumpy sphere at
+// 100 mm/s, one tick a millisecond, pressed in by a given depth.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
 
-#include "bench/bumpy_sphere.hpp"
+#include "bench/haptics/bumpy_sphere.hpp"
 
 namespace burin::bench {
 

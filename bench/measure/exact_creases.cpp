@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "bench/exact_creases.hpp"
+#include "bench/measure/exact_creases.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "bench/exact_rays.hpp"
+#include "bench/measure/exact_rays.hpp"
 
 namespace burin::bench {
 namespace {
@@ -14,7 +14,7 @@ constexpr double kOnSurface_m = 1e-9;  // far below what a mesh resolves, far ab
 
 Vec3 corner(int bits) { return {bits & 1 ? 1.0 : 0.0, bits & 2 ? 1.0 : 0.0, bits & 4 ? 1.0 : 0.0}; }
 
-// Two directions across `axis`.
+// Two unit vectors perpendicular to `axis` and to each other.
 struct Across {
     Vec3 a, b;
 };
@@ -29,8 +29,8 @@ Across across(const Vec3& axis) {
 
 bool inside_cube(const Vec3& p) { return cube_distance(p) < 0.0; }
 
-// The points of one circle that belong to the edge.
-void add_circle(const BallSweep& a, const BallSweep& b, const SweptUnion& tools, double step_m,
+// Adds the points of one circle that lie on the solid's surface.
+void add_circle(const compute::BallSweep& a, const compute::BallSweep& b, const SweptUnion& tools, double step_m,
                 std::vector<Vec3>& points) {
     const Vec3 between = b.start_object_m - a.start_object_m;
     const double d = glm::length(between);
@@ -75,9 +75,9 @@ std::vector<Vec3> untouched_corners(const SweptUnion& tools, double clearance_m)
 
 std::vector<Vec3> rim_points(const CarveScene& scene, int lines) {
     std::vector<Vec3> points;
-    for (int axis = 0; axis < 3; ++axis) {  // along the lines
+    for (int axis = 0; axis < 3; ++axis) {  // direction of the lines
         const RayColumns columns(scene.sweeps, axis, 0.0);
-        for (int side = 0; side < 4; ++side) {  // the face: which of the two other axes is fixed, and where
+        for (int side = 0; side < 4; ++side) {  // the face: which of the other two axes is fixed, and where
             for (int i = 0; i < lines; ++i) {
                 const double fixed = side & 1 ? 1.0 : 0.0, running = (i + 0.5) / lines;
                 const double u = side & 2 ? running : fixed, v = side & 2 ? fixed : running;
@@ -102,7 +102,7 @@ std::vector<Vec3> ball_ball_crease_points(const CarveScene& scene, const SweptUn
     std::vector<Vec3> points;
     for (std::size_t i = 0; i < scene.sweeps.size(); ++i) {
         for (std::size_t j = i + 1; j < scene.sweeps.size(); ++j) {
-            const BallSweep &a = scene.sweeps[i], &b = scene.sweeps[j];
+            const compute::BallSweep &a = scene.sweeps[i], &b = scene.sweeps[j];
             const double d = glm::length(b.start_object_m - a.start_object_m);
             if (d == 0.0 || d >= a.radius_m + b.radius_m || d <= std::abs(a.radius_m - b.radius_m)) continue;
             // The angle between the two surfaces' normals on the circle.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Section and equation numbers are those of the paper named in flip.hpp.
-#include "bench/flip.hpp"
+// Section and equation numbers refer to the paper named in flip.hpp.
+#include "bench/measure/flip.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,8 @@ constexpr double kPi = std::numbers::pi;
 
 // ---- Colour
 
-// Columns: what a unit of linear red, green and blue gives; from the primaries and D65 of IEC 61966-2-1 without its rounding.
+// Columns: XYZ of a unit of linear red, green and blue; from
+// the primaries and D65 of IEC 61966-2-1 without its rounding.
 const glm::dmat3 kXyzFromLinear = [] {
     const auto xyz_of = [](double x, double y) { return Vec3(x / y, 1.0, (1.0 - x - y) / y); };
     const glm::dmat3 primaries(xyz_of(0.64, 0.33), xyz_of(0.30, 0.60), xyz_of(0.15, 0.06));
@@ -36,24 +37,24 @@ Vec3 linear_of_opponent(const Vec3& opponent) {
     return kLinearFromXyz * (kWhite * Vec3(opponent.y / 500.0 + y, y, y - opponent.z / 200.0));
 }
 
-// Colours look less colourful when dark: Hunt's effect, section 3.1.2.
+// Colours look less colourful when dark: the Hunt effect, section 3.1.2.
 Vec3 hunt(const Vec3& lab) { return {lab.x, 0.01 * lab.x * lab.y, 0.01 * lab.x * lab.z}; }
 
 // City-block in lightness, Euclidean in chroma: HyAB, section 3.1.2 (Abasi et al. 2020).
 double hyab(const Vec3& a, const Vec3& b) { return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z); }
 
 constexpr double kColourExponent = 0.7;        // q_c
-constexpr double kBend = 0.4, kAtBend = 0.95;  // p_c and p_t: where large errors are compressed
+constexpr double kBend = 0.4, kAtBend = 0.95;  // p_c and p_t: the bend beyond which large errors are compressed
 constexpr double kFeatureExponent = 0.5;       // q_f
-constexpr double kFeatureDegrees = 0.082;      // w: the width of an edge that is looked for
-constexpr double kDeviations = 3.0;            // how far a kernel reaches
+constexpr double kFeatureDegrees = 0.082;      // w: the width of the edges to detect
+constexpr double kDeviations = 3.0;            // radius of a kernel
 
 double largest_colour_error() {
     const double apart = hyab(hunt(lab_of_linear({0, 1, 0})), hunt(lab_of_linear({0, 0, 1})));
     return std::pow(apart, kColourExponent);
 }
 
-// Equation 5: linear up to kBend of the largest, and what is beyond in the rest up to 1.
+// Equation 5: linear up to kBend of the largest error; larger errors share the rest up to 1.
 double redistributed(double error, double largest) {
     const double bend = kBend * largest;
     return error < bend ? kAtBend / bend * error : kAtBend + (error - bend) / (largest - bend) * (1.0 - kAtBend);
@@ -75,7 +76,7 @@ Kernel kernel_of(int radius, Function value) {
     return kernel;
 }
 
-// Positive weights are scaled to the sum 1, negative ones to -1: a step of full height answers with 1.
+// Scales positive weights to the sum 1 and negative ones to -1: the response to a step of full height is 1.
 Kernel balanced(Kernel kernel) {
     float up = 0.0f, down = 0.0f;
     for (const float w : kernel) (w > 0.0f ? up : down) += std::abs(w);
@@ -83,12 +84,12 @@ Kernel balanced(Kernel kernel) {
     return kernel;
 }
 
-// out += weight * row, shifted and added for each tap: loops that a compiler makes into vectors.
+// Adds weight * row to out; called once for each tap of a kernel, as compilers vectorise this loop.
 void add_scaled(std::span<float> out, const float* row, float weight) {
     for (std::size_t i = 0; i < out.size(); ++i) out[i] += weight * row[i];
 }
 
-// Beyond its edges a picture goes on as its outermost pixels.
+// Filters along rows; a picture continues beyond its edges with its outermost pixels.
 Plane filtered_along_rows(const Plane& in, ImageSize size, const Kernel& kernel) {
     const std::size_t w = size.width, radius = kernel.size() / 2;
     Plane out(in.size(), 0.0f), padded(w + 2 * radius);
@@ -121,7 +122,8 @@ Plane filtered(const Plane& in, ImageSize size, const Kernel& along_rows, const 
     return filtered_along_columns(filtered_along_rows(in, size, along_rows), size, along_columns);
 }
 
-// ---- What the eye resolves (section 3.1.1, table 1): a sum of Gaussians in degrees, a sqrt(pi / b) exp(-pi^2 d^2 / b).
+// ---- Contrast sensitivity of the eye (section 3.1.1, table 1): a
+// sum of Gaussians in degrees, a sqrt(pi / b) exp(-pi^2 d^2 / b).
 
 struct Sensitivity {
     double a1, b1, a2, b2;
@@ -131,7 +133,7 @@ constexpr Sensitivity kRedGreen{1.0, 0.0053, 0.0, 1e-5};
 constexpr Sensitivity kBlueYellow{34.1, 0.04, 13.5, 0.025};
 
 Plane seen(const Plane& in, ImageSize size, const Sensitivity& s, double ppd) {
-    // As wide for all three as the widest needs: 3 standard deviations of b = 0.04.
+    // All three channels use the radius of the widest: 3 standard deviations of b = 0.04.
     const int radius = static_cast<int>(std::ceil(kDeviations * std::sqrt(0.04 / (2.0 * kPi * kPi)) * ppd));
     Plane out(in.size(), 0.0f);
     double total = 0.0;
@@ -140,7 +142,8 @@ Plane seen(const Plane& in, ImageSize size, const Sensitivity& s, double ppd) {
         Kernel kernel = kernel_of(radius, [&](double i) { return std::exp(-kPi * kPi * (i / ppd) * (i / ppd) / b); });
         double sum = 0.0;
         for (const float w : kernel) sum += w;
-        const double weight = a * std::sqrt(kPi / b);  // of the kernel in two dimensions, which is kernel times kernel
+        // Weight of the two-dimensional kernel, which is the product of two one-dimensional ones.
+        const double weight = a * std::sqrt(kPi / b);
         total += weight * sum * sum;
         add_scaled(out, filtered(in, size, kernel, kernel).data(), static_cast<float>(weight));
     }
@@ -163,7 +166,7 @@ Planes opponent_planes(const Image& image) {
     return planes;
 }
 
-// What is seen of a picture, as CIELab with Hunt's effect: a colour for each pixel.
+// Returns the perceived colour of each pixel, as CIELab with the Hunt effect.
 std::vector<Vec3f> seen_colours(const Planes& in, ImageSize size, double ppd) {
     const Plane y = seen(in.y, size, kLightness, ppd), cx = seen(in.cx, size, kRedGreen, ppd),
                 cz = seen(in.cz, size, kBlueYellow, ppd);
@@ -178,7 +181,7 @@ std::vector<Vec3f> seen_colours(const Planes& in, ImageSize size, double ppd) {
 // ---- Edges and points (section 3.2): first and second derivatives of a Gaussian, on lightness from 0 to 1.
 
 struct Features {
-    Plane edge, point;  // the length of the answer in x and y
+    Plane edge, point;  // magnitude of the response in x and y
 };
 
 Plane lengths(const Plane& x, const Plane& y) {
@@ -252,7 +255,8 @@ Result<FlipMap> flip(const Image& reference, const Image& test, double pixels_pe
         const double apart = hyab(Vec3(colour_a[i]), Vec3(colour_b[i]));
         const double colour = redistributed(std::pow(apart, kColourExponent), largest);
         const double feature = std::max(std::abs(in_a.edge[i] - in_b.edge[i]), std::abs(in_a.point[i] - in_b.point[i]));
-        // Two axes, each at most 1: over sqrt 2 the length is at most 1 (equation 8). Joined by equation 9.
+        // Each of the two responses is at most 1: divided by sqrt 2 their
+        // magnitude is at most 1 (equation 8). Equation 9 combines it with colour.
         const double sharp = std::clamp(std::pow(feature / std::numbers::sqrt2, kFeatureExponent), 0.0, 1.0);
         const double error = colour > 0.0 ? std::clamp(std::pow(colour, 1.0 - sharp), 0.0, 1.0) : 0.0;
         map.error[i] = static_cast<float>(error);

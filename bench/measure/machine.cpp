@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/machine.hpp"
+#include "bench/measure/machine.hpp"
 
 #include <stdlib.h>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// What a recorded figure was measured on.
+// Describes the machine on which a figure was measured.
 #pragma once
 
 #include <string>
 
 namespace burin::bench {
 
-// "2 x Intel(R) Xeon(R) Processor, load 0.1": the cores, the processor's name where the system tells it, and how busy the
-// machine has been in the last minute (0: quiet).
+// Returns "2 x Intel(R) Xeon(R) Processor, load 0.1": the cores, the processor's name where the system provides it, and
+// the load average of the last minute (0: quiet).
 [[nodiscard]] std::string machine();
 
 }  // namespace burin::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/point_distances.hpp"
+#include "bench/measure/point_distances.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ double point_segment_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
     return glm::length(p - (a + e * t));
 }
 
-// Points by cells of a uniform grid over their box, for "which points are near this triangle".
+// Points sorted into the cells of a uniform grid over their bounds, for queries of the points near a triangle.
 class PointGrid {
 public:
     PointGrid(const std::vector<Vec3>& points, const std::vector<std::uint32_t>& which, double radius_m)
@@ -51,7 +51,7 @@ public:
         }
         for (int z = from[2]; z <= to[2]; ++z)
             for (int y = from[1]; y <= to[1]; ++y) {
-                // Neighbours along x follow one another.
+                // Cells along x are adjacent in memory.
                 const std::size_t row = index(0, y, z);
                 for (std::uint32_t i = first_[row + static_cast<std::size_t>(from[0])];
                      i < first_[row + static_cast<std::size_t>(to[0]) + 1]; ++i) {
@@ -84,8 +84,8 @@ private:
 
 }  // namespace
 
-// The nearest point lies in the plane when p is above the triangle, else on an edge (Ericson 2005, section 5.1.5, told by
-// sides of the edges' planes instead of barycentric coordinates).
+// The nearest point lies in the plane when p is above the triangle, else on an edge (Ericson 2005, section 5.1.5, but
+// decided by sides of the edges' planes instead of barycentric coordinates).
 double point_triangle_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 n = glm::cross(b - a, c - a);
     const double n2 = glm::dot(n, n);
@@ -97,7 +97,7 @@ double point_triangle_distance(const Vec3& p, const Vec3& a, const Vec3& b, cons
         {point_segment_distance(p, a, b), point_segment_distance(p, b, c), point_segment_distance(p, c, a)});
 }
 
-std::vector<double> distances_to_mesh(const std::vector<Vec3>& points, const TriangleMesh& mesh,
+std::vector<double> distances_to_mesh(const std::vector<Vec3>& points, const geometry::TriangleMesh& mesh,
                                       double first_radius_m) {
     std::vector<double> distances(points.size(), std::numeric_limits<double>::infinity());
     if (mesh.triangles.empty()) return distances;
@@ -112,7 +112,7 @@ std::vector<double> distances_to_mesh(const std::vector<Vec3>& points, const Tri
                 distances[i] = std::min(distances[i], point_triangle_distance(points[i], a, b, c));
             });
         }
-        // Within the radius every triangle was looked at; what was found beyond it need not be the nearest.
+        // Every triangle within the radius was tested; a nearest one found beyond it need not be the nearest.
         std::erase_if(open, [&](std::uint32_t i) { return distances[i] <= radius; });
     }
     return distances;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/swept_union.hpp"
+#include "bench/measure/swept_union.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 namespace burin::bench {
 namespace {
 
-Vec3 to_axis(const BallSweep& s, const Vec3& p) {
+Vec3 to_axis(const compute::BallSweep& s, const Vec3& p) {
     const Vec3 e = s.end_object_m - s.start_object_m;
     const double length2 = glm::dot(e, e);
     const double t = length2 > 0 ? glm::clamp(glm::dot(p - s.start_object_m, e) / length2, 0.0, 1.0) : 0.0;
@@ -23,7 +23,7 @@ double cube_distance(const Vec3& p) {
     return glm::length(glm::max(d, Vec3(0.0))) + std::min(std::max({d.x, d.y, d.z}), 0.0);
 }
 
-SweptUnion::SweptUnion(std::span<const BallSweep> sweeps)
+SweptUnion::SweptUnion(std::span<const compute::BallSweep> sweeps)
     : sweeps_(sweeps.begin(), sweeps.end()),
       all_(sweeps.size()),
       cells_(static_cast<std::size_t>(kCells) * kCells * kCells) {
@@ -31,7 +31,7 @@ SweptUnion::SweptUnion(std::span<const BallSweep> sweeps)
     const auto cell_of = [](double x) {
         return std::clamp(static_cast<int>(std::floor((x + kBorder_m) / kCell_m)), 0, kCells - 1);
     };
-    const auto for_each_cell = [&](const BallSweep& s, auto&& visit) {
+    const auto for_each_cell = [&](const compute::BallSweep& s, auto&& visit) {
         const Vec3 lo = glm::min(s.start_object_m, s.end_object_m) - Vec3(s.radius_m + kReach_m);
         const Vec3 hi = glm::max(s.start_object_m, s.end_object_m) + Vec3(s.radius_m + kReach_m);
         for (int z = cell_of(lo.z); z <= cell_of(hi.z); ++z)
@@ -42,11 +42,11 @@ SweptUnion::SweptUnion(std::span<const BallSweep> sweeps)
                           glm::length(to_axis(s, center)) - s.radius_m);
                 }
     };
-    // A sweep is second at most in the cell when no two others are nearer everywhere in it: distances change by at most half
-    // a diagonal from the cell's middle.
+    // A sweep can be nearest or second nearest in the cell unless two others are nearer everywhere in it: distances
+    // change by at most half a diagonal from the cell's centre.
     const double half_diagonal = 0.5 * std::sqrt(3.0) * kCell_m;
     std::vector<std::array<double, 2>> least(cells_.size(), {1e9, 1e9});
-    for (const BallSweep& s : sweeps_) {
+    for (const compute::BallSweep& s : sweeps_) {
         for_each_cell(s, [&](std::size_t cell, double distance) {
             auto& [first, second] = least[cell];
             second = std::min(second, std::max(first, distance));
@@ -96,9 +96,16 @@ SweptUnion::SurfaceError SweptUnion::surface_error(const Vec3& p) const {
     const double cube = cube_distance(p);
     const auto* listed = listed_at(p);
     Nearest found = listed != nullptr ? among(*listed, p) : among(all_, p);
-    // What is not listed is at least kReach_m away: it counts only for a point deeper in the cube than that.
+    // Sweeps that are not listed are at least kReach_m away: they matter only for a point deeper in the cube than that.
     if (found.distance_m > kReach_m && cube < -kReach_m) found = among(all_, p);
     return {std::abs(std::max(cube, -found.distance_m)), found.distance_m <= kCutRegion_m};
+}
+
+SweptUnion::SurfaceError SweptUnion::surface_error(const Vec3& p, double workpiece_m) const {
+    const auto* listed = listed_at(p);
+    Nearest found = listed != nullptr ? among(*listed, p) : among(all_, p);
+    if (found.distance_m > kReach_m && workpiece_m > kReach_m) found = among(all_, p);
+    return {std::min(workpiece_m, std::abs(found.distance_m)), found.distance_m <= kCutRegion_m};
 }
 
 }  // namespace burin::bench

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: MIT
-// What the benchmarks measure time with: wall time, the processor time of the whole process beside it (which still tells
-// something on a machine that is busy with other work), and order statistics of many updates. Milliseconds.
+// Time measurement for the benchmarks: wall time, and the processor time of the whole process beside it (which stays
+// meaningful on a machine that is busy with other work). Milliseconds; base/statistics.hpp makes figures of many.
 #pragma once
-
-#include <vector>
 
 #include "base/clock.hpp"
 
 namespace burin::bench {
 
-// Processor time of all threads of the process so far, ms.
+// Returns the processor time of all threads of the process so far, ms.
 [[nodiscard]] double process_cpu_ms();
 
-// Wall time between calls of lap_ms().
+// Measures the wall time between calls of lap_ms().
 class Stopwatch {
 public:
     Stopwatch() : last_ns_(clock_.now_ns()) {}
@@ -26,10 +24,5 @@ private:
     MonotonicClock clock_;
     Nanoseconds last_ns_;
 };
-
-// The value below which the given share of the values lies, by nearest rank; 0 when there are none.
-[[nodiscard]] double quantile(std::vector<double> values, double share);
-[[nodiscard]] inline double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
-[[nodiscard]] double sum(const std::vector<double>& values);
 
 }  // namespace burin::bench

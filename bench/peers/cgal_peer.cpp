@@ -12,8 +12,8 @@
 #include <iterator>
 #include <map>
 
+#include "bench/measure/timing.hpp"
 #include "bench/peers/peers.hpp"
-#include "bench/timing.hpp"
 
 namespace burin::bench {
 namespace {
@@ -23,7 +23,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 
-Mesh from_triangles(const TriangleMesh& triangles) {
+Mesh from_triangles(const geometry::TriangleMesh& triangles) {
     Mesh mesh;
     std::vector<Mesh::Vertex_index> vertices;
     for (const Vec3& p : triangles.positions_m) vertices.push_back(mesh.add_vertex(Point(p.x, p.y, p.z)));
@@ -31,8 +31,8 @@ Mesh from_triangles(const TriangleMesh& triangles) {
     return mesh;
 }
 
-TriangleMesh to_triangles(const Mesh& mesh) {
-    TriangleMesh triangles;
+geometry::TriangleMesh to_triangles(const Mesh& mesh) {
+    geometry::TriangleMesh triangles;
     std::map<Mesh::Vertex_index, std::uint32_t> index;
     for (const auto v : mesh.vertices()) {
         index[v] = static_cast<std::uint32_t>(triangles.positions_m.size());
@@ -56,11 +56,12 @@ Mesh unit_cube() {
     return mesh;
 }
 
-// A unit icosphere: an icosahedron whose triangles are split in four, the new corners pushed out onto the sphere.
-TriangleMesh icosphere(int subdivisions) {
+// Returns a unit icosphere: an icosahedron whose triangles are
+// split in four, the new corners pushed out onto the sphere.
+geometry::TriangleMesh icosphere(int subdivisions) {
     Mesh mesh;
     CGAL::make_icosahedron(mesh, Point(0, 0, 0), 1.0);
-    TriangleMesh ball = to_triangles(mesh);
+    geometry::TriangleMesh ball = to_triangles(mesh);
     for (Vec3& p : ball.positions_m) p = glm::normalize(p);
     for (int s = 0; s < subdivisions; ++s) {
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
@@ -80,20 +81,20 @@ TriangleMesh icosphere(int subdivisions) {
     return ball;
 }
 
-TriangleMesh placed(TriangleMesh ball, const BallSweep& stamp) {
+geometry::TriangleMesh placed(geometry::TriangleMesh ball, const compute::BallSweep& stamp) {
     for (Vec3& p : ball.positions_m) p = stamp.start_object_m + p * stamp.radius_m;
     return ball;
 }
 
 Result<PeerRun> carve(const CarveScene& scene, int subdivisions) {
     PeerRun run;
-    const TriangleMesh unit_ball = icosphere(subdivisions);
+    const geometry::TriangleMesh unit_ball = icosphere(subdivisions);
     run.peer = "CGAL " CGAL_VERSION_STR;
     run.method = "corefinement, first " + std::to_string(scene.sweeps.size()) + " updates";
     run.detail = "ball of " + std::to_string(unit_ball.triangles.size());
     run.threads = 1;
     Mesh solid = unit_cube();
-    for (const BallSweep& stamp : scene.sweeps) {
+    for (const compute::BallSweep& stamp : scene.sweeps) {
         const double cpu_before_ms = process_cpu_ms();
         Stopwatch watch;
         Mesh ball = from_triangles(placed(unit_ball, stamp));
@@ -126,7 +127,7 @@ Result<PeerRun> run_cgal(const CarveScene& scene, int subdivisions) {
     }
 }
 
-Result<std::uint64_t> count_self_intersections_with_cgal(const TriangleMesh& mesh) {
+Result<std::uint64_t> count_self_intersections_with_cgal(const geometry::TriangleMesh& mesh) {
     try {
         const Mesh surface = from_triangles(mesh);
         if (surface.number_of_faces() != mesh.triangles.size()) {

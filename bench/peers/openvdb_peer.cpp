@@ -12,8 +12,8 @@
 #include <exception>
 #include <span>
 
+#include "bench/measure/timing.hpp"
 #include "bench/peers/peers.hpp"
-#include "bench/timing.hpp"
 
 namespace burin::bench {
 namespace {
@@ -31,7 +31,7 @@ struct VoxelBall {
     openvdb::Vec3d center;
     double radius = 0.0;
 
-    // The least and largest distance from the ball's surface to a leaf's voxels; below zero inside the ball.
+    // Return the smallest and largest distance from the ball's surface to a leaf's voxels; below zero inside the ball.
     [[nodiscard]] double least(const Coord& leaf_origin) const {
         double away2 = 0.0;
         for (int a = 0; a < 3; ++a) {
@@ -52,7 +52,7 @@ struct VoxelBall {
     }
 };
 
-// The origins of the leaves with a voxel nearer to the ball than `reach` voxels.
+// Returns the origins of the leaves with a voxel nearer to the ball than `reach` voxels.
 std::vector<Coord> leaves_near(const VoxelBall& ball, double reach) {
     std::array<int, 3> from{}, to{};
     for (int a = 0; a < 3; ++a) {
@@ -69,7 +69,7 @@ std::vector<Coord> leaves_near(const VoxelBall& ball, double reach) {
     return origins;
 }
 
-// VolumeToMesh's own steps (VolumeToMesh.h, operator(), without adaptivity, masks and reference grids), begun with some
+// Runs VolumeToMesh's own steps (VolumeToMesh.h, operator(), without adaptivity, masks and reference grids) on some
 // leaves instead of all. Returns the number of triangles.
 std::size_t mesh_leaves(const Grid& grid, std::span<const Leaf* const> leaves) {
     namespace vm = openvdb::tools::volume_to_mesh_internal;
@@ -117,14 +117,15 @@ std::size_t mesh_leaves(const Grid& grid, std::span<const Leaf* const> leaves) {
 
 class LevelSetCarving {
 public:
-    explicit LevelSetCarving(const Lattice& lattice) : origin_object_(lattice.origin_object), h_m_(lattice.spacing_m) {
+    explicit LevelSetCarving(const compute::Lattice& lattice)
+        : origin_object_(lattice.origin_object), h_m_(lattice.spacing_m) {
         transform_ = openvdb::math::Transform::createLinearTransform(h_m_);
         const openvdb::Vec3d lo(-origin_object_.x, -origin_object_.y, -origin_object_.z);
         const openvdb::BBoxd cube(lo, lo + openvdb::Vec3d(1.0));
         grid_ = openvdb::tools::createLevelSetBox<Grid>(cube, *transform_, kHalfWidth_voxels);
     }
 
-    void csg_difference(const BallSweep& stamp, PeerRun& run) {
+    void csg_difference(const compute::BallSweep& stamp, PeerRun& run) {
         Stopwatch watch;
         const Vec3 c = stamp.start_object_m - origin_object_;
         const Grid::Ptr ball = openvdb::tools::createLevelSetSphere<Grid>(static_cast<float>(stamp.radius_m),
@@ -136,7 +137,7 @@ public:
         run.boolean_ms.push_back(watch.lap_ms());
     }
 
-    void brush(const BallSweep& stamp, PeerRun& run) {
+    void brush(const compute::BallSweep& stamp, PeerRun& run) {
         Stopwatch watch;
         const VoxelBall ball = in_voxels(stamp);
         std::vector<Leaf*> touched;
@@ -162,7 +163,7 @@ public:
         run.boolean_ms.push_back(watch.lap_ms());
     }
 
-    void mesh_around(const BallSweep& stamp, PeerRun& run) const {
+    void mesh_around(const compute::BallSweep& stamp, PeerRun& run) const {
         Stopwatch watch;
         openvdb::tree::ValueAccessor<const Tree> accessor(grid_->tree());
         std::vector<const Leaf*> leaves;
@@ -174,12 +175,12 @@ public:
         run.mesh_ms.push_back(watch.lap_ms());
     }
 
-    [[nodiscard]] TriangleMesh mesh() const {
+    [[nodiscard]] geometry::TriangleMesh mesh() const {
         std::vector<openvdb::Vec3s> points;
         std::vector<openvdb::Vec3I> triangles;
         std::vector<openvdb::Vec4I> quads;
         openvdb::tools::volumeToMesh(*grid_, points, triangles, quads);
-        TriangleMesh mesh;
+        geometry::TriangleMesh mesh;
         for (const auto& p : points) {
             mesh.positions_m.push_back(origin_object_ + Vec3(static_cast<double>(p.x()), static_cast<double>(p.y()),
                                                              static_cast<double>(p.z())));
@@ -196,12 +197,12 @@ public:
     [[nodiscard]] std::size_t bytes() const { return grid_->memUsage(); }
 
 private:
-    [[nodiscard]] VoxelBall in_voxels(const BallSweep& stamp) const {
+    [[nodiscard]] VoxelBall in_voxels(const compute::BallSweep& stamp) const {
         const Vec3 c = (stamp.start_object_m - origin_object_) / h_m_;
         return {{c.x, c.y, c.z}, stamp.radius_m / h_m_};
     }
 
-    // Each voxel keeps the larger of its distance and the ball's, turned inside out.
+    // Sets each voxel to the larger of its distance and the negated distance of the ball.
     void brush_leaf(Leaf& leaf, const VoxelBall& ball, float outside) const {
         float* values = leaf.buffer().data();
         const auto h = static_cast<float>(h_m_), radius = static_cast<float>(ball.radius);
@@ -228,7 +229,7 @@ private:
     Grid::Ptr grid_;
 };
 
-PeerRun carve(const CarveScene& scene, const Lattice& lattice, unsigned threads, VdbMethod method) {
+PeerRun carve(const CarveScene& scene, const compute::Lattice& lattice, unsigned threads, VdbMethod method) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     openvdb::initialize();
     PeerRun run;
@@ -237,7 +238,7 @@ PeerRun carve(const CarveScene& scene, const Lattice& lattice, unsigned threads,
     run.detail = std::to_string(static_cast<int>(std::lround(1.0 / lattice.spacing_m)));
     run.threads = threads;
     LevelSetCarving carving(lattice);
-    for (const BallSweep& stamp : scene.sweeps) {
+    for (const compute::BallSweep& stamp : scene.sweeps) {
         const double cpu_before_ms = process_cpu_ms();
         if (method == VdbMethod::csg_difference) {
             carving.csg_difference(stamp, run);
@@ -259,7 +260,8 @@ PeerRun carve(const CarveScene& scene, const Lattice& lattice, unsigned threads,
 
 bool has_peers() { return true; }
 
-Result<PeerRun> run_openvdb(const CarveScene& scene, const Lattice& lattice, unsigned threads, VdbMethod method) {
+Result<PeerRun> run_openvdb(const CarveScene& scene, const compute::Lattice& lattice, unsigned threads,
+                            VdbMethod method) {
     if (!scene.only_stamps()) {
         return fail(scene.name, "has sweeps, and OpenVDB's tool is a ball at one place", "use the scene of stamps");
     }

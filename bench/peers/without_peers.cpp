@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stands in for the peers where they are not built.
+// Replaces the peers in a build without them.
 #include "bench/peers/peers.hpp"
 
 namespace burin::bench {
@@ -14,13 +14,15 @@ std::unexpected<Error> not_built(const char* library) {
 
 bool has_peers() { return false; }
 
-Result<PeerRun> run_openvdb(const CarveScene& /*scene*/, const Lattice& /*lattice*/, unsigned /*threads*/,
+Result<PeerRun> run_openvdb(const CarveScene& /*scene*/, const compute::Lattice& /*lattice*/, unsigned /*threads*/,
                             VdbMethod /*method*/) {
     return not_built("OpenVDB");
 }
 
 Result<PeerRun> run_cgal(const CarveScene& /*scene*/, int /*subdivisions*/) { return not_built("CGAL"); }
 
-Result<std::uint64_t> count_self_intersections_with_cgal(const TriangleMesh& /*mesh*/) { return not_built("CGAL"); }
+Result<std::uint64_t> count_self_intersections_with_cgal(const geometry::TriangleMesh& /*mesh*/) {
+    return not_built("CGAL");
+}
 
 }  // namespace burin::bench

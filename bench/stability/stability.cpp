@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/stability.hpp"
+#include "bench/stability/stability.hpp"
 
 #include <cmath>
 #include <iterator>
@@ -8,7 +8,7 @@
 namespace burin::bench {
 namespace {
 
-// A smallest and largest stiffness that bisection looks between, N/m. What is stable up to there counts as "any".
+// Range of the bisection, N/m. Stiffness that is stable up to kHighest counts as "any".
 constexpr double kLowest = 10.0, kHighest = 1e5;
 
 StabilityCase held_by(const NamedGrip& grip) {
@@ -25,11 +25,11 @@ const NamedGrip& grip_called(const std::string& name) {
     return grips().front();
 }
 
-const char* name_of(VelocityMethod method) {
+const char* name_of(haptics::VelocityMethod method) {
     switch (method) {
-        case VelocityMethod::adaptive_window: return "adaptive window";
-        case VelocityMethod::moving_average: return "moving average";
-        case VelocityMethod::difference: return "difference";
+        case haptics::VelocityMethod::adaptive_window: return "adaptive window";
+        case haptics::VelocityMethod::moving_average: return "moving average";
+        case haptics::VelocityMethod::difference: return "difference";
     }
     return "";
 }
@@ -51,7 +51,7 @@ Json conditions(const char* section, const char* grip, const StabilityCase& c) {
             {"controller", controller_of(c)}};
 }
 
-// `published` is the same from another simulation, 0: none.
+// `published` is the same figure from another simulation; 0: none.
 Json stiffest(const char* section, const NamedGrip& grip, const StabilityCase& c, double published = 0.0) {
     Json row = conditions(section, grip.name, c);
     const double found = largest_stable_stiffness(c, kLowest, kHighest);
@@ -61,8 +61,8 @@ Json stiffest(const char* section, const NamedGrip& grip, const StabilityCase& c
     return row;
 }
 
-// Without friction, steps of the encoder, limits or a hand a wall begins to shake at K = b / (T/2 + t_d): 2 b / T without
-// delay (Colgate and Schenkel). It applies where the device's own damping is slow against a period.
+// Without friction, encoder steps, limits or a hand, a wall becomes unstable at K = b / (T/2 + t_d): 2 b / T without
+// delay (Colgate and Schenkel). That holds where the device's own damping is slow compared with a period.
 constexpr double kApplies = 0.1;  // b T / m
 
 void add_theory(std::vector<Json>& rows, bool quick) {
@@ -90,7 +90,7 @@ void add_theory(std::vector<Json>& rows, bool quick) {
     }
 }
 
-// A published simulation of the same hand on the same device, which has a settling rule of its own.
+// A published simulation of the same hand on the same device, with a settling rule of its own.
 struct Published {
     double at, stiffness_N_per_m;
 };
@@ -99,7 +99,7 @@ constexpr Published kDelays_ms[] = {{0, 35321}, {1, 7853}, {2, 3834}, {5, 1371},
 constexpr Published kAlphas[] = {{0, 35321},  {0.3, 18008}, {0.5, 9287}, {0.7, 3992},
                                  {0.8, 2335}, {0.9, 1131},  {0.95, 728}};
 
-// Every other one in a quick run, the first included.
+// Calls `each` for every point, in a quick run for every other one, the first included.
 template <typename Each>
 void over(std::span<const Published> points, bool quick, Each&& each) {
     for (std::size_t i = 0; i < points.size(); i += quick ? 2 : 1) each(points[i]);
@@ -131,7 +131,7 @@ void add_delays(std::vector<Json>& rows, bool quick) {
     }
 }
 
-// Without delay, as published, and with the Omni's one millisecond.
+// Sweeps the filter without delay, as published, and with the Omni's one millisecond.
 void add_filters(std::vector<Json>& rows, bool quick) {
     for (const double delay_s : {0.0, 0.001}) {
         for (const NamedGrip& grip : grips()) {
@@ -150,8 +150,8 @@ void add_filters(std::vector<Json>& rows, bool quick) {
 
 void add_velocities(std::vector<Json>& rows, bool quick) {
     const NamedGrip& grip = grip_called("hand");
-    for (const auto method :
-         {VelocityMethod::adaptive_window, VelocityMethod::moving_average, VelocityMethod::difference}) {
+    for (const auto method : {haptics::VelocityMethod::adaptive_window, haptics::VelocityMethod::moving_average,
+                              haptics::VelocityMethod::difference}) {
         for (const double damping : {0.5, 2.0, 5.0}) {
             if (quick && damping != 2.0) continue;
             StabilityCase c = held_by(grip);
@@ -181,7 +181,7 @@ void add_controllers(std::vector<Json>& rows, bool quick) {
     }
 }
 
-// A tap, and drawn back out: what is felt, and what energy the wall has given out.
+// Measures a tap on the wall: what is felt, and the energy that the wall has given out.
 void add_contacts(std::vector<Json>& rows, bool quick) {
     for (const char* name : {"light", "hand", "firm", "rigid"}) {
         if (quick && std::string(name) != "hand") continue;

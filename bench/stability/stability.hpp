@@ -1,33 +1,34 @@
 // SPDX-License-Identifier: MIT
-// How stiff a wall may be before a simulated device in a simulated hand shakes: over rate, delay, force filter, velocity estimate
-// and controller; against theory where there is one; and what a contact feels like under each controller.
+// Measures how stiff a wall may be before a simulated device in a simulated hand
+// becomes unstable: over rate, delay, force filter, velocity estimate and controller;
+// against theory where there is one; and how a contact goes under each controller.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "base/json.hpp"
-#include "bench/stability_figure7.hpp"
-#include "bench/stability_sim.hpp"
+#include "bench/stability/stability_figure7.hpp"
+#include "bench/stability/stability_sim.hpp"
 
 namespace burin::bench {
 
 struct NamedGrip {
     const char* name;
     HandTask task;
-    HandGrip grip;
+    devices::HandGrip grip;
 };
-// no hand; light; hand (0.1 kg, 100 N/m, 3 Ns/m, that of the published comparison); firm; rigid.
+// Returns no hand; light; hand (0.1 kg, 100 N/m, 3 Ns/m, that of the published comparison); firm; rigid.
 [[nodiscard]] const std::vector<NamedGrip>& grips();
 
 // One row a figure. "section" is theory, rate, delay, filter, velocity, controller (each with
-// largest_stable_stiffness_N_per_m) or contact (with how one contact went).
+// largest_stable_stiffness_N_per_m) or contact (with the figures of one contact).
 struct Stability {
     std::vector<Json> rows;
     Figure7 figure7;
 };
 
-// quick: a few points of each section. The same result each time.
+// quick: a few points of each section. Deterministic.
 [[nodiscard]] Stability run_stability(bool quick);
 
 [[nodiscard]] std::string stability_table(const Stability& stability);

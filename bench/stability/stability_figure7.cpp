@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "bench/stability_figure7.hpp"
+#include "bench/stability/stability_figure7.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "bench/stability_sim.hpp"
-#include "devices/simulated_omni.hpp"
+#include "bench/stability/stability_sim.hpp"
+#include "devices/haptic/simulated_omni.hpp"
 #include "haptics/forces/touch_force.hpp"
 
 namespace burin::bench {
@@ -13,18 +13,18 @@ namespace {
 
 constexpr double kRadius_m = 0.05;
 const Vec3 kCentre(0.0, -0.05, 0.0);
-constexpr HandGrip kGrip{};  // the simulated hand that follows a path
+constexpr devices::HandGrip kGrip{};  // the simulated hand that follows a path
 
-// A point on the ball's shell `depth_m` below its surface, turned from the top by two angles.
+// Returns a point `depth_m` below the ball's surface, rotated from the top by two angles.
 Vec3 on_ball(double around_z, double around_x, double depth_m) {
     const Vec3 way(std::sin(around_z), std::cos(around_z) * std::cos(around_x),
                    std::cos(around_z) * std::sin(around_x));
     return kCentre + (kRadius_m - depth_m) * way;
 }
 
-// Down on the ball, over it and back, and off again, within four seconds.
-std::vector<HandPose> script() {
-    std::vector<HandPose> poses{{0.0, on_ball(-0.4, 0.0, -0.008)}, {0.3, on_ball(-0.4, 0.0, -0.008)}};
+// Moves down on the ball, over it and back, and off again, within four seconds.
+std::vector<devices::HandPose> script() {
+    std::vector<devices::HandPose> poses{{0.0, on_ball(-0.4, 0.0, -0.008)}, {0.3, on_ball(-0.4, 0.0, -0.008)}};
     for (int i = 0; i <= 60; ++i) {
         const double u = i / 60.0;
         const double around_z = -0.4 + 0.8 * std::sin(3.141592653589793 * u);
@@ -39,7 +39,7 @@ Vec3 force_at(const Vec3& position, const Vec3& velocity, const Figure7& figure)
     const Vec3 from_centre = position - kCentre;
     const double distance = std::sqrt(glm::dot(from_centre, from_centre));
     if (distance >= kRadius_m) return Vec3(0.0);
-    TouchInput touch;
+    haptics::TouchInput touch;
     touch.hip_object_m = position;
     touch.normal_object = from_centre / distance;
     touch.bearing_object_m = kCentre + kRadius_m * touch.normal_object;
@@ -51,7 +51,7 @@ Vec3 force_at(const Vec3& position, const Vec3& velocity, const Figure7& figure)
 
 double squared(const Vec3& v) { return glm::dot(v, v); }
 
-// Mean square difference between what was given and what the true motion asks for, that late.
+// Returns the mean square difference between the commanded force and that of the true motion `late` ticks before.
 double difference_at(const std::vector<Vec3>& given, const std::vector<Vec3>& truth, std::size_t late) {
     double sum = 0.0;
     for (std::size_t i = late; i < given.size(); ++i) sum += squared(given[i] - truth[i - late]);
@@ -65,7 +65,7 @@ void measure(Figure7Run& run, const std::vector<Vec3>& truth, double tick_s) {
         if (difference_at(run.forces_N, truth, late) < difference_at(run.forces_N, truth, best)) best = late;
     }
     double lag = static_cast<double>(best);
-    if (best > 0) {  // the lowest point of the parabola through three
+    if (best > 0) {  // vertex of the parabola through three points
         const double a = difference_at(run.forces_N, truth, best - 1), b = difference_at(run.forces_N, truth, best),
                      c = difference_at(run.forces_N, truth, best + 1);
         lag += 0.5 * (a - c) / (a - 2.0 * b + c);
@@ -86,18 +86,20 @@ void measure(Figure7Run& run, const std::vector<Vec3>& truth, double tick_s) {
 }
 
 void simulate(Figure7Run& run, const Figure7& figure) {
-    SimulatedOmni omni(*SimulatedHand::create(script(), HandPath::straight, kGrip));
+    devices::SimulatedOmni omni(*devices::SimulatedHand::create(script(), devices::HandPath::straight, kGrip));
     const double step_m = omni.description().resolution_m;
-    VelocityWindow window;
-    MovingAverage velocity, force;
+    haptics::VelocityWindow window;
+    haptics::MovingAverage velocity, force;
     std::vector<Vec3> truth;
     for (int tick = 0; tick < kTicks; ++tick) {
         omni.advance(nanoseconds(figure.tick_s));
         const Vec3 position = omni.read().position_device_m;
-        window = with_position(window, position);
-        const VelocityEstimate estimate = estimate_velocity(run.signals, window, velocity, step_m, figure.tick_s);
+        window = haptics::with_position(window, position);
+        const haptics::VelocityEstimate estimate =
+            haptics::estimate_velocity(run.signals, window, velocity, step_m, figure.tick_s);
         velocity = estimate.average;
-        force = with_input(force, force_at(position, estimate.velocity_m_per_s, figure), run.signals.force_alpha);
+        force =
+            haptics::with_input(force, force_at(position, estimate.velocity_m_per_s, figure), run.signals.force_alpha);
         omni.write({force.value, Vec3(0.0)});
         run.forces_N.push_back(force.value);
         truth.push_back(force_at(omni.true_position_device_m(), omni.true_velocity_device_m_per_s(), figure));
@@ -107,7 +109,7 @@ void simulate(Figure7Run& run, const Figure7& figure) {
 
 double stiffest(const Figure7Run& run, const Figure7& figure) {
     StabilityCase c;
-    c.device.delay_s = 0.001;  // as the simulated Omni
+    c.device.delay_s = 0.001;  // as the simulated Omni has
     c.grip = {0.1, 100.0, 3.0};
     c.signals = run.signals;
     c.wall_damping_Ns_per_m = figure.damping_Ns_per_m;
@@ -118,13 +120,13 @@ double stiffest(const Figure7Run& run, const Figure7& figure) {
 
 Figure7 run_figure7(bool quick) {
     Figure7 figure;
-    SignalSettings paper;
-    paper.velocity = VelocityMethod::difference;
-    SignalSettings filtered = paper;
+    haptics::SignalSettings paper;
+    paper.velocity = haptics::VelocityMethod::difference;
+    haptics::SignalSettings filtered = paper;
     filtered.force_alpha = 0.9;
     figure.runs = {{"(a) no filter", paper, {}},
                    {"(b) force filter, alpha = 0.9", filtered, {}},
-                   {"default: adaptive window", SignalSettings{}, {}}};
+                   {"default: adaptive window", haptics::SignalSettings{}, {}}};
     for (Figure7Run& run : figure.runs) {
         simulate(run, figure);
         if (!quick) run.largest_stable_stiffness_N_per_m = stiffest(run, figure);

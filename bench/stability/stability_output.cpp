@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The stability bench's rows as table, CSV, JSON and figure.
+// Writes the stability bench's rows as table, CSV, JSON and figure.
 #include <algorithm>
 #include <array>
 #include <cstdio>
 
-#include "bench/stability.hpp"
-#include "bench/svg_plot.hpp"
+#include "base/plot/figures.hpp"
+#include "bench/stability/stability.hpp"
 
 namespace burin::bench {
 namespace {
@@ -23,7 +23,10 @@ std::string text_of(const Json& row, const char* key, const char* absent) {
     return line_of("%.4g", row[key].get<double>());
 }
 
-bool is_of(const Json& row, const char* section) { return row["section"] == section; }
+bool is(const Json& row, const char* key, std::string_view text) {
+    return row[key].get_ref<const std::string&>() == text;
+}
+bool is_of(const Json& row, std::string_view section) { return is(row, "section", section); }
 
 std::string stiffness_cell(const Json& row) {
     if (row.value("any_stiffness", false)) return "any";
@@ -46,7 +49,7 @@ std::string theory_table(const std::vector<Json>& rows) {
     return text;
 }
 
-// What varies is `key`; one line a grip and delay, a column a value.
+// Returns a table over `key`: one line a grip and delay, one column a value.
 std::string sweep_table(const std::vector<Json>& rows, const char* section, const char* key, const char* title) {
     std::vector<std::string> values, lines;
     const auto line_name = [&](const Json& row) {
@@ -112,9 +115,9 @@ std::string contact_table(const std::vector<Json>& rows) {
     return text;
 }
 
-Plot plot_of(const std::vector<Json>& rows, const char* section, const char* key, const char* title,
-             const char* x_label) {
-    Plot plot{title, x_label, "largest stable stiffness, N/m", {}};
+plot::Plot plot_of(const std::vector<Json>& rows, const char* section, const char* key, const char* title,
+                   const char* x_label) {
+    plot::Plot plot{title, x_label, "largest stable stiffness, N/m", {}};
     for (const Json& row : rows) {
         if (!is_of(row, section)) continue;
         if (std::string(section) == "filter" && row["delay_ms"].get<double>() > 0.0) continue;
@@ -123,9 +126,9 @@ Plot plot_of(const std::vector<Json>& rows, const char* section, const char* key
         plot.series.back().points.push_back(
             {row[key].get<double>(), row["largest_stable_stiffness_N_per_m"].get<double>(), ""});
     }
-    PlotSeries published{"published, hand", {}};
+    plot::PlotSeries published{"published, hand", {}};
     for (const Json& row : rows) {
-        if (!is_of(row, section) || row["grip"] != "hand" || row["published_N_per_m"].is_null()) continue;
+        if (!is_of(row, section) || !is(row, "grip", "hand") || row["published_N_per_m"].is_null()) continue;
         published.points.push_back({row[key].get<double>(), row["published_N_per_m"].get<double>(), ""});
     }
     plot.series.push_back(published);
@@ -189,12 +192,14 @@ std::string stability_csv(const Stability& stability) {
 
 std::string stability_svg(const Stability& stability) {
     const std::vector<Json>& rows = stability.rows;
-    Plot filter = plot_of(rows, "filter", "force_alpha", "Force filter at 1 kHz, no delay", "alpha of the average");
+    plot::Plot filter =
+        plot_of(rows, "filter", "force_alpha", "Force filter at 1 kHz, no delay", "alpha of the average");
     filter.x_linear = true;
-    Plot delay = plot_of(rows, "delay", "delay_ms", "Delay at 1 kHz", "delay beside the hold, ms");
+    plot::Plot delay = plot_of(rows, "delay", "delay_ms", "Delay at 1 kHz", "delay beside the hold, ms");
     delay.x_linear = true;
-    return svg_figure("How stiff a wall an Omni bears before it shakes",
-                      {plot_of(rows, "rate", "rate_Hz", "Rate, no delay", "rate of the loop, Hz"), delay, filter});
+    return plot::svg_figure(
+        "How stiff a wall an Omni bears before it shakes",
+        {plot_of(rows, "rate", "rate_Hz", "Rate, no delay", "rate of the loop, Hz"), delay, filter});
 }
 
 Json stability_json(const Stability& stability) {
@@ -219,9 +224,9 @@ std::string figure7_table(const Figure7& figure) {
 }
 
 std::string figure7_svg(const Figure7& figure) {
-    std::vector<Plot> plots;
+    std::vector<plot::Plot> plots;
     for (const Figure7Run& run : figure.runs) {
-        Plot plot{run.name, "time, s", "force, N", {{"x", {}}, {"y", {}}, {"z", {}}}};
+        plot::Plot plot{run.name, "time, s", "force, N", {{"x", {}}, {"y", {}}, {"z", {}}}};
         plot.x_linear = plot.y_linear = true;
         plot.markers = false;
         for (const Figure7Run& any : figure.runs) {
@@ -238,7 +243,7 @@ std::string figure7_svg(const Figure7& figure) {
         }
         plots.push_back(plot);
     }
-    return svg_figure("Components of the force on a ball, without and with a filter", plots);
+    return plot::svg_figure("Components of the force on a ball, without and with a filter", plots);
 }
 
 Json figure7_json(const Figure7& figure) {

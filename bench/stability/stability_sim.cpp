@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "bench/stability_sim.hpp"
+#include "bench/stability/stability_sim.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "devices/simulated_omni.hpp"
+#include "devices/haptic/simulated_omni.hpp"
 #include "haptics/forces/touch_force.hpp"
 
 namespace burin::bench {
@@ -12,9 +12,9 @@ namespace {
 
 constexpr double kLongestStep_s = 50e-6;
 constexpr double kStart_m = 0.005;  // above the wall
-constexpr double kStill_N = 0.01;   // a tick; a hand feels more than that as buzzing
+constexpr double kStill_N = 0.01;   // a tick; a hand feels larger changes as buzzing
 
-// Mass, damping and dry friction under a force that stays the same: exact.
+// A mass with damping and dry friction under a constant force, solved exactly.
 class Body {
 public:
     Body(double mass_kg, double damping_Ns_per_m, double friction_N, double step_s)
@@ -24,7 +24,7 @@ public:
 
     void move(double force_N) {
         double left_s = step_s_;
-        // It stops at most once and starts again at most once; the third piece is for rounding.
+        // The body stops at most once and starts again at most once; the third piece is for rounding.
         for (int piece = 0; piece < 3 && left_s > 0.0; ++piece) {
             if (speed_m_per_s == 0.0 && std::abs(force_N) <= friction_) return;
             left_s -= slide(force_N, left_s);
@@ -32,7 +32,7 @@ public:
     }
 
 private:
-    // Until the time is over or the motion stops; how long that was.
+    // Moves until the time is over or the motion stops; returns how long that was.
     double slide(double force_N, double most_s) {
         const double way = speed_m_per_s != 0.0 ? speed_m_per_s : force_N;
         const double pull = force_N - std::copysign(friction_, way);
@@ -102,35 +102,36 @@ public:
 
 private:
     void render(double stiffness) {
-        wall_ = through(what_.coupling, {stiffness, what_.wall_damping_Ns_per_m});
+        wall_ = haptics::through(what_.coupling, {stiffness, what_.wall_damping_Ns_per_m});
         if (what_.limit) {
-            ContactDemand demand;
+            haptics::ContactDemand demand;
             demand.stiffness_N_per_m = wall_.stiffness_N_per_m;
             demand.damping_Ns_per_m = wall_.damping_Ns_per_m;
-            demand.filter_lag_s = mean_lag_s(what_.signals.force_alpha, period_s_);
+            demand.filter_lag_s = haptics::mean_lag_s(what_.signals.force_alpha, period_s_);
             demand.period_s = period_s_;
-            const StiffnessLimit limit = limited(demand, what_.device);
+            const haptics::StiffnessLimit limit = haptics::limited(demand, what_.device);
             wall_ = {limit.stiffness_N_per_m, limit.damping_Ns_per_m};
         }
         out_.rendered = wall_;
     }
 
-    // One tick: from what the encoder says to what the device is told.
+    // Computes one tick, from the encoder's position to the commanded force.
     double control() {
         const double D = what_.device.resolution_m;
         const double measured = D > 0.0 ? D * std::floor(body_.position_m / D + 0.5) : body_.position_m;
         const bool in_contact = !held_ || measured < 0.0;
         Vec3 velocity(0.0);
         if (wall_.damping_Ns_per_m > 0.0) {
-            window_ = with_position(window_, {0.0, measured, 0.0});
-            const VelocityEstimate estimate = estimate_velocity(what_.signals, window_, velocity_, D, period_s_);
+            window_ = haptics::with_position(window_, {0.0, measured, 0.0});
+            const haptics::VelocityEstimate estimate =
+                haptics::estimate_velocity(what_.signals, window_, velocity_, D, period_s_);
             velocity_ = estimate.average;
             velocity = estimate.velocity_m_per_s;
         }
         Vec3 force(0.0);
         if (in_contact) force = force_at({0.0, measured, 0.0}, velocity);
         if (what_.signals.force_alpha > 0.0) {
-            filtered_ = with_input(filtered_, force, what_.signals.force_alpha);
+            filtered_ = haptics::with_input(filtered_, force, what_.signals.force_alpha);
             force = filtered_.value;
         }
         const double spring_J = in_contact ? 0.5 * wall_.stiffness_N_per_m * measured * measured : 0.0;
@@ -138,14 +139,14 @@ private:
         out_.contact_ticks += in_contact ? 1 : 0;
         const double most = what_.device.max_force_N > 0.0 ? what_.device.max_force_N : HUGE_VAL;
         const double given = std::clamp(force.y, -most, most);
-        if (held_) passivity_ = told(passivity_, {0.0, given, 0.0});
+        if (held_) passivity_ = haptics::with_commanded_force(passivity_, {0.0, given, 0.0});
         return given;
     }
 
-    // A wall pushes to its side only; the one with two sides pulls too, as the textbook's spring does.
+    // A wall pushes to its side only; the wall with two sides pulls too, as the textbook's spring does.
     [[nodiscard]] Vec3 force_at(const Vec3& measured, const Vec3& velocity) const {
         if (!held_) return -wall_.stiffness_N_per_m * measured - wall_.damping_Ns_per_m * velocity;
-        TouchInput touch;
+        haptics::TouchInput touch;
         touch.hip_object_m = measured;
         touch.normal_object = {0.0, 1.0, 0.0};
         touch.velocity_device_m_per_s = velocity;
@@ -155,19 +156,20 @@ private:
     }
 
     Vec3 kept_passive(const Vec3& measured, const Vec3& force, double spring_J, bool in_contact) {
-        PassivityInput input;
+        haptics::PassivityInput input;
         input.position_device_m = measured;
         input.wanted_force_device_N = force;
         input.stored_J = spring_J;
         input.max_force_N = what_.device.max_force_N;
         input.in_contact = in_contact;
-        const PassivityStep kept = keep_passive(passivity_, input, settings_, what_.device, period_s_);
+        const haptics::PassivityStep kept =
+            haptics::keep_passive(passivity_, input, settings_, what_.device, period_s_);
         passivity_ = kept.next;
-        out_.acted_ticks += kept.damping_Ns_per_m > 0.0 ? 1 : 0;
+        out_.acted_ticks += kept.record.damping_Ns_per_m > 0.0 ? 1 : 0;
         return kept.force_device_N;
     }
 
-    // Where the hand wants to be, and how fast it moves there.
+    // The hand's goal and the velocity at which it moves.
     struct Target {
         double position_m = 0.0, speed_m_per_s = 0.0;
     };
@@ -192,8 +194,8 @@ private:
         account(before, speed, force_N);
     }
 
-    // Of one contact: what the wall's force did, less what the device's friction and damping took (at the mean speed, which is
-    // less than they took).
+    // Accounts for the energy of one contact: the work of the wall's force less what the device's friction and damping
+    // dissipated (at the mean speed, which underestimates it).
     void account(double before, double speed, double force_N) {
         const double moved = body_.position_m - before;
         if (held_ && before > 0.0 && body_.position_m > 0.0 && std::abs(force_N) < 1e-6) {
@@ -235,18 +237,18 @@ private:
     int delay_steps_, ticks_ = 0;
     bool held_;
     Body body_;
-    CoupledWall wall_;
-    PassivitySettings settings_;
-    VelocityWindow window_;
-    MovingAverage velocity_, filtered_;
-    PassivityState passivity_;
+    haptics::CoupledWall wall_;
+    haptics::PassivitySettings settings_;
+    haptics::VelocityWindow window_;
+    haptics::MovingAverage velocity_, filtered_;
+    haptics::PassivityState passivity_;
     std::vector<double> told_N_;
     double balance_J_ = 0.0, change_sum_N_ = 0.0, late_sum_N_ = 0.0, lowest_ = 0.0, highest_ = 0.0;
     int late_ticks_ = 0;
     StabilityRun out_;
 };
 
-// Long enough for a free device to show growth near the limit: many swings, not for ever.
+// Returns a duration in which a free device shows growth near the limit: many oscillations, within bounds.
 double free_duration_s(const StabilityCase& what, double stiffness) {
     const double swing_s = 6.3 * std::sqrt(what.device.apparent_mass_kg / stiffness);
     return std::clamp(80.0 * swing_s, 0.5, 8.0);
@@ -254,9 +256,9 @@ double free_duration_s(const StabilityCase& what, double stiffness) {
 
 }  // namespace
 
-DeviceDescription omni_without_delay() {
-    const OmniModel model;
-    DeviceDescription d;
+devices::DeviceDescription omni_without_delay() {
+    const devices::OmniModel model;
+    devices::DeviceDescription d;
     d.name = "PHANTOM Omni";
     d.resolution_m = model.resolution_m;
     d.max_force_N = model.max_force_N;

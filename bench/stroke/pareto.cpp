@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: MIT
-#include "bench/pareto.hpp"
+#include "bench/stroke/pareto.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "bench/machine.hpp"
+#include "bench/measure/machine.hpp"
+#include "bench/measure/surface_errors.hpp"
 #include "bench/peers/peers.hpp"
-#include "bench/stroke.hpp"
-#include "bench/stroke_report.hpp"
-#include "bench/surface_errors.hpp"
+#include "bench/stroke/stroke.hpp"
+#include "bench/stroke/stroke_report.hpp"
 #include "gpu/device.hpp"
 
 namespace burin::bench {
 namespace {
 
 constexpr int kReferenceRays = 2048;          // a side, for the volume of a part of the scene
-constexpr double kCellWithoutCells_m = 1e-2;  // how far measures look around for a mesh that has no cells
+constexpr double kCellWithoutCells_m = 1e-2;  // stands in for the cell in measures of a mesh that has no cells
 
 class Runs {
 public:
-    Runs(const ParetoOptions& options, const std::function<void(const std::string&)>& tell)
-        : options_(options), tell_(tell), scene_(stroke_1000_scene()) {
+    Runs(const ParetoOptions& options, const std::function<void(const std::string&)>& notify)
+        : options_(options), tell_(notify), scene_(stroke_1000_scene()) {
         if (options.updates < scene_.sweeps.size()) scene_ = beginning_of(scene_, options.updates, kReferenceRays);
     }
 
@@ -95,7 +95,7 @@ private:
     }
 
     void openvdb(int resolution, VdbMethod method) {
-        const Result<Lattice> lattice = lattice_around({Vec3(0.0), Vec3(1.0)}, resolution);
+        const Result<compute::Lattice> lattice = compute::lattice_around({Vec3(0.0), Vec3(1.0)}, resolution);
         if (!lattice) return;
         const unsigned threads = WorkerPool(options_.threads).threads();
         peer(scene_, run_openvdb(scene_, *lattice, threads, method), lattice->spacing_m);
@@ -126,8 +126,8 @@ private:
 
 }  // namespace
 
-Result<Pareto> run_pareto(const ParetoOptions& options, const std::function<void(const std::string&)>& tell) {
-    return Runs(options, tell).all();
+Result<Pareto> run_pareto(const ParetoOptions& options, const std::function<void(const std::string&)>& notify) {
+    return Runs(options, notify).all();
 }
 
 std::optional<double> time_at_error(const std::vector<TimeAndError>& points, double error) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The runs of a comparison as table, CSV and figure.
+// Writes the runs of a comparison as table, CSV and figure.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 
-#include "bench/pareto.hpp"
-#include "bench/svg_plot.hpp"
+#include "base/plot/figures.hpp"
+#include "bench/stroke/pareto.hpp"
 
 namespace burin::bench {
 namespace {
@@ -60,14 +60,14 @@ std::string text_of(const Json& row, const char* key, const char* absent) {
     return text.data();
 }
 
-// What a point of a series is labelled with: cells a side, or what stands for them.
+// Returns the label of a series' point: cells a side, or the peer's detail.
 std::string label_of(const Json& row) {
     if (row.contains("detail")) return row["detail"].get<std::string>();
     return row["resolution"].dump();
 }
 
-Plot plot_of(const Pareto& pareto, const char* title, const char* y_label, const char* key) {
-    Plot plot{title, "median time of an update, ms", y_label, {}};
+plot::Plot plot_of(const Pareto& pareto, const char* title, const char* y_label, const char* key) {
+    plot::Plot plot{title, "median time of an update, ms", y_label, {}};
     for (const Json& row : pareto.rows) {
         const std::string name = row["series"].get<std::string>();
         if (plot.series.empty() || plot.series.back().name != name) plot.series.push_back({name, {}});
@@ -114,7 +114,7 @@ std::string pareto_csv(const Pareto& pareto) {
 }
 
 std::string pareto_svg(const Pareto& pareto) {
-    return svg_figure(
+    return plot::svg_figure(
         "STROKE-1000: what an update costs, and how far the surface is from the exact one",
         {plot_of(pareto, "Error of the cut region", "rms distance from the exact surface, sides of the cube",
                  "cut_rms_m"),

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "bench/stroke_report.hpp"
+#include "bench/stroke/stroke_report.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <string_view>
+#include <utility>
 
-#include "bench/timing.hpp"
-#include "compute/self_intersections.hpp"
+#include "base/statistics.hpp"
+#include "compute/repair/self_intersections.hpp"
 
 namespace burin::bench {
 namespace {
@@ -17,7 +19,7 @@ constexpr std::size_t kMostTrianglesForCgal = 1'200'000;
 
 Json or_null(const std::optional<std::uint64_t>& count) { return count ? Json(*count) : Json(nullptr); }
 
-// cell_m: 0 where there are no cells.
+// cell_m is 0 for a method without cells.
 void add_errors(Json& report, const SurfaceErrors& e, double cell_m) {
     const auto add = [&](const std::string& name, const Spread& spread, bool measured) {
         const bool in_cells = measured && cell_m > 0.0;
@@ -25,14 +27,15 @@ void add_errors(Json& report, const SurfaceErrors& e, double cell_m) {
         report[name + "_rms_h"] = in_cells ? Json(spread.rms / cell_m) : Json(nullptr);
         report[name + "_max_h"] = in_cells ? Json(spread.max / cell_m) : Json(nullptr);
     };
+    const bool has_edges = cell_m > 0.0 && e.of_cube;
     report["triangles"] = e.triangles;
-    report["volume_error_over_removed"] = e.volume_over_removed;
+    report["volume_error_over_removed"] = e.of_cube ? Json(e.volume_over_removed) : Json(nullptr);
     add("surface", e.surface_m, true);
     add("cut", e.cut_m, true);
-    add("edge", e.edge_m, cell_m > 0.0);
-    add("corner", e.corner_m, cell_m > 0.0);
-    add("rim", e.rim_m, cell_m > 0.0);
-    add("crease", e.crease_m, cell_m > 0.0 && e.has_creases);
+    add("edge", e.edge_m, has_edges);
+    add("corner", e.corner_m, has_edges);
+    add("rim", e.rim_m, has_edges);
+    add("crease", e.crease_m, has_edges && e.has_creases);
     report["bad_edges"] = e.bad_edges;
 }
 
@@ -49,6 +52,24 @@ void add_update_times(Json& report, const std::vector<double>& update_ms, const 
     report["last_over_first"] = age.last_100_ms / age.first_100_ms;
 }
 
+// Adds the times of the same updates with undo or light.
+void add_times_with(Json& report, const std::string& what, const UpdateTimes& times) {
+    const auto or_null = [&](double value) { return times.update_ms.empty() ? Json(nullptr) : Json(value); };
+    const std::string prefix = "update_with_" + what;
+    report[prefix + "_ms_median"] = or_null(median(times.update_ms));
+    report[prefix + "_ms_p99"] = or_null(quantile(times.update_ms, 0.99));
+    report[prefix + "_cpu_ms_median"] = or_null(median(times.cpu_ms));
+}
+
+// Returns the number of faults in the carved solid and its mesh.
+double faults_of(const Json& report) {
+    double faults = 0.0;
+    for (const char* key : {"disagreeing_edges", "self_intersections", "lost_intervals", "extra_intervals"}) {
+        if (report[key].is_number()) faults += report[key].get<double>();
+    }
+    return faults;
+}
+
 std::string text_of(const Json& value) {
     if (value.is_null()) return "-";
     if (value.is_string()) return value.get<std::string>();
@@ -60,10 +81,10 @@ std::string text_of(const Json& value) {
 
 }  // namespace
 
-SelfIntersections count_self_intersections(const TriangleMesh& mesh, unsigned threads) {
+SelfIntersections count_self_intersections(const geometry::TriangleMesh& mesh, unsigned threads) {
     SelfIntersections crossings;
     WorkerPool pool(threads);
-    crossings.pairs = self_intersections(mesh, pool).size();
+    crossings.pairs = compute::self_intersections(mesh, pool).size();
     if (has_peers() && mesh.triangles.size() <= kMostTrianglesForCgal) {
         if (const auto counted = count_self_intersections_with_cgal(mesh)) crossings.pairs_by_cgal = *counted;
     }
@@ -82,12 +103,16 @@ Json describe(const CarveScene& scene, const StrokeRun& run, const SurfaceErrors
                    {"device", run.device},   {"software_device", run.software_device},
                    {"threads", run.threads}, {"resolution", run.resolution}};
     add_update_times(report, run.update_ms, run.cpu_ms);
-    report["carve_ms_median"] = median(run.carve_ms);
-    report["mesh_ms_median"] = median(run.mesh_ms);
-    report["publish_ms_median"] = median(run.publish_ms);
+    add_times_with(report, "undo", run.with_undo);
+    add_times_with(report, "light", run.with_light);
+    const bool has_parts = !run.carve_ms.empty();
+    report["carve_ms_median"] = has_parts ? Json(median(run.carve_ms)) : Json(nullptr);
+    report["mesh_ms_median"] = has_parts ? Json(median(run.mesh_ms)) : Json(nullptr);
+    report["publish_ms_median"] = has_parts ? Json(median(run.publish_ms)) : Json(nullptr);
     report["first_mesh_ms"] = run.first_mesh_ms;
     const double updates = static_cast<double>(std::max<std::size_t>(1, run.update_ms.size()));
-    report["boolean_rays_per_s"] = static_cast<double>(run.rays_touched) / (1e-3 * sum(run.carve_ms));
+    report["boolean_rays_per_s"] =
+        has_parts ? Json(static_cast<double>(run.rays_touched) / (1e-3 * sum(run.carve_ms))) : Json(nullptr);
     report["rays_touched"] = run.rays_touched;
     report["rays_changed"] = run.rays_changed;
     report["rays_held"] = run.rays_held;
@@ -127,7 +152,8 @@ Json describe(const CarveScene& scene, const PeerRun& run, const SurfaceErrors& 
 }
 
 void add_openvdb(Json& report, const Json& peer) {
-    const std::string prefix = peer["method"] == "csgDifference" ? "openvdb_" : "openvdb_brush_";
+    const std::string prefix =
+        peer["method"].get_ref<const std::string&>() == "csgDifference" ? "openvdb_" : "openvdb_brush_";
     const auto ratio = [&](const char* key) { return peer[key].get<double>() / report[key].get<double>(); };
     const double wall_ratio = ratio("update_ms_median"), cpu_ratio = ratio("update_cpu_ms_median");
     for (const auto& [key, value] : peer.items()) {
@@ -143,6 +169,42 @@ std::string table(const Json& report) {
     std::string text;
     for (const auto& [key, value] : report.items()) {
         text += "  " + key + std::string(width + 2 - key.size(), ' ') + text_of(value) + '\n';
+    }
+    return text;
+}
+
+void sort_worst_first(std::vector<Json>& reports) {
+    std::ranges::stable_sort(reports, [](const Json& a, const Json& b) {
+        const double faults_a = faults_of(a), faults_b = faults_of(b);
+        if (faults_a != faults_b) return faults_a > faults_b;
+        return a["cut_rms_h"].get<double>() > b["cut_rms_h"].get<double>();
+    });
+}
+
+std::string scene_table(const std::vector<Json>& reports) {
+    constexpr std::array kColumns{std::pair{"scene", "scene"},
+                                  std::pair{"updates", "updates"},
+                                  std::pair{"update_ms_median", "ms"},
+                                  std::pair{"update_ms_p99", "p99 ms"},
+                                  std::pair{"update_with_undo_ms_median", "with undo"},
+                                  std::pair{"update_with_light_ms_median", "with light"},
+                                  std::pair{"disagreeing_edges", "disagreeing"},
+                                  std::pair{"self_intersections", "crossing"},
+                                  std::pair{"lost_intervals", "lost"},
+                                  std::pair{"extra_intervals", "extra"},
+                                  std::pair{"cut_rms_h", "cut rms h"},
+                                  std::pair{"cut_max_h", "cut max h"},
+                                  std::pair{"edge_rms_h", "edge rms h"},
+                                  std::pair{"rim_rms_h", "rim rms h"},
+                                  std::pair{"crease_rms_h", "crease rms h"}};
+    std::string text;
+    for (std::size_t row = 0; row <= reports.size(); ++row) {
+        for (const auto& [key, title] : kColumns) {
+            const std::string cell = row == 0 ? title : text_of(reports[row - 1][key]);
+            const std::size_t width = std::string_view(key) == "scene" ? 28 : 12;
+            text += std::string(width > cell.size() ? width - cell.size() : 1, ' ') + cell;
+        }
+        text += '\n';
     }
     return text;
 }

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "bench/workspace.hpp"
+#include "bench/workspace/workspace.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "devices/simulated_omni.hpp"
-#include "haptics/signals/velocity.hpp"
+#include "devices/haptic/simulated_omni.hpp"
+#include "haptics/signals/filters.hpp"
 
 namespace burin::bench {
 namespace {
 
 constexpr double kTick_s = 1e-3;
-constexpr std::size_t kPathTicks = 20;  // paths by their places every 20 ms: encoder steps and tremor add no length
+constexpr std::size_t kPathTicks = 20;  // paths are sampled every 20 ms, so that encoder steps and tremor add no length
 constexpr double kEdge_m = 0.1;         // no target is nearer to the wall's sides
 constexpr double kPoll_s = 0.02;
 
@@ -29,11 +29,11 @@ std::vector<Vec3> targets_on(const WorkspaceTask& task) {
 
 Vec3 in_steps(const Vec3& p, double step_m) { return glm::floor(p / step_m + 0.5) * step_m; }
 
-// What is seen now is what was a while ago.
+// Delays a position by the time of vision: what is seen now is what was a while ago.
 class Delay {
 public:
     explicit Delay(double delay_s) : places_(static_cast<std::size_t>(delay_s / kTick_s) + 1) {}
-    // Takes the newest, gives the oldest.
+    // Stores the newest position and returns the oldest.
     Vec3 pass(const Vec3& newest) {
         if (!filled_) std::ranges::fill(places_, newest);
         filled_ = true;
@@ -48,7 +48,7 @@ private:
     bool filled_ = false;
 };
 
-// The hand at the device, the technique, and the scene's tool; lives from target to target.
+// The hand at the device, the technique, and the scene's tool; persists from target to target.
 class Session {
 public:
     Session(const Approach& approach, const WorkspaceTask& task)
@@ -72,22 +72,22 @@ private:
     [[nodiscard]] double hold_m(const Vec3& target_object);
 
     WorkspaceTask task_;
-    OmniModel omni_;
-    WorkspaceSettings settings_;
+    devices::OmniModel omni_;
+    haptics::WorkspaceSettings settings_;
     Strategist strategist_;
     ReachingHand hand_;
     Delay seen_, seen_before_, felt_;
-    WorkspaceState state_;
-    VelocityWindow window_;
+    haptics::WorkspaceState state_;
+    haptics::VelocityWindow window_;
     Vec3 force_device_N_{0.0}, tool_object_{0.0};
     View view_;
     bool paused_ = false;
-    std::optional<bool> finger_;  // on its way
+    std::optional<bool> finger_;  // its state after the press or release under way
     double time_s_ = 0.0, finger_at_s_ = 0.0, ready_s_ = 0.0;
     bool waits_for_hand_ = false;
     double rest_s_ = 0.0;
     std::size_t ticks_ = 0;
-    Vec3 path_hand_{0.0}, path_tool_{0.0};  // the last places that the paths went through
+    Vec3 path_hand_{0.0}, path_tool_{0.0};  // the last samples of the paths
 };
 
 void Session::tick() {
@@ -97,13 +97,13 @@ void Session::tick() {
         view_.button = *finger_;
         finger_.reset();
     }
-    WorkspaceInput input;
+    haptics::WorkspaceInput input;
     input.position_device_m = in_steps(hand_.step(force_device_N_, kTick_s), omni_.resolution_m);
-    window_ = with_position(window_, input.position_device_m);
+    window_ = haptics::with_position(window_, input.position_device_m);
     input.velocity_device_m_per_s = velocity_m_per_s(window_, omni_.resolution_m, kTick_s);
     input.buttons = view_.button ? settings_.button_mask : 0;
     input.dt_s = kTick_s;
-    const WorkspaceStep step = step_workspace(state_, settings_, input);
+    const haptics::WorkspaceStep step = haptics::step_workspace(state_, settings_, input);
     state_ = step.next;
     paused_ = step.paused;
     const double wanted_N = glm::length(step.force_device_N);
@@ -116,7 +116,7 @@ void Session::tick() {
     view_.goal_device_m = hand_.goal_device_m();
 }
 
-// Once what it has decided is done, and its result has been seen.
+// Decides once the last decision has been carried out and its result has been seen.
 void Session::decide(const Vec3& target_object) {
     if (waits_for_hand_) {
         if (hand_.moving()) return;
@@ -165,11 +165,11 @@ Reach Session::reach(const Vec3& target_object) {
     const Vec3 way = reach.distance_m > 0.0 ? (target_object - start) / reach.distance_m : Vec3(0.0);
     path_hand_ = view_.hand_device_m;
     path_tool_ = tool_object_;
-    ready_s_ = time_s_ + task_.vision_s + 0.1;  // to see it, and to begin
+    ready_s_ = time_s_ + task_.vision_s + 0.1;  // time to see the target and to begin
     const double began_s = time_s_;
     double arrived_s = time_s_;
-    // What the fixed workspace does not hold now it never will.
-    const bool fixed = settings_.technique == WorkspaceTechnique::fixed;
+    // A fixed workspace that does not contain the target never will.
+    const bool fixed = settings_.technique == haptics::WorkspaceTechnique::fixed;
     const double give_up_s = fixed ? std::min(task_.give_up_s, 5.0) : task_.give_up_s;
     while (time_s_ - began_s < give_up_s && time_s_ - arrived_s < task_.dwell_s) {
         tick();
@@ -187,13 +187,13 @@ Reach Session::reach(const Vec3& target_object) {
 
 }  // namespace
 
-WorkspaceSettings settings_of(const Approach& approach, const WorkspaceTask& task) {
-    WorkspaceSettings settings;
+haptics::WorkspaceSettings settings_of(const Approach& approach, const WorkspaceTask& task) {
+    haptics::WorkspaceSettings settings;
     settings.technique = approach.technique;
-    settings.workspace_device_m = OmniModel{}.workspace_m;
+    settings.workspace_device_m = devices::OmniModel{}.workspace_m;
     const Vec3& w = settings.workspace_device_m;
     settings.scaling_gain = std::max(task.wall_m.x / w.x, task.wall_m.y / w.y);
-    // Room for the boxes of those who come to the wall's edge and to the ends of its depth.
+    // Leaves room for the boxes at the wall's edge and at the ends of its depth.
     const Vec3 half = 0.5 * task.wall_m + Vec3(0.0, 0.0, w.z);
     settings.reach_object = {-half, half};
     return settings;

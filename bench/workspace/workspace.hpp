@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Reaching across a wall of metres with a device of centimetres, by each workspace technique: what the PowerWall paper
-// describes in words, in numbers. A simulated hand (bench/workspace_hand.hpp) that uses each technique as its strategy says
-// (bench/workspace_strategy.hpp) takes the tool from target to target; every millisecond goes through step_workspace
-// itself, with positions in the encoder's steps and the velocity as the tick estimates it.
+// Measures reaching across a wall of metres with a device of centimetres, by each workspace technique: what the
+// PowerWall paper describes in words, in numbers. A simulated hand (bench/workspace/workspace_hand.hpp) that uses each
+// technique by its strategy (bench/workspace/workspace_strategy.hpp) takes the tool from target to target; every
+// millisecond goes through step_workspace itself, with positions in the encoder's steps and the velocity as the tick
+// estimates it.
 //
-// The task: targets lie anywhere on the wall, up to 50 mm before or behind its plane. One is reached when the tool has been within 10 mm
-// of it for 0.3 s while it can work (not paused); the time is up to the beginning of that. Then the hand holds the tool as near to its middle as it can for a second; the last
-// half of that gives the precision. What takes longer than 180 s (fixed: 5 s) is a failure, and the hand goes on to the next target.
+// The task: targets lie anywhere on the wall, up to 50 mm before or behind its plane. A target is reached when the tool
+// has been within 10 mm of it for 0.3 s while it can work (not paused); the time counts up to the beginning of that.
+// Then the hand holds the tool as near to the target's middle as it can for a second; the last half of that gives the
+// precision. A target that takes longer than 180 s (fixed: 5 s) is a failure, and the hand goes on to the next.
 //
-// What is assumed, and what that means for the figures: see assumptions(). They compare techniques for one simulated hand;
-// they are no measurement of people. The same seed gives the same figures.
+// For the assumptions and what they mean for the figures see assumptions(). The figures compare techniques for one
+// simulated hand; they are no measurement of people. The same seed gives the same figures.
 #pragma once
 
 #include <cstdint>
@@ -17,26 +19,26 @@
 #include <vector>
 
 #include "base/json.hpp"
-#include "bench/workspace_hand.hpp"
-#include "bench/workspace_strategy.hpp"
+#include "bench/workspace/workspace_hand.hpp"
+#include "bench/workspace/workspace_strategy.hpp"
 
 namespace burin::bench {
 
 struct WorkspaceTask {
     int targets = 100;
     std::uint64_t seed = 1;
-    Vec3 wall_m{3.048, 2.286, 0.1};  // where targets lie: 0.1 m from its sides, and anywhere in its depth
+    Vec3 wall_m{3.048, 2.286, 0.1};  // extent of the targets: 0.1 m from the wall's sides, and anywhere in its depth
     double target_radius_m = 0.010;
     double dwell_s = 0.3, hold_s = 1.0, give_up_s = 180.0;
-    double vision_s = 0.12;  // from the scene to the hand (100 to 150 ms)
-    double finger_s = 0.1;   // down or up: a press takes 0.2 s
+    double vision_s = 0.12;  // delay from the scene to the hand (100 to 150 ms)
+    double finger_s = 0.1;   // to press or to release; a press takes 0.2 s
     HandModel hand;
 };
 
-// One target; without time and precision where it was not reached.
+// One target; time and precision are absent where it was not reached.
 struct Reach {
     bool reached = false;
-    double time_s = 0.0, distance_m = 0.0;  // from the tool to the target when it appeared
+    double time_s = 0.0, distance_m = 0.0;  // of the tool from the target when it appeared
     double hand_path_m = 0.0, tool_path_m = 0.0;
     int presses = 0;
     double overshoot_m = 0.0;  // how far beyond the target on the straight line from the start, 0 if never
@@ -48,11 +50,11 @@ struct WorkspaceFigures {
     std::vector<Reach> reaches;
 };
 
-// The settings that an approach is measured with: 1:1, or for scaling the gain that covers the wall.
-[[nodiscard]] WorkspaceSettings settings_of(const Approach& approach, const WorkspaceTask& task);
+// Returns the settings that an approach is measured with: 1:1, or for scaling the gain that covers the wall.
+[[nodiscard]] haptics::WorkspaceSettings settings_of(const Approach& approach, const WorkspaceTask& task);
 
 [[nodiscard]] WorkspaceFigures reach_targets(const Approach& approach, const WorkspaceTask& task);
-// The same for targets of the caller's choice, in the object frame: the wall's middle is its origin.
+// Measures targets of the caller's choice, in the object frame, whose origin is the wall's middle.
 [[nodiscard]] WorkspaceFigures reach_targets(const Approach& approach, const WorkspaceTask& task,
                                              const std::vector<Vec3>& targets_object);
 

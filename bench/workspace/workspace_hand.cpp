@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/workspace_hand.hpp"
+#include "bench/workspace/workspace_hand.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ constexpr std::array kTremor_Hz{8.3, 9.7, 11.4};
 
 double Chance::uniform(double lo, double hi) { return lo + (hi - lo) * static_cast<double>(bits_() >> 11) * 0x1p-53; }
 
-// Box and Muller.
+// Box-Muller transform.
 double Chance::normal() {
     const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform(0.0, 1.0)));
     return radius * std::cos(kTurn * uniform(0.0, 1.0));
@@ -34,7 +34,7 @@ Vec3 ReachingHand::missed(const Vec3& goal_device_m, double duration_s) {
     Vec3 miss(0.0);
     for (int axis = 0; axis < 3; ++axis) miss[axis] = 0.5 * spread * chance_.normal();
     return goal_device_m + miss +
-           ahead * (std::sqrt(0.75) * spread * chance_.normal());  // 1/4 + 3/4: along the way all
+           ahead * (std::sqrt(0.75) * spread * chance_.normal());  // variances 1/4 + 3/4: the full spread ahead
 }
 
 void ReachingHand::aim(const Vec3& goal_device_m) {
@@ -44,7 +44,8 @@ void ReachingHand::aim(const Vec3& goal_device_m) {
     goal_m_ = goal;
     in_move_s_ = 0.0;
     const Vec3 end = within(missed(goal, move_s_));
-    // x(u) = sum c_i u^i, u = t / T: position, velocity and acceleration are given at u = 0, and are the end, 0 and 0 at 1.
+    // x(u) = sum c_i u^i, u = t / T: position, velocity and acceleration
+    // are given at u = 0; at u = 1 they are the end, 0 and 0.
     const Vec3 p = planned_m_, v = velocity_m_per_s_ * move_s_, a = acceleration_m_per_s2_ * (move_s_ * move_s_);
     const Vec3 d = end - p;
     path_ = {p, v, 0.5 * a, 10.0 * d - 6.0 * v - 1.5 * a, -15.0 * d + 8.0 * v + 1.5 * a, 6.0 * d - 3.0 * v - 0.5 * a};

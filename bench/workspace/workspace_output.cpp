@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-// The comparison of workspace techniques as table, CSV, JSON and figure.
+// Writes the comparison of workspace techniques as table, CSV, JSON and figure.
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
 #include <limits>
 
-#include "bench/dot_chart.hpp"
-#include "bench/svg_text.hpp"
-#include "bench/timing.hpp"
-#include "bench/workspace.hpp"
+#include "base/plot/figures.hpp"
+#include "base/statistics.hpp"
+#include "base/text.hpp"
+#include "bench/workspace/workspace.hpp"
 
 namespace burin::bench {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// Of the targets that were reached; NaN where none was.
+// Statistics of the targets that were reached; NaN where none was.
 struct Summary {
     std::string name;
     std::size_t reached = 0, failures = 0;
@@ -74,23 +74,25 @@ constexpr std::array<Column, 9> kColumns{{{"time_median_s", &Summary::time_s_med
                                           {"overshoot_p90_mm", &Summary::overshoot_mm_p90, 1},
                                           {"precision_rms_mm", &Summary::precision_mm_rms, 2}}};
 
-// JSON has no NaN: null.
+// Returns null for NaN, which JSON does not have.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-std::string cell(double value, int digits) { return std::isfinite(value) ? text_of("%.*f", digits, value) : ""; }
+std::string cell(double value, int digits) { return std::isfinite(value) ? formatted("%.*f", digits, value) : ""; }
 
 std::vector<std::string> assumption_lines(const WorkspaceTask& t) {
     return {
         "A simulated hand, not people: it knows each technique, never tires and never learns.",
-        text_of(
+        formatted(
             "Targets of %.0f mm radius on a wall of %.2f x %.2f m, within %.0f mm of its plane; to be kept for %.1f s.",
             1e3 * t.target_radius_m, t.wall_m.x, t.wall_m.y, 500.0 * t.wall_m.z, t.dwell_s),
-        text_of("Minimum-jerk submovements of %.2f s + %.2f s log2(1 + D / 2 mm), off at their ends by %.0f ms x mean "
-                "speed and at least %.1f mm (assumed).",
-                t.hand.shortest_s, t.hand.per_bit_s, 1e3 * t.hand.spread_s, 1e3 * t.hand.least_spread_m),
-        text_of("It sees %.0f ms late, a press takes %.1f s, tremor is %.2f mm rms an axis, the grip yields %.0f mm a "
-                "newton.",
-                1e3 * t.vision_s, 2.0 * t.finger_s, 1e3 * t.hand.tremor_m, 1e3 / t.hand.grip_N_per_m),
+        formatted(
+            "Minimum-jerk submovements of %.2f s + %.2f s log2(1 + D / 2 mm), off at their ends by %.0f ms x mean "
+            "speed and at least %.1f mm (assumed).",
+            t.hand.shortest_s, t.hand.per_bit_s, 1e3 * t.hand.spread_s, 1e3 * t.hand.least_spread_m),
+        formatted(
+            "It sees %.0f ms late, a press takes %.1f s, tremor is %.2f mm rms an axis, the grip yields %.0f mm a "
+            "newton.",
+            1e3 * t.vision_s, 2.0 * t.finger_s, 1e3 * t.hand.tremor_m, 1e3 / t.hand.grip_N_per_m),
         "The device is a simulated Omni: 162.6 x 121.9 x 71.1 mm, encoder steps of 0.055 mm, 3.3 N."};
 }
 
@@ -110,9 +112,9 @@ std::string workspace_table(const std::vector<WorkspaceFigures>& figures) {
         const Summary s = summary_of(f);
         const auto wide = [](double value, int digits, int width) {
             const std::string number = cell(value, digits);
-            return text_of("%*s", width, number.empty() ? "-" : number.c_str());
+            return formatted("%*s", width, number.empty() ? "-" : number.c_str());
         };
-        text += text_of("%-14s %4zu/%-4zu", s.name.c_str(), s.reached, f.reaches.size());
+        text += formatted("%-14s %4zu/%-4zu", s.name.c_str(), s.reached, f.reaches.size());
         text += wide(s.time_s_median, 2, 7) + wide(s.time_s_p90, 2, 7) + wide(s.hand_path_m_median, 2, 7) +
                 wide(s.tool_path_m_median, 2, 8) + wide(s.presses_median, 0, 8) + wide(s.presses_p90, 0, 5) +
                 wide(s.overshoot_mm_median, 1, 8) + wide(s.overshoot_mm_p90, 1, 7) + wide(s.precision_mm_rms, 2, 12) +
@@ -127,7 +129,7 @@ std::string workspace_csv(const std::vector<WorkspaceFigures>& figures) {
     text += "\n";
     for (const WorkspaceFigures& f : figures) {
         const Summary s = summary_of(f);
-        text += "\"" + s.name + "\"" + text_of(",%zu,%zu,%zu", f.reaches.size(), s.reached, s.failures);
+        text += "\"" + s.name + "\"" + formatted(",%zu,%zu,%zu", f.reaches.size(), s.reached, s.failures);
         for (const Column& column : kColumns) text += "," + cell(s.*column.value, column.digits + 2);
         text += "\n";
     }
@@ -172,14 +174,14 @@ Json workspace_json(const std::vector<WorkspaceFigures>& figures, const Workspac
 }
 
 std::string workspace_svg(const std::vector<WorkspaceFigures>& figures, const WorkspaceTask& task) {
-    std::vector<DotPanel> panels{
+    std::vector<plot::DotPanel> panels{
         {"time to the target, s", true, 1, {}}, {"path of the hand, m", true, 2, {}},
         {"path of the tool, m", false, 2, {}},  {"presses", false, 0, {}},
         {"overshoot, mm", false, 1, {}},        {"precision of the hold, mm rms", false, 2, {}}};
     std::vector<std::string> names;
     for (const WorkspaceFigures& f : figures) {
         const Summary s = summary_of(f);
-        names.push_back(s.name + text_of(" %zu/%zu", s.reached, f.reaches.size()));
+        names.push_back(s.name + formatted(" %zu/%zu", s.reached, f.reaches.size()));
         panels[0].values.push_back({s.time_s_median, s.time_s_p90});
         panels[1].values.push_back({s.hand_path_m_median, 0.0});
         panels[2].values.push_back({s.tool_path_m_median, 0.0});
@@ -190,7 +192,7 @@ std::string workspace_svg(const std::vector<WorkspaceFigures>& figures, const Wo
     std::vector<std::string> notes{
         "Medians of the targets that were reached (how many stands beside the name); thin lines to the 90 % quantile."};
     for (const std::string& line : assumption_lines(task)) notes.push_back(line);
-    return dot_chart("Reaching across the wall with a small device", names, panels, notes);
+    return plot::dot_chart("Reaching across the wall with a small device", names, panels, notes);
 }
 
 }  // namespace burin::bench

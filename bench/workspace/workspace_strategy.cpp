@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/workspace_strategy.hpp"
+#include "bench/workspace/workspace_strategy.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,29 +7,29 @@
 namespace burin::bench {
 namespace {
 
-constexpr double kUsed = 0.95;          // of the workspace's half extents: the hand keeps off the hard stops
-constexpr double kNear_m = 0.012;       // at the border: as near as a swift movement gets
-constexpr double kSeen_m = 0.0015;      // a smaller error is not seen from 2 m away (2.6 minutes of arc)
-constexpr double kThere_m = 0.010;      // so near it moves the tool, and the workspace no more
-constexpr double kBetweenTaps_s = 0.1;  // 0.3 s a tap with the finger's way down and up: a slow double click
-constexpr double kSteer_s = 0.1;        // how often a rate is corrected
-constexpr double kArrive_s = 0.5;       // a rate is chosen to need about so long for what remains
+constexpr double kUsed = 0.95;      // share of the workspace's half extents: the hand stays off the hard stops
+constexpr double kNear_m = 0.012;   // a border counts as reached: the precision of a swift movement
+constexpr double kSeen_m = 0.0015;  // a smaller error is not seen from 2 m away (2.6 minutes of arc)
+constexpr double kThere_m = 0.010;  // within this distance the hand moves the tool itself, and the workspace no more
+constexpr double kBetweenTaps_s = 0.1;  // 0.3 s a tap including press and release: a slow double click
+constexpr double kSteer_s = 0.1;        // interval between corrections of a rate
+constexpr double kArrive_s = 0.5;       // time that a chosen rate should take for the remaining distance
 constexpr double kCreep_m = 0.003;      // beyond the bubble: 2.7 mm/s
-constexpr double kStir_m = 0.025;       // half the way to and fro
+constexpr double kStir_m = 0.025;       // half of the stroke to and fro
 
 }  // namespace
 
 std::vector<Approach> all_approaches() {
-    using enum WorkspaceTechnique;
+    using enum haptics::WorkspaceTechnique;
     return {{"fixed", fixed},         {"scaling", scaling},           {"clutching", clutching},
             {"moving, taps", moving}, {"moving, drag", moving, true}, {"bubble", bubble},
             {"drift", drift}};
 }
 
-Strategist::Strategist(const Approach& approach, const WorkspaceSettings& settings)
+Strategist::Strategist(const Approach& approach, const haptics::WorkspaceSettings& settings)
     : approach_(approach), settings_(settings), half_m_(0.5 * settings.workspace_device_m) {
     Similarity map = settings.object_from_device;
-    if (approach.technique == WorkspaceTechnique::scaling) map.scale *= settings.scaling_gain;
+    if (approach.technique == haptics::WorkspaceTechnique::scaling) map.scale *= settings.scaling_gain;
     device_from_object_ = inverse(map);
 }
 
@@ -41,7 +41,7 @@ bool Strategist::within_box(const Vec3& p, double share) const {
     return glm::all(glm::lessThanEqual(glm::abs(p), share * half_m_));
 }
 
-// Where the way from the middle to p leaves the part of the box that is used.
+// Returns where the line from the middle to p leaves the used part of the box.
 Vec3 Strategist::border_towards(const Vec3& p) const {
     const Vec3 share = glm::abs(p) / half_m_;
     const double most = std::max({share.x, share.y, share.z});
@@ -49,19 +49,19 @@ Vec3 Strategist::border_towards(const Vec3& p) const {
 }
 
 Decision Strategist::decide(const View& view) {
-    // Where the hand would have to be for the tool to be on the target.
+    // The hand's position at which the tool would be on the target.
     const Vec3 needed = view.hand_device_m + in_device(view.target_object - view.tool_object);
     const bool in_reach = within_box(needed, kUsed) || glm::length(view.target_object - view.tool_object) < kThere_m;
     switch (approach_.technique) {
-        case WorkspaceTechnique::bubble: return glide(view);
-        case WorkspaceTechnique::clutching:
+        case haptics::WorkspaceTechnique::bubble: return glide(view);
+        case haptics::WorkspaceTechnique::clutching:
             if (view.button || !in_reach) return clutch(view);
             break;
-        case WorkspaceTechnique::moving:
+        case haptics::WorkspaceTechnique::moving:
             if (view.button && approach_.drags) return drag(view);
             if (view.button || taps_ > 0 || !in_reach) return tap(view);
             break;
-        case WorkspaceTechnique::drift:
+        case haptics::WorkspaceTechnique::drift:
             if (!in_reach) return stir(view);
             break;
         default: break;
@@ -91,7 +91,7 @@ Decision Strategist::tap(const View& view) {
         const Vec3 needed = view.hand_device_m + in_device(view.target_object - view.tool_object);
         const Vec3 border = border_towards(needed);
         if (glm::length(border - view.hand_device_m) > kNear_m) {
-            decision.goal_device_m = border;  // felt, not seen: the box is at hand
+            decision.goal_device_m = border;  // without rest: the border is felt, not seen
             return decision;
         }
         const Vec3 share = glm::abs(needed) / half_m_;
@@ -108,7 +108,7 @@ Decision Strategist::drag(const View& view) {
     decision.keeps_moving = true;
     const Vec3 speed_object = (view.tool_object - view.tool_before_object) / 0.05;
     const Vec3 then = view.tool_object + speed_object * (view.vision_s + view.finger_s);
-    const Vec3 ahead = in_device(view.target_object - then);  // of the box's middle
+    const Vec3 ahead = in_device(view.target_object - then);  // relative to the box's middle
     if (within_box(ahead, 0.7)) {
         decision.button = false;
         decision.rest_s = view.vision_s;
@@ -133,7 +133,7 @@ Decision Strategist::clutch(const View& view) {
         decision.goal_device_m = border_towards(-way * 1e3);
         return decision;
     }
-    double most = 1.0;  // of the way, until the box ends
+    double most = 1.0;  // share of the way until the box ends
     for (int axis = 0; axis < 3; ++axis) {
         const double room = kUsed * half_m_[axis] - (way[axis] > 0.0 ? 1.0 : -1.0) * view.hand_device_m[axis];
         if (std::abs(way[axis]) > 0.0) most = std::min(most, std::max(room, 0.0) / std::abs(way[axis]));
@@ -148,15 +148,15 @@ Decision Strategist::clutch(const View& view) {
     return decision;
 }
 
-// The middle has to come near enough for the target to lie in the inner half of the ball; the last part is by position.
+// Controls the rate until the target lies in the inner half of the ball; the last part is by position.
 Decision Strategist::glide(const View& view) const {
-    const WorkspaceSettings& s = settings_;
+    const haptics::WorkspaceSettings& s = settings_;
     const double beyond = std::max(0.0, glm::length(view.felt_device_m) - s.bubble_radius_m);
     const double rate = std::min(s.max_speed_m_per_s, s.bubble_rate_per_m2s * beyond * beyond * beyond);
     const Vec3 gliding = beyond > 0.0 ? glm::normalize(view.felt_device_m) * rate : Vec3(0.0);
     const Vec3 needed = view.felt_device_m + in_device(view.target_object - view.tool_object) - gliding * view.vision_s;
     const double distance = glm::length(needed);
-    // A little beyond the ball it glides too slowly to matter.
+    // Just outside the ball the drift is too slow to matter.
     if (distance < s.bubble_radius_m + kCreep_m) return reach_directly(view, needed);
     const double wanted = std::min(s.max_speed_m_per_s, (distance - 0.5 * s.bubble_radius_m) / kArrive_s);
     const double reach = s.bubble_radius_m + std::cbrt(wanted / s.bubble_rate_per_m2s);
@@ -166,7 +166,7 @@ Decision Strategist::glide(const View& view) const {
     return decision;
 }
 
-// The mapping drifts along the hand's place in half extents, so that is what has to point at the target.
+// The mapping drifts along the hand's position in half extents, so that vector must point at the target.
 Decision Strategist::stir(const View& view) {
     const Vec3 way = glm::normalize(in_device(view.target_object - view.tool_object));
     const Vec3 border = half_m_ * way * kUsed;

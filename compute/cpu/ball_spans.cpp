@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Compiled with -fno-math-errno, without which sqrt is a call for each ray; no result depends on it.
-#include "compute/ball_spans.hpp"
+// Ball sections and direction codes, compiled for several instruction sets. The file is compiled with -fno-math-errno,
+// without which sqrt is a call for each ray; no result depends on it.
+#include "compute/cpu/ball_spans.hpp"
 
 #include <cmath>
 
-#include "compute/direction_code.hpp"
 #include "shaders/shared/dexel.h"
+#include "shaders/shared/direction_code.h"
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
-// One text; each instruction set compiles its own copy of it and vectorizes the loop for itself.
+// Written once; each instruction set compiles its own copy and vectorizes the loop for itself.
 [[gnu::always_inline]] inline void half_spans(std::int64_t row_radius2, std::int32_t first_offset_u, std::int32_t count,
                                               std::int32_t* half) {
     const auto radius2 = static_cast<double>(row_radius2);
@@ -22,13 +23,13 @@ namespace {
 
 [[gnu::always_inline]] inline void codes(std::int32_t count, const std::int32_t* x, const std::int32_t* y,
                                          const std::int32_t* z, std::uint32_t* code) {
-    for (std::int32_t i = 0; i < count; ++i) code[i] = direction_code(x[i], y[i], z[i]);
+    for (std::int32_t i = 0; i < count; ++i) code[i] = shared::direction_code(x[i], y[i], z[i]);
 }
 
 using HalfSpans = void (*)(std::int64_t, std::int32_t, std::int32_t, std::int32_t*);
 using Codes = void (*)(std::int32_t, const std::int32_t*, const std::int32_t*, const std::int32_t*, std::uint32_t*);
 
-// The same two functions for one instruction set.
+// Defines the two functions above for one instruction set.
 #define BURIN_FOR_INSTRUCTIONS(name, ...)                                                                         \
     __VA_ARGS__ void half_spans_##name(std::int64_t row_radius2, std::int32_t first_offset_u, std::int32_t count, \
                                        std::int32_t* half) {                                                      \
@@ -79,4 +80,4 @@ void direction_codes(std::int32_t count, const std::int32_t* x, const std::int32
 
 const char* vector_unit() { return chosen().name; }
 
-}  // namespace burin
+}  // namespace burin::compute

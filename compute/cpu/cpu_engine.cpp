@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
-// The native engine: rows of rays are dealt out to all cores in bands; each row takes the capsules one after the other.
+// The carving engine for the CPU. Rows of rays are distributed over all cores in bands; each row applies the capsules
+// in order.
 //
-// Most of the work is not to work: rows and rays outside a capsule are never looked at, a page of empty rays is skipped at
-// once, and a ray whose intervals a span does not meet costs a comparison. Bands own whole rows, so no two threads meet.
+// Most of its speed comes from work that is avoided: rows and rays outside a capsule are never visited, a page of empty
+// rays is skipped at once, and a ray whose intervals do not meet a span costs one comparison. A band owns whole rows,
+// so no two threads write to the same page.
 #include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
 
-#include "compute/ball_spans.hpp"
-#include "compute/engine.hpp"
-#include "compute/sweep_units.hpp"
+#include "compute/cpu/ball_spans.hpp"
+#include "compute/rays/engine.hpp"
+#include "compute/tools/sweep_units.hpp"
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
 using shared::Capsule;
@@ -23,22 +25,23 @@ using shared::RaySpan;
 using shared::uint;
 constexpr int kPageRays = DexelSet::kPageRays;
 
-// The list surgery of shaders/shared/span_edit.h on host memory.
+// Applies shaders/shared/span_edit.h to ends in host memory.
 struct HostRay {
     const DexelEnd* ends;
     [[nodiscard]] DexelEnd load_end(uint i) const { return ends[i]; }
 #include "shaders/shared/span_edit.h"
 };
 
-// Rows v_lo..v_hi of one axis, what became of their rays, and which of their rays the capsules met.
-// On lines of the cache of its own: threads write to neighbouring bands all the time.
+// Rows v_lo..v_hi of one axis, with the changes to their rays and the counts of rays touched and changed. Aligned to
+// cache lines of its own, because threads write to neighbouring bands all the time.
 struct alignas(128) Band {
     int axis = 0, v_lo = 0, v_hi = 0;
     CarveStats stats;
     Changes changes;
 };
 
-// What an operation did to a ray. Rays without material are not there for a cut, nor are the lattice's border for filling.
+// Effect of an operation on a ray. A cut or paint misses rays without material, and a fill misses rays on the lattice's
+// border.
 enum class Outcome { missed, touched, changed };
 
 void count(Band& band, Outcome outcome) {
@@ -46,12 +49,13 @@ void count(Band& band, Outcome outcome) {
     band.stats.rays_changed += outcome == Outcome::changed ? 1 : 0;
 }
 
-// The ends that a resting ball leaves in one page: they go into the solid without their normals, which follow together.
+// The ends that a resting ball leaves in one page. They are put into the solid without normals, which are computed
+// together afterwards.
 class NewEnds {
 public:
     NewEnds(const Capsule& ball, int axis, int v) : ball_(ball), axis_(axis), v_(v) {}
 
-    // Those of an edit, in order; valid until the next call.
+    // Returns the new ends of an edit, in order; valid until the next call.
     [[nodiscard]] std::span<const DexelEnd> add(int u, const HostRay::SpanEdit& edit, RaySpan span) {
         std::size_t added = 0;
         if (edit.insert_lo != 0) ends_[added++] = place(u, edit.from, span.lo);
@@ -68,7 +72,7 @@ public:
 private:
     static constexpr std::size_t kMost = 2 * kPageRays;
 
-    // From the end to the ball's centre: out of the material.
+    // Makes an end and stores its normal's direction, from the end to the ball's centre, which is out of the material.
     DexelEnd place(int u, uint in_ray, int depth) {
         const int at_u = u * kUnitsPerCell, at_v = v_ * kUnitsPerCell;
         x_[count_] = ball_.start_x - shared::pick(axis_, depth, at_v, at_u);
@@ -88,7 +92,7 @@ private:
     std::array<DexelEnd, 2> ends_;
 };
 
-// A capsule's share of a row, and the capsule itself.
+// A capsule and the range of rays in a row that it may touch.
 struct RowPart {
     const Capsule* capsule;
     int u_lo, u_hi;
@@ -100,8 +104,8 @@ public:
 
     [[nodiscard]] const char* name() const override { return "cpu"; }
     [[nodiscard]] const Solid& solid() const override { return solid_; }
-    [[nodiscard]] Result<std::uint8_t> add_material(const Material& material) override {
-        return burin::add_material(solid_, material);
+    [[nodiscard]] Result<std::uint8_t> add_material(const geometry::Material& material) override {
+        return burin::compute::add_material(solid_, material);
     }
     [[nodiscard]] Changes take_changes() override { return changes_.take(); }
 
@@ -125,8 +129,8 @@ public:
     }
 
 private:
-    // Bands of rows with about equal numbers of rays to look at; few when there is little to do, since waking the other
-    // cores costs as much as some hundred rays.
+    // Splits the rows into bands with about equal numbers of rays to visit. Makes few bands when there is little to do,
+    // since waking the other cores costs as much as some hundred rays.
     void deal_out(std::span<const Capsule> capsules) {
         constexpr std::uint64_t kLeastRays = 500;
         std::array<std::vector<std::uint64_t>, 3> rays_of_row;
@@ -190,7 +194,7 @@ private:
         }
     }
 
-    // One capsule. A resting ball is dealt with many rays at a time.
+    // Applies one capsule to a row. Sections with a resting ball are computed for many rays at a time.
     void carve_row(Band& band, int v, const RowPart& part) {
         const Capsule& c = *part.capsule;
         if (c.along_x != 0 || c.along_y != 0 || c.along_z != 0) {
@@ -230,8 +234,9 @@ private:
         }
     }
 
-    // The rays u .. last of one page, each cut half[i] to both sides of center_s. Most of them hold one interval, and half
-    // of those a stroke leaves alone: to see that takes two comparisons. The new ends' normals are worked out together.
+    // Cuts the rays u .. last of one page, each by half[i] to both sides of center_s. Most of them hold one interval,
+    // and a stroke leaves half of those alone, which takes two comparisons to find out. The normals of the new ends are
+    // computed together.
     void cut_page(Band& band, int u, int last, int v, int center_s, const std::array<std::int32_t, kPageRays>& half,
                   const Capsule& c) {
         DexelSet& set = solid_.sets[static_cast<std::size_t>(band.axis)];
@@ -250,13 +255,13 @@ private:
             ++band.stats.rays_changed;
             band.changes.record({band.axis, u + i, v}, edit.changed_lo, edit.changed_hi, held);
             set.splice(u + i, v, edit.from, edit.to - edit.from, fresh.add(u + i, edit, span));
-            run = set.run(u, v);  // the page may have moved
+            run = set.run(u, v);  // splice may have moved the page
             if (run.ends == nullptr) return;
         }
         fresh.give_normals(set);
     }
 
-    // Several capsules: each ray takes all of them in order, and counts once.
+    // Applies several capsules to a row. Each ray takes all of them in order and is counted once.
     void carve_row_by_rays(Band& band, int v, std::span<const RowPart> parts) {
         int u_lo = parts.front().u_lo, u_hi = parts.front().u_hi;
         for (const RowPart& p : parts) {
@@ -275,7 +280,7 @@ private:
         }
     }
 
-    // Where there is no material there is nothing to cut or to paint.
+    // Returns whether the page of (u, v) can be skipped: without material there is nothing to cut or paint.
     [[nodiscard]] bool skips_page(int axis, int u, int v, const Capsule& c) const {
         return operation_of(c) != shared::kFill && !solid_.sets[static_cast<std::size_t>(axis)].page_held(u, v);
     }
@@ -297,7 +302,7 @@ private:
         } else if (operation == shared::kPaint) {
             return paint(band, u, v, span, shared::material_of_work(capsule));
         } else if (depth_of(held.front()) >= span.hi || depth_of(held.back()) <= span.lo) {
-            return Outcome::touched;  // half of the rays that a stroke touches
+            return Outcome::touched;  // true of half of the rays that a stroke touches
         }
         HostRay ray{held.data()};
         const HostRay::SpanEdit edit =
@@ -349,8 +354,9 @@ private:
     Solid solid_;
     WorkerPool& pool_;
     Changes changes_;
-    std::array<std::vector<Footprint>, 3> footprints_;  // of each capsule, for each axis
-    std::vector<Band> bands_;  // the first band_count_ are in use, the others keep their memory
+    std::array<std::vector<Footprint>, 3> footprints_;  // of each capsule, by axis
+    // Only the first band_count_ are in use; the others keep their memory.
+    std::vector<Band> bands_;
     std::size_t band_count_ = 0;
 };
 
@@ -360,4 +366,4 @@ std::unique_ptr<CarvingEngine> make_cpu_engine(Solid solid, WorkerPool& pool) {
     return std::make_unique<CpuEngine>(std::move(solid), pool);
 }
 
-}  // namespace burin
+}  // namespace burin::compute

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: MIT
-// The distance transform is separable (Felzenszwalb and Huttenlocher 2012, "Distance transforms of sampled functions"): the
-// square of the distance along z, then the least of that plus dy^2, then the least of that plus dx^2. With a short reach the
-// least of 13 is taken directly, a row of nodes in bytes at a time: squares up to the reach's, 36, and a stand-in for
-// "farther" add up to less than 256.
-#include "compute/clearance.hpp"
+// The distance transform is separable (Felzenszwalb and Huttenlocher 2012, "Distance transforms of sampled functions"):
+// the square of the distance along z, then the minimum of that plus dy^2, then the minimum of that plus dx^2. With a
+// short reach the minimum of 13 values is taken directly, a row of nodes in bytes at a time: squares up to the reach's,
+// 36, and the value that stands for "farther" add up to less than 256.
+#include "compute/light/clearance.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
 constexpr int kReach = Clearance::kReach, kSide = kTileCells + 1;
-constexpr int kExact = kSide + 2 * Clearance::kBlur;  // nodes a side whose distances are needed: -1 .. kTileCells + 1
+// Nodes a side whose distances are needed: -1 .. kTileCells + 1.
+constexpr int kExact = kSide + 2 * Clearance::kBlur;
 constexpr int kMargin = kReach + Clearance::kBlur;
-constexpr int kWindow = kSide + 2 * kMargin;  // nodes that those depend on: -kMargin .. kTileCells + kMargin of a tile
-constexpr std::uint8_t kFarSquare = 100;      // no node inside within reach along z
+// Nodes a side that those depend on: -kMargin .. kTileCells + kMargin of a tile.
+constexpr int kWindow = kSide + 2 * kMargin;
+constexpr std::uint8_t kFarSquare = 100;  // squared distance along z when no node inside is within reach
 constexpr std::uint8_t kFarCode = kReach * Clearance::kPerCell;
 static_assert(kWindow <= 32 && kFarSquare + 2 * kReach * kReach < 256 && kFarSquare > kReach * kReach);
 
@@ -28,7 +30,7 @@ constexpr std::array<std::uint8_t, kAll> kFarTile = [] {
     return codes;
 }();
 
-// By the distance's square.
+// The code for each squared distance.
 const std::array<std::uint8_t, 256> kCode = [] {
     std::array<std::uint8_t, 256> codes{};
     for (int s = 0; s < 256; ++s) {
@@ -38,7 +40,7 @@ const std::array<std::uint8_t, 256> kCode = [] {
     return codes;
 }();
 
-// A row of nodes along z, and room to work on it in whole vectors.
+// A row of nodes along z, padded so that it is processed in whole vectors.
 struct alignas(16) Row {
     std::array<std::uint8_t, 32> squares;
 
@@ -51,7 +53,7 @@ struct alignas(16) Row {
     }
 };
 
-// Bit z + kMargin: node z of the column is inside.
+// The inside bits of a tile's nodes and of those around it: bit z + kMargin of a column belongs to node z.
 class Window {
 public:
     Window(const Occupancy& occupancy, std::uint32_t tile) {
@@ -80,7 +82,7 @@ public:
     [[nodiscard]] bool nothing_inside() const { return any_ == 0; }
     [[nodiscard]] bool all_inside() const { return all_ == kAllBits; }
 
-    // The squares of the distances along z of nodes -1 .. kTileCells + 1.
+    // Returns the squares of the distances along z of nodes -1 .. kTileCells + 1.
     [[nodiscard]] Row row(int x, int y) const {
         const std::uint32_t bits = columns_[static_cast<std::size_t>(x * kWindow + y)];
         Row row;
@@ -103,7 +105,7 @@ private:
     std::uint32_t any_ = 0, all_ = ~0u;
 };
 
-// Of nodes -1 .. kTileCells + 1 of a tile: a row for each x * kExact + y.
+// Squared distances of nodes -1 .. kTileCells + 1 of a tile: row x * kExact + y lies along z.
 using Squares = std::array<Row, kExact * kExact>;
 
 Squares squares_of(const Window& window) {
@@ -134,11 +136,11 @@ Squares squares_of(const Window& window) {
     return squares;
 }
 
-// Sixty-fourths of a code, a row of nodes along z.
+// A row of nodes along z, in sixty-fourths of a code.
 struct alignas(16) Sums {
     std::array<std::uint16_t, 32> of;
 };
-// One, two and one parts of three neighbours.
+// Mixes three neighbours in the ratio 1 : 2 : 1.
 Sums mixed(const Sums& a, const Sums& b, const Sums& c) {
     Sums sums;
     for (std::size_t z = 0; z < sums.of.size(); ++z) {
@@ -187,7 +189,7 @@ Clearance::Clearance(const Lattice& lattice)
 void Clearance::mark(const NodeBox& changed) {
     std::array<int, 3> from{}, to{};
     for (std::size_t a = 0; a < 3; ++a) {
-        // A tile holds the first nodes of the next one, hence one more below.
+        // A tile also holds the first nodes of the next one, hence the additional - 1.
         from[a] = std::max(changed.lo[a] - kMargin - 1, 0) / kTileCells;
         to[a] = std::min((changed.hi[a] + kMargin) / kTileCells, grid_.tiles[a] - 1);
     }
@@ -222,4 +224,4 @@ std::size_t Clearance::bytes() const {
     return held_.size() * (2 * sizeof(void*) + 1) + static_cast<std::size_t>(held) * sizeof(Codes);
 }
 
-}  // namespace burin
+}  // namespace burin::compute

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// How far a place outside the solid is from it: the distance from each lattice node to the nearest node that is inside, up to
-// kReach cells, and 0 inside; blurred by a node, and between nodes by trilinear interpolation.
+// The distance field that light is baked from: the distance from each lattice node to the nearest node inside the
+// solid, up to kReach cells, and 0 inside; blurred over one node on each side, and trilinear between nodes.
 //
-// What it is for: rays that step through empty space, and that know how closely they pass an edge (tile_light.hpp). One
-// property carries that: near a convex body the value at a place is never less than the place's height above any plane that the
-// body lies below. Nodes inside lie below the plane, so a node's distance to them is at least its own height, and a
-// trilinear mean of values above a linear function is above it too. (The codes are rounded up for it.)
+// Purpose: cones that step through empty space and must know how closely they pass an edge (tile_light.hpp). They rely
+// on one property: near a convex body the value at a point is never less than the point's height above any plane that
+// the body lies below. Nodes inside lie below the plane, so a node's distance to them is at least its own height, and a
+// trilinear mean of values above a linear function is above it too. (The codes are rounded up to preserve this.)
 //
 // Memory: 4.8 KiB for each tile within reach of the surface, 17 bytes for any other.
-// Threads: at() from any number at once, while nobody calls mark or refresh.
+// Threads: at() may be called from any number of threads at once, while nobody calls mark or refresh.
 #pragma once
 
 #include <array>
@@ -18,25 +18,27 @@
 #include <vector>
 
 #include "base/worker_pool.hpp"
-#include "compute/occupancy.hpp"
+#include "compute/light/occupancy.hpp"
 
-namespace burin {
+namespace burin::compute {
 
 class Clearance {
 public:
-    static constexpr int kReach = 6;     // cells; a window of 16 + 1 + 2 * (6 + kBlur) nodes fits the bits of a word
+    // Cells. A window of 16 + 1 + 2 * (6 + kBlur) nodes fits the bits of a word.
+    static constexpr int kReach = 6;
     static constexpr int kBlur = 1;      // nodes
-    static constexpr int kPerCell = 42;  // codes a cell: kReach takes 252 of 255
+    static constexpr int kPerCell = 42;  // codes per cell: kReach takes 252 of 255
 
     explicit Clearance(const Lattice& lattice);
 
-    // These nodes have changed: what lies within reach of them is worked out anew by the next refresh.
+    // Notes that these nodes have changed: the next refresh recomputes what lies within reach of them.
     void mark(const NodeBox& changed);
     void mark_all() { stale_.assign(stale_.size(), true); }
-    // Returns how many tiles it worked out.
+    // Recomputes the tiles marked since the last call; returns how many there were.
     std::size_t refresh(const Occupancy& occupancy, WorkerPool& pool);
 
-    // Cells, from 0 to kReach. The place is in cells from the lattice origin, within [0, tiles * 16).
+    // Returns the clearance in cells, from 0 to kReach. `place` is in cells from the lattice's origin, at least 0
+    // and below tiles * 16 along each axis.
     [[nodiscard]] float at(const Vec3f& place) const {
         const int x = static_cast<int>(place.x), y = static_cast<int>(place.y), z = static_cast<int>(place.z);
         const std::size_t tile =
@@ -58,17 +60,19 @@ public:
 
 private:
     static_assert(kTileCells == 16);
-    static constexpr int kSide = kTileCells + 1;  // the next tile's first nodes too: at() then needs no second tile
+    // Includes the next tile's first nodes, so that at() reads one tile only.
+    static constexpr int kSide = kTileCells + 1;
     using Codes = std::array<std::uint8_t, kSide * kSide * kSide>;  // (x * kSide + y) * kSide + z
 
     void work_out(const Occupancy& occupancy, std::uint32_t tile);
 
     TileGrid grid_;
     std::size_t tiles_x_, tiles_y_;
-    std::vector<const std::uint8_t*> codes_;    // of each tile: its own or one of the two that many share
-    std::vector<std::unique_ptr<Codes>> held_;  // the tiles' own
+    // For each tile: its own codes, or one of two shared arrays (all far, all inside).
+    std::vector<const std::uint8_t*> codes_;
+    std::vector<std::unique_ptr<Codes>> held_;  // codes of the tiles that have their own
     std::vector<std::uint8_t> stale_;
     std::vector<std::uint32_t> to_do_;
 };
 
-}  // namespace burin
+}  // namespace burin::compute

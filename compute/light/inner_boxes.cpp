@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "compute/inner_boxes.hpp"
+#include "compute/light/inner_boxes.hpp"
 
 #include <algorithm>
 
-namespace burin {
+namespace burin::compute {
 
 bool InnerBoxes::full(const Occupancy& occupancy, const TileBox& box) const {
     for (std::size_t a = 0; a < 3; ++a) {
@@ -21,7 +21,7 @@ void InnerBoxes::keep_true(const Occupancy& occupancy) {
     if (std::erase_if(tiles_, [&](const TileBox& box) { return !full(occupancy, box); }) > 0) state_boxes();
 }
 
-// By a layer of tiles at a time, in turn on every side.
+// Grows the box by one layer of full tiles at a time, on each side in turn.
 InnerBoxes::TileBox InnerBoxes::grown(const Occupancy& occupancy, TileBox box) const {
     for (bool grew = true; grew;) {
         grew = false;
@@ -44,7 +44,8 @@ InnerBoxes::TileBox InnerBoxes::grown(const Occupancy& occupancy, TileBox box) c
 void InnerBoxes::find(const Occupancy& occupancy) {
     tiles_.clear();
     std::vector<std::uint8_t> taken(grid_.count(), 0);
-    std::vector<int> side(grid_.count());  // of the largest cube of full tiles not taken whose highest corner is there
+    // For each tile, the side of the largest cube of full tiles not taken whose highest corner is that tile.
+    std::vector<int> side(grid_.count());
     while (tiles_.size() < kMost) {
         std::uint32_t best = 0;
         std::ranges::fill(side, 0);
@@ -88,4 +89,4 @@ void InnerBoxes::state_boxes() {
     for (const TileBox& box : tiles_) boxes_object_.push_back(object_box(box));
 }
 
-}  // namespace burin
+}  // namespace burin::compute

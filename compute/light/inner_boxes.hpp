@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A few large boxes that lie wholly inside the solid: what is behind one is behind material, whatever the surface looks like.
-// Unions of tiles all of whose nodes are inside, one cell smaller on every side, so that no vertex of the surface (at most half a
-// cell beside its own cell) reaches into one.
+// A few large boxes that lie wholly inside the solid: what is behind one is occluded, whatever the surface looks like.
+// Each is a union of tiles whose nodes are all inside, shrunk by one cell on every side, so that no vertex of the
+// surface (at most half a cell beside its own cell) reaches into one.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "compute/occupancy.hpp"
+#include "compute/light/occupancy.hpp"
 
-namespace burin {
+namespace burin::compute {
 
 class InnerBoxes {
 public:
@@ -17,11 +17,12 @@ public:
 
     explicit InnerBoxes(const Lattice& lattice) : lattice_(lattice), grid_(lattice) {}
 
-    // Drops every box with a tile that is not full any more.
+    // Drops every box with a tile that is no longer full.
     void keep_true(const Occupancy& occupancy);
-    // Looks for all of them anew: the largest cube of full tiles, grown to a box while it can be; then among what is left.
+    // Searches for all boxes again: takes the largest cube of full tiles and grows it to a box, then repeats with the
+    // tiles that are left.
     void find(const Occupancy& occupancy);
-    // In the object frame, metres; largest cube first.
+    // Returns the boxes in the object frame, metres; largest cube first.
     [[nodiscard]] const std::vector<Box>& boxes_object() const { return boxes_object_; }
 
 private:
@@ -39,4 +40,4 @@ private:
     std::vector<Box> boxes_object_;
 };
 
-}  // namespace burin
+}  // namespace burin::compute

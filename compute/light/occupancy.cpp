@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "compute/occupancy.hpp"
+#include "compute/light/occupancy.hpp"
 
 #include <algorithm>
 #include <bit>
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
 using shared::DexelEnd;
@@ -40,7 +40,8 @@ void NodeBox::include(const NodeBox& other) {
 
 std::optional<NodeBox> Occupancy::update(std::uint32_t tile, const Solid& solid, const TileMesh* mesh) {
     const std::array<int, 3> first = grid_.first_node(tile);
-    // No edge that starts at a node of a tile without mesh is crossed: all of its nodes are as the first one.
+    // No edge that starts at a node of a tile without mesh is crossed, so all of its nodes have the sign of the first
+    // one.
     const std::uint32_t uniform = mesh == nullptr && node_inside(solid, first) ? kFullColumn : 0u;
     Columns fresh;
     std::uint32_t any = 0, all = kFullColumn, changed_z = 0;
@@ -82,4 +83,4 @@ std::size_t Occupancy::bytes() const {
     return states_.size() * (sizeof(Tile) + sizeof(void*)) + static_cast<std::size_t>(mixed) * sizeof(Columns);
 }
 
-}  // namespace burin
+}  // namespace burin::compute

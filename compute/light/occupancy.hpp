@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which lattice nodes lie inside the solid: one bit a node, a tile of 16^3 nodes at a time; a tile that is wholly inside or
-// wholly outside holds no bits. The signs are those the mesher took, so that what looks at them and what is drawn agree.
+// Which lattice nodes lie inside the solid: one bit per node, a tile of 16^3 nodes at a time; a tile that is wholly
+// inside or wholly outside holds no bits. The signs are those of the mesher, so that light and mesh agree.
 // Memory: 16 bytes a tile, and 512 more for a tile that the surface passes through.
 // Threads: tiles may be read, and different tiles updated, from several threads at once.
 #pragma once
@@ -11,12 +11,12 @@
 #include <optional>
 #include <vector>
 
-#include "compute/solid.hpp"
-#include "compute/tile_mesher.hpp"
+#include "compute/mesher/tile_mesher.hpp"
+#include "compute/rays/solid.hpp"
 
-namespace burin {
+namespace burin::compute {
 
-// Lattice nodes from lo to hi, both of them included.
+// A box of lattice nodes from lo to hi, both included.
 struct NodeBox {
     std::array<int, 3> lo{}, hi{};
 
@@ -31,7 +31,8 @@ public:
     explicit Occupancy(const Lattice& lattice)
         : grid_(lattice), states_(grid_.count(), Tile::empty), columns_(grid_.count()) {}
 
-    // Takes the signs of one tile anew: from its mesh, or from the solid where it has none (null). Says which nodes changed.
+    // Updates the signs of one tile from its mesh, or from the solid if it has none (null). Returns a box around the
+    // nodes that changed.
     std::optional<NodeBox> update(std::uint32_t tile, const Solid& solid, const TileMesh* mesh);
 
     [[nodiscard]] const TileGrid& grid() const { return grid_; }
@@ -55,7 +56,7 @@ private:
 
     TileGrid grid_;
     std::vector<Tile> states_;
-    std::vector<std::unique_ptr<Columns>> columns_;  // of mixed tiles
+    std::vector<std::unique_ptr<Columns>> columns_;  // null for tiles that are not mixed
 };
 
-}  // namespace burin
+}  // namespace burin::compute

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compute/surface_light.hpp"
+#include "compute/light/surface_light.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,13 +8,14 @@
 #include <numeric>
 #include <utility>
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
-// How far from a changed node a vertex may lie whose light it alters: the range, the start beside the surface, the reach of
-// clearance, and the cell that it is interpolated in.
+// How far from a changed node a vertex may lie whose open light it alters, in cells: the range, the ray's start off the
+// surface, the reach of the clearance, and the cell in which it is interpolated.
 constexpr int kOpenReach = static_cast<int>(kOpenRange) + 1 + Clearance::kReach + Clearance::kBlur + 1;
-// The vertices of a tile lie in the cells that it sees, or half a cell beside them: nodes -2 .. kTileCells + 1 around it.
+// The vertices of a tile lie in the cells that it sees, or half a cell beside them: nodes -2 .. kTileCells + 1 around
+// it.
 constexpr int kVertexMargin = 2;
 constexpr std::uint64_t kStepsBetweenBoxes = 32;
 
@@ -40,8 +41,9 @@ std::size_t nearest(const shared::SurfaceVertex& vertex, const std::vector<share
     return best;
 }
 
-// Whether the rays from some place of `from` towards the lamp pass `what`. A ray leaves the lamp's middle by up to the tangent,
-// so at a distance t along the middle they meet when the boxes are no farther apart on any axis than t * tangent.
+// Tells whether rays from some point of `from` towards the lamp pass through `what`. A ray deviates from the direction
+// to the lamp's centre by up to the tangent, so at a distance t along that direction they meet when the boxes are no
+// farther apart on any axis than t * tangent.
 bool shades(const NodeBox& what, const NodeBox& from, const Vec3& towards, double tangent) {
     double t_lo = 0.0, t_hi = std::numeric_limits<double>::infinity();
     for (int a = 0; a < 3; ++a) {
@@ -64,11 +66,11 @@ bool shades(const NodeBox& what, const NodeBox& from, const Vec3& towards, doubl
 
 }  // namespace
 
-std::vector<VertexLight> carried_over(const SurfaceTile& mesh, const SurfaceTile* before,
-                                      const TileLight* light_before) {
-    std::vector<VertexLight> light(mesh.vertices.size());
+std::vector<geometry::VertexLight> carried_over(const geometry::SurfaceTile& mesh, const geometry::SurfaceTile* before,
+                                                const TileLight* light_before) {
+    std::vector<geometry::VertexLight> light(mesh.vertices.size());
     if (before == nullptr || light_before == nullptr || before->vertices.empty()) return light;
-    // Both have their vertices in the one order of cells: those that are still there are met in turn.
+    // Both meshes list their vertices in the order of cells, so the remaining ones are found in turn.
     const std::vector<shared::SurfaceVertex>& old = before->vertices;
     constexpr std::size_t kAhead = 12;
     std::size_t next = 0;
@@ -81,7 +83,7 @@ std::vector<VertexLight> carried_over(const SurfaceTile& mesh, const SurfaceTile
             next = at + 1;
         } else {
             at = nearest(vertex, old);
-            next = std::max(next, at);  // the order of cells goes on from about there
+            next = std::max(next, at);  // the search resumes from about there
         }
         light[i] = light_before->vertices[at];
     }
@@ -196,7 +198,7 @@ void SurfaceLight::need_sun_behind(const NodeBox& changed) {
         if (meshes_[t] == nullptr || (needs_[t] & kSun) != 0) continue;
         NodeBox tile{grid_.first_node(t), grid_.first_node(t)};
         for (int& hi : tile.hi) hi += kTileCells;
-        // Rays start beside the surface by a cell.
+        // Rays start one cell off the surface.
         if (shades(passed, tile.grown(kVertexMargin + 1), lamp_.direction_object, lamp_.tangent)) need(t, kSun);
     }
 }
@@ -255,9 +257,9 @@ std::vector<std::uint32_t> SurfaceLight::take_baked() {
 std::size_t SurfaceLight::bytes() const {
     std::size_t bytes = occupancy_.bytes() + clearance_.bytes();
     for (const auto& light : lights_) {
-        if (light != nullptr) bytes += sizeof(TileLight) + light->vertices.capacity() * sizeof(VertexLight);
+        if (light != nullptr) bytes += sizeof(TileLight) + light->vertices.capacity() * sizeof(geometry::VertexLight);
     }
     return bytes;
 }
 
-}  // namespace burin
+}  // namespace burin::compute

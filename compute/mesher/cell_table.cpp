@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "compute/cell_table.hpp"
+#include "compute/mesher/cell_table.hpp"
 
-namespace burin {
+#include "shaders/shared/cell_row.h"
+
+namespace burin::compute {
 namespace {
 
+using shared::cell_edge;
+
 struct FaceRing {
-    std::array<int, 4> corners;  // around the face
+    std::array<int, 4> corners;  // in order around the face
     std::array<int, 4> edges;    // edges[i] joins corners[i] and corners[i + 1]
 };
 
@@ -16,7 +20,7 @@ constexpr FaceRing face_ring(int axis, int side) {
             {cell_edge(u, 0, side), cell_edge(v, side, 1), cell_edge(u, 1, side), cell_edge(v, side, 0)}};
 }
 
-// Edges of one loop carry the same label; joining two edges gives both the smaller label.
+// Labels of the cell's edges: edges of one loop carry the same label. Joining two edges gives both the smaller label.
 struct Labels {
     std::array<int, 12> of_edge{};
     constexpr void join(int a, int b) {
@@ -100,4 +104,4 @@ const std::array<CellCase, 256>& cell_table() {
     return kTable;
 }
 
-}  // namespace burin
+}  // namespace burin::compute

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "compute/dirty_cells.hpp"
+#include "compute/mesher/dirty_cells.hpp"
 
 #include <algorithm>
 #include <bit>
 
-#include "compute/tile_samples.hpp"
+#include "shaders/shared/mesh_tile.h"
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
-// Cells of one tile, counted from its first node.
-void mark_cells(const std::array<int, 3>& lo, const std::array<int, 3>& hi, CellMask& mask) {
+// Marks the cells of a range, given in local coordinates of one tile.
+void mark_cells(const shared::CellRange& range, CellMask& mask) {
+    const auto& [lo, hi] = range;
     const std::uint32_t bits = (2u << (hi[2] + 1)) - (1u << (lo[2] + 1));
     std::uint32_t* row = &mask.columns[CellMask::column(lo[0], lo[1])];
     const int width = hi[0] - lo[0] + 1;
@@ -26,16 +27,6 @@ void mark_cells(const std::array<int, 3>& lo, const std::array<int, 3>& hi, Cell
 }
 
 }  // namespace
-
-DirtyCells::CellRange DirtyCells::range_of(const shared::ChangedRay& change) {
-    const RayPlace place = place_of(change.ray);
-    const auto cell = [](int depth) { return ((depth + shared::kUnitsPerCell) >> shared::kSubcellBits) - 1; };
-    const int s_lo = cell(change.changed_lo - kNearEdge), s_hi = cell(change.changed_hi + kNearEdge);
-    const int u = place.u, v = place.v;
-    if (place.axis == 0) return {{s_lo, u - 1, v - 1}, {s_hi, u, v}};
-    if (place.axis == 1) return {{v - 1, s_lo, u - 1}, {v, s_hi, u}};
-    return {{u - 1, v - 1, s_lo}, {u, v, s_hi}};
-}
 
 CellMask& DirtyCells::Share::mask_of(std::uint32_t tile) {
     if (slot[tile] == kNone) {
@@ -54,8 +45,9 @@ void DirtyCells::mark(std::span<const shared::ChangedRay> changes, Share& share)
     const std::array<int, 3> cells = lattice_.cells;
     constexpr int kTileBits = std::countr_zero(static_cast<unsigned>(kTileCells));
     for (const shared::ChangedRay& change : changes) {
-        CellRange range = range_of(change);
-        // From the tile that has the lowest cell to the one that sees the highest from above.
+        shared::CellRange range = shared::cells_changed(shared::axis_of(change.ray), shared::u_of(change.ray),
+                                                        shared::v_of(change.ray), change.changed_lo, change.changed_hi);
+        // The affected tiles reach from the one with the lowest cell to the one that sees the highest cell from above.
         std::array<int, 3> from{}, to{};
         bool one_tile = true;
         for (std::size_t a = 0; a < 3; ++a) {
@@ -63,30 +55,30 @@ void DirtyCells::mark(std::span<const shared::ChangedRay> changes, Share& share)
             to[a] = std::clamp(range.hi[a] + 1, 0, cells[a]) >> kTileBits;
             one_tile &= from[a] == to[a];
         }
-        if (one_tile) {  // most; and then every cell is one that the tile sees
+        if (one_tile) {  // the usual case; the tile sees all cells of the range
             for (std::size_t a = 0; a < 3; ++a) {
                 range.lo[a] -= from[a] << kTileBits;
                 range.hi[a] -= from[a] << kTileBits;
             }
-            mark_cells(range.lo, range.hi, share.mask_of(grid_.index(from[0], from[1], from[2])));
+            mark_cells(range, share.mask_of(grid_.index(from[0], from[1], from[2])));
             continue;
         }
         for (int z = from[2]; z <= to[2]; ++z)
             for (int y = from[1]; y <= to[1]; ++y)
                 for (int x = from[0]; x <= to[0]; ++x) {
                     const std::array<int, 3> first{x << kTileBits, y << kTileBits, z << kTileBits};
-                    std::array<int, 3> lo{}, hi{};
+                    shared::CellRange in_tile;
                     for (std::size_t a = 0; a < 3; ++a) {
-                        lo[a] = std::max(range.lo[a] - first[a], -1);
-                        hi[a] = std::min(range.hi[a] - first[a], kTileCells - 1);
+                        in_tile.lo[a] = std::max(range.lo[a] - first[a], -1);
+                        in_tile.hi[a] = std::min(range.hi[a] - first[a], kTileCells - 1);
                     }
-                    if (lo[2] <= hi[2]) mark_cells(lo, hi, share.mask_of(grid_.index(x, y, z)));
+                    if (in_tile.lo[2] <= in_tile.hi[2]) mark_cells(in_tile, share.mask_of(grid_.index(x, y, z)));
                 }
     }
 }
 
 void DirtyCells::sort(const Changes& changes, WorkerPool& pool) {
-    constexpr std::size_t kLeastChanges = 400;  // fewer are marked sooner than a thread is woken
+    constexpr std::size_t kLeastChanges = 400;  // marking fewer takes less time than waking a thread
     const std::size_t count =
         std::clamp<std::size_t>(changes.rays.size() / kLeastChanges, 1, std::max<std::size_t>(1, pool.threads()));
     shares_.resize(std::max(shares_.size(), count));
@@ -96,7 +88,7 @@ void DirtyCells::sort(const Changes& changes, WorkerPool& pool) {
         const std::size_t from = std::min(i * each, all.size());
         mark(all.subspan(from, std::min(each, all.size() - from)), shares_[i]);
     });
-    // Those that are not needed now are emptied: they are read all the same.
+    // Clears the unused shares, because mask() reads all of them.
     for (std::size_t i = count; i < shares_.size(); ++i) mark({}, shares_[i]);
     tiles_.clear();
     for (const Share& share : shares_) tiles_.insert(tiles_.end(), share.tiles.begin(), share.tiles.end());
@@ -114,4 +106,4 @@ CellMask DirtyCells::mask(std::uint32_t tile) const {
     return mask;
 }
 
-}  // namespace burin
+}  // namespace burin::compute

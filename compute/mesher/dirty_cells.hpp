@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Which cells of which tiles an update's changes can have altered.
+// Finds the cells, tile by tile, that the changes of one update can have altered.
 //
-// A changed ray touches the four columns of cells around it, over the depths that changed. A cell's vertex depends on nothing
-// else: signs of its corners and crossings of its edges come from rays through its edges, and a crossing is looked for no
-// farther than kNearEdge beyond its edge (tile_samples.hpp).
+// A changed ray affects the four columns of cells around it, over the depths that changed (cells_changed in
+// shaders/shared/mesh_tile.h). A cell's vertices depend on nothing else: the signs of its corners and the crossings of
+// its edges come from rays through its edges, and a crossing is searched for no farther than kNearEdge beyond its edge.
 #pragma once
 
 #include <cstdint>
@@ -11,36 +11,31 @@
 #include <vector>
 
 #include "base/worker_pool.hpp"
-#include "compute/ray_batch.hpp"
-#include "compute/tile_grid.hpp"
+#include "compute/mesher/tile_grid.hpp"
+#include "compute/rays/ray_batch.hpp"
 
-namespace burin {
+namespace burin::compute {
 
 class DirtyCells {
 public:
     explicit DirtyCells(const Lattice& lattice) : lattice_(lattice), grid_(lattice) {}
 
-    // Sorts the changes by tile, on all threads when there are many; the tiles they touch are then tiles().
+    // Sorts the changes by tile, on all threads when there are many; tiles() then lists the tiles they affect.
     void sort(const Changes& changes, WorkerPool& pool);
     [[nodiscard]] std::span<const std::uint32_t> tiles() const { return tiles_; }  // in increasing order
-    // The cells of one of these tiles. Thread-safe.
+    // Returns the dirty cells of one of tiles(). Thread-safe.
     [[nodiscard]] CellMask mask(std::uint32_t tile) const;
 
 private:
     static constexpr std::uint32_t kNone = 0xffffffff;
-    // Cells of the lattice, -1 being the empty layer below the first.
-    struct CellRange {
-        std::array<int, 3> lo, hi;
-    };
-    // What some of the changes touch: each share is marked by one thread.
+    // Dirty cells of one share of the changes; each share is marked by one thread.
     struct Share {
-        std::vector<std::uint32_t> slot;  // of each tile: its place in masks, or none
-        std::vector<CellMask> masks;      // more than there are tiles now
+        std::vector<std::uint32_t> slot;  // index of each tile's mask in masks, or kNone
+        std::vector<CellMask> masks;      // may be longer than tiles: masks are reused
         std::vector<std::uint32_t> tiles;
 
         [[nodiscard]] CellMask& mask_of(std::uint32_t tile);
     };
-    [[nodiscard]] static CellRange range_of(const shared::ChangedRay& change);
     void mark(std::span<const shared::ChangedRay> changes, Share& share) const;
 
     Lattice lattice_;
@@ -49,4 +44,4 @@ private:
     std::vector<std::uint32_t> tiles_;
 };
 
-}  // namespace burin
+}  // namespace burin::compute

@@ -2,32 +2,34 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compute/surface.hpp"
+#include "compute/mesher/surface.hpp"
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
-// What a tile's triangles do not go beyond, by its place in the grid.
+// Returns a box around the triangles of a tile, given the tile's position in the grid; metres from the lattice's
+// origin.
 Box reach_of_tile(const std::array<int, 3>& at, double spacing_m) {
     Box box{Vec3(0.0), Vec3(0.0)};
     for (int axis = 0; axis < 3; ++axis) {
         const int first_node = at[static_cast<std::size_t>(axis)] * kTileCells;
-        box.lo[axis] = (first_node - TileBlock::kReach) * spacing_m;
-        box.hi[axis] = (first_node + kTileCells - 1 + TileBlock::kReach) * spacing_m;
+        box.lo[axis] = (first_node - geometry::TileBlock::kReach) * spacing_m;
+        box.hi[axis] = (first_node + kTileCells - 1 + geometry::TileBlock::kReach) * spacing_m;
     }
     return box;
 }
 
-// Closed on all sides; `center` relative to the lattice's origin.
+// Tells whether a ball meets a closed box; `center` is relative to the lattice's origin.
 bool ball_meets(const Box& box, const Vec3& center, double radius_m) {
     const Vec3 outside = glm::max(glm::max(box.lo - center, center - box.hi), Vec3(0.0));
     return glm::dot(outside, outside) <= radius_m * radius_m;
 }
 
-// The places that may hold surface within the ball, at least one.
-void choose_places(const Surface& surface, const Vec3& center, double radius_m, TileBlock& block) {
+// Sets the block of tile places that may hold surface within the ball, at least one.
+void choose_places(const Surface& surface, const Vec3& center, double radius_m, geometry::TileBlock& block) {
     const double spacing_m = surface.lattice().spacing_m, tile_m = spacing_m * kTileCells;
-    const double before_m = (TileBlock::kReach - 1.0) * spacing_m, beyond_m = TileBlock::kReach * spacing_m;
+    const double before_m = (geometry::TileBlock::kReach - 1.0) * spacing_m,
+                 beyond_m = geometry::TileBlock::kReach * spacing_m;
     std::size_t places = 1;
     for (int axis = 0; axis < 3; ++axis) {
         const auto k = static_cast<std::size_t>(axis);
@@ -44,13 +46,14 @@ void choose_places(const Surface& surface, const Vec3& center, double radius_m, 
 
 }  // namespace
 
-void gather_local_surface(const Surface& surface, const Vec3& center_object, double radius_m, LocalSurface& out) {
+void gather_local_surface(const Surface& surface, const Vec3& center_object, double radius_m,
+                          geometry::LocalSurface& out) {
     out.origin_object = surface.lattice().origin_object;
     out.center_object = center_object;
     out.radius_m = radius_m;
     out.loose.reset();
     const Vec3 center = center_object - out.origin_object;
-    TileBlock& block = out.tiles;
+    geometry::TileBlock& block = out.tiles;
     choose_places(surface, center, radius_m, block);
     block.triangles = 0;
     auto place = block.places.begin();
@@ -65,10 +68,11 @@ void gather_local_surface(const Surface& surface, const Vec3& center_object, dou
                     place->tile.reset();
                     continue;
                 }
-                // Often the draft has it from three publications before: then there is nothing to count.
+                // The draft often holds this reference already, from three publications before: then no reference count
+                // changes.
                 if (place->tile != tile) place->tile = tile;
                 block.triangles += static_cast<std::uint32_t>(tile->triangles());
             }
 }
 
-}  // namespace burin
+}  // namespace burin::compute

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compute/surface.hpp"
+#include "compute/mesher/surface.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <numeric>
 #include <tuple>
 
-namespace burin {
+namespace burin::compute {
 
 template <typename MaskOf>
 RemeshStats Surface::mesh_tiles(const Solid& solid, MaskOf&& mask_of, WorkerPool& pool) {
@@ -68,8 +68,8 @@ double Surface::volume_m3() const {
 
 namespace {
 
-// Two sheets in one cell may have vertices at one place; each is moved on by as many steps of a float as it takes until all
-// places differ, so that a format without shared vertices keeps the sheets apart.
+// Makes all positions distinct. Two sheets in one cell may have vertices at the same position; each is moved by single
+// steps of a float until all positions differ, so that a format without shared vertices keeps the sheets apart.
 void make_places_distinct(std::vector<Vec3f>& places) {
     std::vector<std::uint32_t> order(places.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -89,7 +89,7 @@ void make_places_distinct(std::vector<Vec3f>& places) {
 
 }  // namespace
 
-TriangleMesh Surface::welded() const {
+geometry::TriangleMesh Surface::welded() const {
     struct Place {
         std::uint64_t key;
         std::uint32_t tile, vertex;
@@ -105,8 +105,9 @@ TriangleMesh Surface::welded() const {
         return std::tie(a.key, a.tile, a.vertex) < std::tie(b.key, b.tile, b.vertex);
     });
 
-    TriangleMesh mesh;
-    // Floats in the object frame, as most files hold them; relative to the lattice's origin where those would not do.
+    geometry::TriangleMesh mesh;
+    // Positions are rounded to floats in the object frame, as most files hold them; where that is too coarse, relative
+    // to the lattice's origin.
     const Vec3 shift = lattice_.fits_floats() ? Vec3(0.0) : lattice_.origin_object;
     std::vector<Vec3f> welded_places;
     for (std::size_t from = 0, to = 0; from < places.size(); from = to) {
@@ -136,4 +137,4 @@ TriangleMesh Surface::welded() const {
     return mesh;
 }
 
-}  // namespace burin
+}  // namespace burin::compute

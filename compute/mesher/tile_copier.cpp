@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "compute/tile_copier.hpp"
+#include "compute/mesher/tile_copier.hpp"
 
-namespace burin {
+namespace burin::compute {
 
 TileCopier::TileCopier(const TileMesh& old, const CellMask& dirty, TileDraft& draft,
                        std::vector<std::uint32_t>& new_index)
@@ -84,7 +84,7 @@ void TileCopier::copy_quad_run(std::size_t first, std::size_t end) {
     index_ += count;
 }
 
-// The triangles of a fan all begin with its own extra vertex.
+// Returns the number of indices of one quad or fan. The triangles of a fan all begin with its own extra vertex.
 std::size_t TileCopier::indices_of_quad_at(std::size_t index) const {
     const std::uint32_t first = old_.indices[index];
     if (first < old_.cell_vertices()) return 6;
@@ -93,4 +93,4 @@ std::size_t TileCopier::indices_of_quad_at(std::size_t index) const {
     return count;
 }
 
-}  // namespace burin
+}  // namespace burin::compute

@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: MIT
-// The lattice cut into cubes of kTileCells cells a side.
+// The division of the lattice into tiles: cubes of kTileCells cells a side.
 //
-// A tile owns the nodes with local coordinates 0 .. kTileCells - 1 and the lattice edges that start at them. It also knows
-// the cells one below its own, -1, since its edges touch them: it "sees" the cells -1 .. kTileCells - 1.
+// A tile owns the nodes with local coordinates 0 .. kTileCells - 1 and the lattice edges that start at them. It also
+// knows the layer of cells below its own, -1, since its edges touch them: it "sees" the cells -1 .. kTileCells - 1.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
-#include "compute/lattice.hpp"
-#include "geometry/surface_tile.hpp"
+#include "compute/rays/lattice.hpp"
+#include "geometry/contact/surface_tile.hpp"
+#include "shaders/shared/mesh_tile.h"
 
-namespace burin {
+namespace burin::compute {
 
-inline constexpr int kTileCells = SurfaceTile::kCells;
-inline constexpr int kSeenCells = kTileCells + 1;  // -1 .. kTileCells - 1
+inline constexpr int kTileCells = geometry::SurfaceTile::kCells;
+inline constexpr int kSeenCells = shared::kMeshCells;  // -1 .. kTileCells - 1
+static_assert(kTileCells == shared::kMeshTile);
 
 struct TileGrid {
     std::array<int, 3> tiles{0, 0, 0};
 
     explicit TileGrid(const Lattice& lattice) {
-        // One more than the cells: the tile owns nodes, and there is one more node than cells.
+        // A tile owns nodes, and there is one more node than cells along each axis.
         for (std::size_t a = 0; a < 3; ++a) tiles[a] = lattice.cells[a] / kTileCells + 1;
     }
     [[nodiscard]] std::size_t count() const {
@@ -34,7 +36,7 @@ struct TileGrid {
         const int i = static_cast<int>(index);
         return {i % tiles[0], i / tiles[0] % tiles[1], i / (tiles[0] * tiles[1])};
     }
-    // The tile's node with local coordinates 0, 0, 0.
+    // Returns the tile's node with local coordinates 0, 0, 0, in lattice coordinates.
     [[nodiscard]] std::array<int, 3> first_node(std::uint32_t index) const {
         std::array<int, 3> node = position(index);
         for (int& n : node) n *= kTileCells;
@@ -42,7 +44,7 @@ struct TileGrid {
     }
 };
 
-// A bit for each cell that a tile sees: bit z + 1 of column (x, y).
+// One bit for each cell that a tile sees: bit z + 1 of column (x, y).
 struct CellMask {
     std::array<std::uint32_t, kSeenCells * kSeenCells> columns{};
     static constexpr std::uint32_t kAll = (1u << kSeenCells) - 1u;
@@ -55,4 +57,4 @@ struct CellMask {
     void set_all() { columns.fill(kAll); }
 };
 
-}  // namespace burin
+}  // namespace burin::compute

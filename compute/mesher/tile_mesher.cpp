@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "compute/tile_mesher.hpp"
+#include "compute/mesher/tile_mesher.hpp"
 
 #include <algorithm>
 #include <bit>
 
-#include "compute/cell_table.hpp"
-#include "compute/cell_vertices.hpp"
-#include "compute/float4.hpp"
-#include "compute/tile_copier.hpp"
-#include "compute/tile_draft.hpp"
-#include "compute/tile_samples.hpp"
+#include "compute/mesher/cell_table.hpp"
+#include "compute/mesher/cell_vertices.hpp"
+#include "compute/mesher/tile_copier.hpp"
+#include "compute/mesher/tile_draft.hpp"
+#include "compute/mesher/tile_samples.hpp"
+#include "shaders/shared/cell_quad.h"
 
-namespace burin {
+namespace burin::compute {
 namespace {
+
+using shared::Float3;
+using shared::Float4;
 
 constexpr Local step(Local p, int axis, int by) {
     p[static_cast<std::size_t>(axis)] += by;
@@ -23,20 +26,20 @@ constexpr std::size_t cell_id(const Local& cell) {
     return static_cast<std::size_t>(((cell[1] + 1) * kSeenCells + cell[0] + 1) * kSeenCells + cell[2] + 1);
 }
 
-// By which that grows a step along each axis.
+// Increase of cell_id for one step along each axis.
 constexpr std::array<std::size_t, 3> kIdStep{kSeenCells, kSeenCells* kSeenCells, 1};
 
 std::uint64_t lattice_key(const Lattice& lattice, const std::array<int, 3>& first_node, const Local& cell, int slot) {
     std::uint64_t key = 0;
     for (std::size_t a = 3; a-- > 0;) {
-        // Cell -1 of the lattice exists (it is empty): count from there.
+        // Cell -1 of the lattice exists (it is empty), so counting starts there.
         key = key * static_cast<std::uint64_t>(lattice.cells[a] + 2) +
               static_cast<std::uint64_t>(cell[a] + first_node[a] + 1);
     }
     return key * 16 + static_cast<std::uint64_t>(slot);
 }
 
-// What outlives a call to keep its memory; used by one thread.
+// Buffers of one thread, kept between calls so that their memory is reused.
 struct Scratch {
     TileSamples samples;
     TileDraft draft;
@@ -116,7 +119,7 @@ private:
             if (sample.axis == 1) make_quad<1>(sample);
             if (sample.axis == 2) make_quad<2>(sample);
         }
-        begin_rows(SurfaceTile::kRows);
+        begin_rows(geometry::SurfaceTile::kRows);
     }
 
     void begin_row(std::size_t row) {
@@ -124,8 +127,8 @@ private:
         mesh_.row_triangles[row] = static_cast<std::uint32_t>(draft_.indices.count / 3);
     }
 
-    // The polygon around a crossed edge: the vertices of the four cells about it, and between two of them the extra vertex
-    // of their common face where that is needed.
+    // Adds the polygon around a crossed edge: the vertices of the four cells around the edge, and between two of them
+    // the extra vertex of their common face where one is needed.
     template <int axis>
     void make_quad(const EdgeSample& sample) {
         constexpr int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -134,10 +137,11 @@ private:
         const std::size_t id = cell_id(node);
         // Counter-clockwise seen from the edge's upper end.
         std::array<std::uint32_t, 8> polygon;
-        polygon[0] = vertex_of(id - back_u - back_v, cell_edge(axis, 1, 1));
-        polygon[1] = vertex_of(id - back_v, cell_edge(axis, 0, 1));
-        polygon[2] = vertex_of(id, cell_edge(axis, 0, 0));
-        polygon[3] = vertex_of(id - back_u, cell_edge(axis, 1, 0));
+        for (int i = 0; i < 4; ++i) {
+            const std::size_t back =
+                (shared::first_step_back(i) != 0 ? back_u : 0) + (shared::second_step_back(i) != 0 ? back_v : 0);
+            polygon[static_cast<std::size_t>(i)] = vertex_of(id - back, shared::edge_of_quad(axis, i));
+        }
         const bool flip = !sample.lower_inside;  // the surface faces the lower end
         std::uint16_t edge = sample.own_edge;
         if (sample.disagrees) {
@@ -160,25 +164,24 @@ private:
                static_cast<std::uint32_t>(draft_.vertex_of_edge.items[place] >> (4 * edge) & 0xf);
     }
 
-    // False, and nothing done, in the usual case that no loop passes a face of these cells twice.
+    // Adds the polygon as a fan if a loop passes a face of these cells twice. Otherwise, the usual case, returns false
+    // and adds nothing.
     bool fan_through_faces(int axis, const Local& node, const std::array<std::uint32_t, 8>& corners, bool flip) {
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-        const std::array<Local, 4> cells{step(step(node, u, -1), v, -1), step(node, v, -1), node, step(node, u, -1)};
         std::array<std::uint32_t, 8> polygon{};
         std::size_t count = 0, extra = 8;
-        for (std::size_t i = 0; i < 4; ++i) {
-            polygon[count++] = corners[i];
-            // Faces towards the next cell: +u, +v, -u, -v.
-            const int face_axis = i % 2 == 0 ? u : v;
-            const int side = i < 2 ? 1 : 0;
-            const Local next = step(cells[i], face_axis, side == 1 ? 1 : -1);
-            if (passed_twice(cells[i], next, face_axis, side)) {
+        for (int i = 0; i < 4; ++i) {
+            polygon[count++] = corners[static_cast<std::size_t>(i)];
+            const Local cell = step(step(node, u, -shared::first_step_back(i)), v, -shared::second_step_back(i));
+            const int face_axis = shared::face_axis_of_quad(axis, i), side = shared::face_side_of_quad(i);
+            const Local next = step(cell, face_axis, side == 1 ? 1 : -1);
+            if (passed_twice(cell, next, face_axis, side)) {
                 extra = count;
-                polygon[count++] = face_vertex(axis, node, side == 1 ? next : cells[i], face_axis);
+                polygon[count++] = face_vertex(axis, node, side == 1 ? next : cell, face_axis);
             }
         }
         if (extra == 8) return false;
-        // From the extra vertex: no diagonal of this fan can be an edge of another polygon.
+        // The fan starts from the extra vertex, so none of its diagonals can be an edge of another polygon.
         for (std::size_t i = 1; i + 1 < count; ++i) {
             triangle(polygon[extra], polygon[(extra + i) % count], polygon[(extra + i + 1) % count], flip);
         }
@@ -189,63 +192,51 @@ private:
         const unsigned a = cell_table()[samples_.cell_pattern(cell)].twice_faces;
         if (a == 0) return false;
         const unsigned b = cell_table()[samples_.cell_pattern(next)].twice_faces;
-        return (a >> cell_face(face_axis, side) & b >> cell_face(face_axis, 1 - side) & 1u) != 0;
+        return shared::passed_twice(a, b, face_axis, side);
     }
 
-    // The extra vertex for the join of this edge on the lower face (normal face_axis) of `cell`: the middle between this
-    // edge's crossing and that of the other edge around the same inside corner.
+    // Adds the extra vertex for the join of this edge on the lower face (normal face_axis) of `cell`; returns its
+    // index.
     std::uint32_t face_vertex(int axis, const Local& node, const Local& cell, int face_axis) {
-        const Local corner = samples_.inside(node) ? node : step(node, axis, 1);
-        const int other = 3 - axis - face_axis;
-        const auto o = static_cast<std::size_t>(other);
-        const Local other_node = cell[o] < corner[o] ? step(corner, other, -1) : corner;
-        const auto pair_axis = static_cast<std::size_t>((face_axis + 1) % 3);
-        const int pair = corner[pair_axis] - cell[pair_axis];
+        const shared::FaceJoin join = shared::face_join(axis, {node[0], node[1], node[2]}, samples_.inside(node),
+                                                        {cell[0], cell[1], cell[2]}, face_axis);
+        const Local other_node{join.other_node.x, join.other_node.y, join.other_node.z};
+        const int pair_axis = (face_axis + 1) % 3;
+        const int pair = join.corner[pair_axis] - cell[static_cast<std::size_t>(pair_axis)];
         mesh_.face_keys.push_back(lattice_key(solid_.lattice, first_node_, cell, 4 + 2 * face_axis + pair));
-        // Symmetric in the two edges, so that both quads, in whatever tiles, compute the same bits.
         draft_.vertices.push_back(
             CellVertexMaker(solid_, first_node_, samples_)
-                .make_face_vertex(cell, samples_.sample(axis, node), samples_.sample(other, other_node)));
+                .make_face_vertex(cell, samples_.sample(axis, node), samples_.sample(join.other_axis, other_node)));
         return static_cast<std::uint32_t>(draft_.vertices.count - 1);
     }
 
     void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, bool flip) {
         std::uint32_t* const corner = draft_.indices.add(3);
         corner[0] = a;
-        corner[1] = flip ? c : b;
-        corner[2] = flip ? b : c;
+        corner[1] = shared::second_corner(b, c, flip);
+        corner[2] = shared::third_corner(b, c, flip);
     }
 
     void split(const std::array<std::uint32_t, 8>& q, bool other_diagonal, bool flip) {
-        const std::size_t from = other_diagonal ? 1 : 0;
-        triangle(q[from], q[from + 1], q[(from + 2) % 4], flip);
-        triangle(q[from], q[(from + 2) % 4], q[(from + 3) % 4], flip);
+        const std::uint32_t opening = shared::opening_corner(other_diagonal);
+        const std::uint32_t third = q[shared::corner_after(opening, 2)];
+        triangle(q[opening], q[shared::corner_after(opening, 1)], third, flip);
+        triangle(q[opening], third, q[shared::corner_after(opening, 3)], flip);
     }
 
-    // Whether the diagonal 1-3 turns the two triangles less away from the outward normal than 0-2 does. All four triangles at
-    // once: (0, 1, 2) and (0, 2, 3), (1, 2, 3) and (1, 3, 0).
+    // Tells whether the diagonal 1-3 turns its two triangles less away from the outward normal than 0-2 does.
     [[nodiscard]] bool other_diagonal(const std::array<std::uint32_t, 8>& q, const Vec3f& normal) const {
-        // Rows of x, y, z; in cells, so that a workpiece of a micrometre does not underflow.
         std::array<Float4, 4> p;
         for (std::size_t i = 0; i < 4; ++i) __builtin_memcpy(&p[i], &draft_.vertices.items[q[i]], sizeof p[i]);
+        // Transposes rows of x, y, z to columns.
         const Float4 xy01 = __builtin_shufflevector(p[0], p[1], 0, 4, 1, 5),
                      xy23 = __builtin_shufflevector(p[2], p[3], 0, 4, 1, 5),
                      z01 = __builtin_shufflevector(p[0], p[1], 2, 6, 2, 6),
                      z23 = __builtin_shufflevector(p[2], p[3], 2, 6, 2, 6);
-        const auto from_first = [&](Float4 c) { return (c - broadcast<0>(c)) * cells_per_m_; };
-        const Float4 x = from_first(__builtin_shufflevector(xy01, xy23, 0, 1, 4, 5)),
-                     y = from_first(__builtin_shufflevector(xy01, xy23, 2, 3, 6, 7)),
-                     z = from_first(__builtin_shufflevector(z01, z23, 0, 1, 4, 5));
-        const auto first_side = [](Float4 c) { return shuffled<1, 2, 2, 3>(c) - shuffled<0, 0, 1, 1>(c); };
-        const auto second_side = [](Float4 c) { return shuffled<2, 3, 3, 0>(c) - shuffled<0, 0, 1, 1>(c); };
-        const Float4 ax = first_side(x), ay = first_side(y), az = first_side(z);
-        const Float4 bx = second_side(x), by = second_side(y), bz = second_side(z);
-        const Float4 nx = ay * bz - by * az, ny = az * bx - bz * ax, nz = ax * by - bx * ay;
-        const Float4 along = nx * normal.x + ny * normal.y + nz * normal.z, length2 = nx * nx + ny * ny + nz * nz;
-        // The squared cosine with its sign: it grows with the cosine, and needs no root.
-        const Float4 size = along < 0.0f ? -along : along;
-        const Float4 facing = length2 > 0.0f ? along * size / length2 : Float4{-1.0f, -1.0f, -1.0f, -1.0f};
-        return std::min(facing[0], facing[1]) < std::min(facing[2], facing[3]);
+        const Float4 x = shared::from_first_corner(__builtin_shufflevector(xy01, xy23, 0, 1, 4, 5), cells_per_m_),
+                     y = shared::from_first_corner(__builtin_shufflevector(xy01, xy23, 2, 3, 6, 7), cells_per_m_),
+                     z = shared::from_first_corner(__builtin_shufflevector(z01, z23, 0, 1, 4, 5), cells_per_m_);
+        return shared::takes_other_diagonal(shared::facings(x, y, z, normal.x, normal.y, normal.z));
     }
 
     const Solid& solid_;
@@ -288,4 +279,4 @@ std::vector<std::uint64_t> vertex_keys(const Lattice& lattice, const std::array<
     return keys;
 }
 
-}  // namespace burin
+}  // namespace burin::compute

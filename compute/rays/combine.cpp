@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "compute/combine.hpp"
+#include "compute/rays/combine.hpp"
 
 #include <algorithm>
 #include <string>
 
-#include "compute/ray_algebra.hpp"
+#include "compute/rays/ray_algebra.hpp"
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
 using shared::DexelEnd;
@@ -21,11 +21,15 @@ void append_combined(Combination operation, RayEnds a, RayEnds b, std::vector<De
     }
 }
 
-// Where each of b's materials stands in `materials`, which is a's table and grows by what it lacks.
-std::vector<std::uint8_t> merge_materials(const std::vector<Material>& b, std::vector<Material>& materials) {
+// Returns the index in `materials` of each of b's materials. `materials` holds those of a; the ones it lacks are
+// appended.
+std::vector<std::uint8_t> merge_materials(const std::vector<geometry::Material>& b,
+                                          std::vector<geometry::Material>& materials) {
     std::vector<std::uint8_t> places;
-    for (const Material& material : b) {
-        const auto same = [&](const Material& m) { return m.name == material.name && m.colour == material.colour; };
+    for (const geometry::Material& material : b) {
+        const auto same = [&](const geometry::Material& m) {
+            return m.name == material.name && m.colour == material.colour;
+        };
         const auto found = std::ranges::find_if(materials, same);
         places.push_back(static_cast<std::uint8_t>(found - materials.begin()));
         if (found == materials.end()) materials.push_back(material);
@@ -34,7 +38,7 @@ std::vector<std::uint8_t> merge_materials(const std::vector<Material>& b, std::v
     return places;
 }
 
-// The rays of one axis, row by row.
+// Combines the rays of one axis; rows are distributed over the pool.
 DexelSet combined_set(const Solid& a, const Solid& b, int axis, Combination operation,
                       std::span<const std::uint8_t> place_of_b, WorkerPool& pool) {
     const auto s = static_cast<std::size_t>(axis);
@@ -88,4 +92,4 @@ Result<Solid> combine(const Solid& a, const Solid& b, Combination operation, Wor
     return result;
 }
 
-}  // namespace burin
+}  // namespace burin::compute

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compute/dexel_set.hpp"
+#include "compute/rays/dexel_set.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -7,15 +7,16 @@
 
 #include "base/error.hpp"
 
-namespace burin {
+namespace burin::compute {
 
 using shared::DexelEnd;
 
 namespace {
 
-// Blocks grow by small steps: a page holds 128 ends and more, and a solid has a page for every 64 rays.
+// Capacities are multiples of kGrowth ends. The step is small because a page holds 128 ends and more, and a solid has a
+// page for every 64 rays.
 constexpr std::uint32_t kGrowth = 8;
-constexpr std::size_t kAllocatorBytes = 16;  // what a heap keeps with each block, rounding included
+constexpr std::size_t kAllocatorBytes = 16;  // estimated heap overhead of a block, including rounding
 
 }  // namespace
 
@@ -62,14 +63,14 @@ void DexelSet::splice(int u, int v, std::uint32_t from, std::uint32_t removed, s
         owner = make_page(added);
     }
     const auto ray = static_cast<std::size_t>(u % kPageRays);
-    if (removed == 1 && added == 1) {  // an end that moves: most of what a stroke does
+    if (removed == 1 && added == 1) {  // one end is replaced: the most frequent case in a stroke
         owner->ends()[owner->first[ray] + from] = inserted.front();
         return;
     }
     const std::uint32_t count = owner->first.back();
     const std::uint32_t new_count = count + added - removed;
     if (new_count > owner->capacity) {
-        // A ray that grows will grow again: an eighth of the page more, beside the next step.
+        // Rays that grow usually grow again, so a large page gets an eighth of its size in addition.
         owner = copy_page(*owner, new_count + (new_count > 256 ? new_count / 8 : 0));
     }
     DexelEnd* at = owner->ends() + owner->first[ray] + from;
@@ -132,4 +133,4 @@ bool DexelSet::same_content(const DexelSet& other) const {
     return true;
 }
 
-}  // namespace burin
+}  // namespace burin::compute

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The rays of one axis and their ends, any number of them a ray.
+// The rays of one axis of a solid and their interval ends, with no limit on the number of ends a ray.
 //
-// Rays lie in rows (v) of places (u). kPageRays neighbours of a row share a page: one block of memory with the ends of all of
-// them, ray after ray without gaps, behind a table of where each ray's begin. A page whose rays are all empty is not there.
-// So a ray costs 4 bytes and 8 an end, and little else; a ray that needs more moves the rest of its page up, a few hundred
-// bytes, and a page that is full gets a larger block. Nothing is ever dropped for want of room.
-// Threads: pages may be read and written from several threads as long as each page is touched by one. The rest is for one.
+// A ray is identified by its row v and its position u in the row. kPageRays neighbouring rays of a row share a page:
+// one block of memory that holds the ends of all of them, ray after ray without gaps, behind a table of where each
+// ray's ends begin. A page whose rays are all empty is not allocated. So a ray costs 4 bytes, each end costs 8, and
+// there is little other overhead. A ray that gains ends shifts the rest of its page, a few hundred bytes; a full page
+// is moved to a larger block. No end is ever dropped for lack of space.
+// Threads: several threads may read and write pages as long as each page is used by only one of them. All other members
+// are for one thread.
 #pragma once
 
 #include <array>
@@ -16,7 +18,7 @@
 
 #include "shaders/shared/dexel.h"
 
-namespace burin {
+namespace burin::compute {
 
 class DexelSet {
 public:
@@ -41,14 +43,15 @@ public:
         const auto ray = static_cast<std::size_t>(u % kPageRays);
         return {page->ends() + page->first[ray], page->first[ray + 1] - page->first[ray]};
     }
-    // By index u + v * rays_u().
+    // Returns the ends of the ray with index u + v * rays_u().
     [[nodiscard]] std::span<const shared::DexelEnd> ends(std::size_t ray) const {
         const auto width = static_cast<std::size_t>(rays_u_);
         return ends(static_cast<int>(ray % width), static_cast<int>(ray / width));
     }
-    // The rays (u, v), (u + 1, v) ... as far as they lie in one page, for walking along a row.
+    // The rays (u, v), (u + 1, v) ... up to the end of their page or row, for iterating along a row. Valid until the
+    // page changes.
     struct Run {
-        const std::uint32_t* first;  // ray i has the ends first[i] .. first[i + 1]
+        const std::uint32_t* first;  // ray i has ends[first[i] .. first[i + 1])
         const shared::DexelEnd* ends;
         int rays;
         [[nodiscard]] std::span<const shared::DexelEnd> ends_of(int i) const {
@@ -63,15 +66,15 @@ public:
         if (page == nullptr) return {kNoEnds.data(), nullptr, rays};
         return {page->first.data() + in_page, page->ends(), rays};
     }
-    // To change ends without changing their number.
+    // Returns a ray's ends for writing. Only their values can change, not their number.
     [[nodiscard]] std::span<shared::DexelEnd> ends_to_change(int u, int v) {
         const auto held = ends(u, v);
         return {const_cast<shared::DexelEnd*>(held.data()), held.size()};
     }
 
-    // Puts `inserted` in the place of `removed` ends of a ray from the given one on.
+    // Replaces `removed` ends of a ray, starting at index `from`, by `inserted`.
     void splice(int u, int v, std::uint32_t from, std::uint32_t removed, std::span<const shared::DexelEnd> inserted);
-    // All of a ray's ends.
+    // Replaces all ends of a ray.
     void replace(int u, int v, std::span<const shared::DexelEnd> ends) {
         splice(u, v, 0, static_cast<std::uint32_t>(this->ends(u, v).size()), ends);
     }
@@ -79,21 +82,22 @@ public:
         const auto width = static_cast<std::size_t>(rays_u_);
         replace(static_cast<int>(ray % width), static_cast<int>(ray / width), ends);
     }
-    // All rays: counts[r] ends each, taken from `ends` one ray after the other.
+    // Replaces the ends of all rays. Ray r gets the next counts[r] elements of `ends`.
     void assign(std::span<const std::uint32_t> counts, std::span<const shared::DexelEnd> ends);
 
-    // Whether any ray of u's page in row v has ends: false is a quick answer for all of them.
+    // Returns whether any ray of the page that holds (u, v) has ends. False means that all of them are empty.
     [[nodiscard]] bool page_held(int u, int v) const { return pages_[page_index(u, v)] != nullptr; }
     [[nodiscard]] std::size_t end_count() const;
-    // All bookkeeping included, and what the allocator adds to a block.
+    // Returns the memory in use, including page tables and an estimate of the allocator's overhead for each block.
     [[nodiscard]] std::size_t bytes() const;
-    // Same intervals, normals and materials on every ray.
+    // Returns whether every ray has the same intervals, normals and materials as in `other`.
     [[nodiscard]] bool same_content(const DexelSet& other) const;
 
 private:
     struct Page {
-        std::uint32_t capacity = 0;                        // ends
-        std::array<std::uint32_t, kPageRays + 1> first{};  // of each ray; the last one: how many in all
+        std::uint32_t capacity = 0;  // in ends
+        // Index of each ray's first end; the last entry is the number of ends in the page.
+        std::array<std::uint32_t, kPageRays + 1> first{};
         [[nodiscard]] shared::DexelEnd* ends() { return reinterpret_cast<shared::DexelEnd*>(this + 1); }
         [[nodiscard]] const shared::DexelEnd* ends() const {
             return reinterpret_cast<const shared::DexelEnd*>(this + 1);
@@ -116,4 +120,4 @@ private:
     std::vector<PageOwner> pages_;
 };
 
-}  // namespace burin
+}  // namespace burin::compute

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "compute/history.hpp"
+#include "compute/rays/history.hpp"
 
 #include <utility>
 
-namespace burin {
+namespace burin::compute {
 
 std::size_t History::size_of(const RayBatch& stroke) {
     return sizeof(RayBatch) + stroke.rays.size() * sizeof(RayBatch::Ray) +
@@ -31,7 +31,7 @@ void History::end_stroke() {
     bytes_ += size_of(open_);
 }
 
-// The open stroke is never dropped: it could only be dropped in part.
+// Drops the oldest closed strokes. The open stroke is kept, since it could only be dropped in part.
 void History::keep_within_budget() {
     while (bytes_ > budget_bytes_ && !done_.empty()) {
         bytes_ -= size_of(done_.front());
@@ -78,4 +78,4 @@ std::vector<std::string> History::take_notices() {
             " can no longer be undone; raise --undo-memory to keep more"};
 }
 
-}  // namespace burin
+}  // namespace burin::compute

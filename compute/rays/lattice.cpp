@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compute/lattice.hpp"
+#include "compute/rays/lattice.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,12 +7,13 @@
 #include <cmath>
 #include <string>
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
-// Sizes whose squares and cubes stay well within float, as which surfaces are drawn and touched.
+// Limits within which squares and cubes of sizes stay well in the range of float, the type in which surfaces are drawn
+// and touched.
 constexpr double kSmallestExtent_m = 1e-9, kLargestExtent_m = 1e9;
-// A lattice has up to 2^23 units along the longest side; with 2^24 sides' distance a double still tells them apart.
+// A lattice has up to 2^23 units along its longest side; at a distance of 2^24 sides a double still resolves them.
 constexpr double kFarthestInExtents = 1 << 24;
 
 std::string in_metres(double x) {
@@ -26,10 +27,11 @@ struct AxisPlacement {
     int cells;
 };
 
-// Both faces at least a quarter of a cell from any node, and a whole empty cell outside each.
+// Places the bounds along one axis so that both faces are at least a quarter of a cell from any node and have a whole
+// empty cell outside them.
 AxisPlacement place(double extent_cells) {
     const double rest = extent_cells - std::floor(extent_cells);
-    // Symmetric between nodes: the two faces are (1 - rest) / 2 or (2 - rest) / 2 cells inside their outer cells.
+    // By symmetry, the two faces are (1 - rest) / 2 or (2 - rest) / 2 cells inside their outer cells.
     const double inset = rest <= 0.5 ? 0.5 * (1.0 - rest) : 0.5 * (2.0 - rest);
     const double first = 1.0 + inset;
     return {first, static_cast<int>(std::lround(2.0 * first + extent_cells))};
@@ -67,4 +69,4 @@ Result<Lattice> lattice_around(const Box& bounds, int resolution) {
     return lattice;
 }
 
-}  // namespace burin
+}  // namespace burin::compute

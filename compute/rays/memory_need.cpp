@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "compute/memory_need.hpp"
+#include "compute/rays/memory_need.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <string>
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
-// A carved ray, all bookkeeping included (decision 6); a cell with surface in it, with its vertices, quad and what welding,
-// mending and exporting need beside them (measured: block:1,1,1 at N = 512 and 1024).
+// Bytes of a carved ray with all bookkeeping (decision 6), and of a cell that holds surface: its vertices, its quad and
+// what welding, repair and export need in addition (measured: block:1,1,1 at N = 512 and 1024).
 constexpr double kBytesARay = 24.0, kBytesASurfaceCell = 256.0;
 
 std::string gigabytes(double bytes) {
@@ -53,4 +53,4 @@ Result<void> check_memory(const Lattice& lattice, std::optional<std::uint64_t> a
                     : "free some memory");
 }
 
-}  // namespace burin
+}  // namespace burin::compute

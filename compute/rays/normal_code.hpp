@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From a direction in doubles to the code of its normal (shaders/shared/octahedral.h).
+// Encoding of a direction given in doubles as a normal code (shaders/shared/octahedral.h).
 #pragma once
 
 #include <algorithm>
@@ -9,9 +9,10 @@
 #include "base/space.hpp"
 #include "shaders/shared/octahedral.h"
 
-namespace burin {
+namespace burin::compute {
 
-// Of any length; the zero vector gives +z. The same on every machine: the longest part becomes 2^40 and all are rounded.
+// Returns the code of a normal of any length; the zero vector gives +z. The result is the same on every machine: the
+// vector is scaled until its longest component is 2^40, and rounded to whole numbers.
 [[nodiscard]] inline std::uint32_t normal_code(const Vec3& normal) {
     const double longest = std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
     if (!(longest > 0.0)) return shared::encode_normal({0, 0, 0});
@@ -19,4 +20,4 @@ namespace burin {
     return shared::encode_normal({whole(normal.x), whole(normal.y), whole(normal.z)});
 }
 
-}  // namespace burin
+}  // namespace burin::compute

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "compute/ray_algebra.hpp"
+#include "compute/rays/ray_algebra.hpp"
 
 #include <algorithm>
 
 #include "shaders/shared/octahedral.h"
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
 using shared::DexelEnd;
 
-// Walks both lists upwards. inside(in_a, in_b) says what belongs to the result; an odd number of ends below a depth means
-// that the depth is inside. Where both lists have an end at a depth at which the result changes, a's end runs the same way
-// as the result's in all three operations, so it may stay.
+// Merges both lists in order of depth. inside(in_a, in_b) defines the result; an odd number of ends below a depth means
+// that the depth is inside. Where both lists have an end at a depth at which the result changes, the end of a opens or
+// closes an interval just as the result does, in all three operations, so it can be kept.
 template <typename Inside, typename FromB>
 void append_combined(RayEnds a, RayEnds b, Inside inside, FromB from_b, std::vector<DexelEnd>& to) {
     std::size_t i = 0, j = 0;
@@ -61,4 +61,4 @@ bool same_ends(RayEnds a, RayEnds b) {
     });
 }
 
-}  // namespace burin
+}  // namespace burin::compute

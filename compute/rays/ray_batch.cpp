@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "compute/ray_batch.hpp"
+#include "compute/rays/ray_batch.hpp"
 
 #include <algorithm>
 #include <utility>
 
-namespace burin {
+namespace burin::compute {
 
 using shared::DexelEnd;
 
@@ -34,7 +34,7 @@ bool assign_ray(DexelSet& set, const RayPlace& place, std::span<const DexelEnd> 
     while (front < shorter && same(held[front], ends[front])) ++front;
     if (front == held.size() && front == ends.size()) return false;
     while (front + back < shorter && same(held[held.size() - 1 - back], ends[ends.size() - 1 - back])) ++back;
-    // What differs is held[front .. size - back) against ends[front .. size - back); one of them may be empty.
+    // The lists differ in held[front .. size - back) and ends[front .. size - back); one of these ranges may be empty.
     int lo = shared::kMaxDepth, hi = 0;
     for (const std::span<const DexelEnd> list : {held, ends}) {
         if (front + back >= list.size()) continue;
@@ -46,4 +46,4 @@ bool assign_ray(DexelSet& set, const RayPlace& place, std::span<const DexelEnd> 
     return true;
 }
 
-}  // namespace burin
+}  // namespace burin::compute

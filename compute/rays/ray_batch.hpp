@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Lists of ends for some of a solid's rays: what a tool covers, or what rays shall hold. And the record of what an update
-// did to rays, from which the surface is brought up to date and a stroke is undone.
-// Plain data; the ends of one ray are sorted, strictly increasing and even in number, as in a solid (shaders/shared/dexel.h).
+// Lists of ends for some of a solid's rays, and the record of how an update changed rays. A batch describes what a tool
+// covers or the ends that rays are to hold; from the record the surface is updated and strokes are undone.
+// Plain data; the ends of one ray are sorted, strictly increasing and even in number, as in a solid
+// (shaders/shared/dexel.h).
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "compute/dexel_set.hpp"
-#include "compute/lattice.hpp"
+#include "compute/rays/dexel_set.hpp"
+#include "compute/rays/lattice.hpp"
 #include "shaders/shared/cut_job.h"
 #include "shaders/shared/dexel.h"
 
-namespace burin {
+namespace burin::compute {
 
-// Which ray: its axis and place, and its index in that axis' DexelSet.
+// Identifies a ray by its axis and position; index() is its index in the DexelSet of that axis.
 struct RayPlace {
     int axis = 0, u = 0, v = 0;
     [[nodiscard]] std::size_t index(const Lattice& lattice) const {
@@ -34,7 +35,7 @@ struct RayBatch {
         std::uint32_t first = 0, count = 0;
     };
     std::vector<Ray> rays;               // each ray at most once
-    std::vector<shared::DexelEnd> ends;  // of all of them
+    std::vector<shared::DexelEnd> ends;  // of all rays, one ray after the other
 
     [[nodiscard]] std::span<const shared::DexelEnd> ends_of(const Ray& ray) const {
         return std::span(ends).subspan(ray.first, ray.count);
@@ -45,9 +46,9 @@ struct RayBatch {
     }
 };
 
-// What happened to the rays since it was last asked: one entry for each change, the oldest of a ray first. An entry's
-// `first` and `count` say which ends of `before` the ray held before that change; changed_lo and changed_hi are depths
-// between which its intervals, normals or materials differ.
+// Record of the changes to rays since it was last taken: one entry for each change, those of one ray in order of time.
+// `first` and `count` of an entry say which elements of `before` the ray held before that change; changed_lo and
+// changed_hi are depths between which its intervals, normals or materials differ.
 struct Changes {
     std::vector<shared::ChangedRay> rays;
     std::vector<shared::DexelEnd> before;
@@ -56,18 +57,20 @@ struct Changes {
     [[nodiscard]] std::span<const shared::DexelEnd> before_of(const shared::ChangedRay& ray) const {
         return std::span(before).subspan(ray.first, ray.count);
     }
-    // A ray that held `ends` is about to differ between the two depths.
+    // Records that the ray, which holds `ends`, is about to change between the two depths.
     void record(const RayPlace& place, int changed_lo, int changed_hi, std::span<const shared::DexelEnd> ends) {
         rays.push_back({place.code(), static_cast<std::uint32_t>(before.size()),
                         static_cast<std::uint32_t>(ends.size()), changed_lo, changed_hi});
-        for (const shared::DexelEnd& end : ends) before.push_back(end);  // two, mostly: less than a call's worth
+        // A loop is faster than one call of insert here, as most rays have two ends.
+        for (const shared::DexelEnd& end : ends) before.push_back(end);
     }
     void append(const Changes& later);
-    // Hands everything over and keeps room for as much again: updates follow each other and are alike.
+    // Returns all changes and leaves an empty record with the same capacity reserved, since successive updates are of
+    // similar size.
     [[nodiscard]] Changes take();
 };
 
-// Gives a ray new ends and records what it held; false when they are the old ones.
+// Replaces the ends of a ray and records what it held. Returns false, and records nothing, when the ends are the same.
 bool assign_ray(DexelSet& set, const RayPlace& place, std::span<const shared::DexelEnd> ends, Changes& changes);
 
-}  // namespace burin
+}  // namespace burin::compute

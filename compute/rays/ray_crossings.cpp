@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compute/ray_crossings.hpp"
+#include "compute/rays/ray_crossings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,14 +7,15 @@
 
 #include "shaders/shared/dexel.h"
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
 using shared::kUnitsPerCell;
 
-// On which side of the edge a -> b the ray lies: above zero to the left. Exactly on it, the ray moved by (e, e^2) decides.
+// Side of the edge a -> b on which the ray lies; the area is positive to the left. A ray exactly on the edge is treated
+// as if moved by (e, e^2) for an infinitely small e.
 struct Side {
-    std::int64_t area;  // twice the triangle's area with the ray
+    std::int64_t area;  // twice the signed area of the triangle (a, b, ray)
     bool left;
 };
 
@@ -25,7 +26,7 @@ Side side_of(std::int64_t au, std::int64_t av, std::int64_t bu, std::int64_t bv,
     return {0, bu > au};
 }
 
-// The first and the last ray of lo..hi within units min..max.
+// Return the first and the last ray of lo..hi at a coordinate within min..max units.
 std::int64_t first_ray(std::int64_t min, int lo) {
     return min <= std::int64_t{lo} * kUnitsPerCell ? lo : (min + kUnitsPerCell - 1) / kUnitsPerCell;
 }
@@ -38,7 +39,7 @@ void cross_triangle(const WholeMesh& mesh, const RayWindow& window, std::uint32_
     const auto& t = mesh.triangles[index];
     const Whole3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
     const std::int64_t whole = (b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]);
-    if (whole == 0) return;  // seen edge-on; the moved ray passes beside it
+    if (whole == 0) return;  // parallel to the ray: the moved ray misses it
     const auto [u_min, u_max] = std::minmax({a[u], b[u], c[u]});
     const auto [v_min, v_max] = std::minmax({a[v], b[v], c[v]});
     const auto [s_min, s_max] = std::minmax({a[s], b[s], c[s]});
@@ -59,7 +60,8 @@ void cross_triangle(const WholeMesh& mesh, const RayWindow& window, std::uint32_
             out.push_back(
                 {static_cast<std::uint32_t>(number),
                  static_cast<std::int32_t>(std::clamp<std::int64_t>(std::llround(depth), s_min, s_max)), index,
-                 // Counter-clockwise seen from +s: the normal points up, the ray going up leaves the material.
+                 // A triangle that is counter-clockwise seen from +s has its normal upwards: a ray going up leaves the
+                 // material.
                  static_cast<std::int8_t>(ab.left ? -1 : 1)});
         }
     }
@@ -76,7 +78,7 @@ std::vector<Crossing> sorted_crossings(const WholeMesh& mesh, const RayWindow& w
             cross_triangle(mesh, window, static_cast<std::uint32_t>(t), found[i]);
         }
     });
-    // Counting sort by ray, then each ray by depth.
+    // Counting sort by ray, then a sort of each ray by depth.
     std::vector<std::uint32_t> first(window.rays() + 1, 0);
     for (const auto& chunk : found)
         for (const Crossing& c : chunk) ++first[c.ray + 1];
@@ -105,7 +107,7 @@ bool append_interval_bounds(std::span<const Crossing> crossings, bool by_parity,
         const int next = by_parity ? 1 - winding : winding + c.enters;
         const bool opens = winding <= 0 && next > 0, closes = winding > 0 && next <= 0;
         if (opens || closes) {
-            // An interval without thickness, or two that share an end.
+            // Drops an interval without thickness, or joins two that share an end.
             if (bounds.size() > before && bounds.back().depth == c.depth) {
                 bounds.pop_back();
             } else {
@@ -118,4 +120,4 @@ bool append_interval_bounds(std::span<const Crossing> crossings, bool by_parity,
     return winding == 0;
 }
 
-}  // namespace burin
+}  // namespace burin::compute

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT
-#include "compute/scan_convert.hpp"
+#include "compute/rays/scan_convert.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "compute/memory_need.hpp"
-#include "compute/normal_code.hpp"
-#include "compute/ray_crossings.hpp"
-#include "geometry/edge_table.hpp"
+#include "compute/rays/memory_need.hpp"
+#include "compute/rays/normal_code.hpp"
+#include "compute/rays/ray_crossings.hpp"
+#include "geometry/mesh/edge_table.hpp"
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
 struct Input {
-    const TriangleMesh& mesh;
+    const geometry::TriangleMesh& mesh;
     std::vector<Whole3> vertices;
-    std::vector<std::uint32_t> normals;  // a code for each triangle
+    std::vector<std::uint32_t> normals;  // code of each triangle's normal
 };
 
-Input prepare(const TriangleMesh& mesh, const Lattice& lattice) {
+Input prepare(const geometry::TriangleMesh& mesh, const Lattice& lattice) {
     Input input{mesh, {}, {}};
     input.vertices.reserve(mesh.positions_m.size());
     for (const Vec3& p : mesh.positions_m) {
@@ -28,14 +28,14 @@ Input prepare(const TriangleMesh& mesh, const Lattice& lattice) {
     }
     input.normals.reserve(mesh.triangles.size());
     for (const auto& t : mesh.triangles) {
-        // In lattice units: the products of very small or large metres would leave the range of doubles.
+        // Computed in lattice units: products of very small or large metres would leave the range of doubles.
         const Vec3 &a = mesh.positions_m[t[0]], &b = mesh.positions_m[t[1]], &c = mesh.positions_m[t[2]];
         input.normals.push_back(normal_code(glm::cross((b - a) / lattice.unit_m(), (c - a) / lattice.unit_m())));
     }
     return input;
 }
 
-// Turns sorted crossings into intervals.
+// Converts sorted crossings to the intervals of the set, and counts crossings and unmatched rays in `result`.
 void build(const Input& input, std::span<const Crossing> crossings, DexelSet& set, ScanConversion& result) {
     const std::vector<std::uint8_t>& materials = input.mesh.triangle_materials;
     std::vector<std::uint32_t> counts(set.ray_count(), 0);
@@ -58,21 +58,23 @@ void build(const Input& input, std::span<const Crossing> crossings, DexelSet& se
 
 enum class Orientation { open, mixed, consistent };
 
-// Every edge must be used an even number of times, and for winding numbers as often one way as the other.
-Orientation orientation_of(const TriangleMesh& mesh) {
+// Classifies the mesh by its edges. A closed mesh uses every edge an even number of times; winding numbers also need it
+// to be used as often in one direction as in the other.
+Orientation orientation_of(const geometry::TriangleMesh& mesh) {
     Orientation result = Orientation::consistent;
-    for_each_edge(edge_uses(mesh.triangles), [&](std::span<const EdgeUse> edge) {
+    geometry::for_each_edge(geometry::edge_uses(mesh.triangles), [&](std::span<const geometry::EdgeUse> edge) {
         if (edge.size() % 2 != 0) {
             result = Orientation::open;
-        } else if (imbalance(edge) != 0 && result == Orientation::consistent) {
+        } else if (geometry::imbalance(edge) != 0 && result == Orientation::consistent) {
             result = Orientation::mixed;
         }
     });
     return result;
 }
 
-// What the mesh must be before its triangles are looked at one by one.
-Result<void> check_lists(const TriangleMesh& mesh) {
+// Checks that the mesh's lists are consistent: finite coordinates, valid materials and indices, and at least one
+// triangle.
+Result<void> check_lists(const geometry::TriangleMesh& mesh) {
     for (const Vec3& p : mesh.positions_m) {
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
             return fail("mesh", "has a coordinate that is not finite", "repair the file");
@@ -95,14 +97,14 @@ Result<void> check_lists(const TriangleMesh& mesh) {
     return {};
 }
 
-// On a lattice that holds the mesh; check_lists has found nothing.
-Result<ScanConversion> convert(const TriangleMesh& mesh, Orientation orientation, const Lattice& lattice,
+// Converts a mesh that check_lists has accepted, on a lattice that holds it.
+Result<ScanConversion> convert(const geometry::TriangleMesh& mesh, Orientation orientation, const Lattice& lattice,
                                WorkerPool& pool) {
     ScanConversion result;
     result.by_parity = orientation == Orientation::mixed;
     result.solid.lattice = lattice;
     result.solid.materials =
-        mesh.materials.empty() ? std::vector<Material>{{"workpiece", {200, 200, 200}}} : mesh.materials;
+        mesh.materials.empty() ? std::vector<geometry::Material>{{"workpiece", {200, 200, 200}}} : mesh.materials;
     const Input input = prepare(mesh, lattice);
     const WholeMesh whole{input.vertices, mesh.triangles};
     std::size_t ends_held = 0;
@@ -123,14 +125,14 @@ const char* const kHoles = "has holes, so inside and outside are not defined";
 
 }  // namespace
 
-Box bounds_of_triangles(const TriangleMesh& mesh) {
+Box bounds_of_triangles(const geometry::TriangleMesh& mesh) {
     Box bounds;
     for (const auto& t : mesh.triangles)
         for (const std::uint32_t i : t) bounds.include(mesh.positions_m[i]);
     return bounds;
 }
 
-Result<ScanConversion> scan_convert(const TriangleMesh& mesh, int resolution, WorkerPool& pool) {
+Result<ScanConversion> scan_convert(const geometry::TriangleMesh& mesh, int resolution, WorkerPool& pool) {
     if (const auto good = check_lists(mesh); !good) return std::unexpected(good.error());
     const Orientation orientation = orientation_of(mesh);
     if (orientation == Orientation::open) return fail("mesh", kHoles, "close it, or pass --close-holes");
@@ -140,7 +142,7 @@ Result<ScanConversion> scan_convert(const TriangleMesh& mesh, int resolution, Wo
     return convert(mesh, orientation, *lattice, pool);
 }
 
-Result<ScanConversion> scan_convert_onto(const TriangleMesh& mesh, const Lattice& lattice, WorkerPool& pool) {
+Result<ScanConversion> scan_convert_onto(const geometry::TriangleMesh& mesh, const Lattice& lattice, WorkerPool& pool) {
     if (const auto good = check_lists(mesh); !good) return std::unexpected(good.error());
     const Orientation orientation = orientation_of(mesh);
     if (orientation == Orientation::open) return fail("mesh", kHoles, "close it, or pass --close-holes");
@@ -154,4 +156,4 @@ Result<ScanConversion> scan_convert_onto(const TriangleMesh& mesh, const Lattice
     return convert(mesh, orientation, lattice, pool);
 }
 
-}  // namespace burin
+}  // namespace burin::compute

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "compute/solid.hpp"
+#include "compute/rays/solid.hpp"
 
 #include <algorithm>
 
 #include <cmath>
 #include <string>
 
-#include "compute/memory_need.hpp"
+#include "compute/rays/memory_need.hpp"
 #include "shaders/shared/capsule.h"
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
-// Fills each set from span_of(axis, u, v) (lattice units) and normal_of(axis, u, v, depth, is_upper_end).
+// Sets each ray to one interval, given by span_of(axis, u, v) in lattice units, with normals from normal_of(axis, u, v,
+// depth, is_upper_end).
 template <typename SpanOf, typename NormalOf>
 void fill_convex(Solid& solid, SpanOf span_of, NormalOf normal_of) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -62,7 +63,7 @@ bool well_formed(const Solid& solid) {
     return true;
 }
 
-Result<Solid> make_block(const Vec3& size_m, int resolution, Material material) {
+Result<Solid> make_block(const Vec3& size_m, int resolution, geometry::Material material) {
     if (!(size_m.x > 0 && size_m.y > 0 && size_m.z > 0)) {
         return fail("workpiece block", "needs three sizes above zero", "write block:X,Y,Z in metres");
     }
@@ -89,7 +90,7 @@ Result<Solid> make_block(const Vec3& size_m, int resolution, Material material) 
     return solid;
 }
 
-Result<Solid> make_ball(double radius_m, int resolution, Material material) {
+Result<Solid> make_ball(double radius_m, int resolution, geometry::Material material) {
     if (!(radius_m > 0)) return fail("workpiece ball", "needs a radius above zero", "write ball:R in metres");
     Result<Lattice> lattice = lattice_around(Box{Vec3(-radius_m), Vec3(radius_m)}, resolution);
     if (!lattice) return std::unexpected(lattice.error());
@@ -118,9 +119,11 @@ Result<Solid> make_ball(double radius_m, int resolution, Material material) {
     return solid;
 }
 
-Result<std::uint8_t> add_material(Solid& solid, const Material& material) {
+Result<std::uint8_t> add_material(Solid& solid, const geometry::Material& material) {
     constexpr std::size_t kMost = 255;
-    const auto same = [&](const Material& m) { return m.name == material.name && m.colour == material.colour; };
+    const auto same = [&](const geometry::Material& m) {
+        return m.name == material.name && m.colour == material.colour;
+    };
     const auto found = std::ranges::find_if(solid.materials, same);
     const auto number = static_cast<std::size_t>(found - solid.materials.begin());
     if (number >= kMost) {
@@ -131,4 +134,4 @@ Result<std::uint8_t> add_material(Solid& solid, const Material& material) {
     return static_cast<std::uint8_t>(number);
 }
 
-}  // namespace burin
+}  // namespace burin::compute

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-#include "compute/thin_out.hpp"
+#include "compute/repair/decimate.hpp"
 
 #include <algorithm>
 
-#include "compute/self_intersections.hpp"
+#include "compute/repair/self_intersections.hpp"
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
 constexpr int kAttempts = 6;
 
-// The vertices of the first mesh within `margin_m` of the boxes of the triangles that meet. With all of them kept, the first
-// surface is back in place there.
-void keep_around(const TriangleMesh& first, const TriangleMesh& now, std::span<const TrianglePair> pairs,
-                 double margin_m, std::vector<std::uint32_t>& keep) {
-    const TriangleTree tree(first.positions_m, first.triangles);
+// Adds to `keep` the vertices of the first mesh's triangles that come within `margin_m` of an intersection. With all of
+// them kept, the first surface is restored there.
+void keep_around(const geometry::TriangleMesh& first, const geometry::TriangleMesh& now,
+                 std::span<const TrianglePair> pairs, double margin_m, std::vector<std::uint32_t>& keep) {
+    const geometry::TriangleTree tree(first.positions_m, first.triangles);
     for (const TrianglePair& pair : pairs) {
-        // Where the two boxes overlap is where the triangles meet.
+        // The triangles intersect where their two boxes overlap.
         Box common;
         std::array<Box, 2> boxes;
         for (std::size_t i = 0; i < 2; ++i) {
@@ -35,9 +35,9 @@ void keep_around(const TriangleMesh& first, const TriangleMesh& now, std::span<c
 
 }  // namespace
 
-Result<ThinnedOut> thin_out(const TriangleMesh& mesh, double bound_m, WorkerPool& pool,
+Result<ThinnedOut> decimate(const geometry::TriangleMesh& mesh, double bound_m, WorkerPool& pool,
                             const std::function<void(double)>& show) {
-    SimplifyOptions options;
+    geometry::SimplifyOptions options;
     options.bound_m = bound_m;
     options.for_each = [&](std::size_t count, const std::function<void(std::size_t)>& task) {
         pool.run(count, [&](std::size_t i) { task(i); });
@@ -50,7 +50,7 @@ Result<ThinnedOut> thin_out(const TriangleMesh& mesh, double bound_m, WorkerPool
         options.show = [&](double share) {
             if (show) show(1.0 - (1.0 - share) / (attempt + 1));
         };
-        Result<Simplified> simplified = simplify(mesh, options);
+        Result<geometry::Simplified> simplified = geometry::simplify(mesh, options);
         if (!simplified) return std::unexpected(simplified.error());
         const std::vector<TrianglePair> pairs = self_intersections(simplified->mesh, pool);
         if (pairs.size() <= result.self_intersections_before) {
@@ -59,7 +59,7 @@ Result<ThinnedOut> thin_out(const TriangleMesh& mesh, double bound_m, WorkerPool
             result.self_intersections = pairs.size();
             return result;
         }
-        // Wider each time: what was moved away from one place meets the next.
+        // The margin doubles with each attempt, because what was moved away from one place may meet the next.
         keep_around(mesh, simplified->mesh, pairs, 2.0 * bound_m * static_cast<double>(1 << attempt), options.keep);
     }
     result.mesh = mesh;
@@ -67,4 +67,4 @@ Result<ThinnedOut> thin_out(const TriangleMesh& mesh, double bound_m, WorkerPool
     return result;
 }
 
-}  // namespace burin
+}  // namespace burin::compute

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "compute/planes_around.hpp"
+#include "compute/repair/planes_around.hpp"
 
 #include <cmath>
 
 #include "shaders/shared/octahedral.h"
 
-namespace burin {
+namespace burin::compute {
 
 const std::vector<TangentPlane>& PlanesAround::at(std::uint32_t vertex) {
     const Lattice& lattice = solid_.lattice;
@@ -41,4 +41,4 @@ void PlanesAround::add_crossings(int axis, int u, int v, double at_cells, std::v
     }
 }
 
-}  // namespace burin
+}  // namespace burin::compute

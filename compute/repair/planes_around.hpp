@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: MIT
-// The planes that a solid's rays give around the vertices of its mesh: what a moved vertex is measured against.
+// The tangent planes that a solid's rays give around the vertices of its mesh; the deviation of a moved vertex is
+// measured against them.
 #pragma once
 
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
 
-#include "compute/solid.hpp"
+#include "compute/rays/solid.hpp"
 
-namespace burin {
+namespace burin::compute {
 
 struct TangentPlane {
     Vec3 point_m, normal;
 };
 
-// Frame: the object frame. One thread: what was asked is remembered.
+// Finds tangent planes and caches them by vertex. Frame: the object frame. To be used from one thread.
 class PlanesAround {
 public:
-    // The vertices as they were meshed.
+    // Takes the vertices as they were meshed.
     PlanesAround(const Solid& solid, const std::vector<Vec3>& vertices_m) : solid_(solid), vertices_m_(vertices_m) {}
 
-    // Of the surface where rays cross it within a cell's width of the vertex, along each axis. Not only in the vertex' own
-    // cell: a feature may lie in a cell that has no crossing.
+    // Returns the tangent planes at the ends of rays within a cell's width of the vertex, along each axis. The search
+    // is not limited to the vertex's own cell: a feature may lie in a cell that has no crossing.
     [[nodiscard]] const std::vector<TangentPlane>& at(std::uint32_t vertex);
 
 private:
@@ -29,7 +30,7 @@ private:
 
     const Solid& solid_;
     const std::vector<Vec3>& vertices_m_;
-    std::unordered_map<std::uint32_t, std::vector<TangentPlane>> planes_;  // of the vertices looked at
+    std::unordered_map<std::uint32_t, std::vector<TangentPlane>> planes_;  // cache, by vertex
 };
 
-}  // namespace burin
+}  // namespace burin::compute

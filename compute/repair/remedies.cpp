@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "compute/mending_remedies.hpp"
+#include "compute/repair/remedies.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
-constexpr int kMostRings = 5;  // of neighbours that are moved at once
-// A vertex that is moved keeps off its cell's faces by this much, so that vertices of two cells do not come to one place.
+constexpr int kMostRings = 5;  // rings of neighbours that are moved at once
+// Distance that a moved vertex keeps from its cell's faces, in cells, so that vertices of two cells never coincide.
 constexpr double kInset = 1.0 / 256.0;
-constexpr int kFirstFaceSlot = 4;  // of a key (tile_mesher.hpp): two slots for each of the cell's lower faces
-// A turned diagonal changes the surface by the gap between the diagonals; in cells.
+// First slot of a key (tile_mesher.hpp) that names an extra vertex: two slots for each of the cell's lower faces.
+constexpr int kFirstFaceSlot = 4;
+// Largest gap between the two diagonals, in cells, for which a diagonal is turned; the surface changes by that gap.
 constexpr double kMostGap = 0.1;
 constexpr std::array kShares{0.125, 0.25, 0.5, 0.75, 1.0};
 
-// Of the welded vertices: they are sorted by key, one for each.
+// Returns the keys of the welded vertices, which are sorted by key, one vertex for each.
 std::vector<std::uint64_t> keys_of(const Surface& surface) {
     std::vector<std::uint64_t> keys;
     for (std::uint32_t t = 0; t < surface.tile_count(); ++t) {
@@ -31,8 +32,9 @@ std::vector<std::uint64_t> keys_of(const Surface& surface) {
 
 }  // namespace
 
-Fans::Fans(const TriangleMesh& mesh) : first_(mesh.positions_m.size() + 1), triangles_(mesh.triangles.size() * 3) {
-    for (const VertexTriple& t : mesh.triangles) {
+Fans::Fans(const geometry::TriangleMesh& mesh)
+    : first_(mesh.positions_m.size() + 1), triangles_(mesh.triangles.size() * 3) {
+    for (const geometry::VertexTriple& t : mesh.triangles) {
         for (const std::uint32_t v : t) ++first_[v + 1];
     }
     for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
@@ -63,7 +65,7 @@ void sort_unique(std::vector<std::uint32_t>& list) {
     list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
-Remedies::Remedies(const TriangleMesh& mesh, const Fans& fans, const Surface& surface)
+Remedies::Remedies(const geometry::TriangleMesh& mesh, const Fans& fans, const Surface& surface)
     : mesh_(mesh),
       fans_(fans),
       lattice_(surface.lattice()),
@@ -86,7 +88,7 @@ std::vector<Remedy> Remedies::remedies_for(const TrianglePair& pair, int round) 
     for (const std::uint32_t v : vertices) {
         for (const double share : kShares) add(towards_neighbours({&v, 1}, share));
         for (const double share : kShares) add(homewards({&v, 1}, share));
-        // Along an edge of the mesh a vertex stays on the surface, or on the crease that the edge follows.
+        // A vertex that moves along an edge of the mesh stays on the surface, or on the crease that the edge follows.
         for (const std::uint32_t w : neighbours(v)) {
             for (const double share : kShares) add(along_edge(v, w, share));
         }
@@ -95,7 +97,7 @@ std::vector<Remedy> Remedies::remedies_for(const TrianglePair& pair, int round) 
         const Vec3 shares = Vec3(i % 3, i / 3 % 3, i / 9) * 0.4 + 0.1;
         for (const std::uint32_t v : vertices) add(within_cells({&v, 1}, shares));
     }
-    // From the second round on several vertices at once, then their neighbours too, and so on.
+    // From the second round on, moves several vertices at once, then also their neighbours, and so on.
     for (int ring = 1; ring <= std::min(round, kMostRings); ++ring) {
         for (const double share : kShares) add(towards_neighbours(vertices, share));
         for (const double share : kShares) add(homewards(vertices, share));
@@ -105,13 +107,14 @@ std::vector<Remedy> Remedies::remedies_for(const TrianglePair& pair, int round) 
     return remedies;
 }
 
-// The two triangles at the edge from corner k of t, with the edge between their other corners instead.
+// Returns the remedy that replaces the edge from corner k of t by the edge between the other corners of its two
+// triangles.
 Remedy Remedies::turned_diagonal(std::uint32_t t, std::size_t k, double most_gap_cells) const {
     const std::uint32_t u = mesh_.triangles[t][k], v = mesh_.triangles[t][(k + 1) % 3],
                         a = mesh_.triangles[t][(k + 2) % 3];
     std::uint32_t other = t, b = a;
     for (const std::uint32_t candidate : fans_.of(u)) {
-        const VertexTriple& c = mesh_.triangles[candidate];
+        const geometry::VertexTriple& c = mesh_.triangles[candidate];
         for (std::size_t i = 0; i < 3; ++i) {
             if (c[i] == v && c[(i + 1) % 3] == u) other = candidate, b = c[(i + 2) % 3];
         }
@@ -128,12 +131,12 @@ Remedy Remedies::turned_diagonal(std::uint32_t t, std::size_t k, double most_gap
     const Vec3 normal = glm::cross(pv - pu, pa - pu) + glm::cross(pb - pu, pv - pu);
     if (!(glm::dot(glm::cross(pu - pa, pb - pa), normal) > 0.0 &&
           glm::dot(glm::cross(pv - pb, pa - pb), normal) > 0.0)) {
-        return {};  // it would fold over
+        return {};  // the new triangles would fold over
     }
     return {{}, {{t, {a, u, b}}, {other, {b, v, a}}}, 0.0};
 }
 
-// Each vertex towards the middle of its neighbours.
+// Moves each vertex towards the mean of its neighbours.
 Remedy Remedies::towards_neighbours(std::span<const std::uint32_t> vertices, double share) const {
     Remedy remedy;
     for (const std::uint32_t v : vertices) {
@@ -166,8 +169,8 @@ std::vector<std::uint32_t> Remedies::neighbours(std::uint32_t v) const {
     return around;
 }
 
-// The point nearest to p that a vertex may have, in numbers as the mesh has them: within its cell, or on the way back
-// there. What lies on a face stays there.
+// Returns the point nearest to p that a vertex may have, rounded as the mesh stores it: within its cell, or on the way
+// back to the cell if it lies outside. A vertex on a face stays in that face.
 Vec3 Remedies::allowed(std::uint32_t v, const Vec3& p) const {
     const Vec3& old = mesh_.positions_m[v];
     Vec3 place = old;
@@ -180,7 +183,7 @@ Vec3 Remedies::allowed(std::uint32_t v, const Vec3& p) const {
     }
     return place;
 }
-// The box that the vertex' cell leaves to it, by its name.
+// Returns the part of its cell in which the vertex may lie; the cell follows from the vertex's key.
 Box Remedies::home_of(std::uint32_t v) const {
     Box home{Vec3(0.0), Vec3(0.0)};
     std::uint64_t cell = keys_[v] / 16;
@@ -193,7 +196,7 @@ Box Remedies::home_of(std::uint32_t v) const {
     }
     return home;
 }
-// Back to where the cell begins, for what the mesher put beside its cell.
+// Moves vertices that the mesher placed outside their cell back towards the cell's border.
 Remedy Remedies::homewards(std::span<const std::uint32_t> vertices, double share) const {
     Remedy remedy;
     for (const std::uint32_t v : vertices) {
@@ -202,7 +205,8 @@ Remedy Remedies::homewards(std::span<const std::uint32_t> vertices, double share
     }
     return remedy;
 }
-// To one place in each cell, in shares of its width: all in the middle, the surface is made of whole squares.
+// Moves each vertex to the same point of its cell, in shares of its width. With all vertices in the middle of their
+// cells the surface consists of whole squares.
 Remedy Remedies::within_cells(std::span<const std::uint32_t> vertices, const Vec3& shares) const {
     Remedy remedy;
     for (const std::uint32_t v : vertices) {
@@ -222,4 +226,4 @@ void Remedies::add_neighbours(std::vector<std::uint32_t>& vertices) const {
     vertices = std::move(more);
 }
 
-}  // namespace burin
+}  // namespace burin::compute

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What may be done about a fault of a welded surface (mend_intersections.hpp), and what each remedy would change. Nothing is
-// changed here.
+// Proposes remedies for a self-intersection of a welded surface (repair_intersections.hpp), without applying any of
+// them.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,16 @@
 #include <utility>
 #include <vector>
 
-#include "compute/self_intersections.hpp"
-#include "compute/surface.hpp"
-#include "geometry/edge_table.hpp"
+#include "compute/mesher/surface.hpp"
+#include "compute/repair/self_intersections.hpp"
+#include "geometry/mesh/edge_table.hpp"
 
-namespace burin {
+namespace burin::compute {
 
-// The triangles around each vertex: those of the start in one array, changed fans beside it.
+// The triangles around each vertex: the initial ones in one array, changed fans beside it.
 class Fans {
 public:
-    explicit Fans(const TriangleMesh& mesh);
+    explicit Fans(const geometry::TriangleMesh& mesh);
     [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t vertex) const;
     void add(std::uint32_t vertex, std::uint32_t triangle);
     void remove(std::uint32_t vertex, std::uint32_t triangle) { std::erase(own(vertex), triangle); }
@@ -29,25 +29,26 @@ private:
     std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> changed_;
 };
 
-// What a remedy changes; applied by exchanging it with the mesh, and undone by doing so again.
+// The changes of one remedy. Exchanging it with the mesh applies it, and exchanging it again undoes it.
 struct Remedy {
     std::vector<std::pair<std::uint32_t, Vec3>> places;
-    std::vector<std::pair<std::uint32_t, VertexTriple>> triangles;
+    std::vector<std::pair<std::uint32_t, geometry::VertexTriple>> triangles;
     double deviation_m = 0.0;
 };
 
-// In ascending order, each once.
+// Sorts the list in ascending order and removes duplicates.
 void sort_unique(std::vector<std::uint32_t>& list);
 
-// For the faults of one mesh, which must be surface.welded() but for what remedies have changed. Mesh and fans are read each time.
+// Proposes remedies for one mesh, which must be surface.welded() except for what remedies have changed. Mesh and fans
+// are read on each call.
 class Remedies {
 public:
-    // From this round on a vertex may go to any part of its cell.
+    // From this round on a vertex may move to any part of its cell.
     static constexpr int kAnywhere = 5;
 
-    Remedies(const TriangleMesh& mesh, const Fans& fans, const Surface& surface);
+    Remedies(const geometry::TriangleMesh& mesh, const Fans& fans, const Surface& surface);
 
-    // The more the later the round.
+    // Returns the remedies for a pair of intersecting triangles; later rounds return more of them.
     [[nodiscard]] std::vector<Remedy> remedies_for(const TrianglePair& pair, int round) const;
 
 private:
@@ -62,11 +63,11 @@ private:
     [[nodiscard]] std::vector<std::uint32_t> neighbours(std::uint32_t v) const;
     void add_neighbours(std::vector<std::uint32_t>& vertices) const;
 
-    const TriangleMesh& mesh_;
+    const geometry::TriangleMesh& mesh_;
     const Fans& fans_;
     Lattice lattice_;
-    Vec3 shift_;                       // what the mesh's floats are relative to (surface.cpp)
-    std::vector<std::uint64_t> keys_;  // of the vertices (tile_mesher.hpp)
+    Vec3 shift_;                       // origin that the mesh's floats are relative to (surface.cpp)
+    std::vector<std::uint64_t> keys_;  // keys of the vertices (tile_mesher.hpp)
 };
 
-}  // namespace burin
+}  // namespace burin::compute

@@ -1,34 +1,36 @@
 // SPDX-License-Identifier: MIT
-#include "compute/mend_intersections.hpp"
+#include "compute/repair/repair_intersections.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "compute/mending_remedies.hpp"
-#include "compute/planes_around.hpp"
-#include "compute/self_intersections.hpp"
-#include "geometry/triangle_contact.hpp"
-#include "geometry/triangle_tree.hpp"
+#include "compute/repair/planes_around.hpp"
+#include "compute/repair/remedies.hpp"
+#include "compute/repair/self_intersections.hpp"
+#include "geometry/mesh/triangle_contact.hpp"
+#include "geometry/mesh/triangle_tree.hpp"
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
 constexpr int kRounds = 14;
-// An attempt takes a millisecond or two where everything is at fault; what random noise has beyond this is left and counted.
+// An attempt takes one or two milliseconds where faults are dense; what random noise has beyond this is left and
+// counted.
 constexpr std::uint64_t kMostAttempts = 20000;
-// A vertex nearer to a plane than this, in cells, was placed on it.
+// A vertex nearer to a plane than this, in cells, is taken to have been placed on it.
 constexpr double kOwnPlane = 0.5;
 
-// What a remedy may cost in accuracy, in cells: little at first, and anything rather than a fault in the end.
+// Returns the largest deviation that a remedy may cause, in cells: little at first, and in the end rather a deviation
+// than a fault.
 double most_deviation(int round) {
     constexpr std::array kMost{0.05, 0.1, 0.1, 0.1, 0.2, 0.4};
     return static_cast<std::size_t>(round) < kMost.size() ? kMost[static_cast<std::size_t>(round)] : 2.0;
 }
-constexpr int kCureOnly = 2;  // rounds in which a remedy must leave no fault behind
+constexpr int kCureOnly = 2;  // number of first rounds in which a remedy must leave no fault behind
 
-class Mender {
+class Repairer {
 public:
-    Mender(TriangleMesh& mesh, const Surface& surface, const Solid& solid)
+    Repairer(geometry::TriangleMesh& mesh, const Surface& surface, const Solid& solid)
         : mesh_(mesh),
           spacing_m_(solid.lattice.spacing_m),
           before_(mesh.positions_m),
@@ -38,14 +40,14 @@ public:
           planes_(solid, before_),
           tree_(before_, triangles_before_) {}
 
-    // One attempt at each pair. Returns the pairs there are afterwards, in ascending order.
+    // Makes one attempt at each pair. Returns the pairs that intersect afterwards, in ascending order.
     std::vector<TrianglePair> treat(const std::vector<TrianglePair>& pairs, int round) {
         changed_.clear();
         for (const TrianglePair& pair : pairs) {
             if (attempts_ < kMostAttempts && meet(pair[0], pair[1])) treat(pair, round), ++attempts_;
         }
         sort_unique(changed_);
-        // Pairs without a changed triangle are as before.
+        // Pairs without a changed triangle still intersect.
         std::vector<TrianglePair> now;
         const auto is_changed = [&](std::uint32_t t) { return std::ranges::binary_search(changed_, t); };
         for (const TrianglePair& pair : pairs) {
@@ -58,7 +60,7 @@ public:
         std::ranges::sort(now);
         return now;
     }
-    void report(MendingReport& report) {
+    void report(RepairReport& report) {
         sort_unique(moved_);
         report.vertices_moved = moved_.size();
         report.moved = moved_;
@@ -68,7 +70,7 @@ public:
 
 private:
     [[nodiscard]] bool meet(std::uint32_t a, std::uint32_t b) const {
-        return meet_beyond_shared(mesh_.positions_m, mesh_.triangles[a], mesh_.triangles[b]);
+        return geometry::meet_beyond_shared(mesh_.positions_m, mesh_.triangles[a], mesh_.triangles[b]);
     }
 
     void treat(const TrianglePair& pair, int round) {
@@ -80,7 +82,8 @@ private:
             exchange(r);
             return r.deviation_m > allowed_m;
         });
-        // The first that cures, from the mildest on; in the later rounds else the one that leaves least.
+        // Takes the first remedy without a remaining fault, in order of deviation; in the later rounds otherwise the
+        // one that leaves the fewest.
         std::ranges::stable_sort(remedies, {}, &Remedy::deviation_m);
         Remedy* best = nullptr;
         std::size_t best_left = std::numeric_limits<std::size_t>::max();
@@ -92,8 +95,8 @@ private:
         if (best != nullptr && (best_left == 0 || round >= kCureOnly)) take(*best);
     }
 
-    // How many faults a remedy leaves where it changes something, counted up to `enough`; no number when it does not part
-    // the pair or leaves no fewer than there were.
+    // Counts the faults that a remedy leaves among the triangles it changes, up to `enough`. Returns the largest number
+    // (kNoGood) when the remedy does not separate the pair or leaves no fewer faults than before.
     [[nodiscard]] std::size_t left_after(Remedy& remedy, const TrianglePair& pair, std::size_t enough) {
         constexpr std::size_t kNoGood = std::numeric_limits<std::size_t>::max();
         exchange(remedy);
@@ -109,7 +112,8 @@ private:
         return left;
     }
 
-    // Calls visit(pair) for each fault in which one of the triangles (in ascending order) takes part, until it returns false.
+    // Calls visit(pair) for each fault that involves one of the given triangles (in ascending order), until it returns
+    // false.
     template <typename Visit>
     void for_each_fault(std::span<const std::uint32_t> touched, Visit&& visit) const {
         double reach_m = reach_m_;
@@ -118,12 +122,12 @@ private:
         for (std::size_t i = 0; i < touched.size() && go_on; ++i) {
             const std::uint32_t t = touched[i];
             Box box = box_of(t);
-            const TreeBox exact = tree_.box_of(box);
+            const geometry::TreeBox exact = tree_.box_of(box);
             box.lo -= reach_m;
             box.hi += reach_m;
             tree_.for_each_meeting(tree_.box_of(box), 0, [&](std::size_t place) {
                 const std::uint32_t other = tree_.triangle_at(place);
-                // Of two touched triangles the lower one finds the pair.
+                // Of two touched triangles only the lower one reports the pair.
                 if (!go_on || other == t || (other < t && std::ranges::binary_search(touched, other))) return;
                 if (!tree_.box_of(box_of(other)).meets(exact) || !meet(t, other)) return;
                 go_on = visit(TrianglePair{std::min(t, other), std::max(t, other)});
@@ -135,7 +139,7 @@ private:
         for_each_fault(touched, [&](const TrianglePair&) { return ++count < enough; });
         return count;
     }
-    // By how much a triangle's box sticks out of the one it had when the tree was made.
+    // Returns by how much a triangle's box extends beyond the one it had when the tree was built.
     [[nodiscard]] double strayed(std::uint32_t t) const {
         Box first;
         for (const std::uint32_t v : triangles_before_[t]) first.include(before_[v]);
@@ -183,30 +187,31 @@ private:
         const auto [a, b, c] = mesh_.triangles[t];
         return {mesh_.positions_m[a], mesh_.positions_m[b], mesh_.positions_m[c]};
     }
-    // With the remedy exchanged into the mesh: how much farther than at first its vertices are from the planes around. 0
-    // for a turned diagonal, whose gap is small.
+    // Returns how much farther than at first the remedy's vertices are from the planes around, with the remedy
+    // exchanged into the mesh. 0 for a turned diagonal, whose gap is small.
     [[nodiscard]] double deviation(const Remedy& exchanged) const {
         double worst = 0.0;
         for (const auto& [v, place] : exchanged.places) {
             for (const TangentPlane& plane : planes_.at(v)) {
                 const double at_first = std::abs(glm::dot(plane.normal, before_[v] - plane.point_m));
                 const double now = std::abs(glm::dot(plane.normal, mesh_.positions_m[v] - plane.point_m));
-                // What the vertex was far from belongs to another sheet, or to a feature that a cell cannot show.
+                // A plane far from the original vertex belongs to another sheet, or to a feature that a cell cannot
+                // represent.
                 if (at_first < kOwnPlane * spacing_m_) worst = std::max(worst, now - at_first);
             }
         }
         return worst;
     }
 
-    TriangleMesh& mesh_;
+    geometry::TriangleMesh& mesh_;
     const double spacing_m_;
     const std::vector<Vec3> before_;
-    const std::vector<VertexTriple> triangles_before_;
+    const std::vector<geometry::VertexTriple> triangles_before_;
     Fans fans_;
     Remedies remedies_;
     mutable PlanesAround planes_;
-    TriangleTree tree_;
-    double reach_m_ = 0.0;  // no triangle has strayed farther from where the tree has it
+    geometry::TriangleTree tree_;
+    double reach_m_ = 0.0;  // largest distance of any triangle beyond its box in the tree
     double deviation_m_ = 0.0;
     std::uint64_t turned_ = 0, attempts_ = 0;
     std::vector<std::uint32_t> changed_, moved_;
@@ -214,18 +219,19 @@ private:
 
 }  // namespace
 
-MendingReport mend_intersections(TriangleMesh& mesh, const Surface& surface, const Solid& solid, WorkerPool& pool) {
-    MendingReport report;
+RepairReport repair_intersections(geometry::TriangleMesh& mesh, const Surface& surface, const Solid& solid,
+                                  WorkerPool& pool) {
+    RepairReport report;
     std::vector<TrianglePair> pairs = self_intersections(mesh, pool);
     report.found = report.left = pairs.size();
     if (pairs.empty()) return report;
-    Mender mender(mesh, surface, solid);
+    Repairer repairer(mesh, surface, solid);
     for (int round = 0; round < kRounds && !pairs.empty(); ++round) {
-        pairs = mender.treat(pairs, round);
+        pairs = repairer.treat(pairs, round);
     }
-    mender.report(report);
+    repairer.report(report);
     report.left = pairs.size();
     return report;
 }
 
-}  // namespace burin
+}  // namespace burin::compute

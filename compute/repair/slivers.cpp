@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "compute/slivers.hpp"
+#include "compute/repair/slivers.hpp"
 
 #include <algorithm>
 #include <limits>
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
 using shared::kUnitsPerCell;
 
-// What one row of rays has: the report's own fields, with thicknesses in lattice units.
+// Findings of one row of rays: the report's fields, with thicknesses in lattice units.
 struct RowFindings {
     std::uint64_t solid = 0, gaps = 0;
     int thinnest = std::numeric_limits<int>::max();
@@ -17,10 +17,11 @@ struct RowFindings {
     std::vector<Sliver> first;
 };
 
-// Nodes d with from <= d < to are inside a solid interval from..to, and outside in a gap.
+// Nodes d with from <= d < to are inside a solid interval from..to, and outside in a gap; returns whether there is
+// none.
 bool holds_no_node(int from, int to) { return (from + kUnitsPerCell - 1) / kUnitsPerCell * kUnitsPerCell >= to; }
 
-RowFindings look_along_row(const Solid& solid, int axis, int v) {
+RowFindings broad_phase_row(const Solid& solid, int axis, int v) {
     const Lattice& lattice = solid.lattice;
     const DexelSet& set = solid.sets[static_cast<std::size_t>(axis)];
     RowFindings row;
@@ -54,7 +55,7 @@ SliverReport find_slivers(const Solid& solid, WorkerPool& pool) {
     int thinnest = std::numeric_limits<int>::max();
     for (int axis = 0; axis < 3; ++axis) {
         std::vector<RowFindings> rows(static_cast<std::size_t>(solid.lattice.rays_v(axis)));
-        pool.run(rows.size(), [&](std::size_t v) { rows[v] = look_along_row(solid, axis, static_cast<int>(v)); });
+        pool.run(rows.size(), [&](std::size_t v) { rows[v] = broad_phase_row(solid, axis, static_cast<int>(v)); });
         for (const RowFindings& row : rows) {
             report.solid[static_cast<std::size_t>(axis)] += row.solid;
             report.gaps[static_cast<std::size_t>(axis)] += row.gaps;
@@ -70,4 +71,4 @@ SliverReport find_slivers(const Solid& solid, WorkerPool& pool) {
     return report;
 }
 
-}  // namespace burin
+}  // namespace burin::compute

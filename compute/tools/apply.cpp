@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "compute/apply.hpp"
+#include "compute/tools/apply.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "compute/ray_algebra.hpp"
-#include "compute/smooth.hpp"
-#include "compute/tool_spans.hpp"
+#include "compute/rays/ray_algebra.hpp"
+#include "compute/tools/smooth.hpp"
+#include "compute/tools/tool_spans.hpp"
 #include "shaders/shared/capsule.h"
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
 bool is_for_engine(const ToolSweep& sweep) {
@@ -47,12 +47,13 @@ void append_result(Operation operation, RayEnds held, RayEnds covered, std::vect
         case Operation::cut: return append_difference(held, covered, to);
         case Operation::fill: return append_union(held, covered, to);
         case Operation::paint: return append_painted(held, covered, to);
-        case Operation::smooth: break;  // not done ray by ray
+        case Operation::smooth: break;  // computed by smooth_on_host
     }
 }
 
-// What filling may do of it: nothing on rays along the lattice's border, and on the others only within (shaders/shared/
-// capsule.h); where it stops it faces along the ray.
+// Clips the intervals that a tool covers of a ray to those that may be filled: none on rays along the lattice's border,
+// and on other rays only depths within it (shaders/shared/capsule.h). Where an interval is clipped, its normal is along
+// the ray. The result may lie in `kept`.
 RayEnds fillable(const Lattice& lattice, const RayPlace& place, RayEnds covered, std::vector<shared::DexelEnd>& kept) {
     if (!shared::may_fill_ray(place.u, place.v, lattice.rays_u(place.axis), lattice.rays_v(place.axis))) return {};
     const int cells = lattice.cells[static_cast<std::size_t>(place.axis)];
@@ -72,7 +73,7 @@ RayEnds fillable(const Lattice& lattice, const RayPlace& place, RayEnds covered,
     return kept;
 }
 
-// The rays of `covered` whose ends the operation changes.
+// Returns the rays of `covered` whose ends the operation changes.
 RayBatch changed_rays(const Solid& solid, const RayBatch& covered, Operation operation, WorkerPool& pool) {
     constexpr std::size_t kRaysATask = 1024;
     std::vector<RayBatch> parts((covered.rays.size() + kRaysATask - 1) / kRaysATask);
@@ -99,7 +100,7 @@ RayBatch changed_rays(const Solid& solid, const RayBatch& covered, Operation ope
     return changed;
 }
 
-// A long way is done in stretches of a radius, one after the other.
+// Smooths along the sweep in steps of at most one radius, one after the other.
 Result<CarveStats> smooth_on_host(CarvingEngine& engine, const ToolSweep& sweep, WorkerPool& pool) {
     const double radius_m = std::get<BallTool>(sweep.shape).radius_m;
     const Vec3 start = sweep.start.position_m, along = sweep.end.position_m - start;
@@ -143,4 +144,4 @@ Result<CarveStats> apply(CarvingEngine& engine, std::span<const ToolSweep> sweep
     return stats;
 }
 
-}  // namespace burin
+}  // namespace burin::compute

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "compute/convex_pieces.hpp"
+#include "compute/tools/convex_pieces.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <string>
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
 constexpr double kLargestReach = 1 << 24;  // lattice units, as for balls: 4096 cells
@@ -25,14 +25,15 @@ Result<Extent> within_reach(const char* tool, const Extent& extent) {
                 "choose one that measures less than 4096 lattice cells from its middle");
 }
 
-// About +Y, with the tip at the origin.
+// Returns the extent of a tool that is round about +Y and has its tip at the origin.
 Extent round_extent(double radius, double length) {
     return {Vec3(0.0, 0.5 * length, 0.0), std::sqrt(radius * radius + 0.25 * length * length), true};
 }
 
 Vec3 axis_of(const StraightMove& move) { return move.orientation * Vec3(0.0, 1.0, 0.0); }
 
-// A frustum between two points (radius, height) of a round tool's profile.
+// Makes the sweep of a frustum between two points (radius, height) of a round tool's profile. With `rim`, the centre of
+// its rounded corner, it takes the corner's normals.
 FrustumSweep slice(const Vec2& low, const Vec2& high, const StraightMove& move, const Vec2* rim = nullptr) {
     const Vec3 axis = axis_of(move);
     Frustum shape{low.x, high.x, high.y - low.y};
@@ -43,7 +44,8 @@ FrustumSweep slice(const Vec2& low, const Vec2& high, const StraightMove& move, 
     return {shape, move.start + axis * low.y, axis, move.along};
 }
 
-// A quarter of the unit circle from straight down to straight out: 2^k chords, each at most `sagitta` inside.
+// Returns a quarter of the unit circle, from straight down to straight out, as 2^k chords that each lie at most
+// `sagitta` inside it.
 std::vector<Vec2> quarter_circle(double sagitta) {
     std::vector<Vec2> points{{0.0, -1.0}, {1.0, 0.0}};
     constexpr int kMostHalvings = 8;
@@ -123,4 +125,4 @@ void append_pieces(const BoxTool& tool, const StraightMove& move, double unit_m,
     pieces.emplace_back(BoxSweep(tool.half_size_m / unit_m, move.start, move.orientation, move.along));
 }
 
-}  // namespace burin
+}  // namespace burin::compute

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "compute/convex_sweep.hpp"
+#include "compute/tools/convex_sweep.hpp"
 
 #include <array>
 #include <cmath>
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
 constexpr double kSlack = 0x1p-20;  // lattice units; far above rounding at coordinates up to 2^27
-constexpr double kFar = 1e9;        // lattice units; no point of a tool lies there
+constexpr double kFar = 1e9;        // lattice units; farther than any point of a tool
 
 Vec3 unit_vector(int axis) {
     Vec3 e(0.0);
@@ -16,7 +16,7 @@ Vec3 unit_vector(int axis) {
     return e;
 }
 
-// The point of a ray that lies beside `near`.
+// Returns the point of a ray that has the same depth as `near`.
 Vec3 ray_beside(int axis, double ray_u, double ray_v, const Vec3& near) {
     Vec3 p;
     p[axis] = near[axis];
@@ -30,7 +30,8 @@ struct Line {
     double s, t, ds, dt;
 };
 
-// c = r s + w t + k vanishes on it. Its point is taken near the strip 0 <= t <= T; none if it passes far away.
+// Returns the line on which r s + w t + k = 0. Its point is chosen near the strip 0 <= t <= T; side() rejects a line
+// that passes far away.
 Line line_where(double r, double w, double k, double half_distance) {
     if (std::abs(r) >= std::abs(w)) return {-(k + w * half_distance) / r, half_distance, -w / r, 1.0};
     return {0.0, -k / w, 1.0, -r / w};
@@ -64,7 +65,7 @@ public:
         noise_ = 4e-15 * (glm::dot(o, o) + distance * distance) + kSlack * (shape.tip_radius + shape.top_radius);
     }
 
-    // The two of all candidates with the least and the greatest s; false when there are none.
+    // Finds the candidates with the least and the greatest s; returns false when there are none.
     bool extremes(Candidate& least, Candidate& greatest) {
         side({0.0, 0.0, 1.0, 0.0}, Part::side);
         if (distance_ > 0.0) {
@@ -94,7 +95,7 @@ private:
         found_ = true;
     }
 
-    // Where a line meets the side.
+    // Adds the candidates at which a line meets the side.
     void side(const Line& line, Part part) {
         if (!(std::abs(line.s) < kFar && std::abs(line.t) < kFar)) return;
         const double a = (ss_ * line.ds + 2.0 * st_ * line.dt) * line.ds + tt_ * line.dt * line.dt;
@@ -103,7 +104,7 @@ private:
         double root2 = b * b - a * c;
         if (root2 < 0.0) {
             if (root2 < -1e-13 * (b * b + std::abs(a * c))) return;
-            root2 = 0.0;  // a touch, lost to rounding
+            root2 = 0.0;  // the line touches the conic, but for rounding
         }
         const double root = std::sqrt(root2), q = b < 0.0 ? root - b : -root - b;
         for (const double way : {q / a, c / q}) {
@@ -112,16 +113,16 @@ private:
         }
     }
 
-    // A corner: in a cap's plane at one end of the motion.
+    // Adds the candidate in a cap's plane at one end of the motion.
     void cap(double s, double t) {
         if (std::abs(s) < kFar && conic(s, t) <= noise_ + 4e-15 * s * s) take({s, t, Part::cap});
     }
 
     const Frustum& shape_;
     double distance_;
-    double ss_, st_, tt_, s_, t_, one_;  // the conic's coefficients; those of s and t twice
-    double y_, ys_, yt_;                 // the height above the tip
-    double noise_;                       // what rounding and slack leave of the conic where it vanishes
+    double ss_, st_, tt_, s_, t_, one_;  // coefficients of the conic; s_, t_ and st_ are halved
+    double y_, ys_, yt_;                 // coefficients of the height above the tip
+    double noise_;                       // bound of the conic's value where it should be zero, from rounding and slack
     bool found_ = false;
     Candidate least_{}, greatest_{};
 };
@@ -144,7 +145,7 @@ SweepSpan FrustumSweep::span(int axis, double ray_u, double ray_v) const {
     const Vec3 o = on_ray - tip_;
     Candidate least{}, greatest{};
     if (!Section(shape_, slope_, axis_, o, e, direction_, distance_).extremes(least, greatest)) return {};
-    // Out of the body where the candidate lies.
+    // Returns the outward normal of the body at a candidate.
     const auto normal = [&](const Candidate& c) {
         const Vec3 p = o + c.s * e - c.t * direction_;
         const double y = glm::dot(p, axis_);
@@ -159,12 +160,12 @@ SweepSpan FrustumSweep::span(int axis, double ray_u, double ray_v) const {
         }
         const Vec3 side = outward - axis_ * (slope_ * (shape_.tip_radius + slope_ * y));
         if (c.part == Part::side || !moving) return side;
-        // Of the normals at an edge, the one that the motion leaves: n.d = 0, between the side's and the cap's.
+        // At an edge the motion selects a normal n with n.d = 0 between those of the side and the cap.
         const Vec3 n = cap * std::abs(glm::dot(side, direction_)) + side * std::abs(glm::dot(cap, direction_));
         return n == Vec3(0.0) ? cap : n;
     };
     SweepSpan span{on_ray[axis] + least.s, on_ray[axis] + greatest.s, normal(least), normal(greatest)};
-    if (glm::dot(span.normal_lo, span.normal_lo) == 0.0) span.normal_lo = -e;  // the tip of a cone
+    if (glm::dot(span.normal_lo, span.normal_lo) == 0.0) span.normal_lo = -e;  // at the tip of a cone
     if (glm::dot(span.normal_hi, span.normal_hi) == 0.0) span.normal_hi = e;
     return span;
 }
@@ -197,7 +198,7 @@ SweepSpan BoxSweep::span(int axis, double ray_u, double ray_v) const {
     const Vec3 o = tool_from_lattice * (on_ray - middle_), e = tool_from_lattice * unit_vector(axis);
     const Vec3& h = half_size_;
     const Vec3& d = half_along_tool_;
-    // The normals of the six pairs of planes: across two sides of the box, or one side and the motion.
+    // Normals of the six pairs of planes: perpendicular to two sides of the box, or to one side and the motion.
     const std::array<Vec3, 6> normals{Vec3(1, 0, 0),      Vec3(0, 1, 0),      Vec3(0, 0, 1),
                                       Vec3(0, d.z, -d.y), Vec3(-d.z, 0, d.x), Vec3(d.y, -d.x, 0)};
     SweepSpan span{-kFar, kFar, {}, {}};
@@ -227,4 +228,4 @@ Box BoxSweep::bounds() const {
     return {middle_ - reach, middle_ + reach};
 }
 
-}  // namespace burin
+}  // namespace burin::compute

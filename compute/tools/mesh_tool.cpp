@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "compute/mesh_tool.hpp"
+#include "compute/tools/mesh_tool.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
-#include "compute/normal_code.hpp"
-#include "compute/ray_algebra.hpp"
-#include "compute/ray_crossings.hpp"
+#include "compute/rays/normal_code.hpp"
+#include "compute/rays/ray_algebra.hpp"
+#include "compute/rays/ray_crossings.hpp"
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
 using shared::DexelEnd;
@@ -18,13 +18,13 @@ using shared::kUnitsPerCell;
 constexpr double kLargestReach = 1 << 24;  // lattice units, as for balls: 4096 cells
 constexpr double kMostTriangles = 400'000'000;
 
-// The surfaces of all moves together.
+// The surfaces swept by all moves, as one mesh with a normal code for each triangle.
 struct Swept {
     std::vector<Whole3> vertices;
-    std::vector<VertexTriple> triangles;
+    std::vector<geometry::VertexTriple> triangles;
     std::vector<std::uint32_t> normals;
 
-    void add(const VertexTriple& triangle, std::uint32_t normal) {
+    void add(const geometry::VertexTriple& triangle, std::uint32_t normal) {
         triangles.push_back(triangle);
         normals.push_back(normal);
     }
@@ -43,21 +43,23 @@ public:
         moves_ = along != Whole3{0, 0, 0};
         direction_ = real(along);
         pose(move, along);
-        const std::vector<VertexTriple>& triangles = tool_.mesh->triangles;
+        const std::vector<geometry::VertexTriple>& triangles = tool_.mesh->triangles;
         forward_.assign(triangles.size(), false);
         for (std::size_t t = 0; t < triangles.size(); ++t) {
-            const VertexTriple& v = triangles[t];
+            const geometry::VertexTriple& v = triangles[t];
             const Vec3 &a = posed_[v[0]], &b = posed_[v[1]], &c = posed_[v[2]];
             const Vec3 normal = glm::cross(b - a, c - a);
             forward_[t] = moves_ && glm::dot(normal, direction_) > 0.0;
             const std::uint32_t shift = first_ + (forward_[t] ? ahead_ : 0);
             swept_.add({v[0] + shift, v[1] + shift, v[2] + shift}, normal_code(normal));
         }
-        if (moves_) for_each_edge(tool_.edges->uses, [&](std::span<const EdgeUse> edge) { add_strips(edge); });
+        if (moves_)
+            geometry::for_each_edge(tool_.edges->uses,
+                                    [&](std::span<const geometry::EdgeUse> edge) { add_strips(edge); });
     }
 
 private:
-    // The vertices at the start, and behind them those at the end if the tool moves.
+    // Appends the vertices at the start and, if the tool moves, those at the end after them.
     void pose(const StraightMove& move, const Whole3& along) {
         const std::vector<Vec3>& positions = tool_.mesh->positions_m;
         first_ = static_cast<std::uint32_t>(swept_.vertices.size());
@@ -65,7 +67,7 @@ private:
         posed_.resize(positions.size());
         for (std::size_t i = 0; i < positions.size(); ++i) {
             posed_[i] = move.orientation * (positions[i] / lattice_.unit_m());
-            // The way that scan conversion takes, so that an unturned mesh gets the same corners.
+            // Computed as in scan conversion, so that an unturned mesh gets the same vertices.
             swept_.vertices.push_back(
                 whole(lattice_.units_from_object(move.start_object_m + move.orientation * positions[i])));
         }
@@ -75,12 +77,13 @@ private:
         }
     }
 
-    // Between the start and the end of an edge, as often as forward triangles run along it one way more than the other.
-    void add_strips(std::span<const EdgeUse> edge) {
+    // Adds the strips between the start and the end of an edge. Their number is the difference between the forward
+    // triangles that use the edge in one direction and those that use it in the other.
+    void add_strips(std::span<const geometry::EdgeUse> edge) {
         int strips = 0;
-        for (const EdgeUse& use : edge) strips += forward_[use.triangle] ? (use.upwards ? 1 : -1) : 0;
+        for (const geometry::EdgeUse& use : edge) strips += forward_[use.triangle] ? (use.upwards ? 1 : -1) : 0;
         if (strips == 0) return;
-        std::uint32_t a = lower_vertex(edge.front().key), b = higher_vertex(edge.front().key);
+        std::uint32_t a = geometry::lower_vertex(edge.front().key), b = geometry::higher_vertex(edge.front().key);
         if (strips < 0) std::swap(a, b);
         const std::uint32_t normal = normal_code(glm::cross(posed_[b] - posed_[a], direction_));
         a += first_;
@@ -96,7 +99,7 @@ private:
     Swept& swept_;
     bool moves_ = false;
     Vec3 direction_{0.0};
-    std::vector<Vec3> posed_;  // without the move's start, so that differences are exact to the last digits
+    std::vector<Vec3> posed_;  // without the move's translation, so that differences keep their precision
     std::vector<bool> forward_;
     std::uint32_t first_ = 0, ahead_ = 0;
 };
@@ -115,7 +118,7 @@ RayWindow window_around(const Lattice& lattice, std::span<const Whole3> vertices
     return window;
 }
 
-// The ends of one ray's intervals, clipped to the lattice.
+// Appends the ends of one ray's intervals, clipped to the lattice.
 void append_ends(const Swept& swept, std::span<const Crossing> bounds, int axis, int deepest, std::uint8_t material,
                  std::vector<DexelEnd>& ends) {
     Vec3 e(0.0);
@@ -154,7 +157,7 @@ void append_axis(const Lattice& lattice, const Swept& swept, int axis, std::uint
     }
 }
 
-// Both are in order of axis, row and place.
+// Returns the union of two batches, which are both ordered by axis, row v and position u.
 RayBatch united(const RayBatch& a, const RayBatch& b) {
     const auto order = [](const RayBatch::Ray& ray) {
         const RayPlace p = place_of(ray.code);
@@ -175,13 +178,13 @@ RayBatch united(const RayBatch& a, const RayBatch& b) {
     return both;
 }
 
-// Without the vertices that no triangle uses: they must neither widen footprints nor be posed.
-std::shared_ptr<const TriangleMesh> without_strays(std::shared_ptr<const TriangleMesh> mesh) {
+// Returns the mesh without the vertices that no triangle uses: they must not enlarge footprints and need not be posed.
+std::shared_ptr<const geometry::TriangleMesh> without_strays(std::shared_ptr<const geometry::TriangleMesh> mesh) {
     constexpr std::uint32_t kUnused = 0xffffffff;
     std::vector<std::uint32_t> place(mesh->positions_m.size(), kUnused);
-    TriangleMesh kept;
-    for (const VertexTriple& t : mesh->triangles) {
-        VertexTriple moved{};
+    geometry::TriangleMesh kept;
+    for (const geometry::VertexTriple& t : mesh->triangles) {
+        geometry::VertexTriple moved{};
         for (std::size_t k = 0; k < 3; ++k) {
             if (place[t[k]] == kUnused) {
                 place[t[k]] = static_cast<std::uint32_t>(kept.positions_m.size());
@@ -192,12 +195,12 @@ std::shared_ptr<const TriangleMesh> without_strays(std::shared_ptr<const Triangl
         kept.triangles.push_back(moved);
     }
     if (kept.positions_m.size() == mesh->positions_m.size()) return mesh;
-    return std::make_shared<const TriangleMesh>(std::move(kept));
+    return std::make_shared<const geometry::TriangleMesh>(std::move(kept));
 }
 
-double six_volumes(const TriangleMesh& mesh, const Vec3& middle) {
+double six_volumes(const geometry::TriangleMesh& mesh, const Vec3& middle) {
     double sum = 0.0;
-    for (const VertexTriple& t : mesh.triangles) {
+    for (const geometry::VertexTriple& t : mesh.triangles) {
         const Vec3 a = mesh.positions_m[t[0]] - middle, b = mesh.positions_m[t[1]] - middle,
                    c = mesh.positions_m[t[2]] - middle;
         sum += glm::dot(a, glm::cross(b, c));
@@ -207,12 +210,12 @@ double six_volumes(const TriangleMesh& mesh, const Vec3& middle) {
 
 }  // namespace
 
-Result<MeshTool> prepare_mesh_tool(std::shared_ptr<const TriangleMesh> mesh) {
+Result<MeshTool> prepare_mesh_tool(std::shared_ptr<const geometry::TriangleMesh> mesh) {
     if (mesh == nullptr || mesh->triangles.empty()) {
         return fail("tool mesh", "has no triangles", "give a mesh with a closed surface");
     }
     Box bounds;
-    for (const VertexTriple& t : mesh->triangles) {
+    for (const geometry::VertexTriple& t : mesh->triangles) {
         for (const std::uint32_t i : t) {
             if (i >= mesh->positions_m.size()) {
                 return fail("tool mesh", "has a triangle with a vertex that does not exist", "repair the file");
@@ -226,11 +229,11 @@ Result<MeshTool> prepare_mesh_tool(std::shared_ptr<const TriangleMesh> mesh) {
     }
     mesh = without_strays(std::move(mesh));
     auto edges = std::make_shared<MeshToolEdges>();
-    edges->uses = edge_uses(mesh->triangles);
+    edges->uses = geometry::edge_uses(mesh->triangles);
     bool open = false, mixed = false;
-    for_each_edge(edges->uses, [&](std::span<const EdgeUse> edge) {
+    geometry::for_each_edge(edges->uses, [&](std::span<const geometry::EdgeUse> edge) {
         open = open || edge.size() % 2 != 0;
-        mixed = mixed || imbalance(edge) != 0;
+        mixed = mixed || geometry::imbalance(edge) != 0;
     });
     if (open) return fail("tool mesh", "has holes, so inside and outside are not defined", "close it in a mesh editor");
     if (mixed) return fail("tool mesh", "is not turned outwards everywhere", "orient its triangles consistently");
@@ -238,7 +241,7 @@ Result<MeshTool> prepare_mesh_tool(std::shared_ptr<const TriangleMesh> mesh) {
     if (!(six_volumes(*mesh, edges->middle_m) > 0.0)) {
         return fail("tool mesh", "encloses nothing, or is inside out", "turn its triangles outwards");
     }
-    for (const VertexTriple& t : mesh->triangles) {
+    for (const geometry::VertexTriple& t : mesh->triangles) {
         for (const std::uint32_t i : t) {
             const Vec3 from_middle = mesh->positions_m[i] - edges->middle_m;
             edges->radius_m = std::max(edges->radius_m, std::sqrt(glm::dot(from_middle, from_middle)));
@@ -249,7 +252,7 @@ Result<MeshTool> prepare_mesh_tool(std::shared_ptr<const TriangleMesh> mesh) {
 
 Result<Extent> extent_of(const MeshTool& tool, double unit_m) {
     const Extent extent{tool.edges->middle_m / unit_m, tool.edges->radius_m / unit_m, false};
-    // Far from its own origin a corner would lose its digits, and leave the exact arithmetic's range.
+    // A vertex far from the tool's origin would lose precision and leave the range of the exact arithmetic.
     if (std::sqrt(glm::dot(extent.middle, extent.middle)) + extent.radius <= kLargestReach) return extent;
     return fail("tool mesh", "is too large for the workpiece, or lies too far from its own origin",
                 "bring it within 4096 lattice cells of its origin");
@@ -278,4 +281,4 @@ Result<RayBatch> mesh_spans(const Lattice& lattice, const MeshTool& tool, std::s
     return all;
 }
 
-}  // namespace burin
+}  // namespace burin::compute

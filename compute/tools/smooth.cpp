@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
-#include "compute/smooth.hpp"
+#include "compute/tools/smooth.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "compute/normal_code.hpp"
-#include "compute/ray_algebra.hpp"
+#include "compute/rays/normal_code.hpp"
+#include "compute/rays/ray_algebra.hpp"
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
 using shared::DexelEnd;
 using shared::kUnitsPerCell;
 using Node = std::array<int, 3>;
 
-constexpr int kBand = 4;    // nodes around an end that may have it for their nearest
-constexpr int kKernel = 2;  // reach of the filter
+constexpr int kBand = 4;    // nodes; an end farther away than this is not considered for a node
+constexpr int kKernel = 2;  // nodes to each side that the filter reads
 
-// Values at the nodes of a box.
+// Values at the lattice nodes of a box.
 template <typename T>
 class NodeGrid {
 public:
@@ -49,7 +49,7 @@ private:
     std::vector<T> values_;
 };
 
-// Calls f(node) for the nodes of a box, layers of z on any thread.
+// Calls f(node) for the nodes of a box; layers of z are distributed over the pool.
 template <typename F>
 void for_nodes(const Node& lo, const Node& hi, WorkerPool& pool, F f) {
     pool.run(static_cast<std::size_t>(std::max(0, hi[2] - lo[2] + 1)), [&](std::size_t layer) {
@@ -64,7 +64,7 @@ Vec3 decoded(std::uint32_t code) {
     return {d.x, d.y, d.z};
 }
 
-// A point of the surface, in cells.
+// A point of the surface, in cells from the lattice origin.
 struct SurfacePoint {
     Vec3 place, normal;
     std::uint8_t material;
@@ -72,7 +72,7 @@ struct SurfacePoint {
 
 struct Nearest {
     double distance2 = 1e300;
-    double plane = 0.0;  // signed distance from the point's plane
+    double plane = 0.0;  // signed distance from the plane of the nearest point
     std::uint8_t material = 0;
 };
 
@@ -86,7 +86,7 @@ public:
         const Vec3 lo = glm::min(start_, start_ + along_) - radius_, hi = glm::max(start_, start_ + along_) + radius_;
         for (int a = 0; a < 3; ++a) {
             const auto s = static_cast<std::size_t>(a);
-            // Nodes on the lattice's border have no weight.
+            // Excludes nodes on the lattice's border, which have no weight.
             lo_[s] = static_cast<int>(std::clamp(std::ceil(lo[a]), 1.0, double(lattice_.cells[s])));
             hi_[s] = static_cast<int>(std::clamp(std::floor(hi[a]), 0.0, double(lattice_.cells[s] - 1)));
         }
@@ -122,14 +122,15 @@ private:
         return solid_.sets[static_cast<std::size_t>(axis)].ends(u, v);
     }
 
-    // An odd number of ends at or below a node means that it is inside.
+    // Returns whether a node is inside, which it is when the number of ends at or below it is odd.
     [[nodiscard]] static bool inside(RayEnds ends, int node) {
         bool in = false;
         for (std::size_t i = 0; i < ends.size() && depth_of(ends[i]) <= node * kUnitsPerCell; ++i) in = !in;
         return in;
     }
 
-    // Each layer of nodes looks at the ends near it, in a fixed order.
+    // Finds the nearest end of each node. Every layer of nodes visits the ends near it in a fixed order, so that the
+    // result does not depend on threads.
     void find_nearest(NodeGrid<Nearest>& nearest) const {
         const Node lo = nearest.lo(), hi = nearest.hi();
         std::vector<std::vector<SurfacePoint>> points(static_cast<std::size_t>(hi[2] - lo[2] + 1 + 2 * kBand));
@@ -182,7 +183,7 @@ private:
         });
     }
 
-    // Where there is weight; elsewhere the values stay.
+    // Filters the nodes that have weight; all others keep their values.
     void filter(const NodeGrid<double>& before, NodeGrid<double>& after) const {
         constexpr std::array<double, 5> kWeights{-1.0 / 16, 4.0 / 16, 10.0 / 16, 4.0 / 16, -1.0 / 16};
         NodeGrid<double> along_x = before, along_y = before;
@@ -237,14 +238,16 @@ private:
         low[(s + 1) % 3] = ru;
         low[(s + 2) % 3] = rv;
         std::size_t next = 0;
-        bool low_inside = false;  // by this ray's own ends where a node has no weight, by the new values where it has
+        // Whether the lower node is inside: by this ray's own ends where the node has no weight, by the new values
+        // where it has.
+        bool low_inside = false;
         for (int k = lo_[s] - 1; k <= hi_[s]; ++k) {
             low[s] = k;
             Node high = low;
             high[s] = k + 1;
             const bool low_weighs = weight(low) > 0.0, high_weighs = weight(high) > 0.0;
             if (!low_weighs && !high_weighs) continue;
-            // The ends of this edge lie above its lower node and not above its upper one. Those before it stay.
+            // The ends of this edge lie above its lower node and not above its upper one. Earlier ends are kept.
             while (next < held.size() && depth_of(held[next]) <= k * kUnitsPerCell) to.push_back(held[next++]);
             std::size_t last = next;
             while (last < held.size() && depth_of(held[last]) <= (k + 1) * kUnitsPerCell) ++last;
@@ -267,7 +270,8 @@ private:
     [[nodiscard]] static bool has_signs_of(const NodeGrid<double>& field, const Edge& e) {
         return (field[e.low] < 0.0) == e.low_inside && (field[e.high] < 0.0) == e.high_inside;
     }
-    // Where a field crosses zero on an edge, 0 to 1; one half where its signs are not the edge's.
+    // Returns where a field crosses zero on an edge, from 0 to 1; 0.5 where the field's signs are not those of the
+    // edge.
     [[nodiscard]] static double crossing(const NodeGrid<double>& field, const Edge& e) {
         return has_signs_of(field, e) ? field[e.low] / (field[e.low] - field[e.high]) : 0.5;
     }
@@ -290,7 +294,7 @@ private:
                      const NodeGrid<double>& before, const NodeGrid<double>& after, std::vector<DexelEnd>& to) const {
         const bool crossed = e.low_inside != e.high_inside;
         const bool same_way = held_low_inside == e.low_inside;
-        if (same_way && (held.size() % 2 != 0) == crossed && held.size() != 1) {  // nothing, or slivers
+        if (same_way && (held.size() % 2 != 0) == crossed && held.size() != 1) {  // no ends, or slivers
             to.insert(to.end(), held.begin(), held.end());
             return;
         }
@@ -320,9 +324,9 @@ private:
     const Lattice& lattice_;
     const SmoothBall& ball_;
     WorkerPool& pool_;
-    Vec3 start_{0.0}, along_{0.0};  // cells
+    Vec3 start_{0.0}, along_{0.0};  // in cells
     double radius_ = 0.0;
-    Node lo_{}, hi_{};  // the nodes that may have weight
+    Node lo_{}, hi_{};  // range of the nodes that may have weight
 };
 
 }  // namespace
@@ -331,4 +335,4 @@ RayBatch smoothed_rays(const Solid& solid, const SmoothBall& ball, WorkerPool& p
     return Smoother(solid, ball, pool).run();
 }
 
-}  // namespace burin
+}  // namespace burin::compute

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "compute/sweep_units.hpp"
+#include "compute/tools/sweep_units.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
-// The part t_lo..t_hi of start + t * along that lies within lo..hi; nothing when t_lo > t_hi.
+// A part lo <= t <= hi of a segment start + t * along; empty when lo > hi.
 struct Part {
     double lo = 0.0, hi = 1.0;
 };
@@ -28,16 +28,17 @@ Part clip(const Vec3& start, const Vec3& along, const Vec3& lo, const Vec3& hi) 
     return part;
 }
 
-// With coordinates up to a lattice and a radius away from the origin, all stay within +-2^26, where
-// shaders/shared/capsule.h is exact.
+// Lattice units; 4096 cells. Coordinates are at most a lattice and a radius away from the origin, so that all stay
+// within +-2^26, where shaders/shared/capsule.h is exact.
 constexpr double kLargestRadius = 1 << 24;
 
-// Farther from the lattice than this many units a double does not hold thousandths of a unit any more.
+// Lattice units: farther away than this, a double does not hold thousandths of a unit.
 constexpr double kFarthest = 0x1p42;
 
 bool too_far(const Lattice& lattice, const Vec3& p_object) {
     const Vec3 units = glm::abs(lattice.units_from_object(p_object));
-    return !(units.x < kFarthest && units.y < kFarthest && units.z < kFarthest);  // also when the division overflowed
+    // Also true when the division overflowed.
+    return !(units.x < kFarthest && units.y < kFarthest && units.z < kFarthest);
 }
 
 bool finite(const Vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
@@ -50,7 +51,7 @@ std::optional<shared::Capsule> capsule_in_units(const Lattice& lattice, const Ba
     const Vec3 size = Vec3(lattice.cells[0], lattice.cells[1], lattice.cells[2]) * double(shared::kUnitsPerCell);
     const Part part = clip(start, along, Vec3(-reach), size + Vec3(reach));
     if (part.lo > part.hi) return std::nullopt;
-    // An end that was not clipped keeps its exact place.
+    // An end that was not clipped keeps its exact position.
     const Vec3 end = part.hi < 1.0 ? start + along * part.hi : start + along;
     if (part.lo > 0.0) start = start + along * part.lo;
     shared::Capsule c{};
@@ -101,7 +102,7 @@ Result<std::vector<shared::Capsule>> capsules_in_units(const Solid& solid, std::
 Footprint footprint(const Lattice& lattice, const shared::Capsule& c, int axis) {
     const auto range = [&](int start, int along, int rays, int& lo, int& hi) {
         const int from = std::min(start, start + along) - c.reach, to = std::max(start, start + along) + c.reach;
-        // Rays lie at multiples of the cell; both roundings outwards are harmless, the kernel decides exactly.
+        // Rays lie at multiples of the cell. Rounding outwards is safe, because the kernel decides exactly.
         lo = std::max(0, from / shared::kUnitsPerCell - (from < 0 ? 1 : 0));
         hi = std::min(rays - 1, to / shared::kUnitsPerCell - (to < 0 ? 1 : 0));
     };
@@ -113,4 +114,4 @@ Footprint footprint(const Lattice& lattice, const shared::Capsule& c, int axis) 
     return f;
 }
 
-}  // namespace burin
+}  // namespace burin::compute

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Tools and what they do along a motion.
 //
-// Tool frame: metres, axis +Y; the tool's tip is at the origin and its body lies above it (y from 0 to the length), except
-// that a ball, a box and a mesh keep their own origin (the ball's and the box's centre, the mesh file's origin).
+// Tool frame: metres, axis +Y; the tool's tip is at the origin and its body lies above it (y from 0 to the length),
+// except that a ball, a box and a mesh keep their own origin (the ball's and the box's centre, the mesh file's origin).
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,10 @@
 #include <variant>
 
 #include "base/space.hpp"
-#include "geometry/triangle_mesh.hpp"
+#include "compute/rays/operation.hpp"
+#include "geometry/mesh/triangle_mesh.hpp"
 
-namespace burin {
-
-enum class Operation : std::uint8_t {
-    cut,    // the material within the tool goes
-    fill,   // the tool's volume becomes material
-    paint,  // surface within the tool takes the tool's material; no shape changes
-    smooth  // surface within the tool is evened out, more at its middle than at its border
-};
+namespace burin::compute {
 
 struct MeshToolEdges;
 
@@ -39,7 +33,7 @@ struct BoxTool {
     Vec3 half_size_m{0.0};
 };
 struct MeshTool {  // closed, turned outwards
-    std::shared_ptr<const TriangleMesh> mesh;
+    std::shared_ptr<const geometry::TriangleMesh> mesh;
     // What prepare_mesh_tool (mesh_tool.hpp) found out about it; without, it is found out at every sweep.
     std::shared_ptr<const MeshToolEdges> edges = nullptr;
 };
@@ -55,4 +49,4 @@ struct ToolSweep {
     double smooth_strength = 0.5;  // 0 to 1, for Operation::smooth
 };
 
-}  // namespace burin
+}  // namespace burin::compute

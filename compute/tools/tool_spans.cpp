@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: MIT
-#include "compute/tool_spans.hpp"
+#include "compute/tools/tool_spans.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 
-#include "compute/convex_pieces.hpp"
-#include "compute/mesh_tool.hpp"
-#include "compute/normal_code.hpp"
-#include "compute/sweep_units.hpp"
+#include "compute/rays/normal_code.hpp"
+#include "compute/tools/convex_pieces.hpp"
+#include "compute/tools/mesh_tool.hpp"
+#include "compute/tools/sweep_units.hpp"
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
 using shared::DexelEnd;
 using shared::kUnitsPerCell;
 
-// Rays lie at multiples of the cell; rounding outwards is harmless, the closed form decides.
+// Returns the rays that may meet the bounds. Rays lie at multiples of the cell. Rounding outwards is safe, because the
+// closed form decides.
 Footprint footprint_of(const Lattice& lattice, const Box& bounds, int axis) {
     const auto cell = [](double units, int last) {
         return static_cast<int>(std::clamp(std::floor(units / kUnitsPerCell), -1.0, last + 1.0));
@@ -28,14 +29,14 @@ Footprint footprint_of(const Lattice& lattice, const Box& bounds, int axis) {
             std::max(0, cell(bounds.lo[v], last_v)), std::min(last_v, cell(bounds.hi[v], last_v) + 1)};
 }
 
-// One row of rays of one axis, and the pieces that may cover some of it.
+// One row of rays of one axis, the pieces that may cover a part of it, and the resulting spans.
 struct Row {
     int axis = 0, v = 0;
     std::vector<std::uint32_t> pieces;
     RayBatch spans;
 };
 
-// The union of a ray's spans as ends.
+// Collects the spans of a ray and appends their union as ends.
 class RayUnion {
 public:
     void clear() { spans_.clear(); }
@@ -43,7 +44,7 @@ public:
         if (!span.empty()) spans_.push_back(span);
     }
 
-    // `deepest` is where the lattice ends on this axis.
+    // `deepest` is the depth at which the lattice ends on this axis, in lattice units.
     void append(int axis, int deepest, std::uint8_t material, std::vector<DexelEnd>& ends) {
         std::ranges::stable_sort(spans_, {}, &SweepSpan::lo);
         for (std::size_t i = 0; i < spans_.size();) {
@@ -143,7 +144,7 @@ Result<void> check_material(const Solid& solid, const ToolSweep& sweep) {
                 "add the material to the workpiece first");
 }
 
-// A bull-nose's slices use up a quarter of the tolerance.
+// Returns the share of the tolerance that is left for turning: the slices of a bull-nose take a quarter.
 template <typename Tool>
 double turning_share() {
     return std::is_same_v<Tool, BullNoseTool> ? 0.75 : 1.0;
@@ -182,7 +183,7 @@ Result<RayBatch> spans_of_tool(const Solid& solid, const MeshTool& tool, const T
     return mesh_spans(solid.lattice, *prepared, *moves, sweep.material, pool);
 }
 
-// The ball's own exact predicate, ray by ray; the engines have faster ways to it.
+// Evaluates the exact predicate of a ball ray by ray. The engines have faster methods.
 Result<RayBatch> spans_of_tool(const Solid& solid, const BallTool& tool, const ToolSweep& sweep, WorkerPool& pool) {
     const auto capsules = ball_capsules(solid, tool, sweep);
     if (!capsules) return std::unexpected(capsules.error());
@@ -246,4 +247,4 @@ Result<RayBatch> tool_spans(const Solid& solid, const ToolSweep& sweep, WorkerPo
     return std::visit([&](const auto& tool) { return spans_of_tool(solid, tool, sweep, pool); }, sweep.shape);
 }
 
-}  // namespace burin
+}  // namespace burin::compute

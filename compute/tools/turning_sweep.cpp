@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "compute/turning_sweep.hpp"
+#include "compute/tools/turning_sweep.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
-// As for balls (sweep_units.cpp): farther from the lattice a double does not hold thousandths of a unit any more.
+// Lattice units, as for balls (sweep_units.cpp): farther away than this, a double does not hold thousandths of a unit.
 constexpr double kFarthest = 0x1p42;
 constexpr double kLeastTolerance = 0x1p-10, kLargestTolerance = 0x1p10;  // cells
 constexpr double kMostMoves = 4096;
@@ -18,11 +18,11 @@ Quat normalized(const Quat& q) {
     return {q.w / length, q.x / length, q.y / length, q.z / length};
 }
 
-// The same orientation, on the same side as `other`: a turn of at most half a circle.
+// Returns the same orientation with the sign for which the turn from `other` is at most half a circle.
 Quat on_side_of(const Quat& other, const Quat& q) { return glm::dot(q, other) < 0.0 ? -q : q; }
 
-// No less than the angle between two orientations on one side, and at most 11 % more. Their chord is 2 sin(A / 4), and
-// sin x >= x sqrt(8) / pi for x up to pi / 4.
+// Returns an upper bound of the angle between two orientations on one side, at most 11 % too large. Their chord is
+// 2 sin(A / 4), and sin x >= x sqrt(8) / pi for x up to pi / 4.
 double angle_bound(const Quat& a, const Quat& b) {
     const Quat chord = b - a;
     return 2.2215 * std::sqrt(glm::dot(chord, chord));
@@ -37,7 +37,8 @@ struct Part {
     double lo = 0.0, hi = 1.0;
 };
 
-// The part of a motion during which a ball of radius `reach` about its middle meets the lattice; none when lo > hi.
+// Returns the part of a motion in which a ball of radius `reach` about the tool's middle meets the lattice; empty when
+// lo > hi.
 Part near_lattice(const Lattice& lattice, const Vec3& middle, const Vec3& along, double reach) {
     Part part;
     for (int a = 0; a < 3; ++a) {
@@ -141,4 +142,4 @@ Result<std::vector<StraightMove>> straight_moves(const Lattice& lattice, const T
     return moves;
 }
 
-}  // namespace burin
+}  // namespace burin::compute

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "compute/device_surface.hpp"
+#include "compute/vulkan/device_surface.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
 #include <utility>
 
-#include "compute/device_surface_buffers.hpp"
+#include "compute/vulkan/device_surface_buffers.hpp"
 #include "shaders/gather_ball.comp.spv.hpp"
 #include "shaders/gather_corners.comp.spv.hpp"
 #include "shaders/mesh_edges.comp.spv.hpp"
@@ -18,7 +18,7 @@
 #include "shaders/mesh_tiles.comp.spv.hpp"
 #include "shaders/mesh_vertices.comp.spv.hpp"
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
 using shared::ChangedRay;
@@ -26,7 +26,6 @@ using shared::CutCounters;
 using shared::GatherParameters;
 using shared::MeshCounters;
 using shared::MeshParameters;
-static_assert(shared::kMeshTile == kTileCells && shared::kMeshCells == kSeenCells);
 
 }  // namespace
 
@@ -119,7 +118,8 @@ Result<void> DeviceSurface::finish() {
         if (all_stale_) {
             if (const auto sent = engine_.synchronize(); !sent) return failed(sent.error());
             waiting_tiles_.resize(grid_.count());
-            std::iota(waiting_tiles_.rbegin(), waiting_tiles_.rend(), 0u);  // taken from the back
+            // In descending order, since tiles are taken from the back.
+            std::iota(waiting_tiles_.rbegin(), waiting_tiles_.rend(), 0u);
             all_stale_ = false;
         }
         if (waiting_tiles_.empty() && !engine_.deferred_left()) return {};
@@ -127,7 +127,8 @@ Result<void> DeviceSurface::finish() {
     }
 }
 
-// What there is to do: a pass of the engine, changes that the host knows, tiles that wait.
+// Submits the work that is pending: a pass of the engine or the changes that the host knows, then waiting tiles and the
+// gather.
 Result<void> DeviceSurface::submit(std::span<const ChangedRay> host_changes) {
     gpu::Device& device = engine_.device();
     if (!host_changes.empty()) {
@@ -171,7 +172,7 @@ Result<void> DeviceSurface::submit(std::span<const ChangedRay> host_changes) {
     return {};
 }
 
-// The tiles that wait are the first to be meshed, as many as there are slots.
+// Moves waiting tiles to the front of the list to mesh, as many as there are slots, and sends the initial counters.
 void DeviceSurface::send_counters(gpu::Commands& commands) {
     sent_tiles_ = static_cast<std::uint32_t>(std::min<std::size_t>(waiting_tiles_.size(), options_.slots));
     std::copy_n(waiting_tiles_.rbegin(), sent_tiles_, dirty_.to_device<std::uint32_t>().begin());
@@ -242,7 +243,7 @@ void DeviceSurface::record_mesh(gpu::Commands& commands, const gpu::Buffer* cut_
     }
 }
 
-// Takes in what the device has counted, when it is done, and grows what was too small.
+// Waits for the submission, reads its counters and enlarges what was too small.
 Result<void> DeviceSurface::settle() {
     if (const auto waited = under_way_->wait(); !waited) return waited;
     const auto cut = under_way_->seconds_between(stamps_[0], stamps_[1]),
@@ -260,10 +261,10 @@ Result<void> DeviceSurface::settle() {
     counts_.triangles += counters.triangles;
     vertices_used_ = std::min(counters.vertices_used, options_.vertices);
     indices_used_ = std::min(counters.indices_used, options_.indices);
-    const auto late = read_buffer<std::uint32_t>(engine_.device(), waiting_, counters.waiting);  // rarely any
+    const auto late = read_buffer<std::uint32_t>(engine_.device(), waiting_, counters.waiting);  // rarely any tiles
     if (!late) return std::unexpected(late.error());
     waiting_tiles_.insert(waiting_tiles_.end(), late->begin(), late->end());
     return grow(counters);
 }
 
-}  // namespace burin
+}  // namespace burin::compute

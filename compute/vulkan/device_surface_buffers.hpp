@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the parts of DeviceSurface (device_surface*.cpp) share: whole buffers made, filled and read, at once and waited for.
+// Helpers shared by the parts of DeviceSurface (device_surface*.cpp): create, fill and read whole buffers, waiting for
+// the device.
 #pragma once
 
 #include <cstring>
@@ -10,7 +11,7 @@
 #include "gpu/buffer.hpp"
 #include "gpu/commands.hpp"
 
-namespace burin {
+namespace burin::compute {
 
 template <typename T>
 Result<void> fill_buffer(gpu::Device& device, const gpu::Buffer& buffer, const std::vector<T>& values) {
@@ -43,4 +44,4 @@ inline Result<void> create_into(gpu::Buffer& to, gpu::Device& device, gpu::Buffe
     return {};
 }
 
-}  // namespace burin
+}  // namespace burin::compute

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The room that a DeviceSurface has on the device: what it starts with, and how that grows.
+// Capacities of a DeviceSurface's buffers on the device: initial allocation and growth.
 #include <algorithm>
 
-#include "compute/cell_table.hpp"
-#include "compute/device_surface.hpp"
-#include "compute/device_surface_buffers.hpp"
+#include "compute/mesher/cell_table.hpp"
+#include "compute/vulkan/device_surface.hpp"
+#include "compute/vulkan/device_surface_buffers.hpp"
+#include "shaders/shared/cell_row.h"
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
 using shared::MeshCounters;
@@ -19,15 +20,19 @@ constexpr std::uint32_t kTableWords = 4 * 256;
 constexpr std::uint32_t kMostFree = 65536;
 constexpr std::uint32_t kLists = 2 * shared::kRangeClasses;
 
-// cell_table.hpp and the colours of the materials, as mesh_buffers.glsl reads them.
-std::vector<std::uint32_t> table_words(std::span<const Material> materials) {
+// Packs cell_table.hpp and the colours of the materials for the device (shaders/shared/cell_row.h).
+std::vector<std::uint32_t> table_words(std::span<const geometry::Material> materials) {
     std::vector<std::uint32_t> words(kTableWords, 0);
     for (std::size_t pattern = 0; pattern < 256; ++pattern) {
         const CellCase& c = cell_table()[pattern];
+        shared::uvec4 row(0u);
+        for (std::uint32_t i = 0; i < 12; ++i) row = shared::row_with_edge(row, i, c.edges[i]);
+        for (std::uint32_t loop = 1; loop < 5; ++loop) row = shared::row_with_first(row, loop, c.first_edge[loop]);
+        row = shared::row_with_loops(row, c.loops, c.twice_faces);
         std::uint32_t* word = &words[4 * pattern];
-        for (std::size_t i = 0; i < 12; ++i) word[i / 8] |= std::uint32_t{c.edges[i]} << (4 * (i % 8));
-        for (std::size_t loop = 1; loop < 5; ++loop) word[1] |= std::uint32_t{c.first_edge[loop]} << (12 + 4 * loop);
-        word[2] = c.loops | std::uint32_t{c.twice_faces} << 4;
+        word[0] = row.x;
+        word[1] = row.y;
+        word[2] = row.z;
     }
     for (std::size_t m = 0; m < materials.size() && m < 256; ++m) {
         const auto& colour = materials[m].colour;
@@ -76,7 +81,7 @@ Result<void> DeviceSurface::grow(const MeshCounters& counters) {
         if (wanted <= held) return {};
         const std::uint64_t limit = device.capabilities().max_storage_buffer_bytes / element_bytes;
         const auto more = static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted + wanted / 2, limit));
-        if (more == held) {  // all that a binding shows: fewer tiles at once
+        if (more == held) {  // limit of a binding reached: mesh fewer tiles at once
             options_.slots = std::max(1u, options_.slots / 2);
             return {};
         }
@@ -99,7 +104,7 @@ Result<void> DeviceSurface::grow(const MeshCounters& counters) {
     return done;
 }
 
-// Larger, with what it holds.
+// Enlarges a pool and keeps its contents; the rest is zero.
 Result<void> DeviceSurface::grow_pool(gpu::Buffer& pool, std::size_t element_bytes, std::uint32_t& held,
                                       std::uint32_t wanted, const char* name) {
     gpu::Device& device = engine_.device();
@@ -121,4 +126,4 @@ Result<void> DeviceSurface::grow_pool(gpu::Buffer& pool, std::size_t element_byt
     return {};
 }
 
-}  // namespace burin
+}  // namespace burin::compute

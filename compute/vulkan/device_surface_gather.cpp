@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// What of a DeviceSurface comes back to the host: the triangles near the tool, and for tests everything.
+// Data that a DeviceSurface sends to the host: the triangles near the tool and, for tests, the whole surface.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
-#include "compute/device_surface.hpp"
-#include "compute/device_surface_buffers.hpp"
+#include "compute/vulkan/device_surface.hpp"
+#include "compute/vulkan/device_surface_buffers.hpp"
 
-namespace burin {
+namespace burin::compute {
 
 using shared::GatherParameters;
 using shared::MeshCounters;
@@ -29,7 +29,7 @@ void DeviceSurface::record_gather(gpu::Commands& commands, const Ball& ball) {
         p.center[k] = center[a];
         p.center_float[k] = static_cast<float>(center[a]);
         p.tiles[k] = grid_.tiles[k];
-        // A tile's triangles reach up to two cells beyond its own.
+        // Triangles of a tile reach up to two cells beyond its own cells.
         const double last = grid_.tiles[k] - 1, reach = ball.radius_m + 2.0 * lattice_.spacing_m;
         p.from[k] = static_cast<int>(std::clamp(std::floor((center[a] - reach) / tile_m), 0.0, last));
         p.count[k] = static_cast<int>(std::clamp(std::floor((center[a] + reach) / tile_m), 0.0, last)) - p.from[k] + 1;
@@ -55,7 +55,7 @@ Result<void> DeviceSurface::gather_alone(const Ball& ball) {
     return finish();
 }
 
-Result<void> DeviceSurface::local_surface(const Vec3& center_object, double radius_m, LocalSurface& out) {
+Result<void> DeviceSurface::local_surface(const Vec3& center_object, double radius_m, geometry::LocalSurface& out) {
     if (const auto done = finish(); !done) return done;
     for (double radius = radius_m;; radius *= 0.7) {
         if (!touched_ || touched_->center_object != center_object || touched_->radius_m != radius) {
@@ -66,17 +66,17 @@ Result<void> DeviceSurface::local_surface(const Vec3& center_object, double radi
             counters.ball_vertices > std::uint32_t{shared::kBallVertices}) {
             continue;
         }
-        auto loose = std::make_shared<GriddedTriangles>();
+        auto loose = std::make_shared<geometry::GriddedTriangles>();
         loose->positions_m.resize(counters.ball_vertices);
         loose->triangles.resize(counters.ball_triangles);
-        // Neither may be asked to copy nothing to nowhere: there need not be a triangle near the tool.
+        // memcpy must not be called with null pointers, even for no bytes: there may be no triangle near the tool.
         if (counters.ball_triangles > 0) {
             std::memcpy(loose->positions_m.data(), ball_places_.from_device<Vec3f>().data(),
                         loose->positions_m.size() * sizeof(Vec3f));
             std::memcpy(loose->triangles.data(), ball_triangles_.from_device<std::uint32_t>().data(),
                         loose->triangles.size() * sizeof(loose->triangles[0]));
         }
-        build_search(*loose);
+        geometry::build_search(*loose);
         out.center_object = out.origin_object = center_object;
         out.radius_m = radius;
         out.tiles = {};
@@ -106,4 +106,4 @@ Result<std::vector<TileMesh>> DeviceSurface::download() {
     return tiles;
 }
 
-}  // namespace burin
+}  // namespace burin::compute

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compute/vulkan_engine.hpp"
+#include "compute/vulkan/vulkan_engine.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -11,7 +11,7 @@
 #include "shaders/export_rays.comp.spv.hpp"
 #include "shaders/patch_rays.comp.spv.hpp"
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
 using shared::Capsule;
@@ -23,15 +23,18 @@ using shared::DexelEnd;
 using shared::PatchRay;
 using shared::PendingRay;
 
-// A software driver lets the loops of a group of up to 16 invocations turn 65535 times together. Half of that is for
-// looking at capsules (16 x 2048), half for cutting.
+// Limits of the work of one pass. A software driver stops the loops of a group of up to 16 invocations after 65535
+// iterations in total. Half of these are for testing capsules (16 x 2048), half for cutting.
 constexpr std::uint32_t kLooks = 2048;
 constexpr std::uint32_t kCutTurns = 32000;
-constexpr std::uint32_t kSearchTurns = 140;  // at most, in capsule_span and capsule_normal: about 5 x 28 halvings
-constexpr std::uint32_t kLongestRay = 7500;  // ends: one cut, at three turns an end, and the export fit into kCutTurns
+// Upper bound of the iterations in capsule_span and capsule_normal: about 5 x 28 halvings.
+constexpr std::uint32_t kSearchTurns = 140;
+// Most ends of a ray for which one cut, at three iterations an end, and the export fit into kCutTurns.
+constexpr std::uint32_t kLongestRay = 7500;
 constexpr std::uint32_t kMostCuts = 64;
 
-// How many capsules a ray may take in one pass when no ray has more than `longest` ends; each capsule may add two.
+// Returns how many capsules a ray may take in one pass when no ray has more than `longest` ends; each capsule may add
+// two.
 std::uint32_t cuts_a_pass(std::uint32_t longest) {
     std::uint32_t cuts = kMostCuts;
     const auto turns = [&] { return cuts * (kSearchTurns + 3 * (longest + 2 * cuts)) + longest + 2 * cuts; };
@@ -104,7 +107,7 @@ Result<CarveStats> VulkanEngine::assign(const RayBatch& rays) {
     return stats;
 }
 
-// In pieces, so that no buffer grows beyond what a device may bind.
+// Sends the ends of the batch in several pieces, so that no buffer grows beyond what a device may bind.
 Result<void> VulkanEngine::patch(const RayBatch& rays) {
     const std::size_t limit = static_cast<std::size_t>(device_.capabilities().max_storage_buffer_bytes);
     const std::size_t most_rays = std::min<std::size_t>(std::size_t{options_.tasks_a_pass} * shared::kCutGroup,
@@ -127,7 +130,7 @@ Result<void> VulkanEngine::patch(const RayBatch& rays) {
         if (!reserved) return reserved;
         copy_to<PatchRay>(patches_, patches);
         copy_to<DexelEnd>(patch_ends_, ends);
-        for (bool done = false; !done;) {  // again when the store had to grow
+        for (bool done = false; !done;) {  // repeated when the store had to grow
             auto commands = gpu::Commands::begin(device_);
             if (!commands) return std::unexpected(commands.error());
             CutParameters parameters = this->parameters();
@@ -169,7 +172,7 @@ Result<void> VulkanEngine::synchronize() {
     if (synchronized_) return {};
     const std::size_t rays = solid_.rays_held();
     if (const auto kept = stale_.reserve(device_, rays * sizeof(std::uint32_t)); !kept) return kept;
-    // A fine solid's first cuts need more than a coarse one's: an end for every eighth ray.
+    // The first cuts of a fine solid need more free ends than those of a coarse one: one for every eighth ray.
     const std::size_t spare = options_.spare_ends > 0 ? std::max(options_.spare_ends, rays / 8) : 0;
     if (const auto sent = device_solid_.upload(device_, solid_, {0, spare}); !sent) return sent;
     used_ = device_solid_.packed_size();
@@ -200,7 +203,7 @@ Result<CarveStats> VulkanEngine::cut_on_device(std::span<const Capsule> capsules
     return stats;
 }
 
-// As many of them as one pass takes.
+// Sends as many tasks as one pass takes, and returns their number.
 std::uint32_t VulkanEngine::send_tasks(std::span<const CutTask> tasks) {
     const auto some = tasks.first(std::min<std::size_t>(options_.tasks_a_pass, tasks.size()));
     copy_to<CutTask>(tasks_, some);
@@ -208,7 +211,7 @@ std::uint32_t VulkanEngine::send_tasks(std::span<const CutTask> tasks) {
     return static_cast<std::uint32_t>(some.size());
 }
 
-// Every ray visited in a pass may change or have to wait.
+// Reserves the buffers of a cut, for the case that every ray visited in a pass changes or is left pending.
 Result<void> VulkanEngine::reserve(std::span<const Capsule> capsules, const CutTasks& tasks) {
     const std::size_t task_count = std::min<std::size_t>(tasks.tasks.size(), options_.tasks_a_pass);
     const std::size_t rays = task_count * shared::kCutGroup;
@@ -259,7 +262,7 @@ void VulkanEngine::send_counters(gpu::Commands& commands) {
     commands.barrier();
 }
 
-// Submits what is recorded, waits, and gives what was counted.
+// Submits the commands, waits for them and returns the counters.
 Result<CutCounters> VulkanEngine::counted(gpu::Commands commands) {
     commands.barrier();
     counters_.fetch(commands, sizeof(CutCounters));
@@ -284,14 +287,14 @@ void VulkanEngine::record_cut(gpu::Commands& commands, CutParameters parameters,
         gpu::bytes_of(parameters), {groups_of(passed_rays_), 1, 1});
 }
 
-// One submission: the tasks' rays, or the rays that an earlier pass left pending.
+// Runs one pass in one submission: over the rays of the tasks, or over those that an earlier pass left pending.
 Result<CutCounters> VulkanEngine::pass(std::uint32_t task_count, std::uint32_t pending) {
     if (const auto fits = check_longest(); !fits) return std::unexpected(fits.error());
     auto commands = gpu::Commands::begin(device_);
     if (!commands) return std::unexpected(commands.error());
     CutParameters parameters = this->parameters();
     const std::uint32_t rays = pending > 0 ? pending : task_count * shared::kCutGroup;
-    // The buffer may be larger from an earlier cut; what a shader may use is also what has to be carried back.
+    // The buffer may be larger from an earlier cut, but all that a shader may use has to be read back.
     const std::uint64_t space = exported_.size_bytes() / sizeof(DexelEnd);
     const std::uint64_t expected = std::max<std::uint64_t>(std::uint64_t{rays} * options_.export_per_ray, 1);
     parameters.export_size = static_cast<std::uint32_t>(pending > 0 ? space : std::min(space, expected));
@@ -367,14 +370,16 @@ Result<void> VulkanEngine::read_back() {
         const auto new_ends = exported_.from_device<DexelEnd>();
         for (const ChangedRay& ray : changed_.from_device<ChangedRay>().first(some)) {
             const RayPlace place = place_of(ray.ray);
+            // Returns false, which does not matter here, if the ray has its former ends again.
             (void)assign_ray(solid_.sets[static_cast<std::size_t>(place.axis)], place,
-                             new_ends.subspan(ray.first, ray.count), changes_);  // false: it holds again what it held
+                             new_ends.subspan(ray.first, ray.count), changes_);
         }
     }
     return {};
 }
 
-// Some of the stale rays into changed_ and exported_; how many: fewer than asked for where their ends are too many at once.
+// Fetches some of the stale rays into changed_ and exported_. Returns how many: fewer than requested where their ends
+// do not fit into one buffer.
 Result<std::uint32_t> VulkanEngine::fetch_stale(std::uint32_t first, std::uint32_t rays) {
     const std::uint64_t limit = device_.capabilities().max_storage_buffer_bytes / sizeof(DexelEnd);
     std::uint64_t ends = std::min<std::uint64_t>(std::uint64_t{2} * rays, limit);
@@ -426,7 +431,8 @@ Result<void> VulkanEngine::make_room_for(const CutCounters& counters) {
     }
     if (counters.room_wanted == 0) return {};
     ++counts_.store_rebuilds;
-    // More than was asked for: rays that got theirs may ask again. With less, fewer rays get on in each pass.
+    // Reserves more than was requested: rays that got their space may request more. With less, fewer rays are finished
+    // in each pass.
     const std::size_t asked = counters.room_wanted;
     const DeviceSolid::Spare spare{asked, std::max<std::size_t>(used_ / 4, 2 * asked + 4096)};
     if (const auto made = device_solid_.make_space(device_, spare); !made) return made;
@@ -444,4 +450,4 @@ void VulkanEngine::apply_changes() {
     }
 }
 
-}  // namespace burin
+}  // namespace burin::compute

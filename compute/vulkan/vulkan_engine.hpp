@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The carving engine on a Vulkan device.
 //
-// Data flow of a cut: sweeps -> capsules and work groups (vulkan_engine_tasks.hpp) -> one submission that cuts the rays on
-// the device and lists the changed ones with their new ends -> only those are read back into the solid on the host, and
-// recorded. Rays that found no room in the store, or had their share of one pass, are continued by further
-// submissions; in the usual case there is none.
+// Data flow of a cut: sweeps -> capsules and work groups (vulkan_engine_tasks.hpp) -> one submission that cuts the rays
+// on the device and lists the changed ones with their new ends -> only those are read back into the host's solid and
+// recorded. Rays that found no space in the store, or used up their share of one pass, are continued in further
+// submissions; usually there are none.
 //
-// The host's solid changes only when all passes are done: an Error leaves it as it was, and the next cut sends it to the
-// device anew. Tiles are marked once for a ray, between the lowest and the highest depth that changed.
+// The host's solid changes only when all passes are done: an Error leaves it unchanged, and the next cut sends it to
+// the device anew. The change of a ray is recorded once, between the lowest and the highest depth that changed.
 //
-// A cut can also be deferred: recorded into the caller's commands, and not waited for. The host's solid is then behind the
-// device's until read_back fetches the rays that differ; the device keeps a list of them, each once.
+// A cut can also be deferred: recorded into the caller's commands, without a wait. The host's solid then lags behind
+// the device's until read_back fetches the rays that differ; the device keeps a list of them, each once.
 // Cost on the device: one invocation a ray. Memory: vulkan_engine_memory.hpp.
 // Thread: one, as gpu::Device.
 #pragma once
@@ -18,56 +18,60 @@
 #include <memory>
 #include <vector>
 
-#include "compute/engine.hpp"
-#include "compute/vulkan_engine_memory.hpp"
-#include "compute/vulkan_engine_tasks.hpp"
+#include "compute/rays/engine.hpp"
+#include "compute/vulkan/vulkan_engine_memory.hpp"
+#include "compute/vulkan/vulkan_engine_tasks.hpp"
 #include "gpu/device.hpp"
 
-namespace burin {
+namespace burin::compute {
 
-// Sizes to start with; all of them grow when needed. Tests choose small ones to reach that.
+// Initial sizes; all of them grow when needed. Tests choose small ones so that growth happens.
 struct VulkanEngineOptions {
-    std::size_t spare_ends = 65536;      // room behind the solid's ends in the store; more for a fine one, none for 0
+    // Free ends behind the solid's in the store; a fine solid gets more, and 0 means none.
+    std::size_t spare_ends = 65536;
     std::uint32_t export_per_ray = 4;    // space for the ends of changed rays, per ray visited
     std::uint32_t tasks_a_pass = 16384;  // work groups of 64 rays
 };
 
-// What the engine has done since it was made.
+// Work done since the engine was made.
 struct VulkanEngineCounts {
-    std::uint64_t cuts = 0;            // calls of cut that reached the lattice
-    std::uint64_t submissions = 0;     // each waited for once
-    std::uint64_t store_rebuilds = 0;  // because a ray found no room
+    std::uint64_t cuts = 0;            // calls of carve and defer that reached the lattice
+    std::uint64_t submissions = 0;     // each is waited for once
+    std::uint64_t store_rebuilds = 0;  // because a ray found no space
 };
 
 class VulkanEngine final : public CarvingEngine {
 public:
-    // Fails on a device without 64-bit integers or doubles in shaders, or without room for the solid.
+    // Makes the engine and sends the solid to the device. Fails on a device without 64-bit integers, doubles or buffer
+    // addresses in shaders, or without space for the solid.
     [[nodiscard]] static Result<std::unique_ptr<VulkanEngine>> create(Solid solid, const gpu::Device& device,
                                                                       const VulkanEngineOptions& options = {});
 
     [[nodiscard]] const char* name() const override { return "vulkan"; }
     [[nodiscard]] Result<CarveStats> carve(std::span<const BallSweep> sweeps) override;
-    // Only the batch is sent: one submission, more when the store is full.
+    // Assigns the batch's rays. Only the batch is sent: in one submission, or more when the store is full.
     [[nodiscard]] Result<CarveStats> assign(const RayBatch& rays) override;
-    // Behind the device after deferred cuts, until read_back.
+    // Returns the host's solid, which lags behind the device's after deferred cuts, until read_back.
     [[nodiscard]] const Solid& solid() const override { return solid_; }
-    [[nodiscard]] Result<std::uint8_t> add_material(const Material& material) override {
-        return burin::add_material(solid_, material);
+    [[nodiscard]] Result<std::uint8_t> add_material(const geometry::Material& material) override {
+        return burin::compute::add_material(solid_, material);
     }
     [[nodiscard]] Changes take_changes() override { return changes_.take(); }
 
     [[nodiscard]] const VulkanEngineCounts& counts() const { return counts_; }
 
-    // A deferred cut, for who records commands of their own (device_surface.hpp): defer; then, while deferred_left():
-    // record_pass into commands, submit and wait for them at leisure, end_pass. After each pass changed_rays() holds the rays
-    // that it finished, `changed` in counters() of them, at most passed_rays(). Nothing else may be asked of the engine in
-    // between. An Error loses what was deferred since the last read_back: the next call sends the host's solid anew.
+    // A deferred cut, for callers that record commands of their own (device_surface.hpp). Call defer; then, while
+    // deferred_left(): record_pass into commands, submit them and wait at any later time, end_pass. After each pass,
+    // changed_rays() holds the rays that it finished; `changed` in counters() is their number, at most passed_rays().
+    // Nothing else may be called on the engine in between. An Error loses the cuts deferred since the last read_back:
+    // the next call sends the host's solid anew.
     [[nodiscard]] Result<void> defer(std::span<const BallSweep> sweeps);
     [[nodiscard]] bool deferred_left() const { return pending_ > 0 || next_task_ < deferred_tasks_.size(); }
     void record_pass(gpu::Commands& commands);
     [[nodiscard]] Result<void> end_pass();
-    [[nodiscard]] const CarveStats& deferred_stats() const { return deferred_stats_; }  // since defer
-    // Brings solid() up to date and records what has changed, a ray at most once. Does nothing when nothing was deferred.
+    [[nodiscard]] const CarveStats& deferred_stats() const { return deferred_stats_; }  // since the last defer
+    // Updates solid() from the device and records the changes, each ray at most once. Does nothing when nothing was
+    // deferred.
     [[nodiscard]] Result<void> read_back();
     [[nodiscard]] std::uint32_t stale_rays() const { return stale_count_; }
     [[nodiscard]] const DeviceSolid& device_solid() const { return device_solid_; }
@@ -101,10 +105,14 @@ private:
     VulkanEngineCounts counts_;
     gpu::ComputePipeline cut_rays_, patch_rays_, export_rays_;
     DeviceSolid device_solid_;
-    bool synchronized_ = false;                                         // the device holds what solid_ holds
-    std::uint32_t used_ = 0;                                            // ends taken in the device's store
-    std::uint32_t longest_ = 0;                                         // no ray has more ends
-    std::size_t capsule_bytes_ = 0, task_bytes_ = 0, order_bytes_ = 0;  // in use in the buffers below
+    // Set while the device holds the same ends as solid_, or newer ones after deferred cuts.
+    bool synchronized_ = false;
+    // Number of ends that are taken in the device's store.
+    std::uint32_t used_ = 0;
+    // Upper bound of the number of ends of a ray.
+    std::uint32_t longest_ = 0;
+    // Bytes in use in the buffers below.
+    std::size_t capsule_bytes_ = 0, task_bytes_ = 0, order_bytes_ = 0;
     SharedBuffer capsules_{"capsules", SharedBuffer::Traffic::to_device};
     SharedBuffer tasks_{"cut tasks", SharedBuffer::Traffic::to_device};
     SharedBuffer order_{"capsule order", SharedBuffer::Traffic::to_device};
@@ -116,15 +124,15 @@ private:
     SharedBuffer stale_{"stale rays", SharedBuffer::Traffic::none};
     SharedBuffer patches_{"patched rays", SharedBuffer::Traffic::to_device};
     SharedBuffer patch_ends_{"patch ends", SharedBuffer::Traffic::to_device};
-    // Of the deferred cut.
+    // State of the deferred cut.
     std::vector<shared::CutTask> deferred_tasks_;
     std::size_t next_task_ = 0;
     std::uint32_t pending_ = 0, stale_count_ = 0, passed_rays_ = 0;
     CarveStats deferred_stats_;
-    // Of all passes of one cut; a ChangedRay's `first` counts from the start of new_ends_.
+    // Changed rays of all passes of one cut; a ChangedRay's `first` counts from the start of new_ends_.
     std::vector<shared::ChangedRay> changed_rays_;
     std::vector<shared::DexelEnd> new_ends_;
     Changes changes_;
 };
 
-}  // namespace burin
+}  // namespace burin::compute

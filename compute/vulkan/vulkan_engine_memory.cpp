@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compute/vulkan_engine_memory.hpp"
+#include "compute/vulkan/vulkan_engine_memory.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -9,7 +9,7 @@
 
 #include "gpu/core.hpp"
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
 using shared::DexelEnd;
@@ -35,13 +35,15 @@ Result<std::vector<T>> fetch_all(gpu::Device& device, const gpu::Buffer& buffer)
     return values;
 }
 
-// log2 of the room for so many ends in a RayRef's high bits, with their number in the low ones.
+// Returns a RayRef's count_room for `count` ends: the number in the low bits, log2 of the space reserved in the high
+// ones.
 std::uint32_t count_room(std::uint32_t count) {
     const std::uint32_t log2_room = count <= 1 ? 0 : static_cast<std::uint32_t>(std::bit_width(count - 1));
     return count | (log2_room << 24);
 }
 
-// A store that is too large for the device, with the resolution that would fit: ends grow about with its square.
+// Returns the error for a store that is too large for the device. Names the resolution that would fit: the number of
+// ends grows about with its square.
 std::unexpected<Error> too_large(const gpu::Device& device, std::size_t ends, int resolution) {
     const double limit = static_cast<double>(device.core()->max_allocation_bytes);
     const double needed = static_cast<double>(ends * sizeof(DexelEnd));
@@ -92,7 +94,7 @@ Result<void> DeviceSolid::upload(gpu::Device& device, const Solid& solid, Spare 
     const std::array<std::size_t, 3> counts{solid.sets[0].ray_count(), solid.sets[1].ray_count(),
                                             solid.sets[2].ray_count()};
     first_ray_ = {0, static_cast<std::uint32_t>(counts[0]), static_cast<std::uint32_t>(counts[0] + counts[1])};
-    resolution_ = *std::ranges::max_element(solid.lattice.cells) - 2;  // the empty cell on either side
+    resolution_ = *std::ranges::max_element(solid.lattice.cells) - 2;  // without the empty cell on either side
     const auto ends_of = [&](std::size_t ray) {
         if (ray < first_ray_[1]) return solid.sets[0].ends(ray);
         return ray < first_ray_[2] ? solid.sets[1].ends(ray - first_ray_[1]) : solid.sets[2].ends(ray - first_ray_[2]);
@@ -152,4 +154,4 @@ Result<void> DeviceSolid::pack(gpu::Device& device, std::size_t ray_count, EndsO
     return {};
 }
 
-}  // namespace burin
+}  // namespace burin::compute

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The device memory of the Vulkan engine: the solid as the device holds it, and buffers that the host shares with it.
+// The device memory of the Vulkan engine: the solid as the device holds it, and buffers that it shares with the host.
 // Thread and failure: as gpu::Device and gpu::Buffer.
 #pragma once
 
@@ -10,24 +10,25 @@
 #include <string>
 #include <vector>
 
-#include "compute/solid.hpp"
+#include "compute/rays/solid.hpp"
 #include "gpu/commands.hpp"
 
-namespace burin {
+namespace burin::compute {
 
-// A buffer that shaders use and the host writes, reads, or both. Where device memory is mapped the host works in it
-// directly; elsewhere there is a copy of it on the host's side, carried over by send and fetch.
+// A buffer that shaders use and that the host writes, reads, or both. The host accesses device memory directly where it
+// is mapped; otherwise there is a copy in host memory, which send and fetch transfer.
 class SharedBuffer {
 public:
     enum class Traffic { to_device, from_device, both, none };
     SharedBuffer(std::string name, Traffic traffic) : name_(std::move(name)), traffic_(traffic) {}
 
-    // At least so large afterwards; when it has to grow, its contents are lost.
+    // Enlarges the buffer to at least size_bytes. When it has to grow, its contents are lost.
     [[nodiscard]] Result<void> reserve(gpu::Device& device, std::uint64_t size_bytes);
     [[nodiscard]] const gpu::Buffer& buffer() const { return device_side_; }
     [[nodiscard]] std::uint64_t size_bytes() const { return device_side_.size_bytes(); }
 
-    // What the host sees. Written before send is submitted, read after fetch is done.
+    // Host view of the buffer. to_device is to be written before the commands of send are submitted, from_device read
+    // after those of fetch are done.
     template <typename T>
     [[nodiscard]] std::span<T> to_device() const {
         return (mapped() ? device_side_ : upload_).mapped_as<T>();
@@ -46,25 +47,28 @@ private:
     gpu::Buffer device_side_, upload_, readback_;
 };
 
-// All rays of the three axes in one table (x, then y, then z) and all their ends in one store, so that one dispatch and one
-// counter serve all. The table takes 96 MiB at the finest resolution. The store, larger, is reached by its address and may be
-// as large as what the device allocates at once, at least 1 GiB everywhere, however little a binding may show. Each ray has room for a power of two of ends; one that needs more moves to the end of the store.
+// All rays of the three axes in one table (x, then y, then z) and all their ends in one store, so that one dispatch and
+// one counter serve all. The table takes 96 MiB at the finest resolution. The larger store is accessed by its address,
+// so the limit of a binding does not apply: it may be as large as what the device allocates at once, which is at least
+// 1 GiB everywhere. Each ray has space for a power of two of ends; one that needs more is moved to the end of the
+// store.
 class DeviceSolid {
 public:
     struct Spare {
-        std::size_t least, wished;  // ends; as many as wished where the device's largest buffer allows it
+        // Numbers of free ends: required, and wanted where the device's largest buffer allows it.
+        std::size_t least, wished;
     };
-    // Packs the solid into new buffers, with spare ends behind the last ray's. Fails when the device cannot allocate the least
-    // of them at once; what was held before then stays.
+    // Packs the solid into new buffers, with spare ends behind those of the last ray. Fails when the device cannot
+    // allocate at least spare.least of them at once; the former buffers are then kept.
     [[nodiscard]] Result<void> upload(gpu::Device& device, const Solid& solid, Spare spare);
-    // Fetches what the device holds, packs it without gaps and sends it back. Nothing else may be under way.
+    // Fetches the solid from the device, packs it without gaps and sends it back. No other work may be in progress.
     [[nodiscard]] Result<void> make_space(gpu::Device& device, Spare spare);
 
     [[nodiscard]] const gpu::Buffer& rays() const { return rays_; }
     [[nodiscard]] const gpu::Buffer& store() const { return store_; }
     [[nodiscard]] std::uint32_t store_size() const { return store_size_; }    // ends
-    [[nodiscard]] std::uint32_t packed_size() const { return packed_size_; }  // ends in use when it was packed
-    [[nodiscard]] std::uint32_t longest_ray() const { return longest_; }      // most ends of a ray when it was packed
+    [[nodiscard]] std::uint32_t packed_size() const { return packed_size_; }  // ends in use after packing
+    [[nodiscard]] std::uint32_t longest_ray() const { return longest_; }      // most ends of a ray after packing
     [[nodiscard]] const std::array<std::uint32_t, 3>& first_ray() const { return first_ray_; }
     [[nodiscard]] std::uint64_t bytes() const { return rays_.size_bytes() + store_.size_bytes(); }
 
@@ -75,7 +79,7 @@ private:
     gpu::Buffer rays_, store_;
     std::uint32_t store_size_ = 0, packed_size_ = 0, longest_ = 0;
     std::array<std::uint32_t, 3> first_ray_{};
-    int resolution_ = 0;  // cells along the solid's longest side, for messages
+    int resolution_ = 0;  // cells along the solid's longest side, for error messages
 };
 
-}  // namespace burin
+}  // namespace burin::compute

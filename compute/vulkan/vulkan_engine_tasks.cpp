@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
-#include "compute/vulkan_engine_tasks.hpp"
+#include "compute/vulkan/vulkan_engine_tasks.hpp"
 
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
 
-namespace burin {
+namespace burin::compute {
 namespace {
 
 using shared::Capsule;
 using shared::CutTask;
 
-constexpr int kTileRays = 8;                           // 8 x 8 = shared::kCutGroup
-constexpr std::size_t kLongestOrder = 4 << 20;         // bounds the memory of the lists
-constexpr std::uint64_t kCutCost = 16, kLookCost = 1;  // of a ray: to cut it by a capsule, to see that one is far away
+constexpr int kTileRays = 8;                    // 8 x 8 = shared::kCutGroup
+constexpr std::size_t kLongestOrder = 4 << 20;  // entries; bounds the memory of the lists
+// Relative costs of a ray: to cut it by a capsule, and to find that a capsule is far away.
+constexpr std::uint64_t kCutCost = 16, kLookCost = 1;
 
 std::vector<Footprint> footprints(const Lattice& lattice, std::span<const Capsule> capsules, int axis) {
     std::vector<Footprint> all(capsules.size());
@@ -21,7 +22,7 @@ std::vector<Footprint> footprints(const Lattice& lattice, std::span<const Capsul
     return all;
 }
 
-// The smallest rectangle around all that are not empty.
+// Returns the smallest rectangle around all footprints that are not empty.
 Footprint rectangle_around(std::span<const Footprint> footprints) {
     Footprint all{1, 0, 1, 0};
     for (const Footprint& f : footprints) {
@@ -40,7 +41,7 @@ void add_rectangle(int axis, const Footprint& f, std::uint32_t first, std::uint3
     }
 }
 
-// The capsules above each tile within a rectangle.
+// Sorts the capsules by the tiles of a rectangle that they lie above.
 class Tiles {
 public:
     Tiles(const Footprint& rectangle, std::span<const Footprint> footprints)
@@ -125,4 +126,4 @@ CutTasks cut_tasks(const Lattice& lattice, std::span<const Capsule> capsules) {
     return result;
 }
 
-}  // namespace burin
+}  // namespace burin::compute

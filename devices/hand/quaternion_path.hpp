@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The way from one orientation to another, with +, -, *, / and sqrt alone, so that every machine computes the same bits.
+// Interpolation between orientations with +, -, *, / and sqrt alone, so that every machine computes the same bits.
 #pragma once
 
 #include <cmath>
 
 #include "base/space.hpp"
 
-namespace burin {
+namespace burin::devices {
 
 [[nodiscard]] inline double length2(const Quat& q) { return q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z; }
 
@@ -14,14 +14,16 @@ namespace burin {
 
 [[nodiscard]] inline Quat normalised(const Quat& q) { return scaled(q, 1.0 / std::sqrt(length2(q))); }
 
-// The shorter way round, so that q and -q, which are one rotation, do not pass through a half turn.
+// Normalised linear interpolation the shorter way round, so that q and -q, which are one rotation, do not pass through
+// a half turn.
 [[nodiscard]] inline Quat normalised_lerp(const Quat& a, const Quat& b, double t) {
     const double dot = a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z;
     const double s = dot < 0.0 ? -t : t;
     const double r = 1.0 - t;
     const Quat q(a.w * r + b.w * s, a.x * r + b.x * s, a.y * r + b.y * s, a.z * r + b.z * s);
     const double l2 = length2(q);
-    return l2 > 1e-12 ? scaled(q, 1.0 / std::sqrt(l2)) : a;  // exactly opposite: no way is shorter, stay
+    // Orientations exactly opposite have no shorter way: stay at the first.
+    return l2 > 1e-12 ? scaled(q, 1.0 / std::sqrt(l2)) : a;
 }
 
-}  // namespace burin
+}  // namespace burin::devices

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "devices/simulated_hand.hpp"
+#include "devices/hand/simulated_hand.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/sensible.hpp"
-#include "devices/quaternion_path.hpp"
+#include "base/space.hpp"
+#include "devices/hand/quaternion_path.hpp"
 
-namespace burin {
+namespace burin::devices {
 namespace {
 
 // Fritsch and Carlson, in the weighted harmonic form of Fritsch and Butland 1984: zero at an extremum, else between
@@ -90,4 +90,4 @@ HandTarget SimulatedHand::target(double time_s) const noexcept {
     return target;
 }
 
-}  // namespace burin
+}  // namespace burin::devices

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// A scripted hand: where it wants to be at each time, and how hard it holds the stylus.
+// A scripted hand: its desired pose at each time, and how firmly it holds the stylus.
 //
 // The script is a list of time-stamped poses in the device frame (metres, seconds since the start). Between poses
 // positions follow straight lines or a monotone cubic (Fritsch and Carlson 1980: passes through the poses without
-// overshoot), and orientations a normalised straight line between quaternions. Before the first pose and after the last
-// one the hand rests. Buttons hold from one pose to the next. Only +, -, *, / and sqrt are used, so that every machine
-// computes the same bits.
+// overshoot), and orientations a normalised linear interpolation of quaternions. Before the first pose and after the
+// last one the hand rests. Buttons hold from one pose to the next. Only +, -, *, / and sqrt are used, so that every
+// machine computes the same bits.
 //
-// The grip: F = K (target - p) + B (d target/dt - p') plus the hand's mass on the stylus. The mass and damping class
-// are those of a hand tapping a wall (0.1 kg, 3 Ns/m, 100 N/m). A hand that follows a path holds more firmly: the
-// Omni's 0.26 N of friction alone would leave it 2.6 mm behind at 100 N/m. With 200 N/m that is 1.3 mm, and 6 Ns/m
-// makes the 145 g of hand and stylus settle (damping ratio 0.56). So a slow path is followed within 2 mm in free air,
-// and a wall 5 mm behind its surface is pressed with about 1 N.
+// The grip: F = K (target - p) + B (d target/dt - p') plus the hand's mass on the stylus. Mass and damping are of the
+// size of a hand tapping a wall (0.1 kg, 3 Ns/m, 100 N/m). A hand that follows a path holds more firmly: the Omni's
+// 0.26 N of friction alone would leave it 2.6 mm behind at 100 N/m. With 200 N/m that is 1.3 mm, and 6 Ns/m makes the
+// 145 g of hand and stylus settle (damping ratio 0.56). So a slow path is followed within 2 mm in free air, and a
+// target 5 mm behind a wall's surface presses the wall with about 1 N.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@
 #include "base/error.hpp"
 #include "base/space.hpp"
 
-namespace burin {
+namespace burin::devices {
 
 struct HandPose {
     double time_s = 0.0;
@@ -37,7 +37,7 @@ struct HandGrip {
     double damping_Ns_per_m = 6.0;
 };
 
-// What the hand wants at one time.
+// The desired state of the hand at one time.
 struct HandTarget {
     Vec3 position_device_m{0.0};
     Vec3 velocity_device_m_per_s{0.0};
@@ -45,14 +45,15 @@ struct HandTarget {
     std::uint32_t buttons = 0;
 };
 
-// Immutable after create(); any thread may ask.
+// Immutable after create(); any thread may call target().
 class SimulatedHand {
 public:
-    // Fails on an empty script, times that do not rise, numbers that are not finite, a quaternion of no length (others
-    // are normalised), and a grip with negative numbers.
+    // Fails on an empty script, times that do not rise, numbers that are not finite, a quaternion of zero length
+    // (others are normalised), and a grip with negative numbers.
     [[nodiscard]] static Result<SimulatedHand> create(std::vector<HandPose> script, HandPath path = HandPath::straight,
                                                       HandGrip grip = {});
 
+    // The hand's desired state at a time.
     // Wait-free, no heap: a binary search and a few products.
     [[nodiscard]] HandTarget target(double time_s) const noexcept;
     [[nodiscard]] const HandGrip& grip() const noexcept { return grip_; }
@@ -66,4 +67,4 @@ private:
     HandGrip grip_;
 };
 
-}  // namespace burin
+}  // namespace burin::devices

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "devices/steered_hand.hpp"
+#include "devices/hand/steered_hand.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/sensible.hpp"
-#include "devices/quaternion_path.hpp"
+#include "base/space.hpp"
+#include "devices/hand/quaternion_path.hpp"
 
-namespace burin {
+namespace burin::devices {
 namespace {
 
 constexpr double kStep_s = 50e-6;
@@ -55,7 +55,7 @@ Result<SteeredHand> SteeredHand::create(HandSteering* channel, const HandTarget&
 HandTarget SteeredHand::target(double time_s) noexcept {
     const Nanoseconds asked_ns = nanoseconds(time_s);
     take_newest();
-    if (asked_ns - time_ns_ > kMostCatchUp_ns) {  // a pause: the goal waits as the hand does
+    if (asked_ns - time_ns_ > kMostCatchUp_ns) {  // after a pause the goal has waited as the hand did
         const Nanoseconds lost_ns = asked_ns - time_ns_ - kMostCatchUp_ns;
         time_ns_ += lost_ns;
         set_out_ns_ += lost_ns;
@@ -79,7 +79,7 @@ void SteeredHand::take_newest() noexcept {
     interval_ns_ =
         first ? kLeastInterval_ns : std::clamp(newest.time_ns - stamp_ns_, kLeastInterval_ns, kMostInterval_ns);
     stamp_ns_ = newest.time_ns;
-    hand_.buttons = buttons_at_goal_;  // what the target before asked for, if its goal was cut short
+    hand_.buttons = buttons_at_goal_;  // the last target's buttons take effect even if its goal was cut short
     buttons_at_goal_ = newest.buttons;
 }
 
@@ -105,8 +105,8 @@ void SteeredHand::step() noexcept {
     Vec3& v = hand_.velocity_device_m_per_s;
     v += shortened(wanted - v, kStep_s * limits_.acceleration_m_per_s2);
     hand_.position_device_m += kStep_s * v;
-    hand_.orientation_device = now.orientation;  // the wrist is free: it has no mass to be thrown
+    hand_.orientation_device = now.orientation;  // the wrist is free and has no mass to limit
     if (time_ns_ - set_out_ns_ >= interval_ns_) hand_.buttons = buttons_at_goal_;
 }
 
-}  // namespace burin
+}  // namespace burin::devices

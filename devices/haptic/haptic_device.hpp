@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a force-feedback device is to the rest of Burin: a description, samples in, forces out, all plain data.
+// The interface of a force-feedback device: a description, samples in, forces out, all plain data.
 // Frames: everything here is in the device frame (base/space.hpp). Threads: read() and write() are called by the haptic
 // thread only, once a tick each, and must be wait-free: no heap, lock, throw or file.
 #pragma once
@@ -9,17 +9,17 @@
 #include "base/clock.hpp"
 #include "base/space.hpp"
 
-namespace burin {
+namespace burin::devices {
 
-// What the device can do; the safety gate, the stiffness limiter and the workspace mapping are set up from it. What is not
-// known of a device stays 0.
+// Capabilities of the device; the safety gate, the stiffness limiter and the workspace mapping are set up from it.
+// Unknown figures stay 0.
 struct DeviceDescription {
     const char* name = "";
     Vec3 workspace_m{0.0};             // width (x), height (y), depth (z) of the box centred on the device origin
     double resolution_m = 0.0;         // position quantum
     double max_force_N = 0.0;          // peak the device takes, any direction
-    Vec3 axis_max_force_N{0.0};        // of each axis; 0: no limit of its own
-    Vec3 max_torque_Nm{0.0};           // of each axis; 0: the axis is passive and gets no torque
+    Vec3 axis_max_force_N{0.0};        // per axis; 0: no limit of its own
+    Vec3 max_torque_Nm{0.0};           // per axis; 0: the axis is passive and gets no torque
     double max_stiffness_N_per_m = 0;  // stiffest wall it should be asked to render
     double rate_Hz = 1000.0;           // servo rate
     double apparent_mass_kg = 0.0;     // of the arm, at the hand
@@ -28,7 +28,8 @@ struct DeviceDescription {
     double delay_s = 0.0;              // from write() until the motors act, on top of the hold over a period
 };
 
-// A force and a torque about the device's position, in the device frame. Axes that are not driven ignore theirs.
+// A force and a torque about the device's position, in the device frame. The device ignores components of axes that it
+// cannot drive.
 struct DeviceWrench {
     Vec3 force_device_N{0.0};
     Vec3 torque_device_Nm{0.0};
@@ -44,7 +45,7 @@ struct DeviceSample {
     DeviceFault fault = DeviceFault::none;
 };
 
-// Inheritance, because which device is there is known only at run time.
+// A virtual interface, because the device is chosen at run time.
 class HapticDevice {
 public:
     virtual ~HapticDevice() = default;
@@ -53,4 +54,4 @@ public:
     virtual void write(const DeviceWrench& wrench) noexcept = 0;
 };
 
-}  // namespace burin
+}  // namespace burin::devices

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "devices/simulated_omni.hpp"
+#include "devices/haptic/simulated_omni.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace burin {
+namespace burin::devices {
 namespace {
 
 constexpr double kStep_s = 50e-6;
@@ -21,7 +21,7 @@ Vec3 quantised(const Vec3& p_m, double quantum_m) {
 
 double length(const Vec3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
 
-// The device protects itself: what is not finite drives no motor, what is too strong is scaled down.
+// The device's own protection: a force that is not finite becomes zero, one that is too strong is scaled down.
 Vec3 clamped(const Vec3& force_N, double max_N) {
     const double l = length(force_N);
     if (!std::isfinite(l)) return Vec3(0.0);
@@ -41,14 +41,14 @@ SimulatedOmni::SimulatedOmni(OmniHand hand, const OmniModel& model, Clock* clock
     description_.apparent_mass_kg = model_.apparent_mass_kg;
     description_.damping_Ns_per_m = model_.damping_Ns_per_m;
     description_.friction_N = model_.friction_N;
-    description_.delay_s = 0.001;  // one tick of transport
+    description_.delay_s = 0.001;  // transport delay of one tick
     if (clock_ != nullptr) clock_start_ns_ = clock_->now_ns();
     const Vec3 half = 0.5 * model_.workspace_m;
     position_m_ = glm::clamp(hand_target(0.0).position_device_m, -half, half);
     last_sample_ = honest_sample();
 }
 
-// get_if instead of visit, which could throw. A variant of two types that move without throwing always holds one.
+// Uses get_if instead of visit, which could throw. A variant of two types whose moves do not throw always holds one.
 HandTarget SimulatedOmni::hand_target(double time_s) noexcept {
     if (const auto* scripted = std::get_if<SimulatedHand>(&hand_)) return scripted->target(time_s);
     return std::get_if<SteeredHand>(&hand_)->target(time_s);
@@ -76,7 +76,7 @@ void SimulatedOmni::step() noexcept {
                       grip.damping_Ns_per_m * target.velocity_device_m_per_s;
     const double damping = model_.damping_Ns_per_m + grip.damping_Ns_per_m;
     Vec3 v = (velocity_m_per_s_ + (kStep_s / mass) * pull) / (1.0 + (kStep_s / mass) * damping);
-    // Coulomb friction as the impulse that stops the motion if it can, and else opposes it with all it has.
+    // Applies Coulomb friction as an impulse that stops the motion if it can, and otherwise opposes it in full.
     const double brake = kStep_s * model_.friction_N / mass;
     const double speed = length(v);
     v = speed <= brake ? Vec3(0.0) : v * (1.0 - brake / speed);
@@ -95,7 +95,7 @@ DeviceSample SimulatedOmni::honest_sample() noexcept {
     DeviceSample sample;
     sample.time_ns = clock_start_ns_ + time_ns_;
     sample.position_device_m = quantised(position_m_, model_.resolution_m);
-    sample.orientation_device = target.orientation_device;  // the wrist is not driven: it follows the hand
+    sample.orientation_device = target.orientation_device;  // the wrist is not driven and follows the hand
     sample.buttons = target.buttons;
     return sample;
 }
@@ -107,7 +107,7 @@ DeviceSample SimulatedOmni::read() noexcept {
         clock_start_ns_ += lost_ns;
         advance(behind_ns - lost_ns);
     }
-    acting_force_N_ = written_force_N_;  // one tick of transport
+    acting_force_N_ = written_force_N_;  // transport delay of one tick
     switch (injected_) {
         case InjectedFault::none: last_sample_ = honest_sample(); break;
         case InjectedFault::frozen: break;
@@ -134,4 +134,4 @@ void SimulatedOmni::write(const DeviceWrench& wrench) noexcept {
     written_force_N_ = clamped(wrench.force_device_N, model_.max_force_N);
 }
 
-}  // namespace burin
+}  // namespace burin::devices

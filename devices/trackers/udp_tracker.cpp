@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/tracker_port.hpp"
+#include "devices/trackers/udp_tracker.hpp"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -14,13 +14,10 @@
 #include <cstring>
 #include <utility>
 
-#include "app/session/input_line.hpp"
-
-namespace burin {
+namespace burin::devices {
 namespace {
 
-constexpr std::size_t kMostBytes = 4096;    // of a datagram: some twenty poses
-constexpr std::size_t kMostWaiting = 4096;  // seconds of a fast tracker, when nobody takes them
+constexpr std::size_t kMostBytes = 4096;  // per datagram: some twenty poses
 constexpr const char* kRemedy =
     "give udp:PORT, or udp:ADDRESS:PORT with an address of this machine, such as udp:0.0.0.0:5005";
 
@@ -41,22 +38,20 @@ Result<sockaddr_in> address_of(const std::string& where) {
     return address;
 }
 
-bool is_a_trackers(const Input& input) {
-    return std::holds_alternative<HeadInput>(input) || std::holds_alternative<WandInput>(input) ||
-           std::holds_alternative<WandClick>(input) || std::holds_alternative<WandStick>(input);
-}
-
 }  // namespace
 
-Result<std::unique_ptr<TrackerPort>> TrackerPort::open(const std::string& where, Clock& clock,
-                                                       std::function<void()> on_news) {
-    auto port = std::unique_ptr<TrackerPort>(new TrackerPort(clock, std::move(on_news)));
-    if (const auto bound = port->bind_to(where); !bound) return std::unexpected(bound.error());
-    port->thread_ = std::thread([p = port.get()] { p->listen(); });
-    return port;
+Result<std::unique_ptr<UdpTracker>> UdpTracker::open(const std::string& where, TrackerHost host) {
+    auto tracker = std::unique_ptr<UdpTracker>(new UdpTracker(std::move(host)));
+    if (const auto bound = tracker->bind_to(where); !bound) return std::unexpected(bound.error());
+    tracker->thread_ = std::thread([t = tracker.get()] { t->listen(); });
+    return tracker;
 }
 
-Result<void> TrackerPort::bind_to(const std::string& where) {
+Result<std::unique_ptr<Tracker>> open_udp_tracker(const std::string& where, TrackerHost host) {
+    return UdpTracker::open(where, std::move(host));
+}
+
+Result<void> UdpTracker::bind_to(const std::string& where) {
     const auto address = address_of(where);
     if (!address) return std::unexpected(address.error());
     stop_ = eventfd(0, EFD_CLOEXEC);
@@ -72,7 +67,7 @@ Result<void> TrackerPort::bind_to(const std::string& where) {
     return {};
 }
 
-TrackerPort::~TrackerPort() {
+UdpTracker::~UdpTracker() {
     if (thread_.joinable()) {
         const std::uint64_t one = 1;
         while (write(stop_, &one, sizeof(one)) < 0 && errno == EINTR) {
@@ -83,7 +78,7 @@ TrackerPort::~TrackerPort() {
     if (stop_ >= 0) close(stop_);
 }
 
-void TrackerPort::listen() {
+void UdpTracker::listen() {
     std::array<char, kMostBytes> datagram{};
     std::array<pollfd, 2> ready{{{socket_, POLLIN, 0}, {stop_, POLLIN, 0}}};
     while (true) {
@@ -91,52 +86,47 @@ void TrackerPort::listen() {
         if (ready[1].revents != 0) return;
         const ssize_t size = recv(socket_, datagram.data(), datagram.size(), 0);
         if (size < 0) continue;
-        hear({datagram.data(), static_cast<std::size_t>(size)}, clock_.now_ns());
-        if (on_news_) on_news_();
+        receive({datagram.data(), static_cast<std::size_t>(size)}, host_.clock.now_ns());
+        if (host_.on_sample) host_.on_sample();
     }
 }
 
-void TrackerPort::hear(std::string_view datagram, Nanoseconds now_ns) {
+void UdpTracker::receive(std::string_view datagram, Nanoseconds now_ns) {
     const std::lock_guard lock(mutex_);
     while (!datagram.empty()) {
         const std::size_t end = datagram.find('\n');
-        const std::string line(datagram.substr(0, end));
+        const std::string_view line = datagram.substr(0, end);
         datagram.remove_prefix(end == std::string_view::npos ? datagram.size() : end + 1);
-        const auto event = parse_line(line.empty() ? line : "0 " + line, "tracker");
-        if (!event) {
-            refuse(event.error().line(), now_ns);
-        } else if (*event && !is_a_trackers((*event)->input)) {
-            refuse("tracker: only head, wand, wand-button and wand-stick come from there", now_ns);
-        } else if (*event && heard_.size() >= kMostWaiting) {
+        auto input = host_.parse_line(line);
+        if (!input) {
+            refuse(input.error().line(), now_ns);
+        } else if (*input && !queue_.push({now_ns, std::move(**input)})) {
             ++refused_;
-        } else if (*event) {
-            heard_.push_back({now_ns, std::move((*event)->input)});
         }
     }
 }
 
-// Whoever sends nonsense sends it often.
-void TrackerPort::refuse(const std::string& why, Nanoseconds now_ns) {
+// Drops a line and counts it. Limits the messages, since a sender of invalid lines sends many.
+void UdpTracker::refuse(const std::string& why, Nanoseconds now_ns) {
     ++refused_;
-    if (said_ && now_ns - said_ns_ < kNanosecondsPerSecond) return;
-    said_ = true;
-    said_ns_ = now_ns;
+    if (last_message_ns_ && now_ns - *last_message_ns_ < kNanosecondsPerSecond) return;
+    last_message_ns_ = now_ns;
     messages_.push_back(why);
 }
 
-std::vector<TrackerPort::Heard> TrackerPort::take() {
+std::vector<TrackerSample> UdpTracker::take() {
     const std::lock_guard lock(mutex_);
-    return std::exchange(heard_, {});
+    return queue_.take();
 }
 
-std::vector<std::string> TrackerPort::take_messages() {
+std::vector<std::string> UdpTracker::take_messages() {
     const std::lock_guard lock(mutex_);
     return std::exchange(messages_, {});
 }
 
-std::uint64_t TrackerPort::refused() const {
+std::uint64_t UdpTracker::refused() const {
     const std::lock_guard lock(mutex_);
     return refused_;
 }
 
-}  // namespace burin
+}  // namespace burin::devices

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/gridded_triangles.hpp"
+#include "geometry/contact/gridded_triangles.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
 bool finite(const Vec3f& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
@@ -24,11 +24,12 @@ double edges2_m2(const Triangle& t) {
 constexpr float kNotListed = -1.0f;
 
 struct Extent {
-    Vec3f lo{std::numeric_limits<float>::infinity()}, hi{-std::numeric_limits<float>::infinity()};  // of the middles
+    // bounds of the sphere centres
+    Vec3f lo{std::numeric_limits<float>::infinity()}, hi{-std::numeric_limits<float>::infinity()};
     double edges2_m2 = 0.0;
 };
 
-// Spheres, and what the grid's shape follows from.
+// Computes the bounding sphere of each valid triangle, and the extent that determines the grid's shape.
 Extent measure_triangles(GriddedTriangles& piece, SearchBuild& report) {
     const bool all_finite = std::ranges::all_of(piece.positions_m, finite);
     piece.search.spheres.assign(piece.triangles.size(), glm::vec4(0.0f, 0.0f, 0.0f, kNotListed));
@@ -59,7 +60,7 @@ void shape_grid(SurfaceGrid& grid, const Extent& all) {
     const Vec3 extent = Vec3(all.hi) - Vec3(all.lo);
     const double longest = std::max({extent.x, extent.y, extent.z});
     double cell = std::max(longest / SurfaceGrid::kMaxCellsAnAxis, 2.0 * static_cast<double>(grid.mean_edge_m));
-    cell *= 1.0 + 1e-5;  // the far side stays inside the last cell in spite of rounding to float
+    cell *= 1.0 + 1e-5;  // keeps the far side inside the last cell in spite of rounding to float
     grid.cell_m = static_cast<float>(cell);
     grid.lo = all.lo;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -68,8 +69,8 @@ void shape_grid(SurfaceGrid& grid, const Extent& all) {
     }
 }
 
-// The cell of a sphere's middle. Rounding may put it into the cell beside: for_each_near finds it there, since reach_m
-// is a little more than the largest radius.
+// Returns the cell of a sphere's centre. Rounding may choose the neighbouring cell: for_each_near finds the triangle
+// there too, since reach_m is slightly more than the largest radius.
 std::uint16_t cell_of(const SurfaceGrid& grid, const glm::vec4& ball, float cells_per_m) {
     std::array<std::uint32_t, 3> at{};
     for (int axis = 0; axis < 3; ++axis) {
@@ -90,12 +91,13 @@ SearchBuild build_search(GriddedTriangles& piece) {
     grid.listed = report.listed;
     if (report.listed > 0) shape_grid(grid, all);
 
-    // Counting sort. First how many entries each cell gets, kept one place further on so that the sums become the ends.
+    // Counting sort. Counts the entries of each cell, stored one index further on so that the prefix sums become the
+    // ends.
     const std::size_t cell_count = std::size_t{grid.cells[0]} * grid.cells[1] * grid.cells[2];
     grid.first_entry.assign(cell_count + 1, 0u);
     const auto is_small = [&](const glm::vec4& ball) { return ball.w >= 0.0f && ball.w <= grid.cell_m; };
     const float cells_per_m = 1.0f / grid.cell_m;
-    std::vector<std::uint16_t> cells(grid.spheres.size());  // of each listed triangle that is not large
+    std::vector<std::uint16_t> cells(grid.spheres.size());  // cell of each listed triangle that is not large
     float largest_m = 0.0f;
     for (std::uint32_t i = 0; i < grid.spheres.size(); ++i) {
         const glm::vec4& ball = grid.spheres[i];
@@ -107,15 +109,16 @@ SearchBuild build_search(GriddedTriangles& piece) {
     }
     grid.reach_m = largest_m + 1e-4f * grid.cell_m;
     for (std::size_t cell = 0; cell < cell_count; ++cell) grid.first_entry[cell + 1] += grid.first_entry[cell];
-    // Then backwards: each cell's end moves down to its beginning while its entries are written in rising order.
+    // Writes the entries backwards: each cell's end moves down to its beginning, and its entries end up in ascending
+    // order.
     grid.entries.resize(grid.first_entry[cell_count]);
     for (auto i = static_cast<std::uint32_t>(grid.spheres.size()); i-- > 0;) {
         if (is_small(grid.spheres[i])) grid.entries[--grid.first_entry[cells[i] + 1u]] = i;
     }
-    // Now first_entry[cell + 1] is the cell's beginning; move all down by one place and close the list.
+    // first_entry[cell + 1] now is the cell's beginning: shifts all down by one and closes the list.
     for (std::size_t cell = 0; cell < cell_count; ++cell) grid.first_entry[cell] = grid.first_entry[cell + 1];
     grid.first_entry[cell_count] = static_cast<std::uint32_t>(grid.entries.size());
     return report;
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

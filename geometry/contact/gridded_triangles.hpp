@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Loose triangles with a grid to find the few that are near the tool: for surfaces that do not come as tiles, such as what a
-// GPU hands back, or a mesh that is only touched.
+// Loose triangles with a uniform grid to find the few that are near the tool: for surfaces that do not come as tiles,
+// such as a surface read back from a GPU, or a mesh that is touched but never carved.
 //
-// Fill positions_m and triangles, call build_search() once, then share it and change it no more. Positions are float metres,
-// relative to the origin_object of the LocalSurface that holds them. Building allocates and is linear in triangles + cells
-// (two passes); asking does not allocate, lock or throw. A query looks at the cells its box touches, at the triangles listed
-// there, each once, and at the large ones.
+// Fill positions_m and triangles, call build_search() once, then share the object and do not change it again. Positions
+// are float metres, relative to the origin_object of the LocalSurface that holds them. Building allocates and is linear
+// in triangles + cells (two passes); a query does not allocate, lock or throw. It examines each triangle listed in the
+// cells that its box touches once, and all large triangles.
 #pragma once
 
 #include <algorithm>
@@ -13,29 +13,29 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/componentwise.hpp"
-#include "geometry/triangle.hpp"
+#include "geometry/mesh/componentwise.hpp"
+#include "geometry/mesh/triangle.hpp"
 
-namespace burin {
+namespace burin::geometry {
 
-// A uniform grid. Written by build_search() alone, read through for_each_near(). A triangle is listed once, in the cell of its
-// sphere's middle, so a query looks as much farther as the largest listed sphere reaches; a triangle larger than a cell is in
-// `large`, which every query looks at.
+// A uniform grid, written by build_search() alone and read through for_each_near(). Each triangle is listed once, in
+// the cell of its bounding sphere's centre, so a query extends its box by the radius of the largest listed sphere. A
+// triangle larger than a cell is in `large`, which every query examines.
 struct SurfaceGrid {
     static constexpr std::uint32_t kMaxCellsAnAxis = 32;
 
     std::array<std::uint32_t, 3> cells{1, 1, 1};  // along x, y, z
     Vec3f lo{0.0f};                               // corner of the first cell
     float cell_m = 1.0f;
-    float reach_m = 0.0f;      // no listed triangle is farther from its cell than this
-    float mean_edge_m = 0.0f;  // root of the mean square, of the listed triangles: the length scale of the mesh
+    float reach_m = 0.0f;      // upper bound of a listed triangle's distance from its cell
+    float mean_edge_m = 0.0f;  // root mean square of the listed triangles' edges: the length scale of the mesh
     std::uint32_t listed = 0;  // triangles that can be found
-    std::vector<std::uint32_t> first_entry;  // of a cell; its entries end where the next cell's begin
+    std::vector<std::uint32_t> first_entry;  // first entry of each cell; its entries end where the next cell's begin
     std::vector<std::uint32_t> entries;      // triangle indices
     std::vector<std::uint32_t> large;        // triangle indices
-    std::vector<glm::vec4> spheres;          // around each triangle: centre, radius; below 0: not listed
+    std::vector<glm::vec4> spheres;          // around each triangle: centre, radius; a negative radius: not listed
 
-    [[nodiscard]] Box bounds() const noexcept {  // of the spheres' middles
+    [[nodiscard]] Box bounds() const noexcept {  // bounds of the spheres' centres
         const Vec3 from(lo);
         return {from, from + static_cast<double>(cell_m) * Vec3(cells[0], cells[1], cells[2])};
     }
@@ -58,7 +58,7 @@ struct SearchBuild {
     std::uint32_t invalid = 0;     // an index out of range or a coordinate that is not finite: left out
 };
 
-// Fills piece.search.
+// Builds piece.search from its positions and triangles, and counts what was listed and what was left out.
 SearchBuild build_search(GriddedTriangles& piece);
 
 // The range of grid cells that a box touches, inclusive; empty when it misses the grid.
@@ -73,7 +73,7 @@ struct CellRange {
         const double from = (lo[axis] - static_cast<double>(grid.lo[axis])) / static_cast<double>(grid.cell_m);
         const double to = (hi[axis] - static_cast<double>(grid.lo[axis])) / static_cast<double>(grid.cell_m);
         const double last = static_cast<double>(grid.cells[static_cast<std::size_t>(axis)]) - 1.0;
-        if (!(to >= 0.0 && from <= last + 1.0)) return range;  // also when not finite
+        if (!(to >= 0.0 && from <= last + 1.0)) return range;  // false for NaN too
         range.lo[static_cast<std::size_t>(axis)] = static_cast<std::uint32_t>(std::clamp(from, 0.0, last));
         range.hi[static_cast<std::size_t>(axis)] = static_cast<std::uint32_t>(std::clamp(to, 0.0, last));
     }
@@ -81,7 +81,8 @@ struct CellRange {
     return range;
 }
 
-// As for_each_triangle_near (geometry/local_surface_search.hpp), visit(triangle index, triangle).
+// Visits triangles as for_each_triangle_near does (geometry/contact/local_surface_search.hpp); calls visit(triangle
+// index, triangle).
 template <typename Visit>
 bool for_each_near(const GriddedTriangles& piece, Near& near, Visit&& visit) {
     const SurfaceGrid& grid = piece.search;
@@ -101,7 +102,7 @@ bool for_each_near(const GriddedTriangles& piece, Near& near, Visit&& visit) {
     for (std::uint32_t z = range.lo[2]; z <= range.hi[2]; ++z)
         for (std::uint32_t y = range.lo[1]; y <= range.hi[1]; ++y) {
             const std::uint32_t row = (z * grid.cells[1] + y) * grid.cells[0];
-            // The cells of a row lie side by side, and so do their entries.
+            // The cells of a row are consecutive, and so are their entries.
             for (std::uint32_t e = grid.first_entry[row + range.lo[0]]; e < grid.first_entry[row + range.hi[0] + 1];
                  ++e)
                 if (!look_at(grid.entries[e])) return false;
@@ -109,4 +110,4 @@ bool for_each_near(const GriddedTriangles& piece, Near& near, Visit&& visit) {
     return true;
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Four places at once, coordinate by coordinate, in float: for looks at many triangles of which few are of interest.
-// In vectors of the compiler, so that every machine gives the same bits: + - * / and comparisons only, a lane for itself.
+// Four points at once, coordinate by coordinate, in float: SIMD for tests of many triangles of which few are of
+// interest. Uses the compiler's vector types with + - * / and comparisons only, lane by lane, so that every machine
+// gives the same bits.
 #pragma once
 
 #include <array>
@@ -10,7 +11,7 @@
 
 #include "base/space.hpp"
 
-namespace burin {
+namespace burin::geometry {
 
 inline constexpr std::size_t kLanes = 4;
 using Lanes [[gnu::vector_size(4 * kLanes)]] = float;
@@ -50,7 +51,7 @@ struct Vec3Lanes {
     return {greater(a.x, b.x), greater(a.y, b.y), greater(a.z, b.z)};
 }
 
-// Of each of four: three floats in a row, with at least one more behind them that may be read.
+// Loads four points, each as three consecutive floats that are followed by at least one more readable float.
 [[nodiscard]] inline Vec3Lanes gathered(const float* const (&from)[kLanes]) noexcept {
     Lanes a, b, c, d;
     std::memcpy(&a, from[0], sizeof a);
@@ -63,4 +64,4 @@ struct Vec3Lanes {
             __builtin_shufflevector(ab_z, cd_z, 0, 1, 4, 5)};
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT
-// The piece of surface near the tool that the carving side publishes to the haptic thread, and that the tick touches.
+// The surface near the tool that the carving side publishes to the haptic thread, and that the tick touches.
 //
-// Data flow: after each update the carving side fills a LocalSurface (the draft of a NewestSlot) and publishes it; the tick
-// borrows the newest one. What is published is references: to the tiles of a carved surface that the ball touches, to loose
-// triangles, and to the meshes of a scene (geometry/touch_mesh.hpp). No triangle is copied, and tiles need no search structure
-// built.
-// Ownership: what is referred to never changes once it is published. Only the carving side makes, copies, fills or destroys
-// a LocalSurface, and so only it counts references, allocates, and frees what nobody refers to any more: the references in a
-// draft lapse when it is filled again. The haptic thread reads through them and never copies one; what it reads cannot go
-// away, since the slot that it has borrowed is not the writer's until it asks for a newer one.
-// Positions are float, in metres, relative to origin_object, so that they keep 1e-7 of the solid's size however far it lies
-// from the object's origin. A triangle winds counter-clockwise seen from outside the material; the side it turns to the
-// outside is the only one that can be touched.
-// Outside the ball (center_object, radius_m) nothing is known: a tick whose tool leaves it says so and gives no force. Within
-// it the surface is complete, and what a tile holds beyond it is true all the same.
-// made_ns is also the carving side's sign of life: while the tool is in contact it must publish at least as often as
+// Data flow: after each update the carving side fills a LocalSurface (the draft of a NewestSlot) and publishes it; the
+// tick borrows the newest one. It holds references: to the tiles of a carved surface that meet the ball, to loose
+// triangles, and to the meshes of a scene (geometry/contact/touch_mesh.hpp). No triangle is copied, and tiles need no
+// search structure.
+// Ownership: objects that are referred to never change once published. Only the carving side makes, copies, fills or
+// destroys a LocalSurface, so it alone counts references, allocates, and frees objects that nobody refers to any more;
+// the references in a draft are dropped when it is filled again. The haptic thread reads through the references and
+// never copies one; what it reads stays alive, since the slot that it has borrowed does not return to the writer until
+// it asks for a newer one.
+// Positions are float, in metres, relative to origin_object, so that their resolution is 1e-7 of the solid's size
+// however far it lies from the object's origin. A triangle winds counter-clockwise seen from outside the material; only
+// its outer side can be touched.
+// Validity: the surface is complete within the ball (center_object, radius_m) and unknown outside it: a tick whose tool
+// leaves the ball flags that and gives no force. Triangles of a tile beyond the ball are correct all the same.
+// made_ns is also the carving side's heartbeat: while the tool is in contact it must publish at least as often as
 // TickParameters::max_surface_age_s asks, even if nothing has changed.
 #pragma once
 
@@ -25,47 +26,47 @@
 
 #include "base/clock.hpp"
 #include "base/space.hpp"
-#include "geometry/gridded_triangles.hpp"
-#include "geometry/tile_block.hpp"
-#include "geometry/touch_patch.hpp"
+#include "geometry/contact/gridded_triangles.hpp"
+#include "geometry/contact/tile_block.hpp"
+#include "geometry/contact/touch_patch.hpp"
 
-namespace burin {
+namespace burin::geometry {
 
-// A mesh among what can be touched.
+// A mesh that can be touched, and its material.
 struct TouchedMesh {
     std::shared_ptr<const TouchSnapshot> snapshot;
-    std::uint8_t material = 0;  // which of the session's materials (haptics/forces/touch_material.hpp)
+    std::uint8_t material = 0;  // which of the session's materials (haptics/forces/touch_force.hpp)
 };
 
 struct LocalSurface {
     std::uint64_t sequence = 0;  // 0: never published; a tick record names the surface it used
     Nanoseconds made_ns = 0;     // when the carving side published it
-    Vec3 origin_object{0.0};     // what the float positions are relative to; of tiles: the lattice's origin
+    Vec3 origin_object{0.0};     // origin of the float positions; for tiles: the lattice's origin
     Vec3 center_object{0.0};     // the ball within which the surface is complete
     double radius_m = 0.0;
     TileBlock tiles;
-    std::shared_ptr<const GriddedTriangles> loose;  // none, or with its search built
-    std::vector<TouchedMesh> meshes;                // whole, wherever they are; the known ball does not bound them
+    std::shared_ptr<const GriddedTriangles> loose;  // null, or with its search built
+    std::vector<TouchedMesh> meshes;                // whole meshes wherever they are; the ball does not bound them
 
-    // A triangle's id is its number among the tiles', or that of a loose one after all of those, or of a mesh's after those: all
-    // tiles, all loose ones, then mesh by mesh.
+    // Triangle ids are consecutive: first all triangles of the tiles, then the loose ones, then those of each mesh in
+    // turn.
     [[nodiscard]] std::uint32_t loose_triangles() const noexcept {
         return loose ? static_cast<std::uint32_t>(loose->triangles.size()) : 0u;
     }
     [[nodiscard]] std::uint32_t triangles() const noexcept;
-    // All of an id below triangles(). A triangle is relative to origin_object.
+    // Returns the triangle with this id, which must be below triangles(), relative to origin_object.
     [[nodiscard]] Triangle triangle(std::uint32_t id) const noexcept;
-    // Of tiles and loose triangles it is 0.
+    // Returns the triangle's material; 0 for tiles and loose triangles.
     [[nodiscard]] std::uint8_t material(std::uint32_t id) const noexcept;
-    // Of loose triangles they are not known.
+    // Returns the normals at the triangle's corners; unknown for loose triangles.
     [[nodiscard]] CornerNormals corner_normals(std::uint32_t id) const noexcept;
-    // The length scale of what is there: a cell, the mean edge of loose triangles or that of a mesh, whichever is the
-    // smallest; 0 when there are none.
+    // Returns the length scale of the surface: the smallest of the tiles' cell, the loose triangles' mean edge and the
+    // meshes' mean edges; 0 when there are no triangles.
     [[nodiscard]] double mean_edge_m() const noexcept;
 
 private:
     struct Place {
-        const TouchedMesh* mesh = nullptr;  // none: not of a mesh
+        const TouchedMesh* mesh = nullptr;  // null: not of a mesh
         std::uint32_t number = 0;
     };
     [[nodiscard]] Place in_meshes(std::uint32_t id) const noexcept;
@@ -124,4 +125,4 @@ inline double LocalSurface::mean_edge_m() const noexcept {
     return least;
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Finding the few triangles of a LocalSurface that are near the tool: what the tick asks, several times over.
-// Does not allocate, lock or throw. Everything is relative to origin_object, metres.
-// Work: see geometry/tile_block.hpp, geometry/gridded_triangles.hpp and geometry/touch_patch.hpp.
+// Broad phase on a LocalSurface: finds the few triangles that are near the tool. A tick queries it several times.
+// Does not allocate, lock or throw. Lengths are metres relative to origin_object.
+// Cost: see geometry/contact/tile_block.hpp, geometry/contact/gridded_triangles.hpp and
+// geometry/contact/touch_patch.hpp.
 #pragma once
 
-#include "geometry/local_surface.hpp"
+#include "geometry/contact/local_surface.hpp"
 
-namespace burin {
+namespace burin::geometry {
 
-// The triangles of one mesh, whose origin is another than the surface's; ids begin with `first`.
+// Visits the triangles of one mesh, whose origin is `shift` from the surface's origin; their ids begin with `first`.
 template <typename Visit>
 bool for_each_near_in_mesh(const TouchSnapshot& snapshot, const Vec3& shift, std::uint32_t first, Near& near,
                            Visit&& visit) {
@@ -23,10 +24,10 @@ bool for_each_near_in_mesh(const TouchSnapshot& snapshot, const Vec3& shift, std
     return all;
 }
 
-// Calls visit(id, triangle) once for each triangle within near.reach_m of the box [near.lo, near.hi], and for some a little
-// farther off; for none that is degenerate. visit may make near.reach_m smaller, for what comes after. The order depends only
-// on the surface and on what is asked. Ends when visit returns false, or when all looks are used up, and then returns false
-// itself.
+// Calls visit(id, triangle) once for each triangle within near.reach_m of the box [near.lo, near.hi], and for some a
+// little farther off, but for no degenerate one. visit may reduce near.reach_m for the triangles that follow. The order
+// depends only on the surface and the query. Ends and returns false when visit returns false, or when near.looks_left
+// is used up.
 template <typename Visit>
 bool for_each_triangle_near(const LocalSurface& surface, Near& near, Visit&& visit) {
     if (surface.tiles.triangles > 0 && !for_each_near(surface.tiles, near, visit)) return false;
@@ -43,14 +44,14 @@ bool for_each_triangle_near(const LocalSurface& surface, Near& near, Visit&& vis
     return true;
 }
 
-// Each triangle that may meet the box.
+// Visits each triangle that may meet the box.
 template <typename Visit>
 bool for_each_triangle_near(const LocalSurface& surface, const Vec3& lo, const Vec3& hi, Visit&& visit) {
     Near near{lo, hi};
     return for_each_triangle_near(surface, near, visit);
 }
 
-// What no triangle's middle is beyond.
+// Returns a box that contains the centre of every triangle.
 [[nodiscard]] inline Box bounds(const LocalSurface& surface) noexcept {
     Box box;
     const auto include = [&](const Box& other) {
@@ -68,4 +69,4 @@ bool for_each_triangle_near(const LocalSurface& surface, const Vec3& lo, const V
     return box;
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// One tile of a carved surface, as it is drawn and touched: the triangles around the lattice edges of a cube of kCells cells a
-// side (compute/tile_mesher.hpp makes them).
+// One tile of a carved surface, as it is drawn and touched: the triangles around the lattice edges of a cube of kCells
+// cells a side (compute/mesher/tile_mesher.hpp makes them).
 //
-// Once others see it, a tile never changes: an update makes a new one. So the picture, the haptic thread and an export may go on
-// reading what they hold while carving goes on, without copies and without locks.
+// A published tile never changes: an update makes a new one. So the renderer, the haptic thread and an export may go on
+// reading the tiles that they hold while carving goes on, without copies and without locks.
 // Frame: the object frame, relative to the lattice's origin, metres.
 #pragma once
 
@@ -13,23 +13,25 @@
 
 #include "shaders/shared/surface_vertex.h"
 
-namespace burin {
+namespace burin::geometry {
 
 struct SurfaceTile {
     static constexpr int kCells = 16;
 
-    // One vertex for each smooth piece of surface that meets in a cell: along a sharp edge two vertices share a position and
-    // differ in normal and colour.
+    // One vertex for each smooth piece of surface that meets in a cell: along a sharp edge two vertices share a
+    // position and differ in normal and colour.
     std::vector<shared::SurfaceVertex> vertices;
     std::vector<std::uint32_t> indices;  // three a triangle, counter-clockwise seen from outside
 
-    // For each crossed lattice edge, in increasing order: ((axis * 16 + y) * 16 + x) * 16 + z of the edge's lower node, counted
-    // from the tile's first node; and these bits. The edge is surrounded by a quad: two triangles, or by a fan of some more.
-    // Its corners are in the four cells around the edge, or up to half a cell beside them.
+    // One entry for each crossed lattice edge, in increasing order: ((axis * 16 + y) * 16 + x) * 16 + z of the edge's
+    // lower node, counted from the tile's first node, plus the flag bits below. A quad (two triangles) or a fan of more
+    // triangles surrounds the edge. Its corners are in the four cells around the edge, or up to half a cell beside
+    // them.
     static constexpr std::uint16_t kQuadEdge = 0x3fff, kOtherDiagonal = 0x4000, kDisagrees = 0x8000;
     std::vector<std::uint16_t> quads;
     [[nodiscard]] bool only_quads() const { return indices.size() == quads.size() * 6; }
-    // Row axis * 16 + y has the quads from row_quads[row] to row_quads[row + 1], and the triangles from row_triangles[row] on.
+    // Row axis * 16 + y has the quads [row_quads[row], row_quads[row + 1]) and the triangles from row_triangles[row]
+    // on.
     static constexpr std::size_t kRows = 3 * kCells;
     std::array<std::uint16_t, kRows + 1> row_quads{};
     std::array<std::uint32_t, kRows + 1> row_triangles{};
@@ -37,4 +39,4 @@ struct SurfaceTile {
     [[nodiscard]] std::size_t triangles() const { return indices.size() / 3; }
 };
 
-}  // namespace burin
+}  // namespace burin::geometry

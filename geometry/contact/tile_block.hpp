@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The tiles of a carved surface around the tool, shared and not copied, and the search for the few triangles near it.
+// The tiles of a carved surface around the tool, shared by reference, and the search for the few triangles near it.
 //
-// No search structure is built: a tile holds its quads sorted by the lattice edge that each surrounds, and a quad's corners
-// are at most kReach cells from that edge's lower node. So the edges alone tell most quads that are too far, and only the rest
-// are looked up.
-// Frame: relative to the lattice's origin, metres. Whoever holds a block may read it without a lock, since no tile ever
-// changes. Copying a block, or filling it, counts references and may free tiles: that is for the side that carves.
-// Asking does not allocate, lock, throw. Work, in the tiles within reach: the 48 rows of each, the quads of the rows within
-// reach at 2 ns, and a look at the corners of those quads whose edge is near enough, four quads at once.
+// No search structure is built: a tile holds its quads sorted by the lattice edge that each surrounds, and a quad's
+// corners are at most kReach cells from that edge's lower node. So the edges alone rule out most quads that are too
+// far, and only the corners of the rest are read.
+// Frame: relative to the lattice's origin, metres. The holder of a block may read it without a lock, since no tile ever
+// changes. Copying or filling a block counts references and may free tiles, so only the carving side does it.
+// A query does not allocate, lock or throw. Its cost, in the tiles within reach: the 48 rows of each, 2 ns for each
+// quad of the rows within reach, and a test of the corners of those quads whose edge is near enough, four quads at
+// once.
 #pragma once
 
 #include <algorithm>
@@ -17,29 +18,30 @@
 #include <memory>
 #include <vector>
 
-#include "geometry/quad_gate.hpp"
-#include "geometry/surface_tile.hpp"
-#include "geometry/triangle.hpp"
+#include "geometry/contact/quad_gate.hpp"
+#include "geometry/contact/surface_tile.hpp"
+#include "geometry/mesh/triangle.hpp"
 #include "shaders/shared/octahedral.h"
 
-namespace burin {
+namespace burin::geometry {
 
 struct TileBlock {
+    // One position of the block's grid of tiles.
     struct Place {
-        std::shared_ptr<const SurfaceTile> tile;  // none: no surface there, or out of reach
-        std::uint32_t first_triangle = 0;         // triangles in the places before
+        std::shared_ptr<const SurfaceTile> tile;  // null: no surface there, or out of reach
+        std::uint32_t first_triangle = 0;         // number of triangles in the preceding places
     };
     double cell_m = 0.0;                // spacing of the lattice
-    std::array<int, 3> first{0, 0, 0};  // which tile of the lattice the first place is for
-    std::array<int, 3> count{0, 0, 0};  // places along x, y, z
-    std::vector<Place> places;          // x fastest, then y, then z
-    std::uint32_t triangles = 0;        // in all places; a triangle's number counts them in order
+    std::array<int, 3> first{0, 0, 0};  // lattice index of the first place's tile
+    std::array<int, 3> count{0, 0, 0};  // number of places along x, y, z
+    std::vector<Place> places;          // ordered with x fastest, then y, then z
+    std::uint32_t triangles = 0;        // total of all places; triangle numbers count in this order
 
-    // A corner of a quad is at most this many cells from the edge's lower node along each axis: a cell and a half beyond it,
-    // and a little for the rounding to float.
+    // The greatest distance of a quad's corner from the edge's lower node along each axis, in cells: a cell and a half,
+    // plus a margin for the rounding to float.
     static constexpr double kReach = 1.5 + 1.0 / 64.0;
 
-    // What no triangle goes beyond.
+    // Returns a box that contains all triangles.
     [[nodiscard]] Box bounds() const noexcept {
         Box box{Vec3(0.0), Vec3(0.0)};
         for (int axis = 0; axis < 3; ++axis) {
@@ -49,7 +51,7 @@ struct TileBlock {
         }
         return box;
     }
-    // Both of a number below `triangles`.
+    // Both functions require a number below `triangles`.
     [[nodiscard]] Triangle triangle(std::uint32_t number) const noexcept;
     [[nodiscard]] CornerNormals corner_normals(std::uint32_t number) const noexcept;
 
@@ -61,7 +63,7 @@ private:
 [[nodiscard]] inline Vec3f place_of(const shared::SurfaceVertex& v) noexcept { return {v.x, v.y, v.z}; }
 
 inline TileBlock::Corners TileBlock::corners(std::uint32_t number) const noexcept {
-    // The last place that does not begin after it; of several that begin there, the one with triangles is the last.
+    // Finds the last place that does not begin after the number; of several that begin there, the last has triangles.
     const auto after = std::ranges::upper_bound(places, number, {}, &Place::first_triangle);
     const Place& place = *(after - 1);
     const std::uint32_t* corner = &place.tile->indices[std::size_t{3} * (number - place.first_triangle)];
@@ -83,12 +85,13 @@ inline CornerNormals TileBlock::corner_normals(std::uint32_t number) const noexc
     return {true, {normal(corner[0]), normal(corner[1]), normal(corner[2])}};
 }
 
-// Nodes of the lattice, inclusive.
+// A range of lattice nodes, inclusive.
 struct NodeRange {
     std::array<int, 3> from{0, 0, 0}, to{-1, -1, -1};
 };
 
-// The nodes of the block whose edges may have triangles within reach; none (to below from) when the block is not.
+// Returns the nodes of the block whose edges may have triangles within reach; an empty range (to below from) when there
+// are none.
 [[nodiscard]] inline NodeRange nodes_near(const TileBlock& block, const Near& near) noexcept {
     NodeRange range;
     for (int axis = 0; axis < 3; ++axis) {
@@ -97,21 +100,22 @@ struct NodeRange {
         const double last = first + block.count[k] * SurfaceTile::kCells - 1.0;
         const double from = std::ceil((near.lo[axis] - near.reach_m) / block.cell_m - TileBlock::kReach);
         const double to = std::floor((near.hi[axis] + near.reach_m) / block.cell_m + TileBlock::kReach);
-        if (!(from <= last && to >= first && from <= to)) return {};  // also when not a number
+        if (!(from <= last && to >= first && from <= to)) return {};  // true for NaN too
         range.from[k] = static_cast<int>(std::max(from, first));
         range.to[k] = static_cast<int>(std::min(to, last));
     }
     return range;
 }
 
-// How far a quad can be from the box, by nothing but the lattice edge that it surrounds: squared, in cells, for each coordinate
-// of the edge's lower node in a tile. The sum over x, y and z is never more than the squared distance of any of its corners.
+// Lower bounds of a quad's distance from the box, from the lattice edge alone that it surrounds: squared, in cells, for
+// each coordinate of the edge's lower node in a tile. The sum over x, y and z never exceeds the squared distance of any
+// corner.
 struct EdgeDistances {
     using OfAxis = std::array<std::array<float, SurfaceTile::kCells>, 3>;
-    OfAxis across, along;  // for edges of the two other axes, and for those of this one
+    OfAxis across, along;  // for edges along the two other axes, and for edges along this axis
     double cell_m;
 
-    // `first_node` in the lattice.
+    // `first_node` is the tile's first node in the lattice.
     EdgeDistances(const Near& near, double cell_length_m, const std::array<int, 3>& first_node) noexcept
         : cell_m(cell_length_m) {
         for (int axis = 0; axis < 3; ++axis) {
@@ -120,7 +124,7 @@ struct EdgeDistances {
             const auto hi = static_cast<float>(near.hi[axis] / cell_m - first_node[k] + TileBlock::kReach);
             float* const of_across = across[k].data();
             float* const of_along = along[k].data();
-            for (int node = 0; node < SurfaceTile::kCells; ++node) {  // in a form that the compiler makes vectors of
+            for (int node = 0; node < SurfaceTile::kCells; ++node) {  // written so that the compiler vectorises it
                 const auto at = static_cast<float>(node);
                 const float below = std::max(lo - at, 0.0f), above = at - hi;
                 of_across[node] = squared(std::max(below, above));
@@ -134,14 +138,15 @@ struct EdgeDistances {
     static float squared(float x) noexcept { return x * x; }
 };
 
-// The quads of a tile that are near enough by their edges, looked at four at a time; visit(triangle of the tile, triangle).
+// Collects the quads of a tile whose edges are near enough and tests four at a time; calls visit(triangle of the tile,
+// triangle).
 template <typename Visit>
 class QuadsNear {
 public:
     QuadsNear(const SurfaceTile& tile, QuadGate& gate, Near& near, Visit& visit) noexcept
         : vertices_(tile.vertices.data()), indices_(tile.indices.data()), gate_(gate), near_(near), visit_(visit) {}
 
-    // The quad whose triangles are i and i + 1. False when visit said so or the looks are used up.
+    // Adds the quad whose triangles are i and i + 1. Returns false when visit returned false or no looks are left.
     [[nodiscard]] bool add(std::uint32_t i) {
         if (!near_.look()) {
             end();
@@ -150,7 +155,7 @@ public:
         quads_[count_++] = i;
         return count_ < kLanes || look();
     }
-    // A triangle that is part of a fan.
+    // Tests one triangle that is part of a fan.
     [[nodiscard]] bool add_alone(std::uint32_t i) {
         if (!near_.look()) return false;
         const std::uint32_t* const corner = indices_ + std::size_t{3} * i;
@@ -161,7 +166,7 @@ public:
         const auto passed = gate_.look({a, b, c, c}, LaneMask{-1, -1, -1, -1});
         return passed.first[0] == 0 || pass_on(i, passed.sound_first[0] != 0);
     }
-    // Looks at those that are left over.
+    // Tests the quads that are left over.
     bool end() { return count_ == 0 || look(); }
 
 private:
@@ -181,8 +186,8 @@ private:
         }
         return true;
     }
-    // Both triangles of a quad begin with the same corner, and either the second has the first's last one next, or the first has
-    // the second's last one next.
+    // Reads the corners of four quads. Both triangles of a quad begin with the same corner, and either the second
+    // continues with the first's last corner, or the first continues with the second's last corner.
     [[nodiscard]] FourQuads corners() const noexcept {
         const float *a[kLanes], *p[kLanes], *q[kLanes], *d[kLanes];
         for (std::uint32_t k = 0; k < kLanes; ++k) {
@@ -207,11 +212,11 @@ private:
     QuadGate& gate_;
     Near& near_;
     Visit& visit_;
-    std::array<std::uint32_t, kLanes> quads_{};  // by their first triangles
+    std::array<std::uint32_t, kLanes> quads_{};  // each by its first triangle
     std::uint32_t count_ = 0;
 };
 
-// visit(triangle of the tile, triangle).
+// Calls visit(triangle of the tile, triangle) for the triangles of one tile that are near.
 template <typename Visit>
 bool for_each_near_in_tile(const SurfaceTile& tile, const EdgeDistances& edges, QuadGate& gate, Near& near,
                            Visit&& visit) {
@@ -224,14 +229,15 @@ bool for_each_near_in_tile(const SurfaceTile& tile, const EdgeDistances& edges, 
         const auto& of_y = axis == 1 ? edges.along[1] : edges.across[1];
         const auto& of_z = axis == 2 ? edges.along[2] : edges.across[2];
         const float reach2 = edges.reach2(near);
-        unsigned first_x = 0, last_x = kCells - 1;  // beyond these all are too far
+        unsigned first_x = 0, last_x = kCells - 1;  // x outside this range is too far for every quad
         while (first_x < last_x && !(of_x[first_x] <= reach2)) ++first_x;
         while (last_x > first_x && !(of_x[last_x] <= reach2)) --last_x;
         for (std::size_t y = 0; y < SurfaceTile::kCells; ++y) {
             const float left2 = reach2 - of_y[y];
             if (!(left2 >= 0.0f)) continue;
             const std::size_t row = axis * SurfaceTile::kCells + y;
-            if (!only_quads) {  // rare: some quads are fans, so that a quad's place does not tell its triangles'
+            // Rare: some quads are fans, so that a quad's index does not give its triangles.
+            if (!only_quads) {
                 for (std::uint32_t i = tile.row_triangles[row]; i < tile.row_triangles[row + 1]; ++i)
                     if (!quads_near.add_alone(i)) return false;
                 continue;
@@ -249,13 +255,15 @@ bool for_each_near_in_tile(const SurfaceTile& tile, const EdgeDistances& edges, 
     return quads_near.end();
 }
 
-// As for_each_triangle_near (geometry/local_surface_search.hpp), visit(number, triangle).
+// Visits triangles as for_each_triangle_near does (geometry/contact/local_surface_search.hpp); calls visit(number,
+// triangle).
 template <typename Visit>
 bool for_each_near(const TileBlock& block, Near& near, Visit&& visit) {
     constexpr int kCells = SurfaceTile::kCells;
-    QuadGate gate(near, 5.5 * block.cell_m, block.cell_m);  // at most the diagonal of 2 kReach cells a side
+    // the longest edge is at most the diagonal of a cube of 2 kReach cells
+    QuadGate gate(near, 5.5 * block.cell_m, block.cell_m);
     const NodeRange nodes = nodes_near(block, near);
-    std::array<int, 3> from{}, to{};  // places
+    std::array<int, 3> from{}, to{};  // indices of places
     for (std::size_t k = 0; k < 3; ++k) {
         if (nodes.to[k] < nodes.from[k]) return true;
         from[k] = (nodes.from[k] - block.first[k] * kCells) / kCells;
@@ -278,4 +286,4 @@ bool for_each_near(const TileBlock& block, Near& near, Visit&& visit) {
     return true;
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

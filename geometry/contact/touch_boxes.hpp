@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Sixteen boxes side by side in 96 bytes, and which of them meet another box: the step that the search in a touched mesh
-// (geometry/touch_patch.hpp) is made of.
+// Sixteen quantised boxes in 96 bytes, and a test which of them meet another box: the step of which the search in a
+// touched mesh consists (geometry/contact/touch_patch.hpp).
 //
-// A side is a whole number, 0 to 255, of steps of the box around all sixteen. What is asked about is put on the same steps by the
-// same arithmetic. Each operation in it (subtract, multiply by a positive number, clamp, cut off) never turns two
-// numbers round, so boxes that meet still meet on the steps, and rounding loses nothing; boxes up to two steps apart may
-// seem to meet.
+// Each side of a box is a whole number of steps, 0 to 255, of the box around all sixteen. The query box is quantised by
+// the same arithmetic. Each operation (subtract, multiply by a positive number, clamp, truncate) preserves the order of
+// two numbers, so boxes that meet still meet after quantisation; boxes up to two steps apart may seem to meet.
 // Lengths are float metres relative to the mesh's origin. No heap, no throw.
 #pragma once
 
@@ -16,13 +15,13 @@
 
 #include "base/space.hpp"
 
-namespace burin {
+namespace burin::geometry {
 
 struct SteppedBox {
     std::array<std::uint8_t, 3> lo{}, hi{};
 };
 
-// The box around the sixteen, and its steps.
+// The box around the sixteen boxes, and its quantisation steps.
 struct TouchFrame {
     Vec3f lo{0.0f}, hi{0.0f};
     Vec3f steps_per_m{1.0f};  // finite, above 0
@@ -30,7 +29,7 @@ struct TouchFrame {
     static TouchFrame around(const Vec3f& lo, const Vec3f& hi) noexcept {
         TouchFrame frame{lo, hi, Vec3f(1.0f)};
         for (int k = 0; k < 3; ++k)
-            // A box flatter than this has one step only.
+            // A flatter box has one step only.
             if (const float extent = hi[k] - lo[k]; extent > 1e-30f) frame.steps_per_m[k] = 255.99f / extent;
         return frame;
     }
@@ -51,10 +50,10 @@ struct alignas(32) TouchBoxes {
     void set(std::uint32_t i, const SteppedBox& box) noexcept {
         for (std::size_t k = 0; k < 3; ++k) lo[k][i] = box.lo[k], hi[k][i] = box.hi[k];
     }
-    // In steps; a side spans to the end of its last one.
+    // Sides of box i in steps; the upper side reaches to the end of its last step.
     [[nodiscard]] Vec3f lo_of(std::uint32_t i) const noexcept { return {lo[0][i], lo[1][i], lo[2][i]}; }
     [[nodiscard]] Vec3f hi_of(std::uint32_t i) const noexcept { return {hi[0][i], hi[1][i], hi[2][i]}; }
-    // Bit i: whether box i, one of the first `count`, meets this one.
+    // Returns a bit mask: bit i tells whether box i, one of the first `count`, meets this one.
     [[nodiscard]] std::uint32_t meeting(const SteppedBox& box, std::uint32_t count) const noexcept {
         const Row meets = (row(lo[0]) <= box.hi[0]) & (row(hi[0]) >= box.lo[0]) & (row(lo[1]) <= box.hi[1]) &
                           (row(hi[1]) >= box.lo[1]) & (row(lo[2]) <= box.hi[2]) & (row(hi[2]) >= box.lo[2]);
@@ -62,13 +61,15 @@ struct alignas(32) TouchBoxes {
     }
 
 private:
-    // All sixteen at once. A plain loop is unrolled by GCC before it looks for vectors, and then takes six times as long.
+    // One vector of sixteen bytes. GCC unrolls a plain loop before it tries to vectorise it, which takes six times as
+    // long.
     using Row [[gnu::vector_size(kMost)]] = std::uint8_t;
 
     [[nodiscard]] static Row row(const std::array<std::uint8_t, kMost>& side) noexcept {
         return std::bit_cast<Row>(side);
     }
-    // Of sixteen bytes that are all ones or zero. The product brings byte i of eight to bit 56 + i, and nothing else there.
+    // Packs sixteen bytes, each all ones or zero, into bits. The product moves byte i of eight to bit 56 + i, and
+    // nothing else there.
     [[nodiscard]] static std::uint32_t bits_of(const Row& bytes) noexcept {
         static_assert(std::endian::native == std::endian::little, "byte i must be the i-th lowest");
         constexpr std::uint64_t kLowest = 0x0101010101010101u, kGather = 0x0102040810204080u;
@@ -78,4 +79,4 @@ private:
     }
 };
 
-}  // namespace burin
+}  // namespace burin::geometry

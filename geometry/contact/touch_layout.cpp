@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/touch_layout.hpp"
+#include "geometry/contact/touch_layout.hpp"
 
 #include <algorithm>
 
-#include "geometry/componentwise.hpp"
+#include "geometry/mesh/componentwise.hpp"
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
 
-// Triangles still name vertices by index.
+// Orders triangles by class and nearness and numbers their slots. The triangles still name vertices by index.
 void order_triangles(TouchLayout& layout, std::span<const VertexTriple> triangles, std::span<const Vec3f> positions_m) {
     std::vector<SizedItem> all(triangles.size());
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
@@ -31,8 +31,8 @@ void order_triangles(TouchLayout& layout, std::span<const VertexTriple> triangle
         }
 }
 
-// Numbers vertices in the order in which the triangles name them first, so that neighbours lie near each other in memory; those
-// that none names come last.
+// Numbers vertices in the order in which the triangles first name them, so that neighbours are close in memory; unused
+// vertices come last.
 void number_vertices(TouchLayout& layout, std::size_t vertices) {
     layout.own_of.assign(vertices, kNone);
     std::uint32_t next = 0;
@@ -72,4 +72,4 @@ TouchLayout lay_out(std::span<const VertexTriple> triangles, std::span<const Vec
     return layout;
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/touch_mesh.hpp"
+#include "geometry/contact/touch_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "geometry/touch_layout.hpp"
-#include "geometry/touch_patch_maker.hpp"
-#include "geometry/touch_surface.hpp"
-#include "geometry/touch_tree.hpp"
+#include "geometry/contact/touch_layout.hpp"
+#include "geometry/contact/touch_patch_maker.hpp"
+#include "geometry/contact/touch_surface.hpp"
+#include "geometry/contact/touch_tree.hpp"
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
 constexpr std::uint32_t kNone = TouchSurface::kNone;
 
-// Beyond this the squares of areas leave the range of float; nothing that is touched is as large.
+// Beyond this distance the squares of areas leave the range of float; no touched object is as large.
 constexpr double kFarthest_m = 1e8;
 
 constexpr const char* kWhere = "mesh to touch";
@@ -51,17 +51,17 @@ Box box_of(std::span<const Vec3> positions) {
 
 }  // namespace
 
-// Numbers of vertices and triangles: geometry/touch_layout.hpp.
+// Numbering of vertices and triangles: see geometry/contact/touch_layout.hpp.
 struct TouchMesh::Parts {
     Vec3 origin_object{0.0};
     TouchSurface surface;
-    std::vector<std::uint32_t> own_of;      // of each vertex index
-    std::vector<std::uint32_t> slot_of;     // of each triangle index
-    std::vector<std::uint32_t> mesh_index;  // of each slot
+    std::vector<std::uint32_t> own_of;      // own number of each vertex index
+    std::vector<std::uint32_t> slot_of;     // slot of each triangle index
+    std::vector<std::uint32_t> mesh_index;  // triangle index of each slot
     std::vector<std::uint32_t> empty_slots{};
     TouchTree tree{};
     TouchPatchMaker maker{};
-    std::shared_ptr<const TouchSnapshot> newest{};  // none: something has changed since
+    std::shared_ptr<const TouchSnapshot> newest{};  // null: something has changed since
 
     [[nodiscard]] Vec3f relative(const Vec3& position_object_m) const {
         return Vec3f(position_object_m - origin_object);
@@ -69,7 +69,8 @@ struct TouchMesh::Parts {
     void place(std::uint32_t index, const Vec3& position_object_m) {
         surface.place(own_of[index], relative(position_object_m));
     }
-    // The patches that lose triangles, or border on those that come: they are filled again.
+    // Returns the patches that lose triangles; if none does, those that border on added triangles. They are to be
+    // filled again.
     std::vector<std::uint32_t> patches_around(std::span<const std::uint32_t> slots,
                                               std::span<const VertexTriple> added) const;
     void remove(std::uint32_t slot);
@@ -209,7 +210,8 @@ Result<std::vector<std::uint32_t>> TouchMesh::replace(std::span<const std::uint3
     return indices;
 }
 
-// What is left in these patches and what is new is shared out again, by size and nearness; patches come or go as they are needed.
+// Distributes the triangles left in these patches and the added ones anew, by size and nearness; adds or removes
+// patches as needed.
 void TouchMesh::Parts::refill(std::span<const std::uint32_t> patches, std::span<const std::uint32_t> added_slots) {
     std::vector<SizedItem> all;
     const auto take = [&](std::uint32_t slot) {
@@ -249,4 +251,4 @@ std::shared_ptr<const TouchSnapshot> TouchMesh::snapshot() {
     return parts_->newest;
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/touch_order.hpp"
+#include "geometry/contact/touch_order.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/componentwise.hpp"
-#include "geometry/touch_boxes.hpp"
+#include "geometry/contact/touch_boxes.hpp"
+#include "geometry/mesh/componentwise.hpp"
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
 int longest_side(std::span<const TouchItem> items) {
@@ -18,13 +18,14 @@ int longest_side(std::span<const TouchItem> items) {
     return side.y >= side.z ? 1 : 2;
 }
 
-// By id where middles are equal, so that the order is the same with every standard library.
+// Orders by id where middles are equal, so that the order is the same with every standard library.
 template <int kAxis>
 bool before(const TouchItem& a, const TouchItem& b) {
     return a.middle[kAxis] < b.middle[kAxis] || (a.middle[kAxis] == b.middle[kAxis] && a.id < b.id);
 }
 
-// Calls sort(before), the order along the longest side. An axis that is known to the compiler takes half the time of one that is not.
+// Calls sort(before) with the order along the longest side. An axis known at compile time takes half the time of one
+// that is not.
 template <typename Sort>
 void along_longest_side(std::span<TouchItem> items, Sort&& sort) {
     switch (longest_side(items)) {
@@ -34,7 +35,7 @@ void along_longest_side(std::span<TouchItem> items, Sort&& sort) {
     }
 }
 
-// The middle of the items, at a multiple of the largest power of 16 below their number.
+// Returns the index at which to split: near the middle, at a multiple of the largest power of 16 below the count.
 std::size_t place_to_part(std::size_t count) {
     std::size_t group = TouchBoxes::kMost;
     while (group * TouchBoxes::kMost < count) group *= TouchBoxes::kMost;
@@ -65,4 +66,4 @@ std::uint32_t size_class(float longest_edge_m, float largest_of_mesh_m) noexcept
     return static_cast<std::uint32_t>(std::clamp((1 - octave) / 3, 0, static_cast<int>(kSizeClasses) - 1));
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

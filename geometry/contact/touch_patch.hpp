@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// What a TouchMesh (geometry/touch_mesh.hpp) hands to the haptic thread: patches of neighbouring triangles under a tree of
-// boxes, none of which ever changes, and the search for the few triangles near the tool.
+// The snapshot that a TouchMesh (geometry/contact/touch_mesh.hpp) hands to the haptic thread: immutable patches of
+// neighbouring triangles under a tree of boxes, and the search for the few triangles near the tool.
 //
-// Layout: a patch holds up to 256 triangles in leaves of 16; nodes hold up to 16 patches, or 16 nodes. An edit makes new patches
-// for what it touches and new nodes on the way up; all else is shared with the snapshot before. Asking about a point of a mesh of
-// 2 million triangles goes through 4 nodes, a patch or two and a leaf or two, each of 2 or 3 cache lines.
-// Frame: positions are float metres relative to origin_object. A triangle's number counts those of the tree from left to right,
-// and holds for one snapshot only; mesh_triangle tells which one of the mesh it is.
-// Threads: anyone may read; only the publisher makes and destroys references. No heap, lock or throw in asking.
+// Layout: a patch holds up to 256 triangles in leaves of 16; nodes hold up to 16 patches, or 16 nodes. An edit makes
+// new patches where it changes triangles and new nodes on the way up to the root; all else is shared with the snapshot
+// before. A query for a point of a mesh of 2 million triangles reads 4 nodes, a patch or two and a leaf or two, each of
+// 2 or 3 cache lines.
+// Frame: positions are float metres relative to origin_object. A triangle's number counts the tree's triangles from
+// left to right and holds for one snapshot only; mesh_triangle gives its index in the mesh.
+// Threads: any thread may read; only the publisher makes and destroys references. Queries do not allocate, lock or
+// throw.
 #pragma once
 
 #include <array>
@@ -16,18 +18,18 @@
 #include <memory>
 #include <vector>
 
-#include "geometry/componentwise.hpp"
-#include "geometry/touch_boxes.hpp"
-#include "geometry/triangle.hpp"
+#include "geometry/contact/touch_boxes.hpp"
+#include "geometry/mesh/componentwise.hpp"
+#include "geometry/mesh/triangle.hpp"
 
-namespace burin {
+namespace burin::geometry {
 
-// What patches and nodes have in common.
+// The common part of patches and nodes.
 struct TouchPart {
     TouchFrame frame;
     std::uint32_t triangles = 0;
     std::uint32_t count = 0;  // leaves of a patch; children of a node
-    double edge_sum_m = 0.0;  // of the triangles' edges: a shared one counts twice
+    double edge_sum_m = 0.0;  // sum of the triangles' edges; a shared edge counts twice
 };
 
 struct TouchPatch : TouchPart {
@@ -37,12 +39,12 @@ struct TouchPatch : TouchPart {
         TouchBoxes boxes;
         std::array<std::array<std::uint16_t, 3>, TouchBoxes::kMost> corners{};  // indices of vertices
     };
-    TouchBoxes boxes;  // of the leaves
+    TouchBoxes boxes;  // bounds of the leaves
     std::vector<Leaf> leaves;
-    // A mesh vertex on a sharp edge is several here, one for each smooth piece, which differ in normal.
+    // A mesh vertex on a sharp edge appears here once for each smooth piece, with the same position and another normal.
     std::vector<Vec3f> positions_m;
     std::vector<Vec3f> normals;
-    std::vector<std::uint32_t> mesh_triangles;  // of each triangle, its index in the mesh
+    std::vector<std::uint32_t> mesh_triangles;  // index in the mesh of each triangle
 
     [[nodiscard]] const std::array<std::uint16_t, 3>& corners(std::uint32_t i) const noexcept {
         return leaves[i / TouchBoxes::kMost].corners[i % TouchBoxes::kMost];
@@ -53,9 +55,10 @@ struct TouchPatch : TouchPart {
 };
 
 struct TouchNode : TouchPart {
-    TouchBoxes boxes;                                               // of the children
-    bool of_patches = true;                                         // else of nodes
-    std::array<std::uint32_t, TouchBoxes::kMost> first_triangle{};  // of each child, counted from this node's first
+    TouchBoxes boxes;        // bounds of the children
+    bool of_patches = true;  // else the children are nodes
+    std::array<std::uint32_t, TouchBoxes::kMost>
+        first_triangle{};  // number of each child's first triangle, counted from this node's first
     std::array<std::shared_ptr<const TouchPart>, TouchBoxes::kMost> children;
 
     [[nodiscard]] const TouchPatch& patch(std::uint32_t i) const noexcept {
@@ -67,21 +70,22 @@ struct TouchNode : TouchPart {
 };
 
 struct TouchSnapshot {
-    static constexpr std::uint32_t kMostLevels = 16;  // of nodes: more than 32 bits of triangles can fill
+    // levels of nodes: more than triangles numbered in 32 bits can fill
+    static constexpr std::uint32_t kMostLevels = 16;
 
     Vec3 origin_object{0.0};
-    std::shared_ptr<const TouchNode> root;  // never none; without children when the mesh has no triangle left
+    std::shared_ptr<const TouchNode> root;  // never null; without children when the mesh has no triangle left
 
     [[nodiscard]] std::uint32_t triangles() const noexcept { return root->triangles; }
     [[nodiscard]] double mean_edge_m() const noexcept {
         return root->triangles > 0 ? root->edge_sum_m / (3.0 * root->triangles) : 0.0;
     }
-    // What no triangle goes beyond; empty when there is none. Relative to origin_object.
+    // Returns a box that contains all triangles, relative to origin_object; empty when there are none.
     [[nodiscard]] Box bounds() const noexcept {
         return root->triangles > 0 ? Box{Vec3(root->frame.lo), Vec3(root->frame.hi)} : Box{};
     }
 
-    // All of a number below triangles().
+    // These functions require a number below triangles().
     [[nodiscard]] Triangle triangle(std::uint32_t number) const noexcept;
     [[nodiscard]] CornerNormals corner_normals(std::uint32_t number) const noexcept;
     [[nodiscard]] std::uint32_t mesh_triangle(std::uint32_t number) const noexcept;
@@ -89,14 +93,15 @@ struct TouchSnapshot {
 private:
     struct Place {
         const TouchPatch* patch = nullptr;
-        std::uint32_t triangle = 0;  // of the patch
+        std::uint32_t triangle = 0;  // number within the patch
     };
     [[nodiscard]] Place place_of(std::uint32_t number) const noexcept;
 };
 
 inline TouchSnapshot::Place TouchSnapshot::place_of(std::uint32_t number) const noexcept {
     for (const TouchNode* node = root.get();;) {
-        // The last child that does not begin after it; of several that begin there, the one with triangles is the last.
+        // Finds the last child that does not begin after the number; of several that begin there, the last has
+        // triangles.
         std::uint32_t child = node->count - 1;
         while (node->first_triangle[child] > number || node->children[child]->triangles == 0) --child;
         number -= node->first_triangle[child];
@@ -126,7 +131,7 @@ inline std::uint32_t TouchSnapshot::mesh_triangle(std::uint32_t number) const no
     return patch->mesh_triangles[i];
 }
 
-// A search under way: what is asked, on floats.
+// One search in progress: holds the query in float.
 class TouchSearch {
 public:
     explicit TouchSearch(Near& near) noexcept : near_(near), lo_(near.lo), hi_(near.hi) { widen(); }
@@ -135,7 +140,7 @@ public:
     bool run(const TouchNode& root, Visit&& visit) {
         struct Step {
             const TouchNode* node;
-            std::uint32_t first, left;  // triangle number of the node's first; children still to be looked at
+            std::uint32_t first, left;  // number of the node's first triangle; bits of children still to be searched
         };
         std::array<Step, TouchSnapshot::kMostLevels> way;
         std::uint32_t depth = 0;
@@ -198,14 +203,14 @@ private:
 
     [[nodiscard]] SteppedBox stepped(const TouchFrame& frame) const noexcept { return frame.stepped(from_, to_); }
 
-    // Most of what meets the box around a ball is beside the ball.
+    // Rejects boxes that meet the box around the query ball but lie beside the ball, as most do.
     [[nodiscard]] bool within_reach(const Vec3f& lo, const Vec3f& hi) const noexcept {
         const Vec3f outside = upper_of(upper_of(lo - hi_, lo_ - hi), Vec3f(0.0f));
         return glm::dot(outside, outside) <= reach2_;
     }
 
     void widen() noexcept {
-        // A hair more than rounding to float takes away.
+        // Enlarges the box by slightly more than the rounding to float can remove.
         const Vec3 size = upper_of(glm::abs(near_.lo), glm::abs(near_.hi)) + near_.reach_m;
         const double rounding = 4e-7 * std::max({size.x, size.y, size.z});
         const double reach = near_.reach_m * (1.0 + 1e-6) + rounding;
@@ -216,17 +221,18 @@ private:
 
     Near& near_;
     Vec3f from_{0.0f}, to_{0.0f};
-    Vec3f lo_{0.0f}, hi_{0.0f};  // of the box asked about, without its reach
+    Vec3f lo_{0.0f}, hi_{0.0f};  // the query box without its reach
     float reach2_ = 0.0f;
 };
 
-// As for_each_triangle_near (geometry/local_surface_search.hpp), visit(number, triangle), all relative to the snapshot's origin.
-// A look is sixteen boxes of a node, a patch or a leaf, or one triangle.
+// Visits triangles as for_each_triangle_near does (geometry/contact/local_surface_search.hpp); calls visit(number,
+// triangle), all relative to the snapshot's origin. A look is a test of sixteen boxes of a node, a patch or a leaf, or
+// of one triangle.
 template <typename Visit>
 bool for_each_near(const TouchSnapshot& snapshot, Near& near, Visit&& visit) {
-    // A box that is not a number meets nothing.
+    // A NaN in the query box meets nothing.
     if (snapshot.triangles() == 0 || !(glm::dot(near.lo, near.hi) + near.reach_m < HUGE_VAL)) return true;
     return TouchSearch(near).run(*snapshot.root, visit);
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/touch_patch_maker.hpp"
+#include "geometry/contact/touch_patch_maker.hpp"
 
 #include <algorithm>
 #include <bit>
 
-#include "geometry/componentwise.hpp"
+#include "geometry/mesh/componentwise.hpp"
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
-// The steps of a corner, along x, y and z, and those of the other way round: 255 less each. So the least of several
-// corners has all six sides of the box around them. Both stay what they are put to steps before or after, since a step
-// never falls where a place rises: every vertex is put on steps once.
+// A corner's quantised coordinates along x, y and z, followed by 255 minus each. So the bytewise minimum over several
+// corners holds all six sides of their bounding box. Quantisation is monotonic, so quantising before or after taking
+// the minimum gives the same box: every vertex is quantised only once.
 using Sides [[gnu::vector_size(16)]] = std::uint8_t;
 
 Sides least(const Sides& a, const Sides& b) { return a < b ? a : b; }
@@ -97,7 +97,7 @@ std::uint16_t TouchPatchMaker::split_vertex_of(TouchSurface& surface, std::uint3
     const Split& split = splits_[place];
     const std::span<SplitPiece> pieces(pieces_.data() + split.first, split.count);
     const auto own = std::ranges::lower_bound(pieces, slot, {}, [](const SplitPiece& p) { return p.piece.slot; });
-    // The piece is numbered by the place of its first triangle; that one keeps the vertex for all.
+    // A piece is numbered by the index of its first triangle; that entry holds the vertex for all.
     SplitPiece& first = pieces[own->piece.piece];
     if (first.local == kNone) first.local = add_vertex(vertex, surface.position_m(vertex), own->piece.normal);
     return first.local;
@@ -127,4 +127,4 @@ void TouchPatchMaker::box_triangles(TouchPatch& patch) {
     }
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -1,30 +1,32 @@
 // SPDX-License-Identifier: MIT
-// Makes one patch of a touched mesh from the triangles that it is to hold. Publisher's thread only; allocates.
+// Makes one patch of a touched mesh from the triangles that it will hold. Publisher's thread only; allocates.
 #pragma once
 
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "geometry/touch_patch.hpp"
-#include "geometry/touch_surface.hpp"
+#include "geometry/contact/touch_patch.hpp"
+#include "geometry/contact/touch_surface.hpp"
 
-namespace burin {
+namespace burin::geometry {
 
 class TouchPatchMaker {
 public:
-    // Triangles by slot, at most TouchPatch::kMostTriangles, neighbours side by side. Degenerate ones are left out, so that the
-    // patch may even be empty. mesh_index tells of each slot of the surface which triangle of the mesh it is.
+    // Makes a patch of the triangles in these slots, at most TouchPatch::kMostTriangles, neighbours side by side.
+    // Degenerate triangles are left out, so the patch may even be empty. mesh_index gives the mesh index of each slot
+    // of the surface.
     [[nodiscard]] std::shared_ptr<const TouchPatch> make(TouchSurface& surface, std::span<const std::uint32_t> slots,
                                                          std::span<const std::uint32_t> mesh_index);
 
 private:
-    struct Split {  // a vertex with several normals: its pieces, of pieces_
+    // A vertex with several normals; its pieces are the range [first, first + count) of pieces_.
+    struct Split {
         std::uint32_t vertex = 0, first = 0, count = 0;
     };
     struct SplitPiece {
         TouchSurface::Piece piece;
-        std::uint16_t local = kNone;  // the same for all triangles of the piece
+        std::uint16_t local = kNone;  // index in the patch, the same for all triangles of the piece
     };
 
     void take_triangles(TouchPatch& patch, const TouchSurface& surface, std::span<const std::uint32_t> slots);
@@ -37,10 +39,11 @@ private:
 
     static constexpr std::uint16_t kNone = 0xffffu;
 
-    std::array<std::uint32_t, TouchPatch::kMostTriangles> slots_{};  // of the patch's triangles
+    std::array<std::uint32_t, TouchPatch::kMostTriangles> slots_{};  // slots of the patch's triangles
 
-    // Where a mesh vertex is in the patch being made: its number there; of a split one, its place in splits_. It may be out
-    // of date, and then the vertex of that number, or the split, is another one: so nothing has to be wiped for the next patch.
+    // Index of each mesh vertex in the patch being made; for a split vertex, its index in splits_. An entry may be
+    // stale, which shows when the vertex or split at that index belongs to another mesh vertex; so the table need not
+    // be cleared between patches.
     std::vector<std::uint16_t> place_of_;
     std::vector<Split> splits_;
     std::vector<SplitPiece> pieces_;
@@ -51,4 +54,4 @@ private:
     std::array<Vec3f, kMostVertices> positions_m_{}, normals_{};
 };
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/touch_surface.hpp"
+#include "geometry/contact/touch_surface.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
 constexpr double kCosSharp = 0.766044443118978;      // 40 degrees
 constexpr double kCosHalfSharp = 0.939692620785908;  // 20 degrees
 
-// Of more triangles than these at one edge, not all pairs are compared.
+// Above this number of triangles at one edge, not all pairs are compared.
 constexpr std::size_t kMostAtEdge = 16;
 
-// Whether the angle between them is below that of the cosine, which is above 0.
+// Tells whether the angle between a and b is below the angle of this cosine, which is above 0.
 bool within(const Vec3& a, const Vec3& b, double cosine) {
     const double along = glm::dot(a, b);
     return along > 0.0 && along * along > cosine * cosine * glm::dot(a, a) * glm::dot(b, b);
@@ -111,21 +111,21 @@ std::span<const std::uint32_t> TouchSurface::renew_normals() {
     return changed_;
 }
 
-// Of many vertices, neighbours are renewed one after another, while their facets are known.
+// Sorts many moved vertices by number, so that neighbours are renewed one after another while their facets are cached.
 void TouchSurface::order_moved() {
     moved_.clear();
     for (std::uint32_t v = 0; v < vertices(); ++v)
         if (vertices_[v].stale == Stale::kFacets) moved_.push_back(v);
 }
 
-// A vertex that has moved: its normal, and the finding that those beside it are stale.
+// Renews the normal of a vertex that has moved, and marks those of its neighbours as stale.
 void TouchSurface::renew_around(std::uint32_t vertex) {
     const std::size_t before = changed_.size();
     renew_normal(vertex);
     for (std::size_t i = before; i < changed_.size(); ++i) normals_are_stale(changed_[i]);
 }
 
-// The vertex's normal, or the finding that there are several.
+// Renews the vertex's normal, or finds that it has several.
 void TouchSurface::renew_normal(std::uint32_t vertex) {
     const std::span<const Around> around = facets_around(vertex);
     const Vec3 sum = weighted_sum(around);
@@ -158,7 +158,8 @@ Vec3 TouchSurface::weighted_sum(std::span<const Around> around) const {
     return sum;
 }
 
-// Where all facets are near their sum, no two of them turn by much: nearly all vertices of a fine mesh.
+// Tells whether all facets are within 20 degrees of their sum, so that no two of them turn by 40: true for nearly all
+// vertices of a fine mesh.
 bool TouchSurface::is_smooth(std::span<const Around> around, const Vec3& sum) const {
     const double least2 = kCosHalfSharp * kCosHalfSharp * glm::dot(sum, sum);
     for (const auto& [facet, corner] : around) {
@@ -205,4 +206,4 @@ void TouchSurface::find_pieces(std::uint32_t vertex) {
     }
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/touch_tree.hpp"
+#include "geometry/contact/touch_tree.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/componentwise.hpp"
+#include "geometry/mesh/componentwise.hpp"
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
 constexpr std::size_t kMost = TouchBoxes::kMost;
 
-// The place of a new entry: one that is free, or one more.
+// Returns the index of a new entry: a free one, or one appended.
 template <typename Entry>
 std::uint32_t take_place(std::vector<Entry>& entries, std::vector<std::uint32_t>& free) {
     if (free.empty()) {
@@ -40,7 +40,7 @@ void TouchTree::build(std::span<const std::span<const TouchItem>> groups) {
     if (!tops.empty()) root_ = tops.size() == 1 ? tops.front() : group(false, std::move(tops));
 }
 
-// Nodes over consecutive children, nodes over those, until there is one: it.
+// Builds levels of nodes over consecutive children until one node is left, and returns it.
 std::uint32_t TouchTree::group(bool of_patches, std::vector<std::uint32_t> children) {
     for (;;) {
         std::vector<std::uint32_t> nodes;
@@ -131,7 +131,7 @@ void TouchTree::add_child(std::uint32_t node, std::uint32_t child) {
     if (nodes_[node].children.size() > kMost) part(node);
 }
 
-// Half of the children, along the longest way between their middles, go to a new node beside it.
+// Splits a node: moves half of the children, along the longest extent of their middles, to a new node beside it.
 void TouchTree::part(std::uint32_t number) {
     std::vector<TouchItem> items;
     for (const std::uint32_t child : nodes_[number].children)
@@ -171,7 +171,7 @@ void TouchTree::remove_child(std::uint32_t node, std::uint32_t child) {
     remove_child(parent, node);
 }
 
-// A root with one node under it is one level too many.
+// Removes roots that have only one node below them.
 void TouchTree::lower_root() {
     while (!nodes_[root_].of_patches && nodes_[root_].children.size() == 1) {
         const std::uint32_t child = nodes_[root_].children.front();
@@ -193,7 +193,7 @@ std::uint32_t TouchTree::depth() const {
     return most;
 }
 
-// All nodes anew over the patches that there are.
+// Builds all nodes anew over the existing patches.
 void TouchTree::regroup() {
     std::vector<TouchItem> items;
     for (std::uint32_t patch = 0; patch < patches_.size(); ++patch)
@@ -251,4 +251,4 @@ std::shared_ptr<const TouchNode> TouchTree::make_node(const Node& node) const {
     return made;
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The tree of patches behind a TouchMesh, on the publisher's side: which triangles are in which patch, which patches under which
-// node, and what has been made of them. Patches and nodes that change are marked, up to the root, and only those are made anew.
+// The tree of patches behind a TouchMesh, on the publisher's side: which triangles are in which patch, which patches
+// under which node, and the published objects made of them. Patches and nodes that change are marked, up to the root,
+// and only those are made anew.
 //
-// It grows and shrinks as a B-tree does: a node that gets a seventeenth child is parted in two, an empty one goes away.
+// It grows and shrinks as a B-tree does: a node that gets a seventeenth child is split in two, an empty node is
+// removed.
 // Publisher's thread only; allocates.
 #pragma once
 
@@ -11,10 +13,10 @@
 #include <span>
 #include <vector>
 
-#include "geometry/touch_order.hpp"
-#include "geometry/touch_patch.hpp"
+#include "geometry/contact/touch_order.hpp"
+#include "geometry/contact/touch_patch.hpp"
 
-namespace burin {
+namespace burin::geometry {
 
 class TouchTree {
 public:
@@ -22,25 +24,25 @@ public:
 
     TouchTree();
 
-    // Items are triangles by slot.
-    // For an empty tree: patches of consecutive triangles, nodes of consecutive patches. Groups share no node below the root.
+    // Fills an empty tree: patches of consecutive triangles, nodes of consecutive patches. Items are triangles by slot.
+    // Groups share no node below the root.
     void build(std::span<const std::span<const TouchItem>> groups);
 
     [[nodiscard]] std::uint32_t patch_of(std::uint32_t slot) const { return patch_of_[slot]; }
-    // Those taken out still among them.
+    // Includes the triangles taken out since the patch was filled.
     [[nodiscard]] std::span<const std::uint32_t> slots(std::uint32_t patch) const { return patches_[patch].slots; }
 
     void mark_patches_of(std::span<const std::uint32_t> slots);
-    // The triangle belongs to no patch from now on; the one that had it is to be filled again.
+    // Takes the triangle out of its patch, which must then be filled again.
     void take_out(std::uint32_t slot) { patch_of_[slot] = kNone; }
-    // Other triangles for a patch.
+    // Replaces the triangles of a patch.
     void refill(std::uint32_t patch, std::span<const TouchItem> items);
-    // A new patch beside another; anywhere, if that is kNone.
+    // Adds a patch beside another one; anywhere if `beside` is kNone.
     void insert(std::span<const TouchItem> items, std::uint32_t beside);
     void remove(std::uint32_t patch);
 
     using MakePatch = std::function<std::shared_ptr<const TouchPatch>(std::span<const std::uint32_t> slots)>;
-    // Makes what is marked.
+    // Makes the marked patches and nodes anew and returns the root.
     [[nodiscard]] std::shared_ptr<const TouchNode> renew(const MakePatch& make);
     [[nodiscard]] std::uint64_t patches_made() const { return patches_made_; }
 
@@ -81,9 +83,9 @@ private:
     std::vector<Patch> patches_;
     std::vector<Node> nodes_;
     std::vector<std::uint32_t> free_patches_, free_nodes_;
-    std::vector<std::uint32_t> patch_of_;  // of each slot
+    std::vector<std::uint32_t> patch_of_;  // one for each slot
     std::uint32_t root_ = kNone;
     std::uint64_t patches_made_ = 0;
 };
 
-}  // namespace burin
+}  // namespace burin::geometry

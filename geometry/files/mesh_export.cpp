@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/mesh_export.hpp"
+#include "geometry/files/mesh_export.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,9 +10,9 @@
 #include <limits>
 #include <string_view>
 
-#include "geometry/file_io.hpp"
+#include "base/file_io.hpp"
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "binary files are written as the machine's own numbers");
@@ -31,7 +31,7 @@ public:
         bytes_.insert(bytes_.end(), raw, raw + text.size());
     }
     template <typename Number>
-    void put_number(Number value) {  // shortest form that reads back as the same value
+    void put_number(Number value) {  // shortest text that reads back as the same value
         std::array<char, 32> digits;
         const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
         put_text({digits.data(), static_cast<std::size_t>(end - digits.data())});
@@ -77,18 +77,18 @@ bool has_face_colours(const TriangleMesh& mesh) {
     return !mesh.materials.empty() && mesh.triangle_materials.size() == mesh.triangles.size();
 }
 
-// A vertex each, or nothing when the mesh has no colours at all.
+// Returns a colour for each vertex, or nothing when the mesh has no colours at all.
 std::vector<Colour> vertex_colours(const TriangleMesh& mesh) {
     if (!mesh.positions_m.empty() && mesh.colours.size() == mesh.positions_m.size()) return mesh.colours;
     if (mesh.materials.empty()) return {};
     std::vector<Colour> colours(mesh.positions_m.size(), material_colour(mesh, 0));
-    for (std::size_t t = mesh.triangles.size(); t-- > 0;) {  // backwards, so that the first triangle has the last word
+    for (std::size_t t = mesh.triangles.size(); t-- > 0;) {  // backwards, so that the first triangle decides
         for (const std::uint32_t v : mesh.triangles[t]) colours[v] = material_colour(mesh, t);
     }
     return colours;
 }
 
-// Unit length, or zero for a triangle without area, as the format asks.
+// Returns the unit normal, or zero for a triangle without area, as the format asks.
 Vec3f normal_of(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 n = glm::cross(b - a, c - a);
     const double length = glm::length(n);
@@ -187,4 +187,4 @@ Result<void> export_mesh(const TriangleMesh& mesh, const std::filesystem::path& 
     return write_file_atomically(path, *bytes);
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

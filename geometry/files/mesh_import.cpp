@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/mesh_import.hpp"
+#include "geometry/files/mesh_import.hpp"
 
-#include "geometry/file_io.hpp"
-#include "geometry/mesh_soup.hpp"
-#include "geometry/text_scanner.hpp"
+#include "base/file_io.hpp"
+#include "geometry/files/mesh_soup.hpp"
+#include "geometry/files/text_scanner.hpp"
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
 constexpr std::uint64_t kMaxMaterialFileBytes = 16 << 20;
@@ -44,7 +44,7 @@ Result<ImportedMesh> import_mesh(const std::filesystem::path& path) {
     const std::string name = path.string();
     const auto format = mesh_format_of(path);
     if (!format) {
-        // A folder or a missing file is the better thing to say than a wrong extension.
+        // Reports a folder or a missing file rather than a wrong extension.
         std::error_code ignored;
         if (std::filesystem::is_directory(path, ignored)) return fail(name, "is a folder", "name a file inside it");
         if (!std::filesystem::exists(path, ignored)) return fail(name, "does not exist", "check the path");
@@ -63,4 +63,4 @@ Result<ImportedMesh> import_mesh(std::span<const std::byte> bytes, MeshFormat fo
     return finished(std::move(*soup), name);
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Reads a triangle mesh from STL (ASCII, binary), OBJ (with MTL), PLY (ASCII, binary of both byte orders) or OFF (ASCII).
+// Reads a triangle mesh from STL (ASCII, binary), OBJ (with MTL), PLY (ASCII, binary of both byte orders) or OFF
+// (ASCII).
 //
-// The promise: every face of the file is in the mesh, as it stands in the file, or counted in the report. Nothing is
-// merged, dropped, repaired or turned here; that is for mesh_health.hpp and mesh_mend.hpp, on request. The one exception
-// lies in the format: STL has no shared vertices, so equal positions become one vertex (bit for bit; -0 equals 0).
+// Guarantee: every face of the file is in the mesh, as it stands in the file, or counted in the report. Nothing is
+// merged, dropped, repaired or flipped here; that is for mesh_health.hpp and mesh_repair.hpp, on request. The one
+// exception is due to the format: STL has no shared vertices, so equal positions become one vertex (bit for bit; -0
+// equals 0).
 //
 // Units and frame: file numbers are taken as metres in the object frame, as doubles. Every coordinate is finite and at
 // most kMaxCoordinate_m. Faces wind counter-clockwise seen from outside where the file keeps to that.
@@ -12,8 +14,8 @@
 // Cost: linear in the file; a binary STL of a million triangles takes a fraction of a second. Any thread; no locale.
 //
 // Why our own readers and not OpenMesh's: handed a BaseImporter that takes faces raw, OpenMesh 9 still
-//   OBJ: skips a vertex that it cannot parse (so that all later indices name other vertices), drops faces with a repeated
-//        index, rounds positions to float, passes indices out of range;
+//   OBJ: skips a vertex that it cannot parse (so that all later indices name other vertices), drops faces with a
+//        repeated index, rounds positions to float, passes indices out of range;
 //   OFF: repeats the last face when the file is cut short, reads "nan" as 0, passes uninitialised vertex handles for a
 //        face that claims many corners;
 //   PLY: believes the header's and each face's counts, passes empty faces when the text is malformed, rounds to float;
@@ -32,29 +34,29 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "geometry/triangle_mesh.hpp"
+#include "geometry/mesh/triangle_mesh.hpp"
 
-namespace burin {
+namespace burin::geometry {
 
 inline constexpr double kMaxCoordinate_m = 1e9;  // keeps areas and volumes far from overflow
-inline constexpr std::size_t kMaxMaterials =
-    254;  // a material is one byte; two values stay free for the solid's own use
+// A material is one byte; two values stay free for the solid's own use.
+inline constexpr std::size_t kMaxMaterials = 254;
 
 enum class MeshFormat : std::uint8_t { stl, obj, ply, off };
 
-// What the reader did. Nothing happens that is not said here.
+// What the reader did: it does nothing that is not reported here.
 struct ImportReport {
     std::string format;                         // e.g. "PLY, binary little endian"
     std::uint64_t faces_in_file = 0;            // = triangles_in_file + polygons_in_file + faces_without_area
-    std::uint64_t triangles_in_file = 0;        // taken as they are
+    std::uint64_t triangles_in_file = 0;        // taken unchanged
     std::uint64_t polygons_in_file = 0;         // of n > 3 corners, split into n - 2 triangles each:
     std::uint64_t polygons_fanned = 0;          //   convex ones, as a fan from their first corner
-    std::uint64_t polygons_ear_clipped = 0;     //   the others, by cutting ears in their mean plane
+    std::uint64_t polygons_ear_clipped = 0;     // the others, by ear clipping in their mean plane
     std::uint64_t polygons_fanned_blindly = 0;  //   no ears found (flat, crossed or huge): a fan, which may fold over
     std::uint64_t faces_without_area = 0;       // of fewer than 3 corners: not in the mesh
     std::uint64_t vertices_in_file = 0;
     std::uint64_t vertices_merged = 0;   // STL corners that met at an equal position
-    std::uint64_t materials_merged = 0;  // by how many the file's materials exceeded kMaxMaterials and were merged
+    std::uint64_t materials_merged = 0;  // number of materials removed by merging down to kMaxMaterials
     std::vector<std::string> remarks;    // one line each, for the user: what was ignored or assumed
 };
 
@@ -63,17 +65,18 @@ struct ImportedMesh {
     ImportReport report;
 };
 
-// By the extension (any case). Reads an OBJ's MTL files from the OBJ's folder; a missing one is a remark.
+// Reads the file, whose format follows from the extension (any case). Reads an OBJ's MTL files from the OBJ's folder; a
+// missing one is a remark.
 [[nodiscard]] Result<ImportedMesh> import_mesh(const std::filesystem::path& path);
 
-// Finds the text of a material file named by an OBJ.
+// Returns the text of a material file named by an OBJ.
 using MaterialFileReader = std::function<Result<std::string>(std::string_view name)>;
 
-// The same from memory; `name` stands in for the file in messages. Without a reader, OBJ materials are plain grey.
+// Reads a mesh from memory; `name` stands for the file in messages. Without a reader, OBJ materials are plain grey.
 [[nodiscard]] Result<ImportedMesh> import_mesh(std::span<const std::byte> bytes, MeshFormat format,
                                                const std::string& name, const MaterialFileReader& material_files = {});
 
-// The format that an extension means (".stl", any case), if any.
+// Returns the format that an extension stands for (".stl", any case), if any.
 [[nodiscard]] std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& path);
 
-}  // namespace burin
+}  // namespace burin::geometry

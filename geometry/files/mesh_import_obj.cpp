@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-// OBJ. Read: v (with w or with a colour: x y z r g b), f (and the old fo) with positive or negative indices, usemtl, mtllib.
-// A face may name a vertex that comes later. Texture coordinates, normals, groups and smoothing are skipped silently, since
-// they do not change the surface; lines, points, curves and free-form surfaces are counted in a remark.
+// Reads OBJ: v (with w or with a colour: x y z r g b), f (and the old fo) with positive or negative indices, usemtl,
+// mtllib. A face may name a vertex that comes later. Texture coordinates, normals, groups and smoothing are skipped
+// silently, since they do not change the surface; lines, points, curves and free-form surfaces are counted in a remark.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <set>
 
-#include "geometry/mesh_soup.hpp"
-#include "geometry/mtl.hpp"
-#include "geometry/text_scanner.hpp"
+#include "geometry/files/mesh_soup.hpp"
+#include "geometry/files/mtl.hpp"
+#include "geometry/files/text_scanner.hpp"
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
 constexpr char kComment = '#';
-constexpr std::size_t kMostLibraries = 64;  // of material files; a hostile file could name thousands
+constexpr std::size_t kMostLibraries = 64;  // limit for material files; a hostile file could name thousands
 
 // Keywords that do not change the surface's shape or colour.
 constexpr std::string_view kSkipped[] = {"vt",     "vn",     "g",   "s",     "o",        "mg",
@@ -55,7 +55,7 @@ private:
         return fail(at_line(name_, scan_.line()), what, remedy);
     }
 
-    // The next word of the statement. A backslash at the end of a line joins it with the next.
+    // Returns the next word of the statement. A backslash at the end of a line joins it with the next.
     std::string_view word() {
         for (;;) {
             std::string_view found = scan_.token_in_line(kComment);
@@ -103,7 +103,7 @@ private:
         return count >= 6 ? vertex_colour(values, count - 3) : Done{};
     }
 
-    // Colours are kept as they stand until the whole file tells whether they run to 1 or to 255.
+    // Keeps the colour as it is: only the whole file tells whether colours run to 1 or to 255.
     Done vertex_colour(const std::array<double, 7>& values, std::size_t at) {
         Vec3f colour;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -173,7 +173,8 @@ private:
 
     void use_material(std::string_view name) { material_in_use_ = std::string(name); }
 
-    // Materials are numbered in the order of their first use; faces before any usemtl get a plain one.
+    // Records the material of the last face. Materials are numbered in the order of their first use; faces before any
+    // usemtl get a plain one.
     void remember_face_material() {
         if (!material_in_use_) {
             if (soup_.face_materials.empty()) return;
@@ -200,7 +201,7 @@ private:
     }
 
     void read_materials(std::string_view file) {
-        // The same library named again and again must not be read again and again.
+        // Reads each library once, however often it is named.
         if (libraries_.contains(file)) return;
         if (libraries_.size() == kMostLibraries) {
             if (!too_many_libraries_) soup_.report.remarks.emplace_back("further material files were ignored");
@@ -249,4 +250,4 @@ Result<MeshSoup> read_obj(std::string_view text, const std::string& name, const 
     return ObjReader(text, name, material_files).read();
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

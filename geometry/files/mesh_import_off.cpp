@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// OFF, ASCII: [ST][C][N]OFF, three counts (vertices, faces, edges), then the vertices x y z [normal] [colour] [texture]
-// and the faces n i1 .. in [colour]. Comments start with #. A colour runs to the end of its line: 3 or 4 numbers, whole
-// (0 to 255) or with a point (0 to 1); a face's single number is an index into a map that the file does not hold.
+// Reads ASCII OFF: [ST][C][N]OFF, three counts (vertices, faces, edges), then the vertices x y z [normal] [colour]
+// [texture] and the faces n i1 .. in [colour]. Comments start with #. A colour runs to the end of its line: 3 or 4
+// numbers, integers (0 to 255) or with a decimal point (0 to 1); a face's single number is an index into a map that the
+// file does not hold.
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "geometry/mesh_soup.hpp"
-#include "geometry/text_scanner.hpp"
+#include "geometry/files/mesh_soup.hpp"
+#include "geometry/files/text_scanner.hpp"
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
 constexpr char kComment = '#';
@@ -62,7 +63,8 @@ private:
         }
         vertices_ = counts[0];
         faces_ = counts[1];
-        // Each vertex takes three digits and three gaps, each face a digit and a gap; a little less for the file's end.
+        // A vertex takes at least three digits and three blanks, a face a digit and a blank; allows a little less for
+        // the file's end.
         const std::uint64_t room = (text_.size() - scan_.position()) / 2 + 1;
         if (vertices_ > room / 3 + 1 || faces_ > room || vertices_ * 3 + faces_ > room + 3) {
             return wrong("claims " + std::to_string(vertices_) + " vertices and " + std::to_string(faces_) +
@@ -133,7 +135,7 @@ private:
         return {};
     }
 
-    // Faces before the first coloured one, and uncoloured ones after it, get the plain colour.
+    // Records a face's colour. Faces before the first coloured one, and uncoloured ones after it, get the plain colour.
     void remember_face_colour(const std::optional<Colour>& colour) {
         if (!colour && soup_.face_materials.empty()) return;
         while (soup_.face_materials.size() + 1 < soup_.corner_counts.size()) {
@@ -142,7 +144,7 @@ private:
         soup_.face_materials.push_back(materials_.index_of(colour.value_or(kPlainColour)));
     }
 
-    // The numbers up to the line's end less the last `others`; nothing where there is no colour.
+    // Reads the numbers up to the line's end as a colour, except the last `others`; nothing where there is no colour.
     Result<std::optional<Colour>> colour_in_line(std::size_t others) {
         std::array<double, 6> values{};
         std::size_t count = 0;
@@ -187,4 +189,4 @@ private:
 
 Result<MeshSoup> read_off(std::string_view text, const std::string& name) { return OffReader(text, name).read(); }
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// PLY 1.0, ASCII and binary of both byte orders. Read: element vertex (x, y, z and red, green, blue), element face
-// (vertex_indices or vertex_index, and red, green, blue). Other elements and properties are skipped; elements are named in
-// a remark. Triangle strips are refused rather than lost. A header's count is compared with the bytes that are left.
+// Reads PLY 1.0, ASCII and binary of both byte orders: element vertex (x, y, z and red, green, blue), element face
+// (vertex_indices or vertex_index, and red, green, blue). Other elements and properties are skipped; skipped elements
+// are named in a remark. Triangle strips are refused rather than lost. A header's count is compared with the bytes that
+// follow.
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "geometry/mesh_soup.hpp"
-#include "geometry/ply_header.hpp"
-#include "geometry/text_scanner.hpp"
+#include "geometry/files/mesh_soup.hpp"
+#include "geometry/files/ply_header.hpp"
+#include "geometry/files/text_scanner.hpp"
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
 class PlyReader {
@@ -50,7 +51,7 @@ private:
                              ", more than the file can hold",
                          kTruncatedRemedy);
         }
-        if (element.properties.empty()) return {};  // its rows are nothing
+        if (element.properties.empty()) return {};  // its rows take no bytes
         if (element.name == "vertex") return read_vertices(element);
         if (element.name == "face") return read_faces(element);
         if (element.count == 0) return {};
@@ -178,7 +179,7 @@ private:
         return {};
     }
 
-    // Only now, since faces may come before vertices.
+    // Checks indices after reading everything, since faces may come before vertices.
     Done check_corners() {
         if (soup_.corners.empty() || farthest_corner_ < soup_.positions_m.size()) return {};
         return fail(values_.where(name_, farthest_where_),
@@ -206,4 +207,4 @@ Result<MeshSoup> read_ply(std::span<const std::byte> bytes, const std::string& n
     return PlyReader(bytes, name, std::move(*header)).read();
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// STL. Binary: an 80-byte header, a 32-bit count, then 50 bytes a triangle (normal, three corners, attribute), little
-// endian. ASCII: solid, facet normal, outer loop, vertex, endloop, endfacet, endsolid; any case, any number of solids.
-// A binary header may say "solid" too, so the file's size decides first. Normals are ignored: the winding says it.
+// Reads STL. Binary: an 80-byte header, a 32-bit count, then 50 bytes a triangle (normal, three corners, attribute),
+// little endian. ASCII: solid, facet normal, outer loop, vertex, endloop, endfacet, endsolid; any case, any number of
+// solids. A binary header may say "solid" too, so the file's size decides first. Normals are ignored: the winding gives
+// them.
 #include <algorithm>
 #include <bit>
 #include <cstring>
 
-#include "geometry/mesh_soup.hpp"
-#include "geometry/text_scanner.hpp"
-#include "geometry/vertex_weld.hpp"
+#include "geometry/files/mesh_soup.hpp"
+#include "geometry/files/text_scanner.hpp"
+#include "geometry/mesh/vertex_weld.hpp"
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "binary STL is read as the machine's own floats");
@@ -23,7 +24,8 @@ std::uint64_t bytes_claimed(std::span<const std::byte> bytes) {
     return kHeaderBytes + std::uint64_t{kTriangleBytes} * count;
 }
 
-// Text says "solid" first and holds no zero byte near its start; binary headers are padded with zeros or the count has one.
+// Tells whether the file is text: it says "solid" first and holds no zero byte near its start, whereas binary headers
+// are padded with zeros or the count has one.
 bool looks_like_text(std::string_view text) {
     TextScanner scan(text.substr(0, 512));
     return equals_ignoring_case(scan.token(), "solid") && text.substr(0, 512).find('\0') == std::string_view::npos;
@@ -81,7 +83,7 @@ public:
         for (std::string_view word = scan_.token(); !word.empty(); word = scan_.token()) {
             if (equals_ignoring_case(word, "solid") || equals_ignoring_case(word, "endsolid")) {
                 open_ = equals_ignoring_case(word, "solid");
-                scan_.next_line();  // the rest is a name
+                scan_.next_line();  // skips the solid's name
             } else if (!equals_ignoring_case(word, "facet")) {
                 return wrong(word, "facet");
             } else if (const auto done = facet(); !done) {
@@ -99,7 +101,7 @@ private:
         return fail(at_line(name_, scan_.line()), got + " stands where '" + wanted + "' should", kTruncatedRemedy);
     }
 
-    // After "facet": what stands before "outer" is the normal, in whatever form.
+    // Reads a facet after its keyword: all words before "outer" are the normal, in whatever form.
     Result<void> facet() {
         constexpr int kMostNormalWords = 4;
         std::string_view word = scan_.token();
@@ -146,4 +148,4 @@ Result<MeshSoup> read_stl(std::span<const std::byte> bytes, const std::string& n
     return read_binary(bytes, name);
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

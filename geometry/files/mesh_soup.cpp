@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/mesh_soup.hpp"
+#include "geometry/files/mesh_soup.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "geometry/polygon.hpp"
+#include "geometry/mesh/polygon.hpp"
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
 std::uint32_t packed(const Colour& c) {
@@ -20,8 +20,8 @@ int largest_difference(const Colour& a, const Colour& b) {
     return most;
 }
 
-// Triangles without a face colour take the colour that two of their corners share, else that of their first corner: no
-// colour arises that the file does not have.
+// Derives face materials from vertex colours: a face takes the colour that two of its first three corners share, else
+// that of its first corner, so that no colour arises that the file does not have.
 void materials_from_vertices(MeshSoup& soup) {
     ColourMaterials materials(soup.materials);
     soup.face_materials.reserve(soup.corner_counts.size());
@@ -37,8 +37,8 @@ void materials_from_vertices(MeshSoup& soup) {
     }
 }
 
-// Groups colours by their leading bits, as many bits as leave at most kMaxMaterials groups. A group's colour is the mean
-// over its faces, its name that of its first material.
+// Groups colours by their leading bits, as many bits as leave at most kMaxMaterials groups. A group's colour is the
+// mean over its faces, its name that of its first material.
 void reduce_palette(MeshSoup& soup) {
     if (soup.materials.size() <= kMaxMaterials) return;
     std::vector<std::uint64_t> uses(soup.materials.size());
@@ -108,7 +108,7 @@ void split_faces(const MeshSoup& soup, TriangleMesh& mesh, ImportReport& report)
         } else {
             polygon.clear();
             for (std::uint32_t i = 0; i < count; ++i) polygon.push_back(soup.positions_m[corner[i]]);
-            // The limit bounds the work that a hostile file can ask for to some thousand steps a corner.
+            // The limit of 256 corners bounds the work that a hostile file can cause to some thousand steps a corner.
             const SplitPolygon split = split_polygon(polygon, 256);
             count_polygon(report, split.how);
             for (const auto& t : split.triangles) mesh.triangles.push_back({corner[t[0]], corner[t[1]], corner[t[2]]});
@@ -168,4 +168,4 @@ Result<ImportedMesh> finished(MeshSoup&& soup, const std::string& name) {
     return result;
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the file readers of mesh_import.cpp share: faces of any number of corners as the file lists them, and the step that
-// turns them into a TriangleMesh with its report. Internal to geometry/.
+// The common part of the file readers of mesh_import.cpp: faces of any number of corners as the file lists them, and
+// the step that turns them into a TriangleMesh with its report. Internal to geometry/.
 #pragma once
 
 #include <array>
@@ -12,25 +12,26 @@
 #include <unordered_map>
 #include <vector>
 
-#include "geometry/mesh_import.hpp"
+#include "geometry/files/mesh_import.hpp"
 
-namespace burin {
+namespace burin::geometry {
 
 using Colour = std::array<std::uint8_t, 3>;
 
-inline constexpr Colour kPlainColour{200, 200, 200};  // of what a file leaves uncoloured; equals Material{}.colour
+// For surfaces without a colour in the file; equals Material{}.colour.
+inline constexpr Colour kPlainColour{200, 200, 200};
 
 struct MeshSoup {
     std::vector<Vec3> positions_m;
-    std::vector<Colour> colours;                // a vertex each, or empty
-    std::vector<std::uint32_t> corners;         // of all faces, one after another
-    std::vector<std::uint32_t> corner_counts;   // a face each
-    std::vector<std::uint32_t> face_materials;  // a face each, into materials, or empty
+    std::vector<Colour> colours;                // one for each vertex, or empty
+    std::vector<std::uint32_t> corners;         // corners of all faces, one face after another
+    std::vector<std::uint32_t> corner_counts;   // one for each face
+    std::vector<std::uint32_t> face_materials;  // one for each face, index into materials; or empty
     std::vector<Material> materials;            // any number
-    ImportReport report;                        // what the reader knows; finished() fills in the counts of faces
+    ImportReport report;                        // the reader's part; finished() fills in the counts of faces
 };
 
-// The material of a colour, made when it is new.
+// Maps colours to materials and makes a new one for each new colour.
 class ColourMaterials {
 public:
     explicit ColourMaterials(std::vector<Material>& materials) : materials_(materials) {}
@@ -41,11 +42,11 @@ private:
     std::unordered_map<std::uint32_t, std::uint32_t> known_;
 };
 
-// "file:line" and "file, byte n".
+// Return "file:line" and "file, byte n".
 [[nodiscard]] std::string at_line(const std::string& name, std::uint64_t line);
 [[nodiscard]] std::string at_byte(const std::string& name, std::uint64_t byte);
 
-// What is wrong with a coordinate, or nullptr.
+// Describes the fault of a coordinate; nullptr when there is none.
 [[nodiscard]] const char* coordinate_fault(double value_m);
 inline constexpr const char* kCoordinateRemedy = "repair the file, and give coordinates in metres";
 inline constexpr const char* kTruncatedRemedy = "the file is cut short or damaged: export or copy it again";
@@ -63,4 +64,4 @@ inline constexpr const char* kTruncatedRemedy = "the file is cut short or damage
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/mtl.hpp"
+#include "geometry/files/mtl.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "geometry/text_scanner.hpp"
+#include "geometry/files/text_scanner.hpp"
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
-// A single number stands for grey.
+// Reads the numbers of a Kd statement. A single number means grey.
 std::optional<Colour> diffuse(TextScanner& scan) {
     Colour colour;
     std::size_t count = 0;
@@ -50,4 +50,4 @@ MaterialLibrary read_mtl(std::string_view text, const std::string& name) {
     return library;
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

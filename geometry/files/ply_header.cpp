@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/ply_header.hpp"
+#include "geometry/files/ply_header.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,9 @@
 #include <cstring>
 #include <limits>
 
-#include "geometry/mesh_soup.hpp"
+#include "geometry/files/mesh_soup.hpp"
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
 constexpr std::array<std::uint8_t, 8> kTypeBytes{1, 1, 2, 2, 4, 4, 4, 8};
@@ -223,4 +223,4 @@ std::string PlyValues::where(const std::string& name, std::uint64_t place) const
     return encoding_ == PlyEncoding::ascii ? at_line(name, place) : at_byte(name, place);
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -12,15 +12,16 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "geometry/text_scanner.hpp"
+#include "geometry/files/text_scanner.hpp"
 
-namespace burin {
+namespace burin::geometry {
 
 enum class PlyEncoding : std::uint8_t { ascii, little_endian, big_endian };
 enum class PlyType : std::uint8_t { i8, u8, i16, u16, i32, u32, f32, f64 };
 enum class PlyRole : std::uint8_t { x, y, z, red, green, blue, corners, other };
 
-// What one value takes at least: its size, or in text a digit and a gap (see PlyValues::bytes_left for the last one).
+// Returns the least bytes that one value takes: its size, or in text a digit and a blank (the last value needs no
+// blank, see PlyValues::bytes_left).
 [[nodiscard]] std::uint64_t least_bytes(PlyType type, PlyEncoding encoding);
 
 struct PlyProperty {
@@ -51,25 +52,26 @@ struct PlyHeader {
     PlyEncoding encoding = PlyEncoding::ascii;
     std::vector<PlyElement> elements;
     std::size_t data_begin = 0;   // the byte after the header
-    std::uint64_t data_line = 1;  // its line
+    std::uint64_t data_line = 1;  // line number of that byte
 };
 
 [[nodiscard]] Result<PlyHeader> read_ply_header(std::string_view text, const std::string& name);
 
-// The values after the header, one after another, whatever the encoding.
+// Reads the values after the header, one after another, in any encoding.
 class PlyValues {
 public:
     PlyValues(std::span<const std::byte> bytes, const PlyHeader& header);
 
-    // Nothing at the end of the file or at something that is not a number; then fault() says which.
+    // Returns the next value; nothing at the end of the file or at something that is not a number; then fault() says
+    // which.
     [[nodiscard]] std::optional<double> next(PlyType type);
     [[nodiscard]] std::string fault() const { return fault_; }
 
-    // How many bytes can still hold values, plus one for text, whose last value needs no gap after it.
+    // Returns how many bytes can still hold values, plus one for text, whose last value needs no blank after it.
     [[nodiscard]] std::uint64_t bytes_left() const;
     [[nodiscard]] bool only_blanks_left();
 
-    // A line (text) or byte (binary) for messages.
+    // Returns the current line (text) or byte (binary) for messages.
     [[nodiscard]] std::uint64_t place() const;
     [[nodiscard]] std::string where(const std::string& name) const { return where(name, place()); }
     [[nodiscard]] std::string where(const std::string& name, std::uint64_t place) const;
@@ -86,4 +88,4 @@ private:
     std::string fault_;
 };
 
-}  // namespace burin
+}  // namespace burin::geometry

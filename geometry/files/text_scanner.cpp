@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/text_scanner.hpp"
+#include "geometry/files/text_scanner.hpp"
 
 #include <limits>
 
-namespace burin {
+namespace burin::geometry {
 
 std::optional<double> number_from(std::string_view token) {
     if (token.starts_with('+') && !token.starts_with("+-")) token.remove_prefix(1);
@@ -12,8 +12,8 @@ std::optional<double> number_from(std::string_view token) {
     const auto [stop, code] = std::from_chars(token.data(), end, value);
     if (stop != end || code == std::errc::invalid_argument) return std::nullopt;
     if (code == std::errc::result_out_of_range) {
-        // from_chars does not say on which side it left the range; only a negative exponent can make a number too small,
-        // but for a value written with hundreds of leading zeros, which is too small as well.
+        // from_chars does not tell on which side the value left the range. Only a negative exponent makes a number too
+        // small, apart from a value written with hundreds of leading zeros, which is too small as well.
         const std::size_t exponent = token.find_first_of("eE");
         const bool tiny = exponent == std::string_view::npos ? token.find_first_of("123456789") > token.find('.')
                                                              : token.substr(exponent + 1).starts_with('-');
@@ -32,4 +32,4 @@ std::string in_quotes(std::string_view token) {
     return text + "'";
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

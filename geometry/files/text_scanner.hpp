@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Walks over text token by token or line by line and knows its line number. Views into the text; allocates nothing.
-// Lines end with LF, CR LF or CR. Blank means space, tab, vertical tab, form feed. Numbers are read without any locale.
+// Reads text token by token or line by line and counts lines. Returns views into the text; allocates nothing. Lines end
+// with LF, CR LF or CR. Blank means space, tab, vertical tab, form feed. Numbers are read independently of the locale.
 #pragma once
 
 #include <charconv>
@@ -9,13 +9,13 @@
 #include <string>
 #include <string_view>
 
-namespace burin {
+namespace burin::geometry {
 
 [[nodiscard]] constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 [[nodiscard]] constexpr bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 [[nodiscard]] constexpr char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-// ASCII letters only; `b` in lower case.
+// Compares without regard to the case of ASCII letters; `b` must be in lower case.
 [[nodiscard]] constexpr bool equals_ignoring_case(std::string_view a, std::string_view b) {
     if (a.size() != b.size()) return false;
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -32,7 +32,8 @@ public:
     [[nodiscard]] std::size_t position() const { return at_; }
     [[nodiscard]] bool at_end() const { return at_ >= text_.size(); }
 
-    // The next token in this line, or empty at its end (or at a comment, when comments start with `comment`).
+    // Returns the next token in this line; empty at the line's end, or at a comment when `comment` is its first
+    // character.
     std::string_view token_in_line(char comment = '\0') {
         while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
         if (comment != '\0' && at_ < text_.size() && text_[at_] == comment) skip_to_line_end();
@@ -41,7 +42,7 @@ public:
         return text_.substr(start, at_ - start);
     }
 
-    // The next token in this line or a later one; empty only at the end of the text.
+    // Returns the next token in this line or a later one; empty only at the end of the text.
     std::string_view token(char comment = '\0') {
         for (;;) {
             const std::string_view found = token_in_line(comment);
@@ -50,7 +51,7 @@ public:
         }
     }
 
-    // What is left of this line without the blanks around it.
+    // Returns the rest of this line without leading and trailing blanks.
     std::string_view rest_of_line() {
         const std::size_t start = at_;
         skip_to_line_end();
@@ -78,8 +79,8 @@ private:
     std::uint64_t line_ = 1;
 };
 
-// The whole token as a number; nothing when it is not one. "nan" and "inf" are numbers here; what is too large for a
-// double is infinite, what is too small is 0: the caller judges.
+// Converts a whole token to a number; nothing when it is not one. "nan" and "inf" are numbers here; a value too large
+// for a double is infinite, one too small is 0: the caller judges.
 [[nodiscard]] std::optional<double> number_from(std::string_view token);
 
 template <typename Integer>
@@ -92,7 +93,7 @@ template <typename Integer>
     return value;
 }
 
-// A token of a broken file, fit to be shown: short and printable.
+// Quotes a token of a broken file for a message: short and printable.
 [[nodiscard]] std::string in_quotes(std::string_view token);
 
-}  // namespace burin
+}  // namespace burin::geometry

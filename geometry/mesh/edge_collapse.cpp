@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/edge_collapse.hpp"
+#include "geometry/mesh/edge_collapse.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,10 @@
 #include <optional>
 #include <queue>
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
-// Garland and Heckbert's quadric of area-weighted planes, about an origin of its own so that nothing cancels far out.
+// The quadric of area-weighted planes (Garland and Heckbert), about an origin near the mesh to avoid cancellation.
 struct Quadric {
     std::array<double, 6> a{};  // xx xy xz yy yz zz
     Vec3 b{0.0};
@@ -38,9 +38,9 @@ struct Quadric {
 struct Step {
     double cost;
     std::uint32_t vertex, target;
-    std::uint32_t stamp;  // the vertex' own when the step was listed; an older one is void
+    std::uint32_t stamp;  // the vertex' stamp when the step was listed; a step with an older stamp is void
 };
-// The cheapest on top; ties in the order of indices, so that the result does not depend on the heap.
+// Orders the heap by cost, cheapest on top; ties by index, so that the result does not depend on the heap.
 struct Dearer {
     bool operator()(const Step& a, const Step& b) const {
         if (a.cost != b.cost) return a.cost > b.cost;
@@ -48,14 +48,14 @@ struct Dearer {
     }
 };
 
-// A fan that is about to be replaced: ring[0] is where its vertex goes; old_fan[i] is (vertex, ring[i], ring[i + 1]).
+// A fan about to be replaced: ring[0] is the vertex' target; old_fan[i] is the triangle (vertex, ring[i], ring[i + 1]).
 struct Fan {
     std::vector<std::uint32_t> ring;
     std::vector<std::uint32_t> old_fan;
 };
 
 struct Change {
-    double motion_m = 0.0, colour = 0.0;  // the largest, of all places
+    double motion_m = 0.0, colour = 0.0;  // the largest over all points
 };
 
 class Collapser {
@@ -101,13 +101,13 @@ private:
             for (const std::uint32_t v : t) quadrics_[v].add_plane(normal, -glm::dot(normal, a), twice_area / 6.0);
         }
     }
-    // Where the quadric says nothing, in a plane, short edges go first: that keeps the triangles even.
+    // Prefers short edges where the quadrics are 0, in a plane: that keeps the triangles well shaped.
     [[nodiscard]] double cost(std::uint32_t v, std::uint32_t target) const {
         const Vec3 edge = at(target) - at(v), p = at(target) - origin_m_;
         const double length2 = glm::dot(edge, edge);
         return quadrics_[v].at(p) + quadrics_[target].at(p) + 1e-6 * length2 * length2;
     }
-    // Lists the vertex' cheapest step that is dearer than the one that was refused.
+    // Lists the vertex' cheapest step that costs more than the refused one.
     void list_next(std::uint32_t v, double refused_cost, std::uint32_t refused) {
         if (state_.kept[v]) return;
         Step best{std::numeric_limits<double>::infinity(), v, v, stamps_[v]};
@@ -140,7 +140,7 @@ private:
         return true;
     }
 
-    // Nothing when the triangles around the vertex do not form one closed fan.
+    // Returns the fan of triangles around the vertex; nothing when they do not form one closed fan.
     [[nodiscard]] std::optional<Fan> fan_around(std::uint32_t v, std::uint32_t target) const {
         const std::vector<std::uint32_t>& around = fans_[v];
         Fan fan;
@@ -163,8 +163,8 @@ private:
         return fan;
     }
 
-    // The link condition: the two ends of the edge have no neighbours in common but the two beside it, and neither of those
-    // is left with two triangles.
+    // Tests the link condition: the two ends of the edge have no common neighbours but the two beside it, and each of
+    // those keeps more than two triangles.
     [[nodiscard]] bool keeps_topology(const Fan& fan) const {
         const std::uint32_t target = fan.ring.front(), left = fan.ring[1], right = fan.ring.back();
         if (fans_[left].size() < 4 || fans_[right].size() < 4) return false;
@@ -184,7 +184,7 @@ private:
         return {red, green, blue};
     }
 
-    // A place on one of the fans, with its colour.
+    // A point on one of the fans, with its colour.
     struct Place {
         Vec3 point_m;
         Vec3 colour;
@@ -198,13 +198,15 @@ private:
         change.colour = std::max({change.colour, colours.x, colours.y, colours.z});
     }
 
-    // The largest motion and change of colour; nothing when the fans cannot be mapped onto each other or it is too much.
+    // Returns the largest motion and change of colour; nothing when the fans cannot be mapped onto each other or a
+    // limit in `most` is exceeded.
     [[nodiscard]] std::optional<Change> change_by(std::uint32_t v, const Fan& fan, const Change& most) const {
         const auto too_much = [&](const Change& c) { return c.motion_m > most.motion_m || c.colour > most.colour; };
         const std::vector<std::uint32_t>& ring = fan.ring;
         const std::size_t n = ring.size();
         const std::uint32_t u = ring[0];
-        Vec3 normal(0.0);  // twice the area vector of the ring, the same for whatever fills it
+        // Twice the area vector of the ring, the same for every surface that fills it.
+        Vec3 normal(0.0);
         for (std::size_t i = 0; i < n; ++i) normal += glm::cross(at(ring[i]) - at(v), at(ring[(i + 1) % n]) - at(v));
         const auto faces_outwards = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
             const Vec3 cross = glm::cross(at(b) - at(a), at(c) - at(a));
@@ -221,7 +223,7 @@ private:
         Change change;
         if (!compare_vertex(v, ring, normal, change) || !keep_materials(v, fan, change)) return std::nullopt;
         if (too_much(change)) return std::nullopt;
-        // Crossings of the old spokes v - ring[j] with the new ones u - ring[i].
+        // Compares the fans where old spokes v - ring[j] cross new ones u - ring[i].
         for (std::size_t i = 2; i + 1 < n; ++i) {
             const Vec3 new_spoke = at(ring[i]) - at(u);
             for (std::size_t j = 1; j < n; ++j) {
@@ -231,7 +233,8 @@ private:
                 const double along_new = glm::dot(glm::cross(start, old_spoke), normal) / parallel;
                 const double along_old = glm::dot(glm::cross(start, new_spoke), normal) / parallel;
                 constexpr double kSlack = 1e-9;
-                if (!(along_new >= -kSlack && along_new <= 1.0 + kSlack)) continue;  // also where parallel is 0
+                // true for NaN too, where parallel is 0
+                if (!(along_new >= -kSlack && along_new <= 1.0 + kSlack)) continue;
                 if (!(along_old >= -kSlack && along_old <= 1.0 + kSlack)) continue;
                 compare(between(u, ring[i], along_new), between(v, ring[j], along_old), change);
                 if (too_much(change)) return std::nullopt;
@@ -240,7 +243,7 @@ private:
         return change;
     }
 
-    // The place of the new fan below or above the vertex.
+    // Compares the vertex with the point of the new fan below or above it; false when there is none.
     [[nodiscard]] bool compare_vertex(std::uint32_t v, const std::vector<std::uint32_t>& ring, const Vec3& normal,
                                       Change& change) const {
         const std::uint32_t u = ring[0];
@@ -341,9 +344,9 @@ private:
         state_ = std::move(now);
     }
 
-    // A vertex with more triangles makes every step beside it dear.
+    // Limits the triangles at a vertex, since a vertex with many makes every step beside it expensive.
     static constexpr std::size_t kMostSpokes = 48;
-    // Steeper triangles than this are not mapped: rounding could turn them over.
+    // Limits the slope of mapped triangles: rounding could flip steeper ones.
     static constexpr double kLeastCosine = 1e-3;
 
     CollapseState& state_;
@@ -362,4 +365,4 @@ std::size_t collapse_edges(CollapseState& state, double bound_m, const std::func
     return Collapser(state, bound_m).run(show);
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

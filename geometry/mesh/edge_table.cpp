@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/edge_table.hpp"
+#include "geometry/mesh/edge_table.hpp"
 
 #include <algorithm>
 #include <numeric>
 #include <tuple>
 
-namespace burin {
+namespace burin::geometry {
 
 namespace {
 
-// Where the uses of each lower vertex begin. Sorting by counting first makes the whole nearly linear: few edges share
+// Returns where the uses of each lower vertex begin. This counting sort makes the whole nearly linear: few edges share
 // their lower vertex.
 std::vector<std::size_t> first_use_of_vertex(std::span<const VertexTriple> triangles) {
     std::uint32_t highest = 0;
@@ -59,4 +59,4 @@ void DisjointSets::unite(std::uint32_t a, std::uint32_t b) {
     parent_[std::max(a, b)] = std::min(a, b);
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Which triangles meet at each edge of a triangle soup of any topology, as one sorted array: edges in ascending order of
-// (lower vertex, higher vertex), the uses of one edge side by side in ascending order of triangle. For geometry/ and compute/.
+// Which triangles meet at each edge of a triangle soup of any topology, as one sorted array: edges in ascending order
+// of (lower vertex, higher vertex), the uses of one edge side by side in ascending order of triangle. For geometry/ and
+// compute/.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +9,9 @@
 #include <span>
 #include <vector>
 
-#include "geometry/triangle_mesh.hpp"
+#include "geometry/mesh/triangle_mesh.hpp"
 
-namespace burin {
+namespace burin::geometry {
 
 using VertexTriple = std::array<std::uint32_t, 3>;
 
@@ -20,7 +21,7 @@ using VertexTriple = std::array<std::uint32_t, 3>;
 [[nodiscard]] constexpr std::uint32_t lower_vertex(std::uint64_t key) { return static_cast<std::uint32_t>(key >> 32); }
 [[nodiscard]] constexpr std::uint32_t higher_vertex(std::uint64_t key) { return static_cast<std::uint32_t>(key); }
 
-// A triangle that names a vertex twice has no inside and no edges of its own: it is left out of all topology.
+// A triangle that names a vertex twice has neither interior nor edges of its own: all topology ignores it.
 [[nodiscard]] constexpr bool names_a_vertex_twice(const VertexTriple& t) {
     return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
@@ -32,7 +33,7 @@ struct EdgeUse {
     bool upwards = false;     // from the lower vertex to the higher
 };
 
-// 3 uses a triangle. Nearly linear; n log n where most edges share one vertex.
+// Returns the uses of all edges, three for each triangle. Nearly linear; n log n where most edges share one vertex.
 [[nodiscard]] std::vector<EdgeUse> edge_uses(std::span<const VertexTriple> triangles);
 
 // Calls f(std::span<const EdgeUse>) for each edge.
@@ -46,14 +47,14 @@ void for_each_edge(std::span<const EdgeUse> uses, F&& f) {
     }
 }
 
-// How often the edge runs upwards less how often it runs downwards.
+// Returns the number of upward uses minus the number of downward ones.
 [[nodiscard]] inline std::ptrdiff_t imbalance(std::span<const EdgeUse> edge) {
     std::ptrdiff_t sum = 0;
     for (const EdgeUse& use : edge) sum += use.upwards ? 1 : -1;
     return sum;
 }
 
-// Disjoint sets of 0 .. n-1; the number of a set is its least member.
+// Disjoint sets of the numbers 0 .. n-1 (union-find); a set is identified by its least member.
 class DisjointSets {
 public:
     explicit DisjointSets(std::size_t n);
@@ -64,4 +65,4 @@ private:
     std::vector<std::uint32_t> parent_;
 };
 
-}  // namespace burin
+}  // namespace burin::geometry

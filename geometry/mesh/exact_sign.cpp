@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/exact_sign.hpp"
+#include "geometry/mesh/exact_sign.hpp"
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
 struct Pair {
-    double high, low;  // an exact value: the rounded one and what rounding left over
+    double high, low;  // an exact value: the rounded one and the rounding error
 };
 
 Pair exact_sum(double a, double b) {
@@ -58,10 +58,10 @@ private:
     std::size_t count_ = 0;
 };
 
-// Two numbers' exact difference.
+// Returns the exact difference of two numbers.
 Pair exact_difference(double a, double b) { return exact_sum(a, -b); }
 
-// a1 * b2 - a2 * b1
+// Returns a1 * b2 - a2 * b1 exactly.
 Expansion exact_cross(const Pair& a1, const Pair& a2, const Pair& b1, const Pair& b2) {
     Expansion result;
     const Expansion first(a1), second(a2);
@@ -92,7 +92,7 @@ int exact_side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
 
 int sign_of(double x) { return (x > 0.0 ? 1 : 0) - (x < 0.0 ? 1 : 0); }
 
-// Shewchuk's bounds for a determinant of rounded differences, in shares of the sum of its products' sizes.
+// Shewchuk's error bounds for a determinant of rounded differences, relative to the sum of its products' magnitudes.
 constexpr double kHalfUlp = 0x1p-53;
 constexpr double kSpaceBound = (7.0 + 56.0 * kHalfUlp) * kHalfUlp;
 constexpr double kPlaneBound = (3.0 + 16.0 * kHalfUlp) * kHalfUlp;
@@ -108,7 +108,7 @@ int side_of_plane(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
                         std::abs(w.y) * (std::abs(uz_vx) + std::abs(ux_vz)) +
                         std::abs(w.z) * (std::abs(ux_vy) + std::abs(uy_vx));
     if (std::abs(estimate) > kSpaceBound * size) return sign_of(estimate);
-    if (size == 0.0) return 0;  // a plane of an axis' own: every product has a factor that is 0
+    if (size == 0.0) return 0;  // a plane perpendicular to an axis: every product has a factor that is 0
     return exact_side(a, b, c, d);
 }
 
@@ -123,4 +123,4 @@ int turn_seen_along(int axis, const Vec3& a, const Vec3& b, const Vec3& c) {
         .sign();
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

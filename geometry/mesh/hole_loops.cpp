@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/hole_loops.hpp"
+#include "geometry/mesh/hole_loops.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <tuple>
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
-// An odd edge as seen from one of its ends.
+// An edge with an odd number of uses, seen from one of its ends.
 struct Step {
     std::uint32_t from = 0, to = 0;
     std::uint32_t edge = 0;
@@ -25,14 +25,14 @@ std::vector<Step> odd_steps(std::span<const EdgeUse> uses, std::uint32_t& edges)
         steps.push_back({hi, lo, edges, upwards});
         ++edges;
     });
-    // Steps of the right direction first, so that a walk prefers them where several loops meet.
+    // Sorts steps of the right direction first, so that a walk prefers them where several loops meet.
     std::ranges::sort(steps, [](const Step& a, const Step& b) {
         return std::tuple(a.from, !a.against, a.to) < std::tuple(b.from, !b.against, b.to);
     });
     return steps;
 }
 
-// Walks along unused odd edges; whenever the walk comes back to a vertex that it has visited, the part since then is a loop.
+// Walks along unused odd edges; whenever the walk returns to a visited vertex, the path since then is a loop.
 class Walker {
 public:
     explicit Walker(std::span<const EdgeUse> uses) : steps_(odd_steps(uses, edges_)) {
@@ -48,7 +48,8 @@ public:
 
     std::vector<HoleLoop> loops() {
         for (std::uint32_t s = 0; s < steps_.size(); ++s) {
-            // Twice over the steps in effect: wrongly directed ones only where nothing else is left.
+            // Starts with steps of the right direction only; a walk takes a wrongly directed one only where no other is
+            // left.
             if (!used_[steps_[s].edge] && steps_[s].against) walk_from(steps_[s].from);
         }
         return std::move(loops_);
@@ -57,7 +58,8 @@ public:
 private:
     static constexpr std::uint32_t kNowhere = std::numeric_limits<std::uint32_t>::max();
 
-    // Every vertex has an even number of odd edges, so the walk can only end where it began.
+    // Walks until no unused edge is left. Every vertex has an even number of odd edges, so the walk ends where it
+    // began.
     void walk_from(std::uint32_t start) {
         std::vector<Step> path;
         std::uint32_t at = start;
@@ -97,8 +99,9 @@ private:
     std::uint32_t edges_ = 0;
     std::vector<Step> steps_;
     std::vector<bool> used_;
-    std::vector<std::uint32_t> first_, next_;  // where each vertex's steps begin, and the first that may be unused
-    std::vector<std::uint32_t> place_;         // in the path
+    // Where each vertex's steps begin, and the first that may be unused.
+    std::vector<std::uint32_t> first_, next_;
+    std::vector<std::uint32_t> place_;  // index in the path
     std::vector<HoleLoop> loops_;
 };
 
@@ -106,4 +109,4 @@ private:
 
 std::vector<HoleLoop> hole_loops(std::span<const EdgeUse> uses) { return Walker(uses).loops(); }
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/least_area.hpp"
+#include "geometry/mesh/least_area.hpp"
 
 #include <limits>
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
 constexpr double kImpossible = std::numeric_limits<double>::infinity();
 
 struct Best {
-    double area_m2 = 0.0;    // of the part of the loop between two corners, closed by the diagonal between them
-    std::uint32_t apex = 0;  // of the triangle on that diagonal
+    // Area of the triangulated part of the loop between two corners, closed by the diagonal between them.
+    double area_m2 = 0.0;
+    std::uint32_t apex = 0;  // apex of the triangle on that diagonal
 };
 
 class Table {
@@ -58,4 +59,4 @@ std::optional<std::vector<std::array<std::uint32_t, 3>>> least_area_triangulatio
     return triangles;
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The triangulation of least area over the vertices of a loop in space, by dynamic programming.
-// Source: G. Barequet, M. Sharir, "Filling gaps in the boundary of a polyhedron", CAGD 12 (1995), 207-229, with the area
-// as the weight. Internal to geometry/.
+// Source: G. Barequet, M. Sharir, "Filling gaps in the boundary of a polyhedron", CAGD 12 (1995), 207-229, with the
+// area as the weight. Internal to geometry/.
 #pragma once
 
 #include <array>
@@ -13,11 +13,12 @@
 
 #include "base/space.hpp"
 
-namespace burin {
+namespace burin::geometry {
 
-// Numbers of corners, n - 2 triangles in the loop's direction; nothing when every triangulation needs a diagonal (i, j)
-// that is not allowed. n >= 3. O(n^3) time, O(n^2) memory. Deterministic: the first best one wins.
+// Returns n - 2 triangles of corner numbers in the loop's direction; nothing when every triangulation needs a diagonal
+// (i, j) that is not allowed. Requires n >= 3. O(n^3) time, O(n^2) memory. Deterministic: the first of equally good
+// ones wins.
 [[nodiscard]] std::optional<std::vector<std::array<std::uint32_t, 3>>> least_area_triangulation(
     std::span<const Vec3> loop_m, const std::function<bool(std::size_t, std::size_t)>& allowed);
 
-}  // namespace burin
+}  // namespace burin::geometry

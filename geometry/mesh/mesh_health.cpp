@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/mesh_health.hpp"
+#include "geometry/mesh/mesh_health.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
-#include "geometry/edge_table.hpp"
-#include "geometry/hole_loops.hpp"
+#include "geometry/mesh/edge_table.hpp"
+#include "geometry/mesh/hole_loops.hpp"
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
 bool degenerate(const TriangleMesh& mesh, const VertexTriple& t) {
@@ -35,7 +35,7 @@ void count_vertices(const TriangleMesh& mesh, MeshHealth& health) {
 }
 
 void measure(const TriangleMesh& mesh, MeshHealth& health) {
-    // About the centre, so that a mesh far from the origin keeps its digits.
+    // Computes about the centre, so that a mesh far from the origin keeps its precision.
     const Vec3 centre = health.bounds_m.empty() ? Vec3(0.0) : health.bounds_m.center();
     for (const VertexTriple& t : mesh.triangles) {
         if (degenerate(mesh, t)) ++health.degenerate_triangles;
@@ -46,8 +46,8 @@ void measure(const TriangleMesh& mesh, MeshHealth& health) {
     }
 }
 
-// Equal triangles share their first edge, so it is enough to compare the uses of one edge with each other. Triangles that
-// name a vertex twice have no edges and are compared apart.
+// Counts triangles that repeat an earlier one. Equal triangles share their first edge, so it is enough to compare the
+// uses of one edge with each other. Triangles that name a vertex twice have no edges and are compared separately.
 std::size_t duplicates(const TriangleMesh& mesh, std::span<const EdgeUse> uses) {
     std::size_t count = 0;
     std::vector<std::uint32_t> opposite;
@@ -56,7 +56,7 @@ std::size_t duplicates(const TriangleMesh& mesh, std::span<const EdgeUse> uses) 
         opposite.clear();
         for (const EdgeUse& use : edge) {
             const std::uint32_t v = mesh.triangles[use.triangle][(use.corner + 2u) % 3u];
-            // Each triangle has three edges; it is counted at the one between its two lower vertices.
+            // Each triangle has three edges; it is counted at the one between its two lowest vertices.
             if (v > higher_vertex(use.key)) opposite.push_back(v);
         }
         std::ranges::sort(opposite);
@@ -97,8 +97,8 @@ void count_shells(const TriangleMesh& mesh, std::span<const EdgeUse> uses, MeshH
     }
 }
 
-// Joins the corners (3 triangle + k) that meet at the same vertex over an edge; a vertex whose corners stay in several
-// sets is where fans touch in a point only.
+// Joins the corners (3 triangle + k) that meet at the same vertex over an edge; a vertex whose corners remain in
+// several sets joins fans that touch in a point only.
 std::size_t nonmanifold_vertices(const TriangleMesh& mesh, std::span<const EdgeUse> uses) {
     DisjointSets fans(3 * mesh.triangles.size());
     const auto corner_at = [&](const EdgeUse& use, std::uint32_t vertex) {
@@ -174,4 +174,4 @@ std::vector<std::string> complaints(const MeshHealth& health) {
     return list;
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

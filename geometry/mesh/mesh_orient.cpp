@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-// orient_outward of mesh_mend.hpp.
+// Implements orient_outward of mesh_repair.hpp.
 #include <algorithm>
 #include <limits>
 
-#include "geometry/edge_table.hpp"
-#include "geometry/mesh_mend.hpp"
+#include "geometry/mesh/edge_table.hpp"
+#include "geometry/mesh/mesh_repair.hpp"
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 struct Neighbour {
     std::uint32_t triangle = kNone;
-    bool agrees = true;  // the two run along the shared edge in opposite directions
+    bool agrees = true;  // the two triangles run along the shared edge in opposite directions
 };
 
 using Neighbours = std::vector<std::array<Neighbour, 3>>;
@@ -36,7 +36,8 @@ struct Patch {
     bool open = false;
 };
 
-// Spreads over the patch from its first triangle and decides for each triangle whether it must turn to agree with that one.
+// Spreads over the patch from its first triangle and decides for each triangle whether it must flip to agree with that
+// one.
 Patch gather(std::uint32_t first, const Neighbours& neighbours, std::vector<bool>& turned, std::vector<bool>& seen) {
     Patch patch{{first}, {}, 0.0, false};
     seen[first] = true;
@@ -59,7 +60,7 @@ void turn_all(const Patch& patch, std::vector<bool>& turned) {
     for (const std::uint32_t t : patch.triangles) turned[t] = !turned[t];
 }
 
-// Six times the volume would do for the sign; the true value makes sums comparable.
+// Measures bounds and volume. Six times the volume would do for the sign; the true value makes sums comparable.
 void measure(Patch& patch, const TriangleMesh& mesh, const std::vector<bool>& turned, const Vec3& centre_m) {
     for (const std::uint32_t t : patch.triangles) {
         const auto [i, j, k] = mesh.triangles[t];
@@ -75,7 +76,7 @@ bool within(const Box& inner, const Box& outer) {
            (inner.lo != outer.lo || inner.hi != outer.hi);
 }
 
-// With thousands of patches (a triangle soup) the question would cost too much and mean too little.
+// With thousands of patches (a triangle soup) the comparison would cost too much and mean too little.
 constexpr std::size_t kMostPatchesCompared = 2000;
 
 void turn_inside_out_patches(std::vector<Patch>& patches, std::vector<bool>& turned, OrientationReport& report) {
@@ -134,4 +135,4 @@ OrientationReport orient_outward(TriangleMesh& mesh) {
     return report;
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/mesh_mend.hpp"
+#include "geometry/mesh/mesh_repair.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -7,16 +7,16 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "geometry/edge_table.hpp"
-#include "geometry/hole_loops.hpp"
-#include "geometry/least_area.hpp"
-#include "geometry/polygon.hpp"
-#include "geometry/vertex_weld.hpp"
+#include "geometry/mesh/edge_table.hpp"
+#include "geometry/mesh/hole_loops.hpp"
+#include "geometry/mesh/least_area.hpp"
+#include "geometry/mesh/polygon.hpp"
+#include "geometry/mesh/vertex_weld.hpp"
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
-// What a filling needs to know about the mesh around it; grows with every filling.
+// The state that fillings need of the mesh around them; grows with every filling.
 class HoleFiller {
 public:
     HoleFiller(TriangleMesh& mesh, std::span<const EdgeUse> uses) : mesh_(mesh) {
@@ -49,7 +49,7 @@ private:
         return mesh_.triangle_materials.empty() ? std::uint8_t{0} : mesh_.triangle_materials[triangle];
     }
 
-    // The most frequent one; the lowest number among equals.
+    // Returns the most frequent material; the lowest number among equals.
     std::uint8_t rim_material(const HoleLoop& loop) const {
         std::array<std::size_t, 256> votes{};
         for (std::size_t i = 0; i < loop.vertices.size(); ++i) {
@@ -82,7 +82,7 @@ private:
         return std::move(*split);
     }
 
-    // Whether a diagonal is an edge of the mesh already, which would then have four uses.
+    // Tells whether a diagonal is already an edge of the mesh, which would then have four uses.
     bool reuses_an_edge(const HoleLoop& loop, const std::vector<VertexTriple>& split) const {
         const std::size_t n = loop.vertices.size();
         return std::ranges::any_of(split, [&](const VertexTriple& t) {
@@ -118,7 +118,7 @@ private:
     }
 
     TriangleMesh& mesh_;
-    std::unordered_set<std::uint64_t> taken_;  // the edges in use
+    std::unordered_set<std::uint64_t> taken_;  // keys of the edges in use
     std::unordered_map<std::uint64_t, std::uint8_t> rim_material_;
     std::size_t vertices_added_ = 0;
 };
@@ -156,4 +156,4 @@ ClosingReport close_holes(TriangleMesh& mesh) {
     return report;
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

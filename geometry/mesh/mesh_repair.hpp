@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Repairs of a triangle mesh, each on request only and each telling what it did. None drops a triangle.
+// Repairs of a triangle mesh, each done on request only and each with a report. None drops a triangle.
 // The usual order: weld_vertices, close_holes, orient_outward. Metres, object frame. Deterministic; single-threaded.
 #pragma once
 
@@ -8,22 +8,22 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "geometry/triangle_mesh.hpp"
+#include "geometry/mesh/triangle_mesh.hpp"
 
-namespace burin {
+namespace burin::geometry {
 
-// Makes vertices at equal positions (bit for bit, -0 = 0) one, as a mesh with seams (OBJ texture islands, flat-shaded
-// exports) needs before its edges can meet. The first of them keeps its colour. Unused vertices stay.
+// Merges vertices at equal positions (bit for bit, -0 = 0), which a mesh with seams (OBJ texture islands, flat-shaded
+// exports) needs before its edges can meet. The first of the merged vertices keeps its colour. Unused vertices stay.
 struct WeldReport {
     std::size_t vertices_merged = 0;
 };
 WeldReport weld_vertices(TriangleMesh& mesh);
 
-// How a hole was filled.
+// The method that filled a hole.
 enum class HoleFilling : std::uint8_t {
     least_area,  // the triangulation of least area over the loop's own vertices (Barequet and Sharir 1995, O(n^3))
-    ears,        // long loops: ears cut in the loop's mean plane
-    centre_fan,  // the others: a new vertex in the middle, joined with every edge
+    ears,        // long loops: ear clipping in the loop's mean plane
+    centre_fan,  // the others: a new vertex at the centre, joined with every edge
 };
 
 struct ClosedHole {
@@ -41,22 +41,23 @@ struct ClosingReport {
 };
 
 // Fills each hole (see mesh_health.hpp) with triangles. Afterwards every edge has an even number of uses: the mesh is
-// closed. The filling is oriented like its surroundings, takes the material most frequent along its rim, and makes no
-// edge that the mesh has already, so that it adds no non-manifold edge. It may cut through other parts of the surface.
-// Cost: n log n, and for each loop of at most kLeastAreaEdges edges its third power (2 million steps for 200 edges).
+// closed. The filling is oriented like its surroundings, takes the most frequent material along its rim, and adds no
+// edge that the mesh has already, hence no non-manifold edge. It may pass through other parts of the surface.
+// Cost: n log n, plus the cube of each loop's length for loops of at most kLeastAreaEdges edges (2 million steps for
+// 200 edges).
 inline constexpr std::size_t kLeastAreaEdges = 300;
 ClosingReport close_holes(TriangleMesh& mesh);
 
-// Turns triangles so that neighbours over edges of two uses agree, as few as possible in each patch that such edges join;
-// then turns patches inside out: closed ones that lie in no other patch's bounds and have negative volume, and all of
-// them together when the whole then still has negative volume. A patch inside another one's bounds may be a cavity and
-// keeps its side.
+// Flips triangles so that neighbours over edges of two uses agree, as few as possible in each patch of triangles joined
+// by such edges. Then flips whole patches that are inside out: closed ones that lie within no other patch's bounds and
+// have negative volume, and finally all patches together if the whole still has negative volume. A patch within another
+// one's bounds may be a cavity and keeps its orientation.
 struct OrientationReport {
-    std::size_t triangles_turned = 0;  // in the end, against the input
+    std::size_t triangles_turned = 0;  // compared with the input
     std::size_t patches = 0;
-    std::size_t patches_turned = 0;  // as a whole, because they were inside out
+    std::size_t patches_turned = 0;  // whole patches, because they were inside out
     std::size_t conflicts = 0;       // edges that no orientation can satisfy (a Moebius band has some)
 };
 OrientationReport orient_outward(TriangleMesh& mesh);
 
-}  // namespace burin
+}  // namespace burin::geometry

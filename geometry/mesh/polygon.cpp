@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/polygon.hpp"
+#include "geometry/mesh/polygon.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
 using Corners = std::vector<std::uint32_t>;
 
-// Twice the vector area (Newell 1972), about the first corner so that far-away polygons keep their digits.
+// Returns twice the vector area (Newell 1972), about the first corner so that distant polygons keep their precision.
 Vec3 vector_area(std::span<const Vec3> p) {
     Vec3 sum(0.0);
     for (std::size_t i = 1; i + 1 < p.size(); ++i) sum += glm::cross(p[i] - p[0], p[i + 1] - p[0]);
     return sum;
 }
 
-// The corners in the mean plane, counter-clockwise; nothing when the polygon has no mean plane.
+// Projects the corners onto the mean plane, counter-clockwise; nothing when the polygon has no mean plane.
 std::optional<std::vector<Vec2>> flattened(std::span<const Vec3> p) {
     const Vec3 area = vector_area(p);
     const double length = glm::length(area);
@@ -37,7 +37,7 @@ double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// Every corner turns left and the directions go round once: a polygon that winds twice is not convex.
+// Tells whether every corner turns left and the directions go round once: a polygon that winds twice is not convex.
 bool convex(const std::vector<Vec2>& p) {
     const std::size_t n = p.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -63,13 +63,15 @@ bool is_ear(const std::vector<Vec2>& p, const Corners& left, std::size_t i) {
     });
 }
 
-// Cuts ears one after another; nothing when none is left although more than three corners are.
+// Cuts ears one after another; nothing when no ear is left among more than three corners.
 std::optional<std::vector<std::array<std::uint32_t, 3>>> cut_ears(const std::vector<Vec2>& p) {
     Corners left(p.size());
     std::iota(left.begin(), left.end(), 0u);
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    std::size_t next = 0;              // go on where the last ear was: cutting in turns keeps the triangles well shaped
-    std::size_t tests = 8 * p.size();  // a simple polygon needs about two a corner; a crossed one could ask for n * n
+    // Continues where the last ear was: cutting in turns keeps the triangles well shaped.
+    std::size_t next = 0;
+    // A simple polygon needs about two tests a corner; a crossed one could need n * n.
+    std::size_t tests = 8 * p.size();
     while (left.size() > 3) {
         const std::size_t n = left.size();
         std::size_t tried = 0;
@@ -104,4 +106,4 @@ SplitPolygon split_polygon(std::span<const Vec3> corners_m, std::size_t max_ear_
     return {PolygonSplit::blind_fan, fan(corners_m.size())};
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/simplify.hpp"
+#include "geometry/mesh/simplify.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
-#include "geometry/edge_collapse.hpp"
+#include "geometry/mesh/edge_collapse.hpp"
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
 constexpr int kRounds = 3;
-// A round that takes away less than this share of the triangles is the last.
+// The share of the triangles below which a round is the last.
 constexpr double kWorthwhile = 0.03;
-// How close the measured distance comes to the true one, in shares of the bound.
+// The accuracy of the measured distance, as a share of the bound.
 constexpr double kMeasuringTolerance = 1.0 / 10.0;
 
 std::string in_metres(double x) {
@@ -25,7 +25,7 @@ std::string in_metres(double x) {
 CollapseState start(const TriangleMesh& mesh, const SimplifyOptions& options) {
     CollapseState state;
     state.mesh = mesh;
-    // Triangles that name a vertex twice cover nothing.
+    // Drops triangles that name a vertex twice: they cover nothing.
     if (std::ranges::any_of(mesh.triangles, names_a_vertex_twice)) {
         state.mesh.triangles.clear();
         state.mesh.triangle_materials.clear();
@@ -43,7 +43,8 @@ CollapseState start(const TriangleMesh& mesh, const SimplifyOptions& options) {
     return state;
 }
 
-// Both ways, for each triangle of the simplified mesh: what is nearest to it, and it itself.
+// Measures both directions for each triangle of the simplified mesh: from it, and from the parts of the first mesh
+// nearest to it.
 std::vector<double> measured_distances(const TriangleMesh& first, const TriangleTree& first_tree,
                                        const TriangleMesh& now, double bound_m, const ForEach& for_each) {
     const double tolerance_m = bound_m * kMeasuringTolerance;
@@ -74,13 +75,13 @@ Result<Simplified> simplify(const TriangleMesh& mesh, const SimplifyOptions& opt
         const auto show = [&](double share) {
             if (options.show) options.show(std::min(1.0, (round + share) / kRounds));
         };
-        // A little below the bound, so that rounding in the sums cannot carry it over.
+        // Stays a little below the bound, so that rounding in the sums cannot exceed it.
         collapse_edges(state, options.bound_m * (1.0 - 1e-9), show);
         const std::vector<double> distances =
             measured_distances(first, first_tree, state.mesh, options.bound_m, options.for_each);
         error_m = 0.0;
         for (std::size_t t = 0; t < distances.size(); ++t) {
-            // Two bounds of one thing: the smaller one holds, and leaves more to go on with.
+            // Both are bounds on the same distance: the smaller one holds, and leaves more for the next round.
             state.moved_m[t] = std::min(state.moved_m[t], distances[t]);
             error_m = std::max(error_m, state.moved_m[t]);
         }
@@ -90,4 +91,4 @@ Result<Simplified> simplify(const TriangleMesh& mesh, const SimplifyOptions& opt
     return Simplified{std::move(state.mesh), std::move(state.first_vertex), error_m};
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/surface_distance.hpp"
+#include "geometry/mesh/surface_distance.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
 constexpr std::size_t kTrianglesATask = 2048;
@@ -21,7 +21,7 @@ Vec3 middle_of(const Polygon& polygon) {
     return sum / static_cast<double>(polygon.size());
 }
 
-// Both parts keep the points on the plane, so that together they cover the polygon.
+// Cuts the polygon at the plane. Both parts keep the points on the plane, so that together they cover the polygon.
 void cut(const Polygon& polygon, const Plane& plane, Polygon& behind, Polygon& ahead) {
     behind.clear();
     ahead.clear();
@@ -50,7 +50,7 @@ public:
         std::uint32_t triangle;
         double bound_m;
     };
-    // The bound for one triangle; what it was compared with is added to found().
+    // Returns the bound for one triangle and adds the triangles it was compared with to found().
     double run(const std::array<Vec3, 3>& triangle) {
         pieces_.assign(1, Polygon(triangle.begin(), triangle.end()));
         double worst = 0.0;
@@ -92,7 +92,7 @@ private:
         return bound_m;
     }
 
-    // The bound where it is close enough; else 0, and the parts are to be looked at.
+    // Returns the bound if it is close enough; else divides the piece and returns 0.
     double bound_or_divide(const Polygon& piece) {
         if (hint_ < to_.triangles.size()) {
             const double by_hint_m = farthest_corner(piece, corners(hint_)).distance_m;
@@ -102,7 +102,7 @@ private:
         const std::array<Vec3, 3> nearest = corners(t);
         const Corner farthest = farthest_corner(piece, nearest);
         if (farthest.distance_m <= tolerance_m_) return settle(t, farthest.distance_m);
-        // Close enough when no other triangle is much nearer to that corner.
+        // The bound is close enough when no other triangle is much nearer to that corner.
         const double much_nearer_m = farthest.distance_m - tolerance_m_;
         const TriangleTree::Near nearer = tree_.nearest(farthest.place_m, t, much_nearer_m);
         if (nearer.distance_m > much_nearer_m) return settle(t, farthest.distance_m);
@@ -111,7 +111,7 @@ private:
         return 0.0;
     }
 
-    // Along the planes that stand on the triangle's edges; false when the piece lies all on one side of each.
+    // Cuts the piece along the planes that stand on the triangle's edges; false when it lies on one side of each.
     bool cut_at_borders(const Polygon& piece, const std::array<Vec3, 3>& triangle) {
         const Vec3 normal = glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
         Polygon rest = piece, inside, outside;
@@ -128,7 +128,7 @@ private:
         if (divided) pieces_.push_back(std::move(rest));
         return divided;
     }
-    // To both sides by more than rounding, so that every cut makes two smaller pieces.
+    // Tells whether the piece reaches to both sides by more than rounding, so that every cut makes two smaller pieces.
     [[nodiscard]] bool reaches_well_over(const Polygon& piece, const Plane& plane) const {
         double lowest = 0.0, highest = 0.0;
         for (const Vec3& p : piece) {
@@ -194,4 +194,4 @@ SurfaceDistance distance_from(std::span<const Vec3> from_positions, std::span<co
     return distance;
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/triangle_contact.hpp"
+#include "geometry/mesh/triangle_contact.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "geometry/exact_sign.hpp"
+#include "geometry/mesh/exact_sign.hpp"
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
 struct Segment {
@@ -22,10 +22,10 @@ bool boxes_meet(const Segment& s, const Segment& t) {
     return true;
 }
 
-// For a point on the segment's line.
+// Requires a point on the segment's line.
 bool within_ends(const Vec3& p, const Segment& s) { return boxes_meet({p, p}, s); }
 
-// Of segments in one plane that is not seen edge-on along the axis.
+// Requires segments in one plane that is not seen edge-on along the axis.
 bool meet_in_plane(int axis, const Segment& s, const Segment& t) {
     const int t_from = turn_seen_along(axis, s.from, s.to, t.from), t_to = turn_seen_along(axis, s.from, s.to, t.to);
     const int s_from = turn_seen_along(axis, t.from, t.to, s.from), s_to = turn_seen_along(axis, t.from, t.to, s.to);
@@ -54,7 +54,7 @@ bool meets_an_edge(const Segment& s, const Corners& t) {
     return segments_meet(s, {t[0], t[1]}) || segments_meet(s, {t[1], t[2]}) || segments_meet(s, {t[2], t[0]});
 }
 
-// For a point in the triangle's plane; `turn` is the triangle's own turn along the axis, not 0.
+// Requires a point in the triangle's plane; `turn` is the triangle's own turn along the axis, not 0.
 bool inside_in_plane(int axis, int turn, const Vec3& p, const Corners& t) {
     for (std::size_t k = 0; k < 3; ++k) {
         if (turn_seen_along(axis, t[k], t[(k + 1) % 3], p) * turn < 0) return false;
@@ -72,7 +72,8 @@ bool segment_meets(const Segment& s, const Corners& t) {
         }
         return meets_an_edge(s, t);
     }
-    // The line passes the edges all on one side, or meets one.
+    // The segment misses the triangle when its line passes edges on both sides; otherwise it passes inside or meets an
+    // edge.
     bool left = false, right = false;
     for (std::size_t k = 0; k < 3; ++k) {
         const int side = side_of_plane(s.from, s.to, t[k], t[(k + 1) % 3]);
@@ -88,8 +89,8 @@ bool all_strictly_on_one_side(const Corners& plane, const Corners& t) {
            side_of_plane(plane[0], plane[1], plane[2], t[2]) == first;
 }
 
-// Whether a plane across the line between the middles parts the triangles beyond doubt. As below, this spares neighbours in
-// one plane the exact arithmetic.
+// Tells whether a plane perpendicular to the line between the centroids separates the triangles beyond doubt. As
+// parted_at does, this avoids exact arithmetic for neighbours in one plane.
 bool parted(const Corners& first, const Corners& second) {
     const Vec3& origin = first[0];
     const Vec3 across = (second[0] - origin) + (second[1] - first[1]) + (second[2] - first[2]);
@@ -100,31 +101,33 @@ bool parted(const Corners& first, const Corners& second) {
         bottom = std::min(bottom, glm::dot(b, across));
         size = std::max({size, glm::dot(a, a), glm::dot(b, b)});
     }
-    // Ten times the rounding of the differences and the dot products; false for no number.
+    // The limit is ten times the rounding of the differences and the dot products; false for NaN.
     return bottom - top > 1e-14 * std::sqrt(size * glm::dot(across, across));
 }
 
-// Whether a plane through the shared point parts a, b from c, d beyond doubt: the one between the triangles' middles.
+// Tells whether a plane through the shared point, midway between the triangles, separates a, b from c, d beyond doubt.
 bool parted_at(const Vec3& shared, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const Vec3 to_a = a - shared, to_b = b - shared, to_c = c - shared, to_d = d - shared;
     const auto unit = [](const Vec3& v) { return v / std::sqrt(glm::dot(v, v)); };
     const Vec3 across = unit(unit(to_a) + unit(to_b)) - unit(unit(to_c) + unit(to_d));
-    // Ten times the rounding of a difference and of a dot product with a vector of length 2 at most; false for no number.
+    // The limit is ten times the rounding of a difference and of a dot product with a vector of length 2 at most; false
+    // for NaN.
     const auto clear = [&](const Vec3& v, double side) {
         return side * glm::dot(v, across) > 1e-14 * (std::abs(v.x) + std::abs(v.y) + std::abs(v.z));
     };
     return clear(to_a, 1.0) && clear(to_b, 1.0) && clear(to_c, -1.0) && clear(to_d, -1.0);
 }
 
-// Sharing one vertex, `apex`: a further common point can be followed away from the apex until one of the triangles ends.
+// Tests triangles that share one vertex, `apex`: a further common point can be followed away from the apex until one of
+// the triangles ends.
 bool meet_beyond_vertex(const Vec3& apex, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     if (parted_at(apex, a, b, c, d)) return false;
     return segment_meets({a, b}, {apex, c, d}) || segment_meets({c, d}, {apex, a, b});
 }
 
-// Sharing the edge u, v: only in one plane, and when both lie on the same side of the edge.
+// Tests triangles that share the edge u, v: they meet beyond it only in one plane, on the same side of the edge.
 bool meet_beyond_edge(const Vec3& u, const Vec3& v, const Vec3& a, const Vec3& b) {
-    // Clearly on opposite sides: the heights over the edge point away from each other.
+    // Rules out triangles clearly on opposite sides: the heights over the edge point away from each other.
     const Vec3 edge = v - u, to_a = a - u, to_b = b - u;
     const Vec3 up_a = glm::cross(edge, to_a), up_b = glm::cross(edge, to_b);
     const double a2 = glm::dot(up_a, up_a), b2 = glm::dot(up_b, up_b), edge2 = glm::dot(edge, edge);
@@ -136,7 +139,7 @@ bool meet_beyond_edge(const Vec3& u, const Vec3& v, const Vec3& a, const Vec3& b
         const int turn_a = turn_seen_along(axis, u, v, a), turn_b = turn_seen_along(axis, u, v, b);
         if (turn_a != 0 || turn_b != 0) return turn_a * turn_b > 0;
     }
-    // All on one line: overlapping beyond the edge at either end.
+    // All on one line: they meet where they overlap beyond the edge at either end.
     const auto both_beyond = [&](const Vec3& end, const Vec3& other) {
         return within_ends(end, {other, a}) && within_ends(end, {other, b}) && a != end && b != end;
     };
@@ -183,4 +186,4 @@ bool meet_beyond_shared(std::span<const Vec3> positions, const VertexTriple& fir
     return meet_beyond_edge(one(i), one(s.in_first[1]), one(3 - i - s.in_first[1]), two(3 - j - s.in_second[1]));
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

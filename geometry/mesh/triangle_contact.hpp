@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Whether two triangles of a mesh meet where they should not: in any point other than the vertices and the edge that they
-// share by index. Touching counts, and so do neighbours in one plane that are folded onto each other, two triangles with the
-// same three vertices, and distinct vertices at one place. Decided without rounding (exact_sign.hpp).
+// Tells whether two triangles of a mesh meet where they should not: in any point other than the vertices and the edge
+// that they share by index. Touching counts, and so do neighbours in one plane that are folded onto each other, two
+// triangles with the same three vertices, and distinct vertices at one position. Decided without rounding
+// (exact_sign.hpp).
 // A triangle without area counts as the segment or the point that it is. Pure functions; 50 ns for most neighbours.
 #pragma once
 
 #include <span>
 
-#include "geometry/edge_table.hpp"
+#include "geometry/mesh/edge_table.hpp"
 
-namespace burin {
+namespace burin::geometry {
 
-// Neither triple may name a vertex twice.
+// Tests two triangles by index. Neither triple may name a vertex twice.
 [[nodiscard]] bool meet_beyond_shared(std::span<const Vec3> positions, const VertexTriple& first,
                                       const VertexTriple& second);
 
-// Any common point at all.
+// Tells whether the triangles have any common point.
 [[nodiscard]] bool triangles_meet(const std::array<Vec3, 3>& first, const std::array<Vec3, 3>& second);
 
-}  // namespace burin
+}  // namespace burin::geometry

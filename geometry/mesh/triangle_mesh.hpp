@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A triangle mesh as plain data: what import returns, scan conversion reads and export writes. Positions are in metres in
-// the object frame; triangles wind counter-clockwise seen from outside. Nothing here is promised about topology: that is
-// what MeshHealth (mesh_health.hpp) measures.
+// A triangle mesh as plain data: what import returns, scan conversion reads and export writes. Positions are in metres
+// in the object frame; triangles wind counter-clockwise seen from outside. The topology may be anything: MeshHealth
+// (mesh_health.hpp) measures it.
 #pragma once
 
 #include <array>
@@ -11,9 +11,9 @@
 
 #include "base/space.hpp"
 
-namespace burin {
+namespace burin::geometry {
 
-// What a surface is made of. Colour is sRGB, 8 bits a channel, as files and screens use it.
+// The material of a surface. The colour is sRGB, 8 bits a channel, as files and screens use it.
 struct Material {
     std::string name;
     std::array<std::uint8_t, 3> colour{200, 200, 200};
@@ -24,7 +24,7 @@ struct TriangleMesh {
     std::vector<std::array<std::uint32_t, 3>> triangles;  // indices into positions_m
     std::vector<std::uint8_t> triangle_materials;         // index into materials; empty: all are 0
     std::vector<Material> materials;                      // at most 254; empty: one default material
-    std::vector<std::array<std::uint8_t, 3>> colours;     // a vertex each, for export; may be empty
+    std::vector<std::array<std::uint8_t, 3>> colours;     // one for each vertex, for export; may be empty
 };
 
-}  // namespace burin
+}  // namespace burin::geometry

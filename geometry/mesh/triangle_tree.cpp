@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/triangle_tree.hpp"
+#include "geometry/mesh/triangle_tree.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace burin {
+namespace burin::geometry {
 namespace {
 
-// One step further out than rounding may have gone in.
+// Rounds one float further outwards than the conversion may have rounded inwards.
 float outwards(double x, float towards) { return std::nextafter(static_cast<float>(x), towards); }
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// Every third bit.
+// Spreads the low 21 bits to every third bit.
 std::uint64_t spread(std::uint64_t x) {
     x = (x | x << 32) & 0x1f00000000ffffULL;
     x = (x | x << 16) & 0x1f0000ff0000ffULL;
@@ -115,7 +115,7 @@ void TriangleTree::search(std::size_t level, std::size_t node, const Vec3& point
     for (std::size_t i = 0; i < count; ++i) children[i] = {squared_distance(below[first + i], place), first + i};
     std::sort(children.begin(), children.begin() + static_cast<std::ptrdiff_t>(count));
     for (std::size_t i = 0; i < count; ++i) {
-        // The box's distance is a float; leave a share for its rounding, so that no nearer triangle is passed over.
+        // The box's distance is a float; subtracts a share for its rounding, so that no nearer triangle is missed.
         const double within = std::sqrt(static_cast<double>(children[i].first)) * (1.0 - 1e-5) -
                               1e-6 * std::sqrt(static_cast<double>(glm::dot(place, place)));
         if (within >= near.distance_m || near.distance_m <= good_enough_m) return;
@@ -127,7 +127,7 @@ void TriangleTree::search(std::size_t level, std::size_t node, const Vec3& point
     }
 }
 
-// Ericson, Real-Time Collision Detection, 5.1.5: by the Voronoi regions of the corners, the edges and the face.
+// Source: Ericson, Real-Time Collision Detection, 5.1.5: by the Voronoi regions of the corners, the edges and the face.
 Vec3 nearest_point(const std::array<Vec3, 3>& triangle, const Vec3& p) {
     const auto& [a, b, c] = triangle;
     const Vec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
@@ -147,4 +147,4 @@ Vec3 nearest_point(const std::array<Vec3, 3>& triangle, const Vec3& p) {
     return a + ab * (vb * whole) + ac * (vc * whole);
 }
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Numbers positions so that equal ones get one number. Equal means bit for bit, -0 counting as 0: no tolerance, so no
-// surprise. Amortised constant time a position; numbers do not depend on the hash.
+// Numbers positions so that equal ones get one number. Equal means bit for bit, -0 counting as 0, with no tolerance.
+// Amortised constant time for each position; numbers do not depend on the hash.
 #pragma once
 
 #include <bit>
@@ -10,13 +10,13 @@
 
 #include "base/space.hpp"
 
-namespace burin {
+namespace burin::geometry {
 
 class VertexWeld {
 public:
     explicit VertexWeld(std::vector<Vec3>& positions) : positions_(positions), slots_(1024, kEmpty) {}
 
-    // The number of the position, which is appended when it is new. Finite positions only.
+    // Returns the number of the position, which is appended when it is new. Requires finite coordinates.
     std::uint32_t index_of(Vec3 p) {
         p += 0.0;  // -0 + 0 is 0
         if (2 * positions_.size() >= slots_.size()) grow();
@@ -33,7 +33,8 @@ public:
 private:
     static constexpr std::uint32_t kEmpty = std::numeric_limits<std::uint32_t>::max();
 
-    // Multiplies and folds; the odd constants are arbitrary bits (the fractions of sqrt 2, sqrt 3 and sqrt 5).
+    // Hashes by multiplying and folding; the odd constants are arbitrary bits (the fractions of sqrt 2, sqrt 3 and sqrt
+    // 5).
     static std::size_t hash(const Vec3& p) {
         std::uint64_t h = std::bit_cast<std::uint64_t>(p.x) * 0x6A09E667F3BCC909u;
         h = (h ^ h >> 32 ^ std::bit_cast<std::uint64_t>(p.y)) * 0xBB67AE8584CAA73Bu;
@@ -54,4 +55,4 @@ private:
     std::vector<std::uint32_t> slots_;
 };
 
-}  // namespace burin
+}  // namespace burin::geometry

@@ -3,67 +3,70 @@
 
 #include <algorithm>
 
-#include "geometry/local_surface_search.hpp"
+#include "geometry/contact/local_surface_search.hpp"
 
-namespace burin {
+namespace burin::haptics {
 
-Candidates::Ball Candidates::ball_around(const Triangle& t) const noexcept {
+Candidates::Ball Candidates::ball_around(const geometry::Triangle& t) const noexcept {
     const Vec3f a(t.a - way_.from), b(t.b - way_.from), c(t.c - way_.from);
     const Vec3f middle = (a + b + c) * (1.0f / 3.0f), to_a = a - middle, to_b = b - middle, to_c = c - middle;
     const float size2 = std::max({glm::dot(to_a, to_a), glm::dot(to_b, to_b), glm::dot(to_c, to_c)});
     return {middle, size2 * 1.00002f};
 }
 
-void Candidates::add(std::uint32_t id, const Triangle& t, const Vec3& unit_normal, const Ball& ball) noexcept {
-    fours_[count_ / kLanes].set(count_ % kLanes, Vec3f(unit_normal),
-                                static_cast<float>(glm::dot(way_.from - t.a, unit_normal)), ball.middle,
-                                std::sqrt(ball.size2) * 1.000001f);
+void Candidates::add(std::uint32_t id, const geometry::Triangle& t, const Vec3& unit_normal,
+                     const Ball& ball) noexcept {
+    fours_[count_ / geometry::kLanes].set(count_ % geometry::kLanes, Vec3f(unit_normal),
+                                          static_cast<float>(glm::dot(way_.from - t.a, unit_normal)), ball.middle,
+                                          std::sqrt(ball.size2) * 1.000001f);
     ids_[count_] = id;
     triangles_[count_] = t;
     ++count_;
 }
 
-// Planes that nothing reaches, so that the last four of the passes are whole.
+// Fills the last group of four with planes that nothing reaches, so that passes need not treat it separately.
 void Candidates::fill_last_four() noexcept {
-    for (std::uint32_t i = count_; i % kLanes != 0; ++i)
-        fours_[i / kLanes].set(i % kLanes, Vec3f(0.0f), HUGE_VALF, Vec3f(0.0f), 0.0f);
+    for (std::uint32_t i = count_; i % geometry::kLanes != 0; ++i)
+        fours_[i / geometry::kLanes].set(i % geometry::kLanes, Vec3f(0.0f), HUGE_VALF, Vec3f(0.0f), 0.0f);
 }
 
-Candidates::Gathered Candidates::gather(const LocalSurface& surface, const Way& way, double radius, double slack,
-                                        std::uint32_t& looks_left) noexcept {
+Candidates::Gathered Candidates::gather(const geometry::LocalSurface& surface, const Way& way, double radius,
+                                        double slack, std::uint32_t& looks_left) noexcept {
     way_ = way;
     slack_ = -1.0;
     count_ = 0;
     const double reach = radius + slack, reach2 = reach * reach;
     const Vec3 motion = way.to - way.from;
     const double length2 = glm::dot(motion, motion), length = std::sqrt(length2);
-    // Heights are at most reach + length where they matter; float keeps 6e-8 of each of four terms.
+    // Only heights of at most reach + length matter; float rounds each of the four terms by 6e-8 of its size.
     rounding_ = static_cast<float>(4e-7 * (reach + length));
-    size_ = static_cast<float>(0.6 * surface.mean_edge_m());  // the ball around an equilateral triangle
+    size_ = static_cast<float>(0.6 * surface.mean_edge_m());  // circumscribed ball of an equilateral triangle
     const Vec3f along = Vec3f(motion), by_length2 = length2 > 0.0 ? along / static_cast<float>(length2) : Vec3f(0.0f);
     const float near_way = static_cast<float>(reach) + 4.0f * rounding_;
     const Weights<2> of = weights<2>({near_way, size_});
-    // What is near the box around a long way need not be near the way.
+    // The bounding box of a long segment also holds triangles that are far from the segment.
     const auto beside = [&](const Ball& ball) {
         const float share = glm::dot(ball.middle, by_length2);
         const Vec3f off = ball.middle - (share < 0.0f ? 0.0f : (share > 1.0f ? 1.0f : share)) * along;
         return glm::dot(off, off) * (1.0f - 4e-6f) > of[0] * near_way * near_way + of[1] * ball.size2;
     };
     bool room = true;
-    Near near{glm::min(way.from, way.to), glm::max(way.from, way.to), reach, looks_left, true, way.from, way.to};
-    const bool complete = for_each_triangle_near(surface, near, [&](std::uint32_t id, const Triangle& t) {
-        const Ball ball = ball_around(t);
-        if (beside(ball)) return true;
-        // All squared and times the normal's length, so that those too far cost no root.
-        const Vec3 normal = glm::cross(t.b - t.a, t.c - t.a);
-        const double size2 = glm::dot(normal, normal);
-        const double at_start = glm::dot(normal, way.from - t.a), at_end = at_start + glm::dot(normal, motion);
-        const double limit = reach2 * size2;
-        if (at_start * at_end > 0.0 && at_start * at_start > limit && at_end * at_end > limit) return true;
-        if (count_ == kMost) return room = false;
-        add(id, t, normal / std::sqrt(size2), ball);
-        return true;
-    });
+    geometry::Near near{
+        glm::min(way.from, way.to), glm::max(way.from, way.to), reach, looks_left, true, way.from, way.to};
+    const bool complete =
+        geometry::for_each_triangle_near(surface, near, [&](std::uint32_t id, const geometry::Triangle& t) {
+            const Ball ball = ball_around(t);
+            if (beside(ball)) return true;
+            // Compares squares scaled by the normal's length, so that triangles too far away cost no square root.
+            const Vec3 normal = glm::cross(t.b - t.a, t.c - t.a);
+            const double size2 = glm::dot(normal, normal);
+            const double at_start = glm::dot(normal, way.from - t.a), at_end = at_start + glm::dot(normal, motion);
+            const double limit = reach2 * size2;
+            if (at_start * at_end > 0.0 && at_start * at_start > limit && at_end * at_end > limit) return true;
+            if (count_ == kMost) return room = false;
+            add(id, t, normal / std::sqrt(size2), ball);
+            return true;
+        });
     looks_left = near.looks_left;
     if (!room) return Gathered::too_many;
     if (!complete) return Gathered::out_of_looks;
@@ -72,4 +75,4 @@ Candidates::Gathered Candidates::gather(const LocalSurface& surface, const Way& 
     return Gathered::all;
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

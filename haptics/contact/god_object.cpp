@@ -10,28 +10,31 @@
 #include "haptics/contact/shading.hpp"
 #include "haptics/contact/touching.hpp"
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
-// As fractions of the ball's radius; kTouch and kTie are in touching.hpp.
-constexpr double kPlane = 1e-9;  // rounding of plane offsets, far below anything felt
+// Fractions of the ball's radius; kTouch and kTie are in touching.hpp.
+constexpr double kPlane = 1e-9;  // bound on the rounding of plane offsets, far below anything felt
 constexpr double kPointProbeOfEdge = 1.0 / 500.0;
-// The proxy stands still when it moves less than this fraction of the radius, or of a twentieth of an edge if that is
+// The proxy is at rest when it moves less than this fraction of the radius, or of a twentieth of an edge if that is
 // more; under shading also when the HIP is off the normal by less than this angle, a tenth of what a hand may notice.
 constexpr double kStill = 1e-5, kStillAngle = 1e-4;
 
-// A plane bears the ball when it is no farther off than this; with friction.
+// Greatest gap, as a fraction of the radius, at which a plane bears the ball with friction.
 constexpr double kBears = 1e-4;
 
+// Depth, as a fraction of the radius, beyond which a plane has sunk into the ball.
 constexpr double kSunk = 5e-3;
 
-// Inside or outside is voted on by what is within this many times the distance of the nearest triangle.
+// Range of the vote on inside or outside, as a multiple of the nearest triangle's distance; one mean edge is added.
 constexpr double kVote = 1.5;
 
-// Pushing out the thousandth of R that edges may sink in can go back and forth between facets. After these steps the
-// ball is only kept from going deeper, so that each step brings it nearer to the HIP and the steps come to an end.
+// Pushing the ball out of the thousandth of R that edges may sink in can alternate between facets. After this many
+// steps the ball is only kept from going deeper, so that each step brings it nearer to the HIP and the steps come to an
+// end.
 constexpr std::uint32_t kPushingSteps = 3;
-// Shading converges in two or three steps. Where it does not, as in a corner of the smooth surface, the ball is left where these took it.
+// Shading converges in two or three steps. Where it does not, as in a corner of the smooth surface, the ball stays
+// where this many steps took it.
 constexpr std::uint32_t kShadingSteps = 10;
 
 Vec3 unit_or_zero(const Vec3& v) {
@@ -39,15 +42,15 @@ Vec3 unit_or_zero(const Vec3& v) {
     return length2 > 0.0 ? v / std::sqrt(length2) : Vec3(0.0);
 }
 
-// How far around `center` the surface is known; negative outside the known ball.
-double known_around(const Vec3& center, const LocalSurface& surface) {
+// Distance from `center` to the border of the ball within which the surface is known; negative outside it.
+double known_around(const Vec3& center, const geometry::LocalSurface& surface) {
     const Vec3 off = center - (surface.center_object - surface.origin_object);
     return surface.radius_m - std::sqrt(glm::dot(off, off));
 }
 
-// Only where the ball around `center` that reaches the nearest triangle lies within what is known is "nearest" the
-// truth.
-bool inside_material(const Nearest& nearest, const Vec3& center, const LocalSurface& surface) {
+// Decides only where the ball around `center` that reaches the nearest triangle lies within the known surface;
+// elsewhere a nearer triangle may be unknown.
+bool inside_material(const Nearest& nearest, const Vec3& center, const geometry::LocalSurface& surface) {
     return nearest.height < 0.0 && nearest.distance <= known_around(center, surface);
 }
 
@@ -57,23 +60,23 @@ Vec3 put_outside(const Nearest& nearest, const Vec3& center, double radius) {
     return nearest.point + radius * way;
 }
 
-// Where the ball is to go from where it is, and what bears it there.
+// The next position of the ball, and the planes that bear it there.
 struct Goal {
     bool found = false;
     Vec3 step{0.0};     // from the centre
     Vec3 normal{0.0};   // unit, of the contact; zero in free space
-    double left = 0.0;  // how far it is to where nothing draws it on
+    double left = 0.0;  // distance left to the position at which the ball is at rest
     double enough = 0.0;
     bool in_contact = false;
     bool is_shaded = false;
-    bool is_hip = false;  // nothing in the way is known of
+    bool is_hip = false;  // no known obstacle lies between the ball and the HIP
 };
 
-// One tick's worth of proxy motion. Everything is relative to the surface's origin.
+// The proxy's motion in one tick. Positions are relative to the surface's origin.
 class Mover {
 public:
-    Mover(const ProxyState& state, const Vec3& hip_object_m, const ProxySettings& settings, const LocalSurface& surface,
-          const ProxyBudget& budget)
+    Mover(const ProxyState& state, const Vec3& hip_object_m, const ProxySettings& settings,
+          const geometry::LocalSurface& surface, const ProxyBudget& budget)
         : settings_(settings),
           surface_(surface),
           budget_(budget),
@@ -104,23 +107,24 @@ public:
     }
 
 private:
-    // Looks where the ball will probably go: on along the surface as it went, or to the HIP. And puts it outside if it is
-    // inside material.
+    // Runs the broad phase along the ball's expected motion (that of the last tick, or towards the HIP), and puts the
+    // ball outside if it is inside material.
     bool begin(const ProxyState& state) {
         const Vec3 pull = hip_ - center_;
         Vec3 onward = state.touching ? state.motion_object_m : pull;
         if (glm::dot(onward, onward) > 4.0 * glm::dot(pull, pull) + radius_ * radius_)
-            onward = Vec3(0.0);  // not of this walk
-        if (!search_.look_along({center_, center_ + onward}) || !touch()) return false;
+            // The hand has turned back or stopped: the last motion is no guess for this one.
+            onward = Vec3(0.0);
+        if (!search_.broad_phase({center_, center_ + onward}) || !touch()) return false;
         const bool unsure = !state.placed || state.surface_sequence != surface_.sequence;
         if (unsure && !(nearest_.distance < HUGE_VAL))
             nearest_ = search_.nearest(center_, known_around(center_, surface_));
         if (!inside_material(nearest_, center_, surface_)) return true;
-        // A facet folded over may be the nearest, and show its back to a ball that is outside.
+        // A facet folded over may be nearest and show its back to a ball that is outside.
         if (!search_.sees_backs(center_, kVote * nearest_.distance + edge_)) return true;
         center_ = put_outside(nearest_, center_, radius_);
         result_.pushed_out = true;
-        return search_.look_along({center_, center_}) && touch();
+        return search_.broad_phase({center_, center_}) && touch();
     }
 
     bool touch() {
@@ -136,7 +140,7 @@ private:
         if (rubs && touches_.count > 0 && !(pushing && sunk())) return held_goal();
         const Vec3 pull = hip_ - center_;
         NearestInside plain = nearest_in(touches_.span(), pull);
-        if (!plain.found && pushing) {  // there is no room to be pushed out into
+        if (!plain.found && pushing) {  // there is no free space to be pushed out into
             only_no_deeper();
             plain = nearest_in(touches_.span(), pull);
         }
@@ -170,14 +174,15 @@ private:
         return goal;
     }
 
-    // Deeper in what it touches than sweeps and edges leave it: the surface has come to it. Friction does not hold it there.
+    // Whether the ball is deeper in a touched plane than sweeps and edges leave it: the surface has moved onto it.
+    // Friction does not hold it there.
     [[nodiscard]] bool sunk() const {
         for (const HalfSpace& plane : touches_.span())
             if (plane.offset > kSunk * radius_) return true;
         return false;
     }
 
-    // With friction: what bears the ball is what it lies on, not what it would come to on its way.
+    // The goal with friction: only planes that the ball lies on bear it, not those that it would meet on its way.
     Goal held_goal() {
         const Vec3 pull = hip_ - center_;
         const std::uint32_t bearing = put_first_what_bears();
@@ -189,8 +194,9 @@ private:
         hold(goal, pull);
         const Vec3 slide = goal.step;
         onto_surface(goal);
-        // Facets touched farther on, whose planes rise steeply, may lift the ball off what it slides on and away from the HIP, and it
-        // would fall back for ever. It slides up to the first of them instead, which then bears it too.
+        // Facets touched farther on, whose planes rise steeply, may lift the ball off the surface it slides on and away
+        // from the HIP, and it would fall back for ever. It slides up to the first of them instead, which then bears it
+        // too.
         if (glm::length(pull - goal.step) > glm::length(pull) + deepest_of(bearing) + still_) {
             goal.step = share_to_first_plane(slide) * slide;
             goal.left = glm::length(goal.step);
@@ -198,14 +204,15 @@ private:
         return goal;
     }
 
-    // How deep the ball is in what bears it, out of which it is lifted in any case.
+    // Greatest depth of the ball in its bearing planes, out of which it is lifted in any case.
     [[nodiscard]] double deepest_of(std::uint32_t bearing) const {
         double deepest = 0.0;
         for (std::uint32_t i = 0; i < bearing; ++i) deepest = std::max(deepest, touches_.planes[i].offset);
         return deepest;
     }
 
-    // The planes that the ball is on, through its centre, in flat_; they come first among the touches too.
+    // Moves the touches whose planes bear the ball to the front, and copies these planes, shifted through its centre,
+    // to flat_. Returns their number.
     std::uint32_t put_first_what_bears() {
         std::uint32_t count = 0;
         for (std::uint32_t i = 0; i < touches_.count; ++i) {
@@ -228,7 +235,7 @@ private:
         return std::max(share, 0.0);
     }
 
-    // Towards the HIP until the first plane bears the ball.
+    // Moves towards the HIP until the first plane bears the ball.
     Goal falling(const Vec3& pull) {
         const double share = share_to_first_plane(pull);
         Goal goal;
@@ -253,7 +260,7 @@ private:
         goal.enough = std::max(still_, kStillAngle * -glm::dot(pull, goal.normal));
     }
 
-    // Friction takes its part of the way along the surface, or all of it.
+    // Lets friction shorten the displacement along the surface, possibly to zero.
     void hold(Goal& goal, const Vec3& pull) {
         const double depth = -glm::dot(pull, goal.normal);
         const Vec3 along = pull + depth * goal.normal;
@@ -266,7 +273,7 @@ private:
         goal.step = share * along;
     }
 
-    // Where the ball is wanted along the surface, but on the true planes.
+    // Moves the goal along the surface onto the true planes.
     void onto_surface(Goal& goal) {
         if (goal.step == Vec3(0.0)) return;
         const double share = goal.is_shaded ? step_share_.of(center_, goal.step) : 1.0;
@@ -301,11 +308,12 @@ private:
 
     enum class Going : std::uint8_t { on, arrived_free, out_of_work };
 
-    // In contact the goal is near, and is looked at before the ball goes there. Out of contact it may be the HIP deep inside, while
-    // the surface is a hair's breadth away, beyond an edge: the ball goes as far as is known first.
+    // In contact the goal is near, so the broad phase is repeated around it before the ball moves. Out of contact the
+    // goal may be the HIP deep inside while the surface is close, beyond an edge, so the ball first moves as far as the
+    // surface is known.
     Going go(const Goal& goal) {
         const Vec3 end = center_ + goal.step;
-        if (goal.in_contact && !search_.knows(end) && !(search_.look_along({center_, end}) && touch()))
+        if (goal.in_contact && !search_.knows(end) && !(search_.broad_phase({center_, end}) && touch()))
             return Going::out_of_work;
         const double share = search_.known_share(center_, goal.step);
         const auto sweep = search_.sweep(center_, share * goal.step);
@@ -314,10 +322,10 @@ private:
         if (all && goal.is_hip) return Going::arrived_free;
         center_ += (share * sweep.fraction) * goal.step;
         const bool unseen = share < 1.0 && sweep.fraction >= 1.0;
-        return unseen && !search_.look_along({center_, end}) ? Going::out_of_work : Going::on;
+        return unseen && !search_.broad_phase({center_, end}) ? Going::out_of_work : Going::on;
     }
 
-    // The proxy is the HIP, exactly.
+    // Free space: the proxy is the HIP, exactly.
     ProxyResult free() {
         result_.constraints = 0;
         result_.active_triangle = ProxyResult{}.active_triangle;
@@ -332,12 +340,13 @@ private:
         return result_;
     }
 
-    // Work is used up, or no goal was found among planes that nearly agree: the proxy waits where it is safe, and goes on in the
-    // next tick. What it lies on bears it all the same.
+    // Ends the tick early: the work budget is used up, or no goal was found among nearly parallel planes. The proxy
+    // waits at a safe position and continues in the next tick; the planes it lies on still bear it.
     ProxyResult limited() {
         result_.work_limited = true;
         if (result_.constraints == 0) note_most_opposed();
-        if (result_.constraints == 0 && last_.constraints > 0) {  // between two facets on its way
+        // Between two facets no plane bears the ball: the last contact of this tick is reported.
+        if (result_.constraints == 0 && last_.constraints > 0) {
             result_.constraints = last_.constraints;
             result_.active_triangle = last_.triangle;
         }
@@ -354,7 +363,7 @@ private:
     }
 
     ProxySettings settings_;
-    const LocalSurface& surface_;
+    const geometry::LocalSurface& surface_;
     ProxyBudget budget_;
     double edge_, radius_, still_;
     Vec3 hip_, center_{0.0}, began_{0.0};
@@ -362,21 +371,21 @@ private:
     ContactSearch search_;
     SmoothFacets facets_;
     Touches touches_;
-    Room<HalfSpace, Touches::kMost> flat_;
+    StaticVector<HalfSpace, Touches::kMost> flat_;
     Nearest nearest_;
     StepShare step_share_;
     struct {
         std::uint32_t constraints = 0, triangle = 0;
-    } last_;              // what bore the ball last in this tick
-    bool slips_ = false;  // of the two cones it is the dynamic one that holds
+    } last_;              // the last contact found in this tick
+    bool slips_ = false;  // the cone of dynamic friction applies, not the static one
     bool slid_ = false;   // in this tick
 };
 
 }  // namespace
 
 ProxyResult move_proxy(const ProxyState& state, const Vec3& hip_object_m, const ProxySettings& settings,
-                       const LocalSurface& surface, const ProxyBudget& budget) noexcept {
-    if (!(surface.mean_edge_m() > 0.0)) {  // nothing there to touch
+                       const geometry::LocalSurface& surface, const ProxyBudget& budget) noexcept {
+    if (!(surface.mean_edge_m() > 0.0)) {  // the surface is empty
         ProxyResult free;
         free.next = {hip_object_m, surface.sequence, true};
         return free;
@@ -385,4 +394,4 @@ ProxyResult move_proxy(const ProxyState& state, const Vec3& hip_object_m, const 
     return mover.move(state);
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

@@ -3,12 +3,12 @@
 
 #include <cmath>
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 constexpr std::uint32_t kMostExchanges = 48;
 
-// A set of one to three planes borne on exactly.
+// A candidate set of one to three active planes.
 struct Bearing {
     std::array<std::uint32_t, 3> planes{};
     std::uint32_t count = 0;
@@ -20,7 +20,7 @@ struct Projection {
     std::array<double, 3> weights{};
 };
 
-// The point nearest to the goal on the planes' intersection. Planes nearly parallel have none worth using.
+// The point on the planes' intersection that is nearest to the goal. Not valid for nearly parallel planes.
 Projection project(std::span<const HalfSpace> spaces, const Bearing& set, const Vec3& goal) {
     Projection result;
     const auto plane = [&](std::size_t i) -> const HalfSpace& { return spaces[set.planes[i]]; };
@@ -55,9 +55,9 @@ Projection project(std::span<const HalfSpace> spaces, const Bearing& set, const 
 
 double lack_at(const HalfSpace& space, const Vec3& x) { return space.offset - glm::dot(space.normal, x); }
 
-// The optimum over the old bearing planes and the added one, which bears for sure since the old optimum violates it:
-// the added plane alone, with each old one, with each pair. A point that satisfies all of them with no negative weight
-// is the only optimum, so the first found will do.
+// Finds the optimum over the old bearing planes and the added one. The added plane certainly bears, since the old
+// optimum violates it; so the subsets are: the added plane alone, with each old one, with each pair. A point that
+// satisfies all planes with no negative weight is the unique optimum, so the first found is returned.
 NearestInside exchange(std::span<const HalfSpace> spaces, const NearestInside& old, std::uint32_t added,
                        const Vec3& goal, double tolerance) {
     constexpr std::array<std::array<std::uint32_t, 2>, 7> kSubsets{
@@ -90,7 +90,7 @@ NearestInside exchange(std::span<const HalfSpace> spaces, const NearestInside& o
     return result;
 }
 
-// What most ticks ask.
+// Shortcut for a single plane, the most common case.
 NearestInside on_one(const HalfSpace& space, const Vec3& goal, double tolerance) {
     NearestInside result;
     result.found = true;
@@ -127,4 +127,4 @@ NearestInside nearest_inside(std::span<const HalfSpace> spaces, const Vec3& goal
     return best;
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

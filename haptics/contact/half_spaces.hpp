@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The point nearest to a goal in an intersection of half-spaces: where the god-object goes.
+// The point of an intersection of half-spaces that is nearest to a goal: the god-object's next goal.
 //
-// Exact (no penalty, no relaxation): at most three planes bear the answer, each with a weight that is not negative,
-// which is Zilles and Salisbury's rule for the active planes. Found by adding the most violated plane to the bearing
-// ones and keeping the best subset; the distance to the goal grows with every exchange, so it ends. Pure, no heap, no
+// Exact (no penalty, no relaxation): at most three planes bear the answer, each with a non-negative weight, which is
+// Zilles and Salisbury's rule for the active planes. Found by adding the most violated plane to the bearing planes and
+// keeping the best subset; the distance to the goal grows with every exchange, so the search ends. Pure, no heap, no
 // throw.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 #include "base/space.hpp"
 
-namespace burin {
+namespace burin::haptics {
 
 struct HalfSpace {
     Vec3 normal{0.0};     // unit
@@ -34,4 +34,4 @@ struct NearestInside {
 [[nodiscard]] NearestInside nearest_inside(std::span<const HalfSpace> spaces, const Vec3& goal,
                                            double tolerance) noexcept;
 
-}  // namespace burin
+}  // namespace burin::haptics

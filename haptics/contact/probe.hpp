@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What touches: a tool as a set of balls, each with a proxy of its own. One ball for a stylus, two for the wand's ends, a
-// patch of small ones for a fingertip.
+// The shape that touches: a tool as a set of balls, each with its own proxy. One ball for a stylus, two for the wand's
+// ends, a patch of small ones for a fingertip.
 //
-// Frame: offsets are in the tool's own axes, in metres at the device; where the tool is and how it is turned comes from the
-// device's sample. Ball i is at P_i = R T_i + P in the device frame (R the orientation, T_i the offset, P the position),
-// and then in the object frame by the workspace's mapping, gain included. Radii are in the object frame.
+// Frame: offsets are in the tool's own axes, in metres at the device; the tool's position and orientation come from the
+// device's sample. Ball i is at P_i = R T_i + P in the device frame (R the orientation, T_i the offset, P the
+// position), and then in the object frame by the workspace's mapping, gain included. Radii are in the object frame.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 #include "base/space.hpp"
 
-namespace burin {
+namespace burin::haptics {
 
 inline constexpr std::uint32_t kMostProbePoints = 20;  // four fingers of five points
 
@@ -32,4 +32,4 @@ struct Probe {
     return probe;
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

@@ -6,25 +6,28 @@
 
 #include "haptics/contact/triangle_contact.hpp"
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
-constexpr double kSmooth = 0.7;        // cosine: a corner's normal of a smooth piece is no farther from its facet's
-constexpr double kSameNormal = 0.05;   // facets agree about a shared point's normal to within this
-constexpr double kOneRegion = 0.9;     // cosine: planes that may belong to one smooth piece
-constexpr double kLeastArea = 0.25;    // of a moved triangle, over the facet's: less is a hollow too tight for the ball
-constexpr double kBeyondFacet = 0.25;  // how far normals are carried on past a facet, in barycentric coordinates
+// Cosine: in a smooth piece a corner's normal is at least this close to its facet's.
+constexpr double kSmooth = 0.7;
+constexpr double kSameNormal = 0.05;  // greatest difference between facets' normals at a shared point
+constexpr double kOneRegion = 0.9;    // cosine: planes closer than this may belong to one smooth piece
+// Area of the moved triangle over the facet's; less means a hollow too tight for the ball.
+constexpr double kLeastArea = 0.25;
+constexpr double kBeyondFacet = 0.25;  // how far normals are extrapolated past a facet, in barycentric coordinates
 constexpr std::uint32_t kMostTried = 24;
 constexpr std::uint32_t kManyTouches = 16;
-constexpr double kAsNear = 1.0 + 4e-4;  // of distances squared
+constexpr double kAsNear = 1.0 + 4e-4;  // ratio of squared distances that count as equal
 
 using Facet = SmoothFacet;
 
-std::optional<Facet> facet_of(const LocalSurface& surface, const Candidates& candidates, std::uint32_t candidate) {
-    const CornerNormals corners = surface.corner_normals(candidates.id(candidate));
+std::optional<Facet> facet_of(const geometry::LocalSurface& surface, const Candidates& candidates,
+                              std::uint32_t candidate) {
+    const geometry::CornerNormals corners = surface.corner_normals(candidates.id(candidate));
     if (!corners.known) return std::nullopt;
     Facet facet{candidates.triangle(candidate), {}, {}};
-    const Triangle& t = facet.triangle;
+    const geometry::Triangle& t = facet.triangle;
     facet.normal = glm::cross(t.b - t.a, t.c - t.a);
     const double least = kSmooth * std::sqrt(glm::dot(facet.normal, facet.normal));
     for (std::size_t k = 0; k < 3; ++k) {
@@ -34,8 +37,9 @@ std::optional<Facet> facet_of(const LocalSurface& surface, const Candidates& can
     return facet;
 }
 
-// Barycentric coordinates of p's foot on the triangle; its normal must point to the side of `outward`, with some length.
-std::optional<Vec3> coordinates(const Triangle& t, const Vec3& outward, const Vec3& p) {
+// Barycentric coordinates of p's foot on the triangle. None where the triangle's normal, projected on `outward`, is
+// shorter than kLeastArea of it or points the other way.
+std::optional<Vec3> coordinates(const geometry::Triangle& t, const Vec3& outward, const Vec3& p) {
     const Vec3 normal = glm::cross(t.b - t.a, t.c - t.a);
     if (!(glm::dot(normal, outward) >= kLeastArea * glm::dot(outward, outward))) return std::nullopt;
     const double size2 = glm::dot(normal, normal);
@@ -50,7 +54,7 @@ Vec3 interpolated(const Facet& facet, const Vec3& coordinates) {
     return sum / std::sqrt(glm::dot(sum, sum));
 }
 
-Triangle moved_out(const Facet& facet, double radius) {
+geometry::Triangle moved_out(const Facet& facet, double radius) {
     return {facet.triangle.a + radius * facet.normals[0], facet.triangle.b + radius * facet.normals[1],
             facet.triangle.c + radius * facet.normals[2]};
 }
@@ -80,7 +84,7 @@ private:
         Vec3 normal{0.0};
     };
 
-    // Which facet's piece of the smooth surface the centre is over: the one it is farthest inside of.
+    // Keeps the facet under the centre: the one whose moved triangle contains it by the largest margin.
     void look_at(Best& best, const Facet& facet) const {
         const auto at = coordinates(moved_out(facet, radius_), facet.normal, center_);
         if (!at || least_of(*at) <= best.inside) return;
@@ -89,7 +93,7 @@ private:
         best = {true, least_of(*at), interpolated(facet, held)};
     }
 
-    // At the other facets touched on this side; of very many only at those that are as near as any.
+    // Tries the other facets touched on this side; if there are very many, only those about as near as the nearest.
     void look_beside(Best& best, std::uint32_t touch) const {
         const Vec3& way = touches_.planes[touch].normal;
         const bool many = touches_.count > kManyTouches;
@@ -110,7 +114,7 @@ private:
         return glm::dot(off, off);
     }
 
-    // A point on an edge or at a corner: all facets there must have one normal for it.
+    // Whether all facets that meet at a point on an edge or corner agree about its normal.
     [[nodiscard]] bool agreed(const Facet& own, std::uint32_t touch) const {
         const Touches::Place& place = touches_.places[touch];
         if (place.on_face) return true;
@@ -196,4 +200,4 @@ double StepShare::of(const Vec3& center, const Vec3& wish) noexcept {
     return share;
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

@@ -1,68 +1,69 @@
 // SPDX-License-Identifier: MIT
-// Force shading: the normals that the surface would have if it were as smooth as the normals at its corners say.
+// Force shading: contact with the smooth surface that the corner normals of the facets describe.
 //
-// After Ruspini et al. 1997: the god-object's goal is sought under planes turned into the interpolated normals, and the true
-// planes only keep the ball outside. Where it comes to rest the HIP lies straight below it along the interpolated normal, and
-// that normal is continuous over the surface, across edges and corners of facets, so the force is too.
+// After Ruspini et al. 1997: the god-object's goal is sought under planes turned into the interpolated normals, and the
+// true planes only keep the ball outside. Where it comes to rest the HIP lies straight below it along the interpolated
+// normal. That normal is continuous over the surface, across edges and corners of facets, and so is the force.
 //
-// A ball's centre goes over an offset surface, on which it lies over a corner or an edge most of the time while the nearest
-// point of the facets stands still. So the interpolation is done where the centre is: over the triangle whose corners are moved
+// A ball's centre moves on an offset surface: most of the time it lies above a corner or an edge, and the nearest point
+// of the facets does not move. So the normal is interpolated at the centre, over the triangle whose corners are moved
 // along their normals by the radius. For a point that is the facet itself.
-// Sharp edges stay sharp: where facets that share the nearest point disagree about its normal, and where normals at the
-// corners turn away from the facet by more than 45 degrees, the plane stays as it is. So it does in a hollow too tight for
-// the ball, where the moved triangle has turned over.
+// Sharp edges stay sharp: a plane is not turned where facets that share the nearest point disagree about its normal,
+// nor where normals at the corners turn away from the facet by more than 45 degrees, nor in a hollow too tight for the
+// ball, where the moved triangle has turned over.
 #pragma once
 
 #include <array>
 #include <optional>
 
-#include "haptics/contact/room.hpp"
+#include "haptics/contact/static_vector.hpp"
 #include "haptics/contact/touching.hpp"
 
-namespace burin {
+namespace burin::haptics {
 
 struct ShadedPlanes {
-    std::array<HalfSpace, 3> planes;  // those that bear the ball, as the smooth surface has them
+    std::array<HalfSpace, 3> planes;  // the planes that bear the ball, turned to the smooth surface
     std::uint32_t count = 0;
-    bool any = false;  // false: all are as they were
+    bool any = false;  // false: no plane was turned
 };
 
 // A triangle of a smooth piece of surface.
 struct SmoothFacet {
-    Triangle triangle;
+    geometry::Triangle triangle;
     Vec3 normal;  // of any length
     std::array<Vec3, 3> normals;
 };
 
-// Remembers the last few that were asked about: a tick's steps ask about the same ones again, and finding normals takes a way
-// through the surface's tree.
+// Caches the last few facets that were asked for: the steps of a tick ask for the same ones again, and finding corner
+// normals takes a descent through the surface's tree.
 class SmoothFacets {
 public:
-    explicit SmoothFacets(const LocalSurface& surface) noexcept : surface_(surface) {}
-    // None if it is not known to be part of a smooth surface.
+    explicit SmoothFacets(const geometry::LocalSurface& surface) noexcept : surface_(surface) {}
+    // Returns nothing for a candidate that is not known to be part of a smooth surface.
     [[nodiscard]] std::optional<SmoothFacet> of(const Candidates& candidates, std::uint32_t candidate) noexcept;
 
 private:
     static constexpr std::uint32_t kMost = 8;
-    const LocalSurface& surface_;
+    const geometry::LocalSurface& surface_;
     std::array<std::uint32_t, kMost> ids_;
     std::array<bool, kMost> is_smooth_;
-    Room<SmoothFacet, kMost> facets_;
-    std::uint32_t count_ = 0;  // ever asked for; the newest is in place (count_ - 1) % kMost
+    StaticVector<SmoothFacet, kMost> facets_;
+    std::uint32_t count_ = 0;  // facets ever asked for; the newest is in slot (count_ - 1) % kMost
 };
 
-// Of the planes that `goal` bears on. Corner normals looked up: at most about 30 for each of them.
+// Shades the planes that bear `goal`. Looks up corner normals at most about 30 times for each plane.
 [[nodiscard]] ShadedPlanes shaded(SmoothFacets& facets, const Candidates& candidates, const Touches& touches,
                                   const NearestInside& goal, const Vec3& center, double radius) noexcept;
 
-// The way to where the shaded planes want the ball, `wish` along `normal`, onto the true planes: never through them, and not off
-// them either. Relative to the centre.
+// Moves the ball's goal under the shaded planes, `wish`, along `normal` onto the true planes: neither through them nor
+// off them. All relative to the ball's centre.
 [[nodiscard]] Vec3 onto_true_planes(const Touches& touches, const Vec3& wish, const Vec3& normal,
                                     double tolerance) noexcept;
 
-// On a hollow the way along the tangent plane overshoots what is nearest, and on a bump it falls short: by as much as the HIP is
-// deep over the radius of curvature. How much of it to go, from how much was left of it after the last step (Barzilai and
-// Borwein, "Two-point step size gradient methods", IMA Journal of Numerical Analysis 8, 1988).
+// Step length of the ball under shading. In a hollow a step along the tangent plane overshoots the nearest point, and
+// on a bump it falls short, by the ratio of the HIP's depth to the radius of curvature. The fraction to go is estimated
+// from what was left after the last step (Barzilai and Borwein, "Two-point step size gradient methods", IMA Journal of
+// Numerical Analysis 8, 1988).
 class StepShare {
 public:
     [[nodiscard]] double of(const Vec3& center, const Vec3& wish) noexcept;
@@ -72,4 +73,4 @@ private:
     Vec3 center_{0.0}, wish_{0.0};
 };
 
-}  // namespace burin
+}  // namespace burin::haptics

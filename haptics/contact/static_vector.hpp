@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Room for a bounded number of things on the stack, none of which is there until it is put: making room costs nothing.
+// A vector of bounded size on the stack whose elements are uninitialized until they are put, so that construction costs
+// nothing.
 #pragma once
 
 #include <cstddef>
@@ -8,17 +9,17 @@
 #include <span>
 #include <type_traits>
 
-namespace burin {
+namespace burin::haptics {
 
 template <typename T, std::uint32_t kMost>
-class Room {
+class StaticVector {
     static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
 
 public:
-    Room() noexcept {}
-    // Index below kMost.
+    StaticVector() noexcept {}
+    // Sets element i, i < kMost.
     void put(std::uint32_t i, const T& value) noexcept { std::construct_at(data() + i, value); }
-    // Of what was put.
+    // Reads an element; it must have been put.
     [[nodiscard]] T& operator[](std::uint32_t i) noexcept { return data()[i]; }
     [[nodiscard]] const T& operator[](std::uint32_t i) const noexcept { return data()[i]; }
     [[nodiscard]] std::span<const T> first(std::uint32_t count) const noexcept { return {data(), count}; }
@@ -29,4 +30,4 @@ private:
     alignas(T) std::byte bytes_[sizeof(T) * kMost];
 };
 
-}  // namespace burin
+}  // namespace burin::haptics

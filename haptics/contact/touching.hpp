@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What a ball touches where it is, and how far it may go: the god-object's questions to the surface, each with its work
-// counted against the tick's budget.
+// Contact queries of the god-object for a ball: the triangles it touches and how far it may move. The work of each
+// query is counted against the tick's budget.
 //
-// Tolerances are fractions of the ball's radius; see haptics/contact/god_object.hpp. Frame: relative to the surface's origin,
-// metres. No heap, lock, throw.
+// Tolerances are fractions of the ball's radius; see haptics/contact/god_object.hpp. Frame: relative to the surface's
+// origin, metres. No heap, lock, throw.
 #pragma once
 
 #include <array>
@@ -13,24 +13,26 @@
 #include "haptics/contact/candidates.hpp"
 #include "haptics/contact/god_object.hpp"
 #include "haptics/contact/half_spaces.hpp"
-#include "haptics/contact/room.hpp"
+#include "haptics/contact/static_vector.hpp"
 
-namespace burin {
+namespace burin::haptics {
 
+// A triangle counts as touched within this fraction of the radius.
 inline constexpr double kTouch = 1e-3;
-inline constexpr double kTie = 1e-6;  // two triangles share their nearest point: an edge or a corner
+// Two triangles within this fraction of the radius share their nearest point: an edge or a corner.
+inline constexpr double kTie = 1e-6;
 
 // The half-spaces, relative to the ball's centre, of the triangles that it touches from outside.
 struct Touches {
-    static constexpr std::uint32_t kMost = 1024;  // a ball lying in its own groove touches about 100 facets
+    static constexpr std::uint32_t kMost = 1024;  // a ball in its own groove touches about 100 facets
 
     struct Place {
-        Vec3 point{0.0};  // of the triangle, nearest to the centre
+        Vec3 point{0.0};  // the triangle's point nearest to the centre
         std::uint32_t candidate = 0;
         bool on_face = false;  // inside the triangle; else on an edge or a corner
     };
-    Room<HalfSpace, kMost> planes;
-    Room<Place, kMost> places;
+    StaticVector<HalfSpace, kMost> planes;
+    StaticVector<Place, kMost> places;
     std::uint32_t count = 0;
 
     [[nodiscard]] std::span<const HalfSpace> span() const { return planes.first(count); }
@@ -43,40 +45,44 @@ struct Nearest {
     Vec3 normal{0.0};
 };
 
-// One tick's questions for a ball of one radius.
+// The queries of one tick for a ball of one radius.
 class ContactSearch {
 public:
-    ContactSearch(const LocalSurface& surface, double radius, const ProxyBudget& budget, ProxyWork& work) noexcept
+    ContactSearch(const geometry::LocalSurface& surface, double radius, const ProxyBudget& budget,
+                  ProxyWork& work) noexcept
         : surface_(surface), radius_(radius), budget_(budget), work_(work) {}
 
-    // Makes known what the ball may touch on the way and a little beside it. If there is no room for so much, a shorter way
-    // from its beginning. False when the tick's work is used up.
-    [[nodiscard]] bool look_along(const Way& way) noexcept;
+    // Broad phase: gathers the triangles that the ball may touch along the segment and a little beside it. If there are
+    // too many, covers a shorter part of the segment from its beginning. Returns false when the tick's work budget is
+    // used up.
+    [[nodiscard]] bool broad_phase(const Way& way) noexcept;
     [[nodiscard]] bool knows(const Vec3& center) const noexcept { return candidates_.covers(center); }
-    // The share of the way from a known centre that stays within what is known.
+    // The fraction of the motion from a covered centre that stays within what broad_phase() covers.
     [[nodiscard]] double known_share(const Vec3& center, const Vec3& motion) const noexcept;
 
     struct Touching {
-        Nearest nearest;  // of all triangles within reach, whichever side they turn
+        Nearest nearest;  // of all triangles within reach, from either side
         bool complete = true;
     };
-    // At a known centre.
+    // Finds the touched triangles at a covered centre.
     [[nodiscard]] Touching touching(const Vec3& center, Touches& touches) noexcept;
 
     struct Sweep {
         double fraction = 1.0;
         bool complete = true;
     };
-    // How far the ball may go, all triangles considered but those that touch already: of the last touching(). Both ends known.
+    // How far the ball may move before it meets a triangle, except those that the last touching() found. Both ends must
+    // be covered.
     [[nodiscard]] Sweep sweep(const Vec3& center, const Vec3& motion) noexcept;
 
-    // The nearest triangle of all, by boxes that double until what they found must be it. Of those that are farther than
-    // `most` any or none; none too when the work is used up. Knows nothing of what look_along found.
+    // The nearest triangle of the whole surface, searched in boxes that double until the one found must be the nearest.
+    // Of triangles farther than `most`, returns any or none; returns none too when the work budget is used up.
+    // Independent of broad_phase().
     [[nodiscard]] Nearest nearest(const Vec3& center, double most) noexcept;
 
-    // Whether the surface within reach shows its back to the centre on the whole: by the solid angles that its triangles take up, so
-    // that a facet folded over, as a surface under carving may have, is outvoted by those around it. False when the tick's work
-    // is used up.
+    // Whether most of the surface within reach shows its back to the centre, weighted by the solid angles of its
+    // triangles: a facet folded over, which a surface under carving may have, is outvoted by those around it. False
+    // when the tick's work budget is used up.
     [[nodiscard]] bool sees_backs(const Vec3& center, double reach) noexcept;
 
     [[nodiscard]] const Candidates& candidates() const noexcept { return candidates_; }
@@ -89,13 +95,13 @@ private:
     }
     void keep_nearest(Nearest& best, const Nearest& other) const noexcept;
 
-    const LocalSurface& surface_;
+    const geometry::LocalSurface& surface_;
     double radius_;
     ProxyBudget budget_;
     ProxyWork& work_;
     int looks_taken_ = 0;
     Candidates candidates_;
-    Room<bool, Candidates::kMost> touches_already_;  // of those below candidates_.count()
+    StaticVector<bool, Candidates::kMost> touches_already_;  // indices below candidates_.count()
 };
 
-}  // namespace burin
+}  // namespace burin::haptics

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 double clamp01(double x) { return x < 0.0 ? 0.0 : (x > 1.0 ? 1.0 : x); }
@@ -14,20 +14,20 @@ Vec3 nearest_on_edge(const Vec3& p, const Vec3& a, const Vec3& b) {
     return a + e * clamp01(glm::dot(p - a, e) / glm::dot(e, e));
 }
 
-// The root at which A t^2 + 2 B t + C passes from above 0 to below, or kNoTouch. C > 0: outside at the start.
+// The root at which A t^2 + 2 B t + C passes from positive to negative, or kNoTouch. C > 0: outside at the start.
 double entry(double A, double B, double C) {
     if (!(C > 0.0) || !(B < 0.0)) return kNoTouch;
     const double discriminant = B * B - A * C;
     if (discriminant < 0.0) return kNoTouch;
-    return C / (-B + std::sqrt(discriminant));  // the form that does not cancel
+    return C / (-B + std::sqrt(discriminant));  // the form without cancellation
 }
 
 struct Sweep {
     Vec3 center, motion;
     double radius;
-    double height, approach;  // of the centre above the plane: at the start, and how it changes on the way
+    double height, approach;  // height of the centre above the plane at the start, and its change over the motion
 
-    // Touching from behind is not touching: the ball is on its way out of the material. What is touched lies in the plane.
+    // Discards a touch from behind: the ball is on its way out of the material. The touched point lies in the plane.
     [[nodiscard]] double if_from_outside(double t) const {
         return t <= 1.0 && height + t * approach >= -1e-6 * radius ? t : kNoTouch;
     }
@@ -37,7 +37,7 @@ struct Sweep {
         if (!(from_motion < 0.0)) return kNoTouch;
         return if_from_outside(entry(glm::dot(motion, motion), from_motion, glm::dot(from, from) - radius * radius));
     }
-    // The cylinder around the edge; its ends belong to the corners.
+    // Sweeps against the cylinder around the edge; its ends are handled as corners.
     [[nodiscard]] double until_edge(const Vec3& a, const Vec3& b) const {
         const Vec3 e = b - a, from = center - a;
         const double per_e2 = 1.0 / glm::dot(e, e), from_e = glm::dot(from, e);
@@ -55,14 +55,14 @@ struct Sweep {
 
 }  // namespace
 
-Vec3 outward_normal(const Triangle& t) noexcept {
+Vec3 outward_normal(const geometry::Triangle& t) noexcept {
     const Vec3 n = glm::cross(t.b - t.a, t.c - t.a);
     return n / std::sqrt(glm::dot(n, n));
 }
 
-// All from the products of the two edges at `a` with each other and with p - a: the barycentric coordinates of p's foot
-// tell which edges p is beyond, and the nearest point then is the foot or lies on one of those.
-NearestOnTriangle nearest_on_triangle(const Vec3& p, const Triangle& t) noexcept {
+// Works from the dot products of the two edges at `a` with each other and with p - a: the barycentric coordinates of
+// p's foot decide which edges p is beyond, and the nearest point is then the foot or lies on one of those edges.
+NearestOnTriangle nearest_on_triangle(const Vec3& p, const geometry::Triangle& t) noexcept {
     const Vec3 u = t.b - t.a, v = t.c - t.a, w = p - t.a;
     const double uu = glm::dot(u, u), uv = glm::dot(u, v), vv = glm::dot(v, v);
     const double wu = glm::dot(w, u), wv = glm::dot(w, v);
@@ -71,7 +71,7 @@ NearestOnTriangle nearest_on_triangle(const Vec3& p, const Triangle& t) noexcept
     const double along_v = uu * wv - uv * wu;
     if (along_u >= 0.0 && along_v >= 0.0 && along_u + along_v <= area)
         return {t.a + u * (along_u / area) + v * (along_v / area), true};
-    // With an obtuse corner p may be beyond two edges, and the nearest point on either.
+    // At an obtuse corner p may be beyond two edges, and the nearest point may lie on either.
     NearestOnTriangle best;
     double best2 = HUGE_VAL;
     const auto consider = [&](const Vec3& q) {
@@ -84,9 +84,10 @@ NearestOnTriangle nearest_on_triangle(const Vec3& p, const Triangle& t) noexcept
     return best;
 }
 
-// Barycentric coordinates of the centre's foot, times (twice the area)^2, tell on which side of each edge it is, and so most
-// triangles from those whose edges and corners need a look.
-double fraction_until_touch(const Vec3& center, const Vec3& motion, double radius, const Triangle& t) noexcept {
+// The barycentric coordinates of the centre's foot, times (twice the area)^2, give its side of each edge. They rule out
+// most triangles before edges and corners are tested.
+double fraction_until_touch(const Vec3& center, const Vec3& motion, double radius,
+                            const geometry::Triangle& t) noexcept {
     const Vec3 u = t.b - t.a, v = t.c - t.a, w = center - t.a, n = glm::cross(u, v);
     const double n2 = glm::dot(n, n), per_n = 1.0 / std::sqrt(n2);
     const double height = glm::dot(n, w) * per_n, approach = glm::dot(n, motion) * per_n;
@@ -113,14 +114,14 @@ double fraction_until_touch(const Vec3& center, const Vec3& motion, double radiu
                      sweep.until_corner(t.a), sweep.until_corner(t.b), sweep.until_corner(t.c)});
 }
 
-double solid_angle_tangent(const Vec3& p, const Triangle& t) noexcept {
+double solid_angle_tangent(const Vec3& p, const geometry::Triangle& t) noexcept {
     const Vec3 a = t.a - p, b = t.b - p, c = t.c - p;
     const double la = std::sqrt(glm::dot(a, a)), lb = std::sqrt(glm::dot(b, b)), lc = std::sqrt(glm::dot(c, c));
     const double volume = glm::dot(a, glm::cross(b, c));
     const double base = la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
-    constexpr double kMost = 1e3;  // p is all but on the triangle
+    constexpr double kMost = 1e3;  // p lies almost on the triangle
     if (std::abs(volume) >= kMost * base) return volume == 0.0 ? 0.0 : std::copysign(kMost, volume);
     return volume / base;
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

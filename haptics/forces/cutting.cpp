@@ -5,18 +5,18 @@
 #include <cmath>
 #include <numbers>
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 
-// Halvings of an interval: enough for every digit of a double.
+// Bisection steps: enough for every digit of a double.
 constexpr int kHalvings = 54;
 
-// How far c goes in one step: implicit Euler. With x_n, x_t the way from c to the hand and K = k g^2 dt,
+// Advance of c in one step by implicit Euler. With x_n, x_t the vector from c to the hand and K = k g^2 dt,
 //     H (A_nn s + A_nt u) = K (x_n - s)      H (A_nt s + A_tt u) = K (x_t - u), u >= 0
-// the areas at depth d + s. The second gives u for any s; what then is left over in the first is below zero where the tool
-// leaves the material and above where it reaches the hand, so there is a root between.
+// with the areas at depth d + s. The second equation gives u for any s. The residual of the first is negative where the
+// tool leaves the material and positive where it reaches the hand, so there is a root between.
 struct Advance {
     double hardness_Ns_per_m3, pull_Ns_per_m, radius_m, depth_m, way_in_m, way_across_m;
 
@@ -44,7 +44,7 @@ private:
     }
 };
 
-// Where the tool has eaten to before this step.
+// The cutting point at the beginning of this step.
 Vec3 carried_over(const CuttingState& state, const CuttingInput& in) {
     if (!state.engaged) return in.proxy_object_m;
     const Vec3 lag = state.point_object_m - in.hip_object_m;
@@ -58,7 +58,7 @@ Vec3 into_material(const CuttingState& state, const CuttingInput& in) {
     return shown ? state.known.into_object : -in.normal_object;
 }
 
-// Viscous, over the engaged area.
+// Viscous drag over the engaged area.
 Vec3 drag(const CuttingInput& in, const TouchMaterial& material, double area_device_m2) {
     return -material.cutting_drag_Ns_per_m3 * area_device_m2 * in.velocity_device_m_per_s;
 }
@@ -112,10 +112,10 @@ CuttingStep cut(const CuttingState& state, const CuttingInput& in, const TouchMa
     return step;
 }
 
-LookedAt look_at(const CuttingState& state, const CuttingInput& in, const LocalSurface& surface) noexcept {
+LookedAt look_at(const CuttingState& state, const CuttingInput& in, const geometry::LocalSurface& surface) noexcept {
     const double moved_m = length(in.proxy_object_m - state.looked_at_object_m);
     if (state.surface_sequence == surface.sequence && moved_m <= 0.1 * in.tool_radius_m) return {state, 0};
-    // Which way the tool is drawn, as far as it is drawn sideways.
+    // Direction in which the tool is driven sideways; its length is the sideways share of the drive.
     const Vec3 way = in.hip_object_m - carried_over(state, in);
     const Vec3 into = into_material(state, in);
     const Vec3 across = way - glm::dot(way, into) * into;
@@ -129,4 +129,4 @@ LookedAt look_at(const CuttingState& state, const CuttingInput& in, const LocalS
     return looked;
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

@@ -5,56 +5,57 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/lanes.hpp"
-#include "geometry/local_surface_search.hpp"
+#include "geometry/contact/lanes.hpp"
+#include "geometry/contact/local_surface_search.hpp"
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
-// All of the radius.
+// Fractions of the ball's radius.
 constexpr double kReach = 1.1;
 constexpr double kSurroundings = 1.6;
-constexpr double kPiece = 1.0 / 3.0;     // the longest edge of a piece
-constexpr std::uint32_t kMostCuts = 24;  // of an edge; coarser than a third of the radius where a triangle is huge
+constexpr double kPiece = 1.0 / 3.0;     // longest edge of a piece
+constexpr std::uint32_t kMostCuts = 24;  // pieces along an edge; coarser than kPiece where a triangle is huge
 
-// A sum in double of what is in float.
+// A sum in double of values in float.
 class Sum {
 public:
-    void add(LaneMask those, Lanes values) {
-        lanes_ += __builtin_convertvector(those != 0 ? values : Lanes{}, DoubleLanes);
+    void add(geometry::LaneMask those, geometry::Lanes values) {
+        lanes_ += __builtin_convertvector(those != 0 ? values : geometry::Lanes{}, DoubleLanes);
     }
     [[nodiscard]] double all() const { return (lanes_[0] + lanes_[1]) + (lanes_[2] + lanes_[3]); }
 
 private:
-    using DoubleLanes [[gnu::vector_size(8 * kLanes)]] = double;
+    using DoubleLanes [[gnu::vector_size(8 * geometry::kLanes)]] = double;
     DoubleLanes lanes_{};
 };
 
-Lanes square_root(Lanes x) {
-    for (std::size_t k = 0; k < kLanes; ++k) x[k] = std::sqrt(x[k]);
+geometry::Lanes square_root(geometry::Lanes x) {
+    for (std::size_t k = 0; k < geometry::kLanes; ++k) x[k] = std::sqrt(x[k]);
     return x;
 }
 
-// What of the view from the centre is taken up by surface within reach. Four triangles at a time, as seen from the centre in units
-// of the radius, in float: 1e-7 of the radius, as the surface itself is. The sums are double.
+// Accumulates the solid angle of the surface within reach of the centre. Processes four triangles at a time, relative
+// to the centre in units of the radius, in float: its rounding is 1e-7 of the radius, like that of the surface. Sums
+// are double.
 class View {
 public:
     View(const Vec3& center, double radius_m, const Vec3& ahead)
         : center_(center),
           per_m_(1.0 / radius_m),
-          ahead_(in_all_lanes(Vec3f(ahead))),
+          ahead_(geometry::in_all_lanes(Vec3f(ahead))),
           bias_(static_cast<float>(std::sqrt(glm::dot(ahead, ahead)))) {}
 
-    // False when enough has been looked at.
-    bool add(const Triangle& t) {
+    // Adds a triangle; returns false when kMostEngagementPieces have been processed.
+    bool add(const geometry::Triangle& t) {
         put(Vec3f((t.a - center_) * per_m_), a_);
         put(Vec3f((t.b - center_) * per_m_), b_);
         put(Vec3f((t.c - center_) * per_m_), c_);
-        return ++count_ < kLanes || look();
+        return ++count_ < geometry::kLanes || look();
     }
-    // Looks at those that are left over.
+    // Processes the triangles left over in the last group.
     void end() {
-        while (count_ > 0) add({center_, center_, center_});  // of no area, and so turned away
+        while (count_ > 0) add({center_, center_, center_});  // degenerate triangles, which are rejected
     }
 
     [[nodiscard]] double solid_angle() const { return solid_angle_.all(); }
@@ -65,87 +66,93 @@ public:
     }
 
 private:
-    void put(const Vec3f& p, Vec3Lanes& lanes) const {
+    void put(const Vec3f& p, geometry::Vec3Lanes& lanes) const {
         lanes.x[count_] = p.x;
         lanes.y[count_] = p.y;
         lanes.z[count_] = p.z;
     }
     bool look() {
         constexpr float kPiece2 = static_cast<float>(kPiece * kPiece);
-        const Vec3Lanes u = b_ - a_, v = c_ - a_, w = c_ - b_;
-        const Vec3Lanes area = Lanes{0.5f, 0.5f, 0.5f, 0.5f} * cross(u, v);
-        const LaneMask facing = dot(area, a_) < 0.0f;
-        const Lanes longest2 = greater(greater(dot(u, u), dot(v, v)), dot(w, w));
-        const LaneMask large = facing & (longest2 > kPiece2);
-        const Lanes third = Lanes{} + 1.0f / 3.0f;
+        const geometry::Vec3Lanes u = b_ - a_, v = c_ - a_, w = c_ - b_;
+        const geometry::Vec3Lanes area = geometry::Lanes{0.5f, 0.5f, 0.5f, 0.5f} * cross(u, v);
+        const geometry::LaneMask facing = geometry::dot(area, a_) < 0.0f;
+        const geometry::Lanes longest2 =
+            geometry::greater(geometry::greater(geometry::dot(u, u), geometry::dot(v, v)), geometry::dot(w, w));
+        const geometry::LaneMask large = facing & (longest2 > kPiece2);
+        const geometry::Lanes third = geometry::Lanes{} + 1.0f / 3.0f;
         add_pieces(facing & ~large, third * (a_ + b_ + c_), area);
         pieces_ += count_;
         count_ = 0;
-        if (any(large)) {
-            for (std::size_t k = 0; k < kLanes; ++k)
+        if (geometry::any(large)) {
+            for (std::size_t k = 0; k < geometry::kLanes; ++k)
                 if (large[k] != 0) cut_up(in_lane(a_, k), in_lane(u, k), in_lane(v, k), in_lane(area, k), longest2[k]);
         }
         return pieces_ < kMostEngagementPieces;
     }
-    [[nodiscard]] static Vec3f in_lane(const Vec3Lanes& lanes, std::size_t k) {
+    [[nodiscard]] static Vec3f in_lane(const geometry::Vec3Lanes& lanes, std::size_t k) {
         return {lanes.x[k], lanes.y[k], lanes.z[k]};
     }
-    // Into n^2 pieces: n rows, in which upright ones and ones upside down alternate.
+    // Divides a triangle into n^2 pieces: n rows in which upright and inverted triangles alternate.
     void cut_up(const Vec3f& a, const Vec3f& u, const Vec3f& v, const Vec3f& area, float longest2) {
         const double edges = std::ceil(std::sqrt(static_cast<double>(longest2)) / kPiece);
         const auto n = static_cast<std::uint32_t>(std::min(edges, double{kMostCuts}));
         const float share = 1.0f / static_cast<float>(n);
-        const Vec3Lanes piece = in_all_lanes(area * (share * share));
+        const geometry::Vec3Lanes piece = geometry::in_all_lanes(area * (share * share));
         for (std::uint32_t j = 0; j < n; ++j) {
             const std::uint32_t in_row = 2 * (n - j) - 1;
-            for (std::uint32_t first = 0; first < in_row; first += kLanes) {
-                Lanes i{}, up{};
-                LaneMask there{};
-                for (std::uint32_t k = 0; k < kLanes; ++k) {
+            for (std::uint32_t first = 0; first < in_row; first += geometry::kLanes) {
+                geometry::Lanes i{}, up{};
+                geometry::LaneMask there{};
+                for (std::uint32_t k = 0; k < geometry::kLanes; ++k) {
                     i[k] = static_cast<float>((first + k) / 2);
                     up[k] = (first + k) % 2 == 0 ? 1.0f / 3.0f : 2.0f / 3.0f;
                     there[k] = first + k < in_row ? -1 : 0;
                 }
-                const Lanes along_u = (i + up) * share, along_v = (static_cast<float>(j) + up) * share;
-                add_pieces(there, in_all_lanes(a) + along_u * in_all_lanes(u) + along_v * in_all_lanes(v), piece);
+                const geometry::Lanes along_u = (i + up) * share, along_v = (static_cast<float>(j) + up) * share;
+                add_pieces(there,
+                           geometry::in_all_lanes(a) + along_u * geometry::in_all_lanes(u) +
+                               along_v * geometry::in_all_lanes(v),
+                           piece);
             }
         }
         pieces_ += n * n;
     }
-    void add_pieces(LaneMask those, const Vec3Lanes& to, const Vec3Lanes& area) {
+    void add_pieces(geometry::LaneMask those, const geometry::Vec3Lanes& to, const geometry::Vec3Lanes& area) {
         constexpr float kReach2 = static_cast<float>(kReach * kReach);
         constexpr float kSurroundings2 = static_cast<float>(kSurroundings * kSurroundings);
-        const Lanes r2 = dot(to, to);
+        const geometry::Lanes r2 = geometry::dot(to, to);
         those &= (r2 <= kSurroundings2) & (r2 > 0.0f);
-        if (!any(those)) return;
+        if (!geometry::any(those)) return;
         area_x_.add(those, area.x);
         area_y_.add(those, area.y);
         area_z_.add(those, area.z);
         those &= r2 <= kReach2;
-        if (!any(those)) return;
-        const Lanes weight = dot(to, ahead_) > 0.0f ? Lanes{} + (1.0f + bias_) : Lanes{} + (1.0f - bias_);
-        solid_angle_.add(those, weight * -dot(area, to) / (r2 * square_root(r2)));
+        if (!geometry::any(those)) return;
+        const geometry::Lanes weight =
+            geometry::dot(to, ahead_) > 0.0f ? geometry::Lanes{} + (1.0f + bias_) : geometry::Lanes{} + (1.0f - bias_);
+        solid_angle_.add(those, weight * -geometry::dot(area, to) / (r2 * square_root(r2)));
     }
 
     Vec3 center_;
     double per_m_;
-    Vec3Lanes ahead_;
+    geometry::Vec3Lanes ahead_;
     float bias_;
     Sum solid_angle_, area_x_, area_y_, area_z_;
-    Vec3Lanes a_{}, b_{}, c_{};
+    geometry::Vec3Lanes a_{}, b_{}, c_{};
     std::uint32_t count_ = 0, pieces_ = 0;
 };
 
 }  // namespace
 
-EngagementLook engagement(const LocalSurface& surface, const Vec3& center_object_m, double radius_m,
+EngagementLook engagement(const geometry::LocalSurface& surface, const Vec3& center_object_m, double radius_m,
                           const Vec3& ahead_object) noexcept {
     EngagementLook look;
     if (!(radius_m > 0.0)) return look;
     const Vec3 center = center_object_m - surface.origin_object;
     View view(center, radius_m, ahead_object);
-    Near near{center, center, kSurroundings * radius_m};
-    for_each_triangle_near(surface, near, [&](std::uint32_t, const Triangle& t) { return view.add(t); });
+    geometry::Near near{center, center, kSurroundings * radius_m};
+    geometry::for_each_triangle_near(surface, near,
+                                     [&](std::uint32_t, const geometry::Triangle& t) { return view.add(t); });
     view.end();
     look.triangles_seen = UINT32_MAX - near.looks_left;
     const double depth_m =
@@ -154,4 +161,4 @@ EngagementLook engagement(const LocalSurface& surface, const Vec3& center_object
     return look;
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

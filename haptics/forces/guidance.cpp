@@ -4,16 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 constexpr double kFullUpTo = 0.75;   // of the reach
-constexpr double kKeepsFor = 0.1;    // of the reach: so much nearer another stretch must be
-constexpr double kLeadsUpTo = 0.25;  // of the reach; and not at all at twice that
+constexpr double kKeepsFor = 0.1;    // of the reach; how much nearer another stretch must be to take over
+constexpr double kLeadsUpTo = 0.25;  // of the reach; the lead speed falls to zero at twice that
 
 double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 
-// A point of the curve: where, how far along, and how near.
+// A point of the curve with its arc length and its distance from the tool.
 struct Foot {
     Vec3 at{0.0};
     Vec3 tangent{0.0};  // unit; zero on a stretch of no length
@@ -25,14 +25,15 @@ class Polyline {
 public:
     Polyline(const GuidanceCurve& curve, const Vec3& hip) : curve_(curve), hip_(hip) {}
 
-    // The nearest point of all, and the one that is reached from `along_m` by never going away from the tool.
+    // The nearest point of the whole curve, and the one reached from `along_m` without going away from the tool.
     struct Feet {
         Foot nearest, kept;
     };
     [[nodiscard]] Feet feet(double along_m) const {
         Feet feet;
         double begin_m = 0.0;
-        std::uint32_t home = 0;  // the segment with along_m, and where it begins
+        // The segment that contains along_m, and the arc length at its beginning.
+        std::uint32_t home = 0;
         double home_m = 0.0;
         for (std::uint32_t i = 0; i < segments(); ++i) {
             const Foot foot = foot_on(i, begin_m);
@@ -44,7 +45,7 @@ public:
         return feet;
     }
 
-    // At an arc length, which is kept within the curve.
+    // The point at an arc length, clamped to the curve.
     [[nodiscard]] Foot at(double along_m) const {
         double begin_m = 0.0;
         for (std::uint32_t i = 0; i < segments(); ++i) {
@@ -79,7 +80,7 @@ private:
         const double t = l2 > 0.0 ? std::clamp(glm::dot(hip_ - point(i), edge) / l2, 0.0, 1.0) : 0.0;
         return foot_at(i, begin_m, t);
     }
-    // From segment to segment as long as the next one is no farther.
+    // Moves from segment to segment as long as the next one is no farther.
     [[nodiscard]] Foot walk(Foot foot, std::uint32_t i, double begin_m, bool forwards) const {
         while (forwards ? i + 1 < segments() : i > 0) {
             if (forwards) begin_m += length(point(i + 1) - point(i));
@@ -96,14 +97,14 @@ private:
     Vec3 hip_;
 };
 
-// The point that draws: the stretch held last, unless another is clearly nearer.
+// The attracting point: on the stretch held last, unless another is clearly nearer.
 Foot free_foot(const Polyline& curve, const GuidanceState& state, const GuidanceSettings& settings) {
     const Polyline::Feet feet = curve.feet(state.along_m);
     const bool keeps = state.held && feet.kept.distance_m <= feet.nearest.distance_m + kKeepsFor * settings.reach_m;
     return keeps ? feet.kept : feet.nearest;
 }
 
-// The point that leads runs on, and waits for a hand that lags.
+// The leading point advances along the curve, and waits for a hand that lags.
 Foot leading_foot(const Polyline& curve, const GuidanceState& state, const GuidanceSettings& settings, double dt_s) {
     if (!state.held) return free_foot(curve, state, settings);
     const Foot before = curve.at(state.along_m);
@@ -128,7 +129,7 @@ GuidanceStep guide(const GuidanceState& state, const GuidanceInput& in, const Gu
     const Polyline line(curve, in.hip_object_m);
     const Foot foot = settings.lead_speed_m_per_s != 0.0 ? leading_foot(line, state, settings, in.dt_s)
                                                          : free_foot(line, state, settings);
-    if (!(foot.distance_m < settings.reach_m)) return {};  // also when not a number
+    if (!(foot.distance_m < settings.reach_m)) return {};  // also rejects NaN
     GuidanceStep step;
     step.next = {foot.along_m, true};
     step.distance_m = foot.distance_m;
@@ -144,4 +145,4 @@ GuidanceStep guide(const GuidanceState& state, const GuidanceInput& in, const Gu
     return step;
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Magnetic guidance: a force that draws the tool to a curve, as training asks for.
 //
-// The nearest point q of a polyline draws the HIP h, d = |q - h| / g (g the gain):
+// The nearest point q of a polyline attracts the HIP h, d = |q - h| / g (g the gain):
 //     F = (min(k d, max) n - b v_across) * fade      n to the point, |F| at most max
 //     fade = 1 up to three quarters of the reach, from there falling linearly to 0 at its end
-// The damping acts across the curve; along it the tool is free, unless a lead speed is set: then q runs along the curve with it
-// and takes the hand along. It waits for a hand that lags: full speed up to a quarter of the reach, none beyond half of it. At
-// the curve's end it stays.
-// The force is continuous in the tool's position but where two stretches of the curve are equally near; there the one held
-// last is kept until the other is nearer by a tenth of the reach.
-// Frame: object in, device out. Ownership: the curve is the publisher's and stays in place while it is published
-// (TickParameters are borrowed whole). Work: twice kMostCurvePoints segments a tick at most. Pure; no heap, lock or throw.
+// The damping acts across the curve; along it the tool is free, unless a lead speed is set: then q runs along the curve
+// with it and takes the hand along. It waits for a hand that lags: full speed up to a quarter of the reach, none beyond
+// half of it. It stops at the curve's end.
+// The force is continuous in the tool's position except where two stretches of the curve are equally near; there the
+// stretch held last is kept until the other is nearer by a tenth of the reach.
+// Frame: object in, device out. Ownership: the curve is the publisher's and stays in memory while it is published
+// (TickParameters are borrowed whole). Work: twice kMostCurvePoints segments a tick at most. Pure; no heap, lock or
+// throw.
 #pragma once
 
 #include <array>
@@ -18,7 +19,7 @@
 
 #include "base/space.hpp"
 
-namespace burin {
+namespace burin::haptics {
 
 inline constexpr std::uint32_t kMostCurvePoints = 256;
 
@@ -31,12 +32,13 @@ struct GuidanceSettings {
     double stiffness_N_per_m = 0.0;  // at the device; 0: off
     double damping_Ns_per_m = 0.0;   // at the device, across the curve
     double max_force_N = 1.5;
-    double reach_m = 0.02;            // object frame
-    double lead_speed_m_per_s = 0.0;  // object frame, below 0 backwards; 0: the tool is free along the curve
+    double reach_m = 0.02;  // object frame
+    // Object frame; below 0 backwards; 0: the tool is free along the curve.
+    double lead_speed_m_per_s = 0.0;
 };
 
 struct GuidanceState {
-    double along_m = 0.0;  // arc length of the point drawn to, object frame
+    double along_m = 0.0;  // arc length of the attracting point, object frame
     bool held = false;
 };
 
@@ -44,17 +46,17 @@ struct GuidanceInput {
     Vec3 hip_object_m{0.0};
     Vec3 velocity_device_m_per_s{0.0};
     Quat object_from_device_orientation{1.0, 0.0, 0.0, 0.0};
-    double scale = 1.0;  // object metres a device metre
+    double scale = 1.0;  // object metres per device metre
     double dt_s = 0.0;
 };
 
 struct GuidanceStep {
     GuidanceState next;
     Vec3 force_device_N{0.0};
-    double distance_m = 0.0;  // to the point drawn to, object frame; 0 when not held
+    double distance_m = 0.0;  // to the attracting point, object frame; 0 when not held
 };
 
 [[nodiscard]] GuidanceStep guide(const GuidanceState& state, const GuidanceInput& input, const GuidanceCurve& curve,
                                  const GuidanceSettings& settings) noexcept;
 
-}  // namespace burin
+}  // namespace burin::haptics

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace burin {
+namespace burin::haptics {
 
 Vec3 touch_force_device(const TouchInput& in) noexcept {
     const Quat device_from_object = glm::conjugate(in.object_from_device_orientation);
@@ -12,7 +12,7 @@ Vec3 touch_force_device(const TouchInput& in) noexcept {
         (in.stiffness_N_per_m / in.scale) * (device_from_object * (in.bearing_object_m - in.hip_object_m));
     const double along_N = glm::dot(spring_N, normal_device);
     const double damping_N = -in.damping_Ns_per_m * glm::dot(in.velocity_device_m_per_s, normal_device);
-    // never into the surface
+    // The damper never pulls into the surface.
     return spring_N + (std::max(0.0, along_N + damping_N) - along_N) * normal_device;
 }
 
@@ -22,4 +22,28 @@ FrictionCone friction_at(const TouchMaterial& material, double slip_speed_m_per_
     return {share * material.dynamic_friction, share * material.dynamic_friction};
 }
 
-}  // namespace burin
+devices::DeviceWrench sum_of(std::span<const PointForce> forces) noexcept {
+    devices::DeviceWrench sum;
+    for (const PointForce& f : forces) {
+        sum.force_device_N += f.force_device_N;
+        sum.torque_device_Nm += glm::cross(f.arm_device_m, f.force_device_N);
+    }
+    return sum;
+}
+
+devices::DeviceWrench driven_part(const devices::DeviceWrench& wrench,
+                                  const devices::DeviceDescription& device) noexcept {
+    devices::DeviceWrench driven = wrench;
+    for (int axis = 0; axis < 3; ++axis)
+        if (device.max_torque_Nm[axis] == 0.0) driven.torque_device_Nm[axis] = 0.0;
+    return driven;
+}
+
+devices::DeviceWrench weight_wrench(const WeightSettings& settings, const Quat& orientation_device) noexcept {
+    const Vec3 weight_N = settings.tool_mass_kg * kGravity_m_per_s2 * settings.down_device;
+    const Vec3 arm_device_m = orientation_device * settings.tool_centre_of_mass_device_m;
+    return {weight_N - settings.compensated_mass_kg * kGravity_m_per_s2 * settings.down_device,
+            glm::cross(arm_device_m, weight_N)};
+}
+
+}  // namespace burin::haptics

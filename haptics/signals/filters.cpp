@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "haptics/signals/velocity.hpp"
+#include "haptics/signals/filters.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 constexpr std::uint32_t kPlaces = VelocityWindow::kLongest + 1;
@@ -12,8 +12,9 @@ constexpr std::uint32_t kPlaces = VelocityWindow::kLongest + 1;
 // Positions are multiples of the encoder's step; rounding in their last bits must not shorten a window.
 constexpr double kRounding = 1.0 + 1e-6;
 
-// The longest window whose line from end to end passes all between within the noise. In one pass: a line through the newest
-// position passes the position i ticks ago within the noise when its slope is within a range, and these ranges only narrow.
+// Slope of the longest window whose line from end to end passes all positions between within the noise. One pass
+// suffices: a line through the newest position passes the position i ticks ago within the noise when its slope is
+// within a range, and the intersection of these ranges only narrows.
 double velocity_of_axis(const VelocityWindow& window, int axis, double noise_m, double dt_s) {
     const double newest_m = window.positions_m[window.newest][axis], most_m = noise_m * kRounding;
     double best_a_tick = 0.0, least = -HUGE_VAL, greatest = HUGE_VAL;
@@ -27,6 +28,12 @@ double velocity_of_axis(const VelocityWindow& window, int axis, double noise_m, 
         greatest = std::min(greatest, (moved_m + most_m) / n);
     }
     return best_a_tick / dt_s;
+}
+
+Vec3 difference_m_per_s(const VelocityWindow& window, double dt_s) {
+    const Vec3& now = window.positions_m[window.newest];
+    const Vec3& before = window.positions_m[(window.newest + kPlaces - 1) % kPlaces];
+    return (now - before) / dt_s;
 }
 
 }  // namespace
@@ -43,4 +50,25 @@ Vec3 velocity_m_per_s(const VelocityWindow& window, double noise_m, double dt_s)
             velocity_of_axis(window, 2, noise_m, dt_s)};
 }
 
-}  // namespace burin
+MovingAverage with_input(const MovingAverage& state, const Vec3& input, double alpha) noexcept {
+    if (!state.begun) return {input, true};
+    return {input * (1.0 - alpha) + state.value * alpha, true};
+}
+
+// Sums the weights (1 - a) a^i of inputs i periods old, times i T.
+double mean_lag_s(double alpha, double dt_s) noexcept { return dt_s * alpha / (1.0 - alpha); }
+
+VelocityEstimate estimate_velocity(const SignalSettings& settings, const VelocityWindow& window,
+                                   const MovingAverage& average, double noise_m, double dt_s) noexcept {
+    if (window.count < 2) return {};
+    const Vec3 difference = difference_m_per_s(window, dt_s);
+    const MovingAverage followed = with_input(average, difference, settings.velocity_alpha);
+    switch (settings.velocity) {
+        case VelocityMethod::moving_average: return {followed.value, followed};
+        case VelocityMethod::difference: return {difference, followed};
+        case VelocityMethod::adaptive_window: break;
+    }
+    return {velocity_m_per_s(window, noise_m, dt_s), followed};
+}
+
+}  // namespace burin::haptics

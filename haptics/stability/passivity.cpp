@@ -4,25 +4,26 @@
 #include <algorithm>
 #include <cmath>
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 constexpr std::uint32_t kPlaces = PassivityState::kLongestDelay + 1;
 
-// Less than this moves no device; a filtered force never dies out altogether.
+// Forces below this move no device; a filtered force never decays to zero altogether.
 constexpr double kNoForce_N = 0.001;
 
-// Rounding, and what other forces take of the limit, is no fading.
+// Share of the desired force above which the gate counts as not fading: allows for rounding and for other forces within
+// the limit.
 constexpr double kGiven = 0.99;
 
 double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 
-std::uint32_t delay_ticks(const DeviceDescription& device, double dt_s) {
+std::uint32_t delay_ticks(const devices::DeviceDescription& device, double dt_s) {
     const double ticks = std::floor(device.delay_s / dt_s + 0.5);
     return ticks > 0.0 ? static_cast<std::uint32_t>(std::min<double>(ticks, PassivityState::kLongestDelay)) : 0;
 }
 
-// What a spring holds whose force is cut off at a limit: F d - F^2 / (2 K) in place of K d^2 / 2.
+// Energy stored in a spring whose force is clamped to a limit: F d - F^2 / (2 K) instead of K d^2 / 2.
 double held_J(const PassivityInput& in, double wanted_N) {
     if (!(in.max_force_N > 0.0) || wanted_N <= in.max_force_N) return in.stored_J;
     const double share = in.max_force_N / wanted_N;
@@ -35,9 +36,9 @@ bool forces_are_gone(const PassivityState& state, std::uint32_t delay) {
     return true;
 }
 
-// E and R after the motion since the tick before.
+// Updates E, U and R for the motion since the last tick.
 void count_energy(PassivityState& next, const PassivityState& before, const PassivityInput& in, double wanted_N,
-                  const PassivitySettings& settings, const DeviceDescription& device, double dt_s) {
+                  const PassivitySettings& settings, const devices::DeviceDescription& device, double dt_s) {
     const std::uint32_t delay = delay_ticks(device, dt_s);
     if (!before.known || (!in.in_contact && forces_are_gone(before, delay))) {
         next.energy_J = next.stored_J = next.reserve_J = 0.0;
@@ -54,32 +55,33 @@ void count_energy(PassivityState& next, const PassivityState& before, const Pass
     if (in.jumped || before.fading) next.reserve_J = std::max(0.0, next.reserve_J);
 }
 
-// The damping that takes -R back.
+// Adds the damping that dissipates -R.
 void take_back(PassivityStep& step, const PassivityState& before, const PassivityInput& in, double wanted_N,
-               const PassivitySettings& settings, const DeviceDescription& device, double dt_s) {
+               const PassivitySettings& settings, const devices::DeviceDescription& device, double dt_s) {
     const Vec3 along = in.wanted_force_device_N / wanted_N;
     const double moved_m = glm::dot(in.position_device_m - before.position_device_m, along);
-    // Positions are multiples of the step; rounding in their last bits must not make two of them less.
+    // Positions are multiples of the encoder step; rounding in their last bits must not make two steps count as less.
     if (moved_m == 0.0 || std::abs(moved_m) < 2.0 * device.resolution_m * (1.0 - 1e-6)) return;
-    const double v = moved_m / dt_s, orders = 1.0 + delay_ticks(device, dt_s);  // given until the first one acts
+    // Number of ticks in which the damping is commanded before the first command acts.
+    const double v = moved_m / dt_s, orders = 1.0 + delay_ticks(device, dt_s);
     double a = std::min(-step.next.reserve_J / (v * v * dt_s * orders), settings.max_damping_Ns_per_m);
     if (a * v > wanted_N) a = wanted_N / v;  // no pull
-    step.damping_Ns_per_m = a;
+    step.record.damping_Ns_per_m = a;
     step.force_device_N = std::max(0.0, wanted_N - a * v) * along;
 }
 
 }  // namespace
 
 PassivityStep keep_passive(const PassivityState& state, const PassivityInput& in, const PassivitySettings& settings,
-                           const DeviceDescription& device, double dt_s) noexcept {
+                           const devices::DeviceDescription& device, double dt_s) noexcept {
     PassivityStep step;
     step.next = state;
     step.force_device_N = in.wanted_force_device_N;
     const double wanted_N = length(in.wanted_force_device_N);
     count_energy(step.next, state, in, wanted_N, settings, device, dt_s);
-    step.energy_J = step.next.energy_J;
+    step.record.energy_J = step.next.energy_J;
     step.next.position_device_m = in.position_device_m;
-    step.next.known = false;  // until told() says what the device was told
+    step.next.known = false;  // until with_commanded_force() stores the commanded force
     if (settings.control && step.next.reserve_J < 0.0 && wanted_N > 0.0)
         take_back(step, state, in, wanted_N, settings, device, dt_s);
     const double asked_N = length(step.force_device_N);
@@ -87,7 +89,7 @@ PassivityStep keep_passive(const PassivityState& state, const PassivityInput& in
     return step;
 }
 
-PassivityState told(PassivityState state, const Vec3& force_device_N) noexcept {
+PassivityState with_commanded_force(PassivityState state, const Vec3& force_device_N) noexcept {
     state.newest = (state.newest + 1) % kPlaces;
     state.forces_device_N[state.newest] = force_device_N;
     state.fading = length(force_device_N) < kGiven * state.asked_N;
@@ -95,4 +97,4 @@ PassivityState told(PassivityState state, const Vec3& force_device_N) noexcept {
     return state;
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "haptics/stability/stiffness_limit.hpp"
+#include "haptics/stability/rendered_wall.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
-// per_stiffness K + per_damping B <= budget
+// The condition per_stiffness K + per_damping B <= budget.
 struct Line {
     double per_stiffness = 0.0, per_damping = 0.0, budget = 0.0;
     StiffnessBound bound = StiffnessBound::sampling;
@@ -23,7 +23,7 @@ struct Line {
     }
 };
 
-// At rest and at speed; both have to hold.
+// The conditions at rest and at speed; both have to hold.
 struct Cover {
     Line rest, speed;
 
@@ -41,27 +41,28 @@ struct Loop {
     double step_m = 0.0;
 };
 
-// (1 + 1 + 1/2 + ... + 1/16) / 2: how often a difference can be counted in adaptive windows of up to 16, at worst.
+// (1 + 1 + 1/2 + ... + 1/16) / 2: the worst-case number of times that adaptive windows of up to 16 count one
+// difference.
 constexpr double kAdaptiveWindows = 2.2;
 
-Loop loop_of(const ContactDemand& wanted, const DeviceDescription& device) {
+Loop loop_of(const ContactDemand& wanted, const devices::DeviceDescription& device) {
     Loop loop;
     loop.period_s = wanted.period_s > 0.0 ? wanted.period_s : (device.rate_Hz > 0.0 ? 1.0 / device.rate_Hz : 0.001);
-    // In whole periods: a part of one costs as much in the worst phase. A millionth is rounding.
+    // Rounded up to whole periods: a part of one costs as much in the worst phase. The millionth allows for rounding.
     const double delay_s = std::ceil(device.delay_s / loop.period_s - 1e-6) * loop.period_s;
     loop.lag_s = 0.5 * loop.period_s + std::max(0.0, delay_s) + wanted.filter_lag_s;
     loop.step_m = device.resolution_m;
     return loop;
 }
 
-Cover by_friction(const Loop& loop, const DeviceDescription& device, double speed) {
+Cover by_friction(const Loop& loop, const devices::DeviceDescription& device, double speed) {
     const double half_step_m = 0.5 * loop.step_m, damper = speed + loop.step_m / loop.period_s;
     return {{half_step_m, damper, device.friction_N, StiffnessBound::quantisation},
             {loop.lag_s * speed + half_step_m, damper, device.friction_N + device.damping_Ns_per_m * speed,
              StiffnessBound::sampling}};
 }
 
-Cover by_damping(const Loop& loop, const DeviceDescription& device) {
+Cover by_damping(const Loop& loop, const devices::DeviceDescription& device) {
     Cover cover;
     cover.rest = {0.0, 0.0, HUGE_VAL, StiffnessBound::quantisation};
     if (device.friction_N > 0.0)
@@ -72,13 +73,22 @@ Cover by_damping(const Loop& loop, const DeviceDescription& device) {
 
 }  // namespace
 
-StiffnessLimit limited(const ContactDemand& wanted, const DeviceDescription& device) noexcept {
+CoupledWall through(const CouplingSettings& coupling, const CoupledWall& wall) noexcept {
+    if (!(coupling.stiffness_N_per_m > 0.0)) return wall;
+    const double sum = wall.stiffness_N_per_m + coupling.stiffness_N_per_m;
+    const double of_wall = coupling.stiffness_N_per_m / sum;  // share of the motion taken up by the wall
+    const double of_coupling = wall.stiffness_N_per_m / sum;  // share taken up by the coupling
+    return {wall.stiffness_N_per_m * of_wall,
+            wall.damping_Ns_per_m * of_wall * of_wall + coupling.damping_Ns_per_m * of_coupling * of_coupling};
+}
+
+StiffnessLimit limited(const ContactDemand& wanted, const devices::DeviceDescription& device) noexcept {
     StiffnessLimit out{wanted.stiffness_N_per_m, wanted.damping_Ns_per_m, StiffnessBound::none};
     if (device.max_stiffness_N_per_m > 0.0 && !(out.stiffness_N_per_m <= device.max_stiffness_N_per_m)) {
         out.stiffness_N_per_m = device.max_stiffness_N_per_m;
         out.bound = StiffnessBound::device;
     }
-    if (!(device.friction_N > 0.0) && !(device.damping_Ns_per_m > 0.0)) return out;  // nothing is known of it
+    if (!(device.friction_N > 0.0) && !(device.damping_Ns_per_m > 0.0)) return out;  // nothing is known of the device
     const Loop loop = loop_of(wanted, device);
     const Cover friction = by_friction(loop, device, wanted.contact_speed_m_per_s);
     const Cover damping = by_damping(loop, device);
@@ -114,4 +124,4 @@ const char* text(StiffnessBound bound) noexcept {
     return "softer than the material says";
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/sensible.hpp"
+#include "base/space.hpp"
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
@@ -19,7 +19,7 @@ bool sensible(const GateLimits& limits) {
 }
 
 GateCause find_cause(const GateInput& in, const GateLimits& limits) {
-    if (in.device_fault != DeviceFault::none) return GateCause::device_fault;
+    if (in.device_fault != devices::DeviceFault::none) return GateCause::device_fault;
     if (!in.sample_finite || !std::isfinite(length(in.wanted.force_device_N)) ||
         !std::isfinite(length(in.wanted.torque_device_Nm)) || !finite(in.velocity_device_m_per_s) ||
         !std::isfinite(in.sample_age_s) || !std::isfinite(in.loop_gap_s) || !not_negative(in.device_max_force_N) ||
@@ -34,7 +34,7 @@ GateCause find_cause(const GateInput& in, const GateLimits& limits) {
     return GateCause::none;
 }
 
-// Shortened to at most `most`; a hair less, so that rounding cannot leave it a hair more.
+// Scales a vector to at most the length `most`, less a rounding margin.
 Vec3 shortened(const Vec3& v, double most, bool& cut) {
     const double l = length(v);
     if (l <= most) return v;
@@ -42,7 +42,7 @@ Vec3 shortened(const Vec3& v, double most, bool& cut) {
     return v * (most * (1.0 - 1e-15) / l);
 }
 
-// Likewise, so that no axis exceeds its own limit. A limit of 0 is none, or a passive axis.
+// Likewise for limits of single axes. A limit of 0 means no limit, or a passive axis.
 Vec3 within_axes(Vec3 v, const Vec3& most, bool zero_is_none, bool& cut) {
     double share = 1.0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -73,7 +73,7 @@ Vec3 passed(const Vec3& before, const Vec3& wanted, const Limited& limit, GateOu
     bool slewed = false;
     const Vec3 step = shortened(target - before, limit.most_change, slewed);
     out.slew_limited = out.slew_limited || slewed;
-    // Between two values within the limits; beyond them only when a limit has just been lowered.
+    // The result lies between two values within the limits, and exceeds them only when a limit has just been lowered.
     return inside(slewed ? before + step : target);
 }
 
@@ -94,28 +94,30 @@ const char* text(GateCause cause) noexcept {
     return "no force: unknown cause";
 }
 
-GateOutput pass_gate(const GateState& state, const GateInput& input, const GateLimits& limits, double dt_s) noexcept {
-    GateOutput out;
+GateStep pass_gate(const GateState& state, const GateInput& input, const GateLimits& limits, double dt_s) noexcept {
+    GateStep step;
+    GateState& next = step.next;
+    GateOutput& out = step.output;
     out.cause = find_cause(input, limits);
     if (out.cause != GateCause::none) {
-        out.next.faulted = true;
-        return out;
+        next.faulted = true;
+        return step;
     }
-    out.next.well_s = std::min(state.well_s + dt_s, 1e6);  // what is compared is far below
-    out.next.faulted = state.faulted && out.next.well_s < limits.recovery_s;
-    if (!out.next.faulted) out.next.ramp = risen(state.ramp, limits.ramp_s, dt_s);
-    // Only a contact can jump; out of it the ramp is kept for the next one.
-    out.next.contact_ramp = input.contact_jumped ? 0.0 : risen(state.contact_ramp, limits.contact_ramp_s, dt_s);
-    out.ramping = out.next.ramp < 1.0 || out.next.contact_ramp < 1.0;
-    const double ramp = out.next.ramp * out.next.contact_ramp;
+    next.well_s = std::min(state.well_s + dt_s, 1e6);  // only compared with much smaller values
+    next.faulted = state.faulted && next.well_s < limits.recovery_s;
+    if (!next.faulted) next.ramp = risen(state.ramp, limits.ramp_s, dt_s);
+    // Only a contact can jump; out of contact the ramp is kept for the next one.
+    next.contact_ramp = input.contact_jumped ? 0.0 : risen(state.contact_ramp, limits.contact_ramp_s, dt_s);
+    out.ramping = next.ramp < 1.0 || next.contact_ramp < 1.0;
+    const double ramp = next.ramp * next.contact_ramp;
     const Limited force{std::min(limits.max_force_N, input.device_max_force_N), input.device_axis_max_force_N, true,
                         limits.max_slew_N_per_s * dt_s};
     const Limited torque{HUGE_VAL, input.device_max_torque_Nm, false, limits.max_torque_slew_Nm_per_s * dt_s};
     out.given.force_device_N = passed(state.given.force_device_N, ramp * input.wanted.force_device_N, force, out);
     out.given.torque_device_Nm =
         passed(state.given.torque_device_Nm, ramp * input.wanted.torque_device_Nm, torque, out);
-    out.next.given = out.given;
-    return out;
+    next.given = out.given;
+    return step;
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

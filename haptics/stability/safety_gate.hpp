@@ -1,84 +1,90 @@
 // SPDX-License-Identifier: MIT
-// The last step before the device, always on: whatever the contact model asks for, what passes here is finite, within
-// the force and torque limits, and changes no faster than the slew limits; and it is zero when something is wrong.
-// Force and torque are limited each for itself, shortened and never turned, but for passive axes, which get no torque.
+// The last step before the device, always on: whatever the contact model asks for, the commanded wrench is finite,
+// within the force and torque limits, and changes no faster than the slew limits; and it is zero when something is
+// wrong. Force and torque are limited separately, by scaling without a change of direction, except that passive axes
+// get no torque.
 //
 // A pure function with its state in a struct: no clock, heap, lock or throw; wait-free, a few dozen operations.
-// Order: faults (zero at once: safe comes before smooth), ramps, limits, slew. A limit that is lowered while a force is on
-// wins over the slew limit. After a fault has gone the gate waits recovery_s, then fades in again over ramp_s; a contact that
-// has jumped fades in over contact_ramp_s. Nothing goes silent without a cause: what gives zero is named in GateOutput::cause,
+// Order: faults (zero at once: safe comes before smooth), ramps, limits, slew. A limit that is lowered while a force is
+// on wins over the slew limit. After a fault has gone the gate waits recovery_s, then fades in again over ramp_s; a
+// contact that has jumped fades in over contact_ramp_s. Every zero force has a cause: it is named in GateOutput::cause,
 // kept in the tick record, and has a text for people.
 #pragma once
 
 #include <cstdint>
 
-#include "devices/haptic_device.hpp"
+#include "devices/haptic/haptic_device.hpp"
 
-namespace burin {
+namespace burin::haptics {
 
 // Why the gate gives zero. In order of precedence.
 enum class GateCause : std::uint8_t {
     none,
     device_fault,    // the device itself reports one; see DeviceSample::fault
-    not_finite,      // a sample, a force wanted or a limit of the device is NaN, infinite or negative
+    not_finite,      // a sample, a desired force or a device limit is NaN, infinite or negative
     bad_parameters,  // settings that make no sense, such as a negative stiffness
     stale_sample,    // the device has stopped sending
     overspeed,       // the tool moves faster than any hand should
-    stale_surface,   // in contact with a surface the carving side no longer vouches for
+    stale_surface,   // in contact with a surface that the carving side no longer keeps up to date
     outside_known,   // in contact where the surface is not known
-    lost_loop,       // the loop itself has stood still: what it knows of the hand is old
+    lost_loop,       // the loop itself stood still: what it knows of the hand is out of date
 };
 
-// A sentence for people, of static storage.
+// A sentence for people; static storage.
 [[nodiscard]] const char* text(GateCause cause) noexcept;
 
 struct GateLimits {
-    double max_force_N = 3.3;                // the device's own limits hold too, if they are less
+    double max_force_N = 3.3;                // the device's own limits apply too, where lower
     double max_slew_N_per_s = 1000.0;        // 1 N a tick at 1 kHz: about what a 600 N/m wall needs at 1.7 m/s
     double max_torque_slew_Nm_per_s = 80.0;  // the same at the end of a handle of 0.16 m
     double contact_ramp_s = 0.1;             // after a contact that has jumped: an edit, a moved workspace
     double ramp_s = 0.2;                     // from zero to full at the start and after a fault
-    double recovery_s = 0.05;                // how long all must be well before the ramp begins again
+    double recovery_s = 0.05;                // time without fault before the ramp begins again
     double max_speed_m_per_s = 3.0;          // of the tool, at the device
-    double max_sample_age_s = 0.02;          // 20 ticks without news
-    double max_loop_gap_s = 0.02;            // since the tick before
+    double max_sample_age_s = 0.02;          // 20 ticks without a new sample
+    double max_loop_gap_s = 0.02;            // since the last tick
 };
 
 struct GateInput {
-    DeviceWrench wanted;
+    devices::DeviceWrench wanted;
     Vec3 velocity_device_m_per_s{0.0};
     double device_max_force_N = 0.0;
     Vec3 device_axis_max_force_N{0.0};  // 0: that axis has no limit of its own
     Vec3 device_max_torque_Nm{0.0};     // 0: that axis is passive
     double sample_age_s = 0.0;          // now minus the sample's time
-    double loop_gap_s = 0.0;            // now minus the tick before; 0 for the first
-    DeviceFault device_fault = DeviceFault::none;
+    double loop_gap_s = 0.0;            // now minus the last tick's time; 0 for the first
+    devices::DeviceFault device_fault = devices::DeviceFault::none;
     bool sample_finite = true;
     bool parameters_sensible = true;
     bool in_contact = false;
-    bool contact_jumped = false;  // the contact is not continuous with the one before: fade in
+    bool contact_jumped = false;  // the contact is not continuous with that of the last tick: fade in
     bool surface_stale = false;
     bool outside_known = false;
 };
 
 struct GateState {
-    DeviceWrench given;         // last
-    double ramp = 0.0;          // 0 to 1, at the start and after a fault
-    double contact_ramp = 1.0;  // 0 to 1, after a contact that has jumped
-    double well_s = 0.0;        // how long since the last fault
-    bool faulted = false;       // a fault has happened and recovery_s is not yet over
+    devices::DeviceWrench given;  // commanded in the last tick
+    double ramp = 0.0;            // 0 to 1, at the start and after a fault
+    double contact_ramp = 1.0;    // 0 to 1, after a contact that has jumped
+    double well_s = 0.0;          // time since the last fault
+    bool faulted = false;         // a fault has happened and recovery_s is not yet over
 };
 
 struct GateOutput {
-    GateState next;
-    DeviceWrench given;
+    devices::DeviceWrench given;  // the commanded wrench
     GateCause cause = GateCause::none;
     bool saturated = false;
     bool slew_limited = false;
     bool ramping = false;
 };
 
-[[nodiscard]] GateOutput pass_gate(const GateState& state, const GateInput& input, const GateLimits& limits,
-                                   double dt_s) noexcept;
+struct GateStep {
+    GateState next;
+    GateOutput output;
+};
 
-}  // namespace burin
+// Turns the desired wrench into the commanded one.
+[[nodiscard]] GateStep pass_gate(const GateState& state, const GateInput& input, const GateLimits& limits,
+                                 double dt_s) noexcept;
+
+}  // namespace burin::haptics

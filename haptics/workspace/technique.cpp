@@ -4,15 +4,168 @@
 #include <algorithm>
 #include <cmath>
 
-#include "haptics/workspace/turn.hpp"
-
-namespace burin {
+namespace burin::haptics {
 namespace {
 
-// No device reaches so far and no hand is so fast: beyond it squares and sums stay finite, whatever comes in.
+// The state of one step in progress.
+struct WorkspaceTurn {
+    const WorkspaceSettings& settings;
+    WorkspaceInput input;  // clamped to finite, plausible values
+    bool went_down = false, went_up = false;
+    WorkspaceStep step;  // step.next is changed in place
+
+    [[nodiscard]] WorkspaceState& state() { return step.next; }
+    [[nodiscard]] Similarity& map() { return step.next.object_from_device; }
+    [[nodiscard]] Vec3 tool_object_m() { return map() * input.position_device_m; }
+};
+
+// Half the extents of the turned and scaled workspace along the object's axes.
+Vec3 half_extent_object(const Similarity& map, const Vec3& workspace_device_m) {
+    const glm::dmat3 turn = glm::mat3_cast(map.orientation);
+    Vec3 half(0.0);
+    for (int axis = 0; axis < 3; ++axis) half += glm::abs(turn[axis]) * (0.5 * map.scale * workspace_device_m[axis]);
+    return half;
+}
+
+Vec3 shortened(const Vec3& v, double longest) {
+    const double length = std::sqrt(glm::dot(v, v));
+    return length > longest ? v * (longest / length) : v;
+}
+
+// The mapping with its middle as close to `middle_object_m` as the reach allows.
+Similarity moved_to(const Similarity& map, const Vec3& middle_object_m, const WorkspaceSettings& settings) {
+    Similarity moved = map;
+    moved.position_m = middle_object_m;
+    const Box& reach = settings.reach_object;
+    if (reach.empty()) return moved;
+    const Vec3 half = half_extent_object(map, settings.workspace_device_m);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double lo = reach.lo[axis] + half[axis], hi = reach.hi[axis] - half[axis];
+        moved.position_m[axis] = lo <= hi ? std::clamp(middle_object_m[axis], lo, hi) : reach.center()[axis];
+    }
+    return moved;
+}
+
+// Moves the mapping at the desired velocity, limited by contact, top speed, acceleration and reach.
+void glide(WorkspaceTurn& turn, const Vec3& wanted_device_m_per_s) {
+    const WorkspaceSettings& s = turn.settings;
+    Vec3& now = turn.state().glide_device_m_per_s;
+    const double top = turn.input.in_contact ? s.max_speed_in_contact_m_per_s : s.max_speed_m_per_s;
+    const double soon = std::sqrt(glm::dot(now, now)) + s.max_acceleration_m_per_s2 * turn.input.dt_s;
+    now = shortened(wanted_device_m_per_s, std::min(top, soon));
+    const Vec3 on_object_m = apply_to_vector(turn.map(), now * turn.input.dt_s);
+    turn.map() = moved_to(turn.map(), turn.map().position_m + on_object_m, s);
+}
+
+void enter(WorkspaceTurn& turn, WorkspacePhase phase) {
+    turn.state().phase = phase;
+    turn.state().phase_s = 0.0;
+}
+
+// ---- The moving algorithm; technique.hpp has its table of transitions
+
+void recentre(WorkspaceTurn& turn) {
+    turn.map() = moved_to(turn.map(), turn.tool_object_m(), turn.settings);
+    turn.step.jumped = true;
+    enter(turn, WorkspacePhase::jumping);
+}
+
+// The tool's offset from the workspace's middle corresponds to the hand's offset from the device's origin.
+void drag(WorkspaceTurn& turn) { glide(turn, turn.settings.drag_rate_per_s * turn.input.position_device_m); }
+
+void change_phase(WorkspaceTurn& turn) {
+    const WorkspaceState& state = turn.state();
+    switch (state.phase) {
+        case WorkspacePhase::paused:
+            if (turn.went_up) {
+                recentre(turn);
+            } else if (state.phase_s >= turn.settings.tap_s) {
+                enter(turn, WorkspacePhase::dragging);
+            }
+            break;
+        case WorkspacePhase::dragging:
+            if (turn.went_up) recentre(turn);
+            break;
+        case WorkspacePhase::jumping:
+            if (turn.went_down) {
+                enter(turn, WorkspacePhase::paused);
+            } else if (state.phase_s >= turn.settings.series_s) {
+                enter(turn, WorkspacePhase::editing);
+            }
+            break;
+        default:
+            if (turn.went_down) enter(turn, WorkspacePhase::paused);
+            break;
+    }
+}
+
+void step_moving(WorkspaceTurn& turn) {
+    change_phase(turn);
+    const WorkspacePhase phase = turn.state().phase;
+    if (phase == WorkspacePhase::dragging) {
+        drag(turn);
+    } else {
+        turn.state().glide_device_m_per_s = Vec3(0.0);
+    }
+    turn.step.paused = phase != WorkspacePhase::editing;
+    WorkspacePicture& picture = turn.step.picture;
+    picture.proposed_visible = phase == WorkspacePhase::paused || phase == WorkspacePhase::dragging;
+    picture.proposed_center_object_m = moved_to(turn.map(), turn.tool_object_m(), turn.settings).position_m;
+}
+
+// ---- Clutching
+
+void step_clutching(WorkspaceTurn& turn) {
+    WorkspaceState& state = turn.state();
+    if (turn.went_down) {
+        enter(turn, WorkspacePhase::clutched);
+        state.anchor_object_m = turn.tool_object_m();
+    }
+    if (turn.went_up) enter(turn, WorkspacePhase::editing);
+    if (state.phase != WorkspacePhase::clutched) return;
+    // At the border of the reach the workspace stops and the tool follows the hand, so that the mapping stays
+    // continuous.
+    const Vec3 arm_object_m = apply_to_vector(turn.map(), turn.input.position_device_m);
+    turn.map() = moved_to(turn.map(), state.anchor_object_m - arm_object_m, turn.settings);
+    turn.step.paused = true;
+}
+
+// ---- Bubble and drift, in which the mapping moves by itself
+
+// Dominjon et al. 2005: V = k (|d| - R)^3 d/|d|, F = -s (|d| - R) d/|d|.
+void step_bubble(WorkspaceTurn& turn) {
+    const WorkspaceSettings& s = turn.settings;
+    const Vec3& d = turn.input.position_device_m;
+    const double distance = std::sqrt(glm::dot(d, d));
+    const double beyond = distance - s.bubble_radius_m;
+    turn.step.picture.bubble_radius_object_m = s.bubble_radius_m * turn.map().scale;
+    const WorkspacePhase phase = beyond > 0.0 ? WorkspacePhase::gliding : WorkspacePhase::editing;
+    if (phase != turn.state().phase) enter(turn, phase);
+    const Vec3 outwards = beyond > 0.0 ? d / distance : Vec3(0.0);
+    glide(turn, outwards * (s.bubble_rate_per_m2s * beyond * beyond * beyond));
+    turn.step.force_device_N = -s.bubble_stiffness_N_per_m * std::max(beyond, 0.0) * outwards;
+}
+
+// Conti and Khatib 2005: speed proportional to the hand's speed and to its distance from the middle.
+void step_drift(WorkspaceTurn& turn) {
+    const WorkspaceSettings& s = turn.settings;
+    Vec3 outwards(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double half = 0.5 * s.workspace_device_m[axis];
+        if (half > 0.0) outwards[axis] = std::clamp(turn.input.position_device_m[axis] / half, -1.0, 1.0);
+    }
+    const double length = std::sqrt(glm::dot(outwards, outwards));
+    if (length > 1.0) outwards /= length;
+    const Vec3& v = turn.input.velocity_device_m_per_s;
+    glide(turn, outwards * (s.drift_ratio * std::sqrt(glm::dot(v, v))));
+}
+
+// ---- What all techniques share
+
+// Bounds beyond any device's reach and any hand's speed; within them squares and sums stay finite for any input.
 constexpr double kFarthest_m = 10.0, kFastest_m_per_s = 100.0, kLongestStep_s = 0.1;
 
-// Zero for what is no number.
+// Clamps x; NaN becomes zero.
 double within(double x, double largest) { return std::isnan(x) ? 0.0 : std::clamp(x, -largest, largest); }
 
 Vec3 within(const Vec3& v, double largest) {
@@ -42,11 +195,11 @@ WorkspaceState begin(const WorkspaceSettings& settings, bool pressed) {
     state.settings_map = state.object_from_device = settings.object_from_device;
     state.scaling_gain = settings.scaling_gain;
     if (settings.technique == WorkspaceTechnique::scaling) state.object_from_device.scale *= settings.scaling_gain;
-    state.pressed = pressed;  // that press is not for this technique
+    state.pressed = pressed;  // a press that began before the technique does not count
     return state;
 }
 
-// The reach may have changed since the step before.
+// Clamps the mapping to the reach, which may have changed since the last step.
 void keep_within_reach(WorkspaceTurn& turn) {
     if (turn.settings.technique == WorkspaceTechnique::fixed) return;
     const Similarity kept = moved_to(turn.map(), turn.map().position_m, turn.settings);
@@ -67,7 +220,7 @@ void note_button(WorkspaceTurn& turn) {
 void take_step(WorkspaceTurn& turn) {
     switch (turn.settings.technique) {
         case WorkspaceTechnique::fixed:
-        case WorkspaceTechnique::scaling: break;  // the mapping stands
+        case WorkspaceTechnique::scaling: break;  // the mapping does not move
         case WorkspaceTechnique::moving: step_moving(turn); break;
         case WorkspaceTechnique::clutching: step_clutching(turn); break;
         case WorkspaceTechnique::bubble: step_bubble(turn); break;
@@ -75,7 +228,7 @@ void take_step(WorkspaceTurn& turn) {
     }
 }
 
-// Beyond it a number is nonsense, and products of a few of them are no longer finite.
+// Bound on sensible settings; beyond it products of a few of them are no longer finite.
 constexpr double kLargest = 1e9;
 
 bool ordinary(double x) { return x >= -kLargest && x <= kLargest; }
@@ -147,4 +300,4 @@ bool settings_are_sensible(const WorkspaceSettings& s) noexcept {
     return known && place && moving && above_zero(s.scaling_gain) && bubble && drift && limits;
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/few_parts.hpp"
+#include "renderer/frame/damage_rectangles.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 
-namespace burin {
+namespace burin::renderer {
 namespace {
 
 constexpr std::uint32_t kCell_px = 16;
-// What drawing one more rectangle costs, in pixels: a pass, and what lies across its edges is worked on twice.
+// Cost of drawing one more rectangle, in pixels: it takes a pass
+// of its own, and what crosses its edges is processed twice.
 constexpr std::int64_t kPrice_px = 4096;
-constexpr std::int64_t kMostOfAll = 80;  // percent: more of the picture is drawn as a whole
+constexpr std::int64_t kMostOfAll = 80;  // percent of the picture's area beyond which all of it is redrawn
 
 std::int64_t area(const PixelRect& r) { return std::int64_t{r.width} * r.height; }
 
-// The picture in cells, each wanted or not; the last column and row may be narrower.
+// The picture as a grid of cells, each damaged or not; the last column and row may be narrower.
 class Cells {
 public:
     explicit Cells(ImageSize size)
@@ -32,7 +33,7 @@ public:
                 wanted_[std::size_t{y} * columns_ + x] = true;
     }
 
-    // Runs of cells in a row, those of the same extent in the row below with them.
+    // Returns rectangles of damaged cells: runs within a row, merged with runs of the same extent in the rows below.
     [[nodiscard]] std::vector<PixelRect> runs() const {
         std::vector<PixelRect> made;
         for (std::uint32_t y = 0; y < rows_; ++y)
@@ -65,7 +66,7 @@ private:
     std::vector<bool> wanted_;
 };
 
-// The two that are best made one, if that is cheaper than both.
+// Returns the two rectangles whose merging saves most, if any saves anything.
 std::optional<std::pair<std::size_t, std::size_t>> best_pair(const std::vector<PixelRect>& parts) {
     std::optional<std::pair<std::size_t, std::size_t>> best;
     std::int64_t least = kPrice_px;
@@ -79,7 +80,7 @@ std::optional<std::pair<std::size_t, std::size_t>> best_pair(const std::vector<P
     return best;
 }
 
-// The smallest rectangle around what a part holds of those wanted.
+// Returns the smallest rectangle around the given rectangles' parts inside `part`.
 PixelRect within(const PixelRect& part, std::span<const PixelRect> rects) {
     PixelRect wanted;
     for (const PixelRect& r : rects) wanted = around(wanted, common(part, r));
@@ -88,7 +89,7 @@ PixelRect within(const PixelRect& part, std::span<const PixelRect> rects) {
 
 }  // namespace
 
-std::vector<PixelRect> few_parts(std::span<const PixelRect> rects, ImageSize size) {
+std::vector<PixelRect> damage_rectangles(std::span<const PixelRect> rects, ImageSize size) {
     Cells cells(size);
     for (const PixelRect& r : rects) cells.add(r);
     std::vector<PixelRect> parts = cells.runs();
@@ -96,11 +97,11 @@ std::vector<PixelRect> few_parts(std::span<const PixelRect> rects, ImageSize siz
         parts[pair->first] = around(parts[pair->first], parts[pair->second]);
         parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(pair->second));
     }
-    for (PixelRect& part : parts) part = within(part, rects);  // cells at its edges may be wanted in part
+    for (PixelRect& part : parts) part = within(part, rects);  // cells at its edges may be damaged only in part
     std::int64_t sum = 0;
     for (const PixelRect& part : parts) sum += area(part);
     if (100 * sum > kMostOfAll * area(all_of(size))) return {all_of(size)};
     return parts;
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

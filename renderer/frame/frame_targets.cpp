@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/frame_targets.hpp"
+#include "renderer/frame/frame_targets.hpp"
 
 #include <array>
 #include <span>
 
-namespace burin {
+namespace burin::renderer {
 
 namespace {
 
 using gpu::structure;
 
-// clear: within the render area. An initial layout other than UNDEFINED keeps what lies outside of it.
+// `clear` acts within the render area. An initial layout other than UNDEFINED preserves what lies outside of it.
 VkAttachmentDescription attachment(VkFormat format, std::uint32_t samples, bool clear, bool keep, VkImageLayout before,
                                    VkImageLayout after) {
     VkAttachmentDescription a{};
@@ -25,8 +25,8 @@ VkAttachmentDescription attachment(VkFormat format, std::uint32_t samples, bool 
     return a;
 }
 
-// Frames follow one another on one queue: a pass waits for all that was done with its targets before, and what comes after
-// (showing the picture, copying it) waits for it.
+// Orders frames on one queue: a pass waits for all earlier use of its targets, and later use (showing the picture,
+// copying it) waits for the pass.
 std::array<VkSubpassDependency, 2> orderly() {
     constexpr VkPipelineStageFlags kFragments = VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT |
                                                 VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT |
@@ -55,7 +55,7 @@ Result<gpu::RenderPassHandle> create_pass(gpu::Device& device, std::span<const V
     multiview.subpassCount = 1;
     multiview.pViewMasks = &view_mask;
     multiview.correlationMaskCount = 1;
-    multiview.pCorrelationMasks = &view_mask;  // the views see nearly the same
+    multiview.pCorrelationMasks = &view_mask;  // the views are nearly the same
     auto info = structure<VkRenderPassCreateInfo>(VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO);
     if (view_mask != 0) info.pNext = &multiview;
     info.attachmentCount = static_cast<std::uint32_t>(attachments.size());
@@ -80,7 +80,7 @@ Result<gpu::FramebufferHandle> create_framebuffer(gpu::Device& device, VkRenderP
     info.pAttachments = views.data();
     info.width = size.width;
     info.height = size.height;
-    info.layers = 1;  // with multiview the view mask chooses the layers
+    info.layers = 1;  // with multiview the view mask selects the layers
     const auto& core = device.core();
     VkFramebuffer framebuffer = VK_NULL_HANDLE;
     if (const VkResult r = core->vk.vkCreateFramebuffer(core->device, &info, nullptr, &framebuffer); r != VK_SUCCESS) {
@@ -124,7 +124,8 @@ Result<void> create_images(gpu::Device& device, FrameTargets& t) {
     return {};
 }
 
-// The finished picture, depth, and with several samples the colours that are resolved into the picture.
+// Creates the pass with its attachments: the finished picture, depth,
+// and with several samples the colour that is resolved into the picture.
 Result<gpu::RenderPassHandle> create_view_pass(gpu::Device& device, const FrameTargets& t, bool whole) {
     constexpr VkImageLayout kUndefined = VK_IMAGE_LAYOUT_UNDEFINED, kShown = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
                             kColour = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
@@ -174,4 +175,4 @@ Result<FrameTargets> FrameTargets::create(gpu::Device& device, ImageSize size, s
     return targets;
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

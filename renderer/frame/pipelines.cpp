@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/pipelines.hpp"
+#include "renderer/frame/pipelines.hpp"
 
 #include <cstddef>
 
@@ -15,7 +15,7 @@
 #include "shaders/solid.frag.spv.hpp"
 #include "shaders/solid.vert.spv.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 namespace {
 
@@ -25,7 +25,7 @@ constexpr VkShaderStageFlags kAllStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER
 
 const std::array<VkVertexInputBindingDescription, 2> kBindings{
     {{0, sizeof(shared::SurfaceVertex), VK_VERTEX_INPUT_RATE_VERTEX},
-     {1, sizeof(VertexLight), VK_VERTEX_INPUT_RATE_VERTEX}}};
+     {1, sizeof(geometry::VertexLight), VK_VERTEX_INPUT_RATE_VERTEX}}};
 const std::array<VkVertexInputAttributeDescription, 4> kAttributes{
     {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(shared::SurfaceVertex, x)},
      {1, 0, VK_FORMAT_R32_UINT, offsetof(shared::SurfaceVertex, normal)},
@@ -146,7 +146,8 @@ Result<VkPipeline> Pipelines::pipeline(gpu::Device& device, PipelineKind kind, b
                                        const FrameTargets& targets) {
     const bool shadows = kind == PipelineKind::backdrop,
                grid = shadows || kind == PipelineKind::backdrop_without_shadows;
-    if (grid || kind == PipelineKind::backdrop_plain) fades = false;  // behind the screen nothing does
+    // The room is behind the screen, where nothing fades.
+    if (grid || kind == PipelineKind::backdrop_plain) fades = false;
     OfEachKind& kinds = pipelines_[static_cast<std::size_t>(targets.views)][fades ? 1 : 0];
     gpu::PipelineHandle& kept = kinds[static_cast<std::size_t>(kind)];
     if (!kept) {
@@ -165,4 +166,4 @@ Result<VkPipeline> Pipelines::pipeline(gpu::Device& device, PipelineKind kind, b
     return kept.raw();
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

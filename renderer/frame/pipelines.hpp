@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The renderer's pipelines, each compiled when it is first needed, and the descriptor set that they share.
+// The renderer's pipelines, each compiled at its first use, and the descriptor set that they share.
 // Ownership: move-only. Thread: as gpu::Device.
 #pragma once
 
 #include <array>
 
 #include "gpu/buffer.hpp"
-#include "renderer/frame_targets.hpp"
+#include "renderer/frame/frame_targets.hpp"
 #include "shaders/shared/frame_uniforms.h"
 
-namespace burin {
+namespace burin::renderer {
 
 enum class PipelineKind : std::size_t {
     solid,     // the shapes, and the workpiece where it is lit at every pixel
@@ -17,8 +17,9 @@ enum class PipelineKind : std::size_t {
     backdrop,  // the room
     backdrop_without_shadows,
     backdrop_plain,  // without shadows and grid
-    glass_back,      // the far faces of the workspace's boxes and bubble, then
-    glass_front,     // their near ones; neither writes depth
+    // The far faces of the workspace's boxes and bubble, drawn before glass_front. Neither writes depth.
+    glass_back,
+    glass_front,  // the near faces of the same
     count
 };
 
@@ -26,14 +27,16 @@ class Pipelines {
 public:
     [[nodiscard]] static Result<Pipelines> create(gpu::Device& device);
 
-    // For the passes of these targets; the same number of samples each time, any views. fades: parallax, towards the screen's edges.
+    // Returns the pipeline for the passes of these targets, which must have the same number of samples at every call
+    // but may have any views. fades: parallax fades towards the screen's edges.
     [[nodiscard]] Result<VkPipeline> pipeline(gpu::Device& device, PipelineKind kind, bool fades,
                                               const FrameTargets& targets);
-    [[nodiscard]] std::uint32_t created() const { return created_; }  // pipelines, so far
+    [[nodiscard]] std::uint32_t created() const { return created_; }  // compiled so far
     [[nodiscard]] VkPipelineLayout layout() const { return layout_.raw(); }
     [[nodiscard]] VkDescriptorSet set() const { return set_; }
     [[nodiscard]] VkDescriptorSetLayout set_layout() const { return set_layout_.raw(); }
-    // For FrameUniforms; brought over with a frame's own commands, so that frames may follow one another unwaited for.
+    // Buffer of FrameUniforms. It is filled by a frame's own commands,
+    // so that frames may follow one another without waiting.
     [[nodiscard]] const gpu::Buffer& uniforms() const { return uniforms_; }
 
 private:
@@ -46,8 +49,9 @@ private:
     gpu::DescriptorPoolHandle pool_;
     VkDescriptorSet set_ = VK_NULL_HANDLE;  // freed with its pool
     using OfEachKind = std::array<gpu::PipelineHandle, static_cast<std::size_t>(PipelineKind::count)>;
-    std::array<std::array<OfEachKind, 2>, kViewChoices> pipelines_;  // by views, and by whether parallax fades
+    // Indexed by views, then by whether parallax fades.
+    std::array<std::array<OfEachKind, 2>, kViewChoices> pipelines_;
     std::uint32_t created_ = 0;
 };
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/readback.hpp"
+#include "renderer/frame/readback.hpp"
 
 #include <cstdint>
 #include <utility>
 
-namespace burin {
+namespace burin::renderer {
 
 using gpu::structure;
 
@@ -54,4 +54,4 @@ StereoImage Readback::pictures() const {
     return {picture(0), picture(1)};
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
-// Brings both eyes' finished pictures (frame_targets.hpp) to the host.
+// Reads both eyes' finished pictures (frame_targets.hpp) back to the host.
 // Ownership: move-only. Thread: as gpu::Device.
 #pragma once
 
+#include "base/image.hpp"
 #include "gpu/buffer.hpp"
 #include "gpu/commands.hpp"
 #include "gpu/device.hpp"
-#include "renderer/image.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 class Readback {
 public:
-    // For pictures of this size; nothing is done where it is so already.
+    // Allocates the buffer for pictures of this size; does nothing if it has this size already.
     [[nodiscard]] Result<void> fit(gpu::Device& device, ImageSize size);
-    // Of an image of two layers of 4 bytes a pixel, in layout SHADER_READ_ONLY_OPTIMAL before and after.
+    // Records the copy of an image of two layers of 4 bytes a
+    // pixel, in layout SHADER_READ_ONLY_OPTIMAL before and after.
     void copy(const gpu::Device& device, gpu::Commands& commands, VkImage picture);
-    // Once the commands of copy() are done.
+    // Returns the pictures; call it once the commands of copy() have finished.
     [[nodiscard]] StereoImage pictures() const;
 
 private:
@@ -24,4 +25,4 @@ private:
     ImageSize size_;
 };
 
-}  // namespace burin
+}  // namespace burin::renderer

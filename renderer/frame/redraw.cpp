@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/redraw.hpp"
+#include "renderer/frame/redraw.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
-#include "renderer/contact_marks.hpp"
-#include "renderer/stereo/projection.hpp"
+#include "renderer/scene/contact_marks.hpp"
+#include "wall/projection.hpp"
 
-namespace burin {
+namespace burin::renderer {
 namespace {
 
-constexpr double kNearest_m = 0.02;  // nearer to an eye's plane nothing is projected
+constexpr double kNearest_m = 0.02;  // nothing nearer than this to an eye's plane is projected
 
 Box box_around(const Ball& ball) {
     return {ball.center_world - Vec3(ball.radius_m), ball.center_world + Vec3(ball.radius_m)};
@@ -30,7 +30,8 @@ Box world_box(const Scene& scene, const Box& patch) {
     return world;
 }
 
-// What the tool's shadow can be seen on, beside the workpiece: the solid shapes. Neither room nor glass nor panel has it.
+// Returns the bounds of the solid shapes, on which the tool's shadow may fall besides the workpiece. Room, glass and
+// panel receive no shadow of the tool.
 std::vector<Box> lit_things(const Shown& in) {
     const Scene& scene = in.scene;
     std::vector<Box> things;
@@ -45,8 +46,8 @@ std::vector<Box> lit_things(const Shown& in) {
                           p.top_center_world + Vec3(p.radius_m, 0.0, p.radius_m)});
     }
     if (scene.show_wall_frame) {
-        constexpr double kFrame_m = 0.06;  // its bars' depth and width
-        const Screen& s = scene.screen;
+        constexpr double kFrame_m = 0.06;  // the depth and width of the frame's bars
+        const wall::Screen& s = scene.screen;
         const Vec3 upper_right = s.upper_left_world + (s.lower_right_world - s.lower_left_world);
         for (const auto& [a, b] :
              {std::pair(s.lower_left_world, s.lower_right_world), std::pair(s.lower_left_world, s.upper_left_world),
@@ -56,7 +57,8 @@ std::vector<Box> lit_things(const Shown& in) {
     return things;
 }
 
-// The shadow of a ball of the tool, from the ball on, in slices: one box around all of it would hold much that is not in it.
+// Returns the shadow of one ball of the tool, from the ball on, in slices:
+// one box around the whole shadow would hold much that is not in it.
 std::array<Box, 12> shadow_of(const Ball& ball, double tool_radius_m) {
     std::array<Box, 12> slices;
     const double length_m = double{shared::kToolShades} * tool_radius_m;
@@ -66,8 +68,8 @@ std::array<Box, 12> shadow_of(const Ball& ball, double tool_radius_m) {
     for (std::size_t i = 0; i < slices.size(); ++i) {
         const double from_m = length_m * static_cast<double>(i) / slices.size(),
                      to_m = length_m * static_cast<double>(i + 1) / slices.size();
-        // Its edge is as wide as the lamp is seen from there, or a fiftieth of the ball (hidden_share in shaders/lighting.glsl); twice
-        // the ball for what lies behind its own middle.
+        // The penumbra is as wide as the lamp appears from there, or a fiftieth of the ball (hidden_share in
+        // shaders/lighting.glsl); twice the ball's radius accounts for what lies behind the ball's own middle.
         const double edge_m = kLightHalfAngleTangent * (to_m + 2.0 * ball.radius_m) + 0.02 * tool_radius_m;
         const Box a = at(from_m, ball.radius_m + edge_m), b = at(to_m, ball.radius_m + edge_m);
         slices[i] = {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)};
@@ -75,7 +77,7 @@ std::array<Box, 12> shadow_of(const Ball& ball, double tool_radius_m) {
     return slices;
 }
 
-// Rectangles of things that are where they are in one scene.
+// Collects rectangles of objects at their positions in one scene.
 class Parts {
 public:
     Parts(const Scene& scene, ImageSize size) : scene_(scene), size_(size) {}
@@ -84,7 +86,7 @@ public:
     void add(const Ball& ball) {
         if (ball.radius_m > 0.0) add(box_around(ball));
     }
-    // All that the tool changes around it, but for the workpiece.
+    // Adds all that the tool affects around it, except the workpiece.
     void add_tool(const Shown& in) {
         const SceneTool& tool = in.scene.tool;
         if (!tool.visible) return;
@@ -136,25 +138,26 @@ bool same_room(const Shown& a, const Shown& b) {
 }
 
 PixelRect seen_part(const Scene& scene, ImageSize size, std::span<const Box> boxes_world) {
-    const Screen& screen = scene.screen;
+    const wall::Screen& screen = scene.screen;
     const double width_m = glm::length(screen.lower_right_world - screen.lower_left_world);
     const double height_m = glm::length(screen.upper_left_world - screen.lower_left_world);
-    const Eyes eyes = eyes_of(scene.viewer);
+    const wall::Eyes eyes = wall::eyes_of(scene.viewer);
     Vec2 lo(HUGE_VAL), hi(-HUGE_VAL);
-    // Faded, a point is drawn between where the eye sees it and where the middle does, which lies between the eyes.
+    // With the fade a point is drawn between its positions as seen
+    // by the eye and from the middle, which lies between the eyes.
     for (const Vec3& eye :
          {eyes.left_world, eyes.right_world, scene.edge_fade > 0.0 ? middle_of(eyes) : eyes.left_world}) {
-        const double eye_m = distance_in_front(screen, eye);
+        const double eye_m = wall::distance_in_front(screen, eye);
         for (std::size_t i = 0; i < 8 * boxes_world.size(); ++i) {
             const Vec3 p = corner_of(boxes_world[i / 8], static_cast<int>(i % 8));
-            if (eye_m - distance_in_front(screen, p) < kNearest_m) return all_of(size);
+            if (eye_m - wall::distance_in_front(screen, p) < kNearest_m) return all_of(size);
             const Vec2 at = point_on_screen(screen, eye, p);
             const Vec2 px{at.x / width_m * size.width, (1.0 - at.y / height_m) * size.height};
             lo = glm::min(lo, px);
             hi = glm::max(hi, px);
         }
     }
-    // Two pixels more for rounding, and for what touches a pixel without covering its middle.
+    // Two extra pixels for rounding, and for what touches a pixel without covering its middle.
     const auto clamped = [](double v, std::uint32_t most) {
         return static_cast<std::uint32_t>(std::clamp(v, 0.0, static_cast<double>(most)));
     };
@@ -190,4 +193,4 @@ std::vector<PixelRect> changed_rects(const Shown& shown, const Shown& wanted, Im
     return std::move(parts.rects);
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

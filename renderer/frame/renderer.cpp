@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/renderer.hpp"
+#include "renderer/frame/renderer.hpp"
 
 #include <algorithm>
 #include <array>
 #include <numeric>
 
 #include "gpu/commands.hpp"
-#include "renderer/few_parts.hpp"
-#include "renderer/frame_setup.hpp"
-#include "renderer/frame_targets.hpp"
+#include "renderer/frame/damage_rectangles.hpp"
+#include "renderer/frame/frame_targets.hpp"
+#include "renderer/frame/pipelines.hpp"
+#include "renderer/frame/readback.hpp"
+#include "renderer/frame/redraw.hpp"
+#include "renderer/frame/room_parts.hpp"
+#include "renderer/frame/shape_choice.hpp"
 #include "renderer/panel/panel_quad.hpp"
-#include "renderer/pipelines.hpp"
-#include "renderer/primitives.hpp"
-#include "renderer/readback.hpp"
-#include "renderer/redraw.hpp"
-#include "renderer/room_parts.hpp"
-#include "renderer/shape_choice.hpp"
-#include "renderer/stereo/projection.hpp"
-#include "renderer/surface/patch_store.hpp"
+#include "renderer/scene/frame_setup.hpp"
+#include "renderer/scene/primitives.hpp"
+#include "renderer/surface/drawn_patches.hpp"
+#include "wall/projection.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 namespace {
 
@@ -27,9 +27,9 @@ using gpu::structure;
 
 constexpr std::uint32_t kMaxSide = 8192;
 
-// For the room: world_from_local takes the viewport's corners, -1 to 1, which lie kGuard times as far out as the picture's, to places on the
-// screen's plane.
-shared::DrawConstants screen_constants(const Screen& screen) {
+// Returns the constants for drawing the room: world_from_local maps the viewport's corners, -1 to 1, to the plane of
+// the screen, kGuard times as far out as the picture's corners.
+shared::DrawConstants screen_constants(const wall::Screen& screen) {
     const Vec3 half_x = 0.5 * (screen.lower_right_world - screen.lower_left_world);
     const Vec3 half_y = 0.5 * (screen.upper_left_world - screen.lower_left_world);
     shared::DrawConstants c{};
@@ -66,20 +66,22 @@ public:
         ++panel_pictures_;
     }
 
-    void refine_beside(bool resting);
     Result<void> resize(ImageSize size, Views views);
 
-    PatchStore patches;
-    std::vector<Box> occluders;
+    std::shared_ptr<SurfaceStore> surface;
     Savings savings;
     FrameTargets targets;
-    std::optional<Shown> shown;  // nothing: no picture yet
+    std::optional<Shown> shown;  // empty: no picture yet
     RenderStats stats;
 
 private:
-    explicit Implementation(const gpu::Device& device) : device_(device) {}
+    Implementation(const gpu::Device& device, std::shared_ptr<SurfaceStore> shared)
+        : surface(shared ? shared : std::make_shared<SurfaceStore>(device)),
+          device_(device),
+          owns_surface_(!shared),
+          drawn_(surface->patches()) {}
 
-    // One frame while it is recorded.
+    // State of one part of a frame while it is recorded.
     struct Recording {
         gpu::Commands& commands;
         const Scene& scene;
@@ -91,10 +93,10 @@ private:
     };
     struct StandingPanel {
         std::optional<PanelQuad> quad;
-        std::uint64_t shows = 0;  // which of the pictures given
+        std::uint64_t shows = 0;  // number of the picture it shows
     };
     Result<void> upload_primitives();
-    std::vector<PixelRect> parts_to_draw(const Shown& wanted, const PatchStore::Flushed& flushed);
+    std::vector<PixelRect> parts_to_draw(const Shown& wanted);
     Result<void> draw_part(gpu::Commands& commands, const Shown& wanted, const PixelRect& part);
     void upload_uniforms(gpu::Commands& commands, const Shown& wanted);
     Result<void> draw_views(Recording& r);
@@ -121,16 +123,16 @@ private:
     const VolkDeviceTable& vk() const { return device_.core()->vk; }
 
     gpu::Device device_;
+    bool owns_surface_ = false;
+    DrawnPatches drawn_;
     Pipelines pipelines_;
     Primitives primitives_;
     gpu::Buffer primitive_vertices_, primitive_lights_, primitive_indices_;
-    Readback readback_;  // made when first needed
-    // Likewise; by views, and by whether parallax fades.
+    Readback readback_;  // allocated at first use
+    // Also created at first use. Indexed by views, then by whether parallax fades.
     std::array<std::array<StandingPanel, 2>, kViewChoices> panels_;
     VkImageView panel_ = VK_NULL_HANDLE;
-    std::uint64_t panel_pictures_ = 0;  // given to the renderer
-    DetailWorker detail_;
-    std::size_t detail_come_ = 0;  // patches with new levels that no whole picture has shown yet
+    std::uint64_t panel_pictures_ = 0;  // number of pictures given to the renderer
 };
 
 Result<std::unique_ptr<Renderer::Implementation>> Renderer::Implementation::create(gpu::Device& device, ImageSize size,
@@ -144,7 +146,10 @@ Result<std::unique_ptr<Renderer::Implementation>> Renderer::Implementation::crea
             device.info().name + " draws with 1 or " + std::to_string(most) + ", not " + std::to_string(samples),
             "choose one of these");
     }
-    auto made = std::unique_ptr<Implementation>(new Implementation(device));
+    if (options.surface && !options.surface->is_on(device)) {
+        return fail("renderer", "the surface is on another graphics device", "give each device a surface of its own");
+    }
+    auto made = std::unique_ptr<Implementation>(new Implementation(device, options.surface));
     made->savings = options.savings;
     auto targets = FrameTargets::create(device, size, samples, options.views);
     if (!targets) return std::unexpected(targets.error());
@@ -156,7 +161,7 @@ Result<std::unique_ptr<Renderer::Implementation>> Renderer::Implementation::crea
     return made;
 }
 
-// Pipelines fit any targets of the same formats, views and number of samples.
+// Keeps the pipelines: they fit any targets of the same formats, views and number of samples.
 Result<void> Renderer::Implementation::resize(ImageSize size, Views views) {
     if (const auto ok = check_size(size); !ok) return ok;
     auto other = FrameTargets::create(device_, size, targets.samples, views);
@@ -168,7 +173,7 @@ Result<void> Renderer::Implementation::resize(ImageSize size, Views views) {
 
 Result<void> Renderer::Implementation::upload_primitives() {
     primitives_ = make_primitives();
-    const std::vector<VertexLight> lights(primitives_.vertices.size());
+    const std::vector<geometry::VertexLight> lights(primitives_.vertices.size());
     const auto put = [&](gpu::Buffer& buffer, gpu::BufferUse use, std::span<const std::byte> bytes) -> Result<void> {
         auto made = gpu::Buffer::create(device_, use, bytes.size(), "shapes");
         if (!made) return std::unexpected(made.error());
@@ -182,7 +187,7 @@ Result<void> Renderer::Implementation::upload_primitives() {
 }
 
 Result<RenderStats> Renderer::Implementation::record(gpu::Commands& commands, const Scene& scene) {
-    if (!can_be_seen(scene.screen, eyes_of(scene.viewer))) {
+    if (!wall::can_be_seen(scene.screen, wall::eyes_of(scene.viewer))) {
         return fail("viewer", "the eyes are behind the screen, or the screen is not a rectangle",
                     "check the wall's corners and the head pose");
     }
@@ -190,20 +195,21 @@ Result<RenderStats> Renderer::Implementation::record(gpu::Commands& commands, co
         return fail("fade of parallax", "is not from 0 to 1, or its band is below 0",
                     "choose 0 to 1, and a band of 0.2");
     }
-    commands.barrier();  // the frame before has read what is written now
-    const auto flushed = patches.flush(device_, commands);
-    if (!flushed) return std::unexpected(flushed.error());
+    commands.barrier();  // waits until the previous frame has read what is now overwritten
+    const auto uploaded = owns_surface_ ? surface->flush(commands) : Result<std::uint64_t>(0);
+    if (!uploaded) return std::unexpected(uploaded.error());
+    const PatchStore& patches = surface->patches();
     Shown wanted{scene, place_workpiece(scene, patches.bounds(), patches.reach_m()), {}, panel_pictures_};
     wanted.depth = depth_range(scene, wanted.workpiece);
     stats = {.part = {},
-             .parts = parts_to_draw(wanted, *flushed),
+             .parts = parts_to_draw(wanted),
              .triangles = patches.triangles(),
              .patches = patches.patches(),
              .patch_counts = {},
              .shapes_left_out = 0,
              .plain_room = 0,
              .draws = 0,
-             .uploaded_bytes = flushed->bytes,
+             .uploaded_bytes = *uploaded,
              .pipelines = pipelines_created()};
     if (!stats.parts.empty()) {
         upload_uniforms(commands, wanted);
@@ -216,22 +222,23 @@ Result<RenderStats> Renderer::Implementation::record(gpu::Commands& commands, co
     return stats;
 }
 
-std::vector<PixelRect> Renderer::Implementation::parts_to_draw(const Shown& wanted,
-                                                               const PatchStore::Flushed& flushed) {
+std::vector<PixelRect> Renderer::Implementation::parts_to_draw(const Shown& wanted) {
     const PixelRect all = all_of(targets.size);
     std::vector<PixelRect> parts{all};
+    const std::span<const Box> occluders = surface->occluders();
+    DrawnPatches::Changes changes = drawn_.take_changes();
+    if (changes.whole) shown.reset();
     if (savings.parts_only && shown && same_room(*shown, wanted)) {
-        std::vector<Box> changed = flushed.changed;
+        std::vector<Box>& changed = changes.boxes;
         const auto add = [&](const std::vector<Box>& more) { changed.insert(changed.end(), more.begin(), more.end()); };
-        add(changed_near_tool(patches.in_order(), shown->scene, wanted.scene, targets.size, occluders));
-        add(choose_rates(patches.in_order(), wanted.scene, targets.size, savings));
-        parts = few_parts(changed_rects(*shown, wanted, targets.size, changed), targets.size);
+        add(changed_near_tool(drawn_.patches(), shown->scene, wanted.scene, targets.size, occluders));
+        add(choose_rates(drawn_, wanted.scene, targets.size, savings));
+        parts = damage_rectangles(changed_rects(*shown, wanted, targets.size, changed), targets.size);
         if (!savings.parts_apart && !parts.empty())
             parts = {std::accumulate(parts.begin(), parts.end(), PixelRect{}, around)};
     }
     if (std::ranges::find(parts, all) != parts.end()) {
-        choose_levels(patches.in_order(), wanted.scene, targets.size, savings, occluders);
-        detail_come_ = 0;
+        choose_levels(drawn_, wanted.scene, targets.size, savings, occluders);
         parts = {all};
     }
     return parts;
@@ -242,7 +249,7 @@ Result<void> Renderer::Implementation::draw_part(gpu::Commands& commands, const 
     ShownShapes shapes = shapes_in(part, scene, primitives_, targets.size, savings);
     Recording r{commands, scene, part, std::move(shapes.shapes), {}};
     r.workpiece = wanted.workpiece;
-    r.surface = choose_draws(patches.in_order(), scene, targets.size, part, savings, occluders);
+    r.surface = choose_draws(drawn_, scene, targets.size, part, savings, surface->occluders());
     const auto done = draw_views(r);
     stats.part = around(stats.part, part);
     stats.shapes_left_out += shapes.left_out;
@@ -258,7 +265,7 @@ void Renderer::Implementation::upload_uniforms(gpu::Commands& commands, const Sh
 
 Result<void> Renderer::Implementation::draw_views(Recording& r) {
     begin_pass(r);
-    // Front to back as far as it is known: what is drawn later and hidden costs little.
+    // Front to back as far as the order is known: hidden fragments that come later cost little.
     auto done = draw_shapes(r);
     if (done) done = draw_surface(r);
     if (done) done = draw_room(r);
@@ -270,7 +277,7 @@ Result<void> Renderer::Implementation::draw_views(Recording& r) {
 
 void Renderer::Implementation::begin_pass(Recording& r) {
     const Vec3 background = targets.encodes ? r.scene.background : linear_of(r.scene.background);
-    std::array<VkClearValue, 3> clears{};  // the finished picture is only cleared when it is drawn into directly
+    std::array<VkClearValue, 3> clears{};  // the resolved picture's entry counts only where it is drawn into directly
     for (const std::size_t i : {std::size_t{0}, std::size_t{2}}) {
         clears[i].color = {{static_cast<float>(background.x), static_cast<float>(background.y),
                             static_cast<float>(background.z), 1.0f}};
@@ -310,6 +317,7 @@ Result<void> Renderer::Implementation::draw_surface(Recording& r, PipelineKind k
                                                     std::span<const DrawRange> ranges) {
     if (ranges.empty()) return {};
     if (const auto done = use(r, kind); !done) return done;
+    const PatchStore& patches = surface->patches();
     bind(r, patches.vertex_buffer(), patches.light_buffer(), patches.index_buffer());
     push(r, surface_constants(r.scene));
     for (const DrawRange& range : ranges) {
@@ -405,19 +413,6 @@ void Renderer::Implementation::push(Recording& r, const shared::DrawConstants& c
                             &constants);
 }
 
-// A level lies off by half a pixel at most, so that nobody sees when it is taken up; but it costs a whole picture.
-void Renderer::Implementation::refine_beside(bool resting) {
-    constexpr std::size_t kAhead = 512, kWorthAPicture = 64;
-    for (DetailDone& done : detail_.take()) detail_come_ += patches.take(std::move(done)) ? 1 : 0;
-    while (detail_.waiting() < kAhead) {
-        auto job = patches.next_detail(resting);
-        if (!job) break;
-        detail_.give(std::move(*job));
-    }
-    const bool rest_done = resting && detail_.waiting() == 0 && detail_come_ > 0;
-    if (rest_done || detail_come_ >= kWorthAPicture) shown.reset();
-}
-
 // ---- Reading back
 
 Result<StereoImage> Renderer::Implementation::render(const Scene& scene) {
@@ -445,34 +440,8 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 
-void Renderer::set_patch(std::uint32_t id, std::shared_ptr<const SurfaceTile> surface) {
-    implementation_->patches.set(id, std::move(surface));
-}
-void Renderer::set_patch(std::uint32_t id, std::span<const shared::SurfaceVertex> vertices,
-                         std::span<const std::uint32_t> indices) {
-    auto copy = std::make_shared<SurfaceTile>();
-    copy->vertices.assign(vertices.begin(), vertices.end());
-    copy->indices.assign(indices.begin(), indices.end());
-    set_patch(id, std::move(copy));
-}
-void Renderer::remove_patch(std::uint32_t id) { implementation_->patches.remove(id); }
-void Renderer::clear_patches() { implementation_->patches.clear(); }
-void Renderer::set_patch_light(std::uint32_t id, std::span<const VertexLight> light) {
-    implementation_->patches.set_light(id, light);
-}
-void Renderer::set_occluders(std::vector<Box> occluders) { implementation_->occluders = std::move(occluders); }
+SurfaceStore& Renderer::surface() { return *implementation_->surface; }
 void Renderer::show_panel(VkImageView panel) { implementation_->show_panel(panel); }
-std::size_t Renderer::refine(std::size_t most) {
-    std::size_t refined = 0;
-    for (; refined < most; ++refined) {
-        auto job = implementation_->patches.next_detail(true);
-        if (!job) break;
-        std::vector<PatchLevel> levels = job->levels();
-        implementation_->patches.take({std::move(*job), std::move(levels)});
-    }
-    return refined;
-}
-void Renderer::refine_beside(bool resting) { implementation_->refine_beside(resting); }
 Result<RenderStats> Renderer::record(gpu::Commands& commands, const Scene& scene) {
     return implementation_->record(commands, scene);
 }
@@ -487,4 +456,4 @@ void Renderer::set_savings(const Savings& savings) {
 Result<StereoImage> Renderer::render(const Scene& scene) { return implementation_->render(scene); }
 const RenderStats& Renderer::stats() const { return implementation_->stats; }
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/room_parts.hpp"
+#include "renderer/frame/room_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/redraw.hpp"
-#include "renderer/stereo/projection.hpp"
+#include "renderer/frame/redraw.hpp"
+#include "wall/projection.hpp"
 
-namespace burin {
+namespace burin::renderer {
 namespace {
 
-// Of the room in shaders/backdrop.frag: where the floor begins to rise, and where its grid has faded on the rise.
+// Constants of the room in shaders/backdrop.frag: where the floor
+// begins to rise, and where its grid has faded out on the rise.
 constexpr double kBend_m = -2.4, kGridEndZ_m = -2.76, kGridEndY_m = 0.045;
 
 void include_disc(Box& box, const Vec3& center, double radius_m) {
@@ -36,18 +37,18 @@ PixelRect shadows_on_floor(const Scene& scene, const Workpiece& workpiece, Image
         include_disc(box, plinth.top_center_world, plinth.radius_m + std::max(edge_m, double{shared::kFootDarkens}));
     }
     if (box.empty()) return {};
-    if (box.lo.z <= kBend_m) return all_of(size);  // they climb the rise
+    if (box.lo.z <= kBend_m) return all_of(size);  // the shadows extend up the rise
     return seen_part(scene, size, std::span(&box, 1));
 }
 
 std::uint32_t rows_above_grid(const Scene& scene, ImageSize size) {
-    const Screen& s = scene.screen;
+    const wall::Screen& s = scene.screen;
     const Vec3 across = s.lower_right_world - s.lower_left_world, upright = s.upper_left_world - s.lower_left_world;
-    const Eyes eyes = eyes_of(scene.viewer);
-    double highest = 0.0;  // where the grid may begin, of the screen's height
+    const wall::Eyes eyes = wall::eyes_of(scene.viewer);
+    double highest = 0.0;  // where the grid may begin, as a share of the screen's height
     for (const Vec3& eye : {eyes.left_world, eyes.right_world}) {
         if (eye.z <= kGridEndZ_m || eye.y <= kGridEndY_m) return 0;
-        // Above the plane through the eye and the grid's far end no line of sight meets it.
+        // No line of sight above the plane through the eye and the grid's far end meets the grid.
         const Vec3 up{0.0, eye.z - kGridEndZ_m, kGridEndY_m - eye.y};
         for (const Vec3& edge : {Vec3(0.0), across}) {
             const double lower = glm::dot(s.lower_left_world + edge - eye, up), rise = glm::dot(upright, up);
@@ -85,4 +86,4 @@ std::vector<RoomPart> room_parts(const Scene& scene, const Workpiece& workpiece,
     return parts;
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

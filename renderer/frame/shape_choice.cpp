@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/shape_choice.hpp"
+#include "renderer/frame/shape_choice.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "renderer/pixel_length.hpp"
-#include "renderer/redraw.hpp"
+#include "renderer/frame/redraw.hpp"
+#include "renderer/scene/pixel_length.hpp"
 
-namespace burin {
+namespace burin::renderer {
 namespace {
 
 constexpr double kMostError_px = 0.25;
@@ -32,7 +32,7 @@ bool meets(const PixelRect& part, const Scene& scene, ImageSize size, const Shap
            seen.y < part.y + part.height && part.y < seen.y + seen.height;
 }
 
-// Of a ball, which is as wide as it is high.
+// Returns the radius of a ball in pixels.
 double radius_px(const Shape& ball, const PixelLength& pixel) {
     const Mat4 place(ball.constants.world_from_local);
     const double radius_m = glm::length(Vec3(place[0]));
@@ -42,7 +42,7 @@ double radius_px(const Shape& ball, const PixelLength& pixel) {
 }  // namespace
 
 const PrimitiveRange& ball_for(const Primitives& primitives, double radius_px) {
-    // A chord of one of n segments lies off by r (1 - cos(pi / n)).
+    // Each chord of n segments around the circle lies off by r (1 - cos(pi / n)).
     for (std::size_t i = 0; i < primitives.balls.size(); ++i) {
         const double half_angle = std::numbers::pi / (2.0 * kBallRings[i]);
         if (radius_px * (1.0 - std::cos(half_angle)) <= kMostError_px) return primitives.balls[i];
@@ -66,4 +66,4 @@ ShownShapes shapes_in(const PixelRect& part, const Scene& scene, const Primitive
     return shown;
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT
-// Which of a scene's shapes a part of the picture shows, and how round its balls are.
+// Chooses which of a scene's shapes are drawn in a part of the picture, and how finely its balls are tessellated.
 // Pure; any thread.
 #pragma once
 
-#include "renderer/frame_setup.hpp"
-#include "renderer/image.hpp"
-#include "renderer/primitives.hpp"
+#include "base/image.hpp"
+#include "renderer/scene/frame_setup.hpp"
+#include "renderer/scene/primitives.hpp"
 #include "renderer/surface/patch_choice.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 struct ShownShapes {
     Shapes shapes;
-    std::uint32_t left_out = 0;  // beside the part
+    std::uint32_t left_out = 0;  // shapes outside the part
 };
-// Shapes whose bounds lie beside the part for both eyes are left out; balls are as round as their size in the picture asks for,
-// which does not depend on the part.
+// Returns the shapes whose bounds are not outside the part for both eyes. Balls are tessellated for their size in the
+// picture, which does not depend on the part.
 [[nodiscard]] ShownShapes shapes_in(const PixelRect& part, const Scene& scene, const Primitives& primitives,
                                     ImageSize size, const Savings& savings);
 
-// The coarsest ball that lies off by no more than a quarter of a pixel.
+// Returns the coarsest ball whose error is at most a quarter of a pixel.
 [[nodiscard]] const PrimitiveRange& ball_for(const Primitives& primitives, double radius_px);
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -7,7 +7,7 @@
 #include "base/error.hpp"
 #include "renderer/output/srgb.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 namespace {
 
@@ -110,4 +110,4 @@ void Canvas::text_centred(int middle_x, int y, int scale, std::string_view words
     text(middle_x - text_width(words, scale) / 2, y, scale, words, colour);
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

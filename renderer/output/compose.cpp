@@ -5,34 +5,38 @@
 #include <array>
 #include <cmath>
 
-#include "renderer/output/anaglyph.hpp"
 #include "renderer/output/srgb.hpp"
-#include "renderer/output/warp.hpp"
+#include "shaders/shared/output_rules.h"
+#include "wall/output_settings.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 namespace {
 
-// An eye's share of the target, and a pixel's place in it.
-struct Cell {
-    std::uint32_t x = 0, y = 0;           // within the share
-    std::uint32_t width = 0, height = 0;  // of the share
-    std::uint32_t taps_x = 1, taps_y = 1;
-    Eye eye = Eye::left;
-    bool shown = true;
-};
+using shared::OutputCell;
 
-// Pixel p of n, fitted to m: whole numbers, p itself when n is m.
-std::uint32_t fitted(std::uint32_t p, std::uint32_t n, std::uint32_t m) {
-    return static_cast<std::uint32_t>((2ull * p + 1) * m / (2ull * n));
+static_assert(static_cast<int>(wall::StereoMode::side_by_side) == shared::kModeSideBySide);
+static_assert(static_cast<int>(wall::StereoMode::side_by_side_half) == shared::kModeSideBySideHalf);
+static_assert(static_cast<int>(wall::StereoMode::top_bottom) == shared::kModeTopBottom);
+static_assert(static_cast<int>(wall::StereoMode::top_bottom_half) == shared::kModeTopBottomHalf);
+static_assert(static_cast<int>(wall::StereoMode::row_interlaced) == shared::kModeRows);
+static_assert(static_cast<int>(wall::StereoMode::column_interlaced) == shared::kModeColumns);
+static_assert(static_cast<int>(wall::StereoMode::checkerboard) == shared::kModeCheckerboard);
+static_assert(static_cast<int>(wall::StereoMode::anaglyph_red_cyan) == shared::kModeRedCyan);
+static_assert(static_cast<int>(wall::StereoMode::anaglyph_green_magenta) == shared::kModeGreenMagenta);
+static_assert(static_cast<int>(wall::StereoMode::anaglyph_amber_blue) == shared::kModeAmberBlue);
+
+wall::Eye eye_of(int number) { return number == 0 ? wall::Eye::left : wall::Eye::right; }
+
+bool shows_right_eye(const wall::OutputSettings& settings, const wall::OutputPlace& place) {
+    return settings.mode == wall::StereoMode::right ||
+           (wall::shows_one_eye_at_a_time(settings.mode) && place.eye == wall::Eye::right);
 }
-
-bool is_odd(std::int64_t n) { return (n & 1) != 0; }  // also of negative numbers
 
 class Composer {
 public:
-    Composer(const Image& left, const Image& right, const OutputSettings& settings, const OutputPlace& place,
-             const Overlay* overlay)
+    Composer(const Image& left, const Image& right, const wall::OutputSettings& settings,
+             const wall::OutputPlace& place, const Overlay* overlay)
         : pictures_{&left, &right}, s_(settings), place_(place), overlay_(overlay) {}
 
     Image picture() const {
@@ -51,152 +55,139 @@ private:
         pixel[3] = 255;
     }
 
-    Eye second_if(bool second) const { return second ? other(s_.first_eye) : s_.first_eye; }
-
-    Cell cell_of(std::uint32_t x, std::uint32_t y) const {
-        Cell cell{x, y, place_.size.width, place_.size.height};
-        const std::int64_t screen_x = std::int64_t{x} + place_.monitor_x, screen_y = std::int64_t{y} + place_.monitor_y;
-        switch (s_.mode) {
-            case StereoMode::side_by_side_half: cell.taps_x = 2; [[fallthrough]];
-            case StereoMode::side_by_side:
-                cell.width = std::max(1u, place_.size.width / 2);
-                cell.shown = x / cell.width < 2;
-                cell.eye = x < cell.width ? Eye::left : Eye::right;
-                cell.x = x % cell.width;
-                break;
-            case StereoMode::top_bottom_half: cell.taps_y = 2; [[fallthrough]];
-            case StereoMode::top_bottom:
-                cell.height = std::max(1u, place_.size.height / 2);
-                cell.shown = y / cell.height < 2;
-                cell.eye = y < cell.height ? Eye::left : Eye::right;
-                cell.y = y % cell.height;
-                break;
-            case StereoMode::row_interlaced: cell.eye = second_if(is_odd(screen_y)); break;
-            case StereoMode::column_interlaced: cell.eye = second_if(is_odd(screen_x)); break;
-            case StereoMode::checkerboard: cell.eye = second_if(is_odd(screen_x + screen_y)); break;
-            case StereoMode::right: cell.eye = Eye::right; break;
-            case StereoMode::frame_sequential:
-            case StereoMode::two_layers:
-            case StereoMode::two_windows: cell.eye = place_.eye; break;
-            default: break;  // left, mono; anaglyphs show both
-        }
-        if (s_.swap_eyes && s_.mode != StereoMode::mono) cell.eye = other(cell.eye);
-        return cell;
+    OutputCell cell_of(std::uint32_t x, std::uint32_t y) const {
+        return shared::output_cell(mode_, flags_, static_cast<int>(x), static_cast<int>(y),
+                                   static_cast<int>(place_.size.width), static_cast<int>(place_.size.height));
     }
 
-    // Linear light of a pixel of an eye's picture, with the overlay over it.
-    Vec3 pixel(Eye eye, std::uint32_t x, std::uint32_t y) const {
+    // Returns the linear light of a pixel of an eye's picture, with the overlay over it.
+    Vec3 pixel(wall::Eye eye, std::uint32_t x, std::uint32_t y) const {
         const std::uint8_t* p = pictures_[static_cast<std::size_t>(eye)]->pixel(x, y);
         return over_picture(light_of_bytes(p), x, y);
     }
 
     Vec3 over_picture(const Vec3& light, std::uint32_t x, std::uint32_t y) const {
         if (overlay_ == nullptr || overlay_->place.width <= 0 || overlay_->place.height <= 0) return light;
-        const OverlayPlace& at = overlay_->place;
+        const wall::OverlayPlace& at = overlay_->place;
         const std::int64_t ox = std::int64_t{x} - at.x, oy = std::int64_t{y} - at.y;
         if (ox < 0 || oy < 0 || ox >= at.width || oy >= at.height) return light;
+        const ImageSize size = overlay_->image.size;
         const std::uint8_t* p = overlay_->image.pixel(
-            fitted(static_cast<std::uint32_t>(ox), static_cast<std::uint32_t>(at.width), overlay_->image.size.width),
-            fitted(static_cast<std::uint32_t>(oy), static_cast<std::uint32_t>(at.height), overlay_->image.size.height));
+            static_cast<std::uint32_t>(shared::fitted(static_cast<int>(ox), at.width, static_cast<int>(size.width))),
+            static_cast<std::uint32_t>(shared::fitted(static_cast<int>(oy), at.height, static_cast<int>(size.height))));
         const double alpha = p[3] / 255.0;
-        Vec3 panel = light_of_bytes(p);
-        if (overlay_->colour == OverlayColour::coded && alpha > 0.0) {
-            for (int c = 0; c < 3; ++c) panel[c] = srgb_to_linear(std::min(1.0, p[c] / 255.0 / alpha)) * alpha;
-        } else if (overlay_->colour == OverlayColour::coded) {
-            panel = Vec3{p[0], p[1], p[2]} / 255.0;
-        }
-        return panel + (1.0 - alpha) * light;
+        const Vec3 panel = overlay_->colour == wall::OverlayColour::coded
+                               ? shared::light_of_coded(Vec3{p[0], p[1], p[2]} / 255.0, alpha)
+                               : light_of_bytes(p);
+        return shared::laid_over(panel, alpha, light);
     }
 
-    Vec3 pixel_or_black(Eye eye, std::int64_t x, std::int64_t y) const {
+    Vec3 pixel_or_black(wall::Eye eye, std::int64_t x, std::int64_t y) const {
         const ImageSize size = pictures_[0]->size;
         if (x < 0 || y < 0 || x >= size.width || y >= size.height) return Vec3{0.0};
         return pixel(eye, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
     }
 
-    // Between the four pixels around a place of the picture; beyond it they are black.
-    Vec3 between_pixels(Eye eye, const Vec2& uv) const {
+    // Interpolates between the four pixels around a position in the picture; pixels outside it are black.
+    Vec3 light_at(wall::Eye eye, const Vec2& uv) const {
         const ImageSize size = pictures_[0]->size;
-        const double x = std::clamp(uv.x * size.width - 0.5, -2.0, size.width + 1.0);
-        const double y = std::clamp(uv.y * size.height - 0.5, -2.0, size.height + 1.0);
-        const double x0 = std::floor(x), y0 = std::floor(y), fx = x - x0, fy = y - y0;
-        const auto column = static_cast<std::int64_t>(x0), row = static_cast<std::int64_t>(y0);
-        const Vec3 upper = (1.0 - fx) * pixel_or_black(eye, column, row) + fx * pixel_or_black(eye, column + 1, row);
-        const Vec3 lower =
-            (1.0 - fx) * pixel_or_black(eye, column, row + 1) + fx * pixel_or_black(eye, column + 1, row + 1);
-        return (1.0 - fy) * upper + fy * lower;
+        const double x = shared::between_pixels(uv.x, static_cast<int>(size.width));
+        const double y = shared::between_pixels(uv.y, static_cast<int>(size.height));
+        const double x0 = std::floor(x), y0 = std::floor(y);
+        Vec3 sum{0.0};
+        for (int k = 0; k < 4; ++k) {
+            const int right = k & 1, below = k >> 1;
+            sum += shared::weight_between(x - x0, right) * shared::weight_between(y - y0, below) *
+                   pixel_or_black(eye, static_cast<std::int64_t>(x0) + right, static_cast<std::int64_t>(y0) + below);
+        }
+        return sum;
     }
 
-    Vec3 tap(const Cell& cell, Eye eye, std::uint32_t tx, std::uint32_t ty) const {
+    Vec3 tap(const OutputCell& cell, wall::Eye eye, int tx, int ty) const {
         if (s_.homography) {
             const Vec2 uv{(cell.x * cell.taps_x + tx + 0.5) / (cell.width * cell.taps_x),
                           (cell.y * cell.taps_y + ty + 0.5) / (cell.height * cell.taps_y)};
-            return between_pixels(eye, warped(*s_.homography, uv));
+            return light_at(eye, wall::warped(*s_.homography, uv));
         }
         const ImageSize size = pictures_[0]->size;
-        const std::uint32_t groups_x = std::max(1u, size.width / cell.taps_x);
-        const std::uint32_t groups_y = std::max(1u, size.height / cell.taps_y);
-        const std::uint32_t x = fitted(cell.x, cell.width, groups_x) * cell.taps_x + tx;
-        const std::uint32_t y = fitted(cell.y, cell.height, groups_y) * cell.taps_y + ty;
-        return pixel(eye, std::min(x, size.width - 1), std::min(y, size.height - 1));
+        const int x = shared::copied_pixel(cell.x, cell.width, cell.taps_x, tx, static_cast<int>(size.width));
+        const int y = shared::copied_pixel(cell.y, cell.height, cell.taps_y, ty, static_cast<int>(size.height));
+        return pixel(eye, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
     }
 
-    Vec3 light(const Cell& cell, Eye eye) const {
+    Vec3 light(const OutputCell& cell, wall::Eye eye) const {
         Vec3 sum{0.0};
-        for (std::uint32_t ty = 0; ty < cell.taps_y; ++ty) {
-            for (std::uint32_t tx = 0; tx < cell.taps_x; ++tx) sum += tap(cell, eye, tx, ty);
+        for (int ty = 0; ty < cell.taps_y; ++ty) {
+            for (int tx = 0; tx < cell.taps_x; ++tx) sum += tap(cell, eye, tx, ty);
         }
         return sum / static_cast<double>(cell.taps_x * cell.taps_y);
     }
 
-    Vec3 shown_light(const Cell& cell) const {
-        if (!is_anaglyph(s_.mode)) return light(cell, cell.eye);
-        const AnaglyphMatrices m = anaglyph_matrices(s_.mode);
-        const Eye first = s_.swap_eyes ? Eye::right : Eye::left;
-        return glm::clamp(m.left * light(cell, first) + m.right * light(cell, other(first)), Vec3{0.0}, Vec3{1.0});
+    Vec3 shown_light(const OutputCell& cell) const {
+        if (!shared::is_anaglyph_mode(mode_)) return light(cell, eye_of(cell.eye));
+        const wall::Eye first = s_.swap_eyes ? wall::Eye::right : wall::Eye::left;
+        return glm::clamp(shared::anaglyph_light(mode_, 0, light(cell, first)) +
+                              shared::anaglyph_light(mode_, 1, light(cell, wall::other(first))),
+                          Vec3{0.0}, Vec3{1.0});
     }
 
     Vec3 value_at(std::uint32_t x, std::uint32_t y) const {
-        const Cell cell = cell_of(x, y);
+        const OutputCell cell = cell_of(x, y);
         if (!cell.shown) return Vec3{0.0};
         const Vec3 light = shown_light(cell);
-        Vec3 value{linear_to_srgb(light.x), linear_to_srgb(light.y), linear_to_srgb(light.z)};
+        Vec3 value = shared::srgb_of(light);
         if (s_.blend.in_use()) {
-            // By the projector's own gamma, as it is the projectors' light that has to add up.
+            // By the projector's own gamma, as the projectors' light must add up.
             const Vec2 uv{(cell.x + 0.5) / cell.width, (cell.y + 0.5) / cell.height};
-            value *= std::pow(light_share(s_.blend, uv), 1.0 / s_.blend.gamma);
+            value *= std::pow(wall::light_share(s_.blend, uv), 1.0 / s_.blend.gamma);
         }
         return value;
     }
 
     std::array<const Image*, 2> pictures_;
-    const OutputSettings& s_;
-    const OutputPlace& place_;
+    const wall::OutputSettings& s_;
+    const wall::OutputPlace& place_;
     const Overlay* overlay_;
+    int mode_ = mode_number(s_.mode);
+    int flags_ = mode_flags(s_, place_);
 };
 
 }  // namespace
 
-Image compose(const Image& left, const Image& right, const OutputSettings& settings, const OutputPlace& place,
-              const Overlay* overlay) {
+int mode_number(wall::StereoMode mode) { return std::min(static_cast<int>(mode), shared::kModeOneEye); }
+
+int mode_flags(const wall::OutputSettings& settings, const wall::OutputPlace& place) {
+    int flags = 0;
+    if ((place.monitor_x & 1) != 0) flags ^= shared::kOutputPhaseX;
+    if ((place.monitor_y & 1) != 0) flags ^= shared::kOutputPhaseY;
+    if (settings.first_eye == wall::Eye::right) {
+        flags ^= settings.mode == wall::StereoMode::column_interlaced ? shared::kOutputPhaseX : shared::kOutputPhaseY;
+    }
+    if (settings.swap_eyes && settings.mode != wall::StereoMode::mono) flags |= shared::kOutputSwap;
+    if (shows_right_eye(settings, place)) flags |= shared::kOutputRightEye;
+    return flags;
+}
+
+Image compose(const Image& left, const Image& right, const wall::OutputSettings& settings,
+              const wall::OutputPlace& place, const Overlay* overlay) {
     BURIN_CHECK(left.size.width == right.size.width && left.size.height == right.size.height);
     BURIN_CHECK(left.size.width > 0 && left.size.height > 0);
     return Composer(left, right, settings, place, overlay).picture();
 }
 
-Image compose_all(const Image& left, const Image& right, const OutputSettings& settings) {
-    if (!shows_one_eye_at_a_time(settings.mode)) {
-        return compose(left, right, settings, {.size = output_size(settings.mode, left.size)});
+Image compose_all(const Image& left, const Image& right, const wall::OutputSettings& settings) {
+    if (!wall::shows_one_eye_at_a_time(settings.mode)) {
+        return compose(left, right, settings, {.size = wall::output_size(settings.mode, left.size)});
     }
     StereoImage both;
-    both.left = compose(left, right, settings, {.size = left.size, .eye = Eye::left});
-    both.right = compose(left, right, settings, {.size = left.size, .eye = Eye::right});
+    both.left = compose(left, right, settings, {.size = left.size, .eye = wall::Eye::left});
+    both.right = compose(left, right, settings, {.size = left.size, .eye = wall::Eye::right});
     return side_by_side(both);
 }
 
-ChangedParts changed_parts(const PixelRect& changed, ImageSize eye, const OutputSettings& settings,
-                           const OutputPlace& place) {
-    const ImageSize expected = output_size(settings.mode, eye);
+ChangedParts changed_parts(const PixelRect& changed, ImageSize eye, const wall::OutputSettings& settings,
+                           const wall::OutputPlace& place) {
+    const ImageSize expected = wall::output_size(settings.mode, eye);
     if (changed.empty()) return {};
     const bool tiny = place.size.width < 2 || place.size.height < 2;
     if (tiny || settings.homography || expected.width != place.size.width || expected.height != place.size.height) {
@@ -210,13 +201,13 @@ ChangedParts changed_parts(const PixelRect& changed, ImageSize eye, const Output
     const std::uint32_t half_width = place.size.width / 2, half_height = place.size.height / 2;
     PixelRect first = part(changed.x, changed.y, right, bottom), second;
     switch (settings.mode) {
-        case StereoMode::side_by_side: second = {first.x + half_width, first.y, first.width, first.height}; break;
-        case StereoMode::top_bottom: second = {first.x, first.y + half_height, first.width, first.height}; break;
-        case StereoMode::side_by_side_half:
+        case wall::StereoMode::side_by_side: second = {first.x + half_width, first.y, first.width, first.height}; break;
+        case wall::StereoMode::top_bottom: second = {first.x, first.y + half_height, first.width, first.height}; break;
+        case wall::StereoMode::side_by_side_half:
             first = part(changed.x / 2, changed.y, std::min((right + 1) / 2, half_width), bottom);
             second = {first.x + half_width, first.y, first.width, first.height};
             break;
-        case StereoMode::top_bottom_half:
+        case wall::StereoMode::top_bottom_half:
             first = part(changed.x, changed.y / 2, right, std::min((bottom + 1) / 2, half_height));
             second = {first.x, first.y + half_height, first.width, first.height};
             break;
@@ -226,4 +217,4 @@ ChangedParts changed_parts(const PixelRect& changed, ImageSize eye, const Output
     return {{first, second}, second.empty() ? 1 : 2};
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

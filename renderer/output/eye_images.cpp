@@ -7,7 +7,7 @@
 
 #include "gpu/commands.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 namespace {
 
@@ -108,4 +108,4 @@ Result<Image> read_back(gpu::Device& device, VkImage image, ImageSize size, VkFo
     return picture;
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: MIT
-// Pictures made on the CPU - test patterns, tests - as the output stage takes them. Both functions wait for the GPU.
+// Uploads pictures made on the CPU (test patterns, tests) in the form that the output stage takes, and reads images
+// back. All functions wait for the GPU.
 // Thread and lifetime: as gpu::Device.
 #pragma once
 
 #include <cstdint>
 
+#include "base/image.hpp"
 #include "gpu/image.hpp"
-#include "renderer/image.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
-// Two layers, left eye first, R8G8B8A8_SRGB, in layout SHADER_READ_ONLY_OPTIMAL. Both pictures are of one size.
+// Returns an image of two layers, left eye first, R8G8B8A8_SRGB, in
+// layout SHADER_READ_ONLY_OPTIMAL. Both pictures have the same size.
 [[nodiscard]] Result<gpu::Image> upload_eyes(gpu::Device& device, const Image& left, const Image& right);
 
-// One layer; format R8G8B8A8_SRGB or R8G8B8A8_UNORM. For overlays.
+// Returns an image of one layer, for overlays; format is R8G8B8A8_SRGB or R8G8B8A8_UNORM.
 [[nodiscard]] Result<gpu::Image> upload_image(gpu::Device& device, const Image& image, VkFormat format);
 
-// What a layer of an image of 4 bytes a pixel and usage TRANSFER_SRC holds, as red, green, blue, alpha whatever its format
-// is called. The image is in `layout` and is left in it.
+// Reads back a layer of an image of 4 bytes a pixel and usage TRANSFER_SRC, as red, green, blue, alpha in this order
+// whatever the order of `format`. The image is in `layout` and is left in it.
 [[nodiscard]] Result<Image> read_back(gpu::Device& device, VkImage image, ImageSize size, VkFormat format,
                                       VkImageLayout layout, std::uint32_t layer = 0);
 
-}  // namespace burin
+}  // namespace burin::renderer

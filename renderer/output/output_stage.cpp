@@ -4,11 +4,12 @@
 #include <array>
 
 #include "gpu/graphics_pipeline.hpp"
+#include "renderer/output/compose.hpp"
 #include "renderer/output/eye_images.hpp"
 #include "shaders/output.frag.spv.hpp"
 #include "shaders/output.vert.spv.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 namespace {
 
@@ -16,39 +17,13 @@ using gpu::structure;
 
 constexpr const char* kWhere = "output stage";
 
-static_assert(static_cast<int>(StereoMode::side_by_side) == shared::kModeSideBySide);
-static_assert(static_cast<int>(StereoMode::side_by_side_half) == shared::kModeSideBySideHalf);
-static_assert(static_cast<int>(StereoMode::top_bottom) == shared::kModeTopBottom);
-static_assert(static_cast<int>(StereoMode::top_bottom_half) == shared::kModeTopBottomHalf);
-static_assert(static_cast<int>(StereoMode::row_interlaced) == shared::kModeRows);
-static_assert(static_cast<int>(StereoMode::column_interlaced) == shared::kModeColumns);
-static_assert(static_cast<int>(StereoMode::checkerboard) == shared::kModeCheckerboard);
-static_assert(static_cast<int>(StereoMode::anaglyph_red_cyan) == shared::kModeRedCyan);
-static_assert(static_cast<int>(StereoMode::anaglyph_green_magenta) == shared::kModeGreenMagenta);
-static_assert(static_cast<int>(StereoMode::anaglyph_amber_blue) == shared::kModeAmberBlue);
-
 bool encodes_srgb(VkFormat format) { return format == VK_FORMAT_R8G8B8A8_SRGB || format == VK_FORMAT_B8G8R8A8_SRGB; }
 
 bool is_known(VkFormat format) {
     return encodes_srgb(format) || format == VK_FORMAT_R8G8B8A8_UNORM || format == VK_FORMAT_B8G8R8A8_UNORM;
 }
 
-bool shows_right_eye(const OutputSettings& settings, const OutputPlace& place) {
-    return settings.mode == StereoMode::right || (shows_one_eye_at_a_time(settings.mode) && place.eye == Eye::right);
-}
-
-// Column 0 of the target is the second eye's where its column on the monitor is odd, or where the right eye comes first.
-int phase_flags(const OutputSettings& settings, const OutputPlace& place) {
-    int flags = 0;
-    if ((place.monitor_x & 1) != 0) flags ^= shared::kOutputPhaseX;
-    if ((place.monitor_y & 1) != 0) flags ^= shared::kOutputPhaseY;
-    if (settings.first_eye == Eye::right) {
-        flags ^= settings.mode == StereoMode::column_interlaced ? shared::kOutputPhaseX : shared::kOutputPhaseY;
-    }
-    return flags;
-}
-
-glm::vec4 column(const Homography& h, int i, double w) {
+glm::vec4 column(const wall::Homography& h, int i, double w) {
     return {static_cast<float>(h[i].x), static_cast<float>(h[i].y), static_cast<float>(h[i].z), static_cast<float>(w)};
 }
 
@@ -121,8 +96,8 @@ Result<gpu::RenderPassHandle> OutputStage::create_pass(bool keep, VkImageLayout 
     VkSubpassDescription subpass{};
     subpass.colorAttachmentCount = 1;
     subpass.pColorAttachments = &reference;
-    // Before: the window system's semaphore is waited for at colour output; a copy out of an earlier picture too.
-    // After: the presentation waits for a semaphore; a copy out of the target waits for this.
+    // Before: waits at colour output, as the window system's semaphore does, and for a copy out of an earlier picture.
+    // After: a copy out of the target waits for this pass; presentation waits for a semaphore.
     VkSubpassDependency before{};
     before.srcSubpass = VK_SUBPASS_EXTERNAL;
     before.srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
@@ -179,8 +154,8 @@ Result<void> OutputStage::create_layouts() {
     return {};
 }
 
-// A pool and a set for this one recording: views come and go with windows, and their handles may be used again, so that
-// keeping sets for them would need to be told.
+// Allocates a pool and a set for this recording alone. Views come and go with windows and their handles may be reused,
+// so cached sets would need invalidation.
 Result<VkDescriptorSet> OutputStage::bind_images(gpu::Commands& commands, VkImageView eyes, VkImageView overlay) {
     const auto& core = device_.core();
     const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 2};
@@ -206,18 +181,18 @@ Result<VkDescriptorSet> OutputStage::bind_images(gpu::Commands& commands, VkImag
          {VK_NULL_HANDLE, overlay, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}}};
     auto write = structure<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
     write.dstSet = set;
-    write.descriptorCount = 2;  // runs on into binding 1
+    write.descriptorCount = 2;  // continues into binding 1
     write.descriptorType = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
     write.pImageInfo = images.data();
     core->vk.vkUpdateDescriptorSets(core->device, 1, &write, 0, nullptr);
     return set;
 }
 
-shared::OutputConstants OutputStage::constants(const EyesView& eyes, const OutputPlace& place,
-                                               const OutputSettings& settings,
+shared::OutputConstants OutputStage::constants(const EyesView& eyes, const wall::OutputPlace& place,
+                                               const wall::OutputSettings& settings,
                                                const std::optional<OverlayView>& overlay) const {
     shared::OutputConstants c{};
-    const Homography h = settings.homography.value_or(Homography(1.0));
+    const wall::Homography h = settings.homography.value_or(wall::Homography(1.0));
     c.picture_from_output[0] = column(h, 0, 1.0 / settings.blend.gamma);
     c.picture_from_output[1] = column(h, 1, settings.blend.curve);
     c.picture_from_output[2] = column(h, 2, 0.0);
@@ -227,31 +202,29 @@ shared::OutputConstants OutputStage::constants(const EyesView& eyes, const Outpu
     if (panel) c.overlay = {overlay->place.x, overlay->place.y, overlay->place.width, overlay->place.height};
     c.eye_size = {static_cast<int>(eyes.eye_size.width), static_cast<int>(eyes.eye_size.height)};
     c.target_size = {static_cast<int>(place.size.width), static_cast<int>(place.size.height)};
-    c.flags = phase_flags(settings, place);
-    if (settings.swap_eyes && settings.mode != StereoMode::mono) c.flags |= shared::kOutputSwap;
+    c.flags = mode_flags(settings, place);
     if (!encodes_srgb(format_)) c.flags |= shared::kOutputEncode;
     if (settings.homography) c.flags |= shared::kOutputWarp;
     if (settings.blend.in_use()) c.flags |= shared::kOutputBlend;
-    if (shows_right_eye(settings, place)) c.flags |= shared::kOutputRightEye;
     if (panel) c.flags |= shared::kOutputOverlay;
-    if (panel && overlay->colour == OverlayColour::coded) c.flags |= shared::kOutputCodedOverlay;
+    if (panel && overlay->colour == wall::OverlayColour::coded) c.flags |= shared::kOutputCodedOverlay;
     return c;
 }
 
 Result<void> OutputStage::record(gpu::Commands& commands, const EyesView& eyes, const OutputTarget& target,
-                                 const OutputSettings& settings, const std::optional<OverlayView>& overlay) {
+                                 const wall::OutputSettings& settings, const std::optional<OverlayView>& overlay) {
     const PixelRect all = all_of(target.place.size);
     return draw(commands, whole_pass_.raw(), eyes, target, settings, std::span(&all, 1), overlay);
 }
 
 Result<void> OutputStage::record_parts(gpu::Commands& commands, const EyesView& eyes, const OutputTarget& target,
-                                       const OutputSettings& settings, std::span<const PixelRect> parts,
+                                       const wall::OutputSettings& settings, std::span<const PixelRect> parts,
                                        const std::optional<OverlayView>& overlay) {
     return parts.empty() ? Result<void>{} : draw(commands, parts_pass_.raw(), eyes, target, settings, parts, overlay);
 }
 
 Result<void> OutputStage::draw(gpu::Commands& commands, VkRenderPass pass, const EyesView& eyes,
-                               const OutputTarget& target, const OutputSettings& settings,
+                               const OutputTarget& target, const wall::OutputSettings& settings,
                                std::span<const PixelRect> parts, const std::optional<OverlayView>& overlay) {
     const ImageSize size = target.place.size;
     BURIN_CHECK(size.width > 0 && size.height > 0 && eyes.eye_size.width > 0 && eyes.eye_size.height > 0);
@@ -261,8 +234,7 @@ Result<void> OutputStage::draw(gpu::Commands& commands, VkRenderPass pass, const
     if (!set) return std::unexpected(set.error());
 
     const shared::OutputConstants c = constants(eyes, target.place, settings, overlay);
-    const auto pipeline_for_mode =
-        pipeline(std::min(static_cast<int>(settings.mode), shared::kModeOneEye), c.flags & shared::kOutputBuiltIn);
+    const auto pipeline_for_mode = pipeline(mode_number(settings.mode), c.flags & shared::kOutputBuiltIn);
     if (!pipeline_for_mode) return std::unexpected(pipeline_for_mode.error());
 
     const VolkDeviceTable& vk = device_.core()->vk;
@@ -289,4 +261,4 @@ Result<void> OutputStage::draw(gpu::Commands& commands, VkRenderPass pass, const
     return {};
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -1,30 +1,31 @@
 // SPDX-License-Identifier: MIT
-// Shows a picture of two layers (left eye 0, right eye 1) in a stereo mode, on the GPU: one triangle over the target, each of
-// whose pixels fetches the eyes' pixels it is made of. What comes out is compose() (compose.hpp): the same bytes in modes that
-// copy, at most one step of 255 beside them where light is mixed.
+// Shows a picture of two layers (left eye 0, right eye 1) in a stereo mode, on the GPU: one triangle over the target,
+// each of whose pixels fetches the eyes' pixels that it is made of. The result is that of compose() (compose.hpp): the
+// same bytes in modes that copy, at most one step of 255 off where light is mixed.
 //
 //   auto stage = OutputStage::create(device, swapchain.format(), VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
-//   stage->record(commands, {.eyes = picture.view(), .eye_size = size}, {.view = frame.views[0], .place = place}, settings);
+//   stage->record(commands, {.eyes = picture.view(), .eye_size = size}, {.view = frame.views[0], .place = place},
+//                 settings);
 //
-// The picture is R8G8B8A8_SRGB, with usage SAMPLED, in layout SHADER_READ_ONLY_OPTIMAL, its writing finished by a barrier or
-// a render pass that fragment shaders wait for. Modes that show one eye at a time (two layers, two windows, frame
-// sequential) take one record() for each target, with OutputPlace::eye.
+// The picture is R8G8B8A8_SRGB, with usage SAMPLED, in layout SHADER_READ_ONLY_OPTIMAL; its writes have been made
+// visible to fragment shaders by a barrier or a render pass dependency. Modes that show one eye at a time (two layers,
+// two windows, frame sequential) take one record() for each target, with OutputPlace::eye.
 // Targets: R8G8B8A8 or B8G8R8A8, SRGB or UNORM, with usage COLOR_ATTACHMENT, left in `final_layout`.
-// Thread and lifetime: as gpu::Device. Cost: compiling 20-100 ms at the first use of a mode; then a few microseconds on the CPU a target, and on the
-// GPU a read and a write of each pixel.
+// Thread and lifetime: as gpu::Device. Cost: compiling 20-100 ms at the first use of a mode; then a few microseconds on
+// the CPU a target, and on the GPU a read and a write of each pixel.
 #pragma once
 
 #include <map>
 #include <optional>
 #include <span>
 
+#include "base/image.hpp"
 #include "gpu/commands.hpp"
 #include "gpu/image.hpp"
-#include "renderer/image.hpp"
-#include "renderer/output/output_settings.hpp"
 #include "shaders/shared/output_constants.h"
+#include "wall/output_settings.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 struct EyesView {
     VkImageView eyes = VK_NULL_HANDLE;  // 2D array of two layers
@@ -33,15 +34,15 @@ struct EyesView {
 
 struct OutputTarget {
     VkImageView view = VK_NULL_HANDLE;  // 2D
-    OutputPlace place;
+    wall::OutputPlace place;
 };
 
-// The panel over both eyes: a 2D view of an RGBA8 image with usage SAMPLED, in layout SHADER_READ_ONLY_OPTIMAL; an SRGB view for
-// OverlayColour::linear, a UNORM one for coded.
+// The panel laid over both eyes: a 2D view of an RGBA8 image with usage SAMPLED, in layout SHADER_READ_ONLY_OPTIMAL; an
+// SRGB view for OverlayColour::linear, a UNORM one for coded.
 struct OverlayView {
     VkImageView view = VK_NULL_HANDLE;
-    OverlayPlace place;
-    OverlayColour colour = OverlayColour::linear;
+    wall::OverlayPlace place;
+    wall::OverlayColour colour = wall::OverlayColour::linear;
 };
 
 class OutputStage {
@@ -49,15 +50,15 @@ public:
     [[nodiscard]] static Result<OutputStage> create(gpu::Device& device, VkFormat target_format,
                                                     VkImageLayout final_layout);
 
-    // Draws the whole target, whatever it held. Errors are also kept for Commands::submit().
+    // Draws the whole target and discards its previous contents. Errors are also kept for Commands::submit().
     [[nodiscard]] Result<void> record(gpu::Commands& commands, const EyesView& eyes, const OutputTarget& target,
-                                      const OutputSettings& settings,
+                                      const wall::OutputSettings& settings,
                                       const std::optional<OverlayView>& overlay = std::nullopt);
 
-    // Draws only these parts; the rest of the target stays as it is. The target is in `final_layout`, as an earlier record()
-    // or presentation left it. For what changed_parts() (compose.hpp) says.
+    // Draws only these parts, as computed by changed_parts() (compose.hpp); the rest of the target is kept. The target
+    // is in `final_layout`, as an earlier record() or presentation left it.
     [[nodiscard]] Result<void> record_parts(gpu::Commands& commands, const EyesView& eyes, const OutputTarget& target,
-                                            const OutputSettings& settings, std::span<const PixelRect> parts,
+                                            const wall::OutputSettings& settings, std::span<const PixelRect> parts,
                                             const std::optional<OverlayView>& overlay = std::nullopt);
 
     [[nodiscard]] VkFormat format() const { return format_; }
@@ -69,10 +70,10 @@ private:
     [[nodiscard]] Result<VkPipeline> pipeline(int mode, int built_in);
     [[nodiscard]] Result<VkDescriptorSet> bind_images(gpu::Commands& commands, VkImageView eyes, VkImageView overlay);
     [[nodiscard]] Result<void> draw(gpu::Commands& commands, VkRenderPass pass, const EyesView& eyes,
-                                    const OutputTarget& target, const OutputSettings& settings,
+                                    const OutputTarget& target, const wall::OutputSettings& settings,
                                     std::span<const PixelRect> parts, const std::optional<OverlayView>& overlay);
-    [[nodiscard]] shared::OutputConstants constants(const EyesView& eyes, const OutputPlace& place,
-                                                    const OutputSettings& settings,
+    [[nodiscard]] shared::OutputConstants constants(const EyesView& eyes, const wall::OutputPlace& place,
+                                                    const wall::OutputSettings& settings,
                                                     const std::optional<OverlayView>& overlay) const;
 
     gpu::Device device_;
@@ -80,9 +81,8 @@ private:
     gpu::RenderPassHandle whole_pass_, parts_pass_;
     gpu::SetLayoutHandle set_layout_;
     gpu::PipelineLayoutHandle layout_;
-    std::map<std::pair<int, int>, gpu::PipelineHandle>
-        pipelines_;          // by mode and built-in flags; made when first needed
-    gpu::Image no_overlay_;  // bound where there is none; never read
+    std::map<std::pair<int, int>, gpu::PipelineHandle> pipelines_;  // by mode and built-in flags; created at first use
+    gpu::Image no_overlay_;                                         // bound where there is no overlay; never read
 };
 
-}  // namespace burin
+}  // namespace burin::renderer

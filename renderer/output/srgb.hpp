@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: MIT
-// The coding of light in pictures (IEC 61966-2-1), in 0..1. Pure functions; any thread.
+// The sRGB transfer functions (IEC 61966-2-1), components in
+// 0..1, by shaders/shared/srgb.h. Pure functions; any thread.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
 #include "base/space.hpp"
+#include "shaders/shared/srgb.h"
 
-namespace burin {
+namespace burin::renderer {
 
-[[nodiscard]] inline double srgb_to_linear(double value) {
-    return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
-}
+[[nodiscard]] inline double srgb_to_linear(double value) { return shared::linear_of_component(value); }
 
-[[nodiscard]] inline double linear_to_srgb(double light) {
-    return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1.0 / 2.4) - 0.055;
-}
+[[nodiscard]] inline double linear_to_srgb(double light) { return shared::srgb_of_component(light); }
 
-// Red, green and blue of a pixel's bytes.
+// Returns the linear light of a pixel's three sRGB bytes: red, green, blue.
 [[nodiscard]] inline Vec3 light_of_bytes(const std::uint8_t* pixel) {
     return {srgb_to_linear(pixel[0] / 255.0), srgb_to_linear(pixel[1] / 255.0), srgb_to_linear(pixel[2] / 255.0)};
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

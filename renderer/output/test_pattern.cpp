@@ -8,7 +8,7 @@
 
 #include "renderer/output/canvas.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 namespace {
 
@@ -19,7 +19,7 @@ constexpr std::array<double, 6> kGhostingSteps{0.005, 0.01, 0.02, 0.04, 0.08, 0.
 
 struct Pair {
     Canvas left, right;
-    Canvas& of(Eye eye) { return eye == Eye::left ? left : right; }
+    Canvas& of(wall::Eye eye) { return eye == wall::Eye::left ? left : right; }
     template <typename Draw>
     void both(const Draw& draw) {
         draw(left);
@@ -33,14 +33,14 @@ struct Pair {
     }
 };
 
-// The largest whole scale at which words fit a width and a height; at least 1.
+// Returns the largest whole scale at which the words fit a width and a height; at least 1.
 int scale_for(std::string_view words, int width, int height) {
     const int by_width = width / std::max(1, Canvas::text_width(words, 1));
     return std::max(1, std::min(by_width, height / Canvas::text_height(1)));
 }
 
-void draw_letter(Canvas& c, Eye eye) {
-    const bool is_left = eye == Eye::left;
+void draw_letter(Canvas& c, wall::Eye eye) {
+    const bool is_left = eye == wall::Eye::left;
     const Rgb8& colour = is_left ? kLeftColour : kRightColour;
     const int middle = is_left ? c.width() / 4 : c.width() - c.width() / 4;
     const char* word = is_left ? "LEFT" : "RIGHT";
@@ -48,7 +48,7 @@ void draw_letter(Canvas& c, Eye eye) {
     c.text_centred(middle, c.height() / 10, scale, is_left ? "L" : "R", colour);
     const int small = scale_for("RIGHT", c.width() / 3, c.height() / 10);
     c.text_centred(middle, 6 * c.height() / 10, small, word, colour);
-    // Level bars in the left eye, upright ones in the right: together they make a lattice only where both eyes see.
+    // Level bars in the left eye, upright ones in the right: they make a lattice only for those who see with both eyes.
     const int x = c.width() / 2 - c.width() / 20, size = c.width() / 10, bar = std::max(1, size / 7);
     for (int i = 0; i < 7; i += 2) {
         if (is_left) {
@@ -62,12 +62,12 @@ void draw_letter(Canvas& c, Eye eye) {
 StereoImage eye_order(const PatternScreen& screen) {
     Pair pair{Canvas(screen.pixels, kMiddleGrey), Canvas(screen.pixels, kMiddleGrey)};
     const int w = pair.left.width(), h = pair.left.height();
-    draw_letter(pair.left, Eye::left);
-    draw_letter(pair.right, Eye::right);
-    // Crossed parallax: what the left eye sees further right stands before the screen.
+    draw_letter(pair.left, wall::Eye::left);
+    draw_letter(pair.right, wall::Eye::right);
+    // Crossed parallax: what appears further right to the left eye stands before the screen.
     const int shift = std::max(1, w / 100);
-    for (const Eye eye : {Eye::left, Eye::right}) {
-        const int offset = eye == Eye::left ? shift : -shift;
+    for (const wall::Eye eye : {wall::Eye::left, wall::Eye::right}) {
+        const int offset = eye == wall::Eye::left ? shift : -shift;
         Canvas& c = pair.of(eye);
         c.frame(w / 2 - w / 12 + offset, 4 * h / 10, w / 6, h / 6, std::max(1, w / 200), kSoftWhite);
         const std::string_view words = "IN FRONT";
@@ -88,11 +88,11 @@ std::string percent_text(double share) {
     return text.data();
 }
 
-// One eye's row of pairs, between two heights.
-void ghosting_row(Pair& pair, Eye eye, int top, int height) {
+// Draws one eye's row of pairs, between two heights.
+void ghosting_row(Pair& pair, wall::Eye eye, int top, int height) {
     const int w = pair.left.width(), steps = static_cast<int>(kGhostingSteps.size());
     const std::string title =
-        std::string(eye == Eye::left ? "LEFT" : "RIGHT") + " EYE: CLOSE THE OTHER. WHERE ARE BOTH HALVES ALIKE";
+        std::string(eye == wall::Eye::left ? "LEFT" : "RIGHT") + " EYE: CLOSE THE OTHER. WHERE ARE BOTH HALVES ALIKE";
     pair.both([&](Canvas& c) {
         c.fill(0, top, w, height, kBlack);
         c.text_centred(w / 2, top + height / 20, scale_for(title, 9 * w / 10, height / 10), title, grey_of_light(0.1));
@@ -103,7 +103,7 @@ void ghosting_row(Pair& pair, Eye eye, int top, int height) {
         const double share = kGhostingSteps[static_cast<std::size_t>(i)];
         const int x = i * cell + cell / 8;
         pair.of(eye).fill(x, patch_top, patch_width, patch_height, grey_of_light(share));
-        pair.of(other(eye)).fill(x + patch_width, patch_top, patch_width, patch_height, kWhite);
+        pair.of(wall::other(eye)).fill(x + patch_width, patch_top, patch_width, patch_height, kWhite);
         const std::string label = percent_text(share);
         pair.both([&](Canvas& c) {
             c.text_centred(x + patch_width, patch_top + patch_height + height / 20,
@@ -112,7 +112,7 @@ void ghosting_row(Pair& pair, Eye eye, int top, int height) {
     }
 }
 
-// What must look the same from both sides: black, white and grey against each other in the two eyes.
+// Patches that must look the same whichever eye they are in: black, white and grey against each other in the two eyes.
 void crossed_patches(Pair& pair, int top, int height) {
     constexpr std::array<std::array<Rgb8, 2>, 4> kCrossed{
         {{kBlack, kWhite}, {kWhite, kBlack}, {kMiddleGrey, kWhite}, {kWhite, kMiddleGrey}}};
@@ -126,13 +126,13 @@ void crossed_patches(Pair& pair, int top, int height) {
 StereoImage ghosting(const PatternScreen& screen) {
     Pair pair{Canvas(screen.pixels, kMiddleGrey), Canvas(screen.pixels, kMiddleGrey)};
     const int h = pair.left.height();
-    ghosting_row(pair, Eye::left, 0, 4 * h / 10);
+    ghosting_row(pair, wall::Eye::left, 0, 4 * h / 10);
     crossed_patches(pair, 4 * h / 10 + h / 20, h / 10);
-    ghosting_row(pair, Eye::right, 6 * h / 10, h - 6 * h / 10);
+    ghosting_row(pair, wall::Eye::right, 6 * h / 10, h - 6 * h / 10);
     return pair.take();
 }
 
-// The pixel in which a place lies, in millimetres from the middle of the screen.
+// Returns the pixel at a position given in millimetres from the middle of the screen.
 int pixel_at(double from_middle_mm, double side_mm, int side_px) {
     return static_cast<int>(std::floor((0.5 + from_middle_mm / side_mm) * side_px));
 }
@@ -149,7 +149,8 @@ void draw_grid(Canvas& c, const PatternScreen& s, double spacing_mm) {
     }
 }
 
-// Circles of whole squares: a large one in the middle and one towards each corner. Ovals betray a wrong aspect.
+// Circles around whole squares: a large one in the middle and
+// one towards each corner. Ovals reveal a wrong aspect ratio.
 void draw_circles(Canvas& c, const PatternScreen& s, double spacing_mm) {
     const Canvas::Units mm{s.width_mm / c.width(), s.height_mm / c.height()};
     const double thickness_mm = 1.5 * std::max(mm.per_pixel_x, mm.per_pixel_y);
@@ -167,7 +168,7 @@ void draw_circles(Canvas& c, const PatternScreen& s, double spacing_mm) {
     }
 }
 
-// The outermost pixels, and a square of its own colour in each corner.
+// Draws the outermost pixels, and a square of a different colour in each corner.
 void draw_border(Canvas& c) {
     const int side = std::max(3, std::min(c.width(), c.height()) / 24);
     c.fill(1, 1, side, side, {220, 40, 40});
@@ -209,13 +210,13 @@ double grid_spacing_mm(const PatternScreen& screen) {
     return decade;
 }
 
-StereoImage draw_test_pattern(TestPattern pattern, const PatternScreen& screen) {
-    BURIN_CHECK(pattern != TestPattern::none && screen.width_mm > 0.0 && screen.height_mm > 0.0);
+StereoImage draw_test_pattern(wall::TestPattern pattern, const PatternScreen& screen) {
+    BURIN_CHECK(pattern != wall::TestPattern::none && screen.width_mm > 0.0 && screen.height_mm > 0.0);
     switch (pattern) {
-        case TestPattern::ghosting: return ghosting(screen);
-        case TestPattern::geometry: return geometry(screen);
+        case wall::TestPattern::ghosting: return ghosting(screen);
+        case wall::TestPattern::geometry: return geometry(screen);
         default: return eye_order(screen);
     }
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

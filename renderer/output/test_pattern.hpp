@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Pictures that show whether a stereo display is set up right; shown in place of the scene, through the same output stage.
+// Test pictures that show whether a stereo display is set up right;
+// shown instead of the scene, through the same output stage.
 //
-//   eye_order  closing one eye leaves that eye's own word: LEFT, RIGHT. A frame stands before the screen when the eyes are
-//              in order, and behind it when they are exchanged.
-//   ghosting   for each eye a row of pairs: one half is a grey of known light in this eye alone, the other half is white in
-//              the other eye alone. Close the other eye: the pair whose halves look alike names the leakage in percent.
-//   geometry   squares of a known size in millimetres, circles, a line along the outermost pixels, a mark in each corner.
-//              The same for both eyes: it lies in the screen.
+//   eye_order  closing one eye leaves the open eye's own word: LEFT, RIGHT. A frame stands before the screen when the
+//              eyes are in order, and behind it when they are exchanged.
+//   ghosting   for each eye a row of pairs: one half is a grey of known light in this eye alone, the other half is
+//              white in the other eye alone. Close the other eye: the pair whose halves look alike gives the leakage
+//              in percent.
+//   geometry   squares of a known size in millimetres, circles, a line along the outermost pixels, a mark in each
+//              corner. The same for both eyes: it lies in the plane of the screen.
 // Pure; any thread. Cost: some milliseconds a megapixel.
 #pragma once
 
-#include "renderer/image.hpp"
-#include "renderer/output/stereo_mode.hpp"
+#include "base/image.hpp"
+#include "wall/stereo_mode.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 struct PatternScreen {
     ImageSize pixels;                              // of one eye's picture
@@ -21,13 +23,13 @@ struct PatternScreen {
 };
 
 // pattern is not none; pixels is at least 1 by 1 and the lengths are positive (BURIN_CHECK).
-[[nodiscard]] StereoImage draw_test_pattern(TestPattern pattern, const PatternScreen& screen);
+[[nodiscard]] StereoImage draw_test_pattern(wall::TestPattern pattern, const PatternScreen& screen);
 
-// The side of the geometry pattern's squares: the largest of 1, 2, 5, 10, 20, 50 ... mm of which the shorter side of the screen
-// holds at least six.
+// Returns the side of the geometry pattern's squares: the largest of 1, 2, 5, 10, 20, 50 ... mm that fits at least six
+// times into the shorter side of the screen.
 [[nodiscard]] double grid_spacing_mm(const PatternScreen& screen);
 
-// The light of the ghosting pattern's greys, as shares of white.
+// Returns the light of the ghosting pattern's greys, as shares of white.
 [[nodiscard]] std::span<const double> ghosting_steps();
 
-}  // namespace burin
+}  // namespace burin::renderer

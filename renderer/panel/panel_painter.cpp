@@ -10,7 +10,7 @@
 #include "shaders/panel.frag.spv.hpp"
 #include "shaders/panel.vert.spv.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 namespace {
 
@@ -33,7 +33,8 @@ bool is_whole(const PanelMesh& mesh) {
            std::ranges::all_of(mesh.indices, [&](std::uint32_t i) { return i < mesh.vertices.size(); });
 }
 
-// Grown by half more than is asked for, so that a panel that grows line by line does not allocate each time.
+// Ensures the buffer's size. Allocates half more than needed, so that
+// a panel that grows line by line does not reallocate each time.
 Result<void> make_room(gpu::Device& device, gpu::Commands& commands, gpu::Buffer& buffer, gpu::BufferUse use,
                        std::uint64_t size_bytes) {
     if (buffer.size_bytes() >= size_bytes) return {};
@@ -74,7 +75,8 @@ Result<void> PanelPainter::create_pass() {
     VkSubpassDescription subpass{};
     subpass.colorAttachmentCount = 1;
     subpass.pColorAttachments = &reference;
-    // Before: frames that show the former picture. After: those that show this one, and a copy of it.
+    // Before: waits for frames that show the previous picture.
+    // After: frames that show this one, and a copy of it, wait.
     VkSubpassDependency before{};
     before.srcSubpass = VK_SUBPASS_EXTERNAL;
     before.srcStageMask = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
@@ -179,7 +181,7 @@ Result<void> PanelPainter::resize(ImageSize size) {
 OverlayView PanelPainter::overlay(int x, int y, int enlarged) const {
     return {image_.view(),
             {x, y, enlarged * static_cast<int>(size_.width), enlarged * static_cast<int>(size_.height)},
-            OverlayColour::coded};
+            wall::OverlayColour::coded};
 }
 
 Result<bool> PanelPainter::record(gpu::Commands& commands, const PanelMesh& mesh) {
@@ -204,7 +206,7 @@ Result<void> PanelPainter::bring(gpu::Commands& commands, const PanelMesh& mesh)
     auto room = make_room(device_, commands, vertices_, gpu::BufferUse::vertex, vertices.size());
     if (room) room = make_room(device_, commands, indices_, gpu::BufferUse::index, indices.size());
     if (!room) return room;
-    commands.barrier();  // an earlier painting in the same commands reads them
+    commands.barrier();  // an earlier paint in the same commands reads them
     commands.upload(vertices_, 0, vertices);
     commands.upload(indices_, 0, indices);
     commands.barrier();
@@ -248,4 +250,4 @@ void PanelPainter::paint(gpu::Commands& commands, const PanelMesh& mesh) const {
     vk.vkCmdEndRenderPass(raw);
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Paints a panel's triangles into an image of its own, to be laid over both eyes (OutputStage) or to stand in the scene (PanelQuad).
+// Paints a panel's triangles into an image of its own, to be laid
+// over both eyes (OutputStage) or to stand in the scene (PanelQuad).
 //
 //   auto painter = PanelPainter::create(device, {340, 1080}, atlas);
-//   painter->record(commands, mesh);                       // nothing when the mesh is as it was
+//   painter->record(commands, mesh);                       // records nothing if the mesh is unchanged
 //   stage->record(commands, eyes, target, settings, painter->overlay(x, y));
 //
-// The image is R8G8B8A8_UNORM: sRGB values, premultiplied by alpha (OverlayColour::coded), transparent where nothing is painted, in
-// layout SHADER_READ_ONLY_OPTIMAL after the first record(). Colours are mixed as sRGB values within the panel, as toolkits mean
-// them; over the scene the panel is laid in linear light.
-// Failure: device lost, out of memory. A mesh whose indices or runs reach beyond their end breaks a contract and is not painted.
+// The image is R8G8B8A8_UNORM: sRGB values, premultiplied by alpha (OverlayColour::coded), transparent where nothing is
+// painted, in layout SHADER_READ_ONLY_OPTIMAL after the first record(). Within the panel, colours are blended as sRGB
+// values, as toolkits expect; over the scene the panel is blended in linear light.
+// Failure: device lost, out of memory. A mesh whose indices or
+// runs are out of range breaks a contract and is not painted.
 // Thread and lifetime: as gpu::Device. Cost: comparing the mesh, 10 us; painting is a pass over the panel's own pixels.
 #pragma once
 
@@ -17,20 +19,23 @@
 #include "renderer/output/output_stage.hpp"
 #include "renderer/panel/panel_mesh.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 class PanelPainter {
 public:
     [[nodiscard]] static Result<PanelPainter> create(gpu::Device& device, ImageSize size, const PanelAtlas& atlas);
 
-    // Whether it painted. Commands that are not submitted afterwards have painted nothing: then call forget().
+    // Records the painting of the mesh unless it is painted already; returns whether it did. If the commands are not
+    // submitted afterwards, call forget().
     [[nodiscard]] Result<bool> record(gpu::Commands& commands, const PanelMesh& mesh);
-    // The next record() paints.
+    // Makes the next record() paint.
     void forget() { painted_before_ = false; }
-    // The picture is lost; the next record() paints. Of the same size: nothing happens.
+    // Resizes the image and discards its contents, so that the
+    // next record() paints. Does nothing if the size is the same.
     [[nodiscard]] Result<void> resize(ImageSize size);
 
-    // With its upper left corner there, in pixels of an eye's picture; `enlarged` whole times.
+    // Returns the panel with its upper left corner at (x, y), in
+    // pixels of an eye's picture, enlarged by a whole factor.
     [[nodiscard]] OverlayView overlay(int x, int y, int enlarged = 1) const;
     [[nodiscard]] ImageSize size() const { return size_; }
     [[nodiscard]] VkImageView view() const { return image_.view(); }
@@ -65,4 +70,4 @@ private:
     std::uint64_t painted_ = 0, skipped_ = 0;
 };
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -8,10 +8,10 @@
 #include "shaders/panel_quad.vert.spv.hpp"
 #include "shaders/shared/frame_uniforms.h"
 
-namespace burin {
+namespace burin::renderer {
 namespace {
 
-// As the renderer's other pipelines have it: the frame's set stays bound from one to the next.
+// The same stages as in the renderer's other pipelines, so that the frame's set stays bound from one to the next.
 constexpr VkShaderStageFlags kPushStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
 Mat4 world_from_local(const PanelStand& stand) {
@@ -71,4 +71,4 @@ void PanelQuad::record(VkCommandBuffer commands, const PanelStand& stand, VkDesc
     vk.vkCmdDraw(commands, vertices_, 1, 0, 0);
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

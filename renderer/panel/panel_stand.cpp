@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace burin {
+namespace burin::renderer {
 
 PanelStand stand_of_width(const Pose& world_from_panel, double width_m, ImageSize pixels) {
     const double aspect = pixels.width > 0 ? static_cast<double>(pixels.height) / pixels.width : 1.0;
@@ -21,7 +21,8 @@ std::optional<Vec2> panel_ray(const PanelStand& stand, ImageSize pixels, const P
     const Quat panel_from_world = glm::conjugate(stand.world_from_panel.orientation);
     const Vec3 from = panel_from_world * (world_from_wand.position_m - stand.world_from_panel.position_m);
     const Vec3 along = panel_from_world * (world_from_wand.orientation * Vec3(0.0, 0.0, -1.0));
-    // Negated, so that numbers that are none miss too. Below a thousandth of a radian a tremor would leap over the panel.
+    // Negated comparisons, so that NaN misses too. Below a thousandth
+    // of a radian a tremor would make the point leap over the panel.
     if (!(from.z > 0.0) || !(along.z < -1e-3)) return std::nullopt;
     const Vec3 hit = from - along * (from.z / along.z);
     const Vec2 uv(0.5 + hit.x / stand.size_m.x, 0.5 - hit.y / stand.size_m.y);
@@ -29,4 +30,4 @@ std::optional<Vec2> panel_ray(const PanelStand& stand, ImageSize pixels, const P
     return Vec2(uv.x * pixels.width, uv.y * pixels.height);
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -5,7 +5,7 @@
 
 #include "gpu/commands.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 namespace {
 
@@ -128,4 +128,4 @@ Result<PictureSet> create_picture_set(gpu::Device& device, const gpu::SetLayoutH
     return made;
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the painter and the standing panel have in common: a picture that a fragment shader samples at set 0, binding 0.
+// Vulkan objects shared by PanelPainter and PanelQuad: a picture that a fragment shader samples at set 0, binding 0.
 // Thread and lifetime: as gpu::Device.
 #pragma once
 
@@ -8,9 +8,9 @@
 #include "gpu/image.hpp"
 #include "renderer/panel/panel_mesh.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
-// One byte a pixel, in layout SHADER_READ_ONLY_OPTIMAL. Waits for the GPU.
+// Uploads the atlas as an image of one byte a pixel, in layout SHADER_READ_ONLY_OPTIMAL. Waits for the GPU.
 [[nodiscard]] Result<gpu::Image> upload_cover(gpu::Device& device, const PanelAtlas& atlas);
 
 [[nodiscard]] Result<gpu::SamplerHandle> create_linear_sampler(gpu::Device& device);
@@ -26,4 +26,4 @@ struct PictureSet {
 [[nodiscard]] Result<PictureSet> create_picture_set(gpu::Device& device, const gpu::SetLayoutHandle& set_layout,
                                                     const gpu::SamplerHandle& sampler, VkImageView view);
 
-}  // namespace burin
+}  // namespace burin::renderer

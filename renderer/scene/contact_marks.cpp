@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/contact_marks.hpp"
+#include "renderer/scene/contact_marks.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/primitives.hpp"
+#include "renderer/scene/primitives.hpp"
 
-namespace burin {
+namespace burin::renderer {
 namespace {
 
 constexpr double kLeastForce_N = 0.05;
-// Lengths of the arrow, in those of 1 N.
+// Bounds of the arrow's length, in units of the length for 1 N.
 constexpr double kShortest = 0.6, kLongest = 4.0;
 constexpr double kFullHeadFrom = 1.0, kHead = 0.55, kHeadRadius = 0.25, kShaftRadius = 0.095;
 constexpr double kBareRing = 0.35;
-// The ring around a ball, in its radii: wider than the ball, so that it shows around it as seen from above, and lifted, so that it
-// is not buried in a shallow groove.
+// The ring around a ball, in the ball's radii: wider than the ball, so that it shows around it as seen from above, and
+// lifted, so that it is not buried in a shallow groove.
 constexpr double kRingAroundBall = 1.2, kRingLift = 0.3;
 constexpr double kClearOfBall = 1.06;
 
 bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-// Whether the contact is the ball's own, and not that of another part of a tool.
+// Returns whether the contact is the ball's own, and not that of another part of a tool.
 bool ball_touches(const SceneTool& tool, const Vec3& point) {
     return tool.visible && glm::length(point - tool.center_world) < 1.5 * tool.radius_m;
 }
@@ -38,7 +38,7 @@ std::optional<ContactRing> ring_of(const SceneContact& contact, const SceneTool&
     return ContactRing{contact.point_world + kRingThickness * radius * axis, axis, radius};
 }
 
-// How far along a line from a point a ball ends; 0 where the line misses it.
+// Returns the distance from a point along a line to where the line leaves a ball; 0 where the line misses it.
 double end_of_ball(const Vec3& from, const Vec3& direction, const Vec3& center, double radius_m) {
     const Vec3 to = center - from;
     const double along = glm::dot(to, direction);
@@ -81,7 +81,9 @@ std::array<Box, 2> boxes_of(const ContactMarks& marks) {
     if (marks.ring) {
         const Vec3& a = marks.ring->axis_world;
         Vec3 half;
-        for (int i = 0; i < 3; ++i)  // of a circle: its radius times the sine between its axis and the world's
+        // Half the extent of a circle along a world axis: its radius
+        // times the sine of the angle between its axis and that axis.
+        for (int i = 0; i < 3; ++i)
             half[i] = marks.ring->radius_m * (std::sqrt(std::max(1.0 - a[i] * a[i], 0.0)) + kRingThickness);
         boxes[0].include(marks.ring->center_world - half);
         boxes[0].include(marks.ring->center_world + half);
@@ -98,4 +100,4 @@ std::array<Box, 2> boxes_of(const ContactMarks& marks) {
     return boxes;
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Where the signs of a contact stand in the world (SceneContact): the ring around the point and the arrow along the force.
+// The marks of a contact in the world, from SceneContact: the
+// ring around the contact point and the arrow along the force.
 // Pure functions; any thread.
 #pragma once
 
 #include <array>
 #include <optional>
 
-#include "renderer/scene.hpp"
+#include "renderer/scene/scene.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 struct ContactRing {
     Vec3 center_world{0.0};
@@ -21,8 +22,8 @@ struct ContactRing {
 struct ForceArrow {
     Vec3 from_world{0.0};
     Vec3 direction_world{0.0};  // unit
-    double length_m = 0.0;      // from end to tip
-    double head_m = 0.0;        // of this the head
+    double length_m = 0.0;      // from tail to tip
+    double head_m = 0.0;        // the head's share of length_m
     double shaft_radius_m = 0.0, head_radius_m = 0.0;
 
     bool operator==(const ForceArrow&) const = default;
@@ -36,10 +37,11 @@ struct ContactMarks {
     bool operator==(const ContactMarks&) const = default;
 };
 
-// Of the scene's contact, and of its tool, which they stand clear of. Nothing where a number is not finite.
+// Computes the marks of the scene's contact, clear of the scene's
+// tool. Leaves out a mark whose numbers are not all finite.
 [[nodiscard]] ContactMarks contact_marks(const Scene& scene);
 
-// Around the ring and around the arrow; empty for what is not there.
+// Returns the bounding boxes of the ring and of the arrow; empty for a mark that is absent.
 [[nodiscard]] std::array<Box, 2> boxes_of(const ContactMarks& marks);
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/frame_setup.hpp"
+#include "renderer/scene/frame_setup.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,10 +7,11 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "renderer/contact_marks.hpp"
-#include "renderer/stereo/projection.hpp"
+#include "renderer/scene/contact_marks.hpp"
+#include "shaders/shared/srgb.h"
+#include "wall/projection.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 namespace {
 
@@ -23,11 +24,9 @@ const Vec3 kGroundColour{0.16, 0.15, 0.14};
 
 glm::vec4 vec4_of(const Vec3& v, double w) { return {glm::vec3(v), static_cast<float>(w)}; }
 
-double linear_component(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
-
 double stylus_radius_m(const SceneTool& tool) { return std::clamp(0.42 * tool.radius_m, 0.002, 0.012); }
 double stylus_length_m(const SceneTool& tool) { return std::max(20.0 * stylus_radius_m(tool), 6.0 * tool.radius_m); }
-// How thick the edges of a workspace box are.
+// Returns the thickness of a workspace box's edges.
 double bar_m(const SceneBox& box) {
     return std::clamp(0.018 * std::min({box.size_m.x, box.size_m.y, box.size_m.z}), 0.0015, 0.008);
 }
@@ -35,7 +34,7 @@ double half_diagonal(const Vec3& size) { return 0.5 * glm::length(size); }
 
 Ball ball_around(const Box& box) { return {box.center(), box.empty() ? 0.0 : half_diagonal(box.extent())}; }
 
-// The smallest ball around two.
+// Returns the smallest ball around two.
 Ball around(const Ball& a, const Ball& b) {
     if (a.radius_m <= 0.0) return b;
     if (b.radius_m <= 0.0) return a;
@@ -60,8 +59,8 @@ Mat4 matrix_of(const Pose& pose, const Vec3& scale) {
     return matrix(Similarity{pose.position_m, pose.orientation, 1.0}) * glm::scale(Mat4(1.0), scale);
 }
 
-void add_wall_frame(Shapes& shapes, const Screen& screen, const Primitives& primitives) {
-    // Bars just inside the screen's edges, standing behind its plane: the window one looks through.
+void add_wall_frame(Shapes& shapes, const wall::Screen& screen, const Primitives& primitives) {
+    // Bars just inside the screen's edges and behind its plane: the frame of the window that one looks through.
     constexpr double kWidth_m = 0.016, kDepth_m = 0.05;
     const Vec3 colour{0.30, 0.30, 0.31};
     const Vec3 across = screen.lower_right_world - screen.lower_left_world;
@@ -80,7 +79,7 @@ void add_wall_frame(Shapes& shapes, const Screen& screen, const Primitives& prim
     }
 }
 
-// How much denser a box's faces are towards its edges, in the opacity of their middle (shaders/glass.frag).
+// Opacity added to a box's faces towards its edges, as a share of the opacity of their middle (shaders/glass.frag).
 constexpr double kDenserEdges = 0.9;
 
 void add_box(Shapes& shapes, const SceneBox& box, const Primitives& primitives) {
@@ -116,7 +115,7 @@ void add_tool(Shapes& shapes, const SceneTool& tool, const Primitives& primitive
     shapes.solid.push_back({primitives.stylus, constants_of(shaft, {0.27, 0.28, 0.30}, 1.0, 0.35, 1.0)});
 }
 
-// Takes +Z to a direction, stretched by `size` along its own axes.
+// Returns the matrix that maps +Z to a direction and scales by `size` along the local axes.
 Mat4 matrix_along(const Vec3& from, const Vec3& direction, const Vec3& size) {
     const Vec3 aside = std::abs(direction.y) < 0.9 ? Vec3(0, 1, 0) : Vec3(1, 0, 0);
     const Vec3 x = glm::normalize(glm::cross(aside, direction)), y = glm::cross(direction, x);
@@ -143,9 +142,7 @@ void add_contact(Shapes& shapes, const Scene& scene, const Primitives& primitive
 
 }  // namespace
 
-Vec3 linear_of(const Vec3& srgb) {
-    return {linear_component(srgb.x), linear_component(srgb.y), linear_component(srgb.z)};
-}
+Vec3 linear_of(const Vec3& srgb) { return shared::linear_of(srgb); }
 
 Mat4 world_from_patch(const Scene& scene) {
     return matrix(scene.world_from_object) * glm::translate(Mat4(1.0), scene.lattice_origin_object);
@@ -172,7 +169,7 @@ std::array<Ball, 9> balls_of(const SceneTool& tool) {
 }
 
 Ball ball_of(const SceneBox& box) {
-    // Its edges are bars that stand a little out of it.
+    // The box's edges are bars that stick out a little.
     return {box.center_world.position_m, box.visible ? half_diagonal(box.size_m) + bar_m(box) : 0.0};
 }
 
@@ -193,9 +190,9 @@ Workpiece place_workpiece(const Scene& scene, const Box& patch_bounds, double re
 }
 
 DepthRange depth_range(const Scene& scene, const Workpiece& workpiece) {
-    const Eyes eyes = eyes_of(scene.viewer);
-    const double eye_m =
-        std::min(distance_in_front(scene.screen, eyes.left_world), distance_in_front(scene.screen, eyes.right_world));
+    const wall::Eyes eyes = wall::eyes_of(scene.viewer);
+    const double eye_m = std::min(wall::distance_in_front(scene.screen, eyes.left_world),
+                                  wall::distance_in_front(scene.screen, eyes.right_world));
     DepthRange range;
     const std::array signs = boxes_of(contact_marks(scene));
     Box panel;
@@ -204,11 +201,12 @@ DepthRange depth_range(const Scene& scene, const Workpiece& workpiece) {
     for (const Ball& ball : {workpiece.enclosing, ball_of(scene.tool), ball_of(scene.box), ball_of(scene.proposed_box),
                              ball_of(scene.bubble), ball_around(signs[0]), ball_around(signs[1]), ball_around(panel)}) {
         if (ball.radius_m <= 0.0) continue;
-        const double center_m = eye_m - distance_in_front(scene.screen, ball.center_world);
+        const double center_m = eye_m - wall::distance_in_front(scene.screen, ball.center_world);
         range.near_m = std::min(range.near_m, 0.9 * (center_m - ball.radius_m));
         range.far_m = std::max(range.far_m, 1.5 * (center_m + ball.radius_m));
     }
-    // Something reaches to the eye or behind it: what is nearer than 1 cm cannot be seen anyway.
+    // If something reaches the eye or lies behind it, the near
+    // plane stays: what is nearer than 1 cm cannot be seen anyway.
     range.near_m = std::exp2(std::floor(std::log2(std::max(range.near_m, 0.01))));
     range.far_m = std::exp2(std::ceil(std::log2(range.far_m)));
     return range;
@@ -216,7 +214,7 @@ DepthRange depth_range(const Scene& scene, const Workpiece& workpiece) {
 
 shared::FrameUniforms frame_uniforms(const Scene& scene, const Workpiece& workpiece) {
     shared::FrameUniforms frame{};
-    const Eyes eyes = eyes_of(scene.viewer);
+    const wall::Eyes eyes = wall::eyes_of(scene.viewer);
     const DepthRange depth = depth_range(scene, workpiece);
     const std::array eye_world{eyes.left_world, eyes.right_world};
     for (std::size_t i = 0; i < 2; ++i) {
@@ -227,8 +225,8 @@ shared::FrameUniforms frame_uniforms(const Scene& scene, const Workpiece& workpi
     }
     const Vec3 middle = middle_of(eyes);
     frame.clip_from_world_middle = glm::mat4(off_axis_projection(scene.screen, middle, depth.near_m, depth.far_m));
-    frame.fade = {
-        glm::vec4(glm::dvec4(scene.edge_fade, scene.edge_fade_band, distance_in_front(scene.screen, middle), kGuard))};
+    frame.fade = {glm::vec4(
+        glm::dvec4(scene.edge_fade, scene.edge_fade_band, wall::distance_in_front(scene.screen, middle), kGuard))};
     frame.light = vec4_of(kToLight, kLightHalfAngleTangent);
     frame.light_colour = vec4_of(kLightColour, 0.0);
     frame.sky_colour = vec4_of(kSkyColour, 0.0);
@@ -267,8 +265,8 @@ Shapes shapes_of(const Scene& scene, const Primitives& primitives) {
 
 shared::DrawConstants surface_constants(const Scene& scene) {
     shared::DrawConstants c = constants_of(world_from_patch(scene), Vec3(1.0), 1.0, 0.42, 0.9);
-    c.material.z = 1.0f;  // shows the nearness of the tool
+    c.material.z = 1.0f;  // shows how near the tool is
     return c;
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -1,36 +1,37 @@
 // SPDX-License-Identifier: MIT
-// From a scene to what the shaders need: the two projections, the light, and the list of shapes.
+// Turns a scene into what the shaders need: the two projections, the light, and the list of shapes.
 // Pure functions; any thread.
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "renderer/primitives.hpp"
-#include "renderer/scene.hpp"
+#include "renderer/scene/primitives.hpp"
+#include "renderer/scene/scene.hpp"
 #include "shaders/shared/frame_uniforms.h"
 
-namespace burin {
+namespace burin::renderer {
 
 struct Ball {
     Vec3 center_world{0.0};
-    double radius_m = 0.0;  // 0: nothing there
+    double radius_m = 0.0;  // 0: absent
 
     bool operator==(const Ball&) const = default;
 };
 
-// Where the workpiece is in the world.
+// Position and extent of the workpiece in the world.
 struct Workpiece {
-    Ball enclosing;  // holds all of it
-    Ball typical;    // of its mean size: what it looks like from far away
+    Ball enclosing;  // holds all of the workpiece
+    Ball typical;    // of the workpiece's mean size: its appearance from far away
 
     bool operator==(const Workpiece&) const = default;
 };
-// reach: PatchStore::reach_m.
+// Computes the balls around the workpiece; reach_m is PatchStore::reach_m.
 [[nodiscard]] Workpiece place_workpiece(const Scene& scene, const Box& patch_bounds, double reach_m);
 
-// Near and far planes (distances along the screen's normal) that cut off neither the room nor anything drawn, as long as it
-// is at least 1 cm in front of the eyes. Powers of two: they seldom change, and a change turns no other bit of the projection.
+// Near and far planes (distances along the screen's normal) that clip neither the room
+// nor anything drawn that is at least 1 cm in front of the eyes. Both are powers of
+// two, so that they seldom change and a change alters no other bit of the projection.
 struct DepthRange {
     double near_m = 0.03125;
     double far_m = 256.0;
@@ -39,26 +40,29 @@ struct DepthRange {
 };
 [[nodiscard]] DepthRange depth_range(const Scene& scene, const Workpiece& workpiece);
 
-// The picture is the middle of a viewport that is kGuard times as large each way: triangles that the picture's edge cuts are not clipped,
-// only left out beyond it. (Mesa 22.3's software driver gives clipped triangles wrong attributes in every view but the first.)
+// Ratio of the viewport's size to the picture's, each way, with the picture in the middle. Triangles that cross the
+// picture's edge are thus scissored instead of clipped. (Mesa 22.3's software driver gives clipped triangles wrong
+// attributes in every view but the first.)
 inline constexpr double kGuard = 2.0;
 
 [[nodiscard]] shared::FrameUniforms frame_uniforms(const Scene& scene, const Workpiece& workpiece);
 
-// The ball around a tool and its stylus; around a box of the workspace; radius 0 for what is not shown.
+// Return the bounding ball of a tool with its stylus, of a
+// workspace box and of a bubble; radius 0 for what is not visible.
 [[nodiscard]] Ball ball_of(const SceneTool& tool);
 [[nodiscard]] Ball ball_of(const SceneBox& box);
 [[nodiscard]] Ball ball_of(const SceneBubble& bubble);
-// Closer around the tool: its own ball, then balls along its stylus that together hold it.
+// Returns a tighter cover of the tool: the tool's own ball, then balls along its stylus that together hold it.
 [[nodiscard]] std::array<Ball, 9> balls_of(const SceneTool& tool);
-// Unit, towards the lamp.
+// Returns the unit vector towards the lamp.
 [[nodiscard]] const Vec3& direction_to_light();
-inline constexpr double kLightHalfAngleTangent = 0.07;  // a lamp of 4 degrees: edges 7 mm wide at 100 mm
+// Tangent of half the angle that the lamp subtends: 4 degrees in all, so that shadow edges are 7 mm wide at 100 mm.
+inline constexpr double kLightHalfAngleTangent = 0.07;
 
-// world_from_patch, for surface vertices.
+// Returns world_from_patch, which transforms positions of surface vertices.
 [[nodiscard]] Mat4 world_from_patch(const Scene& scene);
 
-// One shape of primitives.hpp.
+// One draw of a range of primitives.hpp.
 struct Shape {
     PrimitiveRange range;
     shared::DrawConstants constants;
@@ -69,10 +73,10 @@ struct Shapes {
 };
 [[nodiscard]] Shapes shapes_of(const Scene& scene, const Primitives& primitives);
 
-// The workpiece's own constants.
+// Returns the draw constants of the workpiece.
 [[nodiscard]] shared::DrawConstants surface_constants(const Scene& scene);
 
-// Linear light from an sRGB colour.
+// Converts an sRGB colour to linear light.
 [[nodiscard]] Vec3 linear_of(const Vec3& srgb);
 
-}  // namespace burin
+}  // namespace burin::renderer

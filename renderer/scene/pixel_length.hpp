@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
-// How long a pixel of the picture is at a place of the scene: what may be left out of a shape there.
+// Computes the length of a picture's pixel at a position in the scene: detail smaller than that may be left out there.
 // Pure; any thread.
 #pragma once
 
-#include "renderer/image.hpp"
-#include "renderer/scene.hpp"
+#include "base/image.hpp"
+#include "renderer/scene/scene.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 class PixelLength {
 public:
     PixelLength(const Scene& scene, ImageSize size);
-    // In metres of the world, where a ball is nearest to an eye; no nearer than 1 cm.
+    // Returns the length in metres of the world at the point of a ball
+    // that is nearest to an eye; that distance counts as at least 1 cm.
     [[nodiscard]] double at(const Vec3& center_world, double radius_m) const;
 
 private:
-    Screen screen_;
+    wall::Screen screen_;
     double eye_m_ = 0.0, per_metre_ = 0.0;
 };
 
-}  // namespace burin
+}  // namespace burin::renderer

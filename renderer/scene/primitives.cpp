@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/primitives.hpp"
+#include "renderer/scene/primitives.hpp"
 
 #include <array>
 #include <cmath>
@@ -8,14 +8,14 @@
 
 #include "shaders/shared/octahedral.h"
 
-namespace burin {
+namespace burin::renderer {
 
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 
 struct ProfilePoint {
-    double radius, along;                // of a shape turned around an axis
+    double radius, along;                // of a solid of revolution
     double normal_radial, normal_along;  // any length
 };
 
@@ -32,7 +32,7 @@ public:
             {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z), code_of(normal), 0xffffffffu});
         return static_cast<std::uint32_t>(out_.vertices.size() - 1);
     }
-    // Counter-clockwise seen from outside.
+    // Adds a quad, counter-clockwise seen from outside.
     void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
         out_.indices.insert(out_.indices.end(), {a, b, c, a, c, d});
     }
@@ -51,7 +51,7 @@ private:
     Primitives out_;
 };
 
-// Turns a profile, listed from the axis's lower end to its upper end, around +Y (or +Z).
+// Revolves a profile, listed from the axis's lower end to its upper end, around +Y (or +Z).
 PrimitiveRange turned(Builder& b, std::span<const ProfilePoint> profile, int segments, bool around_z) {
     const std::uint32_t first = b.here();
     std::vector<std::uint32_t> previous, current;
@@ -89,7 +89,7 @@ PrimitiveRange cube(Builder& b) {
             n[axis] = side;
             u[(axis + 1) % 3] = side;  // u x v = n for both sides
             v[(axis + 2) % 3] = 1.0;
-            // Small triangles: see backdrop.vert for what happens to those that the picture's edge cuts.
+            // Small triangles: see backdrop.vert for what happens to those that cross the picture's edge.
             constexpr int kParts = 8;
             for (int i = 0; i < kParts; ++i) {
                 for (int j = 0; j < kParts; ++j) {
@@ -106,7 +106,7 @@ PrimitiveRange cube(Builder& b) {
     return b.since(first);
 }
 
-// A pen: a fine neck at the ball, a grip, a slim shaft with a rounded end.
+// A pen: a thin neck at the ball, a grip, a slim shaft with a rounded end.
 PrimitiveRange stylus(Builder& b) {
     std::vector<ProfilePoint> profile{{0.35, 0.0, 1.0, 0.0}, {0.38, 0.10, 1.0, -0.3}, {0.95, 0.22, 1.0, -0.6},
                                       {1.0, 0.26, 1.0, 0.0}, {0.92, 0.60, 1.0, 0.05}, {0.86, 0.97, 1.0, 0.1}};
@@ -132,7 +132,7 @@ PrimitiveRange cone(Builder& b) {
 }
 
 PrimitiveRange ring(Builder& b) {
-    constexpr int kAround = 16;  // its own roundness
+    constexpr int kAround = 16;  // segments around the ring's own cross-section
     std::vector<ProfilePoint> profile;
     for (int i = 0; i <= kAround; ++i) {
         const double a = 2.0 * kPi * i / kAround;
@@ -144,7 +144,8 @@ PrimitiveRange ring(Builder& b) {
 PrimitiveRange plinth(Builder& b) {
     constexpr double kRound = 0.03, kRoundHeight = 0.012;  // of the radius; of the height
     std::vector<ProfilePoint> profile;
-    // In rows: the picture's edge may cut the side, and small triangles keep the harm of a clipped one small.
+    // Rows of small triangles: the picture's edge may cut the
+    // side, and small triangles limit the damage of a clipped one.
     constexpr int kRows = 24;
     for (int i = 0; i <= kRows; ++i) profile.push_back({1.0, -1.0 + (1.0 - kRoundHeight) * i / kRows, 1.0, 0.0});
     for (int i = 1; i <= 8; ++i) {
@@ -185,4 +186,4 @@ Primitives make_primitives() {
     return out;
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

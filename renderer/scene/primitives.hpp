@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The shapes that the renderer draws besides the workpiece, all in one vertex and one index list. White, with SurfaceVertex.
+// Meshes of the shapes that the renderer draws besides the workpiece, all in one vertex and one index list, in white.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 #include "base/space.hpp"
 #include "shaders/shared/surface_vertex.h"
 
-namespace burin {
+namespace burin::renderer {
 
 struct PrimitiveRange {
     std::uint32_t first_index = 0;
@@ -19,15 +19,15 @@ struct PrimitiveRange {
     bool operator==(const PrimitiveRange&) const = default;
 };
 
-// From pole to pole; twice as many segments go around.
+// Number of rings from pole to pole; twice as many segments go around.
 inline constexpr std::array<int, 4> kBallRings{8, 16, 32, 48};
 
-inline constexpr double kRingThickness = 0.09;  // of its radius
+inline constexpr double kRingThickness = 0.09;  // share of the ring's radius
 
 struct Primitives {
     std::vector<shared::SurfaceVertex> vertices;
     std::vector<std::uint32_t> indices;
-    std::array<PrimitiveRange, kBallRings.size()> balls;  // radius 1 around the origin, ever rounder
+    std::array<PrimitiveRange, kBallRings.size()> balls;  // radius 1 around the origin, from coarse to fine
     PrimitiveRange cube;                                  // -0.5 to 0.5
     PrimitiveRange stylus;                                // along +Z from 0 to 1, radius at most 1, thin at z = 0
     PrimitiveRange rod;                                   // along +Z from 0 to 1, radius 1; open at z = 1
@@ -39,4 +39,4 @@ struct Primitives {
 
 [[nodiscard]] Primitives make_primitives();
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -6,11 +6,11 @@
 
 #include <utility>
 
-namespace burin {
+namespace burin::renderer {
 namespace {
 
-constexpr int kNice =
-    5;  // of 19: behind carving, drawing and touch, but not without end: what it does makes drawing cheaper
+// Nice value, of 19 at most: below carving, drawing and touch, but not lowest, as its results make drawing cheaper.
+constexpr int kNice = 5;
 
 }  // namespace
 
@@ -46,7 +46,8 @@ std::vector<DetailDone> DetailWorker::take() {
 }
 
 void DetailWorker::run() {
-    // On Linux a thread has a nice value of its own; refused, the worker competes like any other.
+    // On Linux each thread has a nice value of its own; if setting
+    // it is refused, the worker competes like any other thread.
     static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice));
     std::unique_lock lock(mutex_);
     while (true) {
@@ -61,4 +62,4 @@ void DetailWorker::run() {
     }
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Works out coarser levels of patches (patch_detail.hpp) on a thread of its own, behind everything else that wants the processor:
-// frames need them soon, but no frame waits for them.
+// Computes coarser levels of patches (patch_detail.hpp) on a low-priority
+// thread of its own: frames need them soon, but no frame waits for them.
 //
-// Data flow: give() a patch as it is now; take() what is done. What a patch has become meanwhile its owner knows, by the tile and the light
-// that come back with the levels.
-// Thread: one owner. The worker only reads tiles, which never change. It starts with the first patch and sleeps while there is none.
+// Data flow: give() queues a patch in its present state; take() returns what is done. The owner detects patches that
+// changed meanwhile by the tile and the light that come back with the levels.
+// Thread: one owner. The worker only reads tiles, which are immutable.
+// It starts with the first patch and sleeps while its queue is empty.
 #pragma once
 
 #include <condition_variable>
@@ -15,15 +16,15 @@
 #include <thread>
 #include <vector>
 
-#include "geometry/surface_tile.hpp"
+#include "geometry/contact/surface_tile.hpp"
 #include "renderer/surface/patch_detail.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 struct DetailJob {
     std::uint32_t patch = 0;
-    std::shared_ptr<const SurfaceTile> surface;
-    std::vector<VertexLight> light;  // empty: full
+    std::shared_ptr<const geometry::SurfaceTile> surface;
+    std::vector<geometry::VertexLight> light;  // empty: full light
     double edge_m = 0.0;
     [[nodiscard]] std::vector<PatchLevel> levels() const {
         return coarser_levels(surface->vertices, surface->indices, light, edge_m);
@@ -37,13 +38,13 @@ struct DetailDone {
 class DetailWorker {
 public:
     DetailWorker() = default;
-    ~DetailWorker();  // does not begin another patch
+    ~DetailWorker();  // finishes the patch in progress and begins no other
     DetailWorker(const DetailWorker&) = delete;
     DetailWorker& operator=(const DetailWorker&) = delete;
 
     void give(DetailJob job);
     [[nodiscard]] std::vector<DetailDone> take();
-    [[nodiscard]] std::size_t waiting() const { return waiting_; }  // given and not taken
+    [[nodiscard]] std::size_t waiting() const { return waiting_; }  // number of patches given and not yet taken
 
 private:
     void run();
@@ -57,4 +58,4 @@ private:
     std::thread thread_;
 };
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -6,10 +6,10 @@
 #include <iterator>
 #include <vector>
 
-namespace burin {
+namespace burin::renderer {
 namespace {
 
-// Of 64 bits, so that no two triangles of a patch share theirs but by a chance of one in 10^13.
+// Hashes to 64 bits, so that the probability that any two triangles of a patch collide is one in 10^13.
 std::uint64_t mixed(std::uint64_t hash, std::uint64_t word) {
     hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
     return hash ^ (hash >> 29);
@@ -25,7 +25,7 @@ std::vector<Triangle> triangles_of(const PatchLook& look) {
     vertices.reserve(look.vertices.size());
     for (std::size_t i = 0; i < look.vertices.size(); ++i) {
         const shared::SurfaceVertex& v = look.vertices[i];
-        const VertexLight light = i < look.light.size() ? look.light[i] : VertexLight{};
+        const geometry::VertexLight light = i < look.light.size() ? look.light[i] : geometry::VertexLight{};
         const auto x = std::bit_cast<std::uint32_t>(v.x), y = std::bit_cast<std::uint32_t>(v.y),
                    z = std::bit_cast<std::uint32_t>(v.z);
         std::uint64_t hash = mixed(std::uint64_t{light.sun} << 8U | light.open, std::uint64_t{x} << 32U | y);
@@ -64,4 +64,4 @@ Box changed_bounds(const PatchLook& before, const PatchLook& after) {
     return box;
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

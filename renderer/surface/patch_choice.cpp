@@ -2,20 +2,21 @@
 #include "renderer/surface/patch_choice.hpp"
 
 #include <algorithm>
+#include <utility>
 
-#include "renderer/frame_setup.hpp"
-#include "renderer/pixel_length.hpp"
+#include "renderer/scene/frame_setup.hpp"
+#include "renderer/scene/pixel_length.hpp"
 
-namespace burin {
+namespace burin::renderer {
 namespace {
 
-// The surface may lie this far off where it is drawn coarser: below what a sample's place can show.
+// Largest error of a coarser level: below what the position of a sample can show.
 constexpr double kMostError_px = 0.5;
-// Up to this length of edges light is worked out at vertices: between them it changes too little to be seen. Farther apart they may
-// be in smooth triangles.
+// Edge lengths up to which light is computed at vertices: all triangles up to the first, since light changes too little
+// between their vertices to be seen, and smooth triangles up to the second.
 constexpr double kFineEdge_px = 12.0, kSmoothEdge_px = 64.0;
 
-// The length of a pixel in the patches' frame, at the place of a patch that is nearest to an eye.
+// Computes the length of a pixel, in the patches' frame, at a patch's point nearest to an eye.
 class PatchPixel {
 public:
     PatchPixel(const Scene& scene, ImageSize size) : scene_(scene), pixel_(scene, size) {}
@@ -31,7 +32,7 @@ private:
     PixelLength pixel_;
 };
 
-// Where the tool's ring and shadow are, which are finer than any vertices: a ball, and some that are drawn out along the light.
+// The region of the tool's ring and shadow, which are finer than any vertices: a ball, and balls swept along the light.
 class ToolZone {
 public:
     explicit ToolZone(const Scene& scene) {
@@ -51,13 +52,13 @@ public:
         shadow_radius_m_ = (all.radius_m + kLightHalfAngleTangent * reach_m) * scale;
         const std::array balls = balls_of(tool);
         for (std::size_t i = 0; i < balls.size(); ++i) {
-            // Twice the ball: its points lie before and behind its middle, as seen from the lamp.
+            // Twice the ball's radius: its points lie before and behind its middle, as seen from the lamp.
             const double edge_m = kLightHalfAngleTangent * (reach_m + 2.0 * balls[i].radius_m) + 0.02 * tool.radius_m;
             shadows_[i] = {local(balls[i].center_world), (balls[i].radius_m + edge_m) * scale};
         }
         along_ = local(tool.center_world - reach_m * direction_to_light()) - center_;
     }
-    // Or keeps light of the surroundings off the patch.
+    // Returns whether the tool touches() the patch or occludes ambient light on it.
     [[nodiscard]] bool changes(const PatchShape& patch) const {
         if (!there_) return false;
         const Vec3 nearest = glm::clamp(center_, patch.bounds.lo, patch.bounds.hi);
@@ -66,7 +67,7 @@ public:
     [[nodiscard]] bool touches(const PatchShape& patch) const {
         if (!there_) return false;
         if (glm::length(patch.center - center_) <= patch.radius_m + radius_m_) return true;
-        // All at once before each by itself.
+        // Tests the swept bound of all shadows before each shadow by itself.
         if (!near(patch, from_, to_ - from_, shadow_radius_m_)) return false;
         return std::ranges::any_of(shadows_, [&](const Shadow& s) { return near(patch, s.from, along_, s.radius_m); });
     }
@@ -95,7 +96,7 @@ ShadingRate rate_of(const PatchStore::Patch& patch, const PatchPixel& pixel, con
     return edge_px <= kSmoothEdge_px ? ShadingRate::by_triangle : ShadingRate::pixel;
 }
 
-// Bent patches may uncover what is behind.
+// Returns the occluders, or none if a patch is bent: bent patches may uncover what is behind them.
 std::span<const Box> hiding(std::span<const Box> occluders, const EyePair& eyes,
                             std::span<PatchStore::Patch* const> patches) {
     const bool bends = eyes.fade && std::ranges::any_of(patches, [&](const PatchStore::Patch* patch) {
@@ -144,29 +145,29 @@ bool spared(Hidden reason, const Savings& savings, PatchCounts& counts) {
 
 }  // namespace
 
-void choose_levels(std::span<PatchStore::Patch* const> patches, const Scene& scene, ImageSize size,
-                   const Savings& savings, std::span<const Box> occluders) {
+void choose_levels(DrawnPatches& drawn, const Scene& scene, ImageSize size, const Savings& savings,
+                   std::span<const Box> occluders) {
     const PatchPixel pixel(scene, size);
     const ToolZone zone(scene);
     const EyePair eyes = eye_frusta(scene, size, all_of(size));
-    occluders = hiding(occluders, eyes, patches);
-    for (PatchStore::Patch* patch : patches) {
-        // The fade is worked out at vertices, so where it bends the picture all of them are needed.
+    occluders = hiding(occluders, eyes, drawn.patches());
+    for (const PatchStore::Patch* patch : drawn.patches()) {
+        // The fade is computed at vertices, so where it bends the picture all of them are needed.
         const bool coarser = savings.coarser_levels && !bent(eyes, patch->shape.bounds);
-        patch->drawn = {coarser ? level_of(*patch, pixel) : std::uint8_t{0}, rate_of(*patch, pixel, zone, savings)};
-        patch->wanted = savings.coarser_levels && hidden(eyes, patch->shape, occluders) == Hidden::no;
+        drawn.of(*patch) = {.level = coarser ? level_of(*patch, pixel) : std::uint8_t{0},
+                            .rate = rate_of(*patch, pixel, zone, savings),
+                            .wanted = savings.coarser_levels && hidden(eyes, patch->shape, occluders) == Hidden::no};
     }
+    drawn.levels_chosen();
 }
 
-std::vector<Box> choose_rates(std::span<PatchStore::Patch* const> patches, const Scene& scene, ImageSize size,
-                              const Savings& savings) {
+std::vector<Box> choose_rates(DrawnPatches& drawn, const Scene& scene, ImageSize size, const Savings& savings) {
     const PatchPixel pixel(scene, size);
     const ToolZone zone(scene);
     std::vector<Box> changed;
-    for (PatchStore::Patch* patch : patches) {
+    for (const PatchStore::Patch* patch : drawn.patches()) {
         const ShadingRate rate = rate_of(*patch, pixel, zone, savings);
-        if (rate == patch->drawn.rate) continue;
-        patch->drawn.rate = rate;
+        if (std::exchange(drawn.of(*patch).rate, rate) == rate) continue;
         changed.push_back(patch->shape.bounds);
     }
     return changed;
@@ -186,23 +187,24 @@ std::vector<Box> changed_near_tool(std::span<PatchStore::Patch* const> patches, 
     return changed;
 }
 
-PatchDraws choose_draws(std::span<PatchStore::Patch* const> patches, const Scene& scene, ImageSize size,
-                        const PixelRect& part, const Savings& savings, std::span<const Box> occluders) {
+PatchDraws choose_draws(const DrawnPatches& drawn, const Scene& scene, ImageSize size, const PixelRect& part,
+                        const Savings& savings, std::span<const Box> occluders) {
     PatchDraws draws;
     const EyePair eyes = eye_frusta(scene, size, part);
-    occluders = hiding(occluders, eyes, patches);
-    for (const PatchStore::Patch* patch : patches) {
+    occluders = hiding(occluders, eyes, drawn.patches());
+    for (const PatchStore::Patch* patch : drawn.patches()) {
         if (spared(hidden(eyes, patch->shape, occluders), savings, draws.counts)) continue;
-        const PatchStore::Level& level = patch->levels[patch->drawn.level];
-        const std::uint32_t fine = lit_at_vertices(level, patch->drawn.rate);
+        const DrawnPatches::State& state = drawn.of(*patch);
+        const PatchStore::Level& level = patch->levels[state.level];
+        const std::uint32_t fine = lit_at_vertices(level, state.rate);
         append(draws.fine, level.first_index, fine);
         append(draws.solid, level.first_index + fine, level.index_count - fine);
         ++draws.counts.drawn;
-        draws.counts.coarser += patch->drawn.level > 0 ? 1 : 0;
+        draws.counts.coarser += state.level > 0 ? 1 : 0;
         draws.counts.vertex_rate += fine > 0 ? 1 : 0;
         draws.counts.triangles += level.index_count / 3;
     }
     return draws;
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -10,17 +10,18 @@
 #include "base/space.hpp"
 #include "shaders/shared/octahedral.h"
 
-namespace burin {
+namespace burin::renderer {
 namespace {
 
 using shared::SurfaceVertex;
 
-// Of an edge: how far the surface may move for each level. A level is drawn where that is a fraction of a pixel.
+// Largest displacement of the surface for each level, in edge
+// lengths. A level is drawn where that is a fraction of a pixel.
 constexpr std::array<double, 7> kErrors{0.01, 0.02, 0.03, 0.05, 0.08, 0.15, 0.5};
-constexpr double kWorthIt = 0.85;  // of the triangles before: a level with more is not kept
+constexpr double kWorthIt = 0.85;  // share of the previous level's triangles: a level with more is discarded
 
-// The most that a vertex may change by: a step of 8 of 255 in light or colour, and a turn of the normal that changes the light
-// on it as much.
+// Largest change of a vertex: 8 steps of 255 in light or colour,
+// and a turn of the normal that changes the light on it as much.
 constexpr double kMostChange = 8.0 / 255.0;
 constexpr double kMostTurn = 0.06;  // |difference of unit normals|
 
@@ -29,7 +30,7 @@ struct Look {
     double sun, open;
 };
 
-Look look_of(const SurfaceVertex& v, VertexLight light) {
+Look look_of(const SurfaceVertex& v, geometry::VertexLight light) {
     const shared::Direction n = shared::decode_normal(v.normal);
     const auto byte = [](std::uint32_t word, int shift) {
         return static_cast<double>((word >> shift) & 0xffu) / 255.0;
@@ -49,17 +50,19 @@ bool close(const Look& a, const Look& b) {
 
 Vec3 place(const SurfaceVertex& v) { return {v.x, v.y, v.z}; }
 
-// Along an edge of a smooth triangle. Light that is linear in the angle is off by an eighth of its square: less than 1 of 255.
+// Largest changes along an edge of a smooth triangle. Interpolation of light over an angle is off by an eighth of the
+// angle's square: less than 1 of 255.
 constexpr double kSmoothTurn = 0.12;
 constexpr double kSmoothChange = 24.0 / 255.0;
 
 struct Foot {
     double distance = 1e30;
-    std::size_t triangle = 0;  // its first index
+    std::size_t triangle = 0;  // index of its first index
     Vec3 weights{0.0};         // of its three corners
 };
 
-// Of p on a triangle, in barycentric coordinates (Ericson, Real-Time Collision Detection, 5.1.5).
+// Returns the barycentric coordinates of the triangle's point
+// nearest to p (Ericson, Real-Time Collision Detection, 5.1.5).
 Vec3 nearest_weights(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 ab = b - a, ac = c - a, ap = p - a;
     const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
@@ -83,32 +86,32 @@ Vec3 nearest_weights(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c)
     return {1 - (vb + vc) * scale, vb * scale, vc * scale};
 }
 
-// A triangle of a coarser form, ready to be asked for the places nearest to many vertices.
+// A triangle of a coarser level, prepared for nearest-point queries from many vertices.
 struct Corners {
     Vec3 a, b, c, normal;
     Box box;
 };
 
-// No place on the triangle is nearer than its box is.
+// Returns whether the triangle's box is farther than `distance`; no point on the triangle is nearer than its box.
 bool surely_farther(const Box& box, const Vec3& p, double distance) {
     const Vec3 away = p - glm::clamp(p, box.lo, box.hi);
     constexpr double kRounding = 1.0 + 1e-9;
     return glm::dot(away, away) > kRounding * distance * distance;
 }
 
-// One patch and the checks of its coarser forms.
+// Checks the coarser levels of one patch.
 class Judge {
 public:
     Judge(std::span<const SurfaceVertex> vertices, std::span<const std::uint32_t> indices,
-          std::span<const VertexLight> light)
+          std::span<const geometry::VertexLight> light)
         : vertices_(vertices), used_(vertices.size(), false) {
         looks_.reserve(vertices.size());
         for (std::size_t i = 0; i < vertices.size(); ++i)
-            looks_.push_back(look_of(vertices[i], i < light.size() ? light[i] : VertexLight{}));
+            looks_.push_back(look_of(vertices[i], i < light.size() ? light[i] : geometry::VertexLight{}));
         for (const std::uint32_t i : indices) used_[i] = true;
     }
 
-    // How far the farthest vertex lies from the coarser form; nothing when one of them would look different.
+    // Returns the distance of the farthest vertex from the coarser level; HUGE_VAL if one of them would look different.
     [[nodiscard]] double deviation(std::span<const std::uint32_t> coarse) const {
         std::vector<bool> kept(vertices_.size(), false);
         for (const std::uint32_t i : coarse) kept[i] = true;
@@ -136,7 +139,8 @@ private:
         return triangles;
     }
 
-    // The nearest place on a coarse triangle that faces as the vertex does: on the other side of an edge lies another face.
+    // Returns the nearest point on a coarse triangle that faces
+    // as the vertex does: beyond a sharp edge lies another face.
     [[nodiscard]] Foot foot_of(std::size_t vertex, std::span<const Corners> triangles) const {
         const Vec3 p = place(vertices_[vertex]);
         Foot best;
@@ -176,7 +180,7 @@ bool differ_little(const Look& a, const Look& b) {
                kSmoothChange;
 }
 
-// Triangles between different colours stay as they are, and so do the borders of each colour's own.
+// A patch's triangles by colour. Those between different colours stay as they are, and so do the borders of each group.
 struct ByColour {
     std::vector<std::uint32_t> between;
     std::vector<std::vector<std::uint32_t>> groups;
@@ -217,11 +221,11 @@ void append_simplified(std::vector<std::uint32_t>& out, std::span<const std::uin
 }  // namespace
 
 SmoothFirst smooth_first(std::span<const SurfaceVertex> vertices, std::span<const std::uint32_t> indices,
-                         std::span<const VertexLight> light) {
+                         std::span<const geometry::VertexLight> light) {
     std::vector<Look> looks;
     looks.reserve(vertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i)
-        looks.push_back(look_of(vertices[i], i < light.size() ? light[i] : VertexLight{}));
+        looks.push_back(look_of(vertices[i], i < light.size() ? light[i] : geometry::VertexLight{}));
     SmoothFirst sorted;
     sorted.indices.reserve(indices.size());
     std::vector<std::uint32_t> others;
@@ -237,7 +241,7 @@ SmoothFirst smooth_first(std::span<const SurfaceVertex> vertices, std::span<cons
 }
 
 std::vector<PatchLevel> coarser_levels(std::span<const SurfaceVertex> vertices, std::span<const std::uint32_t> indices,
-                                       std::span<const VertexLight> light, double edge_m) {
+                                       std::span<const geometry::VertexLight> light, double edge_m) {
     std::vector<PatchLevel> levels;
     if (indices.empty() || !(edge_m > 0.0)) return levels;
     const double scale_m = meshopt_simplifyScale(&vertices[0].x, vertices.size(), sizeof(SurfaceVertex));
@@ -253,7 +257,7 @@ std::vector<PatchLevel> coarser_levels(std::span<const SurfaceVertex> vertices, 
             append_simplified(level.indices, group, vertices, error * edge_m, scale_m);
         if (static_cast<double>(level.indices.size()) > kWorthIt * static_cast<double>(before)) continue;
         level.error_m = judge.deviation(level.indices);
-        if (level.error_m == HUGE_VAL) break;  // a coarser one would look more different still
+        if (level.error_m == HUGE_VAL) break;  // a still coarser level would look even more different
         before = level.indices.size();
         SmoothFirst sorted = smooth_first(vertices, level.indices, light);
         level.indices = std::move(sorted.indices);
@@ -263,4 +267,4 @@ std::vector<PatchLevel> coarser_levels(std::span<const SurfaceVertex> vertices, 
     return levels;
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -4,17 +4,18 @@
 #include <algorithm>
 #include <utility>
 
+#include "renderer/surface/drawn_patches.hpp"
 #include "renderer/surface/patch_change.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 namespace {
 
-// Ranges are rounded up so that a patch that grows by a few triangles keeps its place; padding indices are all the same
-// vertex, triangles without area.
+// Ranges are rounded up so that a patch that grows by a few triangles stays in place; padding indices all refer to the
+// same vertex, which makes triangles without area.
 constexpr std::uint32_t kVertexStep = 32;
 constexpr std::uint32_t kIndexStep = 96;
-constexpr std::uint64_t kRestingFlushes = 12;  // after so many frames without a change a patch is worth its levels
+constexpr std::uint64_t kRestingFlushes = 12;  // frames without a change after which computing a patch's levels pays
 
 std::uint32_t round_up(std::size_t count, std::uint32_t step) {
     return static_cast<std::uint32_t>((count + step - 1) / step * step);
@@ -25,11 +26,11 @@ struct ElementKind {
     std::uint64_t bytes;
 };
 constexpr ElementKind kVertexKind{gpu::BufferUse::vertex, sizeof(shared::SurfaceVertex)};
-constexpr ElementKind kLightKind{gpu::BufferUse::vertex, sizeof(VertexLight)};
+constexpr ElementKind kLightKind{gpu::BufferUse::vertex, sizeof(geometry::VertexLight)};
 constexpr ElementKind kIndexKind{gpu::BufferUse::index, sizeof(std::uint32_t)};
 constexpr std::uint32_t kFirstVertices = 1 << 16, kFirstIndices = 3 << 17;
 
-// A larger buffer with what was in the old one.
+// Replaces the buffer by a larger one with the same contents.
 Result<void> enlarge(gpu::Device& device, gpu::Commands& commands, gpu::Buffer& buffer, const ElementKind& kind,
                      std::uint64_t capacity) {
     auto larger = gpu::Buffer::create(device, kind.use, capacity * kind.bytes, "surface");
@@ -44,7 +45,7 @@ Result<void> enlarge(gpu::Device& device, gpu::Commands& commands, gpu::Buffer& 
     return {};
 }
 
-// By doubling, and at the last step to what a buffer may hold.
+// Returns the capacity after doubling; the last step goes to the device's limit.
 std::uint64_t grown_capacity(const gpu::Device& device, const RangeAllocator& ranges, std::uint64_t first,
                              std::uint64_t more, const ElementKind& kind) {
     const std::uint64_t needed = ranges.capacity() + more;
@@ -56,7 +57,7 @@ std::uint64_t grown_capacity(const gpu::Device& device, const RangeAllocator& ra
 
 }  // namespace
 
-void PatchStore::set(std::uint32_t id, std::shared_ptr<const SurfaceTile> surface) {
+void PatchStore::set(std::uint32_t id, std::shared_ptr<const geometry::SurfaceTile> surface) {
     pending_light_.erase(id);
     if (!surface || surface->indices.empty()) {
         pending_[id] = {};
@@ -68,7 +69,7 @@ void PatchStore::set(std::uint32_t id, std::shared_ptr<const SurfaceTile> surfac
     pending_[id] = {whole ? std::move(surface) : nullptr, {}};
 }
 
-void PatchStore::set_light(std::uint32_t id, std::span<const VertexLight> light) {
+void PatchStore::set_light(std::uint32_t id, std::span<const geometry::VertexLight> light) {
     if (const auto coming = pending_.find(id); coming != pending_.end()) {
         coming->second.light.assign(light.begin(), light.end());
     } else {
@@ -88,7 +89,6 @@ void PatchStore::release_levels(Patch& patch, std::size_t keep) {
     patch.levels.resize(keep);
     patch.ready.clear();
     patch.refined = false;
-    if (patch.drawn.level >= keep) patch.drawn.level = 0;
 }
 
 void PatchStore::release(std::uint32_t id) {
@@ -100,21 +100,34 @@ void PatchStore::release(std::uint32_t id) {
     placed_.erase(found);
 }
 
-Result<PatchStore::Flushed> PatchStore::flush(gpu::Device& device, gpu::Commands& commands) {
-    Flushed flushed;
+Result<std::uint64_t> PatchStore::flush(gpu::Device& device, gpu::Commands& commands) {
     bytes_ = 0;
     ++flushes_;
-    if (!cleared_ && pending_.empty() && pending_light_.empty() && !levels_ready_) return flushed;
-    if (cleared_) {
-        if (!bounds_.empty()) flushed.changed.push_back(bounds_);
-        placed_.clear();
-        in_order_.clear();
-        triangles_ = 0;
-        measured_ = false;
-        vertex_ranges_ = RangeAllocator(vertex_ranges_.capacity());
-        index_ranges_ = RangeAllocator(index_ranges_.capacity());
-        cleared_ = false;
-    }
+    if (!cleared_ && pending_.empty() && pending_light_.empty() && !levels_ready_) return 0;
+    if (std::exchange(cleared_, false)) remove_all();
+    Result<void> done = place_pending(device, commands);
+    if (done) relight_pending(commands);
+    if (done) done = place_ready_levels(device, commands);
+    pending_.clear();
+    pending_light_.clear();
+    measure();
+    if (!done) return std::unexpected(done.error());
+    return bytes_;
+}
+
+void PatchStore::remove_all() {
+    for_each_picture([&](DrawnPatches& drawn) { drawn.all_removed(bounds_); });
+    placed_.clear();
+    in_order_.clear();
+    triangles_ = 0;
+    measured_ = false;
+    vertex_ranges_ = RangeAllocator(vertex_ranges_.capacity());
+    index_ranges_ = RangeAllocator(index_ranges_.capacity());
+    slots_ = 0;
+    free_slots_.clear();
+}
+
+Result<void> PatchStore::place_pending(gpu::Device& device, gpu::Commands& commands) {
     std::map<std::uint32_t, Patch> before;
     for (const auto& [id, patch] : pending_) {
         if (const auto known = placed_.find(id); known != placed_.end()) before[id] = known->second;
@@ -124,22 +137,28 @@ Result<PatchStore::Flushed> PatchStore::flush(gpu::Device& device, gpu::Commands
     for (auto& [id, patch] : pending_) {
         if (!done) break;
         const auto was = before.find(id);
-        if (patch.surface) done = place(device, commands, id, patch);
+        const bool known = was != before.end();
+        if (patch.surface)
+            done = place(device, commands, id, patch, known ? std::optional(was->second.slot) : std::nullopt);
         if (!done) break;
         const auto now = placed_.find(id);
-        if (was != before.end() && now != placed_.end()) {
-            note_change(was->second, now->second, flushed.changed);
-            // It goes on as it was drawn, but for its level.
+        if (known && now != placed_.end()) {
+            report_change(was->second, now->second, true);
             now->second.changed_at = flushes_;
-            now->second.drawn.rate = was->second.drawn.rate;
-            now->second.wanted = true;
-        } else if (was != before.end() || now != placed_.end()) {
-            flushed.changed.push_back((was != before.end() ? was : now)->second.shape.bounds);
+        } else if (known || now != placed_.end()) {
+            const Box& bounds = (known ? was : now)->second.shape.bounds;
+            for_each_picture([&](DrawnPatches& drawn) { drawn.appeared_or_vanished(bounds); });
         }
     }
+    for (const auto& [id, patch] : before)
+        if (!placed_.contains(id)) free_slots_.push_back(patch.slot);
+    return done;
+}
+
+void PatchStore::relight_pending(gpu::Commands& commands) {
     for (auto& [id, light] : pending_light_) {
         const auto known = placed_.find(id);
-        if (!done || known == placed_.end()) continue;
+        if (known == placed_.end()) continue;
         if (light.size() != known->second.surface->vertices.size() || light == known->second.light) continue;
         Patch& patch = known->second;
         const Patch was = patch;
@@ -148,28 +167,33 @@ Result<PatchStore::Flushed> PatchStore::flush(gpu::Device& device, gpu::Commands
         release_levels(patch, 1);
         upload_finest(commands, patch);
         upload_light(commands, patch);
-        note_change(was, patch, flushed.changed);
+        report_change(was, patch, false);
     }
-    if (done) done = place_ready_levels(device, commands);
-    pending_.clear();
-    pending_light_.clear();
-    measure();
-    if (!done) return std::unexpected(done.error());
-    flushed.bytes = bytes_;
-    return flushed;
 }
 
-void PatchStore::note_change(const Patch& was, const Patch& now, std::vector<Box>& changed) {
-    if (was.drawn.level > 0) {  // nearly all triangles were others
-        changed.insert(changed.end(), {was.shape.bounds, now.shape.bounds});
-        return;
-    }
+void PatchStore::report_change(const Patch& was, const Patch& now, bool replaced) const {
     const auto look = [](const Patch& p) { return PatchLook{p.surface->vertices, p.surface->indices, p.light}; };
-    const Box box = changed_bounds(look(was), look(now));
-    if (!box.empty()) changed.push_back(box);
+    const Box changed = changed_bounds(look(was), look(now));
+    for_each_picture([&](DrawnPatches& drawn) { drawn.changed({was, now, changed, replaced}); });
 }
 
-// Grows at most once for all that is new, instead of by doubling along the way.
+void PatchStore::for_each_picture(const std::function<void(DrawnPatches&)>& report) const {
+    for (DrawnPatches* drawn : pictures_) report(*drawn);
+}
+
+std::uint32_t PatchStore::take_slot() {
+    std::uint32_t slot = slots_;
+    if (free_slots_.empty()) {
+        ++slots_;
+    } else {
+        slot = free_slots_.back();
+        free_slots_.pop_back();
+    }
+    for_each_picture([&](DrawnPatches& drawn) { drawn.slot_taken(slot); });
+    return slot;
+}
+
+// Grows the buffers at most once for all new patches, instead of doubling along the way.
 Result<void> PatchStore::make_room(gpu::Device& device, gpu::Commands& commands) {
     std::uint64_t vertices = 0, indices = 0;
     for (const auto& [id, patch] : pending_) {
@@ -193,7 +217,8 @@ Result<void> PatchStore::make_room(gpu::Device& device, gpu::Commands& commands)
     return {};
 }
 
-Result<void> PatchStore::place(gpu::Device& device, gpu::Commands& commands, std::uint32_t id, Pending& pending) {
+Result<void> PatchStore::place(gpu::Device& device, gpu::Commands& commands, std::uint32_t id, Pending& pending,
+                               std::optional<std::uint32_t> slot) {
     Patch patch;
     patch.surface = std::move(pending.surface);
     patch.light = std::move(pending.light);
@@ -201,7 +226,7 @@ Result<void> PatchStore::place(gpu::Device& device, gpu::Commands& commands, std
     patch.shape = shape_of(patch.surface->vertices, patch.surface->indices);
     patch.vertex_count = round_up(patch.surface->vertices.size(), kVertexStep);
     auto first = vertex_ranges_.allocate(patch.vertex_count);
-    if (!first) {  // the free ranges are too scattered
+    if (!first) {  // the free ranges are too fragmented
         const std::uint64_t capacity =
             grown_capacity(device, vertex_ranges_, kFirstVertices, patch.vertex_count, kVertexKind);
         if (const auto done = enlarge(device, commands, vertices_, kVertexKind, capacity); !done) return done;
@@ -218,19 +243,20 @@ Result<void> PatchStore::place(gpu::Device& device, gpu::Commands& commands, std
         vertex_ranges_.release(patch.first_vertex, patch.vertex_count);
         return done;
     }
+    patch.slot = slot ? *slot : take_slot();
     enter(placed_.emplace(id, std::move(patch)).first->second);
     return {};
 }
 
 void PatchStore::upload_light(gpu::Commands& commands, const Patch& patch) {
-    std::vector<VertexLight> light = patch.light;
+    std::vector<geometry::VertexLight> light = patch.light;
     light.resize(patch.vertex_count);
     const auto bytes = std::as_bytes(std::span(light));
     commands.upload(lights_, std::uint64_t{patch.first_vertex} * kLightKind.bytes, bytes);
     bytes_ += bytes.size();
 }
 
-// A place in the index buffer; nothing where it is full, but not needed.
+// Allocates a range in the index buffer; nullopt where the buffer is full and the range is not needed.
 Result<std::optional<std::uint32_t>> PatchStore::room_for(gpu::Device& device, gpu::Commands& commands,
                                                           std::uint32_t indices, bool needed) {
     if (const auto first = index_ranges_.allocate(indices)) return first;
@@ -295,7 +321,7 @@ std::optional<DetailJob> PatchStore::next_detail(bool resting) {
         if (at == placed_.end()) at = placed_.begin();
         Patch& patch = at->second;
         const bool changes = patch.changed_at > 0 && flushes_ < patch.changed_at + kRestingFlushes;
-        if (patch.refined || !patch.wanted || (changes && !resting)) continue;
+        if (patch.refined || (changes && !resting) || !wanted(patch)) continue;
         patch.refined = true;
         refine_from_ = at->first + 1;
         return DetailJob{at->first, patch.surface, patch.light, patch.shape.edge_m};
@@ -303,17 +329,21 @@ std::optional<DetailJob> PatchStore::next_detail(bool resting) {
     return std::nullopt;
 }
 
-bool PatchStore::take(DetailDone done) {
-    const auto found = placed_.find(done.job.patch);
-    if (found == placed_.end()) return false;
-    Patch& patch = found->second;
-    if (patch.surface != done.job.surface || patch.light != done.job.light || patch.levels.size() > 1) return false;
-    patch.ready = std::move(done.levels);
-    levels_ready_ = levels_ready_ || !patch.ready.empty();
-    return !patch.ready.empty();
+bool PatchStore::wanted(const Patch& patch) const {
+    return std::ranges::any_of(pictures_, [&](const DrawnPatches* drawn) { return drawn->of(patch).wanted; });
 }
 
-// ---- What there is
+const PatchStore::Patch* PatchStore::take(DetailDone done) {
+    const auto found = placed_.find(done.job.patch);
+    if (found == placed_.end()) return nullptr;
+    Patch& patch = found->second;
+    if (patch.surface != done.job.surface || patch.light != done.job.light || patch.levels.size() > 1) return nullptr;
+    patch.ready = std::move(done.levels);
+    levels_ready_ = levels_ready_ || !patch.ready.empty();
+    return patch.ready.empty() ? nullptr : &patch;
+}
+
+// ---- Order, bounds and counts
 
 namespace {
 
@@ -323,7 +353,7 @@ double farthest_m(const Box& box, const Vec3& from) {
     return glm::length(glm::max(glm::abs(box.lo - from), glm::abs(box.hi - from)));
 }
 
-// Without it the bounds could be smaller.
+// Returns whether the bounds would shrink without the box.
 bool holds_open(const Box& bounds, const Box& box) {
     for (int i = 0; i < 3; ++i)
         if (box.lo[i] <= bounds.lo[i] || box.hi[i] >= bounds.hi[i]) return true;
@@ -349,7 +379,7 @@ void PatchStore::leave(const Patch& patch) {
                 farthest_m(patch.shape.bounds, bounds_.center()) < reach_m_;
 }
 
-// Seldom: carving takes from the inside of the bounds.
+// Recomputes bounds_ and reach_m_. Rarely needed: carving removes from the inside of the bounds.
 void PatchStore::measure() {
     if (measured_) return;
     measured_ = true;
@@ -363,4 +393,4 @@ void PatchStore::measure() {
         reach_m_ = std::max(reach_m_, farthest_m(patch->shape.bounds, bounds_.center()));
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -5,7 +5,7 @@
 
 #include "base/error.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 std::optional<std::uint32_t> RangeAllocator::allocate(std::uint32_t size) {
     BURIN_CHECK(size > 0);
@@ -47,4 +47,4 @@ void RangeAllocator::grow(std::uint32_t capacity) {
     release(first, capacity - first);
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

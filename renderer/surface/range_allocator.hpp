@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Places in a large buffer: which element ranges are taken and which are free. First fit, neighbours merged. Pure
-// bookkeeping, any unit; one thread. Cost: O(free ranges) to allocate, O(log) to release.
+// Allocates ranges of elements within a large buffer: first fit, free neighbours merged. Pure bookkeeping, any unit;
+// one thread. Cost: O(free ranges) to allocate, O(log) to release.
 #pragma once
 
 #include <cstdint>
 #include <map>
 #include <optional>
 
-namespace burin {
+namespace burin::renderer {
 
 class RangeAllocator {
 public:
     explicit RangeAllocator(std::uint32_t capacity = 0) { grow(capacity); }
 
-    // The first element of a free range of this size, which is then taken; nothing when none is large enough.
+    // Takes a free range of this size and returns its first element; nullopt when none is large enough.
     [[nodiscard]] std::optional<std::uint32_t> allocate(std::uint32_t size);
-    // Exactly a range that allocate returned.
+    // Releases a range exactly as allocate returned it.
     void release(std::uint32_t first, std::uint32_t size);
     // Adds free elements at the end; a smaller capacity changes nothing.
     void grow(std::uint32_t capacity);
@@ -24,9 +24,9 @@ public:
     [[nodiscard]] std::uint32_t free_elements() const { return free_elements_; }
 
 private:
-    std::map<std::uint32_t, std::uint32_t> free_;  // first -> size; never two that touch
+    std::map<std::uint32_t, std::uint32_t> free_;  // first -> size; no two are adjacent
     std::uint32_t capacity_ = 0;
     std::uint32_t free_elements_ = 0;
 };
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -6,18 +6,18 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "renderer/stereo/projection.hpp"
+#include "wall/projection.hpp"
 
-namespace burin {
+namespace burin::renderer {
 namespace {
 
 constexpr double kPad_px = 1.0;
-// Of the screen's distance: nearer than this to a plane of an eye a box counts as bent without a closer look.
+// Share of the screen's distance: a box nearer than this to the plane of an eye counts as bent without further tests.
 constexpr double kNearest = 0.02;
 
 Vec3 place(const shared::SurfaceVertex& v) { return {v.x, v.y, v.z}; }
 
-// Does the way from the eye to p meet the box? By the slabs of its three axes.
+// Returns whether the segment from the eye to p meets the box, by the slabs of the three axes.
 bool meets(const Vec3& eye, const Vec3& p, const Box& box) {
     double enters = 0.0, leaves = 1.0;
     for (int i = 0; i < 3; ++i) {
@@ -33,7 +33,7 @@ bool meets(const Vec3& eye, const Vec3& p, const Box& box) {
     return enters <= leaves;
 }
 
-// The plane through the eye and an edge of the screen, given by two of its points, with the third on its inner side.
+// Returns the plane through the eye and an edge of the screen, given by two points a and b, with `inner` on its inside.
 glm::dvec4 plane_through(const Vec3& eye, const Vec3& a, const Vec3& b, const Vec3& inner) {
     Vec3 n = glm::normalize(glm::cross(a - eye, b - eye));
     if (glm::dot(n, inner - eye) < 0.0) n = -n;
@@ -52,13 +52,14 @@ Vec3 corner_of(const Box& box, int corner) {
 }
 
 FadedEdges faded_edges(const Scene& scene, const EyeFrustum& middle) {
-    const Eyes eyes = eyes_of(scene.viewer);
+    const wall::Eyes eyes = wall::eyes_of(scene.viewer);
     const Vec3 middle_world = middle_of(eyes);
     const Mat4 world_from_patch =
         matrix(scene.world_from_object) * glm::translate(Mat4(1.0), scene.lattice_origin_object);
-    FadedEdges fade{middle, {}, distance_in_front(scene.screen, middle_world), scene.edge_fade_band};
+    FadedEdges fade{middle, {}, wall::distance_in_front(scene.screen, middle_world), scene.edge_fade_band};
     const std::array from{eyes.left_world, eyes.right_world, middle_world};
-    for (std::size_t i = 0; i < 3; ++i)  // the places of its planes in depth do not matter
+    // The near and far planes do not matter.
+    for (std::size_t i = 0; i < 3; ++i)
         fade.clip_from_patch[i] = off_axis_projection(scene.screen, from[i], 0.01, 100.0) * world_from_patch;
     return fade;
 }
@@ -96,7 +97,7 @@ PatchShape shape_of(std::span<const shared::SurfaceVertex> vertices, std::span<c
 }
 
 EyePair eye_frusta(const Scene& scene, ImageSize size, const PixelRect& part) {
-    const Screen& s = scene.screen;
+    const wall::Screen& s = scene.screen;
     const Vec3 across = s.lower_right_world - s.lower_left_world, upright = s.upper_left_world - s.lower_left_world;
     const auto at = [&](double x_px, double y_px) {
         return s.lower_left_world + across * (x_px / size.width) + upright * (1.0 - y_px / size.height);
@@ -115,7 +116,7 @@ EyePair eye_frusta(const Scene& scene, ImageSize size, const PixelRect& part) {
                            plane_through(eye, lower_left, lower_right, upper_left),
                            plane_through(eye, upper_left, upper_right, lower_left)}};
     };
-    const Eyes world = eyes_of(scene.viewer);
+    const wall::Eyes world = wall::eyes_of(scene.viewer);
     EyePair pair{{frustum(world.left_world), frustum(world.right_world)}};
     if (scene.edge_fade > 0.0) pair.fade = faded_edges(scene, frustum(middle_of(world)));
     return pair;
@@ -124,7 +125,7 @@ EyePair eye_frusta(const Scene& scene, ImageSize size, const PixelRect& part) {
 bool bent(const EyePair& eyes, const Box& box) {
     if (!eyes.fade) return false;
     const FadedEdges& fade = *eyes.fade;
-    std::array<Box, 3> seen;  // by each of the three, on the screen; without depth
+    std::array<Box, 3> seen;  // as seen by each of the three, on the screen; without depth
     double farthest_m = 0.0, nearest_m = HUGE_VAL;
     for (int corner = 0; corner < 8; ++corner) {
         for (std::size_t i = 0; i < 3; ++i) {
@@ -135,7 +136,7 @@ bool bent(const EyePair& eyes, const Box& box) {
         }
     }
     if (farthest_m <= 0.0) return false;                              // at or behind the screen
-    if (nearest_m < kNearest * fade.middle_to_screen_m) return true;  // has no place on the screen
+    if (nearest_m < kNearest * fade.middle_to_screen_m) return true;  // cannot be projected
     constexpr double kRounding = 1e-4;
     for (int axis = 0; axis < 2; ++axis) {
         const double lo = seen[2].lo[axis], hi = seen[2].hi[axis];
@@ -193,4 +194,4 @@ Hidden hidden(const EyePair& eyes, const PatchShape& patch, std::span<const Box>
     return reason;
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/session.hpp"
+#include "session/drive/session.hpp"
 
 #include <algorithm>
 #include <cstdio>
 
-#include "app/session/live_session.hpp"
-#include "app/session/real_time_session.hpp"
-#include "app/session/recorded_session.hpp"
-#include "app/session/scripted_session.hpp"
-#include "app/session/session_settings.hpp"
+#include "session/state/session_settings.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 Result<InputLog> open_log(const std::string& path) {
@@ -19,7 +15,7 @@ Result<InputLog> open_log(const std::string& path) {
     return log;
 }
 
-// Of a user, or of a log in their place; recorded if that is asked for.
+// Opens the input of a user, or of a log in the user's place; recorded if requested.
 Result<InputSource> open_input(const SculptOptions& options, std::optional<InputLog> log) {
     std::optional<InputLogWriter> recorder;
     if (!options.live.record.empty()) {
@@ -30,15 +26,14 @@ Result<InputSource> open_input(const SculptOptions& options, std::optional<Input
     return log ? InputSource::play(std::move(*log), std::move(recorder)) : InputSource::live(std::move(recorder));
 }
 
-// What is wrong with the options is said before a window opens.
+// Reports errors in the options before a window opens, also those in the file of a mesh tool.
 Result<void> check(const SculptOptions& options) {
-    if (const auto tool = parse_tool(options.tool); !tool) return std::unexpected(tool.error());
-    if (const auto material = parse_tool_material(options.tool); !material) return std::unexpected(material.error());
-    if (const auto feel = parse_feel(options.feel); !feel) return std::unexpected(feel.error());
+    if (const auto tool = sculpt::parse_tool(options.tool); !tool) return std::unexpected(tool.error());
+    if (const auto feel = sculpt::parse_feel(options.feel); !feel) return std::unexpected(feel.error());
     return {};
 }
 
-// What decides on its frames is the recording's.
+// Replays a recording with its own options wherever they affect its frames.
 Result<void> run_as_recorded(const SculptOptions& given, InputLog log) {
     const Result<RecordedOptions> recorded = options_as_recorded(log.settings, given);
     if (!recorded) return std::unexpected(recorded.error());
@@ -102,8 +97,8 @@ Result<SessionRecord> time_session(const SculptOptions& options, bool for_a_devi
     if (!log) return std::unexpected(log.error());
     std::erase_if(log->events, writes_a_file);
     RealTimeRun run{.keep_frames = true};
-    if (for_a_device) run.pace = {.lead_ns = HapticLoop::kLead_ns};
+    if (for_a_device) run.pace = {.lead_ns = haptics::HapticLoop::kLead_ns};
     return run_in_real_time(options, *wall, InputSource::play(std::move(*log)), std::move(run));
 }
 
-}  // namespace burin
+}  // namespace burin::session

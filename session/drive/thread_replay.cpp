@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/thread_replay.hpp"
+#include "session/drive/thread_replay.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
-// The one of this sequence; those before it are not asked for again.
+// Returns the value with this sequence, or null. Drops earlier ones, which are not asked for again.
 template <typename T>
 const T* seen(std::deque<T>& values, std::uint64_t sequence) {
     while (!values.empty() && values.front().sequence < sequence) values.pop_front();
@@ -19,40 +19,37 @@ ThreadReplay::ThreadReplay(LiveSession& session, const ThreadLog& log, const std
       name_(name),
       tick_lines_(log.clock, log.ticks),
       update_lines_(log.clock, log.updates) {
+    end_.tick = log.ticks.count;
+    end_.updates = log.updates.count;
     keep_surface();
     tools_.push_back(session_.newest_tool());
 }
 
 // ---- Frames
 
-Result<ToolState> ThreadReplay::tool_of(const FrameSeen& frame) {
+Result<void> ThreadReplay::advance_to(Nanoseconds) {
     keep_parameters();
-    if (const auto run = run_ticks(frame.tick); !run) return std::unexpected(run.error());
-    while (tools_.size() > 1 && tools_[1].tick <= frame.tick) tools_.pop_front();
-    return tools_.front();
+    if (const auto run = run_ticks(frame_->tick); !run) return run;
+    while (tools_.size() > 1 && tools_[1].tick <= frame_->tick) tools_.pop_front();
+    return {};
 }
 
-Result<std::optional<SurfaceNews>> ThreadReplay::news_of(const FrameSeen& frame) {
+Result<Executor::Taken> ThreadReplay::take_surface_update() {
     keep_parameters();
-    if (const auto run = run_updates(frame.updates); !run) return std::unexpected(run.error());
-    std::optional<SurfaceNews> news;
-    for (; !news_.empty() && news_.front().first <= frame.updates; news_.pop_front())
-        add(news, std::move(news_.front().second));
-    return news;
+    if (const auto run = run_updates(frame_->updates); !run) return std::unexpected(run.error());
+    Taken taken;
+    for (; !surface_updates_.empty() && surface_updates_.front().first <= frame_->updates; surface_updates_.pop_front())
+        sculpt::add(taken.surface, std::move(surface_updates_.front().second));
+    return taken;
 }
 
-bool ThreadReplay::is_as_recorded(const FrameSeen& frame) {
-    return check_.frame(frame.tick, session_.state()) == frame.check;
-}
+bool ThreadReplay::is_as_recorded() { return check_.frame(frame_->tick, session_.state()) == frame_->check; }
 
-Result<std::optional<SurfaceNews>> ThreadReplay::finish() {
-    FrameSeen last;
-    last.tick = log_.ticks.count;
-    last.updates = log_.updates.count;
-    auto news = news_of(last);
-    if (!news) return news;
-    if (const auto tool = tool_of(last); !tool) return std::unexpected(tool.error());
-    return news;
+Result<void> ThreadReplay::run_to_end() {
+    begin_frame(end_);
+    keep_parameters();
+    if (const auto run = run_updates(end_.updates); !run) return run;
+    return run_ticks(end_.tick);
 }
 
 // ---- Ticks
@@ -66,26 +63,26 @@ Result<void> ThreadReplay::run_ticks(std::uint64_t last) {
 }
 
 Result<void> ThreadReplay::run_tick() {
-    const TickSeen tick = *tick_lines_.next();  // the log has counted them
+    const TickSeen tick = *tick_lines_.next();  // the count was checked
     const std::size_t line = tick_lines_.line();
     const std::string what = "tick " + std::to_string(ticks_ + 1) + " saw ";
     ticking_ = ticks_ + 1;
     if (updating_ && tick.surface_sequence > updates_ + 1)
         return contradiction(line, what + "a surface for which its own sample was needed");
-    // The first surface was there before the first update.
+    // The first surface existed before the first update.
     if (!updating_ && tick.surface_sequence > 0) {
         if (const auto run = run_updates(tick.surface_sequence - 1); !run) return run;
     }
-    const LocalSurface* surface = seen(surfaces_, tick.surface_sequence);
+    const geometry::LocalSurface* surface = seen(surfaces_, tick.surface_sequence);
     if (surface == nullptr)
         return contradiction(
             line, what + "surface " + std::to_string(tick.surface_sequence) + ", which there is not, or is no more");
-    const TickParameters* parameters = seen(parameters_, tick.parameter_sequence);
+    const haptics::TickParameters* parameters = seen(parameters_, tick.parameter_sequence);
     if (parameters == nullptr)
         return contradiction(
             line, what + "parameters " + std::to_string(tick.parameter_sequence) + ", which no frame has set by then");
-    HapticLoop& loop = session_.loop();
-    // How late is only told; late is what begins after half a period.
+    haptics::HapticLoop& loop = session_.loop();
+    // The log holds only whether a tick was late, not by how much; a tick counts as late from half a period on.
     check_.tick(loop.repeat(tick.sample, *surface, *parameters, tick.time_ns, tick.late ? loop.period_ns() : 0));
     tools_.push_back(session_.newest_tool());
     ++ticks_;
@@ -94,7 +91,7 @@ Result<void> ThreadReplay::run_tick() {
 }
 
 void ThreadReplay::keep_parameters() {
-    const TickParameters& newest = session_.channels().parameters.newest();
+    const haptics::TickParameters& newest = session_.channels().parameters.newest();
     if (parameters_.empty() || parameters_.back().sequence < newest.sequence) parameters_.push_back(newest);
 }
 
@@ -109,7 +106,7 @@ Result<void> ThreadReplay::run_updates(std::uint64_t last) {
 }
 
 Result<void> ThreadReplay::run_update() {
-    const UpdateSeen update = *update_lines_.next();
+    const sculpt::UpdateSeen update = *update_lines_.next();
     updating_ = true;
     const std::size_t line = update_lines_.line();
     const std::string what = "update " + std::to_string(updates_ + 1) + " took ";
@@ -124,7 +121,7 @@ Result<void> ThreadReplay::run_update() {
         orders_.pop_front();
     }
     if (const auto updated = session_.desk().repeat(update); !updated) return updated;
-    news_.emplace_back(++updates_, session_.desk().take_news());
+    surface_updates_.emplace_back(++updates_, session_.desk().take_surface_update());
     updating_ = false;
     keep_surface();
     return {};
@@ -146,4 +143,4 @@ std::unexpected<Error> ThreadReplay::contradiction(std::size_t line, const std::
         "the file was changed: replay it as it was recorded, or take out what the threads did (docs/formats.md)");
 }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: MIT
-#include "app/felt_figures.hpp"
+#include "session/felt/felt_figures.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-namespace burin {
+namespace burin::session {
 namespace {
 
-// Of the closeup, before the first tick that cuts.
+// Ticks of the closeup before the first tick that cuts.
 constexpr std::size_t kLeadTicks = 100;
 
-// Flags of a degraded tick, in words.
+// Names the flags of a degraded tick.
 struct Degraded {
     std::uint32_t flag;
     const char* words;
 };
-constexpr std::array kDegraded{Degraded{kTickLate, "tick began late"},
-                               Degraded{kTickLoopGap, "ticks were lost before this one"},
-                               Degraded{kTickWorkLimited, "the work of a tick was used up"},
-                               Degraded{kTickForceSaturated, "the force limit cut"},
-                               Degraded{kTickSlewLimited, "the slew limit cut"},
-                               Degraded{kTickPassivityActs, "the passivity controller added damping"},
-                               Degraded{kTickPushedOut, "the tool was inside material and was put outside"}};
+constexpr std::array kDegraded{Degraded{haptics::kTickLate, "tick began late"},
+                               Degraded{haptics::kTickLoopGap, "ticks were lost before this one"},
+                               Degraded{haptics::kTickWorkLimited, "the work of a tick was used up"},
+                               Degraded{haptics::kTickForceSaturated, "the force limit cut"},
+                               Degraded{haptics::kTickSlewLimited, "the slew limit cut"},
+                               Degraded{haptics::kTickPassivityActs, "the passivity controller added damping"},
+                               Degraded{haptics::kTickPushedOut, "the tool was inside material and was put outside"}};
 
 }  // namespace
 
@@ -32,12 +32,12 @@ FigureKeeper::FigureKeeper(FeltFigures& figures, double duration_s, double perio
     figures_.trace_period_s = static_cast<double>(stretch_) * period_s;
 }
 
-void FigureKeeper::take(HapticChannels& channels) {
-    TickRecord record;
+void FigureKeeper::take(haptics::HapticChannels& channels) {
+    haptics::TickRecord record;
     while (channels.records.pop(record)) add(record);
 }
 
-void FigureKeeper::finish(const HapticChannels& channels) {
+void FigureKeeper::finish(const haptics::HapticChannels& channels) {
     if (pending_force_N_ >= 0.0) figures_.trace.push_back(pending_);
     pending_force_N_ = -1.0;
     const auto mean = [](double sum, std::uint64_t count) {
@@ -48,30 +48,32 @@ void FigureKeeper::finish(const HapticChannels& channels) {
     figures_.records_lost = channels.records.refused();
 }
 
-void FigureKeeper::add(const TickRecord& record) {
+void FigureKeeper::add(const haptics::TickRecord& record) {
     if (figures_.ticks == 0) start_ns_ = record.time_ns;
     ++figures_.ticks;
-    const double force_N = glm::length(record.given.force_device_N);
+    const double force_N = glm::length(record.gate.given.force_device_N);
     figures_.force_max_N = std::max(figures_.force_max_N, force_N);
-    if ((record.flags & kTickInContact) != 0) {
+    if ((record.flags & haptics::kTickInContact) != 0) {
         ++figures_.ticks_in_contact;
         force_sum_N_ += force_N;
-        figures_.penetration_max_m = std::max(figures_.penetration_max_m, record.penetration_m);
+        figures_.penetration_max_m = std::max(figures_.penetration_max_m, record.deepest().penetration_m);
     }
-    if ((record.flags & kTickCutting) != 0) {
+    if ((record.flags & haptics::kTickCutting) != 0) {
         ++figures_.ticks_cutting;
         cutting_sum_N_ += force_N;
     }
-    if ((record.flags & kTickSampleDropped) != 0) ++figures_.samples_dropped;
+    if ((record.flags & haptics::kTickSampleDropped) != 0) ++figures_.samples_dropped;
     for (const Degraded& kind : kDegraded)
         if ((record.flags & kind.flag) != 0) note(figures_.degraded, kind.words, record);
-    if (record.stiffness_bound != StiffnessBound::none) note(figures_.limited, text(record.stiffness_bound), record);
-    if (record.cause != GateCause::none) note(figures_.silent, text(record.cause), record);
+    if (record.contact.stiffness_bound != haptics::StiffnessBound::none)
+        note(figures_.limited, haptics::text(record.contact.stiffness_bound), record);
+    if (record.gate.cause != haptics::GateCause::none) note(figures_.silent, haptics::text(record.gate.cause), record);
     trace(record);
 }
 
-// Counts, and says so the first time.
-void FigureKeeper::note(std::map<std::string, Occurrence>& where, const std::string& what, const TickRecord& record) {
+// Counts an occurrence and reports the first one.
+void FigureKeeper::note(std::map<std::string, Occurrence>& where, const std::string& what,
+                        const haptics::TickRecord& record) {
     Occurrence& o = where[what];
     const double now_s = seconds(record.time_ns - start_ns_);
     if (o.ticks == 0) {
@@ -83,10 +85,11 @@ void FigureKeeper::note(std::map<std::string, Occurrence>& where, const std::str
     o.last_tick = record.tick;
 }
 
-void FigureKeeper::trace(const TickRecord& record) {
-    const TracePoint point{
-        seconds(record.time_ns - start_ns_), record.hip_object_m,         record.proxy_object_m, record.cut_object_m,
-        record.contact_normal_object,        record.given.force_device_N, record.penetration_m,  record.flags};
+void FigureKeeper::trace(const haptics::TickRecord& record) {
+    const TracePoint point{seconds(record.time_ns - start_ns_), record.deepest().hip_object_m,
+                           record.deepest().proxy_object_m,     record.contact.cut_object_m,
+                           record.deepest().normal_object,      record.gate.given.force_device_N,
+                           record.deepest().penetration_m,      record.flags};
     const bool begun = figures_.ticks_cutting > 0;
     if (figures_.closeup.size() < kCloseupTicks) {
         if (!begun && figures_.closeup.size() >= kLeadTicks) figures_.closeup.erase(figures_.closeup.begin());
@@ -102,4 +105,4 @@ void FigureKeeper::trace(const TickRecord& record) {
     pending_force_N_ = -1.0;
 }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the tick records of a session say, added up: forces, what was touched and cut, when the force was silent and why, and a
-// trace for plots. Takes every record; says on standard error at once when the force goes silent or a material is rendered less
-// stiff than it is.
+// Summarises the tick records of a felt session: forces, what was touched and cut, when the force was silent and why,
+// and a trace for plots. Takes every record; reports on standard error, as soon as it happens, that the force goes
+// silent or that a material is rendered less stiff than it is.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 #include "haptics/channels.hpp"
 
-namespace burin {
+namespace burin::session {
 
 // One tick of the trace.
 struct TracePoint {
@@ -24,15 +24,15 @@ struct TracePoint {
     std::uint32_t flags = 0;
 };
 
-// Of what happened in some ticks and not in others.
+// Counts a condition that holds in some ticks and not in others.
 struct Occurrence {
     std::uint64_t ticks = 0;
-    std::uint64_t times = 0;  // stretches of ticks in a row
+    std::uint64_t times = 0;  // runs of consecutive ticks
     double first_s = 0.0;     // since the session's start
     std::uint64_t last_tick = 0;
 };
 
-// Of a loop in real time.
+// Timing of a loop in real time.
 struct LoopTimes {
     bool known = false;
     std::uint64_t skipped_deadlines = 0;
@@ -53,43 +53,57 @@ struct FeltFigures {
     double force_max_N = 0.0;
     double force_mean_in_contact_N = 0.0;
     double force_mean_cutting_N = 0.0;
-    double penetration_max_m = 0.0;             // object frame
+    double penetration_max_m = 0.0;             // in the object frame
     std::map<std::string, Occurrence> silent;   // by the gate's cause, in words
-    std::map<std::string, Occurrence> limited;  // stiffness, by the bound, in words
-    std::map<std::string, Occurrence>
-        degraded;                        // late ticks, lost ticks, damping that the controller added, and the like
-    std::vector<TracePoint> trace;       // thinned out
-    std::vector<TracePoint> closeup;     // of every tick, about the first second in which the tool cuts
-    double trace_period_s = 0.0;         // between its points
+    std::map<std::string, Occurrence> limited;  // limited stiffness by the bound, in words
+    // Late ticks, lost ticks, damping that the controller added, and the like.
+    std::map<std::string, Occurrence> degraded;
+    std::vector<TracePoint> trace;       // decimated
+    std::vector<TracePoint> closeup;     // every tick of about the first second in which the tool cuts
+    double trace_period_s = 0.0;         // between the trace's points
     std::vector<std::uint32_t> tick_ns;  // cost of each tick in simulated time; empty in real time
     LoopTimes loop;                      // in real time
     std::vector<std::string> notices;    // e.g. no real-time priority
-    ToolState last_tool;
+    haptics::ToolState last_tool;
 };
 
 class FigureKeeper {
 public:
-    // Of a session of this length; the trace has at most kMostTracePoints, each of them the tick with the largest force of its
-    // stretch.
+    // Prepares for a session of this length. The trace has at most kMostTracePoints points; each is the tick with the
+    // largest force of its interval.
     FigureKeeper(FeltFigures& figures, double duration_s, double period_s);
 
     static constexpr std::uint64_t kMostTracePoints = 4000;
     static constexpr std::size_t kCloseupTicks = 1000;
 
-    void take(HapticChannels& channels);
-    void finish(const HapticChannels& channels);
+    void take(haptics::HapticChannels& channels);
+    void finish(const haptics::HapticChannels& channels);
 
 private:
-    void add(const TickRecord& record);
-    void note(std::map<std::string, Occurrence>& where, const std::string& what, const TickRecord& record);
-    void trace(const TickRecord& record);
+    void add(const haptics::TickRecord& record);
+    void note(std::map<std::string, Occurrence>& where, const std::string& what, const haptics::TickRecord& record);
+    void trace(const haptics::TickRecord& record);
 
     FeltFigures& figures_;
-    std::uint64_t stretch_ = 1;  // ticks to a point of the trace
+    std::uint64_t stretch_ = 1;  // ticks for each point of the trace
     Nanoseconds start_ns_ = 0;
     double force_sum_N_ = 0.0, cutting_sum_N_ = 0.0;
     TracePoint pending_;
     double pending_force_N_ = -1.0;
 };
 
-}  // namespace burin
+// ---- Plots (felt_plot.cpp)
+
+// Returns the SVG: the whole session at the left, the first second in which the tool cuts at the right, with heights
+// along its mean contact normal across the direction of motion.
+[[nodiscard]] std::string felt_figure(const FeltFigures& felt);
+
+// Returns the trace as CSV, one point a line: time_s; HIP, proxy and cutting point in the object frame (metres); force
+// at the device (newtons); penetration (metres); in_contact and cutting (0 or 1).
+[[nodiscard]] std::string felt_table(const FeltFigures& felt);
+
+// Paths of the two files: report.json -> report-felt.svg, report-felt.csv.
+[[nodiscard]] std::string felt_figure_path(const std::string& report);
+[[nodiscard]] std::string felt_table_path(const std::string& report);
+
+}  // namespace burin::session

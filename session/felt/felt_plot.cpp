@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/felt_plot.hpp"
+#include "session/felt/felt_figures.hpp"
 
 #include <array>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include <functional>
 #include <limits>
 
-#include "app/time_plot.hpp"
+#include "base/plot/figures.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 using Trace = std::vector<TracePoint>;
@@ -19,25 +19,25 @@ using Reading = std::function<double(const TracePoint&)>;
 constexpr double kMillimetres = 1e3;
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
-TimeSeries series(const std::string& name, const Trace& trace, const Reading& reading) {
-    TimeSeries s{name, {}};
+plot::TimeSeries series(const std::string& name, const Trace& trace, const Reading& reading) {
+    plot::TimeSeries s{name, {}};
     s.values.reserve(trace.size());
     for (const TracePoint& p : trace) s.values.push_back(reading(p));
     return s;
 }
 
-TimePlot plot(const std::string& title, const std::string& y_label, const Trace& trace) {
-    TimePlot made{title, y_label, {}, {}};
+plot::TimePlot plot(const std::string& title, const std::string& y_label, const Trace& trace) {
+    plot::TimePlot made{title, y_label, {}, {}};
     made.times_s.reserve(trace.size());
     for (const TracePoint& p : trace) made.times_s.push_back(p.time_s);
     return made;
 }
 
-bool in_contact(const TracePoint& p) { return (p.flags & kTickInContact) != 0; }
-bool cutting(const TracePoint& p) { return (p.flags & kTickCutting) != 0; }
+bool in_contact(const TracePoint& p) { return (p.flags & haptics::kTickInContact) != 0; }
+bool cutting(const TracePoint& p) { return (p.flags & haptics::kTickCutting) != 0; }
 
-TimePlot positions(const Trace& trace) {
-    TimePlot made = plot("Tool on the surface (proxy), object frame", "mm", trace);
+plot::TimePlot positions(const Trace& trace) {
+    plot::TimePlot made = plot("Tool on the surface (proxy), object frame", "mm", trace);
     for (int axis = 0; axis < 3; ++axis) {
         made.series.push_back(series(std::string(1, "xyz"[axis]), trace,
                                      [axis](const TracePoint& p) { return kMillimetres * p.proxy_object_m[axis]; }));
@@ -45,8 +45,8 @@ TimePlot positions(const Trace& trace) {
     return made;
 }
 
-TimePlot depths(const Trace& trace) {
-    TimePlot made = plot("Below the proxy", "mm", trace);
+plot::TimePlot depths(const Trace& trace) {
+    plot::TimePlot made = plot("Below the proxy", "mm", trace);
     made.series.push_back(series("hand (HIP)", trace, [](const TracePoint& p) {
         return in_contact(p) ? kMillimetres * p.penetration_m : kNothing;
     }));
@@ -56,13 +56,13 @@ TimePlot depths(const Trace& trace) {
     return made;
 }
 
-TimePlot forces(const Trace& trace) {
-    TimePlot made = plot("Force on the hand", "N", trace);
+plot::TimePlot forces(const Trace& trace) {
+    plot::TimePlot made = plot("Force on the hand", "N", trace);
     made.series.push_back(series("force", trace, [](const TracePoint& p) { return glm::length(p.force_device_N); }));
     return made;
 }
 
-// Of the contacts, and across the way that the tool goes while it touches.
+// Returns the unit mean normal of the contacts, perpendicular to the way from the first contact to the last.
 Vec3 mean_normal(const Trace& trace) {
     Vec3 sum(0.0);
     const TracePoint *first = nullptr, *last = nullptr;
@@ -81,8 +81,8 @@ Vec3 mean_normal(const Trace& trace) {
     return l > 0.0 ? sum / l : Vec3(0.0, 1.0, 0.0);
 }
 
-TimePlot heights(const Trace& trace, const Vec3& up) {
-    TimePlot made = plot("Close up: height across the way of the tool", "mm", trace);
+plot::TimePlot heights(const Trace& trace, const Vec3& up) {
+    plot::TimePlot made = plot("Close up: height across the way of the tool", "mm", trace);
     Vec3 origin(0.0);
     for (const TracePoint& p : trace) {
         if (!in_contact(p)) continue;
@@ -99,8 +99,8 @@ TimePlot heights(const Trace& trace, const Vec3& up) {
     return made;
 }
 
-TimePlot parts_of_force(const Trace& trace, const Similarity& object_from_device, const Vec3& up) {
-    TimePlot made = plot("Close up: force on the hand", "N", trace);
+plot::TimePlot parts_of_force(const Trace& trace, const Similarity& object_from_device, const Vec3& up) {
+    plot::TimePlot made = plot("Close up: force on the hand", "N", trace);
     const auto force = [&](const TracePoint& p) { return object_from_device.orientation * p.force_device_N; };
     made.series.push_back(
         series("along the normal", trace, [&](const TracePoint& p) { return glm::dot(force(p), up); }));
@@ -118,12 +118,12 @@ std::string beside(const std::string& report, const char* ending) {
 
 std::string felt_figure(const FeltFigures& felt) {
     const Vec3 up = mean_normal(felt.closeup);
-    TimePlot near = depths(felt.closeup);
+    plot::TimePlot near = depths(felt.closeup);
     near.title = "Close up: below the proxy";
-    return time_figure("Position, proxy and force over time",
-                       {positions(felt.trace), heights(felt.closeup, up), depths(felt.trace), near, forces(felt.trace),
-                        parts_of_force(felt.closeup, felt.object_from_device, up)},
-                       2);
+    return plot::time_figure("Position, proxy and force over time",
+                             {positions(felt.trace), heights(felt.closeup, up), depths(felt.trace), near,
+                              forces(felt.trace), parts_of_force(felt.closeup, felt.object_from_device, up)},
+                             2);
 }
 
 std::string felt_table(const FeltFigures& felt) {
@@ -145,4 +145,4 @@ std::string felt_table(const FeltFigures& felt) {
 std::string felt_figure_path(const std::string& report) { return beside(report, "-felt.svg"); }
 std::string felt_table_path(const std::string& report) { return beside(report, "-felt.csv"); }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/desk_input.hpp"
+#include "session/input/desk_input.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
-#include "app/session/input_wand.hpp"
-#include "app/session/seen_place.hpp"
 #include "base/error.hpp"
+#include "session/input/input_wand.hpp"
+#include "wall/seen_place.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 constexpr std::uint32_t kCarve = 1u << 0, kMoveWorkspace = 1u << 1;
@@ -21,12 +21,12 @@ std::optional<Gesture> gesture_of(MouseUse use, const Modifiers& held) {
     return std::nullopt;
 }
 
-// The events of one step, one after the other.
+// Applies the events of one step, one after the other.
 struct Steps {
     const DeskView& view;
     const DeskSettings& settings;
     DeskState state;
-    std::uint32_t clicked = 0;  // buttons pressed in this step, even if they are up again
+    std::uint32_t clicked = 0;  // buttons pressed in this step, even if released again
     Similarity change;
     std::vector<Action> actions;
 
@@ -42,7 +42,7 @@ struct Steps {
             return;
         }
         if (view.keyboard_captured) return;
-        // With Ctrl, Alt or Super a key is a short cut or nothing: saving does not fly backwards.
+        // With Ctrl, Alt or Super a key is only a short cut: Ctrl+S must not fly backwards.
         if (!in.modifiers.ctrl && !in.modifiers.alt && !in.modifiers.super) state.keys.set(key);
         for (const ShortCut& s : short_cuts())
             if (s.key == in.key && s.modifiers == in.modifiers && (s.repeats || in.motion == KeyMotion::press))
@@ -58,7 +58,7 @@ struct Steps {
 
     void operator()(const MouseMove& in) {
         const std::optional<Vec2> before = std::exchange(state.mouse_px, in.position_px);
-        if (!before || in_right_window(*before) != in_right_window(in.position_px)) return;
+        if (!before || wall::in_right_window(*before) != wall::in_right_window(in.position_px)) return;
         const Vec2 moved =
             view.picture_px_per_px * Vec2(in.position_px.x - before->x, before->y - in.position_px.y);  // y up
         if (state.drag)
@@ -117,7 +117,7 @@ struct Steps {
     void operator()(const Scroll& in) {
         if (view.mouse_captured) return;
         const auto gesture = gesture_of(MouseUse::wheel, held_with(in.modifiers));
-        // With Shift some window systems turn the wheel's axis.
+        // With Shift some window systems swap the wheel's axes.
         const double steps = in.steps.y != 0.0 ? in.steps.y : held_with(in.modifiers).shift ? in.steps.x : 0.0;
         if (gesture == Gesture::stylus_depth)
             reach(view.device_from_screen * Vec3(0.0, 0.0, -settings.depth_per_wheel_step_m * steps));
@@ -137,7 +137,7 @@ struct Steps {
         state.modifiers = {};
         state.buttons = 0;
         state.drag.reset();
-        state.mouse_px.reset();  // wherever it comes back is no motion
+        state.mouse_px.reset();  // its return elsewhere is not a motion
     }
 
     template <typename Other>
@@ -147,7 +147,7 @@ struct Steps {
 Vec3 direction_of(const std::bitset<kKeyCount>& keys) {
     constexpr std::array<Vec3, 6> kDirections = {Vec3(0.0, 0.0, -1.0), Vec3(0.0, 0.0, 1.0), Vec3(-1.0, 0.0, 0.0),
                                                  Vec3(1.0, 0.0, 0.0),  Vec3(0.0, 1.0, 0.0), Vec3(0.0, -1.0, 0.0)};
-    std::array<bool, kDirections.size()> held{};  // two keys of one direction are no faster than one
+    std::array<bool, kDirections.size()> held{};  // two keys of one direction count once
     for (const FlightKey& key : flight_keys())
         if (keys.test(static_cast<std::size_t>(key.key))) held.at(static_cast<std::size_t>(key.flight)) = true;
     Vec3 sum(0.0);
@@ -198,4 +198,4 @@ double device_m_per_px(double screen_m_per_px, double eye_to_screen_m, double ey
     return screen_m_per_px * (eye_to_tool_m / eye_to_screen_m) / world_per_device;
 }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/desk_input_table.hpp"
+#include "session/input/desk_input_table.hpp"
 
 #include <array>
 
-#include "app/session/input_keys.hpp"
+#include "session/input/input_keys.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 constexpr Modifiers kNone{};
@@ -132,4 +132,4 @@ std::string label_of(const MouseGesture& g) {
 std::string_view name_of(Action action) { return kActionNames.at(static_cast<std::size_t>(action)); }
 std::span<const std::string_view> action_names() { return kActionNames; }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// What keys and the mouse do at a desk, as tables: the step function looks up what to do in them, and the panel shows them, so
-// the two cannot differ.
+// Tables of what keys and the mouse do in a desktop session. The step function looks actions up in them and the panel
+// shows them, so that the two cannot differ.
 #pragma once
 
 #include <span>
 #include <string>
 #include <string_view>
 
-#include "app/session/input_event.hpp"
+#include "session/input/input_event.hpp"
 
-namespace burin {
+namespace burin::session {
 
-// What the session does when a key is pressed.
+// Actions that a key press triggers.
 enum class Action : std::uint8_t {
     // clang-format off
     undo, redo, tool_1, tool_2, tool_3, tool_4, tool_5, smaller_radius, larger_radius, next_stereo_mode, swap_eyes,
@@ -19,9 +19,9 @@ enum class Action : std::uint8_t {
     export_mesh, save_session, reset_view, quit,
     // clang-format on
 };
-// What goes on while a key is held: the head flies, in its own directions.
+// Flight of the head while a key is held, in the head's own directions.
 enum class Flight : std::uint8_t { forwards, backwards, left, right, up, down };
-// What the mouse does.
+// What a mouse gesture does.
 enum class Gesture : std::uint8_t {
     // clang-format off
     move_stylus, move_stylus_in_depth, carve, move_workspace, turn_scene, pan_scene, stylus_depth, scale_scene,
@@ -43,7 +43,8 @@ struct FlightKey {
 enum class MouseUse : std::uint8_t { move, left_button, right_button, middle_drag, wheel };
 struct MouseGesture {
     MouseUse use;
-    Modifiers modifiers;  // exactly these, of shift and ctrl; a use without an entry for what is held does nothing
+    // Exactly these, of shift and ctrl; a use without an entry for the modifiers held does nothing.
+    Modifiers modifiers;
     Gesture gesture;
     std::string_view description;
 };
@@ -52,13 +53,13 @@ struct MouseGesture {
 [[nodiscard]] std::span<const FlightKey> flight_keys();
 [[nodiscard]] std::span<const MouseGesture> mouse_gestures();
 
-// "Ctrl+Shift+Z", "[", "Middle drag", for people.
+// Labels for people: "Ctrl+Shift+Z", "[", "Middle drag".
 [[nodiscard]] std::string label_of(const ShortCut& short_cut);
 [[nodiscard]] std::string label_of(const FlightKey& key);
 [[nodiscard]] std::string label_of(const MouseGesture& gesture);
 
-// "undo": what the command of that name in a log or the panel does.
+// Returns an action's name, such as "undo"; the command of that name, in a log or from the panel, does the same.
 [[nodiscard]] std::string_view name_of(Action action);
 [[nodiscard]] std::span<const std::string_view> action_names();  // in the order of Action
 
-}  // namespace burin
+}  // namespace burin::session

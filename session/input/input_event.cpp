@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/input_event.hpp"
+#include "session/input/input_event.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string_view>
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 bool sane(double x) { return std::abs(x) <= kMostInputNumber; }  // false for NaN
@@ -17,7 +17,7 @@ bool sane(const Pose& pose) {
     return sane(p.x) && sane(p.y) && sane(p.z) && std::abs(length - 1.0) <= 1e-6;
 }
 
-// How many bytes the character at the front takes; 0 if it is no valid UTF-8 (RFC 3629, section 4).
+// Returns how many bytes the character at the front takes; 0 if it is not valid UTF-8 (RFC 3629, section 4).
 std::size_t character_bytes(std::string_view s) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(s[i]); };
     const unsigned first = byte(0);
@@ -77,4 +77,4 @@ struct Sensible {
 
 bool is_sensible(const Input& input) { return std::visit(Sensible{}, input); }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: MIT
-// What comes into a live session from outside, as plain data: everything that its pictures depend on. A session that is given
-// the same events makes the same frames (app/session/input_log.hpp records and replays them).
+// Input events of a live session as plain data: everything from outside that its pictures depend on. A session that is
+// given the same events makes the same frames (session/record/input_log.hpp records and replays them).
 //
-// Times are nanoseconds since the session's start. Poses are in the world frame, metres (base/space.hpp); pixels count from the
-// output's upper left corner, x to the right and y down, as window systems have it. No window system's type or number is in
-// here: whoever makes the window translates.
+// Times are nanoseconds since the session's start. Poses are in the world frame, metres (base/space.hpp); pixels count
+// from the output's upper left corner, x to the right and y down, as window systems have it. No window system's types
+// or numbers appear here: whoever makes the window translates.
 #pragma once
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "base/clock.hpp"
 #include "base/space.hpp"
+#include "devices/trackers/tracker.hpp"
 
-namespace burin {
+namespace burin::session {
 
-// A key by its place on a US keyboard; input_keys.hpp has the names. The order is that of the names' table.
+// A key by its position on a US keyboard; input_keys.hpp has the names. The order is that of the name table.
 enum class Key : std::uint8_t {
     // clang-format off
     a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z,
@@ -56,74 +58,62 @@ struct MouseClick {
     Modifiers modifiers;
     friend bool operator==(const MouseClick&, const MouseClick&) = default;
 };
-struct Scroll {  // in steps of a wheel; y > 0 away from the user
+// Scroll in wheel steps; y > 0 away from the user.
+struct Scroll {
     Vec2 steps{0.0};
     Modifiers modifiers;
     friend bool operator==(const Scroll&, const Scroll&) = default;
 };
-struct TextInput {  // what was typed, for text fields; valid UTF-8
+// Typed text for text fields; valid UTF-8.
+struct TextInput {
     std::string utf8;
     friend bool operator==(const TextInput&, const TextInput&) = default;
 };
-struct WindowResize {  // 0 by 0: minimised
+// New size of the window; 0 by 0: minimised.
+struct WindowResize {
     std::uint32_t width_px = 0, height_px = 0;
     friend bool operator==(const WindowResize&, const WindowResize&) = default;
 };
-struct WindowFocus {  // without focus all keys and buttons count as released
+// Change of focus; without focus all keys and buttons count as released.
+struct WindowFocus {
     bool gained = true;
     friend bool operator==(const WindowFocus&, const WindowFocus&) = default;
 };
 struct WindowClose {
     friend bool operator==(const WindowClose&, const WindowClose&) = default;
 };
-struct HeadInput {  // tracked false: the tracker has lost it; the pose is its last
-    Pose pose_world;
-    bool tracked = true;
-};
-struct WandInput {
-    std::uint32_t wand = 0;
-    Pose pose_world;
-    bool tracked = true;
-};
-struct WandClick {
-    std::uint32_t wand = 0, button = 0;
-    bool pressed = true;
-    friend bool operator==(const WandClick&, const WandClick&) = default;
-};
-struct WandStick {  // -1 to 1 each, x to the right, y forwards
-    std::uint32_t wand = 0;
-    Vec2 position{0.0};
-    friend bool operator==(const WandStick&, const WandStick&) = default;
-};
-struct CommandInput {  // a named action with arguments: from the panel, or for users with a script
+// What trackers report is theirs.
+using devices::HeadInput;
+using devices::WandClick;
+using devices::WandInput;
+using devices::WandStick;
+// Named action with arguments, from the panel or from a script.
+struct CommandInput {
     std::string name;
     std::vector<std::string> arguments;
     friend bool operator==(const CommandInput&, const CommandInput&) = default;
 };
-struct FrameStart {  // a frame is begun now and expected to be seen at display_ns, which its poses are predicted to
+// Begins a frame that is expected to be seen at display_ns, the time its poses are predicted to.
+struct FrameStart {
     Nanoseconds display_ns = 0;
     friend bool operator==(const FrameStart&, const FrameStart&) = default;
 };
 
-[[nodiscard]] inline bool operator==(const HeadInput& a, const HeadInput& b) {
-    return a.pose_world.position_m == b.pose_world.position_m && a.pose_world.orientation == b.pose_world.orientation &&
-           a.tracked == b.tracked;
-}
-[[nodiscard]] inline bool operator==(const WandInput& a, const WandInput& b) {
-    return a.wand == b.wand && HeadInput{a.pose_world, a.tracked} == HeadInput{b.pose_world, b.tracked};
-}
-
 using Input = std::variant<KeyInput, MouseMove, MouseClick, Scroll, TextInput, WindowResize, WindowFocus, WindowClose,
                            HeadInput, WandInput, WandClick, WandStick, CommandInput, FrameStart>;
 
+[[nodiscard]] inline Input input_of(devices::TrackerInput reported) {
+    return std::visit([](auto&& input) { return Input(std::move(input)); }, std::move(reported));
+}
+
 struct InputEvent {
-    Nanoseconds time_ns = 0;  // not negative, not falling from one event to the next
+    Nanoseconds time_ns = 0;  // not negative, non-decreasing over events
     Input input;
     friend bool operator==(const InputEvent&, const InputEvent&) = default;
 };
 
-// Whether an input may be recorded and acted on: numbers finite, a quaternion of unit length to 1e-6, text valid UTF-8, names
-// and counts within the bounds of the log. A tracker's or a driver's nonsense is stopped by this.
+// Returns whether an input may be recorded and acted on: finite numbers, quaternions of unit length to 1e-6, valid
+// UTF-8 text, names and counts within the bounds of the log. Keeps nonsense of trackers and drivers out.
 [[nodiscard]] bool is_sensible(const Input& input);
 
 inline constexpr std::uint32_t kMostWands = 8;
@@ -134,4 +124,4 @@ inline constexpr std::size_t kMostTextBytes = 1024;  // of a text, a name or an 
 inline constexpr std::size_t kMostCommandArguments = 15;
 inline constexpr Nanoseconds kLongestSession_ns = 1'000'000 * kNanosecondsPerSecond;  // 11.6 days
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/input_keys.hpp"
+#include "session/input/input_keys.hpp"
 
 #include <algorithm>
 #include <array>
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 constexpr std::array<std::string_view, kKeyCount> kKeyNames = {
@@ -28,25 +28,6 @@ std::optional<Value> find(const std::array<std::string_view, N>& names, std::str
     const auto at = std::ranges::find(names, name);
     if (at == names.end()) return std::nullopt;
     return static_cast<Value>(at - names.begin());
-}
-
-constexpr std::size_t kLongestCompared = 64;
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    a = a.substr(0, kLongestCompared);
-    b = b.substr(0, kLongestCompared);
-    std::array<std::size_t, kLongestCompared + 1> row{};
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-        }
-    }
-    return row[b.size()];
 }
 
 }  // namespace
@@ -92,8 +73,4 @@ std::optional<Modifiers> modifiers_named(std::string_view name) {
     return modifiers;
 }
 
-std::string_view nearest_name(std::string_view wrong, std::span<const std::string_view> names) {
-    return *std::ranges::min_element(names, {}, [&](std::string_view name) { return edit_distance(wrong, name); });
-}
-
-}  // namespace burin
+}  // namespace burin::session

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/input_line.hpp"
+#include "session/input/input_line.hpp"
 
 #include <array>
 #include <charconv>
@@ -7,13 +7,14 @@
 #include <span>
 #include <utility>
 
-#include "app/session/input_keys.hpp"
-#include "app/session/input_words.hpp"
+#include "base/text.hpp"
+#include "session/input/input_keys.hpp"
+#include "session/input/input_words.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
-// The arguments of a line, taken one by one. The first complaint stays; after it everything taken is a default.
+// Takes a line's arguments one by one. The first error is kept; after it everything taken is a default.
 class Arguments {
 public:
     explicit Arguments(std::span<const std::string> words) : words_(words) {}
@@ -42,7 +43,7 @@ public:
         if (error != std::errc{} || end != text.data() + text.size()) refuse("'" + text + "' is no whole number");
         return value;
     }
-    // Which of the names, in their order.
+    // Returns the index of the next word among the names.
     std::size_t one_of(std::span<const std::string_view> names, const std::string& what) {
         const std::string text = word();
         for (std::size_t i = 0; i < names.size(); ++i)
@@ -50,7 +51,7 @@ public:
         refuse("'" + text + "' is no " + what + "; the nearest is '" + std::string(nearest_name(text, names)) + "'");
         return 0;
     }
-    // At the end of a line, or not there.
+    // Reads modifiers at the end of a line; none when absent.
     Modifiers modifiers() {
         if (!more()) return {};
         const std::string text = word();
@@ -58,7 +59,7 @@ public:
         if (!held) refuse("'" + text + "' is no modifier; write ctrl, alt, shift or super, joined by +");
         return held.value_or(Modifiers{});
     }
-    // At the end of a line, or not there.
+    // Reads a flag at the end of a line; false when absent.
     bool flag(std::string_view name) {
         if (!more()) return false;
         one_of({&name, 1}, "word that may stand here");
@@ -137,7 +138,7 @@ Input read_command(Arguments& a) {
     return command;
 }
 Input read_frame(Arguments& a) {
-    if (!a.more()) return FrameStart{-1};  // seen when it is drawn: the caller knows the time
+    if (!a.more()) return FrameStart{-1};  // shown when drawn; the caller knows the time
     const std::string text = a.word();
     const auto display_ns = time_of_text(text);
     if (!display_ns) a.refuse("'" + text + "' is no time");
@@ -209,7 +210,7 @@ struct Writer {
         numbers(in.steps);
         modifiers(in.modifiers);
     }
-    void operator()(const TextInput& in) { word(burin::quoted(in.utf8)); }
+    void operator()(const TextInput& in) { word(burin::session::quoted(in.utf8)); }
     void operator()(const WindowResize& in) {
         count(in.width_px);
         count(in.height_px);
@@ -249,11 +250,9 @@ Result<const Kind*> kind_named(const std::string& name, const std::string& where
         names[i] = kKinds[i].name;
         if (names[i] == name) return &kKinds[i];
     }
-    std::string all;
-    for (const std::string_view known : names) all += (all.empty() ? "" : ", ") + std::string(known);
     return fail(where,
                 "'" + name + "' is no kind of input; the nearest is '" + std::string(nearest_name(name, names)) + "'",
-                "write one of " + all);
+                "write one of " + joined(names));
 }
 
 Result<InputEvent> make_event(Nanoseconds time_ns, const Kind& kind, std::span<const std::string> words,
@@ -327,4 +326,21 @@ Result<std::optional<InputEvent>> parse_line(std::string_view line, const std::s
     return std::optional(std::move(*event));
 }
 
-}  // namespace burin
+Result<std::optional<devices::TrackerInput>> parse_tracker_line(std::string_view line) {
+    if (line.empty()) return std::nullopt;
+    Result<std::optional<InputEvent>> event = parse_line("0 " + std::string(line), "tracker");
+    if (!event) return std::unexpected(event.error());
+    if (!*event) return std::nullopt;
+    return std::visit(
+        [](auto&& input) -> Result<std::optional<devices::TrackerInput>> {
+            using Kind = std::remove_cvref_t<decltype(input)>;
+            if constexpr (std::is_constructible_v<devices::TrackerInput, Kind>) {
+                return devices::TrackerInput(std::move(input));
+            } else {
+                return fail("tracker", "only head, wand, wand-button and wand-stick come from there");
+            }
+        },
+        std::move((*event)->input));
+}
+
+}  // namespace burin::session

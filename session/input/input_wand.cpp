@@ -1,27 +1,29 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/input_wand.hpp"
+#include "session/input/input_wand.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 constexpr double kLeastApart_m = 0.02;
 
-// The smallest turn from one direction to another (both of unit length): the half-way quaternion (1 + a.b, a x b).
+// Returns the smallest turn from one direction to another (both of unit length): the half-way quaternion (1 + a.b, a x
+// b).
 Quat turn_between(const Vec3& a, const Vec3& b) {
     const double w = 1.0 + glm::dot(a, b);
-    if (w < 1e-9) {  // opposite: half a turn about anything square to them
+    // Opposite directions: half a turn about any axis perpendicular to them.
+    if (w < 1e-9) {
         const Vec3 other = std::abs(a.x) < 0.9 ? Vec3(1.0, 0.0, 0.0) : Vec3(0.0, 1.0, 0.0);
         return Quat(0.0, glm::normalize(glm::cross(a, other)));
     }
     return glm::normalize(Quat(w, glm::cross(a, b)));
 }
 
-// The scene turned by q, scaled by factor, and moved so that from comes to lie on to.
+// Returns the scene turned by q, scaled by factor, and moved so that `from` comes to lie on `to`.
 Similarity brought(const Similarity& s, const Vec3& from, const Vec3& to, const Quat& q, double factor) {
     return {to + factor * (q * (s.position_m - from)), glm::normalize(q * s.orientation), factor * s.scale};
 }
@@ -32,7 +34,7 @@ double within(double scale, double factor, double least, double most) {
     return std::clamp(scale * factor, least, most) / scale;
 }
 
-// From -1 to 1, 0 within the dead zone, growing with the square beyond: fine near the middle.
+// Maps a stick to -1 to 1: 0 within the dead zone, growing with the square beyond, fine near the middle.
 double deflection(double stick, double dead_zone) {
     const double beyond = (std::abs(stick) - dead_zone) / (1.0 - dead_zone);
     return beyond > 0.0 ? std::copysign(beyond * beyond, stick) : 0.0;
@@ -66,7 +68,7 @@ std::array<Vec3, 2> places(const WandState& state) {
     return {state.wands[0].pose_world.position_m, state.wands[1].pose_world.position_m};
 }
 
-// The hold changes hands where the scene is now.
+// Starts a hold with these wands, or none, from the current pose of the scene.
 void take_hold(WandState& state, const std::array<bool, 2>& holding, const Similarity& world_from_scene) {
     state.holding = holding;
     state.one.reset();
@@ -116,7 +118,7 @@ Similarity scaled_about(const Similarity& s, const Vec3& point_world, double fac
 }
 
 Similarity carried(const WandGrab& grab, const Pose& now) {
-    if (same(now, grab.world_from_wand)) return grab.world_from_scene;  // to the last bit
+    if (same(now, grab.world_from_wand)) return grab.world_from_scene;  // exactly, to the last bit
     const Quat turn = glm::normalize(now.orientation * glm::conjugate(grab.world_from_wand.orientation));
     return brought(grab.world_from_scene, grab.world_from_wand.position_m, now.position_m, turn, 1.0);
 }
@@ -151,8 +153,8 @@ WandStep step_wands(WandState state, std::span<const InputEvent> events, double 
         scene = moved_by_stick(state.wands[i], holding[i], scene, head_world, dt_s, settings);
     const bool stirred = scene.position_m != before_sticks.position_m || scene.scale != before_sticks.scale ||
                          scene.orientation != before_sticks.orientation;
-    if (stirred) take_hold(state, holding, scene);  // from here on
+    if (stirred) take_hold(state, holding, scene);  // holds start from the current scene
     return {std::move(state), scene};
 }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,37 +1,40 @@
 // SPDX-License-Identifier: MIT
-// Moving, turning and scaling the scene by hand: pure functions on world_from_scene, and what two tracked wands do with them.
+// Moves, turns and scales the scene by hand: pure functions on world_from_scene, and what two tracked wands do with
+// them.
 //
-//   one wand holds          the scene moves with it as if fastened to it; its stick forwards enlarges, backwards shrinks it about
-//                           the wand
-//   two wands hold          the places grabbed stay in both hands: the scene moves, turns and scales with them
-//   stick, nothing held     forwards flies where the wand points (its own -Z), sideways turns the scene about the viewer
-//   reset button            the scene is as at the start
-// A hold is lost with the tracker and taken up again where the wand reappears, so nothing leaps. Frames: world; metres, radians.
+//   one wand holds          the scene moves with it as if fastened to it; its stick forwards enlarges it and backwards
+//                           shrinks it, about the wand
+//   two wands hold          the points grabbed stay in both hands: the scene moves, turns and scales with them
+//   stick, nothing held     forwards flies where the wand points (its -Z), sideways turns the scene about the viewer
+//   reset button            the scene returns to its start
+// A hold is lost with the tracker and taken up again where the wand reappears, so the scene never jumps. Frames: world;
+// metres, radians.
 #pragma once
 
 #include <array>
 #include <optional>
 #include <span>
 
-#include "app/session/input_event.hpp"
 #include "base/space.hpp"
+#include "session/input/input_event.hpp"
 
-namespace burin {
+namespace burin::session {
 
+// Moves the scene in the world.
 [[nodiscard]] Similarity moved_by(const Similarity& world_from_scene, const Vec3& by_world_m);
-// The point stays where it is in the world. turn is a unit quaternion; factor > 0.
+// Turns or scales the scene about a point that stays where it is in the world. turn is a unit quaternion; factor > 0.
 [[nodiscard]] Similarity turned_about(const Similarity& world_from_scene, const Vec3& point_world, const Quat& turn);
 [[nodiscard]] Similarity scaled_about(const Similarity& world_from_scene, const Vec3& point_world, double factor);
 
-// A scene held by one wand. What was under the wand stays under it; no motion gives exactly the scene as it was.
+// A scene held by one wand. What was at the wand stays at it; a wand that does not move gives exactly the same scene.
 struct WandGrab {
     Pose world_from_wand;
     Similarity world_from_scene;
 };
 [[nodiscard]] Similarity carried(const WandGrab& grab, const Pose& world_from_wand_now);
 
-// A scene held by two: the points under both stay there while the scale is within its limits; then the middle between them does.
-// Hands less than 2 cm apart only move it.
+// A scene held by two wands: the points at both stay there while the scale is within its limits; beyond them only the
+// middle between the two does. Hands less than 2 cm apart only move the scene.
 struct TwoWandGrab {
     std::array<Vec3, 2> wands_world{};
     Similarity world_from_scene;
@@ -58,7 +61,7 @@ struct WandNow {
 struct WandState {
     std::array<WandNow, 2> wands;
     std::array<bool, 2> holding{};
-    std::optional<WandGrab> one;  // of the wand that holds alone
+    std::optional<WandGrab> one;  // hold of one wand alone
     std::optional<TwoWandGrab> both;
 };
 
@@ -66,9 +69,9 @@ struct WandStep {
     WandState state;
     Similarity world_from_scene;
 };
-// Wands 0 and 1 of the events count. dt_s: since the step before, not negative.
+// Applies one step's events of wands 0 and 1. dt_s: time since the step before, not negative.
 [[nodiscard]] WandStep step_wands(WandState state, std::span<const InputEvent> events, double dt_s,
                                   const Similarity& world_from_scene, const Pose& head_world,
                                   const WandSettings& settings = {});
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/input_words.hpp"
+#include "session/input/input_words.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <optional>
 
-namespace burin {
+namespace burin::session {
 namespace {
 
-constexpr std::size_t kMostWords = 64;  // more than any event has: a line of a million blanks makes no million words
+// More than any event has, so that a line of a million blanks does not make a million words.
+constexpr std::size_t kMostWords = 64;
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-// The character that a sequence after a backslash stands for; takes it off the text.
+// Returns the character that a sequence after a backslash stands for; takes it off the text.
 std::optional<char> unescaped(std::string_view& rest) {
     if (rest.empty()) return std::nullopt;
     const char c = rest.front();
@@ -108,4 +109,4 @@ Result<std::vector<std::string>> words_of(std::string_view line, const std::stri
     }
 }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A line as words: separated by blanks; a word in double quotes may hold anything, with \" \\ \n \t \r and \xHH; # begins a
-// comment. Pure; any thread.
+// Splits a line into words: separated by blanks; a word in double quotes may hold anything, with \" \\ \n \t \r and
+// \xHH; # begins a comment. Pure; any thread.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 #include "base/error.hpp"
 
-namespace burin {
+namespace burin::session {
 
 [[nodiscard]] std::string quoted(std::string_view text);
-// The word as it is where that reads back, else quoted.
+// Returns the word unchanged where that reads back, else quoted.
 [[nodiscard]] std::string as_word(std::string_view text);
 [[nodiscard]] Result<std::vector<std::string>> words_of(std::string_view line, const std::string& where);
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/panel.hpp"
+#include "session/panel/panel.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "app/session/panel_input.hpp"
-#include "app/session/panel_sections.hpp"
+#include "session/panel/panel_input.hpp"
+#include "session/panel/panel_sections.hpp"
 
-namespace burin {
+namespace burin::session {
 
 namespace {
 
 using panel::Kit;
 
-// How often a panel is laid out after it has been touched before it is taken to rest: lists that close, fields that lose the keys.
+// Layouts after the last event before the panel is taken to rest: lists close, fields lose the keyboard.
 constexpr int kSettling = 3;
 
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
@@ -30,8 +30,8 @@ PixelRect clip_of(const ImVec4& clip, ImageSize size) {
     return {x0, y0, x1 > x0 ? x1 - x0 : 0, y1 > y0 ? y1 - y0 : 0};
 }
 
-PanelMesh mesh_of(const ImDrawData& data, ImageSize size) {
-    PanelMesh mesh;
+renderer::PanelMesh mesh_of(const ImDrawData& data, ImageSize size) {
+    renderer::PanelMesh mesh;
     mesh.vertices.reserve(static_cast<std::size_t>(data.TotalVtxCount));
     mesh.indices.reserve(static_cast<std::size_t>(data.TotalIdxCount));
     for (int l = 0; l < data.CmdListsCount; ++l) {
@@ -51,12 +51,12 @@ PanelMesh mesh_of(const ImDrawData& data, ImageSize size) {
 }  // namespace
 
 double panel_scale(double reading_distance_m, double metres_per_px) {
-    // Capitals are 0.6 of the letters' 16 px, and shall be seen under 21 minutes of arc.
+    // Capitals are 0.6 of the letters' 16 px in height and must subtend 21 minutes of arc.
     constexpr double kCapital_px = 0.6 * 16.0, kAngle_rad = 21.0 / 60.0 * std::numbers::pi / 180.0;
     return reading_distance_m * kAngle_rad / (kCapital_px * metres_per_px);
 }
 
-// Makes its own context the toolkit's current one for as long as it is at work.
+// Holds a toolkit context and makes it current while it works.
 class Panel::Implementation {
 public:
     Implementation(ImageSize size, float scale) : size_(size) {
@@ -96,7 +96,7 @@ public:
         resting_ = !events_.empty() || !model_ ? kSettling : std::max(resting_ - 1, 0);
         model_ = model;
         const Current current(context_);
-        PanelMesh mesh = model.visible ? lay_out(model, time_ns) : hidden();
+        renderer::PanelMesh mesh = model.visible ? lay_out(model, time_ns) : hidden();
         frame_.changed = laid_out_before_ ? mesh != frame_.mesh : true;
         laid_out_before_ = true;
         frame_.mesh = std::move(mesh);
@@ -104,7 +104,7 @@ public:
         return frame_;
     }
 
-    // Restores whoever's context it was.
+    // Makes a context current and restores the previous one at the end.
     class Current {
     public:
         explicit Current(ImGuiContext* context) : before_(ImGui::GetCurrentContext()) {
@@ -120,7 +120,7 @@ public:
 
     ImageSize size_;
     Kit kit_;
-    PanelAtlas atlas_;
+    renderer::PanelAtlas atlas_;
     panel::PanelEvents events_;
     PanelFrame frame_;
     std::optional<PanelModel> model_;
@@ -131,8 +131,8 @@ public:
     std::uint64_t laid_out_ = 0, spared_ = 0;
 
 private:
-    // Once for each step of what happened since the last time, and once more for a list that has opened.
-    PanelMesh lay_out(const PanelModel& model, Nanoseconds time_ns) {
+    // Lays out once for each step of the events since the last time, and once more for a list that has opened.
+    renderer::PanelMesh lay_out(const PanelModel& model, Nanoseconds time_ns) {
         double dt_s = std::clamp(1e-9 * static_cast<double>(time_ns - last_ns_), 1e-4, 0.25);
         do {
             ImGuiIO& io = ImGui::GetIO();
@@ -156,7 +156,7 @@ private:
         return mesh_of(*ImGui::GetDrawData(), size_);
     }
 
-    PanelMesh hidden() {
+    renderer::PanelMesh hidden() {
         events_.drop();
         kit_.places.clear();
         ImGuiIO& io = ImGui::GetIO();
@@ -207,7 +207,7 @@ private:
             panel::show_help(kit_);
             return;
         }
-        if (model.show_figures) panel::show_figures(kit_, model);  // first: whoever asks for them wants to see them
+        if (model.show_figures) panel::show_figures(kit_, model);  // first: whoever turns them on wants to see them
         panel::show_tool(kit_, model);
         panel::show_material(kit_, model);
         panel::show_touch(kit_, model);
@@ -240,7 +240,7 @@ void Panel::resize(ImageSize size) {
     implementation_->resting_ = kSettling;
 }
 ImageSize Panel::size() const { return implementation_->size_; }
-const PanelAtlas& Panel::atlas() const { return implementation_->atlas_; }
+const renderer::PanelAtlas& Panel::atlas() const { return implementation_->atlas_; }
 const std::string& Panel::notice() const { return implementation_->kit_.type.notice; }
 std::uint64_t Panel::laid_out() const { return implementation_->laid_out_; }
 std::uint64_t Panel::spared() const { return implementation_->spared_; }
@@ -280,4 +280,4 @@ std::vector<std::string> Panel::labels() const {
     return labels;
 }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/panel_feed.hpp"
+#include "session/panel/panel_feed.hpp"
 
 #include <algorithm>
 #include <utility>
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 constexpr float kForceLimit_N = 3.3f;  // of the Omni
 
-// Full from the start, so that what rests stands still at once.
+// Appends a value. A plot has full length from the start, so that a constant value stands still at once.
 void go_on(PanelPlot& plot, double value) {
     plot.values.resize(PanelFeed::kPlotLength, 0.0f);
     plot.values.erase(plot.values.begin());
@@ -22,8 +22,8 @@ std::optional<double> median_ms(const FrameHistory& history, FrameFigure figure,
     return 1e3 * seconds(summary.median_ns);
 }
 
-PanelSavings savings_of(const RenderStats& drawn, const PanelFacts& facts) {
-    const PatchCounts& counts = drawn.patch_counts;
+PanelSavings savings_of(const renderer::RenderStats& drawn, const PanelFacts& facts) {
+    const renderer::PatchCounts& counts = drawn.patch_counts;
     const double whole = static_cast<double>(facts.eye.width) * facts.eye.height;
     double redrawn = 0.0;
     for (const PixelRect& part : drawn.parts) redrawn += static_cast<double>(part.width) * part.height;
@@ -62,7 +62,7 @@ PanelPlotted PanelFeed::plotted_times(const PanelFacts& facts) {
     longest_tick_us_ = std::max(longest_tick_us_, plotted.tick_us);
     const std::uint64_t frames = facts.times.drawn() - std::exchange(plotted_frames_, facts.times.drawn());
     const FigureSummary summary = facts.times.history().recent(FrameFigure::frame_time, frames);
-    // No frame, or none that followed another: the display still shows the last one.
+    // Without a frame, or without one that followed another, the display still shows the last one.
     const float before = frame_ms_.values.empty() ? 0.0f : frame_ms_.values.back();
     plotted.frame_ms = summary.count > 0 ? 1e3 * seconds(summary.most_ns) : double{before};
     plotted.frame_limit_ms = 1e3 * seconds(facts.times.period_ns());
@@ -88,7 +88,7 @@ void PanelFeed::renew_numbers(const PanelFacts& facts) {
 
 PanelNumbers PanelFeed::new_numbers(const PanelFacts& facts, double since_s) {
     PanelNumbers numbers;
-    if (numbers_) numbers.figures = numbers_->figures;  // what nothing is known of stays as it was
+    if (numbers_) numbers.figures = numbers_->figures;  // unknown figures keep their value
     PanelFigures& figures = numbers.figures;
     const std::uint64_t frames = facts.times.drawn() - std::exchange(renewed_frames_, facts.times.drawn());
     const FrameHistory& history = facts.times.history();
@@ -122,4 +122,4 @@ void PanelFeed::show_on(PanelModel& model) const {
     model.warnings.insert(model.warnings.end(), numbers_->warnings.begin(), numbers_->warnings.end());
 }
 
-}  // namespace burin
+}  // namespace burin::session

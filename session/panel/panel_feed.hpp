@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT
-// What the panel shows of a session's times: plots that go on ten times a second, and numbers that change twice a second, so that one
-// can read them. While the session rests both stand still: a panel that moves would be all there is to draw.
-// Force is known in simulated time as well; ticks and frames take none there, and nothing is shown of them. A session that follows a
-// recording shows what was measured then.
+// Feeds the panel with a session's measured times: plots that advance ten times a second, and numbers that change twice
+// a second, so that one can read them. While the session rests both stand still: a moving panel would be all there is
+// to draw.
+// Force is known in simulated time as well; ticks and frames take no time there, and nothing is shown of them. A
+// session that replays a recording shows what was measured then.
 // One thread, the frame's.
 #pragma once
 
-#include "app/session/panel_model.hpp"
-#include "app/session/session_times.hpp"
-#include "renderer/renderer.hpp"
+#include "renderer/frame/renderer.hpp"
+#include "session/panel/panel_model.hpp"
+#include "session/timing/session_times.hpp"
 
-namespace burin {
+namespace burin::session {
 
-// What clocks said, of one step of the session: new points of plots, new numbers, where it is time for them.
+// Measured times of one step of the session: new plot points and new numbers, each only when it is due.
 struct PanelPlotted {
-    double tick_us = 0.0, frame_ms = 0.0;  // the longest since the points before
+    double tick_us = 0.0, frame_ms = 0.0;  // maxima since the previous points
     double frame_limit_ms = 0.0;
 };
 struct PanelNumbers {
@@ -27,28 +28,29 @@ struct PanelMeasured {
     std::optional<PanelNumbers> numbers;
 };
 
-// Of one step of the session.
+// Inputs of one step.
 struct PanelFacts {
-    Nanoseconds time_ns = 0;  // the session's
+    Nanoseconds time_ns = 0;  // session time
     double force_N = 0.0;
     std::uint64_t late_ticks = 0, dropped_samples = 0;
-    bool stirring = false;  // something happens besides the panel
+    bool stirring = false;  // something other than the panel is active
     const SessionTimes& times;
-    const Histogram& tick_duration;
-    const RenderStats& drawn;  // of the frame before
+    const haptics::Histogram& tick_duration;
+    const renderer::RenderStats& drawn;  // of the previous frame
     ImageSize eye;
-    const PanelMeasured* recorded = nullptr;  // what to show in place of times; null: the session's own
+    // Recorded times to show; null: the session's own.
+    const PanelMeasured* recorded = nullptr;
 };
 
 class PanelFeed {
 public:
     static constexpr Nanoseconds kPlotStep_ns = 100'000'000, kNumberStep_ns = 500'000'000;
-    static constexpr Nanoseconds kRest_ns = 1'000'000'000;  // after the last stir
+    static constexpr Nanoseconds kRest_ns = 1'000'000'000;  // after the last activity
     static constexpr std::size_t kPlotLength = 100;         // ten seconds
 
     void feed(const PanelFacts& facts);
     void show_on(PanelModel& model) const;
-    // What was new in the last step, for who records it.
+    // Returns what was new in the last step, for the recorder.
     [[nodiscard]] const PanelMeasured& measured() const { return measured_; }
 
 private:
@@ -61,13 +63,14 @@ private:
     bool awake_ = false;
     PanelPlot force_N_, tick_us_, frame_ms_;
     HistogramLook ticks_;
-    std::uint64_t plotted_frames_ = 0, renewed_frames_ = 0;  // drawn until then
-    double longest_tick_us_ = 0.0, longest_force_N_ = 0.0;   // since the numbers changed; since the plots did
+    std::uint64_t plotted_frames_ = 0, renewed_frames_ = 0;  // frames drawn by then
+    // Maxima since the numbers changed and since the plots advanced.
+    double longest_tick_us_ = 0.0, longest_force_N_ = 0.0;
     double force_now_N_ = 0.0;
     std::uint64_t late_ticks_ = 0, dropped_samples_ = 0;
-    RenderStats drawn_;  // of the last frame in which anything was
+    renderer::RenderStats drawn_;  // of the last frame that drew anything
     std::optional<PanelNumbers> numbers_;
     PanelMeasured measured_;
 };
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Short cuts, mouse and commands: taken from the tables that act on them, so that help cannot differ from what happens.
+// Shows short cuts, mouse and commands from the tables that act on them, so that help cannot differ from what happens.
 #include <algorithm>
 
-#include "app/session/panel_sections.hpp"
+#include "session/panel/panel_sections.hpp"
 
-namespace burin::panel {
+namespace burin::session::panel {
 
 namespace {
 
@@ -12,7 +12,7 @@ struct HelpLine {
     std::string keys, text;
 };
 
-// Keys that do the same share a line.
+// Adds a line; keys that do the same share one.
 void add_line(std::vector<HelpLine>& lines, std::string keys, std::string_view text) {
     const auto same = std::ranges::find(lines, text, &HelpLine::text);
     if (same == lines.end()) {
@@ -101,4 +101,4 @@ void show_footer(Kit& kit, const PanelModel& model) {
     }
 }
 
-}  // namespace burin::panel
+}  // namespace burin::session::panel

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/panel_input.hpp"
+#include "session/panel/panel_input.hpp"
 
 #include <imgui/imgui.h>
 
 #include <array>
 #include <cfloat>
 
-namespace burin::panel {
+namespace burin::session::panel {
 
 namespace {
 
@@ -37,7 +37,7 @@ constexpr std::array<NamedKey, 22> kKeys{{{ImGuiKey_Tab, Key::tab},
                                           {ImGuiKey_Y, Key::y},
                                           {ImGuiKey_Z, Key::z}}};
 
-// What one layout has been told so far.
+// Kinds of events that one layout has received so far.
 struct Told {
     bool button = false, moved_after_button = false, text = false, key = false;
 };
@@ -50,12 +50,12 @@ void take_modifiers(const Modifiers& modifiers) {
     io.KeySuper = modifiers.super;
 }
 
-// Each says whether the event still belongs to this layout, and if so hands it over.
+// Hands an event to the toolkit if it can still belong to this layout; returns whether it did.
 struct Hand {
     ImGuiIO& io;
     Told& told;
 
-    // A press is where the mouse was.
+    // Motion after a button belongs to the next layout: a press happens where the mouse was.
     bool operator()(const MouseMove& move) const {
         if (told.button) return false;
         io.MousePos = {static_cast<float>(move.position_px.x), static_cast<float>(move.position_px.y)};
@@ -126,4 +126,4 @@ void name_keys() {
     for (const NamedKey& key : kKeys) io.KeyMap[key.theirs] = static_cast<int>(key.ours);
 }
 
-}  // namespace burin::panel
+}  // namespace burin::session::panel

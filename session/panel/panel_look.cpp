@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/panel_look.hpp"
+#include "session/panel/panel_look.hpp"
 
 #include <array>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <iterator>
 #include <vector>
 
-namespace burin::panel {
+namespace burin::session::panel {
 
 namespace {
 
@@ -17,13 +17,14 @@ struct TypeFiles {
     const char* regular;
     const char* medium;
 };
-// As Debian's packages fonts-roboto-unhinted and fonts-dejavu-core install them.
+// Paths of the fonts as Debian's packages fonts-roboto-unhinted and fonts-dejavu-core install them.
 constexpr std::array<TypeFiles, 2> kKnownFiles{
     {{"/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Regular.ttf",
       "/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Medium.ttf"},
      {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf"}}};
 
-// Empty for what is not there or does not begin as TrueType or OpenType: the toolkit stops the program at such files.
+// Returns a font file's bytes; empty for a file that is absent or does not begin as TrueType or OpenType: the toolkit
+// aborts the program at such files.
 std::vector<char> bytes_of_type(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     std::vector<char> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -35,9 +36,9 @@ std::vector<char> bytes_of_type(const std::string& path) {
 ImFont* add(const std::vector<char>& bytes, float size_px) {
     ImFontConfig config;
     config.FontDataOwnedByAtlas = false;
-    config.OversampleH = 2;  // letters stand between pixels across, not down
+    config.OversampleH = 2;  // letters lie between pixels across, not down
     config.PixelSnapH = false;
-    // Latin 1, and no more: all that the panel says.
+    // Latin 1 alone: all that the panel shows.
     return ImGui::GetIO().Fonts->AddFontFromMemoryTTF(const_cast<char*>(bytes.data()), static_cast<int>(bytes.size()),
                                                       std::round(size_px), &config);
 }
@@ -104,11 +105,11 @@ Result<Type> load_type(const std::string& file, float scale) {
         type.strong = add(strong, kText_px * scale);
         type.title = add(strong, kTitle_px * scale);
     }
-    atlas.Build();  // while the bytes are here
+    atlas.Build();  // while the bytes exist
     return type;
 }
 
-PanelAtlas atlas_of_context() {
+renderer::PanelAtlas atlas_of_context() {
     unsigned char* pixels = nullptr;
     int width = 0, height = 0;
     ImGui::GetIO().Fonts->GetTexDataAsAlpha8(&pixels, &width, &height);
@@ -116,4 +117,4 @@ PanelAtlas atlas_of_context() {
     return {size, std::vector<std::uint8_t>(pixels, pixels + std::size_t{size.width} * size.height)};
 }
 
-}  // namespace burin::panel
+}  // namespace burin::session::panel

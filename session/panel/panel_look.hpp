@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The panel's colours, type and measures. On a stereo wall light letters on black leave ghosts in the other eye, and black stands out of
-// every scene: so the ground is a dark grey that lets the scene through, and letters are light grey, 9 to 1 against it at most.
+// Colours, font and sizes of the panel. On a stereo wall light letters on black leave ghosts in the other eye, and
+// black stands out of every scene: so the background is a dark grey that lets the scene through, and letters are light
+// grey, with a contrast of at most 9 to 1.
 #pragma once
 
 #include <imgui/imgui.h>
@@ -10,9 +11,9 @@
 #include "base/error.hpp"
 #include "renderer/panel/panel_mesh.hpp"
 
-namespace burin::panel {
+namespace burin::session::panel {
 
-// sRGB, as the toolkit packs them.
+// Colours in sRGB, as the toolkit packs them.
 inline constexpr ImU32 kGround = IM_COL32(38, 41, 45, 236);
 inline constexpr ImU32 kCard = IM_COL32(64, 68, 74, 242);
 inline constexpr ImU32 kControl = IM_COL32(80, 85, 91, 255);
@@ -41,10 +42,10 @@ struct Type {
     std::string notice;
 };
 
-// Into the current context.
+// Applies colours and sizes to the current context.
 void apply_style(float scale);
-// Adds the letters to the current context and draws them into an atlas.
+// Adds the fonts to the current context and rasterises them into its atlas.
 [[nodiscard]] Result<Type> load_type(const std::string& file, float scale);
-[[nodiscard]] PanelAtlas atlas_of_context();
+[[nodiscard]] renderer::PanelAtlas atlas_of_context();
 
-}  // namespace burin::panel
+}  // namespace burin::session::panel

@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/session/panel_widgets.hpp"
+#include "session/panel/panel_widgets.hpp"
 
-namespace burin::panel {
+namespace burin::session::panel {
 
 namespace {
 
-// The next of 1, 1.5, 2, 3, 5, 7.5, 10, 15 ... : a scale that does not follow every value up and down.
+// Returns the next of 1, 1.5, 2, 3, 5, 7.5, 10, 15 ... : a scale that does not follow every value up and down.
 float round_top(float most) {
     const float power = std::pow(10.0f, std::floor(std::log10(most)));
     for (const float step : {1.0f, 1.5f, 2.0f, 3.0f, 5.0f, 7.5f}) {
@@ -17,7 +17,7 @@ float round_top(float most) {
     return 10.0f * power;
 }
 
-// As many points as there are pixels; of the values that share one the largest counts, so that no peak is lost.
+// Reduces values to at most `most` points, each the largest of those it stands for, so that no peak is lost.
 std::vector<float> peaks(const std::vector<float>& values, std::size_t most) {
     if (values.size() <= most) return values;
     std::vector<float> kept(most, 0.0f);
@@ -28,7 +28,7 @@ std::vector<float> peaks(const std::vector<float>& values, std::size_t most) {
     return kept;
 }
 
-// A limit that is far off would press the curve to the floor: it is in the picture when the values come near it.
+// Returns the top of the scale. A distant limit would flatten the curve: it is included when the values come near it.
 float top_of(const std::vector<float>& values, float limit, float least_top) {
     constexpr float kNear = 0.25f;
     float top = least_top;
@@ -56,7 +56,7 @@ void Kit::plot(std::string_view title, std::string_view value, const PanelPlot& 
         return floor - (std::isfinite(v) ? std::clamp(v / top, 0.0f, 1.0f) : 0.0f) * (height - 2.0f * inset);
     };
     const std::string scale = written("%g", double{top});
-    // Beside the scale, where it would run through it.
+    // Begins the limit's line beside the scale's text, where it would cross it.
     const float name = y_of(plot.limit) < lo.y + px(16.0f) ? size_of(scale, type.small).x + px(7.0f) : 0.0f;
     if (plot.limit > 0.0f && plot.limit <= top)
         draw.AddLine({left + name, y_of(plot.limit)}, {right, y_of(plot.limit)}, with_alpha(kWarning, 110), px(1.0f));
@@ -75,4 +75,4 @@ void Kit::plot(std::string_view title, std::string_view value, const PanelPlot& 
     write({left + px(3.0f), lo.y + px(2.0f)}, with_alpha(kDim, 150), scale, type.small);
 }
 
-}  // namespace burin::panel
+}  // namespace burin::session::panel

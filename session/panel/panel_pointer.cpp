@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/panel_pointer.hpp"
+#include "session/panel/panel_pointer.hpp"
 
 #include <cmath>
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 constexpr std::uint32_t kPointingWand = 0, kPressButton = 0;
-constexpr double kStickScrolls = 0.3;  // how far a stick is bent to turn the panel's page by a step
+// Deflection of a stick from which it scrolls the panel by a step.
+constexpr double kStickScrolls = 0.3;
 
-// A pose that looks along its -Z from one point to another.
+// Returns a pose that looks along its -Z from one point to another.
 Pose looking(const Vec3& from, const Vec3& to) {
     const Vec3 back = glm::normalize(from - to);
     const Vec3 aside = std::abs(back.y) < 0.9 ? Vec3(0.0, 1.0, 0.0) : Vec3(1.0, 0.0, 0.0);
@@ -17,34 +18,34 @@ Pose looking(const Vec3& from, const Vec3& to) {
     return {from, glm::normalize(glm::quat_cast(glm::dmat3(right, glm::cross(back, right), back)))};
 }
 
-// Beside the panel, so that nothing on it stays lit.
+// Position beside the panel, so that nothing on it stays highlighted.
 constexpr Vec2 kBeside_px{-1.0, -1.0};
 
-// Where the mouse is and where its button went down.
+// Tracks where the mouse is and where its button went down.
 void follow(PanelPointer& pointer, const Input& input) {
     if (const auto* move = std::get_if<MouseMove>(&input)) pointer.mouse_px = move->position_px;
     if (const auto* click = std::get_if<MouseClick>(&input); click != nullptr && click->button == MouseButton::left)
         pointer.held_px = click->pressed ? std::optional(pointer.mouse_px) : std::nullopt;
     if (const auto* focus = std::get_if<WindowFocus>(&input); focus != nullptr && !focus->gained)
-        pointer.held_px.reset();  // nobody will tell of the release
+        pointer.held_px.reset();  // its release would go unreported
 }
 
 struct Pointing {
-    const PanelStand& stand;
+    const renderer::PanelStand& stand;
     ImageSize panel;
     const MouseView& mouse;
     Pointed pointed;
 
     void point(Nanoseconds time_ns, const std::optional<Pose>& along) {
-        const auto at = along ? panel_ray(stand, panel, *along) : std::nullopt;
+        const auto at = along ? renderer::panel_ray(stand, panel, *along) : std::nullopt;
         const bool was_over = pointed.pointer.over;
         pointed.pointer.over = at.has_value();
         if (at) pointed.panel.push_back({time_ns, MouseMove{*at}});
-        // What is dragged stays where it left the panel until it is let go.
+        // A drag stays where it left the panel until it is released.
         if (!at && was_over && !pointed.pointer.pressed) pointed.panel.push_back({time_ns, MouseMove{kBeside_px}});
     }
 
-    // Whether the panel has it.
+    // Presses or releases on the panel; returns whether the panel takes the event.
     bool press(Nanoseconds time_ns, bool down) {
         PanelPointer& p = pointed.pointer;
         if (down ? !p.over : !p.pressed) return false;
@@ -60,27 +61,27 @@ struct Pointing {
         return true;
     }
 
-    // From the eye that sees the mouse on its picture; from between the eyes where both do.
+    // Returns the ray through the mouse from the eye that sees it on its picture; from between the eyes where both do.
     [[nodiscard]] std::optional<Pose> along_mouse() const {
         const PanelPointer& p = pointed.pointer;
         const auto seen = seen_at(mouse.output, mouse.place, p.mouse_px, p.held_px);
         if (!seen) return std::nullopt;
         const Vec2 uv = seen->picture_uv;
-        const Screen& s = mouse.screen;
+        const wall::Screen& s = mouse.screen;
         const Vec3 on_screen = s.lower_left_world + uv.x * (s.lower_right_world - s.lower_left_world) +
                                (1.0 - uv.y) * (s.upper_left_world - s.lower_left_world);
-        const Eyes& eyes = mouse.eyes_world;
+        const wall::Eyes& eyes = mouse.eyes_world;
         if (!seen->eye) return looking(middle_of(eyes), on_screen);
-        return looking(*seen->eye == Eye::left ? eyes.left_world : eyes.right_world, on_screen);
+        return looking(*seen->eye == wall::Eye::left ? eyes.left_world : eyes.right_world, on_screen);
     }
 
-    // Whether the panel alone has the event.
+    // Applies an event; returns whether it is for the panel alone.
     bool take(const InputEvent& event) {
         const Nanoseconds t = event.time_ns;
         follow(pointed.pointer, event.input);
         if (const auto* e = std::get_if<WandInput>(&event.input)) {
             if (e->wand == kPointingWand && e->tracked) point(t, e->pose_world);
-            return false;  // what it carries moves on
+            return false;  // what the wand carries moves on
         }
         if (const auto* e = std::get_if<WandClick>(&event.input))
             return e->wand == kPointingWand && e->button == kPressButton && press(t, e->pressed);
@@ -96,14 +97,15 @@ struct Pointing {
             return e->button == MouseButton::left && press(t, e->pressed);
         if (const auto* e = std::get_if<Scroll>(&event.input)) return scroll(t, e->steps.y);
         if (std::holds_alternative<KeyInput>(event.input) || std::holds_alternative<TextInput>(event.input))
-            pointed.panel.push_back(event);  // fields that are being written in; the panel says whether it kept them
+            // For text fields; the panel says whether it captured the event.
+            pointed.panel.push_back(event);
         return false;
     }
 };
 
 }  // namespace
 
-Pointed point_at_panel(PanelPointer pointer, std::span<const InputEvent> events, const PanelStand& stand,
+Pointed point_at_panel(PanelPointer pointer, std::span<const InputEvent> events, const renderer::PanelStand& stand,
                        ImageSize panel, const MouseView& mouse) {
     Pointing pointing{stand, panel, mouse, {pointer, {}, {}}};
     for (const InputEvent& event : events)
@@ -111,10 +113,10 @@ Pointed point_at_panel(PanelPointer pointer, std::span<const InputEvent> events,
     return std::move(pointing.pointed);
 }
 
-OnPicture mouse_on_picture(PanelPointer pointer, std::span<const InputEvent> events, const OutputSettings& output,
-                           const OutputPlace& place) {
+OnPicture mouse_on_picture(PanelPointer pointer, std::span<const InputEvent> events, const wall::OutputSettings& output,
+                           const wall::OutputPlace& place) {
     OnPicture on{pointer, {events.begin(), events.end()}};
-    const ImageSize eye = eye_size(output.mode, place.size);
+    const ImageSize eye = wall::eye_size(output.mode, place.size);
     for (InputEvent& event : on.events) {
         follow(on.pointer, event.input);
         auto* move = std::get_if<MouseMove>(&event.input);
@@ -125,4 +127,4 @@ OnPicture mouse_on_picture(PanelPointer pointer, std::span<const InputEvent> eve
     return on;
 }
 
-}  // namespace burin
+}  // namespace burin::session

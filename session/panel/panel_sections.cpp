@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/panel_sections.hpp"
+#include "session/panel/panel_sections.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstring>
+#include <cctype>
 
-namespace burin::panel {
+namespace burin::session::panel {
 
 namespace {
 
@@ -17,71 +16,77 @@ std::string millimetres(double length_m) {
     return written(mm < 9.95 ? "%.1f mm" : "%.0f mm", mm);
 }
 
-// What the tool looks like from the side, its tip below.
-void draw_icon(ToolKind kind, ImVec2 m, float r, ImU32 colour, ImU32 edge) {
+// Draws the tool from the side, its tip below.
+void draw_icon(sculpt::ToolKind kind, ImVec2 m, float r, ImU32 colour, ImU32 edge) {
     ImDrawList& d = draw();
     switch (kind) {
-        case ToolKind::ball:
+        case sculpt::ToolKind::ball:
             d.AddCircleFilled(m, r, colour, 32);
             d.AddCircleFilled({m.x - 0.32f * r, m.y - 0.34f * r}, 0.24f * r, edge, 16);
             break;
-        case ToolKind::cylinder:
+        case sculpt::ToolKind::cylinder:
             d.AddRectFilled({m.x - 0.62f * r, m.y - r}, {m.x + 0.62f * r, m.y + r}, colour, 0.1f * r);
             d.AddRectFilled({m.x - 0.4f * r, m.y - 0.85f * r}, {m.x - 0.2f * r, m.y + 0.85f * r}, edge, 0.1f * r);
             break;
-        case ToolKind::cone:
+        case sculpt::ToolKind::cone:
             d.AddTriangleFilled({m.x - 0.9f * r, m.y - 0.9f * r}, {m.x + 0.9f * r, m.y - 0.9f * r}, {m.x, m.y + r},
                                 colour);
             d.AddTriangleFilled({m.x - 0.5f * r, m.y - 0.75f * r}, {m.x - 0.22f * r, m.y - 0.75f * r},
                                 {m.x - 0.12f * r, m.y + 0.35f * r}, edge);
             break;
-        case ToolKind::bullnose:
+        case sculpt::ToolKind::bullnose:
             d.AddRectFilled({m.x - 0.7f * r, m.y - r}, {m.x + 0.7f * r, m.y + r}, colour, 0.45f * r,
                             ImDrawFlags_RoundCornersBottom);
             d.AddRectFilled({m.x - 0.46f * r, m.y - 0.85f * r}, {m.x - 0.24f * r, m.y + 0.6f * r}, edge, 0.1f * r);
             break;
-        case ToolKind::box:
+        case sculpt::ToolKind::box:
             d.AddRectFilled({m.x - 0.85f * r, m.y - 0.85f * r}, {m.x + 0.85f * r, m.y + 0.85f * r}, colour, 0.12f * r);
             d.AddRectFilled({m.x - 0.65f * r, m.y - 0.65f * r}, {m.x - 0.4f * r, m.y + 0.65f * r}, edge, 0.1f * r);
             break;
-        case ToolKind::mesh: break;
+        case sculpt::ToolKind::mesh: break;
     }
+}
+
+std::string capitalised(std::string_view name) {
+    std::string title(name);
+    title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
+    return title;
 }
 
 void show_tool_kinds(Kit& kit, const PanelModel& model) {
-    constexpr std::size_t kShown = 5;  // a mesh comes from the command line or a script
-    std::array<Item, kShown> items;
-    for (std::size_t i = 0; i < kShown; ++i)
-        items[i].label = "tool " + std::string(file_name_of(static_cast<ToolKind>(i)));
+    std::vector<Item> items;
+    std::vector<sculpt::ToolKind> kinds;
+    for (const sculpt::ToolDescriptor& kind : sculpt::tool_kinds()) {
+        if (!kind.on_panel()) continue;
+        kinds.push_back(kind.kind);
+        items.push_back({.label = "tool " + std::string(kind.name), .text = {}});
+    }
     const ImVec2 start = ImGui::GetCursorScreenPos();
-    const auto selected = static_cast<std::size_t>(model.tool.kind);
-    const float each = kit.width() / kShown, height = kit.px(42.0f);
+    const auto selected = static_cast<std::size_t>(std::ranges::find(kinds, model.tool.kind) - kinds.begin());
+    const float each = kit.width() / static_cast<float>(kinds.size()), height = kit.px(42.0f);
     const auto chosen = kit.segments(items, selected, 42.0f);
-    for (std::size_t i = 0; i < kShown; ++i) {
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
         const ImVec2 middle{start.x + each * (static_cast<float>(i) + 0.5f), start.y + 0.5f * height};
         const bool on = i == selected;
-        draw_icon(static_cast<ToolKind>(i), middle, kit.px(11.0f), on ? kOnAccent : kDim,
+        draw_icon(kinds[i], middle, kit.px(11.0f), on ? kOnAccent : kDim,
                   on ? with_alpha(kAccent, 130) : with_alpha(kField, 130));
     }
-    if (chosen && *chosen != selected) kit.give(SetTool{tool_like(model.tool, static_cast<ToolKind>(*chosen))});
+    if (chosen && *chosen != selected) kit.give(SetTool{tool_like(model.tool, kinds[*chosen])});
 }
 
 void show_sizes(Kit& kit, const PanelModel& model) {
-    const auto names = size_names(model.tool.kind);
-    const QuantityRange& range = range_of(Quantity::radius);
-    for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto sizes = sculpt::descriptor_of(model.tool.kind).used_sizes();
+    const QuantityDescriptor& range = descriptor_of(Quantity::radius);
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
         const double size = model.tool.sizes_m[i];
-        const bool may_be_zero = model.tool.kind == ToolKind::cone && i < 2;
-        std::string title(names[i]);
-        title[0] = static_cast<char>(title[0] - 'a' + 'A');
+        const std::string name(sizes[i].name);
         const double to = 2.0 * range.to;
-        const bool radius = names[i] == "radius";
-        const std::string label = radius ? "radius" : "tool " + std::string(names[i]);
-        const auto part = kit.slider(label, title, part_of(size, range.from, to, true), millimetres(size));
+        const std::string label = name == "radius" ? name : "tool " + name;
+        const auto part = kit.slider(label, capitalised(name), part_of(size, range.from, to, true), millimetres(size));
         if (!part) continue;
-        const double wanted = *part <= 0.0 && may_be_zero ? 0.0 : value_at(*part, range.from, to, true);
+        const double wanted = *part <= 0.0 && sizes[i].may_be_zero ? 0.0 : value_at(*part, range.from, to, true);
         if (wanted == size) continue;
-        if (model.tool.kind == ToolKind::ball) {
+        if (model.tool.kind == sculpt::ToolKind::ball) {
             kit.give_held(SetQuantity{Quantity::radius, wanted});
         } else {
             kit.give_held(SetTool{with_size(model.tool, i, wanted)});
@@ -95,7 +100,7 @@ std::string hardness_text(double hardness) {
     return written("%.3g MN s/m\xC2\xB3", 1e-6 * hardness);
 }
 
-// At 1 kHz (haptics/signals/smoothing.hpp).
+// Shows a filter's factor and its delay at 1 kHz (haptics/signals/filters.hpp).
 std::string filter_text(double a) {
     return a <= 0.0 ? "off" : written("%.2f", a) + written(" \xC2\xB7 %.0f ms", a / (1.0 - a));
 }
@@ -160,60 +165,52 @@ void show_swatches(Kit& kit, const PanelModel& model) {
     ImGui::EndPopup();
 }
 
-template <typename Enum, std::size_t N>
-std::array<Item, N> items_of(std::string_view command, const std::array<const char*, N>& titles) {
-    std::array<Item, N> items;
-    for (std::size_t i = 0; i < N; ++i) {
-        items[i] = {std::string(command) + " " + std::string(file_name_of(static_cast<Enum>(i))), titles[i], true};
-    }
-    return items;
+Item item_of(std::string_view command, std::string_view name, std::string title) {
+    return {std::string(command) + " " + std::string(name), std::move(title), true};
+}
+
+// Returns about the radius of a ball as wide as the tool; 0 for a tool of another kind than the panel offers.
+double half_width_m(const sculpt::ToolSpec& tool) {
+    const sculpt::ToolSizes& of_unit_ball = sculpt::descriptor_of(tool.kind).proportions;
+    const auto measure = std::ranges::find_if(of_unit_ball, [](double part) { return part > 0.0; });
+    if (measure == of_unit_ball.end()) return 0.0;
+    return tool.sizes_m.at(static_cast<std::size_t>(measure - of_unit_ball.begin())) / *measure;
 }
 
 }  // namespace
 
-ToolSpec tool_like(const ToolSpec& tool, ToolKind kind) {
-    double r = tool.sizes_m[tool.kind == ToolKind::cone ? 1 : 0];
-    if (tool.kind == ToolKind::box) r *= 0.5;
-    if (tool.kind == ToolKind::mesh || !(r > 0.0)) r = 0.005;
-    r = rounded(std::min(r, 1.0), 3);
-    const auto sizes = [](double a, double b, double c) {
-        return std::array{rounded(a, 4), rounded(b, 4), rounded(c, 4)};
-    };
-    switch (kind) {
-        case ToolKind::ball: return {kind, sizes(r, 0.0, 0.0), {}};
-        case ToolKind::cylinder: return {kind, sizes(r, 4.0 * r, 0.0), {}};
-        case ToolKind::cone: return {kind, sizes(0.0, r, 3.0 * r), {}};
-        case ToolKind::bullnose: return {kind, sizes(r, 0.25 * r, 4.0 * r), {}};
-        case ToolKind::box: return {kind, sizes(2.0 * r, 2.0 * r, 2.0 * r), {}};
-        case ToolKind::mesh: break;
-    }
-    return tool;
+sculpt::ToolSpec tool_like(const sculpt::ToolSpec& tool, sculpt::ToolKind kind) {
+    constexpr double kUsual_m = 0.005, kMost_m = 1.0;
+    const sculpt::ToolDescriptor& descriptor = sculpt::descriptor_of(kind);
+    if (!descriptor.on_panel()) return tool;
+    const double r = half_width_m(tool);
+    const double rounded_m = rounded(r > 0.0 ? std::min(r, kMost_m) : kUsual_m, 3);
+    sculpt::ToolSpec like{kind, {}, {}};
+    for (std::size_t i = 0; i < like.sizes_m.size(); ++i)
+        like.sizes_m[i] = rounded(rounded_m * descriptor.proportions[i], 4);
+    return like;
 }
 
-ToolSpec with_size(ToolSpec tool, std::size_t index, double size_m) {
-    auto& s = tool.sizes_m;
-    s.at(index) = size_m;
-    if (tool.kind == ToolKind::cone && s[0] + s[1] <= 0.0) s[1 - index] = range_of(Quantity::radius).from;
-    // The corner of a bull-nose is at most its radius and its length: what was not moved gives way.
-    if (tool.kind == ToolKind::bullnose && index == 1) {
-        s[0] = std::max(s[0], s[1]);
-        s[2] = std::max(s[2], s[1]);
-    } else if (tool.kind == ToolKind::bullnose) {
-        s[1] = std::min({s[0], s[1], s[2]});
-    }
+sculpt::ToolSpec with_size(sculpt::ToolSpec tool, std::size_t index, double size_m) {
+    tool.sizes_m.at(index) = size_m;
+    const auto adapted = sculpt::descriptor_of(tool.kind).rule.adapted;
+    if (adapted != nullptr) tool.sizes_m = adapted(tool.sizes_m, index, descriptor_of(Quantity::radius).from);
     return tool;
 }
 
 void show_tool(Kit& kit, const PanelModel& model) {
     const std::string aside =
-        model.tool.kind == ToolKind::mesh ? model.tool.file : std::string(file_name_of(model.tool.kind));
+        model.tool.file.empty() ? std::string(sculpt::descriptor_of(model.tool.kind).name) : model.tool.file;
     if (kit.begin_card("Tool", aside)) {
         show_tool_kinds(kit, model);
         kit.gap(4.0f);
-        auto items = items_of<Operation, kOperations>("operation", {"Cut", "Fill", "Paint", "Smooth"});
-        items[3].enabled = model.tool.kind == ToolKind::ball;  // as parse_tool has it
+        std::vector<Item> items;
+        for (const sculpt::OperationDescriptor& operation : sculpt::operations()) {
+            items.push_back(item_of("operation", operation.name, capitalised(operation.name)));
+            items.back().enabled = sculpt::can_do(model.tool.kind, operation.operation);
+        }
         const auto chosen = kit.segments(items, static_cast<std::size_t>(model.operation));
-        if (chosen) kit.give(SetOperation{static_cast<Operation>(*chosen)});
+        if (chosen) kit.give(SetOperation{sculpt::operations()[*chosen].operation});
         show_sizes(kit, model);
     }
     kit.end_card();
@@ -241,14 +238,16 @@ void show_touch(Kit& kit, const PanelModel& model) {
 }
 
 void show_workspace(Kit& kit, const PanelModel& model) {
-    const std::string phase = text(model.phase);  // up to the colon it says what, and then what to do
+    // The text before the colon says what the phase is; the rest says what to do.
+    const std::string phase = haptics::text(model.phase);
     const bool fits = phase.size() < 30;
     if (kit.begin_card("Workspace", fits ? phase : phase.substr(0, phase.find_first_of(":;")))) {
         if (!fits) kit.paragraph(kDim, phase);
-        const auto items = items_of<WorkspaceTechnique, kTechniques>(
-            "technique", {"Fixed", "Moving box", "Scaling", "Clutching", "Bubble", "Drift"});
+        std::vector<Item> items;
+        for (const TechniqueDescriptor& technique : techniques())
+            items.push_back(item_of("technique", technique.name, std::string(technique.title)));
         const auto chosen = kit.list("technique", "Technique", items, static_cast<std::size_t>(model.technique));
-        if (chosen) kit.give(SetTechnique{static_cast<WorkspaceTechnique>(*chosen)});
+        if (chosen) kit.give(SetTechnique{techniques()[*chosen].technique});
         kit.quantity(Quantity::scale, "Scale", model.scale, written("\xC3\x97 %.3g", model.scale));
     }
     kit.end_card();
@@ -256,24 +255,25 @@ void show_workspace(Kit& kit, const PanelModel& model) {
 
 void show_view(Kit& kit, const PanelModel& model) {
     if (kit.begin_card("View")) {
-        std::array<Item, kStereoModes> modes;
-        for (const StereoMode mode : stereo_modes()) {
-            std::string title(title_of(mode));
-            title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
-            modes[static_cast<std::size_t>(mode)] = {"stereo-mode " + std::string(file_name_of(mode)), title, true};
-        }
+        std::vector<Item> modes;
+        for (const wall::StereoMode mode : wall::stereo_modes())
+            modes.push_back(item_of("stereo-mode", file_name_of(mode), capitalised(wall::title_of(mode))));
         const auto mode = kit.list("stereo-mode", "Stereo", modes, static_cast<std::size_t>(model.stereo_mode));
-        if (mode) kit.give(SetStereoMode{static_cast<StereoMode>(*mode)});
-        kit.paragraph(kDim, purpose_of(model.stereo_mode));
+        if (mode) kit.give(SetStereoMode{static_cast<wall::StereoMode>(*mode)});
+        kit.paragraph(kDim, wall::purpose_of(model.stereo_mode));
         if (kit.toggle("swap-eyes", "Exchange eyes", model.eyes_swapped)) kit.give(SetEyeSwap{!model.eyes_swapped});
         if (kit.toggle("show-force", "Arrow of the force", model.force_shown)) {
             kit.give(SetForceShown{!model.force_shown});
         }
         kit.quantity(Quantity::eye_distance, "Eye distance", model.eye_distance_m,
                      written("%.1f mm", 1e3 * model.eye_distance_m));
-        const auto patterns = items_of<TestPattern, 4>("test-pattern", {"Scene", "Eyes", "Ghosts", "Grid"});
+        constexpr std::array kPatternTitles{"Scene", "Eyes", "Ghosts", "Grid"};
+        std::vector<Item> patterns;
+        for (std::size_t i = 0; i < kPatternTitles.size(); ++i)
+            patterns.push_back(
+                item_of("test-pattern", file_name_of(static_cast<wall::TestPattern>(i)), kPatternTitles.at(i)));
         const auto pattern = kit.segments(patterns, static_cast<std::size_t>(model.test_pattern));
-        if (pattern) kit.give(SetTestPattern{static_cast<TestPattern>(*pattern)});
+        if (pattern) kit.give(SetTestPattern{static_cast<wall::TestPattern>(*pattern)});
     }
     kit.end_card();
 }
@@ -293,7 +293,7 @@ void show_path(Kit& kit, const PanelModel& model) {
     ImGui::PopStyleVar();
     memory.path = bytes.data();
     ImGui::SameLine(0.0f, gap);
-    const bool ready = !model.export_progress && !memory.path.empty();
+    const bool ready = !model.exporting && !memory.path.empty();
     const bool pressed = kit.button("export", "Export", button, ready, true);
     if (pressed || (entered && ready)) kit.give(ExportTo{memory.path});
 }
@@ -314,12 +314,10 @@ void show_history(Kit& kit, const PanelModel& model) {
             kit.give(RunAction{Action::redo});
         }
         show_path(kit, model);
-        if (model.export_progress) {
-            kit.progress(*model.export_progress, written("exporting, %.0f %%", 100.0 * *model.export_progress));
-        }
+        if (model.exporting) kit.paragraph(kDim, "exporting");
         if (!model.message.empty()) kit.paragraph(kDim, model.message);
     }
     kit.end_card();
 }
 
-}  // namespace burin::panel
+}  // namespace burin::session::panel

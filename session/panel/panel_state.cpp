@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What the panel says about the session: header, devices, causes, plots, figures.
+// Shows the state of the session on the panel: header, devices, causes, plots, figures.
 #include <cmath>
 
-#include "app/session/panel_sections.hpp"
 #include "haptics/channels.hpp"
+#include "session/panel/panel_sections.hpp"
 
-namespace burin::panel {
+namespace burin::session::panel {
 
 namespace {
 
@@ -13,18 +13,18 @@ struct FlagText {
     std::uint32_t flag;
     const char* text;
 };
-// What a user can do something about, or wonders at.
-constexpr std::array<FlagText, 11> kFlags{{{kTickCutting, "cutting"},
-                                           {kTickSticking, "sticking"},
-                                           {kTickPaused, "modelling pauses"},
-                                           {kTickGuided, "guided"},
-                                           {kTickRamping, "fading in"},
-                                           {kTickForceSaturated, "at the force limit"},
-                                           {kTickSlewLimited, "force rises at its limit"},
-                                           {kTickStiffnessLimited, "stiffness limited for stability"},
-                                           {kTickPassivityActs, "damped for stability"},
-                                           {kTickNoSurface, "no surface yet"},
-                                           {kTickStaleSurface, "surface out of date"}}};
+// Names the flags that a user can do something about or may wonder at.
+constexpr std::array<FlagText, 11> kFlags{{{haptics::kTickCutting, "cutting"},
+                                           {haptics::kTickSticking, "sticking"},
+                                           {haptics::kTickPaused, "modelling pauses"},
+                                           {haptics::kTickGuided, "guided"},
+                                           {haptics::kTickRamping, "fading in"},
+                                           {haptics::kTickForceSaturated, "at the force limit"},
+                                           {haptics::kTickSlewLimited, "force rises at its limit"},
+                                           {haptics::kTickStiffnessLimited, "stiffness limited for stability"},
+                                           {haptics::kTickPassivityActs, "damped for stability"},
+                                           {haptics::kTickNoSurface, "no surface yet"},
+                                           {haptics::kTickStaleSurface, "surface out of date"}}};
 
 std::string flags_text(const PanelTouch& touch) {
     std::string text = touch.in_contact ? "in contact" : "in free space";
@@ -34,7 +34,7 @@ std::string flags_text(const PanelTouch& touch) {
     return text;
 }
 
-// "no force: the device has stopped sending" -> "The device has stopped sending."
+// Turns a cause into a sentence: "no force: the device has stopped sending" -> "The device has stopped sending."
 std::string sentence(std::string text) {
     constexpr std::string_view kPrefix = "no force: ";
     if (text.starts_with(kPrefix)) text.erase(0, kPrefix.size());
@@ -87,7 +87,7 @@ void show_header(Kit& kit, const PanelModel& model) {
     if (!touch.force_on) {
         kit.banner(Condition::warning, "Force is switched off",
                    "The device is held at zero; switch it on under Touch.");
-    } else if (touch.cause != GateCause::none) {
+    } else if (touch.cause != haptics::GateCause::none) {
         kit.banner(Condition::fault, "No force", sentence(text(touch.cause)));
     }
     for (const std::string& warning : model.warnings) kit.banner(Condition::warning, warning, "");
@@ -128,4 +128,4 @@ void show_figures(Kit& kit, const PanelModel& model) {
     kit.end_card();
 }
 
-}  // namespace burin::panel
+}  // namespace burin::session::panel

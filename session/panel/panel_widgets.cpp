@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/panel_widgets.hpp"
+#include "session/panel/panel_widgets.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-namespace burin::panel {
+namespace burin::session::panel {
 
 namespace {
 
@@ -13,7 +13,7 @@ ImDrawList& draw() { return *ImGui::GetWindowDrawList(); }
 
 ImVec2 operator+(ImVec2 a, ImVec2 b) { return {a.x + b.x, a.y + b.y}; }
 
-// Left and right of what one presses; drawn by the caller.
+// Corners and state of an area that can be pressed; the caller draws it.
 struct Pressed {
     ImVec2 lo, hi;
     bool clicked, hovered, held;
@@ -44,7 +44,7 @@ double part_of(double value, double from, double to, bool by_ratio) {
 
 double value_at(double part, double from, double to, bool by_ratio) {
     if (by_ratio) return std::clamp(rounded(from * std::pow(to / from, part), 2), from, to);
-    // A two-hundredth of the range, in steps of a power of ten or half of it.
+    // Rounds to half a power of ten that lies between a thousandth and a hundredth of the range.
     const double step = 0.5 * std::pow(10.0, std::floor(std::log10((to - from) / 50.0)));
     return std::clamp(rounded(std::round((from + part * (to - from)) / step) * step, 6), from, to);
 }
@@ -104,7 +104,7 @@ std::string Kit::shortened(std::string_view text, float room, ImFont* font) cons
     constexpr std::string_view kEllipsis = "...";
     while (!text.empty() && size_of(std::string(text) + std::string(kEllipsis), font).x > room) {
         text.remove_suffix(1);
-        // Not in the middle of a letter.
+        // Do not cut in the middle of a UTF-8 character.
         while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0) == 0x80) text.remove_suffix(1);
         if (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0) == 0xC0) text.remove_suffix(1);
     }
@@ -126,7 +126,7 @@ void Kit::gap(float height) { ImGui::Dummy({1.0f, std::max(0.0f, px(height) - Im
 
 float Kit::width() const { return ImGui::GetContentRegionAvail().x - px(12.0f); }
 
-// The card's ground is drawn when its height is known, below what was drawn on it.
+// Begins a card. Its background is drawn below its contents once its height is known.
 bool Kit::begin_card(const char* title, std::string_view aside) {
     draw().ChannelsSplit(2);
     draw().ChannelsSetCurrent(1);
@@ -209,11 +209,11 @@ std::optional<double> Kit::slider(const std::string& label, std::string_view tit
 }
 
 void Kit::quantity(Quantity quantity, std::string_view title, double value, std::string_view text) {
-    const QuantityRange& range = range_of(quantity);
+    const QuantityDescriptor& range = descriptor_of(quantity);
     const auto part =
         slider(std::string(range.name), title, part_of(value, range.from, range.to, range.by_ratio), text);
     if (!part) return;
-    // What may be none is none at the slider's left end.
+    // A quantity that may be none is none at the slider's left end.
     const bool none = *part <= 0.0 && quantity == Quantity::hardness;
     const double wanted = none ? 0.0 : value_at(*part, range.from, range.to, range.by_ratio);
     if (wanted != value) give_held(SetQuantity{quantity, wanted});
@@ -295,15 +295,6 @@ bool Kit::button(const std::string& label, std::string_view text, float wide, bo
     return p.clicked && enabled;
 }
 
-void Kit::progress(double part, std::string_view text) {
-    const ImVec2 lo = ImGui::GetCursorScreenPos(), hi = lo + ImVec2{width(), px(18.0f)};
-    ImGui::Dummy({width(), px(18.0f)});
-    draw().AddRectFilled(lo, hi, kField, px(6.0f));
-    const float at = lo.x + static_cast<float>(std::clamp(part, 0.0, 1.0)) * (hi.x - lo.x);
-    if (at - lo.x > px(4.0f)) draw().AddRectFilled(lo, {at, hi.y}, with_alpha(kAccent, 150), px(6.0f));
-    write_middle(lo, hi, kText, text, type.small);
-}
-
 void Kit::banner(Condition condition, std::string_view title, std::string_view text) {
     const ImU32 colour = colour_of(condition);
     draw().ChannelsSplit(2);
@@ -337,4 +328,4 @@ void Kit::lamp(ImVec2 middle, Condition condition) {
     draw().AddCircleFilled(middle, px(4.0f), colour_of(condition), 16);
 }
 
-}  // namespace burin::panel
+}  // namespace burin::session::panel

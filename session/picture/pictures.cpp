@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "app/pictures.hpp"
+#include "session/picture/pictures.hpp"
 
-#include "renderer/frame_setup.hpp"
+#include "renderer/scene/frame_setup.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 constexpr ImageSize kEyeSize{1280, 960};  // the wall is 4 : 3
-// The workpiece is scaled so that its longest side has this length, and stands so that the side that is carved lies about in
-// the wall's own plane, where eyes rest best, and its plinth behind the wall, where the wall's lower edge does not cut it off.
+// The workpiece is scaled so that its longest side has this length. It stands so that the carved side lies about in the
+// wall's own plane, where eyes rest best, and its pedestal behind the wall, where the wall's lower edge does not cut it
+// off.
 constexpr double kLargestOnWall_m = 1.15;
 const Vec3 kPlace_world{0.0, 1.22, -0.45};
 const Vec3 kHead_world{0.0, 1.60, 2.00};
@@ -22,7 +23,8 @@ double longest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
 
 }  // namespace
 
-Pictures::Pictures(std::filesystem::path folder, gpu::Device device, Renderer renderer, const Box& bounds_object)
+Pictures::Pictures(std::filesystem::path folder, gpu::Device device, renderer::Renderer renderer,
+                   const Box& bounds_object)
     : folder_(std::move(folder)), device_(std::move(device)), renderer_(std::move(renderer)) {
     device_name_ = device_.info().name;
     world_from_object_.scale = kLargestOnWall_m / longest(bounds_object.extent());
@@ -45,30 +47,31 @@ Result<Pictures> Pictures::create(const std::filesystem::path& folder, const Box
         e.what += ", and --pictures needs one";
         return std::unexpected(e);
     }
-    Result<Renderer> renderer = Renderer::create(*device, kEyeSize);
+    Result<renderer::Renderer> renderer = renderer::Renderer::create(*device, kEyeSize);
     if (!renderer) return std::unexpected(renderer.error());
     return Pictures(folder, std::move(*device), std::move(*renderer), bounds_object);
 }
 
-// Pictures are not in a hurry: all light is worked out before one is taken.
-Result<void> Pictures::bring_up_to_date(Carving& carving) {
-    const Vec3 to_light_object = inverse(world_from_object_.orientation) * direction_to_light();
-    if (const auto kept = carving.keep_light({to_light_object, kLightHalfAngleTangent}); !kept) return kept;
+// Updates the renderer's surface. Pictures are not urgent: all light is computed before one is taken.
+Result<void> Pictures::bring_up_to_date(sculpt::Sculpture& carving) {
+    const Vec3 to_light_object = inverse(world_from_object_.orientation) * renderer::direction_to_light();
+    if (const auto kept = carving.keep_light({to_light_object, renderer::kLightHalfAngleTangent}); !kept) return kept;
     while (carving.bake_light(Vec3(0.0), kTilesAStep) > 0) {
     }
     for (const std::uint32_t tile : carving.take_changed_tiles()) {
-        renderer_.set_patch(tile, carving.surface().shared_tile(tile));
-        if (const auto& light = carving.light()->shared_light(tile)) renderer_.set_patch_light(tile, light->vertices);
+        renderer_.surface().set_patch(tile, carving.surface().shared_tile(tile));
+        if (const auto& light = carving.light()->shared_light(tile))
+            renderer_.surface().set_patch_light(tile, light->vertices);
     }
     std::vector<Box> inner = carving.light()->inner_boxes_object();
     const Vec3& origin = carving.surface().lattice().origin_object;
     for (Box& box : inner) box = {box.lo - origin, box.hi - origin};
-    renderer_.set_occluders(std::move(inner));
+    renderer_.surface().set_occluders(std::move(inner));
     return {};
 }
 
-Scene Pictures::wall_scene(const Carving& carving) const {
-    Scene scene;
+renderer::Scene Pictures::wall_scene(const sculpt::Sculpture& carving) const {
+    renderer::Scene scene;
     scene.viewer.head_world.position_m = kHead_world;
     scene.world_from_object = world_from_object_;
     scene.lattice_origin_object = carving.surface().lattice().origin_object;
@@ -78,9 +81,9 @@ Scene Pictures::wall_scene(const Carving& carving) const {
     return scene;
 }
 
-// The same room through a smaller screen that stands around the workpiece, square to the line of sight.
-Scene Pictures::close_scene(const Carving& carving) const {
-    Scene scene = wall_scene(carving);
+// Shows the same scene through a smaller screen that stands around the workpiece, square to the line of sight.
+renderer::Scene Pictures::close_scene(const sculpt::Sculpture& carving) const {
+    renderer::Scene scene = wall_scene(carving);
     const Vec3 towards_eye = glm::normalize(Vec3(0.18, 0.22, 1.0));
     const Vec3 right = glm::normalize(glm::cross(Vec3(0, 1, 0), towards_eye));
     const Vec3 up = glm::cross(towards_eye, right);
@@ -95,33 +98,33 @@ Scene Pictures::close_scene(const Carving& carving) const {
     return scene;
 }
 
-Result<void> Pictures::take_before(Carving& carving) {
+Result<void> Pictures::take_before(sculpt::Sculpture& carving) {
     if (const auto ready = bring_up_to_date(carving); !ready) return std::unexpected(ready.error());
     const auto image = renderer_.render(close_scene(carving));
     if (!image) return std::unexpected(image.error());
-    carving.drop_light();  // until the next picture nobody sees it
-    return write_png(folder_ / "before.png", image->left);
+    carving.drop_light();  // not needed until the next picture
+    return renderer::write_png(folder_ / "before.png", image->left);
 }
 
-Result<void> Pictures::take_after(Carving& carving, const Staging& staging) {
+Result<void> Pictures::take_after(sculpt::Sculpture& carving, const Staging& staging) {
     if (const auto ready = bring_up_to_date(carving); !ready) return std::unexpected(ready.error());
     const auto close = renderer_.render(close_scene(carving));
     if (!close) return std::unexpected(close.error());
-    if (const auto done = write_png(folder_ / "after.png", close->left); !done) return done;
+    if (const auto done = renderer::write_png(folder_ / "after.png", close->left); !done) return done;
 
-    Scene scene = wall_scene(carving);
+    renderer::Scene scene = wall_scene(carving);
     stage(scene, staging, world_from_object_);
 
     const auto stereo = renderer_.render(scene);
     if (!stereo) return std::unexpected(stereo.error());
-    if (const auto done = write_png(folder_ / "left.png", stereo->left); !done) return done;
-    if (const auto done = write_png(folder_ / "right.png", stereo->right); !done) return done;
-    return write_png(folder_ / "stereo.png", side_by_side(*stereo));
+    if (const auto done = renderer::write_png(folder_ / "left.png", stereo->left); !done) return done;
+    if (const auto done = renderer::write_png(folder_ / "right.png", stereo->right); !done) return done;
+    return renderer::write_png(folder_ / "stereo.png", side_by_side(*stereo));
 }
 
-Result<Image> Pictures::view_of_wall(Carving& carving, const Staging& staging) {
+Result<Image> Pictures::view_of_wall(sculpt::Sculpture& carving, const Staging& staging) {
     if (const auto ready = bring_up_to_date(carving); !ready) return std::unexpected(ready.error());
-    Scene scene = wall_scene(carving);
+    renderer::Scene scene = wall_scene(carving);
     scene.viewer.interpupillary_m = 0.0;
     stage(scene, staging, world_from_object_);
     auto views = renderer_.render(scene);
@@ -129,4 +132,4 @@ Result<Image> Pictures::view_of_wall(Carving& carving, const Staging& staging) {
     return std::move(views->left);
 }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/presented_parts.hpp"
+#include "session/picture/presented_parts.hpp"
 
 #include <algorithm>
 
-namespace burin {
+namespace burin::session {
 namespace {
 
-constexpr std::size_t kMostImages = 8;  // of a window; older ones are drawn whole
+constexpr std::size_t kMostImages = 8;  // per window; older images are drawn whole
 
 bool overlap(const PixelRect& a, const PixelRect& b) {
     return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 }
 
-// Adds a part; those that it overlaps become one with it.
+// Adds a part and merges it with those that it overlaps.
 void add(std::vector<PixelRect>& parts, PixelRect part) {
     for (auto other = parts.begin(); other != parts.end();) {
         if (!overlap(*other, part)) {
@@ -21,7 +21,7 @@ void add(std::vector<PixelRect>& parts, PixelRect part) {
         }
         part = around(part, *other);
         parts.erase(other);
-        other = parts.begin();  // the larger one may overlap those that were passed
+        other = parts.begin();  // the merged part may overlap earlier ones
     }
     parts.push_back(part);
 }
@@ -53,4 +53,4 @@ void PresentedParts::presented() {
     pending_ = {.whole = false, .parts = {}};
 }
 
-}  // namespace burin
+}  // namespace burin::session

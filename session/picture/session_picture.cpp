@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/session_picture.hpp"
+#include "session/picture/session_picture.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -9,44 +9,25 @@
 #include "renderer/output/eye_images.hpp"
 #include "renderer/output/test_pattern.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 constexpr VkFormat kPhotoFormat = VK_FORMAT_R8G8B8A8_SRGB;
 constexpr VkImageLayout kPhotoLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
 
-// Nothing is drawn that the mode never shows.
-Views views_shown(const OutputSettings& settings) {
-    if (needs_of(settings.mode).both_eyes) return Views::both;
-    const bool right = settings.mode != StereoMode::mono && (settings.mode == StereoMode::right) != settings.swap_eyes;
+// Returns the views that the mode shows; others are not drawn.
+Views views_shown(const wall::OutputSettings& settings) {
+    if (wall::needs_of(settings.mode).both_eyes) return Views::both;
+    const bool right =
+        settings.mode != wall::StereoMode::mono && (settings.mode == wall::StereoMode::right) != settings.swap_eyes;
     return right ? Views::right : Views::left;
 }
 
 }  // namespace
 
-Result<SessionPicture> SessionPicture::create(gpu::Device& device, std::uint32_t samples) {
-    return SessionPicture(device, samples);
-}
-
-void SessionPicture::take(const SurfaceNews& news, const Vec3& lattice_origin_object) {
-    for (const TileNews& tile : news.tiles) {
-        if (tile.tile >= kept_.tiles.size()) kept_.tiles.resize(tile.tile + 1);
-        const bool same_mesh = kept_.tiles[tile.tile].surface == tile.surface;
-        kept_.tiles[tile.tile] = tile;
-        if (!renderer_) continue;
-        if (!same_mesh) renderer_->set_patch(tile.tile, tile.surface);
-        if (tile.light) renderer_->set_patch_light(tile.tile, tile.light->vertices);
-    }
-    kept_.occluders.clear();
-    for (const Box& box : news.inner_boxes_object)
-        kept_.occluders.push_back({box.lo - lattice_origin_object, box.hi - lattice_origin_object});
-    if (renderer_) renderer_->set_occluders(kept_.occluders);
-}
-
-void SessionPicture::put(const TileNews& tile) {
-    if (!tile.surface) return;
-    renderer_->set_patch(tile.tile, tile.surface);
-    if (tile.light) renderer_->set_patch_light(tile.tile, tile.light->vertices);
+Result<SessionPicture> SessionPicture::create(gpu::Device& device, std::uint32_t samples,
+                                              std::shared_ptr<renderer::SurfaceStore> surface) {
+    return SessionPicture(device, samples, std::move(surface));
 }
 
 Result<void> SessionPicture::fit(ImageSize eye, Views views) {
@@ -58,20 +39,19 @@ Result<void> SessionPicture::fit(ImageSize eye, Views views) {
         views_ = views;
         return {};
     }
-    auto made = Renderer::create(device_, eye, {.samples = samples_, .savings = {}, .views = views});
+    auto made = renderer::Renderer::create(device_, eye,
+                                           {.samples = samples_, .savings = {}, .views = views, .surface = surface_});
     if (!made) return std::unexpected(made.error());
     renderer_ = std::move(*made);
     renderer_in_full_ = false;
     eye_ = eye;
     views_ = views;
-    for (const TileNews& tile : kept_.tiles) put(tile);
-    renderer_->set_occluders(kept_.occluders);
     return {};
 }
 
-Result<void> SessionPicture::draw(gpu::Commands& commands, std::optional<Scene> scene, ImageSize output,
-                                  const OutputSettings& settings) {
-    if (const auto fits = fit(eye_size(settings.mode, output), views_shown(settings)); !fits) return fits;
+Result<void> SessionPicture::draw(gpu::Commands& commands, std::optional<renderer::Scene> scene, ImageSize output,
+                                  const wall::OutputSettings& settings) {
+    if (const auto fits = fit(wall::eye_size(settings.mode, output), views_shown(settings)); !fits) return fits;
     const bool was_dark = std::exchange(dark_, !scene.has_value());
     if (dark_) {
         stats_ = {};
@@ -88,33 +68,31 @@ Result<void> SessionPicture::draw(gpu::Commands& commands, std::optional<Scene> 
     return {};
 }
 
-Result<void> SessionPicture::paint(gpu::Commands& commands, const PanelMesh& mesh, const PanelAtlas& atlas,
-                                   ImageSize size, const std::optional<PanelStand>& stand) {
-    const bool appears = !std::exchange(panel_shown_, true);
+Result<void> SessionPicture::paint(gpu::Commands& commands, const std::optional<PanelPicture>& panel) {
+    const bool was_shown = std::exchange(panel_shown_, panel.has_value());
+    panel_changed_ = was_shown != panel_shown_;
+    standing_.reset();
+    if (!panel) return {};
     if (!painter_) {
-        auto made = PanelPainter::create(device_, size, atlas);
+        auto made = renderer::PanelPainter::create(device_, panel->size, panel->atlas);
         if (!made) return std::unexpected(made.error());
         painter_ = std::move(*made);
     }
-    if (const auto fits = painter_->resize(size); !fits) return std::unexpected(fits.error());
-    const Result<bool> painted = painter_->record(commands, mesh);
+    if (const auto fits = painter_->resize(panel->size); !fits) return std::unexpected(fits.error());
+    const Result<bool> painted = painter_->record(commands, panel->mesh);
     if (!painted) return std::unexpected(painted.error());
-    panel_changed_ = *painted || appears;
+    panel_changed_ = panel_changed_ || *painted;
     if (*painted) ++paintings_;
-    standing_ = stand ? std::optional(ScenePanel{*stand, paintings_}) : std::nullopt;
+    if (panel->stand) standing_ = renderer::ScenePanel{*panel->stand, paintings_};
     return {};
 }
 
-void SessionPicture::hide_panel() {
-    panel_changed_ = std::exchange(panel_shown_, false);
-    standing_.reset();
-}
-
-std::vector<PixelRect> SessionPicture::changed(const OutputPlace& place, const OutputSettings& settings) const {
+std::vector<PixelRect> SessionPicture::changed(const wall::OutputPlace& place,
+                                               const wall::OutputSettings& settings) const {
     std::vector<PixelRect> parts;
     const auto add = [&](const PixelRect& in_eye) {
         if (in_eye.empty()) return;
-        const ChangedParts changed = changed_parts(in_eye, eye_, settings, place);
+        const renderer::ChangedParts changed = renderer::changed_parts(in_eye, eye_, settings, place);
         parts.insert(parts.end(), changed.parts, changed.parts + changed.count);
     };
     for (const PixelRect& part : stats_.parts) add(part);
@@ -125,24 +103,24 @@ std::vector<PixelRect> SessionPicture::changed(const OutputPlace& place, const O
     return parts;
 }
 
-std::optional<OverlayView> SessionPicture::overlay() const {
+std::optional<renderer::OverlayView> SessionPicture::overlay() const {
     if (!painter_ || !panel_shown_ || standing_) return std::nullopt;
     return painter_->overlay(static_cast<int>(eye_.width) - static_cast<int>(painter_->size().width), 0);
 }
 
-// The scene; or in its place a test pattern, or darkness.
-EyesView SessionPicture::eyes_to_show(const OutputSettings& settings, Result<void>& failed) {
-    if (settings.test_pattern == TestPattern::none && !dark_) return {renderer_->both_eyes(), eye_};
+// Returns what to show: the scene, or in its place a test pattern or darkness.
+renderer::EyesView SessionPicture::eyes_to_show(const wall::OutputSettings& settings, Result<void>& failed) {
+    if (settings.test_pattern == wall::TestPattern::none && !dark_) return {renderer_->both_eyes(), eye_};
     const bool fits = pattern_ && pattern_kind_ == settings.test_pattern && pattern_size_.width == eye_.width &&
                       pattern_size_.height == eye_.height;
     if (!fits) {
         StereoImage drawn;
-        if (settings.test_pattern == TestPattern::none) {
-            drawn.left = drawn.right = Canvas(eye_, {0, 0, 0}).take();
+        if (settings.test_pattern == wall::TestPattern::none) {
+            drawn.left = drawn.right = renderer::Canvas(eye_, {0, 0, 0}).take();
         } else {
-            drawn = draw_test_pattern(settings.test_pattern, {.pixels = eye_});
+            drawn = renderer::draw_test_pattern(settings.test_pattern, {.pixels = eye_});
         }
-        auto uploaded = upload_eyes(device_, drawn.left, drawn.right);
+        auto uploaded = renderer::upload_eyes(device_, drawn.left, drawn.right);
         if (!uploaded) {
             failed = std::unexpected(uploaded.error());
             return {};
@@ -154,23 +132,23 @@ EyesView SessionPicture::eyes_to_show(const OutputSettings& settings, Result<voi
     return {pattern_->view(), eye_};
 }
 
-Result<void> SessionPicture::show(gpu::Commands& commands, const OutputTarget& target, VkFormat format,
-                                  const OutputSettings& settings, const PresentedParts::Parts& parts) {
+Result<void> SessionPicture::show(gpu::Commands& commands, const renderer::OutputTarget& target, VkFormat format,
+                                  const wall::OutputSettings& settings, const PresentedParts::Parts& parts) {
     if (!window_stage_ || window_stage_->format() != format) {
-        auto made = OutputStage::create(device_, format, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
+        auto made = renderer::OutputStage::create(device_, format, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
         if (!made) return std::unexpected(made.error());
         window_stage_ = std::move(*made);
     }
     Result<void> done;
-    const EyesView eyes = eyes_to_show(settings, done);
+    const renderer::EyesView eyes = eyes_to_show(settings, done);
     if (!done) return done;
     if (parts.whole) return window_stage_->record(commands, eyes, target, settings, overlay());
     return window_stage_->record_parts(commands, eyes, target, settings, parts.parts, overlay());
 }
 
-Result<Image> SessionPicture::photograph(const OutputPlace& place, const OutputSettings& settings) {
+Result<Image> SessionPicture::photograph(const wall::OutputPlace& place, const wall::OutputSettings& settings) {
     if (!photo_stage_) {
-        auto made = OutputStage::create(device_, kPhotoFormat, kPhotoLayout);
+        auto made = renderer::OutputStage::create(device_, kPhotoFormat, kPhotoLayout);
         if (!made) return std::unexpected(made.error());
         photo_stage_ = std::move(*made);
     }
@@ -182,7 +160,7 @@ Result<Image> SessionPicture::photograph(const OutputPlace& place, const OutputS
                                      .name = "photograph"});
     if (!image) return std::unexpected(image.error());
     Result<void> done;
-    const EyesView eyes = eyes_to_show(settings, done);
+    const renderer::EyesView eyes = eyes_to_show(settings, done);
     if (!done) return std::unexpected(done.error());
     auto commands = gpu::Commands::begin(device_);
     if (!commands) return std::unexpected(commands.error());
@@ -191,7 +169,7 @@ Result<Image> SessionPicture::photograph(const OutputPlace& place, const OutputS
     auto submission = std::move(*commands).submit();
     if (!submission) return std::unexpected(submission.error());
     if (const auto waited = submission->wait(); !waited) return std::unexpected(waited.error());
-    return read_back(device_, image->raw(), place.size, kPhotoFormat, kPhotoLayout);
+    return renderer::read_back(device_, image->raw(), place.size, kPhotoFormat, kPhotoLayout);
 }
 
-}  // namespace burin
+}  // namespace burin::session

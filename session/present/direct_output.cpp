@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/direct_output.hpp"
+#include "session/present/direct_output.hpp"
 
 #include <utility>
 
-namespace burin {
+namespace burin::session {
 
 DirectDriver direct_driver() {
     std::vector<std::string> extensions = gpu::direct_display_extensions();
@@ -19,14 +19,14 @@ DirectOutput::DirectOutput(gpu::DisplayChoice choice, DirectDriver driver)
 }
 
 Result<gpu::SurfaceHandle> DirectOutput::make_surface(gpu::Device& device, std::uint32_t layers) {
-    if (layers > 1 && choice_.stereo == gpu::DisplayStereo::none) {
+    if (layers > 1 && choice_.stereo == DisplayStereo::none) {
         return fail("display " + name_, "it is driven as a plain one, which takes one picture at a time",
                     "say in the wall file how it separates two, such as direct = \"hdmi-3d\"");
     }
-    // The surface before is set aside until the device has done with it, and a display has one at a time.
+    // The previous surface must be released first, since a display has one at a time; it is, when the device is idle.
     static_cast<void>(device.wait_idle());
     gpu::DisplayChoice wanted = choice_;
-    if (layers == 1) wanted.stereo = gpu::DisplayStereo::none;
+    if (layers == 1) wanted.stereo = DisplayStereo::none;
     auto opened = driver_.open(device, wanted);
     if (!opened) return std::unexpected(opened.error());
     name_ = opened->display;
@@ -35,15 +35,16 @@ Result<gpu::SurfaceHandle> DirectOutput::make_surface(gpu::Device& device, std::
 }
 
 void DirectOutput::exchange_full_screen() {
-    tell("display " + name_ + " is driven directly: the picture always fills it");
+    notify("display " + name_ + " is driven directly: the picture always fills it");
 }
 
 Result<void> DirectOutput::reopen_images(gpu::Device& device, std::uint32_t layers) {
-    gone_ = false;  // for the size
+    // size() must report the display's size again.
+    gone_ = false;
     auto opened = open_images(device, layers);
     if (opened || device.lost()) return opened;
     layers_ = layers;
-    tell("display " + name_ + " has gone: " + opened.error().what + "; it is looked for");
+    notify("display " + name_ + " has gone: " + opened.error().what + "; it is looked for");
     gone_ = true;
     looked_ns_ = clock_.now_ns();
     return {};
@@ -53,11 +54,11 @@ void DirectOutput::look_after(gpu::Device& device) {
     if (!gone_ || clock_.now_ns() - looked_ns_ < kBetweenLooks_ns) return;
     gone_ = false;
     if (open_images(device, layers_)) {
-        tell("display " + name_ + " is there again");
+        notify("display " + name_ + " is there again");
         return;
     }
     gone_ = true;
     looked_ns_ = clock_.now_ns();
 }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A display of its own that shows a session's pictures without any window system (gpu/direct_display.hpp). It gives no input. Stereo is asked
-// of it only for images of two layers; for one layer, as every other mode has it, it is opened as a plain display.
+// Output to a display without any window system (gpu/direct_display.hpp). It gives no input. Stereo is requested from
+// it only for images of two layers; for one layer, as in every other mode, it is opened as a plain display.
 //
-// A display that goes away while the session runs (unplugged, taken by a desktop) is told and looked for again each second: nothing that is
-// carved is lost with it. Main thread alone.
+// A display that goes away while the session runs (unplugged, taken by a desktop) is reported and searched for again
+// each second: nothing that is carved is lost with it. Main thread alone.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "app/session/session_output.hpp"
 #include "gpu/direct_display.hpp"
+#include "session/present/session_output.hpp"
 
-namespace burin {
+namespace burin::session {
 
-// Where the surface comes from. Tests put another one in the display's place.
+// Source of the surface. Tests substitute another one for the display.
 struct DirectDriver {
     std::vector<std::string> extensions;  // of the instance; enabled where they exist
     std::function<Result<gpu::DisplaySurface>(gpu::Device&, const gpu::DisplayChoice&)> open;
@@ -27,11 +27,11 @@ class DirectOutput final : public SessionOutput {
 public:
     DirectOutput(gpu::DisplayChoice choice, DirectDriver driver);
 
-    // None while the display is gone: as a window that is minimised.
+    // Returns size zero while the display is gone, as for a minimised window.
     [[nodiscard]] ImageSize size() const override { return gone_ ? ImageSize{} : ImageSize{mode_.width, mode_.height}; }
     [[nodiscard]] double refresh_Hz() const override { return mode_.refresh_Hz > 0.0 ? mode_.refresh_Hz : 60.0; }
     void exchange_full_screen() override;
-    // Where the display is gone, that is told, and no error; the device's loss is one.
+    // Reopens the images. A display that is gone is reported and is not an error; the loss of the device is one.
     [[nodiscard]] Result<void> reopen_images(gpu::Device& device, std::uint32_t layers) override;
     void look_after(gpu::Device& device) override;
 
@@ -42,12 +42,12 @@ private:
 
     gpu::DisplayChoice choice_;
     DirectDriver driver_;
-    std::string name_;       // as the display calls itself, once it was there
-    gpu::DisplayMode mode_;  // as asked for, until it is known
+    std::string name_;       // the display's own name, once known
+    gpu::DisplayMode mode_;  // as requested, until it is known
     bool gone_ = false;
-    std::uint32_t layers_ = 1;  // that it is to have again
+    std::uint32_t layers_ = 1;  // layers to restore when the display returns
     Nanoseconds looked_ns_ = 0;
     MonotonicClock clock_;
 };
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/session_stage.hpp"
+#include "session/present/presenter.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -8,9 +8,9 @@
 #include <utility>
 #include <variant>
 
-#include "app/driver_threads.hpp"
+#include "gpu/driver_threads.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 constexpr int kMostLosses = 3, kMostTries = 10;
@@ -31,9 +31,12 @@ Error with_ways_out(Error e, const SessionScreen& screen) {
     return e;
 }
 
-// What an output is opened for. A display that is driven directly would have to change to the mode it is meant for right afterwards, which
-// takes it seconds, and what it cannot do is to be said at once; of a window the session finds out when it comes to it.
-StereoMode begins_with(const SessionScreen& screen) { return screen.direct ? screen.shown.mode : StereoMode::mono; }
+// Returns the mode that an output is opened for. A display driven directly is opened for its own mode: a change right
+// afterwards would take seconds, and what the display cannot do must be reported at once. A window begins with mono and
+// changes mode when the session asks for it.
+wall::StereoMode begins_with(const SessionScreen& screen) {
+    return screen.direct ? screen.shown.mode : wall::StereoMode::mono;
+}
 
 Error with_reason(Error e, const SessionScreen& screen) {
     return screen.direct ? with_ways_out(std::move(e), screen) : e;
@@ -47,7 +50,7 @@ bool is_of_main_alone(const Input& input) {
 
 bool is_empty(ImageSize size) { return size.width == 0 || size.height == 0; }
 
-// Places for windows on the desktop, side by side, in rows as wide as the main monitor.
+// Positions desktop windows side by side, in rows as wide as the main monitor.
 class Rows {
 public:
     Rows() {
@@ -76,9 +79,9 @@ private:
 
 // ---- Opening
 
-Result<SessionStage> SessionStage::open(const LiveOptions& options, const SessionWall& wall, DirectDriver driver) {
-    leave_a_core_to_touch();
-    SessionStage stage(options, wall, std::move(driver));
+Result<Presenter> Presenter::open(const LiveOptions& options, const SessionWall& wall, DirectDriver driver) {
+    gpu::leave_a_core_to_touch();
+    Presenter stage(options, wall, std::move(driver));
     for (const SessionScreen& screen : wall.screens) stage.screens_.emplace_back().place.size = screen.size;
     if (!options.offscreen) {
         if (const auto opened = stage.open_outputs(); !opened) return std::unexpected(opened.error());
@@ -87,7 +90,7 @@ Result<SessionStage> SessionStage::open(const LiveOptions& options, const Sessio
     return stage;
 }
 
-Result<void> SessionStage::open_outputs() {
+Result<void> Presenter::open_outputs() {
     Rows beside;
     for (std::size_t i = 0; i < screens_.size(); ++i) {
         const SessionScreen& screen = wall_->screens[i];
@@ -108,8 +111,8 @@ Result<void> SessionStage::open_outputs() {
     return {};
 }
 
-// One that can present to all there is.
-Result<gpu::Device> SessionStage::create_device() const {
+// Creates a device that can present to all outputs.
+Result<gpu::Device> Presenter::create_device() const {
     gpu::DeviceOptions options;
     if (has_windows()) {
         auto extensions = window::required_extensions();
@@ -121,21 +124,22 @@ Result<gpu::Device> SessionStage::create_device() const {
     return gpu::Device::create(options);
 }
 
-Result<void> SessionStage::open_device() {
+Result<void> Presenter::open_device() {
     auto device = create_device();
     if (!device) return std::unexpected(device.error());
     device_ = std::move(*device);
+    surface_.open(*device_);
     for (std::size_t i = 0; i < screens_.size(); ++i) {
         ScreenStage& screen = screens_[i];
-        const StereoMode mode = begins_with(wall_->screens[i]);
+        const wall::StereoMode mode = begins_with(wall_->screens[i]);
         for (SessionOutput* output : outputs_of(screen)) {
             if (output == nullptr) continue;
-            const std::uint32_t layers = needs_of(mode).two_layers ? 2 : 1;
+            const std::uint32_t layers = wall::needs_of(mode).two_layers ? 2 : 1;
             const auto images =
                 losses_ > 0 ? output->reopen_images(*device_, layers) : output->open_images(*device_, layers);
             if (!images) return std::unexpected(with_reason(images.error(), wall_->screens[i]));
         }
-        auto picture = SessionPicture::create(*device_, samples_for(*device_, options_.samples));
+        auto picture = SessionPicture::create(*device_, samples_for(*device_, options_.samples), surface_.store());
         if (!picture) return std::unexpected(picture.error());
         screen.picture = std::move(*picture);
         screen.shown.mode = mode;  // as the outputs' images are now
@@ -145,36 +149,35 @@ Result<void> SessionStage::open_device() {
     return {};
 }
 
-Result<void> SessionStage::recover(LiveSession& session, const Error& error) {
+Result<void> Presenter::recover(LiveSession& session, const Error& error) {
     if (!device_->lost()) return std::unexpected(error);
     if (++losses_ > kMostLosses) {
         return fail("graphics device", "it was lost " + std::to_string(losses_) + " times without a picture in between",
                     "update the graphics driver, or try a smaller window");
     }
-    session.hear("the graphics device was lost; starting on a new one");
-    std::vector<SessionPicture::Kept> kept;
+    session.notify_of_event("the graphics device was lost; starting on a new one");
+    showing_.reset();
     for (ScreenStage& screen : screens_) {
-        kept.push_back(screen.picture->take_kept());
         screen.picture.reset();
         for (SessionOutput* output : outputs_of(screen))
             if (output != nullptr) output->close_images();
     }
+    surface_.close();  // its tiles are kept
     device_.reset();
     Result<void> opened = open_device();
-    for (int i = 0; !opened && i < kMostTries; ++i) {  // a driver that starts anew takes a while
+    for (int i = 0; !opened && i < kMostTries; ++i) {  // a restarting driver takes a while
         device_.reset();
         std::this_thread::sleep_for(kBetweenTries);
         opened = open_device();
     }
     if (!opened) return opened;
-    for (std::size_t i = 0; i < screens_.size(); ++i) screens_[i].picture->give_kept(std::move(kept[i]));
-    session.hear("the graphics device is " + device_name());
+    session.notify_of_event("the graphics device is " + device_name());
     return {};
 }
 
-// ---- What the outputs say
+// ---- State of the outputs
 
-void SessionStage::look() {
+void Presenter::look() {
     for (ScreenStage& screen : screens_) {
         if (!screen.output) continue;
         screen.output->look_after(*device_);
@@ -183,15 +186,15 @@ void SessionStage::look() {
     }
 }
 
-std::vector<OutputPlace> SessionStage::places() const {
-    std::vector<OutputPlace> places;
+std::vector<wall::OutputPlace> Presenter::places() const {
+    std::vector<wall::OutputPlace> places;
     for (const ScreenStage& screen : screens_) places.push_back(screen.place);
     return places;
 }
 
-double SessionStage::refresh_Hz() const { return shows() ? screens_[wall_->main].output->refresh_Hz() : 60.0; }
+double Presenter::refresh_Hz() const { return shows() ? screens_[wall_->main].output->refresh_Hz() : 60.0; }
 
-SessionOutput::Blocked SessionStage::take_blocked() {
+SessionOutput::Blocked Presenter::take_blocked() {
     SessionOutput::Blocked blocked;
     for (ScreenStage& screen : screens_) {
         for (SessionOutput* output : outputs_of(screen)) {
@@ -204,19 +207,20 @@ SessionOutput::Blocked SessionStage::take_blocked() {
     return blocked;
 }
 
-std::uint64_t SessionStage::presented() const { return shows() ? screens_[wall_->main].output->presented() : 0; }
+std::uint64_t Presenter::presented() const { return shows() ? screens_[wall_->main].output->presented() : 0; }
 
-std::optional<bool> SessionStage::was_shown(std::uint64_t picture) const {
+std::optional<bool> Presenter::was_shown(std::uint64_t picture) const {
     return shows() ? screens_[wall_->main].output->was_shown(picture) : std::nullopt;
 }
 
-std::vector<Input> SessionStage::inputs(double wait_s) {
+std::vector<Input> Presenter::inputs(double wait_s) {
     if (waker_) {
         waker_->wait(wait_s);
         return {};
     }
     std::vector<Input> inputs;
-    const auto add = [&](SessionWindow* window, bool of_main) {  // the first one asked waits for all
+    // The first window that is asked waits for all.
+    const auto add = [&](SessionWindow* window, bool of_main) {
         if (window == nullptr) return;
         for (Input& input : window->inputs(std::exchange(wait_s, 0.0)))
             if (of_main || !is_of_main_alone(input)) inputs.push_back(std::move(input));
@@ -232,7 +236,7 @@ std::vector<Input> SessionStage::inputs(double wait_s) {
     return inputs;
 }
 
-void SessionStage::wake() {
+void Presenter::wake() {
     if (waker_) {
         waker_->wake();
     } else if (shows()) {
@@ -240,8 +244,8 @@ void SessionStage::wake() {
     }
 }
 
-// The mouse as if the windows were of one size.
-std::vector<Input> SessionStage::right_eyes_inputs(const ScreenStage& screen) {
+// Scales the mouse's positions as if both windows had the same size.
+std::vector<Input> Presenter::right_eyes_inputs(const ScreenStage& screen) {
     if (!screen.right_window) return {};
     std::vector<Input> inputs = screen.right_window->inputs(0.0);
     const ImageSize left = screen.place.size, right = screen.right_window->size();
@@ -249,7 +253,7 @@ std::vector<Input> SessionStage::right_eyes_inputs(const ScreenStage& screen) {
         auto* move = std::get_if<MouseMove>(&input);
         if (move == nullptr || is_empty(right)) continue;
         move->position_px *= Vec2(left.width, left.height) / Vec2(right.width, right.height);
-        move->position_px.x += kRightWindow_px;
+        move->position_px.x += wall::kRightWindow_px;
     }
     std::erase_if(inputs, [](const Input& input) {
         return std::holds_alternative<WindowResize>(input) || std::holds_alternative<WindowFocus>(input);
@@ -257,7 +261,7 @@ std::vector<Input> SessionStage::right_eyes_inputs(const ScreenStage& screen) {
     return inputs;
 }
 
-std::vector<std::string> SessionStage::take_messages() {
+std::vector<std::string> Presenter::take_messages() {
     std::vector<std::string> messages = std::exchange(messages_, {});
     for (ScreenStage& screen : screens_) {
         if (!screen.output) continue;
@@ -266,8 +270,4 @@ std::vector<std::string> SessionStage::take_messages() {
     return messages;
 }
 
-void SessionStage::refine_beside(bool resting) {
-    for (ScreenStage& screen : screens_) screen.picture->refine_beside(resting);
-}
-
-}  // namespace burin
+}  // namespace burin::session

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Drawing into the outputs that a session's stage has: one frame, and what of it each output shows.
+// Draws one frame into a presenter's outputs, and in each output only the parts that changed.
 #include <algorithm>
 
-#include "app/session/session_stage.hpp"
 #include "renderer/png.hpp"
+#include "session/present/presenter.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 bool is_empty(ImageSize size) { return size.width == 0 || size.height == 0; }
 
-bool same_place(const OutputPlace& a, const OutputPlace& b, const OutputSettings& settings) {
+bool same_place(const wall::OutputPlace& a, const wall::OutputPlace& b, const wall::OutputSettings& settings) {
     if (a.size != b.size) return false;
-    return !needs_of(settings.mode).monitor_pixels || (a.monitor_x == b.monitor_x && a.monitor_y == b.monitor_y);
+    return !wall::needs_of(settings.mode).monitor_pixels || (a.monitor_x == b.monitor_x && a.monitor_y == b.monitor_y);
 }
 
 std::filesystem::path named_after(const std::filesystem::path& path, const std::string& screen) {
@@ -25,35 +25,44 @@ std::filesystem::path named_after(const std::filesystem::path& path, const std::
 
 // ---- One frame
 
-bool SessionStage::takes_turns(const LiveSession& session) const {
+bool Presenter::takes_turns(const LiveSession& session) const {
     if (!shows()) return false;
     for (std::size_t i = 0; i < screens_.size(); ++i)
-        if (session.output_on(i).mode == StereoMode::frame_sequential) return true;
+        if (session.output_on(i).mode == wall::StereoMode::frame_sequential) return true;
     return false;
 }
 
-Result<bool> SessionStage::draw(LiveSession& session, Nanoseconds frame_ns) {
-    std::vector<SessionPicture*> pictures;
-    for (ScreenStage& screen : screens_) pictures.push_back(&*screen.picture);
-    session.give_news(pictures);
-    bool any = false;
-    for (std::size_t i = 0; i < screens_.size(); ++i) {
-        const Result<bool> drawn = draw_screen(i, session, frame_ns);
-        if (!drawn) return drawn;
-        any = any || *drawn;
-    }
-    if (session.wants_screenshots()) {
-        const std::vector<std::filesystem::path> paths = session.take_screenshots();
-        for (std::size_t i = 0; i < screens_.size(); ++i) photograph(i, session, paths);
-    }
-    if (any) losses_ = 0;
-    return any;
+Result<bool> Presenter::draw(LiveSession& session, Nanoseconds frame_ns) {
+    surface_.take(session.take_surface_updates(), session.lattice_origin_object());
+    if (const auto fitted = fit_modes(session); !fitted) return std::unexpected(fitted.error());
+    const Result<bool> drawn = draw_screens(session);
+    if (!drawn) return drawn;
+    session.times().reached(FrameStage::draw);
+    if (const auto shown = show_screens(frame_ns); !shown) return std::unexpected(shown.error());
+    session.times().reached(FrameStage::show);
+    take_screenshots(session);
+    if (*drawn) losses_ = 0;
+    return drawn;
 }
 
-Result<void> SessionStage::fit_mode(std::size_t i, StereoMode mode) {
+// A mode that a screen cannot show is refused, and the screen goes on with the one that works.
+Result<void> Presenter::fit_modes(LiveSession& session) {
+    for (std::size_t i = 0; i < screens_.size(); ++i) {
+        ScreenStage& screen = screens_[i];
+        if (is_empty(screen.place.size)) continue;  // minimised
+        if (const auto fits = fit_mode(i, session.output_on(i).mode); !fits) {
+            if (device_->lost()) return fits;
+            session.refuse_mode(screen.shown.mode, fits.error());
+        }
+        screen.settings = session.output_on(i);
+    }
+    return {};
+}
+
+Result<void> Presenter::fit_mode(std::size_t i, wall::StereoMode mode) {
     ScreenStage& screen = screens_[i];
     if (!screen.output || mode == screen.shown.mode) return {};
-    const ModeNeeds needs = needs_of(mode);
+    const wall::ModeNeeds needs = wall::needs_of(mode);
     if (needs.two_windows && screen.window == nullptr) {
         return fail("screen " + wall_->screens[i].name, "it is driven directly, so that the right eye has no window",
                     "choose two_layers, or a screen in a window");
@@ -77,43 +86,48 @@ Result<void> SessionStage::fit_mode(std::size_t i, StereoMode mode) {
     return images;
 }
 
-Result<bool> SessionStage::draw_screen(std::size_t i, LiveSession& session, Nanoseconds frame_ns) {
-    ScreenStage& screen = screens_[i];
-    if (is_empty(screen.place.size)) return false;  // minimised
-    if (const auto fits = fit_mode(i, session.output_on(i).mode); !fits) {
-        if (device_->lost()) return std::unexpected(fits.error());
-        session.refuse_mode(screen.shown.mode, fits.error());
-    }
-    const OutputSettings settings = session.output_on(i);
-    const OutputPlace place = screen.place;
+// Records what is new of the surface, the panel and the scene on every screen, submits it at once and waits; returns
+// whether any output has to show something.
+Result<bool> Presenter::draw_screens(LiveSession& session) {
     auto commands = gpu::Commands::begin(*device_);
     if (!commands) return std::unexpected(commands.error());
-    if (const auto drawn = session.draw(*commands, i, *screen.picture, place.size); !drawn)
-        return std::unexpected(drawn.error());
+    const auto uploaded = surface_.upload(*commands);
+    if (!uploaded) return std::unexpected(uploaded.error());
+    bool any = false;
+    for (std::size_t i = 0; i < screens_.size(); ++i) {
+        screens_[i].anew = false;
+        if (is_empty(screens_[i].place.size)) continue;  // minimised
+        if (const auto drawn = draw_screen(*commands, i, session); !drawn) return std::unexpected(drawn.error());
+        any = any || screens_[i].anew;
+    }
     session.times().reached(FrameStage::record);
-    const bool anew = note_changes(screen, settings, place);
-    const bool turns = screen.output && settings.mode == StereoMode::frame_sequential;
-    if (anew || screen.picture->stats().uploaded_bytes > 0) {
-        auto submission = std::move(*commands).submit();
-        if (!submission) return std::unexpected(submission.error());
-        if (const auto done = submission->wait(); !done) return std::unexpected(done.error());
-    }
-    session.times().reached(FrameStage::draw);
-    if (screen.output && (anew || turns)) {
-        if (const auto shown = show(screen, settings, frame_ns); !shown) return std::unexpected(shown.error());
-    }
-    session.times().reached(FrameStage::show);
-    return anew;
+    if (!any && *uploaded == 0) return false;
+    auto submission = std::move(*commands).submit();
+    if (!submission) return std::unexpected(submission.error());
+    if (const auto done = submission->wait(); !done) return std::unexpected(done.error());
+    return any;
 }
 
-// Whether the outputs have to be shown something.
-bool SessionStage::note_changes(ScreenStage& screen, const OutputSettings& settings, const OutputPlace& place) {
-    bool whole = settings != screen.shown || !same_place(place, screen.shown_place, settings);
+Result<void> Presenter::draw_screen(gpu::Commands& commands, std::size_t i, LiveSession& session) {
+    ScreenStage& screen = screens_[i];
+    SessionPicture& picture = *screen.picture;
+    if (const auto painted = picture.paint(commands, session.panel_on(i)); !painted) return painted;
+    picture.draw_in_full(session.wants_screenshots());
+    const auto drawn = picture.draw(commands, session.scene_on(i), screen.place.size, screen.settings);
+    if (!drawn) return drawn;
+    if (i == wall_->main) session.note_drawn(picture.stats());
+    screen.anew = note_changes(screen);
+    return {};
+}
+
+// Records what changed; returns whether the outputs have to show something.
+bool Presenter::note_changes(ScreenStage& screen) {
+    bool whole = screen.settings != screen.shown || !same_place(screen.place, screen.shown_place, screen.settings);
     for (SessionOutput* output : outputs_of(screen))
         if (output != nullptr && output->needs_showing()) whole = true;
-    screen.shown = settings;
-    screen.shown_place = place;
-    const std::vector<PixelRect> parts = screen.picture->changed(place, settings);
+    screen.shown = screen.settings;
+    screen.shown_place = screen.place;
+    const std::vector<PixelRect> parts = screen.picture->changed(screen.place, screen.settings);
     for (PresentedParts* images_parts : {&screen.parts, &screen.right_parts}) {
         if (whole) images_parts->change_all();
         for (const PixelRect& part : parts) images_parts->change(part);
@@ -123,53 +137,68 @@ bool SessionStage::note_changes(ScreenStage& screen, const OutputSettings& setti
 
 // ---- Showing
 
-Result<void> SessionStage::show(ScreenStage& screen, const OutputSettings& settings, Nanoseconds frame_ns) {
-    Outlet outlet{screen.output.get(), Eye::left, &screen.parts};
-    if (settings.mode == StereoMode::frame_sequential) {
-        outlet.eye = eye_in_turn(screen, settings, frame_ns);
-        screen.parts.change_all();
+// Fills and presents the images of all outputs that have to show something, then waits for all of them.
+Result<void> Presenter::show_screens(Nanoseconds frame_ns) {
+    for (ScreenStage& screen : screens_) {
+        if (!screen.output || is_empty(screen.place.size)) continue;
+        const bool turns = screen.settings.mode == wall::StereoMode::frame_sequential;
+        if (!screen.anew && !turns) continue;
+        if (const auto shown = show(screen, frame_ns); !shown) return shown;
     }
-    const auto shown = show_in(screen, outlet, settings);
-    if (!shown || !screen.right_window) return shown;
-    return show_in(screen, {screen.right_window.get(), Eye::right, &screen.right_parts}, settings);
+    if (!showing_) return {};
+    const auto done = showing_->wait();
+    showing_.reset();
+    return done;
 }
 
-// Without a count of the display's own, by the clock: eyes may then be exchanged now and then.
-Eye SessionStage::eye_in_turn(ScreenStage& screen, const OutputSettings& settings, Nanoseconds frame_ns) {
+Result<void> Presenter::show(ScreenStage& screen, Nanoseconds frame_ns) {
+    Outlet outlet{screen.output.get(), wall::Eye::left, &screen.parts};
+    if (screen.settings.mode == wall::StereoMode::frame_sequential) {
+        outlet.eye = eye_in_turn(screen, frame_ns);
+        screen.parts.change_all();
+    }
+    const auto shown = show_in(screen, outlet);
+    if (!shown || !screen.right_window) return shown;
+    return show_in(screen, {screen.right_window.get(), wall::Eye::right, &screen.right_parts});
+}
+
+// Returns the eye of this refresh. Without a vblank counter of the display it goes by the clock: eyes may then be
+// exchanged now and then.
+wall::Eye Presenter::eye_in_turn(ScreenStage& screen, Nanoseconds frame_ns) {
     const auto counted = screen.output->vblank_count();
     const auto by_clock = static_cast<std::uint64_t>(std::max(0.0, seconds(frame_ns) * screen.output->refresh_Hz()));
-    const FieldChoice choice = choose_field(screen.parity, counted.value_or(by_clock), settings.first_eye);
+    const wall::FieldChoice choice =
+        wall::choose_field(screen.parity, counted.value_or(by_clock), screen.settings.first_eye);
     screen.parity = choice.state;
     return choice.eye;
 }
 
-Result<void> SessionStage::show_in(ScreenStage& screen, const Outlet& outlet, const OutputSettings& settings) {
+// Presents without waiting: the display waits for the submission's semaphore.
+Result<void> Presenter::show_in(ScreenStage& screen, const Outlet& outlet) {
     const gpu::SwapchainFrame frame = outlet.output->acquire();
     gpu::FrameAnswer answer = frame.answer;
     if (answer == gpu::FrameAnswer::presented) {
         auto commands = gpu::Commands::begin(*device_);
         if (!commands) return std::unexpected(commands.error());
-        OutputPlace place = screen.shown_place;
+        wall::OutputPlace place = screen.shown_place;
         place.size = {frame.width, frame.height};
         place.eye = outlet.eye;
         PresentedParts::Parts parts = outlet.parts->since(frame.age);
-        if (place.size != screen.shown_place.size) parts = {};  // the output has just grown
+        if (place.size != screen.shown_place.size) parts = {};  // the output has just been resized
         Result<void> recorded = screen.picture->show(*commands, {.view = frame.views[0], .place = place},
-                                                     outlet.output->format(), settings, parts);
+                                                     outlet.output->format(), screen.settings, parts);
         if (recorded && frame.views[1] != VK_NULL_HANDLE) {
-            place.eye = Eye::right;
+            place.eye = wall::Eye::right;
             recorded = screen.picture->show(*commands, {.view = frame.views[1], .place = place},
-                                            outlet.output->format(), settings, parts);
+                                            outlet.output->format(), screen.settings, parts);
         }
         if (!recorded) {
             outlet.output->abandon(frame);
             return recorded;
         }
         auto submission = std::move(*commands).submit(frame.sync);
-        if (submission) {
-            if (const auto done = submission->wait(); !done) return done;
-        }
         answer = submission ? outlet.output->present(frame) : outlet.output->abandon(frame);
+        if (submission) showing_ = std::move(*submission);
         if (submission && answer == gpu::FrameAnswer::presented) outlet.parts->presented();
     }
     if (answer == gpu::FrameAnswer::device_lost) return fail("graphics device", "it was lost", "");
@@ -179,22 +208,28 @@ Result<void> SessionStage::show_in(ScreenStage& screen, const Outlet& outlet, co
     return {};
 }
 
-// Where each eye has a display or a turn of its own, the picture has both side by side.
-void SessionStage::photograph(std::size_t i, LiveSession& session, const std::vector<std::filesystem::path>& paths) {
+void Presenter::take_screenshots(LiveSession& session) {
+    if (!session.wants_screenshots()) return;
+    const std::vector<std::filesystem::path> paths = session.take_screenshots();
+    for (std::size_t i = 0; i < screens_.size(); ++i) photograph(i, session, paths);
+}
+
+// Saves screenshots. Where each eye has a display or a turn of its own, the picture has both side by side.
+void Presenter::photograph(std::size_t i, LiveSession& session, const std::vector<std::filesystem::path>& paths) {
     ScreenStage& screen = screens_[i];
-    OutputSettings settings = screen.shown;
-    OutputPlace place = screen.shown_place;
+    wall::OutputSettings settings = screen.shown;
+    wall::OutputPlace place = screen.shown_place;
     if (is_empty(place.size)) return;
-    if (shows_one_eye_at_a_time(settings.mode) && needs_of(settings.mode).both_eyes) {
-        settings.mode = StereoMode::side_by_side;
-        place.size = output_size(settings.mode, screen.picture->eye());
+    if (wall::shows_one_eye_at_a_time(settings.mode) && needs_of(settings.mode).both_eyes) {
+        settings.mode = wall::StereoMode::side_by_side;
+        place.size = wall::output_size(settings.mode, screen.picture->eye());
     }
     const Result<Image> image = screen.picture->photograph(place, settings);
     for (const std::filesystem::path& name : paths) {
         const std::filesystem::path path = screens_.size() > 1 ? named_after(name, wall_->screens[i].name) : name;
-        const Result<void> written = image ? write_png(path, *image) : std::unexpected(image.error());
-        session.hear(written ? "wrote " + path.string() : written.error().line());
+        const Result<void> written = image ? renderer::write_png(path, *image) : std::unexpected(image.error());
+        session.notify_of_event(written ? "wrote " + path.string() : written.error().line());
     }
 }
 
-}  // namespace burin
+}  // namespace burin::session

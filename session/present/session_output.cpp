@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/session_output.hpp"
+#include "session/present/session_output.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
-constexpr Nanoseconds kBlocks_ns = 1'000'000;  // shorter is the driver's own work
+// Shorter waits are the driver's own work.
+constexpr Nanoseconds kBlocks_ns = 1'000'000;
 
 }  // namespace
 
@@ -18,7 +19,8 @@ Result<void> SessionOutput::open_images(gpu::Device& device, std::uint32_t layer
                                {.width = now.width, .height = now.height, .layers = layers, .count_vblanks = true});
     if (!images) return std::unexpected(images.error());
     images_ = std::move(*images);
-    display_blocks_ = !device.info().is_software();  // that one copies by itself, whatever the display does
+    // A software device copies on its own, whatever the display does.
+    display_blocks_ = !device.info().is_software();
     exposed_ = true;
     return {};
 }
@@ -44,4 +46,4 @@ std::optional<std::uint64_t> SessionOutput::vblank_count() const {
     return images_ ? images_->vblank_count() : std::nullopt;
 }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sleep of a session without windows, until something happens: the part of window::wake() where there is no window library.
+// Puts a session without windows to sleep until something happens: the counterpart of window::wake() where there is no
+// window library.
 // wake(): any thread. wait(): one thread.
 #pragma once
 
@@ -8,7 +9,7 @@
 #include <mutex>
 #include <utility>
 
-namespace burin {
+namespace burin::session {
 
 class SessionWaker {
 public:
@@ -19,7 +20,7 @@ public:
         }
         woken_up_.notify_one();
     }
-    // Returns after wake(), also if that came before, or when the time is over. Whether it was woken.
+    // Returns after wake(), also if that came before, or when the time is over; true if it was woken.
     bool wait(double timeout_s) {
         std::unique_lock lock(mutex_);
         woken_up_.wait_for(lock, std::chrono::duration<double>(timeout_s), [&] { return woken_; });
@@ -32,4 +33,4 @@ private:
     bool woken_ = false;
 };
 
-}  // namespace burin
+}  // namespace burin::session

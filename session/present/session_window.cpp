@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/session_window.hpp"
+#include "session/present/session_window.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "app/session/input_keys.hpp"
+#include "session/input/input_keys.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
-// The window library's names differ from the log's where these are easier to type.
+// Maps a key's name from the window library to the log's, which differ where the log's are easier to type.
 std::optional<Key> key_of(std::string name) {
     static const std::vector<std::pair<std::string, std::string>> others{{"'", "apostrophe"},
                                                                          {",", "comma"},
@@ -116,8 +116,8 @@ std::optional<Input> SessionWindow::input_of(const window::WindowEvent& event) {
     if (std::holds_alternative<window::CloseEvent>(event)) return WindowClose{};
     if (std::holds_alternative<window::ExposeEvent>(event)) show_again();
     if (const auto* e = std::get_if<window::MonitorEvent>(&event)) {
-        tell("monitor " + e->monitor + (e->connected ? " is there" : " has gone") +
-             (e->fell_back_to_window ? ": the picture is in a window now" : ""));
+        notify("monitor " + e->monitor + (e->connected ? " is there" : " has gone") +
+               (e->fell_back_to_window ? ": the picture is in a window now" : ""));
     }
     return std::nullopt;
 }
@@ -141,9 +141,9 @@ void SessionWindow::exchange_full_screen() {
     if (window_.full_screen()) {
         window_.leave_full_screen();
     } else if (const auto filled = window_.fill_monitor(std::to_string(window_.monitor().index)); !filled) {
-        tell(filled.error().line());
+        notify(filled.error().line());
     }
     show_again();
 }
 
-}  // namespace burin
+}  // namespace burin::session

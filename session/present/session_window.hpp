@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The window of a live session: its events as the session's input, and its surface.
-// Main thread alone, but for window::wake().
+// Window of a live session: its events as the session's input, and its surface.
+// Main thread alone, except for window::wake().
 #pragma once
 
 #include <memory>
@@ -9,21 +9,22 @@
 #include <utility>
 #include <vector>
 
-#include "app/session/input_event.hpp"
-#include "app/session/session_output.hpp"
+#include "session/input/input_event.hpp"
+#include "session/present/session_output.hpp"
 #include "window/window.hpp"
 
-namespace burin {
+namespace burin::session {
 
 class SessionWindow final : public SessionOutput {
 public:
-    // Fills a monitor, or (empty) is a window on the desktop whose contents have this size. An Error without a display says what to do.
+    // Opens a window that fills a monitor, or (empty) one on the desktop whose contents have this size. The Error for a
+    // missing display says what to do.
     [[nodiscard]] static Result<std::unique_ptr<SessionWindow>> open(
         const std::string& title, const std::string& monitor, ImageSize size,
         std::optional<window::Window::Position> place = std::nullopt);
     ~SessionWindow() override { close_images(); }  // before the window
 
-    // What happened, waiting for at most so long (0: not at all).
+    // Returns what happened, waiting for at most so long (0: not at all).
     [[nodiscard]] std::vector<Input> inputs(double wait_s);
 
     [[nodiscard]] ImageSize size() const override;
@@ -39,4 +40,4 @@ private:
     window::Window window_;
 };
 
-}  // namespace burin
+}  // namespace burin::session

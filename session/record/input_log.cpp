@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/input_log.hpp"
+#include "session/record/input_log.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -10,11 +10,11 @@
 #include <cstring>
 #include <utility>
 
-#include "app/session/input_line.hpp"
-#include "app/session/input_words.hpp"
-#include "geometry/file_io.hpp"
+#include "base/file_io.hpp"
+#include "session/input/input_line.hpp"
+#include "session/input/input_words.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 constexpr std::string_view kMagic = "burin-input";
@@ -54,7 +54,7 @@ Result<Header> read_header(std::string_view line, const std::string& where) {
     return header;
 }
 
-// The word that follows the time.
+// Returns the word that follows the time.
 std::string_view kind_on(std::string_view line) {
     constexpr std::string_view kBlanks = " \t\r";
     for (int skipped = 0; skipped < 2; ++skipped) {
@@ -66,7 +66,7 @@ std::string_view kind_on(std::string_view line) {
     return {};
 }
 
-// A line of what the threads did: its time.
+// Reads a line of what the threads did; returns its time.
 Result<Nanoseconds> read_threads(ThreadLogReader& threads, std::string_view line, std::size_t number,
                                  const std::string& where) {
     if (line.size() > kMostLineBytes) return fail(where, "the line is longer than any", "take it out");
@@ -213,4 +213,4 @@ Result<void> InputLogWriter::write_line(std::string line) {
     return {};
 }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// All input of a session as a text file: what is recorded, and what a user with a script writes by hand. The format is
-// described in docs/formats.md, "The input log": a header line with version and settings, then a line an event; in a recording, between
-// them, lines for what the threads did (thread_log.hpp).
+// Reads and writes all input of a session as a text file, both recordings and hand-written scripts. The format is
+// described in docs/formats.md, "The input log": a header line with version and settings, then one line per event; in a
+// recording, lines between them for what the threads did (session/record/thread_log.hpp).
 //
-// Reading what was written gives the same events exactly. A file whose last line has no end was torn off by a crash: that line
-// is reported and left out, since nobody can tell whether it is whole.
-// Failure: an Error that names file, line and remedy. Cost: reading takes memory in proportion to the file (some ten times
-// its size at most), writing one write() a line and no waiting for the disk. One thread. Not for the haptic thread.
+// Reading what was written gives the same events exactly. A last line without an end was torn off by a crash: it is
+// reported and left out, since nobody can tell whether it is whole.
+// Failure: an Error that names file, line and remedy. Cost: reading takes memory in proportion to the file (some ten
+// times its size at most); writing takes one write() per line and does not wait for the disk. One thread. Not for the
+// haptic thread.
 #pragma once
 
 #include <filesystem>
@@ -15,42 +16,43 @@
 #include <string_view>
 #include <vector>
 
-#include "app/session/input_event.hpp"
-#include "app/session/thread_log.hpp"
 #include "base/error.hpp"
+#include "session/input/input_event.hpp"
+#include "session/record/thread_log.hpp"
 
-namespace burin {
+namespace burin::session {
 
-inline constexpr int kInputLogVersion = 2;                  // 1, without threads, is read as well
+inline constexpr int kInputLogVersion = 2;                  // version 1, without threads, is read as well
 inline constexpr std::uint64_t kMostLogBytes = 256u << 20;  // some six hours of a session with its threads
 inline constexpr std::size_t kMostSettingsBytes = 16384;
 
 struct InputLog {
     std::string settings;  // what the session was started with, on one line
     std::vector<InputEvent> events;
-    std::optional<ThreadLog> threads;      // what a live session's did; none: made up in simulated time
-    std::optional<std::string> torn_line;  // a message, when the last line had no end and was left out
+    std::optional<ThreadLog> threads;      // of a live session; none: simulated time
+    std::optional<std::string> torn_line;  // message about a last line without an end
 };
 
 [[nodiscard]] Result<InputLog> read_input_log(const std::filesystem::path& path);
 [[nodiscard]] Result<InputLog> parse_input_log(std::string_view text, const std::string& name);
 
-// Each event is in the operating system's hands when append() returns: a crash of the program loses none of them and tears at
-// most the line being written. A power failure may lose more.
+// Writes a log. Each event is in the operating system's hands when append() returns: a crash of the program loses none
+// of them and tears at most the line being written. A power failure may lose more.
 class InputLogWriter {
 public:
-    // A new file: an existing one is left as it is and refused. settings: one line of valid UTF-8, without control characters or
-    // blanks at its ends, at most kMostSettingsBytes.
+    // Creates a new file; refuses to touch an existing one. settings: one line of valid UTF-8, without control
+    // characters or blanks at its ends, at most kMostSettingsBytes.
     [[nodiscard]] static Result<InputLogWriter> create(const std::filesystem::path& path, const std::string& settings);
 
     InputLogWriter(InputLogWriter&& other) noexcept;
     InputLogWriter& operator=(InputLogWriter&& other) noexcept;
     ~InputLogWriter();
 
-    // Refused: an event that is not sensible, or before the one before it; nothing is written then. After a failure of the file
-    // (a full disk) every later event is refused too, so that what is in the file stays a log.
+    // Appends an event. Refuses one that is not sensible or is earlier than the one before it, and writes nothing then.
+    // After a failure of the file (a full disk) every later event is refused too, so that the file stays a valid log.
     [[nodiscard]] Result<void> append(const InputEvent& event);
-    // A line of what the threads did (thread_log.hpp), without its time. Refused as an event is.
+    // Appends a line of what the threads did (session/record/thread_log.hpp), given without its time. Refuses as
+    // append() does.
     [[nodiscard]] Result<void> append_threads(Nanoseconds time_ns, const std::string& text);
 
 private:
@@ -64,4 +66,4 @@ private:
     bool broken_ = false;
 };
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/input_source.hpp"
+#include "session/record/input_source.hpp"
 
 #include <algorithm>
 #include <utility>
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 bool is_frame(const InputEvent& event) { return std::holds_alternative<FrameStart>(event.input); }
@@ -101,7 +101,8 @@ std::optional<FrameInput> InputSource::played_frame(Nanoseconds now_ns, Nanoseco
     const std::size_t first = next_;
     while (next_ < log_.events.size() && log_.events[next_].time_ns <= last_ns_) {
         InputEvent& event = log_.events[next_++];
-        event.time_ns = std::max(event.time_ns, before_ns);  // what the frame before left is of this one
+        // Events that the previous frame left over belong to this one.
+        event.time_ns = std::max(event.time_ns, before_ns);
         record(event);
         if (asks_for_a_picture(event)) break;
     }
@@ -134,4 +135,4 @@ std::optional<FrameInput> InputSource::made_up_frame() {
     return frame;
 }
 
-}  // namespace burin
+}  // namespace burin::session

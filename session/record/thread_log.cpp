@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/thread_log.hpp"
+#include "session/record/thread_log.hpp"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 
-#include "app/session/input_event.hpp"
-#include "app/session/input_words.hpp"
+#include "session/input/input_event.hpp"
+#include "session/input/input_words.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 constexpr Nanoseconds kLatestStart_ns = Nanoseconds{1} << 60;  // 36 years after a machine's start
@@ -47,7 +47,7 @@ std::string text(T number) {
     return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr};
 }
 
-// The panel's figures, in the order of their line; nothing is '-'.
+// Visits the panel's figures in the order of their line; a missing one is written as '-'.
 template <typename Figures, typename Visit>
 void visit_figures(Figures& f, Visit&& visit) {
     visit(f.head_age_ms);
@@ -70,9 +70,10 @@ void visit_savings(Savings& s, Visit&& visit) {
     visit(s.redrawn_percent);
     visit(s.frames_skipped);
 }
-constexpr std::size_t kFigureWords = 1 + 1 + 7 + 8;  // the kind, frames a second, the two above
+// Words of a figures line: its kind, frames per second, and those of the two functions above.
+constexpr std::size_t kFigureWords = 1 + 1 + 7 + 8;
 
-// Ticks or updates.
+// Takes a line of ticks or updates, after checking that all of it can be read.
 template <typename Text>
 bool take_lines(const std::vector<std::string>& words, std::size_t line, Text& text, ThreadLines& into) {
     if (words.size() != 3 || number<std::size_t>(words[1]) != into.count + 1) return false;
@@ -92,7 +93,7 @@ std::string text_of(const ThreadClock& clock) {
 }
 
 std::string text_of(const OutputSeen& output) {
-    const OutputPlace& p = output.place;
+    const wall::OutputPlace& p = output.place;
     return "output " + text(output.screen) + " " + text(p.size.width) + " " + text(p.size.height) + " " +
            text(p.monitor_x) + " " + text(p.monitor_y);
 }
@@ -105,7 +106,7 @@ std::string text_of(const PanelNumbers& numbers) {
     std::string line = "figures " + text(numbers.figures.frames_per_s);
     visit_figures(numbers.figures, [&](const std::optional<double>& x) { line += " " + (x ? text(*x) : "-"); });
     visit_savings(numbers.savings, [&](const auto& x) { line += " " + text(x); });
-    for (const std::string& warning : numbers.warnings) line += " " + burin::quoted(warning);
+    for (const std::string& warning : numbers.warnings) line += " " + burin::session::quoted(warning);
     return line;
 }
 
@@ -113,8 +114,8 @@ std::string text_of(const FrameSeen& frame) {
     return "saw " + text(frame.tick) + " " + text(frame.updates) + " " + text(frame.check);
 }
 
-std::string refused_text(StereoMode mode) { return "refused " + std::string(file_name_of(mode)); }
-std::string said_text(const std::string& message) { return "said " + burin::quoted(message); }
+std::string refused_text(wall::StereoMode mode) { return "refused " + std::string(file_name_of(mode)); }
+std::string message_text(const std::string& message) { return "said " + burin::session::quoted(message); }
 std::string end_text(std::uint64_t check) { return "end " + text(check); }
 
 // ---- Reading
@@ -159,7 +160,7 @@ bool ThreadLogReader::take_clock(const std::vector<std::string>& words) {
     return true;
 }
 
-// Of the frame that has begun, once.
+// Takes the `saw` line of the frame that has begun; each frame has one.
 bool ThreadLogReader::take_saw(const std::vector<std::string>& words, std::size_t line) {
     if (words.size() != 4 || log_->frames.size() + 1 != begun_) return false;
     const auto tick = number<std::uint64_t>(words[1]), updates = number<std::uint64_t>(words[2]);
@@ -221,17 +222,17 @@ bool ThreadLogReader::take_rest(const std::vector<std::string>& words) {
     if (words.size() != 2) return false;
     const bool before = log_->frames.empty();
     if (words[0] == "said") {
-        (before ? log_->said_before : log_->frames.back().said).push_back(words[1]);
+        (before ? log_->messages_before : log_->frames.back().messages).push_back(words[1]);
         return true;
     }
     if (words[0] == "end") {
         log_->end_check = number<std::uint64_t>(words[1]);
         return log_->end_check.has_value();
     }
-    const auto mode = parse_stereo_mode(words[1]);
+    const auto mode = wall::parse_stereo_mode(words[1]);
     if (!mode || before) return false;
     log_->frames.back().refused = *mode;
     return true;
 }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// What the threads of a live session did, beside its input: enough to do the same again on one thread. The lines are described in
-// docs/formats.md, "What the threads did".
+// Log of what the threads of a live session did, beside its input: enough to repeat it on one thread. The lines are
+// described in docs/formats.md, "What the threads did".
 //
-//   a tick    what it read of the device, and which surface and parameters it saw
-//   an update of the carving side: when, up to which tick, how many orders; ThreadReplay (thread_replay.hpp) does both again
-//   a frame   the tick whose tool it drew, the updates whose news it had, the sizes of its outputs, what it was told from outside
+//   a tick    what it read from the device, and which surface and parameters it saw
+//   an update when the carving side made it, up to which tick, how many orders it took
+//   a frame   the tick whose tool it drew, the carving updates it had taken, the sizes of its outputs, and the messages
+//             from outside
+// ThreadReplay (thread_replay.hpp) repeats ticks and updates.
 //
-// All times are on the session's clock, whose present at the start is kept too: a replay has the same times to the bit.
+// All times are on the session's clock, whose value at the start is kept too: a replay has the same times to the bit.
 // Pure data and text; any thread.
 #pragma once
 
@@ -17,48 +19,51 @@
 #include <utility>
 #include <vector>
 
-#include "app/session/carving_desk.hpp"
-#include "app/session/panel_feed.hpp"
 #include "base/error.hpp"
-#include "devices/haptic_device.hpp"
-#include "renderer/output/output_settings.hpp"
+#include "devices/haptic/haptic_device.hpp"
+#include "sculpt/sculpt_service.hpp"
+#include "session/panel/panel_feed.hpp"
+#include "wall/output_settings.hpp"
 
-namespace burin {
+namespace burin::session {
 
 struct TickSeen {
     Nanoseconds time_ns = 0;
-    DeviceSample sample;
+    devices::DeviceSample sample;
     std::uint64_t surface_sequence = 0, parameter_sequence = 0;
     bool late = false;
 };
 
-// Where a screen's output is, from this frame on.
+// Position and size of a screen's output, from this frame on.
 struct OutputSeen {
     std::size_t screen = 0;
-    OutputPlace place;
+    wall::OutputPlace place;
 };
 
 struct FrameSeen {
-    std::uint64_t tick = 0;     // the newest that was done; 0: none yet
-    std::uint64_t updates = 0;  // of the carving side, whose news it had
-    std::uint64_t check = 0;    // of what came of all that (SessionCheck)
+    std::uint64_t tick = 0;     // the newest that was finished; 0: none yet
+    std::uint64_t updates = 0;  // of the carving side, whose results it had taken
+    std::uint64_t check = 0;    // checksum of the resulting state (SessionCheck)
     std::vector<OutputSeen> outputs;
     PanelMeasured measured;
-    std::optional<StereoMode> refused;  // the main screen went back to this mode while the frame was drawn
-    std::vector<std::string> said;      // to people, by what is outside of the session; after the frame's own messages
+    // The mode that the main screen fell back to while the frame was drawn.
+    std::optional<wall::StereoMode> refused;
+    // Messages from outside the session, after the frame's own messages.
+    std::vector<std::string> messages;
     std::size_t line = 0;
 };
 
-// The clock and the device that a session's ticks went by.
+// Clock and device resolution that a session's ticks were recorded with.
 struct ThreadClock {
     Nanoseconds start_ns = 0;   // when the session's time began
     Nanoseconds period_ns = 1;  // of ticks
-    double resolution_m = 0.0;  // in whose steps positions are mostly told; 0: unknown
+    // Step of most recorded positions; 0: unknown.
+    double resolution_m = 0.0;
     friend bool operator==(const ThreadClock&, const ThreadClock&) = default;
 };
 
-// Ticks or updates as they stand in the file: read whole once, to see that they can be, and again when they are wanted. An hour has
-// millions of them.
+// Ticks or updates as lines of the file: checked once when the log is read, and parsed again when they are needed. An
+// hour has millions of them.
 struct ThreadLines {
     struct Line {
         std::size_t number = 0;
@@ -70,20 +75,20 @@ struct ThreadLines {
 
 struct ThreadLog {
     ThreadClock clock;
-    ThreadLines ticks, updates;            // from the first on
-    std::vector<std::string> said_before;  // the first frame
-    std::vector<FrameSeen> frames;         // those that were finished
+    ThreadLines ticks, updates;                // from the first on
+    std::vector<std::string> messages_before;  // from outside, before the first frame
+    std::vector<FrameSeen> frames;             // finished frames
     std::optional<std::uint64_t> end_check;
 };
 
-// ---- Text: ticks and updates as differences from the one before
+// ---- Text: ticks and updates as differences from the previous one
 
-// Both ways alike; start with the clock.
+// Writes and reads ticks with the same state; start with the clock.
 class TickText {
 public:
     explicit TickText(const ThreadClock& clock);
     void write(std::string& text, const TickSeen& tick);
-    // Takes one tick off the text; nothing where there is none.
+    // Reads one tick off the front of the text; nothing where there is none.
     [[nodiscard]] std::optional<TickSeen> read(std::string_view& text);
 
 private:
@@ -97,26 +102,26 @@ private:
 class UpdateText {
 public:
     explicit UpdateText(const ThreadClock& clock) : start_ns_(clock.start_ns) { last_.time_ns = clock.start_ns; }
-    void write(std::string& text, const UpdateSeen& update);
-    [[nodiscard]] std::optional<UpdateSeen> read(std::string_view& text);
+    void write(std::string& text, const sculpt::UpdateSeen& update);
+    [[nodiscard]] std::optional<sculpt::UpdateSeen> read(std::string_view& text);
 
 private:
     Nanoseconds start_ns_;
-    UpdateSeen last_;
+    sculpt::UpdateSeen last_;
 };
 
-// Reads them one after the other.
+// Reads ticks or updates one after the other.
 template <typename Text>
 class ThreadLinesReader {
 public:
     // The log must outlive it.
     ThreadLinesReader(const ThreadClock& clock, const ThreadLines& lines) : text_(clock), lines_(lines) {}
-    // Nothing after the last.
+    // Returns the next one; nothing after the last.
     [[nodiscard]] auto next() {
         while (rest_.empty() && next_line_ < lines_.lines.size()) rest_ = lines_.lines[next_line_++].text;
         return text_.read(rest_);
     }
-    // In which the last one stood.
+    // Returns the number of the line that held the last one.
     [[nodiscard]] std::size_t line() const { return next_line_ == 0 ? 0 : lines_.lines[next_line_ - 1].number; }
 
 private:
@@ -134,21 +139,21 @@ inline constexpr std::size_t kMostTicksALine = 500;
 [[nodiscard]] std::string text_of(const OutputSeen& output);
 [[nodiscard]] std::string text_of(const PanelPlotted& plotted);
 [[nodiscard]] std::string text_of(const PanelNumbers& numbers);
-// All but outputs, what was measured, refused and said, which have lines of their own.
+// Formats a frame without outputs, measured times, refused mode and messages, which have lines of their own.
 [[nodiscard]] std::string text_of(const FrameSeen& frame);
-[[nodiscard]] std::string refused_text(StereoMode mode);
-[[nodiscard]] std::string said_text(const std::string& message);
+[[nodiscard]] std::string refused_text(wall::StereoMode mode);
+[[nodiscard]] std::string message_text(const std::string& message);
 [[nodiscard]] std::string end_text(std::uint64_t check);
 
-// Puts the lines of a log together.
+// Assembles a ThreadLog from the lines of a file.
 class ThreadLogReader {
 public:
-    // Whether a line of this kind is one of these.
+    // Returns whether lines of this kind belong to the thread log.
     [[nodiscard]] static bool knows(std::string_view kind);
-    // words: all of the line's, from the kind on.
+    // Takes a line. words: all of its words, from the kind on.
     [[nodiscard]] Result<void> take(const std::vector<std::string>& words, std::size_t line, const std::string& where);
     void frame_begins() { ++begun_; }
-    // Nothing when there was no such line.
+    // Returns the log; nothing when there was no such line.
     [[nodiscard]] std::optional<ThreadLog> finish() { return std::move(log_); }
 
 private:
@@ -162,8 +167,8 @@ private:
     std::optional<ThreadLog> log_;
     std::optional<TickText> ticks_;
     std::optional<UpdateText> updates_;
-    std::size_t begun_ = 0;  // frames
-    FrameSeen frame_;        // whose `saw` has not come yet
+    std::size_t begun_ = 0;  // number of frames begun
+    FrameSeen frame_;        // its `saw` line has not come yet
 };
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Ticks and updates as text: letters with numbers behind them, each a difference from the tick or update before, left out where there
-// is none. ';' ends one.
+// Formats ticks and updates as text: letters followed by numbers, each a difference from the previous tick or update,
+// left out where it is zero. ';' ends one.
 #include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
 
-#include "app/session/carving_thread.hpp"
-#include "app/session/input_event.hpp"
-#include "app/session/thread_log.hpp"
+#include "sculpt/sculpt_thread.hpp"
+#include "session/input/input_event.hpp"
+#include "session/record/thread_log.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 constexpr double kMostSteps = 1e9;
-constexpr std::int64_t kMostChange = 1'000'000'000;  // of a sequence, a tick's number or steps
+// Largest change of a sequence, a tick's number or a position in steps.
+constexpr std::int64_t kMostChange = 1'000'000'000;
 constexpr std::array<char, 3> kSteps = {'x', 'y', 'z'}, kMetres = {'X', 'Y', 'Z'};
 
 bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
@@ -33,7 +34,7 @@ void add(std::string& text, char letter, T number) {
     add(text, number);
 }
 
-// One tick or update, letter by letter. After the first fault nothing more is read.
+// Reads one tick or update, letter by letter. After the first error nothing more is read.
 class Fields {
 public:
     explicit Fields(std::string_view field) : rest_(field) {}
@@ -64,7 +65,7 @@ private:
     bool ok_ = true;
 };
 
-// Up to the next ';', which is taken as well.
+// Takes the text up to the next ';', and the ';' itself.
 std::optional<std::string_view> take_field(std::string_view& text) {
     const std::size_t end = text.find(';');
     if (end == std::string_view::npos) return std::nullopt;
@@ -93,7 +94,7 @@ std::int64_t TickText::steps(double position_m) const {
 }
 
 void TickText::write(std::string& text, const TickSeen& tick) {
-    const DeviceSample &now = tick.sample, &before = last_.sample;
+    const devices::DeviceSample &now = tick.sample, &before = last_.sample;
     add(text, tick.time_ns - last_.time_ns - clock_.period_ns);
     if (const Nanoseconds more_ns = now.time_ns - before.time_ns - clock_.period_ns; more_ns != 0)
         add(text, 'd', more_ns);
@@ -150,8 +151,8 @@ std::optional<TickSeen> TickText::read(std::string_view& text) {
     }
     if (fields.takes('b')) tick.sample.buttons = fields.number<std::uint32_t>();
     if (fields.takes('f')) {
-        const auto last = static_cast<std::int64_t>(DeviceFault::other);
-        tick.sample.fault = static_cast<DeviceFault>(fields.change(0, last));
+        const auto last = static_cast<std::int64_t>(devices::DeviceFault::other);
+        tick.sample.fault = static_cast<devices::DeviceFault>(fields.change(0, last));
     }
     if (fields.takes('s')) tick.surface_sequence += static_cast<std::uint64_t>(fields.change(1, kMostChange));
     if (fields.takes('p')) tick.parameter_sequence += static_cast<std::uint64_t>(fields.change(1, kMostChange));
@@ -165,8 +166,8 @@ std::optional<TickSeen> TickText::read(std::string_view& text) {
 
 // ---- Updates
 
-void UpdateText::write(std::string& text, const UpdateSeen& update) {
-    add(text, update.time_ns - last_.time_ns - CarvingThread::kPeriod_ns);
+void UpdateText::write(std::string& text, const sculpt::UpdateSeen& update) {
+    add(text, update.time_ns - last_.time_ns - sculpt::SculptThread::kPeriod_ns);
     if (update.last_tick != last_.last_tick) add(text, 't', update.last_tick - last_.last_tick);
     if (update.orders > 0) add(text, 'o', update.orders);
     if (update.export_ended) text += 'e';
@@ -174,12 +175,12 @@ void UpdateText::write(std::string& text, const UpdateSeen& update) {
     last_ = update;
 }
 
-std::optional<UpdateSeen> UpdateText::read(std::string_view& text) {
+std::optional<sculpt::UpdateSeen> UpdateText::read(std::string_view& text) {
     const auto field = take_field(text);
     if (!field) return std::nullopt;
     Fields fields(*field);
-    UpdateSeen update{last_.time_ns, last_.last_tick, 0, false};
-    update.time_ns += CarvingThread::kPeriod_ns + fields.change(-kLongestSession_ns, kLongestSession_ns);
+    sculpt::UpdateSeen update{last_.time_ns, last_.last_tick, 0, false};
+    update.time_ns += sculpt::SculptThread::kPeriod_ns + fields.change(-kLongestSession_ns, kLongestSession_ns);
     if (fields.takes('t')) update.last_tick += static_cast<std::uint64_t>(fields.change(1, kMostChange));
     if (fields.takes('o')) update.orders = static_cast<std::size_t>(fields.change(1, kMostChange));
     update.export_ended = fields.takes('e');
@@ -189,4 +190,4 @@ std::optional<UpdateSeen> UpdateText::read(std::string_view& text) {
     return update;
 }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,48 +1,34 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/command_table.hpp"
+#include "session/state/command_table.hpp"
 
 #include <algorithm>
 
-#include "app/session/input_keys.hpp"
-#include "app/session/input_words.hpp"
-#include "app/tool_option.hpp"
-#include "app/workpiece.hpp"
+#include "base/text.hpp"
+#include "sculpt/workpiece.hpp"
+#include "session/input/input_words.hpp"
 
-namespace burin {
+namespace burin::session {
 
 namespace {
 
 using Parsed = Result<SessionCommand>;
 using Arguments = std::span<const std::string>;
 
+// The input log's bound on all lengths.
 constexpr double kMostLength_m = 10.0;
-
-// Bounds: lengths to 10 m as anywhere in the input log's scenes; a filter's a below 1, or it would never answer; an eye distance that no
-// human head exceeds (Dodgson 2004: 52 to 78 mm), and 0 for two pictures that are one.
-constexpr std::array<QuantityRange, 8> kRanges{{
-    {Quantity::radius, "radius", "m", 1e-6, kMostLength_m, 0.0005, 0.05, true},
-    {Quantity::hardness, "hardness", "N s/m3", 0.0, 1e12, 1e4, 1e8, true},
-    {Quantity::friction, "friction", "", 0.0, 10.0, 0.0, 1.0, false},
-    {Quantity::stiffness, "stiffness", "N/m", 0.0, 1e6, 50.0, 2000.0, true},
-    {Quantity::velocity_filter, "velocity-filter", "", 0.0, 0.999, 0.0, 0.99, false},
-    {Quantity::force_filter, "force-filter", "", 0.0, 0.999, 0.0, 0.99, false},
-    {Quantity::scale, "scale", "", 1e-3, 1e3, 0.1, 20.0, true},
-    {Quantity::eye_distance, "eye-distance", "m", 0.0, 0.1, 0.0, 0.08, false},
-}};
 
 std::unexpected<Error> no_argument(std::string_view command, std::string_view given, const std::string& remedy) {
     return fail("command " + std::string(command) + (given.empty() ? "" : " " + std::string(given)),
                 given.empty() ? "says not what" : "is not known", remedy);
 }
 
-template <typename Names>
-std::string listed(const Names& names) {
+std::string listed(const auto& names) {
     std::string text;
     for (const std::string_view name : names) text += (text.empty() ? "" : ", ") + std::string(name);
     return text;
 }
 
-// The place of a word in a list of names.
+// Returns the index of a word in a list of names.
 Result<std::size_t> choice(std::string_view command, std::string_view word, std::span<const std::string_view> names) {
     const auto at = std::ranges::find(names, word);
     if (at == names.end()) {
@@ -52,13 +38,14 @@ Result<std::size_t> choice(std::string_view command, std::string_view word, std:
     return static_cast<std::size_t>(at - names.begin());
 }
 
-template <typename Enum, std::size_t N>
-Result<Enum> choice_of(std::string_view command, std::string_view word) {
-    std::array<std::string_view, N> names;
-    for (std::size_t i = 0; i < N; ++i) names[i] = file_name_of(static_cast<Enum>(i));
+// Returns the descriptor in a table with this name.
+template <typename Descriptor>
+Result<Descriptor> choice_of(std::string_view command, std::string_view word, std::span<const Descriptor> table) {
+    std::vector<std::string_view> names;
+    for (const Descriptor& descriptor : table) names.push_back(descriptor.name);
     const auto at = choice(command, word, names);
     if (!at) return std::unexpected(at.error());
-    return static_cast<Enum>(*at);
+    return table[*at];
 }
 
 Result<bool> parse_switch(std::string_view command, std::string_view word) {
@@ -68,9 +55,9 @@ Result<bool> parse_switch(std::string_view command, std::string_view word) {
     return *at == 1;
 }
 
-Parsed parse_quantity(const QuantityRange& range, const std::string& word) {
+Parsed parse_quantity(const QuantityDescriptor& range, const std::string& word) {
     const std::string where = "command " + std::string(range.name) + " " + word;
-    const auto number = parse_numbers(word, 1, where);
+    const auto number = sculpt::parse_numbers(word, 1, where);
     std::string remedy = "write a number from " + as_input(SetQuantity{range.quantity, range.least}).arguments[0] +
                          " to " + as_input(SetQuantity{range.quantity, range.most}).arguments[0];
     if (!range.unit.empty()) remedy += ", in " + std::string(range.unit);
@@ -79,22 +66,30 @@ Parsed parse_quantity(const QuantityRange& range, const std::string& word) {
     return SetQuantity{range.quantity, (*number)[0]};
 }
 
-Parsed parse_tool_command(Arguments words) {
-    auto tool = parse_tool_spec(words[0]);
+Parsed parse_tool(Arguments words) {
+    const std::string& text = words[0];
+    // Looks the kind up first, because this error offers the nearest name.
+    const auto kind = choice_of("tool", text.substr(0, text.find(':')), sculpt::tool_kinds());
+    if (!kind) return std::unexpected(kind.error());
+    const std::string where = "command tool " + text;
+    auto tool = sculpt::parse_tool_spec(text, where);
     if (!tool) return std::unexpected(tool.error());
+    if (std::ranges::any_of(tool->sizes_m, [](double size_m) { return size_m > kMostLength_m; })) {
+        return fail(where, "is larger than 10 m", "give sizes in metres");
+    }
     return SetTool{std::move(*tool)};
 }
 
 Parsed parse_operation(Arguments words) {
-    const auto operation = choice_of<Operation, kOperations>("operation", words[0]);
+    const auto operation = choice_of("operation", words[0], sculpt::operations());
     if (!operation) return std::unexpected(operation.error());
-    return SetOperation{*operation};
+    return SetOperation{operation->operation};
 }
 
 Parsed parse_colour(Arguments words) {
     const std::string where = "command colour " + words[0];
     const char* const remedy = "write red,green,blue from 0 to 1, such as 0.8,0.2,0.1";
-    const auto numbers = parse_numbers(words[0], 3, where);
+    const auto numbers = sculpt::parse_numbers(words[0], 3, where);
     if (!numbers) return fail(where, "is no colour", remedy);
     if (std::ranges::any_of(*numbers, [](double part) { return part < 0.0 || part > 1.0; })) {
         return fail(where, "is out of bounds", remedy);
@@ -103,12 +98,12 @@ Parsed parse_colour(Arguments words) {
 }
 
 Parsed parse_technique(Arguments words) {
-    const auto technique = choice_of<WorkspaceTechnique, kTechniques>("technique", words[0]);
+    const auto technique = choice_of("technique", words[0], techniques());
     if (!technique) return std::unexpected(technique.error());
-    return SetTechnique{*technique};
+    return SetTechnique{technique->technique};
 }
 
-// The parsers of others name no command in their errors.
+// Makes the error of another parser name the command; these parsers do not know it.
 template <typename T>
 Result<T> of_command(Result<T> result, const std::string& command) {
     if (!result) result.error().where = "command " + command;
@@ -116,13 +111,13 @@ Result<T> of_command(Result<T> result, const std::string& command) {
 }
 
 Parsed parse_mode(Arguments words) {
-    const auto mode = of_command(parse_stereo_mode(words[0]), "stereo-mode " + words[0]);
+    const auto mode = of_command(wall::parse_stereo_mode(words[0]), "stereo-mode " + words[0]);
     if (!mode) return std::unexpected(mode.error());
     return SetStereoMode{*mode};
 }
 
 Parsed parse_pattern(Arguments words) {
-    const auto pattern = of_command(parse_test_pattern(words[0]), "test-pattern " + words[0]);
+    const auto pattern = of_command(wall::parse_test_pattern(words[0]), "test-pattern " + words[0]);
     if (!pattern) return std::unexpected(pattern.error());
     return SetTestPattern{*pattern};
 }
@@ -167,39 +162,46 @@ Parsed parse_screenshot(Arguments words) {
 
 template <Quantity quantity>
 Parsed parse_number_of(Arguments words) {
-    return parse_quantity(range_of(quantity), words[0]);
+    return parse_quantity(descriptor_of(quantity), words[0]);
 }
 
 struct Entry {
     CommandSpec spec;
-    Parsed (*parse)(Arguments);  // null: an action
+    Parsed (*parse)(Arguments);
 };
 
-constexpr std::array kArguments{
-    Entry{{"tool", "SHAPE", "Take a tool: ball:R, cylinder:R,L, cone:R0,R1,L, bullnose:R,C,L, box:X,Y,Z, mesh:FILE"},
-          parse_tool_command},
-    Entry{{"radius", "R", "The tool's radius in metres"}, parse_number_of<Quantity::radius>},
-    Entry{{"operation", "WHAT", "What the tool does: cut, fill, paint or smooth"}, parse_operation},
-    Entry{{"colour", "R,G,B", "Colour of what the tool leaves, each part from 0 to 1"}, parse_colour},
-    Entry{{"hardness", "H", "How hard the material is to cut, in N s/m3"}, parse_number_of<Quantity::hardness>},
-    Entry{{"friction", "MU", "Friction of the surface, Coulomb's coefficient"}, parse_number_of<Quantity::friction>},
-    Entry{{"stiffness", "K", "Stiffness of the surface in N/m"}, parse_number_of<Quantity::stiffness>},
-    Entry{{"force", "on|off", "Whether the device gives force"}, parse_force},
-    Entry{{"velocity-filter", "A", "Moving average of the velocity, weight of the past; 0: none"},
-          parse_number_of<Quantity::velocity_filter>},
-    Entry{{"force-filter", "A", "Moving average of the force, weight of the past; 0: none"},
-          parse_number_of<Quantity::force_filter>},
-    Entry{{"technique", "NAME", "How the workspace moves: fixed, moving, scaling, clutching, bubble or drift"},
-          parse_technique},
-    Entry{{"scale", "G", "How much larger motions in the scene are than the hand's"}, parse_number_of<Quantity::scale>},
-    Entry{{"stereo-mode", "NAME", "How the two eyes' pictures are shown, such as anaglyph_red_cyan"}, parse_mode},
-    Entry{{"swap-eyes", "[on|off]", "Exchange the eyes; the other way round without argument"}, parse_eye_swap},
-    Entry{{"test-pattern", "NAME", "Show none, eye_order, ghosting or geometry"}, parse_pattern},
-    Entry{{"eye-distance", "D", "Distance between the eyes in metres"}, parse_number_of<Quantity::eye_distance>},
-    Entry{{"show-force", "on|off", "Whether an arrow shows the force"}, parse_force_shown},
-    Entry{{"export", "FILE", "Write the mesh to a file"}, parse_export},
-    Entry{{"screenshot", "FILE", "Write a picture of the screen to a file"}, parse_screenshot},
-};
+template <Quantity quantity>
+Entry entry_of() {
+    const QuantityDescriptor& q = descriptor_of(quantity);
+    return {{q.name, q.argument, std::string(q.help)}, parse_number_of<quantity>};
+}
+
+// Lists the commands that take an argument.
+const std::vector<Entry>& entries() {
+    using sculpt::alternatives, sculpt::names_in;
+    static const std::vector<Entry> all{
+        {{"tool", "SHAPE", "Take a tool: " + listed(sculpt::tool_synopses())}, parse_tool},
+        entry_of<Quantity::radius>(),
+        {{"operation", "WHAT", "What the tool does: " + alternatives(names_in(sculpt::operations()))}, parse_operation},
+        {{"colour", "R,G,B", "Colour of what the tool leaves, each part from 0 to 1"}, parse_colour},
+        entry_of<Quantity::hardness>(),
+        entry_of<Quantity::friction>(),
+        entry_of<Quantity::stiffness>(),
+        {{"force", "on|off", "Whether the device gives force"}, parse_force},
+        entry_of<Quantity::velocity_filter>(),
+        entry_of<Quantity::force_filter>(),
+        {{"technique", "NAME", "How the workspace moves: " + alternatives(names_in(techniques()))}, parse_technique},
+        entry_of<Quantity::scale>(),
+        {{"stereo-mode", "NAME", "How the two eyes' pictures are shown, such as anaglyph_red_cyan"}, parse_mode},
+        {{"swap-eyes", "[on|off]", "Exchange the eyes; the other way round without argument"}, parse_eye_swap},
+        {{"test-pattern", "NAME", "Show none, eye_order, ghosting or geometry"}, parse_pattern},
+        entry_of<Quantity::eye_distance>(),
+        {{"show-force", "on|off", "Whether an arrow shows the force"}, parse_force_shown},
+        {{"export", "FILE", "Write the mesh to a file"}, parse_export},
+        {{"screenshot", "FILE", "Write a picture of the screen to a file"}, parse_screenshot},
+    };
+    return all;
+}
 
 constexpr std::size_t kActions = static_cast<std::size_t>(Action::quit) + 1;
 
@@ -208,14 +210,14 @@ std::string_view help_of(Action action) {
     return cut == short_cuts().end() ? std::string_view{} : cut->description;
 }
 
-// Both kinds; swap-eyes is an action that takes an argument too, and is listed once.
+// Lists commands with arguments and actions. swap-eyes is an action that also takes an argument, and is listed once.
 const std::vector<CommandSpec>& all_commands() {
     static const std::vector<CommandSpec> all = [] {
         std::vector<CommandSpec> list;
-        for (const Entry& entry : kArguments) list.push_back(entry.spec);
+        for (const Entry& entry : entries()) list.push_back(entry.spec);
         for (std::size_t i = 0; i < kActions; ++i) {
             const auto action = static_cast<Action>(i);
-            if (action != Action::swap_eyes) list.push_back({name_of(action), "", help_of(action)});
+            if (action != Action::swap_eyes) list.push_back({name_of(action), "", std::string(help_of(action))});
         }
         return list;
     }();
@@ -232,47 +234,19 @@ Parsed parse_action(const CommandInput& input) {
                     "did you mean " + std::string(nearest_name(input.name, known)) + "? F1 lists all commands");
     }
     if (!input.arguments.empty()) {
-        return fail("command " + input.name, "takes no argument", "leave out " + burin::quoted(input.arguments[0]));
+        return fail("command " + input.name, "takes no argument",
+                    "leave out " + burin::session::quoted(input.arguments[0]));
     }
     return RunAction{static_cast<Action>(at - names.begin())};
 }
 
 }  // namespace
 
-const QuantityRange& range_of(Quantity quantity) { return kRanges.at(static_cast<std::size_t>(quantity)); }
-
 std::span<const CommandSpec> commands() { return all_commands(); }
 
-Result<ToolSpec> parse_tool_spec(std::string_view text) {
-    const std::size_t colon = text.find(':');
-    const std::string where = "command tool " + std::string(text);
-    const auto kind = choice_of<ToolKind, kToolKinds>("tool", text.substr(0, colon));
-    if (!kind) return std::unexpected(kind.error());
-    ToolSpec tool{*kind, {}, {}};
-    const std::string rest(colon == std::string_view::npos ? std::string_view{} : text.substr(colon + 1));
-    if (*kind == ToolKind::mesh) {
-        if (rest.empty() || rest.contains('\0')) return fail(where, "names no file", "write mesh:FILE");
-        tool.file = rest;
-        return tool;
-    }
-    // What sizes make a tool is that parser's to say; here only that they are of this world.
-    ToolOptions options;
-    options.shape = text;
-    if (const auto whole = of_command(parse_tool(options), "tool " + options.shape); !whole) {
-        return std::unexpected(whole.error());
-    }
-    const auto sizes = parse_numbers(rest, size_names(*kind).size(), where);
-    if (!sizes) return std::unexpected(sizes.error());
-    if (std::ranges::any_of(*sizes, [](double size) { return size > kMostLength_m; })) {
-        return fail(where, "is larger than 10 m", "give sizes in metres");
-    }
-    std::ranges::copy(*sizes, tool.sizes_m.begin());
-    return tool;
-}
-
 Result<SessionCommand> parse_command(const CommandInput& input) {
-    const auto entry = std::ranges::find_if(kArguments, [&](const Entry& e) { return e.spec.name == input.name; });
-    if (entry == kArguments.end()) return parse_action(input);
+    const auto entry = std::ranges::find_if(entries(), [&](const Entry& e) { return e.spec.name == input.name; });
+    if (entry == entries().end()) return parse_action(input);
     const bool optional = entry->spec.arguments.starts_with('[');
     if (input.arguments.size() > 1 || (input.arguments.empty() && !optional)) {
         return fail("command " + input.name, input.arguments.empty() ? "lacks its argument" : "takes one argument",
@@ -289,4 +263,4 @@ Result<SessionCommand> parse_command_line(std::string_view line) {
     return parse_command(input);
 }
 
-}  // namespace burin
+}  // namespace burin::session

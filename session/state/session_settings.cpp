@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/session_settings.hpp"
+#include "session/state/session_settings.hpp"
 
 #include <array>
 #include <charconv>
 #include <map>
 #include <optional>
 
-#include "app/session/command_table.hpp"
-#include "app/session/input_words.hpp"
+#include "session/input/input_words.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 constexpr const char* kCommand = "burin sculpt";
@@ -36,13 +35,15 @@ void visit_settings(Options& o, Visit&& visit) {
     visit("--samples", o.live.samples);
 }
 
-// ---- What stands behind an option; nothing: the option is not there. A flag has nothing behind it.
+// ---- Text of an option's value; none: the option is absent. A flag that is present has an empty text.
 
 std::optional<std::string> text(const std::string& value) {
     return value.empty() ? std::nullopt : std::optional(value);
 }
 std::optional<std::string> text(bool on) { return on ? std::optional<std::string>("") : std::nullopt; }
-std::optional<std::string> text(Operation operation) { return std::string(file_name_of(operation)); }
+std::optional<std::string> text(compute::Operation operation) {
+    return std::string(sculpt::descriptor_of(operation).name);
+}
 template <typename T>
 std::optional<std::string> text(T number) {
     std::array<char, 32> digits;
@@ -58,10 +59,10 @@ bool read(const std::string& text, std::string& value) {
     return true;
 }
 bool read(const std::string&, bool& on) { return on = true; }
-bool read(const std::string& text, Operation& value) {
-    for (const Operation known : {Operation::cut, Operation::fill, Operation::paint, Operation::smooth}) {
-        value = known;
-        if (file_name_of(known) == text) return true;
+bool read(const std::string& text, compute::Operation& value) {
+    for (const sculpt::OperationDescriptor& known : sculpt::operations()) {
+        value = known.operation;
+        if (known.name == text) return true;
     }
     return false;
 }
@@ -77,7 +78,7 @@ bool read(const std::string& text, std::optional<T>& value) {
 
 using Words = std::map<std::string, std::string>;
 
-// By their options.
+// Returns the values of all options that are present, by option.
 Words words_behind(const SculptOptions& options) {
     Words words;
     visit_settings(options, [&](const char* name, const auto& value) {
@@ -123,10 +124,11 @@ std::string settings_line(const SculptOptions& options) {
 
 Result<RecordedOptions> options_as_recorded(const std::string& line, const SculptOptions& given) {
     RecordedOptions recorded{given, {}};
-    if (!line.starts_with(std::string(kCommand) + " --")) return recorded;  // of a recording without options
+    if (!line.starts_with(std::string(kCommand) + " --")) return recorded;  // recorded without options
     Result<Words> words = words_on(line);
     if (!words) return std::unexpected(words.error());
-    const Words given_words = words_behind(given), left_out = words_behind(SculptOptions{});
+    const SculptOptions defaults;
+    const Words given_words = words_behind(given), left_out = words_behind(defaults);
     std::string wrong;
     visit_settings(recorded.options, [&]<typename T>(const std::string& name, T& value) {
         const std::string now = shown(name, given_words), then = shown(name, *words);
@@ -143,4 +145,4 @@ Result<RecordedOptions> options_as_recorded(const std::string& line, const Sculp
     return recorded;
 }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,30 +1,35 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/session_state.hpp"
+#include "session/state/session_state.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
-#include "app/session/seen_place.hpp"
-#include "app/staging.hpp"
 #include "haptics/contact/probe.hpp"
-#include "renderer/stereo/projection.hpp"
+#include "session/state/staging.hpp"
+#include "wall/projection.hpp"
+#include "wall/seen_place.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
-// The workpiece's longest side, in the height of the screen, and where it stands: its front about in the screen's own plane,
-// where eyes rest best.
+// Size of the workpiece's longest side as a share of the screen's height; it stands with its front about in the
+// screen's own plane, where eyes rest best.
 constexpr double kHeightOnScreen = 0.52;
-constexpr double kBehindScreen = 0.4;       // its middle, in its own longest side
-constexpr double kAboveLowerEdge = 0.55;    // likewise, in the height of the screen
-constexpr double kWorkspaceCovers = 1.1;    // of the workpiece's width and height
-constexpr double kClearsBorder_m = 0.0005;  // of the workspace
+// Distance of its center behind the screen, as a share of its own longest side.
+constexpr double kBehindScreen = 0.4;
+// Height of its center above the screen's lower edge, as a share of the screen's height.
+constexpr double kAboveLowerEdge = 0.55;
+// Size of the hand's workspace as a multiple of the workpiece's width and height.
+constexpr double kWorkspaceCovers = 1.1;
+// Distance of the resting hand from the workspace's border.
+constexpr double kClearsBorder_m = 0.0005;
 
 double longest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
 
 Similarity place_workpiece(const Room& room) {
-    const Screen s = room.screen();
+    const wall::Screen s = room.screen();
     const Vec3 across = s.lower_right_world - s.lower_left_world, upright = s.upper_left_world - s.lower_left_world;
     const Vec3 out = glm::normalize(glm::cross(across, upright));
     const double height_m = glm::length(upright), size_m = longest(room.workpiece_object.extent());
@@ -38,7 +43,7 @@ Similarity place_workpiece(const Room& room) {
     return world_from_object;
 }
 
-// Its middle at the workpiece's front, large enough to reach over its width and height.
+// Places the hand's workspace with its center at the workpiece's front, large enough to cover its width and height.
 Similarity place_workspace(const Room& room, const Similarity& world_from_object) {
     const Vec3 size = room.workpiece_object.extent() * world_from_object.scale;
     const Vec3 needed = kWorkspaceCovers * size / room.workspace_device_m;
@@ -47,45 +52,42 @@ Similarity place_workspace(const Room& room, const Similarity& world_from_object
     return {world_from_object * front, world_from_object.orientation, std::max(needed.x, needed.y)};
 }
 
-// Before a wall, back or forth as far as its viewer's eyes ask for at the start.
+// Before a wall, moves the workpiece back or forth as far as its viewer's eyes require at the start.
 void move_into_comfort(SessionState& state, const Room& room) {
     if (room.wall.desk) return;
-    const Sight sight = sight_of(room.wall.setup, room.wall.main, state.head, state.interpupillary_m);
+    const View sight = view_of(room.wall.setup, room.wall.main, state.head, state.interpupillary_m);
     if (!sight.visible) return;
     const double radius_m = 0.5 * state.world_from_object.scale * longest(room.workpiece_object.extent());
     const Similarity world_from_device = place_workspace(room, state.world_from_object);
-    const std::array<ContentBall, 2> content{
+    const std::array<wall::ContentBall, 2> content{
         {{state.world_from_object * room.workpiece_object.center(), radius_m},
          {world_from_device * Vec3(0.0, 0.0, 0.5 * room.workspace_device_m.z), 0.2 * radius_m}}};  // the tool at rest
-    const ComfortFinding finding = judge(room.wall.setup.budget, sight.screen, eyes_of(sight.viewer), {content, {}});
+    const wall::ComfortFinding finding =
+        wall::judge(room.wall.setup.budget, sight.screen, wall::eyes_of(sight.viewer), {content, {}});
     if (!finding.move_m) return;
     state.world_from_object.position_m += *finding.move_m * (world_from_screen(sight.screen) * Vec3(0.0, 0.0, 1.0));
 }
 
-// What cannot be cut is only touched.
-FeelOptions feel_of(const SessionState& state) {
-    FeelOptions feel = state.feel;
-    if (state.only_touch) feel.hardness = "inf";
-    return feel;
+// Returns the feel of the workpiece; with infinite hardness when it can only be touched.
+haptics::TouchMaterial material_under_tool(const SessionState& state) {
+    constexpr double kCannotBeCut = std::numeric_limits<double>::infinity();
+    return sculpt::touch_material(state.only_touch ? sculpt::with_hardness(state.feel, kCannotBeCut) : state.feel);
 }
 
-double ball_radius_m(const SessionState& state) {
-    const Result<Tool> tool = parse_tool(state.tool);
-    return tool ? tool->ball_radius_m() : 0.0;
-}
+double ball_radius_m(const SessionState& state) { return sculpt::ball_radius_m(state.tool.shape); }
 
-// From the main screen to the head; never 0, also where the head is beside or behind it.
-double head_distance_m(const SessionState& state, const Screen& screen, const WallSetup& setup) {
-    return std::max(distance_in_front(screen, head_world(setup, state.head).position_m), 0.05);
+// Returns the distance from the main screen to the head; never 0, even where the head is beside or behind it.
+double head_distance_m(const SessionState& state, const wall::Screen& screen, const wall::WallSetup& setup) {
+    return std::max(wall::distance_in_front(screen, head_world(setup, state.head).position_m), 0.05);
 }
 
 DeskView view_of(const SessionState& state, const Room& room, const SessionView& seen) {
-    const Screen screen = room.screen();
+    const wall::Screen screen = room.screen();
     const double width_m = glm::length(screen.lower_right_world - screen.lower_left_world);
     const double screen_m_per_px = width_m / std::max(seen.eye_size.width, 1u);
     const double eye_m = head_distance_m(state, screen, room.wall.setup);
     const Vec3 tool_world = state.world_from_object * seen.tool.hip_object_m;
-    const double to_tool_m = std::max(eye_m - distance_in_front(screen, tool_world), 0.1);
+    const double to_tool_m = std::max(eye_m - wall::distance_in_front(screen, tool_world), 0.1);
     DeskView view;
     view.device_m_per_px = device_m_per_px(screen_m_per_px, eye_m, to_tool_m, state.world_from_device.scale);
     view.world_m_per_px = screen_m_per_px;
@@ -98,21 +100,20 @@ DeskView view_of(const SessionState& state, const Room& room, const SessionView&
     return view;
 }
 
-// A large box around the whole workpiece must not dim it.
+// Keeps a large box around the whole workpiece from dimming it.
 constexpr double kBoxOpacity = 0.04;
 
-// Of what it leaves behind; a cutting tool has its own.
+// Returns the colour of what the tool leaves behind; a cutting tool has its own.
 Vec3 tool_colour(const SessionState& state) {
-    const Result<Material> material = parse_tool_material(state.tool);
-    if (state.tool.operation == Operation::cut || !material) return SceneTool{}.colour;
-    const auto& c = material->colour;
+    if (state.tool.operation == compute::Operation::cut) return renderer::SceneTool{}.colour;
+    const auto c = sculpt::material_of(state.tool).colour;
     return Vec3(c[0], c[1], c[2]) / 255.0;
 }
 
 }  // namespace
 
-SessionState begin_session(const Room& room, const ToolOptions& tool, const FeelOptions& feel,
-                           const OutputSettings& output) {
+SessionState begin_session(const Room& room, const sculpt::ToolSettings& tool, const sculpt::FeelSettings& feel,
+                           const wall::OutputSettings& output) {
     SessionState state;
     state.desk = desk_at_home(room.desk);
     state.head = follow_head({}, room.wall.setup, room.wall.setup.timing, {}, 0, state.desk.head_world);
@@ -121,7 +122,7 @@ SessionState begin_session(const Room& room, const ToolOptions& tool, const Feel
     move_into_comfort(state, room);
     state.home_world_from_object = state.world_from_object;
     state.world_from_device = place_workspace(room, state.world_from_object);
-    // The hand rests before the workpiece.
+    // Let the hand rest in front of the workpiece.
     state.desk.target_device_m.z = 0.5 * room.workspace_device_m.z - kClearsBorder_m;
     state.tool = tool;
     state.feel = feel;
@@ -134,7 +135,7 @@ SessionStep step_session(SessionState state, const Room& room, std::span<const I
     SessionStep step;
     DeskStep desk = step_desk(state.desk, events, view.dt_s, view_of(state, room, view), room.desk);
     state.desk = desk.state;
-    const StereoMode mode = output_on(room.wall, room.wall.main, state.output).mode;
+    const wall::StereoMode mode = output_on(room.wall, room.wall.main, state.output).mode;
     state.head = follow_head(state.head, room.wall.setup, timing_in(room.wall.setup, mode), events, view.display_ns,
                              state.desk.head_world);
     step.hand = desk.target;
@@ -162,8 +163,8 @@ SessionStep step_session(SessionState state, const Room& room, std::span<const I
     return step;
 }
 
-TickParameters parameters_of(const SessionState& state, const Room& room) {
-    TickParameters p;
+haptics::TickParameters parameters_of(const SessionState& state, const Room& room) {
+    haptics::TickParameters p;
     const double radius_m = ball_radius_m(state);
     p.workspace.technique = state.technique;
     Similarity world_from_device = state.world_from_device;
@@ -174,42 +175,41 @@ TickParameters parameters_of(const SessionState& state, const Room& room) {
     const Vec3 around = Vec3(2.0 * radius_m) + 0.25 * room.workpiece_object.extent();
     p.workspace.reach_object.lo -= around;
     p.workspace.reach_object.hi += around;
-    p.probe = ball_probe(radius_m);
-    const Result<Tool> tool = parse_tool(state.tool);
-    if (tool) p.action = action_of(tool->operation);
-    if (const Result<Feel> feel = parse_feel(feel_of(state))) p.materials.fill(feel->material);
+    p.probe = haptics::ball_probe(radius_m);
+    p.action = sculpt::action_of(state.tool.operation);
+    p.materials.fill(material_under_tool(state));
     p.signals.force_alpha = state.force_filter;
     if (state.velocity_filter > 0.0) {
-        p.signals.velocity = VelocityMethod::moving_average;
+        p.signals.velocity = haptics::VelocityMethod::moving_average;
         p.signals.velocity_alpha = state.velocity_filter;
     }
     p.enabled = state.force_on;
     return p;
 }
 
-Result<UseTool> tool_of(const SessionState& state) {
-    const Result<Tool> tool = parse_tool(state.tool);
-    if (!tool) return std::unexpected(tool.error());
-    const Result<Material> material = parse_tool_material(state.tool);
-    if (!material) return std::unexpected(material.error());
-    const Result<Feel> feel = parse_feel(feel_of(state));
-    if (!feel) return std::unexpected(feel.error());
-    if (tool->ball_radius_m() == 0.0) {
-        return fail("tool " + state.tool.shape, "cannot be felt: the hand feels with a ball", "use ball:R");
+Result<sculpt::UseTool> tool_of(const SessionState& state) {
+    const sculpt::ToolSettings& tool = state.tool;
+    if (const auto good = sculpt::check_tool(tool); !good) return std::unexpected(good.error());
+    if (const auto good = sculpt::check_feel(state.feel); !good) return std::unexpected(good.error());
+    // Comes before the shape is made, so that no file is read: the shape of a ball comes from none.
+    if (tool.shape.kind != sculpt::ToolKind::ball) {
+        return fail("tool " + sculpt::text_of(tool.shape), "cannot be felt: the hand feels with a ball", "use ball:R");
     }
-    return UseTool{*tool, *material, feel->material.hardness_Ns_per_m3};
+    Result<sculpt::Tool> made = sculpt::make_tool(tool);
+    if (!made) return std::unexpected(made.error());
+    return sculpt::UseTool{std::move(*made), sculpt::material_of(tool), material_under_tool(state).hardness_Ns_per_m3};
 }
 
-std::optional<Scene> scene_of(const SessionState& state, const Room& room, std::size_t screen,
-                              const Vec3& lattice_origin_object, const ToolState& tool) {
-    const Sight sight = sight_of(room.wall.setup, screen, state.head, state.interpupillary_m);
+std::optional<renderer::Scene> scene_of(const SessionState& state, const Room& room, std::size_t screen,
+                                        const Vec3& lattice_origin_object, const haptics::ToolState& tool) {
+    const View sight = view_of(room.wall.setup, screen, state.head, state.interpupillary_m);
     if (!sight.visible) return std::nullopt;
-    Scene scene;
+    renderer::Scene scene;
     scene.screen = sight.screen;
     scene.viewer = sight.viewer;
-    const bool one_eye = needs_of(output_on(room.wall, screen, state.output).mode).one_eye_point;
+    const bool one_eye = wall::needs_of(output_on(room.wall, screen, state.output).mode).one_eye_point;
     if (one_eye) scene.viewer.interpupillary_m = 0.0;
-    // Where screens adjoin there is no edge to violate, and a fade would break the picture apart there.
+    // Adjoining screens have no edge that could violate the window, and a fade would break the picture apart there.
     if (!one_eye && room.wall.screens.size() == 1) scene.edge_fade = 1.0;
     scene.world_from_object = state.world_from_object;
     scene.lattice_origin_object = lattice_origin_object;
@@ -228,16 +228,16 @@ std::optional<Scene> scene_of(const SessionState& state, const Room& room, std::
     return scene;
 }
 
-ComfortFinding comfort_of(const SessionState& state, const Room& room, const ToolState& tool) {
-    const Sight sight = sight_of(room.wall.setup, room.wall.main, state.head, state.interpupillary_m);
+wall::ComfortFinding comfort_of(const SessionState& state, const Room& room, const haptics::ToolState& tool) {
+    const View sight = view_of(room.wall.setup, room.wall.main, state.head, state.interpupillary_m);
     if (!sight.visible) return {};
     const double scale = state.world_from_object.scale;
     const Box& workpiece = room.workpiece_object;
-    // As a ball: the workpiece may be turned anyhow.
-    const std::array<ContentBall, 2> balls{
+    // Bounds the workpiece by a ball, since it may be turned any way.
+    const std::array<wall::ContentBall, 2> balls{
         {{state.world_from_object * workpiece.center(), 0.5 * scale * longest(workpiece.extent())},
          {state.world_from_object * tool.proxy_object_m, scale * ball_radius_m(state)}}};
-    return judge(room.wall.setup.budget, sight.screen, eyes_of(sight.viewer), {balls, {}});
+    return wall::judge(room.wall.setup.budget, sight.screen, wall::eyes_of(sight.viewer), {balls, {}});
 }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "app/staging.hpp"
+#include "session/state/staging.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
-void stage_tool(SceneTool& tool, const Staging& staging, const Similarity& world_from_object) {
+void stage_tool(renderer::SceneTool& tool, const Staging& staging, const Similarity& world_from_object) {
     tool.visible = staging.tool_visible;
     tool.radius_m = staging.tool_radius_object_m * world_from_object.scale;
     tool.center_world = world_from_object * staging.tool_center_object;
     tool.stylus_world.position_m = tool.center_world;
-    // Held as a pen is held: from the right, above and in front.
+    // Orients the stylus as a pen is held: from the right, above and in front.
     tool.stylus_world.orientation = glm::quat_cast(glm::dmat3(
         glm::normalize(Vec3(1.0, 0.0, -0.45)), glm::normalize(glm::cross(Vec3(0.45, 0.8, 1.0), Vec3(1.0, 0.0, -0.45))),
         glm::normalize(Vec3(0.45, 0.8, 1.0))));
 }
 
-// The arrow's length goes by the screen's, so that a newton looks the same on a desk and on a wall.
-void stage_contact(Scene& scene, const Staging& staging, const Similarity& world_from_object) {
+// Draws ring and arrow. The arrow's length scales with the screen's height, so that a newton looks the same on a
+// desktop display and on a wall.
+void stage_contact(renderer::Scene& scene, const Staging& staging, const Similarity& world_from_object) {
     constexpr double kScreenHeightsPerN = 1.0 / 25.0;
     const Quat world_from_device = world_from_object.orientation * staging.object_from_device.orientation;
     scene.contact.visible = staging.contact_shown && staging.in_contact;
@@ -27,7 +28,7 @@ void stage_contact(Scene& scene, const Staging& staging, const Similarity& world
         kScreenHeightsPerN * glm::length(scene.screen.upper_left_world - scene.screen.lower_left_world);
 }
 
-void stage_workspace(Scene& scene, const Staging& staging, const Similarity& world_from_object) {
+void stage_workspace(renderer::Scene& scene, const Staging& staging, const Similarity& world_from_object) {
     const Similarity world_from_device = world_from_object * staging.object_from_device;
     scene.box.visible = staging.box_visible;
     scene.box.center_world = {world_from_device.position_m, world_from_device.orientation};
@@ -44,8 +45,8 @@ void stage_workspace(Scene& scene, const Staging& staging, const Similarity& wor
 
 }  // namespace
 
-Staging staging_of(const ToolState& tool, double tool_radius_object_m, const Vec3& workspace_device_m) {
-    const WorkspacePicture& picture = tool.workspace;
+Staging staging_of(const haptics::ToolState& tool, double tool_radius_object_m, const Vec3& workspace_device_m) {
+    const haptics::WorkspacePicture& picture = tool.workspace;
     Staging staging;
     staging.tool_center_object = tool.proxy_object_m;
     staging.tool_radius_object_m = tool_radius_object_m;
@@ -56,17 +57,17 @@ Staging staging_of(const ToolState& tool, double tool_radius_object_m, const Vec
     staging.proposed_visible = tool.tick > 0 && picture.proposed_visible;
     staging.proposed_center_object = picture.proposed_center_object_m;
     staging.bubble_radius_object_m = tool.tick > 0 ? picture.bubble_radius_object_m : 0.0;
-    staging.in_contact = tool.tick > 0 && (tool.flags & kTickInContact) != 0;
+    staging.in_contact = tool.tick > 0 && (tool.flags & haptics::kTickInContact) != 0;
     staging.contact_object = tool.proxy_object_m - tool_radius_object_m * tool.contact_normal_object;
     staging.contact_normal_object = tool.contact_normal_object;
     staging.force_device_N = tool.given.force_device_N;
     return staging;
 }
 
-void stage(Scene& scene, const Staging& staging, const Similarity& world_from_object) {
+void stage(renderer::Scene& scene, const Staging& staging, const Similarity& world_from_object) {
     stage_tool(scene.tool, staging, world_from_object);
     stage_contact(scene, staging, world_from_object);
     stage_workspace(scene, staging, world_from_object);
 }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/frame_pacing.hpp"
+#include "session/timing/frame_pacing.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,36 +7,41 @@
 
 #include "base/error.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
-constexpr std::size_t kNewest = 4;  // frames whose longest counts
+constexpr std::size_t kNewest = 4;  // newest frames, whose longest counts
 constexpr double kMissGrowth = 1.5, kTimelyShrinking = 0.99;
-constexpr double kLeastGain = 0.05;       // of the filter over flips, when it has settled
-constexpr double kLateWeight = 1.0 / 16;  // of flips that come later than foreseen, when it has settled
-constexpr double kRateTolerance = 0.08;   // beyond it the period is learnt anew
+// Gain of the filter over flips when it has settled.
+constexpr double kLeastGain = 0.05;
+// Weight of flips that come later than predicted when the filter has settled.
+constexpr double kLateWeight = 1.0 / 16;
+// Relative difference beyond which the period is relearned.
+constexpr double kRateTolerance = 0.08;
 constexpr std::uint32_t kMoreAfter = 2, kLessAfter = 30;
 constexpr double kRoomForLess = 0.9;
 constexpr std::uint32_t kMostInterval = 60;
 constexpr std::uint32_t kQueuedAfter = 4, kBlockedAfter = 3;
-constexpr std::uint32_t kQueueLength = 2;  // images beside the one that is shown, in the usual three
+// Images beside the one that is shown, with the usual three.
+constexpr std::uint32_t kQueueLength = 2;
 
 Nanoseconds whole(double t_ns) { return static_cast<Nanoseconds>(std::floor(t_ns + 0.5)); }
 
-// Smoothing of a load that is watched for its rate: up at once, down slowly.
+// Smooths a load that determines the rate: follows an increase at once and a decrease slowly.
 Nanoseconds followed(Nanoseconds before, Nanoseconds now) { return now > before ? now : before - (before - now) / 16; }
 
 Nanoseconds need_ns(const PacingState& state) {
     return expected_work_ns(state) + whole(state.margin_ns) + state.settings.lead_ns;
 }
 
-// The least time between two frames.
+// Returns the least time between two frames.
 Nanoseconds busy_ns(const PacingState& state) {
     if (!state.settings.overlap) return need_ns(state);
     return std::max(state.processor_ns, state.graphics_ns) + whole(state.margin_ns);
 }
 
-// The number of periods from the known vblank to the first one not before a time. Half a microsecond of grace for rounding.
+// Returns the number of periods from the known vblank to the first one not before a time, with half a microsecond of
+// tolerance for rounding.
 std::int64_t periods_until(const PacingState& state, Nanoseconds time_ns) {
     return static_cast<std::int64_t>(
         std::ceil((static_cast<double>(time_ns - state.vblank_ns) - 500.0) / state.period_ns));
@@ -65,7 +70,7 @@ void choose_interval(PacingState& state) {
     }
 }
 
-// The first vblank that the work can reach, and not before the frame before has lasted its interval.
+// Returns the first vblank that the work can reach, and not before the previous frame has lasted its interval.
 Nanoseconds next_vblank(const PacingState& state, Nanoseconds now_ns) {
     std::int64_t at = periods_until(state, now_ns + need_ns(state));
     if (state.last_plan.frame > 0) {
@@ -75,7 +80,7 @@ Nanoseconds next_vblank(const PacingState& state, Nanoseconds now_ns) {
     return vblank(state, at);
 }
 
-// Without a display to wait for.
+// Returns the next frame's time without a display to wait for.
 Nanoseconds next_free_time(const PacingState& state, Nanoseconds now_ns) {
     const Nanoseconds soonest_ns = now_ns + need_ns(state);
     if (state.last_plan.frame == 0) return soonest_ns;
@@ -92,7 +97,7 @@ void restart_flips(PacingState& state, Nanoseconds flip_ns) {
     state.queued_frames = state.blocked_frames = 0;
 }
 
-// True when the distances of flips say another period.
+// Returns whether the distances of flips show another period, and adopts it.
 bool rate_has_changed(PacingState& state) {
     if (state.flip_distance_count < state.flip_distances_ns.size()) return false;
     auto sorted = state.flip_distances_ns;
@@ -109,13 +114,13 @@ bool rate_has_changed(PacingState& state) {
 void follow_flip(PacingState& state, Nanoseconds flip_ns) {
     const auto since = static_cast<double>(flip_ns - state.vblank_ns) - state.vblank_part_ns;
     const double periods = std::round(since / state.period_ns);
-    if (periods <= 0.0) return;  // an old one
+    if (periods <= 0.0) return;  // an old flip
     const double error_ns = since - periods * state.period_ns;
     const double n = static_cast<double>(state.flips_since_reset++);
-    // While it settles the gains are those of a straight line through the n + 1 flips so far.
+    // While the filter settles, the gains are those of a straight line through the n + 1 flips so far.
     const double alpha = std::max(kLeastGain, 2.0 * (2.0 * n + 1.0) / ((n + 1.0) * (n + 2.0)));
     const double beta = std::max(kLeastGain * kLeastGain / (2.0 - kLeastGain), 6.0 / ((n + 1.0) * (n + 2.0)));
-    // One flip alone says where, not how fast: the period given is trusted more than the first distances.
+    // A single flip gives a phase, not a rate: the initial period is trusted more than the first distances.
     const double trusted = n < 8.0 ? kLeastGain * kLeastGain : beta;
     const double weighed_ns = (n >= 32.0 && error_ns > 0.0 ? kLateWeight : 1.0) * error_ns;
     state.period_ns += std::min(beta, trusted) * weighed_ns / periods;
@@ -164,7 +169,7 @@ void empty_queue(PacingState& state, const FrameMeasure& m, bool in_time, bool m
     if (state.periods_to_leave_out > 0) state.queued_frames = state.blocked_frames = 0;
 }
 
-// When the frame was shown, or must have been for all one knows.
+// Returns when the frame was shown or, where that is not reported, must have been.
 Nanoseconds shown_ns(const PacingState& state, const FrameMeasure& m) {
     if (m.displayed_ns) return *m.displayed_ns;
     const Nanoseconds ready_ns = m.finished_ns + state.settings.lead_ns;
@@ -216,7 +221,7 @@ PlannedFrame plan_frame(PacingState state, Nanoseconds now_ns) {
 PacingState frame_finished(PacingState state, const FramePlan& plan, Nanoseconds finished_ns) {
     if (plan.frame != state.last_plan.frame) return state;
     const Nanoseconds ready_ns = finished_ns + state.settings.lead_ns;
-    // Where no vblank is waited for, one that was expected to take much longer must not hold up the next.
+    // Without vblanks, a frame that finished much earlier than expected must not hold up the next.
     const bool early = !state.flips_seen && ready_ns + whole(state.period_ns) < plan.display_ns;
     if (finished_ns <= plan.finish_by_ns && !early) return state;
     state.last_plan.display_ns = state.flips_seen ? vblank(state, periods_until(state, ready_ns)) : ready_ns;
@@ -229,7 +234,7 @@ PacingState after_frame(PacingState state, const FrameMeasure& measure) {
     learn_work(state, measure);
     const Nanoseconds shown = shown_ns(state, measure);
     const bool missed = 2.0 * static_cast<double>(shown - measure.plan.display_ns) > state.period_ns;
-    adapt_margin(state, in_time && (!missed || state.last_missed));  // after the first the queue is to blame
+    adapt_margin(state, in_time && (!missed || state.last_missed));  // a repeated miss is the queue's
     state.last_missed = missed;
     empty_queue(state, measure, in_time, missed);
     ++state.measured;
@@ -249,4 +254,4 @@ PacingState display_changed(PacingState state, Nanoseconds period_ns) {
     return state;
 }
 
-}  // namespace burin
+}  // namespace burin::session

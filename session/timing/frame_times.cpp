@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/frame_times.hpp"
+#include "session/timing/frame_times.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,20 +8,20 @@
 
 #include "base/error.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 constexpr std::array<std::string_view, kFrameFigures> kNames = {
     "head age", "motion to photon", "tool age", "touch before sight", "carve age", "frame time", "draw time"};
 
-// Published limits of perception; a figure's limits from strict to lax, of which the last that is exceeded is reported.
+// Published limits of perception, for each figure from strict to lax; the last one that is exceeded is reported.
 struct Limit {
     FrameFigure figure;
-    bool from_below;  // the figure's negative is judged
+    bool from_below;  // judges the figure's negative
     Nanoseconds limit_ns;
     std::string_view what;
     std::string_view source;
-    const char* title;  // with the milliseconds in it
+    const char* title;  // a format for the milliseconds
 };
 constexpr Nanoseconds kMs = 1'000'000;
 constexpr std::array<Limit, 5> kLimits = {
@@ -136,7 +136,7 @@ FigureSummary FrameHistory::summary(FrameFigure figure, std::size_t eye) const {
 
 std::vector<FrameWarning> FrameHistory::warnings() const {
     std::vector<FrameWarning> found;
-    const Limit* said = nullptr;
+    const Limit* reported = nullptr;
     for (const Limit& limit : kLimits) {
         std::vector<Nanoseconds> values;
         for (std::size_t i = 0; i < size(); ++i)
@@ -145,13 +145,14 @@ std::vector<FrameWarning> FrameHistory::warnings() const {
         if (values.size() < kLeastJudged) continue;
         const Nanoseconds p95_ns = summarised(std::move(values)).p95_ns;
         if (p95_ns <= limit.limit_ns) continue;
-        const bool replaces = said != nullptr && said->figure == limit.figure && said->from_below == limit.from_below;
+        const bool replaces =
+            reported != nullptr && reported->figure == limit.figure && reported->from_below == limit.from_below;
         if (replaces) found.pop_back();
         found.push_back(
             {static_cast<std::size_t>(&limit - kLimits.data()), title_of(limit, p95_ns), line_of(limit, p95_ns)});
-        said = &limit;
+        reported = &limit;
     }
     return found;
 }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// How old what a frame shows is when it is seen, of the last frames, and what people would notice of it.
+// Computes the ages of what recent frames show at the time they are seen, and which of them people would notice.
 //
-// Ages are taken at the time at which each eye is expected to see the frame (or did, where the display tells). Figures:
+// Ages are taken at the time at which each eye is expected to see the frame (or did, where the display reports it).
+// Figures:
 //   head age          since the head was sampled
-//   motion to photon  the same, with the tracker's own latency before and the display's after; prediction hides some of it
+//   motion to photon  the same, with the tracker's own latency before and the display's after; prediction hides some
 //   tool age          since the haptic tick whose tool state is drawn
 //   touch before sight  since the force of that tick acted: positive, the hand feels what the eye does not see yet
 //   carve age         since the newest cut on the surface drawn, of frames that show a new one
 //   frame time        since the frame before was seen, where nothing was skipped between
 //   draw time         of the graphics device
-// Units: nanoseconds on one monotonic clock. Pure but for the ring's own memory, which is fixed. One thread.
+// Units: nanoseconds on one monotonic clock. Pure except for the ring's own memory, which is fixed. One thread.
 #pragma once
 
 #include <array>
@@ -20,15 +21,15 @@
 
 #include "base/clock.hpp"
 
-namespace burin {
+namespace burin::session {
 
-// Latencies that no clock of this machine sees; 0 where nobody has measured them.
+// Latencies that no clock of this machine measures; 0 where nobody has measured them.
 struct LatencySettings {
     Nanoseconds tracker_ns = 0;         // from the head's motion to its sample here
     Nanoseconds display_ns = 0;         // from the vblank to light, the projector's own processing included
     Nanoseconds device_ns = 1'000'000;  // from the tick's sample until its force acts
-    Nanoseconds right_eye_later_ns =
-        0;  // frame-sequential at 120 Hz: 8.33 ms; below 0 where the left eye's comes second
+    // Frame-sequential at 120 Hz: 8.33 ms; negative where the left eye's picture comes second.
+    Nanoseconds right_eye_later_ns = 0;
 };
 
 struct FrameTimes {
@@ -38,7 +39,7 @@ struct FrameTimes {
     std::optional<Nanoseconds> cut_ns;  // only when this frame is the first to show that cut
     Nanoseconds seen_ns = 0;            // by the eye that sees it first
     Nanoseconds draw_ns = 0;
-    bool after_pause = false;  // frames were skipped before, since nothing had changed
+    bool after_pause = false;  // the frames before were skipped, since nothing had changed
 };
 
 enum class FrameFigure : std::uint8_t {
@@ -55,25 +56,25 @@ inline constexpr std::size_t kFrameFigures = 7;
 
 inline constexpr std::size_t kLeftEye = 0, kRightEye = 1;
 
-// A figure of one frame for each eye; nothing where the frame has none. Frame and draw time are alike for both.
+// A figure of one frame for each eye; none where the frame has no such figure. Frame and draw time are equal for both.
 using FrameAges = std::array<std::array<std::optional<Nanoseconds>, 2>, kFrameFigures>;
 
-// before: the frame before it, if any.
+// Computes a frame's ages. before: the previous frame, if any.
 [[nodiscard]] FrameAges ages_of(const FrameTimes& frame, const FrameTimes* before, const LatencySettings& settings);
 
 struct FigureSummary {
-    std::size_t count = 0;  // frames that have the figure; the rest is 0 without any
+    std::size_t count = 0;  // frames that have the figure; 0: all else is 0
     Nanoseconds least_ns = 0, median_ns = 0, p95_ns = 0, p99_ns = 0, most_ns = 0;
 };
 
-// Of values in any order: the k-th smallest, k = ceil(share * count) (nearest rank).
+// Summarises values in any order: the k-th smallest, k = ceil(share * count) (nearest rank).
 [[nodiscard]] FigureSummary summarised(std::vector<Nanoseconds> values);
-// Of the eye that is worse off in a frame; nothing where the frame has no such figure.
+// Returns the larger age of the two eyes; nothing where the frame has no such figure.
 [[nodiscard]] std::optional<Nanoseconds> worse_eye(const FrameAges& ages, FrameFigure figure);
 
-// What people notice of a session's times.
+// Warning about times that people notice.
 struct FrameWarning {
-    std::size_t limit = 0;  // which of the published ones: the same again is no news
+    std::size_t limit = 0;  // index of the published limit; identifies a repeated warning
     std::string title;      // short, for a panel
     std::string line;       // the number, the limit and who measured it
 };
@@ -85,19 +86,20 @@ public:
     explicit FrameHistory(const LatencySettings& settings = {}) : settings_(settings) {}
 
     void add(const FrameTimes& frame) noexcept;  // no heap
-    // Of the frames to come.
+    // Sets the latencies of frames to come.
     void use(const LatencySettings& settings) { settings_ = settings; }
     [[nodiscard]] std::size_t size() const { return count_ < kFrames ? static_cast<std::size_t>(count_) : kFrames; }
-    // 0: the oldest that is kept.
+    // Index 0 is the oldest frame that is kept.
     [[nodiscard]] const FrameTimes& times(std::size_t i) const;
     [[nodiscard]] const FrameAges& ages(std::size_t i) const;
-    // Of the eye that is worse off in each frame.
+    // Summarise a figure over the frames, for the worse eye of each frame or for one eye.
     [[nodiscard]] FigureSummary summary(FrameFigure figure) const;
     [[nodiscard]] FigureSummary summary(FrameFigure figure, std::size_t eye) const;
-    // Of the newest frames alone, the worse eye again.
+    // Summarises the newest frames alone, again for the worse eye.
     [[nodiscard]] FigureSummary recent(FrameFigure figure, std::size_t frames) const;
 
-    // Empty while all is well. Judged by the value that 19 of 20 frames stay below, and not before kLeastJudged frames.
+    // Returns the warnings; empty while no limit is exceeded. Judges the value that 19 of 20 frames stay below, and not
+    // before kLeastJudged frames.
     static constexpr std::size_t kLeastJudged = 20;
     [[nodiscard]] std::vector<FrameWarning> warnings() const;
 
@@ -111,4 +113,4 @@ private:
     std::uint64_t count_ = 0;
 };
 
-}  // namespace burin
+}  // namespace burin::session

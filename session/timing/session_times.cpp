@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/session_times.hpp"
+#include "session/timing/session_times.hpp"
 
 #include <time.h>
 
 #include <string_view>
 #include <utility>
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 constexpr std::array<std::string_view, kFrameStages> kNames = {"wait", "input", "step", "record", "draw", "show"};
@@ -17,7 +17,7 @@ std::string_view name_of(FrameStage stage) { return kNames.at(static_cast<std::s
 
 Nanoseconds begins_to_show_ns(Nanoseconds handed_ns, const DisplayBeat& beat) {
     if (!beat.vblank_ns || beat.period_ns <= 0) return handed_ns + beat.period_ns / 2;
-    const Nanoseconds past_ns = (handed_ns - *beat.vblank_ns) % beat.period_ns;  // negative before it
+    const Nanoseconds past_ns = (handed_ns - *beat.vblank_ns) % beat.period_ns;  // negative before that vblank
     return handed_ns + (past_ns > 0 ? beat.period_ns : 0) - past_ns;
 }
 
@@ -80,15 +80,15 @@ void SessionTimes::judge(Nanoseconds now_ns) {
     judged_ns_ = now_ns;
     warnings_ = history_.warnings();
     for (const FrameWarning& warning : warnings_) {
-        if (said_.test(warning.limit)) continue;
-        said_.set(warning.limit);
+        if (warned_.test(warning.limit)) continue;
+        warned_.set(warning.limit);
         new_warnings_.push_back(warning.line);
     }
 }
 
 std::vector<std::string> SessionTimes::take_new_warnings() { return std::exchange(new_warnings_, {}); }
 
-FigureSummary summarised(const Histogram& histogram) {
+FigureSummary summarised(const haptics::Histogram& histogram) {
     FigureSummary summary;
     summary.count = histogram.total();
     if (summary.count == 0) return summary;
@@ -100,16 +100,17 @@ FigureSummary summarised(const Histogram& histogram) {
     return summary;
 }
 
-HistogramLook::Seen HistogramLook::look(const Histogram& histogram) {
+HistogramLook::Seen HistogramLook::look(const haptics::Histogram& histogram) {
     Seen seen;
-    for (std::size_t i = 0; i < Histogram::kBuckets; ++i) {
+    for (std::size_t i = 0; i < haptics::Histogram::kBuckets; ++i) {
         const std::uint64_t count = histogram.count(i);
         if (count == before_[i]) continue;
         seen.count += count - before_[i];
-        seen.longest_ns = i + 1 < Histogram::kBuckets ? Histogram::last_of(i) : histogram.largest_ns();
+        seen.longest_ns =
+            i + 1 < haptics::Histogram::kBuckets ? haptics::Histogram::last_of(i) : histogram.largest_ns();
         before_[i] = count;
     }
     return seen;
 }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/shown_frames.hpp"
+#include "session/timing/shown_frames.hpp"
 
 #include <algorithm>
 
-namespace burin {
+namespace burin::session {
 
 void ShownFrames::handed(const FrameMeasure& measure, std::uint64_t picture, Nanoseconds now_ns) {
-    if (waiting_.empty()) looked_ns_ = now_ns;  // it cannot have been seen before
+    if (waiting_.empty()) looked_ns_ = now_ns;  // it cannot have been seen earlier
     const bool shown_anew = picture != last_picture_;
     last_picture_ = picture;
     waiting_.push_back({measure, shown_anew ? std::optional(picture) : std::nullopt, now_ns});
@@ -23,7 +23,8 @@ std::vector<FrameMeasure> ShownFrames::look(Nanoseconds now_ns, const WasShown& 
         }
         sharp_ = shown == true && looked_ns_ && now_ns - *looked_ns_ <= kSharp_ns;
         if (sharp_) oldest.measure.flip_ns = oldest.measure.displayed_ns = now_ns;
-        looked_ns_.reset();  // when the next one was not seen yet is unknown
+        // It is unknown when the next one was last not seen.
+        looked_ns_.reset();
         known.push_back(oldest.measure);
         waiting_.pop_front();
     }
@@ -37,4 +38,4 @@ std::optional<Nanoseconds> ShownFrames::next_look_ns() const {
     return sharp_ ? std::max(next_ns, oldest.measure.plan.display_ns - kSharp_ns) : next_ns;
 }
 
-}  // namespace burin
+}  // namespace burin::session

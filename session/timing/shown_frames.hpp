@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Frames that were handed to the display and are not known to be seen yet: what is learnt of when they are, by asking now and then, never by
-// waiting. Between frames there is time to ask: next_look_ns() says when it is worth it. A time is told only if it is sharp: the ask
-// before, that said no, was at most kSharp_ns ago.
+// Finds out when presented frames are seen, by polling and never by waiting; next_look_ns() says when polling is worth
+// it. A time is reported only if it is sharp: the previous poll, at which the frame was not seen yet, was at most
+// kSharp_ns before.
 // All times are passed in. One thread.
 #pragma once
 
@@ -10,9 +10,9 @@
 #include <optional>
 #include <vector>
 
-#include "app/session/frame_pacing.hpp"
+#include "session/timing/frame_pacing.hpp"
 
-namespace burin {
+namespace burin::session {
 
 class ShownFrames {
 public:
@@ -20,15 +20,16 @@ public:
     static constexpr Nanoseconds kSharp_ns = 2'000'000;
     static constexpr Nanoseconds kPatience_ns = 250'000'000;  // a hidden window may never be seen
 
-    // picture: how many the display was handed until then, this one included; the same as before, where this frame was only for others.
+    // Adds a presented frame. picture: how many pictures the display has been handed so far, this one included;
+    // unchanged where this frame was only for other displays.
     void handed(const FrameMeasure& measure, std::uint64_t picture, Nanoseconds now_ns);
 
-    // Whether the picture of a number has been seen; nothing where nobody knows, or will any more.
+    // Returns whether a numbered picture has been seen; nothing where that is unknown or will stay so.
     using WasShown = std::function<std::optional<bool>(std::uint64_t picture)>;
-    // The frames of which all is known that will be, in their order: for after_frame().
+    // Polls; returns, in order, the frames of which all is known that will be, for after_frame().
     [[nodiscard]] std::vector<FrameMeasure> look(Nanoseconds now_ns, const WasShown& was_shown);
 
-    // When to look again; nothing while no frame is waited for.
+    // Returns when to poll again; nothing while no frame is waiting.
     [[nodiscard]] std::optional<Nanoseconds> next_look_ns() const;
 
 private:
@@ -39,8 +40,9 @@ private:
     };
     std::deque<Frame> waiting_;
     std::uint64_t last_picture_ = 0;
-    std::optional<Nanoseconds> looked_ns_;  // when the oldest was not seen yet
-    bool sharp_ = false;                    // the last one's time was: the next comes about when it was planned for
+    std::optional<Nanoseconds> looked_ns_;  // last poll at which the oldest was not seen
+    // The last frame's time was sharp: the next comes about when it was planned for.
+    bool sharp_ = false;
 };
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A ball swept along a segment (a capsule) against a ray of the lattice, exactly.
+// The exact intersection of a capsule (a ball swept along a segment) with a ray of the lattice.
 //
-// The answer is defined by an integer predicate and not by floating-point roots: the ray loses the whole depths s at which
-// the point lies inside the closed capsule, where inside is decided without rounding on integer coordinates. So every
-// engine, compiler and GPU gives the same depths, however its square roots and divisions are rounded; they only guess where
-// to look. Grazing rays lose no digits. The capsule is convex, so the depths form one span.
+// The result is defined by an integer predicate and not by floating-point roots: the ray loses the whole depths s at
+// which the point lies inside the closed capsule, where inside is decided without rounding on integer coordinates. So
+// every engine, compiler and GPU gives the same depths, however its square roots and divisions are rounded; these only
+// provide the first guess of the search. Grazing rays lose no digits. The capsule is convex, so the depths form one
+// span.
 //
 // With q = point - start, e the segment, E = e.e, t = q.e, r the radius:
-//   t <= 0: |q|^2 <= r^2;   t >= E: |q - e|^2 <= r^2;   else (|q|^2 - r^2) E <= t^2, both sides products of 64-bit numbers.
+//   t <= 0: |q|^2 <= r^2;   t >= E: |q - e|^2 <= r^2;   else (|q|^2 - r^2) E <= t^2, both sides products of 64-bit
+//   numbers.
 // Coordinates must stay within +-2^26 units (the caller clips a segment that leaves the lattice by more than a radius).
 #ifndef BURIN_SHARED_CAPSULE_H
 #define BURIN_SHARED_CAPSULE_H
@@ -25,7 +27,7 @@ struct Capsule {
     uint work;                      // make_work
 };
 
-// What is to be done within a capsule, and what the surface it leaves is made of.
+// The operations within a capsule. A work word packs the operation and the material of the surface that it leaves.
 const int kCut = 0;
 const int kFill = 1;
 const int kPaint = 2;
@@ -33,9 +35,9 @@ BURIN_FN uint make_work(int operation, uint material) { return uint(operation) <
 BURIN_FN int operation_of(Capsule c) { return int(c.work >> 8); }
 BURIN_FN uint material_of_work(Capsule c) { return c.work & uint(0xff); }
 
-// A capsule as seen from one ray. Depths here are relative to the start's.
+// A capsule in the coordinates of one ray. Depths here are relative to the start's.
 struct CapsuleRay {
-    int64_t u;  // the ray, relative to the start
+    int64_t u;  // position of the ray, relative to the start
     int64_t v;
     int64_t along_u;  // the segment in (u, v, s)
     int64_t along_v;
@@ -49,7 +51,7 @@ struct CapsuleRay {
 
 BURIN_FN int pick(int axis, int x, int y, int z) { return axis == 0 ? x : (axis == 1 ? y : z); }
 
-// u and v of the ray in lattice units.
+// Transforms a capsule to the coordinates of a ray; ray_u and ray_v are in lattice units.
 BURIN_FN CapsuleRay capsule_from_ray(Capsule c, int axis, int ray_u, int ray_v) {
     CapsuleRay k;
     k.start_s = pick(axis, c.start_x, c.start_y, c.start_z);
@@ -85,7 +87,7 @@ BURIN_FN Wide multiply_wide(uint64_t a, uint64_t b) {
     return w;
 }
 
-// a * b <= c * c without overflow; a, b >= 0.
+// Tells whether a * b <= c * c, without overflow; a, b >= 0.
 BURIN_FN bool product_within_square(int64_t a, int64_t b, int64_t c) {
     uint64_t c_size = uint64_t(absolute(c));
     Wide left = multiply_wide(uint64_t(a), uint64_t(b));
@@ -93,7 +95,7 @@ BURIN_FN bool product_within_square(int64_t a, int64_t b, int64_t c) {
     return left.high < right.high || (left.high == right.high && left.low <= right.low);
 }
 
-// The predicate that defines the capsule; s is relative to the start.
+// Evaluates the predicate that defines the capsule; s is relative to the start.
 BURIN_FN bool inside_capsule(CapsuleRay k, int64_t s) {
     int64_t excess = k.distance2 + s * s - k.radius2;
     if (excess <= int64_t(0)) return true;
@@ -108,7 +110,7 @@ BURIN_FN bool inside_capsule(CapsuleRay k, int64_t s) {
     return product_within_square(excess, k.length2, t);
 }
 
-// floor(sqrt(k)), 0 <= k < 2^62.
+// Returns floor(sqrt(k)), 0 <= k < 2^62.
 BURIN_FN int64_t whole_sqrt(int64_t k) {
     int64_t root = int64_t(sqrt(double(k)));
     while (root * root > k) root = root - int64_t(1);
@@ -116,8 +118,8 @@ BURIN_FN int64_t whole_sqrt(int64_t k) {
     return root;
 }
 
-// The depth farthest from `within` in the direction of step (+1 or -1) that is still inside; `within` is inside, `guess` is
-// where floating point expects it. A good guess costs two evaluations, a bad one a logarithmic number.
+// Returns the depth farthest from `within` in the direction of step (+1 or -1) that is still inside. `within` must be
+// inside; `guess` is the floating-point estimate. A good guess costs two evaluations, a bad one a logarithmic number.
 BURIN_FN int64_t last_inside(CapsuleRay k, int64_t within, int64_t guess, int64_t step) {
     if ((guess - within) * step < int64_t(0)) guess = within;
     int64_t inner = within;
@@ -153,19 +155,19 @@ BURIN_FN int64_t last_inside(CapsuleRay k, int64_t within, int64_t guess, int64_
 
 BURIN_FN int64_t clamp_whole(int64_t a, int64_t lo, int64_t hi) { return a < lo ? lo : (a > hi ? hi : a); }
 
-// a / b rounded down; b != 0.
+// Returns a / b rounded down; b != 0.
 BURIN_FN int64_t divide_down(int64_t a, int64_t b) {
     int64_t q = a / b;
     return (q * b != a && ((a < int64_t(0)) != (b < int64_t(0)))) ? q - int64_t(1) : q;
 }
 
-// The depths that the capsule covers on the ray, in lattice units.
+// Returns the depths that the capsule covers on the ray, in lattice units.
 BURIN_FN RaySpan capsule_span(CapsuleRay k) {
     int64_t far = int64_t(1) << 27;
     int64_t lo = far;
     int64_t hi = -far;
 
-    // The two end balls: exact by whole square roots.
+    // The two end balls, exact by integer square roots.
     int64_t ball0 = k.radius2 - k.distance2;
     if (ball0 >= int64_t(0)) {
         int64_t half_width = whole_sqrt(ball0);
@@ -229,7 +231,8 @@ BURIN_FN RaySpan capsule_span(CapsuleRay k) {
             if (found) {
                 int64_t guess_lo = clamp_whole(int64_t(ceil(from)), slab_lo, slab_hi);
                 int64_t guess_hi = clamp_whole(int64_t(floor(to)), slab_lo, slab_hi);
-                // A slab border that the cylinder reaches is covered by a ball just beyond it; the search walks on.
+                // Where the cylinder reaches a slab border, a ball covers the depths just beyond it; the search
+                // continues there.
                 lo = last_inside(k, within, guess_lo < lo ? guess_lo : lo, int64_t(-1));
                 hi = last_inside(k, within, guess_hi > hi ? guess_hi : hi, int64_t(1));
             }
@@ -241,8 +244,8 @@ BURIN_FN RaySpan capsule_span(CapsuleRay k) {
     return span;
 }
 
-// What is filled stays clear of the lattice's outermost nodes, so that the solid is closed inside the lattice: no rays along
-// its border, and along the others only the depths within.
+// Filling stays clear of the lattice's outermost nodes, so that the solid is closed inside the lattice: it skips the
+// rays along the lattice's border, and on the others covers only the depths within.
 BURIN_FN bool may_fill_ray(int u, int v, int rays_u, int rays_v) {
     return u > 0 && v > 0 && u < rays_u - 1 && v < rays_v - 1;
 }
@@ -254,8 +257,9 @@ BURIN_FN RaySpan fill_within(RaySpan span, int cells) {
     return within;
 }
 
-// The outward normal of the material that is left at depth s of the ray (lattice units), as a code: after a cut it points from
-// there to the nearest point of the capsule's axis, after filling away from it. In whole numbers, like the depths.
+// Returns the code of the outward normal of the material that is left at depth s of the ray (lattice units): after a
+// cut it points from there to the nearest point of the capsule's axis, after filling away from it. Computed in
+// integers, like the depths.
 BURIN_FN uint capsule_normal(CapsuleRay k, int axis, int depth, bool filled) {
     int64_t s = int64_t(depth - k.start_s);
     int64_t t = k.dot_uv + s * k.along_s;
@@ -266,7 +270,7 @@ BURIN_FN uint capsule_normal(CapsuleRay k, int axis, int depth, bool filled) {
     } else if (t > int64_t(0)) {
         int64_t numerator = t;
         int64_t denominator = k.length2;
-        while (denominator >= (int64_t(1) << 40)) {  // room for the 20 bits below
+        while (denominator >= (int64_t(1) << 40)) {  // leaves headroom for the 20 bits below
             numerator = numerator >> 4;
             denominator = denominator >> 4;
         }
@@ -287,7 +291,8 @@ BURIN_FN uint capsule_normal(CapsuleRay k, int axis, int depth, bool filled) {
     return encode_normal(n);
 }
 
-// The end that a capsule leaves there. Where filling stops at the lattice's border it faces along the ray.
+// Returns the end that a capsule leaves at a depth. Where filling stops at the lattice's border its normal lies along
+// the ray.
 BURIN_FN DexelEnd capsule_end(CapsuleRay k, int axis, int depth, uint work, int cells) {
     bool filled = int(work >> 8) == kFill;
     uint normal = filled && (depth == 1 || depth == cells * kUnitsPerCell - 1) ? axis_normal(axis, depth != 1)

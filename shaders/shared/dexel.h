@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The tri-dexel solid's data as CPU and GPU both hold it.
+// The data of the tri-dexel solid, as CPU and GPU both store it.
 //
 // Lattice units: a lattice cell is kUnitsPerCell = 4096 units wide; every coordinate and depth of the solid is a whole
 // number of units, counted from the lattice origin. A depth takes 24 bits, so a lattice has at most 4095 cells an axis.
-// Each axis a = 0, 1, 2 (x, y, z) has one set of rays along it, through the lattice nodes (u, v), where u runs along axis
-// (a + 1) % 3 and v along axis (a + 2) % 3; s is the depth along axis a. Ray (u, v) has index u + v * (cells_u + 1).
+// Each axis a = 0, 1, 2 (x, y, z) has one set of rays along it, through the lattice nodes (u, v), where u runs along
+// axis (a + 1) % 3 and v along axis (a + 2) % 3; s is the depth along axis a. The index of ray (u, v) is
+// u + v * (cells_u + 1).
 //
-// A ray holds sorted ends e0 < e1 < e2 ..., an even number of them: material fills e0..e1, e2..e3, and so on.
-// A node at depth d is inside when e(2i) <= d < e(2i + 1).
+// A ray holds sorted ends e0 < e1 < e2 ..., an even number of them: material fills e0..e1, e2..e3, and so on. A node at
+// depth d is inside when e(2i) <= d < e(2i + 1).
 #ifndef BURIN_SHARED_DEXEL_H
 #define BURIN_SHARED_DEXEL_H
 #include "shaders/shared/portable.h"
@@ -25,12 +26,14 @@ struct DexelEnd {
     uint normal;          // octahedral.h; points out of the material
 };
 
-// Where a ray's ends lie in its set's store: 8 bytes.
+// The location of a ray's ends in its set's store: 8 bytes.
 struct RayRef {
     uint first;
-    uint count_room;  // number of ends in the low 24 bits; log2 of the room reserved for them in the 5 above; kStale
+    // Low 24 bits: number of ends; the 5 above: log2 of the number of ends allocated for them; highest bit: kStale.
+    uint count_room;
 };
-const uint kStale = 0x80000000u;  // the ray is on the device's list of rays that the host does not know yet
+// Set while the ray is on the device's list of rays whose ends the host does not know yet.
+const uint kStale = 0x80000000u;
 
 BURIN_FN DexelEnd make_end(int depth, uint material, uint normal) {
     DexelEnd end;
@@ -44,7 +47,7 @@ BURIN_FN uint material_of(DexelEnd end) { return end.depth_material >> 24; }
 BURIN_FN uint count_of(RayRef ray) { return ray.count_room & uint(0xffffff); }
 BURIN_FN uint room_of(RayRef ray) { return uint(1) << ((ray.count_room >> 24) & uint(31)); }
 
-// The whole depths lo..hi of a ray that a tool covers; none when lo > hi.
+// The whole depths lo..hi of a ray that a tool covers; empty when lo > hi.
 struct RaySpan {
     int lo;
     int hi;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the renderer's shaders know of a frame (a uniform buffer) and of a draw (push constants). Only vec4 and mat4, so that
-// std140 and C++ lay it out alike. Lengths in metres, world frame; colours and light are linear.
+// The data of a frame (a uniform buffer) and of a draw (push constants) for the renderer's shaders. Only vec4 and mat4,
+// so that std140 and C++ have the same layout. Lengths in metres, world frame; colours and light are linear.
 #ifndef BURIN_SHARED_FRAME_UNIFORMS_H
 #define BURIN_SHARED_FRAME_UNIFORMS_H
 #include "shaders/shared/glm_names.h"
@@ -9,7 +9,8 @@
 BURIN_SHARED_BEGIN
 
 struct FrameUniforms {
-    mat4 clip_from_world[2];  // left eye, right eye; a guard band lies around the picture (renderer/frame_setup.hpp)
+    // left eye, right eye; with a guard band around the picture (renderer/scene/frame_setup.hpp)
+    mat4 clip_from_world[2];
     vec4 eye_world[2];        // xyz
     vec4 light;               // xyz: unit direction towards the lamp; w: tangent of its half angle
     vec4 light_colour;        // rgb
@@ -23,27 +24,32 @@ struct FrameUniforms {
     vec4 pedestal;            // xyz: centre of its top, w: radius; radius 0: none
     vec4 background;          // rgb
     vec4 background_root;     // rgb: its components to the power of 1 / 2.4, as sRGB values have them
-    mat4 clip_from_world_middle;  // as the point midway between the eyes sees it, without guard band; for the fade of parallax alone
-    vec4 fade;  // parallax_fade.h: x: strength, y: band, z: the middle's distance from the screen; w: the guard band
+    // The view of the point midway between the eyes, without guard band; used for the fade of parallax only.
+    mat4 clip_from_world_middle;
+    // For parallax_fade.h: x: strength, y: band, z: distance of the point midway between the eyes from the screen; w:
+    // the guard band.
+    vec4 fade;
 };
 
-// A standing panel is drawn in so many cells each way where parallax is faded, which is worked out at vertices.
+// A panel in the scene is divided into this many cells each way where parallax is faded, since the fade is computed at
+// vertices.
 const int kFadedPanelCells = 16;
 
-// How far the tool changes what is around it, in its ball's radii: nothing beyond is touched, so that a picture in which only the tool
-// has moved need be drawn anew only there.
-const float kToolNears = 1.8f;    // its ring of colour
-const float kToolDarkens = 3.5f;  // the ambient light that it keeps off
-const float kToolShades = 20.0f;  // its shadow, along the light
+// Ranges of the tool's effects on its surroundings, in radii of its ball: beyond them nothing changes, so that a
+// picture in which only the tool has moved need be redrawn only within them.
+const float kToolNears = 1.8f;    // ring of colour
+const float kToolDarkens = 3.5f;  // ambient occlusion
+const float kToolShades = 20.0f;  // shadow, along the light
 
-// How far from its foot the plinth keeps ambient light off the floor, in metres.
+// Range around the foot of the plinth in which it occludes ambient light on the floor, in metres.
 const float kFootDarkens = 0.5f;
 
 struct DrawConstants {
     mat4 world_from_local;
-    vec4 tint;      // rgb multiplies the vertex colour; a: opacity, for glass
-    vec4 material;  // x: roughness 0..1, y: strength of reflections, z: 1 = shows the nearness of the tool; glass has
-                    // x: how much denser it is towards the edges
+    vec4 tint;  // rgb multiplies the vertex colour; a: opacity, for glass
+    // x: roughness 0..1, y: strength of reflections, z: 1 = shows the nearness of the tool. For glass, x: how much
+    // denser it is towards the edges.
+    vec4 material;
 };
 
 BURIN_SHARED_END

@@ -11,6 +11,7 @@
 BURIN_SHARED_BEGIN
 
 using ivec2 = glm::ivec2;
+using ivec3 = glm::ivec3;
 using ivec4 = glm::ivec4;
 using mat4 = glm::mat4;
 using uvec2 = glm::uvec2;

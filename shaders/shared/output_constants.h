@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the output stage's shader is told of a target (push constants). The modes' numbers are those of StereoMode.
+// The push constants of the output stage's shader for one target. The modes' numbers are those of StereoMode.
 #ifndef BURIN_SHARED_OUTPUT_CONSTANTS_H
 #define BURIN_SHARED_OUTPUT_CONSTANTS_H
 #include "shaders/shared/glm_names.h"
@@ -23,24 +23,25 @@ BURIN_CONSTANT kModeCheckerboard = 6;
 BURIN_CONSTANT kModeRedCyan = 7;
 BURIN_CONSTANT kModeGreenMagenta = 8;
 BURIN_CONSTANT kModeAmberBlue = 9;
-BURIN_CONSTANT kModeOneEye = 10;  // all that show one eye in a target
+BURIN_CONSTANT kModeOneEye = 10;  // all modes that show one eye in a target
 
 BURIN_CONSTANT kOutputSwap = 1;           // exchange the eyes
 BURIN_CONSTANT kOutputEncode = 2;         // the target does not encode sRGB by itself
 BURIN_CONSTANT kOutputWarp = 4;           // use picture_from_output
 BURIN_CONSTANT kOutputBlend = 8;          // use blend
-BURIN_CONSTANT kOutputRightEye = 16;      // kModeOneEye: which
+BURIN_CONSTANT kOutputRightEye = 16;      // kModeOneEye: show the right eye
 BURIN_CONSTANT kOutputCodedOverlay = 32;  // the overlay's colours are sRGB values
 BURIN_CONSTANT kOutputPhaseX = 64;        // the target's column 0 is the second eye's (columns, checkerboard)
 BURIN_CONSTANT kOutputPhaseY = 128;       // likewise row 0 (rows, checkerboard)
-BURIN_CONSTANT kOutputOverlay = 256;     // there is one
-// Of the flags those that a pipeline is made for; the others are told with each target.
+BURIN_CONSTANT kOutputOverlay = 256;      // an overlay is present
+// Flags that a pipeline is specialised for; the others are passed with each target.
 BURIN_CONSTANT kOutputBuiltIn = kOutputEncode | kOutputWarp | kOutputBlend | kOutputCodedOverlay | kOutputOverlay;
 
 struct OutputConstants {
-    vec4 picture_from_output[3];  // columns; w of the first: 1 / gamma, of the second: the curve of the blend
-    vec4 blend;                   // widths: left, right, top, bottom
-    ivec4 overlay;                // x, y, width, height in pixels of an eye's picture; width 0: none
+    // Columns of the homography; w of the first: 1 / gamma, of the second: the curve of the blend.
+    vec4 picture_from_output[3];
+    vec4 blend;     // widths of the blend zones: left, right, top, bottom
+    ivec4 overlay;  // x, y, width, height in pixels of an eye's picture; width 0: none
     ivec2 eye_size;
     ivec2 target_size;
     int flags;

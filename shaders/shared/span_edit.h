@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
 // Empties or fills a span of one ray.
 //
-// A span lo..hi stands for the depths lo <= d < hi, as an interval of material does. Afterwards its depths are all `inside`
-// (1: filled, 0: emptied); nothing else changes. An end of the right kind that lies exactly on the span's border stays, with
-// its normal and material; intervals that come to touch are united.
+// A span lo..hi stands for the depths lo <= d < hi, as an interval of material does. After the edit all its depths are
+// `inside` (1: filled, 0: emptied); nothing else changes. An end of the right kind that lies exactly on the span's
+// border stays, with its normal and material; intervals that come to touch are merged.
 //
 // Included inside a C++ struct or at the top level of a shader that provides, for the ray at hand,
 //   DexelEnd load_end(uint index);   (within the ray)
 
-// What has to be done to the ray's ends: those from `from` to `to` - 1 go, and in their place come a new end at span.lo if
-// insert_lo is 1 and one at span.hi if insert_hi is 1. Together they are even in number.
+// The edit of a ray's ends: those from `from` to `to` - 1 are removed, and in their place come a new end at span.lo if
+// insert_lo is 1 and one at span.hi if insert_hi is 1. The ends removed and inserted are even in number together.
 struct SpanEdit {
     uint from;
     uint to;
     uint insert_lo;
     uint insert_hi;
-    int changed_lo;  // the depths between which the ray differs afterwards
+    int changed_lo;  // range of depths in which the ray differs afterwards
     int changed_hi;
 };
 
@@ -31,7 +31,7 @@ BURIN_FN SpanEdit plan_span(uint count, RaySpan span, uint inside) {
     edit.insert_hi = uint(0);
     edit.changed_lo = span.lo;
     edit.changed_hi = span.hi;
-    if (span.lo >= span.hi) {  // nothing, or a touch in a single depth
+    if (span.lo >= span.hi) {  // empty, or a touch at a single depth
         edit.to = uint(0);
         return edit;
     }

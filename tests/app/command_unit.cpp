@@ -4,10 +4,11 @@
 
 #include <algorithm>
 
-#include "tests/app/run_command.hpp"
-#include "tests/support/read_json.hpp"
+#include "base/json.hpp"
+#include "sculpt/tool_kinds.hpp"
+#include "tests/support/run_command.hpp"
 
-namespace burin {
+namespace burin::app {
 namespace {
 
 const std::string kBurin = BURIN_COMMAND;
@@ -115,8 +116,10 @@ TEST(Command, EveryToolCutsFillsAndPaintsAndTheJudgeFindsNothing) {
     // Pressed, moved along, then turned.
     place.write("s.csv", kStrokeHeader + "0,0.4,0.5,0.9,0,0,0,1,1\n1,0.5,0.5,0.9,0,0,0,1,1\n2,0.6,0.5,0.9,0,0,0,1,1\n" +
                              "3,0.6,0.6,0.9,0.1,0.2,0,1,1\n");
-    for (const std::string tool : {"ball:0.2", "cylinder:0.1,0.3", "cone:0,0.2,0.3", "bullnose:0.2,0.05,0.3",
-                                   "box:0.2,0.3,0.4", "mesh:tool.off"}) {
+    for (const sculpt::ToolDescriptor& kind : sculpt::tool_kinds()) {
+        sculpt::ToolSpec spec{kind.kind, {}, kind.used_sizes().empty() ? "tool.off" : ""};
+        for (std::size_t i = 0; i < spec.sizes_m.size(); ++i) spec.sizes_m.at(i) = 0.2 * kind.proportions.at(i);
+        const std::string tool = sculpt::text_of(spec);
         for (const std::string operation : {"cut", "fill", "paint"}) {
             const auto outcome = place.run(kBurin + " sculpt --workpiece block:1,1,1 --tool " + tool + " --operation " +
                                            operation + " --material 10,250,20 --stroke s.csv --resolution 32" +
@@ -124,7 +127,7 @@ TEST(Command, EveryToolCutsFillsAndPaintsAndTheJudgeFindsNothing) {
             ASSERT_EQ(outcome.status, 0) << tool << ' ' << operation << '\n' << outcome.output;
             const auto audit = place.run(std::string(MESH_AUDIT) + " out.ply");
             EXPECT_EQ(audit.status, 0) << tool << ' ' << operation << '\n' << audit.output;
-            const auto report = read_json(place.read("r.json"));
+            const auto report = Json::parse(place.read("r.json"));
             const auto removed_m3 = report["carving"]["volume_removed_m3"].get<double>();
             EXPECT_EQ(report["tool"]["operation"], operation);
             const bool as_expected = operation == "cut"    ? removed_m3 > 1e-4
@@ -149,7 +152,7 @@ TEST(Command, StraightRunsOfRowsAreOneSweepUnlessToldOtherwise) {
             place.run(kBurin + " sculpt --workpiece block:1,1,1 --tool cylinder:0.1,0.3 --stroke s.csv " +
                       "--resolution 32 --export " + (flags.empty() ? "a" : "b") + ".ply --report r.json" + flags);
         EXPECT_EQ(outcome.status, 0) << outcome.output;
-        return read_json(place.read("r.json"))["carving"]["updates"].get<int>();
+        return Json::parse(place.read("r.json"))["carving"]["updates"].get<int>();
     };
     EXPECT_EQ(updates(""), 1);
     EXPECT_EQ(updates(" --no-merge"), 21);
@@ -164,7 +167,7 @@ TEST(Command, CombinesTwoMeshesAndTheJudgeFindsNothing) {
                                        " --resolution 64 --export out.ply --report r.json");
         ASSERT_EQ(outcome.status, 0) << outcome.output;
         EXPECT_EQ(place.run(std::string(MESH_AUDIT) + " out.ply").status, 0);
-        const auto volume_m3 = read_json(place.read("r.json"))["mesh"]["volume_m3"].get<double>();
+        const auto volume_m3 = Json::parse(place.read("r.json"))["mesh"]["volume_m3"].get<double>();
         // The tetrahedron holds 1/6, the block 1/8; beyond the slanting
         // face x + y + z = 1 lies a corner of the block with 1/48.
         const double common_m3 = 0.125 - 1.0 / 48.0;
@@ -261,4 +264,4 @@ TEST(Command, VersionListsTheVulkanDevicesOrSaysWhyNot) {
     EXPECT_NE(outcome.output.find("Vulkan"), std::string::npos);
 }
 
-}  // namespace burin
+}  // namespace burin::app

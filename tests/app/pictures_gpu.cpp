@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "gpu/device.hpp"
-#include "tests/app/run_command.hpp"
+#include "tests/support/run_command.hpp"
 
-namespace burin {
+namespace burin::app {
 namespace {
 
 const std::string kBurin = BURIN_COMMAND;
@@ -46,4 +46,4 @@ TEST(Pictures, AreLeftRightAndSideBySideAndRepeatToTheBit) {
     EXPECT_FALSE(place.read("one/left.png") == place.read("one/right.png"));
 }
 
-}  // namespace burin
+}  // namespace burin::app

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
-#include "app/profile_report.hpp"
+#include "app/profile.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <sstream>
 
-#include "tests/app/run_command.hpp"
+#include "tests/support/run_command.hpp"
 
-namespace burin {
+namespace burin::app {
 namespace {
 
 constexpr Nanoseconds kMs = 1'000'000;
 
-// A hundred frames in a shuffled order: their stages take i, 2 i, ... ms, their heads are as old as i ms, no tool is known.
+// A hundred frames in a shuffled order: their stages take i, 2 i, ... ms, their heads are as old as i ms, no tool is
+// known.
 ProfiledRun hundred_frames() {
     ProfiledRun run;
     run.record.device = "a device";
@@ -22,13 +23,13 @@ ProfiledRun hundred_frames() {
     run.record.skipped = 33;
     for (int n = 0; n < 100; ++n) {
         const Nanoseconds i = 1 + n * 37 % 100;
-        TimedFrame frame;
-        for (std::size_t stage = 0; stage < kFrameStages; ++stage)
+        session::TimedFrame frame;
+        for (std::size_t stage = 0; stage < session::kFrameStages; ++stage)
             frame.stage_ns[stage] = static_cast<Nanoseconds>(stage + 1) * i * kMs;
         frame.processor_ns = 10 * i * kMs;
         frame.times.head_sampled_ns = 1000 * kMs - i * kMs;
         frame.times.seen_ns = 1000 * kMs;
-        frame.ages = ages_of(frame.times, nullptr, {});
+        frame.ages = session::ages_of(frame.times, nullptr, {});
         run.record.frames.push_back(frame);
     }
     run.record.ticks = 5000;
@@ -51,8 +52,8 @@ std::size_t lines_with(const std::string& text, const std::string& part) {
 
 TEST(ProfileReport, GivesTheMedianThe99thPercentileAndTheWorst) {
     const auto run = describe_run(hundred_frames());
-    for (std::size_t stage = 0; stage < kFrameStages; ++stage) {
-        const auto& figure = run["stages_ms"][name_of(static_cast<FrameStage>(stage))];
+    for (std::size_t stage = 0; stage < session::kFrameStages; ++stage) {
+        const auto& figure = run["stages_ms"][name_of(static_cast<session::FrameStage>(stage))];
         const auto unit = static_cast<double>(stage + 1);
         EXPECT_DOUBLE_EQ(figure["median"].get<double>(), 50.0 * unit);
         EXPECT_DOUBLE_EQ(figure["p99"].get<double>(), 99.0 * unit);
@@ -73,10 +74,10 @@ TEST(ProfileReport, GivesTheMedianThe99thPercentileAndTheWorst) {
 
 TEST(ProfileReport, TheTableHasALineForEachFigure) {
     const std::string table = profile_table(describe_run(hundred_frames()));
-    for (std::size_t stage = 0; stage < kFrameStages; ++stage)
-        EXPECT_GE(lines_with(table, "  " + std::string(name_of(static_cast<FrameStage>(stage)))), 1u) << stage;
-    for (std::size_t figure = 0; figure < kFrameFigures; ++figure)
-        EXPECT_EQ(lines_with(table, "  " + std::string(name_of(static_cast<FrameFigure>(figure))) + " "), 1u);
+    for (std::size_t stage = 0; stage < session::kFrameStages; ++stage)
+        EXPECT_GE(lines_with(table, "  " + std::string(name_of(static_cast<session::FrameStage>(stage)))), 1u) << stage;
+    for (std::size_t figure = 0; figure < session::kFrameFigures; ++figure)
+        EXPECT_EQ(lines_with(table, "  " + std::string(name_of(static_cast<session::FrameFigure>(figure))) + " "), 1u);
     EXPECT_EQ(lines_with(table, "100 frames drawn (20.0 a second), 33 skipped, 1.60 cores busy"), 1u);
     EXPECT_EQ(lines_with(table, "5000 ticks, 7 late, 3 deadlines missed"), 1u);
     EXPECT_EQ(lines_with(table, "warning: too late"), 1u);
@@ -129,4 +130,4 @@ TEST(ProfileCommand, NamesTheInputThatIsNotThere) {
     }
 }
 
-}  // namespace burin
+}  // namespace burin::app

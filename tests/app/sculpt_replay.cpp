@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "tests/app/run_command.hpp"
-#include "tests/support/read_json.hpp"
+#include "base/json.hpp"
+#include "tests/support/run_command.hpp"
 
-namespace burin {
+namespace burin::app {
 namespace {
 
 const std::string kBurin = BURIN_COMMAND;
@@ -27,7 +27,7 @@ std::string wave() {
 }
 
 Json without_timing(const std::string& text) {
-    Json report = read_json(text);
+    Json report = Json::parse(text);
     report["timing"] = nullptr;
     report["engine"]["device"] = nullptr;  // says how many threads there are
     return report;
@@ -80,8 +80,9 @@ TEST(Sculpt, ASurfaceThatIsOnlyTouchedPushesBackAndStaysWhole) {
     ASSERT_EQ(outcome.status, 0) << outcome.output;
     const auto report = without_timing(place.read("r.json"));
     EXPECT_EQ(report["carving"]["volume_removed_m3"].get<double>(), 0.0);
-    // The grip is a spring of 200 N/m whose end is held 5 mm inside; the wall is 600 N/m. At rest the spring's force less
-    // friction (0.26 N) stands against the wall: at least (200 * 0.005 - 0.26) * 600 / 800 N, at most 0.26 N more than without.
+    // The grip is a spring of 200 N/m whose end is held 5 mm inside; the wall is 600 N/m. At rest the spring's force
+    // less friction (0.26 N) stands against the wall: at least (200 * 0.005 - 0.26) * 600 / 800 N, at most 0.26 N more
+    // than without.
     const double force = report["feel"]["force_max_N"].get<double>();
     EXPECT_GT(force, 0.55);
     EXPECT_LT(force, 1.6);
@@ -106,7 +107,7 @@ TEST(Sculpt, UndoneStrokesLeaveNoTrace) {
         const auto undone =
             place.run(common + " --tool ball:0.004 --stroke two.csv --undo 2 --export undone.ply --report r.json");
         ASSERT_EQ(undone.status, 0) << undone.output;
-        EXPECT_EQ(read_json(place.read("r.json"))["undo"]["strokes_undone"], 2);
+        EXPECT_EQ(Json::parse(place.read("r.json"))["undo"]["strokes_undone"], 2);
         EXPECT_TRUE(place.read("undone.ply") == place.read("untouched.ply")) << engine;
         EXPECT_FALSE(place.read("undone.ply") == place.read("touched.ply")) << engine;
         const auto more = place.run(common + " --tool ball:0.004 --stroke two.csv --undo 9 --export undone.ply");
@@ -115,4 +116,4 @@ TEST(Sculpt, UndoneStrokesLeaveNoTrace) {
     }
 }
 
-}  // namespace burin
+}  // namespace burin::app

@@ -3,10 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
+#include "base/json.hpp"
 #include "bench/peers/peers.hpp"
-#include "tests/app/run_command.hpp"
-#include "tests/support/read_json.hpp"
+#include "tests/support/run_command.hpp"
 
 namespace burin::bench {
 namespace {
@@ -31,7 +32,7 @@ TEST(BenchCommand, WritesJsonToStandardOutputAndTheCarvedMesh) {
     const auto outcome = place.run(
         kBurin + " bench stroke --resolution 24 --updates 5 --threads 1 --engine cpu --json - --export part.ply");
     ASSERT_EQ(outcome.status, 0) << outcome.output;
-    const auto report = read_json(outcome.output);
+    const auto report = Json::parse(outcome.output);
     EXPECT_EQ(report["resolution"], 24);
     EXPECT_EQ(report["threads"], 1);
     EXPECT_EQ(report["tool"], "ball");
@@ -45,7 +46,28 @@ TEST(BenchCommand, PrintsATableOfSweptCuts) {
     const auto outcome = place.run(kBurin + " bench stroke --resolution 24 --updates 5 --tool capsule --json out.json");
     ASSERT_EQ(outcome.status, 0) << outcome.output;
     EXPECT_NE(outcome.output.find("update_ms_median"), std::string::npos);
-    EXPECT_EQ(read_json(place.read("out.json"))["tool"], "capsule");
+    EXPECT_EQ(Json::parse(place.read("out.json"))["tool"], "capsule");
+}
+
+TEST(BenchCommand, CarvesSeveralScenesAndPutsThemInOneTable) {
+    const Workplace place;
+    place.write("octahedron.obj",
+                "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\nf 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\n"
+                "f 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n");
+    const auto outcome = place.run(kBurin + " bench stroke --resolution 24 --updates 4 --threads 1 --plain --scene " +
+                                   "cube turned-cube mesh:octahedron.obj --json out.json");
+    ASSERT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 4) << "a title and a row for each scene";
+    EXPECT_NE(outcome.output.find("with light"), std::string::npos);
+    const auto reports = Json::parse(place.read("out.json"));
+    ASSERT_EQ(reports.size(), 3u);
+    std::set<std::string> scenes;
+    for (const auto& report : reports) {
+        scenes.insert(report["scene"].get<std::string>());
+        EXPECT_TRUE(report["update_with_undo_ms_median"].is_null());
+    }
+    EXPECT_EQ(scenes,
+              (std::set<std::string>{"stroke-1000 (first 4)", "stroke-1000 (first 4)-turned", "octahedron (first 4)"}));
 }
 
 TEST(BenchCommand, ComparesWithOpenVdbOrSaysHow) {
@@ -57,7 +79,7 @@ TEST(BenchCommand, ComparesWithOpenVdbOrSaysHow) {
     }
     const auto outcome = place.run(kBurin + " bench stroke --resolution 24 --updates 5 --peer openvdb --json -");
     ASSERT_EQ(outcome.status, 0) << outcome.output;
-    const auto report = read_json(outcome.output);
+    const auto report = Json::parse(outcome.output);
     const auto ours = report["update_ms_median"].get<double>();
     const auto theirs = report["openvdb_update_ms_median"].get<double>();
     EXPECT_GT(theirs, 0.0);
@@ -76,7 +98,7 @@ TEST(BenchCommand, WritesTheComparisonWhereAsked) {
     EXPECT_NE(outcome.output.find("Burin cpu"), std::string::npos);
     EXPECT_NE(place.read("p.csv").find("Burin cpu"), std::string::npos);
     EXPECT_TRUE(place.read("p.svg").starts_with("<svg "));
-    EXPECT_FALSE(read_json(place.read("p.json"))["rows"].empty());
+    EXPECT_FALSE(Json::parse(place.read("p.json"))["rows"].empty());
 }
 
 TEST(BenchCommand, RefusesWhatItCannotDo) {
@@ -87,6 +109,17 @@ TEST(BenchCommand, RefusesWhatItCannotDo) {
     expect_refused(place, "stroke --peer blender", 2, {"--peer"});
     expect_refused(place, "stroke --updates 0", 2, {"--updates"});
     expect_refused(place, "stroke --tool capsule --peer openvdb", 1, {"openvdb", "--tool"});
+    expect_refused(place, "stroke --scene sphere", 1, {"sphere", "turned-cube"});
+    expect_refused(place, "stroke --scene mesh:nowhere.obj", 1, {"nowhere.obj"});
+    {
+        const Workplace with_file;  // its middle lies outside
+        with_file.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+        const auto outcome = with_file.run(kBurin + " bench stroke --resolution 24 --scene mesh:t.obj");
+        EXPECT_EQ(outcome.status, 1);
+        EXPECT_NE(outcome.output.find("nowhere to carve"), std::string::npos) << outcome.output;
+    }
+    expect_refused(place, "stroke --scene cube turned-cube --export part.ply", 1, {"part.ply", "--scene"});
+    expect_refused(place, "stroke --scene turned-cube --peer openvdb", 1, {"openvdb", "--scene"});
     expect_refused(place, "stroke --json nowhere/out.json", 1, {"nowhere/out.json", "make the folder"});
     expect_refused(place, "stroke --export part.xyz", 1, {"part.xyz", ".stl"});
     expect_refused(place, "pareto --svg nowhere/p.svg", 1, {"nowhere/p.svg"});

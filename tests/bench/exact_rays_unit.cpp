@@ -5,20 +5,20 @@
 #include <cmath>
 #include <numbers>
 
-#include "bench/exact_creases.hpp"
-#include "bench/exact_rays.hpp"
-#include "bench/scenes.hpp"
-#include "bench/swept_union.hpp"
+#include "bench/measure/exact_creases.hpp"
+#include "bench/measure/exact_rays.hpp"
+#include "bench/measure/scenes.hpp"
+#include "bench/measure/swept_union.hpp"
 #include "tests/compute/effort.hpp"
 
 namespace burin::bench {
 namespace {
 
-using test::Random;
-using test::repeated;
+using compute::test::Random;
+using compute::test::repeated;
 
-std::vector<BallSweep> random_sweeps(Random& random, int count) {
-    std::vector<BallSweep> sweeps;
+std::vector<compute::BallSweep> random_sweeps(Random& random, int count) {
+    std::vector<compute::BallSweep> sweeps;
     for (int i = 0; i < count; ++i) {
         const Vec3 from(random.unit(), random.unit(), random.unit());
         Vec3 to = from;
@@ -46,9 +46,9 @@ Vec3 on_ray(int axis, double u, double v, double depth) {
     return p;
 }
 
-double brute_distance(const std::vector<BallSweep>& sweeps, const Vec3& p) {
+double brute_distance(const std::vector<compute::BallSweep>& sweeps, const Vec3& p) {
     double least = std::numeric_limits<double>::infinity();
-    for (const BallSweep& s : sweeps) {
+    for (const compute::BallSweep& s : sweeps) {
         const Vec3 e = s.end_object_m - s.start_object_m;
         const double length2 = glm::dot(e, e);
         const double t = length2 > 0 ? std::clamp(glm::dot(p - s.start_object_m, e) / length2, 0.0, 1.0) : 0.0;
@@ -58,6 +58,42 @@ double brute_distance(const std::vector<BallSweep>& sweeps, const Vec3& p) {
 }
 
 }  // namespace
+
+TEST(ExactRays, ThroughATurnedCubeHoldWhatLiesInIt) {
+    Random random(7);
+    for (int i = 0; i < repeated(300); ++i) {
+        const Vec3 axis_of_turn(random.between(-1, 1), random.between(-1, 1), random.between(0.1, 1));
+        const Pose pose{
+            {random.between(-0.3, 0.3), random.between(-0.3, 0.3), random.between(-0.3, 0.3)},
+            i % 10 == 0 ? Quat(1, 0, 0, 0) : glm::angleAxis(random.between(0, 3), glm::normalize(axis_of_turn))};
+        const int axis = i % 3;
+        const double u = random.between(-0.5, 1.5), v = random.between(-0.5, 1.5), growth = random.between(-0.1, 0.1);
+        const auto cube = through_cube(pose, axis, u, v, growth);
+        for (int k = 0; k < 20; ++k) {
+            const double depth = random.between(-1.5, 2.5);
+            const Vec3 p = glm::conjugate(pose.orientation) * (on_ray(axis, u, v, depth) - pose.position_m);
+            const Vec3 outside = glm::abs(p - Vec3(0.5)) - Vec3(0.5 + growth);
+            const double most = std::max({outside.x, outside.y, outside.z});
+            if (std::abs(most) < 1e-9) continue;  // on a face
+            EXPECT_EQ(cube && depth > cube->lo && depth < cube->hi, most < 0.0);
+        }
+    }
+}
+
+TEST(ExactRays, KeepOfGivenIntervalsWhatTheSweepsLeave) {
+    // Along the line they cover 0.3 to 0.7 and 0.83 to 0.87.
+    const std::vector<compute::BallSweep> balls{{Vec3(0.5), Vec3(0.5), 0.2, 0},
+                                                {Vec3(0.85, 0.5, 0.5), Vec3(0.85, 0.5, 0.5), 0.02, 0}};
+    const RayColumns columns(balls, 0, 0.0);
+    const std::vector<Interval> uncut{{0.0, 0.25}, {0.4, 0.5}, {0.6, 0.72}, {0.75, 0.9}};
+    const std::vector<Interval> kept = columns.kept_of(uncut, 0.5, 0.5, 0.0);
+    const std::vector<Interval> expected{{0.0, 0.25}, {0.7, 0.72}, {0.75, 0.83}, {0.87, 0.9}};
+    ASSERT_EQ(kept.size(), expected.size());
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        EXPECT_NEAR(kept[i].lo, expected[i].lo, 1e-15);
+        EXPECT_NEAR(kept[i].hi, expected[i].hi, 1e-15);
+    }
+}
 
 TEST(ExactRays, CoverWhatTheDistanceToTheSweepsSays) {
     Random random(1);
@@ -94,7 +130,7 @@ TEST(ExactRays, VolumesApproachTheClosedForms) {
         EXPECT_NEAR(removed_volume_m3(scene.sweeps, 512) / scene.removed_m3, 1.0, 5e-5)
             << scene.name;  // 512^-1.5: steep walls
     }
-    if (!test::kSanitized) {
+    if (!compute::test::kSanitized) {
         const CarveScene stamps = stroke_1000_scene(), swept = stroke_1000_swept_scene();
         EXPECT_NEAR(removed_volume_m3(stamps.sweeps, 512) / stamps.removed_m3, 1.0, 5e-5);
         EXPECT_NEAR(removed_volume_m3(swept.sweeps, 512) / swept.removed_m3, 1.0, 5e-5);

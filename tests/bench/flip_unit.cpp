@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // LDR-FLIP against its authors' own program, and its colour spaces against their published definitions.
-#include "bench/flip.hpp"
+#include "bench/measure/flip.hpp"
 
 #include <gtest/gtest.h>
 
@@ -54,8 +54,8 @@ Colour half_white(unsigned x, unsigned) { return x < 48 ? Colour{0, 0, 0} : Colo
 
 }  // namespace
 
-// The values are those that the authors' program of version 1.6.0.1 (NVlabs/flip, src/cpp/FLIP.h, processor path) gives for these very
-// bytes. It works in float with rounded matrices, hence the tolerance.
+// The values are those that the authors' program of version 1.6.0.1 (NVlabs/flip, src/cpp/FLIP.h, processor path) gives
+// for these very bytes. It works in float with rounded matrices, hence the tolerance.
 TEST(Flip, AgreesWithItsAuthorsProgram) {
     struct Known {
         const char* name;
@@ -89,9 +89,9 @@ TEST(Flip, IsZeroForEqualPictures) {
     }
 }
 
-// Without edges only colour counts. From the paper's constants: black and white are 100 apart in lightness; 100^0.7 = 25.119.
-// The largest, green to blue, from their CIELab values under D65 (87.73, -86.18, 83.18) and (32.30, 79.19, -107.86) with Hunt's
-// effect: 55.43 + |(-75.61 - 25.58, 72.98 + 34.84)| = 203.30, to the 0.7: 41.26.
+// Without edges only colour counts. From the paper's constants: black and white are 100 apart in lightness; 100^0.7 =
+// 25.119. The largest, green to blue, from their CIELab values under D65 (87.73, -86.18, 83.18) and (32.30, 79.19,
+// -107.86) with Hunt's effect: 55.43 + |(-75.61 - 25.58, 72.98 + 34.84)| = 203.30, to the 0.7: 41.26.
 TEST(Flip, OfBlackAndWhiteIsWhatTheFormulasSay) {
     const double largest = std::pow(203.30, 0.7), bend = 0.4 * largest;
     const double expected = 0.95 + (std::pow(100.0, 0.7) - bend) / (largest - bend) * 0.05;
@@ -139,8 +139,8 @@ TEST(Flip, MarksOnlyWhatIsNearTheDifference) {
     }
 }
 
-// sRGB: IEC 61966-2-1. Its matrix to XYZ is printed with four digits; CIELab values of the primaries and greys under D65 are
-// tabulated with two.
+// sRGB: IEC 61966-2-1. Its matrix to XYZ is printed with four digits; CIELab values of the primaries and greys under
+// D65 are tabulated with two.
 TEST(Flip, ConvertsColoursAsTheirStandardsSay) {
     EXPECT_EQ(linear_of_srgb8(0), 0.0);
     EXPECT_NEAR(linear_of_srgb8(255), 1.0, 1e-12);

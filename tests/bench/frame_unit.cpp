@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The scene that frames are measured on, the measuring itself with a subject that only counts, and what is told about it.
-#include "bench/frame.hpp"
+// The scene that frames are measured on, the measuring itself with a subject that only counts, and what is told about
+// it.
+#include "bench/frame/frame.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +9,10 @@
 #include <cmath>
 #include <map>
 
-#include "bench/bumpy_sphere.hpp"
-#include "bench/frame_display.hpp"
-#include "bench/frame_start.hpp"
-#include "bench/peers/frame_peers.hpp"
+#include "bench/frame/frame_display.hpp"
+#include "bench/frame/frame_peers.hpp"
+#include "bench/frame/frame_start.hpp"
+#include "bench/haptics/bumpy_sphere.hpp"
 
 namespace burin::bench {
 namespace {
@@ -64,7 +65,7 @@ FrameOptions few_frames() {
 }
 
 double covered_from_the_middle() {
-    return expected_coverage(small_scene(), eyes_of(still_viewer(small_scene())).left_world);
+    return expected_coverage(small_scene(), wall::eyes_of(still_viewer(small_scene())).left_world);
 }
 
 }  // namespace
@@ -106,7 +107,7 @@ TEST(FrameScene, HasEachTriangleInExactlyOnePatch) {
 TEST(FrameScene, CoversAlmostTheWholePictureFromEveryPlaceOfTheHead) {
     double least = 1.0;
     for (unsigned frame = 0; frame < kFramesAround; frame += 15) {
-        const Eyes eyes = eyes_of(moving_viewer(small_scene(), frame));
+        const wall::Eyes eyes = wall::eyes_of(moving_viewer(small_scene(), frame));
         for (const Vec3& eye : {eyes.left_world, eyes.right_world}) {
             least = std::min(least, expected_coverage(small_scene(), eye));
             EXPECT_LT(expected_coverage(small_scene(), eye),
@@ -256,7 +257,7 @@ TEST(FramePeers, DrawTheSameSurfaceThroughTheSameEyes) {
         ASSERT_TRUE((*subject)->draw(step).has_value());
         pictures.push_back((*subject)->picture().value());
     }
-    const Eyes eyes = eyes_of(step.viewer);
+    const wall::Eyes eyes = wall::eyes_of(step.viewer);
     for (const StereoImage& picture : pictures) {
         EXPECT_NEAR(coverage(scene.look, picture.left), expected_coverage(scene, eyes.left_world), 0.015);
         EXPECT_NEAR(coverage(scene.look, picture.right), expected_coverage(scene, eyes.right_world), 0.015);

@@ -4,21 +4,20 @@
 
 #include <cmath>
 
-#include "bench/lost_intervals.hpp"
-#include "bench/point_distances.hpp"
-#include "bench/surface_errors.hpp"
-#include "bench/timing.hpp"
+#include "bench/measure/lost_intervals.hpp"
+#include "bench/measure/point_distances.hpp"
+#include "bench/measure/surface_errors.hpp"
 #include "tests/compute/effort.hpp"
 
 namespace burin::bench {
 namespace {
 
-using test::Random;
-using test::repeated;
+using compute::test::Random;
+using compute::test::repeated;
 
 // The unit cube's faces as cells x cells squares, two triangles each; welded.
-TriangleMesh cube_mesh(int cells) {
-    TriangleMesh mesh;
+geometry::TriangleMesh cube_mesh(int cells) {
+    geometry::TriangleMesh mesh;
     std::vector<std::uint32_t> index(static_cast<std::size_t>((cells + 1) * (cells + 1) * (cells + 1)), 0xffffffffu);
     const auto vertex = [&](const std::array<int, 3>& p) {
         auto& at = index[static_cast<std::size_t>((p[2] * (cells + 1) + p[1]) * (cells + 1) + p[0])];
@@ -50,7 +49,7 @@ TriangleMesh cube_mesh(int cells) {
     return mesh;
 }
 
-void move(TriangleMesh& mesh, const Vec3& by) {
+void move(geometry::TriangleMesh& mesh, const Vec3& by) {
     for (Vec3& p : mesh.positions_m) p += by;
 }
 
@@ -70,7 +69,7 @@ TEST(PointDistances, OfATriangleAreToItsNearestPart) {
 
 TEST(PointDistances, EqualTheLeastOverAllTriangles) {
     Random random(1);
-    TriangleMesh mesh;
+    geometry::TriangleMesh mesh;
     for (int i = 0; i < 300; ++i) {
         const Vec3 at(random.unit(), random.unit(), random.unit());
         for (int k = 0; k < 3; ++k) {
@@ -109,7 +108,7 @@ TEST(SurfaceErrors, AreNoneForTheExactCube) {
 }
 
 TEST(SurfaceErrors, SeeHowFarAMeshWasMoved) {
-    TriangleMesh mesh = cube_mesh(10);
+    geometry::TriangleMesh mesh = cube_mesh(10);
     constexpr double kBy = 0.003;
     move(mesh, {kBy, 0, 0});
     const SurfaceErrors e = measure(mesh, kUntouched, 0.1);
@@ -122,7 +121,7 @@ TEST(SurfaceErrors, SeeHowFarAMeshWasMoved) {
 }
 
 TEST(SurfaceErrors, SeeARoundedEdgeAndAHole) {
-    TriangleMesh mesh = cube_mesh(50);
+    geometry::TriangleMesh mesh = cube_mesh(50);
     constexpr double kIn = 0.002;
     for (Vec3& p : mesh.positions_m) {
         if (p.x == 0.0 && p.y == 0.0) p += Vec3(kIn, kIn, 0.0);
@@ -148,7 +147,7 @@ TEST(SurfaceErrors, OfTheCutRegionAreThoseNearTheTool) {
 }
 
 TEST(Intervals, OfTheUntouchedCubeAreAllThere) {
-    const Solid cube = *make_block(Vec3(1.0), 32, {"cube", {}});
+    const compute::Solid cube = *compute::make_block(Vec3(1.0), 32, {"cube", {}});
     const IntervalCheck check = check_intervals(cube, kUntouched, 500);
     EXPECT_EQ(check.rays, 1500u);
     EXPECT_EQ(check.lost, 0u);
@@ -156,7 +155,7 @@ TEST(Intervals, OfTheUntouchedCubeAreAllThere) {
 }
 
 TEST(Intervals, ThatWereTakenAwayOrLeftAreFound) {
-    Solid cube = *make_block(Vec3(1.0), 32, {"cube", {}});
+    compute::Solid cube = *compute::make_block(Vec3(1.0), 32, {"cube", {}});
     const CarveScene ball = ball_scene();
     const IntervalCheck uncut = check_intervals(cube, ball, 2000);
     EXPECT_EQ(uncut.lost, 0u);
@@ -170,9 +169,38 @@ TEST(Intervals, ThatWereTakenAwayOrLeftAreFound) {
     EXPECT_EQ(emptied.extra, 0u);
 }
 
+TEST(Intervals, OfAMeshAreComparedWithTheSolidBeforeTheFirstCut) {
+    CarveScene scene = ball_scene();
+    scene.workpiece_scene = cube_mesh(1);
+    WorkerPool pool(1);
+    const auto uncut = uncut_solid(scene, 32, pool);
+    ASSERT_TRUE(uncut.has_value());
+    const IntervalCheck not_cut = check_intervals(*uncut, scene, 1000, 1, &*uncut);
+    EXPECT_EQ(not_cut.lost, 0u);
+    EXPECT_GT(not_cut.extra, 50u);  // the ball is still there
+    compute::Solid emptied = *uncut;
+    for (int u = 0; u < emptied.lattice.rays_u(1); ++u) {
+        for (int v = 0; v < emptied.lattice.rays_v(1); ++v) emptied.sets[1].replace(u, v, {});
+    }
+    EXPECT_GT(check_intervals(emptied, scene, 1000, 1, &*uncut).lost, 500u);
+}
+
+TEST(Intervals, OfATurnedCubeAreAllThereAndNoneOfAnUnturned) {
+    const CarveScene scene = turned(kUntouched);
+    WorkerPool pool(1);
+    const auto cube = uncut_solid(scene, 32, pool);
+    ASSERT_TRUE(cube.has_value());
+    const IntervalCheck check = check_intervals(*cube, scene, 1000);
+    EXPECT_EQ(check.lost, 0u);
+    EXPECT_EQ(check.extra, 0u);
+    const IntervalCheck other = check_intervals(*cube, kUntouched, 1000);
+    EXPECT_GT(other.lost, 100u);
+    EXPECT_GT(other.extra, 100u);
+}
+
 TEST(Intervals, ThreeUnitsTooShortAreFoundAndTwoAreRounding) {
     const auto with_ends_moved = [](int by_units) {
-        Solid cube = *make_block(Vec3(1.0), 32, {"cube", {}});
+        compute::Solid cube = *compute::make_block(Vec3(1.0), 32, {"cube", {}});
         for (int u = 0; u < cube.lattice.rays_u(0); ++u) {
             for (int v = 0; v < cube.lattice.rays_v(0); ++v) {
                 for (shared::DexelEnd& end :
@@ -185,14 +213,6 @@ TEST(Intervals, ThreeUnitsTooShortAreFoundAndTwoAreRounding) {
     };
     EXPECT_EQ(with_ends_moved(1), 0u);
     EXPECT_GT(with_ends_moved(4), 500u);
-}
-
-TEST(Timing, QuantilesAreByNearestRank) {
-    EXPECT_EQ(median({3, 1, 2}), 2.0);
-    EXPECT_EQ(median({4, 1, 2, 3}), 2.0);
-    EXPECT_EQ(quantile({5, 4, 3, 2, 1}, 0.0), 1.0);
-    EXPECT_EQ(quantile({5, 4, 3, 2, 1}, 0.99), 5.0);
-    EXPECT_EQ(median({}), 0.0);
 }
 
 }  // namespace burin::bench

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "bench/pareto.hpp"
+#include "base/plot/figures.hpp"
 #include "bench/peers/peers.hpp"
-#include "bench/svg_plot.hpp"
+#include "bench/stroke/pareto.hpp"
 
 namespace burin::bench {
 namespace {
@@ -64,17 +64,17 @@ TEST(TimeAtError, GivesNoTimeForWhatWasNotReached) {
 }
 
 TEST(SvgFigure, IsWellFormedWithHostileText) {
-    const PlotSeries bad{"a <b> & \"c\"", {{1.0, 1.0, "<&>"}, {2.0, 0.5, ""}}};
-    const std::string svg = svg_figure("1 < 2 & 3", {{"t<", "x&", "y\"", {bad}}, {"t", "x", "y", {bad}}});
+    const plot::PlotSeries bad{"a <b> & \"c\"", {{1.0, 1.0, "<&>"}, {2.0, 0.5, ""}}};
+    const std::string svg = plot::svg_figure("1 < 2 & 3", {{"t<", "x&", "y\"", {bad}}, {"t", "x", "y", {bad}}});
     expect_well_formed(svg);
     EXPECT_EQ(svg.find("a <b>"), std::string::npos);
 }
 
 TEST(SvgFigure, StaysInItsFrameAndLeavesOutWhatHasNoLogarithm) {
     const double infinity = std::numeric_limits<double>::infinity();
-    const PlotSeries series{"s",
-                            {{1e-3, 1e-9, ""}, {1e3, 1e6, ""}, {0.0, 1.0, ""}, {1.0, -1.0, ""}, {1.0, infinity, ""}}};
-    const std::string svg = svg_figure("wide", {{"t", "x", "y", {series}}});
+    const plot::PlotSeries series{
+        "s", {{1e-3, 1e-9, ""}, {1e3, 1e6, ""}, {0.0, 1.0, ""}, {1.0, -1.0, ""}, {1.0, infinity, ""}}};
+    const std::string svg = plot::svg_figure("wide", {{"t", "x", "y", {series}}});
     expect_well_formed(svg);
     EXPECT_EQ(svg.find("nan"), std::string::npos);
     EXPECT_EQ(svg.find("inf"), std::string::npos);
@@ -89,8 +89,8 @@ TEST(SvgFigure, StaysInItsFrameAndLeavesOutWhatHasNoLogarithm) {
         EXPECT_LT(y, 520.0);
     }
     EXPECT_EQ(circles, 3u);  // two points and the legend
-    expect_well_formed(svg_figure("nothing", {}));
-    expect_well_formed(svg_figure("empty", {{"t", "x", "y", {}}}));
+    expect_well_formed(plot::svg_figure("nothing", {}));
+    expect_well_formed(plot::svg_figure("empty", {{"t", "x", "y", {}}}));
 }
 
 TEST(Pareto, RunsBothEnginesAndWritesTableCsvAndFigure) {

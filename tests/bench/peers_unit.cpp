@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "bench/measure/surface_errors.hpp"
 #include "bench/peers/peers.hpp"
-#include "bench/surface_errors.hpp"
 
 namespace burin::bench {
 namespace {
@@ -17,7 +17,7 @@ const int kResolution = 48;
 
 CarveScene short_scene() { return beginning_of(stroke_1000_scene(), 25, 400); }
 
-Lattice unit_lattice() { return *lattice_around({Vec3(0.0), Vec3(1.0)}, kResolution); }
+compute::Lattice unit_lattice() { return *compute::lattice_around({Vec3(0.0), Vec3(1.0)}, kResolution); }
 
 }  // namespace
 
@@ -63,7 +63,7 @@ TEST(Peers, CgalCarvesTheSameSolid) {
 
 TEST(Peers, CgalCountsTrianglesThatCross) {
     BURIN_NEEDS_PEERS();
-    TriangleMesh two;
+    geometry::TriangleMesh two;
     two.positions_m = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.2, 0.2, -1}, {0.3, 0.2, 1}, {0.2, 0.3, 1}};
     two.triangles = {{0, 1, 2}, {3, 4, 5}};
     EXPECT_EQ(count_self_intersections_with_cgal(two).value(), 1u);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the renderer spares does not show: pictures drawn with all savings, and with each alone, beside pictures drawn by brute force
-// (all patches, all triangles, light worked out at every pixel), weighed by FLIP from ten heads.
+// What the renderer spares does not show: pictures drawn with all savings, and with each alone, beside pictures drawn
+// by brute force (all patches, all triangles, light worked out at every pixel), weighed by FLIP from ten heads.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,10 +9,10 @@
 #include <numbers>
 #include <string>
 
-#include "bench/bumpy_sphere.hpp"
-#include "bench/flip.hpp"
-#include "compute/normal_code.hpp"
-#include "renderer/renderer.hpp"
+#include "bench/haptics/bumpy_sphere.hpp"
+#include "bench/measure/flip.hpp"
+#include "compute/rays/normal_code.hpp"
+#include "renderer/frame/renderer.hpp"
 #include "tests/gpu/test_device.hpp"
 
 namespace burin::bench {
@@ -20,11 +20,11 @@ namespace {
 
 constexpr ImageSize kSize{240, 180};
 constexpr double kMostFlip = 0.01;  // asked for: a mean that nobody sees
-constexpr Savings kNone{false, false, false, false, false, false};
+constexpr renderer::Savings kNone{false, false, false, false, false, false};
 
 struct Patch {
-    SurfaceTile tile;
-    std::vector<VertexLight> light;
+    geometry::SurfaceTile tile;
+    std::vector<geometry::VertexLight> light;
 };
 struct Workpiece {
     std::string name;
@@ -37,9 +37,9 @@ std::uint32_t code(const Vec3& colour) {
     return c.x | c.y << 8U | c.z << 16U | 255U << 24U;
 }
 
-void add_vertex(Patch& patch, const Vec3& p, const Vec3& normal, const Vec3& colour, VertexLight light) {
+void add_vertex(Patch& patch, const Vec3& p, const Vec3& normal, const Vec3& colour, geometry::VertexLight light) {
     patch.tile.vertices.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z),
-                                   normal_code(glm::normalize(normal)), code(colour)});
+                                   compute::normal_code(glm::normalize(normal)), code(colour)});
     patch.light.push_back(light);
 }
 
@@ -47,7 +47,7 @@ void add_vertex(Patch& patch, const Vec3& p, const Vec3& normal, const Vec3& col
 Workpiece bumpy_sphere(std::size_t triangles) {
     constexpr double kRadius_m = 0.08, kCube_m = 0.025;
     const BumpySphere shape{.radius_m = kRadius_m};
-    const TriangleMesh mesh = mesh_of(shape, squares_for(triangles));
+    const geometry::TriangleMesh mesh = mesh_of(shape, squares_for(triangles));
     std::map<std::array<int, 3>, std::pair<Patch, std::map<std::uint32_t, std::uint32_t>>> cubes;
     for (const auto& triangle : mesh.triangles) {
         const Vec3 at =
@@ -67,8 +67,8 @@ Workpiece bumpy_sphere(std::size_t triangles) {
     return made;
 }
 
-// A plate with grooves along y that have sharp edges and painted walls, and a shadow's edge across them: each facet of the profile
-// has vertices of its own. `step` is the distance between vertices.
+// A plate with grooves along y that have sharp edges and painted walls, and a shadow's edge across them: each facet of
+// the profile has vertices of its own. `step` is the distance between vertices.
 Workpiece grooved_plate(double step_m) {
     constexpr double kHalf_m = 0.1;
     constexpr std::array<Vec2, 4> kProfile{{{0.0, 0.0}, {0.012, 0.0}, {0.016, -0.006}, {0.020, 0.0}}};  // x, z; repeats
@@ -107,10 +107,10 @@ Workpiece grooved_plate(double step_m) {
     return made;
 }
 
-Scene scene_of() {
-    Scene scene;
+renderer::Scene scene_of() {
+    renderer::Scene scene;
     scene.wall = {0.4, 0.3};
-    scene.screen = screen_of(scene.wall);
+    scene.screen = wall::screen_of(scene.wall);
     scene.show_wall_frame = false;
     scene.world_from_object.position_m = {0.0, 0.15, 0.0};
     scene.tool = {
@@ -118,9 +118,9 @@ Scene scene_of() {
     return scene;
 }
 
-Viewer head(int i) {
+wall::Viewer head(int i) {
     const double turn = 2.0 * std::numbers::pi * i / 10.0;
-    Viewer viewer;
+    wall::Viewer viewer;
     viewer.head_world.position_m = {0.15 * std::sin(turn), 0.15 + 0.1 * std::sin(2.0 * turn),
                                     0.45 + 0.15 * std::cos(turn)};
     return viewer;
@@ -128,7 +128,7 @@ Viewer head(int i) {
 
 struct Outcome {
     double mean = 0.0, worst = 0.0;  // of the heads' mean FLIP
-    PatchCounts counts;              // summed
+    renderer::PatchCounts counts;    // summed
 };
 
 class SavingsTest : public gpu::DeviceTest {
@@ -145,33 +145,33 @@ protected:
 
     void draw_at(ImageSize size) {
         for (auto* renderer : {&tried_, &plain_}) {
-            auto made = Renderer::create(device(), size, {.samples = 1, .savings = kNone});
+            auto made = renderer::Renderer::create(device(), size, {.samples = 1, .savings = kNone});
             ASSERT_TRUE(made) << made.error().line();
             renderer->emplace(std::move(*made));
         }
     }
 
-    Outcome compare(const Workpiece& workpiece, const Savings& savings, int heads, double scale = 1.0) {
-        Scene scene = scene_of();
+    Outcome compare(const Workpiece& workpiece, const renderer::Savings& savings, int heads, double scale = 1.0) {
+        renderer::Scene scene = scene_of();
         scene.world_from_object.scale = scale;
         return compare(workpiece, savings, heads, scene);
     }
-    Outcome compare(const Workpiece& workpiece, const Savings& savings, int heads, Scene scene) {
+    Outcome compare(const Workpiece& workpiece, const renderer::Savings& savings, int heads, renderer::Scene scene) {
         for (auto* renderer : {&*tried_, &*plain_}) {
-            renderer->clear_patches();
+            renderer->surface().clear_patches();
             for (std::uint32_t id = 0; id < workpiece.patches.size(); ++id) {
                 const Patch& patch = workpiece.patches[id];
-                renderer->set_patch(id, patch.tile.vertices, patch.tile.indices);
-                renderer->set_patch_light(id, patch.light);
+                renderer->surface().set_patch(id, patch.tile.vertices, patch.tile.indices);
+                renderer->surface().set_patch_light(id, patch.light);
             }
-            renderer->set_occluders(workpiece.inner);
+            renderer->surface().set_occluders(workpiece.inner);
         }
         tried_->set_savings(savings);
         Outcome outcome;
         for (int i = 0; i < heads; ++i) {
             scene.viewer = head(i * 10 / heads);
             EXPECT_TRUE(tried_->render(scene));
-            static_cast<void>(tried_->refine(100'000));
+            static_cast<void>(tried_->surface().refine(100'000));
             tried_->forget_picture();
             const auto spared = tried_->render(scene), full = plain_->render(scene);
             EXPECT_TRUE(spared && full);
@@ -179,7 +179,7 @@ protected:
             EXPECT_TRUE(map);
             outcome.mean += map->mean / heads;
             outcome.worst = std::max(outcome.worst, map->mean);
-            const PatchCounts& c = tried_->stats().patch_counts;
+            const renderer::PatchCounts& c = tried_->stats().patch_counts;
             outcome.counts.beside += c.beside;
             outcome.counts.turned_away += c.turned_away;
             outcome.counts.behind += c.behind;
@@ -194,13 +194,13 @@ protected:
     }
 
 private:
-    std::optional<Renderer> tried_, plain_;
+    std::optional<renderer::Renderer> tried_, plain_;
 };
 
 }  // namespace
 
 TEST_F(SavingsTest, AllTogetherDoNotShowOnABumpySphere) {
-    const Outcome all = compare(bumpy_sphere(30'000), Savings{}, 10);
+    const Outcome all = compare(bumpy_sphere(30'000), renderer::Savings{}, 10);
     EXPECT_LE(all.worst, kMostFlip);
     EXPECT_GT(all.counts.turned_away, 0u);
     EXPECT_GT(all.counts.vertex_rate, 0u);
@@ -208,7 +208,7 @@ TEST_F(SavingsTest, AllTogetherDoNotShowOnABumpySphere) {
 }
 
 TEST_F(SavingsTest, AllTogetherDoNotShowOnSharpPaintedAndShadedGrooves) {
-    const Outcome all = compare(grooved_plate(0.0015), Savings{}, 10);
+    const Outcome all = compare(grooved_plate(0.0015), renderer::Savings{}, 10);
     EXPECT_LE(all.worst, kMostFlip);
     EXPECT_GT(all.counts.vertex_rate, 0u);
     EXPECT_GT(all.counts.coarser, 0u);
@@ -217,7 +217,7 @@ TEST_F(SavingsTest, AllTogetherDoNotShowOnSharpPaintedAndShadedGrooves) {
 // What lies behind solid material is left to tests/renderer/visibility_prop.cpp: here it is turned away as well.
 TEST_F(SavingsTest, CullingAloneChangesNoPixel) {
     constexpr double kBeyondTheScreen = 3.0;
-    Savings one = kNone;
+    renderer::Savings one = kNone;
     one.cull_beside = true;
     const Outcome beside = compare(bumpy_sphere(6'000), one, 3, kBeyondTheScreen);
     EXPECT_EQ(beside.worst, 0.0);
@@ -231,24 +231,24 @@ TEST_F(SavingsTest, CullingAloneChangesNoPixel) {
 
 // Before the screen and cut by its edge, where the fade of parallax bends what is drawn.
 TEST_F(SavingsTest, NoneShowsWhereParallaxFades) {
-    Scene scene = scene_of();
+    renderer::Scene scene = scene_of();
     scene.world_from_object.position_m = {0.13, 0.15, 0.08};
     scene.edge_fade = 1.0;
     scene.edge_fade_band = 0.4;
-    Savings culling = kNone;
+    renderer::Savings culling = kNone;
     culling.cull_beside = culling.cull_turned_away = culling.cull_behind = true;
     const Outcome culled = compare(bumpy_sphere(6'000), culling, 3, scene);
     EXPECT_EQ(culled.worst, 0.0);
     EXPECT_GT(culled.counts.beside + culled.counts.turned_away, 0u);
-    const Outcome all = compare(bumpy_sphere(30'000), Savings{}, 4, scene);
+    const Outcome all = compare(bumpy_sphere(30'000), renderer::Savings{}, 4, scene);
     EXPECT_LE(all.worst, kMostFlip);
     EXPECT_GT(all.counts.coarser, 0u);
     EXPECT_GT(all.counts.vertex_rate, 0u);
-    EXPECT_LE(compare(grooved_plate(0.0015), Savings{}, 4, scene).worst, kMostFlip);
+    EXPECT_LE(compare(grooved_plate(0.0015), renderer::Savings{}, 4, scene).worst, kMostFlip);
 }
 
 TEST_F(SavingsTest, CoarserLevelsAloneDoNotShow) {
-    Savings one = kNone;
+    renderer::Savings one = kNone;
     one.coarser_levels = true;
     EXPECT_LE(compare(bumpy_sphere(30'000), one, 3).worst, kMostFlip);
     const Outcome plate = compare(grooved_plate(0.001), one, 3);
@@ -257,7 +257,7 @@ TEST_F(SavingsTest, CoarserLevelsAloneDoNotShow) {
 }
 
 TEST_F(SavingsTest, LightAtVerticesAloneDoesNotShow) {
-    Savings one = kNone;
+    renderer::Savings one = kNone;
     one.vertex_rate = true;
     EXPECT_LE(compare(bumpy_sphere(6'000), one, 3).worst, kMostFlip);
     EXPECT_LE(compare(grooved_plate(0.002), one, 3).worst, kMostFlip);
@@ -266,7 +266,7 @@ TEST_F(SavingsTest, LightAtVerticesAloneDoesNotShow) {
 // Edges of some 20 to 60 pixels: smooth triangles are lit at vertices, those across a groove's edge at pixels.
 TEST_F(SavingsTest, LightAtVerticesOfLargeTrianglesDoesNotShow) {
     draw_at({720, 540});
-    Savings one = kNone;
+    renderer::Savings one = kNone;
     one.vertex_rate = true;
     constexpr double kNear = 1.6;
     const Outcome sphere = compare(bumpy_sphere(6'000), one, 3, kNear),

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <sstream>
 
-#include "bench/stability.hpp"
-#include "bench/svg_plot.hpp"
-#include "tests/app/run_command.hpp"
-#include "tests/support/read_json.hpp"
+#include "base/json.hpp"
+#include "base/plot/figures.hpp"
+#include "bench/stability/stability.hpp"
+#include "tests/support/run_command.hpp"
 
 namespace burin::bench {
 namespace {
@@ -25,8 +25,8 @@ StabilityCase alone(double damping, double rate_Hz) {
     return c;
 }
 
-// Where the mass, held by a sampled spring, begins to swing ever wider: its motion from sample to sample is a linear map, whose
-// eigenvalues' product e + K a0 reaches 1 (Jury).
+// Where the mass, held by a sampled spring, begins to swing ever wider: its motion from sample to sample is a linear
+// map, whose eigenvalues' product e + K a0 reaches 1 (Jury).
 double onset(double mass, double damping, double period) {
     const double e = std::exp(-damping * period / mass);
     const double a0 = mass / (damping * damping) * (1.0 - e) - period / damping * e;
@@ -141,7 +141,7 @@ TEST(Figure7, TheFilterTakesTheNoiseAndCostsLagAndStiffness) {
     ASSERT_EQ(figure.runs.size(), 3u);
     const Figure7Run &bare = figure.runs[0], &filtered = figure.runs[1], &ours = figure.runs[2];
     EXPECT_LT(filtered.change_rms_N, 0.2 * bare.change_rms_N);
-    EXPECT_NEAR(filtered.lag_ms, 1e3 * mean_lag_s(0.9, figure.tick_s), 1.5);
+    EXPECT_NEAR(filtered.lag_ms, 1e3 * haptics::mean_lag_s(0.9, figure.tick_s), 1.5);
     EXPECT_LT(bare.lag_ms, 1.0);
     EXPECT_LT(ours.change_rms_N, 0.4 * bare.change_rms_N);
     EXPECT_LT(ours.lag_ms, 1.0);
@@ -168,10 +168,10 @@ TEST(StabilityBench, WritesTheSameTableCsvJsonAndFiguresEachTime) {
 }
 
 TEST(SvgFigure, DrawsCurvesBelowZeroOnLinearAxes) {
-    Plot plot{"t", "x", "y", {{"s", {{0.0, -2.0, ""}, {1.0, 0.0, ""}, {2.0, 2.0, ""}}}}};
+    plot::Plot plot{"t", "x", "y", {{"s", {{0.0, -2.0, ""}, {1.0, 0.0, ""}, {2.0, 2.0, ""}}}}};
     plot.x_linear = plot.y_linear = true;
     plot.markers = false;
-    const std::string svg = svg_figure("linear", {plot});
+    const std::string svg = plot::svg_figure("linear", {plot});
     EXPECT_EQ(svg.find("nan"), std::string::npos);
     EXPECT_EQ(svg.find(">-0<"), std::string::npos);
     // three points on one straight line, the middle one in the middle
@@ -196,7 +196,7 @@ TEST(BenchCommand, MeasuresStabilityAndWritesWhereAsked) {
     EXPECT_EQ(place.read("s.csv"), stability_csv(quick()));
     EXPECT_TRUE(place.read("s.svg").starts_with("<svg "));
     EXPECT_TRUE(place.read("f.svg").starts_with("<svg "));
-    EXPECT_FALSE(read_json(place.read("s.json"))["rows"].empty());
+    EXPECT_FALSE(Json::parse(place.read("s.json"))["rows"].empty());
     EXPECT_EQ(place.run(kBurin + " bench stability --quick --csv nowhere/s.csv").status, 1);
 }
 

@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-#include "bench/stroke_report.hpp"
+#include "bench/stroke/stroke_report.hpp"
 #include "gpu/device.hpp"
 
 namespace burin::bench {
@@ -40,12 +40,25 @@ const std::vector<std::string> kPromisedKeys{"update_ms_median",
                                              "publish_ms_median",
                                              "cells_per_update",
                                              "triangles_per_update",
-                                             "update_cpu_ms_median"};
+                                             "update_cpu_ms_median",
+                                             "update_with_undo_ms_median",
+                                             "update_with_undo_ms_p99",
+                                             "update_with_undo_cpu_ms_median",
+                                             "update_with_light_ms_median",
+                                             "update_with_light_ms_p99",
+                                             "update_with_light_cpu_ms_median"};
 
 CarveScene short_scene() { return beginning_of(stroke_1000_scene(), 30, 400); }
 
 Json report_of(const CarveScene& scene, const StrokeRun& run) {
     return describe(scene, run, measure(run.mesh, scene, run.cell_m), count_self_intersections(run.mesh, 1));
+}
+
+geometry::TriangleMesh octahedron() {
+    geometry::TriangleMesh mesh;
+    mesh.positions_m = {{2, 0, 0}, {-2, 0, 0}, {0, 2, 0}, {0, -2, 0}, {0, 0, 2}, {0, 0, -2}};
+    mesh.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+    return mesh;
 }
 
 }  // namespace
@@ -92,6 +105,83 @@ TEST(Stroke, SweepsHaveNoBallCreasesAndKeepAllElse) {
     EXPECT_FALSE(report["rim_rms_h"].is_null());
     EXPECT_EQ(run->intervals.lost + run->intervals.extra, 0u);
     EXPECT_NE(table(report).find("crease_rms_h"), std::string::npos);
+}
+
+TEST(Stroke, TimesTheSameUpdatesWithUndoAndWithLightWhereAsked) {
+    const CarveScene scene = short_scene();
+    const auto plain = run_stroke(scene, {32, false, 1}), both = run_stroke(scene, {32, false, 1, true, true});
+    ASSERT_TRUE(plain.has_value() && both.has_value());
+    EXPECT_TRUE(plain->with_undo.update_ms.empty() && plain->with_light.update_ms.empty());
+    EXPECT_TRUE(report_of(scene, *plain)["update_with_undo_ms_median"].is_null());
+    EXPECT_EQ(both->with_undo.update_ms.size(), 30u);
+    EXPECT_EQ(both->with_undo.cpu_ms.size(), 30u);
+    EXPECT_EQ(both->strokes_kept, 1u);  // of 100 updates, had there been so many
+    EXPECT_EQ(both->with_light.update_ms.size(), 30u);
+    EXPECT_GT(both->tiles_lit, 30u);
+    EXPECT_LE(both->tiles_lit, 120u);  // the budget of a session: 4 tiles an update
+    EXPECT_GT(report_of(scene, *both)["update_with_light_ms_median"].get<double>(), 0.0);
+    EXPECT_EQ(plain->rays_touched, both->rays_touched);
+}
+
+TEST(Stroke, AStrokeEndsAsOftenAsInASession) {
+    const auto run = run_stroke(beginning_of(stroke_1000_scene(), 230, 100), {16, false, 1, true});
+    ASSERT_TRUE(run.has_value());
+    EXPECT_EQ(run->strokes_kept, 3u);  // 100, 100 and 30 updates
+}
+
+TEST(Stroke, OfATurnedCubeIsJudgedByTheSameClosedForms) {
+    const CarveScene scene = turned(short_scene());
+    const auto run = run_stroke(scene, {48, false, 1});
+    ASSERT_TRUE(run.has_value());
+    EXPECT_NEAR(run->cell_m, 1.0 / 48, 0.01 / 48);
+    EXPECT_EQ(run->intervals.lost, 0u);
+    EXPECT_EQ(run->intervals.extra, 0u);
+    const auto report = report_of(scene, *run);
+    EXPECT_EQ(report["scene"], "stroke-1000 (first 30)-turned");
+    EXPECT_EQ(report["bad_edges"], 0);
+    EXPECT_LT(report["cut_rms_h"].get<double>(), 0.1);
+    EXPECT_LT(report["edge_rms_h"].get<double>(), 0.1);
+    EXPECT_LT(std::abs(report["volume_error_over_removed"].get<double>()), 0.05);
+    const auto unturned = report_of(short_scene(), *run);  // the wrong reference
+    EXPECT_GT(unturned["surface_rms_h"].get<double>(), 1.0);
+}
+
+TEST(Stroke, OnAMeshIsMeasuredAsFarAsItsAnswerIsKnown) {
+    const auto whole = stroke_on_mesh_scene("octahedron", octahedron(), false);
+    ASSERT_TRUE(whole.has_value());
+    const CarveScene scene = beginning_of(*whole, 40, 0);
+    ASSERT_EQ(scene.sweeps.size(), 40u);
+    for (const compute::BallSweep& stamp : scene.sweeps) {
+        const Vec3 from_centre = glm::abs(stamp.start_object_m - Vec3(0.5));
+        const double outside = (from_centre.x + from_centre.y + from_centre.z - 0.5) / std::sqrt(3.0);
+        EXPECT_LT(std::abs(outside), 0.046);  // as deep as in the cube, or less where the line is oblique
+    }
+    const auto run = run_stroke(scene, {48, false, 1});
+    ASSERT_TRUE(run.has_value());
+    EXPECT_GT(run->rays_changed, 100u);
+    EXPECT_EQ(run->intervals.lost, 0u);
+    EXPECT_EQ(run->intervals.extra, 0u);
+    const auto report = report_of(scene, *run);
+    EXPECT_EQ(report["disagreeing_edges"], 0);
+    EXPECT_LT(report["cut_rms_h"].get<double>(), 0.1);
+    EXPECT_TRUE(report["volume_error_over_removed"].is_null());
+    EXPECT_TRUE(report["edge_rms_h"].is_null());
+}
+
+TEST(Stroke, ScenesAreSortedByFaultsAndThenByError) {
+    const auto row = [](const char* scene, int lost, double cut_rms_h) {
+        Json report = {{"scene", scene},         {"disagreeing_edges", 0}, {"self_intersections", nullptr},
+                       {"lost_intervals", lost}, {"extra_intervals", 0},   {"cut_rms_h", cut_rms_h}};
+        for (const char* key : {"updates", "update_ms_median", "update_ms_p99", "update_with_undo_ms_median",
+                                "update_with_light_ms_median", "cut_max_h", "edge_rms_h", "rim_rms_h", "crease_rms_h"})
+            report[key] = nullptr;
+        return report;
+    };
+    std::vector<Json> reports{row("fine", 0, 0.01), row("coarse", 0, 0.02), row("faulty", 1, 0.001)};
+    sort_worst_first(reports);
+    const std::string text = scene_table(reports);
+    EXPECT_LT(text.find("faulty"), text.find("coarse"));
+    EXPECT_LT(text.find("coarse"), text.find("fine"));
 }
 
 TEST(Stroke, GivesTheSameSurfaceOnAnyNumberOfThreads) {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The simulated hand against its own model's closed forms, and what must hold of any fair comparison of the techniques.
-#include "bench/workspace.hpp"
+#include "bench/workspace/workspace.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "bench/dot_chart.hpp"
-#include "tests/app/run_command.hpp"
-#include "tests/support/read_json.hpp"
+#include "base/json.hpp"
+#include "base/plot/figures.hpp"
+#include "tests/support/run_command.hpp"
 
 namespace burin::bench {
 namespace {
@@ -139,7 +139,7 @@ TEST(WorkspaceBench, GivesTheSameFiguresFromTheSameSeedAndOthersFromAnother) {
 
 TEST(WorkspaceBench, EveryTechniqueButTheFixedWorkspaceReachesAllTargets) {
     for (const WorkspaceFigures& f : one_run()) {
-        EXPECT_EQ(all_reached(f), f.approach.technique != WorkspaceTechnique::fixed) << f.approach.name;
+        EXPECT_EQ(all_reached(f), f.approach.technique != haptics::WorkspaceTechnique::fixed) << f.approach.name;
         for (const Reach& r : f.reaches) {
             if (!r.reached) continue;
             EXPECT_GE(r.tool_path_m, r.distance_m - 0.01) << "no path is shorter than the straight line to the radius";
@@ -218,13 +218,13 @@ TEST(WorkspaceBench, IsASubcommandThatRefusesWhatItCannotDo) {
     const auto done = place.run(bench + "--targets 1 --seed 5 --csv t.csv --svg f.svg --json r.json");
     ASSERT_EQ(done.status, 0) << done.output;
     EXPECT_NE(done.output.find("not people"), std::string::npos);
-    EXPECT_EQ(read_json(place.read("r.json"))["task"]["seed"], 5);
+    EXPECT_EQ(Json::parse(place.read("r.json"))["task"]["seed"], 5);
     EXPECT_TRUE(place.read("f.svg").ends_with("</svg>\n"));
 }
 
 TEST(DotChart, LeavesOutWhatAnAxisCannotShowAndSaysSo) {
-    const std::string svg = dot_chart("t <1>", {"a", "b", "c"},
-                                      {{"p", true, 1, {{2.0, 4.0}, {0.0, 0.0}, {std::nan(""), 0.0}}}}, {"note & more"});
+    const std::string svg = plot::dot_chart(
+        "t <1>", {"a", "b", "c"}, {{"p", true, 1, {{2.0, 4.0}, {0.0, 0.0}, {std::nan(""), 0.0}}}}, {"note & more"});
     EXPECT_EQ(std::count(svg.begin(), svg.end(), '<'), std::count(svg.begin(), svg.end(), '>'));
     const auto count = [&](const std::string& what) {
         int n = 0;

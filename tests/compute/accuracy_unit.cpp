@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// How close the carved surface comes to the closed form, and how fast it comes closer. Each bound is about twice what was
-// measured when it was written (bench/results/); the orders are the method's: second for smooth surfaces and volumes.
+// How close the carved surface comes to the closed form, and how fast it comes closer. Each bound is about twice what
+// was measured when it was written (bench/results/); the orders are the method's: second for smooth surfaces and
+// volumes.
 #include <gtest/gtest.h>
 
-#include "bench/scenes.hpp"
-#include "bench/surface_errors.hpp"
+#include "bench/measure/scenes.hpp"
+#include "bench/measure/surface_errors.hpp"
 #include "tests/compute/effort.hpp"
 #include "tests/compute/mesh_topology.hpp"
 
-namespace burin::test {
+namespace burin::compute::test {
 namespace {
 
 struct Errors {
@@ -24,7 +25,7 @@ Errors errors_at(const bench::CarveScene& scene, int resolution) {
     for (const BallSweep& sweep : scene.sweeps) EXPECT_TRUE(engine->carve(std::span(&sweep, 1)).has_value());
     surface.mesh_all(engine->solid(), pool);
     EXPECT_TRUE(well_formed(engine->solid()));
-    const TriangleMesh mesh = surface.welded();
+    const geometry::TriangleMesh mesh = surface.welded();
     if (resolution < 256) {
         EXPECT_EQ(topology_of(mesh), MeshTopology{});
     }
@@ -80,7 +81,8 @@ TEST(Accuracy, CapsuleShapedCavity) {
     expect_second_order(bench::cavity_scene(), {3.4e-3, 0.023, 0.1, 0.07, 256, 3.0});
 }
 
-// N = 256 takes half a minute and is left to burin bench stroke. Rims and scallops, where the surface is not smooth, hold the surface error at less than second order.
+// N = 256 takes half a minute and is left to burin bench stroke. Rims and scallops, where the surface is not smooth,
+// hold the surface error at less than second order.
 TEST(Accuracy, Stroke1000) { expect_second_order(bench::stroke_1000_scene(), {9e-3, 0.045, 0.8, 0.15, 128, 2.2}); }
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The native engine's short ways for a resting ball give what the shared text gives, on whatever vector unit.
-#include "compute/ball_spans.hpp"
+#include "compute/cpu/ball_spans.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "shaders/shared/capsule.h"
 #include "tests/compute/effort.hpp"
 
-namespace burin::test {
+namespace burin::compute::test {
 
 TEST(BallSpans, AreTheCapsulesOwn) {
     Random random(11);
@@ -59,4 +59,4 @@ TEST(BallSpans, DirectionCodesAreTheEncodedNormals) {
     EXPECT_NE(std::string(vector_unit()), "");
 }
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

@@ -14,8 +14,8 @@
 namespace burin::shared {
 namespace {
 
-using test::Random;
-using test::repeated;
+using compute::test::Random;
+using compute::test::repeated;
 __extension__ using Int128 = __int128;
 __extension__ using Uint128 = unsigned __int128;
 
@@ -55,8 +55,8 @@ bool inside(const Case& c, std::int64_t z) {
     return to_point2 * length2 - along_dot * along_dot <= c.radius2 * length2;
 }
 
-// Depths next to which the distance to the segment must be smallest: beside the two ends, where the ray is nearest to the
-// axis, and where it passes the end planes.
+// Depths next to which the distance to the segment must be smallest: beside the two ends, where the ray is nearest to
+// the axis, and where it passes the end planes.
 std::vector<std::int64_t> nearest_depths(const Case& c) {
     std::vector<long double> depths{static_cast<long double>(c.start[2]),
                                     static_cast<long double>(c.start[2] + c.along[2])};
@@ -134,7 +134,7 @@ Case grazing_case(Random& random) {
 TEST(Capsule, SpanEqualsScanningEveryDepthOfSmallCapsules) {
     Random random(1);
     int hits = 0;
-    for (int i = 0; i < repeated(60000); ++i) {
+    for (int i = 0; i < compute::test::repeated(60000); ++i) {
         Case c;
         const int size = random.small(0, 40);
         for (auto& s : c.start) s = random.whole(-size, size);
@@ -146,20 +146,20 @@ TEST(Capsule, SpanEqualsScanningEveryDepthOfSmallCapsules) {
         }
         hits += span.lo <= span.hi ? 1 : 0;
     }
-    EXPECT_GT(hits, repeated(60000) / 10);
+    EXPECT_GT(hits, compute::test::repeated(60000) / 10);
 }
 
 TEST(Capsule, SpanEqualsTheExactPredicateOnAMillionRays) {
     Random random(2);
     int hits = 0, misses = 0;
-    for (int i = 0; i < repeated(1000000); ++i) {
+    for (int i = 0; i < compute::test::repeated(1000000); ++i) {
         const Case c = i % 2 == 0 ? any_case(random) : grazing_case(random);
         ASSERT_EQ(disagreement(c), "");
         const RaySpan span = span_of(c);
         ++(span.lo <= span.hi ? hits : misses);
     }
-    EXPECT_GT(hits, repeated(1000000) / 10);
-    EXPECT_GT(misses, repeated(1000000) / 10);
+    EXPECT_GT(hits, compute::test::repeated(1000000) / 10);
+    EXPECT_GT(misses, compute::test::repeated(1000000) / 10);
 }
 
 TEST(Capsule, SpanIsExactAtTheEndsOfTheRange) {
@@ -178,7 +178,7 @@ TEST(Capsule, SpanIsExactAtTheEndsOfTheRange) {
 // The end planes of a segment one unit off the perpendicular meet a ray behind its start 2^36 units away.
 TEST(Capsule, StrokeAlmostAcrossARayTakesNothingBesideTheTool) {
     Random random(3);
-    for (int i = 0; i < repeated(200000); ++i) {
+    for (int i = 0; i < compute::test::repeated(200000); ++i) {
         Case c;
         c.along = {random.whole(1, std::int64_t{1} << 24), random.whole(-3, 3), random.whole(-3, 3)};
         const std::int64_t radius = random.whole(1, std::int64_t{1} << 20);
@@ -207,7 +207,7 @@ TEST(Capsule, SegmentAlongTheRayCoversFromBallToBall) {
 
 TEST(Capsule, RotatingTheAxesRotatesSpansAndNormalsToTheBit) {
     Random random(4);
-    for (int i = 0; i < repeated(100000); ++i) {
+    for (int i = 0; i < compute::test::repeated(100000); ++i) {
         const Case c = i % 2 == 0 ? any_case(random) : grazing_case(random);
         const Capsule k = capsule_of(c);
         // x -> y -> z -> x: the ray along z through (0, 0) becomes one along x, then along y.
@@ -230,7 +230,7 @@ TEST(Capsule, RotatingTheAxesRotatesSpansAndNormalsToTheBit) {
 
 TEST(Capsule, ReversedSegmentCoversTheSame) {
     Random random(5);
-    for (int i = 0; i < repeated(100000); ++i) {
+    for (int i = 0; i < compute::test::repeated(100000); ++i) {
         const Case c = grazing_case(random);
         Case reversed = c;
         for (std::size_t a = 0; a < 3; ++a) {
@@ -245,13 +245,13 @@ TEST(Capsule, ReversedSegmentCoversTheSame) {
     }
 }
 
-// The direction from the ray's point to the nearest point of the axis, in long double. The kernel places that point on a
-// grid of 2^-20 of the segment, so the error is the code's own (6.5e-5) plus that step as seen from the radius.
+// The direction from the ray's point to the nearest point of the axis, in long double. The kernel places that point on
+// a grid of 2^-20 of the segment, so the error is the code's own (6.5e-5) plus that step as seen from the radius.
 TEST(Capsule, NormalPointsAtTheAxis) {
     Random random(6);
     double worst = 0;
     int measured = 0;
-    for (int i = 0; i < repeated(400000); ++i) {
+    for (int i = 0; i < compute::test::repeated(400000); ++i) {
         const Case c = any_case(random);
         const CapsuleRay ray = capsule_from_ray(capsule_of(c), 2, 0, 0);
         const RaySpan span = capsule_span(ray);
@@ -291,7 +291,7 @@ TEST(Capsule, NormalPointsAtTheAxis) {
 
 TEST(WholeNumbers, WideProductEqualsTheCompilers) {
     Random random(7);
-    for (int i = 0; i < repeated(500000); ++i) {
+    for (int i = 0; i < compute::test::repeated(500000); ++i) {
         const std::uint64_t a = random.bits() >> random.whole(0, 63), b = random.bits() >> random.whole(0, 63);
         const Wide w = multiply_wide(a, b);
         const Uint128 expected = static_cast<Uint128>(a) * b;
@@ -310,7 +310,7 @@ TEST(WholeNumbers, SquareRootIsTheLargestThatFits) {
         ASSERT_TRUE(static_cast<Int128>(root) * root <= k && static_cast<Int128>(root + 1) * (root + 1) > k) << k;
     };
     for (std::int64_t k = 0; k < 5000; ++k) check(k);
-    for (int i = 0; i < repeated(300000); ++i) {
+    for (int i = 0; i < compute::test::repeated(300000); ++i) {
         const std::int64_t root = random.whole(0, (std::int64_t{1} << random.whole(1, 31)) - 1);
         check(root * root);
         if (root > 0) check(root * root - 1);
@@ -321,7 +321,7 @@ TEST(WholeNumbers, SquareRootIsTheLargestThatFits) {
 
 TEST(WholeNumbers, DivisionRoundsDown) {
     Random random(9);
-    for (int i = 0; i < repeated(200000); ++i) {
+    for (int i = 0; i < compute::test::repeated(200000); ++i) {
         const std::int64_t a = random.any_size(60);
         std::int64_t b = random.any_size(30);
         if (b == 0) b = 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compute/cell_table.hpp"
+#include "compute/mesher/cell_table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-namespace burin::test {
+namespace burin::compute::test {
 namespace {
 
 // Corner offsets of the ends of an edge, from the numbering in the header.
@@ -144,4 +144,4 @@ TEST(CellTable, ComplementCrossesTheSameEdges) {
     }
 }
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-#include "compute/combine.hpp"
+#include "compute/rays/combine.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "compute/apply.hpp"
-#include "compute/mesh_tool.hpp"
-#include "compute/ray_algebra.hpp"
-#include "compute/scan_convert.hpp"
-#include "compute/surface.hpp"
+#include "compute/mesher/surface.hpp"
+#include "compute/rays/ray_algebra.hpp"
+#include "compute/rays/scan_convert.hpp"
+#include "compute/tools/apply.hpp"
+#include "compute/tools/mesh_tool.hpp"
 #include "tests/compute/mesh_topology.hpp"
 #include "tests/compute/random_solids.hpp"
 #include "tests/compute/test_meshes.hpp"
 #include "tests/compute/tool_reference.hpp"
 
-namespace burin::test {
+namespace burin::compute::test {
 namespace {
 
 WorkerPool& pool() {
@@ -24,7 +24,7 @@ WorkerPool& pool() {
     return two;
 }
 
-Solid on_lattice(const TriangleMesh& mesh, const Lattice& lattice) {
+Solid on_lattice(const geometry::TriangleMesh& mesh, const Lattice& lattice) {
     auto converted = scan_convert_onto(mesh, lattice, pool());
     EXPECT_TRUE(converted) << converted.error().line();
     return converted ? std::move(converted->solid) : Solid{};
@@ -71,13 +71,13 @@ TEST(Combine, DifferenceAndIntersectionPartitionEveryRay) {
 TEST(Combine, SubtractingAMeshIsCarvingWithIt) {
     const Lattice lattice = *lattice_around(Box{Vec3(-0.6), Vec3(1.2)}, 48);
     Solid box = on_lattice(box_mesh(Vec3(0), Vec3(1)), lattice);
-    const TriangleMesh tool =
+    const geometry::TriangleMesh tool =
         transformed(box_mesh(Vec3(-0.2), Vec3(0.3), 2), Quat(std::sqrt(0.5), 0.5, 0.5, 0), Vec3(0.4));
     box.materials.push_back({"tool", {}});
     Solid other = on_lattice(tool, lattice);
     other.materials = {{"tool", {}}};
     const auto engine = make_cpu_engine(box, pool());
-    ToolSweep sweep{*prepare_mesh_tool(std::make_shared<TriangleMesh>(tool)), {}, {}};
+    ToolSweep sweep{*prepare_mesh_tool(std::make_shared<geometry::TriangleMesh>(tool)), {}, {}};
     sweep.material = 1;
     ASSERT_TRUE(apply(*engine, {&sweep, 1}, pool()));
     EXPECT_TRUE(engine->solid().same_content(*combine(box, other, Combination::subtract, pool())));
@@ -100,12 +100,47 @@ TEST(Combine, MaterialsOfBothAreKept) {
         }
     }
     EXPECT_TRUE(wood && wax);
-    std::vector<Material> many(200);
+    std::vector<geometry::Material> many(200);
     for (std::size_t i = 0; i < many.size(); ++i) many[i].name = std::to_string(i);
     a.materials = many;
-    for (Material& m : many) m.name += "'";
+    for (geometry::Material& m : many) m.name += "'";
     b.materials = many;
     EXPECT_FALSE(combine(a, b, Combination::unite, pool()));
+}
+
+TEST(Combine, MaterialsOfOneNameAndTwoColoursStayTwo) {
+    const Lattice lattice = *lattice_around(Box{Vec3(-0.6), Vec3(1.2)}, 32);
+    Solid a = on_lattice(box_mesh(Vec3(0), Vec3(1)), lattice), b = on_lattice(ball_mesh(0.5, 3), lattice);
+    a.materials = {{"wax", {200, 0, 0}}};
+    b.materials = {{"wax", {0, 0, 200}}};
+    const auto both = combine(a, b, Combination::unite, pool());
+    ASSERT_TRUE(both);
+    ASSERT_EQ(both->materials.size(), 2u);
+    EXPECT_EQ(both->materials[0].colour, a.materials[0].colour);
+    EXPECT_EQ(both->materials[1].colour, b.materials[0].colour);
+    // A ray along x through the ball's part outside the box, and one through the box's part outside the ball.
+    const auto material_at_start = [&](const Vec3& on_ray) {
+        const Vec3 cells = (on_ray - lattice.origin_object) / lattice.spacing_m;
+        const auto ends =
+            both->sets[0].ends(static_cast<int>(std::lround(cells.y)), static_cast<int>(std::lround(cells.z)));
+        return ends.empty() ? -1 : static_cast<int>(material_of(ends.front()));
+    };
+    EXPECT_EQ(material_at_start(Vec3(0, -0.2, -0.2)), 1) << "blue";
+    EXPECT_EQ(material_at_start(Vec3(0, 0.8, 0.8)), 0) << "red";
+}
+
+TEST(AddMaterial, FindsWhatIsThereByItsNameAndItsColour) {
+    Solid solid = *make_block(Vec3(1), 16, {"wax", {200, 0, 0}});
+    EXPECT_EQ(*add_material(solid, {"wax", {0, 0, 200}}), 1u) << "another colour is another material";
+    EXPECT_EQ(*add_material(solid, {"clay", {200, 0, 0}}), 2u) << "another name is another material";
+    EXPECT_EQ(*add_material(solid, {"wax", {200, 0, 0}}), 0u);
+    EXPECT_EQ(*add_material(solid, {"wax", {0, 0, 200}}), 1u);
+    ASSERT_EQ(solid.materials.size(), 3u);
+    EXPECT_EQ(solid.materials[1].colour, (std::array<std::uint8_t, 3>{0, 0, 200}));
+    for (int i = 3; i < 255; ++i) ASSERT_EQ(*add_material(solid, {std::to_string(i), {}}), i);
+    EXPECT_FALSE(add_material(solid, {"one too many", {}}));
+    EXPECT_EQ(*add_material(solid, {"clay", {200, 0, 0}}), 2u) << "a full table still knows its own";
+    EXPECT_EQ(solid.materials.size(), 255u);
 }
 
 TEST(Combine, RefusesDifferentLatticesAndThreadsDoNotMatter) {
@@ -117,4 +152,4 @@ TEST(Combine, RefusesDifferentLatticesAndThreadsDoNotMatter) {
     EXPECT_NE(refused.error().what.find("lattices"), std::string::npos);
 }
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The surface that the device makes against the one that the CPU makes: the same vertices to the last bit where the device
-// rounds as the host does, the same triangles, whatever the solid and however it came about.
-#include "compute/device_surface.hpp"
+// The surface that the device makes against the one that the CPU makes: the same vertices to the last bit where the
+// device rounds as the host does, the same triangles, whatever the solid and however it came about.
+#include "compute/vulkan/device_surface.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "compute/surface.hpp"
+#include "compute/mesher/surface.hpp"
 #include "gpu/core.hpp"
 #include "shaders/shared/mesh_job.h"
 #include "tests/compute/effort.hpp"
@@ -18,13 +18,13 @@
 #include "tests/compute/random_solids.hpp"
 #include "tests/gpu/test_device.hpp"
 
-namespace burin::test {
+namespace burin::compute::test {
 namespace {
 
 class DeviceSurfaceGpu : public gpu::DeviceTest {
 protected:
     void SetUp() override {
-        DeviceTest::SetUp();
+        gpu::DeviceTest::SetUp();
         if (IsSkipped()) return;
         const gpu::Capabilities& can = device().capabilities();
         if (!can.shader_int64 || !can.shader_float64 || !can.buffer_address) {
@@ -61,8 +61,8 @@ std::vector<std::array<Corner, 3>> triangles_of(const TileMesh& mesh) {
     return triangles;
 }
 
-// Nothing when the device's tile is the CPU's, else how it differs. The vertices of the cells come in the same order; only
-// the extra ones on faces, and the triangles of their fans, may come in another.
+// Nothing when the device's tile is the CPU's, else how it differs. The vertices of the cells come in the same order;
+// only the extra ones on faces, and the triangles of their fans, may come in another.
 std::string difference(const TileMesh& device, const TileMesh& cpu) {
     if (device.vertices.size() != cpu.vertices.size() || device.indices.size() != cpu.indices.size()) {
         return std::to_string(device.vertices.size()) + " vertices and " + std::to_string(device.indices.size()) +
@@ -223,9 +223,17 @@ TEST_F(DeviceSurfaceGpu, WithoutUnifiedMemoryTheSurfaceIsTheSame) {
     const BallSweep sweep{Vec3(-0.2, 0.3, 0.2), Vec3(-0.1, 0.3, 0.3), 0.06, 1};
     ASSERT_TRUE(engines.cpu().carve(std::span(&sweep, 1)));
     cpu.update(engines.cpu().solid(), engines.cpu().take_changes(), engines.pool());
-    ASSERT_TRUE(surface->carve(std::span(&sweep, 1)));
+    ASSERT_TRUE(surface->carve(std::span(&sweep, 1), DeviceSurface::Ball{sweep.start_object_m, 0.1}));
     EXPECT_TRUE(equal(*surface, cpu));
     EXPECT_TRUE(engines.read_back());
+    RayBatch undo;
+    const Changes done = engines.vulkan().take_changes();
+    for (const shared::ChangedRay& ray : done.rays) undo.add(ray.ray, done.before_of(ray));
+    ASSERT_FALSE(undo.rays.empty());
+    ASSERT_TRUE(engines.assign(undo));
+    ASSERT_TRUE(surface->update(engines.vulkan().take_changes()));
+    cpu.update(engines.cpu().solid(), engines.cpu().take_changes(), engines.pool());
+    EXPECT_TRUE(equal(*surface, cpu));
 }
 
 TEST_F(DeviceSurfaceGpu, AfterADeviceErrorTheSurfaceIsThatOfTheHostsSolid) {
@@ -252,6 +260,30 @@ TEST_F(DeviceSurfaceGpu, AfterADeviceErrorTheSurfaceIsThatOfTheHostsSolid) {
     EXPECT_TRUE(engines.read_back());
 }
 
+// The cut and the new surface are on the device already when it turns out that some rays found no room.
+TEST_F(DeviceSurfaceGpu, AfterACutThatFailsHalfwayTheSurfaceIsThatOfTheHostsSolid) {
+    const Solid solid = unit_cube(32);
+    EnginePair engines(solid, device(), {.spare_ends = 0});
+    const auto surface = surface_of(engines.vulkan());
+    ASSERT_NE(surface, nullptr);
+    Surface cpu(solid.lattice);
+    cpu.mesh_all(solid, engines.pool());
+    const std::vector<BallSweep> balls{{Vec3(0.0), Vec3(0.0), 0.2, 1}, {Vec3(0.6), Vec3(0.6), 0.2, 1}};
+    ASSERT_TRUE(surface->carve(balls));
+    const std::uint64_t limit = device().core()->max_allocation_bytes;
+    device().core()->max_allocation_bytes = 1024;
+    const auto failed = surface->finish();
+    device().core()->max_allocation_bytes = limit;
+    ASSERT_FALSE(failed);
+    EXPECT_TRUE(engines.vulkan().solid().same_content(solid));
+    ASSERT_TRUE(equal(*surface, cpu));
+    ASSERT_TRUE(engines.cpu().carve(balls));
+    cpu.update(engines.cpu().solid(), engines.cpu().take_changes(), engines.pool());
+    ASSERT_TRUE(surface->carve(balls));
+    EXPECT_TRUE(equal(*surface, cpu));
+    EXPECT_TRUE(engines.read_back());
+}
+
 // ---- Near the tool
 
 namespace {
@@ -270,10 +302,10 @@ std::vector<PlacedTriangle> sorted(std::vector<PlacedTriangle> triangles) {
     return triangles;
 }
 
-std::vector<PlacedTriangle> triangles_of(const LocalSurface& surface) {
+std::vector<PlacedTriangle> triangles_of(const geometry::LocalSurface& surface) {
     std::vector<PlacedTriangle> triangles;
     for (std::uint32_t i = 0; i < surface.triangles(); ++i) {
-        const Triangle t = surface.triangle(i);
+        const geometry::Triangle t = surface.triangle(i);
         triangles.push_back({place_near(t.a), place_near(t.b), place_near(t.c)});
     }
     return sorted(triangles);
@@ -312,7 +344,7 @@ TEST_F(DeviceSurfaceGpu, TheTrianglesNearTheToolAreTheSameAsASet) {
     ASSERT_NE(surface, nullptr);
     Surface cpu(solid.lattice);
     cpu.mesh_all(solid, engines.pool());
-    LocalSurface actual;
+    geometry::LocalSurface actual;
     std::uint64_t triangles = 0;
     for (const BallSweep& sweep : stroke_1000(32)) {
         ASSERT_TRUE(engines.cpu().carve(std::span(&sweep, 1)));
@@ -342,7 +374,7 @@ TEST_F(DeviceSurfaceGpu, TheTrianglesNearTheToolAreTheSameWhereNoBindingShowsAll
     ASSERT_GT(surface->vertices().size_bytes(), capabilities().max_storage_buffer_bytes);
     Surface cpu(solid.lattice);
     cpu.mesh_all(solid, engines.pool());
-    LocalSurface actual;
+    geometry::LocalSurface actual;
     const Vec3 corner(1.0);
     const auto gathered = surface->local_surface(corner, 0.3, actual);
     ASSERT_TRUE(gathered) << gathered.error().line();
@@ -357,7 +389,7 @@ TEST_F(DeviceSurfaceGpu, ABallWithMoreTrianglesThanTheDeviceGathersIsMadeSmaller
     ASSERT_NE(surface, nullptr);
     Surface cpu(solid.lattice);
     cpu.mesh_all(solid, engines.pool());
-    LocalSurface actual;
+    geometry::LocalSurface actual;
     const Vec3 center(0.0, 0.5, 0.4);
     ASSERT_TRUE(surface->local_surface(center, 0.5, actual));
     EXPECT_LT(actual.radius_m, 0.5);
@@ -367,4 +399,4 @@ TEST_F(DeviceSurfaceGpu, ABallWithMoreTrianglesThanTheDeviceGathersIsMadeSmaller
     EXPECT_GT(3 * triangles_within(cpu, center, actual.radius_m / 0.7).size(), std::size_t{shared::kBallVertices});
 }
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

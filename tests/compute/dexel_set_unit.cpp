@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compute/dexel_set.hpp"
+#include "compute/rays/dexel_set.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "tests/compute/effort.hpp"
 
-namespace burin::test {
+namespace burin::compute::test {
 namespace {
 
 using shared::DexelEnd;
@@ -138,4 +138,4 @@ TEST(DexelSet, CopiesStandAlone) {
     EXPECT_EQ(copy.ends(69, 0).size(), 2u);
 }
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <random>
 
-namespace burin::test {
+namespace burin::compute::test {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool kSanitized = true;
@@ -46,4 +46,4 @@ private:
     std::mt19937_64 engine_;
 };
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "base/worker_pool.hpp"
-#include "compute/vulkan_engine.hpp"
+#include "compute/vulkan/vulkan_engine.hpp"
 
-namespace burin::test {
+namespace burin::compute::test {
 
 // STROKE-1000: a ball of radius 0.06 at 1000 places on the unit cube's upper face. Sixteen times fewer of them, as far
 // apart, when `every` is 16.
@@ -30,10 +30,10 @@ namespace burin::test {
 }
 
 [[nodiscard]] inline Solid unit_cube(int resolution) {
-    auto made = make_block(Vec3(1.0), resolution, Material{});
+    auto made = make_block(Vec3(1.0), resolution, geometry::Material{});
     EXPECT_TRUE(made) << made.error().line();
     Solid solid = made ? std::move(*made) : Solid{};
-    solid.materials.push_back(Material{});  // what cuts leave may differ from the solid
+    solid.materials.push_back(geometry::Material{});  // what cuts leave may differ from the solid
     return solid;
 }
 
@@ -134,4 +134,4 @@ private:
     std::uint64_t changed_ = 0;
 };
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

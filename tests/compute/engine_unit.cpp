@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compute/engine.hpp"
+#include "compute/rays/engine.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,13 +8,13 @@
 #include <limits>
 #include <numbers>
 
-#include "compute/surface.hpp"
-#include "compute/sweep_units.hpp"
+#include "compute/mesher/surface.hpp"
+#include "compute/tools/sweep_units.hpp"
 #include "tests/compute/effort.hpp"
 #include "tests/compute/mesh_topology.hpp"
 #include "tests/compute/random_solids.hpp"
 
-namespace burin::test {
+namespace burin::compute::test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
@@ -219,8 +219,8 @@ TEST(CpuEngine, AThousandRandomStrokesKeepEveryRayWellFormed) {
     }
 }
 
-// Filling against the exact predicate: the capsule's own depths, and nothing else, become material; the lattice's outermost
-// nodes stay empty, so that the surface closes.
+// Filling against the exact predicate: the capsule's own depths, and nothing else, become material; the lattice's
+// outermost nodes stay empty, so that the surface closes.
 TEST(CpuEngine, FillsExactlyWhatTheCapsuleCovers) {
     WorkerPool pool(2);
     Random random(2);
@@ -329,6 +329,41 @@ TEST(CpuEngine, ChangesSayWhatEveryRayHeldBefore) {
     EXPECT_FALSE(engine->solid().same_content(start));
 }
 
+// Tiles are meshed anew between these depths only: an end that came, went or changed its material lies within them.
+TEST(CpuEngine, ChangesSayBetweenWhichDepthsARayDiffers) {
+    WorkerPool pool(2);
+    Random random(8);
+    Solid start = cube(40);
+    start.materials.push_back({"other", {200, 0, 0}});
+    const auto engine = make_cpu_engine(start, pool);
+    std::array<std::size_t, 3> seen{};
+    for (int i = 0; i < repeated(60); ++i) {
+        auto stroke = random_stroke(random, 1, 0.2, {static_cast<Operation>(i % 3)});
+        stroke[0].material = static_cast<std::uint8_t>(random.small(0, 1));
+        ASSERT_TRUE(engine->carve(stroke).has_value());
+        const Changes changes = engine->take_changes();
+        for (const shared::ChangedRay& ray : changes.rays) {
+            const RayPlace place = place_of(ray.ray);
+            const auto was = changes.before_of(ray),
+                       is = engine->solid().sets[static_cast<std::size_t>(place.axis)].ends(place.u, place.v);
+            const auto has = [](std::span<const shared::DexelEnd> ends, const shared::DexelEnd& end) {
+                return std::ranges::any_of(ends, [&](const shared::DexelEnd& e) {
+                    return e.depth_material == end.depth_material && e.normal == end.normal;
+                });
+            };
+            for (const auto& [some, others] : {std::pair(was, is), std::pair(is, was)}) {
+                for (const shared::DexelEnd& end : some) {
+                    if (has(others, end)) continue;
+                    ++seen[static_cast<std::size_t>(i % 3)];
+                    ASSERT_GE(depth_of(end), ray.changed_lo) << "operation " << i % 3;
+                    ASSERT_LE(depth_of(end), ray.changed_hi) << "operation " << i % 3;
+                }
+            }
+        }
+    }
+    for (const std::size_t ends : seen) EXPECT_GT(ends, 10 * static_cast<std::size_t>(repeated(60)));
+}
+
 TEST(CpuEngine, AssignsRaysAndSkipsThoseThatAreSoAlready) {
     WorkerPool pool(2);
     Random random(6);
@@ -365,4 +400,4 @@ TEST(CpuEngine, AlmostLevelStrokeLeavesTheRestOfTheBlockAlone) {
     }
 }
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

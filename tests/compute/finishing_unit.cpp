@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT
-// What is done to a carved mesh before it leaves: self-intersections found and mended, slivers counted, simplification that
-// adds no faults.
+// What is done to a carved mesh before it leaves: self-intersections found and mended, slivers counted, simplification
+// that adds no faults.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "compute/engine.hpp"
-#include "compute/mend_intersections.hpp"
-#include "compute/self_intersections.hpp"
-#include "compute/slivers.hpp"
-#include "compute/surface.hpp"
-#include "compute/thin_out.hpp"
-#include "geometry/triangle_contact.hpp"
+#include "compute/mesher/surface.hpp"
+#include "compute/rays/engine.hpp"
+#include "compute/repair/decimate.hpp"
+#include "compute/repair/repair_intersections.hpp"
+#include "compute/repair/self_intersections.hpp"
+#include "compute/repair/slivers.hpp"
+#include "geometry/mesh/triangle_contact.hpp"
 #include "shaders/shared/octahedral.h"
 #include "tests/compute/mesh_topology.hpp"
 #include "tests/compute/random_solids.hpp"
 
-namespace burin::test {
+namespace burin::compute::test {
 namespace {
 
 Surface surface_of(const Solid& solid, WorkerPool& pool) {
@@ -26,10 +26,10 @@ Surface surface_of(const Solid& solid, WorkerPool& pool) {
     return surface;
 }
 
-TriangleMesh mesh_of(const Solid& solid, WorkerPool& pool) { return surface_of(solid, pool).welded(); }
+geometry::TriangleMesh mesh_of(const Solid& solid, WorkerPool& pool) { return surface_of(solid, pool).welded(); }
 
-MendingReport mend(TriangleMesh& mesh, const Solid& solid, WorkerPool& pool) {
-    return mend_intersections(mesh, surface_of(solid, pool), solid, pool);
+RepairReport repair(geometry::TriangleMesh& mesh, const Solid& solid, WorkerPool& pool) {
+    return repair_intersections(mesh, surface_of(solid, pool), solid, pool);
 }
 
 // A block crossed by many thin and thick strokes: rims, walls and tips wherever they meet.
@@ -65,11 +65,12 @@ Carved carved_block(int resolution, std::uint64_t seed, WorkerPool& pool) {
     return carved;
 }
 
-std::vector<TrianglePair> by_brute_force(const TriangleMesh& mesh) {
+std::vector<TrianglePair> by_brute_force(const geometry::TriangleMesh& mesh) {
     std::vector<TrianglePair> pairs;
     for (std::uint32_t a = 0; a < mesh.triangles.size(); ++a) {
         for (std::uint32_t b = a + 1; b < mesh.triangles.size(); ++b) {
-            if (meet_beyond_shared(mesh.positions_m, mesh.triangles[a], mesh.triangles[b])) pairs.push_back({a, b});
+            if (geometry::meet_beyond_shared(mesh.positions_m, mesh.triangles[a], mesh.triangles[b]))
+                pairs.push_back({a, b});
         }
     }
     return pairs;
@@ -82,25 +83,25 @@ TEST(SelfIntersections, TheTreeMissesNothingThatBruteForceFinds) {
     std::size_t found = 0;
     for (int seed = 0; seed < repeated(6); ++seed) {
         const Solid solid = noise_solid({7, 6, 8}, 0.4, static_cast<Rays>(seed % 3), static_cast<std::uint64_t>(seed));
-        const TriangleMesh mesh = mesh_of(solid, one);
+        const geometry::TriangleMesh mesh = mesh_of(solid, one);
         const std::vector<TrianglePair> pairs = self_intersections(mesh, one);
         EXPECT_EQ(pairs, by_brute_force(mesh)) << seed;
         EXPECT_EQ(pairs, self_intersections(mesh, five)) << seed;
         found += pairs.size();
     }
     EXPECT_GT(found, 10u);
-    EXPECT_TRUE(self_intersections(TriangleMesh{}, one).empty());
+    EXPECT_TRUE(self_intersections(geometry::TriangleMesh{}, one).empty());
     EXPECT_TRUE(self_intersections({{Vec3(0.0), Vec3(1.0)}, {{0, 0, 1}, {0, 1, 1}}, {}, {}, {}}, one).empty());
 }
 
-TEST(Mending, MendsRandomStrokesAndKeepsPlace) {
+TEST(Repair, MendsRandomStrokesAndKeepsPlace) {
     WorkerPool pool(2);
     std::size_t found = 0, moved = 0, worse = 0;
     for (int seed = 1; seed <= repeated(4); ++seed) {
         const Carved carved = carved_block(kSanitized ? 40 : 72, static_cast<std::uint64_t>(seed), pool);
-        TriangleMesh mesh = mesh_of(carved.solid, pool);
-        const TriangleMesh before = mesh;
-        const MendingReport report = mend(mesh, carved.solid, pool);
+        geometry::TriangleMesh mesh = mesh_of(carved.solid, pool);
+        const geometry::TriangleMesh before = mesh;
+        const RepairReport report = repair(mesh, carved.solid, pool);
         // Where three and more walls thinner than a cell meet, single faults may be left; they must be counted.
         EXPECT_LE(report.left, report.found / 100) << seed;
         EXPECT_EQ(report.left, self_intersections(mesh, pool).size()) << seed;
@@ -128,22 +129,22 @@ TEST(Mending, MendsRandomStrokesAndKeepsPlace) {
     EXPECT_LE(worse, 1 + moved / 8);
 }
 
-TEST(Mending, DoesNotDependOnThreads) {
+TEST(Repair, DoesNotDependOnThreads) {
     WorkerPool one(1), five(5);
     const Carved carved = carved_block(64, 11, one);
-    TriangleMesh a = mesh_of(carved.solid, one), b = a;
-    const MendingReport first = mend(a, carved.solid, one), second = mend(b, carved.solid, five);
+    geometry::TriangleMesh a = mesh_of(carved.solid, one), b = a;
+    const RepairReport first = repair(a, carved.solid, one), second = repair(b, carved.solid, five);
     EXPECT_EQ(a.positions_m, b.positions_m);
     EXPECT_EQ(a.triangles, b.triangles);
     EXPECT_EQ(first.moved, second.moved);
 }
 
-TEST(Mending, NoiseIsMendedOrCounted) {
+TEST(Repair, NoiseIsMendedOrCounted) {
     WorkerPool pool(2);
     for (int seed = 0; seed < repeated(3); ++seed) {
         const Solid solid = noise_solid({7, 7, 7}, 0.5, static_cast<Rays>(seed % 3), static_cast<std::uint64_t>(seed));
-        TriangleMesh mesh = mesh_of(solid, pool);
-        const MendingReport report = mend(mesh, solid, pool);
+        geometry::TriangleMesh mesh = mesh_of(solid, pool);
+        const RepairReport report = repair(mesh, solid, pool);
         EXPECT_GT(report.found, 0u);
         EXPECT_LT(report.left, report.found);
         EXPECT_EQ(report.left, self_intersections(mesh, pool).size());
@@ -191,16 +192,16 @@ TEST(Slivers, KnownOnesAreFoundWithPlaceAndThickness) {
 TEST(ThinningOut, MakesNoNewFaultsAndStaysClosed) {
     WorkerPool pool(2);
     const Carved carved = carved_block(28, 3, pool);
-    TriangleMesh mesh = mesh_of(carved.solid, pool);
-    const std::uint64_t left = mend(mesh, carved.solid, pool).left;
+    geometry::TriangleMesh mesh = mesh_of(carved.solid, pool);
+    const std::uint64_t left = repair(mesh, carved.solid, pool).left;
     const double bound_m = 0.5 * carved.solid.lattice.spacing_m;  // coarse, so that sheets come near each other
-    const Result<ThinnedOut> thinned = thin_out(mesh, bound_m, pool);
+    const Result<ThinnedOut> thinned = decimate(mesh, bound_m, pool);
     ASSERT_TRUE(thinned.has_value());
     EXPECT_LE(self_intersections(thinned->mesh, pool).size(), left);
     EXPECT_EQ(topology_of(thinned->mesh), MeshTopology{});
     EXPECT_LT(thinned->mesh.triangles.size(), mesh.triangles.size() / 3);
     EXPECT_LE(thinned->error_m, bound_m);
-    EXPECT_FALSE(thin_out(mesh, 0.0, pool).has_value());
+    EXPECT_FALSE(decimate(mesh, 0.0, pool).has_value());
 }
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

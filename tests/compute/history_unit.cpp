@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "compute/history.hpp"
+#include "compute/rays/history.hpp"
 
 #include <gtest/gtest.h>
 
-#include "bench/scenes.hpp"
-#include "compute/surface.hpp"
+#include "bench/measure/scenes.hpp"
+#include "compute/mesher/surface.hpp"
 #include "tests/compute/effort.hpp"
 
-namespace burin::test {
+namespace burin::compute::test {
 namespace {
 
 Solid cube(int resolution) {
@@ -57,7 +57,7 @@ struct Session {
 };
 
 bool same_mesh(const Surface& a, const Surface& b) {
-    const TriangleMesh x = a.welded(), y = b.welded();
+    const geometry::TriangleMesh x = a.welded(), y = b.welded();
     return x.positions_m == y.positions_m && x.triangles == y.triangles && x.colours == y.colours;
 }
 
@@ -132,6 +132,29 @@ TEST(History, ANewStrokeForgetsWhatCouldBeRedone) {
     EXPECT_FALSE(session.redo());
 }
 
+// Else strokes would be dropped although there is room, sooner the more somebody goes to and fro.
+TEST(History, CountsNoMemoryThatItHasGivenBack) {
+    Session session(cube(24)), fresh(cube(24));
+    const BallSweep first{Vec3(0.5), Vec3(0.6), 0.2, 0}, second{Vec3(0.2), Vec3(0.2), 0.3, 1},
+        third{Vec3(0.9), Vec3(0.9), 0.1, 0};
+    for (const BallSweep& sweep : {first, second}) {
+        session.carve(sweep);
+        session.history.end_stroke();
+    }
+    const std::size_t both = session.history.bytes();
+    for (int i = 0; i < 10; ++i) {
+        ASSERT_TRUE(session.undo() && session.undo());
+        ASSERT_TRUE(session.redo() && session.redo());
+        ASSERT_EQ(session.history.bytes(), both) << "undone and redone " << i + 1 << " times";
+    }
+    ASSERT_TRUE(session.undo());
+    session.carve(third);  // what could be redone is forgotten
+    fresh.carve(first);
+    fresh.history.end_stroke();
+    fresh.carve(third);
+    EXPECT_EQ(session.history.bytes(), fresh.history.bytes());
+}
+
 TEST(History, KeepsWithinItsBudgetDropsTheOldestFirstAndSaysSo) {
     Random random(3);
     constexpr std::size_t kBudget = 300'000;
@@ -157,4 +180,4 @@ TEST(History, KeepsWithinItsBudgetDropsTheOldestFirstAndSaysSo) {
     EXPECT_TRUE(session.engine->solid().same_content(states[states.size() - 1 - kept]));
 }
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "compute/lattice.hpp"
+#include "compute/rays/lattice.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "compute/solid.hpp"
+#include "compute/rays/solid.hpp"
 #include "tests/compute/effort.hpp"
 
-namespace burin::test {
+namespace burin::compute::test {
 namespace {
 
 double distance_to_node(double cells) { return std::abs(cells - std::round(cells)); }
@@ -124,4 +124,4 @@ TEST(Blocks, AreWellFormedAndHoldTheirVolumeOnEveryAxis) {
     }
 }
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

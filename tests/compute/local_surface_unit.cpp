@@ -7,12 +7,12 @@
 #include <memory>
 #include <set>
 
-#include "compute/engine.hpp"
-#include "compute/surface.hpp"
-#include "geometry/local_surface_search.hpp"
+#include "compute/mesher/surface.hpp"
+#include "compute/rays/engine.hpp"
+#include "geometry/contact/local_surface_search.hpp"
 #include "tests/compute/random_solids.hpp"
 
-namespace burin::test {
+namespace burin::compute::test {
 namespace {
 
 using Name = std::array<float, 9>;  // a triangle by its corners, to the bit
@@ -23,8 +23,8 @@ Surface meshed(const Solid& solid, WorkerPool& pool) {
     return surface;
 }
 
-std::vector<Triangle> all_triangles(const Surface& surface) {
-    std::vector<Triangle> result;
+std::vector<geometry::Triangle> all_triangles(const Surface& surface) {
+    std::vector<geometry::Triangle> result;
     for (std::uint32_t t = 0; t < surface.tile_count(); ++t) {
         const TileMesh& tile = surface.tile(t);
         const auto corner = [&](std::size_t i) {
@@ -38,12 +38,12 @@ std::vector<Triangle> all_triangles(const Surface& surface) {
     return result;
 }
 
-Name name_of(const Triangle& t) {
+Name name_of(const geometry::Triangle& t) {
     const Vec3f a(t.a), b(t.b), c(t.c);
     return {a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z};
 }
 
-Box box_of(const Triangle& t) {
+Box box_of(const geometry::Triangle& t) {
     Box box;
     for (const Vec3& corner : {t.a, t.b, t.c}) box.include(corner);
     return box;
@@ -60,7 +60,7 @@ double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
     return glm::length(p - a - e * t);
 }
 
-double distance_to_triangle(const Vec3& p, const Triangle& t) {
+double distance_to_triangle(const Vec3& p, const geometry::Triangle& t) {
     const std::array<Vec3, 3> c{t.a, t.b, t.c};
     const Vec3 n = glm::cross(c[1] - c[0], c[2] - c[0]);
     bool above = glm::length(n) > 0;
@@ -72,15 +72,16 @@ double distance_to_triangle(const Vec3& p, const Triangle& t) {
         {distance_to_segment(p, c[0], c[1]), distance_to_segment(p, c[1], c[2]), distance_to_segment(p, c[2], c[0])});
 }
 
-// How often the search comes by each triangle. Ids are those of the triangles, none comes twice, and none is degenerate.
-std::map<Name, int> found_in(const LocalSurface& local, const Box& box) {
+// How often the search comes by each triangle. Ids are those of the triangles, none comes twice, and none is
+// degenerate.
+std::map<Name, int> found_in(const geometry::LocalSurface& local, const Box& box) {
     std::map<Name, int> found;
     std::set<std::uint32_t> ids;
-    for_each_triangle_near(local, box.lo, box.hi, [&](std::uint32_t id, const Triangle& t) {
+    geometry::for_each_triangle_near(local, box.lo, box.hi, [&](std::uint32_t id, const geometry::Triangle& t) {
         EXPECT_TRUE(ids.insert(id).second);
         EXPECT_LT(id, local.triangles());
         EXPECT_EQ(name_of(local.triangle(id)), name_of(t));
-        EXPECT_FALSE(is_degenerate(t));
+        EXPECT_FALSE(geometry::is_degenerate(t));
         ++found[name_of(t)];
         return true;
     });
@@ -89,13 +90,13 @@ std::map<Name, int> found_in(const LocalSurface& local, const Box& box) {
 
 // Every triangle that fits the description is found as often as the surface has it, and nothing that it does not have.
 template <typename Wanted>
-std::size_t expect_all(const std::vector<Triangle>& all, std::map<Name, int> found, Wanted&& wanted,
+std::size_t expect_all(const std::vector<geometry::Triangle>& all, std::map<Name, int> found, Wanted&& wanted,
                        const std::string& what) {
     std::size_t count = 0;
-    for (const Triangle& t : all) {
+    for (const geometry::Triangle& t : all) {
         const auto at = found.find(name_of(t));
         const bool is_found = at != found.end() && at->second-- > 0;
-        if (is_degenerate(t) || !wanted(t)) continue;
+        if (geometry::is_degenerate(t) || !wanted(t)) continue;
         ++count;
         EXPECT_TRUE(is_found) << what;
     }
@@ -134,10 +135,10 @@ TEST(LocalSurface, ABoxFindsWhatALookAtEveryTriangleFinds) {
         for (std::uint32_t t = 0; t < surface.tile_count(); ++t) {
             (surface.tile(t).only_quads() ? without : with_fans) += surface.shared_tile(t) ? 1u : 0u;
         }
-        const std::vector<Triangle> all = all_triangles(surface);
+        const std::vector<geometry::Triangle> all = all_triangles(surface);
         const double h = solid.lattice.spacing_m;
         const Vec3 extent = h * Vec3(solid.lattice.cells[0], solid.lattice.cells[1], solid.lattice.cells[2]);
-        LocalSurface local;
+        geometry::LocalSurface local;
         gather_local_surface(surface, solid.lattice.origin_object + 0.5 * extent, glm::length(extent), local);
         EXPECT_EQ(local.triangles(), surface.triangles());
         for (int i = 0; i < repeated(60); ++i) {
@@ -149,7 +150,8 @@ TEST(LocalSurface, ABoxFindsWhatALookAtEveryTriangleFinds) {
             }
             if (box.empty()) continue;
             wanted += expect_all(
-                all, found_in(local, box), [&](const Triangle& t) { return meet(box_of(t), box); }, std::to_string(i));
+                all, found_in(local, box), [&](const geometry::Triangle& t) { return meet(box_of(t), box); },
+                std::to_string(i));
         }
     }
     EXPECT_GT(with_fans, 10u);
@@ -163,9 +165,9 @@ TEST(LocalSurface, HoldsEveryTriangleWithinTheBall) {
     std::size_t within = 0;
     for (const Solid& solid : random_solids()) {
         const Surface surface = meshed(solid, pool);
-        const std::vector<Triangle> all = all_triangles(surface);
+        const std::vector<geometry::Triangle> all = all_triangles(surface);
         const double h = solid.lattice.spacing_m;
-        LocalSurface local;
+        geometry::LocalSurface local;
         for (int i = 0; i < repeated(40); ++i) {
             Vec3 center(0.0);  // relative to the lattice's origin
             for (int axis = 0; axis < 3; ++axis) {
@@ -177,7 +179,9 @@ TEST(LocalSurface, HoldsEveryTriangleWithinTheBall) {
             EXPECT_EQ(local.center_object, solid.lattice.origin_object + center);
             EXPECT_EQ(local.origin_object, solid.lattice.origin_object);
             // A thousandth of a cell for the rounding of the centre.
-            const auto inside = [&](const Triangle& t) { return distance_to_triangle(center, t) <= radius - 1e-3 * h; };
+            const auto inside = [&](const geometry::Triangle& t) {
+                return distance_to_triangle(center, t) <= radius - 1e-3 * h;
+            };
             within += expect_all(all, found_in(local, {center - radius, center + radius}), inside, std::to_string(i));
         }
         gather_local_surface(surface, Vec3(1e6), h, local);
@@ -189,7 +193,7 @@ TEST(LocalSurface, HoldsEveryTriangleWithinTheBall) {
 TEST(LocalSurface, BoxesThatAreNoBoxesFindNothing) {
     WorkerPool pool(1);
     const Surface surface = meshed(*make_ball(0.4, 24, {"ball", {}}), pool);
-    LocalSurface local;
+    geometry::LocalSurface local;
     const Vec3 center = surface.lattice().origin_object;
     gather_local_surface(surface, center, 2.0, local);
     ASSERT_GT(local.triangles(), 0u);
@@ -200,19 +204,20 @@ TEST(LocalSurface, BoxesThatAreNoBoxesFindNothing) {
     EXPECT_TRUE(found_in(local, {Vec3(inf), Vec3(inf)}).empty());
     EXPECT_EQ(found_in(local, {Vec3(-inf), Vec3(inf)}), found_in(local, {Vec3(-1e9), Vec3(1e9)}));
     EXPECT_FALSE(found_in(local, {Vec3(-inf), Vec3(inf)}).empty());
-    EXPECT_TRUE(found_in(LocalSurface{}, {Vec3(-1.0), Vec3(1.0)}).empty());
+    EXPECT_TRUE(found_in(geometry::LocalSurface{}, {Vec3(-1.0), Vec3(1.0)}).empty());
 }
 
 TEST(LocalSurface, TilesThatAReaderHoldsStayAsTheyAreWhileCarvingGoesOn) {
     WorkerPool pool(2);
     const auto engine = make_cpu_engine(*make_ball(0.4, 48, {"ball", {}}), pool);
     Surface surface = meshed(engine->solid(), pool);
-    LocalSurface held, draft;
+    geometry::LocalSurface held, draft;
     const Vec3 top(0.0, 0.4, 0.0);
     gather_local_surface(surface, top, 0.3, held);
-    std::vector<SurfaceTile> before;
-    for (const TileBlock::Place& place : held.tiles.places) before.push_back(place.tile ? *place.tile : SurfaceTile{});
-    const std::vector<Triangle> touched_before = all_triangles(surface);
+    std::vector<geometry::SurfaceTile> before;
+    for (const geometry::TileBlock::Place& place : held.tiles.places)
+        before.push_back(place.tile ? *place.tile : geometry::SurfaceTile{});
+    const std::vector<geometry::Triangle> touched_before = all_triangles(surface);
     for (const BallSweep& sweep : stroke(repeated(100))) {
         ASSERT_TRUE(engine->carve({&sweep, 1}));
         surface.update(engine->solid(), engine->take_changes(), pool);
@@ -224,7 +229,7 @@ TEST(LocalSurface, TilesThatAReaderHoldsStayAsTheyAreWhileCarvingGoesOn) {
     std::size_t changed = 0;
     for (std::size_t i = 0; i < before.size(); ++i) {
         if (!held.tiles.places[i].tile) continue;
-        const SurfaceTile& now = *held.tiles.places[i].tile;
+        const geometry::SurfaceTile& now = *held.tiles.places[i].tile;
         EXPECT_TRUE(same_bytes(now.vertices, before[i].vertices) && same_bytes(now.indices, before[i].indices) &&
                     same_bytes(now.quads, before[i].quads) && same_bytes(now.row_quads, before[i].row_quads) &&
                     same_bytes(now.row_triangles, before[i].row_triangles));
@@ -232,17 +237,19 @@ TEST(LocalSurface, TilesThatAReaderHoldsStayAsTheyAreWhileCarvingGoesOn) {
     }
     EXPECT_GT(changed, 3u);
     // What is found is still what the surface was, and no other.
-    expect_all(touched_before, found_in(held, {Vec3(-1e9), Vec3(1e9)}), [](const Triangle&) { return false; }, "held");
+    expect_all(
+        touched_before, found_in(held, {Vec3(-1e9), Vec3(1e9)}), [](const geometry::Triangle&) { return false; },
+        "held");
 }
 
 TEST(LocalSurface, ADraftFilledAgainLetsGoOfWhatItHeld) {
     WorkerPool pool(1);
     const auto engine = make_cpu_engine(*make_ball(0.4, 48, {"ball", {}}), pool);
     Surface surface = meshed(engine->solid(), pool);
-    LocalSurface draft;
+    geometry::LocalSurface draft;
     gather_local_surface(surface, Vec3(0.0, 0.4, 0.0), 0.1, draft);
-    std::vector<std::weak_ptr<const SurfaceTile>> held;
-    for (const TileBlock::Place& place : draft.tiles.places) {
+    std::vector<std::weak_ptr<const geometry::SurfaceTile>> held;
+    for (const geometry::TileBlock::Place& place : draft.tiles.places) {
         if (place.tile) held.push_back(place.tile);
     }
     ASSERT_GT(held.size(), 0u);
@@ -255,4 +262,4 @@ TEST(LocalSurface, ADraftFilledAgainLetsGoOfWhatItHeld) {
     for (const auto& tile : held) EXPECT_TRUE(tile.expired());
 }
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "compute/memory_need.hpp"
+#include "compute/rays/memory_need.hpp"
 
 #include <gtest/gtest.h>
 
-#include "compute/solid.hpp"
+#include "compute/rays/solid.hpp"
 
-namespace burin::test {
+namespace burin::compute::test {
 
 TEST(MemoryNeed, GrowsWithTheSquareOfTheResolutionAndHoldsTheRays) {
     const Box unit{Vec3(0), Vec3(1)};
@@ -36,4 +36,4 @@ TEST(MemoryNeed, RefusesWhatDoesNotFitAndNamesWhatWould) {
 
 TEST(MemoryNeed, TheMachineTells) { EXPECT_GT(memory_available().value_or(0), 1u << 20); }
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

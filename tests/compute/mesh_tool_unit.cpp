@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Mesh tools against closed forms of the same shapes, against dense stamps, and against scan conversion.
-#include "compute/mesh_tool.hpp"
+#include "compute/tools/mesh_tool.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
 
-#include "compute/apply.hpp"
-#include "compute/ray_algebra.hpp"
-#include "compute/scan_convert.hpp"
-#include "compute/tool_spans.hpp"
+#include "compute/rays/ray_algebra.hpp"
+#include "compute/rays/scan_convert.hpp"
+#include "compute/tools/apply.hpp"
+#include "compute/tools/tool_spans.hpp"
 #include "tests/compute/test_meshes.hpp"
 #include "tests/compute/tool_reference.hpp"
 
-namespace burin::test {
+namespace burin::compute::test {
 namespace {
 
 using Rays = std::map<std::uint32_t, std::vector<shared::DexelEnd>>;
@@ -24,8 +24,8 @@ WorkerPool& pool() {
     return two;
 }
 
-MeshTool tool_of(TriangleMesh mesh) {
-    auto prepared = prepare_mesh_tool(std::make_shared<TriangleMesh>(std::move(mesh)));
+MeshTool tool_of(geometry::TriangleMesh mesh) {
+    auto prepared = prepare_mesh_tool(std::make_shared<geometry::TriangleMesh>(std::move(mesh)));
     EXPECT_TRUE(prepared) << prepared.error().line();
     return prepared ? *prepared : MeshTool{};
 }
@@ -84,8 +84,8 @@ ToolSweep any_sweep(Random& random, ToolShape shape, bool turns) {
 
 // Two boxes that overlap, with a notch between them: what a sweep fills of the notch depends on its direction.
 struct Angle {
-    TriangleMesh mesh = joined(box_mesh(Vec3(-0.15, -0.05, -0.05), Vec3(0.15, 0.05, 0.05), 2),
-                               box_mesh(Vec3(-0.15, -0.05, -0.05), Vec3(-0.05, 0.2, 0.05), 2));
+    geometry::TriangleMesh mesh = joined(box_mesh(Vec3(-0.15, -0.05, -0.05), Vec3(0.15, 0.05, 0.05), 2),
+                                         box_mesh(Vec3(-0.15, -0.05, -0.05), Vec3(-0.05, 0.2, 0.05), 2));
     BoxTool foot{Vec3(0.15, 0.05, 0.05)}, leg{Vec3(0.05, 0.125, 0.05)};
     Vec3 leg_middle{-0.1, 0.075, 0.0};
 };
@@ -148,7 +148,7 @@ TEST(MeshTool, APrismOfManySidesIsACylinder) {
     const Solid solid = *make_block(Vec3(1), 48, {"cube", {}});
     Random random(4);
     // The prism's axis is z; the cylinder's is y.
-    TriangleMesh prism = prism_mesh(360, 0.1, 0.3);
+    geometry::TriangleMesh prism = prism_mesh(360, 0.1, 0.3);
     for (Vec3& p : prism.positions_m) p = {p.y, p.z, p.x};
     const MeshTool tool = tool_of(prism);
     for (int i = 0; i < repeated(12); ++i) {
@@ -162,8 +162,9 @@ TEST(MeshTool, APrismOfManySidesIsACylinder) {
 TEST(MeshTool, AMeshTakesItsOwnScanConversionAwayToTheBit) {
     Random random(5);
     for (int i = 0; i < repeated(12); ++i) {
-        TriangleMesh mesh = i % 2 == 0 ? transformed(ball_mesh(0.5, 3), any_orientation(random), Vec3(0.1, 7, -2))
-                                       : transformed(Angle{}.mesh, any_orientation(random), Vec3(-3, 0.2, 0));
+        geometry::TriangleMesh mesh = i % 2 == 0
+                                          ? transformed(ball_mesh(0.5, 3), any_orientation(random), Vec3(0.1, 7, -2))
+                                          : transformed(Angle{}.mesh, any_orientation(random), Vec3(-3, 0.2, 0));
         auto converted = scan_convert(mesh, random.small(16, 64), pool());
         ASSERT_TRUE(converted) << converted.error().line();
         const auto engine = make_cpu_engine(std::move(converted->solid), pool());
@@ -209,34 +210,34 @@ TEST(MeshTool, UnpreparedMeshesDoTheSame) {
 }
 
 TEST(MeshTool, RefusesMeshesThatAreNoTools) {
-    const auto refusal = [](TriangleMesh mesh) {
-        const auto prepared = prepare_mesh_tool(std::make_shared<TriangleMesh>(std::move(mesh)));
+    const auto refusal = [](geometry::TriangleMesh mesh) {
+        const auto prepared = prepare_mesh_tool(std::make_shared<geometry::TriangleMesh>(std::move(mesh)));
         return prepared ? std::string() : prepared.error().line();
     };
-    const TriangleMesh good = box_mesh(Vec3(0), Vec3(1), 2);
+    const geometry::TriangleMesh good = box_mesh(Vec3(0), Vec3(1), 2);
     EXPECT_EQ(refusal(good), "");
-    TriangleMesh open = good;
+    geometry::TriangleMesh open = good;
     open.triangles.pop_back();
     EXPECT_NE(refusal(open).find("holes"), std::string::npos);
-    TriangleMesh mixed = good;
+    geometry::TriangleMesh mixed = good;
     std::swap(mixed.triangles[3][0], mixed.triangles[3][1]);
     EXPECT_NE(refusal(mixed).find("outwards"), std::string::npos);
     EXPECT_NE(refusal(inverted(good)).find("inside out"), std::string::npos);
-    TriangleMesh nan = good;
+    geometry::TriangleMesh nan = good;
     nan.positions_m[2].z = NAN;
     EXPECT_NE(refusal(nan).find("finite"), std::string::npos);
-    TriangleMesh dangling = good;
+    geometry::TriangleMesh dangling = good;
     dangling.triangles[0][0] = 1000;
     EXPECT_NE(refusal(dangling).find("does not exist"), std::string::npos);
-    EXPECT_NE(refusal(TriangleMesh{}).find("no triangles"), std::string::npos);
-    TriangleMesh stray = good;  // harmless, and not posed
+    EXPECT_NE(refusal(geometry::TriangleMesh{}).find("no triangles"), std::string::npos);
+    geometry::TriangleMesh stray = good;  // harmless, and not posed
     stray.positions_m.push_back(Vec3(1e300));
     EXPECT_EQ(refusal(stray), "");
     EXPECT_EQ(tool_of(stray).mesh->positions_m.size(), good.positions_m.size());
-    TriangleMesh huge = good;
+    geometry::TriangleMesh huge = good;
     for (Vec3& p : huge.positions_m) p *= 1e4;
     const ToolSweep sweep{tool_of(huge), {}, {}};
     EXPECT_FALSE(check_sweep(*make_block(Vec3(1), 32, {"cube", {}}), sweep));
 }
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

@@ -6,10 +6,10 @@
 #include <tuple>
 #include <vector>
 
-namespace burin::test {
+namespace burin::compute::test {
 namespace {
 
-void count_edges(const TriangleMesh& mesh, MeshTopology& topology) {
+void count_edges(const geometry::TriangleMesh& mesh, MeshTopology& topology) {
     struct Half {
         std::uint32_t low, high;
         bool upward;
@@ -32,8 +32,9 @@ void count_edges(const TriangleMesh& mesh, MeshTopology& topology) {
     }
 }
 
-// Around a vertex each triangle leads from one neighbour to the next; a manifold's lead once around through all of them.
-void count_fans(const TriangleMesh& mesh, MeshTopology& topology) {
+// Around a vertex each triangle leads from one neighbour to the next; a manifold's lead once around through all of
+// them.
+void count_fans(const geometry::TriangleMesh& mesh, MeshTopology& topology) {
     struct Step {
         std::uint32_t vertex, from, to;
     };
@@ -62,11 +63,11 @@ void count_fans(const TriangleMesh& mesh, MeshTopology& topology) {
 
 }  // namespace
 
-MeshTopology topology_of(const TriangleMesh& mesh) {
+MeshTopology topology_of(const geometry::TriangleMesh& mesh) {
     MeshTopology topology;
     count_edges(mesh, topology);
     count_fans(mesh, topology);
     return topology;
 }
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

@@ -4,9 +4,9 @@
 
 #include <cstddef>
 
-#include "geometry/triangle_mesh.hpp"
+#include "geometry/mesh/triangle_mesh.hpp"
 
-namespace burin::test {
+namespace burin::compute::test {
 
 struct MeshTopology {
     std::size_t open_edges = 0;            // with one triangle
@@ -18,6 +18,6 @@ struct MeshTopology {
     bool operator==(const MeshTopology&) const = default;
 };
 
-[[nodiscard]] MeshTopology topology_of(const TriangleMesh& mesh);
+[[nodiscard]] MeshTopology topology_of(const geometry::TriangleMesh& mesh);
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

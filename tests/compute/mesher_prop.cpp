@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The mesher's promises, tried on solids made to break them: closed, two-manifold, tile by tile, the same on any thread.
+// The mesher's promises, tried on solids made to break them: closed, two-manifold, tile by tile, the same on any
+// thread.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -7,13 +8,13 @@
 #include <cstring>
 #include <map>
 
-#include "compute/engine.hpp"
-#include "compute/surface.hpp"
+#include "compute/mesher/surface.hpp"
+#include "compute/rays/engine.hpp"
 #include "shaders/shared/octahedral.h"
 #include "tests/compute/mesh_topology.hpp"
 #include "tests/compute/random_solids.hpp"
 
-namespace burin::test {
+namespace burin::compute::test {
 namespace {
 
 void mesh_everything(Surface& surface, const Solid& solid, WorkerPool& pool) { surface.mesh_all(solid, pool); }
@@ -35,7 +36,7 @@ int first_difference(const Surface& a, const Surface& b) {
     return -1;
 }
 
-bool same_mesh(const TriangleMesh& a, const TriangleMesh& b) {
+bool same_mesh(const geometry::TriangleMesh& a, const geometry::TriangleMesh& b) {
     return a.positions_m == b.positions_m && a.triangles == b.triangles && a.colours == b.colours;
 }
 
@@ -43,7 +44,7 @@ bool same_mesh(const TriangleMesh& a, const TriangleMesh& b) {
 void expect_manifold(const Solid& solid, WorkerPool& pool, const std::string& what) {
     Surface surface(solid.lattice);
     mesh_everything(surface, solid, pool);
-    const TriangleMesh mesh = surface.welded();
+    const geometry::TriangleMesh mesh = surface.welded();
     ASSERT_GT(mesh.triangles.size(), 0u) << what;
     const MeshTopology t = topology_of(mesh);
     ASSERT_EQ(t.open_edges, 0u) << what;
@@ -98,7 +99,7 @@ TEST(Mesher, NoTwoVerticesShareAPlaceNotEvenInFloats) {
         ASSERT_TRUE(solid.lattice.fits_floats());
         Surface surface(solid.lattice);
         mesh_everything(surface, solid, pool);
-        const TriangleMesh mesh = surface.welded();
+        const geometry::TriangleMesh mesh = surface.welded();
         std::set<std::array<float, 3>> places;
         for (const Vec3& p : mesh.positions_m) {
             places.insert({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
@@ -148,7 +149,8 @@ TEST(Mesher, EveryPairOfNeighbouringCellsIsTwoManifold) {
     }
 }
 
-// Tiles are drawn as they are: a vertex that two tiles share must lie at the same place in both, or light shines through.
+// Tiles are drawn as they are: a vertex that two tiles share must lie at the same place in both, or light shines
+// through.
 TEST(Mesher, TilesShareTheirBorderVerticesToTheBit) {
     WorkerPool pool(2);
     for (int seed = 0; seed < repeated(16); ++seed) {
@@ -185,7 +187,8 @@ TEST(Mesher, ThreadsDoNotChangeTheMesh) {
     EXPECT_TRUE(same_mesh(a.welded(), b.welded()));
 }
 
-// What is kept must be what meshing anew would give: small strokes, most of them near tile borders, in noise and in blocks.
+// What is kept must be what meshing anew would give: small strokes, most of them near tile borders, in noise and in
+// blocks.
 TEST(Mesher, MeshingOnlyWhatChangedEqualsMeshingEverything) {
     WorkerPool pool(2);
     for (int seed = 0; seed < repeated(16); ++seed) {
@@ -230,8 +233,8 @@ TEST(Mesher, MeshingOnlyWhatChangedEqualsMeshingEverything) {
     }
 }
 
-// Cells of one material go a short way, mixed ones the general one. On a large ball, whose normals hardly turn within a cell,
-// two materials of one colour must make no difference.
+// Cells of one material go a short way, mixed ones the general one. On a large ball, whose normals hardly turn within a
+// cell, two materials of one colour must make no difference.
 TEST(Mesher, ASmoothSurfaceIsTheSameOnTheShortWayAndOnTheGeneralOne) {
     WorkerPool pool(2);
     auto ball = make_ball(1.0, 64, {"one", {90, 150, 210}});
@@ -265,4 +268,4 @@ TEST(Mesher, RaysThatDisagreeAreCounted) {
     EXPECT_GT(disagreeing(Rays::unrelated), disagreeing(Rays::disturbed));
 }
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

@@ -10,8 +10,8 @@
 namespace burin::shared {
 namespace {
 
-using test::Random;
-using test::repeated;
+using compute::test::Random;
+using compute::test::repeated;
 
 double angle_between(const IntVector& v, const Direction& d) {
     const double x = static_cast<double>(v.x), y = static_cast<double>(v.y), z = static_cast<double>(v.z);
@@ -31,7 +31,7 @@ IntVector any_vector(Random& random) {
 TEST(OctahedralNormal, StaysWithinItsAngle) {
     Random random(1);
     double worst = 0;
-    for (int i = 0; i < repeated(2000000); ++i) {
+    for (int i = 0; i < compute::test::repeated(2000000); ++i) {
         const IntVector v = any_vector(random);
         if (v.x == 0 && v.y == 0 && v.z == 0) continue;
         worst = std::max(worst, angle_between(v, decode_normal(encode_normal(v))));
@@ -58,7 +58,7 @@ TEST(OctahedralNormal, KeepsTheAxesExactly) {
 
 TEST(OctahedralNormal, MirroredVectorsGiveMirroredDirections) {
     Random random(2);
-    for (int i = 0; i < repeated(300000); ++i) {
+    for (int i = 0; i < compute::test::repeated(300000); ++i) {
         const IntVector v = any_vector(random);
         const Direction d = decode_normal(encode_normal(v));
         const Direction x = decode_normal(encode_normal({-v.x, v.y, v.z}));
@@ -70,7 +70,7 @@ TEST(OctahedralNormal, MirroredVectorsGiveMirroredDirections) {
 
 TEST(OctahedralNormal, EveryCodeDecodesToAUnitVector) {
     Random random(3);
-    for (int i = 0; i < repeated(300000); ++i) {
+    for (int i = 0; i < compute::test::repeated(300000); ++i) {
         const Direction d = decode_normal(static_cast<uint>(random.bits()));
         ASSERT_NEAR(d.x * d.x + d.y * d.y + d.z * d.z, 1.0f, 1e-6f);
     }
@@ -85,7 +85,7 @@ TEST(OctahedralNormal, ZeroVectorPointsUpAlongZ) {
 
 TEST(OctahedralNormal, OppositeOfOppositeIsTheSameCode) {
     Random random(4);
-    for (int i = 0; i < repeated(2000000); ++i) {
+    for (int i = 0; i < compute::test::repeated(2000000); ++i) {
         const IntVector v = any_vector(random);
         const uint code = encode_normal(v), opposite = opposite_normal(code);
         ASSERT_EQ(opposite_normal(opposite), code) << v.x << ' ' << v.y << ' ' << v.z;
@@ -101,7 +101,7 @@ TEST(OctahedralNormal, OppositeOfOppositeIsTheSameCode) {
 // The border of the square, where two codes stand for one direction, and the equator.
 TEST(OctahedralNormal, OppositesOfDirectionsWithZerosComeBack) {
     Random random(5);
-    for (int i = 0; i < repeated(300000); ++i) {
+    for (int i = 0; i < compute::test::repeated(300000); ++i) {
         std::int64_t part[3] = {random.any_size(40), random.any_size(40), random.any_size(40)};
         part[random.small(0, 2)] = 0;
         if (random.chance(0.3)) part[random.small(0, 2)] = 0;

@@ -4,17 +4,17 @@
 
 #include <filesystem>
 
-#include "compute/apply.hpp"
-#include "compute/history.hpp"
-#include "compute/slivers.hpp"
-#include "compute/surface.hpp"
-#include "geometry/mesh_export.hpp"
-#include "geometry/mesh_health.hpp"
-#include "geometry/mesh_import.hpp"
-#include "geometry/mesh_mend.hpp"
+#include "compute/mesher/surface.hpp"
+#include "compute/rays/history.hpp"
+#include "compute/repair/slivers.hpp"
+#include "compute/tools/apply.hpp"
+#include "geometry/files/mesh_export.hpp"
+#include "geometry/files/mesh_import.hpp"
+#include "geometry/mesh/mesh_health.hpp"
+#include "geometry/mesh/mesh_repair.hpp"
 #include "tests/compute/effort.hpp"
 
-namespace burin::test {
+namespace burin::compute::test {
 namespace {
 
 constexpr int kPlates = 200;
@@ -51,14 +51,14 @@ void expect_plates(const Solid& solid, std::size_t expected) {
 
 std::size_t shells_of_exported(const Surface& surface, const std::string& name) {
     const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / name;
-    const TriangleMesh mesh = surface.welded();
-    EXPECT_TRUE(export_mesh(mesh, path).has_value());
-    auto read = import_mesh(path);
+    const geometry::TriangleMesh mesh = surface.welded();
+    EXPECT_TRUE(geometry::export_mesh(mesh, path).has_value());
+    auto read = geometry::import_mesh(path);
     EXPECT_TRUE(read.has_value());
     std::filesystem::remove(path);
     if (!read) return 0;
-    weld_vertices(read->mesh);
-    const MeshHealth health = examine(read->mesh);
+    geometry::weld_vertices(read->mesh);
+    const geometry::MeshHealth health = geometry::examine(read->mesh);
     EXPECT_EQ(health.boundary_edges, 0u);
     EXPECT_EQ(health.nonmanifold_edges, 0u);
     EXPECT_EQ(health.misoriented_edges, 0u);
@@ -132,4 +132,4 @@ TEST(Plates, ThinnerThanACellTheyAreKeptAndNamed) {
     expect_plates(engine->solid(), kPlates);
 }
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

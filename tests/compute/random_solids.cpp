@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace burin::test {
+namespace burin::compute::test {
 namespace {
 
 using shared::DexelEnd;
@@ -90,4 +90,4 @@ Solid noise_solid(const std::array<int, 3>& cells, double p, Rays rays, std::uin
     return solid;
 }
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Set algebra of rays against sets of depths, one by one.
-#include "compute/ray_algebra.hpp"
+#include "compute/rays/ray_algebra.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -10,16 +10,13 @@
 
 #include "shaders/shared/octahedral.h"
 
-namespace burin::test {
+namespace burin::compute::test {
 namespace {
 
 using shared::DexelEnd;
 using shared::RaySpan;
 using shared::uint;
 using Ends = std::vector<DexelEnd>;
-
-// More cases than the library's 100, and the same ones every time; RC_PARAMS from outside still wins.
-[[maybe_unused]] const int kConfigured = setenv("RC_PARAMS", "seed=21 max_success=5000", 0);
 
 constexpr int kDeepest = 48;
 
@@ -168,4 +165,4 @@ TEST(RayAlgebra, AgreesWithTheEnginesEditOfASpan) {
     }));
 }
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compute/scan_convert.hpp"
+#include "compute/rays/scan_convert.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,12 +7,12 @@
 #include <limits>
 #include <numbers>
 
-#include "compute/surface.hpp"
+#include "compute/mesher/surface.hpp"
 #include "tests/compute/effort.hpp"
 #include "tests/compute/mesh_topology.hpp"
 #include "tests/compute/test_meshes.hpp"
 
-namespace burin::test {
+namespace burin::compute::test {
 namespace {
 
 WorkerPool& pool() {
@@ -20,7 +20,7 @@ WorkerPool& pool() {
     return two;
 }
 
-ScanConversion converted(const TriangleMesh& mesh, int resolution) {
+ScanConversion converted(const geometry::TriangleMesh& mesh, int resolution) {
     auto result = scan_convert(mesh, resolution, pool());
     EXPECT_TRUE(result.has_value()) << (result ? "" : result.error().line());
     return result ? std::move(*result) : ScanConversion{};
@@ -44,8 +44,8 @@ double mesh_volume(const Solid& solid) {
     return surface.volume_m3();
 }
 
-// Summing rays is a midpoint rule across the silhouette: wrong by at most half a cell along the faces that lie along the
-// rays, hence by h/2 times the area.
+// Summing rays is a midpoint rule across the silhouette: wrong by at most half a cell along the faces that lie along
+// the rays, hence by h/2 times the area.
 void expect_matched(const ScanConversion& c, double volume, double area, const std::string& what) {
     ASSERT_EQ(c.unmatched_rays, 0u) << what;
     ASSERT_TRUE(well_formed(c.solid)) << what;
@@ -60,7 +60,7 @@ Quat random_turn(Random& random) {
         Quat(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)));
 }
 
-std::string refusal(const TriangleMesh& mesh, int resolution = 32) {
+std::string refusal(const geometry::TriangleMesh& mesh, int resolution = 32) {
     const auto result = scan_convert(mesh, resolution, pool());
     return result ? "" : result.error().line();
 }
@@ -70,9 +70,10 @@ std::string refusal(const TriangleMesh& mesh, int resolution = 32) {
 TEST(ScanConvert, RandomTurnsOfBoxesAndPrismsAlwaysHaveMatchedEnds) {
     Random random(1);
     for (int i = 0; i < repeated(300); ++i) {
-        TriangleMesh mesh = i % 3 == 0   ? box_mesh(Vec3(-0.3, -0.2, -0.4), Vec3(0.3, 0.4, 0.5), random.small(1, 6))
-                            : i % 3 == 1 ? prism_mesh(random.small(3, 12), 0.4, 0.7)
-                                         : ball_mesh(0.5, 2);
+        geometry::TriangleMesh mesh = i % 3 == 0
+                                          ? box_mesh(Vec3(-0.3, -0.2, -0.4), Vec3(0.3, 0.4, 0.5), random.small(1, 6))
+                                      : i % 3 == 1 ? prism_mesh(random.small(3, 12), 0.4, 0.7)
+                                                   : ball_mesh(0.5, 2);
         // A third unturned, a third by quarter turns about random axes, the rest anyhow.
         if (i % 9 >= 6)
             mesh = transformed(mesh, glm::angleAxis(std::numbers::pi / 4 * random.small(0, 7), Vec3(0, 0, 1)));
@@ -89,7 +90,7 @@ TEST(ScanConvert, FacesEdgesAndVerticesOnRaysAreCountedOnce) {
     for (int i = 0; i < repeated(100); ++i) {
         const int resolution = 64;
         // Learn where the nodes are, then put the inner mesh on them.
-        const TriangleMesh frame = box_mesh(Vec3(0), Vec3(1));
+        const geometry::TriangleMesh frame = box_mesh(Vec3(0), Vec3(1));
         const Lattice lattice = converted(frame, resolution).solid.lattice;
         const auto node = [&](int x, int y, int z) { return lattice.object_from_units(Vec3(x, y, z) * 4096.0); };
         const int lo[3] = {random.small(3, 10), random.small(3, 10), random.small(3, 10)};
@@ -98,14 +99,14 @@ TEST(ScanConvert, FacesEdgesAndVerticesOnRaysAreCountedOnce) {
         const Vec3 to =
             node(lo[0] + n * random.small(1, 3), lo[1] + n * random.small(1, 3), lo[2] + n * random.small(1, 3));
         // As a cavity of the frame, so that its faces stay inside the lattice; half of them skewed by whole cells.
-        TriangleMesh inner = box_mesh(from, to, n);
+        geometry::TriangleMesh inner = box_mesh(from, to, n);
         if (i % 2 == 1) {
             for (Vec3& p : inner.positions_m) {
                 p.x += std::round((p.y - from.y) / lattice.spacing_m) * lattice.spacing_m;
                 p.z += std::round((p.x - from.x) / lattice.spacing_m / 2) * lattice.spacing_m;
             }
         }
-        const TriangleMesh mesh = joined(frame, inverted(inner));
+        const geometry::TriangleMesh mesh = joined(frame, inverted(inner));
         const auto c = converted(mesh, resolution);
         ASSERT_EQ(c.solid.lattice, lattice);
         ASSERT_NO_FATAL_FAILURE(expect_matched(c, volume_of(mesh), area_of(mesh), std::to_string(i)));
@@ -122,10 +123,11 @@ TEST(ScanConvert, FacesEdgesAndVerticesOnRaysAreCountedOnce) {
 
 TEST(ScanConvert, OverlappingAndTouchingShellsUnite) {
     const double s = 0.5;
-    const TriangleMesh a = box_mesh(Vec3(0), Vec3(s)), overlapping = box_mesh(Vec3(s / 2, 0, 0), Vec3(1, s, s)),
-                       touching = box_mesh(Vec3(s, 0, 0), Vec3(2 * s, s, s));
-    for (const TriangleMesh& b : {overlapping, touching}) {
-        const TriangleMesh mesh = joined(a, b);
+    const geometry::TriangleMesh a = box_mesh(Vec3(0), Vec3(s)),
+                                 overlapping = box_mesh(Vec3(s / 2, 0, 0), Vec3(1, s, s)),
+                                 touching = box_mesh(Vec3(s, 0, 0), Vec3(2 * s, s, s));
+    for (const geometry::TriangleMesh& b : {overlapping, touching}) {
+        const geometry::TriangleMesh mesh = joined(a, b);
         const auto c = converted(mesh, 40);
         expect_matched(c, 1 * s * s, area_of(mesh), "union");
         EXPECT_NEAR(mesh_volume(c.solid), s * s, 1e-3);
@@ -135,8 +137,8 @@ TEST(ScanConvert, OverlappingAndTouchingShellsUnite) {
 }
 
 TEST(ScanConvert, CavitiesStayAndShellsInThemToo) {
-    const TriangleMesh mesh = joined(joined(box_mesh(Vec3(0), Vec3(1)), inverted(box_mesh(Vec3(0.2), Vec3(0.8)))),
-                                     box_mesh(Vec3(0.4), Vec3(0.6)));
+    const geometry::TriangleMesh mesh = joined(
+        joined(box_mesh(Vec3(0), Vec3(1)), inverted(box_mesh(Vec3(0.2), Vec3(0.8)))), box_mesh(Vec3(0.4), Vec3(0.6)));
     const auto c = converted(mesh, 50);
     expect_matched(c, 1 - 0.216 + 0.008, area_of(mesh), "nested");
     EXPECT_NEAR(mesh_volume(c.solid), 0.792, 2e-3);
@@ -144,7 +146,7 @@ TEST(ScanConvert, CavitiesStayAndShellsInThemToo) {
 
 TEST(ScanConvert, EvenNonManifoldEdgesAreAccepted) {
     // Two cubes that share an edge: four triangles at it, two each way.
-    TriangleMesh mesh = joined(box_mesh(Vec3(0), Vec3(1)), box_mesh(Vec3(1, 1, 0), Vec3(2, 2, 1)));
+    geometry::TriangleMesh mesh = joined(box_mesh(Vec3(0), Vec3(1)), box_mesh(Vec3(1, 1, 0), Vec3(2, 2, 1)));
     for (auto& t : mesh.triangles) {
         for (std::uint32_t& i : t) {
             for (std::uint32_t k = 0; k < i; ++k) {
@@ -159,7 +161,7 @@ TEST(ScanConvert, EvenNonManifoldEdgesAreAccepted) {
 }
 
 TEST(ScanConvert, MixedOrientationIsDecidedByParityAndSaid) {
-    TriangleMesh mesh = box_mesh(Vec3(0), Vec3(1), 3);
+    geometry::TriangleMesh mesh = box_mesh(Vec3(0), Vec3(1), 3);
     for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) std::swap(mesh.triangles[i][0], mesh.triangles[i][1]);
     const auto c = converted(mesh, 33);
     EXPECT_TRUE(c.by_parity);
@@ -167,7 +169,7 @@ TEST(ScanConvert, MixedOrientationIsDecidedByParityAndSaid) {
 }
 
 TEST(ScanConvert, BallMeshMatchesTheExactBallWithinItsFacets) {
-    const TriangleMesh mesh = ball_mesh(0.5, 5);
+    const geometry::TriangleMesh mesh = ball_mesh(0.5, 5);
     const auto c = converted(mesh, 64);
     const auto exact = make_ball(0.5, 64, {"ball", {}});
     ASSERT_TRUE(exact.has_value());
@@ -199,7 +201,7 @@ TEST(ScanConvert, BallMeshMatchesTheExactBallWithinItsFacets) {
 TEST(ScanConvert, ThreadsDoNotChangeTheSolid) {
     WorkerPool one(1), five(5);
     Random random(3);
-    const TriangleMesh mesh =
+    const geometry::TriangleMesh mesh =
         joined(transformed(ball_mesh(0.5, 4), random_turn(random)), box_mesh(Vec3(0), Vec3(0.6), 4));
     const auto a = scan_convert(mesh, 48, one), b = scan_convert(mesh, 48, pool()), c = scan_convert(mesh, 48, five);
     ASSERT_TRUE(a && b && c);
@@ -209,7 +211,7 @@ TEST(ScanConvert, ThreadsDoNotChangeTheSolid) {
 }
 
 TEST(ScanConvert, MaterialsAndNormalsComeFromTheTriangles) {
-    TriangleMesh mesh = box_mesh(Vec3(0), Vec3(1));
+    geometry::TriangleMesh mesh = box_mesh(Vec3(0), Vec3(1));
     mesh.materials = {{"low", {1, 2, 3}}, {"high", {4, 5, 6}}};
     for (const auto& t : mesh.triangles) {
         const bool top = mesh.positions_m[t[0]].z + mesh.positions_m[t[1]].z + mesh.positions_m[t[2]].z > 2.5;
@@ -231,8 +233,8 @@ TEST(ScanConvert, MaterialsAndNormalsComeFromTheTriangles) {
 }
 
 TEST(ScanConvert, NormalsOfATinyMeshAreTheLargeOnes) {
-    const TriangleMesh large = ball_mesh(1.0, 3);
-    TriangleMesh tiny = large;
+    const geometry::TriangleMesh large = ball_mesh(1.0, 3);
+    geometry::TriangleMesh tiny = large;
     for (Vec3& p : tiny.positions_m) p *= 0x1p-29;  // 4 nm: areas squared underflow nothing
     const auto a = converted(large, 32), b = converted(tiny, 32);
     EXPECT_TRUE(a.solid.sets[0].same_content(b.solid.sets[0]));
@@ -241,21 +243,21 @@ TEST(ScanConvert, NormalsOfATinyMeshAreTheLargeOnes) {
 
 TEST(ScanConvert, RefusesWhatHasNoInside) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    TriangleMesh open = box_mesh(Vec3(0), Vec3(1), 2);
+    geometry::TriangleMesh open = box_mesh(Vec3(0), Vec3(1), 2);
     open.triangles.pop_back();
     EXPECT_NE(refusal(open).find("holes"), std::string::npos);
-    TriangleMesh not_finite = box_mesh(Vec3(0), Vec3(1));
+    geometry::TriangleMesh not_finite = box_mesh(Vec3(0), Vec3(1));
     not_finite.positions_m[3].y = nan;
     EXPECT_NE(refusal(not_finite).find("not finite"), std::string::npos);
-    EXPECT_NE(refusal(TriangleMesh{}).find("no triangles"), std::string::npos);
+    EXPECT_NE(refusal(geometry::TriangleMesh{}).find("no triangles"), std::string::npos);
     EXPECT_NE(refusal(box_mesh(Vec3(0), Vec3(1)), 8).find("16 to 2048"), std::string::npos);
     EXPECT_NE(refusal(inverted(box_mesh(Vec3(0), Vec3(1)))).find("encloses no material"), std::string::npos);
-    TriangleMesh flat = box_mesh(Vec3(0), Vec3(1, 1, 0));
+    geometry::TriangleMesh flat = box_mesh(Vec3(0), Vec3(1, 1, 0));
     EXPECT_NE(refusal(flat), "");
-    TriangleMesh dangling = box_mesh(Vec3(0), Vec3(1));
+    geometry::TriangleMesh dangling = box_mesh(Vec3(0), Vec3(1));
     dangling.triangles[0][1] = 1000;
     EXPECT_NE(refusal(dangling).find("does not exist"), std::string::npos);
-    TriangleMesh unknown = box_mesh(Vec3(0), Vec3(1));
+    geometry::TriangleMesh unknown = box_mesh(Vec3(0), Vec3(1));
     unknown.triangle_materials.assign(unknown.triangles.size(), 3);
     EXPECT_NE(refusal(unknown).find("material 3"), std::string::npos);
     unknown.triangle_materials.assign(5, 0);
@@ -263,7 +265,7 @@ TEST(ScanConvert, RefusesWhatHasNoInside) {
 }
 
 TEST(ScanConvert, OnAGivenLatticeItIsTheSameAndMustFit) {
-    const TriangleMesh mesh = box_mesh(Vec3(0), Vec3(1), 2);
+    const geometry::TriangleMesh mesh = box_mesh(Vec3(0), Vec3(1), 2);
     const auto alone = converted(mesh, 32);
     const auto onto = scan_convert_onto(mesh, alone.solid.lattice, pool());
     ASSERT_TRUE(onto);
@@ -275,10 +277,10 @@ TEST(ScanConvert, OnAGivenLatticeItIsTheSameAndMustFit) {
 }
 
 TEST(ScanConvert, AStrayVertexDoesNotStretchTheLattice) {
-    TriangleMesh mesh = box_mesh(Vec3(0), Vec3(1));
+    geometry::TriangleMesh mesh = box_mesh(Vec3(0), Vec3(1));
     const Lattice alone = converted(mesh, 32).solid.lattice;
     mesh.positions_m.push_back(Vec3(1e6));
     EXPECT_EQ(converted(mesh, 32).solid.lattice, alone);
 }
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

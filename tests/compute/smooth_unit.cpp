@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "compute/smooth.hpp"
+#include "compute/tools/smooth.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "compute/apply.hpp"
-#include "compute/ray_algebra.hpp"
-#include "compute/scan_convert.hpp"
-#include "compute/surface.hpp"
+#include "compute/mesher/surface.hpp"
+#include "compute/rays/ray_algebra.hpp"
+#include "compute/rays/scan_convert.hpp"
+#include "compute/tools/apply.hpp"
 #include "shaders/shared/octahedral.h"
 #include "tests/compute/mesh_topology.hpp"
 #include "tests/compute/random_solids.hpp"
 #include "tests/compute/test_meshes.hpp"
 #include "tests/compute/tool_reference.hpp"
 
-namespace burin::test {
+namespace burin::compute::test {
 namespace {
 
 WorkerPool& pool() {
@@ -93,7 +93,7 @@ TEST(Smooth, SlantingFacesDoNotDrift) {
     Random random(4);
     for (int i = 0; i < 4; ++i) {
         const Quat turn = any_orientation(random);
-        const TriangleMesh box = transformed(box_mesh(Vec3(-0.5), Vec3(0.5)), turn);
+        const geometry::TriangleMesh box = transformed(box_mesh(Vec3(-0.5), Vec3(0.5)), turn);
         const auto engine = make_cpu_engine(scan_convert(box, 64, pool())->solid, pool());
         const Solid before = engine->solid();
         const Vec3 middle = turn * Vec3(0.5, 0, 0);
@@ -124,7 +124,7 @@ TEST(Smooth, ALargeBallDoesNotDrift) {
     // Ten times with full strength over a patch of about 0.12 m2: a drift of a thousandth of a cell would show.
     EXPECT_NEAR(after.volume_m3(), before_m3, 0.12 * 0.01 * lattice.spacing_m);
     double worst = 0.0;
-    const TriangleMesh mesh = after.welded();
+    const geometry::TriangleMesh mesh = after.welded();
     for (const Vec3& p : mesh.positions_m) worst = std::max(worst, std::abs(glm::length(p) - 0.5));
     EXPECT_LE(worst, 0.05 * lattice.spacing_m);
 }
@@ -177,7 +177,8 @@ TEST(Smooth, ASharpRidgeGetsRounder) {
     EXPECT_LT(meshed(engine->solid()).volume_m3(), before_m3);
 }
 
-// Whatever the rays say, and whether or not they agree: well formed afterwards, and about nodes within the tool they agree.
+// Whatever the rays say, and whether or not they agree: well formed afterwards, and about nodes within the tool they
+// agree.
 TEST(Smooth, NoiseOfAnyKindStaysWellFormedAndComesToAgree) {
     Random random(2);
     for (const Rays rays : {Rays::agree, Rays::disturbed, Rays::unrelated}) {
@@ -221,6 +222,21 @@ TEST(Smooth, ThreadsDoNotMatterAndStrengthZeroDoesNothing) {
     EXPECT_TRUE(smoothed_rays(rough, {Vec3(9), Vec3(9), 0.2, 1.0, 0}, one).rays.empty());
 }
 
+// A way of four radii is four stretches of a radius, one after the other; these numbers have no rounding.
+TEST(Smooth, ALongWayIsTheStretchesOfARadiusThatItConsistsOf) {
+    Random random(8);
+    const Solid start = rough_block(48, random);
+    const auto at_once = make_cpu_engine(start, pool()), by_stretches = make_cpu_engine(start, pool());
+    apply_to(*at_once, smoothing(Vec3(0.25, 0.5, 1.0), Vec3(0.75, 0.5, 1.0), 0.125));
+    for (double x = 0.25; x < 0.75; x += 0.125) {
+        const SmoothBall stretch{Vec3(x, 0.5, 1.0), Vec3(x + 0.125, 0.5, 1.0), 0.125, 1.0, 0};
+        const auto done = by_stretches->assign(smoothed_rays(by_stretches->solid(), stretch, pool()));
+        ASSERT_TRUE(done);
+        EXPECT_GT(done->rays_changed, 0u) << x;
+    }
+    EXPECT_TRUE(at_once->solid().same_content(by_stretches->solid()));
+}
+
 TEST(Smooth, ReachesTheBorderOfTheLatticeUnharmed) {
     const auto engine = make_cpu_engine(*make_ball(0.5, 24, {"ball", {}}), pool());
     const ToolSweep fill{BallTool{0.4}, Pose{Vec3(0.5)}, Pose{Vec3(0.5)}, Operation::fill};
@@ -229,4 +245,4 @@ TEST(Smooth, ReachesTheBorderOfTheLatticeUnharmed) {
     apply_to(*engine, smoothing(Vec3(-0.6), Vec3(0.6), 0.3), 1);
 }
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The solid under long random use: every operation with the nastiest tools, undone and redone now and then, with everything
-// that must hold looked at after each of them.
+// The solid under long random use: every operation with the nastiest tools, undone and redone now and then, with
+// everything that must hold looked at after each of them.
 //
-// A short run with a seed of its own each time belongs to scripts/test; the seed is printed, and BURIN_TEST_SEED replays it.
-// BURIN_SOAK_OPERATIONS says how many operations: 1000000 for the long run, scripts/test --soak.
+// A short run with a seed of its own each time belongs to scripts/test; the seed is printed, and BURIN_TEST_SEED
+// replays it. BURIN_SOAK_OPERATIONS says how many operations: 1000000 for the long run, scripts/test --soak.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -12,14 +12,14 @@
 #include <random>
 #include <set>
 
-#include "compute/apply.hpp"
-#include "compute/history.hpp"
-#include "compute/surface.hpp"
+#include "compute/mesher/surface.hpp"
+#include "compute/rays/history.hpp"
+#include "compute/tools/apply.hpp"
 #include "tests/compute/effort.hpp"
 #include "tests/compute/mesh_topology.hpp"
 #include "tests/compute/tool_reference.hpp"
 
-namespace burin::test {
+namespace burin::compute::test {
 namespace {
 
 using shared::DexelEnd;
@@ -52,7 +52,8 @@ bool same_depths(std::span<const DexelEnd> a, std::span<const DexelEnd> b) {
     return std::ranges::equal(a, b, [](const DexelEnd& x, const DexelEnd& y) { return depth_of(x) == depth_of(y); });
 }
 
-// A solid in use: the engine, its surface and its history, and a copy that only learns of what the engine says it changed.
+// A solid in use: the engine, its surface and its history, and a copy that only learns of what the engine says it
+// changed.
 class Session {
 public:
     Session(Random& random, WorkerPool& pool)
@@ -84,7 +85,7 @@ public:
         Surface fresh(shadow_.lattice);
         fresh.mesh_all(shadow_, pool_);
         ASSERT_EQ(surface_.triangles(), fresh.triangles());
-        const TriangleMesh mesh = surface_.welded(), anew = fresh.welded();
+        const geometry::TriangleMesh mesh = surface_.welded(), anew = fresh.welded();
         ASSERT_TRUE(mesh.positions_m == anew.positions_m && mesh.triangles == anew.triangles &&
                     mesh.colours == anew.colours)
             << "the surface kept up to date is not the surface meshed anew";
@@ -111,8 +112,8 @@ private:
         return solid;
     }
 
-    // In and around the lattice; often exactly on nodes and half-way between them, where rays are tangent and faces coincide;
-    // now and then very far away.
+    // In and around the lattice; often exactly on nodes and half-way between them, where rays are tangent and faces
+    // coincide; now and then very far away.
     Vec3 any_place() {
         const Lattice& lattice = shadow_.lattice;
         Vec3 units;
@@ -138,8 +139,7 @@ private:
     ToolSweep any_sweep() {
         ToolSweep sweep;
         const double size = any_size();
-        sweep.shape =
-            random_.chance(0.7) ? ToolShape(BallTool{size}) : any_shape(random_, 0.3 * size, size, random_.small(0, 4));
+        sweep.shape = random_.chance(0.7) ? ToolShape(BallTool{size}) : any_shape(random_, 0.3 * size, size);
         sweep.start = {any_place(), random_.chance(0.5) ? Quat(1, 0, 0, 0) : any_orientation(random_)};
         sweep.end = sweep.start;
         if (random_.chance(0.4)) {
@@ -277,4 +277,4 @@ TEST(Soak, TinyStrokesAddUpWithoutHarm) {
     EXPECT_TRUE(well_formed(engine->solid()));
 }
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

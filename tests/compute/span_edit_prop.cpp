@@ -11,15 +11,12 @@
 
 #include "shaders/shared/dexel.h"
 
-namespace burin::test {
+namespace burin::compute::test {
 namespace {
 
 using shared::DexelEnd;
 using shared::RaySpan;
 using shared::uint;
-
-// More cases than the library's 100, and the same ones every time; RC_PARAMS from outside still wins.
-[[maybe_unused]] const int kConfigured = setenv("RC_PARAMS", "seed=20 max_success=5000", 0);
 
 struct Ray {
     const std::vector<DexelEnd>& ends;
@@ -235,4 +232,4 @@ TEST(SpanEdit, TwoHundredPlatesAreCutOneByOneAndAllAtOnce) {
     }
 }
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

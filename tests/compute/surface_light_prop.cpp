@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compute/apply.hpp"
-#include "compute/surface_light.hpp"
+#include "compute/light/surface_light.hpp"
+#include "compute/tools/apply.hpp"
 #include "tests/compute/effort.hpp"
 
-namespace burin::test {
+namespace burin::compute::test {
 namespace {
 
 constexpr Lamp kLamp{{0.2, -0.5, 1.0}, 0.08};
 
-// A floor beneath a roof on three walls, its surface and its light, carved at random: what is cut or filled at one place gives or
-// takes light at others.
+// A floor beneath a roof on three walls, its surface and its light, carved at random: what is cut or filled at one
+// place gives or takes light at others.
 struct Workpiece {
     WorkerPool pool;
     std::unique_ptr<CarvingEngine> engine;
@@ -124,21 +124,21 @@ TEST(SurfaceLightKept, HasALightForEachVertexAtEveryMoment) {
 
 TEST(SurfaceLightKept, GivesAnUnchangedVertexTheLightItHadAndANewOneThatOfTheNearest) {
     Random random(11);
-    SurfaceTile before;
+    geometry::SurfaceTile before;
     TileLight light;
     for (int i = 0; i < 300; ++i) {
         const auto place = [&] { return static_cast<float>(random.unit()); };
         before.vertices.push_back({place(), place(), place(), static_cast<std::uint32_t>(i), 0});
         light.vertices.push_back({static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(i / 2)});
     }
-    SurfaceTile after;
+    geometry::SurfaceTile after;
     for (int i = 0; i < 300; ++i) {
         if (i % 3 == 0) continue;
         shared::SurfaceVertex v = before.vertices[static_cast<std::size_t>(i)];
         if (i % 5 == 0) v.x += 0.02f;
         after.vertices.push_back(v);
     }
-    const std::vector<VertexLight> carried = carried_over(after, &before, &light);
+    const std::vector<geometry::VertexLight> carried = carried_over(after, &before, &light);
     for (std::size_t i = 0; i < after.vertices.size(); ++i) {
         const auto far = [&](const shared::SurfaceVertex& v) {
             return glm::distance(Vec3(v.x, v.y, v.z),
@@ -147,7 +147,8 @@ TEST(SurfaceLightKept, GivesAnUnchangedVertexTheLightItHadAndANewOneThatOfTheNea
         const auto nearest = std::ranges::min_element(before.vertices, {}, far);
         EXPECT_EQ(carried[i], light.vertices[static_cast<std::size_t>(nearest - before.vertices.begin())]);
     }
-    for (const VertexLight& all : carried_over(after, nullptr, nullptr)) EXPECT_EQ(all, (VertexLight{255, 255}));
+    for (const geometry::VertexLight& all : carried_over(after, nullptr, nullptr))
+        EXPECT_EQ(all, (geometry::VertexLight{255, 255}));
 }
 
 TEST(InnerBoxesKept, LieInsideTheSolidAfterEveryCut) {
@@ -179,4 +180,4 @@ TEST(InnerBoxesKept, LieInsideTheSolidAfterEveryCut) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::compute::test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The light on carved surfaces against closed forms, and against rays that are cut with the shapes themselves.
-#include "compute/surface_light.hpp"
+#include "compute/light/surface_light.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,17 +10,17 @@
 #include <map>
 #include <numbers>
 
-#include "compute/apply.hpp"
+#include "compute/tools/apply.hpp"
 #include "shaders/shared/octahedral.h"
 #include "tests/compute/effort.hpp"
 
-namespace burin::test {
+namespace burin::compute::test {
 namespace {
 
 constexpr Lamp kOverhead{{0.1, 0.2, 1.0}, 0.1};
 
-// A solid on the lattice cells 0 .. n, in units of a cell: inside(node) says what is material. Rays have their ends half-way
-// between nodes, so every plane lies at a half-numbered height.
+// A solid on the lattice cells 0 .. n, in units of a cell: inside(node) says what is material. Rays have their ends
+// half-way between nodes, so every plane lies at a half-numbered height.
 Solid solid_of(const std::array<int, 3>& cells, const std::function<bool(int, int, int)>& inside) {
     Solid solid;
     solid.lattice.cells = cells;
@@ -73,7 +73,8 @@ struct Lit {
     }
 };
 
-// The openness of a place, by many directions cut with the shape itself: distance(direction) in cells to the first material.
+// The openness of a place, by many directions cut with the shape itself: distance(direction) in cells to the first
+// material.
 double openness(const Vec3& normal, const std::function<double(const Vec3&)>& distance) {
     double open = 0.0, all = 0.0;
     constexpr int kDirections = 20000;
@@ -95,7 +96,7 @@ TEST(SurfaceLight, LeavesAllOfItToEveryVertexOfAConvexBody) {
         const Lit lit(solid, lamp, pool);
         const Vec3 towards = lit.light.lamp().direction_object;
         std::size_t dark = 0, vertices = 0;
-        lit.for_each([&](const Vec3&, const Vec3& normal, const VertexLight& light) {
+        lit.for_each([&](const Vec3&, const Vec3& normal, const geometry::VertexLight& light) {
             ++vertices;
             if (light.open != 255) ++dark;
             if (glm::dot(normal, towards) > lamp.tangent + 1e-3 && light.sun != 255) ++dark;
@@ -120,8 +121,8 @@ TEST(SurfaceLight, LeavesAllOfItToEveryVertexOfAConvexBody) {
     }
 }
 
-// A plate of 2 cells' thickness above a floor; its edge runs along y. Away from the edge by x the disc is seen by the share of
-// it that passes the edge.
+// A plate of 2 cells' thickness above a floor; its edge runs along y. Away from the edge by x the disc is seen by the
+// share of it that passes the edge.
 TEST(SurfaceLight, ShadowsHaveThePenumbraOfTheLampsDisc) {
     WorkerPool pool(2);
     constexpr double kFloor = 4.5, kUnder = 30.5, kEdge = 31.5;
@@ -133,7 +134,7 @@ TEST(SurfaceLight, ShadowsHaveThePenumbraOfTheLampsDisc) {
     const Lit lit(solid, {{0.0, 0.0, 1.0}, tangent}, pool);
     const double half_width = tangent * (kUnder - kFloor);  // in cells
     int in_penumbra = 0;
-    lit.for_each([&](const Vec3& p, const Vec3& n, const VertexLight& light) {
+    lit.for_each([&](const Vec3& p, const Vec3& n, const geometry::VertexLight& light) {
         if (n.z < 0.99 || std::abs(p.z - kFloor) > 0.1 || p.y < 16 || p.y > 48 || p.x < 8 || p.x > 56) return;
         const auto share = [&](double x) {  // of a disc, right of a chord
             const double c = std::clamp((x - kEdge) / half_width, -1.0, 1.0);
@@ -161,11 +162,12 @@ TEST(SurfaceLight, MiddleOfAGrooveIsAsOpenAsItsWallsLeaveIt) {
             const double t = half / std::max(std::abs(d.x), 1e-12);
             return d.z * t < deep ? t : 1e9;
         });
-        // Without fading the sky's view factor from the middle of an endless groove is sin(atan(half / deep)): fading only adds.
+        // Without fading the sky's view factor from the middle of an endless groove is sin(atan(half / deep)): fading
+        // only adds.
         EXPECT_GT(reference, 1.0 / std::sqrt(1.0 + deep * deep / (half * half)) - 1e-3);
         double sum = 0.0;
         int count = 0;
-        lit.for_each([&](const Vec3& p, const Vec3& n, const VertexLight& light) {
+        lit.for_each([&](const Vec3& p, const Vec3& n, const geometry::VertexLight& light) {
             if (n.z < 0.99 || std::abs(p.z - floor - 0.5) > 0.1 || std::abs(p.x - 32.0) > 0.6 || p.y < 32 || p.y > 64)
                 return;
             sum += light.open / 255.0;
@@ -176,8 +178,8 @@ TEST(SurfaceLight, MiddleOfAGrooveIsAsOpenAsItsWallsLeaveIt) {
     }
 }
 
-// Anywhere in a hemispherical bowl the sky is seen through the rim; at its bottom the rim stands at 0 degrees above nothing: it
-// is the reference by rays that tells.
+// Anywhere in a hemispherical bowl the sky is seen through the rim; at its bottom the rim stands at 0 degrees above
+// nothing: it is the reference by rays that tells.
 TEST(SurfaceLight, BowlIsAsOpenAsRaysToItsWallFind) {
     WorkerPool pool(2);
     const double radius = 0.25;
@@ -191,7 +193,7 @@ TEST(SurfaceLight, BowlIsAsOpenAsRaysToItsWallFind) {
     const Vec3 origin = lit.surface.lattice().origin_object;
     double worst = 0.0, sum = 0.0;
     int count = 0, number = 0;
-    lit.for_each([&](const Vec3& p_cells, const Vec3& n, const VertexLight& light) {
+    lit.for_each([&](const Vec3& p_cells, const Vec3& n, const geometry::VertexLight& light) {
         const Vec3 from_center = origin + p_cells * h - center;
         if (from_center.z > -0.03 || std::abs(glm::length(from_center) - radius) > 0.1 * h || ++number % 17 != 0)
             return;
@@ -221,7 +223,7 @@ TEST(SurfaceLight, GrowsEvenlyAwayFromAWall) {
     });
     const Lit lit(solid, kOverhead, pool);
     std::map<int, int> open;  // by place along x
-    lit.for_each([&](const Vec3& p, const Vec3& n, const VertexLight& light) {
+    lit.for_each([&](const Vec3& p, const Vec3& n, const geometry::VertexLight& light) {
         if (n.z > 0.99 && std::abs(p.z - 4.5) < 0.1 && std::abs(p.y - 40.5) < 0.1)
             open[static_cast<int>(p.x)] = light.open;
     });
@@ -291,4 +293,4 @@ TEST(InnerBoxes, OfABlockFillMostOfIt) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::compute::test

@@ -6,13 +6,13 @@
 #include <numbers>
 #include <tuple>
 
-namespace burin::test {
+namespace burin::compute::test {
 namespace {
 
 // Gives every place one vertex.
 class Builder {
 public:
-    explicit Builder(TriangleMesh& mesh) : mesh_(mesh) {}
+    explicit Builder(geometry::TriangleMesh& mesh) : mesh_(mesh) {}
     std::uint32_t vertex(const Vec3& p) {
         const auto [known, fresh] =
             index_.try_emplace(std::tuple(p.x, p.y, p.z), static_cast<std::uint32_t>(mesh_.positions_m.size()));
@@ -24,7 +24,7 @@ public:
     }
 
 private:
-    TriangleMesh& mesh_;
+    geometry::TriangleMesh& mesh_;
     std::map<std::tuple<double, double, double>, std::uint32_t> index_;
 };
 
@@ -44,8 +44,8 @@ void subdivide(Builder& builder, const Vec3& a, const Vec3& b, const Vec3& c, in
 
 }  // namespace
 
-TriangleMesh box_mesh(const Vec3& lo, const Vec3& hi, int n) {
-    TriangleMesh mesh;
+geometry::TriangleMesh box_mesh(const Vec3& lo, const Vec3& hi, int n) {
+    geometry::TriangleMesh mesh;
     Builder builder(mesh);
     for (int axis = 0; axis < 3; ++axis) {
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -69,8 +69,8 @@ TriangleMesh box_mesh(const Vec3& lo, const Vec3& hi, int n) {
     return mesh;
 }
 
-TriangleMesh prism_mesh(int sides, double radius, double height) {
-    TriangleMesh mesh;
+geometry::TriangleMesh prism_mesh(int sides, double radius, double height) {
+    geometry::TriangleMesh mesh;
     Builder builder(mesh);
     const auto at = [&](int i, double z) {
         const double angle = 2 * std::numbers::pi * (i % sides) / sides;
@@ -85,8 +85,8 @@ TriangleMesh prism_mesh(int sides, double radius, double height) {
     return mesh;
 }
 
-TriangleMesh ball_mesh(double radius, int levels) {
-    TriangleMesh mesh;
+geometry::TriangleMesh ball_mesh(double radius, int levels) {
+    geometry::TriangleMesh mesh;
     Builder builder(mesh);
     for (const double x : {-radius, radius})
         for (const double y : {-radius, radius})
@@ -98,25 +98,25 @@ TriangleMesh ball_mesh(double radius, int levels) {
     return mesh;
 }
 
-TriangleMesh joined(const TriangleMesh& a, const TriangleMesh& b) {
-    TriangleMesh mesh = a;
+geometry::TriangleMesh joined(const geometry::TriangleMesh& a, const geometry::TriangleMesh& b) {
+    geometry::TriangleMesh mesh = a;
     const auto first = static_cast<std::uint32_t>(a.positions_m.size());
     mesh.positions_m.insert(mesh.positions_m.end(), b.positions_m.begin(), b.positions_m.end());
     for (const auto& t : b.triangles) mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
     return mesh;
 }
 
-TriangleMesh inverted(TriangleMesh mesh) {
+geometry::TriangleMesh inverted(geometry::TriangleMesh mesh) {
     for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
     return mesh;
 }
 
-TriangleMesh transformed(TriangleMesh mesh, const Quat& orientation, const Vec3& translation) {
+geometry::TriangleMesh transformed(geometry::TriangleMesh mesh, const Quat& orientation, const Vec3& translation) {
     for (Vec3& p : mesh.positions_m) p = orientation * p + translation;
     return mesh;
 }
 
-double volume_of(const TriangleMesh& mesh) {
+double volume_of(const geometry::TriangleMesh& mesh) {
     double six = 0;
     for (const auto& t : mesh.triangles) {
         six += glm::dot(mesh.positions_m[t[0]], glm::cross(mesh.positions_m[t[1]], mesh.positions_m[t[2]]));
@@ -124,7 +124,7 @@ double volume_of(const TriangleMesh& mesh) {
     return six / 6;
 }
 
-double area_of(const TriangleMesh& mesh) {
+double area_of(const geometry::TriangleMesh& mesh) {
     double twice = 0;
     for (const auto& t : mesh.triangles) {
         const Vec3& a = mesh.positions_m[t[0]];
@@ -133,4 +133,4 @@ double area_of(const TriangleMesh& mesh) {
     return twice / 2;
 }
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

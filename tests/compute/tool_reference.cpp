@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
-namespace burin::test {
+namespace burin::compute::test {
 namespace {
 
 double segment_distance(const Vec2& p, const Vec2& a, const Vec2& b) {
@@ -53,6 +54,31 @@ struct SignedDistance {
     }
     double operator()(const MeshTool&) const { return NAN; }
 };
+
+// Draws a tool of the same kind.
+struct AnyOfKind {
+    Random& random;
+    double lo, hi;
+    [[nodiscard]] double part() const { return random.between(lo, hi); }
+    ToolShape operator()(const BallTool&) const { return BallTool{part()}; }
+    ToolShape operator()(const CylinderTool&) const { return CylinderTool{part(), part()}; }
+    ToolShape operator()(const ConeTool&) const {
+        const double tip = random.chance(0.3) ? 0.0 : part();
+        return ConeTool{tip, random.chance(0.2) && tip > 0.0 ? 0.0 : part(), part()};
+    }
+    ToolShape operator()(const BullNoseTool&) const {
+        const double radius = part(), length = part(), corner = std::min(radius, length);
+        return BullNoseTool{radius, random.chance(0.2) ? corner : corner * random.between(0.1, 1.0), length};
+    }
+    ToolShape operator()(const BoxTool&) const { return BoxTool{{part(), part(), part()}}; }
+    ToolShape operator()(const MeshTool&) const { return MeshTool{}; }  // which every test would see refused
+};
+
+template <std::size_t... indices>
+ToolShape shape_of_kind(int kind, std::index_sequence<indices...>) {
+    const std::array<ToolShape, sizeof...(indices)> all{ToolShape(std::in_place_index<indices>)...};
+    return all.at(static_cast<std::size_t>(kind));
+}
 
 constexpr double kGolden = 0.6180339887498949;
 
@@ -144,20 +170,7 @@ Quat any_orientation(Random& random) {
 }
 
 ToolShape any_shape(Random& random, double lo, double hi, int kind) {
-    const auto part = [&] { return random.between(lo, hi); };
-    switch (kind) {
-        case 0: return BallTool{part()};
-        case 1: return CylinderTool{part(), part()};
-        case 2: {
-            const double tip = random.chance(0.3) ? 0.0 : part();
-            return ConeTool{tip, random.chance(0.2) && tip > 0.0 ? 0.0 : part(), part()};
-        }
-        case 3: {
-            const double radius = part(), length = part(), corner = std::min(radius, length);
-            return BullNoseTool{radius, random.chance(0.2) ? corner : corner * random.between(0.1, 1.0), length};
-        }
-        default: return BoxTool{{part(), part(), part()}};
-    }
+    return std::visit(AnyOfKind{random, lo, hi}, shape_of_kind(kind, std::make_index_sequence<kDrawnKinds>()));
 }
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

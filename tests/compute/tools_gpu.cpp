@@ -2,18 +2,18 @@
 // Every tool and operation on both engines: the same solid to the last bit.
 #include <gtest/gtest.h>
 
-#include "compute/apply.hpp"
+#include "compute/tools/apply.hpp"
 #include "tests/compute/engine_pair.hpp"
 #include "tests/compute/tool_reference.hpp"
 #include "tests/gpu/test_device.hpp"
 
-namespace burin::test {
+namespace burin::compute::test {
 namespace {
 
 class ToolsGpu : public gpu::DeviceTest {
 protected:
     void SetUp() override {
-        DeviceTest::SetUp();
+        gpu::DeviceTest::SetUp();
         if (IsSkipped()) return;
         const gpu::Capabilities& can = device().capabilities();
         if (!can.shader_int64 || !can.shader_float64) {
@@ -31,7 +31,8 @@ TEST_F(ToolsGpu, EveryToolAndOperationGivesTheSolidOfTheCpuEngine) {
     for (int i = 0; i < repeated(60) && !HasFailure(); ++i) {
         ToolSweep sweep;
         sweep.operation = static_cast<Operation>(random.small(0, 3));
-        sweep.shape = any_shape(random, 0.05, 0.3, sweep.operation == Operation::smooth ? 0 : i % 5);
+        sweep.shape =
+            any_shape(random, 0.05, 0.3, sweep.operation == Operation::smooth ? kKindOf<BallTool> : i % kDrawnKinds);
         sweep.start = {anywhere(), any_orientation(random)};
         sweep.end = {random.chance(0.3) ? sweep.start.position_m : anywhere(),
                      random.chance(0.7) ? sweep.start.orientation : any_orientation(random)};
@@ -46,4 +47,4 @@ TEST_F(ToolsGpu, EveryToolAndOperationGivesTheSolidOfTheCpuEngine) {
     }
 }
 
-}  // namespace burin::test
+}  // namespace burin::compute::test

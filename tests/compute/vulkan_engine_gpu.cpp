@@ -1,112 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The Vulkan engine against the CPU engine: the same ends on every ray, to the last bit, and the same counts.
-#include "compute/vulkan_engine.hpp"
+#include "compute/vulkan/vulkan_engine.hpp"
 
 #include <algorithm>
 #include <limits>
 
-#include "compute/surface.hpp"
-#include "gpu/core.hpp"
-#include "tests/compute/effort.hpp"
-#include "tests/compute/engine_pair.hpp"
-#include "tests/gpu/test_device.hpp"
+#include "compute/mesher/surface.hpp"
+#include "tests/compute/vulkan_engine_fixture.hpp"
 
-namespace burin::test {
-namespace {
-
-class VulkanEngineGpu : public gpu::DeviceTest {
-protected:
-    void SetUp() override {
-        DeviceTest::SetUp();
-        if (IsSkipped()) return;
-        const gpu::Capabilities& can = device().capabilities();
-        if (!can.shader_int64 || !can.shader_float64) {
-            GTEST_SKIP() << device().info().name << " has no 64-bit integers or no doubles in shaders";
-        }
-    }
-    // To play a lesser device.
-    gpu::Capabilities& capabilities() { return device().core()->capabilities; }
-};
-
-Vec3 random_point(Random& random, double lo, double hi) {
-    return {random.between(lo, hi), random.between(lo, hi), random.between(lo, hi)};
-}
-
-// Radii of all sizes, from a fraction of a cell to more than the solid; mostly short moves, some through everything.
-BallSweep random_sweep(Random& random, double spacing_m) {
-    BallSweep sweep;
-    sweep.radius_m = 0.2 * spacing_m * std::pow(1.5 / (0.2 * spacing_m), std::pow(random.unit(), 2.0));
-    sweep.start_object_m = random_point(random, -0.3, 1.3);
-    sweep.end_object_m = random.chance(0.3)   ? sweep.start_object_m
-                         : random.chance(0.8) ? sweep.start_object_m + random_point(random, -0.1, 0.1)
-                                              : random_point(random, -2.0, 3.0);
-    if (random.chance(0.2)) sweep.end_object_m.x = sweep.start_object_m.x;  // parallel to lattice planes
-    if (random.chance(0.2)) sweep.end_object_m.y = sweep.start_object_m.y;
-    sweep.material = static_cast<std::uint8_t>(random.small(0, 1));
-    if (random.chance(0.4)) sweep.operation = random.chance(0.5) ? Operation::fill : Operation::paint;
-    return sweep;
-}
-
-// Rays with up to `most_plates` plates each, half of them with just so many, so that a power of two leaves no room for more.
-// All rays are different; the three axes need not fit together for an engine.
-Solid plates(int resolution, int most_plates, std::uint64_t seed) {
-    Solid solid = unit_cube(resolution);
-    Random random(seed);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        std::vector<std::uint32_t> counts;
-        std::vector<shared::DexelEnd> ends;
-        for (std::size_t ray = 0; ray < solid.sets[axis].ray_count(); ++ray) {
-            const int count = random.chance(0.5) ? most_plates : random.small(0, most_plates);
-            int depth = 0;
-            for (int i = 0; i < 2 * count; ++i) {
-                depth += random.small(1, solid.lattice.cells[axis] * shared::kUnitsPerCell / (2 * most_plates));
-                ends.push_back(shared::make_end(depth, 0, static_cast<shared::uint>(random.bits())));
-            }
-            counts.push_back(static_cast<std::uint32_t>(2 * count));
-        }
-        solid.sets[axis].assign(counts, ends);
-    }
-    EXPECT_TRUE(well_formed(solid));
-    return solid;
-}
-
-// Random lists of ends for some rays, none of them named twice.
-RayBatch random_rays(const Lattice& lattice, int count, Random& random) {
-    std::vector<std::uint32_t> codes;
-    for (int i = 0; i < count; ++i) {
-        const int axis = random.small(0, 2);
-        codes.push_back(shared::ray_code(axis, random.small(0, lattice.rays_u(axis) - 1),
-                                         random.small(0, lattice.rays_v(axis) - 1)));
-    }
-    std::ranges::sort(codes);
-    codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
-    RayBatch batch;
-    for (const std::uint32_t code : codes) {
-        std::vector<shared::DexelEnd> ends;
-        const int most = lattice.cells[static_cast<std::size_t>(shared::axis_of(code))] * shared::kUnitsPerCell;
-        const int plates = random.small(0, 20);
-        for (int i = 0, depth = 0; i < 2 * plates; ++i) {
-            depth += random.small(1, most / 40);
-            ends.push_back(shared::make_end(depth, 1, static_cast<shared::uint>(random.bits())));
-        }
-        batch.add(code, ends);
-    }
-    return batch;
-}
-
-// What undoes a record in which each ray appears once at most per step: the oldest entry of a ray counts.
-RayBatch as_before(const Changes& changes) {
-    RayBatch batch;
-    std::vector<std::uint32_t> seen;
-    for (const shared::ChangedRay& ray : changes.rays) {
-        if (std::ranges::find(seen, ray.ray) != seen.end()) continue;
-        seen.push_back(ray.ray);
-        batch.add(ray.ray, changes.before_of(ray));
-    }
-    return batch;
-}
-
-}  // namespace
+namespace burin::compute::test {
 
 TEST_F(VulkanEngineGpu, ABallAndACapsuleTakeTheSameEnds) {
     EnginePair engines(unit_cube(64), device());
@@ -214,7 +116,8 @@ TEST_F(VulkanEngineGpu, RunningOutOfRoomLosesNoMaterial) {
     }
 }
 
-// A software driver ends an invocation's loops after 65535 turns without a word; thousands of capsules on one ray need more.
+// A software driver ends an invocation's loops after 65535 turns without a word; thousands of capsules on one ray need
+// more.
 TEST_F(VulkanEngineGpu, ThousandsOfCapsulesOnOneRayAreAllTaken) {
     const Solid solid = unit_cube(16);
     const double h = solid.lattice.spacing_m;
@@ -263,14 +166,14 @@ TEST_F(VulkanEngineGpu, TheMeshesOfBothEnginesAreTheSame) {
         cpu_surface.update(engines.cpu().solid(), engines.cpu().take_changes(), engines.pool());
         vulkan_surface.update(engines.vulkan().solid(), engines.vulkan().take_changes(), engines.pool());
     }
-    const TriangleMesh expected = cpu_surface.welded(), actual = vulkan_surface.welded();
+    const geometry::TriangleMesh expected = cpu_surface.welded(), actual = vulkan_surface.welded();
     EXPECT_GT(expected.triangles.size(), 10'000u);
     EXPECT_EQ(actual.positions_m, expected.positions_m);
     EXPECT_EQ(actual.triangles, expected.triangles);
     EXPECT_EQ(actual.colours, expected.colours);
 }
 
-// As on a graphics card of its own: nothing is mapped, all goes through copies.
+// As on a graphics card of its own: nothing is mapped, all goes through copies, each of which needs its barriers.
 TEST_F(VulkanEngineGpu, WithoutUnifiedMemoryTheEndsAreTheSame) {
     capabilities().unified_memory = false;
     EnginePair engines(plates(20, 3, 5), device(), {.spare_ends = 0, .export_per_ray = 1});
@@ -279,6 +182,12 @@ TEST_F(VulkanEngineGpu, WithoutUnifiedMemoryTheEndsAreTheSame) {
         std::vector<BallSweep> sweeps(4);
         for (BallSweep& sweep : sweeps) sweep = random_sweep(random, 0.05), sweep.radius_m *= 0.3;
         ASSERT_TRUE(engines.cut(sweeps));
+        if (batch % 8 == 0) {
+            ASSERT_TRUE(engines.assign(random_rays(engines.cpu().solid().lattice, 10, random)));
+        }
+        if (batch % 8 == 4) {
+            ASSERT_TRUE(engines.cut_deferred(sweeps) && engines.read_back());
+        }
     }
     EXPECT_GT(engines.vulkan().counts().store_rebuilds, 0u);
 }
@@ -429,37 +338,4 @@ TEST_F(VulkanEngineGpu, AStoreLargerThanABindingWorks) {
     }
 }
 
-TEST_F(VulkanEngineGpu, DeferredCutsReadBackAreTheSameAndRecordEachRayOnce) {
-    for (int round = 0; round < repeated(12); ++round) {
-        Random random(static_cast<std::uint64_t>(200 + round));
-        const Solid solid = plates(random.small(16, 32), random.small(1, 5), static_cast<std::uint64_t>(round));
-        EnginePair engines(solid, device(), {.spare_ends = 0, .tasks_a_pass = 8});
-        for (int frame = 0; frame < 6; ++frame) {
-            for (int update = random.small(1, 3); update > 0; --update) {
-                std::vector<BallSweep> sweeps(static_cast<std::size_t>(random.small(1, 6)));
-                for (BallSweep& sweep : sweeps) sweep = random_sweep(random, solid.lattice.spacing_m);
-                ASSERT_TRUE(engines.cut_deferred(sweeps)) << "round " << round << " frame " << frame;
-            }
-            const Solid held = engines.vulkan().solid();
-            (void)engines.vulkan().take_changes();
-            ASSERT_TRUE(engines.read_back());
-            const Changes changes = engines.vulkan().take_changes();
-            std::vector<std::uint32_t> codes;
-            for (const shared::ChangedRay& ray : changes.rays) {
-                codes.push_back(ray.ray);
-                const RayPlace place = place_of(ray.ray);
-                const auto before = held.sets[static_cast<std::size_t>(place.axis)].ends(place.u, place.v);
-                ASSERT_TRUE(std::ranges::equal(changes.before_of(ray), before, [](const auto& a, const auto& b) {
-                    return a.depth_material == b.depth_material && a.normal == b.normal;
-                }));
-            }
-            std::ranges::sort(codes);
-            EXPECT_EQ(std::ranges::adjacent_find(codes), codes.end()) << "a ray is listed twice";
-            if (random.chance(0.5)) {
-                ASSERT_TRUE(engines.cut(random_sweep(random, solid.lattice.spacing_m)));
-            }
-        }
-    }
-}
-
-}  // namespace burin::test
+}  // namespace burin::compute::test

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "devices/simulated_hand.hpp"
+#include "devices/hand/simulated_hand.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-namespace burin {
+namespace burin::devices {
 namespace {
 
 SimulatedHand hand(std::vector<HandPose> script, HandPath path) {
@@ -87,4 +87,21 @@ TEST(SimulatedHand, RefusesScriptsThatMakeNoSense) {
     EXPECT_EQ(unsorted.error().where, "hand script, pose 2");  // names the culprit
 }
 
-}  // namespace burin
+TEST(SimulatedHand, TheMonotoneCubicsSlopeLeansTowardsTheSteeperStretchWhereThatIsTheShorter) {
+    // Fritsch and Butland 1984: the harmonic mean of the secants 1 and 4 with the weights (2 h2 + h1) / 3 h and
+    // (h2 + 2 h1) / 3 h (h1 = 0.1, h2 = 0.4, h = 0.5): 1 / (0.6 / 1 + 0.4 / 4).
+    const SimulatedHand h =
+        hand({{0.0, Vec3(0.0)}, {0.1, Vec3(0.1, 0.0, 0.0)}, {0.5, Vec3(1.7, 0.0, 0.0)}}, HandPath::monotone_cubic);
+    EXPECT_NEAR(h.target(0.1).velocity_device_m_per_s.x, 1.0 / 0.7, 1e-12);
+}
+
+TEST(SimulatedHand, GivesUnitOrientationsOfAnyScriptAlsoAtItsEnds) {
+    const SimulatedHand h = hand({{0.0, Vec3(0.0), {3, 0, 0, 0}, 0}, {1.0, Vec3(0.0), {0, 0, 0.1, 0}, 0}}, {});
+    EXPECT_EQ(h.target(-1.0).orientation_device, Quat(1, 0, 0, 0));
+    EXPECT_EQ(h.target(2.0).orientation_device, Quat(0, 0, 1, 0));
+    // Halfway between orientations of any lengths it is the middle of the two.
+    EXPECT_NEAR(h.target(0.5).orientation_device.w, std::sqrt(0.5), 1e-12);
+    EXPECT_NEAR(h.target(0.5).orientation_device.y, std::sqrt(0.5), 1e-12);
+}
+
+}  // namespace burin::devices

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "devices/simulated_omni.hpp"
+#include "devices/haptic/simulated_omni.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstring>
 
-namespace burin {
+namespace burin::devices {
 namespace {
 
 constexpr Nanoseconds kMs = 1'000'000;
@@ -184,4 +184,48 @@ TEST(SimulatedOmni, InjectedFaultsShowAsTheyWouldOnHardware) {
     EXPECT_EQ(omni.read().fault, DeviceFault::none);
 }
 
-}  // namespace burin
+TEST(SimulatedOmni, EachRunawayBeginsWhereTheStylusIs) {
+    SimulatedOmni omni(resting());
+    for (int times = 0; times < 2; ++times) {
+        omni.inject(InjectedFault::overspeed);
+        EXPECT_NEAR(omni.read().position_device_m.x - omni.true_position_device_m().x, 0.01, 1e-4) << times;
+        static_cast<void>(omni.read());
+        omni.inject(InjectedFault::none);
+        EXPECT_NEAR(omni.read().position_device_m.x, omni.true_position_device_m().x, 1e-4) << times;
+    }
+}
+
+TEST(SimulatedOmni, TheForceGoesWithTheConnection) {
+    SimulatedOmni omni(resting());
+    omni.write({{1.0, 0.0, 0.0}});
+    static_cast<void>(omni.read());
+    ASSERT_EQ(omni.acting_force_device_N(), Vec3(1.0, 0.0, 0.0));
+    omni.inject(InjectedFault::disconnected);
+    static_cast<void>(omni.read());
+    EXPECT_EQ(omni.acting_force_device_N(), Vec3(0.0));
+    omni.inject(InjectedFault::none);
+    static_cast<void>(omni.read());
+    EXPECT_EQ(omni.acting_force_device_N(), Vec3(0.0)) << "what was told before comes not back";
+}
+
+TEST(SimulatedOmni, RestsAtTheEndOfItsWorkspaceAndBeginsWithinIt) {
+    SimulatedOmni pushed(hand({{0.0, Vec3(0.0)}, {0.5, Vec3(0.2, -0.2, 0.2)}}));
+    pushed.advance(1000 * kMs);
+    EXPECT_EQ(pushed.true_velocity_device_m_per_s(), Vec3(0.0));
+    const SimulatedOmni beyond(hand({{0.0, Vec3(0.2, -0.2, 0.2)}}));
+    EXPECT_EQ(beyond.true_position_device_m(), 0.5 * Vec3(0.1626, -0.1219, 0.0711));
+}
+
+TEST(SimulatedOmni, FollowsAClockInPartsOfAStepWithoutRunningAhead) {
+    const std::vector<HandPose> script{{0.0, Vec3(0.0)}, {0.3, Vec3(0.03, 0.01, 0.0)}};
+    SimulatedClock clock;
+    SimulatedOmni omni(hand(script), {}, &clock);
+    for (int i = 1; i <= 3000; ++i) {
+        const Nanoseconds now_ns = i * Nanoseconds{133'337};
+        clock.sleep_until(now_ns);
+        static_cast<void>(omni.read());
+        ASSERT_EQ(omni.time_ns(), now_ns / SimulatedOmni::kStep_ns * SimulatedOmni::kStep_ns) << i;
+    }
+}
+
+}  // namespace burin::devices

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Ten thousand ticks of an Omni in a steered hand, with targets coming and going: not one allocation, lock, throw or file.
+// Ten thousand ticks of an Omni in a steered hand, with targets coming and going: not one allocation, lock, throw or
+// file.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "devices/simulated_omni.hpp"
+#include "devices/haptic/simulated_omni.hpp"
 #include "tests/support/realtime_counters.hpp"
 
-namespace burin {
+namespace burin::devices {
 
 TEST(SteeredHand, AllocatesLocksThrowsAndOpensNothingInTenThousandTicks) {
     HandSteering channel;
@@ -35,4 +36,4 @@ TEST(SteeredHand, AllocatesLocksThrowsAndOpensNothingInTenThousandTicks) {
     EXPECT_GT(omni.time_ns(), 9'999'000'000);  // it did move on
 }
 
-}  // namespace burin
+}  // namespace burin::devices

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "devices/steered_hand.hpp"
+#include "devices/hand/steered_hand.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <thread>
 #include <vector>
 
-#include "devices/simulated_omni.hpp"
+#include "devices/haptic/simulated_omni.hpp"
 
-namespace burin {
+namespace burin::devices {
 namespace {
 
 constexpr Nanoseconds kMs = 1'000'000;
@@ -131,8 +131,8 @@ TEST(SteeredHand, TakesAboutAsLongAsTheBestMotionWithinTheLimits) {
 }
 
 TEST(SteeredHand, MakesAnEvenMotionOfAnEvenMouse) {
-    // 0.1 m/s as 60 targets a second. Fed straight to a spring the steps would be seen; here the velocity stays even, and the
-    // hand is one target and the lag behind.
+    // 0.1 m/s as 60 targets a second. Fed straight to a spring the steps would be seen; here the velocity stays even,
+    // and the hand is one target and the lag behind.
     Steering steering;
     SteeredHand hand = *SteeredHand::create(&steering.channel, {}, SteeringLimits{.speed_m_per_s = 0.6});
     double slowest = 1.0, fastest = 0.0, most_behind_s = 0.0, least_behind_s = 1.0;
@@ -286,4 +286,66 @@ TEST(SteeredHand, TakesTargetsFromAnotherThread) {
     EXPECT_LT(glm::length(hand.target(4.0).position_device_m - Vec3(0.02)), 1e-6);
 }
 
-}  // namespace burin
+// After a debugger's pause, say, the hand is asked again ten seconds later, and stood still for all but a tenth of one.
+TEST(SteeredHand, AfterAPauseItGoesOnFromWhereItStoodNoFartherThanItsCatchingUpTakesIt) {
+    constexpr Nanoseconds kPause = 10'000 * kMs;
+    for (const double there_m : {0.3, 0.02}) {  // half a second away; near, so that hand and goal go side by side
+        Steering a, b;
+        SteeredHand paused = *SteeredHand::create(&a.channel), steady = *SteeredHand::create(&b.channel);
+        const auto tell_both = [&](const Vec3& position_m, Nanoseconds time_ns, std::uint32_t buttons) {
+            a.to(position_m, time_ns, buttons);
+            b.to(position_m, time_ns, buttons);
+        };
+        const auto ask_both = [&](Nanoseconds t, Nanoseconds lost_ns) {
+            const HandTarget of_paused = paused.target(seconds(t + lost_ns)), of_steady = steady.target(seconds(t));
+            EXPECT_EQ(of_paused.position_device_m, of_steady.position_device_m) << t;
+            EXPECT_EQ(of_paused.velocity_device_m_per_s, of_steady.velocity_device_m_per_s) << t;
+            EXPECT_EQ(of_paused.buttons, of_steady.buttons) << t;
+            return of_paused;
+        };
+        tell_both(Vec3(0.0), 0, 0);
+        ask_both(16 * kMs, 0);
+        tell_both({there_m, 0.0, 0.0}, 40 * kMs, 1);  // its goal is under way for 40 ms
+        ask_both(20 * kMs, 0);
+        const HandTarget before = ask_both(30 * kMs, 0);
+        EXPECT_EQ(before.buttons, 0u);
+        // The other hand, which did not pause, is asked a tenth of a second on.
+        const HandTarget after = ask_both(130 * kMs, kPause);
+        const double moved_m = after.position_device_m.x - before.position_device_m.x;
+        EXPECT_LE(moved_m, SteeringLimits{}.speed_m_per_s * 0.1 + 1e-12);
+        for (int i = 1; i < 10; ++i) ask_both((130 + 10 * i) * kMs, kPause);
+    }
+}
+
+TEST(SteeredHand, ATargetAfterALongRestIsReachedAsSoonAsAnyAndNoneAtOnce) {
+    Steering steering;
+    SteeredHand hand = *SteeredHand::create(&steering.channel);
+    steering.to(Vec3(0.0), 0);
+    static_cast<void>(hand.target(0.016));
+    steering.to({0.001, 0.0, 0.0}, 10'000 * kMs, 1);  // ten seconds after the one before, by the writer's clock
+    static_cast<void>(hand.target(0.016));
+    EXPECT_EQ(hand.target(0.016 + seconds(SteeredHand::kMostInterval_ns) - 0.001).buttons, 0u);
+    EXPECT_EQ(hand.target(0.016 + seconds(SteeredHand::kMostInterval_ns) + 0.001).buttons, 1u);
+    static_cast<void>(hand.target(0.1));
+    steering.to({0.001, 0.0, 0.0}, 10'000 * kMs, 2);  // at the same time as the one before
+    EXPECT_EQ(hand.target(0.1 + seconds(SteeredHand::kLeastInterval_ns) - 0.0005).buttons, 1u);
+    EXPECT_EQ(hand.target(0.1 + seconds(SteeredHand::kLeastInterval_ns) + 0.0005).buttons, 2u);
+}
+
+TEST(SteeredHand, AGoalThatIsCutShortTurnsRoundWhereItIs) {
+    // So brisk a hand is where the goal is, but for a tenth of a millisecond.
+    Steering steering;
+    SteeredHand hand = *SteeredHand::create(&steering.channel, {}, {100.0, 1e6, 1e-4});
+    steering.to(Vec3(0.0), 0);
+    static_cast<void>(hand.target(0.02));
+    steering.to({0.04, 0.0, 0.0}, 40 * kMs);  // 1 m/s
+    static_cast<void>(hand.target(0.02));
+    EXPECT_NEAR(hand.target(0.03).position_device_m.x, 0.01, 3e-4);
+    steering.to(Vec3(0.0), 60 * kMs);
+    double farthest = 0.0;
+    for (int i = 0; i <= 30; ++i) farthest = std::max(farthest, hand.target(0.03 + 0.001 * i).position_device_m.x);
+    EXPECT_LT(farthest, 0.01 + 3e-4);
+    EXPECT_NEAR(hand.target(0.06).position_device_m.x, 0.0, 1e-6);
+}
+
+}  // namespace burin::devices

@@ -6,11 +6,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "geometry/file_io.hpp"
-#include "geometry/mesh_import.hpp"
+#include "base/file_io.hpp"
+#include "geometry/files/mesh_import.hpp"
 #include "tests/geometry/mesh_samples.hpp"
 
-namespace burin::test {
+namespace burin::geometry::test {
 namespace {
 
 std::string why(const Result<void>& result) { return result ? "" : result.error().line(); }
@@ -19,8 +19,8 @@ TEST(AtomicWrite, ReplacesTheContentAndKeepsThePermissions) {
     const TemporaryFolder folder;
     const auto path = folder.write("a.bin", "old");
     ::chmod(path.c_str(), 0640);
-    ASSERT_EQ(why(write_file_atomically(path, bytes_of("new content"))), "");
-    EXPECT_EQ(text_of_file(path), "new content");
+    ASSERT_EQ(why(write_file_atomically(path, geometry::test::bytes_of("new content"))), "");
+    EXPECT_EQ(geometry::test::text_of_file(path), "new content");
     struct stat info{};
     ::stat(path.c_str(), &info);
     EXPECT_EQ(info.st_mode & 0777u, 0640u);
@@ -37,9 +37,9 @@ TEST(AtomicWrite, FollowsASymbolicLink) {
     const TemporaryFolder folder;
     const auto target = folder.write("target", "old");
     std::filesystem::create_symlink("target", folder.path() / "link");
-    ASSERT_EQ(why(write_file_atomically(folder.path() / "link", bytes_of("new"))), "");
+    ASSERT_EQ(why(write_file_atomically(folder.path() / "link", geometry::test::bytes_of("new"))), "");
     EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "link"));
-    EXPECT_EQ(text_of_file(target), "new");
+    EXPECT_EQ(geometry::test::text_of_file(target), "new");
 }
 
 TEST(AtomicWrite, RefusesFoldersDevicesAndMissingFoldersWithARemedy) {
@@ -47,7 +47,7 @@ TEST(AtomicWrite, RefusesFoldersDevicesAndMissingFoldersWithARemedy) {
     for (const std::filesystem::path& bad :
          {folder.path(), folder.path() / "", folder.path() / "missing" / "a.stl", std::filesystem::path("/dev/full"),
           folder.write("file", "x") / "a.stl", folder.path() / std::string(300, 'n')}) {
-        const auto result = write_file_atomically(bad, bytes_of("x"));
+        const auto result = write_file_atomically(bad, geometry::test::bytes_of("x"));
         ASSERT_FALSE(result) << bad;
         EXPECT_EQ(result.error().where, bad.string());
         EXPECT_FALSE(result.error().remedy.empty());
@@ -72,7 +72,7 @@ TEST(AtomicWrite, LeavesTheOldFileAndNothingElseWhenTheDiskIsFull) {
     int status = -1;
     ::waitpid(child, &status, 0);
     EXPECT_EQ(status, 0);
-    EXPECT_EQ(text_of_file(path), "old content");
+    EXPECT_EQ(geometry::test::text_of_file(path), "old content");
     EXPECT_EQ(folder.entries(), 1u);
 }
 
@@ -81,10 +81,10 @@ TEST(AtomicWrite, RefusesAFolderThatIsWriteProtected) {
     const TemporaryFolder folder;
     const auto old = folder.write("a.stl", "old");
     ::chmod(folder.path().c_str(), 0500);
-    EXPECT_FALSE(write_file_atomically(old, bytes_of("new")));
-    EXPECT_FALSE(write_file_atomically(folder.path() / "b.stl", bytes_of("new")));
+    EXPECT_FALSE(write_file_atomically(old, geometry::test::bytes_of("new")));
+    EXPECT_FALSE(write_file_atomically(folder.path() / "b.stl", geometry::test::bytes_of("new")));
     ::chmod(folder.path().c_str(), 0700);
-    EXPECT_EQ(text_of_file(old), "old");
+    EXPECT_EQ(geometry::test::text_of_file(old), "old");
     EXPECT_EQ(folder.entries(), 1u);
 }
 
@@ -113,7 +113,7 @@ TEST(ReadFile, RefusesAHugeSparseFileWithoutTakingMemoryForIt) {
 TEST(MeshFiles, AreRefusedWithTheReasonThatHelpsMost) {
     const TemporaryFolder folder;
     const auto message = [](const std::filesystem::path& path) {
-        const auto result = import_mesh(path);
+        const auto result = geometry::import_mesh(path);
         return result ? std::string("accepted") : result.error().what;
     };
     EXPECT_EQ(message(folder.path()), "is a folder");
@@ -133,10 +133,10 @@ TEST(MeshFiles, AreRefusedWithTheReasonThatHelpsMost) {
 TEST(MeshFiles, OfOneFormatUnderAnotherNameAreRefused) {
     const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
     for (const MeshFormat format : {MeshFormat::stl, MeshFormat::ply, MeshFormat::off})
-        EXPECT_NE(refusal(obj, format), "");
+        EXPECT_NE(geometry::test::refusal(obj, format), "");
     for (const MeshFormat format : {MeshFormat::stl, MeshFormat::ply, MeshFormat::obj})
-        EXPECT_NE(refusal(off, format), "");
+        EXPECT_NE(geometry::test::refusal(off, format), "");
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::geometry::test

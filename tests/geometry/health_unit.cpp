@@ -4,15 +4,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/mesh_health.hpp"
+#include "geometry/mesh/mesh_health.hpp"
 #include "tests/geometry/mesh_samples.hpp"
 
-namespace burin::test {
+namespace burin::geometry::test {
 namespace {
 
 TEST(MeshHealth, FindsNothingWrongWithACube) {
     const MeshHealth health = examine(cube());
-    EXPECT_TRUE(complaints(health).empty());
+    EXPECT_TRUE(geometry::complaints(health).empty());
     EXPECT_TRUE(health.closed && health.consistently_oriented && health.manifold() && !health.inside_out());
     EXPECT_DOUBLE_EQ(health.signed_volume_m3, 1.0);
     EXPECT_DOUBLE_EQ(health.area_m2, 6.0);
@@ -31,24 +31,24 @@ TEST(MeshHealth, MeasuresATorus) {
 }
 
 TEST(MeshHealth, KeepsTheVolumesDigitsFarFromTheOrigin) {
-    TriangleMesh mesh = cube();
+    geometry::TriangleMesh mesh = cube();
     for (Vec3& p : mesh.positions_m) p += Vec3(1e6, -2e6, 3e6);
-    EXPECT_NEAR(examine(mesh).signed_volume_m3, 1.0, 1e-8);
+    EXPECT_NEAR(geometry::examine(mesh).signed_volume_m3, 1.0, 1e-8);
 }
 
 TEST(MeshHealth, CountsTheEdgesAndLoopsOfHoles) {
-    TriangleMesh mesh = cube();
+    geometry::TriangleMesh mesh = cube();
     mesh.triangles.erase(mesh.triangles.begin() + 11);
     mesh.triangles.erase(mesh.triangles.begin());  // opposite corners: the holes do not touch
     const MeshHealth health = examine(mesh);
     EXPECT_EQ(health.boundary_edges, 6u);
     EXPECT_EQ(health.holes, 2u);
     EXPECT_FALSE(health.closed);
-    EXPECT_EQ(complaints(health).at(0), "6 edges have only one triangle (2 holes)");
+    EXPECT_EQ(geometry::complaints(health).at(0), "6 edges have only one triangle (2 holes)");
 }
 
 TEST(MeshHealth, SeparatesHolesThatTouchInAVertex) {
-    TriangleMesh mesh;
+    geometry::TriangleMesh mesh;
     mesh.positions_m = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
     mesh.triangles = {{0, 1, 2}, {0, 3, 4}};
     const MeshHealth health = examine(mesh);
@@ -58,7 +58,7 @@ TEST(MeshHealth, SeparatesHolesThatTouchInAVertex) {
 }
 
 TEST(MeshHealth, CountsFansOfThreeAndMoreTriangles) {
-    TriangleMesh mesh;
+    geometry::TriangleMesh mesh;
     mesh.positions_m = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
     mesh.triangles = {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}};
     const MeshHealth health = examine(mesh);
@@ -67,11 +67,11 @@ TEST(MeshHealth, CountsFansOfThreeAndMoreTriangles) {
     EXPECT_EQ(health.misoriented_edges, 0u);  // up, down, and one left over
     EXPECT_EQ(health.shells, 1u);
     mesh.triangles[1] = {0, 1, 3};
-    EXPECT_EQ(examine(mesh).misoriented_edges, 1u);
+    EXPECT_EQ(geometry::examine(mesh).misoriented_edges, 1u);
 }
 
 TEST(MeshHealth, CallsTwoCubesThatShareAnEdgeClosedButNotManifold) {
-    TriangleMesh mesh = cube();
+    geometry::TriangleMesh mesh = cube();
     std::array<std::uint32_t, 8> other{};
     for (std::uint32_t i = 0; i < 8; ++i) {
         const Vec3 p = mesh.positions_m[i] + Vec3(1, 1, 0);
@@ -87,7 +87,7 @@ TEST(MeshHealth, CallsTwoCubesThatShareAnEdgeClosedButNotManifold) {
 }
 
 TEST(MeshHealth, CountsATurnedTriangleByItsThreeEdges) {
-    TriangleMesh mesh = cube();
+    geometry::TriangleMesh mesh = cube();
     std::swap(mesh.triangles[5][0], mesh.triangles[5][1]);
     const MeshHealth health = examine(mesh);
     EXPECT_EQ(health.misoriented_edges, 3u);
@@ -96,14 +96,14 @@ TEST(MeshHealth, CountsATurnedTriangleByItsThreeEdges) {
 }
 
 TEST(MeshHealth, SeesThatAMeshIsInsideOut) {
-    TriangleMesh mesh = cube();
+    geometry::TriangleMesh mesh = cube();
     for (auto& t : mesh.triangles) std::swap(t[0], t[1]);
-    EXPECT_TRUE(examine(mesh).inside_out());
-    EXPECT_EQ(complaints(examine(mesh)).at(0), "the surface is inside out");
+    EXPECT_TRUE(geometry::examine(mesh).inside_out());
+    EXPECT_EQ(geometry::complaints(geometry::examine(mesh)).at(0), "the surface is inside out");
 }
 
 TEST(MeshHealth, CountsDegenerateAndDuplicateTrianglesAndUnusedVertices) {
-    TriangleMesh mesh = tetrahedron();
+    geometry::TriangleMesh mesh = tetrahedron();
     mesh.positions_m.emplace_back(0.1, 0, 0);  // 4: on the edge 0 1
     mesh.positions_m.emplace_back(7, 7, 7);    // 5: unused
     mesh.triangles.push_back({0, 1, 4});       // without area
@@ -117,20 +117,20 @@ TEST(MeshHealth, CountsDegenerateAndDuplicateTrianglesAndUnusedVertices) {
 }
 
 TEST(MeshHealth, CountsEachRepetitionOfATriangleOnce) {
-    TriangleMesh mesh = tetrahedron();
+    geometry::TriangleMesh mesh = tetrahedron();
     for (const std::array<std::uint32_t, 3> t :
          {std::array<std::uint32_t, 3>{3, 1, 2}, {2, 1, 3}, {1, 0, 2}, {1, 1, 0}, {1, 0, 1}}) {
         mesh.triangles.push_back(t);
     }
-    EXPECT_EQ(examine(mesh).duplicate_triangles, 4u);  // twice 1 2 3, once 0 1 2, once 0 1 1
-    EXPECT_EQ(examine(mesh).nonmanifold_edges, 5u);    // all but 0 3
+    EXPECT_EQ(geometry::examine(mesh).duplicate_triangles, 4u);  // twice 1 2 3, once 0 1 2, once 0 1 1
+    EXPECT_EQ(geometry::examine(mesh).nonmanifold_edges, 5u);    // all but 0 3
 }
 
 TEST(MeshHealth, OfAnEmptyMeshIsNotSound) {
     const MeshHealth health = examine({});
     EXPECT_FALSE(health.closed);
-    EXPECT_EQ(complaints(health), std::vector<std::string>{"there are no triangles"});
+    EXPECT_EQ(geometry::complaints(health), std::vector<std::string>{"there are no triangles"});
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::geometry::test

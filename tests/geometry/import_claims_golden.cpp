@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Files that claim more than they hold, and hostile ones that fuzzing found: refused or read without memory for a claim.
-// This program counts every byte that operator new hands out.
+// Files that claim more than they hold, and hostile ones that fuzzing found: refused or read without memory for a
+// claim. This program counts every byte that operator new hands out.
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <cstdlib>
 #include <new>
 
-#include "geometry/mesh_health.hpp"
-#include "geometry/mesh_mend.hpp"
+#include "geometry/mesh/mesh_health.hpp"
+#include "geometry/mesh/mesh_repair.hpp"
 #include "tests/geometry/mesh_samples.hpp"
 
 namespace {
@@ -27,11 +27,11 @@ void operator delete[](void* memory) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 
-namespace burin::test {
+namespace burin::geometry::test {
 namespace {
 
-// All bytes ever asked for, freed or not, which bounds the peak from above. A vector that grows by doubling asks for four
-// times its final size in all; a triangle of few bytes of text becomes some dozens of bytes: 400 covers the worst
+// All bytes ever asked for, freed or not, which bounds the peak from above. A vector that grows by doubling asks for
+// four times its final size in all; a triangle of few bytes of text becomes some dozens of bytes: 400 covers the worst
 // (short faces of OBJ with a colour each), and 64 KiB the fixed tables and messages.
 std::uint64_t bytes_asked_for_importing(std::span<const std::byte> bytes, MeshFormat format) {
     const std::uint64_t before = g_bytes_asked.load();
@@ -117,4 +117,4 @@ TEST(Memory, StaysASmallMultipleOfTheFile) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::geometry::test

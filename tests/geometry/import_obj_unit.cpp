@@ -3,7 +3,7 @@
 
 #include "tests/geometry/mesh_samples.hpp"
 
-namespace burin::test {
+namespace burin::geometry::test {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
@@ -11,7 +11,7 @@ using Rgb = std::array<std::uint8_t, 3>;
 
 constexpr std::string_view kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
-Result<ImportedMesh> import_obj(std::string_view text) { return import_text(text, MeshFormat::obj); }
+Result<geometry::ImportedMesh> import_obj(std::string_view text) { return import_text(text, MeshFormat::obj); }
 std::string refused(const std::string& text) { return refusal(text, MeshFormat::obj); }
 
 TEST(ObjImport, ReadsPositiveNegativeAndForwardIndices) {
@@ -73,11 +73,11 @@ TEST(ObjImport, TakesMaterialsWithTheirDiffuseColour) {
     const auto bytes = bytes_of(
         std::string(kTriangle) +
         "mtllib paints and more.mtl\nf 1 2 3\nusemtl grey\nf 1 2 3\nusemtl red one\nf 1 2 3\nusemtl lost\nf 1 2 3\n");
-    const auto result = import_mesh(bytes, MeshFormat::obj, "test.obj", library);
+    const auto result = geometry::import_mesh(bytes, MeshFormat::obj, "test.obj", library);
     ASSERT_TRUE(result) << result.error().line();
     ASSERT_EQ(result->mesh.materials.size(), 4u);  // the plain one of the first face comes first
     EXPECT_EQ(result->mesh.triangle_materials, (std::vector<std::uint8_t>{0, 1, 2, 3}));
-    EXPECT_EQ(result->mesh.materials[0].colour, Material{}.colour);
+    EXPECT_EQ(result->mesh.materials[0].colour, geometry::Material{}.colour);
     EXPECT_EQ(result->mesh.materials[1].colour, (Rgb{128, 128, 128}));
     EXPECT_EQ(result->mesh.materials[2].name, "red one");
     EXPECT_EQ(result->mesh.materials[2].colour, (Rgb{255, 0, 0}));
@@ -89,7 +89,7 @@ TEST(ObjImport, FindsTheMaterialFileBesideTheObj) {
     const TemporaryFolder folder;
     folder.write("paint.mtl", "newmtl a\nKd 0 0 1\n");
     const auto obj = folder.write("part.obj", std::string(kTriangle) + "mtllib paint.mtl\nusemtl a\nf 1 2 3\n");
-    const auto result = import_mesh(obj);
+    const auto result = geometry::import_mesh(obj);
     ASSERT_TRUE(result) << result.error().line();
     EXPECT_EQ(result->mesh.materials.at(0).colour, (Rgb{0, 0, 255}));
 }
@@ -99,9 +99,25 @@ TEST(ObjImport, RemarksOnAMissingOrBrokenMaterialFileAndReadsTheShape) {
     folder.write("bad.mtl", "newmtl a\nKd nan 0 1\n");
     const auto obj =
         folder.write("part.obj", std::string(kTriangle) + "mtllib gone.mtl\nmtllib bad.mtl\nmtllib .\nf 1 2 3\n");
-    const auto result = import_mesh(obj);
+    const auto result = geometry::import_mesh(obj);
     ASSERT_TRUE(result) << result.error().line();
     EXPECT_EQ(result->report.remarks.size(), 3u);
+}
+
+// 256 shades of red in groups of two: of each group the one that more faces have weighs more.
+TEST(ObjImport, MergedMaterialsHaveTheMeanColourOfTheirFaces) {
+    std::string text(kTriangle), paints;
+    for (int shade = 0; shade < 256; ++shade) {
+        text += "usemtl m" + std::to_string(shade) + "\nf 1 2 3\n";
+        if (shade == 100 || shade == 103) text += "f 1 2 3\nf 1 2 3\n";
+        paints += "newmtl m" + std::to_string(shade) + "\nKd " + std::to_string(shade / 255.0) + " 0 0\n";
+    }
+    const auto result = import_mesh(bytes_of("mtllib p\n" + text), MeshFormat::obj, "test.obj",
+                                    [&](std::string_view) -> Result<std::string> { return paints; });
+    ASSERT_TRUE(result) << result.error().line();
+    ASSERT_EQ(result->mesh.materials.size(), 128u);
+    EXPECT_EQ(result->mesh.materials[50].colour, (Rgb{100, 0, 0})) << "100.25 of 100, 100, 100 and 101";
+    EXPECT_EQ(result->mesh.materials[51].colour, (Rgb{103, 0, 0})) << "102.75 of 102, 103, 103 and 103";
 }
 
 TEST(ObjImport, MergesMoreThan254MaterialsAndSaysSo) {
@@ -110,10 +126,10 @@ TEST(ObjImport, MergesMoreThan254MaterialsAndSaysSo) {
         text += "usemtl m" + std::to_string(i) + "\nf 1 2 3\n";
         paints += "newmtl m" + std::to_string(i) + "\nKd " + std::to_string(i / 600.0) + " 0.25 0.75\n";
     }
-    const auto result = import_mesh(bytes_of("mtllib p\n" + text), MeshFormat::obj, "test.obj",
-                                    [&](std::string_view) -> Result<std::string> { return paints; });
+    const auto result = geometry::import_mesh(bytes_of("mtllib p\n" + text), MeshFormat::obj, "test.obj",
+                                              [&](std::string_view) -> Result<std::string> { return paints; });
     ASSERT_TRUE(result) << result.error().line();
-    EXPECT_LE(result->mesh.materials.size(), kMaxMaterials);
+    EXPECT_LE(result->mesh.materials.size(), geometry::kMaxMaterials);
     EXPECT_EQ(result->report.materials_merged, 600 - result->mesh.materials.size());
     EXPECT_EQ(result->report.remarks.size(), 1u);
     for (int i = 0; i < 600; ++i) {  // no colour moves by more than the widest group, 4 of 255
@@ -161,4 +177,4 @@ TEST(ObjImport, ReadsNumbersTooSmallForADoubleAsZero) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::geometry::test

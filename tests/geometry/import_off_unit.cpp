@@ -3,7 +3,7 @@
 
 #include "tests/geometry/mesh_samples.hpp"
 
-namespace burin::test {
+namespace burin::geometry::test {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
@@ -78,4 +78,4 @@ TEST(OffImport, SaysThatTextAfterTheLastFaceWasIgnored) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::geometry::test

@@ -7,7 +7,7 @@
 
 #include "tests/geometry/mesh_samples.hpp"
 
-namespace burin::test {
+namespace burin::geometry::test {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
@@ -112,6 +112,33 @@ TEST(PlyImport, ReadsFloatColoursFromZeroToOne) {
     EXPECT_NE(refused(head + "0 0 0 2 .5 0\n1 0 0 1 .5 0\n0 1 0 1 .5 0\n3 0 1 2\n").find("colour"), std::string::npos);
 }
 
+TEST(PlyImport, GivesAFaceTheColourThatTwoOfItsCornersShare) {
+    const auto result = import_ply(
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+        "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+        "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0 9 0 0\n1 0 0 0 9 0\n0 1 0 0 9 0\n0 0 1 0 0 9\n3 0 1 2\n3 1 0 2\n3 1 2 3\n3 3 0 1\n");
+    ASSERT_TRUE(result) << result.error().line();
+    const auto colour = [&](std::size_t face) {
+        return result->mesh.materials.at(result->mesh.triangle_materials.at(face)).colour;
+    };
+    EXPECT_EQ(colour(0), (Rgb{0, 9, 0})) << "the second and the third";
+    EXPECT_EQ(colour(1), (Rgb{0, 9, 0})) << "the first and the third";
+    EXPECT_EQ(colour(2), (Rgb{0, 9, 0})) << "the first and the second";
+    EXPECT_EQ(colour(3), (Rgb{0, 0, 9})) << "all differ: the first";
+}
+
+// 257 steps of 16 bits are one of 8: 65535 is 255.
+TEST(PlyImport, ReadsColoursOfSixteenBits) {
+    const auto result = import_ply(
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "property ushort red\nproperty ushort green\nproperty ushort blue\n" +
+        kFaceHeader + "end_header\n0 0 0 65535 0 257\n1 0 0 25700 128 129\n0 1 0 0 0 0\n3 0 1 2\n");
+    ASSERT_TRUE(result) << result.error().line();
+    EXPECT_EQ(result->mesh.colours[0], (Rgb{255, 0, 1}));
+    EXPECT_EQ(result->mesh.colours[1], (Rgb{100, 0, 1})) << "rounded to the nearest";
+}
+
 TEST(PlyImport, NamesTheLineOfWhatIsWrong) {
     const auto with = [](const std::string& from, const std::string& to) {
         std::string text = kPlain;
@@ -167,4 +194,4 @@ TEST(PlyImport, SkipsAnElementWithoutPropertiesWhateverItsCount) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::geometry::test

@@ -5,7 +5,7 @@
 
 #include "tests/geometry/mesh_samples.hpp"
 
-namespace burin::test {
+namespace burin::geometry::test {
 namespace {
 
 constexpr float kTwoTriangles[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, /**/ 1, 0, 0, 1, 1, 0, 0, 1, 0};
@@ -139,4 +139,4 @@ TEST(StlImport, SplitsAsciiFacetsOfFourCorners) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::geometry::test

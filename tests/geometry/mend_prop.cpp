@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "geometry/mesh_health.hpp"
-#include "geometry/mesh_mend.hpp"
-#include "geometry/polygon.hpp"
+#include "geometry/mesh/mesh_health.hpp"
+#include "geometry/mesh/mesh_repair.hpp"
+#include "geometry/mesh/polygon.hpp"
 #include "tests/geometry/mesh_samples.hpp"
 
-namespace burin::test {
+namespace burin::geometry::test {
 namespace {
 
 TEST(CloseHoles, ClosesWhateverTrianglesAreTakenFromATorus) {
@@ -86,4 +86,4 @@ TEST(SplitPolygon, CoversAStarShapedPolygonExactlyOnce) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::geometry::test

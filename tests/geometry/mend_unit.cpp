@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/mesh_health.hpp"
-#include "geometry/mesh_mend.hpp"
+#include "geometry/mesh/mesh_health.hpp"
+#include "geometry/mesh/mesh_repair.hpp"
 #include "tests/geometry/mesh_samples.hpp"
 
-namespace burin::test {
+namespace burin::geometry::test {
 namespace {
 
 // An open cylinder around +Y, closed below by a fan, of height 1 and radius 1: one hole of n edges.
@@ -58,8 +58,8 @@ TEST(CloseHoles, FindsTheLeastAreaOverABentRim) {
 }
 
 TEST(CloseHoles, NeverUsesAnEdgeThatTheMeshHasAlready) {
-    // The rim of two triangles that share an edge: both diagonals of its loop of 4 exist or would, if the shared edge were
-    // taken, have four uses.
+    // The rim of two triangles that share an edge: both diagonals of its loop of 4 exist or would, if the shared edge
+    // were taken, have four uses.
     TriangleMesh mesh;
     mesh.positions_m = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
@@ -80,8 +80,11 @@ TEST(CloseHoles, FansFromANewVertexWhereEveryDiagonalIsTaken) {
     mesh.triangles.push_back({top(2), top(0), tip});
     mesh.triangles.push_back({top(1), top(3), peak});
     mesh.triangles.push_back({top(3), top(1), peak});
+    mesh.colours.assign(mesh.positions_m.size(), {7, 8, 9});
     const ClosingReport report = close_holes(mesh);
     ASSERT_EQ(report.holes.size(), 1u);
+    ASSERT_EQ(mesh.colours.size(), mesh.positions_m.size());
+    EXPECT_EQ(mesh.colours.back(), mesh.colours.front()) << "a colour of the rim";
     EXPECT_EQ(report.holes[0].filling, HoleFilling::centre_fan);
     EXPECT_EQ(report.vertices_added, 1u);
     EXPECT_TRUE(examine(mesh).closed);
@@ -120,6 +123,21 @@ TEST(CloseHoles, PaintsTheFillingLikeItsRim) {
     EXPECT_EQ(mesh.triangle_materials.back(), 1);
 }
 
+// One triangle of the rim, whichever it is, was turned round: the filling agrees with all the others.
+TEST(CloseHoles, OrientsTheFillingLikeMostTrianglesAroundTheHole) {
+    constexpr std::uint32_t kEdges = 5;
+    for (std::uint32_t turned = 0; turned < kEdges; ++turned) {
+        TriangleMesh mesh = bucket(kEdges);
+        auto& t = mesh.triangles[3 * turned + 1];  // of the wall's two, the one along the upper rim
+        std::swap(t[1], t[2]);
+        close_holes(mesh);
+        std::swap(t[1], t[2]);
+        const MeshHealth health = examine(mesh);
+        EXPECT_TRUE(health.closed && health.consistently_oriented) << "triangle " << turned;
+        EXPECT_NEAR(health.signed_volume_m3, disc_area(kEdges), 1e-12) << "triangle " << turned;
+    }
+}
+
 TEST(CloseHoles, DoesNothingToAClosedMesh) {
     TriangleMesh mesh = torus(12, 8, 1.0, 0.3);
     const auto before = mesh.triangles;
@@ -140,6 +158,18 @@ TEST(WeldVertices, JoinsTheFacesOfAMeshWithSeams) {
     EXPECT_DOUBLE_EQ(examine(seamed).signed_volume_m3, 1.0);
 }
 
+TEST(WeldVertices, KeepsTheColourOfTheFirstOfThem) {
+    TriangleMesh mesh;
+    mesh.positions_m = {{0, 0, 0}, {1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {1, 0, 0}};
+    mesh.colours = {{1, 1, 1}, {2, 2, 2}, {3, 3, 3}, {4, 4, 4}, {5, 5, 5}};
+    mesh.triangles = {{0, 1, 3}, {2, 4, 3}};
+    EXPECT_EQ(weld_vertices(mesh).vertices_merged, 2u);
+    const std::vector<std::array<std::uint8_t, 3>> kept{{1, 1, 1}, {2, 2, 2}, {4, 4, 4}};
+    EXPECT_EQ(mesh.colours, kept);
+    const std::vector<std::array<std::uint32_t, 3>> triangles{{0, 1, 2}, {0, 1, 2}};
+    EXPECT_EQ(mesh.triangles, triangles);
+}
+
 TEST(OrientOutward, TurnsAMeshThatIsInsideOut) {
     TriangleMesh mesh = torus(12, 8, 1.0, 0.3);
     const auto good = mesh.triangles;
@@ -157,6 +187,43 @@ TEST(OrientOutward, TurnsOnlyTheOneOfTwoPartsThatIsInsideOut) {
     for (std::size_t t = 0; t < 12; ++t) std::swap(mesh.triangles[t][0], mesh.triangles[t][1]);
     EXPECT_EQ(orient_outward(mesh).triangles_turned, 12u);
     EXPECT_NEAR(examine(mesh).signed_volume_m3, 28.0, 1e-12);
+}
+
+// A flat sheet has no volume that could tell its sides apart: the most triangles do, also where the search begins at
+// another.
+TEST(OrientOutward, TurnsTheFewAndNotTheManyOfAnOpenPatch) {
+    TriangleMesh sheet;
+    for (int y = 0; y < 4; ++y) {
+        for (int x = 0; x < 4; ++x) sheet.positions_m.emplace_back(x, y, 0);
+    }
+    for (std::uint32_t y = 0; y < 3; ++y) {
+        for (std::uint32_t x = 0; x < 3; ++x) {
+            const std::uint32_t a = 4 * y + x;
+            sheet.triangles.insert(sheet.triangles.end(), {{a, a + 1, a + 5}, {a, a + 5, a + 4}});
+        }
+    }
+    const auto good = sheet.triangles;
+    for (const std::size_t turned : {0u, 7u, 17u}) {
+        TriangleMesh mesh = sheet;
+        std::swap(mesh.triangles[turned][1], mesh.triangles[turned][2]);
+        EXPECT_EQ(orient_outward(mesh).triangles_turned, 1u) << turned;
+        EXPECT_EQ(mesh.triangles, good) << turned;
+    }
+}
+
+TEST(OrientOutward, LeavesAnOpenPatchBesideALargerBodyAsItIs) {
+    for (const bool inside_out : {false, true}) {
+        TriangleMesh mesh = cube();
+        for (const Vec3& p : bucket(8).positions_m) mesh.positions_m.push_back(0.05 * p + Vec3(3, 0, 0));
+        for (auto t : bucket(8).triangles) {
+            if (inside_out) std::swap(t[1], t[2]);
+            mesh.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
+        }
+        const OrientationReport report = orient_outward(mesh);
+        EXPECT_EQ(report.triangles_turned, 0u);
+        EXPECT_EQ(report.patches, 2u);
+        EXPECT_EQ(report.patches_turned, 0u);
+    }
 }
 
 TEST(OrientOutward, LeavesACavityACavity) {
@@ -190,4 +257,4 @@ TEST(OrientOutward, ReportsThatAMoebiusBandHasNoTwoSides) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::geometry::test

@@ -9,7 +9,7 @@
 #include <iterator>
 #include <numbers>
 
-namespace burin::test {
+namespace burin::geometry::test {
 
 TriangleMesh cube() {
     TriangleMesh mesh;
@@ -58,9 +58,9 @@ std::string text_of_file(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-Result<ImportedMesh> import_text(std::string_view text, MeshFormat format) {
+Result<geometry::ImportedMesh> import_text(std::string_view text, MeshFormat format) {
     static constexpr const char* kNames[] = {"test.stl", "test.obj", "test.ply", "test.off"};
-    return import_mesh(bytes_of(text), format, kNames[static_cast<std::size_t>(format)]);
+    return geometry::import_mesh(bytes_of(text), format, kNames[static_cast<std::size_t>(format)]);
 }
 
 std::string refusal(std::string_view text, MeshFormat format) {
@@ -97,4 +97,4 @@ std::size_t TemporaryFolder::entries() const {
     return count;
 }
 
-}  // namespace burin::test
+}  // namespace burin::geometry::test

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "geometry/mesh_import.hpp"
+#include "geometry/files/mesh_import.hpp"
 
-namespace burin::test {
+namespace burin::geometry::test {
 
 // The unit cube [0,1]^3, 12 triangles, outward. Volume 1, area 6.
 TriangleMesh cube();
@@ -24,7 +24,7 @@ TriangleMesh torus(std::size_t rings, std::size_t sides, double radius_m, double
 [[nodiscard]] std::string text_of_file(const std::filesystem::path& path);
 
 // Imports text as if it were a file named "test.<format>".
-Result<ImportedMesh> import_text(std::string_view text, MeshFormat format);
+Result<geometry::ImportedMesh> import_text(std::string_view text, MeshFormat format);
 // The message of a refusal; an empty string when the text was accepted.
 std::string refusal(std::string_view text, MeshFormat format);
 
@@ -48,4 +48,4 @@ private:
     std::filesystem::path path_;
 };
 
-}  // namespace burin::test
+}  // namespace burin::geometry::test

@@ -7,10 +7,10 @@
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <cmath>
 
-#include "geometry/mesh_export.hpp"
+#include "geometry/files/mesh_export.hpp"
 #include "tests/geometry/mesh_samples.hpp"
 
-namespace burin::test {
+namespace burin::geometry::test {
 namespace {
 
 // Any triangles over any vertices: holes, fans, repeats and all. Coordinates of every magnitude that a float holds.
@@ -161,4 +161,4 @@ TEST(MeshExport, RefusesWhatAFormatCannotHoldAndTouchesNothing) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::geometry::test

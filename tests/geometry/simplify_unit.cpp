@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Simplification against brute force: the distance both ways by dense samples and every triangle, on shapes of known form.
-#include "geometry/simplify.hpp"
+// Simplification against brute force: the distance both ways by dense samples and every triangle, on shapes of known
+// form.
+#include "geometry/mesh/simplify.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +9,10 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/mesh_health.hpp"
+#include "geometry/mesh/mesh_health.hpp"
 #include "tests/geometry/mesh_samples.hpp"
 
-namespace burin::test {
+namespace burin::geometry::test {
 namespace {
 
 // A cube's surface of n x n squares a face; vertices shared.
@@ -226,4 +227,4 @@ TEST(SurfaceDistance, EqualsKnownDistances) {
     EXPECT_LE(none.largest_m, 1e-12);
 }
 
-}  // namespace burin::test
+}  // namespace burin::geometry::test

@@ -8,10 +8,10 @@
 #include <numbers>
 #include <numeric>
 
-#include "geometry/mesh_health.hpp"
-#include "geometry/mesh_import.hpp"
+#include "geometry/files/mesh_import.hpp"
+#include "geometry/mesh/mesh_health.hpp"
 
-namespace burin::test {
+namespace burin::geometry::test {
 namespace {
 
 constexpr double kRadius_m = 0.110, kSeamDepth_m = 0.001, kRounding_m = 1e-6;
@@ -22,8 +22,8 @@ const ImportedMesh& ball() {
     return *loaded;
 }
 
-// Panels of a material: its triangles grouped over shared vertices. Only like panels are separated by others here, so that
-// this counts black panels; white ones touch each other along their seams.
+// Panels of a material: its triangles grouped over shared vertices. Only like panels are separated by others here, so
+// that this counts black panels; white ones touch each other along their seams.
 std::size_t panels(const TriangleMesh& mesh, std::uint8_t material) {
     std::vector<std::uint32_t> group(mesh.positions_m.size());
     std::iota(group.begin(), group.end(), 0u);
@@ -76,7 +76,8 @@ TEST(SoccerBall, HasTwelveBlackPanelsAndTheRestIsWhite) {
     EXPECT_GT(mesh.materials[1].colour[0], 200);
     EXPECT_EQ(panels(mesh, 0), 12u);
     EXPECT_EQ(panels(mesh, 1), 1u);
-    // A regular pentagon of edge a has 1.7205 a^2, a hexagon 2.5981 a^2; the projection favours the hexagons a little less.
+    // A regular pentagon of edge a has 1.7205 a^2, a hexagon 2.5981 a^2; the projection favours the hexagons a little
+    // less.
     double black = 0.0, all = 0.0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const auto& [a, b, c] = mesh.triangles[t];
@@ -103,4 +104,4 @@ TEST(SoccerBall, TurnsAWhiteHexagonToTheViewer) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::geometry::test

@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "geometry/touch_order.hpp"
-#include "geometry/triangle_tree.hpp"
+#include "geometry/contact/touch_order.hpp"
+#include "geometry/mesh/triangle_tree.hpp"
 #include "tests/geometry/touch_samples.hpp"
 
-namespace burin::test {
+namespace burin::geometry::test {
 namespace {
 
 TriangleMesh any_mesh(std::mt19937& random) {
@@ -244,4 +244,4 @@ RC_GTEST_PROP(TouchOrder, KeepsAllItemsAndFillsGroupsWithNeighbours, (std::uint3
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::geometry::test

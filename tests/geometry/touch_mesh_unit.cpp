@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/touch_mesh.hpp"
+#include "geometry/contact/touch_mesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <tuple>
 
 #include "base/newest_slot.hpp"
-#include "geometry/touch_facet.hpp"
+#include "geometry/contact/touch_facet.hpp"
 #include "tests/geometry/touch_samples.hpp"
 
-namespace burin::test {
+namespace burin::geometry::test {
 namespace {
 
 LocalSurface surface_of(TouchMesh& mesh, std::uint8_t material = 0) {
@@ -368,4 +368,4 @@ TEST(TouchMesh, AReaderSeesWholeSnapshotsWhileTheMeshIsEdited) {
 }
 
 }  // namespace
-}  // namespace burin::test
+}  // namespace burin::geometry::test

@@ -11,10 +11,10 @@
 #include <tuple>
 #include <vector>
 
-#include "geometry/local_surface_search.hpp"
-#include "geometry/touch_mesh.hpp"
+#include "geometry/contact/local_surface_search.hpp"
+#include "geometry/contact/touch_mesh.hpp"
 
-namespace burin::test {
+namespace burin::geometry::test {
 
 inline Vec3 random_vector(std::mt19937& random, double half) {
     std::uniform_real_distribution<double> side(-half, half);
@@ -37,7 +37,8 @@ inline TriangleMesh scattered(std::mt19937& random, int count, const Vec3& cente
     return mesh;
 }
 
-// A ball of 12 n^2 triangles, by a cube whose faces are pushed out; sides share vertices. Not of the same size all over.
+// A ball of 12 n^2 triangles, by a cube whose faces are pushed out; sides share vertices. Not of the same size all
+// over.
 inline TriangleMesh ball(int n, double radius_m, const Vec3& center_m = Vec3(0.0)) {
     TriangleMesh mesh;
     std::map<std::tuple<int, int, int>, std::uint32_t> vertex_of;
@@ -82,4 +83,4 @@ inline Corners corners_of(const Triangle& t) {
     return c;
 }
 
-}  // namespace burin::test
+}  // namespace burin::geometry::test

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
 // Which triangles meet: known configurations, and random ones against arithmetic in whole numbers by another method.
-#include "geometry/triangle_contact.hpp"
+#include "geometry/mesh/triangle_contact.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "geometry/exact_sign.hpp"
+#include "geometry/mesh/exact_sign.hpp"
 
-namespace burin::test {
+namespace burin::geometry::test {
 namespace {
 
 using Corners = std::array<Vec3, 3>;
 using Whole = std::array<std::int64_t, 3>;
 
-// Rational reference by clipping: cuts the second triangle's edges with the first one's plane in exact fractions, and asks
-// whether any point of the cut lies within. Small whole coordinates keep everything within 128 bits.
+// Rational reference by clipping: cuts the second triangle's edges with the first one's plane in exact fractions, and
+// asks whether any point of the cut lies within. Small whole coordinates keep everything within 128 bits.
 __extension__ using Wide = __int128;
 struct Fraction3 {  // (x, y, z) / w, w > 0
     std::array<Wide, 3> v;
@@ -157,4 +157,4 @@ TEST(TriangleContact, EqualsWholeNumbersOnSmallLattices) {
     EXPECT_GT(met, 20000u);
 }
 
-}  // namespace burin::test
+}  // namespace burin::geometry::test

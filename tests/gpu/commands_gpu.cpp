@@ -67,7 +67,8 @@ TEST_F(CommandsGpu, ADispatchComputesWhatTheShaderSays) {
     for (std::uint32_t i = 0; i < kCount; ++i) ASSERT_EQ(words_of(*result)[i], i * 3 + 5) << "at " << i;
 }
 
-// 300 dispatches with changing buffers need more descriptor sets than one pool holds; each needs the result of the last.
+// 300 dispatches with changing buffers need more descriptor sets than one pool holds; each needs the result of the
+// last.
 TEST_F(CommandsGpu, AChainOfDispatchesWithBarriersRunsInOrder) {
     constexpr std::uint32_t kCount = 64;
     auto add = make_add(device(), 1);

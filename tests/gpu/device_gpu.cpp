@@ -3,6 +3,7 @@
 #include <string>
 
 #include "gpu/buffer.hpp"
+#include "gpu/commands.hpp"
 #include "tests/gpu/test_device.hpp"
 
 namespace burin::gpu {
@@ -49,6 +50,30 @@ TEST(ValidationLayer, SpeaksWhenVulkanIsMisused) {
         core.vk.vkDestroyBuffer(core.device, raw, nullptr);
     }
     EXPECT_GT(validation_messages(), before);
+}
+
+// Two writes to one buffer, first with a barrier between them and then without.
+TEST(ValidationLayer, SpeaksWhenABarrierIsMissing) {
+    DeviceOptions options;
+    options.validation = true;
+    auto device = Device::create(options);
+    if (!device) GTEST_SKIP() << "no Vulkan device: " << device.error().line();
+    const auto buffer = Buffer::create(*device, BufferUse::device_storage, 64, "written twice");
+    ASSERT_TRUE(buffer);
+    const auto messages_of_two_writes = [&](bool with_barrier) -> std::uint64_t {
+        const std::uint64_t before = validation_messages();
+        auto commands = Commands::begin(*device);
+        EXPECT_TRUE(commands);
+        if (!commands) return 0;
+        commands->fill(*buffer, 0, 64, 1);
+        if (with_barrier) commands->barrier();
+        commands->fill(*buffer, 0, 64, 2);
+        auto submission = std::move(*commands).submit();
+        EXPECT_TRUE(submission && submission->wait());
+        return validation_messages() - before;
+    };
+    EXPECT_EQ(messages_of_two_writes(true), 0u);
+    EXPECT_GT(messages_of_two_writes(false), 0u);
 }
 
 using DeviceGpu = DeviceTest;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a swapchain refuses, and what a machine without a display of its own says. Pictures in windows: tests/window/present_gpu.cpp.
+// What a swapchain refuses, and what a machine without a display of its own says. Pictures in windows:
+// tests/window/present_gpu.cpp.
 #include <gtest/gtest.h>
 
 #include "gpu/direct_display.hpp"
@@ -10,7 +11,8 @@ namespace burin::gpu {
 
 class SwapchainTest : public window::PresentTest {};
 
-// The software driver lets a swapchain with two layers be created though its surfaces have one: the capabilities decide.
+// The software driver lets a swapchain with two layers be created though its surfaces have one: the capabilities
+// decide.
 TEST_F(SwapchainTest, GivesTwoLayersOnlyWhereTheSurfaceHasThem) {
     auto window = open();
     auto surface = window.create_surface(device());

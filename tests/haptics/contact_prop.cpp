@@ -6,12 +6,12 @@
 #include <cmath>
 #include <set>
 
-#include "geometry/local_surface_search.hpp"
+#include "geometry/contact/local_surface_search.hpp"
 #include "haptics/contact/half_spaces.hpp"
 #include "haptics/contact/triangle_contact.hpp"
 #include "tests/haptics/surfaces.hpp"
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 double any_between(double lo, double hi) { return lo + (hi - lo) * (*rc::gen::inRange(0, 1'000'001) / 1e6); }
@@ -21,14 +21,14 @@ Vec3 any_in_cube(double half) {
     return {x, y, z};
 }
 
-Triangle any_triangle() {
-    Triangle t{any_in_cube(1), any_in_cube(1), any_in_cube(1)};
+geometry::Triangle any_triangle() {
+    geometry::Triangle t{any_in_cube(1), any_in_cube(1), any_in_cube(1)};
     RC_PRE(glm::length(glm::cross(t.b - t.a, t.c - t.a)) > 1e-2);
     return t;
 }
 
 // Nearest point by bisection on barycentric coordinates: distance is convex along any line in the triangle.
-double sampled_distance(const Vec3& p, const Triangle& t) {
+double sampled_distance(const Vec3& p, const geometry::Triangle& t) {
     const auto along = [&](double v) {
         const Vec3 from = t.a + v * (t.c - t.a), to = t.b + v * (t.c - t.b);
         double lo = 0.0, hi = 1.0;
@@ -52,7 +52,7 @@ double sampled_distance(const Vec3& p, const Triangle& t) {
 
 TEST(TriangleContact, NearestPointAgreesWithATernarySearch) {
     EXPECT_TRUE(rc::check([] {
-        const Triangle t = any_triangle();
+        const geometry::Triangle t = any_triangle();
         const Vec3 p = any_in_cube(2);
         const NearestOnTriangle on = nearest_on_triangle(p, t);
         RC_ASSERT(std::abs(glm::length(p - on.point) - sampled_distance(p, t)) < 1e-6);
@@ -62,7 +62,7 @@ TEST(TriangleContact, NearestPointAgreesWithATernarySearch) {
 
 TEST(TriangleContact, ABallSweptFromTheFrontStopsExactlyWhereItTouches) {
     EXPECT_TRUE(rc::check([] {
-        const Triangle t = any_triangle();
+        const geometry::Triangle t = any_triangle();
         const Vec3 from = any_in_cube(3), motion = any_in_cube(4);
         const double radius = any_between(0.01, 0.5);
         const auto distance = [&](double f) {
@@ -149,7 +149,7 @@ TEST(LocalSurfaceSearch, EveryBoxFindsEachOfItsTrianglesOnce) {
         const test::Surface surface = b.finish();
         const Vec3 lo = any_in_cube(2), hi = lo + glm::abs(any_in_cube(1));
         std::multiset<std::uint32_t> found;
-        for_each_triangle_near(*surface, lo, hi, [&](std::uint32_t i, const Triangle& t) {
+        geometry::for_each_triangle_near(*surface, lo, hi, [&](std::uint32_t i, const geometry::Triangle& t) {
             found.insert(i);
             RC_ASSERT(t.b == surface->triangle(i).b);
             return true;
@@ -157,7 +157,7 @@ TEST(LocalSurfaceSearch, EveryBoxFindsEachOfItsTrianglesOnce) {
         for (std::uint32_t i = 0; i < surface->triangles(); ++i) {
             const glm::vec4 sphere = surface->loose->search.spheres[i];
             if (sphere.w < 0) continue;  // degenerate
-            const Triangle t = surface->triangle(i);
+            const geometry::Triangle t = surface->triangle(i);
             Box box;
             for (const Vec3& corner : {t.a, t.b, t.c}) box.include(corner);
             const bool meets = glm::all(glm::lessThanEqual(box.lo, hi)) && glm::all(glm::lessThanEqual(lo, box.hi));
@@ -171,14 +171,14 @@ TEST(LocalSurfaceSearch, EveryBoxFindsEachOfItsTrianglesOnce) {
 }
 
 TEST(LocalSurfaceSearch, LeavesOutWhatIsBrokenAndSaysHowMuch) {
-    GriddedTriangles piece;
+    geometry::GriddedTriangles piece;
     piece.positions_m = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {std::nanf(""), 0, 0}, {0.5, 0, 0}};
     piece.triangles = {{0, 1, 2}, {0, 1, 4'000'000'000u}, {0, 1, 3}, {0, 4, 1}, {0, 0, 0}};
-    const SearchBuild report = build_search(piece);
+    const geometry::SearchBuild report = geometry::build_search(piece);
     EXPECT_EQ(report.listed, 1u);
     EXPECT_EQ(report.invalid, 2u);
     EXPECT_EQ(report.degenerate, 2u);
-    EXPECT_EQ(build_search(piece).listed, 1u);  // again, from what it left
+    EXPECT_EQ(geometry::build_search(piece).listed, 1u);  // again, from what it left
 }
 
 TEST(LocalSurfaceSearch, ALargeSurfaceIsListedCompletely) {
@@ -186,7 +186,7 @@ TEST(LocalSurfaceSearch, ALargeSurfaceIsListedCompletely) {
     EXPECT_EQ(plane->loose->search.listed, 80'000u);
     EXPECT_TRUE(plane->loose->search.large.empty());
     std::uint32_t count = 0;
-    for_each_triangle_near(*plane, Vec3(-1.0), Vec3(1.0), [&](std::uint32_t, const Triangle&) {
+    geometry::for_each_triangle_near(*plane, Vec3(-1.0), Vec3(1.0), [&](std::uint32_t, const geometry::Triangle&) {
         ++count;
         return true;
     });
@@ -194,8 +194,8 @@ TEST(LocalSurfaceSearch, ALargeSurfaceIsListedCompletely) {
     // An empty one is searchable too.
     test::SurfaceBuilder b;
     const test::Surface empty = b.finish();
-    EXPECT_TRUE(
-        for_each_triangle_near(*empty, Vec3(-1.0), Vec3(1.0), [](std::uint32_t, const Triangle&) { return false; }));
+    EXPECT_TRUE(geometry::for_each_triangle_near(*empty, Vec3(-1.0), Vec3(1.0),
+                                                 [](std::uint32_t, const geometry::Triangle&) { return false; }));
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

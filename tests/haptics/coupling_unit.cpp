@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The wall behind a virtual coupling against a simulated tool without mass between the two.
-#include "haptics/stability/virtual_coupling.hpp"
+#include "haptics/stability/rendered_wall.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <cmath>
 #include <numbers>
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
-// Stiffness and damping that a hand feels which moves the coupling's end by sin(w t): the parts of the force in phase with the
-// motion and with its speed.
+// Stiffness and damping that a hand feels which moves the coupling's end by sin(w t): the parts of the force in phase
+// with the motion and with its speed.
 CoupledWall felt(const CouplingSettings& c, const CoupledWall& wall, double w) {
     const double period = 2.0 * std::numbers::pi / w, dt = period / 20000;
     double tool = 0.0, in_phase = 0.0, ahead = 0.0;
@@ -71,4 +71,4 @@ TEST(VirtualCoupling, WithoutOneTheWallIsFeltAsItIs) {
     EXPECT_EQ(nothing.damping_Ns_per_m, 0.0);
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

@@ -10,7 +10,7 @@
 
 #include "tests/haptics/surfaces.hpp"
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 constexpr double kDt = 1e-3;
@@ -314,8 +314,8 @@ TEST(Engagement, OnAPlaneItIsHowDeepTheBallLies) {
 }
 
 TEST(Engagement, InAGrooveItIsWhatTheWallsTakeUpOfTheView) {
-    // Half a pipe, open at both ends: within 1.1 R of the middle it is z0 = sqrt(0.21) R long to both sides, and takes up
-    // W = 2 pi z0 / (1.1 R) of the view.
+    // Half a pipe, open at both ends: within 1.1 R of the middle it is z0 = sqrt(0.21) R long to both sides, and takes
+    // up W = 2 pi z0 / (1.1 R) of the view.
     const test::Surface groove = test::groove(kRadius_m, 0.05, 24, 200, 0.0);
     const Engagement seen = engagement(*groove, Vec3(0.0), kRadius_m).engagement;
     EXPECT_NEAR(seen.depth_m, (std::sqrt(0.21) - 0.1) * kRadius_m, 0.03 * kRadius_m);
@@ -339,4 +339,76 @@ TEST(Engagement, DoesNotDependOnTheUnitOfLengthOrThePlace) {
     }
 }
 
-}  // namespace burin
+TEST(Engagement, PiecesOfLargeTrianglesCountAsWorkThatComesToAnEnd) {
+    // Sides of eight radii are cut into 24 parts, and so the triangle into 576 pieces. A thousand such triangles lie
+    // one above the other.
+    test::SurfaceBuilder b;
+    const double side = 8.0 * kRadius_m;
+    for (int i = 0; i < 1000; ++i) {
+        const double y = -0.5 * kRadius_m - 1e-7 * i;
+        b.triangle(b.vertex({-0.3 * side, y, -0.3 * side}), b.vertex({-0.3 * side, y, 0.4 * side}),
+                   b.vertex({0.4 * side, y, -0.3 * side}));
+    }
+    const test::Surface many = b.finish();
+    const EngagementLook look = engagement(*many, Vec3(0.0), kRadius_m);
+    EXPECT_GT(look.engagement.depth_m, 0.0);
+    // The longest side, 0.7 sqrt(2) times 8 radii, makes 24 parts of a third of a radius; four triangles are cut up at
+    // once.
+    EXPECT_LE(look.triangles_seen, kMostEngagementPieces / (24 * 24) + 4);
+}
+
+TEST(Engagement, TwoLargeTrianglesAreSeenAsManySmallOnes) {
+    const test::Surface coarse = test::plane(4.0 * kRadius_m, 1), fine = test::plane(4.0 * kRadius_m, 40);
+    for (const double depth : {0.2 * kRadius_m, 0.5 * kRadius_m, 0.8 * kRadius_m}) {
+        const Vec3 center(0.0, kRadius_m - depth, 0.0);
+        const double of_few = engagement(*coarse, center, kRadius_m).engagement.depth_m;
+        // Pieces of half a radius instead of a third, which a triangle of eleven radii would have to be cut into.
+        EXPECT_NEAR(of_few, engagement(*fine, center, kRadius_m).engagement.depth_m, 0.15 * kRadius_m) << depth;
+    }
+}
+
+TEST(Engagement, WhatLiesAheadCountsForBothHalvesAndWhatLiesBehindForNone) {
+    // An uncut wall at the ball's side.
+    test::SurfaceBuilder b;
+    const double x = 0.5 * kRadius_m, half = 3.0 * kRadius_m;
+    constexpr int kCells = 40;
+    const double s = 2.0 * half / kCells;
+    for (int j = 0; j < kCells; ++j)
+        for (int i = 0; i < kCells; ++i) {
+            const double y = -half + s * i, z = -half + s * j;
+            b.quad({x, y, z}, {x, y, z + s}, {x, y + s, z + s}, {x, y + s, z});
+        }
+    const test::Surface wall = b.finish();
+    const auto depth = [&](const Vec3& ahead) {
+        return engagement(*wall, Vec3(0.0), kRadius_m, ahead).engagement.depth_m + 0.1 * kRadius_m;  // 1.1 D
+    };
+    const double around = depth(Vec3(0.0));
+    ASSERT_GT(around, 0.2 * kRadius_m);
+    EXPECT_NEAR(depth({1.0, 0.0, 0.0}), 2.0 * around, 1e-6 * kRadius_m);
+    EXPECT_NEAR(depth({0.5, 0.0, 0.0}), 1.5 * around, 1e-6 * kRadius_m);
+    EXPECT_EQ(depth({-1.0, 0.0, 0.0}), 0.1 * kRadius_m);
+}
+
+TEST(Cutting, LooksAgainAtTheSurfaceWhenItIsAnotherOrTheToolHasMovedOnAndElseSparesItself) {
+    const test::Surface plane = test::plane(0.05, 40);
+    CuttingInput in = pressing(-0.001);
+    in.proxy_object_m = {0.0, 0.002, 0.0};
+    LookedAt looked = look_at({}, in, *plane);
+    EXPECT_GT(looked.triangles_seen, 0u);
+    const double depth = looked.next.known.depth_m;
+    EXPECT_NEAR(depth, 0.001, 2e-4);
+    looked = look_at(looked.next, in, *plane);
+    EXPECT_EQ(looked.triangles_seen, 0u) << "nothing is new";
+    EXPECT_EQ(looked.next.known.depth_m, depth);
+    in.proxy_object_m.y -= 0.05 * kRadius_m;
+    looked = look_at(looked.next, in, *plane);
+    EXPECT_EQ(looked.triangles_seen, 0u);
+    in.proxy_object_m.y -= 0.15 * kRadius_m;
+    looked = look_at(looked.next, in, *plane);
+    EXPECT_GT(looked.triangles_seen, 0u);
+    EXPECT_NEAR(looked.next.known.depth_m - depth, 0.2 * kRadius_m, 1e-4);
+    plane->sequence = 2;
+    EXPECT_GT(look_at(looked.next, in, *plane).triangles_seen, 0u);
+}
+
+}  // namespace burin::haptics

@@ -5,13 +5,13 @@
 #include "haptics/contact/god_object.hpp"
 #include "tests/haptics/smooth_shapes.hpp"
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 constexpr double kMm = 1e-3;
 
 struct Rubbing {
-    const LocalSurface* surface;
+    const geometry::LocalSurface* surface;
     ProxySettings settings;
     ProxyState state{};
     Vec3 hip{0.0};
@@ -134,8 +134,8 @@ TEST(Friction, InAGrooveOfTwoPlanesItStandsOnTheirCommonNormal) {
     }
 }
 
-// A block on a belt: mass m, pressed on with N, drawn by a spring c whose other end moves at V. It sticks until the spring pulls
-// with mu_s N, slips as a harmonic oscillator about mu_d N until it stands again, and so on. With
+// A block on a belt: mass m, pressed on with N, drawn by a spring c whose other end moves at V. It sticks until the
+// spring pulls with mu_s N, slips as a harmonic oscillator about mu_d N until it stands again, and so on. With
 // A = (mu_s - mu_d) N / c and w = sqrt(c / m) the period is 2 A / V + (2 / w) (pi - atan(A w / V)).
 TEST(Friction, AMassOnASpringSticksAndSlipsWithThePeriodOfTheClosedForm) {
     const test::Surface plane = test::plane(0.2, 20);
@@ -169,4 +169,4 @@ TEST(Friction, AMassOnASpringSticksAndSlipsWithThePeriodOfTheClosedForm) {
     for (std::size_t i = 2; i < slips.size(); ++i) EXPECT_NEAR(slips[i] - slips[i - 1], period, 0.02 * period) << i;
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

@@ -6,16 +6,17 @@
 
 #include <array>
 
+#include "haptics/contact/touching.hpp"
 #include "tests/haptics/surfaces.hpp"
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 using test::Surface;
 
 // Walks the HIP in straight steps and returns the last result; gives the proxy time to arrive.
 struct Walker {
-    const LocalSurface* surface;
+    const geometry::LocalSurface* surface;
     double radius;
     ProxyState state{};
     Vec3 hip{0.0};
@@ -125,7 +126,7 @@ TEST(GodObject, ActiveTriangleLiesUnderTheProxy) {
     for (int i = 0; i < 300; ++i) {
         w.put({0.04 * std::sin(0.02 * i), -0.001, 0.04 * std::cos(0.03 * i)});
         ASSERT_NE(w.last.active_triangle, 0xffffffffu);
-        const Triangle active = plane->triangle(w.last.active_triangle);
+        const geometry::Triangle active = plane->triangle(w.last.active_triangle);
         Box box;
         for (const Vec3& corner : {active.a, active.b, active.c}) box.include(corner);
         const double slack = 0.05 * 2 * kMm;  // a touched neighbour: within sqrt(2 * 1e-3) R
@@ -307,8 +308,8 @@ TEST(GodObject, StopsSafelyWhenItsWorkIsUsedUp) {
     EXPECT_GE(looked.next.position_object_m.y, 0.998 * w.radius);
 }
 
-// At the front of a cut a facet may be folded over: it stands a little proud and shows its back. A ball that comes by must not
-// take itself for buried and be put outside through the material.
+// At the front of a cut a facet may be folded over: it stands a little proud and shows its back. A ball that comes by
+// must not take itself for buried and be put outside through the material.
 TEST(GodObject, AFacetFoldedOverDoesNotPullABallThroughTheSurface) {
     test::SurfaceBuilder builder;
     const double h = 0.25 * kMm;
@@ -353,4 +354,26 @@ TEST(GodObject, ASunkBallComesOutDespiteFriction) {
     EXPECT_NEAR(moved.next.position_object_m.y, 2.0 * kMm, 0.01 * kMm);
 }
 
-}  // namespace burin
+TEST(GodObject, EachQuestionToTheSurfaceCountsWhatItLooksAtAndEndsWithTheTicksWork) {
+    const test::Surface fine = test::plane(0.05, 60);
+    const Vec3 center(0.001, -0.0005, 0.002);
+    ProxyWork work;
+    ContactSearch search(*fine, 0.004, ProxyBudget{}, work);
+    EXPECT_NEAR(search.nearest(center, 1.0).distance, 0.0005, 1e-9);
+    const std::uint32_t after_nearest = work.triangles_seen;
+    EXPECT_GT(after_nearest, 0u);
+    EXPECT_TRUE(search.sees_backs(center, 0.004));
+    const std::uint32_t after_backs = work.triangles_seen;
+    EXPECT_GT(after_backs, after_nearest);
+    EXPECT_TRUE(search.broad_phase({center, center}));
+    EXPECT_GT(work.triangles_seen, after_backs);
+
+    ProxyWork little;
+    ContactSearch poor(*fine, 0.004, {.max_triangles_seen = 5}, little);
+    EXPECT_EQ(poor.nearest(center, 1.0).distance, HUGE_VAL);
+    EXPECT_FALSE(poor.sees_backs(center, 0.004));
+    EXPECT_FALSE(poor.broad_phase({center, center}));
+    EXPECT_LE(little.triangles_seen, 5u);
+}
+
+}  // namespace burin::haptics

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 constexpr double kDt = 1e-3;
@@ -171,4 +171,17 @@ TEST(Guidance, NothingIsDrawnWithoutACurveOrStiffnessOrWithinNoReach) {
     EXPECT_LT(glm::length(guide({}, at(Vec3(0.005, 0, 0)), still, settings()).force_device_N - Vec3(1.0, 0, 0)), 1e-5);
 }
 
-}  // namespace burin
+TEST(Guidance, FollowsTheToolBackAsItDoesForth) {
+    const GuidanceCurve curve = straight();
+    GuidanceState state;
+    for (int i = 0; i <= 180; ++i) {  // 90 mm forth and back over all stretches
+        const double x = 0.005 + 0.001 * (i <= 90 ? i : 180 - i);
+        const GuidanceStep step = guide(state, at({x, 0.003, 0.0}), curve, settings());
+        ASSERT_TRUE(step.next.held);
+        ASSERT_NEAR(step.next.along_m, x, 1e-8) << i;
+        ASSERT_NEAR(step.distance_m, 0.003, 1e-9) << i;
+        state = step.next;
+    }
+}
+
+}  // namespace burin::haptics

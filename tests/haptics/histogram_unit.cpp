@@ -12,7 +12,7 @@
 
 #include "tests/haptics/rig.hpp"
 
-namespace burin {
+namespace burin::haptics {
 
 TEST(Histogram, BucketsFollowOneAnotherWithoutGapsAndAreAnEighthWide) {
     for (std::size_t bucket = 0; bucket + 1 < Histogram::kBuckets; ++bucket) {
@@ -82,7 +82,7 @@ public:
 
 TEST(Histogram, TheLoopKeepsHowLateItsTicksBeginAndHowLongTheyTake) {
     TickingClock clock;
-    SimulatedOmni omni(*SimulatedHand::create({{0.0, Vec3(0.0)}}), {}, &clock);
+    devices::SimulatedOmni omni(*devices::SimulatedHand::create({{0.0, Vec3(0.0)}}), {}, &clock);
     HapticChannels channels;
     HapticLoop loop(omni, clock, channels);
     loop.run_ticks(500);
@@ -96,4 +96,4 @@ TEST(Histogram, TheLoopKeepsHowLateItsTicksBeginAndHowLongTheyTake) {
     EXPECT_EQ(loop.duration().total(), 500u);  // who steps by hand times by hand
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

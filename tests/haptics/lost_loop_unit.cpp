@@ -5,7 +5,7 @@
 #include "haptics/tick.hpp"
 #include "tests/haptics/surfaces.hpp"
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 constexpr double kDt = 1e-3;
@@ -26,7 +26,7 @@ struct Session {
     // A hand that rests 2 mm beyond the surface.
     TickRecord after(Nanoseconds gap_ns) {
         now_ns += gap_ns;
-        DeviceSample sample;
+        devices::DeviceSample sample;
         sample.time_ns = now_ns;
         sample.position_device_m = {0.0, 0.0019, 0.0};
         const FullTick full = full_tick(state, sample, *plane, parameters, test::kStrongDevice, now_ns, kDt);
@@ -44,20 +44,20 @@ struct Session {
 
 TEST(LostLoop, AGapOfThirtyMillisecondsGivesNoForceSaysWhyAndComesBackGently) {
     Session session;
-    const double full_N = session.many(500).given.force_device_N.y;
+    const double full_N = session.many(500).gate.given.force_device_N.y;
     ASSERT_GT(full_N, 0.5);
     const TickRecord lost = session.after(30 * kMs);
-    EXPECT_EQ(lost.cause, GateCause::lost_loop);
-    EXPECT_STREQ(text(lost.cause), "no force: the haptic loop stood still");
-    EXPECT_EQ(lost.given.force_device_N, Vec3(0.0));
+    EXPECT_EQ(lost.gate.cause, GateCause::lost_loop);
+    EXPECT_STREQ(text(lost.gate.cause), "no force: the haptic loop stood still");
+    EXPECT_EQ(lost.gate.given.force_device_N, Vec3(0.0));
     EXPECT_NE(lost.flags & kTickLoopGap, 0u);
     EXPECT_NE(lost.flags & kTickFault, 0u);
     double last_N = 0.0;
     for (int i = 0; i < 400; ++i) {
         const TickRecord record = session.after(kMs);
-        EXPECT_EQ(record.cause, GateCause::none);
-        EXPECT_LE(record.given.force_device_N.y - last_N, 0.02) << i;  // no kick
-        last_N = record.given.force_device_N.y;
+        EXPECT_EQ(record.gate.cause, GateCause::none);
+        EXPECT_LE(record.gate.given.force_device_N.y - last_N, 0.02) << i;  // no kick
+        last_N = record.gate.given.force_device_N.y;
         if (i < 45) {
             EXPECT_EQ(last_N, 0.0) << i;  // all must be well for a while first
         }
@@ -67,12 +67,12 @@ TEST(LostLoop, AGapOfThirtyMillisecondsGivesNoForceSaysWhyAndComesBackGently) {
 
 TEST(LostLoop, AFewLostTicksAreFlaggedAndDoNotSilenceTheForce) {
     Session session;
-    const double full_N = session.many(500).given.force_device_N.y;
+    const double full_N = session.many(500).gate.given.force_device_N.y;
     const TickRecord late = session.after(5 * kMs);
-    EXPECT_EQ(late.cause, GateCause::none);
+    EXPECT_EQ(late.gate.cause, GateCause::none);
     EXPECT_NE(late.flags & kTickLoopGap, 0u);
-    EXPECT_NEAR(late.given.force_device_N.y, full_N, 0.05);
+    EXPECT_NEAR(late.gate.given.force_device_N.y, full_N, 0.05);
     EXPECT_EQ(session.after(kMs).flags & kTickLoopGap, 0u);
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The limiter's promise (haptics/stability/stiffness_limit.hpp) on ten thousand random devices, hands and motions: what a sampled
-// wall has given out since the contact began never exceeds what the device's friction and damping have taken. The wall is
-// simulated here, in steps of an eighth of a period, with work and losses summed up exactly along the way.
+// The limiter's promise (haptics/stability/rendered_wall.hpp) on ten thousand random devices, hands and motions: what
+// a sampled wall has given out since the contact began never exceeds what the device's friction and damping have taken.
+// The wall is simulated here, in steps of an eighth of a period, with work and losses summed up exactly along the way.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,10 +9,10 @@
 #include <deque>
 #include <random>
 
-#include "haptics/signals/smoothing.hpp"
-#include "haptics/stability/stiffness_limit.hpp"
+#include "haptics/signals/filters.hpp"
+#include "haptics/stability/rendered_wall.hpp"
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 constexpr int kSteps = 8;  // a period
@@ -32,7 +32,7 @@ private:
 enum class Motion { back_and_forth, random_turns, against_the_wall, held_by_a_hand };
 
 struct Draw {
-    DeviceDescription device;
+    devices::DeviceDescription device;
     ContactDemand demand;
     SignalSettings signals;
     Motion motion = Motion::back_and_forth;
@@ -245,4 +245,4 @@ TEST(StiffnessLimit, IsExactForASteadyMotionBackAndForth) {
     EXPECT_GT(excess(1.02 * most), kRounding_J);
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The proxy on bumpy spheres that are known exactly: how near it stays, that it never lets go, and that it never goes in.
+// The proxy on bumpy spheres that are known exactly: how near it stays, that it never lets go, and that it never goes
+// in.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 #include "tests/compute/effort.hpp"
 #include "tests/haptics/smooth_shapes.hpp"
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 using test::BumpySphere;
@@ -23,7 +24,7 @@ Vec3 around(double angle) {
 
 std::int64_t soak_operations(int otherwise) {
     const char* asked = std::getenv("BURIN_SOAK_OPERATIONS");
-    return asked != nullptr ? std::stoll(asked) : test::repeated(otherwise);
+    return asked != nullptr ? std::stoll(asked) : compute::test::repeated(otherwise);
 }
 
 }  // namespace
@@ -31,11 +32,11 @@ std::int64_t soak_operations(int otherwise) {
 TEST(Probe, At100MillimetresASecondOnABumpySphereThePointKeepsToTheSmoothSurface) {
     // 327 680 triangles, edges of 0.5 mm.
     const BumpySphere shape{.bump_m = 0.4 * kMm};
-    const test::Surface mesh = test::touchable(test::mesh_of(shape, test::kSanitized ? 5 : 7));
+    const test::Surface mesh = test::touchable(test::mesh_of(shape, compute::test::kSanitized ? 5 : 7));
     std::vector<double> off, aside;
     ProxyState state = move_proxy({}, 1.2 * shape.point(around(0.0)), {}, *mesh).next;
     int lost = 0;
-    for (int i = 0; i < test::repeated(3000); ++i) {
+    for (int i = 0; i < compute::test::repeated(3000); ++i) {
         const Vec3 d = around(i * 0.1 * kMm / shape.radius_m);
         const Vec3 hip = shape.point(d) - 2 * kMm * shape.normal(d);
         const ProxyResult r = move_proxy(state, hip, {}, *mesh);
@@ -50,24 +51,24 @@ TEST(Probe, At100MillimetresASecondOnABumpySphereThePointKeepsToTheSmoothSurface
     std::ranges::sort(off);
     std::ranges::sort(aside);
     const std::size_t p99 = off.size() * 99 / 100;
-    const double bound = test::kSanitized ? 0.1 * kMm : 0.01 * kMm;
+    const double bound = compute::test::kSanitized ? 0.1 * kMm : 0.01 * kMm;
     EXPECT_LE(off[p99], bound);
     EXPECT_LE(aside[p99], bound);
     EXPECT_EQ(lost, 0);
 }
 
 TEST(Probe, ContactIsNeverLostAndIsTheSameInOtherUnits) {
-    // Coordinates times 1024 are exact, and so must all that follows be, but for tolerances in metres, of which there are none;
-    // times 1000 they round, by 6e-8 of 50.
+    // Coordinates times 1024 are exact, and so must all that follows be, but for tolerances in metres, of which there
+    // are none; times 1000 they round, by 6e-8 of 50.
     const BumpySphere shape{.bump_m = 0.4 * kMm};
-    const TriangleMesh metres = test::mesh_of(shape, 5);
+    const geometry::TriangleMesh metres = test::mesh_of(shape, 5);
     for (const double radius : {0.0, 2 * kMm})
         for (const double scale : {1024.0, 1000.0}) {
-            TriangleMesh larger = metres;
+            geometry::TriangleMesh larger = metres;
             for (Vec3& p : larger.positions_m) p = Vec3(Vec3f(p)) * scale;
             const test::Surface a = test::touchable(metres), b = test::touchable(larger);
             ProxyState of_a, of_b;
-            for (int i = 0; i < test::repeated(2000); ++i) {
+            for (int i = 0; i < compute::test::repeated(2000); ++i) {
                 const Vec3 d = around(0.002 * i);
                 const double depth = i == 0 ? -5 * kMm : (1.0 + std::sin(0.05 * i)) * kMm + 0.05 * kMm;
                 const Vec3 hip = shape.point(d) + (radius - depth) * shape.normal(d);
@@ -85,7 +86,7 @@ TEST(Probe, ContactIsNeverLostAndIsTheSameInOtherUnits) {
 
 TEST(Probe, DraggedSlowlyTheNextActiveTriangleIsANeighbourOfTheLast) {
     const BumpySphere shape{.bump_m = 0.4 * kMm};
-    const TriangleMesh mesh = test::mesh_of(shape, 5);
+    const geometry::TriangleMesh mesh = test::mesh_of(shape, 5);
     const test::Surface surface = test::touchable(mesh);
     const auto corners_of = [&](std::uint32_t id) {
         return mesh.triangles[surface->meshes[0].snapshot->mesh_triangle(id)];
@@ -95,7 +96,7 @@ TEST(Probe, DraggedSlowlyTheNextActiveTriangleIsANeighbourOfTheLast) {
         ProxyState state = move_proxy({}, 1.2 * shape.point(around(0.0)), settings, *surface).next;
         std::uint32_t last = ~0u;
         int changes = 0;
-        for (int i = 0; i < test::repeated(4000); ++i) {  // 10 mm/s; edges are 1.9 mm
+        for (int i = 0; i < compute::test::repeated(4000); ++i) {  // 10 mm/s; edges are 1.9 mm
             const Vec3 d = around(i * 0.01 * kMm / shape.radius_m);
             const ProxyResult r = move_proxy(state, shape.point(d) - 0.5 * kMm * shape.normal(d), settings, *surface);
             state = r.next;
@@ -107,7 +108,7 @@ TEST(Probe, DraggedSlowlyTheNextActiveTriangleIsANeighbourOfTheLast) {
             }
             last = r.active_triangle;
         }
-        EXPECT_GT(changes, test::kSanitized ? 0 : 20);
+        EXPECT_GT(changes, compute::test::kSanitized ? 0 : 20);
     }
 }
 
@@ -117,7 +118,7 @@ TEST(Probe, SoakedInRandomTicksItNeverGoesInAndNeverGoesAway) {
     const test::Surface mesh = test::touchable(test::mesh_of(shape, 5));
     const double sagitta = 0.08 * kMm;  // facets of 1.9 mm lie below bumps of 10 mm curvature by up to that
     const std::int64_t ticks = soak_operations(20'000);
-    test::Random random(42);
+    compute::test::Random random(42);
     ProxyState state;
     ProxySettings settings;
     Vec3 hip = 0.08 * around(0.0), way(0.0);
@@ -157,4 +158,4 @@ TEST(Probe, SoakedInRandomTicksItNeverGoesInAndNeverGoesAway) {
     EXPECT_LE(limited, ticks / 500);
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

@@ -7,7 +7,7 @@
 
 #include "tests/haptics/rig.hpp"
 
-namespace burin {
+namespace burin::haptics {
 
 TEST(Replay, RecordedSamplesSurfacesAndParametersGiveTheSameForcesBitForBit) {
     test::Rig rig({{0.0, Vec3(0.0, 0.012, -0.02)},
@@ -17,7 +17,7 @@ TEST(Replay, RecordedSamplesSurfacesAndParametersGiveTheSameForcesBitForBit) {
     // What the carving side and the settings panel published, by sequence number.
     std::map<std::uint64_t, test::Surface> surfaces;
     std::map<std::uint64_t, TickParameters> parameters;
-    surfaces[0] = std::make_unique<LocalSurface>();
+    surfaces[0] = std::make_unique<geometry::LocalSurface>();
     parameters[0] = TickParameters{};
     std::vector<TickRecord> told;
     for (int i = 0; i < 2500; ++i) {
@@ -37,8 +37,8 @@ TEST(Replay, RecordedSamplesSurfacesAndParametersGiveTheSameForcesBitForBit) {
             surfaces[sequence]->made_ns = rig.clock.now_ns();
             rig.publish(*surfaces[sequence], sequence);
         }
-        if (i == 1200) rig.omni.inject(InjectedFault::nan_position);
-        if (i == 1210) rig.omni.inject(InjectedFault::none);
+        if (i == 1200) rig.omni.inject(devices::InjectedFault::nan_position);
+        if (i == 1210) rig.omni.inject(devices::InjectedFault::none);
         told.push_back(rig.tick());
     }
 
@@ -50,16 +50,17 @@ TEST(Replay, RecordedSamplesSurfacesAndParametersGiveTheSameForcesBitForBit) {
         state = again.next;
         in_contact += (r.flags & kTickInContact) != 0;
         const TickRecord& a = again.record;
-        ASSERT_EQ(std::memcmp(&a.given.force_device_N, &r.given.force_device_N, sizeof(Vec3)), 0) << r.tick;
+        ASSERT_EQ(std::memcmp(&a.gate.given.force_device_N, &r.gate.given.force_device_N, sizeof(Vec3)), 0) << r.tick;
         ASSERT_EQ(std::memcmp(&a.wanted.force_device_N, &r.wanted.force_device_N, sizeof(Vec3)), 0) << r.tick;
-        ASSERT_EQ(std::memcmp(&a.proxy_object_m, &r.proxy_object_m, sizeof(Vec3)), 0) << r.tick;
-        ASSERT_EQ(std::memcmp(&a.velocity_device_m_per_s, &r.velocity_device_m_per_s, sizeof(Vec3)), 0) << r.tick;
-        ASSERT_EQ(a.active_triangle, r.active_triangle) << r.tick;
+        ASSERT_EQ(std::memcmp(&a.deepest().proxy_object_m, &r.deepest().proxy_object_m, sizeof(Vec3)), 0) << r.tick;
+        ASSERT_EQ(std::memcmp(&a.motion.velocity_device_m_per_s, &r.motion.velocity_device_m_per_s, sizeof(Vec3)), 0)
+            << r.tick;
+        ASSERT_EQ(a.deepest().active_triangle, r.deepest().active_triangle) << r.tick;
         ASSERT_EQ(a.flags, r.flags) << r.tick;
-        ASSERT_EQ(a.cause, r.cause) << r.tick;
-        ASSERT_EQ(a.work.triangles_tested, r.work.triangles_tested) << r.tick;
+        ASSERT_EQ(a.gate.cause, r.gate.cause) << r.tick;
+        ASSERT_EQ(a.contact.work.triangles_tested, r.contact.work.triangles_tested) << r.tick;
     }
     EXPECT_GT(in_contact, 500);
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

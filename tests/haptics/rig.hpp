@@ -4,25 +4,25 @@
 
 #include <vector>
 
-#include "devices/simulated_omni.hpp"
+#include "devices/haptic/simulated_omni.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "tests/haptics/surfaces.hpp"
 
-namespace burin::test {
+namespace burin::haptics::test {
 
 struct Rig {
     SimulatedClock clock;
     HapticChannels channels{1u << 12, 1u << 12};
-    SimulatedOmni omni;
+    devices::SimulatedOmni omni;
     HapticLoop loop;
 
-    explicit Rig(std::vector<HandPose> script, HandGrip grip = {}, OmniModel model = {})
-        : omni(*SimulatedHand::create(std::move(script), HandPath::straight, grip), model, &clock),
+    explicit Rig(std::vector<devices::HandPose> script, devices::HandGrip grip = {}, devices::OmniModel model = {})
+        : omni(*devices::SimulatedHand::create(std::move(script), devices::HandPath::straight, grip), model, &clock),
           loop(omni, clock, channels) {}
 
     // As the carving side does: fill the draft, publish.
-    void publish(const LocalSurface& surface, std::uint64_t sequence) {
-        LocalSurface& draft = channels.surface.draft();
+    void publish(const geometry::LocalSurface& surface, std::uint64_t sequence) {
+        geometry::LocalSurface& draft = channels.surface.draft();
         draft = surface;
         draft.sequence = sequence;
         draft.made_ns = clock.now_ns();
@@ -44,4 +44,4 @@ struct Rig {
     }
 };
 
-}  // namespace burin::test
+}  // namespace burin::haptics::test

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 // Ordinary numbers mostly, nasty ones often.
@@ -46,7 +46,7 @@ GateInput any_input() {
     if (*rc::gen::inRange(0, 4) == 0) in.velocity_device_m_per_s = any_vector();
     in.device_max_force_N = *rc::gen::inRange(0, 8) == 0 ? any_number() : 3.3;
     in.sample_age_s = *rc::gen::inRange(0, 8) == 0 ? any_number() : 0.0;
-    in.device_fault = *rc::gen::inRange(0, 20) == 0 ? DeviceFault::other : DeviceFault::none;
+    in.device_fault = *rc::gen::inRange(0, 20) == 0 ? devices::DeviceFault::other : devices::DeviceFault::none;
     in.in_contact = *rc::gen::arbitrary<bool>();
     in.surface_stale = *rc::gen::inRange(0, 10) == 0;
     return in;
@@ -64,15 +64,15 @@ TEST(SafetyGate, NeverExceedsForceOrSlewLimitOnAnyInput) {
         GateState state;
         for (int i = 0; i < 60; ++i) {
             const GateInput in = any_input();
-            const GateOutput out = pass_gate(state, in, limits, 1e-3);
-            const double force = glm::length(out.given.force_device_N);
+            const GateStep out = pass_gate(state, in, limits, 1e-3);
+            const double force = glm::length(out.output.given.force_device_N);
             RC_ASSERT(std::isfinite(force));
             RC_ASSERT(force <= limits.max_force_N);
-            if (out.cause != GateCause::none) {
-                RC_ASSERT(out.given.force_device_N == Vec3(0.0));
+            if (out.output.cause != GateCause::none) {
+                RC_ASSERT(out.output.given.force_device_N == Vec3(0.0));
             } else {
                 RC_ASSERT(force <= in.device_max_force_N);
-                const double change = glm::length(out.given.force_device_N - state.given.force_device_N);
+                const double change = glm::length(out.output.given.force_device_N - state.given.force_device_N);
                 // Rounding of the difference of two forces up to 6 N; and the force limit may win when it falls.
                 const Vec3& before = state.given.force_device_N;
                 bool device_limit_fell = in.device_max_force_N < glm::length(before);
@@ -97,12 +97,12 @@ TEST(SafetyGate, NeverExceedsAnAxisLimitOfForceOrTorqueOnAnyInputOrLimits) {
         GateState state;
         for (int i = 0; i < 40; ++i) {
             const GateInput in = any_input();
-            const GateOutput out = pass_gate(state, in, limits, 1e-3);
-            const Vec3 &force = out.given.force_device_N, &torque = out.given.torque_device_Nm;
+            const GateStep out = pass_gate(state, in, limits, 1e-3);
+            const Vec3 &force = out.output.given.force_device_N, &torque = out.output.given.torque_device_Nm;
             RC_ASSERT(std::isfinite(glm::length(force)) && std::isfinite(glm::length(torque)));
             for (int axis = 0; axis < 3; ++axis) {
                 const double most_N = in.device_axis_max_force_N[axis], most_Nm = in.device_max_torque_Nm[axis];
-                if (out.cause == GateCause::none) {
+                if (out.output.cause == GateCause::none) {
                     RC_ASSERT(most_N == 0.0 || std::abs(force[axis]) <= most_N);
                     RC_ASSERT(std::abs(torque[axis]) <= most_Nm);  // a passive axis has 0
                 } else {
@@ -116,4 +116,4 @@ TEST(SafetyGate, NeverExceedsAnAxisLimitOfForceOrTorqueOnAnyInputOrLimits) {
     }));
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 constexpr double kDt = 1e-3;
@@ -29,10 +29,10 @@ GateState open_at(const Vec3& force) { return {.given = {force}, .ramp = 1.0, .w
 
 TEST(SafetyGate, PassesAModestForceUnchanged) {
     const Vec3 force(0.3, -0.2, 1.0);
-    const GateOutput out = pass_gate(open_at(force), asking_for(force), {}, kDt);
-    EXPECT_EQ(out.given.force_device_N, force);
-    EXPECT_EQ(out.cause, GateCause::none);
-    EXPECT_FALSE(out.saturated || out.slew_limited || out.ramping);
+    const GateStep out = pass_gate(open_at(force), asking_for(force), {}, kDt);
+    EXPECT_EQ(out.output.given.force_device_N, force);
+    EXPECT_EQ(out.output.cause, GateCause::none);
+    EXPECT_FALSE(out.output.saturated || out.output.slew_limited || out.output.ramping);
 }
 
 TEST(SafetyGate, FadesInFromZeroAtTheStart) {
@@ -40,29 +40,29 @@ TEST(SafetyGate, FadesInFromZeroAtTheStart) {
     const GateLimits limits{.ramp_s = 0.2};
     double last = 0.0;
     for (int i = 1; i <= 250; ++i) {
-        const GateOutput out = pass_gate(state, asking_for({1.0, 0.0, 0.0}), limits, kDt);
-        EXPECT_NEAR(out.given.force_device_N.x, std::min(1.0, i / 200.0), 1e-9);
-        EXPECT_GE(out.given.force_device_N.x, last);
-        EXPECT_EQ(out.ramping, i < 200) << i;
-        last = out.given.force_device_N.x;
+        const GateStep out = pass_gate(state, asking_for({1.0, 0.0, 0.0}), limits, kDt);
+        EXPECT_NEAR(out.output.given.force_device_N.x, std::min(1.0, i / 200.0), 1e-9);
+        EXPECT_GE(out.output.given.force_device_N.x, last);
+        EXPECT_EQ(out.output.ramping, i < 200) << i;
+        last = out.output.given.force_device_N.x;
         state = out.next;
     }
 }
 
 TEST(SafetyGate, CutsToTheSmallerOfDeviceAndSettingAndKeepsTheDirection) {
     const Vec3 big(30.0, 40.0, 0.0);
-    GateOutput out = pass_gate(open_at({1.98, 2.64, 0}), asking_for(big), {}, kDt);
-    EXPECT_TRUE(out.saturated);
-    EXPECT_NEAR(out.given.force_device_N.x, 1.98, 1e-12);
-    EXPECT_NEAR(out.given.force_device_N.y, 2.64, 1e-12);
+    GateStep out = pass_gate(open_at({1.98, 2.64, 0}), asking_for(big), {}, kDt);
+    EXPECT_TRUE(out.output.saturated);
+    EXPECT_NEAR(out.output.given.force_device_N.x, 1.98, 1e-12);
+    EXPECT_NEAR(out.output.given.force_device_N.y, 2.64, 1e-12);
     out = pass_gate(open_at({0.6, 0.8, 0}), asking_for(big), {.max_force_N = 1.0}, kDt);
-    EXPECT_NEAR(glm::length(out.given.force_device_N), 1.0, 1e-12);
+    EXPECT_NEAR(glm::length(out.output.given.force_device_N), 1.0, 1e-12);
 }
 
 TEST(SafetyGate, ForceLimitWinsOverSlewLimitWhenItIsLowered) {
     const GateLimits limits{.max_force_N = 0.5, .max_slew_N_per_s = 100.0};
-    const GateOutput out = pass_gate(open_at({3.0, 0.0, 0.0}), asking_for({3.0, 0.0, 0.0}), limits, kDt);
-    EXPECT_LE(glm::length(out.given.force_device_N), 0.5);
+    const GateStep out = pass_gate(open_at({3.0, 0.0, 0.0}), asking_for({3.0, 0.0, 0.0}), limits, kDt);
+    EXPECT_LE(glm::length(out.output.given.force_device_N), 0.5);
 }
 
 TEST(SafetyGate, EveryCauseGivesZeroAtOnceAndItsOwnName) {
@@ -71,7 +71,8 @@ TEST(SafetyGate, EveryCauseGivesZeroAtOnceAndItsOwnName) {
         void (*spoil)(GateInput&, GateLimits&);
     };
     const Case cases[] = {
-        {GateCause::device_fault, [](GateInput& in, GateLimits&) { in.device_fault = DeviceFault::overheated; }},
+        {GateCause::device_fault,
+         [](GateInput& in, GateLimits&) { in.device_fault = devices::DeviceFault::overheated; }},
         {GateCause::not_finite, [](GateInput& in, GateLimits&) { in.wanted.force_device_N.y = kNan; }},
         {GateCause::not_finite, [](GateInput& in, GateLimits&) { in.wanted.force_device_N.y = kInfinity; }},
         {GateCause::not_finite, [](GateInput& in, GateLimits&) { in.wanted.force_device_N.y = 1e300; }},
@@ -100,10 +101,10 @@ TEST(SafetyGate, EveryCauseGivesZeroAtOnceAndItsOwnName) {
         GateInput in = asking_for({1.0, 0.0, 0.0});
         GateLimits limits;
         c.spoil(in, limits);
-        const GateOutput out = pass_gate(open_at({1.0, 0.0, 0.0}), in, limits, kDt);
-        EXPECT_EQ(out.cause, c.cause) << text(c.cause);
-        EXPECT_EQ(out.given.force_device_N, Vec3(0.0)) << text(c.cause);
-        seen.insert(out.cause);
+        const GateStep out = pass_gate(open_at({1.0, 0.0, 0.0}), in, limits, kDt);
+        EXPECT_EQ(out.output.cause, c.cause) << text(c.cause);
+        EXPECT_EQ(out.output.given.force_device_N, Vec3(0.0)) << text(c.cause);
+        seen.insert(out.output.cause);
     }
     std::set<std::string> texts;
     for (const GateCause cause : seen) texts.insert(text(cause));
@@ -115,25 +116,25 @@ TEST(SafetyGate, EveryCauseGivesZeroAtOnceAndItsOwnName) {
 TEST(SafetyGate, AStaleOrUnknownSurfaceDoesNotMatterInFreeSpace) {
     GateInput in = asking_for(Vec3(0.0));
     in.surface_stale = in.outside_known = true;
-    EXPECT_EQ(pass_gate(open_at(Vec3(0.0)), in, {}, kDt).cause, GateCause::none);
+    EXPECT_EQ(pass_gate(open_at(Vec3(0.0)), in, {}, kDt).output.cause, GateCause::none);
 }
 
 TEST(SafetyGate, WaitsAfterAFaultAndThenFadesInAgain) {
     const GateLimits limits{.ramp_s = 0.1, .recovery_s = 0.05};
     GateInput in = asking_for({1.0, 0.0, 0.0});
-    in.device_fault = DeviceFault::disconnected;
+    in.device_fault = devices::DeviceFault::disconnected;
     GateState state = pass_gate(open_at({1.0, 0.0, 0.0}), in, limits, kDt).next;
-    in.device_fault = DeviceFault::none;
+    in.device_fault = devices::DeviceFault::none;
     for (int i = 1; i <= 200; ++i) {
-        const GateOutput out = pass_gate(state, in, limits, kDt);
+        const GateStep out = pass_gate(state, in, limits, kDt);
         if (i < 50) {
-            EXPECT_EQ(out.given.force_device_N, Vec3(0.0)) << i;
+            EXPECT_EQ(out.output.given.force_device_N, Vec3(0.0)) << i;
         }
         if (i > 55 && i < 145) {
-            EXPECT_NEAR(out.given.force_device_N.x, (i - 49) / 100.0, 0.011) << i;
+            EXPECT_NEAR(out.output.given.force_device_N.x, (i - 49) / 100.0, 0.011) << i;
         }
         if (i > 155) {
-            EXPECT_EQ(out.given.force_device_N.x, 1.0) << i;
+            EXPECT_EQ(out.output.given.force_device_N.x, 1.0) << i;
         }
         state = out.next;
     }
@@ -153,27 +154,27 @@ GateInput turning_by(const Vec3& torque) {
 TEST(SafetyGate, TorqueStaysWithinEachAxisOwnLimitAndPassiveAxesGetNone) {
     GateState open = open_at(Vec3(0.0));
     open.given.torque_device_Nm = {0.1, 0.0, -0.1};
-    GateOutput out = pass_gate(open, turning_by({0.1, 0.3, -0.1}), {}, kDt);
-    EXPECT_EQ(out.given.torque_device_Nm, Vec3(0.1, 0.0, -0.1));  // within: the passive axis alone is left out
-    EXPECT_FALSE(out.saturated);
+    GateStep out = pass_gate(open, turning_by({0.1, 0.3, -0.1}), {}, kDt);
+    EXPECT_EQ(out.output.given.torque_device_Nm, Vec3(0.1, 0.0, -0.1));  // within: the passive axis alone is left out
+    EXPECT_FALSE(out.output.saturated);
     for (int i = 0; i < 100; ++i) {
         out = pass_gate(open, turning_by({-2.3, 5.0, 1.0}), {}, kDt);
         open = out.next;
     }
-    EXPECT_TRUE(out.saturated);
-    EXPECT_NEAR(out.given.torque_device_Nm.x, -0.23, 1e-12);
-    EXPECT_LE(std::abs(out.given.torque_device_Nm.x), 0.23);
-    EXPECT_EQ(out.given.torque_device_Nm.y, 0.0);
-    EXPECT_NEAR(out.given.torque_device_Nm.z, 0.1, 1e-12);  // shortened, not turned
+    EXPECT_TRUE(out.output.saturated);
+    EXPECT_NEAR(out.output.given.torque_device_Nm.x, -0.23, 1e-12);
+    EXPECT_LE(std::abs(out.output.given.torque_device_Nm.x), 0.23);
+    EXPECT_EQ(out.output.given.torque_device_Nm.y, 0.0);
+    EXPECT_NEAR(out.output.given.torque_device_Nm.z, 0.1, 1e-12);  // shortened, not turned
 }
 
 TEST(SafetyGate, TorqueChangesNoFasterThanItsSlewLimit) {
     const GateLimits limits{.max_torque_slew_Nm_per_s = 20.0};
     GateState state = open_at(Vec3(0.0));
     for (int i = 1; i <= 15; ++i) {
-        const GateOutput out = pass_gate(state, turning_by({0.21, 0.0, 0.0}), limits, kDt);
-        EXPECT_NEAR(out.given.torque_device_Nm.x, std::min(0.21, 0.02 * i), 1e-9);
-        EXPECT_EQ(out.slew_limited, i < 11) << i;
+        const GateStep out = pass_gate(state, turning_by({0.21, 0.0, 0.0}), limits, kDt);
+        EXPECT_NEAR(out.output.given.torque_device_Nm.x, std::min(0.21, 0.02 * i), 1e-9);
+        EXPECT_EQ(out.output.slew_limited, i < 11) << i;
         state = out.next;
     }
 }
@@ -181,11 +182,11 @@ TEST(SafetyGate, TorqueChangesNoFasterThanItsSlewLimit) {
 TEST(SafetyGate, AnAxisWithALimitOfItsOwnIsNeverAskedForMore) {
     GateInput in = asking_for({0.0, 3.0, 0.5});
     in.device_axis_max_force_N = {2.3, 1.5, 0.0};  // z has none of its own
-    const GateOutput out = pass_gate(open_at({0.0, 1.5, 0.25}), in, {}, kDt);
-    EXPECT_TRUE(out.saturated);
-    EXPECT_NEAR(out.given.force_device_N.y, 1.5, 1e-12);
-    EXPECT_LE(out.given.force_device_N.y, 1.5);
-    EXPECT_NEAR(out.given.force_device_N.z, 0.25, 1e-12);
+    const GateStep out = pass_gate(open_at({0.0, 1.5, 0.25}), in, {}, kDt);
+    EXPECT_TRUE(out.output.saturated);
+    EXPECT_NEAR(out.output.given.force_device_N.y, 1.5, 1e-12);
+    EXPECT_LE(out.output.given.force_device_N.y, 1.5);
+    EXPECT_NEAR(out.output.given.force_device_N.z, 0.25, 1e-12);
 }
 
 TEST(SafetyGate, AContactThatHasJumpedFadesIn) {
@@ -195,16 +196,32 @@ TEST(SafetyGate, AContactThatHasJumpedFadesIn) {
     in.contact_jumped = true;
     GateState state = open_at(Vec3(0.0));
     state.contact_ramp = 1.0;
-    GateOutput out = pass_gate(state, in, limits, kDt);
-    EXPECT_EQ(out.given.force_device_N, Vec3(0.0));
-    EXPECT_TRUE(out.ramping);
+    GateStep out = pass_gate(state, in, limits, kDt);
+    EXPECT_EQ(out.output.given.force_device_N, Vec3(0.0));
+    EXPECT_TRUE(out.output.ramping);
     in.contact_jumped = false;
     for (int i = 1; i <= 120; ++i) {
         out = pass_gate(out.next, in, limits, kDt);
-        EXPECT_NEAR(out.given.force_device_N.y, std::min(1.0, i / 100.0), 1e-9) << i;
-        EXPECT_EQ(out.ramping, i < 100) << i;
+        EXPECT_NEAR(out.output.given.force_device_N.y, std::min(1.0, i / 100.0), 1e-9) << i;
+        EXPECT_EQ(out.output.ramping, i < 100) << i;
     }
-    EXPECT_EQ(out.cause, GateCause::none);
+    EXPECT_EQ(out.output.cause, GateCause::none);
 }
 
-}  // namespace burin
+TEST(SafetyGate, TorqueFadesInAsTheForceDoes) {
+    GateState state;
+    GateLimits limits;
+    GateInput in;
+    in.device_max_force_N = 3.0;
+    in.device_max_torque_Nm = Vec3(1.0);
+    in.wanted = {{1.0, 0.0, 0.0}, {0.0, 0.0, 0.5}};
+    limits.max_slew_N_per_s = limits.max_torque_slew_Nm_per_s = 1e9;
+    for (int i = 0; i < 100; ++i) {
+        const GateStep out = pass_gate(state, in, limits, 1e-3);
+        ASSERT_NEAR(out.output.given.torque_device_Nm.z, 0.5 * out.output.given.force_device_N.x, 1e-12) << i;
+        ASSERT_LE(out.output.given.force_device_N.x, 0.51) << "0.2 s to all of 1 N";
+        state = out.next;
+    }
+}
+
+}  // namespace burin::haptics

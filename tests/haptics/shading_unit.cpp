@@ -3,12 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "haptics/contact/god_object.hpp"
+#include "haptics/contact/shading.hpp"
+#include "haptics/contact/touching.hpp"
 #include "tests/compute/effort.hpp"
 #include "tests/haptics/smooth_shapes.hpp"
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 using test::BumpySphere;
@@ -26,8 +29,10 @@ struct Felt {
     int lost = 0, limited = 0;
 };
 
-// The HIP follows the smooth surface at one depth, 0.1 mm a tick: what is felt should change as slowly as the normal does.
-Felt feel(const BumpySphere& shape, const LocalSurface& surface, const ProxySettings& settings, double depth) {
+// The HIP follows the smooth surface at one depth, 0.1 mm a tick: what is felt should change as slowly as the normal
+// does.
+Felt feel(const BumpySphere& shape, const geometry::LocalSurface& surface, const ProxySettings& settings,
+          double depth) {
     const auto hip_at = [&](double angle) {
         const Vec3 d = around(angle);
         return shape.point(d) + (settings.contact_radius_m - depth) * shape.normal(d);
@@ -36,7 +41,7 @@ Felt feel(const BumpySphere& shape, const LocalSurface& surface, const ProxySett
     state = move_proxy(state, hip_at(0.0), settings, surface).next;
     Felt felt;
     Vec3 last(0.0);
-    for (int i = 0; i < test::repeated(2000); ++i) {
+    for (int i = 0; i < compute::test::repeated(2000); ++i) {
         const double angle = i * 0.1 * kMm / shape.radius_m;
         const ProxyResult r = move_proxy(state, hip_at(angle), settings, surface);
         state = r.next;
@@ -85,7 +90,7 @@ TEST(ForceShading, TheForceOnABumpySphereIsFarNearerToTheSmoothOneThanThatOfFace
 TEST(ForceShading, InsideABallItPointsToItsMiddle) {
     // Hollow everywhere: the HIP, 8 mm deep below a wall of 30 mm, is drawn more strongly along it than on a flat one.
     const BumpySphere shape{.radius_m = 0.03};
-    TriangleMesh hollow = test::mesh_of(shape, 4);
+    geometry::TriangleMesh hollow = test::mesh_of(shape, 4);
     for (auto& t : hollow.triangles) std::swap(t[1], t[2]);
     const test::Surface mesh = test::touchable(hollow);
     for (const double radius : {0.0, 3 * kMm}) {
@@ -104,7 +109,7 @@ TEST(ForceShading, InsideABallItPointsToItsMiddle) {
 }
 
 TEST(ForceShading, ABoxFeelsAsItDoesWithoutIt) {
-    TriangleMesh box;
+    geometry::TriangleMesh box;
     const test::Surface soup = test::box(Vec3(-0.02), Vec3(0.02), 4);
     std::map<std::array<float, 3>, std::uint32_t> index;  // corners that are shared are one
     for (const auto& t : soup->loose->triangles) {
@@ -154,4 +159,65 @@ TEST(ForceShading, WhileTheHipStandsStillSoDoesTheProxy) {
         }
 }
 
-}  // namespace burin
+// On an open rim a ball hangs over the edge, far beyond the last facet over which normals are known.
+TEST(ForceShading, NormalsAreCarriedOnPastAFacetsRimByAQuarterOfItAtMost) {
+    // Strips of 1 mm along a cylinder of 5.7 mm: each facet is turned by 10 degrees against the one before.
+    constexpr int kStrips = 6;
+    const double turn = 10.0 * std::numbers::pi / 180.0, side = 1 * kMm, width = 40 * kMm;
+    geometry::TriangleMesh strip;
+    Vec3 edge(0.0);
+    for (int i = 0; i <= kStrips; ++i) {
+        strip.positions_m.push_back(edge - Vec3(0.0, 0.0, 0.5 * width));
+        strip.positions_m.push_back(edge + Vec3(0.0, 0.0, 0.5 * width));
+        edge += side * Vec3(std::cos(turn * i), -std::sin(turn * i), 0.0);
+    }
+    for (std::uint32_t i = 0; i < kStrips; ++i) {
+        const std::uint32_t v = 2 * i;
+        strip.triangles.push_back({v, v + 1, v + 3});
+        strip.triangles.push_back({v, v + 3, v + 2});
+    }
+    const test::Surface mesh = test::touchable(strip);
+    const Vec3 up(0.0, 1.0, 0.0);  // the first facet's normal, and so the one at its rim
+    for (const double radius : {2 * kMm, 5 * kMm, 20 * kMm})
+        for (const double beyond : {0.1, 0.5, 0.9}) {  // of the radius: the ball touches the rim with its side
+            const Vec3 center = radius * Vec3(-beyond, std::sqrt(1.0 - beyond * beyond), 0.0) - mesh->origin_object;
+            ProxyWork work;
+            ContactSearch search(*mesh, radius, ProxyBudget{}, work);
+            ASSERT_TRUE(search.broad_phase({center, center}));
+            Touches touches;
+            ASSERT_TRUE(search.touching(center, touches).complete);
+            ASSERT_GT(touches.count, 0u);
+            NearestInside goal;
+            goal.found = true;
+            goal.bearing_count = 1;
+            goal.bearing[0] = 0;
+            SmoothFacets facets(*mesh);
+            const ShadedPlanes planes = shaded(facets, search.candidates(), touches, goal, center, radius);
+            ASSERT_TRUE(planes.any) << radius << ' ' << beyond;
+            // Over the first facet the normal turns by 5 degrees, to the mean of two facets' normals.
+            const double angle = std::acos(std::min(1.0, glm::dot(planes.planes[0].normal, up)));
+            EXPECT_LE(angle, 0.26 * 0.5 * turn) << radius << ' ' << beyond;
+        }
+}
+
+TEST(ForceShading, FacetsThatAreAskedForAgainAreTheSameInAnyOrder) {
+    const test::Surface mesh = test::touchable(test::mesh_of(BumpySphere{}, 3));
+    const Vec3 top = Vec3(0.0, 0.05, 0.0) - mesh->origin_object;
+    ProxyWork work;
+    ContactSearch search(*mesh, 0.02, ProxyBudget{}, work);
+    ASSERT_TRUE(search.broad_phase({top, top}));
+    const Candidates& candidates = search.candidates();
+    ASSERT_GT(candidates.count(), 30u);
+    SmoothFacets facets(*mesh);
+    for (std::uint32_t i = 0; i < 2000; ++i) {
+        const std::uint32_t candidate =
+            (i * i + i / 3) % std::min(candidates.count(), 12u);  // a few more than it keeps
+        const auto facet = facets.of(candidates, candidate);
+        ASSERT_TRUE(facet);
+        ASSERT_EQ(facet->triangle.a, candidates.triangle(candidate).a) << i;
+        ASSERT_EQ(facet->triangle.b, candidates.triangle(candidate).b) << i;
+        ASSERT_EQ(facet->triangle.c, candidates.triangle(candidate).c) << i;
+    }
+}
+
+}  // namespace burin::haptics

@@ -8,23 +8,25 @@
 #include "tests/compute/effort.hpp"
 #include "tests/haptics/smooth_shapes.hpp"
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 constexpr double kMm = 1e-3;
 
-Vec3 any_direction(test::Random& random) {
+Vec3 any_direction(compute::test::Random& random) {
     for (;;) {
         const Vec3 v(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
         if (glm::length(v) > 0.1 && glm::length(v) < 1.0) return glm::normalize(v);
     }
 }
 
-Quat any_turn(test::Random& random) { return glm::angleAxis(random.between(0.0, 6.28), any_direction(random)); }
+Quat any_turn(compute::test::Random& random) {
+    return glm::angleAxis(random.between(0.0, 6.28), any_direction(random));
+}
 
 // The same triangles, turned, with what corners they share made one.
-TriangleMesh turned(const LocalSurface& soup, const Quat& turn) {
-    TriangleMesh mesh;
+geometry::TriangleMesh turned(const geometry::LocalSurface& soup, const Quat& turn) {
+    geometry::TriangleMesh mesh;
     std::map<std::array<float, 3>, std::uint32_t> index;
     for (const auto& t : soup.loose->triangles) {
         auto& corners = mesh.triangles.emplace_back();
@@ -41,7 +43,7 @@ TriangleMesh turned(const LocalSurface& soup, const Quat& turn) {
 }  // namespace
 
 TEST(ThinSheet, IsNotPassedThroughAtTwoMetresASecondFromEitherSideAtAnyAngle) {
-    test::Random random(11);
+    compute::test::Random random(11);
     constexpr int kCells = 9;
     const double half = 50 * kMm, cell = 2.0 * half / kCells;
     const test::Surface flat = test::box({-half, -0.05 * kMm, -half}, {half, 0.05 * kMm, half}, kCells);
@@ -49,7 +51,7 @@ TEST(ThinSheet, IsNotPassedThroughAtTwoMetresASecondFromEitherSideAtAnyAngle) {
     for (int sheet = 0; sheet < 6; ++sheet) {
         const Quat turn = any_turn(random);
         const test::Surface surface = test::touchable(turned(*flat, turn));
-        for (int stroke = 0; stroke < test::repeated(200); ++stroke) {
+        for (int stroke = 0; stroke < compute::test::repeated(200); ++stroke) {
             const double side = random.chance(0.5) ? 1.0 : -1.0;
             // At a vertex, an edge, or anywhere; from the front or grazing; sometimes with friction.
             Vec3 target(random.between(-30, 30) * kMm, 0.0, random.between(-30, 30) * kMm);
@@ -62,8 +64,8 @@ TEST(ThinSheet, IsNotPassedThroughAtTwoMetresASecondFromEitherSideAtAnyAngle) {
             ProxySettings settings{.contact_radius_m = random.chance(0.5) ? 0.0 : 3 * kMm};
             settings.shading = random.chance(0.5);
             if (random.chance(0.3)) settings.static_friction = settings.dynamic_friction = 0.5;
-            // Where it touches first: over the target, however flat the way. Then on, 2 mm a tick, until the HIP is far on the other
-            // side or gone past the rim.
+            // Where it touches first: over the target, however flat the way. Then on, 2 mm a tick, until the HIP is far
+            // on the other side or gone past the rim.
             const Vec3 touching = target + Vec3(0.0, side * (settings.contact_radius_m + 0.05 * kMm), 0.0);
             const double ahead = random.between(1.0, 4.0) * kMm;
             const double most = half - 1 * kMm - settings.contact_radius_m;
@@ -89,7 +91,7 @@ TEST(ThinSheet, IsNotPassedThroughAtTwoMetresASecondFromEitherSideAtAnyAngle) {
 
 TEST(ThinSheet, DroppedOnItsRimTheBallRestsOnTheEdge) {
     const test::Surface flat = test::box({-0.05, -0.05 * kMm, -0.05}, {0.05, 0.05 * kMm, 0.05}, 5);
-    test::Random random(5);
+    compute::test::Random random(5);
     for (int drop = 0; drop < 100; ++drop) {
         const double radius = 3 * kMm, z = random.between(-0.03, 0.03);
         const ProxySettings settings{.contact_radius_m = radius};
@@ -107,12 +109,12 @@ TEST(ThinSheet, DroppedOnItsRimTheBallRestsOnTheEdge) {
 }
 
 TEST(Corners, ABallOnAnEdgeOrACornerOfABoxStandsWhereTheNearestPointSays) {
-    // Seen from outside a box is convex, so the HIP's rest is the nearest point of the box grown by the radius, as long as the
-    // HIP is outside the box itself: q + R (hip - q) / |hip - q|, q the HIP clamped to the box.
+    // Seen from outside a box is convex, so the HIP's rest is the nearest point of the box grown by the radius, as long
+    // as the HIP is outside the box itself: q + R (hip - q) / |hip - q|, q the HIP clamped to the box.
     const Vec3 half(0.02, 0.015, 0.01);
     const test::Surface box = test::box(-half, half, 3);
-    test::Random random(3);
-    for (int i = 0; i < test::repeated(2000); ++i) {
+    compute::test::Random random(3);
+    for (int i = 0; i < compute::test::repeated(2000); ++i) {
         const double radius = 4 * kMm;
         const Vec3 d = any_direction(random);
         const Vec3 far = 0.06 * d,
@@ -133,7 +135,8 @@ TEST(Corners, ABallOnAnEdgeOrACornerOfABoxStandsWhereTheNearestPointSays) {
 
 namespace {
 
-// Dykstra's alternating projections: the nearest point of an intersection of half-spaces n . x >= offset. Slow and sure.
+// Dykstra's alternating projections: the nearest point of an intersection of half-spaces n . x >= offset. Slow and
+// sure.
 Vec3 nearest_common_point(const std::vector<Vec3>& normals, double offset, const Vec3& goal) {
     Vec3 x = goal;
     std::vector<Vec3> carried(normals.size(), Vec3(0.0));
@@ -154,9 +157,9 @@ Vec3 nearest_common_point(const std::vector<Vec3>& normals, double offset, const
 }  // namespace
 
 TEST(Grooves, OfTwoAndThreePlanesHoldTheBallAtTheNearestPointThatIsFree) {
-    test::Random random(8);
+    compute::test::Random random(8);
     const double wall = 0.1;
-    for (int groove = 0; groove < test::repeated(60); ++groove) {
+    for (int groove = 0; groove < compute::test::repeated(60); ++groove) {
         const int planes = random.small(2, 3);
         std::vector<Vec3> normals;
         const double start = random.between(0.0, 6.28);
@@ -207,4 +210,4 @@ TEST(Grooves, OfTwoAndThreePlanesHoldTheBallAtTheNearestPointThatIsFree) {
     }
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

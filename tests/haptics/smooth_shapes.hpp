@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Smooth shapes that are known exactly, and meshes of them: what force shading is to feel like, and what it has to work with.
+// Smooth shapes that are known exactly, and meshes of them: what force shading is to feel like, and what it has to work
+// with.
 #pragma once
 
 #include <cmath>
 
-#include "geometry/touch_mesh.hpp"
+#include "geometry/contact/touch_mesh.hpp"
 #include "tests/haptics/surfaces.hpp"
 
-namespace burin::test {
+namespace burin::haptics::test {
 
 // |p| = radius + bump * sin(waves x) sin(waves y) sin(waves z), x, y, z of the direction: metres, object frame.
 struct BumpySphere {
@@ -35,8 +36,8 @@ struct BumpySphere {
         }
         return glm::normalize(n);
     }
-    // Where a point on the surface comes to rest that is drawn to `hip` from near `start`: down the tangential pull in small
-    // steps, until nothing pulls.
+    // Where a point on the surface comes to rest that is drawn to `hip` from near `start`: down the tangential pull in
+    // small steps, until nothing pulls.
     [[nodiscard]] Vec3 resting_point(const Vec3& hip, const Vec3& start) const {
         Vec3 p = point(start);
         for (int i = 0; i < 3000; ++i) {
@@ -49,22 +50,22 @@ struct BumpySphere {
 };
 
 // An icosahedron subdivided `times` times, its vertices on the shape.
-inline TriangleMesh mesh_of(const BumpySphere& shape, int times) {
+inline geometry::TriangleMesh mesh_of(const BumpySphere& shape, int times) {
     const Surface unit = sphere(1.0, times);
-    TriangleMesh mesh;
+    geometry::TriangleMesh mesh;
     for (const Vec3f& p : unit->loose->positions_m) mesh.positions_m.push_back(shape.point(Vec3(p)));
     mesh.triangles = unit->loose->triangles;
     return mesh;
 }
 
 // A mesh with the normals of the smooth surface at its corners, ready to touch.
-inline Surface touchable(const TriangleMesh& mesh) {
-    auto surface = std::make_unique<LocalSurface>();
+inline Surface touchable(const geometry::TriangleMesh& mesh) {
+    auto surface = std::make_unique<geometry::LocalSurface>();
     surface->sequence = 1;
     surface->radius_m = 1e3;
-    surface->meshes.push_back({TouchMesh::create(mesh)->snapshot(), 0});
+    surface->meshes.push_back({geometry::TouchMesh::create(mesh)->snapshot(), 0});
     surface->origin_object = surface->meshes[0].snapshot->origin_object;
     return surface;
 }
 
-}  // namespace burin::test
+}  // namespace burin::haptics::test

@@ -7,7 +7,7 @@
 
 #include "tests/haptics/rig.hpp"
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 struct Tap {
@@ -18,7 +18,7 @@ struct Tap {
 };
 
 // The hand lowers its target 3 mm into the wall at 0.1 m/s and holds it there.
-Tap tap(double stiffness, HandGrip grip) {
+Tap tap(double stiffness, devices::HandGrip grip) {
     test::Rig rig({{0.0, Vec3(0.0, 0.01, 0.0)}, {0.3, Vec3(0.0, 0.01, 0.0)}, {0.43, Vec3(0.0, -0.003, 0.0)}}, grip);
     rig.publish(*test::plane(0.05, 2), 1);
     TickParameters p;
@@ -42,14 +42,14 @@ Tap tap(double stiffness, HandGrip grip) {
         const Vec3 position = rig.omni.true_position_device_m();
         energy += glm::dot(last_force, position - last_position);
         last_position = position;
-        if (r.penetration_m == 0.0) energy = 0.0;
+        if (r.deepest().penetration_m == 0.0) energy = 0.0;
         result.worst_energy_gain_J = std::max(result.worst_energy_gain_J, energy);
         if (i > kTicks * 4 / 5) {
             highest = std::max(highest, position.y);
             lowest = std::min(lowest, position.y);
-            result.change_late_N += glm::length(r.given.force_device_N - last_force) / (kTicks / 5);
+            result.change_late_N += glm::length(r.gate.given.force_device_N - last_force) / (kTicks / 5);
         }
-        last_force = r.given.force_device_N;
+        last_force = r.gate.given.force_device_N;
     }
     result.deepest_late_m = -lowest;
     result.swing_late_m = highest - lowest;
@@ -59,7 +59,7 @@ Tap tap(double stiffness, HandGrip grip) {
 // What hand and stylus bring along at 0.1 m/s: a wall that never gives back more than that cannot fling the tool away.
 constexpr double kArrival_J = 0.5 * 0.145 * 0.1 * 0.1;
 
-constexpr HandGrip kBenchHand{0.1, 100.0, 3.0};
+constexpr devices::HandGrip kBenchHand{0.1, 100.0, 3.0};
 
 }  // namespace
 
@@ -87,4 +87,4 @@ TEST(Stability, AWallFarAboveTheLimitNeverSettles) {
     EXPECT_GT(t.change_late_N, 0.05);   // where the walls above give exactly 0
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

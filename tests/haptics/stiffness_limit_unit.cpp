@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: MIT
-#include "haptics/stability/stiffness_limit.hpp"
+#include "haptics/stability/rendered_wall.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 #include <string>
 
-#include "devices/simulated_omni.hpp"
+#include "devices/haptic/simulated_omni.hpp"
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
-DeviceDescription omni() {
-    DeviceDescription device = SimulatedOmni(*SimulatedHand::create({{0.0, Vec3(0.0)}})).description();
+devices::DeviceDescription omni() {
+    devices::DeviceDescription device =
+        devices::SimulatedOmni(*devices::SimulatedHand::create({{0.0, Vec3(0.0)}})).description();
     return device;
 }
 
-DeviceDescription damped(double damping, double rate_Hz) {
-    DeviceDescription device;
+devices::DeviceDescription damped(double damping, double rate_Hz) {
+    devices::DeviceDescription device;
     device.damping_Ns_per_m = damping;
     device.rate_Hz = rate_Hz;
     return device;
@@ -41,7 +42,7 @@ TEST(StiffnessLimit, LeavesTheDefaultMaterialOnTheSimulatedOmniAsItIs) {
 
 TEST(StiffnessLimit, OfADampedDeviceIsColgatesAndSchenkelsWithDelay) {
     for (const double rate : {250.0, 1000.0, 4000.0}) {
-        DeviceDescription device = damped(2.0, rate);
+        devices::DeviceDescription device = damped(2.0, rate);
         const double T = 1.0 / rate;
         EXPECT_NEAR(limited(demand(1e9, 0.0), device).stiffness_N_per_m, 2.0 * 2.0 / T, 1e-6);
         device.delay_s = 3.0 * T;
@@ -53,7 +54,7 @@ TEST(StiffnessLimit, OfADampedDeviceIsColgatesAndSchenkelsWithDelay) {
 }
 
 TEST(StiffnessLimit, FrictionAndStepsAloneGiveAbbottsAndOkamurasForSlowContacts) {
-    DeviceDescription device = omni();
+    devices::DeviceDescription device = omni();
     device.max_stiffness_N_per_m = 0.0;
     ContactDemand d = demand(1e9, 0.0);
     d.contact_speed_m_per_s = 0.0;
@@ -63,7 +64,7 @@ TEST(StiffnessLimit, FrictionAndStepsAloneGiveAbbottsAndOkamurasForSlowContacts)
 }
 
 TEST(StiffnessLimit, FrictionCoversLessTheFasterTheContactIs) {
-    DeviceDescription device = omni();
+    devices::DeviceDescription device = omni();
     device.max_stiffness_N_per_m = 0.0;
     device.resolution_m = 0.0;
     for (const double v : {0.05, 0.15, 0.6}) {
@@ -75,7 +76,7 @@ TEST(StiffnessLimit, FrictionCoversLessTheFasterTheContactIs) {
 }
 
 TEST(StiffnessLimit, AFilterOnTheForceCostsLikeADelay) {
-    DeviceDescription delayed = omni(), plain = omni();
+    devices::DeviceDescription delayed = omni(), plain = omni();
     delayed.delay_s += 0.009;
     ContactDemand filtered = demand(1e9, 0.0);
     filtered.filter_lag_s = 0.009;
@@ -100,7 +101,7 @@ TEST(StiffnessLimit, DampingGivesWayFirstAndStiffnessAfterIt) {
     EXPECT_EQ(limited(demand(600.0, much.damping_Ns_per_m), omni()).bound, StiffnessBound::none);
     EXPECT_EQ(limited(demand(600.0, much.damping_Ns_per_m * 1.001), omni()).bound, StiffnessBound::damping);
 
-    DeviceDescription unlimited = omni();
+    devices::DeviceDescription unlimited = omni();
     unlimited.max_stiffness_N_per_m = 0.0;
     const StiffnessLimit stiff = limited(demand(5000.0, 5.0), unlimited);
     EXPECT_EQ(stiff.bound, StiffnessBound::sampling);
@@ -114,7 +115,7 @@ TEST(StiffnessLimit, TheMakersWordHoldsWhereTheRestAllowsMore) {
 }
 
 TEST(StiffnessLimit, OfADeviceOfWhichNothingIsKnownOnlyTheMakerLimits) {
-    DeviceDescription unknown;
+    devices::DeviceDescription unknown;
     EXPECT_EQ(limited(demand(5000.0, 3.0), unknown).stiffness_N_per_m, 5000.0);
     EXPECT_EQ(limited(demand(5000.0, 3.0), unknown).bound, StiffnessBound::none);
     unknown.max_stiffness_N_per_m = 400.0;
@@ -123,7 +124,7 @@ TEST(StiffnessLimit, OfADeviceOfWhichNothingIsKnownOnlyTheMakerLimits) {
 }
 
 TEST(StiffnessLimit, ACoarseEncoderWithoutFrictionToHideItIsNamed) {
-    DeviceDescription device = damped(5.0, 1000.0);
+    devices::DeviceDescription device = damped(5.0, 1000.0);
     device.resolution_m = 1e-3;
     device.friction_N = 0.1;
     const StiffnessLimit limit = limited(demand(1e9, 0.0), device);
@@ -140,4 +141,4 @@ TEST(StiffnessLimit, EveryReasonHasASentenceOfItsOwn) {
     }
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

@@ -9,16 +9,16 @@
 #include <numbers>
 #include <utility>
 
-#include "devices/haptic_device.hpp"
-#include "geometry/local_surface.hpp"
+#include "devices/haptic/haptic_device.hpp"
+#include "geometry/contact/local_surface.hpp"
 
-namespace burin::test {
+namespace burin::haptics::test {
 
 // A device that limits nothing by itself, for ticks without a gate.
-inline constexpr DeviceDescription kStrongDevice{
+inline constexpr devices::DeviceDescription kStrongDevice{
     .name = "strong", .max_force_N = 100.0, .max_torque_Nm = Vec3(10.0), .max_stiffness_N_per_m = 1e6};
 
-using Surface = std::unique_ptr<LocalSurface>;
+using Surface = std::unique_ptr<geometry::LocalSurface>;
 
 // Collects triangles in any position and scale, then publishes them with everything known.
 class SurfaceBuilder {
@@ -39,19 +39,19 @@ public:
         quad(va, vb, vc, vd);
     }
     Surface finish(double known_radius_m = 1e3, std::uint64_t sequence = 1) {
-        auto surface = std::make_unique<LocalSurface>();
+        auto surface = std::make_unique<geometry::LocalSurface>();
         surface->sequence = sequence;
         surface->origin_object = origin_;
         surface->center_object = origin_;
         surface->radius_m = known_radius_m;
-        build_search(piece_);
-        surface->loose = std::make_shared<GriddedTriangles>(std::move(piece_));
+        geometry::build_search(piece_);
+        surface->loose = std::make_shared<geometry::GriddedTriangles>(std::move(piece_));
         return surface;
     }
 
 private:
     Vec3 origin_;
-    GriddedTriangles piece_;
+    geometry::GriddedTriangles piece_;
 };
 
 // height(x, z) over a square of side 2 half, n by n squares, material below.
@@ -154,4 +154,4 @@ inline Surface groove(double radius, double length, int facets, int slices, doub
     return b.finish();
 }
 
-}  // namespace burin::test
+}  // namespace burin::haptics::test

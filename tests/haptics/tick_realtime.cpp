@@ -12,10 +12,10 @@
 #include "tests/haptics/workpiece.hpp"
 #include "tests/support/realtime_counters.hpp"
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
-void expect_none(const test::RealtimeCounts& counts) {
+void expect_none(const burin::test::RealtimeCounts& counts) {
     EXPECT_EQ(counts.allocations, 0u);
     EXPECT_EQ(counts.frees, 0u);
     EXPECT_EQ(counts.locks, 0u);
@@ -27,9 +27,9 @@ void expect_none(const test::RealtimeCounts& counts) {
 
 TEST(RealtimeCounters, SeeWhatTheyAreMeantToSee) {  // a counter that sees nothing proves nothing
     std::mutex mutex;
-    test::RealtimeCounts counts;
+    burin::test::RealtimeCounts counts;
     {
-        const test::RealtimeScope scope;
+        const burin::test::RealtimeScope scope;
         void* volatile plain = std::malloc(10);
         std::free(plain);
         delete new volatile int(3);
@@ -50,7 +50,7 @@ TEST(RealtimeCounters, SeeWhatTheyAreMeantToSee) {  // a counter that sees nothi
 }
 
 TEST(HapticLoop, TenThousandStepsAllocateLockThrowAndOpenNothing) {
-    std::vector<HandPose> script;
+    std::vector<devices::HandPose> script;
     for (int i = 0; i < 50; ++i) {  // dips into the groove and out of it again, along it and across its rim
         const double t = 0.2 * i;
         script.push_back({t,
@@ -64,7 +64,7 @@ TEST(HapticLoop, TenThousandStepsAllocateLockThrowAndOpenNothing) {
     TickParameters parameters;
     parameters.probe.points[0].radius_m = 0.005;
     int in_contact = 0, faulty = 0;
-    test::RealtimeCounts total;
+    burin::test::RealtimeCounts total;
     for (int i = 0; i < 10'000; ++i) {
         // Between ticks the other threads' work goes on; only step() is watched.
         if (i % 100 == 0) rig.publish(i % 200 == 0 ? *groove : *deeper, static_cast<std::uint64_t>(i) + 1);
@@ -72,16 +72,16 @@ TEST(HapticLoop, TenThousandStepsAllocateLockThrowAndOpenNothing) {
             parameters.workspace.object_from_device.scale = 1.0 + 1e-4 * i;
             rig.publish(parameters, static_cast<std::uint64_t>(i) + 1);
         }
-        if (i % 2500 == 1200) rig.omni.inject(static_cast<InjectedFault>(1 + i / 2500));
-        if (i % 2500 == 1230) rig.omni.inject(InjectedFault::none);
+        if (i % 2500 == 1200) rig.omni.inject(static_cast<devices::InjectedFault>(1 + i / 2500));
+        if (i % 2500 == 1230) rig.omni.inject(devices::InjectedFault::none);
         rig.clock.sleep_until(rig.clock.now_ns() + rig.loop.period_ns());
-        const test::RealtimeScope scope;
+        const burin::test::RealtimeScope scope;
         const TickRecord record = rig.loop.step();
         total += scope.counts();
         in_contact += (record.flags & kTickInContact) != 0;
-        faulty += record.cause != GateCause::none;
-        EXPECT_LE(record.work.triangles_tested, ProxyBudget{}.max_triangles_tested);
-        EXPECT_LE(record.work.proxy_steps, ProxyBudget{}.max_steps);
+        faulty += record.gate.cause != GateCause::none;
+        EXPECT_LE(record.contact.work.triangles_tested, ProxyBudget{}.max_triangles_tested);
+        EXPECT_LE(record.contact.work.proxy_steps, ProxyBudget{}.max_steps);
     }
     expect_none(total);
     EXPECT_GT(in_contact, 1000);
@@ -89,8 +89,9 @@ TEST(HapticLoop, TenThousandStepsAllocateLockThrowAndOpenNothing) {
 }
 
 TEST(HapticLoop, StepsOnTilesThatAreCarvedMeanwhileAllocateFreeAndLockNothing) {
-    // The carving side makes new tiles, lets go of old ones and fills the draft between the steps; the steps do neither.
-    std::vector<HandPose> script;
+    // The carving side makes new tiles, lets go of old ones and fills the draft between the steps; the steps do
+    // neither.
+    std::vector<devices::HandPose> script;
     for (int i = 0; i < 50; ++i) {
         script.push_back(
             {0.2 * i, Vec3(0.03 * std::sin(0.9 * i), i % 2 == 0 ? 0.02 : -0.02, 0.03 * std::sin(0.31 * i))});
@@ -103,26 +104,26 @@ TEST(HapticLoop, StepsOnTilesThatAreCarvedMeanwhileAllocateFreeAndLockNothing) {
     rig.publish(parameters, 1);
     test::Workpiece work;
     int in_contact = 0;
-    test::RealtimeCounts total;
+    burin::test::RealtimeCounts total;
     for (int i = 0; i < 3000; ++i) {
         if (i % 10 == 0) {
             const double a = 0.01 * i;
             if (i % 30 == 0) work.cut(Vec3(0.1 * std::sin(a), 0.42, 0.1 * std::cos(a)), Vec3(0.0, 0.41, 0.0));
-            LocalSurface& draft = rig.channels.surface.draft();
-            gather_local_surface(*work.surface, Vec3(0.0, 0.4, 0.0), 0.3, draft);
+            geometry::LocalSurface& draft = rig.channels.surface.draft();
+            compute::gather_local_surface(*work.surface, Vec3(0.0, 0.4, 0.0), 0.3, draft);
             draft.sequence = static_cast<std::uint64_t>(i) + 1;
             draft.made_ns = rig.clock.now_ns();
             rig.channels.surface.publish();
         }
         rig.clock.sleep_until(rig.clock.now_ns() + rig.loop.period_ns());
-        const test::RealtimeScope scope;
+        const burin::test::RealtimeScope scope;
         const TickRecord record = rig.loop.step();
         total += scope.counts();
         in_contact += (record.flags & kTickInContact) != 0;
-        EXPECT_LE(record.work.triangles_seen, ProxyBudget{}.max_triangles_seen);
+        EXPECT_LE(record.contact.work.triangles_seen, ProxyBudget{}.max_triangles_seen);
     }
     expect_none(total);
     EXPECT_GT(in_contact, 300);
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

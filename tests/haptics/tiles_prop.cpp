@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The tiles of a carved surface as they are touched: the god-object on them and on the same triangles as loose ones, and the
-// haptic loop on tiles that are carved meanwhile.
+// The tiles of a carved surface as they are touched: the god-object on them and on the same triangles as loose ones,
+// and the haptic loop on tiles that are carved meanwhile.
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "geometry/local_surface_search.hpp"
+#include "geometry/contact/local_surface_search.hpp"
 #include "haptics/contact/god_object.hpp"
 #include "haptics/contact/triangle_contact.hpp"
 #include "haptics/realtime.hpp"
@@ -13,43 +13,43 @@
 #include "tests/haptics/rig.hpp"
 #include "tests/haptics/workpiece.hpp"
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 using test::kToolRadius_m;
 using test::Workpiece;
 
 // The same triangles, relative to the same origin, one by one and in an order of their own.
-LocalSurface loosened(const LocalSurface& tiles) {
-    auto piece = std::make_shared<GriddedTriangles>();
+geometry::LocalSurface loosened(const geometry::LocalSurface& tiles) {
+    auto piece = std::make_shared<geometry::GriddedTriangles>();
     for (std::uint32_t id = tiles.triangles(); id-- > 0;) {
-        const Triangle t = tiles.triangle(id);
+        const geometry::Triangle t = tiles.triangle(id);
         const auto first = static_cast<std::uint32_t>(piece->positions_m.size());
         for (const Vec3& corner : {t.a, t.b, t.c}) piece->positions_m.emplace_back(corner);
         piece->triangles.push_back({first, first + 1, first + 2});
     }
-    build_search(*piece);
-    LocalSurface loose = tiles;
+    geometry::build_search(*piece);
+    geometry::LocalSurface loose = tiles;
     loose.tiles = {};
     loose.loose = std::move(piece);
     return loose;
 }
 
-LocalSurface tiles_around(const Surface& surface, const Vec3& center_object, double radius_m) {
-    LocalSurface local;
-    gather_local_surface(surface, center_object, radius_m, local);
+geometry::LocalSurface tiles_around(const compute::Surface& surface, const Vec3& center_object, double radius_m) {
+    geometry::LocalSurface local;
+    compute::gather_local_surface(surface, center_object, radius_m, local);
     local.sequence = 1;
     return local;
 }
 
 // A walk of the hand over the surface and into it, one tick after another; each tick starts from one state on both.
-void expect_alike(const LocalSurface& tiles, const LocalSurface& loose, const Vec3& about, double reach,
-                  double tool_radius, std::uint64_t seed) {
-    test::Random random(seed);
+void expect_alike(const geometry::LocalSurface& tiles, const geometry::LocalSurface& loose, const Vec3& about,
+                  double reach, double tool_radius, std::uint64_t seed) {
+    compute::test::Random random(seed);
     ProxyState state;
     Vec3 hip = about, way(0.0);
     int in_contact = 0;
-    for (int i = 0; i < test::repeated(1500); ++i) {
+    for (int i = 0; i < compute::test::repeated(1500); ++i) {
         if (i % 40 == 0) {
             const Vec3 goal = about + reach * Vec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
             way = (goal - hip) / 40.0;
@@ -65,11 +65,11 @@ void expect_alike(const LocalSurface& tiles, const LocalSurface& loose, const Ve
         in_contact += a.constraints > 0;
         state = a.next;
     }
-    EXPECT_GT(in_contact, test::repeated(1500) / 8);
+    EXPECT_GT(in_contact, compute::test::repeated(1500) / 8);
 }
 
 // At one of many places on it; never less than it is.
-double distance_from_way(const Vec3& from, const Vec3& to, const Triangle& t) {
+double distance_from_way(const Vec3& from, const Vec3& to, const geometry::Triangle& t) {
     constexpr int kPlaces = 40;
     double least = HUGE_VAL;
     for (int i = 0; i <= kPlaces; ++i) {
@@ -85,32 +85,35 @@ TEST(TouchedTiles, EachTriangleNearAWayIsFoundOnceAndFewThatAreFar) {
     WorkerPool pool(2);
     Workpiece work;  // quads alone
     work.cut({-0.2, 0.4, 0.0}, {0.2, 0.4, 0.05});
-    const Solid noise = test::noise_solid({20, 20, 20}, 0.4, test::Rays::agree, 4);  // with fans
-    Surface noisy(noise.lattice);
+    const compute::Solid noise =
+        compute::test::noise_solid({20, 20, 20}, 0.4, compute::test::Rays::agree, 4);  // with fans
+    compute::Surface noisy(noise.lattice);
     noisy.mesh_all(noise, pool);
-    for (const Surface* surface : {&*work.surface, &noisy}) {
+    for (const compute::Surface* surface : {&*work.surface, &noisy}) {
         const double cell = surface->lattice().spacing_m;
         const Vec3 middle = surface == &noisy ? noise.lattice.origin_object + 10.0 * cell : Vec3(0.0, 0.4, 0.0);
-        const LocalSurface tiles = tiles_around(*surface, middle, surface == &noisy ? 1e3 * cell : 2.0 * cell);
+        const geometry::LocalSurface tiles =
+            tiles_around(*surface, middle, surface == &noisy ? 1e3 * cell : 2.0 * cell);
         ASSERT_GT(tiles.triangles(), 100u);
-        test::Random random(8);
+        compute::test::Random random(8);
         const auto place = [&] {
             const Vec3 off(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
             return middle - tiles.origin_object + 10.0 * cell * off;
         };
-        for (int run = 0; run < test::repeated(16); ++run) {
+        for (int run = 0; run < compute::test::repeated(16); ++run) {
             const Vec3 from = place(), to = run % 4 == 0 ? from : from + random.between(0.01, 1.0) * (place() - from);
             const double reach = cell * random.between(0.3, 5.0);
             std::set<std::uint32_t> found;
-            Near near{glm::min(from, to), glm::max(from, to), reach, UINT32_MAX, true, from, to};
-            ASSERT_TRUE(for_each_triangle_near(tiles, near, [&](std::uint32_t id, const Triangle& t) {
-                EXPECT_TRUE(found.insert(id).second);
-                EXPECT_LT(distance_from_way(from, to, t), reach + 4.0 * cell);  // two corners of its quad's box
-                return true;
-            }));
+            geometry::Near near{glm::min(from, to), glm::max(from, to), reach, UINT32_MAX, true, from, to};
+            ASSERT_TRUE(
+                geometry::for_each_triangle_near(tiles, near, [&](std::uint32_t id, const geometry::Triangle& t) {
+                    EXPECT_TRUE(found.insert(id).second);
+                    EXPECT_LT(distance_from_way(from, to, t), reach + 4.0 * cell);  // two corners of its quad's box
+                    return true;
+                }));
             for (std::uint32_t id = 0; id < tiles.triangles(); ++id) {
-                const Triangle t = tiles.triangle(id);
-                if (!is_degenerate(t) && distance_from_way(from, to, t) <= reach) {
+                const geometry::Triangle t = tiles.triangle(id);
+                if (!geometry::is_degenerate(t) && distance_from_way(from, to, t) <= reach) {
                     ASSERT_TRUE(found.contains(id)) << run;
                 }
             }
@@ -122,8 +125,8 @@ TEST(TouchedTiles, TheProxyGoesAsOnTheSameTrianglesLoose) {
     Workpiece work;
     work.cut({-0.2, 0.4, 0.0}, {0.2, 0.4, 0.05});
     const Vec3 top(0.0, 0.4, 0.0);
-    const LocalSurface tiles = tiles_around(*work.surface, top, 0.5);
-    const LocalSurface loose = loosened(tiles);
+    const geometry::LocalSurface tiles = tiles_around(*work.surface, top, 0.5);
+    const geometry::LocalSurface loose = loosened(tiles);
     ASSERT_EQ(tiles.triangles(), loose.triangles());
     // As large as the groove, smaller, larger, and of the size of a cell.
     const double cell = work.surface->lattice().spacing_m;
@@ -134,12 +137,12 @@ TEST(TouchedTiles, TheProxyGoesAsOnTheSameTrianglesLoose) {
 
 TEST(TouchedTiles, TheProxyGoesAsOnTheSameTrianglesLooseInNoiseWithFans) {
     WorkerPool pool(2);
-    const Solid solid = test::noise_solid({24, 24, 24}, 0.4, test::Rays::agree, 3);
-    Surface surface(solid.lattice);
+    const compute::Solid solid = compute::test::noise_solid({24, 24, 24}, 0.4, compute::test::Rays::agree, 3);
+    compute::Surface surface(solid.lattice);
     surface.mesh_all(solid, pool);
     const double cell = solid.lattice.spacing_m;
     const Vec3 middle = solid.lattice.origin_object + 12.0 * cell;
-    const LocalSurface tiles = tiles_around(surface, middle, 1e3 * cell), loose = loosened(tiles);
+    const geometry::LocalSurface tiles = tiles_around(surface, middle, 1e3 * cell), loose = loosened(tiles);
     ASSERT_FALSE(tiles.tiles.places.front().tile->only_quads());
     // Larger than the gaps: it stays outside and rolls over the bumps.
     const Vec3 above = middle + Vec3(0.0, 16.0 * cell, 0.0);
@@ -149,16 +152,16 @@ TEST(TouchedTiles, TheProxyGoesAsOnTheSameTrianglesLooseInNoiseWithFans) {
 TEST(TouchedTiles, TilesAndLooseTrianglesAreTouchedTogether) {
     // A loose plate over the ball: each is felt where it is.
     Workpiece work;
-    LocalSurface both = tiles_around(*work.surface, Vec3(0.0), 1.0);
-    auto plate = std::make_shared<GriddedTriangles>();
+    geometry::LocalSurface both = tiles_around(*work.surface, Vec3(0.0), 1.0);
+    auto plate = std::make_shared<geometry::GriddedTriangles>();
     for (const Vec3& p : {Vec3(0.5, 0.2, -0.5), Vec3(0.5, 0.2, 0.5), Vec3(1.0, 0.2, 0.5), Vec3(1.0, 0.2, -0.5)}) {
         plate->positions_m.emplace_back(p - both.origin_object);
     }
     plate->triangles = {{0, 1, 2}, {0, 2, 3}};
-    build_search(*plate);
+    geometry::build_search(*plate);
     both.loose = plate;
     std::set<std::uint32_t> ids;
-    for_each_triangle_near(both, Vec3(-10.0), Vec3(10.0), [&](std::uint32_t id, const Triangle&) {
+    geometry::for_each_triangle_near(both, Vec3(-10.0), Vec3(10.0), [&](std::uint32_t id, const geometry::Triangle&) {
         ids.insert(id);
         return true;
     });
@@ -179,11 +182,11 @@ TEST(TouchedTiles, TilesAndLooseTrianglesAreTouchedTogether) {
 TEST(TouchedTiles, TheHapticThreadReadsWhileTheCarvingSideMakesAndFreesTiles) {
     Workpiece work;
     MonotonicClock clock;
-    std::vector<HandPose> script;  // circles below the top: in contact from the first surface on
+    std::vector<devices::HandPose> script;  // circles below the top: in contact from the first surface on
     for (int i = 0; i < 400; ++i) {
         script.push_back({0.02 * i, Vec3(0.05 * std::sin(0.3 * i), -0.005 * (4 + i % 3), 0.05 * std::cos(0.3 * i))});
     }
-    SimulatedOmni omni(*SimulatedHand::create(script), {}, &clock);
+    devices::SimulatedOmni omni(*devices::SimulatedHand::create(script), {}, &clock);
     HapticChannels channels(1u << 14, 1u << 14);
     HapticLoop loop(omni, clock, channels);
     TickParameters& parameters = channels.parameters.draft();
@@ -200,8 +203,8 @@ TEST(TouchedTiles, TheHapticThreadReadsWhileTheCarvingSideMakesAndFreesTiles) {
         const double a = 0.1 * static_cast<double>(published);
         const Vec3 at(0.2 * std::sin(a), 0.44 - 1e-4 * static_cast<double>(published % 300), 0.2 * std::cos(a));
         work.cut(at, at + Vec3(0.01, 0.0, 0.0));
-        LocalSurface& draft = channels.surface.draft();
-        gather_local_surface(*work.surface, Vec3(0.0, 0.4, 0.0), 0.6, draft);
+        geometry::LocalSurface& draft = channels.surface.draft();
+        compute::gather_local_surface(*work.surface, Vec3(0.0, 0.4, 0.0), 0.6, draft);
         draft.sequence = ++published;
         draft.made_ns = clock.now_ns();
         channels.surface.publish();
@@ -213,4 +216,4 @@ TEST(TouchedTiles, TheHapticThreadReadsWhileTheCarvingSideMakesAndFreesTiles) {
     EXPECT_GT(in_contact, 0u);
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

@@ -10,7 +10,7 @@
 #include "haptics/tick.hpp"
 #include "tests/haptics/surfaces.hpp"
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 constexpr double kDt = 1e-3;
@@ -28,20 +28,20 @@ TouchInput resting(const Vec3& hip, const Vec3& velocity = Vec3(0.0)) {
 }
 
 struct Ticker {
-    const LocalSurface* surface;
+    const geometry::LocalSurface* surface;
     TickParameters parameters;
     TickState state{};
     Nanoseconds now_ns = 0;
 
-    TickOutput at(const Vec3& position, std::uint32_t buttons = 0) {
+    TickRecord at(const Vec3& position, std::uint32_t buttons = 0) {
         now_ns += kMs;
-        DeviceSample sample;
+        devices::DeviceSample sample;
         sample.time_ns = now_ns;
         sample.position_device_m = position;
         sample.buttons = buttons;
-        const TickOutput out = tick(state, sample, *surface, parameters, test::kStrongDevice, now_ns, kDt);
-        state = out.next;
-        return out;
+        const Tick t = tick(state, sample, *surface, parameters, test::kStrongDevice, now_ns, kDt);
+        state = t.next;
+        return t.record;
     }
 };
 
@@ -122,7 +122,7 @@ TEST(TouchForce, InTheTickFrictionWithACoulombVelocityFollowsTheSlipSpeed) {
         t.parameters.materials[0].coulomb_velocity_m_per_s = 0.02;
         t.parameters.position_noise_m = 1e-9;
         t.at({-0.03, 0.01, 0.0});
-        TickOutput out;
+        TickRecord out;
         for (int i = 0; i < 600; ++i) out = t.at({-0.03 + speed * kDt * i, 0.003, 0.0});
         const double mu = 0.4 * std::min(1.0, speed / 0.02);
         EXPECT_NEAR(-out.wanted.force_device_N.x / out.wanted.force_device_N.y, mu, 0.02 * mu + 1e-3) << speed;
@@ -137,7 +137,7 @@ TEST(TouchForce, AMaterialMayChangeWhileTheLoopRuns) {
     t.parameters.materials[0].stiffness_N_per_m = 900.0;
     EXPECT_NEAR(t.at({0.0, 0.003, 0.0}).wanted.force_device_N.y, 0.9, 1e-5);
     t.parameters.materials[0].enabled = false;
-    TickOutput out = t.at({0.0, 0.003, 0.0});
+    TickRecord out = t.at({0.0, 0.003, 0.0});
     EXPECT_EQ(out.wanted.force_device_N, Vec3(0.0));
     EXPECT_EQ(out.flags & kTickInContact, 0u);
     t.parameters.materials[0].enabled = true;
@@ -150,18 +150,18 @@ TEST(TouchForce, WhileItCutsTheHandFeelsLessThanTheUncutWallAndTheStrokeSaysWher
     t.parameters.action = ToolAction::cut;
     t.parameters.materials[0].hardness_Ns_per_m3 = 1e7;
     t.at({0.0, 0.01, 0.0}, 1);
-    TickOutput out = t.at({0.0, 0.002, 0.0}, 0);
+    TickRecord out = t.at({0.0, 0.002, 0.0}, 0);
     EXPECT_EQ(out.flags & kTickCutting, 0u);
     EXPECT_NEAR(out.wanted.force_device_N.y, 1.2, 1e-4);
-    EXPECT_EQ(out.cut_object_m, out.points[0].proxy_object_m);
+    EXPECT_EQ(out.contact.cut_object_m, out.contact.points[0].proxy_object_m);
     double last = 1.2, depth = 0.0;
     for (int i = 0; i < 100; ++i) {
         out = t.at({0.0, 0.002, 0.0}, 1);
         EXPECT_NE(out.flags & kTickCutting, 0u);
         EXPECT_LT(out.wanted.force_device_N.y, last);
-        EXPECT_NEAR(out.wanted.force_device_N.y, 600.0 * (out.cut_object_m.y - 0.002), 1e-6);
+        EXPECT_NEAR(out.wanted.force_device_N.y, 600.0 * (out.contact.cut_object_m.y - 0.002), 1e-6);
         last = out.wanted.force_device_N.y;
-        depth = 0.004 - out.cut_object_m.y;
+        depth = 0.004 - out.contact.cut_object_m.y;
     }
     EXPECT_GT(depth, 2e-4);
     EXPECT_LT(depth, 0.002);
@@ -179,7 +179,7 @@ TEST(TouchForce, PaintingHasNoFriction) {
         t.parameters.action = action;
         t.parameters.materials[0].static_friction = t.parameters.materials[0].dynamic_friction = 0.4;
         t.at({-0.03, 0.01, 0.0}, 1);
-        TickOutput out;
+        TickRecord out;
         for (int i = 0; i < 300; ++i) out = t.at({-0.03 + 1e-4 * i, 0.003, 0.0}, 1);
         const double ratio = -out.wanted.force_device_N.x / out.wanted.force_device_N.y;
         EXPECT_NEAR(ratio, action == ToolAction::paint ? 0.0 : 0.4, 0.01);
@@ -192,7 +192,7 @@ TEST(TouchForce, AHeldToolWeighsWhatItWeighsAndTheArmDoesNot) {
     weight.compensated_mass_kg = 0.045;
     weight.tool_centre_of_mass_device_m = {0.0, 0.0, 0.05};
     const Quat level(1.0, 0.0, 0.0, 0.0);
-    DeviceWrench w = weight_wrench(weight, level);
+    devices::DeviceWrench w = weight_wrench(weight, level);
     EXPECT_LT(glm::length(w.force_device_N - Vec3(0.0, -(0.1 - 0.045) * 9.80665, 0.0)), 1e-12);
     // r x F = (0, 0, 0.05) x (0, -0.98, 0): the arm of the device bears at its own place and turns nothing.
     EXPECT_LT(glm::length(w.torque_device_Nm - Vec3(0.05 * 0.1 * 9.80665, 0.0, 0.0)), 1e-12);
@@ -207,4 +207,4 @@ TEST(TouchForce, AHeldToolWeighsWhatItWeighsAndTheArmDoesNot) {
     EXPECT_NEAR(t.at({0.0, 0.03, 0.0}).wanted.force_device_N.y, -(0.1 - 0.045) * 9.80665, 1e-12);
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

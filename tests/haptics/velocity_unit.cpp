@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "haptics/signals/velocity.hpp"
+#include "haptics/signals/filters.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <functional>
 #include <numbers>
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 constexpr double kStep = 0.055e-3, kDt = 1e-3;
@@ -91,4 +91,21 @@ TEST(Velocity, AxesDoNotInfluenceOneAnother) {
     }
 }
 
-}  // namespace burin
+TEST(Velocity, AFlickerOfOneStepIsAlmostRestWhereverOnTheEncoderItHappens) {
+    // Multiples of the step are rounded: two that lie one step apart differ by a little more than it, or a little less.
+    int apart_by_more = 0;
+    for (int at = 0; at < 1500; at += 7) {
+        const double here = kStep * at, beside = kStep * (at + 1);
+        apart_by_more += beside - here > kStep ? 1 : 0;
+        VelocityWindow window;
+        for (int i = 0; i < 40; ++i) {
+            window = with_position(window, {i % 2 == 0 ? here : beside, 0.0, 0.0});
+            if (i < 20) continue;
+            // One step over the whole window at most.
+            ASSERT_LE(std::abs(velocity_m_per_s(window, kStep, kDt).x), kStep / (16 * kDt) * 1.0001) << at << ' ' << i;
+        }
+    }
+    EXPECT_GT(apart_by_more, 20) << "else rounding was not tried";
+}
+
+}  // namespace burin::haptics

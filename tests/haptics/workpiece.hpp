@@ -6,27 +6,27 @@
 
 #include <memory>
 
-#include "compute/engine.hpp"
-#include "compute/surface.hpp"
+#include "compute/mesher/surface.hpp"
+#include "compute/rays/engine.hpp"
 
-namespace burin::test {
+namespace burin::haptics::test {
 
 inline constexpr double kToolRadius_m = 0.06;
 
 struct Workpiece {
     WorkerPool pool{2};
-    std::unique_ptr<CarvingEngine> engine;
-    std::unique_ptr<burin::Surface> surface;
+    std::unique_ptr<compute::CarvingEngine> engine;
+    std::unique_ptr<burin::compute::Surface> surface;
 
-    Workpiece() : engine(make_cpu_engine(*make_ball(0.4, 40, {"ball", {}}), pool)) {
-        surface = std::make_unique<burin::Surface>(engine->solid().lattice);
+    Workpiece() : engine(compute::make_cpu_engine(*compute::make_ball(0.4, 40, {"ball", {}}), pool)) {
+        surface = std::make_unique<burin::compute::Surface>(engine->solid().lattice);
         surface->mesh_all(engine->solid(), pool);
     }
     void cut(const Vec3& from, const Vec3& to) {
-        const BallSweep sweep{from, to, kToolRadius_m, 0};
+        const compute::BallSweep sweep{from, to, kToolRadius_m, 0};
         ASSERT_TRUE(engine->carve({&sweep, 1}));
         surface->update(engine->solid(), engine->take_changes(), pool);
     }
 };
 
-}  // namespace burin::test
+}  // namespace burin::haptics::test

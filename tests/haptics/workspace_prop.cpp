@@ -8,7 +8,7 @@
 
 #include "haptics/workspace/technique.hpp"
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 double between(int lo, int hi, double unit) { return *rc::gen::inRange(lo, hi + 1) * unit; }
@@ -145,4 +145,4 @@ TEST(Workspace, StaysFiniteOnAnyInput) {
     }));
 }
 
-}  // namespace burin
+}  // namespace burin::haptics

@@ -8,7 +8,7 @@
 
 #include "haptics/workspace/technique.hpp"
 
-namespace burin {
+namespace burin::haptics {
 namespace {
 
 constexpr double kTick_s = 1e-3;
@@ -420,4 +420,32 @@ TEST(Workspace, HasANameForEveryTechniqueAndPhase) {
         EXPECT_STRNE(text(static_cast<WorkspacePhase>(i)), "unknown");
 }
 
-}  // namespace burin
+TEST(Workspace, InACornerOfTheWorkspaceItDriftsNoFasterThanAtItsEdge) {
+    Hand hand(WorkspaceTechnique::drift);
+    hand.settings.max_acceleration_m_per_s2 = 1e6;
+    hand.input.position_device_m = 0.5 * hand.settings.workspace_device_m;
+    hand.step();
+    hand.input.velocity_device_m_per_s = {0.0, 0.12, 0.16};
+    const Vec3 before = hand.middle();
+    hand.steps(100);
+    const double drifted_m = glm::length(hand.middle() - before);
+    EXPECT_NEAR(drifted_m, 2.5 * hand.settings.drift_ratio * 0.2 * 0.1, 1e-12);
+}
+
+TEST(Workspace, ASecondDragSetsOutFromRest) {
+    Hand hand(WorkspaceTechnique::moving);
+    hand.press();
+    hand.steps(400);
+    hand.move_to({0.04, 0.0, 0.0});
+    hand.steps(500);  // at 0.2 m/s by now
+    hand.release();
+    hand.press();
+    while (hand.last.picture.phase != WorkspacePhase::dragging) hand.step();
+    const Vec3 before = hand.middle();
+    hand.step();
+    // Two ticks of the greatest acceleration, at most, and the way that they make in one.
+    const double most_m = hand.settings.max_acceleration_m_per_s2 * 2.0 * kTick_s * kTick_s;
+    EXPECT_LE(glm::length(hand.middle() - before), 2.5 * most_m * (1.0 + 1e-9));
+}
+
+}  // namespace burin::haptics

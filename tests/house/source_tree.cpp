@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "tests/house/source_tree.hpp"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 #include <algorithm>
 #include <array>
 #include <fstream>
 #include <iterator>
+#include <memory>
+#include <sstream>
 
 namespace burin::house {
 namespace fs = std::filesystem;
@@ -37,6 +40,23 @@ std::vector<std::string> all_files(const fs::path& root) {
         }
     }
     std::ranges::sort(files);
+    return files;
+}
+
+std::vector<std::string> repository_files(const fs::path& root) {
+    const std::string command = "git -c safe.directory='*' -C '" + root.string() +
+                                "' ls-files --cached --others --exclude-standard 2>/dev/null";
+    std::string listing;
+    if (const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose); pipe) {
+        std::array<char, 4096> part{};
+        while (fgets(part.data(), part.size(), pipe.get()) != nullptr) listing += part.data();
+    }
+    if (listing.empty()) return all_files(root);
+    std::vector<std::string> files;
+    std::istringstream lines(listing);
+    for (std::string line; std::getline(lines, line);) {
+        if (fs::is_regular_file(root / line)) files.push_back(line);  // deleted but not yet committed: not there
+    }
     return files;
 }
 

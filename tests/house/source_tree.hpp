@@ -11,7 +11,10 @@ namespace burin::house {
 // Every regular file below root, sorted; build and out folders at the top and hidden folders other than .ci left aside.
 [[nodiscard]] std::vector<std::string> all_files(const std::filesystem::path& root);
 
-// Those that are C++ or GLSL.
+// What git tracks or would track; all files where git is missing or there is no repository (a source archive).
+[[nodiscard]] std::vector<std::string> repository_files(const std::filesystem::path& root);
+
+// Those of all_files() that are C++ or GLSL.
 [[nodiscard]] std::vector<std::string> source_files(const std::filesystem::path& root);
 [[nodiscard]] bool is_source(const std::string& path);
 

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 // ctest house.words: the rules on the text of files hold in this repository, and each rule can be seen to fail.
 #include <gtest/gtest.h>
-#include <stdio.h>
 
-#include <array>
 #include <filesystem>
 #include <functional>
-#include <memory>
-#include <sstream>
+#include <string>
+#include <vector>
 
 #include "tests/house/house_rules.hpp"
 #include "tests/house/source_tree.hpp"
@@ -16,24 +14,6 @@ namespace burin::house {
 namespace {
 
 namespace fs = std::filesystem;
-
-// What git tracks or would track; all files of the tree where git is missing or there is no repository (a source archive).
-std::vector<std::string> repository_files(const fs::path& root) {
-    const std::string command = "git -c safe.directory='*' -C '" + root.string() +
-                                "' ls-files --cached --others --exclude-standard 2>/dev/null";
-    std::string listing;
-    if (const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose); pipe) {
-        std::array<char, 4096> part{};
-        while (fgets(part.data(), part.size(), pipe.get()) != nullptr) listing += part.data();
-    }
-    if (listing.empty()) return all_files(root);
-    std::vector<std::string> files;
-    std::istringstream lines(listing);
-    for (std::string line; std::getline(lines, line);) {
-        if (fs::is_regular_file(root / line)) files.push_back(line);  // deleted but not yet committed: not there
-    }
-    return files;
-}
 
 bool is_text(const std::string& content) { return !content.contains('\0'); }
 
@@ -63,6 +43,19 @@ TEST(Words, NameNoMachinesPath) {
 TEST(Words, EverySourceNamesItsLicence) { expect_everywhere(is_source, complaint_on_licence); }
 
 TEST(Words, NoSourceIsTooLong) { expect_everywhere(is_source, complaint_on_length); }
+
+TEST(Words, NoSourceLineIsTooLong) {
+    const Findings found = long_lines(BURIN_SOURCE_FOLDER);
+    for (const std::string& place : found.places)
+        ADD_FAILURE() << place << " has more than " << kMostColumns << " columns";
+    EXPECT_GE(found.looked_at, 10u) << "hardly any source was read";
+}
+
+TEST(Words, EveryPathThatADocumentNamesExists) {
+    const Findings found = missing_document_paths(BURIN_SOURCE_FOLDER);
+    for (const std::string& place : found.places) ADD_FAILURE() << place << ", which does not exist";
+    EXPECT_GE(found.looked_at, 100u) << "hardly any path was found in the documents";
+}
 
 TEST(Words, HaveCleanLineEnds) {
     expect_everywhere([](const std::string& path) { return !keeps_its_own_line_ends(path); }, complaint_on_whitespace);
@@ -107,6 +100,45 @@ TEST(WordsRules, SeeAMissingLicenceLine) {
 TEST(WordsRules, SeeAFileThatIsTooLong) {
     EXPECT_EQ(complaint_on_length(std::string(500, '\n')), "");
     EXPECT_NE(complaint_on_length(std::string(501, '\n')), "");
+}
+
+TEST(WordsRules, SeeALineThatIsTooLong) {
+    const std::string full(120, 'x');
+    EXPECT_EQ(lines_too_long(full + "\n" + full), std::vector<int>{});
+    EXPECT_EQ(lines_too_long(""), std::vector<int>{});
+    EXPECT_EQ(lines_too_long("a\n" + full + "x\nb\n// " + full + "\n"), (std::vector<int>{2, 4}));
+    EXPECT_EQ(lines_too_long(full + "x"), std::vector<int>{1});  // also without a line end
+    std::string umlauts;
+    for (int i = 0; i < 120; ++i) umlauts += "\xc3\xa4";  // two bytes, one column
+    EXPECT_EQ(lines_too_long(umlauts + "\n"), std::vector<int>{});
+    EXPECT_EQ(lines_too_long(umlauts + "x\n"), std::vector<int>{1});
+}
+
+TEST(WordsRules, SeeThePathsThatADocumentNames) {
+    const std::vector<std::string> tops{"docs", "gpu"};
+    const auto paths = [&](const std::string& text) { return paths_named_in(text, "docs", tops); };
+    using Paths = std::vector<NamedPath>;
+    EXPECT_EQ(paths("a\nsee `gpu/device.hpp`, and `gpu/`.\n"), (Paths{{"gpu/device.hpp", 2}, {"gpu/", 2}}));
+    EXPECT_EQ(paths("`gone/away.hpp` and (`old/notes.md`)\n"), (Paths{{"gone/away.hpp", 1}, {"old/notes.md", 1}}));
+    EXPECT_EQ(paths("`run gpu/a.comp,\ngpu/b.comp`\n"), (Paths{{"gpu/a.comp", 1}, {"gpu/b.comp", 2}}));
+    EXPECT_EQ(paths("```sh\nscript gpu/a.txt\n```\ngpu/b.txt\n"), (Paths{{"gpu/a.txt", 2}}));
+    EXPECT_EQ(paths("an open ` ends here\n\nand gpu/a.hpp is none\n"), Paths{});
+}
+
+TEST(WordsRules, SeeWhereADocumentsLinksLead) {
+    const auto paths = [](const std::string& text) { return paths_named_in(text, "docs", {}); };
+    using Paths = std::vector<NamedPath>;
+    EXPECT_EQ(paths("[a](formats.md#walls) [b](../LICENSE)\n![c](pictures/wall.png)\n"),
+              (Paths{{"docs/formats.md", 1}, {"LICENSE", 1}, {"docs/pictures/wall.png", 2}}));
+    EXPECT_EQ(paths("[a](https://example.org/x.md) [b](#here)\n```cpp\nf[0](gone.md)\n```\n"), Paths{});
+    EXPECT_EQ(paths_named_in("[a](docs/formats.md)\n", "", {}), (Paths{{"docs/formats.md", 1}}));
+}
+
+TEST(WordsRules, TakeNoOptionPatternOrBuildForAPath) {
+    const std::vector<std::string> tops{"docs", "gpu"};
+    EXPECT_EQ(paths_named_in("`gpu/*_unit.cpp` `build/ci/a.json` `out/a.png` `A=gpu/a.hpp` `udp:gpu/x` `a/b` `/x.md`\n",
+                             "", tops),
+              std::vector<NamedPath>{});
 }
 
 TEST(WordsRules, SeeAHeaderWithoutItsGuard) {

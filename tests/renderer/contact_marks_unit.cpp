@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The signs of a contact stand where the contact is, clear of the tool, and are of a length that can be read.
-#include "renderer/contact_marks.hpp"
+#include "renderer/scene/contact_marks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <limits>
 #include <random>
 
-#include "renderer/frame_setup.hpp"
+#include "renderer/scene/frame_setup.hpp"
 
-namespace burin {
+namespace burin::renderer {
 namespace {
 
 // A ball of 2 cm that rests on a slope.
@@ -134,4 +134,4 @@ TEST(ContactMarks, AllVerticesLieWithinTheBoxes) {
     }
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

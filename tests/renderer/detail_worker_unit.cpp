@@ -8,20 +8,20 @@
 #include <cmath>
 #include <iterator>
 
-#include "compute/normal_code.hpp"
+#include "compute/rays/normal_code.hpp"
 
-namespace burin {
+namespace burin::renderer {
 namespace {
 
 // A gentle hill, whose levels have many triangles less.
-std::shared_ptr<const SurfaceTile> hill(int cells, double height) {
-    auto tile = std::make_shared<SurfaceTile>();
+std::shared_ptr<const geometry::SurfaceTile> hill(int cells, double height) {
+    auto tile = std::make_shared<geometry::SurfaceTile>();
     for (int y = 0; y <= cells; ++y)
         for (int x = 0; x <= cells; ++x) {
             const double u = 2.0 * x / cells - 1.0, v = 2.0 * y / cells - 1.0;
             tile->vertices.push_back(
                 {static_cast<float>(u), static_cast<float>(v), static_cast<float>(-height * (u * u + v * v)),
-                 normal_code(glm::normalize(Vec3(2 * height * u, 2 * height * v, 1.0))), 0xff808080u});
+                 compute::normal_code(glm::normalize(Vec3(2 * height * u, 2 * height * v, 1.0))), 0xff808080u});
         }
     const auto row = static_cast<std::uint32_t>(cells + 1);
     for (std::uint32_t y = 0; y + 1 < row; ++y)
@@ -38,7 +38,7 @@ TEST(DetailWorker, GivesTheLevelsOfEveryPatchWithWhatTheyAreOf) {
     constexpr std::uint32_t kPatches = 40;
     DetailWorker worker;
     EXPECT_TRUE(worker.take().empty());
-    std::vector<std::shared_ptr<const SurfaceTile>> tiles;
+    std::vector<std::shared_ptr<const geometry::SurfaceTile>> tiles;
     for (std::uint32_t i = 0; i < kPatches; ++i) {
         tiles.push_back(hill(12, 0.01 * i));
         worker.give({i, tiles.back(), {}, 2.0 / 12.0});
@@ -65,4 +65,4 @@ TEST(DetailWorker, EndsWithWorkLeft) {
     for (std::uint32_t i = 0; i < 200; ++i) worker.give({i, hill(40, 0.1), {}, 0.05});
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

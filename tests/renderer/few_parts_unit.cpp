@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Few rectangles hold many and little else, whatever these are.
-#include "renderer/few_parts.hpp"
+#include "renderer/frame/damage_rectangles.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-namespace burin {
+namespace burin::renderer {
 namespace {
 
 bool holds(const PixelRect& part, std::uint32_t x, std::uint32_t y) {
@@ -32,7 +32,7 @@ TEST(FewParts, HoldEveryPixelOfManyAndStayWithinThePicture) {
             r.width = std::min<std::uint32_t>(static_cast<std::uint32_t>(random() % 60), size.width - r.x);
             r.height = std::min<std::uint32_t>(static_cast<std::uint32_t>(random() % 60), size.height - r.y);
         }
-        const std::vector<PixelRect> parts = few_parts(rects, size);
+        const std::vector<PixelRect> parts = damage_rectangles(rects, size);
         for (const PixelRect& part : parts) {
             ASSERT_FALSE(part.empty());
             ASSERT_TRUE(part.x + part.width <= size.width && part.y + part.height <= size.height);
@@ -48,25 +48,25 @@ TEST(FewParts, HoldEveryPixelOfManyAndStayWithinThePicture) {
 TEST(FewParts, AreApartWhereMuchElseLiesBetween) {
     const ImageSize size{1280, 720};
     const std::vector<PixelRect> far{{10, 10, 50, 50}, {900, 600, 60, 60}};
-    EXPECT_EQ(few_parts(far, size).size(), 2u);
+    EXPECT_EQ(damage_rectangles(far, size).size(), 2u);
     const std::vector<PixelRect> near{{10, 10, 50, 50}, {50, 40, 40, 40}};
-    EXPECT_EQ(few_parts(near, size).size(), 1u);
+    EXPECT_EQ(damage_rectangles(near, size).size(), 1u);
     // A slanting rod: one rectangle around it would be ten times as much.
     std::vector<PixelRect> rod;
     for (std::uint32_t i = 0; i < 20; ++i) rod.push_back({100 + 25 * i, 100 + 25 * i, 30, 30});
-    const std::vector<PixelRect> parts = few_parts(rod, size);
+    const std::vector<PixelRect> parts = damage_rectangles(rod, size);
     EXPECT_LE(parts.size(), 10u);
     EXPECT_LT(3 * area(parts), 500u * 500u);
 }
 
 TEST(FewParts, OfNothingAreNoneAndOfMostOfItAreAll) {
     const ImageSize size{200, 100};
-    EXPECT_TRUE(few_parts({}, size).empty());
+    EXPECT_TRUE(damage_rectangles({}, size).empty());
     const std::vector<PixelRect> nothing{{5, 5, 0, 3}};
-    EXPECT_TRUE(few_parts(nothing, size).empty());
+    EXPECT_TRUE(damage_rectangles(nothing, size).empty());
     const std::vector<PixelRect> most{{0, 0, 190, 95}};
-    EXPECT_EQ(few_parts(most, size), std::vector<PixelRect>{all_of(size)});
+    EXPECT_EQ(damage_rectangles(most, size), std::vector<PixelRect>{all_of(size)});
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::renderer

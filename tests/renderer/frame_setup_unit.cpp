@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/frame_setup.hpp"
+#include "renderer/scene/frame_setup.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 
-#include "renderer/stereo/projection.hpp"
+#include "wall/projection.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 namespace {
 
@@ -106,4 +106,4 @@ TEST(LinearOf, FollowsTheSrgbCurve) {
     EXPECT_NEAR(linear_of({0.04, 0.0, 0.0}).x, 0.04 / 12.92, 1e-12);
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -4,11 +4,12 @@
 
 #include "tests/renderer/test_scene.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 namespace {
 
-// How far the line from the eye through a point passes outside a ball, in metres at the ball's distance; negative: it hits.
+// How far the line from the eye through a point passes outside a ball, in metres at the ball's distance; negative: it
+// hits.
 double miss(const Vec3& eye, const Vec3& through, const Vec3& center, double radius) {
     const Vec3 d = glm::normalize(through - eye);
     const Vec3 to = center - eye;
@@ -37,8 +38,8 @@ int count_reddish(const Image& image) {
 
 using Geometry = PictureTest;
 
-// A ball seen from an eye covers exactly the pixels whose lines of sight hit it, an ellipse on the screen; only pixels whose
-// centre lies within one pixel of its outline may differ. Everywhere else is the untouched background.
+// A ball seen from an eye covers exactly the pixels whose lines of sight hit it, an ellipse on the screen; only pixels
+// whose centre lies within one pixel of its outline may differ. Everywhere else is the untouched background.
 TEST_F(Geometry, ABallCoversThePixelsThatTheClosedFormPredictsInBothEyes) {
     Scene scene = bare_scene();
     scene.viewer.head_world = {{0.09, 0.24, 0.5}, glm::angleAxis(0.2, Vec3{0, 0, 1})};
@@ -51,7 +52,7 @@ TEST_F(Geometry, ABallCoversThePixelsThatTheClosedFormPredictsInBothEyes) {
     constexpr double radius = 0.05;
 
     const StereoImage pictures = render(scene);
-    const Eyes eyes = eyes_of(scene.viewer);
+    const wall::Eyes eyes = wall::eyes_of(scene.viewer);
     const std::array<std::pair<const Image*, Vec3>, 2> views{
         {{&pictures.left, eyes.left_world}, {&pictures.right, eyes.right_world}}};
     for (const auto& [image, eye] : views) {
@@ -98,7 +99,7 @@ TEST_F(Geometry, ParallaxFadesTowardsTheEdges) {
                 const std::uint8_t* background = pictures.left.pixel(0, 0);
                 return mean_x(pictures.right, background) - mean_x(pictures.left, background);
             };
-            const Eyes eyes = eyes_of(scene.viewer);
+            const wall::Eyes eyes = wall::eyes_of(scene.viewer);
             const auto seen = [&](const Vec3& eye) {
                 return 2.0 * point_on_screen(scene.screen, eye, center).x / scene.wall.width_m - 1.0;
             };
@@ -159,7 +160,7 @@ TEST_F(Geometry, TwoViewsInOnePassEqualViewsDrawnAlone) {
     scene.tool = {0.015, {0.03, 0.2, 0.05}, {0.9, 0.4, 0.1}, {{0.03, 0.2, 0.05}, Quat{1, 0, 0, 0}}, true};
     set(0, ball_surface({0.0, 0.15, 0.0}, 0.06));
     const StereoImage both = render(scene);
-    const Eyes eyes = eyes_of(scene.viewer);
+    const wall::Eyes eyes = wall::eyes_of(scene.viewer);
     scene.viewer.interpupillary_m = 0.0;
     scene.viewer.head_world.position_m = eyes.left_world;
     EXPECT_TRUE(render(scene).left.rgba == both.left.rgba);
@@ -176,7 +177,7 @@ TEST_F(Geometry, NothingIsClipped) {
         const double radius = 0.03 * (0.6 - z);  // the same angle at every distance
         set(0, ball_surface({0.0, 0.15, z}, radius));
         const StereoImage pictures = render(scene);
-        const Vec3 eye = eyes_of(scene.viewer).left_world;
+        const Vec3 eye = wall::eyes_of(scene.viewer).left_world;
         for (std::uint32_t y = 0; y < kTestSize.height; ++y) {
             for (std::uint32_t x = 0; x < kTestSize.width; ++x) {
                 const double angle = miss(eye, pixel_centre_world(scene, x, y), {0.0, 0.15, z}, radius) / (0.6 - z);
@@ -201,4 +202,4 @@ TEST_F(Geometry, RefusesPicturesWithoutPixelsOrTooLarge) {
     EXPECT_FALSE(Renderer::create(device(), {100, 100000}));
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -7,10 +7,10 @@
 #include <random>
 #include <vector>
 
-#include "compute/normal_code.hpp"
+#include "compute/rays/normal_code.hpp"
 #include "renderer/surface/patch_detail.hpp"
 
-namespace burin {
+namespace burin::renderer {
 namespace {
 
 constexpr std::uint32_t kGrey = 0xff808080u;
@@ -19,12 +19,13 @@ constexpr std::uint32_t kGrey = 0xff808080u;
 struct Plate {
     std::vector<shared::SurfaceVertex> vertices;
     std::vector<std::uint32_t> indices;
-    std::vector<VertexLight> light;
+    std::vector<geometry::VertexLight> light;
 
     explicit Plate(std::uint32_t cells) {
         for (std::uint32_t y = 0; y <= cells; ++y)
             for (std::uint32_t x = 0; x <= cells; ++x)
-                vertices.push_back({static_cast<float>(x), static_cast<float>(y), 0.0f, normal_code({0, 0, 1}), kGrey});
+                vertices.push_back(
+                    {static_cast<float>(x), static_cast<float>(y), 0.0f, compute::normal_code({0, 0, 1}), kGrey});
         const std::uint32_t row = cells + 1;
         for (std::uint32_t y = 0; y < cells; ++y)
             for (std::uint32_t x = 0; x < cells; ++x) {
@@ -63,7 +64,7 @@ TEST(PatchChange, HoldsTheTrianglesOfAVertexThatMovedBeforeAndAfter) {
 TEST(PatchChange, SeesNormalColourAndLight) {
     const Plate before(8);
     Plate turned(8), painted(8), shaded(8);
-    turned.at(1, 1, 8).normal = normal_code({0.1, 0.0, 0.995});
+    turned.at(1, 1, 8).normal = compute::normal_code({0.1, 0.0, 0.995});
     painted.at(1, 1, 8).colour = 0xff808081u;
     shaded.light[9 + 1].sun = 254;
     for (const Plate* after : {&turned, &painted, &shaded})
@@ -99,7 +100,7 @@ TEST(SmoothFirst, PutsTrianglesAlongAnEdgeOfColourNormalOrLightLast) {
     EXPECT_EQ(smooth_first(flat.vertices, flat.indices, flat.light).smooth, flat.indices.size());
     Plate painted(4), bent(4), shaded(4);
     painted.at(0, 0, 4).colour = 0xff0000ffu;
-    bent.at(0, 0, 4).normal = normal_code(glm::normalize(Vec3(0.2, 0.0, 1.0)));
+    bent.at(0, 0, 4).normal = compute::normal_code(glm::normalize(Vec3(0.2, 0.0, 1.0)));
     shaded.light[0].open = 100;
     for (const Plate* plate : {&painted, &bent, &shaded}) {
         const SmoothFirst sorted = smooth_first(plate->vertices, plate->indices, plate->light);
@@ -110,4 +111,4 @@ TEST(SmoothFirst, PutsTrianglesAlongAnEdgeOfColourNormalOrLightLast) {
     }
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -7,7 +7,7 @@
 
 #include "tests/renderer/test_scene.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 using Patches = PictureTest;
 
@@ -19,10 +19,10 @@ TEST_F(Patches, ARemovedPatchIsGone) {
     set(2, ball_surface({0.06, 0.15, 0}, 0.03));
     const StereoImage two = render(scene);
     EXPECT_FALSE(one.left.rgba == two.left.rgba);
-    renderer().remove_patch(2);
+    renderer().surface().remove_patch(2);
     EXPECT_TRUE(render(scene).left.rgba == one.left.rgba);
-    renderer().remove_patch(1);
-    renderer().remove_patch(77);  // never there
+    renderer().surface().remove_patch(1);
+    renderer().surface().remove_patch(77);  // never there
     EXPECT_TRUE(render(scene).left.rgba == empty.left.rgba);
 }
 
@@ -44,7 +44,7 @@ TEST_F(Patches, ClearingLeavesOnlyWhatIsSetAfterwards) {
     const Scene scene = bare_scene();
     const StereoImage empty = render(scene);
     for (std::uint32_t id = 0; id < 20; ++id) set(id, ball_surface({0.01 * id - 0.1, 0.15, 0}, 0.01, kGrey, 6));
-    renderer().clear_patches();
+    renderer().surface().clear_patches();
     EXPECT_TRUE(render(scene).left.rgba == empty.left.rgba);
     set(3, ball_surface({0, 0.15, 0}, 0.03));
     static_cast<void>(render(scene));
@@ -62,7 +62,7 @@ TEST_F(Patches, AnyHistoryWithTheSameEndGivesTheSamePicture) {
         for (int change = 0; change < 150; ++change) {
             const auto id = static_cast<std::uint32_t>(random() % 200);
             if (random() % 4 == 0) {
-                renderer().remove_patch(id);
+                renderer().surface().remove_patch(id);
                 last.erase(id);
             } else {
                 const int rings = 4 + static_cast<int>(random() % 16);
@@ -75,7 +75,7 @@ TEST_F(Patches, AnyHistoryWithTheSameEndGivesTheSamePicture) {
     const StereoImage grown = render(scene);
     auto fresh = Renderer::create(device(), kTestSize);
     ASSERT_TRUE(fresh);
-    for (const auto& [id, surface] : last) fresh->set_patch(id, surface.vertices, surface.indices);
+    for (const auto& [id, surface] : last) fresh->surface().set_patch(id, surface.vertices, surface.indices);
     const auto at_once = fresh->render(scene);
     ASSERT_TRUE(at_once);
     EXPECT_TRUE(grown.left.rgba == at_once->left.rgba);
@@ -108,7 +108,7 @@ TEST_F(Patches, CoarserLevelsComeBesideTheFrames) {
     static_cast<void>(render(scene));
     const auto frames_until_coarser = [&] {
         for (int frame = 0; frame < 10'000; ++frame) {
-            renderer().refine_beside(true);
+            renderer().surface().refine_beside(true);
             static_cast<void>(render(scene));
             if (renderer().stats().part == all_of(renderer().size())) return frame;
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -117,7 +117,7 @@ TEST_F(Patches, CoarserLevelsComeBesideTheFrames) {
     };
     ASSERT_GE(frames_until_coarser(), 0) << "it never came";
     EXPECT_EQ(renderer().stats().patch_counts.coarser, 1u);
-    renderer().refine_beside(true);
+    renderer().surface().refine_beside(true);
     static_cast<void>(render(scene));
     EXPECT_TRUE(renderer().stats().part.empty()) << "once it is there nothing more is drawn";
 }
@@ -128,7 +128,7 @@ TEST_F(Patches, PatchesThatChangeAreLeftAloneUntilTheyRest) {
     const auto wait_for_any = [&](bool resting) {
         bool coarser = false;
         for (int turn = 0; turn < 50 && !coarser; ++turn) {
-            renderer().refine_beside(resting);
+            renderer().surface().refine_beside(resting);
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
             static_cast<void>(render(scene));
             coarser = renderer().stats().patch_counts.coarser > 0;
@@ -139,7 +139,7 @@ TEST_F(Patches, PatchesThatChangeAreLeftAloneUntilTheyRest) {
         set(1, ball_surface({0, 0.15, 0}, 0.01 + 0.0001 * change, kGrey, 40));
         static_cast<void>(render(scene));
         for (int frame = 0; frame < 10; ++frame) {
-            renderer().refine_beside(false);
+            renderer().surface().refine_beside(false);
             static_cast<void>(render(scene));
             ASSERT_EQ(renderer().stats().patch_counts.coarser, 0u);
         }
@@ -152,9 +152,10 @@ TEST_F(Patches, PatchesThatChangeAreLeftAloneUntilTheyRest) {
 // What has just come may stay as it is, and so may its first light; only what has changed may soon change again.
 TEST_F(Patches, NeedRestForLevelsOnlyOnceTheyHaveChanged) {
     PatchStore store;
+    DrawnPatches drawn(store);
     const auto tile = [](double radius) {
         const Surface ball = ball_surface({0, 0.15, 0}, radius, kGrey, 8);
-        auto made = std::make_shared<SurfaceTile>();
+        auto made = std::make_shared<geometry::SurfaceTile>();
         made->vertices.assign(ball.vertices.begin(), ball.vertices.end());
         made->indices.assign(ball.indices.begin(), ball.indices.end());
         return made;
@@ -164,11 +165,11 @@ TEST_F(Patches, NeedRestForLevelsOnlyOnceTheyHaveChanged) {
         ASSERT_TRUE(commands && store.flush(device(), *commands));
         auto submission = std::move(*commands).submit();
         ASSERT_TRUE(submission && submission->wait());
-        for (PatchStore::Patch* patch : store.in_order()) patch->wanted = true;
+        for (const PatchStore::Patch* patch : store.in_order()) drawn.of(*patch).wanted = true;
     };
     const auto first = tile(0.02);
     const auto light = [&](std::uint8_t sun) {
-        return std::vector<VertexLight>(first->vertices.size(), {.sun = sun, .open = 255});
+        return std::vector<geometry::VertexLight>(first->vertices.size(), {.sun = sun, .open = 255});
     };
     store.set(1, first);
     flush();
@@ -187,13 +188,95 @@ TEST_F(Patches, NeedRestForLevelsOnlyOnceTheyHaveChanged) {
     EXPECT_TRUE(store.next_detail(false)) << "it has rested";
 }
 
+// The new mesh may have as many vertices as the old one, so that nothing but the order tells whose light it is.
+TEST_F(Patches, ANewMeshIsNotLitByTheLightOfTheOldOne) {
+    const Scene scene = bare_scene();
+    const Surface ball = ball_surface({0, 0.15, 0}, 0.03, kGrey, 20),
+                  moved = ball_surface({0.01, 0.15, 0}, 0.03, kGrey, 20);
+    ASSERT_EQ(ball.vertices.size(), moved.vertices.size());
+    const std::vector<geometry::VertexLight> dark(ball.vertices.size(), {.sun = 0, .open = 40}),
+        dim(ball.vertices.size(), {.sun = 100, .open = 150});
+    set(1, moved);
+    const StereoImage lit = render(scene);
+    renderer().surface().set_patch_light(1, dim);
+    const StereoImage dimmed = render(scene);
+    ASSERT_FALSE(lit.left.rgba == dimmed.left.rgba);
+
+    set(1, ball);
+    renderer().surface().set_patch_light(1, dark);  // comes with the mesh
+    static_cast<void>(render(scene));
+    set(1, moved);
+    EXPECT_TRUE(render(scene).left.rgba == lit.left.rgba) << "the light went with its mesh";
+
+    set(1, ball);
+    static_cast<void>(render(scene));
+    renderer().surface().set_patch_light(1, dark);  // comes later, and is overtaken before the next frame
+    set(1, moved);
+    EXPECT_TRUE(render(scene).left.rgba == lit.left.rgba) << "the light was for the mesh before";
+
+    set(1, ball);
+    static_cast<void>(render(scene));
+    renderer().surface().set_patch_light(1, dark);
+    set(1, moved);
+    renderer().surface().set_patch_light(1, dim);
+    EXPECT_TRUE(render(scene).left.rgba == dimmed.left.rgba) << "the last light counts";
+
+    set(1, ball);
+    static_cast<void>(render(scene));
+    renderer().surface().set_patch_light(1, dark);
+    renderer().surface().clear_patches();
+    set(1, moved);
+    EXPECT_TRUE(render(scene).left.rgba == lit.left.rgba) << "nothing outlives a clearing";
+}
+
+// Levels hide what light shows, so those of another light or mesh must not come back.
+TEST_F(Patches, TakesNoLevelsOfAnotherMeshOrLight) {
+    PatchStore store;
+    DrawnPatches drawn(store);
+    const auto tile = [](double radius) {
+        const Surface ball = ball_surface({0, 0.15, 0}, radius, kGrey, 8);
+        auto made = std::make_shared<geometry::SurfaceTile>();
+        made->vertices.assign(ball.vertices.begin(), ball.vertices.end());
+        made->indices.assign(ball.indices.begin(), ball.indices.end());
+        return made;
+    };
+    const auto flush = [&] {
+        auto commands = gpu::Commands::begin(device());
+        ASSERT_TRUE(commands && store.flush(device(), *commands));
+        auto submission = std::move(*commands).submit();
+        ASSERT_TRUE(submission && submission->wait());
+        for (const PatchStore::Patch* patch : store.in_order()) drawn.of(*patch).wanted = true;
+    };
+    const auto levels_of = [&]() -> DetailDone {
+        auto job = store.next_detail(true);
+        EXPECT_TRUE(job);
+        if (!job) return {};
+        const std::vector<std::uint32_t> one{job->surface->indices.begin(), job->surface->indices.begin() + 3};
+        return {std::move(*job), {{.indices = one, .smooth = 3, .error_m = 1e-4}}};
+    };
+    const auto first = tile(0.02);
+    store.set(1, first);
+    flush();
+    DetailDone of_first = levels_of();
+    const std::vector<geometry::VertexLight> light(first->vertices.size(), {.sun = 90, .open = 255});
+    store.set_light(1, light);
+    flush();
+    EXPECT_FALSE(store.take(std::move(of_first))) << "other light";
+    DetailDone of_lit = levels_of();
+    store.set(1, tile(0.021));
+    store.set_light(1, light);
+    flush();
+    EXPECT_FALSE(store.take(std::move(of_lit))) << "another mesh";
+    EXPECT_TRUE(store.take(levels_of())) << "as it is";
+}
+
 TEST_F(Patches, KeepTheirLevelsInPicturesOfAnotherSize) {
     const Scene scene = bare_scene();
     const Surface ball = ball_surface({0, 0.15, 0}, 0.01, kGrey, 40);
     constexpr ImageSize kOther{100, 160};
     set(1, ball);
     static_cast<void>(render(scene));
-    ASSERT_GT(renderer().refine(10), 0u);
+    ASSERT_GT(renderer().surface().refine(10), 0u);
     ASSERT_TRUE(renderer().resize(kOther));
     const StereoImage resized = render(scene);
     EXPECT_EQ(renderer().stats().patch_counts.coarser, 1u);
@@ -201,9 +284,9 @@ TEST_F(Patches, KeepTheirLevelsInPicturesOfAnotherSize) {
 
     auto fresh = Renderer::create(device(), kOther);
     ASSERT_TRUE(fresh);
-    fresh->set_patch(1, ball.vertices, ball.indices);
+    fresh->surface().set_patch(1, ball.vertices, ball.indices);
     ASSERT_TRUE(fresh->render(scene));
-    ASSERT_GT(fresh->refine(10), 0u);
+    ASSERT_GT(fresh->surface().refine(10), 0u);
     fresh->forget_picture();
     const auto expected = fresh->render(scene);
     ASSERT_TRUE(expected);
@@ -234,4 +317,4 @@ TEST_F(Patches, AreDrawnForOneEyeAsForBoth) {
     EXPECT_EQ(renderer().stats().pipelines, 3 * pipelines) << "those of both were kept";
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

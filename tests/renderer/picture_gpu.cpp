@@ -5,7 +5,7 @@
 
 #include "tests/renderer/test_scene.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 namespace {
 
@@ -20,7 +20,7 @@ double srgb(double linear) {
 
 // The pixel at which the left eye sees a point.
 std::array<std::uint32_t, 2> pixel_of(const Scene& scene, const Vec3& p) {
-    const Vec2 at = point_on_screen(scene.screen, eyes_of(scene.viewer).left_world, p);
+    const Vec2 at = point_on_screen(scene.screen, wall::eyes_of(scene.viewer).left_world, p);
     return {static_cast<std::uint32_t>(at.x / scene.wall.width_m * kTestSize.width),
             static_cast<std::uint32_t>((1.0 - at.y / scene.wall.height_m) * kTestSize.height)};
 }
@@ -31,7 +31,7 @@ const std::uint8_t* seen_at(const Image& image, const Scene& scene, const Vec3& 
 }
 
 bool in_view(const Scene& scene, const Vec3& p) {
-    const Vec2 at = point_on_screen(scene.screen, eyes_of(scene.viewer).left_world, p);
+    const Vec2 at = point_on_screen(scene.screen, wall::eyes_of(scene.viewer).left_world, p);
     return at.x > 0.0 && at.y > 0.0 && at.x < scene.wall.width_m && at.y < scene.wall.height_m;
 }
 
@@ -68,15 +68,15 @@ TEST_F(Picture, HasTheSameBitsEachTime) {
     EXPECT_TRUE(first.right.rgba == second.right.rgba);
     auto fresh = Renderer::create(device(), kTestSize);
     ASSERT_TRUE(fresh);
-    fresh->set_patch(5, ball.vertices, ball.indices);
+    fresh->surface().set_patch(5, ball.vertices, ball.indices);
     const auto third = fresh->render(scene);
     ASSERT_TRUE(third);
     EXPECT_TRUE(first.left.rgba == third->left.rgba);
     EXPECT_TRUE(first.right.rgba == third->right.rgba);
 }
 
-// Four samples a pixel give three steps between the two sides of an edge, and light is mixed linearly: a half covered pixel
-// of black and white is sRGB 188, not 128.
+// Four samples a pixel give three steps between the two sides of an edge, and light is mixed linearly: a half covered
+// pixel of black and white is sRGB 188, not 128.
 TEST_F(Picture, HasSmoothEdgesMixedInLinearLight) {
     Scene scene = bare_scene();
     scene.background = {0.8, 0.8, 0.8};
@@ -109,7 +109,7 @@ TEST_F(Picture, ShowsTheToolBeforeAndNotBehindTheSurface) {
     Surface plate;
     plate.quad({0, 0.15, 0}, {0.1, 0, 0}, {0, 0.1, 0}, kGreen);
     set(0, plate);
-    const Vec3 left_eye = eyes_of(scene.viewer).left_world;
+    const Vec3 left_eye = wall::eyes_of(scene.viewer).left_world;
     for (const double z : {0.05, -0.05}) {
         scene.tool = {0.02, {0.0, 0.15, z}, {1.0, 0.0, 0.0}, {{0, 0.15, z}, glm::angleAxis(1.2, Vec3{1, 0, 0})}, true};
         const StereoImage pictures = render(scene);
@@ -225,4 +225,4 @@ TEST_F(Picture, StaysMidGreyInTheRoom) {
     }
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

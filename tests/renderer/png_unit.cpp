@@ -8,7 +8,7 @@
 #include <fstream>
 #include <random>
 
-namespace burin {
+namespace burin::renderer {
 
 namespace {
 
@@ -90,4 +90,4 @@ TEST(SideBySide, PutsTheLeftEyesViewOnTheLeft) {
     }
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

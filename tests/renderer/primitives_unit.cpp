@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/primitives.hpp"
+#include "renderer/scene/primitives.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "shaders/shared/octahedral.h"
 
-namespace burin {
+namespace burin::renderer {
 
 namespace {
 
@@ -61,4 +61,4 @@ TEST(Primitives, HaveNormalsOnTheSideThatTheTrianglesFace) {
     }
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

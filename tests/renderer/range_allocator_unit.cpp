@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace burin {
+namespace burin::renderer {
 
 // Against the plainest possible book: one flag an element.
 TEST(RangeAllocator, NeverGivesAnElementTwiceAndForgetsNone) {
@@ -51,4 +51,4 @@ TEST(RangeAllocator, NeverGivesAnElementTwiceAndForgetsNone) {
     EXPECT_EQ(ranges.allocate(800), 0u) << "all neighbours merge again";
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Drawing only what has changed gives, bit for bit, the picture that drawing everything gives: random changes of the scene before
-// a still head, each drawn by one renderer in part and by another as a whole.
+// Drawing only what has changed gives, bit for bit, the picture that drawing everything gives: random changes of the
+// scene before a still head, each drawn by one renderer in part and by another as a whole.
 #include <random>
 
-#include "tests/renderer/panel_pictures.hpp"
+#include "tests/renderer/panel/panel_pictures.hpp"
 #include "tests/renderer/test_scene.hpp"
 
-namespace burin {
+namespace burin::renderer {
 namespace {
 
 constexpr ImageSize kSize{240, 180};
@@ -72,7 +72,7 @@ public:
             case 6: scene_.bubble = {somewhere(), between(0.01, 0.05), {0.4, 0.7, 0.6}, number(3) > 0}; break;
             case 7: set(id, looks_[number(2)][id]); break;
             case 8:
-                for (Renderer* r : renderers_) r->remove_patch(id);
+                for (Renderer* r : renderers_) r->surface().remove_patch(id);
                 break;
             case 9: light(id); break;
             case 10:
@@ -122,13 +122,13 @@ private:
         if (scene_.panel) ++scene_.panel->version;
     }
     void set(std::uint32_t id, const Surface& s) {
-        for (Renderer* r : renderers_) r->set_patch(id, s.vertices, s.indices);
+        for (Renderer* r : renderers_) r->surface().set_patch(id, s.vertices, s.indices);
     }
     void light(std::uint32_t id) {
-        std::vector<VertexLight> lights(looks_[0][id].vertices.size());
-        for (VertexLight& l : lights)
+        std::vector<geometry::VertexLight> lights(looks_[0][id].vertices.size());
+        for (geometry::VertexLight& l : lights)
             l = {static_cast<std::uint8_t>(number(256)), static_cast<std::uint8_t>(number(256))};
-        for (Renderer* r : renderers_) r->set_patch_light(id, lights);
+        for (Renderer* r : renderers_) r->surface().set_patch_light(id, lights);
     }
 
     gpu::Device& device_;
@@ -163,7 +163,7 @@ protected:
         Changes changes(device(), *painter, scene, {&made[0], &made[1]});
         for (Renderer& r : made) {
             ASSERT_TRUE(r.render(scene));
-            const std::size_t made_coarser = refined ? r.refine(1000) : 0;
+            const std::size_t made_coarser = refined ? r.surface().refine(1000) : 0;
             ASSERT_EQ(made_coarser > 0, refined);
             r.forget_picture();
             ASSERT_TRUE(r.render(scene));
@@ -206,12 +206,34 @@ TEST_F(Redraw, OfWhatChangedEqualsDrawingEverythingWhereParallaxFades) {
     if (!HasFatalFailure()) compare(0, false, 6, 1.0);
 }
 
+// The tool keeps the surroundings' light off what is near it, farther than it reaches itself; here that is a pedestal
+// alone.
+TEST_F(Redraw, OfAToolOverAPedestalEqualsDrawingEverything) {
+    auto in_part = Renderer::create(device(), kSize), as_a_whole = Renderer::create(device(), kSize);
+    ASSERT_TRUE(in_part && as_a_whole);
+    Scene scene = bare_scene();
+    scene.viewer.head_world.position_m = {0.0, 0.35, 0.6};  // looks down on it
+    scene.pedestal = {{0, 0.06, -0.1}, 0.14, {0.7, 0.7, 0.7}, true};
+    // Close over it, and as high as a shadow is cast at all, where that has a wide soft edge.
+    for (const Vec3& at : {Vec3(0, 0.08, -0.1), Vec3(0.01, 0.08, -0.08), Vec3(-0.07, 0.28, 0.02),
+                           Vec3(-0.03, 0.28, 0.02), Vec3(-0.03, 0.28, -0.01)}) {
+        scene.tool = {0.015, at, {0.9, 0.5, 0.2}, {}, true};
+        const auto part = in_part->render(scene);
+        as_a_whole->forget_picture();
+        const auto whole = as_a_whole->render(scene);
+        ASSERT_TRUE(part && whole);
+        EXPECT_EQ(different_pixels(part->left, whole->left), 0u) << at.y;
+        EXPECT_EQ(different_pixels(part->right, whole->right), 0u) << at.y;
+    }
+    EXPECT_NE(in_part->stats().part, all_of(kSize));
+}
+
 TEST_F(Redraw, OfNothingDrawsNothing) {
     auto renderer = Renderer::create(device(), kSize);
     ASSERT_TRUE(renderer);
     const Scene scene = furnished_scene();
     const Surface ball = ball_surface({0, 0.15, -0.1}, 0.07);
-    renderer->set_patch(0, ball.vertices, ball.indices);
+    renderer->surface().set_patch(0, ball.vertices, ball.indices);
     const auto first = renderer->render(scene), second = renderer->render(scene);
     ASSERT_TRUE(first && second);
     EXPECT_TRUE(renderer->stats().part.empty());
@@ -219,8 +241,8 @@ TEST_F(Redraw, OfNothingDrawsNothing) {
     EXPECT_TRUE(first->left.rgba == second->left.rgba);
 }
 
-// A tool that moves: its stylus, its shadow and where it touches are far apart, and with one rectangle around all of them as well the
-// picture is the same.
+// A tool that moves: its stylus, its shadow and where it touches are far apart, and with one rectangle around all of
+// them as well the picture is the same.
 TEST_F(Redraw, OfPartsApartDrawsFewerPixelsThanOneAroundThem) {
     std::vector<Renderer> made;
     for (const bool apart : {true, false}) {
@@ -233,7 +255,8 @@ TEST_F(Redraw, OfPartsApartDrawsFewerPixelsThanOneAroundThem) {
     const std::vector<Surface> ball = ball_in_patches({0, 0.15, -0.1}, 0.07, kGrey);
     std::array<std::uint64_t, 2> pixels{};
     for (Renderer& r : made)
-        for (std::uint32_t id = 0; id < ball.size(); ++id) r.set_patch(id, ball[id].vertices, ball[id].indices);
+        for (std::uint32_t id = 0; id < ball.size(); ++id)
+            r.surface().set_patch(id, ball[id].vertices, ball[id].indices);
     for (int frame = 0; frame < 4; ++frame) {
         const Vec3 at{0.004 * frame, 0.19, -0.04};
         scene.tool = {0.003, at, {0.9, 0.5, 0.2}, {at, glm::angleAxis(1.2, glm::normalize(Vec3(-1, 1, 0)))}, true};
@@ -252,4 +275,4 @@ TEST_F(Redraw, OfPartsApartDrawsFewerPixelsThanOneAroundThem) {
     EXPECT_GT(pixels[0], 0u);
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

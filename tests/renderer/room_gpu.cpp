@@ -2,10 +2,10 @@
 // The room's pixels that have neither grid nor shadow look the same when they are drawn by a shader that has neither.
 #include <random>
 
-#include "renderer/room_parts.hpp"
+#include "renderer/frame/room_parts.hpp"
 #include "tests/renderer/test_scene.hpp"
 
-namespace burin {
+namespace burin::renderer {
 namespace {
 
 Scene some_room(std::mt19937& random) {
@@ -13,7 +13,7 @@ Scene some_room(std::mt19937& random) {
     Scene scene = bare_scene();
     scene.show_grid = true;
     scene.wall = {between(0.4, 3.0), between(0.3, 2.2)};
-    scene.screen = screen_of(scene.wall);
+    scene.screen = wall::screen_of(scene.wall);
     scene.viewer.head_world.position_m = {between(-0.5, 0.5), between(0.1, 2.0), between(0.3, 2.5)};
     const Vec3 foot{between(-0.6, 0.6), 0.0, between(-2.6, 0.3)};
     const double height_m = between(0.02, 0.8), radius_m = between(0.03, 0.3);
@@ -87,4 +87,4 @@ TEST_F(Room, IsCoveredOnceAndInEachPartAsInTheWhole) {
     }
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/shape_choice.hpp"
+#include "renderer/frame/shape_choice.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "renderer/stereo/wall.hpp"
+#include "wall/wall.hpp"
 
-namespace burin {
+namespace burin::renderer {
 namespace {
 
 constexpr ImageSize kSize{640, 480};
@@ -15,7 +15,7 @@ constexpr ImageSize kSize{640, 480};
 Scene scene_with_tool(double radius_m) {
     Scene scene;
     scene.wall = {0.4, 0.3};
-    scene.screen = screen_of(scene.wall);
+    scene.screen = wall::screen_of(scene.wall);
     scene.viewer.head_world.position_m = {0.0, 0.15, 0.6};
     scene.show_wall_frame = false;
     scene.tool = {radius_m, {0.1, 0.2, 0.0}, {0.8, 0.4, 0.2}, {{0.1, 0.2, 0.0}, Quat{1, 0, 0, 0}}, true};
@@ -74,4 +74,4 @@ TEST(ShapesIn, BallsAreTheSameWhateverThePart) {
     }
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

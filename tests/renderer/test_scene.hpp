@@ -12,12 +12,12 @@
 #include <optional>
 #include <vector>
 
-#include "renderer/stereo/projection.hpp"
-#include "renderer/renderer.hpp"
+#include "renderer/frame/renderer.hpp"
 #include "shaders/shared/octahedral.h"
 #include "tests/gpu/test_device.hpp"
+#include "wall/projection.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 inline constexpr ImageSize kTestSize{240, 180};
 
@@ -72,7 +72,7 @@ inline Surface ball_surface(const Vec3& center, double radius, std::uint32_t col
 inline Scene bare_scene() {
     Scene scene;
     scene.wall = {0.4, 0.3};
-    scene.screen = screen_of(scene.wall);
+    scene.screen = wall::screen_of(scene.wall);
     scene.viewer.head_world.position_m = {0.0, 0.15, 0.6};
     scene.show_wall_frame = false;
     scene.show_grid = false;
@@ -107,7 +107,7 @@ protected:
         gpu::DeviceTest::TearDown();
     }
     Renderer& renderer() { return *renderer_; }
-    void set(std::uint32_t id, const Surface& s) { renderer_->set_patch(id, s.vertices, s.indices); }
+    void set(std::uint32_t id, const Surface& s) { renderer_->surface().set_patch(id, s.vertices, s.indices); }
     StereoImage render(const Scene& scene) {
         auto image = renderer_->render(scene);
         EXPECT_TRUE(image) << image.error().line();
@@ -119,4 +119,4 @@ private:
     std::optional<Renderer> renderer_;
 };
 
-}  // namespace burin
+}  // namespace burin::renderer

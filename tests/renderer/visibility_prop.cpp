@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What culling leaves out cannot be seen: from a hundred thousand random heads before random screens, each patch that is left out
-// is looked at triangle by triangle, in the world frame and by other means: lines of sight meet the screen's plane
-// (point_on_screen), triangles are asked for their own side, and boxes are tried by separating axes.
+// What culling leaves out cannot be seen: from a hundred thousand random heads before random screens, each patch that
+// is left out is looked at triangle by triangle, in the world frame and by other means: lines of sight meet the
+// screen's plane (point_on_screen), triangles are asked for their own side, and boxes are tried by separating axes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,11 +11,11 @@
 #include <random>
 #include <vector>
 
-#include "renderer/stereo/projection.hpp"
 #include "renderer/surface/visibility.hpp"
 #include "shaders/shared/parallax_fade.h"
+#include "wall/projection.hpp"
 
-namespace burin {
+namespace burin::renderer {
 namespace {
 
 constexpr ImageSize kSize{1280, 720};
@@ -85,7 +85,7 @@ Solid random_solid(Random& random) {
     return solid;
 }
 
-Screen random_screen(Random& random) {
+wall::Screen random_screen(Random& random) {
     const Quat turn = random.turn();
     const double width = random.between(0.2, 3.0), height = random.between(0.2, 3.0);
     const Vec3 x = turn * Vec3(width, 0, 0), y = turn * Vec3(0, height, 0);
@@ -97,7 +97,7 @@ Screen random_screen(Random& random) {
 Scene random_view(Random& random) {
     Scene scene;
     scene.screen = random_screen(random);
-    const Screen& s = scene.screen;
+    const wall::Screen& s = scene.screen;
     const Vec3 x = s.lower_right_world - s.lower_left_world, y = s.upper_left_world - s.lower_left_world;
     const Vec3 out = glm::normalize(glm::cross(x, y));
     const double away = random.once_in(4) ? random.between(0.01, 0.06) : random.between(0.1, 3.0);
@@ -114,8 +114,8 @@ Scene random_view(Random& random) {
     return scene;
 }
 
-// A way from a to b and a box, by separating axes (Ericson, Real-Time Collision Detection, 5.3.3), with the box a little larger:
-// a way that just touches it counts as meeting it.
+// A way from a to b and a box, by separating axes (Ericson, Real-Time Collision Detection, 5.3.3), with the box a
+// little larger: a way that just touches it counts as meeting it.
 bool way_meets(const Vec3& a, const Vec3& b, const Box& box) {
     const Vec3 half = 0.5 * box.extent() * (1.0 + 1e-9), middle = 0.5 * (a + b) - box.center(), along = 0.5 * (b - a);
     const Vec3 size = glm::abs(along);
@@ -158,7 +158,8 @@ public:
 private:
     [[nodiscard]] bool in_picture(const Vec3& point) const {
         const Vec3 world = scene_.world_from_object * (scene_.lattice_origin_object + point);
-        const double ahead = distance_in_front(scene_.screen, eye_world_) - distance_in_front(scene_.screen, world);
+        const double ahead =
+            wall::distance_in_front(scene_.screen, eye_world_) - wall::distance_in_front(scene_.screen, world);
         if (ahead <= 1e-6) return false;
         const Vec2 at = point_on_screen(scene_.screen, eye_world_, world);
         return at.x >= 0.0 && at.y >= 0.0 && at.x <= width_ && at.y <= height_;
@@ -179,7 +180,7 @@ private:
 class FadedDrawing {
 public:
     explicit FadedDrawing(const Scene& scene) : scene_(scene) {
-        const Eyes eyes = eyes_of(scene.viewer);
+        const wall::Eyes eyes = wall::eyes_of(scene.viewer);
         middle_ = middle_of(eyes);
         const std::array from{eyes.left_world, eyes.right_world, middle_};
         for (std::size_t i = 0; i < 3; ++i) clip_[i] = off_axis_projection(scene.screen, from[i], 0.005, 200.0);
@@ -197,7 +198,8 @@ public:
                                        1.0);
                 const glm::vec4 plain(clip_[eye] * world);
                 drawn.push_back(shared::parallax_faded(
-                    plain, glm::vec4(clip_[2] * world), static_cast<float>(distance_in_front(scene_.screen, middle_)),
+                    plain, glm::vec4(clip_[2] * world),
+                    static_cast<float>(wall::distance_in_front(scene_.screen, middle_)),
                     static_cast<float>(scene_.edge_fade), static_cast<float>(scene_.edge_fade_band)));
                 seen.moves |= drawn.back() != plain;
             }
@@ -237,8 +239,8 @@ TEST(Culling, LosesNothingThatEitherEyeOfARandomHeadCouldSee) {
     while (heads < kHeads) {
         if (heads % kHeadsASolid == 0) solid = random_solid(random);
         const Scene scene = random_view(random);
-        const Eyes eyes = eyes_of(scene.viewer);
-        if (!can_be_seen(scene.screen, eyes)) continue;
+        const wall::Eyes eyes = wall::eyes_of(scene.viewer);
+        if (!wall::can_be_seen(scene.screen, eyes)) continue;
         ++heads;
         const EyePair pair = eye_frusta(scene, kSize, all_of(kSize));
         for (int k = 0; k < kPatchesAHead; ++k) {
@@ -261,8 +263,8 @@ TEST(Culling, LosesNothingThatEitherEyeOfARandomHeadCouldSee) {
     EXPECT_GT(2 * seen, reasons[0]);
 }
 
-// Where parallax fades a vertex is drawn between where an eye and where the middle sees it. What is called bent() may be; the rest must be
-// drawn where the eye sees it, bit for bit. Of neither is anything lost.
+// Where parallax fades a vertex is drawn between where an eye and where the middle sees it. What is called bent() may
+// be; the rest must be drawn where the eye sees it, bit for bit. Of neither is anything lost.
 TEST(Culling, LosesNothingThatIsDrawnWhereParallaxFades) {
     constexpr int kHeads = 20'000, kHeadsASolid = 200, kPatchesAHead = 3;
     Random random(22);
@@ -273,7 +275,7 @@ TEST(Culling, LosesNothingThatIsDrawnWhereParallaxFades) {
         Scene scene = random_view(random);
         scene.edge_fade = random.between(0.2, 1.0);
         scene.edge_fade_band = random.between(0.0, 0.6);
-        if (!can_be_seen(scene.screen, eyes_of(scene.viewer))) continue;
+        if (!wall::can_be_seen(scene.screen, wall::eyes_of(scene.viewer))) continue;
         const EyePair pair = eye_frusta(scene, kSize, all_of(kSize));
         const bool bends =
             std::ranges::any_of(solid.patches, [&](const Patch& patch) { return bent(pair, patch.shape.bounds); });
@@ -289,7 +291,7 @@ TEST(Culling, LosesNothingThatIsDrawnWhereParallaxFades) {
             if (is_bent) {
                 ASSERT_FALSE(gone && shows) << "head " << head;
             } else if (gone) {
-                const Eyes eyes = eyes_of(scene.viewer);
+                const wall::Eyes eyes = wall::eyes_of(scene.viewer);
                 for (const Vec3& eye : {eyes.left_world, eyes.right_world})
                     ASSERT_FALSE(Looker(scene, solid, eye).sees(patch)) << "head " << head;
             }
@@ -313,15 +315,16 @@ TEST(Culling, OfAPartOfThePictureLosesNothingInIt) {
     int inside = 0;
     for (int i = 0; i < 20'000; ++i) {
         const Scene scene = random_view(random);
-        const Eyes eyes = eyes_of(scene.viewer);
-        if (!can_be_seen(scene.screen, eyes)) continue;
+        const wall::Eyes eyes = wall::eyes_of(scene.viewer);
+        if (!wall::can_be_seen(scene.screen, eyes)) continue;
         const auto at = [&](double most) { return static_cast<std::uint32_t>(random.between(0.0, most)); };
         PixelRect part{at(kSize.width - 2), at(kSize.height - 2), 0, 0};
         part.width = 1 + at(kSize.width - part.x - 1);
         part.height = 1 + at(kSize.height - part.y - 1);
         const EyePair pair = eye_frusta(scene, kSize, part);
         const Vec3 p_world = scene.world_from_object * (0.3 * random.direction());
-        if (distance_in_front(scene.screen, eyes.left_world) - distance_in_front(scene.screen, p_world) < 1e-3)
+        if (wall::distance_in_front(scene.screen, eyes.left_world) - wall::distance_in_front(scene.screen, p_world) <
+            1e-3)
             continue;
         const Vec2 on = point_on_screen(scene.screen, eyes.left_world, p_world);
         const double x =
@@ -337,4 +340,4 @@ TEST(Culling, OfAPartOfThePictureLosesNothingInIt) {
     EXPECT_GT(inside, 300);
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -4,11 +4,11 @@
 
 #include <cmath>
 
+#include "base/json.hpp"
 #include "gpu/device.hpp"
-#include "tests/app/run_command.hpp"
-#include "tests/support/read_json.hpp"
+#include "tests/support/run_command.hpp"
 
-namespace burin {
+namespace burin::sculpt {
 namespace {
 
 // Two scratches across the top of a ball of 5 cm, the tool lifted in between.
@@ -41,8 +41,8 @@ TEST(DeviceCarving, GivesTheSamePartAndCountsTheSameRaysWhetherTheHandIsRigidOrF
                                            engine + ".ply --report " + engine + ".json");
             ASSERT_EQ(outcome.status, 0) << outcome.output;
         }
-        const auto cpu = read_json(place.read("cpu.json"));
-        const auto vulkan = read_json(place.read("vulkan.json"));
+        const auto cpu = Json::parse(place.read("cpu.json"));
+        const auto vulkan = Json::parse(place.read("vulkan.json"));
         EXPECT_EQ(vulkan["engine"]["name"], "vulkan");
         EXPECT_GT(vulkan["carving"]["rays_changed"].get<int>(), 100);
         EXPECT_GT(vulkan["carving"]["triangles_remeshed"].get<int>(), 100);
@@ -60,4 +60,4 @@ TEST(DeviceCarving, GivesTheSamePartAndCountsTheSameRaysWhetherTheHandIsRigidOrF
     }
 }
 
-}  // namespace burin
+}  // namespace burin::sculpt

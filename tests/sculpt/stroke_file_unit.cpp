@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "app/stroke_file.hpp"
+#include "sculpt/stroke_file.hpp"
 
 #include <gtest/gtest.h>
 
-namespace burin {
+namespace burin::sculpt {
 namespace {
 
 const std::string kHeader = "time_s,x_m,y_m,z_m,qx,qy,qz,qw,button\n";
@@ -55,4 +55,4 @@ TEST(StrokeFile, MissingFileIsNamed) {
     EXPECT_NE(stroke.error().line().find("no/such/stroke.csv"), std::string::npos);
 }
 
-}  // namespace burin
+}  // namespace burin::sculpt

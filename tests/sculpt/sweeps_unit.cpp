@@ -3,14 +3,13 @@
 
 #include <cmath>
 
-#include "app/report.hpp"
-#include "app/tool_option.hpp"
+#include "sculpt/tool_options.hpp"
 
-namespace burin {
+namespace burin::sculpt {
 namespace {
 
-const Tool kBall{BallTool{0.01}, Operation::cut, 3};
-const Tool kCylinder{CylinderTool{0.01, 0.02}, Operation::fill, 2};
+const Tool kBall{compute::BallTool{0.01}, compute::Operation::cut, 3};
+const Tool kCylinder{compute::CylinderTool{0.01, 0.02}, compute::Operation::fill, 2};
 
 }  // namespace
 
@@ -64,12 +63,4 @@ TEST(Sweeps, APointIsAStampAndNothingIsNothing) {
     EXPECT_TRUE(sweeps_along({}, kBall, 1.0).empty());
 }
 
-TEST(Quantile, IsTheNearestRank) {
-    EXPECT_EQ(quantile({}, 0.5), 0.0);
-    EXPECT_EQ(quantile({3.0}, 0.999), 3.0);
-    EXPECT_EQ(quantile({4, 1, 3, 2}, 0.5), 2.0);
-    EXPECT_EQ(quantile({4, 1, 3, 2}, 1.0), 4.0);
-    EXPECT_EQ(quantile({4, 1, 3, 2}, 0.0), 1.0);
-}
-
-}  // namespace burin
+}  // namespace burin::sculpt

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A stereo display that the tests' machines do not have: a surface and a swapchain of images in memory, in the place of the driver's. Images
-// may have two layers, as a projector's behind VK_NV_display_stereo; what was shown last can be read. Whatever is recorded and submitted goes
-// to the real driver, under the validation layer. One at a time; the functions belong to the devices that take() has been called for.
+// A stereo display that the tests' machines do not have: a surface and a swapchain of images in memory, in the place of
+// the driver's. Images may have two layers, as a projector's behind VK_NV_display_stereo; what was shown last can be
+// read. Whatever is recorded and submitted goes to the real driver, under the validation layer. One at a time; the
+// functions belong to the devices that take() has been called for.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,7 @@
 #include "gpu/image.hpp"
 #include "renderer/output/eye_images.hpp"
 
-namespace burin {
+namespace burin::session {
 
 class FakeDisplay {
 public:
@@ -41,7 +42,8 @@ public:
     // What was presented last; nothing when there are no images any more.
     [[nodiscard]] std::optional<Image> shown(std::uint32_t layer) {
         if (images_.empty() || presented_ == 0) return std::nullopt;
-        auto image = read_back(*device_, images_[shown_].raw(), size_, kFormat, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, layer);
+        auto image = renderer::read_back(*device_, images_[shown_].raw(), size_, kFormat,
+                                         VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, layer);
         return image ? std::optional(std::move(*image)) : std::nullopt;
     }
     [[nodiscard]] std::uint64_t presented() const { return presented_; }
@@ -138,4 +140,4 @@ private:
     std::uint64_t presented_ = 0;
 };
 
-}  // namespace burin
+}  // namespace burin::session

@@ -6,13 +6,12 @@
 #include <cmath>
 #include <memory>
 
-#include "app/felt_plot.hpp"
-#include "app/felt_stroke.hpp"
-#include "app/workpiece.hpp"
 #include "haptics/forces/cutting.hpp"
-#include "tests/app/run_command.hpp"
+#include "sculpt/workpiece.hpp"
+#include "session/felt/felt_stroke.hpp"
+#include "tests/support/run_command.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 constexpr double kRadius_m = 0.003;
@@ -24,26 +23,27 @@ struct Felt {
     double volume_removed_m3 = 0.0;
 };
 
-Felt felt_on_a_block(const Stroke& stroke, const FeelOptions& options, Operation operation = Operation::cut) {
+Felt felt_on_a_block(const sculpt::Stroke& stroke, const sculpt::FeelOptions& options,
+                     compute::Operation operation = compute::Operation::cut) {
     WorkerPool pool(2);
-    Result<LoadedWorkpiece> workpiece = load_workpiece({"block:0.04,0.03,0.02", 96, false}, pool);
-    Tool tool{BallTool{kRadius_m}};
+    Result<sculpt::LoadedWorkpiece> workpiece = sculpt::load_workpiece({"block:0.04,0.03,0.02", 96, false}, pool);
+    sculpt::Tool tool{compute::BallTool{kRadius_m}};
     tool.operation = operation;
-    Carving carving(make_cpu_engine(std::move(workpiece->solid), pool), pool);
+    sculpt::Sculpture carving(compute::make_cpu_engine(std::move(workpiece->solid), pool), pool);
     Felt felt;
-    felt.figures = *carve_by_feel(carving, stroke, tool, {*parse_feel(options), false});
+    felt.figures = *carve_by_feel(carving, stroke, tool, {*sculpt::parse_feel(options), false});
     felt.volume_removed_m3 = carving.initial_volume_m3() - carving.surface().volume_m3();
     return felt;
 }
 
-StrokeRow row(double time_s, double x, double height_m, bool button) {
+sculpt::StrokeRow row(double time_s, double x, double height_m, bool button) {
     return {time_s, {kMiddle_m + x, kAside_m, kTop_m + kRadius_m + height_m}, {1, 0, 0, 0}, button};
 }
 
 // Along the block's top at this speed, the tool just touching; pressed by the hand alone.
-Stroke along(double speed_m_per_s) {
+sculpt::Stroke along(double speed_m_per_s) {
     const double from = -0.012, to = 0.012;
-    Stroke stroke{row(0.0, from, 0.003, false), row(0.1, from, 0.0, false)};
+    sculpt::Stroke stroke{row(0.0, from, 0.003, false), row(0.1, from, 0.0, false)};
     const int steps = 60;
     const double step_s = (to - from) / steps / speed_m_per_s;
     for (int i = 1; i <= steps; ++i) stroke.push_back(row(0.1 + step_s * i, from + (to - from) * i / steps, 0.0, true));
@@ -60,7 +60,7 @@ Running running(const FeltFigures& felt) {
     int count = 0;
     const TracePoint *first = nullptr, *last = nullptr;
     for (const TracePoint& p : felt.trace) {
-        if ((p.flags & kTickCutting) == 0 || p.cut_object_m.x < kMiddle_m - 0.002 ||
+        if ((p.flags & haptics::kTickCutting) == 0 || p.cut_object_m.x < kMiddle_m - 0.002 ||
             p.cut_object_m.x > kMiddle_m + 0.006)
             continue;
         if (first == nullptr) first = &p;
@@ -76,8 +76,8 @@ Running running(const FeltFigures& felt) {
     return sum;
 }
 
-FeelOptions feel(double hardness, double press_N) {
-    FeelOptions options;
+sculpt::FeelOptions feel(double hardness, double press_N) {
+    sculpt::FeelOptions options;
     options.hardness = std::to_string(hardness);
     options.press_N = press_N;
     options.grip_N_per_m = 600.0;
@@ -109,9 +109,9 @@ TEST(Felt, TheGrooveIsAsDeepAsTheClosedFormOfForceHardnessAndSpeedSays) {
     for (const auto& [hardness, press_N] : {std::pair{4.0, 1.0}, {8.0, 1.0}, {8.0, 1.6}}) {
         const Running at = running(felt_on_a_block(along(0.04), feel(hardness, press_N)).figures);
         ASSERT_GT(at.depth_m, 0.0002);
-        // The lift of a tool that runs so deep bears the press: H A_nt v = F_n. How deep it lies is read from facets of a seventh
-        // of its radius and from a surface that is up to 10 ms old; a quarter of the force is the tolerance.
-        const double lift_N = hardness * 1e6 * engaged_areas(kRadius_m, at.depth_m).lift_m2 * at.speed_m_per_s;
+        // The lift of a tool that runs so deep bears the press: H A_nt v = F_n. How deep it lies is read from facets of
+        // a seventh of its radius and from a surface that is up to 10 ms old; a quarter of the force is the tolerance.
+        const double lift_N = hardness * 1e6 * haptics::engaged_areas(kRadius_m, at.depth_m).lift_m2 * at.speed_m_per_s;
         EXPECT_NEAR(lift_N / at.press_N, 1.0, 0.25) << hardness << ' ' << press_N << ' ' << at.depth_m;
         EXPECT_GT(at.drag_N, 0.0);
         EXPECT_LT(at.drag_N, at.press_N);
@@ -120,15 +120,15 @@ TEST(Felt, TheGrooveIsAsDeepAsTheClosedFormOfForceHardnessAndSpeedSays) {
 
 TEST(Felt, PressedOnTheSpotTheToolSinksAsTheClosedFormSays) {
     // The tool is set down, then pressed for 0.4 s without moving.
-    Stroke stroke{row(0.0, 0.0, 0.003, false), row(0.2, 0.0, -0.003, false), row(0.5, 0.0, -0.003, true),
-                  row(0.9, 0.0, -0.003, false)};
-    FeelOptions options = feel(20.0, 0.0);
+    sculpt::Stroke stroke{row(0.0, 0.0, 0.003, false), row(0.2, 0.0, -0.003, false), row(0.5, 0.0, -0.003, true),
+                          row(0.9, 0.0, -0.003, false)};
+    sculpt::FeelOptions options = feel(20.0, 0.0);
     const Felt felt = felt_on_a_block(stroke, options);
-    // dF/dt: the depth's own closed form needs the force, which falls as the tool sinks; it is summed up from the trace:
-    // H * integral of A_nn(D) dD = integral of F dt.
+    // dF/dt: the depth's own closed form needs the force, which falls as the tool sinks; it is summed up from the
+    // trace: H * integral of A_nn(D) dD = integral of F dt.
     double impulse_Ns = 0.0, depth_m = 0.0, last_s = -1.0;
     for (const TracePoint& p : felt.figures.trace) {
-        if ((p.flags & kTickCutting) == 0) continue;
+        if ((p.flags & haptics::kTickCutting) == 0) continue;
         if (last_s >= 0.0) impulse_Ns += p.force_device_N.z * (p.time_s - last_s);
         last_s = p.time_s;
         depth_m = kTop_m + kRadius_m - p.cut_object_m.z;
@@ -136,16 +136,16 @@ TEST(Felt, PressedOnTheSpotTheToolSinksAsTheClosedFormSays) {
     ASSERT_GT(depth_m, 0.0003);
     double resistance_Ns = 0.0;
     for (int i = 0; i < 1000; ++i)
-        resistance_Ns += 20e6 * engaged_areas(kRadius_m, depth_m * (i + 0.5) / 1000).into_m2 * depth_m / 1000;
+        resistance_Ns += 20e6 * haptics::engaged_areas(kRadius_m, depth_m * (i + 0.5) / 1000).into_m2 * depth_m / 1000;
     EXPECT_NEAR(resistance_Ns / impulse_Ns, 1.0, 0.2) << depth_m;
 }
 
 TEST(Felt, AToolThatCrossesItsOwnGroovesSettlesWithinATicksSteps) {
     // Rounds within rounds: walls of earlier ones stand across the way.
-    Stroke stroke{row(0.0, 0.0, 0.003, false)};
+    sculpt::Stroke stroke{row(0.0, 0.0, 0.003, false)};
     for (int i = 0; i <= 240; ++i) {
         const double angle = 2.0 * 3.14159265358979 * i / 40.0;
-        StrokeRow at = row(0.1 + 0.0125 * i, 0.005 * std::cos(angle) + 0.00001 * i, 0.0, true);
+        sculpt::StrokeRow at = row(0.1 + 0.0125 * i, 0.005 * std::cos(angle) + 0.00001 * i, 0.0, true);
         at.position_object_m.y += 0.003 * std::sin(1.5 * angle);
         stroke.push_back(at);
     }
@@ -162,20 +162,21 @@ TEST(Felt, TheForceIsSmoothWhileSurfacesArrive) {
     const std::vector<TracePoint>& trace = felt.figures.closeup;
     double largest_N = 0.0, force_N = 0.0;
     for (std::size_t i = 1; i < trace.size(); ++i) {
-        if ((trace[i].flags & kTickCutting) == 0 || (trace[i - 1].flags & kTickCutting) == 0) continue;
+        if ((trace[i].flags & haptics::kTickCutting) == 0 || (trace[i - 1].flags & haptics::kTickCutting) == 0)
+            continue;
         largest_N = std::max(largest_N, glm::length(trace[i].force_device_N - trace[i - 1].force_device_N));
         force_N = std::max(force_N, glm::length(trace[i].force_device_N));
     }
     EXPECT_GT(force_N, 0.4);
-    // An encoder's step alone is 600 N/m * 0.055 mm = 0.033 N on each axis, and as much again by the damping of what looks like
-    // 55 mm/s. What the proxy moves by when a surface arrives, some tenths of a millimetre, would be 0.2 N.
+    // An encoder's step alone is 600 N/m * 0.055 mm = 0.033 N on each axis, and as much again by the damping of what
+    // looks like 55 mm/s. What the proxy moves by when a surface arrives, some tenths of a millimetre, would be 0.2 N.
     EXPECT_LT(largest_N, 0.15);
     EXPECT_EQ(felt.figures.records_lost, 0u);
     EXPECT_TRUE(felt.figures.silent.empty());
 }
 
 TEST(Felt, WhatHasNoHardnessGivesWayWithoutForceAndWhatIsInfinitelyHardStaysWhole) {
-    FeelOptions options = feel(0.0, 1.0);
+    sculpt::FeelOptions options = feel(0.0, 1.0);
     const Felt air = felt_on_a_block(along(0.04), options);
     EXPECT_GT(air.volume_removed_m3, 1e-7);
     EXPECT_LT(air.figures.force_mean_cutting_N, 0.05);
@@ -187,31 +188,42 @@ TEST(Felt, WhatHasNoHardnessGivesWayWithoutForceAndWhatIsInfinitelyHardStaysWhol
 }
 
 TEST(Felt, PaintingChangesNoShapeAndFillingAddsToIt) {
-    EXPECT_EQ(felt_on_a_block(along(0.04), feel(4.0, 1.0), Operation::paint).volume_removed_m3, 0.0);
-    EXPECT_LT(felt_on_a_block(along(0.04), feel(4.0, 0.5), Operation::fill).volume_removed_m3, 0.0);
+    EXPECT_EQ(felt_on_a_block(along(0.04), feel(4.0, 1.0), compute::Operation::paint).volume_removed_m3, 0.0);
+    EXPECT_LT(felt_on_a_block(along(0.04), feel(4.0, 0.5), compute::Operation::fill).volume_removed_m3, 0.0);
+}
+
+TEST(Felt, EndsWithTheFirstTickThatIsNotBeforeItsEnd) {
+    // 0.3 s of rest come before and after the stroke.
+    for (const auto& [stroke_s, ticks] : {std::pair{0.4, 1000u}, {0.40001, 1001u}, {0.3999, 1000u}, {0.1004, 701u}}) {
+        const Felt felt = felt_on_a_block({row(0.0, 0.0, 0.003, false), row(stroke_s, 0.0, 0.003, false)}, {});
+        EXPECT_EQ(felt.figures.ticks, ticks) << stroke_s;
+        EXPECT_EQ(felt.figures.tick_ns.size(), ticks);
+        EXPECT_EQ(felt.figures.surfaces_published, 1 + ticks / 10) << "the surface at the start, and one each update";
+        EXPECT_EQ(felt.figures.last_tool.tick, ticks);
+    }
 }
 
 TEST(Felt, OptionsThatMakeNoSenseAreRefusedWithTheRemedy) {
-    FeelOptions options;
+    sculpt::FeelOptions options;
     for (const std::string bad : {"granite", "-1", "nan", "", "4kPa"}) {
         options.hardness = bad;
-        const auto refused = parse_feel(options);
+        const auto refused = sculpt::parse_feel(options);
         ASSERT_FALSE(refused) << bad;
         EXPECT_NE(refused.error().line().find("soft, medium, hard"), std::string::npos);
     }
     options = {};
     options.friction = -0.1;
-    EXPECT_FALSE(parse_feel(options));
+    EXPECT_FALSE(sculpt::parse_feel(options));
     options = {};
     options.grip_N_per_m = 0.0;
-    EXPECT_FALSE(parse_feel(options));
+    EXPECT_FALSE(sculpt::parse_feel(options));
     options = {};
     options.press_N = NAN;
-    EXPECT_FALSE(parse_feel(options));
+    EXPECT_FALSE(sculpt::parse_feel(options));
     options = {};
     options.stiffness_N_per_m = 123.0;
     options.friction = 0.4;
-    const auto given = parse_feel(options);
+    const auto given = sculpt::parse_feel(options);
     ASSERT_TRUE(given);
     EXPECT_EQ(given->material.stiffness_N_per_m, 123.0);
     EXPECT_NEAR(given->material.static_friction, 0.5, 1e-12);
@@ -230,4 +242,4 @@ TEST(Felt, FigureAndTableHoldTheTraceAndLieBesideTheReport) {
     EXPECT_EQ(felt_figure({}).rfind("<svg", 0), 0u);  // nothing felt, nothing drawn, no fault
 }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/panel_feed.hpp"
+#include "session/panel/panel_feed.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 constexpr Nanoseconds kMs = 1'000'000;
@@ -15,8 +15,8 @@ constexpr Nanoseconds kMs = 1'000'000;
 struct Session {
     SimulatedClock clock;
     SessionTimes times{clock, [] noexcept -> Nanoseconds { return 0; }};
-    Histogram ticks;
-    RenderStats drawn;
+    haptics::Histogram ticks;
+    renderer::RenderStats drawn;
     PanelFeed feed;
     bool real_time = true;
     int frame = 0;
@@ -101,4 +101,4 @@ TEST(PanelFeed, ShowsNothingThatSimulatedTimeDoesNotHave) {
     EXPECT_TRUE(model.warnings.empty());
 }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -4,15 +4,15 @@
 
 #include <cmath>
 
-#include "app/session/panel.hpp"
 #include "haptics/channels.hpp"
+#include "session/panel/panel.hpp"
 
-namespace burin {
+namespace burin::session {
 
 inline PanelModel idle_model() {
     PanelModel model;
     model.workpiece = "soccer ball, 256 cells";
-    model.tool = {ToolKind::ball, {0.004, 0.0, 0.0}, {}};
+    model.tool = {sculpt::ToolKind::ball, {0.004, 0.0, 0.0}, {}};
     model.sources = {{"Haptic device", "simulated hand, 1000 Hz", Condition::good},
                      {"Head tracker", "mouse and keys", Condition::idle}};
     model.figures.frames_per_s = 60.0;
@@ -26,15 +26,15 @@ inline PanelModel idle_model() {
 
 inline PanelModel carving_model() {
     PanelModel model = idle_model();
-    model.operation = Operation::paint;
+    model.operation = compute::Operation::paint;
     model.colour_srgb = {0.26, 0.41, 0.77};
     model.undo_count = 12;
     model.redo_count = 2;
-    model.stereo_mode = StereoMode::anaglyph_red_cyan;
+    model.stereo_mode = wall::StereoMode::anaglyph_red_cyan;
     model.velocity_filter = 0.9;
     model.show_figures = true;
     model.touch.in_contact = true;
-    model.touch.flags = kTickInContact | kTickCutting;
+    model.touch.flags = haptics::kTickInContact | haptics::kTickCutting;
     model.touch.force_N = 0.82;
     for (std::size_t i = 0; i < 200; ++i) {
         const auto t = static_cast<float>(i);
@@ -51,9 +51,9 @@ inline PanelModel carving_model() {
 inline PanelModel no_force_model() {
     PanelModel model = carving_model();
     model.show_figures = false;
-    model.phase = WorkspacePhase::jumping;
-    model.touch.cause = GateCause::stale_sample;
-    model.touch.flags = kTickFault;
+    model.phase = haptics::WorkspacePhase::jumping;
+    model.touch.cause = haptics::GateCause::stale_sample;
+    model.touch.flags = haptics::kTickFault;
     model.touch.in_contact = false;
     model.touch.force_N = 0.0;
     model.sources[0] = {"Haptic device", "silent for 1.2 s", Condition::fault};
@@ -63,9 +63,9 @@ inline PanelModel no_force_model() {
 
 inline PanelModel export_model() {
     PanelModel model = idle_model();
-    model.tool = {ToolKind::bullnose, {0.006, 0.0015, 0.024}, {}};
+    model.tool = {sculpt::ToolKind::bullnose, {0.006, 0.0015, 0.024}, {}};
     model.undo_count = 3;
-    model.export_progress = 0.62;
+    model.exporting = true;
     model.message = "Writing part.stl";
     return model;
 }
@@ -76,4 +76,4 @@ inline PanelModel help_model() {
     return model;
 }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scripted session played in this process, so that a test can do to its stage what a driver does on a bad day.
+// A scripted session played in this process, so that a test can do to its presenter what a graphics driver does on a
+// bad day.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,18 +14,14 @@
 #include <utility>
 #include <vector>
 
-#include "app/session/input_source.hpp"
-#include "app/session/live_session.hpp"
-#include "app/session/session_stage.hpp"
 #include "gpu/device.hpp"
-#include "tests/app/run_command.hpp"
+#include "session/drive/session_frames.hpp"
+#include "tests/support/run_command.hpp"
 
-namespace burin {
+namespace burin::session {
 
-inline constexpr Nanoseconds kUpdatePeriod_ns = 12'000'000;
-
-// Carves from 0.3 to 0.8 s, with the panel open; photographs before, meanwhile and at the end. What is refused is said on the panel, where
-// it takes the place of what was said of a loss: else the pictures would differ by that.
+// Carves from 0.3 to 0.8 s, with the panel open; photographs before, meanwhile and at the end. What is refused is said
+// on the panel, where it takes the place of what was said of a loss: else the pictures would differ by that.
 inline const std::string kScript = R"(burin-input 1 test
 0.02 mouse 160 180
 0.04 scroll 0 15
@@ -46,13 +43,41 @@ inline const std::string kScript = R"(burin-input 1 test
 )";
 
 // What may happen before each attempt to draw a frame.
-using Mishap = std::function<void(int frame, SessionStage& stage)>;
+using Mishap = std::function<void(int frame, Presenter& presenter)>;
 
 struct Played {
     int recoveries = 0;
     Result<void> outcome;
     std::string said;
     std::uint64_t presented = 0;  // of the main screen, since its images were opened at last
+};
+
+// The frames of a script with its mishaps, and with some in which the output is minimised.
+class MishapFrames final : public ScriptedFrames {
+public:
+    MishapFrames(LiveSession& session, Presenter& presenter, InputSource input, const Mishap& mishap,
+                 const std::set<int>& minimised)
+        : ScriptedFrames(session, presenter, std::move(input)), mishap_(mishap), minimised_(minimised) {}
+
+private:
+    [[nodiscard]] std::optional<FrameInput> next_input() override {
+        const std::size_t main = session_.room().wall.main;
+        if (minimised_.contains(frame_++)) presenter_.put(main, place_);
+        const auto input = ScriptedFrames::next_input();
+        place_ = presenter_.place();
+        if (minimised_.contains(frame_)) presenter_.put(main, {});
+        return input;
+    }
+    [[nodiscard]] bool wants_picture() override {
+        if (minimised_.contains(frame_)) return false;
+        if (mishap_) mishap_(frame_, presenter_);
+        return true;
+    }
+
+    const Mishap& mishap_;
+    const std::set<int>& minimised_;
+    int frame_ = -1;
+    wall::OutputPlace place_;  // of the main screen, when it is not minimised
 };
 
 class PlayedSession : public testing::Test {
@@ -68,7 +93,8 @@ protected:
         EXPECT_EQ(gpu::validation_messages(), messages_before_) << "the validation layer complained";
     }
 
-    // As run_session(), in simulated time. Folders have one letter: their names are on the panel, and lines of one length are broken alike.
+    // As run_session(), in simulated time. Folders have one letter: their names are on the panel, and lines of one
+    // length are broken alike.
     Played play(const std::string& folder, LiveOptions live, const Mishap& mishap = {},
                 const std::set<int>& minimised = {}, const DirectDriver& driver = direct_driver()) {
         std::filesystem::create_directory(place / folder);
@@ -84,6 +110,9 @@ protected:
         played.outcome = run(options, InputSource::replay(parse_input_log(script, "script").value()), mishap, minimised,
                              driver, played);
         played.said = testing::internal::GetCapturedStderr();
+        const std::string lost = "the graphics device was lost; starting";
+        for (std::size_t at = 0; (at = played.said.find(lost, at)) != std::string::npos; at += lost.size())
+            ++played.recoveries;
         return played;
     }
 
@@ -107,45 +136,15 @@ private:
         if (!wall) return std::unexpected(wall.error());
         auto session = LiveSession::create(options, *wall, clock);
         if (!session) return std::unexpected(session.error());
-        Result<SessionStage> stage = SessionStage::open(options.live, *wall, driver);
-        if (!stage) return std::unexpected(stage.error());
+        Result<Presenter> presenter = Presenter::open(options.live, *wall, driver);
+        if (!presenter) return std::unexpected(presenter.error());
         LiveSession& s = **session;
-        if (auto news = s.desk().take_news()) s.take(std::move(*news));
-        Nanoseconds next_update_ns = kUpdatePeriod_ns;
-        for (int i = 0; const auto frame = input.begin_frame(0, 0); ++i) {
-            while (clock.now_ns() + s.loop().period_ns() <= frame->time_ns) {
-                clock.sleep_until(clock.now_ns() + s.loop().period_ns());
-                s.loop().step();
-                if (clock.now_ns() < next_update_ns) continue;
-                if (const auto updated = s.desk().update(clock.now_ns()); !updated) return updated;
-                next_update_ns += kUpdatePeriod_ns;
-            }
-            stage->look();
-            const OutputPlace place = minimised.contains(i) ? OutputPlace{} : stage->place();
-            s.step(*frame, place, s.newest_tool(), [&](CarvingOrder order) {
-                s.desk().order(order);
-                s.desk().finish_export();
-            });
-            if (auto news = s.desk().take_news()) s.take(std::move(*news));
-            if (stage->shows()) static_cast<void>(stage->inputs(0.0));
-            if (minimised.contains(i)) continue;
-            if (const auto drawn = draw(s, *stage, i, frame->display_ns, mishap, played); !drawn) return drawn;
-            played.presented = stage->presented();
-            if (s.state().quit) break;
-        }
-        return {};
-    }
-
-    static Result<void> draw(LiveSession& s, SessionStage& stage, int frame, Nanoseconds display_ns,
-                             const Mishap& mishap, Played& played) {
-        while (true) {
-            if (mishap) mishap(frame, stage);
-            const Result<bool> drawn = stage.draw(s, display_ns);
-            if (drawn) return {};
-            if (const auto recovered = stage.recover(s, drawn.error()); !recovered) return recovered;
-            ++played.recoveries;
-        }
+        MishapFrames frames(s, *presenter, std::move(input), mishap, minimised);
+        SteppedExecutor executor(clock, s.loop(), s.channels(), s.desk());
+        const Result<void> driven = drive(executor, frames);
+        played.presented = presenter->presented();
+        return driven;
     }
 };
 
-}  // namespace burin
+}  // namespace burin::session

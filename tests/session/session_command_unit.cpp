@@ -6,28 +6,31 @@
 #include <cmath>
 #include <set>
 
-#include "app/session/command_table.hpp"
-#include "app/session/input_words.hpp"
-#include "app/tool_option.hpp"
+#include "sculpt/tool_options.hpp"
+#include "session/input/input_words.hpp"
+#include "session/state/command_table.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 double between(double least, double most) {
     return least + (most - least) * (*rc::gen::inRange(0, 1'000'001)) / 1'000'000.0;
 }
 
-ToolSpec any_tool() {
-    ToolSpec tool;
-    tool.kind = static_cast<ToolKind>(*rc::gen::inRange<int>(0, kToolKinds));
-    tool.sizes_m = {};
-    if (tool.kind == ToolKind::mesh) {
+template <typename Descriptor>
+const Descriptor& any_of(std::span<const Descriptor> table) {
+    return table[*rc::gen::inRange<std::size_t>(0, table.size())];
+}
+
+sculpt::ToolSpec any_tool() {
+    const sculpt::ToolDescriptor& kind = any_of(sculpt::tool_kinds());
+    sculpt::ToolSpec tool{kind.kind, {}, {}};
+    if (kind.used_sizes().empty()) {
         tool.file = "folder with blanks/" + std::to_string(*rc::gen::inRange(0, 1000)) + ":\"#.stl";
         return tool;
     }
-    for (std::size_t i = 0; i < size_names(tool.kind).size(); ++i) tool.sizes_m[i] = between(1e-5, 1.0);
-    if (tool.kind == ToolKind::bullnose)
-        tool.sizes_m[1] = std::min({tool.sizes_m[0], tool.sizes_m[1], tool.sizes_m[2]});
+    for (std::size_t i = 0; i < kind.used_sizes().size(); ++i) tool.sizes_m[i] = between(1e-5, 1.0);
+    if (kind.rule.adapted != nullptr) tool.sizes_m = kind.rule.adapted(tool.sizes_m, 0, 1e-5);
     return tool;
 }
 
@@ -35,15 +38,15 @@ SessionCommand any_command() {
     switch (*rc::gen::inRange(0, 13)) {
         case 0: return RunAction{static_cast<Action>(*rc::gen::inRange<std::size_t>(0, action_names().size()))};
         case 1: return SetTool{any_tool()};
-        case 2: return SetOperation{static_cast<Operation>(*rc::gen::inRange<int>(0, kOperations))};
+        case 2: return SetOperation{any_of(sculpt::operations()).operation};
         case 3: return SetColour{{between(0.0, 1.0), between(0.0, 1.0), between(0.0, 1.0)}};
         case 4: {
-            const QuantityRange& range = range_of(static_cast<Quantity>(*rc::gen::inRange(0, 8)));
+            const QuantityDescriptor& range = any_of(quantities());
             return SetQuantity{range.quantity, between(range.least, range.most)};
         }
-        case 5: return SetTechnique{static_cast<WorkspaceTechnique>(*rc::gen::inRange<int>(0, kTechniques))};
-        case 6: return SetStereoMode{static_cast<StereoMode>(*rc::gen::inRange<int>(0, kStereoModes))};
-        case 7: return SetTestPattern{static_cast<TestPattern>(*rc::gen::inRange(0, 4))};
+        case 5: return SetTechnique{any_of(techniques()).technique};
+        case 6: return SetStereoMode{static_cast<wall::StereoMode>(*rc::gen::inRange<int>(0, wall::kStereoModes))};
+        case 7: return SetTestPattern{static_cast<wall::TestPattern>(*rc::gen::inRange(0, 4))};
         case 8: return SetEyeSwap{*rc::gen::arbitrary<bool>()};
         case 9: return SetForce{*rc::gen::arbitrary<bool>()};
         case 11: return SetForceShown{*rc::gen::arbitrary<bool>()};
@@ -70,21 +73,10 @@ RC_GTEST_PROP(Commands, ReadBackAsTheyWerePrinted, ()) {
 
 // What is said of a tool is what the rest of the program understands.
 RC_GTEST_PROP(Commands, NameToolsAsTheOptionDoes, ()) {
-    const ToolSpec tool = any_tool();
-    RC_PRE(tool.kind != ToolKind::mesh);
-    ToolOptions options;
-    options.shape = text_of(tool);
-    RC_ASSERT(parse_tool(options).has_value());
-}
-
-// The other way of writing a colour, read by the option's own parser.
-RC_GTEST_PROP(Commands, GiveTheOptionTheNearestColour, ()) {
-    const SetColour colour{{between(0.0, 1.0), between(0.0, 1.0), between(0.0, 1.0)}};
-    ToolOptions options;
-    options.material = material_text(colour);
-    const auto material = parse_tool_material(options);
-    RC_ASSERT(material.has_value());
-    for (std::size_t k = 0; k < 3; ++k) RC_ASSERT(std::abs(material->colour[k] - 255.0 * colour.srgb[k]) <= 0.5 + 1e-9);
+    const sculpt::ToolSpec tool = any_tool();
+    const auto settings = sculpt::parse_tool_settings({.shape = sculpt::text_of(tool)});
+    RC_ASSERT(settings.has_value());
+    RC_ASSERT(settings->shape == tool);
 }
 
 TEST(Commands, AreListedOnceEachWithHelp) {
@@ -94,6 +86,20 @@ TEST(Commands, AreListedOnceEachWithHelp) {
         EXPECT_FALSE(spec.help.empty()) << spec.name;
     }
     for (const std::string_view action : action_names()) EXPECT_TRUE(names.contains(action)) << action;
+    for (const QuantityDescriptor& quantity : quantities()) EXPECT_TRUE(names.contains(quantity.name)) << quantity.name;
+}
+
+// The help of a command that takes one of a table's names, read from that table, names each.
+TEST(Commands, NameEveryKindOfToolOperationAndTechniqueInTheirHelp) {
+    const auto help_of = [](std::string_view name) {
+        return std::ranges::find(commands(), name, &CommandSpec::name)->help;
+    };
+    EXPECT_TRUE(help_of("tool").starts_with("Take a tool: ball:R, cylinder:R,L, cone:R0,R1,L, bullnose:R,C,L, box"));
+    EXPECT_TRUE(help_of("operation").starts_with("What the tool does: cut, fill, paint"));
+    EXPECT_TRUE(help_of("technique").starts_with("How the workspace moves: fixed, moving, scaling, clutching, bubble"));
+    for (const std::string& synopsis : sculpt::tool_synopses()) EXPECT_TRUE(help_of("tool").contains(synopsis));
+    for (const auto& operation : sculpt::operations()) EXPECT_TRUE(help_of("operation").contains(operation.name));
+    for (const auto& technique : techniques()) EXPECT_TRUE(help_of("technique").contains(technique.name));
 }
 
 TEST(Commands, WithoutArgumentsAreTheActionsOfTheKeys) {
@@ -149,4 +155,4 @@ TEST(Commands, TellWhatIsWrongAndWhatWouldBeRight) {
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::session

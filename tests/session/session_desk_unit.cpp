@@ -5,12 +5,12 @@
 #include <random>
 #include <set>
 
-#include "app/session/desk_input.hpp"
-#include "app/session/input_keys.hpp"
-#include "app/session/input_wand.hpp"
-#include "app/session/seen_place.hpp"
+#include "session/input/desk_input.hpp"
+#include "session/input/input_keys.hpp"
+#include "session/input/input_wand.hpp"
+#include "wall/seen_place.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 constexpr double kFrame_s = 1.0 / 60.0;
@@ -86,9 +86,9 @@ TEST(DeskInput, ASqueezedPictureIsFollowedAndChangingWindowsIsNoMotion) {
     desk.view.picture_px_per_px = {2.0, 1.0};
     desk.step({MouseMove{{100.0, 100.0}}});
     EXPECT_LT(apart(desk.step({MouseMove{{105.0, 90.0}}}).target.position_device_m, {0.01, 0.01, 0.0}), 1e-12);
-    const DeskStep right = desk.step({MouseMove{{kRightWindow_px + 300.0, 50.0}}});
+    const DeskStep right = desk.step({MouseMove{{wall::kRightWindow_px + 300.0, 50.0}}});
     EXPECT_LT(apart(right.target.position_device_m, {0.01, 0.01, 0.0}), 1e-12);
-    const DeskStep on = desk.step({MouseMove{{kRightWindow_px + 305.0, 50.0}}});
+    const DeskStep on = desk.step({MouseMove{{wall::kRightWindow_px + 305.0, 50.0}}});
     EXPECT_LT(apart(on.target.position_device_m, {0.02, 0.01, 0.0}), 1e-12);
 }
 
@@ -102,8 +102,8 @@ TEST(DeskInput, ATurnedWorkspaceIsSteeredAsItIsSeen) {
 }
 
 TEST(DeskInput, ThePictureOfTheToolMovesAsFarAsTheMouse) {
-    // By similar triangles, checked against a projection by hand: the eye at 2 m, the tool 0.5 m before the screen, device motions
-    // doubled in the world.
+    // By similar triangles, checked against a projection by hand: the eye at 2 m, the tool 0.5 m before the screen,
+    // device motions doubled in the world.
     const double pitch = 0.0016;
     const double gain = device_m_per_px(pitch, 2.0, 1.5, 2.0);
     const double tool_x = 2.0 * 100.0 * gain;               // of a hundred pixels, in the world
@@ -461,4 +461,4 @@ TEST(Wands, OthersThanTheFirstTwoMoveNothing) {
     EXPECT_TRUE(identical(w.scene, before));
 }
 
-}  // namespace burin
+}  // namespace burin::session

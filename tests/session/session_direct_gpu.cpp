@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Sessions on displays that are driven directly, which no machine of the tests has. In their place stands a window's surface, or for stereo
-// images in memory: the session knows of no window, and opens, draws, presents, waits and recovers as on the display itself.
+// Sessions on displays that are driven directly, which no machine of the tests has. In their place stands a window's
+// surface, or for stereo images in memory: the session knows of no window, and opens, draws, presents, waits and
+// recovers as on the display itself.
 #include <gtest/gtest.h>
 
 #include <signal.h>
@@ -17,19 +18,19 @@
 #include <utility>
 #include <vector>
 
-#include "app/session/direct_output.hpp"
-#include "app/session/real_time_session.hpp"
-#include "app/session/session_waker.hpp"
-#include "app/wall_file.hpp"
 #include "gpu/core.hpp"
 #include "gpu/direct_display.hpp"
 #include "renderer/png.hpp"
-#include "tests/app/fake_display.hpp"
-#include "tests/app/played_session.hpp"
+#include "session/drive/session.hpp"
+#include "session/present/direct_output.hpp"
+#include "session/present/session_waker.hpp"
+#include "tests/session/fake_display.hpp"
+#include "tests/session/played_session.hpp"
 #include "tests/window/xvfb.hpp"
+#include "wall/wall_file.hpp"
 #include "window/window.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 class Displays {
@@ -46,7 +47,7 @@ private:
     Result<gpu::DisplaySurface> open(gpu::Device& device, const gpu::DisplayChoice& choice) {
         asked.push_back(choice);
         if (unplugged.contains(choice.display)) return fail("direct display", "no display", "plug one in");
-        const gpu::DisplayMode mode{choice.width, choice.height, 75.0, choice.stereo != gpu::DisplayStereo::none};
+        const gpu::DisplayMode mode{choice.width, choice.height, 75.0, choice.stereo != DisplayStereo::none};
         if (stereo)
             return gpu::DisplaySurface{stereo->take(device, {choice.width, choice.height}), choice.display, mode};
         auto window = windows_.find(choice.display);
@@ -75,13 +76,13 @@ protected:
     }
 
     // The power wall, small, and driven directly.
-    LiveOptions wall(gpu::DisplayStereo stereo, bool offscreen) {
-        WallSetup setup = *read_wall(std::string(BURIN_WALLS) + "/powerwall.toml");
+    LiveOptions wall(DisplayStereo stereo, bool offscreen) {
+        wall::WallSetup setup = *wall::read_wall(std::string(BURIN_WALLS) + "/powerwall.toml");
         setup.screens[0].pixels = {240, 180};
         setup.screens[0].output = "projector";
         setup.screens[0].direct = stereo;
-        setup.screens[0].mode = stereo == gpu::DisplayStereo::none ? "side_by_side_half" : "two_layers";
-        place.write("wall.toml", wall_text(setup));
+        setup.screens[0].mode = stereo == DisplayStereo::none ? "side_by_side_half" : "two_layers";
+        place.write("wall.toml", wall::wall_text(setup));
         LiveOptions live;
         live.wall = (place / "wall.toml").string();
         live.offscreen = offscreen;
@@ -103,8 +104,8 @@ const std::vector<std::string> kFiles{"before.png", "carving.png", "end.png", "c
 }  // namespace
 
 TEST_F(DirectSession, ShowsWhatItShowsOffScreenAndCarvesTheSame) {
-    ASSERT_TRUE(play("a", wall(gpu::DisplayStereo::none, true)).outcome);
-    const Played played = play("b", wall(gpu::DisplayStereo::none, false), {}, {}, displays.driver());
+    ASSERT_TRUE(play("a", wall(DisplayStereo::none, true)).outcome);
+    const Played played = play("b", wall(DisplayStereo::none, false), {}, {}, displays.driver());
     ASSERT_TRUE(played.outcome) << played.outcome.error().line();
     EXPECT_GT(played.presented, 10u);
     ASSERT_EQ(displays.asked.size(), 1u);
@@ -116,17 +117,17 @@ TEST_F(DirectSession, ShowsWhatItShowsOffScreenAndCarvesTheSame) {
 
 TEST_F(DirectSession, GoesOnAfterTheSurfaceOrTheDeviceWasLost) {
     const std::set<int> frames{0, 20, 24, 25, 50};
-    ASSERT_TRUE(play("a", wall(gpu::DisplayStereo::none, true)).outcome);
-    const Mishap surface = [left = frames](int frame, SessionStage& stage) mutable {
+    ASSERT_TRUE(play("a", wall(DisplayStereo::none, true)).outcome);
+    const Mishap surface = [left = frames](int frame, Presenter& stage) mutable {
         if (left.erase(frame) > 0) stage.device().core()->lose_surface_at_next_acquire = true;
     };
-    const Mishap device = [left = frames](int frame, SessionStage& stage) mutable {
+    const Mishap device = [left = frames](int frame, Presenter& stage) mutable {
         if (left.erase(frame) > 0) stage.device().core()->lose_at_next_submit = true;
     };
     for (const auto& [folder, mishap, recoveries] :
          {std::tuple{"b", surface, 0}, std::tuple{"c", device, static_cast<int>(frames.size())}}) {
         displays.asked.clear();
-        const Played played = play(folder, wall(gpu::DisplayStereo::none, false), mishap, {}, displays.driver());
+        const Played played = play(folder, wall(DisplayStereo::none, false), mishap, {}, displays.driver());
         ASSERT_TRUE(played.outcome) << played.outcome.error().line();
         EXPECT_EQ(played.recoveries, recoveries);
         EXPECT_EQ(displays.asked.size(), 1 + frames.size());
@@ -135,15 +136,15 @@ TEST_F(DirectSession, GoesOnAfterTheSurfaceOrTheDeviceWasLost) {
 }
 
 TEST_F(DirectSession, CarvesOnWhileTheDisplayIsGone) {
-    ASSERT_TRUE(play("a", wall(gpu::DisplayStereo::none, true)).outcome);
+    ASSERT_TRUE(play("a", wall(DisplayStereo::none, true)).outcome);
     for (const auto& [folder, with_device] : {std::pair{"b", false}, {"c", true}}) {
         displays.unplugged.clear();
-        const Mishap unplugged = [this, with_device](int frame, SessionStage& stage) {
+        const Mishap unplugged = [this, with_device](int frame, Presenter& stage) {
             if (frame != 25 || !std::exchange(displays.unplugged, {"projector"}).empty()) return;
             gpu::Core& core = *stage.device().core();
             (with_device ? core.lose_at_next_submit : core.lose_surface_at_next_acquire) = true;
         };
-        const Played played = play(folder, wall(gpu::DisplayStereo::none, false), unplugged, {}, displays.driver());
+        const Played played = play(folder, wall(DisplayStereo::none, false), unplugged, {}, displays.driver());
         ASSERT_TRUE(played.outcome) << played.outcome.error().line();
         EXPECT_EQ(played.recoveries, with_device ? 1 : 0);
         EXPECT_EQ(displays.unplugged.size(), 1u);
@@ -182,21 +183,21 @@ TEST_F(DirectSession, FindsADisplayThatIsThereAgain) {
 TEST_F(DirectSession, GivesAStereoDisplayBothEyesPicturesFromTheStart) {
     displays.stereo.emplace(2);
     std::optional<Image> left, right;
-    const Mishap look = [&](int, SessionStage&) {  // right after the last photograph
+    const Mishap look = [&](int, Presenter&) {  // right after the last photograph
         if (left || !std::filesystem::exists(place / "b/end.png")) return;
         left = displays.stereo->shown(0);
         right = displays.stereo->shown(1);
     };
-    ASSERT_TRUE(play("a", wall(gpu::DisplayStereo::hdmi_3d, true)).outcome);
-    const Played played = play("b", wall(gpu::DisplayStereo::hdmi_3d, false), look, {}, displays.driver());
+    ASSERT_TRUE(play("a", wall(DisplayStereo::hdmi_3d, true)).outcome);
+    const Played played = play("b", wall(DisplayStereo::hdmi_3d, false), look, {}, displays.driver());
     ASSERT_TRUE(played.outcome) << played.outcome.error().line();
     ASSERT_EQ(displays.asked.size(), 1u) << "a change of a projector's mode takes seconds";
-    EXPECT_EQ(displays.asked[0].stereo, gpu::DisplayStereo::hdmi_3d);
+    EXPECT_EQ(displays.asked[0].stereo, DisplayStereo::hdmi_3d);
     EXPECT_EQ(displays.asked[0].refresh_Hz, 60.0);
     expect_same("a", "b", kFiles);
     ASSERT_TRUE(left && right);
     EXPECT_FALSE(left->rgba == right->rgba);
-    const auto both = encode_png(side_by_side({*left, *right}));
+    const auto both = renderer::encode_png(side_by_side({*left, *right}));
     ASSERT_TRUE(both);
     const std::string png(reinterpret_cast<const char*>(both->data()), both->size());
     EXPECT_TRUE(png == place.read("b/end.png")) << "the display has what was photographed, left eye first";
@@ -204,35 +205,34 @@ TEST_F(DirectSession, GivesAStereoDisplayBothEyesPicturesFromTheStart) {
 
 TEST_F(DirectSession, KeepsStereoAfterTheSurfaceOrTheDeviceWasLost) {
     displays.stereo.emplace(2);
-    ASSERT_TRUE(play("a", wall(gpu::DisplayStereo::inband_displayport, true)).outcome);
-    const Mishap both = [lost = false](int frame, SessionStage& stage) mutable {
+    ASSERT_TRUE(play("a", wall(DisplayStereo::inband_displayport, true)).outcome);
+    const Mishap both = [lost = false](int frame, Presenter& stage) mutable {
         if (frame == 20) stage.device().core()->lose_surface_at_next_acquire = true;
         if (frame == 40 && !std::exchange(lost, true)) stage.device().core()->lose_at_next_submit = true;
     };
-    const Played played = play("b", wall(gpu::DisplayStereo::inband_displayport, false), both, {}, displays.driver());
+    const Played played = play("b", wall(DisplayStereo::inband_displayport, false), both, {}, displays.driver());
     ASSERT_TRUE(played.outcome) << played.outcome.error().line();
     EXPECT_EQ(played.recoveries, 1);
     ASSERT_EQ(displays.asked.size(), 3u);
-    for (const gpu::DisplayChoice& choice : displays.asked)
-        EXPECT_EQ(choice.stereo, gpu::DisplayStereo::inband_displayport);
+    for (const gpu::DisplayChoice& choice : displays.asked) EXPECT_EQ(choice.stereo, DisplayStereo::inband_displayport);
     expect_same("a", "b", kFiles);
 }
 
 TEST_F(DirectSession, AsksForStereoOnlyWhileItShowsTwoLayers) {
     displays.stereo.emplace(2);
-    LiveOptions live = wall(gpu::DisplayStereo::onboard_din, false);
+    LiveOptions live = wall(DisplayStereo::onboard_din, false);
     live.stereo = "anaglyph_red_cyan";
     ASSERT_TRUE(play("a", live, {}, {}, displays.driver()).outcome);
     ASSERT_EQ(displays.asked.size(), 2u);
-    EXPECT_EQ(displays.asked[0].stereo, gpu::DisplayStereo::onboard_din);
-    EXPECT_EQ(displays.asked[1].stereo, gpu::DisplayStereo::none);
+    EXPECT_EQ(displays.asked[0].stereo, DisplayStereo::onboard_din);
+    EXPECT_EQ(displays.asked[1].stereo, DisplayStereo::none);
 }
 
 TEST_F(DirectSession, SaysAtOnceWhatTheDisplayCannotDo) {
-    const Played one_layer = play("a", wall(gpu::DisplayStereo::hdmi_3d, false), {}, {}, displays.driver());
+    const Played one_layer = play("a", wall(DisplayStereo::hdmi_3d, false), {}, {}, displays.driver());
     ASSERT_FALSE(one_layer.outcome);
     displays.unplugged = {"projector"};
-    const Played none = play("b", wall(gpu::DisplayStereo::hdmi_3d, false), {}, {}, displays.driver());
+    const Played none = play("b", wall(DisplayStereo::hdmi_3d, false), {}, {}, displays.driver());
     ASSERT_FALSE(none.outcome);
     for (const auto& [played, part] : {std::pair{&one_layer, "(1 layer)"}, std::pair{&none, "no display"}}) {
         const std::string line = played->outcome.error().line();
@@ -242,7 +242,7 @@ TEST_F(DirectSession, SaysAtOnceWhatTheDisplayCannotDo) {
 }
 
 TEST_F(DirectSession, RefusesAWindowForTheRightEyeAndGoesOn) {
-    LiveOptions live = wall(gpu::DisplayStereo::none, false);
+    LiveOptions live = wall(DisplayStereo::none, false);
     live.stereo = "two_windows";
     const Played played = play("a", live, {}, {}, displays.driver());
     ASSERT_TRUE(played.outcome) << played.outcome.error().line();
@@ -250,16 +250,16 @@ TEST_F(DirectSession, RefusesAWindowForTheRightEyeAndGoesOn) {
 }
 
 TEST_F(DirectSession, StandsBesideWindows) {
-    WallSetup setup = *read_wall(std::string(BURIN_WALLS) + "/cave.toml");
-    std::erase_if(setup.screens, [](const WallScreen& s) { return s.name != "front" && s.name != "floor"; });
+    wall::WallSetup setup = *wall::read_wall(std::string(BURIN_WALLS) + "/cave.toml");
+    std::erase_if(setup.screens, [](const wall::WallScreen& s) { return s.name != "front" && s.name != "floor"; });
     ASSERT_EQ(setup.screens.size(), 2u);
-    for (WallScreen& screen : setup.screens) {
+    for (wall::WallScreen& screen : setup.screens) {
         screen.pixels = {200, 200};
         screen.mode = "mono";
         screen.output = "0";
-        if (screen.name == "front") screen.direct = gpu::DisplayStereo::none;
+        if (screen.name == "front") screen.direct = DisplayStereo::none;
     }
-    place.write("wall.toml", wall_text(setup));
+    place.write("wall.toml", wall::wall_text(setup));
     LiveOptions live;
     live.wall = (place / "wall.toml").string();
     const Played played = play("a", live, {}, {}, displays.driver());
@@ -269,7 +269,7 @@ TEST_F(DirectSession, StandsBesideWindows) {
     EXPECT_FALSE(place.read("a/end-floor.png").empty());
     const Result<SessionWall> room = session_wall(live);
     ASSERT_TRUE(room) << room.error().line();
-    auto stage = SessionStage::open(live, *room, displays.driver());
+    auto stage = Presenter::open(live, *room, displays.driver());
     ASSERT_TRUE(stage) << stage.error().line();
     EXPECT_TRUE(stage->has_windows()) << "which wait for keys";
 }
@@ -282,10 +282,10 @@ TEST_F(DirectSession, WaitsUntilItIsWokenWithoutAnyWindow) {
     waker.wake();
     EXPECT_TRUE(waker.wait(600.0)) << "also when that came before";
 
-    const LiveOptions live = wall(gpu::DisplayStereo::none, false);
+    const LiveOptions live = wall(DisplayStereo::none, false);
     const Result<SessionWall> room = session_wall(live);
     ASSERT_TRUE(room);
-    auto stage = SessionStage::open(live, *room, displays.driver());
+    auto stage = Presenter::open(live, *room, displays.driver());
     ASSERT_TRUE(stage) << stage.error().line();
     EXPECT_FALSE(stage->has_windows());
     EXPECT_EQ(stage->refresh_Hz(), 75.0);
@@ -294,7 +294,7 @@ TEST_F(DirectSession, WaitsUntilItIsWokenWithoutAnyWindow) {
 }
 
 TEST_F(DirectSession, RunsInRealTimeUntilTheScriptQuits) {
-    LiveOptions live = wall(gpu::DisplayStereo::none, false);
+    LiveOptions live = wall(DisplayStereo::none, false);
     live.screenshots = (place / "").string();
     const Result<SessionWall> room = session_wall(live);
     ASSERT_TRUE(room);
@@ -309,7 +309,7 @@ TEST_F(DirectSession, RunsInRealTimeUntilTheScriptQuits) {
 }
 
 TEST_F(DirectSession, EndsAtASignalAndFinishesItsRecording) {
-    const LiveOptions live = wall(gpu::DisplayStereo::none, false);
+    const LiveOptions live = wall(DisplayStereo::none, false);
     const Result<SessionWall> room = session_wall(live);
     ASSERT_TRUE(room);
     auto writer = InputLogWriter::create((place / "live.log").string(), "settings");
@@ -338,7 +338,7 @@ TEST_F(DirectSession, ByTheCommandNamesTheScreenAndTheWaysOut) {
     auto device = gpu::Device::create({.optional_instance_extensions = gpu::direct_display_extensions()});
     ASSERT_TRUE(device) << device.error().line();
     if (gpu::list_displays(*device)) GTEST_SKIP() << "this machine has a display that would be taken";
-    static_cast<void>(wall(gpu::DisplayStereo::hdmi_3d, false));
+    static_cast<void>(wall(DisplayStereo::hdmi_3d, false));
     place.write("script.txt", "burin-input 1 test\n0.1 command screenshot a.png\n0.2 command quit\n");
     const std::string burin = std::string("env -u DISPLAY BURIN_VULKAN_VALIDATION=1 ") + BURIN_COMMAND +
                               " sculpt --workpiece ball:0.1 --resolution 16 --tool ball:0.01 --wall wall.toml ";
@@ -354,4 +354,4 @@ TEST_F(DirectSession, ByTheCommandNamesTheScreenAndTheWaysOut) {
     EXPECT_FALSE(place.read("a.png").empty());
 }
 
-}  // namespace burin
+}  // namespace burin::session

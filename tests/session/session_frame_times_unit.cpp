@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/frame_times.hpp"
+#include "session/timing/frame_times.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 constexpr Nanoseconds kMs = 1'000'000;
@@ -147,4 +147,4 @@ TEST(FrameTimes, DoNotWarnOfAFewFramesOrTooEarly) {
     EXPECT_EQ(h.warnings().size(), 2u);
 }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -5,10 +5,10 @@
 #include <set>
 
 #include "gpu/device.hpp"
-#include "tests/app/run_command.hpp"
+#include "tests/support/run_command.hpp"
 #include "tests/window/xvfb.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 // Presses the tool into the ball's front and draws it to the side, between two exports; takes it back; does it again.
@@ -215,4 +215,4 @@ TEST_F(Session, OffscreenWithoutInputIsRefused) {
     EXPECT_NE(outcome.output.find("--input"), std::string::npos) << outcome.output;
 }
 
-}  // namespace burin
+}  // namespace burin::session

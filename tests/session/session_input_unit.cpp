@@ -11,13 +11,13 @@
 #include <fstream>
 #include <limits>
 
-#include "app/session/input_keys.hpp"
-#include "app/session/input_line.hpp"
-#include "app/session/input_log.hpp"
-#include "app/session/input_source.hpp"
-#include "app/session/input_words.hpp"
+#include "session/input/input_keys.hpp"
+#include "session/input/input_line.hpp"
+#include "session/input/input_words.hpp"
+#include "session/record/input_log.hpp"
+#include "session/record/input_source.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 const std::string kHeader = "burin-input 1 test\n";
@@ -466,9 +466,9 @@ TEST(InputSource, PassesOverNonsenseOfATracker) {
     source.push(1, HeadInput{{{NAN, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}, true});
     source.push(2, HeadInput{{Vec3(0.0), {0.0, 0.0, 0.0, 0.0}}, true});
     source.push(3, FrameStart{3});
-    EXPECT_FALSE(source.has_news());
+    EXPECT_FALSE(source.has_waiting_input());
     source.push(4, WindowClose{});
-    EXPECT_TRUE(source.has_news());
+    EXPECT_TRUE(source.has_waiting_input());
     EXPECT_EQ(source.refused(), 3u);
     EXPECT_EQ(source.begin_frame(5, 6)->events.size(), 1u);
     EXPECT_EQ(source.begin_frame(5, 6)->events.size(), 0u);
@@ -488,12 +488,4 @@ TEST(InputKeys, EveryKeyHasAnUnmistakableName) {
     EXPECT_EQ(key_named("Home"), std::nullopt);
 }
 
-TEST(InputKeys, TheNearestNameIsTheOneWithTheFewestEdits) {
-    const std::vector<std::string_view> names = {"kitten", "mouse", "command"};
-    EXPECT_EQ(nearest_name("sitting", names), "kitten");  // 3 edits
-    EXPECT_EQ(nearest_name("moose", names), "mouse");
-    EXPECT_EQ(nearest_name("comand", names), "command");
-    EXPECT_EQ(nearest_name("mouse" + std::string(10000000, 'x'), names), "mouse");  // cut off, not slow
-}
-
-}  // namespace burin
+}  // namespace burin::session

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A whole session whose graphics device or window surface is lost while somebody carves goes on as if nothing had happened.
+// A whole session whose graphics device or window surface is lost while somebody carves goes on as if nothing had
+// happened.
 #include <gtest/gtest.h>
 
 #include <set>
 
 #include "gpu/core.hpp"
-#include "tests/app/played_session.hpp"
+#include "tests/session/played_session.hpp"
 #include "tests/window/xvfb.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 class SessionLoss : public PlayedSession {};
@@ -31,17 +32,18 @@ LiveOptions cave(bool offscreen) {
     return live;
 }
 
-// At the first picture, while carving (twice, one right after the other), and while the tool is taken away.
-const std::set<int> kFrames{0, 20, 24, 25, 50};
+// At the first picture, while carving (twice, one right after the other), in the frame of carving.png, which has to be
+// drawn again, and while the tool is taken away.
+const std::set<int> kFrames{0, 20, 24, 25, 32, 50};
 
 Mishap device_lost() {
-    return [left = kFrames](int frame, SessionStage& stage) mutable {
+    return [left = kFrames](int frame, Presenter& stage) mutable {
         if (left.erase(frame) > 0) stage.device().core()->lose_at_next_submit = true;
     };
 }
 
 Mishap surface_lost() {
-    return [left = kFrames](int frame, SessionStage& stage) mutable {
+    return [left = kFrames](int frame, Presenter& stage) mutable {
         if (left.erase(frame) > 0) stage.device().core()->lose_surface_at_next_acquire = true;
     };
 }
@@ -104,7 +106,7 @@ TEST_F(SessionLoss, OfAllSizeForAWhileIsNoLossOfWhatIsDoneMeanwhile) {
 }
 
 TEST_F(SessionLoss, OverAndOverEndsWithAReason) {
-    const Played played = play("a", desk(true), [](int frame, SessionStage& stage) {
+    const Played played = play("a", desk(true), [](int frame, Presenter& stage) {
         if (frame >= 20) stage.device().core()->lose_at_next_submit = true;
     });
     ASSERT_FALSE(played.outcome);
@@ -112,4 +114,4 @@ TEST_F(SessionLoss, OverAndOverEndsWithAReason) {
         << played.outcome.error().line();
 }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Frame pacing against simulated displays: a clock, a queue of images that a vblank takes one of, loads and jitter of choice.
+// Frame pacing against simulated displays: a clock, a queue of images that a vblank takes one of, loads and jitter of
+// choice.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,9 +9,9 @@
 #include <random>
 #include <vector>
 
-#include "app/session/frame_pacing.hpp"
+#include "session/timing/frame_pacing.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 constexpr Nanoseconds kMs = 1'000'000, kUs = 1000;
@@ -330,4 +331,74 @@ TEST(FramePacing, TheSameTimesGiveTheSamePlans) {
     EXPECT_EQ(plans(), plans());
 }
 
-}  // namespace burin
+// ---- The display's lead: a picture finished less than this before a vblank misses it
+
+namespace {
+constexpr Nanoseconds kLead = 4 * kMs;
+
+// A pacer that has seen the display's vblanks, at multiples of k60, and works 2 ms a frame.
+PacingState with_lead() {
+    PacingState state = begin_pacing({.period_ns = k60, .lead_ns = kLead});
+    for (std::uint64_t i = 0; i < 40; ++i) {
+        const PlannedFrame planned = plan_frame(state, static_cast<Nanoseconds>(600 + i) * k60 + kMs);
+        FrameMeasure m;
+        m.plan = planned.plan;
+        m.sampled_ns = m.plan.wake_ns;
+        m.submitted_ns = m.finished_ns = m.plan.wake_ns + 2 * kMs;
+        m.displayed_ns = m.flip_ns = m.plan.display_ns / k60 * k60;
+        state = after_frame(frame_finished(planned.state, m.plan, m.finished_ns), m);
+    }
+    return state;
+}
+}  // namespace
+
+TEST(FramePacing, PlansPicturesToBeFinishedTheDisplaysLeadBeforeTheVblank) {
+    const PlannedFrame planned = plan_frame(with_lead(), 700 * k60 + kMs);
+    const FramePlan& plan = planned.plan;
+    EXPECT_NEAR(static_cast<double>(plan.display_ns), static_cast<double>(701 * k60), 1e3);
+    EXPECT_EQ(plan.finish_by_ns, plan.display_ns - kLead);
+    EXPECT_GE(plan.finish_by_ns - plan.wake_ns, 2 * kMs) << "there is no time for the work";
+    EXPECT_LE(plan.finish_by_ns - plan.wake_ns, 3 * kMs) << "the head could be younger";
+}
+
+TEST(FramePacing, APictureFinishedWithinTheLeadIsTakenToBeSeenAPeriodLater) {
+    const PlannedFrame first = plan_frame(with_lead(), 700 * k60 + kMs);
+    const Nanoseconds finished_ns = first.plan.display_ns - kLead / 2;
+    // The next one is not planned for the vblank that the late one takes.
+    const PacingState late = frame_finished(first.state, first.plan, finished_ns);
+    const Nanoseconds next_ns = plan_frame(late, finished_ns).plan.display_ns;
+    EXPECT_NEAR(static_cast<double>(next_ns - first.plan.display_ns), 2.0 * static_cast<double>(k60), 1e3);
+    // Nor is its head as young as was planned, where nobody tells when it was seen.
+    FrameMeasure m;
+    m.plan = first.plan;
+    m.sampled_ns = first.plan.wake_ns;
+    m.submitted_ns = m.finished_ns = finished_ns;
+    const PacingState told = after_frame(late, m);
+    EXPECT_EQ(told.missed, late.missed + 1);
+    EXPECT_NEAR(static_cast<double>(told.head_age_ns),
+                static_cast<double>(first.plan.display_ns + k60 - first.plan.wake_ns), 1e3);
+    // Without vblanks it is seen as soon as the display has taken it.
+    const PacingState blind = begin_pacing({.period_ns = k60, .lead_ns = kLead});
+    const PlannedFrame free = plan_frame(blind, 0);
+    m.plan = free.plan;
+    m.sampled_ns = 0;
+    m.submitted_ns = m.finished_ns = 20 * kMs;
+    EXPECT_EQ(after_frame(free.state, m).head_age_ns, 20 * kMs + kLead);
+}
+
+TEST(FramePacing, AnotherDisplayIsNotShownFramesAsRarelyAsTheOldOneHadTo) {
+    Session session;
+    session.graphics = [](std::uint64_t frame) { return frame < 300 ? 25 * kMs : kMs; };
+    session.run(300);
+    ASSERT_EQ(session.state.interval, 2u);
+    EXPECT_EQ(display_changed(session.state, k60).interval, 1u);
+}
+
+TEST(FramePacing, NewsOfAnOlderFrameDoesNotMoveTheNextOne) {
+    const PlannedFrame first = plan_frame(with_lead(), 700 * k60 + kMs);
+    const PlannedFrame second = plan_frame(first.state, 701 * k60 + kMs);
+    const PacingState told = frame_finished(second.state, first.plan, first.plan.display_ns + 3 * k60);
+    EXPECT_EQ(told.last_plan.display_ns, second.plan.display_ns);
+}
+
+}  // namespace burin::session

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-// The panel as people see it, painted by the graphics device: in several states, at both ends of its sizes. With BURIN_PANEL_PICTURES
-// naming a folder each picture is left there, over a mid-grey scene.
+// The panel as people see it, painted by the graphics device: in several states, at both ends of its sizes. With
+// BURIN_PANEL_PICTURES naming a folder each picture is left there, over a mid-grey scene.
 #include <cstdlib>
 #include <filesystem>
 
-#include "app/session/panel.hpp"
 #include "renderer/output/compose.hpp"
 #include "renderer/output/eye_images.hpp"
 #include "renderer/output/srgb.hpp"
 #include "renderer/panel/panel_painter.hpp"
 #include "renderer/png.hpp"
-#include "tests/app/panel_models.hpp"
+#include "session/panel/panel.hpp"
 #include "tests/gpu/test_device.hpp"
+#include "tests/session/panel_models.hpp"
 
-namespace burin {
+namespace burin::session {
 
 namespace {
 
@@ -23,11 +23,12 @@ Image over(const Image& panel, std::uint8_t scene) {
     for (std::size_t i = 0; i < eye.rgba.size(); ++i) {
         if (i % 4 != 3) eye.rgba[i] = scene;
     }
-    const Overlay overlay{
-        panel, {0, 0, static_cast<int>(panel.size.width), static_cast<int>(panel.size.height)}, OverlayColour::coded};
-    OutputSettings settings;
-    settings.mode = StereoMode::left;
-    return compose(eye, eye, settings, {.size = panel.size}, &overlay);
+    const renderer::Overlay overlay{panel,
+                                    {0, 0, static_cast<int>(panel.size.width), static_cast<int>(panel.size.height)},
+                                    wall::OverlayColour::coded};
+    wall::OutputSettings settings;
+    settings.mode = wall::StereoMode::left;
+    return renderer::compose(eye, eye, settings, {.size = panel.size}, &overlay);
 }
 
 // How many pixels have a colour, within a step of each channel.
@@ -47,15 +48,15 @@ class PanelPicture : public gpu::DeviceTest {
 protected:
     Image paint(Panel& panel, const PanelModel& model, Nanoseconds time_ns = 0) {
         const PanelFrame& frame = panel.show(model, time_ns);
-        auto painter = PanelPainter::create(device(), panel.size(), panel.atlas());
+        auto painter = renderer::PanelPainter::create(device(), panel.size(), panel.atlas());
         EXPECT_TRUE(painter) << painter.error().line();
         auto commands = gpu::Commands::begin(device());
         const auto painted = painter->record(*commands, frame.mesh);
         EXPECT_TRUE(painted && *painted);
         auto submission = std::move(*commands).submit();
         EXPECT_TRUE(submission && submission->wait());
-        auto image = read_back(device(), painter->image(), panel.size(), VK_FORMAT_R8G8B8A8_UNORM,
-                               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+        auto image = renderer::read_back(device(), painter->image(), panel.size(), VK_FORMAT_R8G8B8A8_UNORM,
+                                         VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
         EXPECT_TRUE(image) << image.error().line();
         return std::move(*image);
     }
@@ -63,7 +64,8 @@ protected:
     static void keep(const Image& panel, const std::string& name) {
         const char* const folder = std::getenv("BURIN_PANEL_PICTURES");
         if (folder != nullptr) {
-            EXPECT_TRUE(write_png(std::filesystem::path(folder) / ("panel_" + name + ".png"), over(panel, 128)));
+            EXPECT_TRUE(
+                renderer::write_png(std::filesystem::path(folder) / ("panel_" + name + ".png"), over(panel, 128)));
         }
     }
 };
@@ -118,4 +120,4 @@ TEST_F(PanelPicture, ShowsAnOpenListOverAllElse) {
     EXPECT_TRUE(panel->place_of("stereo-mode mono"));
 }
 
-}  // namespace burin
+}  // namespace burin::session

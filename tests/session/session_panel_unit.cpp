@@ -8,12 +8,12 @@
 #include <random>
 #include <set>
 
-#include "app/session/panel.hpp"
-#include "app/session/panel_sections.hpp"
-#include "app/tool_option.hpp"
-#include "tests/app/panel_models.hpp"
+#include "sculpt/tool_options.hpp"
+#include "session/panel/panel.hpp"
+#include "session/panel/panel_sections.hpp"
+#include "tests/session/panel_models.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 constexpr Nanoseconds kFrame_ns = 16'000'000;
@@ -54,14 +54,9 @@ struct Desk {
 
 using Commands = std::vector<CommandInput>;
 
-// What each widget says when its middle is pressed, of the model of a tool at rest.
-const std::map<std::string, Commands>& expected_commands() {
+// What each widget but those of the tools says when its middle is pressed, of the model of a tool at rest.
+const std::map<std::string, Commands>& fixed_commands() {
     static const std::map<std::string, Commands> expected = {
-        {"tool ball", {}},  // in the hand already
-        {"tool cylinder", {{"tool", {"cylinder:0.004,0.016"}}}},
-        {"tool cone", {{"tool", {"cone:0,0.004,0.012"}}}},
-        {"tool bullnose", {{"tool", {"bullnose:0.004,0.001,0.016"}}}},
-        {"tool box", {{"tool", {"box:0.008,0.008,0.008"}}}},
         {"operation cut", {{"operation", {"cut"}}}},
         {"operation fill", {{"operation", {"fill"}}}},
         {"operation paint", {{"operation", {"paint"}}}},
@@ -102,6 +97,25 @@ const std::map<std::string, Commands>& expected_commands() {
         {"State", {}}};
     return expected;
 }
+
+std::vector<sculpt::ToolKind> kinds_on_panel() {
+    std::vector<sculpt::ToolKind> kinds;
+    for (const sculpt::ToolDescriptor& kind : sculpt::tool_kinds())
+        if (kind.on_panel()) kinds.push_back(kind.kind);
+    return kinds;
+}
+
+// Another kind of tool than the model's is given in about its size (PanelSizes, below).
+std::map<std::string, Commands> expected_commands() {
+    std::map<std::string, Commands> expected = fixed_commands();
+    const sculpt::ToolSpec held = idle_model().tool;
+    for (const sculpt::ToolKind kind : kinds_on_panel()) {
+        Commands& given = expected["tool " + std::string(sculpt::descriptor_of(kind).name)];
+        if (kind != held.kind) given = {{"tool", {sculpt::text_of(panel::tool_like(held, kind))}}};
+    }
+    return expected;
+}
+
 // Their middle is the middle of their range.
 const std::set<std::string> kSliders{"radius",          "hardness",     "stiffness", "friction",
                                      "velocity-filter", "force-filter", "scale",     "eye-distance"};
@@ -115,6 +129,7 @@ PanelModel workable_model() {
 }
 
 TEST(PanelWidgets, GiveExactlyTheirCommandWhenClicked) {
+    const std::map<std::string, Commands> all = expected_commands();
     std::set<std::string> seen;
     for (const std::string& label : Desk(workable_model()).panel.labels()) {
         Desk desk(workable_model());
@@ -126,18 +141,18 @@ TEST(PanelWidgets, GiveExactlyTheirCommandWhenClicked) {
             const auto command = parse_command(given[0]);
             ASSERT_TRUE(command) << command.error().line();
             const auto& quantity = std::get<SetQuantity>(*command);
-            const QuantityRange& range = range_of(quantity.quantity);
+            const QuantityDescriptor& range = descriptor_of(quantity.quantity);
             const double to = label == "radius" ? 2.0 * range.to : range.to;
             const double middle = range.by_ratio ? std::sqrt(range.from * to) : 0.5 * (range.from + to);
             EXPECT_NEAR(quantity.value, middle, 0.06 * middle) << label;
             continue;
         }
-        const auto expected = expected_commands().find(label);
-        ASSERT_NE(expected, expected_commands().end()) << label << " is in no table of this test";
+        const auto expected = all.find(label);
+        ASSERT_NE(expected, all.end()) << label << " is in no table of this test";
         EXPECT_EQ(given, expected->second) << label;
         for (const CommandInput& action : given) EXPECT_TRUE(parse_command(action)) << label;
     }
-    for (const auto& [label, commands] : expected_commands()) EXPECT_TRUE(seen.contains(label)) << label;
+    for (const auto& [label, commands] : all) EXPECT_TRUE(seen.contains(label)) << label;
     for (const std::string& label : kSliders) EXPECT_TRUE(seen.contains(label)) << label;
 }
 
@@ -147,26 +162,26 @@ TEST(PanelWidgets, OfferEveryEntryOfTheirLists) {
         (void)desk.click(list);
         return desk.click(std::string(list) + " " + entry);
     };
-    for (const StereoMode mode : stereo_modes()) {
+    for (const wall::StereoMode mode : wall::stereo_modes()) {
         const std::string name(file_name_of(mode));
         EXPECT_EQ(choose("stereo-mode", name), (Commands{{"stereo-mode", {name}}}));
     }
-    for (std::size_t i = 0; i < kTechniques; ++i) {
-        const std::string name(file_name_of(static_cast<WorkspaceTechnique>(i)));
+    for (const TechniqueDescriptor& technique : techniques()) {
+        const std::string name(technique.name);
         EXPECT_EQ(choose("technique", name), (Commands{{"technique", {name}}}));
     }
 }
 
 TEST(PanelWidgets, SaySizesOfEveryToolThatATakerTakes) {
-    for (std::size_t i = 0; i < 5; ++i) {
+    for (const sculpt::ToolKind kind : kinds_on_panel()) {
         PanelModel model = workable_model();
-        model.tool = panel::tool_like(model.tool, static_cast<ToolKind>(i));
-        for (const std::string_view name : size_names(model.tool.kind)) {
-            const std::string label = name == "radius" ? "radius" : "tool " + std::string(name);
+        model.tool = panel::tool_like(model.tool, kind);
+        for (const sculpt::ToolSize& size : sculpt::descriptor_of(kind).used_sizes()) {
+            const std::string label = size.name == "radius" ? "radius" : "tool " + std::string(size.name);
             Desk desk(model);
             const Commands given = desk.click(label);
             ASSERT_EQ(given.size(), 1u) << label;
-            EXPECT_EQ(given[0].name, i == 0 ? "radius" : "tool");
+            EXPECT_EQ(given[0].name, kind == sculpt::ToolKind::ball ? "radius" : "tool");
             EXPECT_TRUE(parse_command(given[0])) << label;
         }
     }
@@ -175,8 +190,8 @@ TEST(PanelWidgets, SaySizesOfEveryToolThatATakerTakes) {
 TEST(PanelWidgets, ThatAreOffGiveNothing) {
     PanelModel model = workable_model();
     model.undo_count = model.redo_count = 0;
-    model.export_progress = 0.5;
-    model.tool = panel::tool_like(model.tool, ToolKind::box);  // which cannot smooth
+    model.exporting = true;
+    model.tool = panel::tool_like(model.tool, sculpt::ToolKind::box);  // which cannot smooth
     for (const char* label : {"undo", "redo", "export", "operation smooth"}) {
         Desk desk(model);
         EXPECT_TRUE(desk.click(label).empty()) << label;
@@ -232,18 +247,20 @@ TEST(PanelAtRest, IsNotLaidOutAgainForBeingToldItsSize) {
 }
 
 TEST(PanelCard, KeepsWhatIsBesideItsTitleOffTheTitle) {
-    const auto letters_of_title = [](WorkspacePhase phase) {
+    const auto letters_of_title = [](haptics::WorkspacePhase phase) {
         PanelModel model = workable_model();
         model.phase = phase;
         Desk desk(model);
         const PixelRect card = *desk.panel.place_of("Workspace");
         const double top = card.y, bottom = top + card.height, right = card.x + 96.0;
-        const PanelMesh& mesh = desk.panel.show(model, desk.now_ns).mesh;
-        return std::ranges::count_if(mesh.vertices,
-                                     [&](const PanelVertex& v) { return v.x < right && v.y > top && v.y < bottom; });
+        const renderer::PanelMesh& mesh = desk.panel.show(model, desk.now_ns).mesh;
+        return std::ranges::count_if(
+            mesh.vertices, [&](const renderer::PanelVertex& v) { return v.x < right && v.y > top && v.y < bottom; });
     };
-    for (std::size_t i = 0; i <= static_cast<std::size_t>(WorkspacePhase::gliding); ++i)
-        EXPECT_EQ(letters_of_title(static_cast<WorkspacePhase>(i)), letters_of_title(WorkspacePhase::editing)) << i;
+    for (std::size_t i = 0; i <= static_cast<std::size_t>(haptics::WorkspacePhase::gliding); ++i)
+        EXPECT_EQ(letters_of_title(static_cast<haptics::WorkspacePhase>(i)),
+                  letters_of_title(haptics::WorkspacePhase::editing))
+            << i;
 }
 
 TEST(PanelText, IsTypedIntoThePathAndExportedByEnter) {
@@ -362,7 +379,7 @@ Input any_input(std::mt19937& random) {
 // Every mesh can be painted, every action can be run.
 void expect_sound(const PanelFrame& frame, ImageSize size) {
     for (const std::uint32_t i : frame.mesh.indices) ASSERT_LT(i, frame.mesh.vertices.size());
-    for (const PanelDraw& draw : frame.mesh.draws) {
+    for (const renderer::PanelDraw& draw : frame.mesh.draws) {
         EXPECT_LE(draw.first_index + draw.index_count, frame.mesh.indices.size());
         EXPECT_LE(draw.clip.x + draw.clip.width, size.width);
         EXPECT_LE(draw.clip.y + draw.clip.height, size.height);
@@ -400,24 +417,52 @@ TEST(PanelReplay, IsTheSameBitForBitWhateverOtherPanelsDo) {
 }
 
 RC_GTEST_PROP(PanelSizes, OfAnyToolStayATool, ()) {
-    ToolSpec tool{ToolKind::ball, {0.001 * *rc::gen::inRange(1, 100), 0.0, 0.0}, {}};
-    tool = panel::tool_like(tool, static_cast<ToolKind>(*rc::gen::inRange(0, 5)));
+    const auto any_kind = [] { return *rc::gen::elementOf(kinds_on_panel()); };
+    sculpt::ToolSpec tool{sculpt::ToolKind::ball, {0.001 * *rc::gen::inRange(1, 100), 0.0, 0.0}, {}};
+    tool = panel::tool_like(tool, any_kind());
     for (int i = 0; i < 4; ++i) {
-        const auto sizes = size_names(tool.kind).size();
+        const auto sizes = sculpt::descriptor_of(tool.kind).used_sizes().size();
         const double size_m = panel::value_at(0.01 * *rc::gen::inRange(0, 101), 0.0005, 0.1, true);
         tool = panel::with_size(tool, *rc::gen::inRange<std::size_t>(0, sizes), size_m);
-        ToolOptions options;
-        options.shape = text_of(tool);
-        RC_ASSERT(parse_tool(options).has_value());
-        tool = panel::tool_like(tool, static_cast<ToolKind>(*rc::gen::inRange(0, 5)));
+        RC_ASSERT(sculpt::parse_tool_settings({.shape = sculpt::text_of(tool)}).has_value());
+        tool = panel::tool_like(tool, any_kind());
     }
 }
 
+TEST(PanelSizes, OfAnotherKindAreAboutAsWide) {
+    using sculpt::ToolKind;
+    const auto like = [](const sculpt::ToolSpec& tool, ToolKind kind) {
+        return sculpt::text_of(panel::tool_like(tool, kind));
+    };
+    const sculpt::ToolSpec ball{ToolKind::ball, {0.004, 0.0, 0.0}, {}};
+    EXPECT_EQ(like(ball, ToolKind::cylinder), "cylinder:0.004,0.016");
+    EXPECT_EQ(like(ball, ToolKind::cone), "cone:0,0.004,0.012");
+    EXPECT_EQ(like(ball, ToolKind::bullnose), "bullnose:0.004,0.001,0.016");
+    EXPECT_EQ(like(ball, ToolKind::box), "box:0.008,0.008,0.008");
+    EXPECT_EQ(like({ToolKind::box, {0.02, 0.5, 0.7}, {}}, ToolKind::ball), "ball:0.01");
+    EXPECT_EQ(like({ToolKind::cone, {0.5, 0.03, 0.7}, {}}, ToolKind::ball), "ball:0.03");
+    EXPECT_EQ(like({ToolKind::mesh, {}, "a.stl"}, ToolKind::ball), "ball:0.005");
+    EXPECT_EQ(like(ball, ToolKind::mesh), "ball:0.004") << "which the panel does not offer";
+    for (const ToolKind kind : kinds_on_panel())
+        EXPECT_EQ(like(panel::tool_like(ball, kind), ToolKind::ball), "ball:0.004");
+}
+
+TEST(PanelSizes, FollowTheOneThatIsSet) {
+    using sculpt::ToolKind;
+    const sculpt::ToolSpec nose{ToolKind::bullnose, {0.004, 0.001, 0.016}, {}};
+    EXPECT_EQ(panel::with_size(nose, 1, 0.02).sizes_m, (sculpt::ToolSizes{0.02, 0.02, 0.02}));
+    EXPECT_EQ(panel::with_size(nose, 0, 0.0005).sizes_m, (sculpt::ToolSizes{0.0005, 0.0005, 0.016}));
+    const sculpt::ToolSpec cone{ToolKind::cone, {0.0, 0.004, 0.012}, {}};
+    EXPECT_EQ(panel::with_size(cone, 1, 0.0).sizes_m, (sculpt::ToolSizes{0.0005, 0.0, 0.012}));
+    EXPECT_EQ(panel::with_size(cone, 0, 0.002).sizes_m, (sculpt::ToolSizes{0.002, 0.004, 0.012}));
+}
+
 TEST(PanelScale, MakesCapitalsReadableFromWhereTheyAreRead) {
-    // 3 m before a wall of 3.05 m and 1920 pixels: 21 minutes of arc are 18.3 mm, 11.5 pixels, and capitals are 9.6 at scale 1.
+    // 3 m before a wall of 3.05 m and 1920 pixels: 21 minutes of arc are 18.3 mm, 11.5 pixels, and capitals are 9.6 at
+    // scale 1.
     EXPECT_NEAR(panel_scale(3.0, 3.05 / 1920.0), 1.2, 0.01);
     EXPECT_DOUBLE_EQ(panel_scale(6.0, 0.001), 2.0 * panel_scale(3.0, 0.001));
 }
 
 }  // namespace
-}  // namespace burin
+}  // namespace burin::session

@@ -4,17 +4,17 @@
 
 #include <random>
 
-#include "app/session/panel_pointer.hpp"
 #include "renderer/output/compose.hpp"
-#include "renderer/output/warp.hpp"
-#include "renderer/stereo/projection.hpp"
+#include "session/panel/panel_pointer.hpp"
+#include "wall/output_settings.hpp"
+#include "wall/projection.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 // A panel of 200 x 400 pixels, 0.5 m wide, a metre before the wall and turned.
-const PanelStand kStand =
-    stand_of_width({{0.4, 1.2, 1.0}, glm::angleAxis(-0.3, Vec3(0, 1, 0))}, 0.5, ImageSize{200, 400});
+const renderer::PanelStand kStand =
+    renderer::stand_of_width({{0.4, 1.2, 1.0}, glm::angleAxis(-0.3, Vec3(0, 1, 0))}, 0.5, ImageSize{200, 400});
 const ImageSize kPanel{200, 400};
 
 Vec3 on_panel(const Vec2& px) {
@@ -34,9 +34,9 @@ std::vector<Event> only(const std::vector<InputEvent>& events) {
 
 TEST(PanelPointer, TheMouseIsWhereTheEyesSeeIt) {
     const Vec3 eye_world{0.1, 1.7, 2.5};
-    OutputSettings output;
-    output.mode = StereoMode::mono;
-    const MouseView mouse{screen_of(Wall{}), {eye_world, eye_world}, output, {.size = {1280, 960}}};
+    wall::OutputSettings output;
+    output.mode = wall::StereoMode::mono;
+    const MouseView mouse{wall::screen_of(wall::Wall{}), {eye_world, eye_world}, output, {.size = {1280, 960}}};
     std::mt19937 random(3);
     std::uniform_real_distribution<double> part(0.02, 0.98);
     for (int i = 0; i < 100; ++i) {
@@ -74,8 +74,8 @@ TEST(PanelPointer, AWandThatPressesThePanelDoesNotGrabTheScene) {
 namespace {
 
 // Apart far enough that the wrong eye is many pixels off.
-const Eyes kEyes{{-0.1, 1.7, 2.2}, {0.3, 1.75, 2.25}};
-const Screen kScreen = screen_of(Wall{});
+const wall::Eyes kEyes{{-0.1, 1.7, 2.2}, {0.3, 1.75, 2.25}};
+const wall::Screen kScreen = wall::screen_of(wall::Wall{});
 
 // In pixels of an eye's picture, by the matrix with which it is drawn.
 Vec2 projected(const Vec3& eye_world, const Vec3& at_world, ImageSize picture) {
@@ -102,50 +102,51 @@ std::vector<Vec2> lit_pixels(const Image& image) {
     return lit;
 }
 
-bool both_look_at_once(StereoMode mode) {
+bool both_look_at_once(wall::StereoMode mode) {
     switch (mode) {
-        case StereoMode::anaglyph_red_cyan:
-        case StereoMode::anaglyph_green_magenta:
-        case StereoMode::anaglyph_amber_blue:
-        case StereoMode::mono:
-        case StereoMode::frame_sequential:
-        case StereoMode::two_layers: return true;
+        case wall::StereoMode::anaglyph_red_cyan:
+        case wall::StereoMode::anaglyph_green_magenta:
+        case wall::StereoMode::anaglyph_amber_blue:
+        case wall::StereoMode::mono:
+        case wall::StereoMode::frame_sequential:
+        case wall::StereoMode::two_layers: return true;
         default: return false;
     }
 }
 
-std::vector<OutputSettings> every_way_to_show() {
-    std::vector<OutputSettings> all;
-    for (const StereoMode mode : stereo_modes()) {
-        OutputSettings settings;
+std::vector<wall::OutputSettings> every_way_to_show() {
+    std::vector<wall::OutputSettings> all;
+    for (const wall::StereoMode mode : wall::stereo_modes()) {
+        wall::OutputSettings settings;
         settings.mode = mode;
         all.push_back(settings);
         settings.swap_eyes = true;
         all.push_back(settings);
-        settings.first_eye = Eye::right;
-        settings.homography = homography_onto({Vec2{0.1, 0.05}, {0.95, 0.0}, {0.9, 0.97}, {0.0, 0.9}}).value();
+        settings.first_eye = wall::Eye::right;
+        settings.homography = wall::homography_onto({Vec2{0.1, 0.05}, {0.95, 0.0}, {0.9, 0.97}, {0.0, 0.9}}).value();
         all.push_back(settings);
     }
     return all;
 }
 
 struct Shot {
-    Eye eye;
-    OutputPlace place;
+    wall::Eye eye;
+    wall::OutputPlace place;
     std::size_t lit = 0;
 };
 
-// Lights a point of the panel in one eye's picture, and points the mouse at every pixel of the output that is lit by it.
-void expect_hit_where_lit(const OutputSettings& output, Shot& shot, const Vec2& wanted) {
-    const ImageSize size = eye_size(output.mode, shot.place.size);
+// Lights a point of the panel in one eye's picture, and points the mouse at every pixel of the output that is lit by
+// it.
+void expect_hit_where_lit(const wall::OutputSettings& output, Shot& shot, const Vec2& wanted) {
+    const ImageSize size = wall::eye_size(output.mode, shot.place.size);
     const bool both = both_look_at_once(output.mode);
-    const Vec3 middle = middle_of(kEyes), from = both                    ? middle
-                                                 : shot.eye == Eye::left ? kEyes.left_world
-                                                                         : kEyes.right_world;
+    const Vec3 middle = middle_of(kEyes), from = both                          ? middle
+                                                 : shot.eye == wall::Eye::left ? kEyes.left_world
+                                                                               : kEyes.right_world;
     const Vec2 at = projected(from, on_panel(wanted), size);
     const Image lit = lit_at(at, size), dark{size, std::vector<std::uint8_t>(lit.rgba.size(), 0)};
-    const Image shown =
-        compose(shot.eye == Eye::left ? lit : dark, shot.eye == Eye::right ? lit : dark, output, shot.place);
+    const Image shown = renderer::compose(shot.eye == wall::Eye::left ? lit : dark,
+                                          shot.eye == wall::Eye::right ? lit : dark, output, shot.place);
     const MouseView mouse{
         kScreen,
         kEyes,
@@ -155,7 +156,8 @@ void expect_hit_where_lit(const OutputSettings& output, Shot& shot, const Vec2& 
     const Vec2 pixel = picture_px_per_px(output.mode) * (output.homography ? 2.3 : 1.0);
     for (Vec2 px : lit_pixels(shown)) {
         ++shot.lit;
-        if (output.mode == StereoMode::two_windows && shot.place.eye == Eye::right) px.x += kRightWindow_px;
+        if (output.mode == wall::StereoMode::two_windows && shot.place.eye == wall::Eye::right)
+            px.x += wall::kRightWindow_px;
         const std::vector<InputEvent> events{{0, MouseMove{px}}};
         const auto moves = only<MouseMove>(point_at_panel({}, events, kStand, kPanel, mouse).panel);
         ASSERT_EQ(moves.size(), 1u) << file_name_of(output.mode) << " misses at " << px.x << ", " << px.y;
@@ -170,31 +172,32 @@ void expect_hit_where_lit(const OutputSettings& output, Shot& shot, const Vec2& 
 TEST(PanelPointer, TheMouseMeetsWhatIsSeenUnderItInEveryModeAndEye) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> part(0.2, 0.8);
-    for (const OutputSettings& output : every_way_to_show()) {
-        for (const Eye eye : {Eye::left, Eye::right}) {
+    for (const wall::OutputSettings& output : every_way_to_show()) {
+        for (const wall::Eye eye : {wall::Eye::left, wall::Eye::right}) {
             std::size_t lit = 0;
             for (int i = 0; i < 6; ++i) {
                 const Vec2 wanted{part(random) * kPanel.width, part(random) * kPanel.height};
-                for (const Eye outlet : {Eye::left, Eye::right}) {
-                    if (outlet == Eye::right && !shows_one_eye_at_a_time(output.mode)) continue;
+                for (const wall::Eye outlet : {wall::Eye::left, wall::Eye::right}) {
+                    if (outlet == wall::Eye::right && !wall::shows_one_eye_at_a_time(output.mode)) continue;
                     Shot shot{eye, {.size = {161, 123}, .eye = outlet, .monitor_x = 3, .monitor_y = -7}};
                     expect_hit_where_lit(output, shot, wanted);
                     lit += shot.lit;
                     if (HasFatalFailure()) return;
                 }
             }
-            const bool never = (output.mode == StereoMode::left || output.mode == StereoMode::right) &&
-                               ((output.mode == StereoMode::left) != (eye == Eye::left)) != output.swap_eyes;
-            const bool mono = output.mode == StereoMode::mono && eye == Eye::right;
+            const bool never =
+                (output.mode == wall::StereoMode::left || output.mode == wall::StereoMode::right) &&
+                ((output.mode == wall::StereoMode::left) != (eye == wall::Eye::left)) != output.swap_eyes;
+            const bool mono = output.mode == wall::StereoMode::mono && eye == wall::Eye::right;
             EXPECT_EQ(lit == 0, never || mono) << file_name_of(output.mode) << " shows neither";
         }
     }
 }
 
 TEST(PanelPointer, WhatIsDraggedOffAnEyesPictureStaysWithThatEye) {
-    OutputSettings output;
-    output.mode = StereoMode::side_by_side;
-    const OutputPlace place{.size = {1280, 480}};
+    wall::OutputSettings output;
+    output.mode = wall::StereoMode::side_by_side;
+    const wall::OutputPlace place{.size = {1280, 480}};
     const std::vector<InputEvent> events{{0, MouseMove{{600, 100}}},
                                          {0, MouseClick{MouseButton::left, true, {}}},
                                          {0, MouseMove{{700, 100}}},
@@ -206,7 +209,7 @@ TEST(PanelPointer, WhatIsDraggedOffAnEyesPictureStaysWithThatEye) {
     EXPECT_EQ(moves[1].position_px, Vec2(700, 100)) << "beyond its right edge, not at the other's left one";
     EXPECT_EQ(moves[2].position_px, Vec2(61, 100));
     // A slider that is pulled beyond the panel is not told of a place beside it until it is let go.
-    output.mode = StereoMode::mono;
+    output.mode = wall::StereoMode::mono;
     const MouseView mouse{kScreen, kEyes, output, {.size = {1280, 960}}};
     const Vec2 on = projected(middle_of(kEyes), on_panel({150, 200}), {1280, 960});
     const std::vector<InputEvent> pulled{
@@ -221,13 +224,13 @@ TEST(PanelPointer, WhatIsDraggedOffAnEyesPictureStaysWithThatEye) {
 
 TEST(PanelPointer, OnADeskTheMouseMeetsThePanelOfEitherEye) {
     const ImageSize size{1000, 500};
-    for (const StereoMode mode : {StereoMode::side_by_side, StereoMode::side_by_side_half, StereoMode::top_bottom,
-                                  StereoMode::top_bottom_half}) {
-        OutputSettings output;
+    for (const wall::StereoMode mode : {wall::StereoMode::side_by_side, wall::StereoMode::side_by_side_half,
+                                        wall::StereoMode::top_bottom, wall::StereoMode::top_bottom_half}) {
+        wall::OutputSettings output;
         output.mode = mode;
-        const ImageSize eye = eye_size(mode, size);
+        const ImageSize eye = wall::eye_size(mode, size);
         const Vec2 share = Vec2(eye.width, eye.height) / picture_px_per_px(mode);
-        const bool above = mode == StereoMode::top_bottom || mode == StereoMode::top_bottom_half;
+        const bool above = mode == wall::StereoMode::top_bottom || mode == wall::StereoMode::top_bottom_half;
         const Vec2 place = 0.3 * share, second = above ? Vec2(0.0, share.y) : Vec2(share.x, 0.0);
         const std::vector<InputEvent> events{{0, MouseMove{place}}, {0, MouseMove{place + second}}};
         const auto moves = only<MouseMove>(mouse_on_picture({}, events, output, {.size = size}).events);
@@ -237,4 +240,4 @@ TEST(PanelPointer, OnADeskTheMouseMeetsThePanelOfEitherEye) {
     }
 }
 
-}  // namespace burin
+}  // namespace burin::session

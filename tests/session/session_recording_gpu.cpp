@@ -5,9 +5,9 @@
 #include <regex>
 
 #include "gpu/device.hpp"
-#include "tests/app/run_command.hpp"
+#include "tests/support/run_command.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 // Wide enough for the panel, whose plots and figures are measured.
@@ -100,7 +100,8 @@ TEST_F(Recording, FailsWhenATickGoesAnotherWay) {
 
 TEST_F(Recording, IsReplayedAsFarAsItGoes) {
     const std::string log = place.read("live.log");
-    // In the line behind that frame. It may be lost itself: the record of a tick that an update has taken can come a moment later.
+    // In the line behind that frame. It may be lost itself: the record of a tick that an update has taken can come a
+    // moment later.
     place.write("torn.log", log.substr(0, end_of_frame_with(log, "carved.png") + 5));
     const auto torn = place.run(sculpt("--screenshots again --input torn.log"));
     EXPECT_EQ(torn.status, 0) << torn.output;
@@ -108,4 +109,4 @@ TEST_F(Recording, IsReplayedAsFarAsItGoes) {
     EXPECT_TRUE(picture("again", "late.png").empty());
 }
 
-}  // namespace burin
+}  // namespace burin::session

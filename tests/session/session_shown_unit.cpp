@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "app/session/shown_frames.hpp"
+#include "session/timing/shown_frames.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 constexpr Nanoseconds kMs = 1'000'000;
@@ -137,4 +137,4 @@ TEST(ShownFrames, GiveFramesBackInTheirOrderAlsoWhereNothingIsTold) {
     for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(given_up[i].plan.display_ns, static_cast<Nanoseconds>(i));
 }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -2,18 +2,15 @@
 // What the threads of a live session did, recorded, and done again on one thread.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
-#include <sstream>
+#include <algorithm>
+#include <stdexcept>
 
-#include "app/session/carving_thread.hpp"
-#include "app/session/session_settings.hpp"
-#include "app/session/thread_recorder.hpp"
-#include "app/session/thread_replay.hpp"
-#include "haptics/realtime.hpp"
-#include "tests/app/run_command.hpp"
+#include "session/drive/session_frames.hpp"
+#include "session/drive/thread_replay.hpp"
+#include "session/state/session_settings.hpp"
+#include "tests/support/run_command.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 constexpr ImageSize kSize{640, 360};
@@ -42,94 +39,135 @@ SculptOptions options_for(const std::string& record) {
     SculptOptions options;
     options.workpiece.resolution = 32;
     options.tool.shape = "ball:0.012";
-    options.engine = EngineChoice::cpu;
+    options.engine = sculpt::EngineChoice::cpu;
     options.threads = 1;
     options.live.record = record;
     return options;
 }
 
-// A live session without pictures: its threads, and a frame every 5 ms.
+// A session that is recorded, without pictures, and what came of it.
 struct Live {
     std::string log;
     std::uint64_t untouched = 0, surface = 0;
     Vec3 force_N{0.0};
     std::uint64_t ticks = 0;
 };
-Live live(const Workplace& place) {
-    const std::string path = (place / "live.log").string();
-    MonotonicClock clock;
-    const SculptOptions options = options_for(path);
-    const auto wall = session_wall(options.live);
-    auto session = LiveSession::create(options, *wall, clock);
-    auto writer = InputLogWriter::create(path, settings_line(options));
-    auto script = parse_input_log(kScript, "script");
-    if (!session || !writer || !script) return {};
-    LiveSession& s = **session;
-    const std::uint64_t untouched = check_of(s.surface());
-    InputSource input = InputSource::play(std::move(*script), std::move(*writer));
-    ThreadRecorder recorder(input, s);
-    CarvingThread carving(s.desk(), clock, [] {});
-    HapticThread touch(s.loop(), {});
-    static_cast<void>(touch.start());
-    carving.start();
-    while (!s.state().quit) {
-        clock.sleep_until(clock.now_ns() + 5'000'000);
-        recorder.outside();
-        const Nanoseconds now_ns = clock.now_ns() - s.start_ns();
-        const auto frame = input.begin_frame(now_ns, now_ns + 10'000'000);
-        if (!frame) break;
-        const ToolState tool = s.newest_tool();
-        s.step(*frame, {.size = kSize}, tool, [&](CarvingOrder order) { carving.order(std::move(order)); });
-        CarvingThread::Taken carved = carving.take_news();
-        if (carved.news) s.take(std::move(*carved.news));
-        recorder.frame(tool.tick, carved.updates, {{.size = kSize}});
+
+class RecordedSession {
+public:
+    RecordedSession(const Workplace& place, Clock& clock) : place_(place) {
+        const std::string path = (place / "live.log").string();
+        const SculptOptions options = options_for(path);
+        auto created = LiveSession::create(options, *session_wall(options.live), clock);
+        auto writer = InputLogWriter::create(path, settings_line(options));
+        auto script = parse_input_log(kScript, "script");
+        if (!created || !writer || !script) throw std::runtime_error("the session does not open");
+        session = std::move(*created);
+        untouched_ = check_of(session->surface());
+        input.emplace(InputSource::play(std::move(*script), std::move(*writer)));
+        recorder.emplace(*input, *session);
     }
-    touch.stop();
-    carving.stop();
-    recorder.finish(carving.take_news().updates);
-    const ToolState& tool = s.newest_tool();
-    return {place.read("live.log"), untouched, check_of(s.surface()), tool.given.force_device_N, s.loop().ticks()};
+    Live finish(Executor& executor) {
+        recorder->finish(executor.take_surface_update()->updates);
+        return {place_.read("live.log"), untouched_, check_of(session->surface()),
+                session->newest_tool().given.force_device_N, session->loop().ticks()};
+    }
+
+    std::unique_ptr<LiveSession> session;
+    std::optional<InputSource> input;
+    std::optional<ThreadRecorder> recorder;
+
+private:
+    const Workplace& place_;
+    std::uint64_t untouched_ = 0;
+};
+
+// Its frames, one each period of its clock.
+class UndrawnFrames final : public FrameSource {
+public:
+    UndrawnFrames(RecordedSession& of, Clock& clock, Nanoseconds period_ns)
+        : of_(of), clock_(clock), period_ns_(period_ns) {}
+    [[nodiscard]] std::optional<Nanoseconds> next() override {
+        if (of_.session->state().quit) return std::nullopt;
+        clock_.sleep_until(clock_.now_ns() + period_ns_);
+        of_.recorder->outside();
+        const Nanoseconds now_ns = clock_.now_ns() - of_.session->start_ns();
+        const auto input = of_.input->begin_frame(now_ns, now_ns + 10'000'000);
+        if (!input) return std::nullopt;
+        frame_ = *input;
+        return clock_.now_ns();
+    }
+    [[nodiscard]] Result<void> make(Executor& executor) override {
+        return step_frame(*of_.session, executor, *of_.recorder, frame_, {{.size = kSize}});
+    }
+
+private:
+    RecordedSession& of_;
+    Clock& clock_;
+    Nanoseconds period_ns_;
+    FrameInput frame_;
+};
+
+// With its threads, and a frame every 5 ms.
+Live live(const Workplace& place) {
+    MonotonicClock clock;
+    RecordedSession recorded(place, clock);
+    LiveSession& s = *recorded.session;
+    UndrawnFrames frames(recorded, clock, 5'000'000);
+    ThreadedExecutor threads(clock, s.loop(), s.channels(), s.desk(), {}, [] {});
+    static_cast<void>(threads.start());
+    EXPECT_TRUE(drive(threads, frames));
+    return recorded.finish(threads);
 }
 
-// What threads come to now and then, each time: ticks after a frame has asked for its tool see older parameters than that frame sets; and
-// ticks whose samples an update has not taken see the surface before it.
-Live overtaking(const Workplace& place) {
-    const std::string path = (place / "live.log").string();
-    SimulatedClock clock;
-    const SculptOptions options = options_for(path);
-    const auto wall = session_wall(options.live);
-    auto session = LiveSession::create(options, *wall, clock);
-    auto writer = InputLogWriter::create(path, settings_line(options));
-    auto script = parse_input_log(kScript, "script");
-    if (!session || !writer || !script) return {};
-    LiveSession& s = **session;
-    const std::uint64_t untouched = check_of(s.surface());
-    InputSource input = InputSource::play(std::move(*script), std::move(*writer));
-    ThreadRecorder recorder(input, s);
-    const auto tick = [&](int times) {
-        for (int i = 0; i < times; ++i) {
-            clock.sleep_until(clock.now_ns() + 1'000'000);
-            s.loop().step();
-        }
-    };
-    while (const auto frame = input.begin_frame(clock.now_ns(), clock.now_ns())) {
+// Does what threads come to now and then, each time: ticks after a frame has asked for its tool see older parameters
+// than that frame sets; ticks whose samples an update has not taken see the surface before it; and in every other frame
+// the tool is of a tick before the last that an earlier update has taken.
+class OvertakingExecutor final : public Executor {
+public:
+    OvertakingExecutor(LiveSession& session, SimulatedClock& clock) : session_(session), clock_(clock) {}
+    [[nodiscard]] Result<void> advance_to(Nanoseconds) override {
+        late_ = !late_;
         tick(4);
-        const ToolState tool = s.newest_tool();
+        tool_ = late_ ? before_update_ : session_.newest_tool();
         tick(3);
-        std::size_t orders = 0;
-        s.step(*frame, {.size = kSize}, tool, [&](const CarvingOrder& order) {
-            s.desk().order(order);
-            ++orders;
-        });
-        tick(5);
-        UpdateSeen update{clock.now_ns(), s.loop().ticks() - 3, orders, false};
-        if (!s.desk().repeat(update)) return {};
-        if (auto news = s.desk().take_news()) s.take(std::move(*news));
-        recorder.frame(tool.tick, {update}, {{.size = kSize}});
+        return {};
     }
-    recorder.finish({});
-    return {place.read("live.log"), untouched, check_of(s.surface()), s.newest_tool().given.force_device_N,
-            s.loop().ticks()};
+    [[nodiscard]] const haptics::ToolState& tool() override { return tool_; }
+    void order(sculpt::SculptOrder order) override {
+        session_.desk().order(order);
+        ++orders_;
+    }
+    [[nodiscard]] Result<Taken> take_surface_update() override {
+        tick(1);
+        before_update_ = session_.newest_tool();
+        tick(4);
+        const sculpt::UpdateSeen update{clock_.now_ns(), session_.loop().ticks() - 3, std::exchange(orders_, 0), false};
+        if (const auto done = session_.desk().repeat(update); !done) return std::unexpected(done.error());
+        return Taken{session_.desk().take_surface_update(), {update}};
+    }
+
+private:
+    void tick(int times) {
+        for (int i = 0; i < times; ++i) {
+            clock_.sleep_until(clock_.now_ns() + 1'000'000);
+            session_.loop().step();
+        }
+    }
+    LiveSession& session_;
+    SimulatedClock& clock_;
+    haptics::ToolState tool_, before_update_;
+    bool late_ = true;
+    std::size_t orders_ = 0;
+};
+
+Live overtaking(const Workplace& place) {
+    SimulatedClock clock;
+    RecordedSession recorded(place, clock);
+    UndrawnFrames frames(recorded, clock, 0);
+    OvertakingExecutor executor(*recorded.session, clock);
+    EXPECT_TRUE(drive(executor, frames));
+    return recorded.finish(executor);
 }
 
 // The same again. How many frames were not as recorded; an Error where there is no going on.
@@ -141,6 +179,34 @@ struct Again {
     std::optional<Error> error;
     bool log_ends = false;
 };
+
+class FramesAgain final : public FrameSource {
+public:
+    FramesAgain(LiveSession& session, InputSource input, const ThreadLog& log, ThreadReplay& replay, Again& result)
+        : session_(session), input_(std::move(input)), log_(log), replay_(replay), result_(result) {}
+    [[nodiscard]] std::optional<Nanoseconds> next() override {
+        if (result_.frames == log_.frames.size()) return std::nullopt;
+        frame_ = input_.begin_frame(0, 0).value();
+        replay_.begin_frame(log_.frames[result_.frames]);
+        return frame_.time_ns;
+    }
+    [[nodiscard]] Result<void> make(Executor& executor) override {
+        if (const auto done = step_frame(session_, executor, recorder_, frame_, {{.size = kSize}}); !done) return done;
+        const bool same_tool = replay_.tool().tick == log_.frames[result_.frames++].tick;
+        if (!same_tool || !replay_.is_as_recorded()) ++result_.departed;
+        return {};
+    }
+
+private:
+    LiveSession& session_;
+    InputSource input_;
+    const ThreadLog& log_;
+    ThreadReplay& replay_;
+    Again& result_;
+    ThreadRecorder recorder_{input_, session_};
+    FrameInput frame_;
+};
+
 Again again(const std::string& text) {
     Again result;
     auto log = parse_input_log(text, "live.log");
@@ -149,31 +215,20 @@ Again again(const std::string& text) {
         return result;
     }
     const ThreadLog threads = *log->threads;
-    InputSource input = InputSource::replay(std::move(*log));
     SimulatedClock clock;
     clock.sleep_until(threads.clock.start_ns);
     const SculptOptions options = options_for("");
-    const auto wall = session_wall(options.live);
-    auto session = LiveSession::create(options, *wall, clock);
+    auto session = LiveSession::create(options, *session_wall(options.live), clock);
     LiveSession& s = **session;
     ThreadReplay replay(s, threads, "live.log");
-    const auto stopped = [&](const Error& error) {
-        result.error = error;
+    FramesAgain frames(s, InputSource::replay(std::move(*log)), threads, replay, result);
+    Result<void> done = drive(replay, frames);
+    if (done) done = replay.run_to_end();
+    if (!done) {
+        result.error = done.error();
         result.log_ends = replay.log_ends();
         return result;
-    };
-    for (const FrameSeen& seen : threads.frames) {
-        const auto frame = input.begin_frame(0, 0);
-        const auto tool = replay.tool_of(seen);
-        if (!tool) return stopped(tool.error());
-        s.step(*frame, {.size = kSize}, *tool, [&](CarvingOrder order) { replay.order(std::move(order)); });
-        auto news = replay.news_of(seen);
-        if (!news) return stopped(news.error());
-        if (*news) s.take(std::move(**news));
-        ++result.frames;
-        if (!replay.is_as_recorded(seen)) ++result.departed;
     }
-    if (const auto rest = replay.finish(); !rest) return stopped(rest.error());
     result.surface = check_of(s.surface());
     result.force_N = s.newest_tool().given.force_device_N;
     result.ticks = s.loop().ticks();
@@ -220,6 +275,7 @@ TEST(ThreadReplay, DoesTheSameAsTheThreadsDid) {
 TEST(ThreadReplay, KeepsWhatTicksSawThatTheRestHasOvertaken) {
     const Workplace place;
     const Live was = overtaking(place);
+    EXPECT_EQ(parse_input_log(was.log, "live.log")->threads->frames.at(1).tick, 8u) << "not the executor's tool";
     ASSERT_GT(was.ticks, 500u);
     EXPECT_NE(was.surface, was.untouched);
     const Again is = again(was.log);
@@ -290,8 +346,8 @@ TEST(ThreadRecorder, EndsTheRecordingWhenTicksWereLost) {
     ThreadRecorder recorder(input, s);
     const auto frame = [&] {
         const auto begun = input.begin_frame(clock.now_ns(), clock.now_ns());
-        const ToolState tool = s.newest_tool();
-        s.step(*begun, {.size = kSize}, tool, [](CarvingOrder) {});
+        const haptics::ToolState tool = s.newest_tool();
+        s.step(*begun, {.size = kSize}, tool, [](sculpt::SculptOrder) {});
         recorder.frame(tool.tick, {}, {{.size = kSize}});
     };
     const auto tick = [&](int times) {
@@ -319,139 +375,18 @@ TEST(ThreadRecorder, EndsTheRecordingWhenTicksWereLost) {
     EXPECT_FALSE(again(place.read("live.log")).error && !again(place.read("live.log")).log_ends);
 }
 
-// ---- Lines
-
-TEST(ThreadLog, TicksReadBackToTheSameBits) {
-    const ThreadClock clock{5'000'000'000, 1'000'000, 0.000055};
-    std::vector<TickSeen> ticks;
-    TickSeen tick;
-    tick.time_ns = tick.sample.time_ns = clock.start_ns;
-    for (const Vec3& position : {Vec3(0.0), Vec3(-0.0, 3 * 0.000055, 1e-300), Vec3(-17 * 0.000055, 0.1, -0.0),
-                                 Vec3(std::numeric_limits<double>::infinity(), 0.2, 1e9), Vec3(0.0)}) {
-        tick.time_ns += 1'012'345;
-        tick.sample.time_ns += 1'050'000;
-        tick.sample.position_device_m = position;
-        tick.sample.orientation_device = glm::normalize(Quat(1.0, position.y, 0.1, 0.0));
-        tick.sample.buttons ^= 5u;
-        tick.surface_sequence += 2;
-        tick.parameter_sequence += 1;
-        tick.late = !tick.late;
-        ticks.push_back(tick);
-    }
-    TickText writer(clock), reader(clock);
-    std::string text;
-    for (const TickSeen& one : ticks) writer.write(text, one);
-    std::string_view rest = text;
-    for (const TickSeen& one : ticks) {
-        const auto read = reader.read(rest);
-        ASSERT_TRUE(read) << text;
-        EXPECT_EQ(read->time_ns, one.time_ns);
-        EXPECT_EQ(read->sample.time_ns, one.sample.time_ns);
-        for (int axis = 0; axis < 3; ++axis)
-            EXPECT_EQ(std::bit_cast<std::uint64_t>(read->sample.position_device_m[axis]),
-                      std::bit_cast<std::uint64_t>(one.sample.position_device_m[axis]));
-        EXPECT_EQ(read->sample.orientation_device, one.sample.orientation_device);
-        EXPECT_EQ(read->sample.buttons, one.sample.buttons);
-        EXPECT_EQ(read->surface_sequence, one.surface_sequence);
-        EXPECT_EQ(read->parameter_sequence, one.parameter_sequence);
-        EXPECT_EQ(read->late, one.late);
-    }
-    EXPECT_TRUE(rest.empty());
-}
-
-TEST(ThreadLog, AQuietTickTakesFewBytes) {
-    const ThreadClock clock{0, 1'000'000, 0.000055};
-    TickText text(clock);
-    TickSeen tick;
-    std::string line;
-    for (int i = 1; i <= 1000; ++i) {
-        tick.time_ns = i * 1'000'000 + (i % 7) * 1234;
-        tick.sample.time_ns = i * 1'000'000;
-        tick.sample.position_device_m.x = i / 3 * 0.000055;
-        tick.surface_sequence = 1u + static_cast<unsigned>(i) / 10u;
-        text.write(line, tick);
-    }
-    EXPECT_LT(line.size(), 10'000u);
-}
-
-TEST(ThreadLog, NamesLineAndRemedyOfWhatItDoesNotUnderstand) {
-    const std::string start = "burin-input 2 x\n0 clock 5 1000000 0.000055\n0.1 frame\n";
-    const auto complaint = [&](const std::string& line) {
-        const auto log = parse_input_log(start + line + "\n", "in.log");
-        return log ? std::string("none") : log.error().line();
-    };
-    EXPECT_EQ(complaint("0.1 ticks 1 5;"), "none");
-    EXPECT_EQ(complaint("0.1 updates 1 5t1o2e;-7;"), "none");
-    EXPECT_EQ(complaint("0.1 saw 0 0 12"), "none");
-    EXPECT_EQ(complaint("0.1 output 0 64 64 -1 3"), "none");
-    EXPECT_EQ(complaint("0.1 said \"a word\""), "none");
-    EXPECT_EQ(complaint("0.1 plotted 1 2 16"), "none");
-    for (const std::string bad : {"ticks 2 5;",
-                                  "ticks 1 5",
-                                  "ticks 1 w;",
-                                  "ticks 1 5s0;",
-                                  "ticks 1 5b-1;",
-                                  "ticks 1 5f77;",
-                                  "ticks 1 5q1,2;",
-                                  "ticks 1 -2000000;",
-                                  "ticks 1 5x9999999999;",
-                                  "ticks",
-                                  "updates 1 5o0;",
-                                  "updates 2 5;",
-                                  "updates 1 5et1;",
-                                  "saw 1 2",
-                                  "saw 1 2 3 restless",
-                                  "saw -1 2 3",
-                                  "output 0 99999999 1 0 0",
-                                  "plotted 1 nan 2",
-                                  "figures 1",
-                                  "clock 5 1000000 0.000055",
-                                  "refused mono",
-                                  "end x"}) {
-        EXPECT_TRUE(has(complaint("0.1 " + bad), "in.log:4: ")) << bad << " -> " << complaint("0.1 " + bad);
-        EXPECT_TRUE(has(complaint("0.1 " + bad), "write: TIME_S ")) << bad;
-    }
-    EXPECT_TRUE(has(complaint("0.1 saw 0 0 1\n0.1 saw 0 0 1"), "in.log:5: "));  // a frame sees once
-    EXPECT_TRUE(has(complaint("0 said \"early\""), "is before"));
-    const auto unclocked = parse_input_log("burin-input 2 x\n0 ticks 1 5;\n", "in.log");
-    ASSERT_FALSE(unclocked);
-    EXPECT_TRUE(has(unclocked.error().line(), "in.log:2: "));
-    // In a log of the first kind there is no such line.
-    EXPECT_FALSE(parse_input_log("burin-input 1 x\n0 clock 5 1000000 0.000055\n", "in.log"));
-    EXPECT_FALSE(parse_input_log("burin-input 2 x\n0 close\n", "in.log")->threads);
-}
-
-TEST(ThreadLog, KeepsWhatThePanelShowed) {
-    PanelNumbers numbers;
-    numbers.figures.frames_per_s = 59.7;
-    numbers.figures.head_age_ms = 0.1 + 0.2;
-    numbers.figures.carve_age_ms = 1e-9;
-    numbers.savings.drawn = 3;
-    numbers.savings.redrawn_percent = 12.5;
-    numbers.warnings = {"a \"warning\"", "another"};
-    const std::string text = "burin-input 2 x\n0 clock 5 1000000 0\n0 frame\n0 " + text_of(numbers) + "\n0 " +
-                             text_of(PanelPlotted{1.5, 1.0 / 3.0, 16.7}) + "\n0 saw 0 0 1\n";
-    const auto log = parse_input_log(text, "in.log");
-    ASSERT_TRUE(log) << log.error().line();
-    const PanelMeasured& read = log->threads->frames.at(0).measured;
-    ASSERT_TRUE(read.numbers && read.plotted);
-    EXPECT_EQ(read.numbers->figures, numbers.figures);
-    EXPECT_EQ(read.numbers->savings, numbers.savings);
-    EXPECT_EQ(read.numbers->warnings, numbers.warnings);
-    EXPECT_EQ(read.plotted->frame_ms, 1.0 / 3.0);
-}
-
 // ---- Settings
 
 TEST(SessionSettings, AreThoseOfTheRecording) {
     SculptOptions recorded = options_for("x.log");
     recorded.workpiece.source = "a file, with \"blanks\".stl";
     recorded.workpiece.close_holes = true;
-    recorded.tool.operation = Operation::paint;
+    recorded.tool.operation = compute::Operation::paint;
     recorded.feel.friction = 0.1;
     recorded.live.swap_eyes = true;
     const std::string line = settings_line(recorded);
-    const auto same = options_as_recorded(line, SculptOptions{});
+    const SculptOptions defaults;
+    const auto same = options_as_recorded(line, defaults);
     ASSERT_TRUE(same) << same.error().line();
     EXPECT_EQ(settings_line(same->options), line);
     EXPECT_TRUE(same->overruled.empty());  // nothing else was asked for
@@ -472,4 +407,4 @@ TEST(SessionSettings, AreThoseOfTheRecording) {
     EXPECT_FALSE(options_as_recorded("burin sculpt --resolution many", other));
 }
 
-}  // namespace burin
+}  // namespace burin::session

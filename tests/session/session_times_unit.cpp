@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/session_times.hpp"
+#include "session/timing/session_times.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <random>
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 constexpr Nanoseconds kMs = 1'000'000;
@@ -177,7 +177,7 @@ TEST(Warnings, AreShortEnoughForAPanel) {
 TEST(HistogramSummary, IsTheNearestRankToWithinAnEighth) {
     std::mt19937 random(5);
     for (const int n : {1, 7, 100, 1000}) {
-        Histogram histogram;
+        haptics::Histogram histogram;
         std::vector<Nanoseconds> values;
         for (int i = 0; i < n; ++i) {
             values.push_back(std::uniform_int_distribution<Nanoseconds>(0, 3'000'000)(random));
@@ -190,11 +190,11 @@ TEST(HistogramSummary, IsTheNearestRankToWithinAnEighth) {
         EXPECT_TRUE(within(close.median_ns, exact.median_ns)) << n;
         EXPECT_TRUE(within(close.p99_ns, exact.p99_ns)) << n;
     }
-    EXPECT_EQ(summarised(Histogram()).count, 0u);
+    EXPECT_EQ(summarised(haptics::Histogram()).count, 0u);
 }
 
 RC_GTEST_PROP(HistogramLook, SeesWhatWasAddedSinceTheLookBefore, ()) {
-    Histogram histogram;
+    haptics::Histogram histogram;
     HistogramLook look;
     for (int round = 0; round < 4; ++round) {
         const auto values = *rc::gen::container<std::vector<Nanoseconds>>(rc::gen::inRange<Nanoseconds>(0, 5'000'000));
@@ -207,4 +207,4 @@ RC_GTEST_PROP(HistogramLook, SeesWhatWasAddedSinceTheLookBefore, ()) {
     }
 }
 
-}  // namespace burin
+}  // namespace burin::session

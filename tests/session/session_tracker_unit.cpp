@@ -6,12 +6,18 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
+#include <thread>
 
-#include "app/session/tracker_port.hpp"
+#include "devices/trackers/udp_tracker.hpp"
+#include "session/input/input_line.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
+
+using devices::TrackerSample;
+using devices::UdpTracker;
 
 class Sender {
 public:
@@ -31,17 +37,17 @@ private:
     sockaddr_in to_{};
 };
 
-std::unique_ptr<TrackerPort> open_port(Clock& clock) {
-    auto port = TrackerPort::open("udp:0", clock, {});
+std::unique_ptr<UdpTracker> open_port(Clock& clock) {
+    auto port = UdpTracker::open("udp:0", {clock, {}, parse_tracker_line});
     EXPECT_TRUE(port) << port.error().line();
     return std::move(*port);
 }
 
 // Waits until so many have come, but not for ever.
-std::vector<TrackerPort::Heard> heard_by(TrackerPort& port, std::size_t count) {
-    std::vector<TrackerPort::Heard> all;
+std::vector<TrackerSample> heard_by(UdpTracker& port, std::size_t count) {
+    std::vector<TrackerSample> all;
     for (int i = 0; i < 3000 && all.size() < count; ++i) {
-        for (TrackerPort::Heard& heard : port.take()) all.push_back(std::move(heard));
+        for (TrackerSample& heard : port.take()) all.push_back(std::move(heard));
         if (all.size() < count) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     return all;
@@ -49,7 +55,7 @@ std::vector<TrackerPort::Heard> heard_by(TrackerPort& port, std::size_t count) {
 
 }  // namespace
 
-TEST(TrackerPort, HearsHeadsAndWandsInTheirOrder) {
+TEST(UdpTracker, HearsHeadsAndWandsInTheirOrder) {
     MonotonicClock clock;
     const auto port = open_port(clock);
     const Sender sender(port->port());
@@ -58,16 +64,16 @@ TEST(TrackerPort, HearsHeadsAndWandsInTheirOrder) {
     sender.send("wand-stick 0 -0.5 1\n");
     const auto heard = heard_by(*port, 4);
     ASSERT_EQ(heard.size(), 4u);
-    EXPECT_EQ(heard[0].input, Input(HeadInput{{{0.1, 1.6, 2.0}, Quat{1, 0, 0, 0}}, true}));
-    EXPECT_EQ(heard[1].input, Input(WandInput{1, {{0.0, 1.0, 1.0}, Quat{1, 0, 0, 0}}, false}));
-    EXPECT_EQ(heard[2].input, Input(WandClick{0, 2, true}));
-    EXPECT_EQ(heard[3].input, Input(WandStick{0, {-0.5, 1.0}}));
+    EXPECT_EQ(input_of(heard[0].input), Input(HeadInput{{{0.1, 1.6, 2.0}, Quat{1, 0, 0, 0}}, true}));
+    EXPECT_EQ(input_of(heard[1].input), Input(WandInput{1, {{0.0, 1.0, 1.0}, Quat{1, 0, 0, 0}}, false}));
+    EXPECT_EQ(input_of(heard[2].input), Input(WandClick{0, 2, true}));
+    EXPECT_EQ(input_of(heard[3].input), Input(WandStick{0, {-0.5, 1.0}}));
     EXPECT_GE(heard[0].time_ns, before_ns);
     EXPECT_GE(heard[3].time_ns, heard[0].time_ns);
     EXPECT_LE(heard[3].time_ns, clock.now_ns());
 }
 
-TEST(TrackerPort, PassesOverNonsenseAndSaysSoOnce) {
+TEST(UdpTracker, PassesOverNonsenseAndSaysSoOnce) {
     MonotonicClock clock;
     const auto port = open_port(clock);
     const Sender sender(port->port());
@@ -83,17 +89,66 @@ TEST(TrackerPort, PassesOverNonsenseAndSaysSoOnce) {
     EXPECT_NE(said[0].find("head"), std::string::npos) << "the nearest word: " << said[0];
 }
 
-TEST(TrackerPort, NamesWhatItCannotListenTo) {
+TEST(UdpTracker, NamesWhatItCannotListenTo) {
     MonotonicClock clock;
     for (const char* where : {"", "5005", "udp:", "udp:x", "udp:70000", "udp:1.2.3:80", "udp:300.1.1.1:80", "tcp:80"}) {
-        const auto port = TrackerPort::open(where, clock, {});
+        const auto port = devices::open_tracker(where, {clock, {}, parse_tracker_line});
         ASSERT_FALSE(port) << where;
         EXPECT_NE(port.error().line().find(std::string("tracker ") + where), std::string::npos);
         EXPECT_NE(port.error().line().find("udp:"), std::string::npos);
     }
     const auto first = open_port(clock);
-    const auto second = TrackerPort::open("udp:" + std::to_string(first->port()), clock, {});
+    const auto second = UdpTracker::open("udp:" + std::to_string(first->port()), {clock, {}, parse_tracker_line});
     ASSERT_FALSE(second) << "the port is taken";
 }
 
-}  // namespace burin
+TEST(UdpTracker, KeepsABoundedNumberOfSamplesThatNobodyTakesAndCountsTheRest) {
+    MonotonicClock clock;
+    std::atomic<int> datagrams = 0;
+    auto opened = UdpTracker::open("udp:0", {clock, [&] { ++datagrams; }, parse_tracker_line});
+    ASSERT_TRUE(opened) << opened.error().line();
+    UdpTracker& port = **opened;
+    const Sender sender(port.port());
+    constexpr int kDatagrams = 80, kLines = 150;
+    std::string lines;
+    for (int i = 0; i < kLines; ++i) lines += "head 0 1.6 2 0 0 0 1\n";
+    for (int sent = 1; sent <= kDatagrams; ++sent) {
+        sender.send(lines);
+        for (int i = 0; i < 3000 && datagrams < sent; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        ASSERT_EQ(datagrams, sent);
+    }
+    const std::size_t kept = port.take().size();
+    EXPECT_LT(kept, std::size_t{kDatagrams} * kLines / 2);
+    EXPECT_GE(kept, 1000u) << "a second of a fast tracker";
+    EXPECT_EQ(kept + port.refused(), std::size_t{kDatagrams} * kLines);
+    sender.send("head 0 1.6 2 0 0 0 1");
+    EXPECT_EQ(heard_by(port, 1).size(), 1u) << "there is room again";
+}
+
+TEST(UdpTracker, SaysWhatItRefusesAtMostOnceASecond) {
+    struct SetClock final : Clock {  // the port reads it on a thread of its own
+        std::atomic<Nanoseconds> now = 0;
+        Nanoseconds now_ns() noexcept override { return now; }
+        void sleep_until(Nanoseconds deadline_ns) noexcept override { now = deadline_ns; }
+    };
+    SetClock clock;
+    std::atomic<int> datagrams = 0;
+    auto opened = UdpTracker::open("udp:0", {clock, [&] { ++datagrams; }, parse_tracker_line});
+    ASSERT_TRUE(opened) << opened.error().line();
+    const Sender sender((*opened)->port());
+    int sent = 0;
+    const auto send_nonsense = [&] {
+        sender.send("haed 0 0 0 0 0 0 1");
+        ++sent;
+        for (int i = 0; i < 3000 && datagrams < sent; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        ASSERT_EQ(datagrams, sent);
+    };
+    for (int i = 0; i < 5; ++i) send_nonsense();
+    EXPECT_EQ((*opened)->take_messages().size(), 1u);
+    clock.sleep_until(kNanosecondsPerSecond);
+    for (int i = 0; i < 5; ++i) send_nonsense();
+    EXPECT_EQ((*opened)->take_messages().size(), 1u);
+    EXPECT_EQ((*opened)->refused(), 10u);
+}
+
+}  // namespace burin::session

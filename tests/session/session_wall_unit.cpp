@@ -4,12 +4,12 @@
 
 #include <random>
 
-#include "app/session/presented_parts.hpp"
-#include "app/session/session_state.hpp"
-#include "app/wall_file.hpp"
-#include "tests/app/run_command.hpp"
+#include "session/picture/presented_parts.hpp"
+#include "session/state/session_state.hpp"
+#include "tests/support/run_command.hpp"
+#include "wall/wall_file.hpp"
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 std::string wall_file(const std::string& name) { return std::string(BURIN_WALLS) + "/" + name; }
@@ -26,17 +26,13 @@ Room room_before(const SessionWall& wall) {
     Room room;
     room.workpiece_object = {Vec3(-0.1), Vec3(0.1)};
     room.wall = wall;
-    const WallSetup& setup = wall.setup;
+    const wall::WallSetup& setup = wall.setup;
     room.desk.home_head_world = {setup.world_from_tracker * setup.fallback_head_tracker.position_m,
                                  setup.world_from_tracker.orientation * setup.fallback_head_tracker.orientation};
     return room;
 }
 
-SessionState state_in(const Room& room) {
-    ToolOptions tool;
-    tool.shape = "ball:0.01";
-    return begin_session(room, tool, {}, room.wall.screens[room.wall.main].shown);
-}
+SessionState state_in(const Room& room) { return begin_session(room, {}, {}, room.wall.screens[room.wall.main].shown); }
 
 InputEvent head_at(Nanoseconds t, const Vec3& place) { return {t, HeadInput{{place, Quat{1, 0, 0, 0}}, true}}; }
 
@@ -51,7 +47,7 @@ TEST(SessionWall, OfADeskIsOneScreenOfItsWindowsShape) {
     EXPECT_TRUE(wall->desk);
     ASSERT_EQ(wall->screens.size(), 1u);
     fit_desk_screen(*wall, {300, 100});
-    const Screen screen = screen_world(wall->setup, wall->setup.screens[0]);
+    const wall::Screen screen = wall::screen_world(wall->setup, wall->setup.screens[0]);
     EXPECT_NEAR(glm::length(screen.lower_right_world - screen.lower_left_world),
                 3.0 * glm::length(screen.upper_left_world - screen.lower_left_world), 1e-12);
 }
@@ -62,7 +58,7 @@ TEST(SessionWall, OfACaveIsFacedAtItsFrontAndShownOnItsMonitors) {
     EXPECT_EQ(wall.screens[wall.main].name, "front");
     EXPECT_EQ(wall.screens[0].monitor, "0");
     EXPECT_EQ(wall.screens[0].size, (ImageSize{1080, 1080}));
-    EXPECT_EQ(wall.screens[0].shown.mode, StereoMode::two_layers);
+    EXPECT_EQ(wall.screens[0].shown.mode, wall::StereoMode::two_layers);
     LiveOptions small;
     small.windowed = true;
     small.width = 800;
@@ -75,10 +71,10 @@ TEST(SessionWall, OfACaveIsFacedAtItsFrontAndShownOnItsMonitors) {
 
 TEST(SessionWall, DrivesADisplayDirectlyButNotInWindowsOrOffScreen) {
     Workplace place;
-    WallSetup setup = *read_wall(wall_file("powerwall.toml"));
+    wall::WallSetup setup = *wall::read_wall(wall_file("powerwall.toml"));
     setup.screens[0].output = "HDMI";
-    setup.screens[0].direct = gpu::DisplayStereo::hdmi_3d;
-    place.write("wall.toml", wall_text(setup));
+    setup.screens[0].direct = DisplayStereo::hdmi_3d;
+    place.write("wall.toml", wall::wall_text(setup));
     LiveOptions options;
     options.wall = (place / "wall.toml").string();
     const auto wall = session_wall(options);
@@ -89,7 +85,7 @@ TEST(SessionWall, DrivesADisplayDirectlyButNotInWindowsOrOffScreen) {
     EXPECT_EQ(screen.direct->display, "HDMI");
     EXPECT_EQ(screen.direct->width, 1440u);
     EXPECT_EQ(screen.direct->height, 1080u);
-    EXPECT_EQ(screen.direct->stereo, gpu::DisplayStereo::hdmi_3d);
+    EXPECT_EQ(screen.direct->stereo, DisplayStereo::hdmi_3d);
     EXPECT_EQ(screen.direct->refresh_Hz, 60.0) << "a frame holds both of 120 fields a second";
     for (bool LiveOptions::* const option : {&LiveOptions::windowed, &LiveOptions::offscreen}) {
         LiveOptions other = options;
@@ -97,7 +93,7 @@ TEST(SessionWall, DrivesADisplayDirectlyButNotInWindowsOrOffScreen) {
         EXPECT_FALSE(session_wall(other).value().screens[0].direct);
     }
     setup.screens[0].mode = "mono";
-    place.write("wall.toml", wall_text(setup));
+    place.write("wall.toml", wall::wall_text(setup));
     const auto refused = session_wall(options);
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().line().find("wall.toml, front: "), std::string::npos) << refused.error().line();
@@ -105,15 +101,15 @@ TEST(SessionWall, DrivesADisplayDirectlyButNotInWindowsOrOffScreen) {
 
 TEST(SessionWall, TellsAllScreensWhatIsChosenAndKeepsTheirOwn) {
     SessionWall wall = wall_of("cave.toml");
-    wall.screens[0].shown.mode = StereoMode::mono;
+    wall.screens[0].shown.mode = wall::StereoMode::mono;
     wall.screens[0].shown.swap_eyes = true;
     wall.screens[0].shown.blend.left = 0.1;
-    OutputSettings told = wall.screens[wall.main].shown;
-    EXPECT_EQ(output_on(wall, 0, told).mode, StereoMode::mono) << "nothing was chosen";
+    wall::OutputSettings told = wall.screens[wall.main].shown;
+    EXPECT_EQ(output_on(wall, 0, told).mode, wall::StereoMode::mono) << "nothing was chosen";
     EXPECT_TRUE(output_on(wall, 0, told).swap_eyes);
-    told.mode = StereoMode::side_by_side;
+    told.mode = wall::StereoMode::side_by_side;
     told.swap_eyes = !told.swap_eyes;
-    EXPECT_EQ(output_on(wall, 0, told).mode, StereoMode::side_by_side);
+    EXPECT_EQ(output_on(wall, 0, told).mode, wall::StereoMode::side_by_side);
     EXPECT_FALSE(output_on(wall, 0, told).swap_eyes) << "exchanged twice";
     EXPECT_EQ(output_on(wall, 0, told).blend.left, 0.1);
     EXPECT_EQ(output_on(wall, 1, told), told);
@@ -147,7 +143,7 @@ TEST(SessionHead, IsTheFlownOneUntilATrackerSpeaks) {
 
 TEST(SessionHead, IsPredictedToEachEyesOwnTime) {
     const Room room = room_before(wall_of("powerwall.toml"));
-    ASSERT_EQ(room.wall.setup.timing.eye_order, EyeOrder::left_first);
+    ASSERT_EQ(room.wall.setup.timing.eye_order, wall::EyeOrder::left_first);
     std::vector<InputEvent> said;
     const double speed_m_per_s = 0.6;
     const auto x_at = [&](Nanoseconds t) { return speed_m_per_s * seconds(t); };
@@ -159,24 +155,24 @@ TEST(SessionHead, IsPredictedToEachEyesOwnTime) {
 }
 
 TEST(SessionHead, SeesATurnOfTheSessionsOwnWithBothEyesAtItsTime) {
-    const WallSetup setup = wall_of("powerwall.toml").setup;
-    ASSERT_EQ(setup.timing.eye_order, EyeOrder::left_first);
-    EXPECT_EQ(timing_in(setup, StereoMode::two_layers).eye_order, EyeOrder::left_first);
-    EXPECT_EQ(timing_in(setup, StereoMode::frame_sequential).eye_order, EyeOrder::simultaneous)
+    const wall::WallSetup setup = wall_of("powerwall.toml").setup;
+    ASSERT_EQ(setup.timing.eye_order, wall::EyeOrder::left_first);
+    EXPECT_EQ(timing_in(setup, wall::StereoMode::two_layers).eye_order, wall::EyeOrder::left_first);
+    EXPECT_EQ(timing_in(setup, wall::StereoMode::frame_sequential).eye_order, wall::EyeOrder::simultaneous)
         << "the other eye's turn has a frame of its own, predicted to its own time";
 }
 
 TEST(SessionHead, GivesEveryScreenTheSameEyes) {
     const Room room = room_before(wall_of("cave.toml"));
     const SessionState state = state_in(room);
-    const Eyes eyes = eyes_world(room.wall.setup, state.head.poses);
+    const wall::Eyes eyes = wall::eyes_world(room.wall.setup, state.head.poses);
     for (std::size_t i = 0; i < room.wall.screens.size(); ++i) {
-        const Sight sight = sight_of(room.wall.setup, i, state.head, state.interpupillary_m);
+        const View sight = view_of(room.wall.setup, i, state.head, state.interpupillary_m);
         EXPECT_TRUE(sight.visible) << room.wall.screens[i].name;
-        EXPECT_LT(glm::length(eyes_of(sight.viewer).left_world - eyes.left_world), 1e-9);
-        EXPECT_LT(glm::length(eyes_of(sight.viewer).right_world - eyes.right_world), 1e-9);
+        EXPECT_LT(glm::length(wall::eyes_of(sight.viewer).left_world - eyes.left_world), 1e-9);
+        EXPECT_LT(glm::length(wall::eyes_of(sight.viewer).right_world - eyes.right_world), 1e-9);
     }
-    const Sight wider = sight_of(room.wall.setup, 1, state.head, 0.07);
+    const View wider = view_of(room.wall.setup, 1, state.head, 0.07);
     EXPECT_NEAR(wider.viewer.interpupillary_m, 0.07, 1e-12);
 }
 
@@ -192,14 +188,14 @@ TEST(SessionHead, BehindAScreenLeavesThatOneDark) {
 TEST(SessionState, StrainsNobodyAtHomeAndSaysSoWhenTheWorkpieceComesTooNear) {
     const Room room = room_before(wall_of("powerwall.toml"));
     SessionState state = state_in(room);
-    ToolState tool;
+    haptics::ToolState tool;
     tool.proxy_object_m = {0.0, 0.0, 0.1};
-    const ComfortFinding home = comfort_of(state, room, tool);
-    EXPECT_FALSE(home.crossed_too_much || home.uncrossed_too_much) << warning_of(home, room.wall.setup.budget);
+    const wall::ComfortFinding home = comfort_of(state, room, tool);
+    EXPECT_FALSE(home.crossed_too_much || home.uncrossed_too_much) << wall::warning_of(home, room.wall.setup.budget);
     state.world_from_object.position_m.z += 1.5;
-    const ComfortFinding near = comfort_of(state, room, tool);
+    const wall::ComfortFinding near = comfort_of(state, room, tool);
     EXPECT_TRUE(near.crossed_too_much);
-    EXPECT_FALSE(warning_of(near, room.wall.setup.budget).empty());
+    EXPECT_FALSE(wall::warning_of(near, room.wall.setup.budget).empty());
 }
 
 TEST(SessionState, AWandCarriesTheScene) {
@@ -266,4 +262,4 @@ TEST(PresentedParts, BringEveryImageUpToDateWhateverItsAge) {
     }
 }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: MIT
 // From the haptic thread's tool state to what is drawn of tool and workspace.
-#include "app/staging.hpp"
+#include "session/state/staging.hpp"
 
 #include <gtest/gtest.h>
 
-namespace burin {
+namespace burin::session {
 namespace {
 
 const Vec3 kWorkspace_m{0.16, 0.12, 0.07};
 const Similarity kWorldFromObject{{0.1, 1.2, -0.4}, glm::angleAxis(0.3, glm::normalize(Vec3(0, 1, 1))), 5.0};
 
-ToolState paused_tool() {
-    ToolState tool;
+haptics::ToolState paused_tool() {
+    haptics::ToolState tool;
     tool.tick = 17;
     tool.hip_object_m = {0.02, 0.0, 0.05};
     tool.proxy_object_m = {0.02, 0.0, 0.06};
-    tool.workspace.phase = WorkspacePhase::paused;
+    tool.workspace.phase = haptics::WorkspacePhase::paused;
     tool.workspace.object_from_device = {{-0.1, 0.02, 0.05}, glm::angleAxis(0.5, Vec3(0, 0, 1)), 0.5};
     tool.workspace.proposed_visible = true;
     tool.workspace.proposed_center_object_m = tool.hip_object_m;
     return tool;
 }
 
-Scene staged(const Staging& staging) {
-    Scene scene;
+renderer::Scene staged(const Staging& staging) {
+    renderer::Scene scene;
     stage(scene, staging, kWorldFromObject);
     return scene;
 }
@@ -33,17 +33,17 @@ bool near(const Vec3& a, const Vec3& b) { return glm::length(a - b) < 1e-12; }
 }  // namespace
 
 TEST(Staging, ShowsNothingBeforeTheFirstTick) {
-    ToolState tool = paused_tool();
+    haptics::ToolState tool = paused_tool();
     tool.workspace.bubble_radius_object_m = 0.02;
     tool.tick = 0;
-    const Scene scene = staged(staging_of(tool, 0.01, kWorkspace_m));
+    const renderer::Scene scene = staged(staging_of(tool, 0.01, kWorkspace_m));
     EXPECT_FALSE(scene.tool.visible || scene.box.visible || scene.proposed_box.visible || scene.bubble.visible);
 }
 
 TEST(Staging, ShowsTheToolOnTheSurfaceAndTheWorkspaceAroundTheDevicesMiddle) {
-    ToolState tool = paused_tool();
+    haptics::ToolState tool = paused_tool();
     tool.workspace.proposed_visible = false;
-    const Scene scene = staged(staging_of(tool, 0.01, kWorkspace_m));
+    const renderer::Scene scene = staged(staging_of(tool, 0.01, kWorkspace_m));
     EXPECT_TRUE(near(scene.tool.center_world, kWorldFromObject * tool.proxy_object_m)) << "not where the hand is";
     EXPECT_DOUBLE_EQ(scene.tool.radius_m, 0.05);
     ASSERT_TRUE(scene.box.visible);
@@ -56,8 +56,8 @@ TEST(Staging, ShowsTheToolOnTheSurfaceAndTheWorkspaceAroundTheDevicesMiddle) {
 }
 
 TEST(Staging, WhileModellingPausesAClearBoxStandsAroundTheToolAndTheOldOneIsLines) {
-    const ToolState tool = paused_tool();
-    const Scene scene = staged(staging_of(tool, 0.01, kWorkspace_m));
+    const haptics::ToolState tool = paused_tool();
+    const renderer::Scene scene = staged(staging_of(tool, 0.01, kWorkspace_m));
     ASSERT_TRUE(scene.proposed_box.visible);
     EXPECT_TRUE(near(scene.proposed_box.center_world.position_m, kWorldFromObject * tool.hip_object_m));
     EXPECT_EQ(scene.proposed_box.size_m, scene.box.size_m);
@@ -68,9 +68,9 @@ TEST(Staging, WhileModellingPausesAClearBoxStandsAroundTheToolAndTheOldOneIsLine
 }
 
 TEST(Staging, TheBubbleLiesAroundTheWorkspacesMiddle) {
-    ToolState tool = paused_tool();
+    haptics::ToolState tool = paused_tool();
     tool.workspace.bubble_radius_object_m = 0.0125;
-    const Scene scene = staged(staging_of(tool, 0.01, kWorkspace_m));
+    const renderer::Scene scene = staged(staging_of(tool, 0.01, kWorkspace_m));
     ASSERT_TRUE(scene.bubble.visible);
     EXPECT_TRUE(near(scene.bubble.center_world, scene.box.center_world.position_m));
     EXPECT_DOUBLE_EQ(scene.bubble.radius_m, 0.0625);
@@ -78,15 +78,15 @@ TEST(Staging, TheBubbleLiesAroundTheWorkspacesMiddle) {
 
 // The device lies turned in the workpiece, and that in the world: the arrow must point to where the hand is pushed.
 TEST(Staging, ShowsTheContactUnderTheBallAndTheForceAsTheHandFeelsIt) {
-    ToolState tool = paused_tool();
+    haptics::ToolState tool = paused_tool();
     tool.workspace.proposed_visible = false;
-    tool.flags = kTickInContact;
+    tool.flags = haptics::kTickInContact;
     tool.contact_normal_object = {0.0, 0.6, 0.8};
     tool.given.force_device_N = {0.5, -1.0, 2.0};
     Staging staging = staging_of(tool, 0.01, kWorkspace_m);
     EXPECT_FALSE(staged(staging).contact.visible) << "unless asked for";
     staging.contact_shown = true;
-    const Scene scene = staged(staging);
+    const renderer::Scene scene = staged(staging);
     ASSERT_TRUE(scene.contact.visible);
     EXPECT_TRUE(near(scene.contact.point_world, kWorldFromObject * (tool.proxy_object_m - Vec3(0.0, 0.006, 0.008))));
     const Vec3 to_tool = scene.tool.center_world - scene.contact.point_world;
@@ -102,4 +102,4 @@ TEST(Staging, ShowsTheContactUnderTheBallAndTheForceAsTheHandFeelsIt) {
     EXPECT_FALSE(staged(staging).contact.visible);
 }
 
-}  // namespace burin
+}  // namespace burin::session

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
+#include "tests/support/property_cases.hpp"
 
 namespace {
 class ContractListener : public testing::EmptyTestEventListener {
@@ -16,6 +17,7 @@ class ContractListener : public testing::EmptyTestEventListener {
 
 int main(int argc, char** argv) {
     testing::InitGoogleTest(&argc, argv);
+    burin::test::set_up_properties();
     testing::UnitTest::GetInstance()->listeners().Append(new ContractListener);
     return RUN_ALL_TESTS();
 }

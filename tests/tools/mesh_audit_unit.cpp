@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// mesh_audit sees every kind of defect that a test may rely on it to see, and judges sound files of each format the same.
-// It is run as the program it is; the meshes are made here, with known counts.
+// mesh_audit sees every kind of defect that a test may rely on it to see, and judges sound files of each format the
+// same. It is run as the program it is; the meshes are made here, with known counts.
 #include <gtest/gtest.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
-// workspace_story OUT.png: the moving algorithm's steps as the PowerWall paper's Figure 6 shows them, in six pictures of the
-// wall: the tool within the workspace, at its border, the button pressed, released, the workspace dragged on, the ball
-// touched and painted. A led hand at the real haptic loop; docs/pictures/workspace.png is made by this.
+// workspace_story OUT.png: the moving algorithm's steps as the PowerWall paper's Figure 6 shows them, in six pictures
+// of the wall: the tool within the workspace, at its border, the button pressed, released, the workspace dragged on,
+// the ball touched and painted. A led hand at the real haptic loop; docs/pictures/workspace.png is made by this.
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
 
-#include "app/engine_choice.hpp"
-#include "app/pictures.hpp"
-#include "app/tool_option.hpp"
-#include "app/workpiece.hpp"
-#include "devices/simulated_omni.hpp"
+#include "devices/haptic/simulated_omni.hpp"
 #include "haptics/haptic_loop.hpp"
+#include "sculpt/tool_options.hpp"
+#include "sculpt/workpiece.hpp"
+#include "session/picture/pictures.hpp"
 
 namespace burin {
 namespace {
@@ -21,32 +20,32 @@ constexpr double kToolRadius_m = 0.006;
 constexpr std::uint32_t kMoveButton = 2;
 
 // A device that is where it is told to be.
-class LedDevice final : public HapticDevice {
+class LedDevice final : public devices::HapticDevice {
 public:
     explicit LedDevice(SimulatedClock& clock) : clock_(clock) {
         description_.name = "led by the hand";
-        description_.workspace_m = OmniModel{}.workspace_m;
-        description_.max_force_N = OmniModel{}.max_force_N;
+        description_.workspace_m = devices::OmniModel{}.workspace_m;
+        description_.max_force_N = devices::OmniModel{}.max_force_N;
     }
-    [[nodiscard]] const DeviceDescription& description() const noexcept override { return description_; }
-    [[nodiscard]] DeviceSample read() noexcept override {
+    [[nodiscard]] const devices::DeviceDescription& description() const noexcept override { return description_; }
+    [[nodiscard]] devices::DeviceSample read() noexcept override {
         sample.time_ns = clock_.now_ns();
         return sample;
     }
-    void write(const DeviceWrench&) noexcept override {}
-    DeviceSample sample;
+    void write(const devices::DeviceWrench&) noexcept override {}
+    devices::DeviceSample sample;
 
 private:
     SimulatedClock& clock_;
-    DeviceDescription description_;
+    devices::DeviceDescription description_;
 };
 
 class LedHand {
 public:
     LedHand() {
-        TickParameters& parameters = channels_.parameters.draft();
+        haptics::TickParameters& parameters = channels_.parameters.draft();
         parameters.sequence = 1;
-        parameters.workspace.technique = WorkspaceTechnique::moving;
+        parameters.workspace.technique = haptics::WorkspaceTechnique::moving;
         parameters.workspace.object_from_device = {{-0.212, -0.01, 0.085}, Quat{1, 0, 0, 0}, 0.5};
         parameters.workspace.button_mask = kMoveButton;
         channels_.parameters.publish();
@@ -68,7 +67,7 @@ public:
     }
     void press() { device_.sample.buttons = kMoveButton; }
     void release() { device_.sample.buttons = 0; }
-    [[nodiscard]] ToolState tool() { return channels_.tool.newest(); }
+    [[nodiscard]] haptics::ToolState tool() { return channels_.tool.newest(); }
     // Where the hand has to be for the tool to be there.
     [[nodiscard]] Vec3 hand_for(const Vec3& place_object) {
         return inverse(tool().workspace.object_from_device) * place_object;
@@ -76,9 +75,9 @@ public:
 
 private:
     SimulatedClock clock_;
-    HapticChannels channels_;
+    haptics::HapticChannels channels_;
     LedDevice device_{clock_};
-    HapticLoop loop_{device_, clock_, channels_};
+    haptics::HapticLoop loop_{device_, clock_, channels_};
 };
 
 // A place on the ball, which lies around the origin, to the left and in front.
@@ -88,7 +87,7 @@ Vec3 on_ball(const Box& bounds, double across) {
 
 class Story {
 public:
-    Story(Carving& carving, Pictures& pictures, Tool paint, const Box& bounds)
+    Story(sculpt::Sculpture& carving, session::Pictures& pictures, sculpt::Tool paint, const Box& bounds)
         : carving_(carving), pictures_(pictures), paint_(std::move(paint)), bounds_(bounds) {}
 
     Result<std::vector<Image>> tell() {
@@ -115,14 +114,15 @@ public:
 
 private:
     Result<void> take() {
-        auto image = pictures_.view_of_wall(carving_, staging_of(hand_.tool(), kToolRadius_m, OmniModel{}.workspace_m));
+        auto image = pictures_.view_of_wall(
+            carving_, session::staging_of(hand_.tool(), kToolRadius_m, devices::OmniModel{}.workspace_m));
         if (!image) return std::unexpected(image.error());
         images_.push_back(std::move(*image));
         return {};
     }
 
     Result<void> paint() {
-        std::vector<ToolSweep> sweeps;
+        std::vector<compute::ToolSweep> sweeps;
         hand_.go(hand_.hand_for(on_ball(bounds_, 0.0)), 0.5);
         for (double across = 0.02; across < 0.25; across += 0.02) {
             const Pose from{hand_.tool().proxy_object_m, Quat{1, 0, 0, 0}};
@@ -132,9 +132,9 @@ private:
         return carving_.update(sweeps);
     }
 
-    Carving& carving_;
-    Pictures& pictures_;
-    Tool paint_;
+    sculpt::Sculpture& carving_;
+    session::Pictures& pictures_;
+    sculpt::Tool paint_;
     Box bounds_;
     LedHand hand_;
     std::vector<Image> images_;
@@ -164,33 +164,37 @@ Image montage(const std::vector<Image>& images) {
     return all;
 }
 
-Box bounds_of(const Lattice& lattice) {
+Box bounds_of(const compute::Lattice& lattice) {
     const Vec3 inset(1.5 * lattice.spacing_m);  // about so much is empty around the workpiece
     const Vec3 size = Vec3(lattice.cells[0], lattice.cells[1], lattice.cells[2]) * lattice.spacing_m;
     return {lattice.origin_object + inset, lattice.origin_object + size - inset};
 }
 
 Result<void> make(const std::filesystem::path& file) {
-    const ToolOptions options{
-        .shape = "ball:" + std::to_string(kToolRadius_m), .operation = Operation::paint, .material = "200,40,30"};
-    Result<Tool> tool = parse_tool(options);
+    const sculpt::ToolOptions options{.shape = "ball:" + std::to_string(kToolRadius_m),
+                                      .operation = compute::Operation::paint,
+                                      .material = "200,40,30"};
+    const Result<sculpt::ToolSettings> settings = sculpt::parse_tool_settings(options);
+    if (!settings) return std::unexpected(settings.error());
+    Result<sculpt::Tool> tool = sculpt::make_tool(*settings);
     if (!tool) return std::unexpected(tool.error());
-    const Result<Material> material = parse_tool_material(options);
-    if (!material) return std::unexpected(material.error());
     WorkerPool pool(0);
-    Result<LoadedWorkpiece> workpiece = load_workpiece({"assets/workpieces/soccer_ball.obj", 256, false}, pool);
+    Result<sculpt::LoadedWorkpiece> workpiece =
+        sculpt::load_workpiece({"assets/workpieces/soccer_ball.obj", 256, false}, pool);
     if (!workpiece) return std::unexpected(workpiece.error());
     tool->material = static_cast<std::uint8_t>(workpiece->solid.materials.size());
-    workpiece->solid.materials.push_back(*material);
+    workpiece->solid.materials.push_back(sculpt::material_of(*settings));
     const Box bounds = bounds_of(workpiece->solid.lattice);
-    Result<ChosenEngine> chosen = choose_engine(EngineChoice::cpu, std::move(workpiece->solid), pool);
+    Result<sculpt::ChosenEngine> chosen =
+        sculpt::choose_engine(sculpt::EngineChoice::cpu, std::move(workpiece->solid), pool);
     if (!chosen) return std::unexpected(chosen.error());
-    Carving carving(std::move(chosen->engine), pool);
-    Result<Pictures> pictures = Pictures::create(std::filesystem::absolute(file).parent_path(), bounds);
+    sculpt::Sculpture carving(std::move(chosen->engine), pool);
+    Result<session::Pictures> pictures =
+        session::Pictures::create(std::filesystem::absolute(file).parent_path(), bounds);
     if (!pictures) return std::unexpected(pictures.error());
     const auto images = Story(carving, *pictures, std::move(*tool), bounds).tell();
     if (!images) return std::unexpected(images.error());
-    return write_png(file, montage(*images));
+    return renderer::write_png(file, montage(*images));
 }
 
 }  // namespace

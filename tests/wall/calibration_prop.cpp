@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Screens found again from noisy touches.
-#include "renderer/stereo/calibration.hpp"
+#include "wall/calibration.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "tests/renderer/stereo_samples.hpp"
+#include "tests/wall/wall_samples.hpp"
 
-namespace burin {
+namespace burin::wall {
 namespace {
 
 struct Truth {
@@ -192,4 +192,28 @@ TEST(Calibration, RefusesWhatDoesNotFixTheScreen) {
     refused(samples, "lower_left");
 }
 
-}  // namespace burin
+// Of two touches that contradict each other nobody knows which is right.
+TEST(Calibration, RefusesAPlaceOfWhichOnlyHalfTheSamplesFit) {
+    std::mt19937 random(7);
+    for (int i = 0; i < 100; ++i) {
+        const Truth truth(random);
+        auto samples = touched(truth, random, 4, 2e-4);
+        const std::size_t corner = 4 * (static_cast<std::size_t>(i) % 4);
+        const Vec3 aside = 0.1 * glm::normalize(random_vector(random, 1.0));
+        const auto one_wrong = [&] {
+            auto with = samples;
+            with[corner + 1].tip_tracker += aside;
+            return with;
+        }();
+        const auto fit = fit_screen(one_wrong);
+        ASSERT_TRUE(fit) << fit.error().line();
+        auto half_wrong = one_wrong;
+        half_wrong[corner + 3].tip_tracker -= aside;  // to the other side, so that the medians stay where they were
+        const auto refused = fit_screen(half_wrong);
+        ASSERT_FALSE(refused) << i;
+        EXPECT_NE(refused.error().line().find(samples[corner].place), std::string::npos) << refused.error().line();
+        EXPECT_NE(refused.error().line().find("2 of its 4 samples"), std::string::npos) << refused.error().line();
+    }
+}
+
+}  // namespace burin::wall

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Parallax against closed forms and brute force.
-#include "renderer/stereo/comfort.hpp"
+#include "wall/comfort.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 #include <vector>
 
-#include "tests/renderer/stereo_samples.hpp"
+#include "tests/wall/wall_samples.hpp"
 
-namespace burin {
+namespace burin::wall {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
@@ -139,4 +139,22 @@ TEST(ComfortWarning, KnowsDepthThatNoMoveMends) {
     EXPECT_TRUE(warning_of(judge({}, desk, eyes, {}), {}).empty());
 }
 
-}  // namespace burin
+TEST(ComfortWarning, IsGivenWherePicturesLieFartherApartThanTheEyesThoughTheBudgetAllowsIt) {
+    // A head turned by 60 degrees sees what is far off under 126 mm of parallax, twice the distance of its eyes; one
+    // that faces the screen never more than that distance.
+    const Screen wall = screen_of(Wall{});
+    const ParallaxBudget generous{20.0, 20.0};
+    const Eyes turned_away = eyes_of({{{0, 1.2, 2.0}, turned(std::numbers::pi / 3, 0, 0)}, kIpd});
+    const Vec3 ahead{-std::sin(std::numbers::pi / 3), 0.0, -std::cos(std::numbers::pi / 3)};
+    const ContentBall far_ahead{Vec3{0, 1.2, 2.0} + 1e4 * ahead, 0.1}, far_behind{{0, 1.2, -1e4}, 0.1};
+    const ComfortFinding finding = judge(generous, wall, turned_away, {{&far_ahead, 1}, {}});
+    EXPECT_LT(finding.parallax.uncrossed.deg, 2.0);
+    EXPECT_NEAR(finding.parallax.uncrossed.m, 2.0 * kIpd, 0.01 * kIpd);
+    EXPECT_TRUE(finding.uncrossed_too_much);
+    EXPECT_NE(warning_of(finding, generous).find("126 mm"), std::string::npos) << warning_of(finding, generous);
+    const ComfortFinding straight = judge(generous, wall, facing({0, 1.2, 2.0}), {{&far_behind, 1}, {}});
+    EXPECT_NEAR(straight.parallax.uncrossed.m, kIpd, 0.01 * kIpd);
+    EXPECT_FALSE(straight.uncrossed_too_much);
+}
+
+}  // namespace burin::wall

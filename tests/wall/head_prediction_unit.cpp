@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Predicted heads against motions with closed forms, and trackers that misbehave.
-#include "renderer/stereo/head.hpp"
+#include "wall/head_prediction.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <numbers>
 #include <vector>
 
-#include "tests/renderer/stereo_samples.hpp"
+#include "tests/wall/wall_samples.hpp"
 
-namespace burin {
+namespace burin::wall {
 namespace {
 
 constexpr Nanoseconds kMs = 1'000'000;
@@ -52,7 +52,8 @@ TEST(HeadPrediction, IsExactForUniformMotionAndTurning) {
     }
 }
 
-// |x'' | <= A w^2, so the error is at most A w^2 T (T + W) / 2 (head.hpp); the bound is also nearly reached.
+// |x'' | <= A w^2, so the error is at most A w^2 T (T + W) / 2 (wall/head_prediction.hpp); the bound is also nearly
+// reached.
 TEST(HeadPrediction, KeepsItsErrorBoundForASwayingHead) {
     const HeadSettings settings;
     constexpr double A = 0.1;
@@ -244,4 +245,4 @@ TEST(TrackerWatch, NothingDrawnEverJumps) {
     }
 }
 
-}  // namespace burin
+}  // namespace burin::wall

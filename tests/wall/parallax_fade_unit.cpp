@@ -6,10 +6,10 @@
 
 #include <cmath>
 
-#include "renderer/stereo/projection.hpp"
-#include "tests/renderer/stereo_samples.hpp"
+#include "tests/wall/wall_samples.hpp"
+#include "wall/projection.hpp"
 
-namespace burin {
+namespace burin::wall {
 namespace {
 
 constexpr float kBand = 0.2f;
@@ -150,4 +150,4 @@ TEST(ParallaxFade, KeepsDepth) {
     EXPECT_EQ(a.w, b.w);
 }
 
-}  // namespace burin
+}  // namespace burin::wall

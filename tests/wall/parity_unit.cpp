@@ -7,9 +7,9 @@
 #include <random>
 #include <vector>
 
-#include "renderer/output/parity.hpp"
+#include "wall/parity.hpp"
 
-namespace burin {
+namespace burin::wall {
 
 namespace {
 
@@ -25,7 +25,8 @@ struct Shown {
     }
 };
 
-// choose(vblank) gives the eye. late(): the program was not ready for this refresh. slow(): what it handed over misses it.
+// choose(vblank) gives the eye. late(): the program was not ready for this refresh. slow(): what it handed over misses
+// it.
 template <typename Choose, typename Late, typename Slow>
 Shown show(std::uint64_t refreshes, const Choose& choose, const Late& late, const Slow& slow) {
     Shown shown;
@@ -117,4 +118,4 @@ TEST(FieldParity, DoesWhatBlindTurnsCannot) {
     EXPECT_GT(shown.longest_wrong_run(), 100) << "exchanged until the next miss";
 }
 
-}  // namespace burin
+}  // namespace burin::wall

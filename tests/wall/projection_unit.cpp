@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/stereo/projection.hpp"
+#include "wall/projection.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace burin {
+namespace burin::wall {
 
 namespace {
 
@@ -63,7 +63,8 @@ TEST(OffAxisProjection, PutsKnownPointsAndDisparitiesOnTheWallForTenHeads) {
     }
 }
 
-// For a head that looks straight at the wall, disparity = -ipd z / (d - z): crossed (negative) in front, positive behind.
+// For a head that looks straight at the wall, disparity = -ipd z / (d - z): crossed (negative) in front, positive
+// behind.
 TEST(OffAxisProjection, GivesCrossedDisparityInFrontAndUncrossedBehind) {
     const Wall wall;
     constexpr double ipd = 0.063, d = 2.0;
@@ -151,4 +152,4 @@ TEST(CanBeSeen, RefusesEyesBehindTheScreenAndScreensWithoutArea) {
     EXPECT_FALSE(can_be_seen(wall, {{0, 1, nan}, {0, 1, 1}}));
 }
 
-}  // namespace burin
+}  // namespace burin::wall

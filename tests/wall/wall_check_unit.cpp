@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/stereo/screen_overlap.hpp"
-#include "tests/renderer/stereo_samples.hpp"
+#include "tests/wall/wall_samples.hpp"
+#include "wall/output_settings.hpp"
+#include "wall/screen.hpp"
 
-namespace burin {
+namespace burin::wall {
 namespace {
 
 std::string all_lines(const std::vector<WallProblem>& problems) {
@@ -155,6 +156,21 @@ TEST(WallCheck, FindsWrongOutputs) {
                  true, "front", "have this name");
 }
 
+TEST(WallCheck, AcceptsTheGammasThatTheOutputAcceptsAndNoOthers) {
+    for (const double gamma : {-1.0, 0.0, 0.5, 0.99, 1.0, 2.2, 4.0, 4.01, std::nan("")}) {
+        WallSetup setup;
+        setup.screens.push_back(screen_named("front", {-1.5, 0, 0}, {1.5, 0, 0}, {-1.5, 2, 0}));
+        setup.screens[0].blend.gamma = gamma;
+        OutputSettings output;
+        output.blend.gamma = gamma;
+        const auto problems = check(setup);
+        const bool refused =
+            std::ranges::any_of(problems, [](const WallProblem& p) { return p.error && p.what.contains("gamma"); });
+        EXPECT_EQ(refused, !check_output(output).has_value()) << gamma;
+        EXPECT_EQ(refused, !(gamma >= 1.0 && gamma <= 4.0)) << gamma;
+    }
+}
+
 TEST(WallCheck, FindsScreensThatShareAnOutputOrRoom) {
     WallSetup setup = cave();
     setup.screens[2].output = setup.screens[0].output;
@@ -211,4 +227,4 @@ TEST(ScreenOverlap, AgreesWithASearchByPoints) {
     EXPECT_GT(crossing, 50);
 }
 
-}  // namespace burin
+}  // namespace burin::wall

@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <sstream>
 
-#include "app/wall_calibration.hpp"
-#include "app/wall_file.hpp"
-#include "tests/app/run_command.hpp"
-#include "tests/support/read_json.hpp"
+#include "app/wall_commands.hpp"
+#include "base/json.hpp"
+#include "tests/support/run_command.hpp"
+#include "wall/wall_file.hpp"
 
-namespace burin {
+namespace burin::wall {
 namespace {
 
 const std::string kBurin = BURIN_COMMAND;
@@ -93,8 +93,8 @@ TEST(WallFile, WritingAndReadingKeepsEverySetting) {
     odd.screens[1].blend = {0.1, 0.2, 0.03, 0.04, 1.8};
     odd.screens[1].swap_eyes = true;
     odd.screens[2].output = "DP-1";
-    odd.screens[2].direct = gpu::DisplayStereo::inband_displayport;
-    odd.screens[3].direct = gpu::DisplayStereo::none;
+    odd.screens[2].direct = DisplayStereo::inband_displayport;
+    odd.screens[3].direct = DisplayStereo::none;
     odd.budget = {1.25, 0.75};
     odd.timing = {96.0, EyeOrder::right_first};
     const std::string text = wall_text(odd);
@@ -167,7 +167,7 @@ TEST(WallCommand, ShowsChecksAndDraws) {
         place.run(kBurin + " wall show '" + (kWalls / "powerwall.toml").string() + "' --svg w.svg --json w.json");
     EXPECT_EQ(shown.status, 0) << shown.output;
     EXPECT_NE(shown.output.find("3.048 m, 2.286 m"), std::string::npos) << shown.output;
-    const auto figures = read_json(place.read("w.json"));
+    const auto figures = Json::parse(place.read("w.json"));
     EXPECT_NEAR(figures["screens"][0]["viewing_distance_m"].get<double>(), 6.56 * 0.3048, 1e-9);
     EXPECT_NEAR(figures["screens"][0]["pixel_mm"][0].get<double>(), 3048.0 / 1440.0, 1e-9);
     EXPECT_NEAR(figures["screens"][0]["nearest_comfortable_m"].get<double>(), 0.99, 0.01);
@@ -197,7 +197,7 @@ TEST(WallCommand, ChecksAndShowsADisplayDrivenDirectly) {
     EXPECT_EQ(sound.status, 0) << sound.output;
     const auto shown = place.run(kBurin + " wall show w.toml --json w.json");
     EXPECT_NE(shown.output.find("0, two_layers, driven directly: hdmi-3d"), std::string::npos) << shown.output;
-    const auto figures = read_json(place.read("w.json"));
+    const auto figures = Json::parse(place.read("w.json"));
     EXPECT_EQ(figures["screens"][0]["direct"].get<std::string>(), "hdmi-3d");
     EXPECT_EQ(check("direct = \"plain\"\nmode = \"frame_sequential\"").status, 0);
     for (const auto& [keys, part] :
@@ -225,7 +225,7 @@ TEST(WallCommand, CalibratesAScreenFromTouchesAndTellsTheResiduals) {
     EXPECT_NEAR(setup->screens[0].lower_left_tracker.z, 0.04, 1e-4);
     EXPECT_NEAR(setup->screens[0].upper_left_tracker.z, 0.04 - 1.5 * std::sin(0.0349), 1e-4);
     EXPECT_EQ(setup->screens[0].pixels, (std::array{1200, 900}));
-    const auto residuals = read_json(place.read("r.json"));
+    const auto residuals = Json::parse(place.read("r.json"));
     EXPECT_GT(residuals["before_rms_mm"].get<double>(), 20.0);
     EXPECT_LT(residuals["rms_mm"].get<double>(), 1.0);
     // In place, with one touch that went wrong and is named.
@@ -269,7 +269,7 @@ TEST(WallCommand, LeavesTheWallFileAloneWhenItCannotCalibrate) {
 TEST(WallCommand, AsksForTouchAfterTouch) {
     std::istringstream in("1,2,3\nnonsense\n4,5,6\n\n7,8,9\nupper_right,0,0,1\n10,11,12\ndone\n1,1,1\n");
     std::ostringstream prompts;
-    const auto samples = guided_samples(in, prompts, 0.01);
+    const auto samples = app::guided_samples(in, prompts, 0.01);
     ASSERT_EQ(samples.size(), 5u);
     EXPECT_EQ(samples[2].place, "lower_left");
     EXPECT_EQ(samples[2].tip_tracker, (Vec3{0.07, 0.08, 0.09}));
@@ -279,4 +279,30 @@ TEST(WallCommand, AsksForTouchAfterTouch) {
     EXPECT_NE(prompts.str().find("is not a sample"), std::string::npos);
 }
 
-}  // namespace burin
+TEST(WallFile, ReadsEyesByTheirMiddleAndDistanceInTheFilesUnit) {
+    const auto viewer = [](const std::string& keys) {
+        return parse_wall(with("[viewer.fallback_head]", "[viewer]\n" + keys + "\n[viewer.fallback_head]"), "w.toml");
+    };
+    const auto by_middle =
+        viewer("middle_of_eyes = [1, -8, 5]\ninterpupillary_m = 0.06");  // centimetres, but for the distance
+    ASSERT_TRUE(by_middle) << by_middle.error().line();
+    EXPECT_LT(glm::length(by_middle->eyes.left_sensor - Vec3(-0.02, -0.08, 0.05)), 1e-12);
+    EXPECT_LT(glm::length(by_middle->eyes.right_sensor - Vec3(0.04, -0.08, 0.05)), 1e-12);
+    const auto one_by_one = viewer("left_eye = [-2, -8, 5]\nright_eye = [4, -8, 5]");
+    ASSERT_TRUE(one_by_one) << one_by_one.error().line();
+    EXPECT_LT(glm::length(one_by_one->eyes.left_sensor - by_middle->eyes.left_sensor), 1e-12);
+    EXPECT_LT(glm::length(one_by_one->eyes.right_sensor - by_middle->eyes.right_sensor), 1e-12);
+    EXPECT_LT(glm::length(by_middle->fallback_head_tracker.position_m - Vec3(0.0, 1.2, 1.5)), 1e-12);
+}
+
+TEST(WallFile, RefusesEyesThatAreGivenInTwoWays) {
+    const auto eyes = [](const std::string& keys) {
+        return with("[viewer.fallback_head]", "[viewer]\n" + keys + "\n[viewer.fallback_head]");
+    };
+    const std::string both = "left_eye = [-3, 0, 0]\nright_eye = [3, 0, 0]\n";
+    ASSERT_TRUE(parse_wall(eyes(both), "w.toml"));
+    expect_refused(eyes(both + "interpupillary_m = 0.06"), {"left_eye", "interpupillary_m"});
+    expect_refused(eyes(both + "middle_of_eyes = [0, 0, 0]"), {"left_eye", "middle_of_eyes"});
+}
+
+}  // namespace burin::wall

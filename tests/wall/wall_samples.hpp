@@ -5,9 +5,9 @@
 #include <array>
 #include <random>
 
-#include "renderer/stereo/wall.hpp"
+#include "wall/wall.hpp"
 
-namespace burin {
+namespace burin::wall {
 
 inline Quat turned(double yaw, double pitch, double roll) {
     return glm::angleAxis(yaw, Vec3{0, 1, 0}) * glm::angleAxis(pitch, Vec3{1, 0, 0}) *
@@ -71,4 +71,4 @@ inline const std::array<Pose, 10> kHeads{{{{0.0, 1.143, 2.0}, turned(0, 0, 0)},
                                           {{0.1, 0.3, 1.5}, turned(2.2, 0.2, 0.2)},
                                           {{-0.3, 1.65, 2.1}, turned(0, 0, 1.5707963267948966)}}};
 
-}  // namespace burin
+}  // namespace burin::wall

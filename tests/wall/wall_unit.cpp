@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "renderer/stereo/projection.hpp"
-#include "tests/renderer/stereo_samples.hpp"
+#include "tests/wall/wall_samples.hpp"
+#include "wall/projection.hpp"
 
-namespace burin {
+namespace burin::wall {
 namespace {
 
 constexpr double kTolerance_m = 1e-5;  // 0.01 mm on the wall
@@ -184,4 +184,4 @@ TEST(StereoGeometry, AScreenBehindAnEyeIsLeftDark) {
     EXPECT_TRUE(views[1].visible);
 }
 
-}  // namespace burin
+}  // namespace burin::wall

@@ -6,7 +6,7 @@
 #include "renderer/output/compose.hpp"
 #include "renderer/output/eye_images.hpp"
 #include "renderer/output/output_stage.hpp"
-#include "tests/renderer/output_pictures.hpp"
+#include "tests/renderer/output/output_pictures.hpp"
 #include "tests/window/window_test.hpp"
 
 namespace burin::window {
@@ -26,10 +26,10 @@ protected:
         if (IsSkipped()) return;
         window_.emplace(open({.width = 96, .height = 64}));
         chain_.emplace(chain_for(*window_));
-        auto stage = OutputStage::create(device(), chain_->format(), VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
+        auto stage = renderer::OutputStage::create(device(), chain_->format(), VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
         ASSERT_TRUE(stage) << stage.error().line();
         stage_.emplace(std::move(*stage));
-        auto eyes = upload_eyes(device(), left_, right_);
+        auto eyes = renderer::upload_eyes(device(), left_, right_);
         ASSERT_TRUE(eyes);
         eyes_ = std::move(*eyes);
     }
@@ -41,15 +41,15 @@ protected:
         PresentTest::TearDown();
     }
 
-    OutputPlace place(const gpu::SwapchainFrame& frame) const {
+    wall::OutputPlace place(const gpu::SwapchainFrame& frame) const {
         const auto at = window_->on_monitor();
         return {.size = size_of(frame), .monitor_x = at.x, .monitor_y = at.y};
     }
 
     // One picture. The answer is that of acquire() where there was none to draw into.
-    FrameAnswer show(const OutputSettings& settings) {
+    gpu::FrameAnswer show(const wall::OutputSettings& settings) {
         const gpu::SwapchainFrame frame = acquire(*chain_, *window_);
-        if (frame.answer != FrameAnswer::presented) return frame.answer;
+        if (frame.answer != gpu::FrameAnswer::presented) return frame.answer;
         auto commands = gpu::Commands::begin(device());
         if (!commands) return chain_->abandon(frame);
         const auto done =
@@ -61,26 +61,27 @@ protected:
     }
 
     // Pictures until one is shown.
-    FrameAnswer show_through_resizing(const OutputSettings& settings) {
-        FrameAnswer answer = show(settings);
-        for (int i = 0; i < 10 && answer == FrameAnswer::resized; ++i) answer = show(settings);
+    gpu::FrameAnswer show_through_resizing(const wall::OutputSettings& settings) {
+        gpu::FrameAnswer answer = show(settings);
+        for (int i = 0; i < 10 && answer == gpu::FrameAnswer::resized; ++i) answer = show(settings);
         return answer;
     }
 
-    Image left_ = marked_gradient({96, 64}, Eye::left), right_ = marked_gradient({96, 64}, Eye::right);
+    Image left_ = renderer::marked_gradient({96, 64}, wall::Eye::left),
+          right_ = renderer::marked_gradient({96, 64}, wall::Eye::right);
     std::optional<Window> window_;
     std::optional<gpu::Swapchain> chain_;
-    std::optional<OutputStage> stage_;
+    std::optional<renderer::OutputStage> stage_;
     gpu::Image eyes_;
     gpu::SwapchainFrame last_;
 };
 
 TEST_F(PresentPictures, ShowsAHundredFramesInEachMode) {
-    for (const StereoMode mode : stereo_modes()) {
-        OutputSettings settings;
+    for (const wall::StereoMode mode : wall::stereo_modes()) {
+        wall::OutputSettings settings;
         settings.mode = mode;
         const std::uint64_t before = chain_->presented();
-        for (int i = 0; i < 100; ++i) ASSERT_EQ(show(settings), FrameAnswer::presented) << file_name_of(mode) << i;
+        for (int i = 0; i < 100; ++i) ASSERT_EQ(show(settings), gpu::FrameAnswer::presented) << file_name_of(mode) << i;
         EXPECT_EQ(chain_->presented(), before + 100);
     }
 }
@@ -89,23 +90,24 @@ TEST_F(PresentPictures, HandsOverWhatTheReferenceSaysAtAnOddPlace) {
     if (!chain_->can_copy_from()) GTEST_SKIP() << "this surface's images cannot be read back";
     window_->set_position(101, 53);
     ASSERT_TRUE(next<MoveEvent>(*window_, [](const MoveEvent& e) { return e.x == 101 && e.y == 53; }));
-    OutputSettings settings;
-    settings.mode = StereoMode::row_interlaced;
-    ASSERT_EQ(show_through_resizing(settings), FrameAnswer::presented);
+    wall::OutputSettings settings;
+    settings.mode = wall::StereoMode::row_interlaced;
+    ASSERT_EQ(show_through_resizing(settings), gpu::FrameAnswer::presented);
     ASSERT_TRUE(device().wait_idle());
     const auto shown =
-        read_back(device(), last_.raw, size_of(last_), chain_->format(), VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
+        renderer::read_back(device(), last_.raw, size_of(last_), chain_->format(), VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
     ASSERT_TRUE(shown);
-    OutputPlace at{.size = {96, 64}, .monitor_x = 101, .monitor_y = 53};
-    EXPECT_EQ(greatest_difference(*shown, compose(left_, right_, settings, at)), 0);
+    wall::OutputPlace at{.size = {96, 64}, .monitor_x = 101, .monitor_y = 53};
+    EXPECT_EQ(renderer::greatest_difference(*shown, renderer::compose(left_, right_, settings, at)), 0);
     at.monitor_y = 54;
-    EXPECT_GT(greatest_difference(*shown, compose(left_, right_, settings, at)), 50) << "a row off is the other eye";
+    EXPECT_GT(renderer::greatest_difference(*shown, renderer::compose(left_, right_, settings, at)), 50)
+        << "a row off is the other eye";
 }
 
 TEST_F(PresentPictures, KnowsHowOldAnImageIs) {
-    const OutputSettings settings;
+    const wall::OutputSettings settings;
     for (int i = 0; i < 12; ++i) {
-        ASSERT_EQ(show(settings), FrameAnswer::presented);
+        ASSERT_EQ(show(settings), gpu::FrameAnswer::presented);
         EXPECT_LE(last_.age, chain_->presented() - 1);
         EXPECT_TRUE(i > 0 || last_.age == 0) << "nothing was in it";
         EXPECT_TRUE(i < 8 || last_.age >= 1);
@@ -113,48 +115,48 @@ TEST_F(PresentPictures, KnowsHowOldAnImageIs) {
 }
 
 TEST_F(PresentPictures, SurvivesAStormOfSizes) {
-    const OutputSettings settings;
+    const wall::OutputSettings settings;
     int resized = 0;
     for (int i = 0; i < 40; ++i) {
         window_->set_size(50 + 37 * i % 400, 40 + 53 * i % 300);
         static_cast<void>(window_->poll());
-        resized += show(settings) == FrameAnswer::resized ? 1 : 0;
+        resized += show(settings) == gpu::FrameAnswer::resized ? 1 : 0;
     }
     EXPECT_GT(resized, 10);
     window_->set_size(210, 130);
     ASSERT_TRUE(next<ResizeEvent>(*window_, [](const ResizeEvent& e) { return e.width == 210 && e.height == 130; }));
-    ASSERT_EQ(show_through_resizing(settings), FrameAnswer::presented);
+    ASSERT_EQ(show_through_resizing(settings), gpu::FrameAnswer::presented);
     EXPECT_EQ(chain_->width(), 210u);
     EXPECT_EQ(chain_->height(), 130u);
 }
 
 TEST_F(PresentPictures, DrawsNothingWhileThereIsNoAreaAndGoesOnAfterwards) {
-    const OutputSettings settings;
-    ASSERT_EQ(show(settings), FrameAnswer::presented);
-    for (int i = 0; i < 3; ++i) EXPECT_EQ(chain_->acquire(0, 0).answer, FrameAnswer::minimised);
-    EXPECT_EQ(chain_->acquire(96, 0).answer, FrameAnswer::minimised);
-    ASSERT_EQ(show_through_resizing(settings), FrameAnswer::presented);
+    const wall::OutputSettings settings;
+    ASSERT_EQ(show(settings), gpu::FrameAnswer::presented);
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(chain_->acquire(0, 0).answer, gpu::FrameAnswer::minimised);
+    EXPECT_EQ(chain_->acquire(96, 0).answer, gpu::FrameAnswer::minimised);
+    ASSERT_EQ(show_through_resizing(settings), gpu::FrameAnswer::presented);
     window_->set_visible(false);
     static_cast<void>(window_->wait(0.05));
     static_cast<void>(show_through_resizing(settings));  // whatever the display says to a hidden window, it is no crash
     window_->set_visible(true);
     static_cast<void>(window_->wait(0.05));
-    EXPECT_EQ(show_through_resizing(settings), FrameAnswer::presented);
+    EXPECT_EQ(show_through_resizing(settings), gpu::FrameAnswer::presented);
 }
 
 TEST_F(PresentPictures, GivesBackAFrameThatWasNotDrawn) {
     const gpu::SwapchainFrame frame = acquire(*chain_, *window_);
-    ASSERT_EQ(frame.answer, FrameAnswer::presented);
-    EXPECT_EQ(chain_->abandon(frame), FrameAnswer::resized);
-    EXPECT_EQ(show_through_resizing({}), FrameAnswer::presented);
+    ASSERT_EQ(frame.answer, gpu::FrameAnswer::presented);
+    EXPECT_EQ(chain_->abandon(frame), gpu::FrameAnswer::resized);
+    EXPECT_EQ(show_through_resizing({}), gpu::FrameAnswer::presented);
 }
 
 TEST_F(PresentPictures, SaysWhenTheDeviceIsLostAndANewOneGoesOn) {
-    ASSERT_EQ(show({}), FrameAnswer::presented);
+    ASSERT_EQ(show({}), gpu::FrameAnswer::presented);
     device().core()->lose_at_next_submit = true;
-    EXPECT_EQ(show({}), FrameAnswer::device_lost);
+    EXPECT_EQ(show({}), gpu::FrameAnswer::device_lost);
     EXPECT_TRUE(device().lost());
-    EXPECT_EQ(show({}), FrameAnswer::device_lost);
+    EXPECT_EQ(show({}), gpu::FrameAnswer::device_lost);
     auto commands = gpu::Commands::begin(device());
     ASSERT_TRUE(commands);
     const auto refused = std::move(*commands).submit();
@@ -167,26 +169,26 @@ TEST_F(PresentPictures, SaysWhenTheDeviceIsLostAndANewOneGoesOn) {
     PresentTest::TearDown();
     PresentTest::SetUp();
     chain_.emplace(chain_for(*window_));
-    stage_.emplace(OutputStage::create(device(), chain_->format(), VK_IMAGE_LAYOUT_PRESENT_SRC_KHR).value());
-    eyes_ = upload_eyes(device(), left_, right_).value();
-    EXPECT_EQ(show_through_resizing({}), FrameAnswer::presented);
+    stage_.emplace(renderer::OutputStage::create(device(), chain_->format(), VK_IMAGE_LAYOUT_PRESENT_SRC_KHR).value());
+    eyes_ = renderer::upload_eyes(device(), left_, right_).value();
+    EXPECT_EQ(show_through_resizing({}), gpu::FrameAnswer::presented);
 }
 
 TEST_F(PresentPictures, TwoWindowsTakeAnEyeEach) {
     Window second = open({.width = 96, .height = 64, .x = 400, .y = 10});
     gpu::Swapchain other_chain = chain_for(second);
-    OutputSettings settings;
-    settings.mode = StereoMode::two_windows;
+    wall::OutputSettings settings;
+    settings.mode = wall::StereoMode::two_windows;
     for (int i = 0; i < 10; ++i) {
-        ASSERT_EQ(show(settings), FrameAnswer::presented);
+        ASSERT_EQ(show(settings), gpu::FrameAnswer::presented);
         const gpu::SwapchainFrame frame = acquire(other_chain, second);
-        ASSERT_EQ(frame.answer, FrameAnswer::presented);
+        ASSERT_EQ(frame.answer, gpu::FrameAnswer::presented);
         auto commands = gpu::Commands::begin(device());
         ASSERT_TRUE(commands);
         ASSERT_TRUE(stage_->record(*commands, {eyes_.view(), left_.size},
-                                   {frame.views[0], {.size = size_of(frame), .eye = Eye::right}}, settings));
+                                   {frame.views[0], {.size = size_of(frame), .eye = wall::Eye::right}}, settings));
         ASSERT_TRUE(std::move(*commands).submit(frame.sync));
-        ASSERT_EQ(other_chain.present(frame), FrameAnswer::presented);
+        ASSERT_EQ(other_chain.present(frame), gpu::FrameAnswer::presented);
     }
     ASSERT_TRUE(device().wait_idle());
 }

@@ -67,7 +67,8 @@ protected:
         return std::move(*chain);
     }
 
-    // A machine that stalls gives no image within a swapchain's patience of 0.1 s, which then says "minimised": asked again.
+    // A machine that stalls gives no image within a swapchain's patience of 0.1 s, which then says "minimised": asked
+    // again.
     gpu::SwapchainFrame acquire(gpu::Swapchain& chain, const Window& window) {
         const auto size = window.framebuffer();
         gpu::SwapchainFrame frame;

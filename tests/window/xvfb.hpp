@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A display for the window tests: Xvfb on a free number, started when the first test asks for it and ended with the program.
+// A display for the window tests: Xvfb on a free number, started when the first test asks for it and ended with the
+// program.
 #pragma once
 
 #include <fcntl.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The output stage on the GPU, against the CPU reference. Modes that copy must agree in every byte. Where light is mixed one
-// step of 255 is allowed: the reference mixes in double precision, the GPU in single, with the driver's own approximation of
-// the sRGB curve, and a value near the middle between two steps may then fall to either side.
+// The output stage on the GPU, against the CPU reference. Modes that copy must agree in every byte. Where light is
+// mixed one step of 255 is allowed: the reference mixes in double precision, the GPU in single, with the driver's own
+// approximation of the sRGB curve, and a value near the middle between two steps may then fall to either side.
 #include <map>
 #include <optional>
 #include <random>
@@ -10,11 +10,11 @@
 #include "renderer/output/compose.hpp"
 #include "renderer/output/eye_images.hpp"
 #include "renderer/output/output_stage.hpp"
-#include "renderer/output/warp.hpp"
 #include "tests/gpu/test_device.hpp"
-#include "tests/renderer/output_pictures.hpp"
+#include "tests/renderer/output/output_pictures.hpp"
+#include "wall/output_settings.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 namespace {
 
@@ -27,9 +27,9 @@ Image noise(ImageSize size, unsigned seed) {
     return image;
 }
 
-int tolerance_of(StereoMode mode) {
+int tolerance_of(wall::StereoMode mode) {
     const bool mixes =
-        is_anaglyph(mode) || mode == StereoMode::side_by_side_half || mode == StereoMode::top_bottom_half;
+        is_anaglyph(mode) || mode == wall::StereoMode::side_by_side_half || mode == wall::StereoMode::top_bottom_half;
     return mixes ? 1 : 0;
 }
 
@@ -49,8 +49,8 @@ protected:
     }
 
     // Draws into a target of its own.
-    Image show(const Image& left, const Image& right, const OutputSettings& settings, const OutputPlace& place,
-               VkFormat format, const Overlay* overlay = nullptr) {
+    Image show(const Image& left, const Image& right, const wall::OutputSettings& settings,
+               const wall::OutputPlace& place, VkFormat format, const Overlay* overlay = nullptr) {
         target_ = make_target(place.size, format);
         draw(stage_for(format), left, right, settings, place, overlay, {});
         return read(place.size, format);
@@ -66,14 +66,14 @@ protected:
         return std::move(*target);
     }
 
-    void draw(OutputStage& stage, const Image& left, const Image& right, const OutputSettings& settings,
-              const OutputPlace& place, const Overlay* overlay, std::span<const PixelRect> parts) {
+    void draw(OutputStage& stage, const Image& left, const Image& right, const wall::OutputSettings& settings,
+              const wall::OutputPlace& place, const Overlay* overlay, std::span<const PixelRect> parts) {
         auto eyes = upload_eyes(device(), left, right);
         ASSERT_TRUE(eyes) << eyes.error().line();
         std::optional<gpu::Image> panel;
         std::optional<OverlayView> overlay_view;
         if (overlay != nullptr) {
-            const bool linear = overlay->colour == OverlayColour::linear;
+            const bool linear = overlay->colour == wall::OverlayColour::linear;
             auto uploaded =
                 upload_image(device(), overlay->image, linear ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM);
             ASSERT_TRUE(uploaded);
@@ -115,18 +115,18 @@ TEST_F(OutputStageTest, EqualsTheReferenceInEveryModeAndFormat) {
     unsigned variant = 0;
     for (const ImageSize eye : {ImageSize{32, 20}, ImageSize{33, 21}}) {
         const Image left = noise(eye, 1), right = noise(eye, 2);
-        for (const StereoMode mode : stereo_modes()) {
+        for (const wall::StereoMode mode : wall::stereo_modes()) {
             // Every mode in two formats, every format in eight modes: each pair takes a compilation of its own.
             {
                 const VkFormat format = kFormats[(++variant + eye.width) % kFormats.size()];
-                OutputSettings settings;
+                wall::OutputSettings settings;
                 settings.mode = mode;
                 settings.swap_eyes = variant % 2 == 0;
-                settings.first_eye = variant % 3 == 0 ? Eye::right : Eye::left;
-                const OutputPlace place{.size = output_size(mode, eye),
-                                        .eye = variant % 5 < 2 ? Eye::right : Eye::left,
-                                        .monitor_x = static_cast<int>(variant % 7) - 3,
-                                        .monitor_y = static_cast<int>(variant % 4) - 2};
+                settings.first_eye = variant % 3 == 0 ? wall::Eye::right : wall::Eye::left;
+                const wall::OutputPlace place{.size = wall::output_size(mode, eye),
+                                              .eye = variant % 5 < 2 ? wall::Eye::right : wall::Eye::left,
+                                              .monitor_x = static_cast<int>(variant % 7) - 3,
+                                              .monitor_y = static_cast<int>(variant % 4) - 2};
                 const Image expected = compose(left, right, settings, place);
                 EXPECT_LE(greatest_difference(show(left, right, settings, place, format), expected), tolerance_of(mode))
                     << file_name_of(mode) << " " << eye.width << " format " << format;
@@ -137,16 +137,16 @@ TEST_F(OutputStageTest, EqualsTheReferenceInEveryModeAndFormat) {
 
 TEST_F(OutputStageTest, GivesTheKeptPictures) {
     const ImageSize eye{33, 21};
-    const Image left = marked_gradient(eye, Eye::left), right = marked_gradient(eye, Eye::right);
-    for (const StereoMode mode : stereo_modes()) {
-        OutputSettings settings;
+    const Image left = marked_gradient(eye, wall::Eye::left), right = marked_gradient(eye, wall::Eye::right);
+    for (const wall::StereoMode mode : wall::stereo_modes()) {
+        wall::OutputSettings settings;
         settings.mode = mode;
-        const OutputPlace place{.size = output_size(mode, eye)};
+        const wall::OutputPlace place{.size = wall::output_size(mode, eye)};
         Image shown = show(left, right, settings, place, VK_FORMAT_R8G8B8A8_SRGB);
-        if (shows_one_eye_at_a_time(mode)) {
+        if (wall::shows_one_eye_at_a_time(mode)) {
             StereoImage both;
             both.left = std::move(shown);
-            both.right = show(left, right, settings, {.size = eye, .eye = Eye::right}, VK_FORMAT_R8G8B8A8_SRGB);
+            both.right = show(left, right, settings, {.size = eye, .eye = wall::Eye::right}, VK_FORMAT_R8G8B8A8_SRGB);
             shown = side_by_side(both);
         }
         EXPECT_LE(greatest_difference(shown, read_png(golden_path(mode))), tolerance_of(mode)) << file_name_of(mode);
@@ -155,11 +155,11 @@ TEST_F(OutputStageTest, GivesTheKeptPictures) {
 
 TEST_F(OutputStageTest, EqualsTheReferenceForTargetsOfAnotherSize) {
     const Image left = noise({30, 22}, 3), right = noise({30, 22}, 4);
-    for (const StereoMode mode : stereo_modes()) {
-        OutputSettings settings;
+    for (const wall::StereoMode mode : wall::stereo_modes()) {
+        wall::OutputSettings settings;
         settings.mode = mode;
         for (const ImageSize size : {ImageSize{41, 17}, ImageSize{1, 1}, ImageSize{2, 64}}) {
-            const OutputPlace place{.size = size};
+            const wall::OutputPlace place{.size = size};
             const Image expected = compose(left, right, settings, place);
             EXPECT_LE(greatest_difference(show(left, right, settings, place, VK_FORMAT_B8G8R8A8_SRGB), expected),
                       tolerance_of(mode))
@@ -170,22 +170,22 @@ TEST_F(OutputStageTest, EqualsTheReferenceForTargetsOfAnotherSize) {
 
 TEST_F(OutputStageTest, WarpsBlendsAndOverlaysAsTheReferenceDoes) {
     const ImageSize eye{48, 36};
-    const Image left = marked_gradient(eye, Eye::left), right = marked_gradient(eye, Eye::right);
+    const Image left = marked_gradient(eye, wall::Eye::left), right = marked_gradient(eye, wall::Eye::right);
     Overlay panel{noise({10, 8}, 5), {20, 12, 15, 8}};
     for (std::size_t i = 0; i < panel.image.rgba.size(); i += 4) {
         const auto alpha = static_cast<std::uint8_t>(i % 256);
         panel.image.rgba[i + 3] = alpha;
         for (std::size_t c = 0; c < 3; ++c) panel.image.rgba[i + c] = std::min(panel.image.rgba[i + c], alpha);
     }
-    OutputSettings settings;
-    for (const StereoMode mode :
-         {StereoMode::side_by_side_half, StereoMode::top_bottom, StereoMode::anaglyph_amber_blue}) {
+    wall::OutputSettings settings;
+    for (const wall::StereoMode mode :
+         {wall::StereoMode::side_by_side_half, wall::StereoMode::top_bottom, wall::StereoMode::anaglyph_amber_blue}) {
         settings.mode = mode;
-        const OutputPlace place{.size = output_size(mode, eye)};
+        const wall::OutputPlace place{.size = wall::output_size(mode, eye)};
         for (const VkFormat format : {VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_B8G8R8A8_UNORM}) {
             settings.homography.reset();
             settings.blend = {};
-            for (const OverlayColour colour : {OverlayColour::linear, OverlayColour::coded}) {
+            for (const wall::OverlayColour colour : {wall::OverlayColour::linear, wall::OverlayColour::coded}) {
                 panel.colour = colour;
                 EXPECT_LE(greatest_difference(show(left, right, settings, place, format, &panel),
                                               compose(left, right, settings, place, &panel)),
@@ -200,7 +200,7 @@ TEST_F(OutputStageTest, WarpsBlendsAndOverlaysAsTheReferenceDoes) {
                 << file_name_of(mode) << " blend";
             settings.blend = {};
             settings.homography =
-                homography_onto({Vec2{0.06, 0.1}, Vec2{0.9, 0.02}, Vec2{0.97, 0.9}, Vec2{0.1, 0.95}}).value();
+                wall::homography_onto({Vec2{0.06, 0.1}, Vec2{0.9, 0.02}, Vec2{0.97, 0.9}, Vec2{0.1, 0.95}}).value();
             EXPECT_LE(greatest_difference(show(left, right, settings, place, format, &panel),
                                           compose(left, right, settings, place, &panel)),
                       1)
@@ -221,10 +221,10 @@ TEST_F(OutputStageTest, DrawsOnlyTheChangedPartsWithTheSamePixels) {
         }
     }
     OutputStage& stage = stage_for(VK_FORMAT_R8G8B8A8_SRGB);
-    for (const StereoMode mode : stereo_modes()) {
-        OutputSettings settings;
+    for (const wall::StereoMode mode : wall::stereo_modes()) {
+        wall::OutputSettings settings;
         settings.mode = mode;
-        const OutputPlace place{.size = output_size(mode, eye)};
+        const wall::OutputPlace place{.size = wall::output_size(mode, eye)};
         target_ = make_target(place.size, VK_FORMAT_R8G8B8A8_SRGB);
         draw(stage, left, right, settings, place, nullptr, {});
         const Image before = read(place.size, VK_FORMAT_R8G8B8A8_SRGB);
@@ -244,4 +244,4 @@ TEST_F(OutputStageTest, RefusesFormatsItDoesNotKnow) {
     EXPECT_TRUE(refused.error().line().contains("output stage"));
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -9,9 +9,9 @@
 #include "renderer/output/srgb.hpp"
 #include "renderer/output/test_pattern.hpp"
 #include "renderer/png.hpp"
-#include "tests/renderer/output_pictures.hpp"
+#include "tests/renderer/output/output_pictures.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 namespace {
 
@@ -29,7 +29,7 @@ void save(const StereoImage& images, const std::string& name) {
 }  // namespace
 
 TEST(GeometryPattern, HasSquaresOfTheSizeItNames) {
-    const StereoImage images = draw_test_pattern(TestPattern::geometry, kWall);
+    const StereoImage images = draw_test_pattern(wall::TestPattern::geometry, kWall);
     save(images, "geometry");
     const double spacing_mm = grid_spacing_mm(kWall);
     EXPECT_EQ(spacing_mm, 200.0);
@@ -49,7 +49,7 @@ TEST(GeometryPattern, HasSquaresOfTheSizeItNames) {
 
 TEST(GeometryPattern, MarksTheOutermostPixelsAndIsTheSameForBothEyes) {
     for (const ImageSize size : {ImageSize{640, 480}, ImageSize{101, 77}, ImageSize{3, 2}, ImageSize{1, 1}}) {
-        const StereoImage images = draw_test_pattern(TestPattern::geometry, {size, 400.0, 300.0});
+        const StereoImage images = draw_test_pattern(wall::TestPattern::geometry, {size, 400.0, 300.0});
         EXPECT_EQ(images.left.rgba, images.right.rgba);
         for (const std::uint32_t x : {0u, size.width / 2, size.width - 1}) {
             EXPECT_TRUE(is_white(images.left.pixel(x, 0)));
@@ -69,14 +69,14 @@ TEST(GeometryPattern, ChoosesRoundSpacings) {
 }
 
 TEST(GhostingPattern, PairsAKnownGreyOfOneEyeWithWhiteOfTheOther) {
-    const StereoImage images = draw_test_pattern(TestPattern::ghosting, kWall);
+    const StereoImage images = draw_test_pattern(wall::TestPattern::ghosting, kWall);
     save(images, "ghosting");
     const auto steps = ghosting_steps();
     const std::uint32_t cell = 1440 / static_cast<std::uint32_t>(steps.size());
-    for (const Eye eye : {Eye::left, Eye::right}) {
-        const Image &own = eye == Eye::left ? images.left : images.right,
-                    &others = eye == Eye::left ? images.right : images.left;
-        const std::uint32_t y = eye == Eye::left ? 1080 * 2 / 10 : 1080 * 8 / 10;
+    for (const wall::Eye eye : {wall::Eye::left, wall::Eye::right}) {
+        const Image &own = eye == wall::Eye::left ? images.left : images.right,
+                    &others = eye == wall::Eye::left ? images.right : images.left;
+        const std::uint32_t y = eye == wall::Eye::left ? 1080 * 2 / 10 : 1080 * 8 / 10;
         for (std::size_t i = 0; i < steps.size(); ++i) {
             const std::uint32_t grey_x = static_cast<std::uint32_t>(i) * cell + cell / 4,
                                 white_x = grey_x + 3 * cell / 8;
@@ -89,7 +89,7 @@ TEST(GhostingPattern, PairsAKnownGreyOfOneEyeWithWhiteOfTheOther) {
 }
 
 TEST(EyeOrderPattern, GivesEachEyeItsOwnLetterAndAFrameBeforeTheScreen) {
-    const StereoImage images = draw_test_pattern(TestPattern::eye_order, kWall);
+    const StereoImage images = draw_test_pattern(wall::TestPattern::eye_order, kWall);
     save(images, "eye_order");
     // The letters: left half of the left picture, right half of the right one, nothing in the other.
     const auto coloured = [](const Image& image, std::uint32_t x0, std::uint32_t x1) {
@@ -116,7 +116,8 @@ TEST(EyeOrderPattern, GivesEachEyeItsOwnLetterAndAFrameBeforeTheScreen) {
 }
 
 TEST(TestPattern, IsDrawnAtAnySize) {
-    for (const TestPattern pattern : {TestPattern::eye_order, TestPattern::ghosting, TestPattern::geometry}) {
+    for (const wall::TestPattern pattern :
+         {wall::TestPattern::eye_order, wall::TestPattern::ghosting, wall::TestPattern::geometry}) {
         for (const ImageSize size : {ImageSize{1, 1}, ImageSize{1, 50}, ImageSize{50, 1}, ImageSize{13, 7}}) {
             const StereoImage images = draw_test_pattern(pattern, {size, 1000.0, 10.0});
             EXPECT_EQ(images.left.rgba.size(), std::size_t{4} * size.width * size.height);
@@ -137,4 +138,4 @@ TEST(Canvas, ClipsWhatReachesBeyondIt) {
     EXPECT_EQ(image.pixel(7, 7)[1], 255);
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

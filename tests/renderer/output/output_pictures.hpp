@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <string>
 
-#include "renderer/image.hpp"
-#include "renderer/output/stereo_mode.hpp"
+#include "base/image.hpp"
+#include "wall/stereo_mode.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 inline Image filled(ImageSize size, std::uint8_t r, std::uint8_t g, std::uint8_t b) {
     Image image{size, std::vector<std::uint8_t>(std::size_t{4} * size.width * size.height, 255)};
@@ -28,8 +28,8 @@ inline std::uint8_t* pixel_of(Image& image, std::uint32_t x, std::uint32_t y) {
 }
 
 // Red is the column, green the row, blue the eye. Up to 256 pixels each way.
-inline Image map_of(ImageSize size, Eye eye) {
-    Image image = filled(size, 0, 0, eye == Eye::left ? 60 : 200);
+inline Image map_of(ImageSize size, wall::Eye eye) {
+    Image image = filled(size, 0, 0, eye == wall::Eye::left ? 60 : 200);
     for (std::uint32_t y = 0; y < size.height; ++y) {
         for (std::uint32_t x = 0; x < size.width; ++x) {
             pixel_of(image, x, y)[0] = static_cast<std::uint8_t>(x);
@@ -39,9 +39,9 @@ inline Image map_of(ImageSize size, Eye eye) {
     return image;
 }
 
-// The pair of the golden pictures: gradients of all values, with an eye's own mark: a bar on the left or on the right, level or
-// upright.
-inline Image marked_gradient(ImageSize size, Eye eye) {
+// The pair of the golden pictures: gradients of all values, with an eye's own mark: a bar on the left or on the right,
+// level or upright.
+inline Image marked_gradient(ImageSize size, wall::Eye eye) {
     Image image = filled(size, 0, 0, 0);
     for (std::uint32_t y = 0; y < size.height; ++y) {
         for (std::uint32_t x = 0; x < size.width; ++x) {
@@ -51,13 +51,13 @@ inline Image marked_gradient(ImageSize size, Eye eye) {
             p[2] = static_cast<std::uint8_t>(255 * (x + y) / (size.width + size.height - 2));
             const bool left_mark = x >= 3 && x < 13 && y >= 4 && y < 7;
             const bool right_mark = x >= size.width - 7 && x < size.width - 4 && y >= 4 && y < 14;
-            if (eye == Eye::left ? left_mark : right_mark) p[0] = p[1] = p[2] = 255;
+            if (eye == wall::Eye::left ? left_mark : right_mark) p[0] = p[1] = p[2] = 255;
         }
     }
     return image;
 }
 
-inline std::filesystem::path golden_path(StereoMode mode) {
+inline std::filesystem::path golden_path(wall::StereoMode mode) {
     return std::filesystem::path("tests/renderer/golden") / ("output_" + std::string(file_name_of(mode)) + ".png");
 }
 
@@ -84,4 +84,4 @@ inline int greatest_difference(const Image& a, const Image& b) {
     return greatest;
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

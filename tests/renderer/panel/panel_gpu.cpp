@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT
-// The panel's painter and the panel that stands in the scene, on the GPU, pixel by pixel against what is worked out here.
+// The panel's painter and the panel that stands in the scene, on the GPU, pixel by pixel against what is worked out
+// here.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/frame_targets.hpp"
+#include "renderer/frame/frame_targets.hpp"
+#include "renderer/frame/pipelines.hpp"
 #include "renderer/output/compose.hpp"
 #include "renderer/output/eye_images.hpp"
 #include "renderer/panel/panel_quad.hpp"
-#include "renderer/pipelines.hpp"
 #include "tests/gpu/test_device.hpp"
-#include "tests/renderer/output_pictures.hpp"
-#include "tests/renderer/panel_pictures.hpp"
+#include "tests/renderer/output/output_pictures.hpp"
+#include "tests/renderer/panel/panel_pictures.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 namespace {
 
@@ -142,11 +143,11 @@ TEST_F(PanelPainterTest, IsLaidOverTheEyesAsTheReferenceDoesIt) {
     PanelPainter painter = make();
     EXPECT_TRUE(paint(painter, mesh));
     const ImageSize eye{100, 80};
-    const Image left = marked_gradient(eye, Eye::left), right = marked_gradient(eye, Eye::right);
+    const Image left = marked_gradient(eye, wall::Eye::left), right = marked_gradient(eye, wall::Eye::right);
     const OverlayView view = painter.overlay(30, 20);
-    OutputSettings settings;
-    settings.mode = StereoMode::left;
-    const OutputPlace place{.size = eye};
+    wall::OutputSettings settings;
+    settings.mode = wall::StereoMode::left;
+    const wall::OutputPlace place{.size = eye};
     auto eyes = upload_eyes(device(), left, right);
     auto target =
         gpu::Image::create(device(), {.width = eye.width,
@@ -226,11 +227,11 @@ protected:
         vk.vkCmdEndRenderPass(commands->raw());
         auto submission = std::move(*commands).submit();
         EXPECT_TRUE(submission && submission->wait());
-        return {show(*targets, StereoMode::left), show(*targets, StereoMode::right)};
+        return {show(*targets, wall::StereoMode::left), show(*targets, wall::StereoMode::right)};
     }
 
-    Image show(const FrameTargets& targets, StereoMode mode) {
-        OutputSettings settings;
+    Image show(const FrameTargets& targets, wall::StereoMode mode) {
+        wall::OutputSettings settings;
         settings.mode = mode;
         auto target = gpu::Image::create(
             device(), {.width = kView.width,
@@ -305,4 +306,4 @@ TEST_F(PanelQuadTest, HidesAndIsHiddenByDepth) {
     EXPECT_EQ(greatest_difference(near_first.right, far_first.right), 0);
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -7,7 +7,7 @@
 
 #include "renderer/panel/panel_painter.hpp"
 
-namespace burin {
+namespace burin::renderer {
 
 inline constexpr std::uint32_t rgba(std::uint32_t r, std::uint32_t g, std::uint32_t b, std::uint32_t a) {
     return r | g << 8 | b << 16 | a << 24;
@@ -35,4 +35,4 @@ inline void add_box(PanelMesh& mesh, PixelRect place, std::uint32_t colour, floa
     for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + i);
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

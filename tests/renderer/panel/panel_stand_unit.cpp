@@ -7,7 +7,7 @@
 
 #include "renderer/panel/panel_stand.hpp"
 
-namespace burin {
+namespace burin::renderer {
 namespace {
 
 double between(double least, double most) {
@@ -88,4 +88,4 @@ TEST(PanelStand, HasItsCornersWhereTheRaysThroughTheCornersOfItsPictureMeetIt) {
     }
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

@@ -2,10 +2,10 @@
 // The panel that stands in the scene as the renderer draws it: its colours, what hides it, when it is drawn anew.
 #include <algorithm>
 
-#include "tests/renderer/panel_pictures.hpp"
+#include "tests/renderer/panel/panel_pictures.hpp"
 #include "tests/renderer/test_scene.hpp"
 
-namespace burin {
+namespace burin::renderer {
 namespace {
 
 constexpr ImageSize kPanel{64, 48};
@@ -141,7 +141,7 @@ TEST_F(ScenePanelTest, IsHiddenByWhatStandsNearerAndHidesWhatIsBehind) {
         renderer.show_panel(painter.view());
         Surface plate;
         plate.quad({0, 0.15, 0}, {0.04, 0, 0}, {0, 0.04, 0}, kRed);
-        renderer.set_patch(0, plate.vertices, plate.indices);
+        renderer.surface().set_patch(0, plate.vertices, plate.indices);
         Scene scene = bare_scene();
         scene.show_grid = true;
         scene.bubble = {{0, 0.15, 0.1}, 0.03, {0.2, 0.8, 0.3}, false};
@@ -182,7 +182,7 @@ TEST_F(ScenePanelTest, ItsParallaxFadesTowardsTheScreensEdge) {
     scene.panel = ScenePanel{{{middle, Quat{1, 0, 0, 0}}, {0.12, 0.1}}, 1};
     const auto shown = renderer.render(scene);
     ASSERT_TRUE(shown);
-    const Eyes eyes = eyes_of(scene.viewer);
+    const wall::Eyes eyes = wall::eyes_of(scene.viewer);
     const auto expected_px = [&](const Vec3& eye, double x) {
         const auto seen = [&](const Vec3& from) {
             return 2.0 * point_on_screen(scene.screen, from, {x, middle.y, kZ}).x / scene.wall.width_m - 1.0;
@@ -247,4 +247,4 @@ TEST_F(ScenePanelTest, IsDrawnAnewAloneWhenItsPictureChangesAndNotOtherwise) {
     EXPECT_LT(none->right.pixel(kPlace.x + 60, kPlace.y + 40)[2], 190);
 }
 
-}  // namespace burin
+}  // namespace burin::renderer

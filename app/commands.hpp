@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// The subcommands of burin that are one function each, with their options; one source each. (bench_command.hpp,
+// profile.hpp and wall_commands.hpp have those of several parts.) One thread. Every Error names a file or an option and
+// the remedy; main prints it in one line.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/command_line.hpp"
+#include "base/error.hpp"
+#include "compute/rays/combine.hpp"
+#include "session/state/session_options.hpp"
+
+namespace burin::app {
+
+// burin sculpt: a workpiece, a tool and a stroke in; a carved mesh, pictures and a report out. Writes nothing before
+// all input has been read and all output places have been checked.
+[[nodiscard]] Result<void> sculpt(const session::SculptOptions& options);
+
+// burin convert IN OUT: any mesh format in, STL, PLY or OBJ out; prints the mesh's health.
+struct ConvertOptions {
+    std::string in, out;
+    bool close_holes = false;
+    std::optional<double> simplify_m;  // bound on the surface's motion; none: all triangles
+};
+[[nodiscard]] Result<void> convert(const ConvertOptions& options);
+
+// burin combine A B: makes two closed meshes into one, as solids on a lattice that holds both. Writes nothing before
+// all input has been read and the result is known not to be empty.
+struct CombineOptions {
+    std::string a, b;  // STL, OBJ, PLY, OFF
+    compute::Combination operation = compute::Combination::unite;
+    int resolution = 256;  // cells along the longest side of both together
+    bool close_holes = false;
+    std::vector<std::string> exports;  // STL, PLY, OBJ
+    std::string report;                // a JSON file; empty: none
+    unsigned threads = 0;              // 0: one per core
+};
+[[nodiscard]] Result<void> combine_files(const CombineOptions& options);
+
+// A subcommand of burin bench with options of its own; BenchCommand runs the one that was parsed.
+struct BenchSubcommand {
+    Command command;
+    std::function<Result<void>()> run;
+};
+
+// Add a subcommand and its options to burin bench. The command line must outlive what is returned.
+[[nodiscard]] BenchSubcommand add_bench_frame(Command bench);      // bench/frame/frame.hpp
+[[nodiscard]] BenchSubcommand add_bench_haptics(Command bench);    // bench/haptics/haptics.hpp
+[[nodiscard]] BenchSubcommand add_bench_stability(Command bench);  // bench/stability/stability.hpp
+[[nodiscard]] BenchSubcommand add_bench_workspace(Command bench);  // bench/workspace/workspace.hpp
+
+}  // namespace burin::app

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Figures as SVG text that browsers and rsvg-convert show alike; the same input gives the same text. Three kinds: line
+// plots with logarithmic or linear axes, line plots over time, and dot charts. They share the elements of svg.hpp.
+// Any thread; allocates.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace burin::plot {
+
+// ---- Line plots side by side with one legend (line_figure.cpp)
+
+struct PlotPoint {
+    // Above zero where the axis is logarithmic; other points, and those that are not finite, are left out.
+    double x = 0.0, y = 0.0;
+    std::string label;  // written beside the point; may be empty
+};
+
+struct PlotSeries {
+    std::string name;
+    std::vector<PlotPoint> points;  // joined in this order
+};
+
+struct Plot {
+    std::string title, x_label, y_label;
+    std::vector<PlotSeries> series;  // series of one name in several plots are drawn alike and listed once
+    bool x_linear = false, y_linear = false;
+    bool markers = true;  // false: only a line, for curves of many points
+    // The least range that the y axis shows, so that plots side by side compare; equal values: as the series need.
+    double y_lowest = 0, y_highest = 0;
+};
+
+[[nodiscard]] std::string svg_figure(const std::string& title, const std::vector<Plot>& plots);
+
+// ---- Line plots over time in a grid (time_figure.cpp), for lines of some thousand points; decimate longer ones first
+
+struct TimeSeries {
+    std::string name;
+    std::vector<double> values;  // one for each time; a value that is not finite interrupts the line
+};
+
+struct TimePlot {
+    std::string title, y_label;
+    std::vector<double> times_s;
+    std::vector<TimeSeries> series;
+};
+
+// Draws the plots row by row. Each plot's legend stands in its upper margin.
+[[nodiscard]] std::string time_figure(const std::string& title, const std::vector<TimePlot>& plots,
+                                      std::size_t columns);
+
+// ---- Several measures of the same few subjects (dot_chart.cpp): one panel for each measure, one row for each subject,
+// a dot for the value with a line to its upper quantile, and the number beside it
+
+struct DotValue {
+    double value = 0.0;  // not finite: no value, and the row says so
+    double upper = 0.0;  // end of the line; no line unless above the value
+};
+
+struct DotPanel {
+    std::string title;
+    bool logarithmic = false;      // else from zero; a logarithmic panel has no dot for values that are not above zero
+    int digits = 1;                // decimals of the numbers beside the dots
+    std::vector<DotValue> values;  // one for each row
+};
+
+[[nodiscard]] std::string dot_chart(const std::string& title, const std::vector<std::string>& rows,
+                                    const std::vector<DotPanel>& panels, const std::vector<std::string>& notes);
+
+}  // namespace burin::plot

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "bench/stroke/stroke.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "bench/measure/timing.hpp"
+#include "compute/repair/repair_intersections.hpp"
+#include "renderer/scene/frame_setup.hpp"
+#include "sculpt/sculpt_service.hpp"
+#include "sculpt/workpiece.hpp"
+
+namespace burin::bench {
+namespace {
+
+constexpr std::uint64_t kCheckedRays = 20000;  // an axis
+
+std::vector<compute::ToolSweep> tool_sweeps(const CarveScene& scene) {
+    std::vector<compute::ToolSweep> sweeps;
+    for (const compute::BallSweep& in_scene : scene.sweeps) {
+        const compute::BallSweep sweep = in_object(scene, in_scene);
+        sweeps.push_back({compute::BallTool{sweep.radius_m},
+                          {sweep.start_object_m},
+                          {sweep.end_object_m},
+                          sweep.operation,
+                          sweep.material});
+    }
+    return sweeps;
+}
+
+double radius_of(const compute::ToolSweep& sweep) { return std::get<compute::BallTool>(sweep.shape).radius_m; }
+
+// Makes a sculpture of the scene's uncut solid.
+Result<std::unique_ptr<sculpt::Sculpture>> start(const compute::Solid& uncut, const StrokeOptions& options,
+                                                 WorkerPool& pool, StrokeRun& run) {
+    const auto choice = options.on_vulkan ? sculpt::EngineChoice::vulkan : sculpt::EngineChoice::cpu;
+    Result<sculpt::ChosenEngine> chosen = sculpt::choose_engine(choice, uncut, pool);
+    if (!chosen) return std::unexpected(chosen.error());
+    run.engine = chosen->engine->name();
+    run.device = options.on_vulkan ? chosen->device : "native";
+    run.software_device = chosen->software_device;
+    return std::make_unique<sculpt::Sculpture>(std::move(chosen->engine), pool);
+}
+
+struct Carved {
+    UpdateTimes times;
+    std::vector<double> publish_ms;  // local_surface() alone, with the waiting for a device
+    std::uint64_t triangles_published = 0;
+    std::size_t tiles_lit = 0;
+};
+
+// Carries out an update for each sweep, in the steps of SculptService::update. Ending a stroke and baking light do
+// nothing where there is no history and no light.
+Result<Carved> carve(sculpt::Sculpture& sculpture, std::span<const compute::ToolSweep> sweeps) {
+    const auto published = std::make_unique<geometry::LocalSurface>();
+    const auto publish = [&](const compute::ToolSweep& sweep) {
+        return sculpture.local_surface(sweep.end.position_m, kPublishedRadii * radius_of(sweep), *published);
+    };
+    // A session publishes once before its first update; a device then knows which triangles will be asked for.
+    if (!sweeps.empty()) {
+        if (const auto done = publish(sweeps.front()); !done) return std::unexpected(done.error());
+    }
+    Carved carved;
+    for (std::size_t i = 0; i < sweeps.size(); ++i) {
+        const double cpu_before_ms = process_cpu_ms();
+        Stopwatch watch;
+        Result<void> done = sculpture.update({&sweeps[i], 1});
+        if (done && (i + 1) % kUpdatesAStroke == 0) sculpture.end_stroke();
+        const double carved_ms = watch.lap_ms();
+        if (done) done = publish(sweeps[i]);
+        if (!done) return std::unexpected(done.error());
+        carved.publish_ms.push_back(watch.lap_ms());
+        carved.tiles_lit += sculpture.bake_light(sweeps[i].end.position_m, sculpt::SculptService::kLitWorking);
+        carved.times.update_ms.push_back(carved_ms + carved.publish_ms.back() + watch.lap_ms());
+        carved.times.cpu_ms.push_back(process_cpu_ms() - cpu_before_ms);
+        carved.triangles_published += published->triangles();
+    }
+    return carved;
+}
+
+// Divides each update into its parts. Publishing is what local_surface() took, without the device's cutting and meshing
+// that it waited for; what is left besides the cut counts as surface.
+void take_figures(const sculpt::Sculpture& sculpture, Carved carved, StrokeRun& run) {
+    const sculpt::SculptFigures& figures = sculpture.figures();
+    run.update_ms = std::move(carved.times.update_ms);
+    run.cpu_ms = std::move(carved.times.cpu_ms);
+    if (figures.carve_ms.size() == run.update_ms.size()) {
+        run.carve_ms = figures.carve_ms;
+        for (std::size_t i = 0; i < run.update_ms.size(); ++i) {
+            const double uncut_ms = run.update_ms[i] - run.carve_ms[i];
+            run.publish_ms.push_back(std::min(carved.publish_ms[i], uncut_ms - figures.mesh_ms[i]));
+            run.mesh_ms.push_back(uncut_ms - run.publish_ms[i]);
+        }
+    }
+    run.triangles_published = carved.triangles_published;
+    run.rays_touched = figures.rays_touched;
+    run.rays_changed = figures.rays_changed;
+    run.cells_remeshed = figures.cells_remeshed;
+    run.triangles_remeshed = figures.triangles_remeshed;
+}
+
+// Examines the carved solid and its mesh, welded and repaired as for export.
+void check(const sculpt::Sculpture& sculpture, const CarveScene& scene, const compute::Solid& uncut, WorkerPool& pool,
+           StrokeRun& run) {
+    const compute::Solid& solid = sculpture.engine().solid();
+    run.rays_held = solid.rays_held();
+    run.bytes = solid.bytes();
+    run.disagreeing_edges = sculpture.surface().disagreeing_edges();
+    run.intervals = check_intervals(solid, scene, kCheckedRays, 1, scene.is_of_cube() ? nullptr : &uncut);
+    run.mesh = sculpture.surface().welded();
+    const compute::RepairReport repair = compute::repair_intersections(run.mesh, sculpture.surface(), solid, pool);
+    run.self_intersections_mended = repair.found - repair.left;
+}
+
+Result<void> run_plain(const CarveScene& scene, const compute::Solid& uncut, std::span<const compute::ToolSweep> sweeps,
+                       const StrokeOptions& options, WorkerPool& pool, StrokeRun& run) {
+    const auto sculpture = start(uncut, options, pool, run);
+    if (!sculpture) return std::unexpected(sculpture.error());
+    run.first_mesh_ms = (*sculpture)->first_mesh_ms();
+    if (options.on_vulkan) {
+        Stopwatch watch;
+        if (const auto ready = (*sculpture)->mesh_on_device(); !ready) return ready;
+        run.first_mesh_ms = watch.lap_ms();
+    }
+    Result<Carved> carved = carve(**sculpture, sweeps);
+    if (!carved) return std::unexpected(carved.error());
+    if (const auto read = (*sculpture)->read_back(); !read) return read;
+    take_figures(**sculpture, std::move(*carved), run);
+    check(**sculpture, scene, uncut, pool, run);
+    return {};
+}
+
+}  // namespace
+
+Result<StrokeRun> run_stroke(const CarveScene& scene, const StrokeOptions& options) {
+    WorkerPool pool(options.threads);
+    const Result<compute::Solid> uncut = uncut_solid(scene, options.resolution, pool);
+    if (!uncut) return std::unexpected(uncut.error());
+    StrokeRun run;
+    run.threads = pool.threads();
+    run.resolution = options.resolution;
+    run.cell_m = uncut->lattice.spacing_m;
+    const std::vector<compute::ToolSweep> sweeps = tool_sweeps(scene);
+    if (const auto done = run_plain(scene, *uncut, sweeps, options, pool, run); !done) {
+        return std::unexpected(done.error());
+    }
+    if (options.with_undo) {
+        const auto sculpture = start(*uncut, options, pool, run);
+        if (!sculpture) return std::unexpected(sculpture.error());
+        (*sculpture)->keep_history(compute::History::kDefaultBudget_bytes);
+        Result<Carved> carved = carve(**sculpture, sweeps);
+        if (!carved) return std::unexpected(carved.error());
+        run.with_undo = std::move(carved->times);
+        run.strokes_kept = (*sculpture)->history()->undoable();
+    }
+    if (options.with_light) {
+        const auto sculpture = start(*uncut, options, pool, run);
+        if (!sculpture) return std::unexpected(sculpture.error());
+        const compute::Lamp lamp{renderer::direction_to_light(), renderer::kLightHalfAngleTangent};
+        if (const auto kept = (*sculpture)->keep_light(lamp); !kept) return std::unexpected(kept.error());
+        Result<Carved> carved = carve(**sculpture, sweeps);
+        if (!carved) return std::unexpected(carved.error());
+        run.with_light = std::move(carved->times);
+        run.tiles_lit = carved->tiles_lit;
+    }
+    return run;
+}
+
+}  // namespace burin::bench

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The registry of all force-feedback devices that there are. To add one, write its source beside simulated_omni.cpp and
+// enter it in the table of device_registry.cpp: the help of --device and its parsing read that table.
+// Thread: the one that opens the session.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/clock.hpp"
+#include "base/error.hpp"
+#include "devices/haptic/haptic_device.hpp"
+#include "devices/haptic/simulated_omni.hpp"
+
+namespace burin::devices {
+
+// What a device needs of the program. The clock must outlive the device.
+struct HapticHost {
+    Clock& clock;
+    OmniHand hand;  // what holds the stylus of a simulated device; others have a hand of their own
+};
+
+struct HapticKind {
+    std::string_view name;   // as --device spells it
+    std::string_view usage;  // what it is, for the help
+    Result<std::unique_ptr<HapticDevice>> (*open)(HapticHost host);
+};
+[[nodiscard]] std::span<const HapticKind> haptic_kinds();
+
+inline constexpr const char* kDefaultHapticDevice = "simulated";
+
+// Opens the device of that name. An Error names the kinds that there are, or says why the device cannot be used.
+[[nodiscard]] Result<std::unique_ptr<HapticDevice>> open_haptic_device(std::string_view name, HapticHost host);
+
+// Returns all names with what they are, for the help of --device.
+[[nodiscard]] std::string haptic_usage();
+
+}  // namespace burin::devices

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// What a tracker is: a source of poses of a head and of wands, with the wands' buttons and sticks, as plain data; and
+// the registry of all trackers that there are. To add one, write its source beside udp_tracker.cpp and enter it in the
+// table of tracker_registry.cpp: the help of --tracker and its parsing read that table.
+//
+// Frame: world, metres (base/space.hpp). Times: arrival, on the process's one clock.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "base/clock.hpp"
+#include "base/error.hpp"
+#include "base/space.hpp"
+
+namespace burin::devices {
+
+// Head pose; tracked false: the tracker has lost it, and the pose is the last one known.
+struct HeadInput {
+    Pose pose_world;
+    bool tracked = true;
+    friend bool operator==(const HeadInput&, const HeadInput&) = default;
+};
+struct WandInput {
+    std::uint32_t wand = 0;
+    Pose pose_world;
+    bool tracked = true;
+    friend bool operator==(const WandInput&, const WandInput&) = default;
+};
+struct WandClick {
+    std::uint32_t wand = 0, button = 0;
+    bool pressed = true;
+    friend bool operator==(const WandClick&, const WandClick&) = default;
+};
+// Stick of a wand: -1 to 1 each, x to the right, y forwards.
+struct WandStick {
+    std::uint32_t wand = 0;
+    Vec2 position{0.0};
+    friend bool operator==(const WandStick&, const WandStick&) = default;
+};
+
+using TrackerInput = std::variant<HeadInput, WandInput, WandClick, WandStick>;
+
+struct TrackerSample {
+    Nanoseconds time_ns = 0;
+    TrackerInput input;
+};
+
+// The samples that nobody has taken yet, at most kMost of them. When it is full, the oldest pose or stick makes room,
+// since a newer one of its kind replaces it and a head's prediction wants the newest; a press or release, which nothing
+// replaces, only where there is nothing else. One thread at a time.
+class TrackerQueue {
+public:
+    static constexpr std::size_t kMost = 4096;  // seconds of a fast tracker
+
+    // Returns false when an older sample was dropped for this one.
+    bool push(TrackerSample sample);
+    [[nodiscard]] std::vector<TrackerSample> take();  // in order of arrival
+
+private:
+    std::deque<TrackerSample> samples_;
+};
+
+// Threads: all functions from one thread; a tracker listens on threads of its own.
+class Tracker {
+public:
+    virtual ~Tracker() = default;
+    [[nodiscard]] virtual std::vector<TrackerSample> take() = 0;         // since the last call, in order of arrival
+    [[nodiscard]] virtual std::vector<std::string> take_messages() = 0;  // for the user
+    [[nodiscard]] virtual std::uint64_t refused() const = 0;             // samples dropped so far
+};
+
+// What a tracker needs of the program. The clock must outlive the tracker.
+struct TrackerHost {
+    Clock& clock;
+    std::function<void()> on_sample;  // called on the tracker's threads after each arrival; must not block
+    // Reads a line of text for trackers that send such; nothing for an empty line or a comment. Called on the tracker's
+    // threads.
+    std::function<Result<std::optional<TrackerInput>>(std::string_view line)> parse_line;
+};
+
+struct TrackerKind {
+    std::string_view scheme;  // what --tracker begins with, before a colon
+    std::string_view usage;   // how to write the rest, for help and messages
+    Result<std::unique_ptr<Tracker>> (*open)(const std::string& where, TrackerHost host);
+};
+[[nodiscard]] std::span<const TrackerKind> tracker_kinds();
+
+// Opens the tracker that `where` names, "udp:5005". An Error names the kinds that there are.
+[[nodiscard]] Result<std::unique_ptr<Tracker>> open_tracker(const std::string& where, TrackerHost host);
+
+// Returns the usage of all kinds, for the help of --tracker.
+[[nodiscard]] std::string tracker_usage();
+
+}  // namespace burin::devices

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "base/text.hpp"
+#include "devices/trackers/tracker.hpp"
+#include "devices/trackers/udp_tracker.hpp"
+
+namespace burin::devices {
+namespace {
+
+constexpr std::array kKinds{
+    TrackerKind{"udp", "udp:PORT, or udp:ADDRESS:PORT for other machines", open_udp_tracker},
+};
+
+bool is_pose_or_stick(const TrackerSample& sample) { return !std::holds_alternative<WandClick>(sample.input); }
+
+}  // namespace
+
+bool TrackerQueue::push(TrackerSample sample) {
+    const bool full = samples_.size() >= kMost;
+    if (full) {
+        const auto replaced = std::ranges::find_if(samples_, is_pose_or_stick);
+        samples_.erase(replaced != samples_.end() ? replaced : samples_.begin());
+    }
+    samples_.push_back(std::move(sample));
+    return !full;
+}
+
+std::vector<TrackerSample> TrackerQueue::take() {
+    std::vector<TrackerSample> taken(std::make_move_iterator(samples_.begin()),
+                                     std::make_move_iterator(samples_.end()));
+    samples_.clear();
+    return taken;
+}
+
+std::span<const TrackerKind> tracker_kinds() { return kKinds; }
+
+std::string tracker_usage() {
+    std::string text;
+    for (const TrackerKind& kind : kKinds) text += (text.empty() ? "" : "; ") + std::string(kind.usage);
+    return text;
+}
+
+Result<std::unique_ptr<Tracker>> open_tracker(const std::string& where, TrackerHost host) {
+    const std::string_view scheme = std::string_view(where).substr(0, where.find(':'));
+    const auto kind = std::ranges::find(kKinds, scheme, &TrackerKind::scheme);
+    if (kind != kKinds.end() && scheme.size() < where.size()) return kind->open(where, std::move(host));
+    return fail("tracker " + where, "is no tracker that Burin knows", "write " + tracker_usage());
+}
+
+}  // namespace burin::devices

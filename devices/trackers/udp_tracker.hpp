@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Receives trackers of any make over the network: datagrams of text, a sample a line, such as "head 0 1.6 2 0 0 0 1"
+// (docs/formats.md). A few lines of script bridge VRPN, OptiTrack or a phone to it.
+//
+// Each sample is stamped on arrival, on a thread that does nothing else, so that the head's prediction does not take
+// the frame's delay for the tracker's. Lines that cannot be parsed are dropped, counted, and reported at most once a
+// second.
+// Threads: as Tracker has it; the host's functions are called on the port's own thread.
+#pragma once
+
+#include <mutex>
+#include <thread>
+
+#include "devices/trackers/tracker.hpp"
+
+namespace burin::devices {
+
+class UdpTracker final : public Tracker {
+public:
+    // Opens a port. where: "udp:PORT" accepts this machine alone; "udp:ADDRESS:PORT" accepts whoever reaches that
+    // address of this machine. PORT 0: any free one.
+    [[nodiscard]] static Result<std::unique_ptr<UdpTracker>> open(const std::string& where, TrackerHost host);
+    ~UdpTracker() override;
+    UdpTracker(const UdpTracker&) = delete;
+    UdpTracker& operator=(const UdpTracker&) = delete;
+
+    [[nodiscard]] std::vector<TrackerSample> take() override;
+    [[nodiscard]] std::vector<std::string> take_messages() override;
+    [[nodiscard]] std::uint64_t refused() const override;
+    [[nodiscard]] std::uint16_t port() const { return port_; }
+
+private:
+    explicit UdpTracker(TrackerHost host) : host_(std::move(host)) {}
+    [[nodiscard]] Result<void> bind_to(const std::string& where);
+    void listen();
+    void receive(std::string_view datagram, Nanoseconds now_ns);
+    void refuse(const std::string& why, Nanoseconds now_ns);
+
+    TrackerHost host_;
+    int socket_ = -1, stop_ = -1;
+    std::uint16_t port_ = 0;
+    mutable std::mutex mutex_;  // guards what follows
+    TrackerQueue queue_;
+    std::vector<std::string> messages_;
+    std::uint64_t refused_ = 0;
+    std::optional<Nanoseconds> last_message_ns_;
+    std::thread thread_;
+};
+
+// UdpTracker::open() for the registry.
+[[nodiscard]] Result<std::unique_ptr<Tracker>> open_udp_tracker(const std::string& where, TrackerHost host);
+
+}  // namespace burin::devices

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "haptics/channels.hpp"
+
+namespace burin::haptics {
+
+StrokeSample stroke_of(const TickRecord& record) noexcept {
+    const PointRecord& first = record.contact.points[0];
+    StrokeSample stroke;
+    stroke.tick = record.tick;
+    stroke.time_ns = record.time_ns;
+    stroke.position_object_m = first.hip_object_m;
+    stroke.cut_object_m = record.contact.cut_object_m;
+    stroke.proxy_object_m = first.proxy_object_m;
+    stroke.orientation_object = record.motion.orientation_object;
+    stroke.force_object_N = record.motion.object_from_device.orientation * record.gate.given.force_device_N;
+    stroke.buttons = record.sample.buttons;
+    stroke.flags = record.flags;
+    stroke.surface_sequence = record.surface_sequence;
+    stroke.parameter_sequence = record.parameter_sequence;
+    stroke.phase = record.motion.workspace.phase;
+    return stroke;
+}
+
+ToolState tool_of(const TickRecord& record, std::uint64_t late_ticks, std::uint64_t dropped_samples) noexcept {
+    const ContactRecord& contact = record.contact;
+    const PointRecord& deepest = record.deepest();
+    ToolState tool;
+    tool.tick = record.tick;
+    tool.time_ns = record.time_ns;
+    tool.hip_object_m = deepest.hip_object_m;
+    tool.proxy_object_m = deepest.proxy_object_m;
+    tool.contact_normal_object = deepest.normal_object;
+    tool.orientation_object = record.motion.orientation_object;
+    tool.position_device_m = record.sample.position_device_m;
+    tool.given = record.gate.given;
+    tool.point_count = contact.point_count;
+    for (std::uint32_t i = 0; i < tool.point_count; ++i) tool.proxies_object_m[i] = contact.points[i].proxy_object_m;
+    tool.workspace = record.motion.workspace;
+    tool.stiffness_bound = contact.stiffness_bound;
+    tool.buttons = record.sample.buttons;
+    tool.flags = record.flags;
+    tool.cause = record.gate.cause;
+    tool.late_ticks = late_ticks;
+    tool.dropped_samples = dropped_samples;
+    return tool;
+}
+
+}  // namespace burin::haptics

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// The wall that the device renders for a material: through the virtual coupling (first part), and no stiffer than what
+// it renders passively (second part).
+//
+// Virtual coupling (Colgate, Stanley and Brown 1995; Adams and Hannaford 1999): a spring and a damper between the hand
+// and the virtual tool, so that whatever the world renders, the device never feels more stiffness than the coupling's.
+//
+// The virtual tool has no mass: it is where the wall (k, b) and the coupling (Kc, Bc) balance,
+//   k p + b p' = Kc (x - p) + Bc (x' - p').
+// For the hand that is F(s) / x(s) = (k + b s)(Kc + Bc s) / (k + Kc + (b + Bc) s), whose first two terms in s are
+//   stiffness k Kc / (k + Kc),   damping b (Kc / (k + Kc))^2 + Bc (k / (k + Kc))^2.
+// These are rendered. They match the tool's motion up to about (k + Kc) / (b + Bc), some hundred rad/s or more for any
+// wall that can be felt; above it the tool would follow the dampers' ratio instead, which one spring and one damper
+// cannot render.
+//
+// The greatest stiffness of a wall on a device for which the sampled spring gives out no more energy than the device
+// dissipates.
+//
+// The promise: as long as the tool moves no faster in the wall than the contact speed V it is meant for, at every
+// moment
+//
+//   work of the wall on hand and device since contact began  <=  energy dissipated by friction and damping since then
+//
+// (with virtual damping: since a velocity window before it, for a damper remembers the approach), so only the hand puts
+// energy in. It holds for every motion, every hand and every mass; tests/haptics/passivity_prop.cpp tries it on random
+// ones. It is for one point: the stiffnesses of points that touch at once add up.
+//
+// Derivation. A spring of stiffness K whose force is sampled every T and held, and acts t_d (in whole periods) and a
+// filter's mean lag t_f late, lags its own potential K x^2 / 2 by at most
+//     K (T/2 + t_d + t_f) v^2 dt  +  K D/2 |v| dt
+// in a time dt at speed v, D the encoder's step, rounded to nearest. (Write x(t) - x(t - tau) as an integral, bound the
+// product of two speeds by half the sum of their squares, and sum the lags over a period. A filter is a mixture of
+// delays; clamps and the one-sided wall only reduce the spring's slope; so neither changes this.) The device dissipates
+// b v^2 dt + c |v| dt. A damper whose speed is an average of differences gives out at most B (V + D/T) |v| dt.
+// All is linear in |v|, so it needs to hold at rest and at V only:
+//     rest       K D/2                                + B (V + D/T)  <=  c
+//     speed      K ((T/2 + t_d + t_f) V + D/2)        + B (V + D/T)  <=  c + b V
+// or, at any speed at all, by damping alone, 2.2 being the worst case for adaptive windows of up to 16 periods (1 for a
+// plain difference, which is Colgate and Schenkel's b > K T/2 + |B|; with delay Diolaiti, Niemeyer, Barbagli and
+// Salisbury 2006 and Hulin, Albu-Schaeffer and Hirzinger 2013):
+//     rest       K D/2                                + B D/T        <=  c      where c is known
+//     speed      K (T/2 + t_d + t_f)                  + 2.2 B        <=  b
+// Either pair is enough. The rest lines without B are Abbott and Okamura's K <= 2 c / D (2005); the friction's part at
+// a speed is Diolaiti's c / v. An unknown figure of a device is 0 and counts as no dissipation; where neither friction
+// nor damping is known, only the maker's stiffness limit applies.
+//
+// Virtual damping is reduced before stiffness: people tell walls apart by their stiffness. Pure; no clock, heap, lock
+// or throw.
+#pragma once
+
+#include <cstdint>
+
+#include "devices/haptic/haptic_device.hpp"
+
+namespace burin::haptics {
+
+// ---- Virtual coupling
+
+struct CouplingSettings {
+    double stiffness_N_per_m = 0.0;  // Kc; 0: no coupling, the hand is the tool
+    double damping_Ns_per_m = 0.0;   // Bc
+};
+
+struct CoupledWall {
+    double stiffness_N_per_m = 0.0;
+    double damping_Ns_per_m = 0.0;
+};
+
+// The wall as the device feels it through the coupling.
+[[nodiscard]] CoupledWall through(const CouplingSettings& coupling, const CoupledWall& wall) noexcept;
+
+// ---- Stiffness limit
+
+// The tightest bound; shown as the reason for a limit.
+enum class StiffnessBound : std::uint8_t {
+    none,  // the desired stiffness and damping are within all bounds
+    // Damping and friction of the device against sampling and delay, at the contact speed it is meant for.
+    sampling,
+    quantisation,  // Coulomb friction against the encoder's step: K <= 2 f_c / D
+    device,        // the limit that the device's maker gives
+    // The stiffness is kept; the desired virtual damping is more than the device can compensate.
+    damping,
+};
+
+struct StiffnessLimit {
+    double stiffness_N_per_m = 0.0;  // the desired stiffness, or the greatest that is allowed
+    double damping_Ns_per_m = 0.0;   // likewise
+    StiffnessBound bound = StiffnessBound::none;
+};
+
+struct ContactDemand {
+    double stiffness_N_per_m = 0.0;
+    double damping_Ns_per_m = 0.0;
+    // The fastest motion in the wall for which passivity is promised. A deliberate tap arrives at 0.1 m/s; this is half
+    // as much again, and the most at which the Omni renders the default material (600 N/m, 0.5 Ns/m) in full. Beyond it
+    // the passivity controller removes the excess energy (haptics/stability/passivity.hpp).
+    double contact_speed_m_per_s = 0.15;
+    double filter_lag_s = 0.0;  // mean lag of a filter on the force; counts as delay
+    double period_s = 0.0;      // of the loop; 0: the device's own rate
+};
+
+// Limits the desired stiffness and damping. Requires a finite, non-negative demand.
+[[nodiscard]] StiffnessLimit limited(const ContactDemand& wanted, const devices::DeviceDescription& device) noexcept;
+
+// A sentence for people; static storage.
+[[nodiscard]] const char* text(StiffnessBound bound) noexcept;
+
+}  // namespace burin::haptics

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Computes which parts of the picture must be redrawn, given the scene that it shows and the scene that it shall show.
+//
+// Where eyes, screen and room have not changed, only what moved, changed, appeared or vanished is redrawn: the tool
+// with its ring, its shadow and the light it occludes, where these fall on something, up to a stated distance
+// (shaders/shared/frame_uniforms.h); the marks of its contact, the workspace's boxes, the standing panel, and patches
+// of the surface. Each has a rectangle around it in both eyes' views. Pixels outside of these would come out the same.
+// Pure functions; any thread.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/image.hpp"
+#include "renderer/scene/frame_setup.hpp"
+
+namespace burin::renderer {
+
+// The inputs that a picture was drawn from, except the patches.
+struct Shown {
+    Scene scene;
+    Workpiece workpiece;
+    DepthRange depth;
+    std::uint64_t panel_pictures = 0;  // how many pictures the renderer was given for the standing panel
+};
+
+// Returns a rectangle around all that either eye may see of the given boxes and of what lies between them; the whole
+// picture where they come too near to an eye.
+[[nodiscard]] PixelRect seen_part(const Scene& scene, ImageSize size, std::span<const Box> boxes_world);
+
+// Returns whether the two differ at most in what can be redrawn in part. If not, the whole picture must be redrawn.
+[[nodiscard]] bool same_room(const Shown& shown, const Shown& wanted);
+// Returns the damaged rectangles, given that same_room() holds; some may be empty. changed: boxes around changed
+// patches and parts of patches, in the patches' frame, including patches that look different because the tool moved
+// (changed_near_tool in surface/patch_choice.hpp).
+[[nodiscard]] std::vector<PixelRect> changed_rects(const Shown& shown, const Shown& wanted, ImageSize size,
+                                                   std::span<const Box> changed);
+
+}  // namespace burin::renderer

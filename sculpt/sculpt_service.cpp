@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "sculpt/sculpt_service.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "compute/tools/tool_spans.hpp"
+#include "geometry/files/mesh_export.hpp"
+
+namespace burin::sculpt {
+namespace {
+
+// The local surface holds the tool's own ball and what the tick looks at to see how deep it lies
+// (haptics/forces/engagement.hpp): so many radii.
+constexpr double kSurroundings = 1.6;
+
+// Finishes and writes the mesh on a worker of its own, so that carving keeps its pool; returns the message for the
+// user.
+std::string export_surface(const compute::Surface& surface, const compute::Solid& solid, const std::string& path) {
+    WorkerPool alone(1);
+    const Result<FinishedMesh> finished = finish_mesh(surface, solid, std::nullopt, alone);
+    if (!finished) return finished.error().line();
+    if (finished->mesh.triangles.empty()) return path + ": there is nothing left to export; undo some strokes";
+    if (const auto written = geometry::export_mesh(finished->mesh, path); !written) return written.error().line();
+    return "exported " + std::to_string(finished->mesh.triangles.size()) + " triangles to " + path;
+}
+
+}  // namespace
+
+SculptService::SculptService(Sculpture& sculpture, haptics::HapticChannels& channels, const Tool& tool,
+                             double hardness_Ns_per_m3, double reach_m, std::optional<std::size_t> undo_bytes)
+    : sculpture_(sculpture),
+      channels_(channels),
+      reader_(channels, tool, hardness_Ns_per_m3, sculpture.surface().lattice().spacing_m),
+      reach_m_(reach_m),
+      keeps_history_(undo_bytes.has_value()) {
+    if (undo_bytes) sculpture_.keep_history(*undo_bytes);
+}
+
+SculptService::~SculptService() { finish_export(); }
+
+// ---- Updates
+
+Result<void> SculptService::update(Nanoseconds now_ns, const UpdateSeen* recorded) {
+    seen_ = recorded != nullptr ? *recorded : UpdateSeen{.time_ns = now_ns, .export_ended = export_is_done()};
+    if (seen_.export_ended) finish_export();
+    SweptSamples swept;
+    do {
+        swept = reader_.read(recorded != nullptr ? recorded->last_tick : UINT64_MAX);
+        if (!swept.sweeps.empty()) {
+            if (const auto updated = sculpture_.update(swept.sweeps); !updated) return updated;
+        }
+        if (swept.stroke_ended) sculpture_.end_stroke();
+    } while (swept.stroke_ended);
+    seen_.last_tick = reader_.last_tick();
+    if (const auto published = publish(now_ns); !published) return published;
+    if (stroke_open_ && !reader_.pressed()) status_changed_ = true;
+    stroke_open_ = reader_.pressed();
+    sculpture_.bake_light(reader_.tool_position_object(), stroke_open_ ? kLitWorking : kLitResting);
+    if (keeps_history_) {
+        for (const std::string& notice : sculpture_.history()->take_notices()) notify(notice);
+    }
+    return {};
+}
+
+Result<void> SculptService::publish(Nanoseconds now_ns) {
+    geometry::LocalSurface& surface = channels_.surface.draft();
+    const double radius_m = kSurroundings * reader_.tool().ball_radius_m() + reach_m_;
+    if (const auto done = sculpture_.local_surface(reader_.tool_position_object(), radius_m, surface); !done) {
+        return done;
+    }
+    surface.sequence = ++sequence_;
+    surface.made_ns = now_ns;
+    channels_.surface.publish();
+    return {};
+}
+
+std::optional<SurfaceUpdate> SculptService::take_surface_update() {
+    SurfaceUpdate update;
+    const compute::SurfaceLight* light = sculpture_.light();
+    for (const std::uint32_t tile : sculpture_.take_changed_tiles()) {
+        update.tiles.push_back(
+            {tile, sculpture_.surface().shared_tile(tile), light != nullptr ? light->shared_light(tile) : nullptr});
+    }
+    if (light != nullptr) update.inner_boxes_object = light->inner_boxes_object();
+    if (update.tiles.empty() && messages_.empty() && !status_changed_) return std::nullopt;
+    status_changed_ = false;
+    update.cut_ns = reader_.last_worked_ns();
+    if (const compute::History* history = sculpture_.history()) {
+        update.undoable = history->undoable();
+        update.redoable = history->redoable();
+    }
+    update.exporting = export_.valid();
+    update.messages = std::exchange(messages_, {});
+    return update;
+}
+
+// ---- Orders
+
+void SculptService::order(const SculptOrder& order) {
+    std::visit([this](const auto& one) { carry_out(one); }, order);
+    status_changed_ = true;
+}
+
+void SculptService::carry_out(const UseTool& use) {
+    const Result<std::uint8_t> material = sculpture_.add_material(use.material);
+    if (!material) return notify(material.error().line());
+    Tool tool = use.tool;
+    tool.material = *material;
+    if (const auto ok = compute::check_sweep(sculpture_.engine().solid(), tool.sweep(Pose{}, Pose{})); !ok) {
+        return notify(ok.error().line());
+    }
+    reader_.use_tool(tool, use.hardness_Ns_per_m3);
+}
+
+void SculptService::carry_out(const UndoStroke&) {
+    sculpture_.end_stroke();
+    const Result<std::size_t> undone = sculpture_.undo(1);
+    if (!undone) return notify(undone.error().line());
+    if (*undone == 0) notify("there is no stroke to undo");
+}
+
+void SculptService::carry_out(const RedoStroke&) {
+    const Result<std::size_t> redone = sculpture_.redo(1);
+    if (!redone) return notify(redone.error().line());
+    if (*redone == 0) notify("there is no stroke to redo");
+}
+
+// Copies the surface and the rays: tiles are shared, so the rays are the only large part of the copy.
+void SculptService::carry_out(const ExportSurface& wanted) {
+    if (export_.valid()) return notify("an export is under way; wait for it to end");
+    sculpture_.end_stroke();
+    if (const auto read = sculpture_.read_back(); !read) return notify(read.error().line());
+    export_ = std::async(std::launch::async, [surface = sculpture_.surface(), solid = sculpture_.engine().solid(),
+                                              path = wanted.path] { return export_surface(surface, solid, path); });
+}
+
+void SculptService::carry_out(const LightFrom& from) {
+    if (const auto kept = sculpture_.keep_light(from.lamp_object); !kept) notify(kept.error().line());
+}
+
+void SculptService::notify(std::string message) { messages_.push_back(std::move(message)); }
+
+bool SculptService::export_is_done() const {
+    return export_.valid() && export_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+void SculptService::finish_export() {
+    if (!export_.valid()) return;
+    notify(export_.get());
+    status_changed_ = true;
+}
+
+}  // namespace burin::sculpt

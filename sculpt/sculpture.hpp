@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// The solid that is carved, with its surface and, where asked for, its light and its undo history.
+//
+// Data flow of an update: sweeps of the tool -> the engine changes rays -> the surface's cells around the changed rays
+// are meshed anew -> the history keeps what the rays held -> the light follows. With mesh_on_device() the device of a
+// Vulkan engine carves and meshes instead, in one submission that nobody waits for before the next update.
+// Frame: object, metres. Thread: one; the pool's threads work only within a call.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "compute/light/surface_light.hpp"
+#include "compute/mesher/surface.hpp"
+#include "compute/rays/history.hpp"
+#include "compute/tools/apply.hpp"
+#include "compute/vulkan/device_surface.hpp"
+
+namespace burin::sculpt {
+
+// Work done and time taken since the sculpture was made. The counts are summed over the updates.
+struct SculptFigures {
+    std::uint64_t updates = 0;
+    std::uint64_t sweeps = 0;
+    std::uint64_t rays_touched = 0;
+    std::uint64_t rays_changed = 0;
+    std::uint64_t tiles_remeshed = 0;
+    std::uint64_t cells_remeshed = 0;
+    std::uint64_t triangles_remeshed = 0;  // of whole tiles
+    // Wall time of each update. While the device meshes, an update waits for the one before it and not for itself.
+    std::vector<double> update_ms;
+    // Parts of each update's time: changing the rays, and meshing. The rest is history and light. While the device
+    // meshes these are the device's own times, known once the update has finished; empty where it cannot measure them.
+    std::vector<double> carve_ms, mesh_ms;
+};
+
+class Sculpture {
+public:
+    // Meshes the whole solid. The pool must outlive the object.
+    Sculpture(std::unique_ptr<compute::CarvingEngine> engine, WorkerPool& pool);
+
+    // Carries out the sweeps in order and brings the surface, the history and the light's bookkeeping up to date. Fails
+    // on an invalid sweep, and then changes nothing, or when the engine does (compute/tools/apply.hpp).
+    [[nodiscard]] Result<void> update(std::span<const compute::ToolSweep> sweeps);
+    // Sets `out` to the surface within a ball, ready for contact; leaves its sequence and time as they are.
+    [[nodiscard]] Result<void> local_surface(const Vec3& center_object, double radius_m, geometry::LocalSurface& out);
+
+    // Lets the device of a Vulkan engine mesh as well, from the next update on. Only what local_surface() asks for
+    // comes back; surface() and engine().solid() are those of the last read_back(). Has no effect with another engine,
+    // on a device that cannot mesh, or with a history, which needs the rays of each update at once. Ends, with a
+    // read_back(), at the first sweep of a tool other than a cutting, filling or painting ball.
+    [[nodiscard]] Result<void> mesh_on_device();
+    // Brings the host's solid and surface up to date with the device's.
+    [[nodiscard]] Result<void> read_back();
+
+    // Keeps what each stroke changes, so that it can be undone, from the next update on. Costs time and memory.
+    void keep_history(std::size_t budget_bytes) { history_.emplace(budget_bytes); }
+    // Makes one stroke of the updates since the last call.
+    void end_stroke() {
+        if (history_) history_->end_stroke();
+    }
+    // Undoes or repeats up to `strokes` strokes, the last first; returns how many there were.
+    [[nodiscard]] Result<std::size_t> undo(std::size_t strokes);
+    [[nodiscard]] Result<std::size_t> redo(std::size_t strokes);
+    // Returns null without keep_history().
+    [[nodiscard]] compute::History* history() { return history_ ? &*history_ : nullptr; }
+
+    // Keeps the light on the surface up to date, for pictures, or moves the lamp of a light that is kept. Without it
+    // carving does no work for the light.
+    [[nodiscard]] Result<void> keep_light(const compute::Lamp& lamp_object);
+    void drop_light() { light_.reset(); }
+    // Returns null without keep_light(). Not to be called while the device meshes: read_back() first.
+    [[nodiscard]] const compute::SurfaceLight* light() const { return light_ ? &*light_ : nullptr; }
+    // Bakes up to `most_tiles` of the tiles whose light has to be computed anew, those near `near_object` first;
+    // returns how many it baked.
+    std::size_t bake_light(const Vec3& near_object, std::size_t most_tiles);
+
+    [[nodiscard]] Result<std::uint8_t> add_material(const geometry::Material& material) {
+        return engine_->add_material(material);
+    }
+    [[nodiscard]] const compute::CarvingEngine& engine() const { return *engine_; }
+    [[nodiscard]] const compute::Surface& surface() const { return surface_; }
+    [[nodiscard]] const SculptFigures& figures() const { return figures_; }
+    [[nodiscard]] double initial_volume_m3() const { return initial_volume_m3_; }
+    [[nodiscard]] double first_mesh_ms() const { return first_mesh_ms_; }  // of the whole solid, on the host
+    // Returns the tiles with a new mesh or new light since the last call, in increasing order.
+    [[nodiscard]] std::vector<std::uint32_t> take_changed_tiles();
+
+private:
+    using HistoryStep = Result<bool> (compute::History::*)(compute::CarvingEngine&);
+    [[nodiscard]] Result<std::size_t> walk_history(std::size_t strokes, HistoryStep step);
+    void follow_engine();
+    void note_changed_tiles();
+    [[nodiscard]] Result<void> update_on_device(std::span<const compute::ToolSweep> sweeps);
+    [[nodiscard]] Result<void> finish_on_device();
+
+    std::unique_ptr<compute::CarvingEngine> engine_;
+    WorkerPool& pool_;
+    compute::Surface surface_;
+    std::optional<compute::History> history_;
+    std::optional<compute::SurfaceLight> light_;
+    std::vector<bool> tile_changed_;
+    SculptFigures figures_;
+    double initial_volume_m3_ = 0.0;
+    double first_mesh_ms_ = 0.0;
+    // State of mesh_on_device().
+    std::unique_ptr<compute::DeviceSurface> on_device_;  // null while the host meshes
+    bool under_way_ = false;                             // an update whose figures have not been counted yet
+    compute::DeviceSurfaceCounts counts_before_;         // that update
+    double asked_radius_m_ = 0.0;                        // of the last local surface; 0 before the first
+};
+
+}  // namespace burin::sculpt

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "sculpt/stroke_reader.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace burin::sculpt {
+namespace {
+
+constexpr double kSweepTolerance = 0.05;  // of a cell
+
+}  // namespace
+
+haptics::ToolAction action_of(compute::Operation operation) {
+    switch (operation) {
+        case compute::Operation::cut: return haptics::ToolAction::cut;
+        case compute::Operation::fill: return haptics::ToolAction::fill;
+        case compute::Operation::paint: return haptics::ToolAction::paint;
+        case compute::Operation::smooth: break;
+    }
+    return haptics::ToolAction::touch;
+}
+
+StrokeReader::StrokeReader(haptics::HapticChannels& channels, const Tool& tool, double hardness_Ns_per_m3,
+                           double cell_m)
+    : channels_(channels),
+      tool_(tool),
+      hardness_Ns_per_m3_(hardness_Ns_per_m3),
+      tolerance_m_(kSweepTolerance * cell_m) {}
+
+void StrokeReader::use_tool(const Tool& tool, double hardness_Ns_per_m3) {
+    tool_ = tool;
+    hardness_Ns_per_m3_ = hardness_Ns_per_m3;
+    working_ = false;
+}
+
+SweptSamples StrokeReader::read(std::uint64_t last_tick) {
+    SweptSamples swept;
+    std::vector<Pose> run;      // points at which the tool worked without a break
+    bool continues = working_;  // the run began before this read, and its first point has been carved already
+    if (continues) run.push_back({last_point_object_});
+    const auto end_run = [&] {
+        if (run.size() >= 2 || (run.size() == 1 && !continues)) {
+            std::ranges::copy(sweeps_along(run, tool_, tolerance_m_), std::back_inserter(swept.sweeps));
+        }
+        run.clear();
+        continues = false;
+    };
+    while (const haptics::StrokeSample* oldest = swept.stroke_ended ? nullptr : channels_.stroke.oldest()) {
+        if (oldest->tick > last_tick) break;
+        haptics::StrokeSample sample;
+        channels_.stroke.pop(sample);
+        last_tick_ = sample.tick;
+        tool_position_object_ = sample.proxy_object_m;
+        const bool was_pressed = std::exchange(pressed_, (sample.buttons & 1u) != 0);
+        swept.stroke_ended = was_pressed && !pressed_;
+        const std::optional<Vec3> point = working_point(sample);
+        working_ = point.has_value();
+        if (!working_) {
+            end_run();
+            continue;
+        }
+        last_point_object_ = *point;
+        last_worked_ns_ = sample.time_ns;
+        if (run.empty() || run.back().position_m != last_point_object_) run.push_back({last_point_object_});
+    }
+    end_run();
+    return swept;
+}
+
+// Returns where the tool works in this sample; nothing where it only moves.
+std::optional<Vec3> StrokeReader::working_point(const haptics::StrokeSample& sample) const {
+    if ((sample.buttons & 1u) == 0 || sample.phase != haptics::WorkspacePhase::editing) return std::nullopt;
+    switch (tool_.operation) {
+        case compute::Operation::cut:
+            if (hardness_Ns_per_m3_ == 0.0) return sample.position_object_m;
+            if ((sample.flags & haptics::kTickCutting) != 0) return sample.cut_object_m;
+            return std::nullopt;
+        case compute::Operation::fill: return sample.proxy_object_m;
+        case compute::Operation::paint:
+        case compute::Operation::smooth:
+            if ((sample.flags & haptics::kTickInContact) != 0) return sample.position_object_m;
+            return std::nullopt;
+    }
+    return std::nullopt;
+}
+
+}  // namespace burin::sculpt

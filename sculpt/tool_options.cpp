@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "sculpt/tool_options.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sculpt/workpiece.hpp"
+
+namespace burin::sculpt {
+namespace {
+
+// Bounds the poses that one sweep may replace, because the search for the next sweep looks at all of them.
+constexpr std::size_t kLongestRun = 1024;
+
+Result<std::array<std::uint8_t, 3>> parse_colour(const std::string& text) {
+    const std::string where = "--material " + text;
+    const auto numbers = parse_numbers(text, 3, where);
+    if (!numbers) return std::unexpected(numbers.error());
+    std::array<std::uint8_t, 3> colour{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double part = (*numbers)[k];
+        if (!(part >= 0.0 && part <= 255.0) || part != std::floor(part)) {
+            return fail(where, "is no colour", "write R,G,B, whole numbers from 0 to 255");
+        }
+        colour[k] = static_cast<std::uint8_t>(part);
+    }
+    return colour;
+}
+
+double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+    const Vec3 ab = b - a;
+    const double length2 = glm::dot(ab, ab);
+    const double t = length2 > 0.0 ? std::clamp(glm::dot(p - a, ab) / length2, 0.0, 1.0) : 0.0;
+    return glm::length(p - (a + ab * t));
+}
+
+}  // namespace
+
+Result<ToolSettings> parse_tool_settings(const ToolOptions& options) {
+    ToolSettings settings;
+    auto shape = parse_tool_spec(options.shape, "--tool " + options.shape);
+    if (!shape) return std::unexpected(shape.error());
+    settings.shape = std::move(*shape);
+    settings.operation = options.operation;
+    settings.sweep_tolerance_cells = options.sweep_tolerance_cells;
+    settings.smooth_strength = options.smooth_strength;
+    if (const auto good = check_tool(settings); !good) return std::unexpected(good.error());
+    if (options.material.empty()) return settings;
+    const auto colour = parse_colour(options.material);
+    if (!colour) return std::unexpected(colour.error());
+    settings.colour = *colour;
+    return settings;
+}
+
+Result<void> check_tool(const ToolSettings& settings) {
+    const std::string where = "--tool " + text_of(settings.shape);
+    if (const auto good = check_sizes(settings.shape, where); !good) return good;
+    if (can_do(settings.shape.kind, settings.operation)) return {};
+    const std::string operation(descriptor_of(settings.operation).name);
+    return fail(where, "cannot " + operation, "use --tool ball:R with --operation " + operation);
+}
+
+Result<Tool> make_tool(const ToolSettings& settings) {
+    Result<compute::ToolShape> shape = make_shape(settings.shape);
+    if (!shape) return std::unexpected(shape.error());
+    return Tool{std::move(*shape), settings.operation, 0, settings.sweep_tolerance_cells, settings.smooth_strength};
+}
+
+Result<Tool> parse_tool(const ToolOptions& options) {
+    const auto settings = parse_tool_settings(options);
+    if (!settings) return std::unexpected(settings.error());
+    return make_tool(*settings);
+}
+
+geometry::Material material_of(const ToolSettings& settings) {
+    const OperationDescriptor& operation = descriptor_of(settings.operation);
+    return {std::string(operation.material), settings.colour.value_or(operation.colour)};
+}
+
+Json describe_tool(const ToolOptions& options, const geometry::Material& material) {
+    return {{"shape", options.shape},
+            {"operation", descriptor_of(options.operation).name},
+            {"material_rgb", material.colour},
+            {"sweep_tolerance_cells", options.sweep_tolerance_cells}};
+}
+
+std::vector<compute::ToolSweep> sweeps_along(std::span<const Pose> poses, const Tool& tool, double tolerance_m) {
+    std::vector<compute::ToolSweep> sweeps;
+    if (poses.size() == 1) return {tool.sweep(poses[0], poses[0])};
+    const bool has_orientation = !std::holds_alternative<compute::BallTool>(tool.shape);
+    for (std::size_t from = 0; from + 1 < poses.size();) {
+        std::size_t to = from + 1;
+        const auto unturned = [&](std::size_t end) {
+            return !has_orientation || poses[end].orientation == poses[from].orientation;
+        };
+        const auto straight = [&](std::size_t end) {
+            for (std::size_t k = from + 1; k < end; ++k) {
+                const double off =
+                    distance_to_segment(poses[k].position_m, poses[from].position_m, poses[end].position_m);
+                if (off > tolerance_m) return false;
+            }
+            return true;
+        };
+        while (tolerance_m >= 0.0 && to + 1 < poses.size() && to - from < kLongestRun && unturned(to) &&
+               unturned(to + 1) && straight(to + 1)) {
+            ++to;
+        }
+        sweeps.push_back(tool.sweep(poses[from], poses[to]));
+        from = to;
+    }
+    return sweeps;
+}
+
+}  // namespace burin::sculpt

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// The solid that is carved and the engine that carves it, as --workpiece, --resolution and --engine name them.
+// Lengths in metres, object frame. Any thread.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/json.hpp"
+#include "base/worker_pool.hpp"
+#include "compute/rays/engine.hpp"
+
+namespace burin::sculpt {
+
+// ---- Workpiece
+
+struct WorkpieceOptions {
+    std::string source = "ball:0.1";  // FILE | block:X,Y,Z | ball:R
+    int resolution = 256;             // lattice cells along the longest side
+    bool close_holes = false;
+};
+
+struct LoadedWorkpiece {
+    compute::Solid solid;
+    Json report;  // the file's health, repairs, and the conversion
+};
+
+struct ClosedMesh {
+    geometry::TriangleMesh mesh;  // facing outwards
+    Json report;
+};
+
+// Reads a mesh file, welds it (equal positions become one vertex) and turns it to face outwards; the report says how
+// much of each. Fails on a mesh that is not closed, with the reason, unless its holes are to be closed.
+[[nodiscard]] Result<ClosedMesh> load_closed_mesh(const std::string& file, bool close_holes);
+// Makes the solid of a file or a shape. Every triangle of a file is in the solid or in the report.
+[[nodiscard]] Result<LoadedWorkpiece> load_workpiece(const WorkpieceOptions& options, WorkerPool& pool);
+
+// Returns the bounds of an uncarved workpiece, which its lattice surrounds with some empty cells.
+[[nodiscard]] Box workpiece_bounds(const compute::Lattice& lattice);
+
+// Parses numbers separated by commas: exactly `count`, all finite. An Error names `what`.
+[[nodiscard]] Result<std::vector<double>> parse_numbers(std::string_view text, std::size_t count,
+                                                        const std::string& what);
+
+// ---- Engine
+
+enum class EngineChoice { automatic, cpu, vulkan };
+
+struct ChosenEngine {
+    std::unique_ptr<compute::CarvingEngine> engine;
+    std::string device;            // the Vulkan device, or the number of threads
+    bool software_device = false;  // a Vulkan device without hardware
+    std::string reason;            // why automatic chose it; empty when it was asked for
+};
+
+// Makes the engine. Automatic takes a Vulkan device that is hardware and can run the engine, else native code: on a
+// software device compute shaders cost many times the native code. The pool must outlive the engine.
+[[nodiscard]] Result<ChosenEngine> choose_engine(EngineChoice choice, compute::Solid solid, WorkerPool& pool);
+
+}  // namespace burin::sculpt

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+#include <signal.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "devices/trackers/tracker.hpp"
+#include "session/drive/session.hpp"
+#include "session/drive/session_frames.hpp"
+#include "session/input/input_line.hpp"
+#include "session/present/display_watch.hpp"
+
+namespace burin::session {
+namespace {
+
+// Longest sleep while nothing happens.
+constexpr Nanoseconds kRest_ns = 1'000'000'000;
+// Time after the last change for which frames follow the display's refresh.
+constexpr Nanoseconds kActive_ns = 300'000'000;
+// Time after the last change until the session counts as resting.
+constexpr Nanoseconds kSettled_ns = 3'000'000'000;
+
+// ---- Signals
+
+// Global because a signal handler cannot reach anything but static state.
+volatile sig_atomic_t g_signal_came = 0;
+
+// Handles SIGINT and SIGTERM while an instance exists: the first signal asks the session to end, which then finishes
+// its files; a second one ends the program at once, as without a handler. A signal that was ignored when the program
+// started stays ignored. At most one instance at a time.
+class EndSignals {
+public:
+    EndSignals() : before_{{{SIGINT, {}}, {SIGTERM, {}}}} {
+        g_signal_came = 0;
+        for (Before& one : before_) {
+            sigaction(one.signal, nullptr, &one.action);
+            if (one.action.sa_handler == SIG_IGN) continue;
+            struct sigaction ours{};
+            ours.sa_handler = [](int) { g_signal_came = 1; };
+            ours.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+            sigemptyset(&ours.sa_mask);
+            sigaction(one.signal, &ours, nullptr);
+        }
+    }
+    ~EndSignals() {
+        for (const Before& one : before_) sigaction(one.signal, &one.action, nullptr);
+    }
+    EndSignals(const EndSignals&) = delete;
+    EndSignals& operator=(const EndSignals&) = delete;
+
+    [[nodiscard]] bool came() const { return g_signal_came != 0; }
+
+private:
+    struct Before {
+        int signal = 0;
+        struct sigaction action{};
+    };
+    std::array<Before, 2> before_;
+};
+
+// ---- Frames
+
+// Makes a frame when the display wants the next one, or, at rest, when something happens.
+class LiveFrames final : public SessionFrames {
+public:
+    // tracker: null where there is none. All must outlive it.
+    LiveFrames(LiveSession& session, Presenter& presenter, InputSource input, Clock& clock, devices::Tracker* tracker)
+        : SessionFrames(session, presenter, std::move(input)),
+          clock_(clock),
+          tracker_(tracker),
+          display_(presenter.refresh_Hz()) {}
+
+    // Begins to measure; call it right before drive(). The first frames follow the display.
+    void begin() {
+        began_ = now();
+        changed_ns_ = began_.time_ns;
+    }
+    // Summarises the frames.
+    [[nodiscard]] SessionRecord record() const;
+
+private:
+    [[nodiscard]] std::optional<FrameInput> next_input() override;
+    void stepped() override;
+    [[nodiscard]] bool wants_picture() override { return true; }
+    void finished(const FrameInput& frame, bool anew) override;
+
+    [[nodiscard]] std::vector<Input> wait_for_frame();
+    [[nodiscard]] std::vector<Input> wait_for_refresh();
+    [[nodiscard]] std::vector<Input> wait_for_input(Nanoseconds until_ns);
+    void take_tracker_input();
+
+    // Time on the clock, and processor time of all threads.
+    struct Moment {
+        Nanoseconds time_ns = 0, processor_ns = 0;
+    };
+    [[nodiscard]] Moment now() const { return {clock_.now_ns(), process_cpu_ns()}; }
+
+    Clock& clock_;
+    devices::Tracker* tracker_;
+    DisplayWatch display_;
+    EndSignals end_;
+    FramePlan plan_;              // of the frame in progress
+    Moment began_, turn_;         // when the session began, and when the wait for this frame did
+    Moment lasted_;               // from the beginning to the end of the last frame
+    Moment rested_;               // spent in turns without anything new, once the session had settled
+    Nanoseconds changed_ns_ = 0;  // when something new was drawn last
+};
+
+std::optional<FrameInput> LiveFrames::next_input() {
+    if (end_.came()) return std::nullopt;
+    SessionTimes& times = session_.times();
+    times.begin();
+    turn_ = now();
+    std::vector<Input> happened = wait_for_frame();
+    times.reached(FrameStage::wait);
+    take_tracker_input();  // before other input: it arrived earlier
+    for (Input& event : happened) input_.push(clock_.now_ns() - session_.start_ns(), std::move(event));
+    recorder_.outside();
+    const auto frame =
+        input_.begin_frame(clock_.now_ns() - session_.start_ns(), plan_.display_ns - session_.start_ns());
+    if (!frame) return std::nullopt;
+    times.reached(FrameStage::input);
+    presenter_.look();
+    return frame;
+}
+
+// Waits until it is time for the next frame, plans it, and returns what has happened in the windows.
+std::vector<Input> LiveFrames::wait_for_frame() {
+    const bool active = presenter_.takes_turns(session_) || clock_.now_ns() - changed_ns_ < kActive_ns;
+    presenter_.refine_beside(!active);
+    display_.shown_at(presenter_.refresh_Hz());
+    if (active) return wait_for_refresh();
+    Nanoseconds until_ns = clock_.now_ns() + kRest_ns;
+    if (const auto event_ns = input_.next_event_ns()) until_ns = std::min(until_ns, session_.start_ns() + *event_ns);
+    std::vector<Input> happened = wait_for_input(until_ns);
+    plan_ = display_.plan(clock_.now_ns());
+    plan_.wake_ns = clock_.now_ns();
+    return happened;
+}
+
+// Waits as late as the display allows. Polls the display meanwhile.
+std::vector<Input> LiveFrames::wait_for_refresh() {
+    plan_ = display_.plan(clock_.now_ns());
+    std::vector<Input> happened;
+    do {
+        const Nanoseconds look_ns = display_.next_look_ns().value_or(plan_.wake_ns);
+        for (Input& input : wait_for_input(std::min(plan_.wake_ns, look_ns))) happened.push_back(std::move(input));
+        display_.look(presenter_, clock_.now_ns());
+    } while (clock_.now_ns() < plan_.wake_ns);
+    return happened;
+}
+
+// Waits until the time has come or something happens; returns what has happened.
+std::vector<Input> LiveFrames::wait_for_input(Nanoseconds until_ns) {
+    if (presenter_.shows()) return presenter_.inputs(std::max(seconds(until_ns - clock_.now_ns()), 0.0));
+    clock_.sleep_until(until_ns);
+    return {};
+}
+
+void LiveFrames::take_tracker_input() {
+    if (tracker_ == nullptr) return;
+    for (devices::TrackerSample& sample : tracker_->take())
+        input_.push(sample.time_ns - session_.start_ns(), input_of(std::move(sample.input)));
+    for (const std::string& message : tracker_->take_messages()) session_.notify_of_event(message);
+}
+
+void LiveFrames::stepped() {
+    if (presenter_.shows() && session_.wants_full_screen_exchanged()) presenter_.exchange_full_screen();
+    for (const std::string& message : presenter_.take_messages()) session_.notify_of_event(message);
+    session_.times().reached(FrameStage::step);
+}
+
+void LiveFrames::finished(const FrameInput& frame, bool anew) {
+    if (anew) {
+        changed_ns_ = clock_.now_ns();
+        display_.finished(presenter_, plan_, session_.start_ns() + frame.time_ns, changed_ns_);
+    }
+    static_cast<void>(presenter_.take_blocked());  // blocked time of a turn without a new picture
+    session_.times().finished(anew, display_.beat(session_));
+    const Moment end = now();
+    lasted_ = {end.time_ns - began_.time_ns, end.processor_ns - began_.processor_ns};
+    if (anew || turn_.time_ns - changed_ns_ < kSettled_ns) return;
+    rested_.time_ns += end.time_ns - turn_.time_ns;
+    rested_.processor_ns += end.processor_ns - turn_.processor_ns;
+}
+
+SessionRecord LiveFrames::record() const {
+    SessionRecord record;
+    record.frames = session_.times().frames();
+    record.skipped = session_.times().skipped();
+    record.wall_ns = lasted_.time_ns;
+    record.processor_ns = lasted_.processor_ns;
+    record.rested_ns = rested_.time_ns;
+    record.rested_processor_ns = rested_.processor_ns;
+    for (const FrameWarning& warning : session_.times().warnings()) record.warnings.push_back(warning.line);
+    record.device = presenter_.device_name();
+    return record;
+}
+
+// Adds what the threads did; call it after they have ended.
+void add_threads(SessionRecord& record, const haptics::HapticLoop& loop, const ThreadedExecutor& threads) {
+    record.carve_update = summarised(threads.update_duration());
+    record.ticks = loop.ticks();
+    record.late_ticks = loop.late_ticks();
+    record.missed_deadlines = loop.skipped_deadlines();
+    record.tick_lateness = summarised(loop.lateness());
+    record.tick_duration = summarised(loop.duration());
+}
+
+}  // namespace
+
+Result<SessionRecord> run_in_real_time(const SculptOptions& options, const SessionWall& wall, InputSource input,
+                                       RealTimeRun run) {
+    MonotonicClock clock;
+    Result<Presenter> presenter = Presenter::open(options.live, wall, std::move(run.driver));
+    if (!presenter) return std::unexpected(presenter.error());
+    const auto wake = [&to = *presenter] { to.wake(); };
+    auto opened = LiveSession::create(options, wall, clock);
+    if (!opened) return std::unexpected(opened.error());
+    LiveSession& session = **opened;
+    if (run.keep_frames) session.times().keep_frames();
+    std::unique_ptr<devices::Tracker> tracker;
+    if (!options.live.tracker.empty()) {
+        auto port = devices::open_tracker(options.live.tracker, {clock, wake, parse_tracker_line});
+        if (!port) return std::unexpected(port.error());
+        tracker = std::move(*port);
+    }
+
+    LiveFrames frames(session, *presenter, std::move(input), clock, tracker.get());
+    ThreadedExecutor threads(clock, session.loop(), session.channels(), session.desk(), run.pace, wake);
+    const haptics::RealtimeNotice notice = threads.start();
+    if (!notice.text.empty()) session.notify_of_event(notice.text);
+    frames.begin();
+    const Result<void> driven = drive(threads, frames);
+    const Result<void> ended = frames.finish(threads);  // also after an error: it completes the recording
+    if (!driven) return std::unexpected(driven.error());
+    if (!ended) return std::unexpected(ended.error());
+    SessionRecord record = frames.record();
+    add_threads(record, session.loop(), threads);
+    return record;
+}
+
+}  // namespace burin::session

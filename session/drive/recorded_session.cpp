@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include <cstdio>
+
+#include "session/drive/session.hpp"
+#include "session/drive/session_frames.hpp"
+#include "session/drive/thread_replay.hpp"
+
+namespace burin::session {
+namespace {
+
+constexpr const char* kRemedy = "replay it with the program and the options that recorded it";
+
+// The frames of a recording, each with the places, messages and measured times that it had, and the first place at
+// which the session departed from the recording.
+class RecordedFrames final : public SessionFrames {
+public:
+    // All must outlive it. name: the log's file name.
+    RecordedFrames(LiveSession& session, Presenter& presenter, InputSource input, const ThreadLog& log,
+                   const std::string& name, ThreadReplay& replay)
+        : SessionFrames(session, presenter, std::move(input)), log_(log), name_(name), replay_(replay) {
+        session.replay_events(log.messages_before);
+    }
+
+    // Replays what the threads did after the last frame, and checks the surface.
+    [[nodiscard]] Result<void> finish_as_recorded() {
+        if (const auto run = replay_.run_to_end(); !run) return run;
+        if (const auto done = finish(replay_); !done) return done;
+        if (log_.end_check && *log_.end_check != check_of(session_.surface()) && !departed_)
+            departed_ = Error{"the replay leaves another surface than the recording did", name_, kRemedy};
+        return {};
+    }
+    [[nodiscard]] const std::optional<Error>& departed() const { return departed_; }
+
+private:
+    [[nodiscard]] std::optional<FrameInput> next_input() override {
+        if (next_ == log_.frames.size()) return std::nullopt;
+        const auto input = input_.begin_frame(0, 0);
+        if (!input) return std::nullopt;
+        const FrameSeen& seen = log_.frames[next_++];
+        for (const OutputSeen& output : seen.outputs) presenter_.put(output.screen, output.place);
+        session_.measure_again(seen.measured);
+        replay_.begin_frame(seen);
+        return input;
+    }
+
+    void stepped() override {
+        const FrameSeen& seen = log_.frames[next_ - 1];
+        if (!replay_.is_as_recorded()) note_departure(seen.line);
+        if (seen.refused) session_.go_back_to(*seen.refused);
+        if (presenter_.shows()) static_cast<void>(presenter_.inputs(0.0));  // ignored: the recording decides
+    }
+
+    // Draws also what nobody sees: what a frame redraws depends on the previous one.
+    [[nodiscard]] bool wants_picture() override { return true; }
+
+    void finished(const FrameInput&, bool) override { session_.replay_events(log_.frames[next_ - 1].messages); }
+
+    void note_departure(std::size_t line) {
+        if (departed_) return;
+        departed_ = Error{"the replay departs from the recording here", name_ + ":" + std::to_string(line), kRemedy};
+        std::fprintf(stderr, "burin: %s; going on\n", departed_->line().c_str());
+    }
+
+    const ThreadLog& log_;
+    std::string name_;
+    ThreadReplay& replay_;
+    std::size_t next_ = 0;  // index of the next frame
+    std::optional<Error> departed_;
+};
+
+Result<void> check_device(LiveSession& session, const ThreadLog& log, const std::string& name) {
+    if (log.clock.period_ns == session.loop().period_ns()) return {};
+    return fail(name,
+                "its ticks are " + std::to_string(log.clock.period_ns) + " ns apart, this device's " +
+                    std::to_string(session.loop().period_ns()),
+                "replay it with the device that it was recorded with");
+}
+
+Result<void> check_screens(const Presenter& presenter, const ThreadLog& log, const std::string& name) {
+    for (const FrameSeen& seen : log.frames) {
+        for (const OutputSeen& output : seen.outputs) {
+            if (output.screen < presenter.screens()) continue;
+            return fail(name + ":" + std::to_string(seen.line),
+                        "the recording has " + std::to_string(output.screen + 1) + " screens or more, this session " +
+                            std::to_string(presenter.screens()),
+                        "give the --wall that it was recorded with");
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<void> replay_as_recorded(const SculptOptions& options, const SessionWall& wall, InputLog log) {
+    const ThreadLog threads = std::move(*log.threads);
+    const std::string& name = options.live.input;
+    InputSource input = InputSource::replay(std::move(log));
+    SimulatedClock clock;
+    clock.sleep_until(threads.clock.start_ns);  // makes all times equal to the bit
+    auto opened = LiveSession::create(options, wall, clock);
+    if (!opened) return std::unexpected(opened.error());
+    LiveSession& session = **opened;
+    if (const auto fits = check_device(session, threads, name); !fits) return fits;
+    Result<Presenter> presenter = Presenter::open(options.live, wall);
+    if (!presenter) return std::unexpected(presenter.error());
+    if (const auto fits = check_screens(*presenter, threads, name); !fits) return fits;
+
+    ThreadReplay replay(session, threads, name);
+    RecordedFrames frames(session, *presenter, std::move(input), threads, name, replay);
+    Result<void> done = drive(replay, frames);
+    if (done) done = frames.finish_as_recorded();
+    if (!done && !replay.log_ends()) return done;
+    if (!done) std::fprintf(stderr, "burin: %s\n", done.error().line().c_str());
+    if (frames.departed()) return std::unexpected(*frames.departed());
+    return {};
+}
+
+}  // namespace burin::session

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Runs `burin sculpt` as a session: for a user at a window or before a wall, from a script, or from a recording.
+//
+// run_session() chooses between three kinds. Each opens what it needs, builds its executor and its source of frames,
+// and lets drive() (driver.hpp) run them. Main thread.
+#pragma once
+
+#include "haptics/haptic_loop.hpp"
+#include "session/present/direct_output.hpp"
+#include "session/record/input_source.hpp"
+#include "session/state/session_options.hpp"
+#include "session/state/session_screens.hpp"
+#include "session/timing/session_times.hpp"
+
+namespace burin::session {
+
+// Returns whether these options ask for a session instead of a stroke.
+[[nodiscard]] bool wants_session(const SculptOptions& options);
+
+// A recording is replayed, any other log is a script. Without a log, or where one is to be recorded (live.record), time
+// is real.
+[[nodiscard]] Result<void> run_session(const SculptOptions& options);
+
+// Runs the session of an input log in real time, with the threads and the loop of a live one, and returns what all of
+// it took; with a window, or without one (options.live.offscreen). Commands of the log that write files are left out.
+// for_a_device: ticks are as punctual as a device's user needs them; otherwise as those of a simulated hand, which may
+// rest.
+[[nodiscard]] Result<SessionRecord> time_session(const SculptOptions& options, bool for_a_device);
+
+// ---- The three kinds
+
+// Options of a real-time run. The haptic loop rests by default, since nobody feels the force on a simulated hand.
+struct RealTimeRun {
+    bool keep_frames = false;  // keeps every frame and its times in the record
+    haptics::LoopPace pace = {.rests = true};
+    DirectDriver driver = direct_driver();
+};
+// Runs in real time: haptics and carving have threads of their own, and a frame is drawn when something has changed, as
+// late as the display allows. Input comes from a user, or from a log in the user's place. SIGINT and SIGTERM end the
+// session as closing its window does; a second signal ends the program at once. (real_time_session.cpp)
+[[nodiscard]] Result<SessionRecord> run_in_real_time(const SculptOptions& options, const SessionWall& wall,
+                                                     InputSource input, RealTimeRun run = {});
+
+// Runs a script in simulated time: ticks, carving and frames follow one another on one thread, so that the same script
+// gives the same frames, with or without a window. (session_frames.cpp)
+[[nodiscard]] Result<void> run_in_simulated_time(const SculptOptions& options, const SessionWall& wall,
+                                                 InputSource input);
+
+// Replays a session that was recorded in real time (the log has threads): every frame with what the threads had done by
+// then, on one thread and as fast as the machine can. Fails at the end, after the last frame, when a result differs
+// from the recording: with another program, other options, or an edited log. (recorded_session.cpp)
+[[nodiscard]] Result<void> replay_as_recorded(const SculptOptions& options, const SessionWall& wall, InputLog log);
+
+}  // namespace burin::session

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "session/drive/session_frames.hpp"
+
+#include <utility>
+
+#include "session/drive/session.hpp"
+
+namespace burin::session {
+
+Result<void> step_frame(LiveSession& session, Executor& executor, ThreadRecorder& recorder, const FrameInput& input,
+                        const std::vector<wall::OutputPlace>& places) {
+    const haptics::ToolState tool = executor.tool();
+    session.step(input, places[session.room().wall.main], tool,
+                 [&](sculpt::SculptOrder order) { executor.order(std::move(order)); });
+    Result<Executor::Taken> taken = executor.take_surface_update();
+    if (!taken) return std::unexpected(taken.error());
+    if (taken->surface) session.take(std::move(*taken->surface));
+    recorder.frame(tool.tick, taken->updates, places);
+    return {};
+}
+
+SessionFrames::SessionFrames(LiveSession& session, Presenter& presenter, InputSource input)
+    : session_(session), presenter_(presenter), input_(std::move(input)), recorder_(input_, session) {
+    if (auto loaded = session.desk().take_surface_update()) session.take(std::move(*loaded));
+}
+
+std::optional<Nanoseconds> SessionFrames::next() {
+    if (session_.state().quit) return std::nullopt;
+    const std::optional<FrameInput> input = next_input();
+    if (!input) return std::nullopt;
+    frame_ = *input;
+    return session_.start_ns() + frame_.time_ns;
+}
+
+Result<void> SessionFrames::make(Executor& executor) {
+    if (const auto done = step_frame(session_, executor, recorder_, frame_, presenter_.places()); !done) return done;
+    stepped();
+    const Result<bool> anew = draw();
+    if (!anew) return std::unexpected(anew.error());
+    finished(frame_, *anew);
+    return {};
+}
+
+// Returns whether there was anything new. A device that was lost is replaced, and the frame drawn again.
+Result<bool> SessionFrames::draw() {
+    while (wants_picture()) {
+        Result<bool> anew = presenter_.draw(session_, frame_.display_ns);
+        if (anew) return anew;
+        if (const auto recovered = presenter_.recover(session_, anew.error()); !recovered)
+            return std::unexpected(recovered.error());
+    }
+    return false;
+}
+
+Result<void> SessionFrames::finish(Executor& executor) {
+    session_.desk().finish_export();
+    Result<Executor::Taken> last = executor.take_surface_update();
+    if (!last) return std::unexpected(last.error());
+    recorder_.finish(last->updates);
+    sculpt::add(last->surface, session_.desk().take_surface_update());
+    if (last->surface) session_.take(std::move(*last->surface));
+    return {};
+}
+
+// ---- A script
+
+std::optional<FrameInput> ScriptedFrames::next_input() {
+    const std::optional<FrameInput> input = input_.begin_frame(0, 0);
+    if (input) presenter_.look();
+    return input;
+}
+
+void ScriptedFrames::stepped() {
+    if (presenter_.shows()) static_cast<void>(presenter_.inputs(0.0));  // ignored: the script decides
+}
+
+Result<void> run_in_simulated_time(const SculptOptions& options, const SessionWall& wall, InputSource input) {
+    SimulatedClock clock;
+    auto opened = LiveSession::create(options, wall, clock);
+    if (!opened) return std::unexpected(opened.error());
+    LiveSession& session = **opened;
+    Result<Presenter> presenter = Presenter::open(options.live, wall);
+    if (!presenter) return std::unexpected(presenter.error());
+    ScriptedFrames frames(session, *presenter, std::move(input));
+    SteppedExecutor executor(clock, session.loop(), session.channels(), session.desk());
+    return drive(executor, frames);
+}
+
+}  // namespace burin::session

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Records what the threads of a live session do into the recording of its input (thread_log.hpp). Ticks come from the
+// haptic thread's ring of records, which that thread fills as always: it knows nothing of a recording.
+//
+//   each frame: outside(), begin_frame ... step, take_surface_update, frame(), draw
+//   after the threads have ended: finish()
+//
+// Recording ends, with the reason in the InputSource, when a tick is missing: the frame's thread was stalled for longer
+// than the ring holds, or the carving side did not take a sample. One thread, the frame's.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+
+#include "session/live/live_session.hpp"
+#include "session/record/input_source.hpp"
+#include "session/record/thread_log.hpp"
+
+namespace burin::session {
+
+// Checksum of what a session did, so that a replay can tell whether it does the same: FNV-1a over the bits of what
+// ticks felt and gave, and of where frames have things. No protection against intent.
+class SessionCheck {
+public:
+    void tick(const haptics::TickRecord& record);
+    // Returns the checksum of a frame that draws the tool of this tick and has taken its surface updates. Earlier ticks
+    // are not asked for again.
+    [[nodiscard]] std::uint64_t frame(std::uint64_t tick, const SessionState& state);
+
+private:
+    struct After {
+        std::uint64_t tick = 0, check = 0;
+    };
+    std::uint64_t check_ = 0;
+    std::deque<After> ticks_;  // not seen by a frame yet, except for the first
+};
+
+// Returns the checksum of the surface, which a recording keeps at its end.
+[[nodiscard]] std::uint64_t check_of(const compute::Surface& surface);
+
+class ThreadRecorder {
+public:
+    // Create it before the threads start; input and session must outlive it. Does nothing where the input is not
+    // recorded.
+    ThreadRecorder(InputSource& input, LiveSession& session);
+
+    // Records the outside messages since the previous frame. Reports, once, why the recording has ended.
+    void outside();
+    // Records a frame. tick: the one whose tool the frame draws. updates: those that it took.
+    void frame(std::uint64_t tick, const std::vector<sculpt::UpdateSeen>& updates,
+               const std::vector<wall::OutputPlace>& places);
+    void finish(const std::vector<sculpt::UpdateSeen>& updates);
+
+private:
+    void write_ticks();
+    void write_ticks(const std::vector<TickSeen>& ticks);
+    void write_updates(const std::vector<sculpt::UpdateSeen>& updates);
+    void write_places(const std::vector<wall::OutputPlace>& places);
+
+    InputSource& input_;
+    LiveSession& session_;
+    ThreadClock clock_;
+    TickText tick_text_;
+    UpdateText update_text_;
+    std::uint64_t ticks_ = 0, updates_ = 0;  // written so far
+    std::vector<wall::OutputPlace> places_;
+    SessionCheck check_;
+    bool recording_;
+};
+
+}  // namespace burin::session

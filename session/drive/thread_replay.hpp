@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Replays the threads of a recorded session on one thread: ticks and updates of the carving side run when a frame needs
+// them, each with the inputs it saw then.
+//
+//   a frame needs the tick whose tool it drew, and after its own orders the updates it had taken;
+//   a tick needs the ticks before it, and the update that published the surface it saw; that surface is kept until no
+//   tick sees it any more, and so are the parameters that frames publish: a tick may have seen older ones than those
+//   that are newest when it is replayed;
+//   an update needs the updates before it, the orders it took, and the ticks whose samples it took.
+//
+// A recording that was torn off lacks what its last frames need: log_ends(). One that was edited contradicts itself: an
+// Error that names the line. One thread.
+//
+//   each frame: begin_frame(), advance_to(), tool() ... step, order(), take_surface_update(), is_as_recorded()
+//   after the last frame: run_to_end(), take_surface_update()
+#pragma once
+
+#include <deque>
+
+#include "session/drive/driver.hpp"
+#include "session/drive/thread_recorder.hpp"
+#include "session/live/live_session.hpp"
+#include "session/record/thread_log.hpp"
+
+namespace burin::session {
+
+class ThreadReplay final : public Executor {
+public:
+    // name: the log's file name. session and log must outlive it.
+    ThreadReplay(LiveSession& session, const ThreadLog& log, const std::string& name);
+
+    // Says which frame of the log is the present one.
+    void begin_frame(const FrameSeen& frame) { frame_ = &frame; }
+    // Runs the ticks up to that whose tool the frame drew, whatever the time.
+    [[nodiscard]] Result<void> advance_to(Nanoseconds until_ns) override;
+    // Returns the tool as that tick left it: an update may have needed later ticks.
+    [[nodiscard]] const haptics::ToolState& tool() override { return tools_.front(); }
+    void order(sculpt::SculptOrder order) override { orders_.push_back(std::move(order)); }
+    // Runs the updates that the frame had taken.
+    [[nodiscard]] Result<Taken> take_surface_update() override;
+    // Returns, after the frame's step, whether everything is as recorded.
+    [[nodiscard]] bool is_as_recorded();
+
+    // Runs what the threads did after the last frame until they were stopped.
+    [[nodiscard]] Result<void> run_to_end();
+
+    // Returns, after an Error, whether the log just ends there.
+    [[nodiscard]] bool log_ends() const { return log_ends_; }
+
+private:
+    [[nodiscard]] Result<void> run_ticks(std::uint64_t last);
+    [[nodiscard]] Result<void> run_tick();
+    [[nodiscard]] Result<void> run_updates(std::uint64_t last);
+    [[nodiscard]] Result<void> run_update();
+    void keep_surface();
+    void keep_parameters();
+    [[nodiscard]] std::unexpected<Error> ends(const std::string& what);
+    [[nodiscard]] std::unexpected<Error> contradiction(std::size_t line, const std::string& what) const;
+
+    LiveSession& session_;
+    const ThreadLog& log_;
+    std::string name_;
+    const FrameSeen* frame_ = nullptr;  // the present one
+    FrameSeen end_;                     // stands for a frame after all ticks and updates
+    ThreadLinesReader<TickText> tick_lines_;
+    ThreadLinesReader<UpdateText> update_lines_;
+    std::uint64_t ticks_ = 0, updates_ = 0;  // done so far
+    bool updating_ = false;
+    std::uint64_t ticking_ = 0;                    // the tick in progress; 0: none
+    std::deque<geometry::LocalSurface> surfaces_;  // that ticks may still see, by sequence
+    std::deque<haptics::TickParameters> parameters_;
+    std::deque<haptics::ToolState> tools_;    // after each tick that frames may still see
+    std::deque<sculpt::SculptOrder> orders_;  // not taken by an update yet
+    // Results of updates, each with the update's number, that no frame has taken yet.
+    std::deque<std::pair<std::uint64_t, std::optional<sculpt::SurfaceUpdate>>> surface_updates_;
+    SessionCheck check_;
+    bool log_ends_ = false;
+};
+
+}  // namespace burin::session

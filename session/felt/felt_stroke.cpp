@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+#include "session/felt/felt_stroke.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <vector>
+
+#include "devices/haptic/simulated_omni.hpp"
+#include "haptics/haptic_loop.hpp"
+#include "haptics/realtime.hpp"
+#include "sculpt/progress.hpp"
+#include "sculpt/sculpt_service.hpp"
+#include "session/drive/driver.hpp"
+
+namespace burin::session {
+namespace {
+
+// ---- The hand's motion
+
+// Rest before and after the stroke; the gate's ramp must be over by then.
+constexpr double kHandRests_s = 0.3;
+
+// Returns the unit vector into the material near a point, both in the object frame; zero where there is no material.
+using IntoMaterial = std::function<Vec3(const Vec3&)>;
+
+// Margin of the workspace that is kept free: the surface pushes the hand off its path.
+constexpr double kBorder_m = 0.008;
+
+// Returns the tool's speed at each row, from the row before.
+std::vector<double> speeds_of(const sculpt::Stroke& stroke) {
+    std::vector<double> speeds(stroke.size(), 0.0);
+    for (std::size_t i = 1; i < stroke.size(); ++i) {
+        const double dt_s = stroke[i].time_s - stroke[i - 1].time_s;
+        if (dt_s > 0.0) speeds[i] = glm::length(stroke[i].position_object_m - stroke[i - 1].position_object_m) / dt_s;
+    }
+    return speeds;
+}
+
+// Returns the median speed at which the tool works; 0 when it never moves while it does.
+double middle_speed(const sculpt::Stroke& stroke, const std::vector<double>& speeds) {
+    std::vector<double> working;
+    for (std::size_t i = 1; i < stroke.size(); ++i)
+        if (stroke[i].button && speeds[i] > 0.0) working.push_back(speeds[i]);
+    if (working.empty()) return 0.0;
+    const auto middle = working.begin() + static_cast<std::ptrdiff_t>(working.size() / 2);
+    std::ranges::nth_element(working, middle);
+    return *middle;
+}
+
+// Returns object_from_device with the stroke's bounds centred in the workspace; where they are larger, the motion is
+// scaled up.
+Similarity fit_into_workspace(const sculpt::Stroke& stroke, const Vec3& workspace_m) {
+    Box bounds;
+    for (const sculpt::StrokeRow& row : stroke) bounds.include(row.position_object_m);
+    const Vec3 needed = bounds.extent() / (workspace_m - Vec3(2.0 * kBorder_m));
+    return {bounds.center(), Quat{1, 0, 0, 0}, std::max({1.0, needed.x, needed.y, needed.z})};
+}
+
+// Builds the hand's motion. While the button is pressed, the hand's target lies press_N / grip beyond the stroke, into
+// the material: held on the stroke it would press with that force. The press is proportional to the speed, up to the
+// median speed of the pressed rows, and eases where the hand rests: a tool that is pressed and not moved sinks.
+Result<devices::SimulatedHand> hand_along(const sculpt::Stroke& stroke, const Similarity& object_from_device,
+                                          const sculpt::Feel& feel, const IntoMaterial& into_material) {
+    const Similarity device_from_object = inverse(object_from_device);
+    const std::vector<double> speeds = speeds_of(stroke);
+    const double usual = middle_speed(stroke, speeds);
+    const double press_object_m = feel.press_N / feel.grip.stiffness_N_per_m * object_from_device.scale;
+    std::vector<devices::HandPose> script;
+    script.reserve(stroke.size() + 1);
+    const auto add = [&](const sculpt::StrokeRow& row, double time_s, double share) {
+        Vec3 wanted = row.position_object_m;
+        if (share > 0.0) wanted += share * press_object_m * into_material(row.position_object_m);
+        script.push_back({time_s, device_from_object * wanted, row.orientation_object, row.button ? 1u : 0u});
+    };
+    add(stroke.front(), 0.0, 0.0);
+    script.back().buttons = 0;
+    for (std::size_t i = 0; i < stroke.size(); ++i) {
+        const bool presses = stroke[i].button && press_object_m > 0.0;
+        // A stroke that never moves is a press at one point.
+        const double share = !presses ? 0.0 : (usual > 0.0 ? std::min(1.0, speeds[i] / usual) : 1.0);
+        add(stroke[i], stroke[i].time_s - stroke.front().time_s + kHandRests_s, share);
+    }
+    return devices::SimulatedHand::create(std::move(script), devices::HandPath::straight, feel.grip);
+}
+
+// Builds a hand that presses into the workpiece as it is before the stroke.
+Result<devices::SimulatedHand> pressing_hand(sculpt::Sculpture& carving, const sculpt::Stroke& stroke,
+                                             const sculpt::Tool& tool, const sculpt::Feel& feel,
+                                             const Similarity& object_from_device) {
+    const double radius_m = tool.ball_radius_m();
+    geometry::LocalSurface surface;
+    Result<void> outcome;
+    const auto into_material = [&](const Vec3& place) {
+        if (const auto done = carving.local_surface(place, 2.0 * radius_m, surface); !done) outcome = done;
+        return haptics::engagement(surface, place, radius_m).engagement.into_object;
+    };
+    Result<devices::SimulatedHand> hand = hand_along(stroke, object_from_device, feel, into_material);
+    if (!outcome) return std::unexpected(outcome.error());
+    return hand;
+}
+
+LoopTimes times_of(const haptics::HapticLoop& loop) {
+    const auto us = [](const haptics::Histogram& of, double q) {
+        return static_cast<double>(of.quantile_ns(q)) * 1e-3;
+    };
+    const haptics::Histogram &late = loop.lateness(), &tick = loop.duration();
+    return {true,          loop.skipped_deadlines(), us(late, 0.5),   us(late, 0.99), us(late, 0.999), us(late, 1.0),
+            us(tick, 0.5), us(tick, 0.99),           us(tick, 0.999), us(tick, 1.0)};
+}
+
+// ---- The session
+
+// Returns the first tick that is not before the end.
+Nanoseconds last_tick_ns(double end_s, Nanoseconds period_ns) {
+    Nanoseconds tick_ns = (nanoseconds(end_s) / period_ns - 1) * period_ns;
+    while (seconds(tick_ns) < end_s) tick_ns += period_ns;
+    return tick_ns;
+}
+
+// The frames of a felt stroke, one for each carving update: they show nothing and collect figures.
+class FeltFrames final : public FrameSource {
+public:
+    FeltFrames(Clock& clock, const haptics::HapticLoop& loop, haptics::HapticChannels& channels, FeltFigures& figures,
+               const char* what)
+        : clock_(clock),
+          channels_(channels),
+          start_ns_(clock.now_ns()),
+          end_ns_(start_ns_ + last_tick_ns(figures.duration_s, loop.period_ns())),
+          due_ns_(start_ns_),
+          keeper_(figures, figures.duration_s, seconds(loop.period_ns())),
+          progress_(what) {}
+
+    [[nodiscard]] std::optional<Nanoseconds> next() override {
+        if (clock_.now_ns() >= end_ns_) return std::nullopt;
+        due_ns_ = std::max(due_ns_ + sculpt::SculptThread::kPeriod_ns, clock_.now_ns());
+        return std::min(due_ns_, end_ns_);
+    }
+    [[nodiscard]] Result<void> make(Executor&) override {
+        keeper_.take(channels_);
+        progress_.show(static_cast<double>(clock_.now_ns() - start_ns_) / static_cast<double>(end_ns_ - start_ns_));
+        return {};
+    }
+    // Takes what the last ticks have left, after they have ended.
+    void finish() {
+        keeper_.take(channels_);
+        keeper_.finish(channels_);
+    }
+
+private:
+    Clock& clock_;
+    haptics::HapticChannels& channels_;
+    Nanoseconds start_ns_, end_ns_, due_ns_;
+    FigureKeeper keeper_;
+    sculpt::Progress progress_;
+};
+
+Result<void> feel_in_simulated_time(devices::SimulatedHand hand, haptics::HapticChannels& channels,
+                                    sculpt::SculptService& service, FeltFigures& figures) {
+    SimulatedClock clock;
+    devices::SimulatedOmni omni(std::move(hand), {}, &clock);
+    haptics::HapticLoop loop(omni, clock, channels);
+    if (const auto published = service.update(clock.now_ns()); !published) return published;
+    FeltFrames frames(clock, loop, channels, figures, "carving by feel");
+    SteppedExecutor executor(clock, loop, channels, service);
+    executor.measure_ticks(figures.tick_ns);
+    const Result<void> driven = drive(executor, frames);
+    frames.finish();
+    return driven;
+}
+
+Result<void> feel_in_real_time(devices::SimulatedHand hand, haptics::HapticChannels& channels,
+                               sculpt::SculptService& service, FeltFigures& figures) {
+    MonotonicClock clock;
+    devices::SimulatedOmni omni(std::move(hand), {}, &clock);
+    haptics::HapticLoop loop(omni, clock, channels);
+    if (const auto published = service.update(clock.now_ns()); !published) return published;
+    FeltFrames frames(clock, loop, channels, figures, "carving by feel, in real time");
+    ThreadedExecutor executor(clock, loop, channels, service);
+    const haptics::RealtimeNotice notice = executor.start();
+    if (!notice.text.empty()) {
+        figures.notices.push_back(notice.text);
+        std::fprintf(stderr, "burin: %s\n", notice.text.c_str());
+    }
+    const Result<void> driven = drive(executor, frames);
+    frames.finish();
+    figures.loop = times_of(loop);
+    return driven;
+}
+
+}  // namespace
+
+Result<FeltFigures> carve_by_feel(sculpt::Sculpture& carving, const sculpt::Stroke& stroke, const sculpt::Tool& tool,
+                                  const FeltOptions& options) {
+    FeltFigures figures;
+    figures.workspace_device_m = devices::OmniModel{}.workspace_m;
+    figures.object_from_device = fit_into_workspace(stroke, figures.workspace_device_m);
+    figures.duration_s = stroke.back().time_s - stroke.front().time_s + 2.0 * kHandRests_s;
+    Result<devices::SimulatedHand> hand =
+        pressing_hand(carving, stroke, tool, options.feel, figures.object_from_device);
+    if (!hand) return std::unexpected(hand.error());
+
+    haptics::HapticChannels channels;
+    haptics::TickParameters& parameters = channels.parameters.draft();
+    parameters.sequence = 1;
+    parameters.workspace.object_from_device = figures.object_from_device;
+    parameters.probe = haptics::ball_probe(tool.ball_radius_m());
+    parameters.materials.fill(options.feel.material);
+    parameters.action = sculpt::action_of(tool.operation);
+    channels.parameters.publish();
+
+    // Far enough for the fastest hand to stay inside the known ball until the next update: 1 m/s for 12 ms.
+    const double reach_m = 0.012 * figures.object_from_device.scale + 2.0 * carving.surface().lattice().spacing_m;
+    sculpt::SculptService service(carving, channels, tool, options.feel.material.hardness_Ns_per_m3, reach_m, {});
+    service.start_at(stroke.front().position_object_m);
+    const auto feel = options.real_time ? feel_in_real_time : feel_in_simulated_time;
+    if (const auto felt = feel(std::move(*hand), channels, service, figures); !felt)
+        return std::unexpected(felt.error());
+    figures.surfaces_published = service.published();
+    figures.last_tool = channels.tool.newest();
+    return figures;
+}
+
+}  // namespace burin::session

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Carves by feel (--hand simulated): a simulated hand leads a simulated Omni along the stroke, feels the surface
+// through the haptic loop, and is pushed back by it. The force and the material's hardness set what the tool cuts.
+//
+// Data flow: hand -> device -> haptic loop (1 kHz) -> ring of stroke samples -> carving update (100 Hz) -> local
+// surface -> haptic loop, driven as every session is (session/drive/driver.hpp), by a source whose frames only collect
+// figures. In simulated time both sides run in turn on one thread, as fast as they can, and every run gives the same
+// bits; in real time the haptic loop has a thread of its own.
+#pragma once
+
+#include "sculpt/feel_options.hpp"
+#include "sculpt/sculpture.hpp"
+#include "sculpt/stroke_file.hpp"
+#include "sculpt/tool_options.hpp"
+#include "session/felt/felt_figures.hpp"
+
+namespace burin::session {
+
+struct FeltOptions {
+    sculpt::Feel feel;
+    bool real_time = false;
+};
+
+// Carves the stroke with the simulated hand. The tool must be a ball, since a ball is what is felt. The stroke's bounds
+// are centred in the workspace; where they are larger, the motion is scaled up.
+[[nodiscard]] Result<FeltFigures> carve_by_feel(sculpt::Sculpture& carving, const sculpt::Stroke& stroke,
+                                                const sculpt::Tool& tool, const FeltOptions& options);
+
+}  // namespace burin::session

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// Simulated head and stylus of a desktop session: interprets keys and mouse in one pure step function of (state,
+// events, dt).
+//
+// Stylus: mouse motion moves the hand's target relatively, as it moves a pointer. Motion beyond the workspace is
+// discarded, so that the way back has no dead travel. The caller sets how far a pixel moves the target
+// (DeskView::device_m_per_px), so that the tool's picture can move as far as the pointer. Left and right button are the
+// stylus' buttons 0 and 1; a click between two frames is held for one step, so that it is not lost.
+// Head: flies with bounded speed, with soft start and stop, within a box before the screen.
+// Scene: is turned, moved and scaled about a pivot; the caller applies scene_change from the left to world_from_scene.
+// What the panel has captured (its fields have the keyboard, or the mouse is over it) cannot be pressed here, but
+// releases count.
+// Frames and units: device frame in metres for the target, world frame for head and scene, pixels with y down for the
+// mouse.
+#pragma once
+
+#include <bitset>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/space.hpp"
+#include "devices/hand/simulated_hand.hpp"
+#include "session/input/desk_input_table.hpp"
+#include "session/input/input_event.hpp"
+
+namespace burin::session {
+
+// Settings of the desktop input. All lengths are positive.
+struct DeskSettings {
+    Pose home_head_world{{0.0, 1.6, 2.0}, Quat{1.0, 0.0, 0.0, 0.0}};
+    // Where the head may fly; contains home; empty: anywhere. Keep it before the screen.
+    Box head_world{};
+    Vec3 workspace_m{0.1626, 0.1219, 0.0711};
+    double depth_per_wheel_step_m = 0.002;
+    double turn_rad_per_px = 0.005;
+    double scale_per_wheel_step = 1.1;
+    double least_scale = 0.01, most_scale = 100.0;
+    double flight_speed_m_per_s = 0.6;
+    double flight_lag_s = 0.1;  // time constant of the speed behind the keys
+};
+
+// What a step must know of the rest of the session.
+struct DeskView {
+    double device_m_per_px = 0.00025;  // how far a pixel of mouse motion moves the stylus
+    double world_m_per_px = 0.001;     // how far a pixel of mouse motion pans the scene
+    // Scale from mouse pixels to pixels of an eye's picture, where that is squeezed.
+    Vec2 picture_px_per_px{1.0};
+    // The screen's right, up and out (towards the viewer), in the device frame.
+    Quat device_from_screen{1.0, 0.0, 0.0, 0.0};
+    Quat world_from_screen{1.0, 0.0, 0.0, 0.0};
+    Vec3 pivot_world{0.0};     // fixed point of turning and scaling
+    double scene_scale = 1.0;  // of world_from_scene now; for the limits
+    bool keyboard_captured = false, mouse_captured = false;
+};
+
+struct DeskState {
+    Vec3 target_device_m{0.0};
+    Pose head_world;
+    Vec3 flight_m_per_s{0.0};
+    std::optional<Vec2> mouse_px;  // none: the next motion only sets it
+    std::bitset<kKeyCount> keys;   // held keys, without those pressed into the panel
+    Modifiers modifiers;
+    std::uint32_t buttons = 0;    // of the stylus, one bit each
+    std::optional<Gesture> drag;  // of the middle button, chosen when it went down
+};
+
+[[nodiscard]] DeskState desk_at_home(const DeskSettings& settings);
+
+struct DeskStep {
+    DeskState state;
+    devices::HandTarget target;  // without a velocity; orientation as the hand rests
+    Pose head_world;
+    Similarity scene_change;      // world_from_scene becomes scene_change * world_from_scene
+    std::vector<Action> actions;  // in order; reset_view is among them and also resets the head here
+};
+
+// Applies one step's events. dt_s: time since the step before, not negative.
+[[nodiscard]] DeskStep step_desk(DeskState state, std::span<const InputEvent> events, double dt_s, const DeskView& view,
+                                 const DeskSettings& settings = {});
+
+// Returns how far a pixel on the screen reaches at the tool's depth, seen from between the eyes, in the device frame:
+// with this the tool's picture moves as far as the mouse. The distances are from the eye along the screen's normal,
+// positive.
+[[nodiscard]] double device_m_per_px(double screen_m_per_px, double eye_to_screen_m, double eye_to_tool_m,
+                                     double world_per_device);
+
+}  // namespace burin::session

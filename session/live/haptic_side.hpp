@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// The haptic side of a live session: the device, the loop that drives it, the channels to it, and what the
+// frames publish into these. The loop runs on a thread of its own, or is stepped by whoever drives the session; all
+// other functions are the frame's thread's.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "devices/hand/steered_hand.hpp"
+#include "devices/haptic/haptic_device.hpp"
+#include "haptics/haptic_loop.hpp"
+
+namespace burin::session {
+
+class HapticSide {
+public:
+    // records: ticks that the recording's ring holds.
+    explicit HapticSide(std::size_t records) : channels_(haptics::HapticChannels::kStrokes, records) {}
+
+    // Opens the device of that name (devices/haptic/device_registry.hpp), a simulated one with its hand at rest there.
+    // The clock must outlive it.
+    [[nodiscard]] Result<void> open(std::string_view device, Clock& clock, const Vec3& rest_device_m);
+    // Publishes where the hand is to go, for the device's next ticks; time_ns: session time.
+    void move_hand(Nanoseconds time_ns, const devices::HandTarget& target);
+    // Publishes other parameters of the ticks; numbers them.
+    void publish(haptics::TickParameters parameters);
+    // Returns the newest tool state that the loop has published.
+    [[nodiscard]] const haptics::ToolState& newest_tool() { return channels_.tool.newest(); }
+
+    [[nodiscard]] haptics::HapticLoop& loop() { return *loop_; }
+    [[nodiscard]] haptics::HapticChannels& channels() { return channels_; }
+    [[nodiscard]] const devices::DeviceDescription& device() const { return device_->description(); }
+
+private:
+    haptics::HapticChannels channels_;
+    devices::HandSteering steering_;
+    std::unique_ptr<devices::HapticDevice> device_;
+    std::optional<haptics::HapticLoop> loop_;
+    std::uint64_t hand_sequence_ = 0, parameter_sequence_ = 0;
+};
+
+}  // namespace burin::session

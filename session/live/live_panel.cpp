@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "session/live/live_panel.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace burin::session {
+namespace {
+
+// Size of a panel that stands in the scene: its picture in pixels, and its width as a share of the screen's height, so
+// that its letters are as large as those beside a desktop window's picture.
+constexpr ImageSize kStanding_px{static_cast<std::uint32_t>(kPanelWidth_px), 680};
+constexpr double kStandingWidth = 0.34, kStandingTurn_rad = 0.3;
+// At most this share of the screen's width, since the workpiece stands in the middle.
+constexpr double kOfScreensWidth = 0.26;
+
+PanelSource hand_source(const haptics::ToolState& tool) {
+    const bool silent = tool.cause != haptics::GateCause::none;
+    return {"Hand", silent ? haptics::text(tool.cause) : "simulated, steered by the mouse",
+            silent ? Condition::fault : Condition::good};
+}
+
+PanelSource tracker_source(const wall::TrackerReport& report) {
+    if (report.state == wall::TrackerState::ok) return {"Head tracker", "follows the head", Condition::good};
+    return {"Head tracker", report.cause,
+            report.state == wall::TrackerState::lost ? Condition::fault : Condition::warning};
+}
+
+// Places the panel at the right of the screen that the viewer faces, turned towards the viewer.
+renderer::PanelStand stand_in(const Room& room) {
+    const wall::Screen s = room.screen();
+    const Vec3 across = s.lower_right_world - s.lower_left_world, upright = s.upper_left_world - s.lower_left_world;
+    const double width_m = std::min(kStandingWidth * glm::length(upright), kOfScreensWidth * glm::length(across));
+    const Vec3 place = s.lower_right_world - (0.6 * width_m) * glm::normalize(across) + 0.55 * upright;
+    const Quat turned = world_from_screen(s) * glm::angleAxis(-kStandingTurn_rad, Vec3(0.0, 1.0, 0.0));
+    return renderer::stand_of_width({place, turned}, width_m, kStanding_px);
+}
+
+}  // namespace
+
+PanelModel LivePanel::model_of(const PanelContext& context, const std::string& message) const {
+    const SessionState& state = context.state;
+    const haptics::ToolState& tool_state = context.tool;
+    PanelModel m;
+    m.visible = state.panel;
+    m.show_help = state.help;
+    m.show_figures = state.figures;
+    m.workpiece = context.workpiece;
+    const auto value = [&](Quantity quantity) { return descriptor_of(quantity).value(state); };
+    m.tool = state.tool.shape;
+    m.operation = state.tool.operation;
+    const geometry::Material material = sculpt::material_of(state.tool);
+    for (std::size_t i = 0; i < 3; ++i) m.colour_srgb[i] = material.colour[i] / 255.0;
+    m.hardness_Ns_per_m3 = value(Quantity::hardness);
+    m.friction = value(Quantity::friction);
+    m.stiffness_N_per_m = value(Quantity::stiffness);
+    m.velocity_filter = value(Quantity::velocity_filter);
+    m.force_filter = value(Quantity::force_filter);
+    m.technique = state.technique;
+    m.phase = tool_state.workspace.phase;
+    m.scale = value(Quantity::scale);
+    m.stereo_mode = state.output.mode;
+    m.eyes_swapped = state.output.swap_eyes;
+    m.test_pattern = state.output.test_pattern;
+    m.eye_distance_m = value(Quantity::eye_distance);
+    m.force_shown = state.force_shown;
+    m.undo_count = static_cast<std::uint32_t>(context.undoable);
+    m.redo_count = static_cast<std::uint32_t>(context.redoable);
+    m.export_path = state.export_path;
+    m.exporting = context.exporting;
+    m.message = message;
+    m.touch.force_on = state.force_on;
+    m.touch.in_contact = (tool_state.flags & haptics::kTickInContact) != 0;
+    m.touch.cause = tool_state.cause;
+    m.touch.flags = tool_state.flags & haptics::kTickInContact;
+    m.sources = {hand_source(tool_state)};
+    if (state.head.tracked) m.sources.push_back(tracker_source(context.tracker));
+    feed_.show_on(m);
+    return m;
+}
+
+void LivePanel::feed_times(const FrameInput& input, const PanelContext& context) {
+    const haptics::ToolState& tool = context.tool;
+    const bool stirring = !input.events.empty() || (tool.flags & haptics::kTickInContact) != 0 ||
+                          tool.workspace.phase != haptics::WorkspacePhase::editing;
+    feed_.feed({input.time_ns, glm::length(tool.given.force_device_N), tool.late_ticks, tool.dropped_samples, stirring,
+                context.times, context.tick_duration, drawn_, context.eye(), recorded_ ? &*recorded_ : nullptr});
+}
+
+Result<Captured> LivePanel::feed(const FrameInput& input, const PanelContext& context, MessageLog& log) {
+    actions_.clear();
+    layout_ = nullptr;
+    feed_times(input, context);
+    const ImageSize eye = context.eye();
+    OnPicture on = mouse_on_picture(pointer_, input.events, context.shown, context.output);
+    const PanelPointer pointer = std::exchange(pointer_, {.mouse_px = on.pointer.mouse_px});
+    const bool stands = !context.room.wall.desk;
+    const auto width = static_cast<std::uint32_t>(kPanelWidth_px);
+    // A window too narrow for both shows the scene alone.
+    if (!context.state.panel || eye.height == 0 || (!stands && eye.width < 2 * width)) return Captured{};
+    const ImageSize size = stands ? kStanding_px : ImageSize{width, eye.height};
+    if (!panel_) {
+        auto made = Panel::create({.size = size});
+        if (!made) return std::unexpected(made.error());
+        panel_.emplace(std::move(*made));
+        if (!panel_->notice().empty()) log.notify(panel_->notice());
+    }
+    panel_->resize(size);
+    if (stands) {
+        const SessionWall& wall = context.room.wall;
+        const View view = view_of(wall.setup, wall.main, context.state.head, context.state.interpupillary_m);
+        const MouseView mouse{view.screen, wall::eyes_of(view.viewer), context.shown, context.output};
+        const Pointed pointed = point_at_panel(pointer, input.events, stand_in(context.room), size, mouse);
+        pointer_ = pointed.pointer;
+        panel_->feed(pointed.panel);
+    } else {
+        pointer_ = on.pointer;
+        // At the right of an eye's picture, in its pixels.
+        panel_->feed(on.events, {{static_cast<double>(eye.width) - size.width, 0.0}, {1.0, 1.0}});
+    }
+    layout_ = &panel_->show(model_of(context, log.newest()), input.time_ns);
+    actions_ = layout_->actions;
+    return Captured{layout_->wants_mouse, layout_->wants_keyboard};
+}
+
+std::optional<PanelPicture> LivePanel::picture_on(std::size_t screen, const Room& room) const {
+    const bool stands = !room.wall.desk;
+    if (layout_ == nullptr || (!stands && screen != room.wall.main)) return std::nullopt;
+    return PanelPicture{layout_->mesh, panel_->atlas(), panel_->size(),
+                        stands ? std::optional(stand_in(room)) : std::nullopt};
+}
+
+}  // namespace burin::session

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// Hosts the panel in a live session: gives it its share of the input, lays it out with the session's state and measured
+// times, and has its picture ready for the screens. Over a desktop window's picture it lies at the right; before a wall
+// it stands in the scene.
+// Thread: the frame's.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "haptics/haptic_loop.hpp"
+#include "session/live/message_log.hpp"
+#include "session/panel/panel.hpp"
+#include "session/panel/panel_feed.hpp"
+#include "session/panel/panel_pointer.hpp"
+#include "session/picture/session_picture.hpp"
+#include "session/record/input_source.hpp"
+#include "session/state/session_state.hpp"
+#include "wall/head_prediction.hpp"
+
+namespace burin::session {
+
+// What a step of the session gives the panel to show, and where it is shown.
+struct PanelContext {
+    const SessionState& state;
+    const Room& room;
+    const haptics::ToolState& tool;
+    const wall::TrackerReport& tracker;  // meaningless without a tracker
+    const std::string& workpiece;        // its name
+    std::size_t undoable = 0, redoable = 0;
+    bool exporting = false;
+    const SessionTimes& times;
+    const haptics::Histogram& tick_duration;
+    wall::OutputSettings shown;  // how the main screen is shown
+    wall::OutputPlace output;    // of the main screen
+    [[nodiscard]] ImageSize eye() const { return wall::eye_size(shown.mode, output.size); }
+};
+
+class LivePanel {
+public:
+    // Feeds a step's events and lays the panel out, with the log's newest message on it. Returns what of the input the
+    // panel captures; an Error where there can be no panel.
+    [[nodiscard]] Result<Captured> feed(const FrameInput& input, const PanelContext& context, MessageLog& log);
+    // Returns the commands that its widgets gave in the last step.
+    [[nodiscard]] const std::vector<CommandInput>& actions() const { return actions_; }
+    // Returns its picture for a screen, as laid out in the last step; nothing where it is not shown.
+    [[nodiscard]] std::optional<PanelPicture> picture_on(std::size_t screen, const Room& room) const;
+
+    // Records what the main screen's frame drew and left out, which the next steps' figures show.
+    void note_drawn(const renderer::RenderStats& stats) { drawn_ = stats; }
+    // Returns the measured times that the panel was given in the last step; measure_again() supplies those of the next
+    // step in a replay.
+    [[nodiscard]] const PanelMeasured& measured() const { return feed_.measured(); }
+    void measure_again(const PanelMeasured& recorded) { recorded_ = recorded; }
+
+private:
+    void feed_times(const FrameInput& input, const PanelContext& context);
+    [[nodiscard]] PanelModel model_of(const PanelContext& context, const std::string& message) const;
+
+    std::optional<Panel> panel_;          // created when it is first shown
+    const PanelFrame* layout_ = nullptr;  // of the last step; null while the panel is hidden
+    std::vector<CommandInput> actions_;
+    PanelPointer pointer_;
+    PanelFeed feed_;
+    std::optional<PanelMeasured> recorded_;
+    renderer::RenderStats drawn_;
+};
+
+}  // namespace burin::session

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "session/live/live_session.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "sculpt/workpiece.hpp"
+
+namespace burin::session {
+namespace {
+
+// Ticks that the recording's ring holds: the frame's thread, which takes them, may stall for so many.
+constexpr std::size_t kTicksToRecord = 8192;
+
+Room room_of(const compute::Lattice& lattice, const SessionWall& wall) {
+    Room room;
+    room.workpiece_object = sculpt::workpiece_bounds(lattice);
+    room.wall = wall;
+    const Pose fallback = wall.setup.fallback_head_tracker;
+    room.desk.home_head_world = {wall.setup.world_from_tracker * fallback.position_m,
+                                 wall.setup.world_from_tracker.orientation * fallback.orientation};
+    if (wall.desk) room.desk.head_world = {{-2.0, 0.4, 0.3}, {2.0, 2.4, 6.0}};
+    return room;
+}
+
+}  // namespace
+
+LiveSession::LiveSession(Clock& clock, const SculptOptions& options)
+    : clock_(clock),
+      pool_(options.threads),
+      haptics_(options.live.record.empty() ? haptics::HapticChannels::kRecords : kTicksToRecord),
+      screenshots_(options.live.screenshots) {}
+
+Result<std::unique_ptr<LiveSession>> LiveSession::create(const SculptOptions& options, const SessionWall& wall,
+                                                         Clock& clock) {
+    auto session = std::unique_ptr<LiveSession>(new LiveSession(clock, options));
+    if (const auto loaded = session->load(options, wall); !loaded) return std::unexpected(loaded.error());
+    if (const auto taken = session->take_up_tool(options); !taken) return std::unexpected(taken.error());
+    return session;
+}
+
+Result<void> LiveSession::load(const SculptOptions& options, const SessionWall& wall) {
+    Result<sculpt::LoadedWorkpiece> workpiece = sculpt::load_workpiece(options.workpiece, pool_);
+    if (!workpiece) return std::unexpected(workpiece.error());
+    room_ = room_of(workpiece->solid.lattice, wall);
+    Result<sculpt::ChosenEngine> chosen = sculpt::choose_engine(options.engine, std::move(workpiece->solid), pool_);
+    if (!chosen) return std::unexpected(chosen.error());
+    carving_ = std::make_unique<sculpt::Sculpture>(std::move(chosen->engine), pool_);
+    workpiece_name_ = std::filesystem::path(options.workpiece.source).filename().string() + ", " +
+                      std::to_string(options.workpiece.resolution) + " cells";
+    return {};
+}
+
+Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
+    wall::OutputSettings output = room_.wall.screens[room_.wall.main].shown;
+    output.swap_eyes = output.swap_eyes != options.live.swap_eyes;
+    if (!options.live.stereo.empty()) {
+        const auto mode = wall::parse_stereo_mode(options.live.stereo);
+        if (!mode) return std::unexpected(mode.error());
+        output.mode = *mode;
+    }
+    const auto tool = sculpt::parse_tool_settings(options.tool);
+    if (!tool) return std::unexpected(tool.error());
+    const auto feel = sculpt::parse_feel_settings(options.feel);
+    if (!feel) return std::unexpected(feel.error());
+    state_ = begin_session(room_, *tool, *feel, output);
+    const Result<sculpt::UseTool> use = tool_of(state_);
+    if (!use) return std::unexpected(use.error());
+
+    start_ns_ = clock_.now_ns();
+    const Vec3 rest_device_m = state_.desk.target_device_m;
+    if (const auto opened = haptics_.open(options.live.device, clock_, rest_device_m); !opened) return opened;
+    haptics_.publish(parameters_of(state_, room_));
+    // Far enough for the fastest hand to stay inside the known ball until the next update: 1 m/s for 12 ms.
+    const double reach_m = 0.012 * parameters_of(state_, room_).workspace.object_from_device.scale +
+                           2.0 * carving_->surface().lattice().spacing_m;
+    desk_.emplace(*carving_, haptics_.channels(), use->tool, use->hardness_Ns_per_m3, reach_m,
+                  options.undo_memory_MiB << 20);
+    desk_->order(*use);
+    desk_->start_at(inverse(state_.world_from_object) * (state_.world_from_device * rest_device_m));
+    return desk_->update(start_ns_);
+}
+
+// ---- One step
+
+void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output, const haptics::ToolState& tool,
+                       const Carve& carve) {
+    if (output.size.width > 0 && output.size.height > 0) output_ = output;  // keeps the last size while minimised
+    fit_desk_screen(room_.wall, main_eye());
+    tool_ = tool;
+    times_.sampled(start_ns_ + head_sampled_ns(input), tool_.time_ns);
+    const double dt_s = seconds(std::max<Nanoseconds>(input.time_ns - last_step_ns_, 0));
+    last_step_ns_ = input.time_ns;
+    const Captured captured = feed_panel(input);
+    SessionStep step = step_session(state_, room_, input.events, {dt_s, input.display_ns, main_eye(), tool_, captured});
+    state_ = std::move(step.state);
+    for (const CommandInput& action : panel_.actions()) {
+        if (const auto done = run_command(state_, step.orders, action); !done)
+            step.orders.messages.push_back(done.error().line());
+    }
+    fit_desk_screen(room_.wall, main_eye());  // a command may have changed the mode
+    haptics_.move_hand(input.time_ns, step.hand);
+    carry_out(std::move(step.orders), carve);
+    watch(input.time_ns);
+}
+
+Captured LiveSession::feed_panel(const FrameInput& input) {
+    const auto captured = panel_.feed(input,
+                                      {.state = state_,
+                                       .room = room_,
+                                       .tool = tool_,
+                                       .tracker = tracker_.report(),
+                                       .workpiece = workpiece_name_,
+                                       .undoable = undoable_,
+                                       .redoable = redoable_,
+                                       .exporting = exporting_,
+                                       .times = times_,
+                                       .tick_duration = haptics_.loop().duration(),
+                                       .shown = output_on(room_.wall.main),
+                                       .output = output_},
+                                      log_);
+    for (const std::string& line : times_.take_new_warnings()) std::fprintf(stderr, "burin: %s\n", line.c_str());
+    if (captured) return *captured;
+    notify(captured.error().line());
+    state_.panel = false;
+    return {};
+}
+
+void LiveSession::carry_out(SessionOrders orders, const Carve& carve) {
+    if (orders.parameters) haptics_.publish(parameters_of(state_, room_));
+    for (sculpt::SculptOrder& order : orders.carving) carve(std::move(order));
+    if (const auto lamp = lamp_.look(state_)) carve(sculpt::LightFrom{*lamp});
+    for (const std::string& message : orders.messages) notify(message);
+    for (const std::string& name : orders.screenshots) screenshots_.add(name);
+    exchange_full_screen_ = exchange_full_screen_ || orders.full_screen;
+}
+
+void LiveSession::watch(Nanoseconds time_ns) {
+    if (const auto strain = comfort_.look(state_, room_, tool_)) notify(*strain);
+    if (const auto change = tracker_.look(state_, room_, time_ns)) notify(*change);
+}
+
+void LiveSession::take(sculpt::SurfaceUpdate news) {
+    for (const std::string& message : news.messages) notify(message);
+    undoable_ = news.undoable;
+    redoable_ = news.redoable;
+    exporting_ = news.exporting;
+    times_.cut(news.cut_ns);
+    updates_.push_back(std::move(news));
+}
+
+void LiveSession::refuse_mode(wall::StereoMode working, const Error& error) {
+    state_.output.mode = working;
+    refused_ = working;
+    notify_of_event(error.line());
+}
+
+}  // namespace burin::session

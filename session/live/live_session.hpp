@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// Live session: its parts and how they are connected, the same in real time and in simulated time.
+//
+//   input -> step() -> state -> scene_on(), panel_on() -> picture       the frame's thread
+//                 |-> hand, parameters                 ->   the haptic loop (its own thread, or stepped)
+//                 |-> orders                           ->   the carving service (its own thread, or stepped)
+//   the carving service's surface updates -> take() -> take_surface_updates() -> tiles of the picture
+//
+// Each role has a class of its own: HapticSide, LivePanel, MessageLog, ScreenshotQueue, and the watches of
+// session_watch.hpp. A driver gives the session its frames (session.hpp), the Presenter draws them. What the threads of
+// a real-time session did can be recorded (drive/thread_recorder.hpp) and replayed (drive/thread_replay.hpp).
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sculpt/sculpt_service.hpp"
+#include "session/live/haptic_side.hpp"
+#include "session/live/live_panel.hpp"
+#include "session/live/message_log.hpp"
+#include "session/live/session_watch.hpp"
+#include "session/record/input_source.hpp"
+#include "session/state/session_options.hpp"
+#include "session/state/session_state.hpp"
+
+namespace burin::session {
+
+// Screenshots that commands have asked for and the next frame takes.
+class ScreenshotQueue {
+public:
+    // Names are relative to the folder; an absolute one stays as it is.
+    explicit ScreenshotQueue(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+    void add(const std::string& name) { paths_.push_back(folder_ / name); }
+    [[nodiscard]] bool empty() const { return paths_.empty(); }
+    // Returns the paths to write to, in the order of the commands.
+    [[nodiscard]] std::vector<std::filesystem::path> take() { return std::exchange(paths_, {}); }
+
+private:
+    std::filesystem::path folder_;
+    std::vector<std::filesystem::path> paths_;
+};
+
+class LiveSession {
+public:
+    // Loads and meshes the workpiece. Session time counts from the clock's present value; the clock must outlive the
+    // session.
+    [[nodiscard]] static Result<std::unique_ptr<LiveSession>> create(const SculptOptions& options,
+                                                                     const SessionWall& wall, Clock& clock);
+
+    // Applies one frame's input. `output` is the main screen's output, `tool` the tool as the frame draws it. Orders to
+    // the carving side are passed to `carve`.
+    using Carve = std::function<void(sculpt::SculptOrder)>;
+    void step(const FrameInput& input, const wall::OutputPlace& output, const haptics::ToolState& tool,
+              const Carve& carve);
+    // Returns the newest tool state that the haptic loop has published.
+    [[nodiscard]] const haptics::ToolState& newest_tool() { return haptics_.newest_tool(); }
+    // Takes a surface update from the carving side.
+    void take(sculpt::SurfaceUpdate news);
+
+    // ---- What the frame draws.
+    // Returns the surface updates since the last call, and the origin of their tiles' positions.
+    [[nodiscard]] std::vector<sculpt::SurfaceUpdate> take_surface_updates() { return std::exchange(updates_, {}); }
+    [[nodiscard]] const Vec3& lattice_origin_object() const { return carving_->surface().lattice().origin_object; }
+    // Returns the scene of a screen; nothing where it stays dark.
+    [[nodiscard]] std::optional<renderer::Scene> scene_on(std::size_t screen) const {
+        return scene_of(state_, room_, screen, lattice_origin_object(), tool_);
+    }
+    // Returns the panel's picture on a screen, valid until the next step; nothing where it is not shown.
+    [[nodiscard]] std::optional<PanelPicture> panel_on(std::size_t screen) const {
+        return panel_.picture_on(screen, room_);
+    }
+    // Records what the main screen's frame drew and left out.
+    void note_drawn(const renderer::RenderStats& stats) { panel_.note_drawn(stats); }
+    [[nodiscard]] wall::OutputSettings output_on(std::size_t screen) const {
+        return burin::session::output_on(room_.wall, screen, state_.output);
+    }
+    // Reports that a screen cannot be shown in the requested mode, and changes the session to the mode that works.
+    void refuse_mode(wall::StereoMode working, const Error& error);
+    void go_back_to(wall::StereoMode mode) { state_.output.mode = mode; }
+    // Screenshots that commands have asked for since the last call: the paths to write them to.
+    [[nodiscard]] bool wants_screenshots() const { return !screenshots_.empty(); }
+    [[nodiscard]] std::vector<std::filesystem::path> take_screenshots() { return screenshots_.take(); }
+
+    [[nodiscard]] const SessionState& state() const { return state_; }
+    [[nodiscard]] const Room& room() const { return room_; }
+    [[nodiscard]] haptics::HapticLoop& loop() { return haptics_.loop(); }
+    [[nodiscard]] sculpt::SculptService& desk() { return *desk_; }
+    [[nodiscard]] SessionTimes& times() { return times_; }
+    [[nodiscard]] Nanoseconds start_ns() const { return start_ns_; }
+    [[nodiscard]] bool wants_full_screen_exchanged() { return std::exchange(exchange_full_screen_, false); }
+    // See MessageLog.
+    void notify(const std::string& message) { log_.notify(message); }
+    void notify_of_event(const std::string& message) { log_.notify_of_event(message); }
+    void replay_events(std::span<const std::string> recorded) { log_.replay_events(recorded); }
+    // See LivePanel.
+    [[nodiscard]] const PanelMeasured& measured() const { return panel_.measured(); }
+    void measure_again(const PanelMeasured& recorded) { panel_.measure_again(recorded); }
+    // Outside messages and refused modes since the last call, for the recorder.
+    struct Outside {
+        std::vector<std::string> heard;
+        std::optional<wall::StereoMode> refused;
+    };
+    [[nodiscard]] Outside take_outside() { return {log_.take_events(), std::exchange(refused_, std::nullopt)}; }
+
+    [[nodiscard]] const devices::DeviceDescription& device() const { return haptics_.device(); }
+    [[nodiscard]] haptics::HapticChannels& channels() { return haptics_.channels(); }
+    // Returns the surface as it is carved now.
+    [[nodiscard]] const compute::Surface& surface() const { return carving_->surface(); }
+
+private:
+    LiveSession(Clock& clock, const SculptOptions& options);
+    [[nodiscard]] Result<void> load(const SculptOptions& options, const SessionWall& wall);
+    [[nodiscard]] Result<void> take_up_tool(const SculptOptions& options);
+    Captured feed_panel(const FrameInput& input);
+    void carry_out(SessionOrders orders, const Carve& carve);
+    void watch(Nanoseconds time_ns);
+    [[nodiscard]] ImageSize main_eye() const { return wall::eye_size(output_on(room_.wall.main).mode, output_.size); }
+
+    Clock& clock_;
+    Nanoseconds start_ns_ = 0;
+    WorkerPool pool_;
+    std::unique_ptr<sculpt::Sculpture> carving_;
+    HapticSide haptics_;
+    std::optional<sculpt::SculptService> desk_;
+    std::string workpiece_name_;
+    Room room_;
+    SessionState state_;
+    haptics::ToolState tool_;
+    Nanoseconds last_step_ns_ = 0;
+    wall::OutputPlace output_;                    // of the main screen
+    std::vector<sculpt::SurfaceUpdate> updates_;  // not drawn yet
+    std::size_t undoable_ = 0, redoable_ = 0;     // as of the last update
+    bool exporting_ = false;
+    LivePanel panel_;
+    MessageLog log_;
+    ScreenshotQueue screenshots_;
+    SessionTimes times_{clock_};
+    ComfortWatch comfort_;
+    TrackerWatch tracker_;
+    LampWatch lamp_;
+    bool exchange_full_screen_ = false;
+    std::optional<wall::StereoMode> refused_;  // for the recorder
+};
+
+}  // namespace burin::session

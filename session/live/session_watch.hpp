@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Watches over a live session: each looks at a frame's state, keeps what it saw before, and reports when something
+// begins or ends, since a message or an order per frame would help nobody. Thread: the frame's.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "compute/light/surface_light.hpp"
+#include "session/state/session_state.hpp"
+#include "wall/head_prediction.hpp"
+
+namespace burin::session {
+
+// Watches the parallax of what is drawn.
+class ComfortWatch {
+public:
+    // Returns a warning when the parallax has gone beyond the viewer's budget.
+    [[nodiscard]] std::optional<std::string> look(const SessionState& state, const Room& room,
+                                                  const haptics::ToolState& tool);
+
+private:
+    bool strained_ = false;  // the last frame's parallax was beyond the budget
+};
+
+// Watches the head's tracker.
+class TrackerWatch {
+public:
+    // Returns a message when the tracker has lost the head, or sees it again. time_ns: session time.
+    [[nodiscard]] std::optional<std::string> look(const SessionState& state, const Room& room, Nanoseconds time_ns);
+    // Returns the last report; meaningless without a tracker.
+    [[nodiscard]] const wall::TrackerReport& report() const { return report_; }
+
+private:
+    wall::TrackerReport report_;
+};
+
+// Watches where the lamp stands relative to the workpiece. The lamp is fixed in the world, so that a workpiece that
+// turns is lit from elsewhere.
+class LampWatch {
+public:
+    // Returns the lamp in the object frame when it has turned enough to compute shadows anew, and at first.
+    [[nodiscard]] std::optional<compute::Lamp> look(const SessionState& state);
+
+private:
+    Vec3 direction_object_{0.0};  // last returned; zero: not yet
+};
+
+}  // namespace burin::session

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// Presents a session's pictures: for each screen in a window (two where each eye has its own), on a display driven
+// directly, or only as screenshots. Uses one graphics device, which may be lost and replaced.
+//
+// One frame is draw(): it takes the session's surface updates, draws all screens' pictures in one submission, and shows
+// them in the outputs' images, into which only their damaged parts are drawn. It waits for the device twice, whatever
+// the number of screens: for the pictures, and for the images.
+// Main thread alone, except for wake().
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "session/live/live_session.hpp"
+#include "session/picture/session_picture.hpp"
+#include "session/picture/session_surface.hpp"
+#include "session/present/direct_output.hpp"
+#include "session/present/session_waker.hpp"
+#include "session/present/session_window.hpp"
+#include "wall/parity.hpp"
+
+namespace burin::session {
+
+class Presenter {
+public:
+    // The wall must outlive it.
+    [[nodiscard]] static Result<Presenter> open(const LiveOptions& options, const SessionWall& wall,
+                                                DirectDriver driver = direct_driver());
+
+    // Reads the outputs' positions and sizes, which hold until the next call; once a frame.
+    void look();
+    [[nodiscard]] std::vector<wall::OutputPlace> places() const;  // of all screens' outputs
+    // Position and size of the main screen's output.
+    [[nodiscard]] const wall::OutputPlace& place() const { return screens_[wall_->main].place; }
+    // Overrides a screen's position and size with those to draw for, whatever the output is like.
+    void put(std::size_t screen, const wall::OutputPlace& place) { screens_[screen].place = place; }
+    [[nodiscard]] std::size_t screens() const { return screens_.size(); }
+    // Returns whether any screen has an output, or there are screenshots alone; and whether there are windows, which
+    // give input.
+    [[nodiscard]] bool shows() const { return screens_.front().output != nullptr; }
+    [[nodiscard]] bool has_windows() const { return !waker_ && shows(); }
+    [[nodiscard]] double refresh_Hz() const;
+    // Return what the display reports: how long all outputs waited (the vblank is the main screen's, the left eye's of
+    // two), and what the main screen's output has presented; nothing where nothing is shown.
+    [[nodiscard]] SessionOutput::Blocked take_blocked();
+    [[nodiscard]] std::uint64_t presented() const;
+    [[nodiscard]] std::optional<bool> was_shown(std::uint64_t picture) const;
+    [[nodiscard]] const std::string& device_name() const { return device_->info().name; }
+    [[nodiscard]] gpu::Device& device() { return *device_; }  // a new one after recover()
+    [[nodiscard]] const SessionSurface& surface() const { return surface_; }
+
+    // Returns what happened in the windows, waiting for at most so long (0: not at all) or until wake(). The mouse
+    // counts in the main screen alone; in the window of its right eye positions lie kRightWindow_px (seen_place.hpp)
+    // further to the right. Closing any window asks the session to end, since none of a wall's windows can be reopened
+    // alone. Displays driven directly give no input.
+    [[nodiscard]] std::vector<Input> inputs(double wait_s);
+    void wake();  // any thread
+
+    // Draws one frame, if anything is new; returns whether it was. frame_ns: when it is to be seen, in session time.
+    [[nodiscard]] Result<bool> draw(LiveSession& session, Nanoseconds frame_ns);
+    // Returns whether eyes are shown by turns, which needs a picture at each refresh.
+    [[nodiscard]] bool takes_turns(const LiveSession& session) const;
+    // Has coarser levels of the surface computed in the background; call between frames. resting: nothing has happened
+    // for a while.
+    void refine_beside(bool resting) { surface_.refine_beside(resting); }
+
+    void exchange_full_screen() { screens_[wall_->main].output->exchange_full_screen(); }
+    [[nodiscard]] std::vector<std::string> take_messages();  // for the user
+
+    // Replaces a lost device: drops what was made on it and starts anew on one that is present, waiting some seconds at
+    // most. What is carved belongs to the session and stays. Returns any other error, and so a device that is lost over
+    // and over.
+    [[nodiscard]] Result<void> recover(LiveSession& session, const Error& error);
+
+private:
+    // Output for one eye's picture or both eyes'.
+    struct Outlet {
+        SessionOutput* output = nullptr;
+        wall::Eye eye = wall::Eye::left;
+        PresentedParts* parts = nullptr;
+    };
+    struct ScreenStage {
+        std::unique_ptr<SessionOutput> output;
+        SessionWindow* window = nullptr;  // same object, where the output is a window
+        std::unique_ptr<SessionWindow> right_window;
+        PresentedParts parts, right_parts;
+        std::optional<SessionPicture> picture;
+        wall::OutputPlace place;
+        wall::FieldParity parity;
+        wall::OutputSettings settings;  // of this frame's picture
+        bool anew = false;              // this frame's picture differs from the one in the outputs' images
+        wall::OutputSettings shown;     // settings of the pictures in the outputs' images
+        wall::OutputPlace shown_place;
+    };
+
+    Presenter(const LiveOptions& options, const SessionWall& wall, DirectDriver driver)
+        : options_(options), wall_(&wall), driver_(std::move(driver)) {}
+    [[nodiscard]] Result<void> open_outputs();
+    [[nodiscard]] Result<void> open_device();
+    [[nodiscard]] Result<gpu::Device> create_device() const;
+    // Returns the outputs of a screen and of its right eye; null where there is none.
+    [[nodiscard]] static std::array<SessionOutput*, 2> outputs_of(const ScreenStage& screen) {
+        return {screen.output.get(), screen.right_window.get()};
+    }
+    [[nodiscard]] static std::vector<Input> right_eyes_inputs(const ScreenStage& screen);
+    // ---- presenter_drawing.cpp
+    [[nodiscard]] Result<void> fit_modes(LiveSession& session);
+    // Opens and closes what the mode needs: a second window, images of two layers. An Error leaves the screen in a
+    // state it can show.
+    [[nodiscard]] Result<void> fit_mode(std::size_t screen, wall::StereoMode mode);
+    [[nodiscard]] Result<bool> draw_screens(LiveSession& session);
+    [[nodiscard]] Result<void> draw_screen(gpu::Commands& commands, std::size_t screen, LiveSession& session);
+    static bool note_changes(ScreenStage& screen);
+    [[nodiscard]] Result<void> show_screens(Nanoseconds frame_ns);
+    [[nodiscard]] Result<void> show(ScreenStage& screen, Nanoseconds frame_ns);
+    [[nodiscard]] Result<void> show_in(ScreenStage& screen, const Outlet& outlet);
+    [[nodiscard]] wall::Eye eye_in_turn(ScreenStage& screen, Nanoseconds frame_ns);
+    void take_screenshots(LiveSession& session);
+    void photograph(std::size_t screen, LiveSession& session, const std::vector<std::filesystem::path>& paths);
+
+    LiveOptions options_;
+    const SessionWall* wall_;
+    DirectDriver driver_;
+    std::optional<gpu::Device> device_;
+    SessionSurface surface_;  // as all screens draw it
+    std::vector<ScreenStage> screens_;
+    std::unique_ptr<SessionWaker> waker_;  // present where no window waits for events
+    std::vector<std::string> messages_;
+    std::optional<gpu::Submission> showing_;  // the last of this frame's submissions that fill outputs' images
+    int losses_ = 0;                          // device losses since the last picture
+};
+
+}  // namespace burin::session

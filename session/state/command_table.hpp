@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// Names every command that a session accepts, and what its arguments name besides tools and operations
+// (sculpt/tool_kinds.hpp): workspace techniques and quantities, one descriptor each. The panel, keys, scripts and
+// replays all give commands in these words, so that they cannot differ. Each command has its arguments, one line of
+// help and a parser that returns a typed value. Numbers are in SI units; a printed value reads back to the same bits.
+// Pure functions; any thread.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "base/error.hpp"
+#include "haptics/workspace/technique.hpp"
+#include "sculpt/tool_kinds.hpp"
+#include "session/input/desk_input_table.hpp"
+#include "session/input/input_event.hpp"
+#include "wall/stereo_mode.hpp"
+
+namespace burin::session {
+
+// Describes a workspace technique.
+struct TechniqueDescriptor {
+    haptics::WorkspaceTechnique technique = haptics::WorkspaceTechnique::fixed;
+    std::string_view name;   // as commands have it: "moving"
+    std::string_view title;  // as the panel shows it: "Moving box"
+};
+// Lists all techniques in the order of haptics::WorkspaceTechnique.
+[[nodiscard]] std::span<const TechniqueDescriptor> techniques();
+[[nodiscard]] const TechniqueDescriptor& descriptor_of(haptics::WorkspaceTechnique technique);
+
+// Commands. One without arguments that a key can give as well is a RunAction.
+struct RunAction {
+    Action action = Action::undo;
+    bool operator==(const RunAction&) const = default;
+};
+struct SetTool {
+    sculpt::ToolSpec tool;
+    bool operator==(const SetTool&) const = default;
+};
+struct SetOperation {
+    compute::Operation operation = compute::Operation::cut;
+    bool operator==(const SetOperation&) const = default;
+};
+// Sets the colour of the material that the tool leaves; sRGB, 0 to 1.
+struct SetColour {
+    std::array<double, 3> srgb{};
+    bool operator==(const SetColour&) const = default;
+};
+// Names a number that a session keeps and a command can set.
+enum class Quantity : std::uint8_t {
+    radius,           // m; of a ball, or the first radius of another tool
+    hardness,         // N s/m^3
+    friction,         // Coulomb's mu
+    stiffness,        // N/m
+    velocity_filter,  // factor a of the moving average; 0: off
+    force_filter,     // factor a of the moving average; 0: off
+    scale,            // position gain of the workspace
+    eye_distance,     // m
+};
+struct SetQuantity {
+    Quantity quantity = Quantity::radius;
+    double value = 0.0;
+    bool operator==(const SetQuantity&) const = default;
+};
+struct SetTechnique {
+    haptics::WorkspaceTechnique technique = haptics::WorkspaceTechnique::fixed;
+    bool operator==(const SetTechnique&) const = default;
+};
+struct SetStereoMode {
+    wall::StereoMode mode = wall::StereoMode::mono;
+    bool operator==(const SetStereoMode&) const = default;
+};
+struct SetTestPattern {
+    wall::TestPattern pattern = wall::TestPattern::none;
+    bool operator==(const SetTestPattern&) const = default;
+};
+struct SetEyeSwap {
+    bool on = false;
+    bool operator==(const SetEyeSwap&) const = default;
+};
+// Switches the force; off: the device is held at zero force.
+struct SetForce {
+    bool on = true;
+    bool operator==(const SetForce&) const = default;
+};
+// Shows or hides the arrow at the tool that stands for the force.
+struct SetForceShown {
+    bool on = false;
+    bool operator==(const SetForceShown&) const = default;
+};
+struct ExportTo {
+    std::string path;
+    bool operator==(const ExportTo&) const = default;
+};
+struct ScreenshotTo {
+    std::string path;
+    bool operator==(const ScreenshotTo&) const = default;
+};
+
+using SessionCommand =
+    std::variant<RunAction, SetTool, SetOperation, SetColour, SetQuantity, SetTechnique, SetStereoMode, SetTestPattern,
+                 SetEyeSwap, SetForce, SetForceShown, ExportTo, ScreenshotTo>;
+
+struct SessionState;
+
+// What has to be told of a quantity's new value.
+enum class QuantityConcern : std::uint8_t { picture, touch, tool_and_touch };
+// Describes a quantity: its name, the bounds that the parser enforces, the range that the panel offers, and where the
+// session keeps it.
+struct QuantityDescriptor {
+    Quantity quantity = Quantity::radius;
+    std::string_view name;           // the command's name
+    std::string_view unit;           // empty: none
+    std::string_view argument;       // in help: "R"
+    std::string_view help;           // one line
+    double least = 0.0, most = 0.0;  // allowed
+    double from = 0.0, to = 0.0;     // offered by the panel; the upper end may be exceeded by a command
+    bool by_ratio = false;           // the panel's steps are factors, not differences
+    QuantityConcern concern = QuantityConcern::picture;
+    double (*value)(const SessionState& state) = nullptr;
+    void (*set)(SessionState& state, double value) = nullptr;
+};
+// Lists all quantities in the order of Quantity.
+[[nodiscard]] std::span<const QuantityDescriptor> quantities();
+[[nodiscard]] const QuantityDescriptor& descriptor_of(Quantity quantity);
+
+struct CommandSpec {
+    std::string_view name;
+    std::string_view arguments;  // "R" or "on|off"; empty: none; [ ]: optional
+    std::string help;            // one line
+};
+// Lists the commands in the order in which help shows them.
+[[nodiscard]] std::span<const CommandSpec> commands();
+
+// Parses a command. The Error names the command, what is wrong with it, and what would be right.
+[[nodiscard]] Result<SessionCommand> parse_command(const CommandInput& input);
+// Parses a script's line such as "tool ball:0.004"; words are separated as in session/input/input_words.hpp.
+[[nodiscard]] Result<SessionCommand> parse_command_line(std::string_view line);
+// Converts a command to words: parse_command(as_input(c)) equals c.
+[[nodiscard]] CommandInput as_input(const SessionCommand& command);
+
+}  // namespace burin::session

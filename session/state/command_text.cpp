@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Formats commands as words.
+#include <charconv>
+
+#include "session/state/command_table.hpp"
+
+namespace burin::session {
+
+namespace {
+
+// Returns the shortest text that reads back to the same bits.
+std::string exact(double value) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
+    return {text.data(), end.ptr};
+}
+
+std::string on_off(bool on) { return on ? "on" : "off"; }
+
+struct Printer {
+    CommandInput operator()(const RunAction& c) const { return {std::string(name_of(c.action)), {}}; }
+    CommandInput operator()(const SetTool& c) const { return {"tool", {sculpt::text_of(c.tool)}}; }
+    CommandInput operator()(const SetOperation& c) const {
+        return {"operation", {std::string(sculpt::descriptor_of(c.operation).name)}};
+    }
+    CommandInput operator()(const SetColour& c) const {
+        return {"colour", {exact(c.srgb[0]) + "," + exact(c.srgb[1]) + "," + exact(c.srgb[2])}};
+    }
+    CommandInput operator()(const SetQuantity& c) const {
+        return {std::string(descriptor_of(c.quantity).name), {exact(c.value)}};
+    }
+    CommandInput operator()(const SetTechnique& c) const {
+        return {"technique", {std::string(descriptor_of(c.technique).name)}};
+    }
+    CommandInput operator()(const SetStereoMode& c) const {
+        return {"stereo-mode", {std::string(file_name_of(c.mode))}};
+    }
+    CommandInput operator()(const SetTestPattern& c) const {
+        return {"test-pattern", {std::string(file_name_of(c.pattern))}};
+    }
+    CommandInput operator()(const SetEyeSwap& c) const { return {"swap-eyes", {on_off(c.on)}}; }
+    CommandInput operator()(const SetForce& c) const { return {"force", {on_off(c.on)}}; }
+    CommandInput operator()(const ExportTo& c) const { return {"export", {c.path}}; }
+    CommandInput operator()(const ScreenshotTo& c) const { return {"screenshot", {c.path}}; }
+    CommandInput operator()(const SetForceShown& c) const { return {"show-force", {on_off(c.on)}}; }
+};
+
+}  // namespace
+
+CommandInput as_input(const SessionCommand& command) { return std::visit(Printer{}, command); }
+
+}  // namespace burin::session

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Options of `burin sculpt`: what is carved with what (SculptOptions), and how a live session is shown and controlled
+// (LiveOptions).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "devices/haptic/device_registry.hpp"
+#include "sculpt/feel_options.hpp"
+#include "sculpt/tool_options.hpp"
+#include "sculpt/workpiece.hpp"
+
+namespace burin::session {
+
+struct LiveOptions {
+    bool live = false;       // explicitly requested; also implied when there is neither a stroke nor an output
+    std::string input;       // a log or a script that takes the user's place; empty: keyboard, mouse, trackers
+    std::string record;      // path of the input recording; empty: none
+    bool offscreen = false;  // no window; needs an input
+    std::string stereo;      // a mode's name; empty: mono in a window
+    bool swap_eyes = false;
+    std::string wall;     // wall file with screens, eyes and tracker; empty: one desktop window
+    std::string tracker;  // tracker address, "udp:PORT"; empty: keys fly the head
+    std::string device = devices::kDefaultHapticDevice;  // name of a force-feedback device
+    bool windowed = false;    // the wall's screens as desktop windows, fitted into width x height
+    std::string full_screen;  // a monitor's name or index; empty: a window
+    int width = 1280, height = 720;
+    std::uint32_t samples = 0;  // per pixel, 1 or 4; 0: 4 on hardware, 1 on a software device
+    std::string screenshots;    // folder for screenshots with a relative name; empty: the working directory
+};
+
+enum class HandChoice { rigid, simulated };
+
+struct SculptOptions {
+    sculpt::WorkpieceOptions workpiece;
+    sculpt::ToolOptions tool;
+    std::string stroke;      // a CSV file; empty: nothing is carved
+    bool merge_rows = true;  // with a rigid hand: merge nearly straight runs of rows into one sweep
+    sculpt::EngineChoice engine = sculpt::EngineChoice::automatic;
+    HandChoice hand = HandChoice::rigid;
+    sculpt::FeelOptions feel;  // with a simulated hand
+    bool real_time = false;
+    std::size_t undo = 0;                // strokes to undo at the end, from press to release
+    std::size_t undo_memory_MiB = 1024;  // memory for strokes that can be undone
+    std::vector<std::string> exports;    // STL, PLY, OBJ
+    std::optional<double> simplify_m;    // bound on the exported surface's motion; none: all triangles
+    std::string pictures;                // a folder; empty: none
+    std::string report;                  // a JSON file; empty: none; plots of the felt stroke lie beside it
+    unsigned threads = 0;                // 0: one per core
+    LiveOptions live;
+};
+
+}  // namespace burin::session

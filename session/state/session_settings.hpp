@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Formats the options that a session's frames depend on as the first line of a recording: "burin sculpt --workpiece
+// ball:0.1 ...", which a shell takes as well. Leaves out what only sets where and how fast a session runs (engine,
+// threads, display, files). Pure.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "session/state/session_options.hpp"
+
+namespace burin::session {
+
+[[nodiscard]] std::string settings_line(const SculptOptions& options);
+
+// Reads the options of a recording's line; options that such lines never hold keep their given values. The Error names
+// an option that is unknown or wrong.
+struct RecordedOptions {
+    SculptOptions options;
+    std::vector<std::string> overruled;  // a message for each given option that the recording contradicts
+};
+[[nodiscard]] Result<RecordedOptions> options_as_recorded(const std::string& line, const SculptOptions& given);
+
+}  // namespace burin::session

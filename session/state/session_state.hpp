@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// State of a live session except what is carved: where head and scene are, which tool is held, how it is shown. A
+// struct, and functions that change it by events and commands; what other parts have to be told comes out as a list of
+// orders. No clock, thread or window: the same events give the same states.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "haptics/channels.hpp"
+#include "renderer/scene/scene.hpp"
+#include "sculpt/feel_options.hpp"
+#include "sculpt/sculpt_service.hpp"
+#include "sculpt/tool_options.hpp"
+#include "session/input/desk_input.hpp"
+#include "session/input/input_event.hpp"
+#include "session/input/input_wand.hpp"
+#include "session/state/command_table.hpp"
+#include "session/state/session_head.hpp"
+#include "session/state/session_screens.hpp"
+#include "wall/output_settings.hpp"
+
+namespace burin::session {
+
+struct SessionState {
+    DeskState desk;
+    SessionHead head;
+    WandState wands;
+    Similarity world_from_object, home_world_from_object;
+    Similarity world_from_device;  // where the hand's workspace is in the world
+    double interpupillary_m = 0.063;
+    sculpt::ToolSettings tool;  // a ball, since the hand feels with no other tool (tool_of)
+    sculpt::FeelSettings feel;
+    haptics::WorkspaceTechnique technique = haptics::WorkspaceTechnique::fixed;
+    // Factors a of the exponentially weighted means of force (P11) and velocity; 0: off.
+    double force_filter = 0.0, velocity_filter = 0.0;
+    double workspace_gain = 1.0;  // multiplies the workspace's gain at home
+    bool force_on = true;
+    bool force_shown = false;     // as an arrow
+    bool only_touch = false;      // the tool feels the surface but leaves it unchanged
+    wall::OutputSettings output;  // of the main screen (output_on(), session_screens.hpp)
+    bool panel = true, help = false, figures = false;
+    std::string export_path = "part.stl";
+    bool quit = false;
+};
+
+// Orders that a step gives to the other parts of the session.
+struct SessionOrders {
+    std::vector<sculpt::SculptOrder> carving;
+    bool parameters = false;  // the haptic thread's parameters have changed
+    std::vector<std::string> screenshots;
+    bool full_screen = false;           // toggle between window and full screen
+    std::vector<std::string> messages;  // for the user
+};
+
+// Positions at the start: the workpiece before the viewer, the hand's workspace over its front.
+struct Room {
+    Box workpiece_object;
+    SessionWall wall;
+    Vec3 workspace_device_m{0.1626, 0.1219, 0.0711};
+    DeskSettings desk;
+
+    [[nodiscard]] wall::Screen screen() const { return wall::screen_world(wall.setup, wall.setup.screens[wall.main]); }
+};
+// Places the workpiece before the viewer and returns the first state.
+[[nodiscard]] SessionState begin_session(const Room& room, const sculpt::ToolSettings& tool,
+                                         const sculpt::FeelSettings& feel, const wall::OutputSettings& output);
+
+// What a step must know of the rest of the session: input that the panel captures, times, and the tool.
+struct Captured {
+    bool mouse = false, keyboard = false;
+};
+struct SessionView {
+    double dt_s = 0.0;           // since the step before
+    Nanoseconds display_ns = 0;  // when the picture is to be seen
+    ImageSize eye_size;          // of the main screen
+    haptics::ToolState tool;
+    Captured captured;
+};
+struct SessionStep {
+    SessionState state;
+    SessionOrders orders;
+    devices::HandTarget hand;
+};
+[[nodiscard]] SessionStep step_session(SessionState state, const Room& room, std::span<const InputEvent> events,
+                                       const SessionView& view);
+
+// Runs a command by its name (command_table.hpp). On an Error, which says what would be right, nothing has changed.
+[[nodiscard]] Result<void> run_command(SessionState& state, SessionOrders& orders, const CommandInput& command);
+
+// Returns the parameters that the haptic thread is to use.
+[[nodiscard]] haptics::TickParameters parameters_of(const SessionState& state, const Room& room);
+// Returns the tool that the carving side is to use; the Error says what is wrong with it. Reads no file.
+[[nodiscard]] Result<sculpt::UseTool> tool_of(const SessionState& state);
+// Returns the scene that one screen shows; nothing where an eye is not in front of it.
+[[nodiscard]] std::optional<renderer::Scene> scene_of(const SessionState& state, const Room& room, std::size_t screen,
+                                                      const Vec3& lattice_origin_object,
+                                                      const haptics::ToolState& tool);
+// Judges what in the scene strains the eyes, on the main screen.
+[[nodiscard]] wall::ComfortFinding comfort_of(const SessionState& state, const Room& room,
+                                              const haptics::ToolState& tool);
+
+}  // namespace burin::session

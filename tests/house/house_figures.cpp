@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "tests/house/house_figures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "base/text.hpp"
+#include "tests/house/house_rules.hpp"
+#include "tests/house/source_tree.hpp"
+#include "tests/house/structure_rules.hpp"
+
+namespace burin::house {
+
+namespace {
+
+constexpr std::array kExceptions{
+    FragmentException{"bench", 26}, FragmentException{"compute", 20},  FragmentException{"geometry", 22},
+    FragmentException{"gpu", 17},   FragmentException{"renderer", 27},
+};
+
+bool is_cpp(const std::string& path) { return path.ends_with(".cpp") || path.ends_with(".hpp"); }
+
+std::string top_folder_of(const std::string& path) { return path.substr(0, path.find('/')); }
+
+Figure counted(std::string name, std::vector<std::string> places) {
+    const auto count = static_cast<double>(places.size());
+    return {std::move(name), count, 0.0, std::move(places), ""};
+}
+
+// Counts what a kind of device touches: its own source, and the other files of the product that name it.
+Figure places_touched(const std::filesystem::path& root, const std::string& what, const std::string& own_source,
+                      const std::string& opened_by, double bar) {
+    Figure figure{"places that a " + what + " touches", 0.0, bar, {own_source}, "as " + own_source + " does"};
+    for (const std::string& path : repository_files(root)) {
+        const bool judged = is_cpp(path) && !path.starts_with("tests/") && !path.starts_with(own_source);
+        if (judged && without_comments(read_text(root / path)).contains(opened_by)) figure.places.push_back(path);
+    }
+    figure.value = static_cast<double>(figure.places.size());
+    return figure;
+}
+
+}  // namespace
+
+std::vector<FolderFragments> fragments_by_folder(const std::filesystem::path& root) {
+    std::map<std::string, FolderFragments> folders;
+    for (const std::string& path : repository_files(root)) {
+        const std::string folder = top_folder_of(path);
+        if (!is_cpp(path) || !path.contains('/') || folder == "tests" || folder == "shaders") continue;
+        FolderFragments& counts = folders[folder];
+        counts.folder = folder;
+        ++counts.files;
+        const std::string text = read_text(root / path);
+        if (static_cast<std::size_t>(std::ranges::count(text, '\n')) < kFragmentLines) counts.fragments.push_back(path);
+    }
+    std::vector<FolderFragments> found;
+    for (auto& [folder, counts] : folders) found.push_back(std::move(counts));
+    return found;
+}
+
+std::span<const FragmentException> fragment_exceptions() { return kExceptions; }
+
+std::size_t most_fragments_percent(const std::string& folder) {
+    const auto exception = std::ranges::find(kExceptions, folder, &FragmentException::folder);
+    return exception != kExceptions.end() ? exception->most_percent : kMostFragments_percent;
+}
+
+std::vector<Figure> house_figures(const std::filesystem::path& root) {
+    std::vector<Figure> figures;
+    figures.push_back(counted("types defined twice in a namespace", types_defined_twice(root)));
+    figures.push_back(counted("cycles between rooms", room_cycles(root)));
+    figures.push_back(counted(formatted("lines of more than %d columns", kMostColumns), long_lines(root).places));
+    figures.push_back(counted("paths in documents that do not exist", missing_document_paths(root).places));
+    figures.push_back(places_touched(root, "tracker", "devices/trackers/udp_tracker", "open_udp_tracker", 3.0));
+    figures.push_back(
+        places_touched(root, "haptic device", "devices/haptic/simulated_omni", "open_simulated_omni", 3.0));
+    for (FolderFragments& folder : fragments_by_folder(root)) {
+        const std::size_t bar = most_fragments_percent(folder.folder);
+        Figure figure{formatted("%% of files under %zu lines in %s/", kFragmentLines, folder.folder.c_str()),
+                      folder.percent(), static_cast<double>(bar), std::move(folder.fragments),
+                      formatted("%zu files", folder.files)};
+        if (bar > kMostFragments_percent) {
+            figure.remark += figure.value <= static_cast<double>(kMostFragments_percent)
+                                 ? formatted("; reaches %zu, so take it off the exceptions", kMostFragments_percent)
+                                 : formatted("; an exception to %zu", kMostFragments_percent);
+        }
+        figures.push_back(std::move(figure));
+    }
+    return figures;
+}
+
+std::string table_of(std::span<const Figure> figures) {
+    std::string text;
+    for (const Figure& figure : figures) {
+        text += formatted("%-6s %-46s %6.1f  bar %4.0f  %s\n", figure.reached() ? "ok" : "MISSED", figure.name.c_str(),
+                          figure.value, figure.bar, figure.remark.c_str());
+        for (const std::string& place : figure.places)
+            if (!figure.reached()) text += "         " + place + "\n";
+    }
+    return text;
+}
+
+}  // namespace burin::house

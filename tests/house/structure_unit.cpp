@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// ctest house.structure: rooms include each other in one direction, no type has two definitions, few files are
+// fragments, and each rule can be seen to fail.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/house/house_figures.hpp"
+#include "tests/house/source_tree.hpp"
+#include "tests/house/structure_rules.hpp"
+
+namespace burin::house {
+namespace {
+
+using Names = std::vector<std::string>;
+
+TEST(Rooms, IncludeEachOtherInOneDirection) {
+    for (const std::string& cycle : room_cycles(BURIN_SOURCE_FOLDER)) ADD_FAILURE() << cycle;
+}
+
+TEST(Types, AreDefinedOnce) {
+    for (const std::string& twice : types_defined_twice(BURIN_SOURCE_FOLDER)) ADD_FAILURE() << twice;
+}
+
+TEST(Types, AreFoundInThisRepository) {
+    const Names types = types_defined_in(read_text(std::string(BURIN_SOURCE_FOLDER) + "/base/error.hpp"));
+    EXPECT_NE(std::ranges::find(types, "burin::Error"), types.end());
+}
+
+TEST(Fragments, AreFewInEachFolder) {
+    const auto folders = fragments_by_folder(BURIN_SOURCE_FOLDER);
+    EXPECT_GE(folders.size(), 12u) << "hardly any folder was read";
+    for (const FolderFragments& folder : folders) {
+        std::string names;
+        for (const std::string& path : folder.fragments) names += "\n  " + path;
+        EXPECT_TRUE(folder.within(most_fragments_percent(folder.folder)))
+            << folder.folder << ": " << folder.percent() << " % of its files have fewer than " << kFragmentLines
+            << " lines:" << names;
+    }
+}
+
+TEST(Fragments, HaveExceptionsForFoldersThatExistAlone) {
+    const auto folders = fragments_by_folder(BURIN_SOURCE_FOLDER);
+    for (const FragmentException& exception : fragment_exceptions()) {
+        EXPECT_GT(exception.most_percent, kMostFragments_percent) << exception.folder;
+        EXPECT_NE(std::ranges::find(folders, exception.folder, &FolderFragments::folder), folders.end())
+            << exception.folder;
+    }
+}
+
+TEST(FragmentRules, CountShortFilesByFolder) {
+    const ScratchFolder tree;
+    const auto lines = [](int count) { return std::string(static_cast<std::size_t>(count), '\n'); };
+    write_text(tree.path() / "a/x/one.hpp", lines(39));
+    write_text(tree.path() / "a/two.cpp", lines(40));
+    write_text(tree.path() / "b/three.cpp", lines(500));
+    write_text(tree.path() / "tests/four.cpp", lines(1));
+    write_text(tree.path() / "a/CMakeLists.txt", lines(1));
+    const auto folders = fragments_by_folder(tree.path());
+    ASSERT_EQ(folders.size(), 2u);
+    EXPECT_EQ(folders[0].folder, "a");
+    EXPECT_EQ(folders[0].files, 2u);
+    EXPECT_EQ(folders[0].fragments, Names{"a/x/one.hpp"});
+    EXPECT_TRUE(folders[0].within(50));
+    EXPECT_FALSE(folders[0].within(49));
+    EXPECT_TRUE(folders[1].fragments.empty());
+    EXPECT_EQ(most_fragments_percent("no exception"), kMostFragments_percent);
+}
+
+TEST(Figures, MissTheirBarsOnATreeThatBreaksTheRulesAndSayWhere) {
+    const ScratchFolder tree;
+    write_text(tree.path() / "a/one.hpp", "#include \"b/two.hpp\"\nnamespace burin {\nstruct Room {};\n}\n");
+    write_text(tree.path() / "b/two.hpp",
+               "#include \"a/one.hpp\"\nnamespace burin {\nstruct Room {};\n}\n// " + std::string(120, 'x') + "\n");
+    write_text(tree.path() / "docs/a.md", "see `a/gone.hpp`\n");
+    const auto figures = house_figures(tree.path());
+    const auto missed = std::ranges::count_if(figures, [](const Figure& figure) { return !figure.reached(); });
+    EXPECT_EQ(missed, 6) << "twice, cycle, line, path, and fragments of a and b\n" << table_of(figures);
+    for (const char* place : {"burin::Room", "a -> b", "b/two.hpp:5", "docs/a.md:1", "MISSED"})
+        EXPECT_TRUE(table_of(figures).contains(place)) << place << "\n" << table_of(figures);
+}
+
+TEST(RoomRules, SeeACircleOfThreeRoomsAndNameTheIncludes) {
+    const ScratchFolder tree;
+    write_text(tree.path() / "a/x/one.hpp", "#include \"a/y/two.hpp\"\n");
+    write_text(tree.path() / "a/y/two.hpp", "#include \"a/three.hpp\"\n");
+    write_text(tree.path() / "a/three.hpp", "");
+    EXPECT_EQ(room_cycles(tree.path()), Names{});
+    write_text(tree.path() / "a/four.cpp", "#include \"a/x/one.hpp\"\n");
+    const Names cycles = room_cycles(tree.path());
+    ASSERT_EQ(cycles.size(), 1u);
+    EXPECT_TRUE(cycles[0].contains("a -> a/x (a/four.cpp includes a/x/one.hpp)")) << cycles[0];
+    EXPECT_TRUE(cycles[0].contains("a/y -> a (a/y/two.hpp includes a/three.hpp)")) << cycles[0];
+}
+
+TEST(RoomRules, LeaveTestsAndTheSameRoomAside) {
+    const ScratchFolder tree;
+    write_text(tree.path() / "a/one.hpp", "#include \"a/two.hpp\"\n#include \"tests/t.hpp\"\n");
+    write_text(tree.path() / "a/two.hpp", "#include \"a/one.hpp\"\n");
+    write_text(tree.path() / "tests/t.hpp", "#include \"a/one.hpp\"\n");
+    EXPECT_EQ(room_cycles(tree.path()), Names{});
+}
+
+TEST(TypeRules, SeeClassesStructsEnumsAndTheirScopes) {
+    EXPECT_EQ(types_defined_in(
+                  "namespace burin::gpu {\nstruct A { enum class E : int { x }; };\nclass B final : public A {};\n"
+                  "enum class C : std::uint8_t { red };\ntemplate <typename T>\nclass D {};\n}\n"),
+              (Names{"burin::gpu::A", "burin::gpu::A::E", "burin::gpu::B", "burin::gpu::C", "burin::gpu::D"}));
+}
+
+TEST(TypeRules, LeaveAsideWhatOtherSourcesCannotSee) {
+    EXPECT_EQ(types_defined_in("namespace burin {\nnamespace {\nstruct A {};\n}\nclass B;\nvoid f() { struct C {}; }\n"
+                               "inline int g() { return 1'000; }\n// struct D {};\nconst char* h = \"struct E {\";\n"
+                               "template <class F> void i(struct G* g);\nstruct H::I {};\n#define X struct J {\n}\n"),
+              Names{});
+}
+
+TEST(TypeRules, SeeATypeThatTwoFilesDefine) {
+    const ScratchFolder tree;
+    write_text(tree.path() / "a/one.hpp", "namespace burin {\nstruct Room {};\n}\n");
+    write_text(tree.path() / "b/two.cpp", "namespace burin {\nnamespace {\nstruct Room {};\n}\n}\n");
+    EXPECT_EQ(types_defined_twice(tree.path()), Names{});
+    write_text(tree.path() / "c/three.hpp", "namespace burin {\ntemplate <int n>\nclass Room { int i; };\n}\n");
+    EXPECT_EQ(types_defined_twice(tree.path()), Names{"burin::Room is defined in a/one.hpp and in c/three.hpp"});
+}
+
+}  // namespace
+}  // namespace burin::house

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// A stroke from the ring of samples to the carved solid: what is read, what an update does, and what its figures say.
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "sculpt/sculpt_service.hpp"
+#include "sculpt/workpiece.hpp"
+
+namespace burin::sculpt {
+namespace {
+
+const Tool kBall{compute::BallTool{0.02}, compute::Operation::cut, 0};
+
+std::unique_ptr<compute::CarvingEngine> ball_engine(WorkerPool& pool) {
+    return std::move(choose_engine(EngineChoice::cpu, *compute::make_ball(0.1, 32, {"skin"}), pool)->engine);
+}
+
+// Pushes a sample of material without hardness, which gives way where the hand is.
+void push(haptics::HapticChannels& channels, std::uint64_t tick, const Vec3& place, bool pressed) {
+    haptics::StrokeSample sample;
+    sample.tick = tick;
+    sample.time_ns = static_cast<Nanoseconds>(tick) * 1'000'000;
+    sample.position_object_m = sample.cut_object_m = sample.proxy_object_m = place;
+    sample.buttons = pressed ? 1u : 0u;
+    ASSERT_TRUE(channels.stroke.push(sample));
+}
+
+}  // namespace
+
+TEST(StrokeReader, StopsAtEachReleaseOfTheButton) {
+    haptics::HapticChannels channels;
+    StrokeReader reader(channels, kBall, 0.0, 0.005);
+    push(channels, 1, {0.0, 0.0, 0.1}, true);
+    push(channels, 2, {0.01, 0.0, 0.1}, true);
+    push(channels, 3, {0.01, 0.0, 0.2}, false);
+    push(channels, 4, {0.05, 0.0, 0.1}, true);
+    const SweptSamples first = reader.read(UINT64_MAX);
+    EXPECT_TRUE(first.stroke_ended);
+    ASSERT_EQ(first.sweeps.size(), 1u);
+    EXPECT_EQ(first.sweeps[0].start.position_m, Vec3(0.0, 0.0, 0.1));
+    EXPECT_EQ(first.sweeps[0].end.position_m, Vec3(0.01, 0.0, 0.1));
+    EXPECT_EQ(reader.last_tick(), 3u);
+    EXPECT_FALSE(reader.pressed());
+    const SweptSamples second = reader.read(UINT64_MAX);
+    EXPECT_FALSE(second.stroke_ended);
+    ASSERT_EQ(second.sweeps.size(), 1u);
+    EXPECT_EQ(second.sweeps[0].start.position_m, Vec3(0.05, 0.0, 0.1));
+    EXPECT_TRUE(reader.pressed());
+    EXPECT_EQ(reader.last_worked_ns(), 4'000'000);
+}
+
+TEST(StrokeReader, LeavesSamplesOfLaterTicksInTheRing) {
+    haptics::HapticChannels channels;
+    StrokeReader reader(channels, kBall, 0.0, 0.005);
+    for (std::uint64_t tick = 1; tick <= 4; ++tick) push(channels, tick, {0.01 * double(tick), 0.0, 0.1}, true);
+    const SweptSamples first = reader.read(2);
+    ASSERT_FALSE(first.sweeps.empty());
+    EXPECT_EQ(first.sweeps.back().end.position_m, Vec3(0.02, 0.0, 0.1));
+    EXPECT_EQ(reader.last_tick(), 2u);
+    const SweptSamples rest = reader.read(UINT64_MAX);
+    ASSERT_FALSE(rest.sweeps.empty());
+    EXPECT_EQ(rest.sweeps.front().start.position_m, Vec3(0.02, 0.0, 0.1)) << "goes on from where it was";
+    EXPECT_EQ(rest.sweeps.back().end.position_m, Vec3(0.04, 0.0, 0.1));
+    EXPECT_TRUE(reader.read(UINT64_MAX).sweeps.empty());
+}
+
+TEST(SculptService, WithoutUndoMemoryLeavesTheHistoryAndItsNoticesToTheirOwner) {
+    WorkerPool pool(1);
+    Sculpture sculpture(ball_engine(pool), pool);
+    haptics::HapticChannels channels;
+    std::uint64_t tick = 0;
+    const auto two_strokes = [&](double x) {
+        for (const double y : {-0.03, 0.03}) {
+            push(channels, ++tick, {x, y, 0.09}, true);
+            push(channels, ++tick, {x, y, 0.2}, false);
+        }
+    };
+    sculpture.keep_history(1);  // room for one stroke: the first of two is dropped with a notice
+    SculptService service(sculpture, channels, kBall, 0.0, 0.02, std::nullopt);
+    two_strokes(-0.03);
+    ASSERT_TRUE(service.update(0));
+    const auto update = service.take_surface_update();
+    ASSERT_TRUE(update);
+    EXPECT_FALSE(update->tiles.empty());
+    EXPECT_TRUE(update->messages.empty());
+    ASSERT_NE(sculpture.history(), nullptr);
+    EXPECT_EQ(sculpture.history()->dropped_strokes(), 1u);
+    EXPECT_FALSE(sculpture.history()->take_notices().empty());
+
+    SculptService keeper(sculpture, channels, kBall, 0.0, 0.02, 1);
+    two_strokes(0.03);
+    ASSERT_TRUE(keeper.update(0));
+    EXPECT_FALSE(keeper.take_surface_update()->messages.empty());
+}
+
+TEST(SculptService, CarvesWithoutAnyHistory) {
+    WorkerPool pool(1);
+    Sculpture sculpture(ball_engine(pool), pool);
+    haptics::HapticChannels channels;
+    SculptService service(sculpture, channels, kBall, 0.0, 0.02, std::nullopt);
+    push(channels, 1, {0.0, 0.0, 0.1}, true);
+    ASSERT_TRUE(service.update(0));
+    EXPECT_EQ(sculpture.history(), nullptr);
+    EXPECT_GT(sculpture.figures().rays_changed, 0u);
+    EXPECT_EQ(service.take_surface_update()->undoable, 0u);
+    EXPECT_EQ(service.published(), 1u);
+}
+
+TEST(Sculpture, TimesThePartsOfEachUpdate) {
+    WorkerPool pool(1);
+    Sculpture sculpture(ball_engine(pool), pool);
+    for (const double x : {-0.02, 0.0, 0.02}) {
+        const Pose place{{x, 0.0, 0.1}};
+        const compute::ToolSweep stamp = kBall.sweep(place, place);
+        ASSERT_TRUE(sculpture.update({&stamp, 1}));
+    }
+    const SculptFigures& figures = sculpture.figures();
+    ASSERT_EQ(figures.update_ms.size(), 3u);
+    ASSERT_EQ(figures.carve_ms.size(), 3u);
+    ASSERT_EQ(figures.mesh_ms.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_GT(figures.carve_ms[i], 0.0);
+        EXPECT_GT(figures.mesh_ms[i], 0.0);
+        EXPECT_LE(figures.carve_ms[i] + figures.mesh_ms[i], figures.update_ms[i] + 1e-9);
+    }
+    EXPECT_GT(figures.cells_remeshed, 0u);
+    EXPECT_GT(figures.triangles_remeshed, 0u);
+}
+
+}  // namespace burin::sculpt

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// The roles beside a live session: what it watches, logs and queues.
+#include <gtest/gtest.h>
+
+#include "session/live/live_session.hpp"
+
+namespace burin::session {
+namespace {
+
+Room room_before(const std::string& wall) {
+    LiveOptions options;
+    options.wall = std::string(BURIN_WALLS) + "/" + wall;
+    Room room;
+    room.workpiece_object = {Vec3(-0.1), Vec3(0.1)};
+    room.wall = session_wall(options).value();
+    const wall::WallSetup& setup = room.wall.setup;
+    room.desk.home_head_world = {setup.world_from_tracker * setup.fallback_head_tracker.position_m,
+                                 setup.world_from_tracker.orientation * setup.fallback_head_tracker.orientation};
+    return room;
+}
+
+SessionState state_in(const Room& room) { return begin_session(room, {}, {}, room.wall.screens[room.wall.main].shown); }
+
+}  // namespace
+
+TEST(ComfortWatch, WarnsOnceEachTimeThatTheStrainBegins) {
+    const Room room = room_before("powerwall.toml");
+    SessionState state = state_in(room);
+    haptics::ToolState tool;
+    tool.proxy_object_m = room.workpiece_object.center();
+    ComfortWatch watch;
+    EXPECT_FALSE(watch.look(state, room, tool));
+    const Vec3 home_m = state.world_from_object.position_m;
+    for (int time = 0; time < 2; ++time) {
+        state.world_from_object.position_m = home_m + Vec3(0.0, 0.0, 1.5);
+        const auto warning = watch.look(state, room, tool);
+        ASSERT_TRUE(warning);
+        EXPECT_FALSE(warning->empty());
+        EXPECT_FALSE(watch.look(state, room, tool)) << "not in each frame";
+        state.world_from_object.position_m = home_m;
+        EXPECT_FALSE(watch.look(state, room, tool));
+    }
+    state.world_from_object.position_m = home_m + Vec3(0.0, 0.0, 1.5);
+    state.output.mode = wall::StereoMode::mono;
+    EXPECT_FALSE(watch.look(state, room, tool)) << "one picture for both eyes strains nobody";
+}
+
+TEST(TrackerWatch, TellsOfALossAndOfItsEndOnce) {
+    const Room room = room_before("cave.toml");
+    SessionState state = state_in(room);
+    TrackerWatch watch;
+    EXPECT_FALSE(watch.look(state, room, 0)) << "there is no tracker";
+    const auto step_at = [&](Nanoseconds time_ns, bool sees) {
+        std::vector<InputEvent> events;
+        if (sees) events.push_back({time_ns, HeadInput{{{0.0, 1.6, 1.5}, Quat{1, 0, 0, 0}}, true}});
+        const SessionView view{
+            .dt_s = 0.01, .display_ns = time_ns, .eye_size = {1280, 720}, .tool = {}, .captured = {}};
+        state = step_session(state, room, events, view).state;
+        return watch.look(state, room, time_ns);
+    };
+    constexpr Nanoseconds kFrame_ns = 10'000'000;
+    Nanoseconds now_ns = kFrame_ns;
+    for (int i = 0; i < 10; ++i, now_ns += kFrame_ns)
+        EXPECT_FALSE(step_at(now_ns, true)) << "all is well from the start";
+    int told = 0;
+    for (int i = 0; i < 300; ++i, now_ns += kFrame_ns) {
+        const auto lost = step_at(now_ns, false);
+        if (!lost) continue;
+        ++told;
+        EXPECT_EQ(lost->find("head tracker: "), 0u) << *lost;
+        EXPECT_NE(watch.report().state, wall::TrackerState::ok);
+    }
+    EXPECT_EQ(told, 1);
+    told = 0;
+    for (int i = 0; i < 50; ++i, now_ns += kFrame_ns) {
+        const auto found = step_at(now_ns, true);
+        if (!found) continue;
+        ++told;
+        EXPECT_EQ(*found, "the tracker sees the head again");
+    }
+    EXPECT_EQ(told, 1);
+    EXPECT_EQ(watch.report().state, wall::TrackerState::ok);
+}
+
+TEST(LampWatch, FollowsATurningWorkpieceInStepsAndARestingOneAtOnce) {
+    SessionState state;
+    LampWatch watch;
+    const auto first = watch.look(state);
+    ASSERT_TRUE(first) << "the carving side does not know the lamp yet";
+    EXPECT_FALSE(watch.look(state));
+    const auto turn = [&](double angle_rad) {
+        state.world_from_object.orientation = glm::angleAxis(angle_rad, Vec3(1.0, 0.0, 0.0));
+    };
+    state.desk.drag.emplace();
+    turn(0.02);
+    EXPECT_FALSE(watch.look(state)) << "too little while it turns";
+    turn(0.4);
+    EXPECT_TRUE(watch.look(state));
+    turn(0.42);
+    EXPECT_FALSE(watch.look(state));
+    state.desk.drag.reset();
+    const auto last = watch.look(state);
+    ASSERT_TRUE(last) << "it rests where it is";
+    EXPECT_GT(glm::length(last->direction_object - first->direction_object), 0.1);
+    EXPECT_FALSE(watch.look(state));
+}
+
+TEST(MessageLog, ShowsRecordedEventsInPlaceOfItsOwnInAReplay) {
+    testing::internal::CaptureStderr();
+    MessageLog log;
+    log.notify("undone");
+    log.notify_of_event("a monitor has gone");
+    EXPECT_EQ(log.newest(), "a monitor has gone");
+    EXPECT_EQ(log.take_events(), std::vector<std::string>{"a monitor has gone"}) << "no message of the input's";
+    EXPECT_TRUE(log.take_events().empty());
+    const std::vector<std::string> recorded{"the tracker is there", "wrote it"};
+    log.replay_events(recorded);
+    EXPECT_EQ(log.newest(), "wrote it");
+    log.notify_of_event("not as recorded");
+    EXPECT_EQ(log.newest(), "wrote it");
+    log.replay_events({});
+    EXPECT_EQ(log.newest(), "wrote it");
+    log.notify("undone again");
+    EXPECT_EQ(log.newest(), "undone again");
+    const std::string said = testing::internal::GetCapturedStderr();
+    for (const char* line : {"burin: undone\n", "burin: a monitor has gone\n", "burin: not as recorded\n"})
+        EXPECT_NE(said.find(line), std::string::npos) << said;
+}
+
+TEST(ScreenshotQueue, GivesEachNameOnceInItsFolder) {
+    ScreenshotQueue queue("shots");
+    EXPECT_TRUE(queue.empty());
+    queue.add("a.png");
+    queue.add("/elsewhere/b.png");
+    EXPECT_FALSE(queue.empty());
+    EXPECT_EQ(queue.take(), (std::vector<std::filesystem::path>{"shots/a.png", "/elsewhere/b.png"}));
+    EXPECT_TRUE(queue.empty());
+}
+
+}  // namespace burin::session
