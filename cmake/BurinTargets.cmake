@@ -59,6 +59,9 @@ function(burin_test)
   if(ARG_KIND STREQUAL "soak")  # as long as its user wants it to run
     set_tests_properties(${ARG_FOLDER}.${ARG_KIND} PROPERTIES TIMEOUT 14400)
   endif()
+  if(ARG_KIND STREQUAL "gpu")  # they take longest: begun first, none of them runs on alone at the end
+    set_tests_properties(${ARG_FOLDER}.${ARG_KIND} PROPERTIES COST 100)
+  endif()
   if(ARG_KIND STREQUAL "realtime")
     set_tests_properties(${ARG_FOLDER}.${ARG_KIND} PROPERTIES RUN_SERIAL ON)
   endif()

@@ -9,9 +9,9 @@ say() { printf '\n== %s\n' "$*"; }
 complain() { printf '%s: %s\n' "${0##*/}" "$*" >&2; }
 usage() { sed -n '2,/^[^#]/{/^#/s/^# \{0,1\}//p}' "$0"; }
 
-# Installs what is missing; a moment when nothing is.
+# ensure_packages [--sanitizers ...]: installs what is missing; a moment when nothing is.
 ensure_packages() {
-  scripts/setup --check 2>/dev/null || scripts/setup
+  scripts/setup --check "$@" 2>/dev/null || scripts/setup "$@"
 }
 
 # configure PRESET: quiet when it works. A build folder that was copied from elsewhere is configured afresh.

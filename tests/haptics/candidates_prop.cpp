@@ -97,8 +97,8 @@ void expect_nothing_missed(const geometry::LocalSurface& surface, const Vec3& mi
         }
     }
     const auto runs = static_cast<std::size_t>(compute::test::repeated(120));
-    EXPECT_GT(touched, runs / 2);
-    EXPECT_GT(met, runs / 4);
+    EXPECT_GE(touched, runs / 2);
+    EXPECT_GE(met, runs / 4);
 }
 
 }  // namespace
