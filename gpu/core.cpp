@@ -47,6 +47,7 @@ std::uint64_t Core::completed() {
 }
 
 Result<void> Core::wait_for(std::uint64_t serial) {
+    ++waits;
     auto wait = structure<VkSemaphoreWaitInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO);
     wait.semaphoreCount = 1;
     wait.pSemaphores = &timeline;

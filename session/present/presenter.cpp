@@ -156,7 +156,7 @@ Result<void> Presenter::recover(LiveSession& session, const Error& error) {
                     "update the graphics driver, or try a smaller window");
     }
     session.notify_of_event("the graphics device was lost; starting on a new one");
-    showing_.reset();
+    submitted_.reset();
     for (ScreenStage& screen : screens_) {
         screen.picture.reset();
         for (SessionOutput* output : outputs_of(screen))

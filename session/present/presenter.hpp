@@ -3,8 +3,8 @@
 // directly, or only as screenshots. Uses one graphics device, which may be lost and replaced.
 //
 // One frame is draw(): it takes the session's surface updates, draws all screens' pictures in one submission, and shows
-// them in the outputs' images, into which only their damaged parts are drawn. It waits for the device twice, whatever
-// the number of screens: for the pictures, and for the images.
+// them in the outputs' images, into which only their damaged parts are drawn. It waits for the device once, when all
+// screens' images are under way.
 // Main thread alone, except for wake().
 #pragma once
 
@@ -119,6 +119,7 @@ private:
     [[nodiscard]] Result<void> show(ScreenStage& screen, Nanoseconds frame_ns);
     [[nodiscard]] Result<void> show_in(ScreenStage& screen, const Outlet& outlet);
     [[nodiscard]] wall::Eye eye_in_turn(ScreenStage& screen, Nanoseconds frame_ns);
+    [[nodiscard]] Result<void> wait_for_device();
     void take_screenshots(LiveSession& session);
     void photograph(std::size_t screen, LiveSession& session, const std::vector<std::filesystem::path>& paths);
 
@@ -130,8 +131,8 @@ private:
     std::vector<ScreenStage> screens_;
     std::unique_ptr<SessionWaker> waker_;  // present where no window waits for events
     std::vector<std::string> messages_;
-    std::optional<gpu::Submission> showing_;  // the last of this frame's submissions that fill outputs' images
-    int losses_ = 0;                          // device losses since the last picture
+    std::optional<gpu::Submission> submitted_;  // the last of this frame's submissions; done when all are
+    int losses_ = 0;                            // device losses since the last picture
 };
 
 }  // namespace burin::session

@@ -37,9 +37,10 @@ Result<bool> Presenter::draw(LiveSession& session, Nanoseconds frame_ns) {
     if (const auto fitted = fit_modes(session); !fitted) return std::unexpected(fitted.error());
     const Result<bool> drawn = draw_screens(session);
     if (!drawn) return drawn;
-    session.times().reached(FrameStage::draw);
     if (const auto shown = show_screens(frame_ns); !shown) return std::unexpected(shown.error());
     session.times().reached(FrameStage::show);
+    if (const auto done = wait_for_device(); !done) return std::unexpected(done.error());
+    session.times().reached(FrameStage::draw);
     take_screenshots(session);
     if (*drawn) losses_ = 0;
     return drawn;
@@ -86,8 +87,8 @@ Result<void> Presenter::fit_mode(std::size_t i, wall::StereoMode mode) {
     return images;
 }
 
-// Records what is new of the surface, the panel and the scene on every screen, submits it at once and waits; returns
-// whether any output has to show something.
+// Records what is new of the surface, the panel and the scene on every screen and submits it in one; returns whether any
+// output has to show something.
 Result<bool> Presenter::draw_screens(LiveSession& session) {
     auto commands = gpu::Commands::begin(*device_);
     if (!commands) return std::unexpected(commands.error());
@@ -104,7 +105,7 @@ Result<bool> Presenter::draw_screens(LiveSession& session) {
     if (!any && *uploaded == 0) return false;
     auto submission = std::move(*commands).submit();
     if (!submission) return std::unexpected(submission.error());
-    if (const auto done = submission->wait(); !done) return std::unexpected(done.error());
+    submitted_ = std::move(*submission);
     return any;
 }
 
@@ -137,7 +138,7 @@ bool Presenter::note_changes(ScreenStage& screen) {
 
 // ---- Showing
 
-// Fills and presents the images of all outputs that have to show something, then waits for all of them.
+// Fills and presents the images of all outputs that have to show something. The device does so after the pictures.
 Result<void> Presenter::show_screens(Nanoseconds frame_ns) {
     for (ScreenStage& screen : screens_) {
         if (!screen.output || is_empty(screen.place.size)) continue;
@@ -145,9 +146,14 @@ Result<void> Presenter::show_screens(Nanoseconds frame_ns) {
         if (!screen.anew && !turns) continue;
         if (const auto shown = show(screen, frame_ns); !shown) return shown;
     }
-    if (!showing_) return {};
-    const auto done = showing_->wait();
-    showing_.reset();
+    return {};
+}
+
+// Waits for all that this frame has submitted. When its times are taken, the frame is finished.
+Result<void> Presenter::wait_for_device() {
+    if (!submitted_) return {};
+    const auto done = submitted_->wait();
+    submitted_.reset();
     return done;
 }
 
@@ -198,7 +204,7 @@ Result<void> Presenter::show_in(ScreenStage& screen, const Outlet& outlet) {
         }
         auto submission = std::move(*commands).submit(frame.sync);
         answer = submission ? outlet.output->present(frame) : outlet.output->abandon(frame);
-        if (submission) showing_ = std::move(*submission);
+        if (submission) submitted_ = std::move(*submission);
         if (submission && answer == gpu::FrameAnswer::presented) outlet.parts->presented();
     }
     if (answer == gpu::FrameAnswer::device_lost) return fail("graphics device", "it was lost", "");

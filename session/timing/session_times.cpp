@@ -9,7 +9,7 @@
 namespace burin::session {
 namespace {
 
-constexpr std::array<std::string_view, kFrameStages> kNames = {"wait", "input", "step", "record", "draw", "show"};
+constexpr std::array<std::string_view, kFrameStages> kNames = {"wait", "input", "step", "record", "show", "draw"};
 
 }  // namespace
 

@@ -3,7 +3,7 @@
 // to it:
 //
 //   begin()  wait -> reached(wait)  input -> reached(input)  step -> reached(step), sampled(), cut()
-//            for all screens: reached(record)  reached(draw)  reached(show)      finished(drawn, beat)
+//            for all screens: reached(record)  reached(show)  reached(draw)      finished(drawn, beat)
 //
 // A stage lasts from the previous reached() to its own. When a frame is seen is an estimate: the display shows it from
 // the next refresh on, and half a scan-out later the middle of the picture is lit. Reports before the first begin() are
@@ -28,8 +28,8 @@ enum class FrameStage : std::uint8_t {
     input,   // reading what happened
     step,    // session step; takes the carving side's surface updates
     record,  // uploading changes and recording commands
-    draw,    // the device, or the software driver, works; waits for it
-    show,    // acquiring, filling and presenting the window's image
+    show,    // acquiring and presenting the windows' images, while the device works
+    draw,    // waiting until the device, or the software driver, has drawn them
 };
 inline constexpr std::size_t kFrameStages = 6;
 [[nodiscard]] std::string_view name_of(FrameStage stage);

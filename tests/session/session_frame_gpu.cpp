@@ -13,8 +13,11 @@ namespace {
 
 class SessionFrame : public PlayedSession {
 protected:
-    // Plays the script in a cave of four screens and returns the submissions of each frame.
-    std::vector<std::uint64_t> submissions(const std::string& folder, bool offscreen) {
+    struct Cost {
+        std::vector<std::uint64_t> submissions, waits;  // of each frame
+    };
+    // Plays the script in a cave of four screens.
+    Cost play_cave(const std::string& folder, bool offscreen) {
         LiveOptions cave;
         cave.offscreen = offscreen;
         cave.wall = std::string(BURIN_WALLS) + "/cave.toml";
@@ -22,39 +25,46 @@ protected:
         cave.windowed = true;
         cave.width = 120;
         cave.height = 80;
-        std::vector<std::uint64_t> frames;
-        std::uint64_t before = 0;
+        Cost cost;
+        std::uint64_t submitted = 0, waits = 0;
         const Played played = play(folder, cave, [&](int, Presenter& stage) {
-            const std::uint64_t now = stage.device().core()->submitted;
-            frames.push_back(now - std::exchange(before, now));
+            const gpu::Core& core = *stage.device().core();
+            cost.submissions.push_back(core.submitted - std::exchange(submitted, core.submitted));
+            cost.waits.push_back(core.waits - std::exchange(waits, core.waits));
             surface_ = stage.surface().store()->work();
         });
         EXPECT_TRUE(played.outcome) << played.outcome.error().line();
-        return frames;
+        return cost;
     }
 
     renderer::SurfaceStore::Work surface_;
 };
 
+std::uint64_t median(std::vector<std::uint64_t> counts) {
+    std::ranges::sort(counts);
+    return counts[counts.size() / 2];
+}
+
 }  // namespace
 
-TEST_F(SessionFrame, OfFourScreensIsOneSubmissionUnlessItIsPhotographed) {
-    std::vector<std::uint64_t> frames = submissions("a", true);
+TEST_F(SessionFrame, OfFourScreensIsOneSubmissionAndOneWaitUnlessItIsPhotographed) {
+    const Cost cost = play_cave("a", true);
+    const std::vector<std::uint64_t>& frames = cost.submissions;
     ASSERT_GT(frames.size(), 20u);
-    std::ranges::sort(frames);
-    EXPECT_EQ(frames[frames.size() / 2], 1u);
+    EXPECT_EQ(median(frames), 1u);
+    EXPECT_EQ(median(cost.waits), 1u);
     // Three frames take a screenshot of each screen; the first one prepares the device.
     EXPECT_LE(std::ranges::count_if(frames, [](std::uint64_t n) { return n > 1; }), 4);
     EXPECT_GT(surface_.uploads, 1u);
     EXPECT_LE(surface_.uploads, frames.size());
 }
 
-TEST_F(SessionFrame, OfFourWindowsIsOneSubmissionMoreForEach) {
+TEST_F(SessionFrame, OfFourWindowsIsOneSubmissionMoreForEachAndStillOneWait) {
     if (window::Xvfb::running().name().empty()) GTEST_SKIP() << "Xvfb is not installed or does not start";
-    std::vector<std::uint64_t> frames = submissions("a", false);
-    ASSERT_GT(frames.size(), 20u);
-    std::ranges::sort(frames);
-    EXPECT_LE(frames[frames.size() / 2], 5u);
+    const Cost cost = play_cave("a", false);
+    ASSERT_GT(cost.submissions.size(), 20u);
+    EXPECT_LE(median(cost.submissions), 5u);
+    EXPECT_EQ(median(cost.waits), 1u);
 }
 
 }  // namespace burin::session
