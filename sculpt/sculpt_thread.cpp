@@ -43,11 +43,11 @@ std::optional<Error> SculptThread::failure() const {
     return failure_;
 }
 
-std::vector<SculptOrder> SculptThread::wait_for_orders(Nanoseconds until_ns) {
+SculptThread::Woken SculptThread::wait_for_orders(Nanoseconds until_ns) {
     std::unique_lock lock(mutex_);
     const std::chrono::nanoseconds left(std::max<Nanoseconds>(until_ns - clock_.now_ns(), 0));
     woken_.wait_for(lock, left, [this] { return stopping_ || !orders_.empty(); });
-    return std::exchange(orders_, {});
+    return {std::exchange(orders_, {}), stopping_};
 }
 
 // Returns whether the haptic loop rests, which it does while the hand stands still: ticks then come a tenth as often.
@@ -61,7 +61,7 @@ void SculptThread::run() {
     Nanoseconds next_ns = clock_.now_ns(), period_ns = kPeriod_ns;
     while (true) {
         next_ns = std::max(next_ns + period_ns, clock_.now_ns());
-        const std::vector<SculptOrder> orders = wait_for_orders(next_ns);
+        const auto [orders, last] = wait_for_orders(next_ns);
         for (const SculptOrder& order : orders) service_.order(order);
         const UpdateSeen before = service_.seen();
         const Nanoseconds began_ns = clock_.now_ns();
@@ -70,7 +70,6 @@ void SculptThread::run() {
         std::optional<SurfaceUpdate> surface = service_.take_surface_update();
         if (surface && !surface->tiles.empty()) update_duration_.add(took_ns);
         const bool changed = surface.has_value();
-        bool end = false;
         {
             const std::lock_guard lock(mutex_);
             add(done_.surface, std::move(surface));
@@ -79,11 +78,10 @@ void SculptThread::run() {
                 done_.updates.back().orders = orders.size();
             }
             if (!updated) failure_ = updated.error();
-            end = stopping_ || failure_.has_value();
         }
         period_ns = !changed && orders.empty() && loop_rests(before) ? kRest_ns : kPeriod_ns;
         if (changed || !updated) on_update_();
-        if (end) return;
+        if (last || !updated) return;
     }
 }
 

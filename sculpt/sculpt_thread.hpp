@@ -45,7 +45,11 @@ public:
 private:
     void run();
     [[nodiscard]] bool loop_rests(const UpdateSeen& before) const;
-    [[nodiscard]] std::vector<SculptOrder> wait_for_orders(Nanoseconds until_ns);
+    struct Woken {
+        std::vector<SculptOrder> orders;
+        bool stopping = false;  // the update that follows takes the last samples, and is the last one
+    };
+    [[nodiscard]] Woken wait_for_orders(Nanoseconds until_ns);
 
     SculptService& service_;
     Clock& clock_;
