@@ -87,8 +87,8 @@ Result<void> Presenter::fit_mode(std::size_t i, wall::StereoMode mode) {
     return images;
 }
 
-// Records what is new of the surface, the panel and the scene on every screen and submits it in one; returns whether any
-// output has to show something.
+// Records what is new of the surface, the panel and the scene on every screen, and submits it all at once; returns
+// whether any output has to show something.
 Result<bool> Presenter::draw_screens(LiveSession& session) {
     auto commands = gpu::Commands::begin(*device_);
     if (!commands) return std::unexpected(commands.error());
