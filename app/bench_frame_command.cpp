@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <cctype>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <memory>
+#include <sstream>
 
 #include "app/commands.hpp"
 #include "app/output_files.hpp"
@@ -15,7 +18,7 @@ namespace {
 
 struct Options {
     bench::FrameOptions frame;
-    std::string scene = "all", peer, json, csv, pictures;
+    std::string scene = "all", peer, ways = "all", json, csv, ratios, pictures;
 };
 
 bench::FrameOptions frame_options(const Options& options) {
@@ -25,13 +28,14 @@ bench::FrameOptions frame_options(const Options& options) {
                   [&](bench::FrameMotion motion) { return !all && options.scene != bench::name_of(motion); });
     wanted.idle = all || options.scene == "idle";
     wanted.first = all || options.scene == "first";
+    wanted.other_ways = options.ways == "all";
     wanted.osg = options.peer == "osg" || options.peer == "all";
     wanted.vtk = options.peer == "vtk" || options.peer == "all";
     return wanted;
 }
 
 Result<void> check(const Options& options) {
-    for (const std::string& path : {options.json, options.csv}) {
+    for (const std::string& path : {options.json, options.csv, options.ratios}) {
         if (const auto ok = check_place(path); !ok) return ok;
     }
     if (!options.pictures.empty() && !std::filesystem::is_directory(options.pictures)) {
@@ -47,13 +51,23 @@ Result<void> check(const Options& options) {
     return {};
 }
 
-// Writes each subject's last picture, both eyes side by side, to a file named after subject and scene:
-// burin-moving.png.
+// Adds the ratios to a file, so that it holds those of many runs; a new file begins with the names of its columns.
+Result<void> add_ratios(const bench::FrameReport& report, const std::string& path) {
+    if (path.empty()) return {};
+    std::ostringstream before;
+    if (const std::ifstream file(path); file) before << file.rdbuf();
+    const std::string rows = bench::ratio_rows(report, gpu::driver_threads(), before.str().empty());
+    return write_output(path, before.str() + rows);
+}
+
+// Writes each subject's last picture, both eyes side by side, to a file named after subject, scene and way:
+// burin-moving-burin-s-light-at-vertices.png.
 Result<void> write_pictures(const bench::FrameReport& report, const std::filesystem::path& folder) {
     for (const bench::FrameTimes& times : report.times) {
-        std::string name = times.subject + "-" + bench::name_of(times.motion) + ".png";
-        for (char& c : name) c = c == ' ' || c == ',' ? '-' : static_cast<char>(std::tolower(c));
-        if (const auto done = renderer::write_png(folder / name, side_by_side(times.pictures)); !done) return done;
+        std::string name = times.subject + "-" + bench::name_of(times.motion) + "-" + bench::name_of(times.way);
+        for (char& c : name) c = std::isalnum(c) == 0 ? '-' : static_cast<char>(std::tolower(c));
+        if (const auto done = renderer::write_png(folder / (name + ".png"), side_by_side(times.pictures)); !done)
+            return done;
     }
     return {};
 }
@@ -73,6 +87,7 @@ Result<void> run(const Options& options) {
         if (const auto done = write_pictures(*report, options.pictures); !done) return done;
     }
     if (const auto done = write_output(options.csv, bench::frame_csv(*report)); !done) return done;
+    if (const auto done = add_ratios(*report, options.ratios); !done) return done;
     Json json = bench::frame_json(*report);
     json["driver_threads"] = gpu::driver_threads();
     return write_output(options.json, json_text(json));
@@ -98,9 +113,18 @@ BenchSubcommand add_bench_frame(Command bench) {
         .show_default();
     command.option("--peer", options->peer, "Let this library draw the same: osg, vtk or all")
         .one_of({"osg", "vtk", "all"});
+    command
+        .option(
+            "--ways", options->ways,
+            "all: a moving head also with light at pixels and at vertices, with the same light and with all triangles; "
+            "as-set-up: only as users set each up")
+        .one_of({"all", "as-set-up"})
+        .show_default();
     command.option("--device", options->frame.device, "Which Vulkan device, by its number in burin --version");
     command.option("--pictures", options->pictures, "A folder for each last picture, both eyes side by side");
     command.option("--csv", options->csv, "A file for the table; - for standard output");
+    command.option("--ratios", options->ratios,
+                   "A file that the ratios to the peers are added to, for medians of many runs");
     command.option("--json", options->json, "A file for every figure; - for standard output");
     return {command, [options] { return run(*options); }};
 }

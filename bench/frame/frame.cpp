@@ -34,6 +34,15 @@ void add(FrameCounters& sums, const FrameCounters& counts) {
         for (std::size_t i = 0; i < std::min(sums.size(), counts.size()); ++i) sums[i].second += counts[i].second;
 }
 
+Result<void> settle(FrameSubject& subject, LevelsMade& made) {
+    const double before_ms = process_cpu_ms();
+    const auto patches = subject.settle();
+    if (!patches) return std::unexpected(patches.error());
+    made.patches += *patches;
+    made.cpu_ms += process_cpu_ms() - before_ms;
+    return {};
+}
+
 Result<void> check_coverage(const FrameTimes& times) {
     const double apart = times.coverage - times.expected_coverage;
     if (std::abs(apart) <= kCoverageTolerance) return {};
@@ -57,6 +66,7 @@ public:
         if (const auto done = open(); !done) return std::unexpected(done.error());
         if (const auto done = measure_own(); !done) return std::unexpected(done.error());
         own_.subject.reset();
+        if (const auto done = measure_own_ways(); !done) return std::unexpected(done.error());
         measure_peers();
         compare_pictures();
         return std::move(report_);
@@ -65,9 +75,15 @@ public:
 private:
     [[nodiscard]] const FrameOptions& options() const { return report_.options; }
     Result<void> open();
+    [[nodiscard]] bool other_ways() const {
+        return options().other_ways &&
+               std::ranges::find(options().motions, FrameMotion::moving) != options().motions.end();
+    }
     Result<void> measure_own();
+    Result<void> measure_own_ways();
     void measure_peers();
-    void measure_peer(const char* name, Result<std::unique_ptr<FrameSubject>> subject);
+    void measure_peer(const char* name, Result<std::unique_ptr<FrameSubject>> subject,
+                      const std::vector<FrameMotion>& motions);
     void compare_pictures();
 
     std::function<void(const std::string&)> tell_;
@@ -110,6 +126,23 @@ Result<void> Run::measure_own() {
     return {};
 }
 
+// Each way has a renderer of its own, so that the levels of detail are made anew.
+Result<void> Run::measure_own_ways() {
+    if (!other_ways()) return {};
+    std::vector<FrameWay> done{kSessionWay};
+    for (const FrameComparison& compared : kComparisons) {
+        if (std::ranges::find(done, compared.own) != done.end()) continue;
+        done.push_back(compared.own);
+        tell_(std::string(kOwn) + ", " + name_of(compared.own));
+        auto own = open_own(scene_, options(), compared.own);
+        if (!own) return std::unexpected(own.error());
+        auto times = time_frames(*own->subject, scene_, FrameMotion::moving, options());
+        if (!times) return std::unexpected(times.error());
+        report_.times.push_back(std::move(*times));
+    }
+    return {};
+}
+
 void Run::measure_peers() {
     if ((!options().osg && !options().vtk) || options().motions.empty()) return;
     const auto display = FrameDisplay::open();
@@ -117,20 +150,28 @@ void Run::measure_peers() {
         report_.left_out.push_back("peers: " + display.error().line());
         return;
     }
-    if (options().osg) {
-        measure_peer("OpenSceneGraph", open_osg(scene_, options().samples, OsgDrawables::patches));
-        measure_peer("OpenSceneGraph", open_osg(scene_, options().samples, OsgDrawables::one));
+    std::vector<FrameWay> done;
+    for (const FrameComparison& compared : kComparisons) {
+        const FrameWay& way = compared.peer;
+        if (std::ranges::find(done, way) != done.end() || (!done.empty() && !other_ways())) continue;
+        const auto motions = done.empty() ? options().motions : std::vector{FrameMotion::moving};
+        done.push_back(way);
+        if (options().osg) {
+            for (const OsgDrawables drawables : {OsgDrawables::patches, OsgDrawables::one})
+                measure_peer("OpenSceneGraph", open_osg(scene_, options().samples, drawables, way), motions);
+        }
+        if (options().vtk) measure_peer("VTK", open_vtk(scene_, options().samples, way), motions);
     }
-    if (options().vtk) measure_peer("VTK", open_vtk(scene_, options().samples));
 }
 
-void Run::measure_peer(const char* name, Result<std::unique_ptr<FrameSubject>> subject) {
+void Run::measure_peer(const char* name, Result<std::unique_ptr<FrameSubject>> subject,
+                       const std::vector<FrameMotion>& motions) {
     if (!subject) {
         report_.left_out.push_back(std::string(name) + ": " + subject.error().line());
         return;
     }
-    for (const FrameMotion motion : options().motions) {
-        tell_((*subject)->name() + ", " + name_of(motion));
+    for (const FrameMotion motion : motions) {
+        tell_((*subject)->name() + ", " + name_of((*subject)->way()) + ", " + name_of(motion));
         auto times = time_frames(**subject, scene_, motion, options());
         if (times) {
             report_.times.push_back(std::move(*times));
@@ -142,9 +183,10 @@ void Run::measure_peer(const char* name, Result<std::unique_ptr<FrameSubject>> s
 
 void Run::compare_pictures() {
     for (FrameTimes& times : report_.times) {
-        const auto own = std::ranges::find_if(
-            report_.times, [&](const FrameTimes& t) { return t.subject == kOwn && t.motion == times.motion; });
-        if (times.subject == kOwn || own == report_.times.end()) continue;
+        const auto own = std::ranges::find_if(report_.times, [&](const FrameTimes& t) {
+            return t.subject == kOwn && t.way == kSessionWay && t.motion == times.motion;
+        });
+        if (own == report_.times.end() || &*own == &times) continue;
         if (const auto map = flip(own->pictures.left, times.pictures.left)) times.flip_from_own = map->mean;
     }
 }
@@ -165,12 +207,19 @@ std::string name_of(FrameMotion motion) {
     return {};
 }
 
+std::string name_of(LitAt lit_at) { return lit_at == LitAt::pixels ? "pixels" : "vertices"; }
+std::string name_of(FrameLight light) { return light == FrameLight::simple ? "simple" : "Burin's"; }
+std::string name_of(const FrameWay& way) {
+    return name_of(way.light) + " light at " + name_of(way.lit_at) + (way.levels ? "" : ", all triangles");
+}
+
 Result<FrameTimes> time_frames(FrameSubject& subject, const FrameScene& scene, FrameMotion motion,
                                const FrameOptions& options) {
     FrameTimes times;
     times.subject = subject.name();
     times.note = subject.note();
     times.motion = motion;
+    times.way = subject.way();
     wall::Viewer viewer;
     for (unsigned frame = 0; frame < options.warm_up + options.frames; ++frame) {
         viewer = viewer_in(scene, motion, frame);
@@ -181,7 +230,7 @@ Result<FrameTimes> time_frames(FrameSubject& subject, const FrameScene& scene, F
         if (const auto drawn = subject.draw({viewer, changes}); !drawn) return std::unexpected(drawn.error());
         const double cpu_ms = process_cpu_ms() - before_ms, wall_ms = watch.lap_ms();
         if (frame < options.warm_up) {
-            if (const auto done = subject.settle(); !done) return std::unexpected(done.error());
+            if (const auto done = settle(subject, times.levels); !done) return std::unexpected(done.error());
             continue;
         }
         times.cpu_ms.push_back(cpu_ms);
@@ -192,6 +241,7 @@ Result<FrameTimes> time_frames(FrameSubject& subject, const FrameScene& scene, F
     auto pictures = subject.picture();
     if (!pictures) return std::unexpected(pictures.error());
     times.pictures = std::move(*pictures);
+    if (const auto done = settle(subject, times.levels_after); !done) return std::unexpected(done.error());
     times.coverage = coverage(scene.look, times.pictures.left);
     times.expected_coverage = expected_coverage(scene, wall::eyes_of(viewer).left_world);
     if (const auto ok = check_coverage(times); !ok) return std::unexpected(ok.error());
@@ -213,16 +263,24 @@ Result<FrameReport> run_frames(const FrameOptions& options, const std::function<
     return Run(options, notify).all();
 }
 
-std::optional<double> own_over_peer(const FrameReport& report, FrameMotion motion, const std::string& peer) {
+std::optional<double> own_over_peer(const FrameReport& report, FrameMotion motion, const std::string& peer,
+                                    const FrameComparison& compared) {
     double own = 0.0, theirs = 0.0;
     for (const FrameTimes& times : report.times) {
         if (times.motion != motion) continue;
         const double ms = median(times.cpu_ms);
-        if (times.subject == kOwn) own = ms;
-        if (times.subject.starts_with(peer) && (theirs == 0.0 || ms < theirs)) theirs = ms;
+        if (times.subject == kOwn && times.way == compared.own) own = ms;
+        if (times.subject.starts_with(peer) && times.way == compared.peer && (theirs == 0.0 || ms < theirs))
+            theirs = ms;
     }
     if (own <= 0.0 || theirs <= 0.0) return std::nullopt;
     return own / theirs;
+}
+
+std::optional<double> levels_in_frames(const FrameReport& report) {
+    const auto first = std::ranges::find_if(report.times, [](const FrameTimes& t) { return t.levels.patches > 0; });
+    if (first == report.times.end()) return std::nullopt;
+    return first->levels.cpu_ms / median(first->cpu_ms);
 }
 
 }  // namespace burin::bench

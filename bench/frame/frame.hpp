@@ -7,8 +7,15 @@
 // stays and a few patches change each frame; computing their vertices is not timed, uploading them is. idle: what a
 // session's loop uses while nothing happens. first: from the start of the process to the first finished picture,
 // without making the surface.
+//
+// Burin and its peers do not draw alike when each is set up as its users would: a session lights the workpiece at its
+// vertices, with light of lamp, sky and room, and draws levels of detail, which take time to make; peers light every
+// pixel with a simple formula and draw all triangles. So each is measured in other ways too (FrameWay), and kComparisons
+// names which rows are set against which, down to the same light and the same triangles.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -30,6 +37,23 @@ struct FrameStep {
 
 using FrameCounters = std::vector<std::pair<std::string, double>>;
 
+enum class LitAt { pixels, vertices };
+enum class FrameLight {
+    simple,  // FrameLook's
+    burins   // shaders/lighting.glsl: lamp, sky and room, encoded as sRGB and dithered
+};
+// How a subject lights the surface, and whether it draws levels of detail or all triangles.
+struct FrameWay {
+    LitAt lit_at = LitAt::pixels;
+    FrameLight light = FrameLight::simple;
+    bool levels = false;
+    bool operator==(const FrameWay&) const = default;
+};
+[[nodiscard]] std::string name_of(LitAt lit_at);
+[[nodiscard]] std::string name_of(FrameLight light);
+[[nodiscard]] std::string name_of(const FrameWay& way);
+inline constexpr FrameWay kSessionWay{LitAt::vertices, FrameLight::burins, true};
+
 // A renderer under test. Constructed with the scene's surface already loaded. One thread.
 class FrameSubject {
 public:
@@ -41,11 +65,13 @@ public:
     [[nodiscard]] virtual std::string name() const = 0;
     // Returns how it differs from what was asked for; empty: not at all.
     [[nodiscard]] virtual std::string note() const { return {}; }
+    [[nodiscard]] virtual FrameWay way() const { return {}; }
     // Draws both eyes' pictures and returns when they are finished. All of it is timed.
     [[nodiscard]] virtual Result<void> draw(const FrameStep& step) = 0;
     // Called after each warm-up frame: work that a session does
-    // in idle time and that speeds up later frames. Not timed.
-    [[nodiscard]] virtual Result<void> settle() { return {}; }
+    // in idle time and that speeds up later frames. Not part of a frame's time, but timed by itself, once more after the
+    // last frame. Returns for how many patches levels of detail were made.
+    [[nodiscard]] virtual Result<std::uint64_t> settle() { return 0; }
     // Reads back the last frame. Not timed.
     [[nodiscard]] virtual Result<StereoImage> picture() = 0;
     // Returns the last frame's counts of triangles, draw calls, culled patches and whatever else the subject counts.
@@ -67,17 +93,27 @@ struct FrameOptions {
     bool idle = true, first = true;
     double idle_s = 2.0;
     bool osg = false, vtk = false;
+    bool other_ways = true;          // with a moving head also in the other ways of kComparisons
     std::optional<unsigned> device;  // index in `burin --version`'s list; unset: the best device
+};
+
+// Levels of detail that were made for some frames, with the processor time of all threads.
+struct LevelsMade {
+    std::uint64_t patches = 0;
+    double cpu_ms = 0.0;
 };
 
 struct FrameTimes {
     std::string subject, note;
+    FrameWay way;
     FrameMotion motion = FrameMotion::moving;
     std::vector<double> cpu_ms, wall_ms;  // one value a frame
     FrameCounters counters;               // means
-    double coverage = 0.0;                // of the left eye's last picture
+    LevelsMade levels;                    // in the warm-up, the first time from nothing: not in the frames' times
+    LevelsMade levels_after;  // that the measured frames left to be made: patches that changed or came to view
+    double coverage = 0.0;    // of the left eye's last picture
     double expected_coverage = 0.0;
-    std::optional<double> flip_from_own;  // mean FLIP of the left pictures; peers only
+    std::optional<double> flip_from_own;  // mean FLIP of the left pictures, from a session's
     StereoImage pictures;                 // the last frame
 };
 
@@ -104,7 +140,15 @@ struct OwnSubject {
     std::unique_ptr<FrameSubject> subject;
     std::string device_name;
 };
-[[nodiscard]] Result<OwnSubject> open_own(const FrameScene& scene, const FrameOptions& options);
+[[nodiscard]] Result<OwnSubject> open_own(const FrameScene& scene, const FrameOptions& options,
+                                          const FrameWay& way = kSessionWay);
+
+// The constants of Burin's light on the workpiece, for peers that draw the same picture. Colours are linear.
+struct BurinsLight {
+    Vec3 to_light_world{0.0}, light{0.0}, sky{0.0}, ground{0.0}, surface{0.0};
+    double roughness = 0.0, gloss = 0.0;
+};
+[[nodiscard]] BurinsLight burins_light(const FrameLook& look);
 
 // Returns an Error when a draw fails, or when the picture shows more or less of the surface than it should.
 [[nodiscard]] Result<FrameTimes> time_frames(FrameSubject& subject, const FrameScene& scene, FrameMotion motion,
@@ -115,14 +159,39 @@ struct OwnSubject {
 [[nodiscard]] Result<FrameReport> run_frames(const FrameOptions& options,
                                              const std::function<void(const std::string&)>& notify);
 
+// Sets a way of Burin against a way of its peers; names hold no comma.
+struct FrameComparison {
+    const char* name;
+    FrameWay own, peer;
+};
+inline constexpr std::array<FrameComparison, 7> kComparisons{{
+    {"as set up", kSessionWay, {}},
+    {"both at pixels", {LitAt::pixels, FrameLight::burins, true}, {}},
+    {"both at vertices", kSessionWay, {LitAt::vertices, FrameLight::simple, false}},
+    {"same light at pixels", {LitAt::pixels, FrameLight::burins, true}, {LitAt::pixels, FrameLight::burins, false}},
+    {"same light at vertices", kSessionWay, {LitAt::vertices, FrameLight::burins, false}},
+    {"same light and triangles at pixels",
+     {LitAt::pixels, FrameLight::burins, false},
+     {LitAt::pixels, FrameLight::burins, false}},
+    {"same light and triangles at vertices",
+     {LitAt::vertices, FrameLight::burins, false},
+     {LitAt::vertices, FrameLight::burins, false}},
+}};
+
 // Returns Burin's median processor time over that of the faster variant of a peer whose name begins with `peer`;
 // nullopt where either was not measured.
 [[nodiscard]] std::optional<double> own_over_peer(const FrameReport& report, FrameMotion motion,
-                                                  const std::string& peer);
+                                                  const std::string& peer,
+                                                  const FrameComparison& compared = kComparisons[0]);
+
+// Returns the cold making of levels in frames of a session, by their median; nullopt where no levels were made.
+[[nodiscard]] std::optional<double> levels_in_frames(const FrameReport& report);
 
 [[nodiscard]] std::string frame_table(const FrameReport& report);
 // Returns a comment line that names the machine, one of column names, and a row for each subject and motion.
 [[nodiscard]] std::string frame_csv(const FrameReport& report);
+// Returns a row for each ratio, to be collected over many runs; a line of column names before it if asked for.
+[[nodiscard]] std::string ratio_rows(const FrameReport& report, const std::string& driver_threads, bool with_names);
 [[nodiscard]] Json frame_json(const FrameReport& report);
 
 }  // namespace burin::bench

@@ -34,6 +34,13 @@ Json row_of(const FrameReport& report, const FrameTimes& t) {
                 {"wall_p99_ms", quantile(t.wall_ms, 0.99)},
                 {"coverage", t.coverage},
                 {"expected_coverage", t.expected_coverage},
+                {"lit_at", name_of(t.way.lit_at)},
+                {"light", name_of(t.way.light)},
+                {"levels", t.way.levels},
+                {"levels_patches", t.way.levels ? Json(t.levels.patches) : Json()},
+                {"levels_ms", t.way.levels ? Json(t.levels.cpu_ms) : Json()},
+                {"levels_after_patches", t.way.levels ? Json(t.levels_after.patches) : Json()},
+                {"levels_after_ms", t.way.levels ? Json(t.levels_after.cpu_ms) : Json()},
                 {"flip_from_own", t.flip_from_own ? Json(*t.flip_from_own) : Json()},
                 {"note", t.note}};
     return row;
@@ -57,16 +64,54 @@ std::string counters_line(const FrameTimes& t) {
     return text;
 }
 
+// Calls row(scene, comparison, peer's key, peer, ratio) for each ratio that was measured.
+template <typename Row>
+void for_each_ratio(const FrameReport& report, Row row) {
+    for (const FrameMotion motion : report.options.motions)
+        for (const FrameComparison& compared : kComparisons)
+            for (const auto& [peer, key] : kPeers)
+                if (const auto ratio = own_over_peer(report, motion, peer, compared))
+                    row(name_of(motion), compared.name, key, peer, *ratio);
+}
+
 Json ratios(const FrameReport& report) {
     Json all = Json::array();
-    for (const FrameMotion motion : report.options.motions) {
-        Json row = {{"scene", name_of(motion)}};
-        for (const auto& [peer, key] : kPeers)
-            if (const auto ratio = own_over_peer(report, motion, peer)) row[key] = *ratio;
-        if (row.size() > 1) all.push_back(row);
-    }
+    for_each_ratio(report, [&](const std::string& scene, const char* compared, const char* key, const char*, double r) {
+        if (all.empty() || all.back()["scene"] != scene || all.back()["compared"] != compared)
+            all.push_back({{"scene", scene}, {"compared", compared}});
+        all.back()[key] = r;
+    });
     return all;
 }
+
+std::string ratio_lines(const FrameReport& report) {
+    std::string text;
+    for_each_ratio(report,
+                   [&](const std::string& scene, const char* compared, const char*, const char* peer, double r) {
+                       text += line("%s, %s: Burin uses %.3f of what %s uses\n", scene.c_str(), compared, r, peer);
+                   });
+    return text;
+}
+
+// Says what is not in the frames' times: levels of detail, made anew in the first warm-up, and after the frames.
+std::string levels_lines(const FrameReport& report) {
+    std::string text;
+    for (const FrameTimes& t : report.times) {
+        if (!t.way.levels || t.cpu_ms.empty()) continue;
+        text += line(
+            "%s, %s, %s: levels of detail of %.0f patches made before in %.1f ms, %.1f frames' worth; of %.0f "
+            "after, %.2f ms a frame\n",
+            t.subject.c_str(), name_of(t.way).c_str(), name_of(t.motion).c_str(), static_cast<double>(t.levels.patches),
+            t.levels.cpu_ms, t.levels.cpu_ms / median(t.cpu_ms), static_cast<double>(t.levels_after.patches),
+            t.levels_after.cpu_ms / static_cast<double>(t.cpu_ms.size()));
+    }
+    return text;
+}
+
+constexpr const char* kHowPicturesDiffer =
+    "FLIP is that from the picture of Burin as set up. Simple light has one lamp and a constant, written as it is; "
+    "Burin's\nhas lamp, sky and room, in sRGB: most of what FLIP finds is that, and goes where a peer is given Burin's "
+    "light.\nPeers draw all triangles, no levels of detail. The background's colour is the same.\n";
 
 }  // namespace
 
@@ -76,22 +121,23 @@ std::string frame_table(const FrameReport& report) {
         "%zu triangles in %zu patches, 2 x 1280 x 720, %u sample%s a pixel; ms a frame of processor time, and of "
         "wall\n\n",
         report.triangles, report.patches, report.options.samples, report.options.samples == 1 ? "" : "s");
-    text += line("%-30s %-8s %8s %8s %8s | %8s %8s | %8s %7s\n", "", "scene", "min", "median", "p99", "median", "p99",
-                 "covered", "FLIP");
+    text += line("%-29s %-8s %-8s %-8s %-7s %8s %8s %8s | %8s %8s | %8s %7s\n", "", "scene", "lit at", "light", "drawn",
+                 "min", "median", "p99", "median", "p99", "covered", "FLIP");
     for (const FrameTimes& t : report.times) {
-        text += line("%-30s %-8s %8.2f %8.2f %8.2f | %8.2f %8.2f | %6.1f %%", t.subject.c_str(),
-                     name_of(t.motion).c_str(), least(t.cpu_ms), median(t.cpu_ms), quantile(t.cpu_ms, 0.99),
+        text += line("%-29s %-8s %-8s %-8s %-7s %8.2f %8.2f %8.2f | %8.2f %8.2f | %6.1f %%", t.subject.c_str(),
+                     name_of(t.motion).c_str(), name_of(t.way.lit_at).c_str(), name_of(t.way.light).c_str(),
+                     t.way.levels ? "levels" : "all", least(t.cpu_ms), median(t.cpu_ms), quantile(t.cpu_ms, 0.99),
                      median(t.wall_ms), quantile(t.wall_ms, 0.99), 100.0 * t.coverage);
         text += t.flip_from_own ? line(" %7.3f\n", *t.flip_from_own) : "\n";
     }
     text += "\n";
     for (const FrameTimes& t : report.times) {
-        if (!t.counters.empty()) text += t.subject + ", " + name_of(t.motion) + ", a frame: " + counters_line(t) + "\n";
+        if (!t.counters.empty())
+            text +=
+                t.subject + ", " + name_of(t.way) + ", " + name_of(t.motion) + ", a frame: " + counters_line(t) + "\n";
     }
-    for (const FrameMotion motion : report.options.motions)
-        for (const auto& [peer, key] : kPeers)
-            if (const auto ratio = own_over_peer(report, motion, peer))
-                text += line("%s: Burin uses %.3f of what %s uses\n", name_of(motion).c_str(), *ratio, peer);
+    text += ratio_lines(report) + levels_lines(report);
+    if (report.options.osg || report.options.vtk) text += kHowPicturesDiffer;
     std::vector<std::string> notes;  // each note once
     for (const FrameTimes& t : report.times) {
         const std::string note = t.subject + ": " + t.note + "\n";
@@ -122,6 +168,22 @@ std::string frame_csv(const FrameReport& report) {
     return text;
 }
 
+std::string ratio_rows(const FrameReport& report, const std::string& driver_threads, bool with_names) {
+    std::string text;
+    if (with_names)
+        text =
+            "triangles,samples,driver_threads,scene,compared,peer,own_over_peer,levels_ms,levels_in_frames,machine\n";
+    const auto made = std::ranges::find_if(report.times, [](const FrameTimes& t) { return t.levels.patches > 0; });
+    const std::string levels =
+        made == report.times.end() ? "," : line("%.1f,%.2f", made->levels.cpu_ms, *levels_in_frames(report));
+    for_each_ratio(report, [&](const std::string& scene, const char* compared, const char*, const char* peer,
+                               double r) {
+        text += line("%zu,%u,", report.triangles, report.options.samples) + csv_field(driver_threads) + "," + scene +
+                "," + compared + "," + peer + line(",%.4f,", r) + levels + "," + csv_field(report.machine) + "\n";
+    });
+    return text;
+}
+
 Json frame_json(const FrameReport& report) {
     Json json = {{"machine", report.machine},
                  {"device", report.device},
@@ -135,6 +197,7 @@ Json frame_json(const FrameReport& report) {
         json["times"].push_back(row);
     }
     json["ratios"] = ratios(report);
+    if (const auto frames = levels_in_frames(report)) json["levels_in_frames"] = *frames;
     if (report.idle) json["idle"] = {{"seconds", report.idle->seconds}, {"cpu_share", report.idle->cpu_share}};
     if (report.first) json["first_picture"] = {{"wall_ms", report.first->wall_ms}, {"cpu_ms", report.first->cpu_ms}};
     json["left_out"] = report.left_out;

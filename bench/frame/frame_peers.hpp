@@ -2,7 +2,7 @@
 // Draws the same frames with other libraries, for comparison: OpenSceneGraph and VTK.
 // Built only with -DBURIN_WITH_PEERS=ON (scripts/setup --peers installs them); without
 // them every function here fails with a message. Their headers are not included outside
-// bench/peers/. They draw with OpenGL and need a display (bench/frame/frame_display.hpp).
+// bench/frame/. They draw with OpenGL and need a display (bench/frame/frame_display.hpp).
 // Each is set up as a user who cares for speed would: see the source files.
 #pragma once
 
@@ -20,9 +20,13 @@ enum class OsgDrawables {
     one       // the whole surface as one drawable
 };
 
-// Create subjects named "OpenSceneGraph, patches", "OpenSceneGraph, one drawable" and "VTK". samples: 1 or 4 a pixel.
+// Create subjects named "OpenSceneGraph, patches", "OpenSceneGraph, one drawable" and "VTK", which draw all triangles.
+// samples: 1 or 4 a pixel. way: where the light is computed, and by which formula.
 [[nodiscard]] Result<std::unique_ptr<FrameSubject>> open_osg(const FrameScene& scene, unsigned samples,
-                                                             OsgDrawables drawables);
-[[nodiscard]] Result<std::unique_ptr<FrameSubject>> open_vtk(const FrameScene& scene, unsigned samples);
+                                                             OsgDrawables drawables, const FrameWay& way = {});
+// gouraud: also asks for Gouraud's interpolation, which VTK 9 accepts and lights every pixel all the same
+// (tests/bench/frame_unit.cpp).
+[[nodiscard]] Result<std::unique_ptr<FrameSubject>> open_vtk(const FrameScene& scene, unsigned samples,
+                                                             const FrameWay& way = {}, bool gouraud = false);
 
 }  // namespace burin::bench

@@ -2,10 +2,11 @@
 // Draws Burin's own frames as a session does: the surface's patches are given to the renderer as carving gives its
 // tiles, frames follow one another, and nothing is read back.
 #include "bench/frame/frame.hpp"
-#include "bench/measure/timing.hpp"
 #include "compute/rays/normal_code.hpp"
 #include "gpu/device.hpp"
 #include "renderer/frame/renderer.hpp"
+#include "renderer/scene/frame_setup.hpp"
+#include "shaders/shared/srgb.h"
 
 namespace burin::bench {
 namespace {
@@ -17,8 +18,9 @@ std::uint32_t colour_code(const Vec3& colour) {
 
 class RendererSubject final : public FrameSubject {
 public:
-    RendererSubject(const FrameScene& scene, gpu::Device device, renderer::Renderer renderer)
+    RendererSubject(const FrameScene& scene, gpu::Device device, renderer::Renderer renderer, const FrameWay& way)
         : scene_(scene),
+          way_(way),
           colour_(colour_code(scene.look.surface)),
           device_(std::move(device)),
           renderer_(std::move(renderer)) {
@@ -31,6 +33,7 @@ public:
 
     std::string name() const override { return "Burin"; }
     std::string note() const override { return "lit by lamp, sky and room, in sRGB"; }
+    FrameWay way() const override { return way_; }
 
     Result<void> draw(const FrameStep& step) override {
         for (const PatchChange& change : step.changes) set(change.patch, change.vertices);
@@ -45,13 +48,8 @@ public:
         return submission->wait();
     }
 
-    // Does what a session does while nothing happens.
-    Result<void> settle() override {
-        const double before_ms = process_cpu_ms();
-        refined_ += static_cast<double>(renderer_.surface().refine(static_cast<std::size_t>(-1)));
-        refine_ms_ += process_cpu_ms() - before_ms;
-        return {};
-    }
+    // Does what a session's thread for levels of detail does beside the frames.
+    Result<std::uint64_t> settle() override { return renderer_.surface().refine(static_cast<std::size_t>(-1)); }
 
     Result<StereoImage> picture() override { return renderer_.render(drawn_); }
 
@@ -69,9 +67,7 @@ public:
                 {"coarser", p.coarser},
                 {"vertex rate", p.vertex_rate},
                 {"1000 pixels", 1e-3 * pixels},
-                {"KiB brought over", static_cast<double>(s.uploaded_bytes) / 1024.0},
-                {"patches refined", refined_},
-                {"ms to refine them", refine_ms_}};
+                {"KiB brought over", static_cast<double>(s.uploaded_bytes) / 1024.0}};
     }
 
 private:
@@ -87,23 +83,39 @@ private:
     }
 
     const FrameScene& scene_;
+    FrameWay way_;
     std::uint32_t colour_;
     gpu::Device device_;
     renderer::Renderer renderer_;
     renderer::Scene drawn_;
-    double refined_ = 0.0, refine_ms_ = 0.0;
 };
 
 }  // namespace
 
-Result<OwnSubject> open_own(const FrameScene& scene, const FrameOptions& options) {
+Result<OwnSubject> open_own(const FrameScene& scene, const FrameOptions& options, const FrameWay& way) {
+    renderer::Savings savings;
+    savings.vertex_rate = way.lit_at == LitAt::vertices;
+    savings.coarser_levels = way.levels;
     auto device = gpu::Device::create({.index = options.device});
     if (!device) return std::unexpected(device.error());
-    auto renderer = renderer::Renderer::create(*device, scene.size, {.samples = options.samples});
+    auto renderer = renderer::Renderer::create(*device, scene.size, {.samples = options.samples, .savings = savings});
     if (!renderer) return std::unexpected(renderer.error());
     std::string name = device->info().line();
-    return OwnSubject{std::make_unique<RendererSubject>(scene, std::move(*device), std::move(*renderer)),
+    return OwnSubject{std::make_unique<RendererSubject>(scene, std::move(*device), std::move(*renderer), way),
                       std::move(name)};
+}
+
+BurinsLight burins_light(const FrameLook& look) {
+    const renderer::Scene scene;
+    const shared::FrameUniforms frame = renderer::frame_uniforms(scene, {});
+    const shared::DrawConstants draw = renderer::surface_constants(scene);
+    return {Vec3(frame.light),
+            Vec3(frame.light_colour),
+            Vec3(frame.sky_colour),
+            Vec3(frame.ground_colour),
+            shared::linear_of(look.surface),
+            draw.material.x,
+            draw.material.y};
 }
 
 }  // namespace burin::bench

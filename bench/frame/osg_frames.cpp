@@ -16,40 +16,44 @@
 #include <osgViewer/Viewer>
 
 #include <array>
-#include <cstdio>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "bench/frame/frame_peers.hpp"
+#include "bench/frame/gl_light.hpp"
 #include "bench/frame/gl_views.hpp"
 
 namespace burin::bench {
 namespace {
 
-constexpr const char* kVertexShader = R"(#version 120
+struct ProgramText {
+    std::string vertex, fragment;
+};
+
+ProgramText program_text(const FrameLook& look, const FrameWay& way) {
+    const std::string function = gl_light_function(look, way.light);
+    if (way.lit_at == LitAt::pixels) {
+        return {R"(#version 120
 varying vec3 normal_eye, to_eye;
 void main() {
     normal_eye = gl_NormalMatrix * gl_Normal;
     to_eye = -(gl_ModelViewMatrix * gl_Vertex).xyz;
     gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
 }
-)";
-
-// The eye's axes are the world's, so the light's direction is the same in both frames.
-std::string fragment_shader(const FrameLook& look) {
-    std::array<char, 1024> text{};
-    std::snprintf(text.data(), text.size(), R"(#version 120
-varying vec3 normal_eye, to_eye;
-const vec3 to_light = vec3(%.6f, %.6f, %.6f);
+)",
+                "#version 120\nvarying vec3 normal_eye, to_eye;\n" + function +
+                    "void main() { gl_FragColor = vec4(light_of(normalize(normal_eye), normalize(to_eye)) + " +
+                    gl_dither(way.light) + ", 1.0); }\n"};
+    }
+    // Interpolated over the screen, as Burin does it, which spares a software driver three divisions a pixel.
+    const std::string head =
+        "#version 120\n#extension GL_EXT_gpu_shader4 : enable\nnoperspective varying vec3 light;\n";
+    return {head + function + R"(
 void main() {
-    vec3 n = normalize(normal_eye);
-    vec3 h = normalize(normalize(to_eye) + to_light);
-    float lit = %.6f + %.6f * max(dot(n, to_light), 0.0);
-    gl_FragColor = vec4(lit * vec3(%.6f, %.6f, %.6f) + %.6f * pow(max(dot(n, h), 0.0), %.6f), 1.0);
+    light = light_of(normalize(gl_NormalMatrix * gl_Normal), normalize(-(gl_ModelViewMatrix * gl_Vertex).xyz));
+    gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
 }
 )",
-                  look.to_light_world.x, look.to_light_world.y, look.to_light_world.z, look.ambient, look.diffuse,
-                  look.surface.x, look.surface.y, look.surface.z, look.specular, look.exponent);
-    return text.data();
+            head + "void main() { gl_FragColor = vec4(light + " + gl_dither(way.light) + ", 1.0); }\n"};
 }
 
 osg::ref_ptr<osg::PrimitiveSet> triangles_of(const FrameMesh& mesh) {
@@ -83,8 +87,8 @@ osg::Matrixd osg_of(const Mat4& m) { return osg::Matrixd(glm::value_ptr(m)); }
 
 class OsgSubject final : public FrameSubject {
 public:
-    OsgSubject(const FrameScene& scene, unsigned samples, OsgDrawables drawables)
-        : scene_(scene), samples_(samples), drawables_(drawables) {}
+    OsgSubject(const FrameScene& scene, unsigned samples, OsgDrawables drawables, const FrameWay& way)
+        : scene_(scene), samples_(samples), drawables_(drawables), way_(way) {}
 
     Result<void> open();
     std::string name() const override {
@@ -95,6 +99,7 @@ public:
     std::string note() const override {
         return samples_ > 1 ? "its frames are not known to have the samples that were asked for" : "";
     }
+    FrameWay way() const override { return way_; }
     Result<void> draw(const FrameStep& step) override;
     Result<StereoImage> picture() override;
 
@@ -107,6 +112,7 @@ private:
     const FrameScene& scene_;
     unsigned samples_;
     OsgDrawables drawables_;
+    FrameWay way_;
     osg::ref_ptr<osg::GraphicsContext> context_;
     osg::ref_ptr<osgViewer::Viewer> viewer_;
     std::vector<osg::ref_ptr<osg::Geometry>> geometries_;
@@ -151,9 +157,10 @@ osg::ref_ptr<osg::Group> OsgSubject::surface() {
         for (const FrameMesh& patch : scene_.patches) geometries_.push_back(geometry_of(patch));
     for (const auto& geometry : geometries_) group->addChild(geometry);
 
+    const ProgramText text = program_text(scene_.look, way_);
     osg::ref_ptr<osg::Program> program = new osg::Program;
-    program->addShader(new osg::Shader(osg::Shader::VERTEX, kVertexShader));
-    program->addShader(new osg::Shader(osg::Shader::FRAGMENT, fragment_shader(scene_.look)));
+    program->addShader(new osg::Shader(osg::Shader::VERTEX, text.vertex));
+    program->addShader(new osg::Shader(osg::Shader::FRAGMENT, text.fragment));
     osg::StateSet* state = group->getOrCreateStateSet();
     state->setAttributeAndModes(program);
     state->setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK));
@@ -236,8 +243,9 @@ Result<StereoImage> OsgSubject::picture() {
 
 }  // namespace
 
-Result<std::unique_ptr<FrameSubject>> open_osg(const FrameScene& scene, unsigned samples, OsgDrawables drawables) {
-    auto subject = std::make_unique<OsgSubject>(scene, samples, drawables);
+Result<std::unique_ptr<FrameSubject>> open_osg(const FrameScene& scene, unsigned samples, OsgDrawables drawables,
+                                               const FrameWay& way) {
+    auto subject = std::make_unique<OsgSubject>(scene, samples, drawables, way);
     if (const auto done = subject->open(); !done) return std::unexpected(done.error());
     return subject;
 }

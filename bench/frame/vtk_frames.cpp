@@ -2,7 +2,9 @@
 // Draws with VTK as a user who cares for speed sets it up: one polygon mapper whose buffers stay on the device, Phong
 // interpolation with one directional scene light, back faces culled, light and clipping range not recomputed, no
 // swapping of buffers. Both eyes are renderers side by side in one off-screen window, each with a camera whose
-// projection is given. VTK's highlight is Phong's: an exponent of a quarter looks like Blinn's.
+// projection is given. VTK's highlight is Phong's: an exponent of a quarter looks like Blinn's. VTK's own shaders light
+// every pixel, with Gouraud's interpolation too; in the other ways the light is put into them as text
+// (vtkShaderProperty), which is how a user of VTK does it.
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
@@ -17,11 +19,13 @@
 #include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkShaderProperty.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <array>
 
 #include "bench/frame/frame_peers.hpp"
+#include "bench/frame/gl_light.hpp"
 #include "bench/frame/gl_views.hpp"
 
 namespace burin::bench {
@@ -29,21 +33,29 @@ namespace {
 
 class VtkSubject final : public FrameSubject {
 public:
-    VtkSubject(const FrameScene& scene, unsigned samples) : scene_(scene), samples_(samples) {}
+    VtkSubject(const FrameScene& scene, unsigned samples, const FrameWay& way, bool gouraud)
+        : scene_(scene), samples_(samples), way_(way), gouraud_(gouraud) {}
 
     void open();
     std::string name() const override { return "VTK"; }
-    std::string note() const override { return "Phong's highlight instead of Blinn's"; }
+    std::string note() const override {
+        return own_light() ? "Phong's highlight instead of Blinn's" : "its shaders are given this light";
+    }
+    FrameWay way() const override { return way_; }
     Result<void> draw(const FrameStep& step) override;
     Result<StereoImage> picture() override;
 
 private:
+    [[nodiscard]] bool own_light() const { return way_.lit_at == LitAt::pixels && way_.light == FrameLight::simple; }
     void make_surface();
+    void replace_light();
     void make_eye(std::size_t eye);
     void aim(std::size_t eye, const Vec3& eye_world);
 
     const FrameScene& scene_;
     unsigned samples_;
+    FrameWay way_;
+    bool gouraud_;
     vtkNew<vtkFloatArray> positions_, normals_;
     vtkNew<vtkPoints> points_;
     vtkNew<vtkPolyData> data_;
@@ -82,7 +94,7 @@ void VtkSubject::make_surface() {
 
     const FrameLook& look = scene_.look;
     vtkProperty* p = actor_->GetProperty();
-    p->SetInterpolationToPhong();
+    gouraud_ ? p->SetInterpolationToGouraud() : p->SetInterpolationToPhong();
     p->SetColor(look.surface.x, look.surface.y, look.surface.z);
     p->SetSpecularColor(1.0, 1.0, 1.0);
     p->SetAmbient(look.ambient);
@@ -90,6 +102,29 @@ void VtkSubject::make_surface() {
     p->SetSpecular(look.specular);
     p->SetSpecularPower(0.25 * look.exponent);
     p->BackfaceCullingOn();
+    if (!own_light()) replace_light();
+}
+
+// Each tag is replaced before VTK sees it (the flag true) and once (false).
+void VtkSubject::replace_light() {
+    vtkShaderProperty* shaders = actor_->GetShaderProperty();
+    const std::string function = gl_light_function(scene_.look, way_.light), dither = gl_dither(way_.light);
+    const char* colour = "light_of(normalize(normalVCVSOutput), normalize(-vertexVC.xyz))";
+    if (way_.lit_at == LitAt::vertices) {
+        shaders->AddVertexShaderReplacement("//VTK::Light::Dec", true,
+                                            "noperspective out vec3 lightVSOutput;\n" + function, false);
+        shaders->AddVertexShaderReplacement(
+            "//VTK::Light::Impl", true,
+            "lightVSOutput = light_of(normalize(normalVCVSOutput), normalize(-vertexVCVSOutput.xyz));\n", false);
+        shaders->AddFragmentShaderReplacement("//VTK::Light::Dec", true, "noperspective in vec3 lightVSOutput;\n",
+                                              false);
+        colour = "lightVSOutput";
+    } else {
+        shaders->AddFragmentShaderReplacement("//VTK::Light::Dec", true, function, false);
+    }
+    shaders->AddFragmentShaderReplacement("//VTK::Light::Impl", true,
+                                          std::string("gl_FragData[0] = vec4(") + colour + " + " + dither + ", 1.0);\n",
+                                          false);
 }
 
 void VtkSubject::make_eye(std::size_t eye) {
@@ -172,8 +207,9 @@ Result<StereoImage> VtkSubject::picture() {
 
 bool has_frame_peers() { return true; }
 
-Result<std::unique_ptr<FrameSubject>> open_vtk(const FrameScene& scene, unsigned samples) {
-    auto subject = std::make_unique<VtkSubject>(scene, samples);
+Result<std::unique_ptr<FrameSubject>> open_vtk(const FrameScene& scene, unsigned samples, const FrameWay& way,
+                                               bool gouraud) {
+    auto subject = std::make_unique<VtkSubject>(scene, samples, way, gouraud);
     subject->open();
     return subject;
 }

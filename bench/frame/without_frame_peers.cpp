@@ -15,11 +15,12 @@ std::unexpected<Error> not_built(const char* library) {
 bool has_frame_peers() { return false; }
 
 Result<std::unique_ptr<FrameSubject>> open_osg(const FrameScene& /*scene*/, unsigned /*samples*/,
-                                               OsgDrawables /*drawables*/) {
+                                               OsgDrawables /*drawables*/, const FrameWay& /*way*/) {
     return not_built("OpenSceneGraph");
 }
 
-Result<std::unique_ptr<FrameSubject>> open_vtk(const FrameScene& /*scene*/, unsigned /*samples*/) {
+Result<std::unique_ptr<FrameSubject>> open_vtk(const FrameScene& /*scene*/, unsigned /*samples*/,
+                                               const FrameWay& /*way*/, bool /*gouraud*/) {
     return not_built("VTK");
 }
 

@@ -13,6 +13,7 @@
 #include "bench/frame/frame_peers.hpp"
 #include "bench/frame/frame_start.hpp"
 #include "bench/haptics/bumpy_sphere.hpp"
+#include "bench/measure/flip.hpp"
 
 namespace burin::bench {
 namespace {
@@ -29,6 +30,8 @@ class CountingSubject final : public FrameSubject {
 public:
     explicit CountingSubject(double covered) : covered_(covered) {}
     std::string name() const override { return "Burin"; }
+    FrameWay way() const override { return kSessionWay; }
+    Result<std::uint64_t> settle() override { return ++settled_; }
     Result<void> draw(const FrameStep& step) override {
         if (drawn_ == fails_at) return fail("frame", "was lost", "try again");
         ++drawn_;
@@ -50,6 +53,7 @@ public:
 
     unsigned fails_at = 1'000'000;
     unsigned drawn_ = 0;
+    std::uint64_t settled_ = 0;
     std::size_t changes_ = 0;
     std::vector<Vec3> heads_;
 
@@ -177,6 +181,16 @@ TEST(FrameTimes, DropTheWarmUpAndAverageTheCounters) {
     for (const Vec3& head : subject.heads_) EXPECT_EQ(head, subject.heads_.front());
 }
 
+TEST(FrameTimes, CountTheLevelsOfDetailMadeBeforeAndAfterTheFrames) {
+    CountingSubject subject(covered_from_the_middle());
+    const auto times = time_frames(subject, small_scene(), FrameMotion::still, few_frames());
+    ASSERT_TRUE(times.has_value()) << times.error().line();
+    EXPECT_EQ(times->way, kSessionWay);
+    EXPECT_EQ(times->levels.patches, 3u);  // 1 and 2, after the two frames of the warm-up
+    EXPECT_EQ(times->levels_after.patches, 3u);
+    EXPECT_GE(times->levels.cpu_ms, 0.0);
+}
+
 TEST(FrameTimes, MoveTheHeadOrChangePatchesAsAsked) {
     const double covered = covered_from_the_middle();
     CountingSubject carved(covered), moved(covered);
@@ -208,14 +222,16 @@ TEST(FrameTimes, OfIdlingCountTheProcessorTimeOfAllThreads) {
 
 TEST(FrameReport, ComparesWithTheFasterVariantOfAPeer) {
     FrameReport report;
-    const auto add = [&](const std::string& name, FrameMotion motion, std::vector<double> ms) {
+    const auto add = [&](const std::string& name, FrameMotion motion, std::vector<double> ms, FrameWay way = {}) {
         FrameTimes times;
         times.subject = name;
         times.motion = motion;
+        times.way = way;
         times.cpu_ms = times.wall_ms = std::move(ms);
         report.times.push_back(times);
     };
-    add("Burin", FrameMotion::moving, {30, 10, 20});
+    add("Burin", FrameMotion::moving, {30, 10, 20}, kSessionWay);
+    report.times.back().levels = {7, 50.0};
     add("OpenSceneGraph, patches", FrameMotion::moving, {90, 80, 70});
     add("OpenSceneGraph, one drawable", FrameMotion::moving, {40, 40, 40});
     add("VTK", FrameMotion::still, {100});
@@ -231,7 +247,51 @@ TEST(FrameReport, ComparesWithTheFasterVariantOfAPeer) {
     const std::string csv = frame_csv(report);
     EXPECT_EQ(std::ranges::count(csv, '\n'), 6);
     EXPECT_NE(csv.find("\"OpenSceneGraph, patches\",moving"), std::string::npos);
-    EXPECT_NE(frame_table(report).find("Burin uses 0.500 of what OpenSceneGraph uses"), std::string::npos);
+    const std::string table = frame_table(report);
+    EXPECT_NE(table.find("moving, as set up: Burin uses 0.500 of what OpenSceneGraph uses"), std::string::npos)
+        << table;
+    EXPECT_NE(table.find("of 7 patches made before in 50.0 ms, 2.5 frames' worth"), std::string::npos) << table;
+    EXPECT_DOUBLE_EQ(levels_in_frames(report).value(), 2.5);
+    EXPECT_EQ(json["times"][0]["levels_ms"], 50.0);
+    EXPECT_TRUE(json["times"][1]["levels_ms"].is_null());  // a peer has none
+}
+
+TEST(FrameReport, SetsEachWayAgainstItsOwn) {
+    FrameReport report;
+    report.machine = "a machine, load 0.1";
+    const auto add = [&](const std::string& name, double ms, FrameWay way) {
+        FrameTimes times;
+        times.subject = name;
+        times.way = way;
+        times.cpu_ms = times.wall_ms = {ms};
+        report.times.push_back(times);
+    };
+    using enum LitAt;
+    using enum FrameLight;
+    add("Burin", 10, {vertices, burins, true});
+    add("Burin", 20, {pixels, burins, true});
+    add("Burin", 80, {pixels, burins, false});
+    add("VTK", 100, {pixels, simple, false});
+    add("VTK", 50, {vertices, simple, false});
+    add("VTK", 160, {pixels, burins, false});
+    const std::map<std::string, double> expected{{"as set up", 0.1},
+                                                 {"both at pixels", 0.2},
+                                                 {"both at vertices", 0.2},
+                                                 {"same light at pixels", 0.125},
+                                                 {"same light and triangles at pixels", 0.5}};
+    for (const FrameComparison& compared : kComparisons) {
+        const auto ratio = own_over_peer(report, FrameMotion::moving, "VTK", compared);
+        const auto known = expected.find(compared.name);
+        ASSERT_EQ(ratio.has_value(), known != expected.end()) << compared.name;
+        if (ratio) {
+            EXPECT_DOUBLE_EQ(*ratio, known->second) << compared.name;
+        }
+    }
+    EXPECT_EQ(frame_json(report)["ratios"].size(), expected.size());
+    const std::string rows = ratio_rows(report, "1", true);
+    EXPECT_EQ(std::ranges::count(rows, '\n'), 6);
+    EXPECT_NE(rows.find("0,1,1,moving,as set up,VTK,0.1000,,,\"a machine, load 0.1\"\n"), std::string::npos) << rows;
+    EXPECT_EQ(std::ranges::count(ratio_rows(report, "1", false), '\n'), 5);
 }
 
 TEST(FramePeers, SayHowToGetThemWhereTheyAreNotBuilt) {
@@ -271,6 +331,31 @@ TEST(FramePeers, DrawTheSameSurfaceThroughTheSameEyes) {
         EXPECT_LT(differ, picture.left.rgba.size() / 4 / 20);
         EXPECT_GT(differ_exchanged, 3 * differ + 100);
     }
+}
+
+TEST(FramePeers, LightWhereAndAsTheyAreAsked) {
+    if (!has_frame_peers()) GTEST_SKIP() << "built without OpenSceneGraph and VTK (scripts/setup --peers)";
+    const auto display = FrameDisplay::open();
+    if (!display) GTEST_SKIP() << display.error().line();
+    FrameScene scene = make_frame_scene(20'000);
+    scene.size = {320, 180};
+    const FrameStep step{still_viewer(scene), {}};
+    const auto drawn = [&](Result<std::unique_ptr<FrameSubject>> subject) {
+        EXPECT_TRUE(subject.has_value());
+        EXPECT_TRUE((*subject)->draw(step).has_value());
+        return (*subject)->picture().value().left;
+    };
+    for (const FrameLight light : {FrameLight::simple, FrameLight::burins}) {
+        const FrameWay pixels{LitAt::pixels, light, false}, vertices{LitAt::vertices, light, false};
+        const Image osg = drawn(open_osg(scene, 1, OsgDrawables::one, pixels));
+        const std::array others{drawn(open_osg(scene, 1, OsgDrawables::one, vertices)),
+                                drawn(open_vtk(scene, 1, pixels)), drawn(open_vtk(scene, 1, vertices))};
+        EXPECT_NEAR(coverage(scene.look, osg), expected_coverage(scene, wall::eyes_of(step.viewer).left_world), 0.015);
+        for (const Image& other : others) EXPECT_LT(flip(osg, other)->mean, 0.05) << name_of(light);
+        EXPECT_NE(osg.rgba, others[0].rgba);  // triangles of some pixels: lit at vertices they do look different
+    }
+    // What README and table say of VTK: asked for Gouraud's interpolation, it lights pixels as before.
+    EXPECT_EQ(drawn(open_vtk(scene, 1, {}, true)).rgba, drawn(open_vtk(scene, 1, {}, false)).rgba);
 }
 
 TEST(FrameStart, LiesInThePastAndDoesNotMove) {
