@@ -111,7 +111,9 @@ std::string levels_lines(const FrameReport& report) {
 constexpr const char* kHowPicturesDiffer =
     "FLIP is that from the picture of Burin as set up. Simple light has one lamp and a constant, written as it is; "
     "Burin's\nhas lamp, sky and room, in sRGB: most of what FLIP finds is that, and goes where a peer is given Burin's "
-    "light.\nPeers draw all triangles, no levels of detail. The background's colour is the same.\n";
+    "light. At pixels\nBurin also computes the tool's ring and shadow, which peers do not. Peers draw all triangles, "
+    "no "
+    "levels of detail.\n";
 
 }  // namespace
 
