@@ -10,8 +10,8 @@
 //
 // Burin and its peers do not draw alike when each is set up as its users would: a session lights the workpiece at its
 // vertices, with light of lamp, sky and room, and draws levels of detail, which take time to make; peers light every
-// pixel with a simple formula and draw all triangles. So each is measured in other ways too (FrameWay), and kComparisons
-// names which rows are set against which, down to the same light and the same triangles.
+// pixel with a simple formula and draw all triangles. So each is measured in other ways too (FrameWay); kComparisons
+// says which rows are set against which, down to the same light and the same triangles.
 #pragma once
 
 #include <array>
@@ -68,9 +68,8 @@ public:
     [[nodiscard]] virtual FrameWay way() const { return {}; }
     // Draws both eyes' pictures and returns when they are finished. All of it is timed.
     [[nodiscard]] virtual Result<void> draw(const FrameStep& step) = 0;
-    // Called after each warm-up frame: work that a session does
-    // in idle time and that speeds up later frames. Not part of a frame's time, but timed by itself, once more after the
-    // last frame. Returns for how many patches levels of detail were made.
+    // Called after each warm-up frame and after the last: work that a session does beside the frames and that speeds up
+    // later ones. Timed by itself. Returns for how many patches levels of detail were made.
     [[nodiscard]] virtual Result<std::uint64_t> settle() { return 0; }
     // Reads back the last frame. Not timed.
     [[nodiscard]] virtual Result<StereoImage> picture() = 0;

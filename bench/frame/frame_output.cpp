@@ -97,7 +97,7 @@ std::string ratio_lines(const FrameReport& report) {
 std::string levels_lines(const FrameReport& report) {
     std::string text;
     for (const FrameTimes& t : report.times) {
-        if (!t.way.levels || t.cpu_ms.empty()) continue;
+        if (t.levels.patches + t.levels_after.patches == 0) continue;
         text += line(
             "%s, %s, %s: levels of detail of %.0f patches made before in %.1f ms, %.1f frames' worth; of %.0f "
             "after, %.2f ms a frame\n",
