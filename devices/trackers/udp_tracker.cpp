@@ -8,6 +8,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -84,15 +85,21 @@ void UdpTracker::listen() {
     while (true) {
         if (poll(ready.data(), ready.size(), -1) < 0 && errno != EINTR) return;
         if (ready[1].revents != 0) return;
-        const ssize_t size = recv(socket_, datagram.data(), datagram.size(), 0);
-        if (size < 0) continue;
-        receive({datagram.data(), static_cast<std::size_t>(size)}, host_.clock.now_ns());
+        const ssize_t sent = recv(socket_, datagram.data(), datagram.size(), MSG_TRUNC);  // bytes, also lost ones
+        if (sent < 0) continue;
+        const auto bytes = static_cast<std::size_t>(sent);
+        receive({datagram.data(), std::min(bytes, kMostBytes)}, bytes > kMostBytes, host_.clock.now_ns());
         if (host_.on_sample) host_.on_sample();
     }
 }
 
-void UdpTracker::receive(std::string_view datagram, Nanoseconds now_ns) {
+void UdpTracker::receive(std::string_view datagram, bool cut_off, Nanoseconds now_ns) {
     const std::lock_guard lock(mutex_);
+    if (cut_off) {  // what is left of the last line may read as another sample
+        datagram = datagram.substr(0, datagram.rfind('\n') + 1);
+        refuse("tracker: a datagram is longer than " + std::to_string(kMostBytes) + " bytes; send fewer lines in each",
+               now_ns);
+    }
     while (!datagram.empty()) {
         const std::size_t end = datagram.find('\n');
         const std::string_view line = datagram.substr(0, end);

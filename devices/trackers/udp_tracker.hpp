@@ -33,7 +33,7 @@ private:
     explicit UdpTracker(TrackerHost host) : host_(std::move(host)) {}
     [[nodiscard]] Result<void> bind_to(const std::string& where);
     void listen();
-    void receive(std::string_view datagram, Nanoseconds now_ns);
+    void receive(std::string_view datagram, bool cut_off, Nanoseconds now_ns);
     void refuse(const std::string& why, Nanoseconds now_ns);
 
     TrackerHost host_;

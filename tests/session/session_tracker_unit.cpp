@@ -89,6 +89,24 @@ TEST(UdpTracker, PassesOverNonsenseAndSaysSoOnce) {
     EXPECT_NE(said[0].find("head"), std::string::npos) << "the nearest word: " << said[0];
 }
 
+// The numbers of a line that was cut off are others than were sent.
+TEST(UdpTracker, TakesNoSampleOfALineThatALongDatagramCutsOff) {
+    MonotonicClock clock;
+    const auto port = open_port(clock);
+    const Sender sender(port->port());
+    const std::string first = "head 0 1.6 2 0 0 0 1\n", left = "head 0 1.6 1 0 0.7 0 0.7";
+    sender.send(first + std::string(4096 - first.size() - left.size(), '\n') + left + "5\n");
+    sender.send("head 0 1.6 3 0 0 0 1");
+    const auto heard = heard_by(*port, 2);
+    ASSERT_EQ(heard.size(), 2u);
+    EXPECT_EQ(input_of(heard[0].input), Input(HeadInput{{{0.0, 1.6, 2.0}, Quat{1, 0, 0, 0}}, true}));
+    EXPECT_EQ(input_of(heard[1].input), Input(HeadInput{{{0.0, 1.6, 3.0}, Quat{1, 0, 0, 0}}, true}));
+    EXPECT_EQ(port->refused(), 1u);
+    const auto said = port->take_messages();
+    ASSERT_EQ(said.size(), 1u);
+    EXPECT_NE(said[0].find("4096"), std::string::npos) << said[0];
+}
+
 TEST(UdpTracker, NamesWhatItCannotListenTo) {
     MonotonicClock clock;
     for (const char* where : {"", "5005", "udp:", "udp:x", "udp:70000", "udp:1.2.3:80", "udp:300.1.1.1:80", "tcp:80"}) {
@@ -148,7 +166,13 @@ TEST(UdpTracker, SaysWhatItRefusesAtMostOnceASecond) {
     clock.sleep_until(kNanosecondsPerSecond);
     for (int i = 0; i < 5; ++i) send_nonsense();
     EXPECT_EQ((*opened)->take_messages().size(), 1u);
-    EXPECT_EQ((*opened)->refused(), 10u);
+    clock.sleep_until(kNanosecondsPerSecond * 8 / 5);
+    send_nonsense();
+    EXPECT_TRUE((*opened)->take_messages().empty());
+    clock.sleep_until(kNanosecondsPerSecond * 11 / 5);
+    send_nonsense();
+    EXPECT_EQ((*opened)->take_messages().size(), 1u) << "a sender that never pauses is told of again";
+    EXPECT_EQ((*opened)->refused(), 12u);
 }
 
 }  // namespace burin::session
