@@ -85,7 +85,7 @@ TEST(Command, RefusesBadToolsStrokesAndPlacesBeforeCarving) {
     expect_refused(place, ball + "--stroke missing.csv", 1, {"missing.csv"});
     expect_refused(place, ball + "--export no/such/folder/out.stl", 1, {"no/such/folder"});
     expect_refused(place, ball + "--export out.step", 1, {"out.step", ".stl"});
-    expect_refused(place, ball + "--report no/such/folder/r.json", 1, {"no/such/folder"});
+    expect_refused(place, ball + "--export out.stl --report no/such/folder/r.json", 1, {"no/such/folder"});
     expect_refused(place, ball + "--pictures file", 1, {"file", "--pictures"});
 }
 

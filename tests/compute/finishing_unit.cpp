@@ -189,6 +189,31 @@ TEST(Slivers, KnownOnesAreFoundWithPlaceAndThickness) {
     }
 }
 
+// A node is inside the interval that begins there, and not inside the one that ends there.
+TEST(Slivers, HoldTheNodeWhereTheyBeginAndNotTheOneWhereTheyEnd) {
+    WorkerPool pool(1);
+    constexpr int kCell = shared::kUnitsPerCell;
+    struct Case {
+        std::vector<int> depths;
+        std::uint64_t solid, gaps;
+    };
+    for (const auto& [depths, solids, gaps] :
+         {Case{{5 * kCell + 100, 6 * kCell}, 1, 0}, Case{{5 * kCell, 5 * kCell + 100}, 0, 0},
+          Case{{2 * kCell, 4 * kCell + 1, 5 * kCell, 6 * kCell}, 0, 1},
+          Case{{2 * kCell, 4 * kCell, 4 * kCell + 1, 6 * kCell}, 0, 0}}) {
+        Solid solid{{Vec3(0.0), 0.5, {20, 20, 20}}, {}, {{"one", {}}}};
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            solid.sets[axis] = noise_solid({20, 20, 20}, 0.0, Rays::agree, 1).sets[axis];
+        std::vector<shared::DexelEnd> ends;
+        for (const int d : depths) ends.push_back(shared::make_end(d, 0, shared::encode_normal({0, 0, 1})));
+        solid.sets[2].replace(static_cast<std::size_t>(9 * solid.lattice.rays_u(2) + 7), ends);
+        const SliverReport report = find_slivers(solid, pool);
+        EXPECT_EQ(report.solid[2], solids) << depths[0];
+        EXPECT_EQ(report.gaps[2], gaps) << depths[0];
+        EXPECT_EQ(report.count(), solids + gaps) << depths[0];
+    }
+}
+
 TEST(ThinningOut, MakesNoNewFaultsAndStaysClosed) {
     WorkerPool pool(2);
     const Carved carved = carved_block(28, 3, pool);

@@ -59,6 +59,31 @@ TEST_F(SessionFrame, OfFourScreensIsOneSubmissionAndOneWaitUnlessItIsPhotographe
     EXPECT_LE(surface_.uploads, frames.size());
 }
 
+// Which eye an interlaced row belongs to depends on where the window is on its monitor.
+TEST_F(SessionFrame, OfAWindowThatIsMovedIsAnotherOneOnlyWhereItsPlaceChoosesTheEyes) {
+    const auto idle_frames = [&](const std::string& folder, const char* mode) {
+        LiveOptions live;
+        live.offscreen = true;
+        live.stereo = mode;
+        live.width = 240;
+        live.height = 160;
+        std::uint64_t before = 0;
+        int idle = 0;
+        const Played played = play(folder, live, [&](int frame, Presenter& stage) {
+            const std::uint64_t now = stage.device().core()->submitted;
+            if (frame > 0 && now == before) ++idle;
+            before = now;
+            wall::OutputPlace place = stage.place();
+            place.monitor_y = frame;
+            stage.put(0, place);
+        });
+        EXPECT_TRUE(played.outcome) << played.outcome.error().line();
+        return idle;
+    };
+    EXPECT_GT(idle_frames("a", "mono"), 5);
+    EXPECT_EQ(idle_frames("b", "row_interlaced"), 0);
+}
+
 TEST_F(SessionFrame, OfFourWindowsIsOneSubmissionMoreForEachAndStillOneWait) {
     if (window::Xvfb::running().name().empty()) GTEST_SKIP() << "Xvfb is not installed or does not start";
     const Cost cost = play_cave("a", false);

@@ -125,6 +125,22 @@ TEST(SessionState, EveryCommandThatChangesTheToolTellsCarvingAndTouch) {
     }
 }
 
+TEST(SessionState, OnlyTouchingEndsWithTheNextTool) {
+    const Room room = test_room();
+    for (const auto& [name, arguments] : std::vector<std::pair<std::string, std::vector<std::string>>>{
+             {"tool-1", {}}, {"tool-2", {}}, {"tool-3", {}}, {"tool-4", {}}, {"operation", {"cut"}}}) {
+        SessionState state = test_state(room);
+        SessionOrders orders;
+        ASSERT_TRUE(run(state, orders, "tool-5"));
+        EXPECT_TRUE(std::isinf(parameters_of(state, room).materials[0].hardness_Ns_per_m3)) << "it can be cut";
+        ASSERT_TRUE(run(state, orders, name, arguments)) << name;
+        EXPECT_TRUE(std::isfinite(parameters_of(state, room).materials[0].hardness_Ns_per_m3)) << name;
+        const auto* use = std::get_if<sculpt::UseTool>(&orders.carving.back());
+        ASSERT_NE(use, nullptr) << name;
+        EXPECT_TRUE(std::isfinite(use->hardness_Ns_per_m3)) << name;
+    }
+}
+
 // A step reads no file: the same events would give another state when it has changed.
 TEST(SessionState, AMeshToolIsRefusedWithoutALookAtItsFile) {
     const Room room = test_room();

@@ -375,6 +375,34 @@ TEST(ThreadRecorder, EndsTheRecordingWhenTicksWereLost) {
     EXPECT_FALSE(again(place.read("live.log")).error && !again(place.read("live.log")).log_ends);
 }
 
+// A replay has other displays, which may refuse nothing.
+TEST(ThreadRecorder, WritesTheModeThatAScreenWentBackTo) {
+    const Workplace place;
+    SimulatedClock clock;
+    RecordedSession recorded(place, clock);
+    LiveSession& s = *recorded.session;
+    const auto frame = [&] {
+        recorded.recorder->outside();
+        clock.sleep_until(clock.now_ns() + 5'000'000);
+        const Nanoseconds now_ns = clock.now_ns() - s.start_ns();
+        const auto begun = recorded.input->begin_frame(now_ns, now_ns);
+        s.step(*begun, {.size = kSize}, s.newest_tool(), [](sculpt::SculptOrder) {});
+        recorded.recorder->frame(s.newest_tool().tick, {}, {{.size = kSize}});
+    };
+    frame();
+    testing::internal::CaptureStderr();
+    s.refuse_mode(wall::StereoMode::left, {"it cannot be shown", "screen", ""});
+    EXPECT_TRUE(has(testing::internal::GetCapturedStderr(), "it cannot be shown"));
+    EXPECT_EQ(s.state().output.mode, wall::StereoMode::left);
+    frame();
+    frame();
+    const auto log = read_input_log(place / "live.log");
+    ASSERT_TRUE(log) << log.error().line();
+    ASSERT_EQ(log->threads->frames.size(), 3u);
+    EXPECT_EQ(log->threads->frames[0].refused, wall::StereoMode::left) << "the frame whose drawing refused it";
+    EXPECT_FALSE(log->threads->frames[1].refused) << "once";
+}
+
 // ---- Settings
 
 TEST(SessionSettings, AreThoseOfTheRecording) {

@@ -164,9 +164,12 @@ TEST(TrackerWatch, BelievesARestartedTrackerAfterFiveSamplesThatAgree) {
     }
     EXPECT_EQ(report(settings, track, 550 * kMs).state, TrackerState::ok);
     EXPECT_LT(apart_m(predicted(settings, track, 550 * kMs), elsewhere(0.55)), 1e-9);
+    EXPECT_LT(apart_m(predicted(settings, track, 570 * kMs), elsewhere(0.55)), 1e-9)
+        << "the way from the old place to the new one is no velocity";
     // A clock that was set back: the same.
     for (int i = 0; i < kSamplesToTrust; ++i) track = take(settings, track, {i * 10 * kMs, uniform(0.0)});
     EXPECT_EQ(report(settings, track, 40 * kMs).state, TrackerState::ok);
+    EXPECT_LT(apart_m(predicted(settings, track, 60 * kMs), uniform(0.0)), 1e-9);
 }
 
 TEST(TrackerWatch, ASilentTrackerIsLostAndTheHeadGlidesToTheFallbackAndBack) {
