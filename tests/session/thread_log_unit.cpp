@@ -135,4 +135,29 @@ TEST(ThreadLog, KeepsWhatThePanelShowed) {
     EXPECT_EQ(read.plotted->frame_ms, 1.0 / 3.0);
 }
 
+// A frame that measured nothing anew shows what it showed before, and plots no point.
+TEST(ThreadLog, GivesEachFrameOnlyWhatItsOwnLinesTell) {
+    const std::string text =
+        "burin-input 2 x\n0 clock 5 1000000 0\n0 frame\n0 output 0 64 48 3 7\n0 plotted 1 2 16\n"
+        "0 figures 60 - - - - - - - 0 0 0 0 0 0 0 0\n0 saw 0 0 1\n0 said \"a word\"\n0.1 frame\n0.1 saw 0 0 2\n"
+        "0.2 frame\n0.2 output 0 80 48 3 7\n0.2 saw 0 0 3\n0.2 refused mono\n";
+    const auto log = parse_input_log(text, "in.log");
+    ASSERT_TRUE(log) << log.error().line();
+    const std::vector<FrameSeen>& frames = log->threads->frames;
+    ASSERT_EQ(frames.size(), 3u);
+    ASSERT_EQ(frames[0].outputs.size(), 1u);
+    EXPECT_EQ(frames[0].outputs[0].place.size, (ImageSize{64, 48}));
+    EXPECT_EQ(frames[0].outputs[0].place.monitor_x, 3);
+    EXPECT_EQ(frames[0].outputs[0].place.monitor_y, 7);
+    EXPECT_TRUE(frames[0].measured.plotted && frames[0].measured.numbers);
+    EXPECT_EQ(frames[0].messages, std::vector<std::string>{"a word"});
+    EXPECT_TRUE(frames[1].outputs.empty());
+    EXPECT_FALSE(frames[1].measured.plotted || frames[1].measured.numbers);
+    EXPECT_TRUE(frames[1].messages.empty());
+    ASSERT_EQ(frames[2].outputs.size(), 1u);
+    EXPECT_EQ(frames[2].outputs[0].place.size.width, 80u);
+    EXPECT_FALSE(frames[1].refused);
+    EXPECT_EQ(frames[2].refused, wall::StereoMode::mono);
+}
+
 }  // namespace burin::session
