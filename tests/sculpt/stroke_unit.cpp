@@ -107,6 +107,39 @@ TEST(SculptService, CarvesWithoutAnyHistory) {
     EXPECT_EQ(service.published(), 1u);
 }
 
+TEST(Sculpture, LightFollowsUndoAndRedo) {
+    WorkerPool pool(1);
+    Sculpture sculpture(ball_engine(pool), pool);
+    sculpture.keep_history(1 << 24);
+    ASSERT_TRUE(sculpture.keep_light({{0.3, 1.0, 0.2}, 0.05}));
+    // Bakes all that waits, after checking that each vertex has a light meanwhile too.
+    const auto light_of_all_tiles = [&] {
+        std::vector<std::vector<geometry::VertexLight>> lights;
+        for (std::uint32_t tile = 0; tile < sculpture.surface().tile_count(); ++tile) {
+            const auto& light = sculpture.light()->shared_light(tile);
+            EXPECT_EQ(light ? light->vertices.size() : 0, sculpture.surface().tile(tile).vertices.size()) << tile;
+        }
+        while (sculpture.bake_light(Vec3(0.0), 64) > 0) {
+        }
+        for (std::uint32_t tile = 0; tile < sculpture.surface().tile_count(); ++tile) {
+            const auto& light = sculpture.light()->shared_light(tile);
+            lights.push_back(light ? light->vertices : std::vector<geometry::VertexLight>{});
+        }
+        return lights;
+    };
+    const auto whole = light_of_all_tiles();
+    const Pose place{{0.0, 0.1, 0.0}};
+    const compute::ToolSweep stamp = kBall.sweep(place, place);
+    ASSERT_TRUE(sculpture.update({&stamp, 1}));
+    sculpture.end_stroke();
+    const auto carved = light_of_all_tiles();
+    EXPECT_FALSE(carved == whole);
+    EXPECT_EQ(sculpture.undo(1), 1u);
+    EXPECT_TRUE(light_of_all_tiles() == whole);
+    EXPECT_EQ(sculpture.redo(1), 1u);
+    EXPECT_TRUE(light_of_all_tiles() == carved);
+}
+
 TEST(Sculpture, TimesThePartsOfEachUpdate) {
     WorkerPool pool(1);
     Sculpture sculpture(ball_engine(pool), pool);

@@ -179,7 +179,7 @@ TEST(PanelPointer, TheMouseMeetsWhatIsSeenUnderItInEveryModeAndEye) {
                 const Vec2 wanted{part(random) * kPanel.width, part(random) * kPanel.height};
                 for (const wall::Eye outlet : {wall::Eye::left, wall::Eye::right}) {
                     if (outlet == wall::Eye::right && !wall::shows_one_eye_at_a_time(output.mode)) continue;
-                    Shot shot{eye, {.size = {161, 123}, .eye = outlet, .monitor_x = 3, .monitor_y = -7}};
+                    Shot shot{eye, {.size = {161, 123}, .eye = outlet, .monitor_x = 3, .monitor_y = -6}};
                     expect_hit_where_lit(output, shot, wanted);
                     lit += shot.lit;
                     if (HasFatalFailure()) return;
