@@ -36,7 +36,7 @@ protected:
         EXPECT_TRUE(submission && submission->wait());
         return picture_->changed({.size = kSize}, kMono);
     }
-    static constexpr wall::OutputSettings kMono{.mode = wall::StereoMode::mono};
+    static constexpr wall::OutputSettings kMono{};
 
 private:
     std::shared_ptr<renderer::SurfaceStore> surface_;
