@@ -259,7 +259,9 @@ std::string with_another_move(const std::string& text) {
 
 TEST(ThreadReplay, DoesTheSameAsTheThreadsDid) {
     const Workplace place;
-    const Live was = live(place);
+    Live was = live(place);
+    // On a busy machine ticks are skipped, and the hand may come too late to the surface: it tries again.
+    for (int i = 0; i < 5 && was.surface == was.untouched; ++i) was = live(place);
     ASSERT_GT(was.ticks, 500u);
     const Again is = again(was.log);
     ASSERT_FALSE(is.error) << is.error->line();
