@@ -47,7 +47,8 @@ std::uint64_t Core::completed() {
 }
 
 Result<void> Core::wait_for(std::uint64_t serial) {
-    ++waits;
+    if (serial > waited) ++waits;
+    waited = std::max(waited, serial);
     auto wait = structure<VkSemaphoreWaitInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO);
     wait.semaphoreCount = 1;
     wait.pSemaphores = &timeline;

@@ -57,7 +57,9 @@ public:
     // The timeline: each submission signals the next number.
     VkSemaphore timeline = VK_NULL_HANDLE;
     std::uint64_t submitted = 0;
-    std::uint64_t waits = 0;  // times the host waited for a submission; counted for tests
+    // For tests: how many waits of the host asked for a submission that no wait before them had covered, and the newest
+    // submission waited for.
+    std::uint64_t waits = 0, waited = 0;
     // Set by the first submission, wait or presentation that reports the device as lost; nothing works afterwards.
     bool lost = false;
     // For tests: makes the next submission fail as if the GPU were gone, or the next acquisition of an image as if the
