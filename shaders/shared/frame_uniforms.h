@@ -11,19 +11,19 @@ BURIN_SHARED_BEGIN
 struct FrameUniforms {
     // left eye, right eye; with a guard band around the picture (renderer/scene/frame_setup.hpp)
     mat4 clip_from_world[2];
-    vec4 eye_world[2];        // xyz
-    vec4 light;               // xyz: unit direction towards the lamp; w: tangent of its half angle
-    vec4 light_colour;        // rgb
-    vec4 sky_colour;          // rgb: ambient light from above
-    vec4 ground_colour;       // rgb: ambient light from below
-    vec4 tool;                // xyz: centre, w: radius; radius 0: no tool
-    vec4 tool_colour;         // rgb
-    vec4 stylus_tip;          // xyz, w: radius
-    vec4 stylus_end;          // xyz
-    vec4 workpiece;           // xyz: centre of its bounding sphere, w: radius; radius 0: none
-    vec4 pedestal;            // xyz: centre of its top, w: radius; radius 0: none
-    vec4 background;          // rgb
-    vec4 background_root;     // rgb: its components to the power of 1 / 2.4, as sRGB values have them
+    vec4 eye_world[2];     // xyz
+    vec4 light;            // xyz: unit direction towards the lamp; w: tangent of its half angle
+    vec4 light_colour;     // rgb
+    vec4 sky_colour;       // rgb: ambient light from above
+    vec4 ground_colour;    // rgb: ambient light from below
+    vec4 tool;             // xyz: centre, w: radius; radius 0: no tool
+    vec4 tool_colour;      // rgb
+    vec4 stylus_tip;       // xyz, w: radius
+    vec4 stylus_end;       // xyz
+    vec4 workpiece;        // xyz: centre of its bounding sphere, w: radius; radius 0: none
+    vec4 pedestal;         // xyz: centre of its top, w: radius; radius 0: none
+    vec4 background;       // rgb
+    vec4 background_root;  // rgb: its components to the power of 1 / 2.4, as sRGB values have them
     // The view of the point midway between the eyes, without guard band; used for the fade of parallax only.
     mat4 clip_from_world_middle;
     // For parallax_fade.h: x: strength, y: band, z: distance of the point midway between the eyes from the screen; w:
