@@ -42,7 +42,7 @@ enum class FrameLight {
     simple,  // FrameLook's
     burins   // shaders/lighting.glsl: lamp, sky and room, encoded as sRGB and dithered
 };
-// How a subject lights the surface, and whether it draws levels of detail or all triangles.
+// Says how a subject lights the surface, and whether it draws levels of detail or all triangles.
 struct FrameWay {
     LitAt lit_at = LitAt::pixels;
     FrameLight light = FrameLight::simple;

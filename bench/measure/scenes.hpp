@@ -42,7 +42,7 @@ struct CarveScene {
 // p(t) = (0.5 + 0.42 sin 6 pi t, 0.5 + 0.42 sin (4 pi t + 0.6), 0.985 + 0.03 sin 10 pi t), t = i / 999, radius 0.06, as
 // 1000 stamps. The removed volume is from analytic rays, up to 8192^2 of them: 0.03323742(1).
 [[nodiscard]] CarveScene stroke_1000_scene();
-// The same positions, joined by 999 capsules. The removed volume is from 1024^2 to 4096^2 rays (removed_volume_m3 in
+// Joins these positions by 999 capsules. The removed volume is from 1024^2 to 4096^2 rays (removed_volume_m3 in
 // bench/measure/exact_rays.hpp), which give 0.03326591, 0.03326630, 0.03326626: 0.03326625(2).
 [[nodiscard]] CarveScene stroke_1000_swept_scene();
 // Returns the scene turned by 20 degrees about the axis (1, 2, 3) through the cube's centre: no face or edge lies along

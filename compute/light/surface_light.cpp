@@ -11,8 +11,8 @@
 namespace burin::compute {
 namespace {
 
-// How far from a changed node a vertex may lie whose open light it alters, in cells: the range, the ray's start off the
-// surface, the reach of the clearance, and the cell in which it is interpolated.
+// Bounds the distance, in cells, from a changed node to a vertex whose open light it alters: the range, the ray's start
+// off the surface, the reach of the clearance, and the cell in which it is interpolated.
 constexpr int kOpenReach = static_cast<int>(kOpenRange) + 1 + Clearance::kReach + Clearance::kBlur + 1;
 // The vertices of a tile lie in the cells that it sees, or half a cell beside them: nodes -2 .. kTileCells + 1 around
 // it.
@@ -70,7 +70,7 @@ std::vector<geometry::VertexLight> carried_over(const geometry::SurfaceTile& mes
                                                 const TileLight* light_before) {
     std::vector<geometry::VertexLight> light(mesh.vertices.size());
     if (before == nullptr || light_before == nullptr || before->vertices.empty()) return light;
-    // Both meshes list their vertices in the order of cells, so the remaining ones are found in turn.
+    // The old and the new mesh list their vertices in the order of cells, so one pass finds each remaining vertex.
     const std::vector<shared::SurfaceVertex>& old = before->vertices;
     constexpr std::size_t kAhead = 12;
     std::size_t next = 0;

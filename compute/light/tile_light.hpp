@@ -3,7 +3,7 @@
 // the workpiece itself (sun), and how open its surroundings are (open). For a renderer that lights at vertex rate and
 // has no shadow map.
 //
-// Both are computed with cones. A cone is a ray that steps through the clearance of the solid (clearance.hpp) and
+// Sun and openness come from cones. A cone is a ray that steps through the clearance of the solid (clearance.hpp) and
 // measures how closely it passes material: material nearer to the ray than the cone's width at that distance blocks a
 // share of the cone, all of it where the ray itself runs into material. So a vertex that moves a little sees a little
 // more or less, and few cones suffice without visible steps. The width never exceeds the height above the vertex's own

@@ -127,7 +127,7 @@ private:
             box.hi += reach_m;
             tree_.for_each_meeting(tree_.box_of(box), 0, [&](std::size_t place) {
                 const std::uint32_t other = tree_.triangle_at(place);
-                // Of two touched triangles only the lower one reports the pair.
+                // Reports a pair of touched triangles once, from the one with the lower index.
                 if (!go_on || other == t || (other < t && std::ranges::binary_search(touched, other))) return;
                 if (!tree_.box_of(box_of(other)).meets(exact) || !meet(t, other)) return;
                 go_on = visit(TrianglePair{std::min(t, other), std::max(t, other)});

@@ -5,7 +5,7 @@
 // prisms that each forward-facing triangle (n.d > 0) sweeps from start to end: a point that the tool comes to cover on
 // the way is entered through such a triangle. When all of these surfaces are added with their windings, the prisms'
 // bottoms cancel the forward triangles at the start, and the walls between two forward triangles cancel each other.
-// What remains is about as large as the mesh itself:
+// The surface that remains has about as many triangles as the mesh itself:
 //   backward triangles at the start, forward triangles at the end, and a strip along each edge of the outline between
 //   them.
 // A depth is inside where the winding number is above zero. So a sweep is exact and costs as much as a stamp; there are
