@@ -49,7 +49,7 @@ BenchSubcommand add_bench_haptics(Command bench) {
         .within(std::uint64_t{1}, std::uint64_t{1'000'000'000});
     command
         .option("--paced-ticks", options->paced_ticks,
-                "How many paced ticks of each scene, 1 ms each, rehearsed and again cold (5000)")
+                "How many paced ticks of each scene, 1 ms each, with warm-up ticks and again cold (5000)")
         .within(std::uint64_t{1}, std::uint64_t{10'000'000});
     command.option("--csv", options->csv, "A file for the table of ticks; - for standard output");
     command.option("--svg", options->svg, "A file for the figure");

@@ -27,7 +27,7 @@ target_compile_options(burin_options INTERFACE
   # One rounding a written operation, on every machine: results must not depend on the compiler's choice to fuse.
   -ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  # GCC 12 sees overlapping copies in "literal" + std::string where there are none (its bug 105651, mended in 13).
+  # GCC 12 sees overlapping copies in "literal" + std::string where there are none (its bug 105651, fixed in 13).
   target_compile_options(burin_options INTERFACE -Wno-restrict)
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)

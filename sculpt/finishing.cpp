@@ -15,7 +15,7 @@ Json as_json(const Vec3& p) { return {p.x, p.y, p.z}; }
 
 Json describe(const compute::RepairReport& repair) {
     return {{"found", repair.found},
-            {"mended", repair.found - repair.left},
+            {"repaired", repair.found - repair.left},
             {"left", repair.left},
             {"diagonals_turned", repair.diagonals_turned},
             {"vertices_moved", repair.vertices_moved},

@@ -40,7 +40,7 @@ struct TickCosts {
     std::string scene, probe, pacing;
     std::size_t triangles = 0;
     std::vector<double> tick_us, lateness_us;  // one value a tick; lateness of paced ticks only
-    std::vector<double> rehearsal_us;          // of warm-up ticks, where there were any
+    std::vector<double> warm_up_us;          // of warm-up ticks, where there were any
     std::vector<double> triangles_tested, triangles_seen;
     std::uint64_t in_contact = 0, skipped_deadlines = 0, surfaces_used = 0;
 };

@@ -46,7 +46,7 @@ Json row_of(const TickCosts& t) {
     row["triangles_seen_max"] = most(t.triangles_seen);
     row["ticks_in_contact"] = t.in_contact;
     row["surfaces_used"] = t.surfaces_used;
-    row["rehearsal_median_us"] = median(t.rehearsal_us);
+    row["warm_up_median_us"] = median(t.warm_up_us);
     row["lateness_median_us"] = median(t.lateness_us);
     row["lateness_p99_us"] = quantile(t.lateness_us, 0.99);
     row["skipped_deadlines"] = t.skipped_deadlines;

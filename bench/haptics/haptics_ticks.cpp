@@ -105,7 +105,7 @@ private:
     void warm_up(Nanoseconds deadline_ns) {
         const Nanoseconds began_ns = clock_.now_ns();
         loop_.warm_up();
-        costs_.rehearsal_us.push_back(1e-3 * static_cast<double>(clock_.now_ns() - began_ns));
+        costs_.warm_up_us.push_back(1e-3 * static_cast<double>(clock_.now_ns() - began_ns));
         clock_.spin_until(deadline_ns);
     }
     void tick(Nanoseconds lateness_ns) {

@@ -87,7 +87,7 @@ void LivePanel::feed_times(const FrameInput& input, const PanelContext& context)
                 context.times, context.tick_duration, drawn_, context.eye(), recorded_ ? &*recorded_ : nullptr});
 }
 
-Result<Captured> LivePanel::feed(const FrameInput& input, const PanelContext& context, MessageLog& log) {
+Result<SceneInput> LivePanel::feed(const FrameInput& input, const PanelContext& context, MessageLog& log) {
     actions_.clear();
     layout_ = nullptr;
     feed_times(input, context);
@@ -95,9 +95,10 @@ Result<Captured> LivePanel::feed(const FrameInput& input, const PanelContext& co
     OnPicture on = mouse_on_picture(pointer_, input.events, context.shown, context.output);
     const PanelPointer pointer = std::exchange(pointer_, {.mouse_px = on.pointer.mouse_px});
     const bool stands = !context.room.wall.desk;
+    SceneInput left{{input.events.begin(), input.events.end()}, {}};
     const auto width = static_cast<std::uint32_t>(kPanelWidth_px);
     // A window too narrow for both shows the scene alone.
-    if (!context.state.panel || eye.height == 0 || (!stands && eye.width < 2 * width)) return Captured{};
+    if (!context.state.panel || eye.height == 0 || (!stands && eye.width < 2 * width)) return left;
     const ImageSize size = stands ? kStanding_px : ImageSize{width, eye.height};
     if (!panel_) {
         auto made = Panel::create({.size = size});
@@ -110,9 +111,10 @@ Result<Captured> LivePanel::feed(const FrameInput& input, const PanelContext& co
         const SessionWall& wall = context.room.wall;
         const View view = view_of(wall.setup, wall.main, context.state.head, context.state.interpupillary_m);
         const MouseView mouse{view.screen, wall::eyes_of(view.viewer), context.shown, context.output};
-        const Pointed pointed = point_at_panel(pointer, input.events, stand_in(context.room), size, mouse);
+        Pointed pointed = point_at_panel(pointer, input.events, stand_in(context.room), size, mouse);
         pointer_ = pointed.pointer;
         panel_->feed(pointed.panel);
+        left.events = std::move(pointed.rest);
     } else {
         pointer_ = on.pointer;
         // At the right of an eye's picture, in its pixels.
@@ -120,7 +122,8 @@ Result<Captured> LivePanel::feed(const FrameInput& input, const PanelContext& co
     }
     layout_ = &panel_->show(model_of(context, log.newest()), input.time_ns);
     actions_ = layout_->actions;
-    return Captured{layout_->wants_mouse, layout_->wants_keyboard};
+    left.captured = {layout_->wants_mouse, layout_->wants_keyboard};
+    return left;
 }
 
 std::optional<PanelPicture> LivePanel::picture_on(std::size_t screen, const Room& room) const {

@@ -37,11 +37,18 @@ struct PanelContext {
     [[nodiscard]] ImageSize eye() const { return wall::eye_size(shown.mode, output.size); }
 };
 
+// What the panel leaves of a step's input to the scene: events without the presses and turns of wheel and stick that met
+// a panel in the scene, and what it captures of the others.
+struct SceneInput {
+    std::vector<InputEvent> events;
+    Captured captured;
+};
+
 class LivePanel {
 public:
-    // Feeds a step's events and lays the panel out, with the log's newest message on it. Returns what of the input the
-    // panel captures; an Error where there can be no panel.
-    [[nodiscard]] Result<Captured> feed(const FrameInput& input, const PanelContext& context, MessageLog& log);
+    // Feeds a step's events and lays the panel out, with the log's newest message on it; an Error where there can be no
+    // panel.
+    [[nodiscard]] Result<SceneInput> feed(const FrameInput& input, const PanelContext& context, MessageLog& log);
     // Returns the commands that its widgets gave in the last step.
     [[nodiscard]] const std::vector<CommandInput>& actions() const { return actions_; }
     // Returns its picture for a screen, as laid out in the last step; nothing where it is not shown.

@@ -92,8 +92,9 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
     times_.sampled(start_ns_ + head_sampled_ns(input), tool_.time_ns);
     const double dt_s = seconds(std::max<Nanoseconds>(input.time_ns - last_step_ns_, 0));
     last_step_ns_ = input.time_ns;
-    const Captured captured = feed_panel(input);
-    SessionStep step = step_session(state_, room_, input.events, {dt_s, input.display_ns, main_eye(), tool_, captured});
+    const SceneInput left = feed_panel(input);
+    SessionStep step =
+        step_session(state_, room_, left.events, {dt_s, input.display_ns, main_eye(), tool_, left.captured});
     state_ = std::move(step.state);
     for (const CommandInput& action : panel_.actions()) {
         if (const auto done = run_command(state_, step.orders, action); !done)
@@ -105,26 +106,26 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
     watch(input.time_ns);
 }
 
-Captured LiveSession::feed_panel(const FrameInput& input) {
-    const auto captured = panel_.feed(input,
-                                      {.state = state_,
-                                       .room = room_,
-                                       .tool = tool_,
-                                       .tracker = tracker_.report(),
-                                       .workpiece = workpiece_name_,
-                                       .undoable = undoable_,
-                                       .redoable = redoable_,
-                                       .exporting = exporting_,
-                                       .times = times_,
-                                       .tick_duration = haptics_.loop().duration(),
-                                       .shown = output_on(room_.wall.main),
-                                       .output = output_},
-                                      log_);
+SceneInput LiveSession::feed_panel(const FrameInput& input) {
+    auto left = panel_.feed(input,
+                            {.state = state_,
+                             .room = room_,
+                             .tool = tool_,
+                             .tracker = tracker_.report(),
+                             .workpiece = workpiece_name_,
+                             .undoable = undoable_,
+                             .redoable = redoable_,
+                             .exporting = exporting_,
+                             .times = times_,
+                             .tick_duration = haptics_.loop().duration(),
+                             .shown = output_on(room_.wall.main),
+                             .output = output_},
+                            log_);
     for (const std::string& line : times_.take_new_warnings()) std::fprintf(stderr, "burin: %s\n", line.c_str());
-    if (captured) return *captured;
-    notify(captured.error().line());
+    if (left) return std::move(*left);
+    notify(left.error().line());
     state_.panel = false;
-    return {};
+    return {{input.events.begin(), input.events.end()}, {}};
 }
 
 void LiveSession::carry_out(SessionOrders orders, const Carve& carve) {

@@ -116,7 +116,7 @@ private:
     LiveSession(Clock& clock, const SculptOptions& options);
     [[nodiscard]] Result<void> load(const SculptOptions& options, const SessionWall& wall);
     [[nodiscard]] Result<void> take_up_tool(const SculptOptions& options);
-    Captured feed_panel(const FrameInput& input);
+    SceneInput feed_panel(const FrameInput& input);
     void carry_out(SessionOrders orders, const Carve& carve);
     void watch(Nanoseconds time_ns);
     [[nodiscard]] ImageSize main_eye() const { return wall::eye_size(output_on(room_.wall.main).mode, output_.size); }

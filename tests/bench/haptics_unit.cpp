@@ -126,7 +126,7 @@ TEST(BenchHaptics, TicksTouchEverySceneWithEveryProbe) {
         const bool paced = t.pacing != "back_to_back";
         EXPECT_EQ(t.tick_us.size(), paced ? all.options.paced_ticks : all.options.back_to_back_ticks);
         EXPECT_EQ(t.lateness_us.size(), paced ? t.tick_us.size() : 0u);
-        EXPECT_EQ(t.rehearsal_us.size(), t.pacing == "paced" ? t.tick_us.size() : 0u);
+        EXPECT_EQ(t.warm_up_us.size(), t.pacing == "paced" ? t.tick_us.size() : 0u);
         EXPECT_GT(t.in_contact, 9 * t.tick_us.size() / 10) << t.scene << " " << t.probe << " " << t.pacing;
         if (t.scene == "carving" && t.pacing == "back_to_back") {
             EXPECT_GE(t.surfaces_used, t.tick_us.size() / 10);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is done to a carved mesh before it leaves: self-intersections found and mended, slivers counted, simplification
+// What is done to a carved mesh before it leaves: self-intersections found and repaired, slivers counted, simplification
 // that adds no faults.
 #include <gtest/gtest.h>
 
@@ -94,7 +94,7 @@ TEST(SelfIntersections, TheTreeMissesNothingThatBruteForceFinds) {
     EXPECT_TRUE(self_intersections({{Vec3(0.0), Vec3(1.0)}, {{0, 0, 1}, {0, 1, 1}}, {}, {}, {}}, one).empty());
 }
 
-TEST(Repair, MendsRandomStrokesAndKeepsPlace) {
+TEST(Repair, RepairsRandomStrokesAndKeepsPlace) {
     WorkerPool pool(2);
     std::size_t found = 0, moved = 0, worse = 0;
     for (int seed = 1; seed <= repeated(4); ++seed) {

@@ -111,7 +111,7 @@ TEST(HapticLoop, TheSameScriptGivesTheSameBitsTwice) {
     EXPECT_TRUE(touched);
 }
 
-TEST(HapticLoop, ARehearsalChangesNothing) {
+TEST(HapticLoop, AWarmUpTickChangesNothing) {
     Rig plain(press_and_drag()), warmed_up(press_and_drag());
     TickParameters p = tool();
     p.clearance_ratio = 0.02;

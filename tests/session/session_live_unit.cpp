@@ -21,6 +21,27 @@ Room room_before(const std::string& wall) {
 
 SessionState state_in(const Room& room) { return begin_session(room, {}, {}, room.wall.screens[room.wall.main].shown); }
 
+// Returns how far the scene moved with a wand that pressed its first button where it pointed at the main screen from x,
+// y, and was then raised by 10 cm.
+double carried_m(double x_world, double y_world) {
+    SculptOptions options;
+    options.workpiece = {"ball:0.1", 32, false};
+    options.engine = sculpt::EngineChoice::cpu;
+    options.live.wall = std::string(BURIN_WALLS) + "/powerwall.toml";
+    SimulatedClock clock;
+    const SessionWall wall = session_wall(options.live).value();
+    const auto session = LiveSession::create(options, wall, clock).value();
+    const auto step = [&](Nanoseconds time_ns, const std::vector<InputEvent>& events) {
+        session->step({time_ns, time_ns, events}, {.size = {1440, 1080}}, {}, [](sculpt::SculptOrder) {});
+    };
+    const auto wand = [&](double y) { return WandInput{0, {{x_world, y, 1.0}, Quat{1, 0, 0, 0}}, true}; };
+    step(10'000'000, {{10'000'000, wand(y_world)}});
+    const Vec3 before_world = session->state().world_from_object.position_m;
+    step(20'000'000, {{20'000'000, WandClick{0, 0, true}}});
+    step(30'000'000, {{30'000'000, wand(y_world + 0.1)}});
+    return glm::length(session->state().world_from_object.position_m - before_world);
+}
+
 }  // namespace
 
 TEST(ComfortWatch, WarnsOnceEachTimeThatTheStrainBegins) {
@@ -135,6 +156,11 @@ TEST(ScreenshotQueue, GivesEachNameOnceInItsFolder) {
     EXPECT_FALSE(queue.empty());
     EXPECT_EQ(queue.take(), (std::vector<std::filesystem::path>{"shots/a.png", "/elsewhere/b.png"}));
     EXPECT_TRUE(queue.empty());
+}
+
+TEST(LivePanel, KeepsAWandsPressesOnAStandingPanelFromTheScene) {
+    EXPECT_NEAR(carried_m(-0.3, 1.25), 0.1, 1e-6) << "beside the panel the wand carries the scene";
+    EXPECT_EQ(carried_m(1.05, 1.25), 0.0) << "on the panel it does not";
 }
 
 }  // namespace burin::session
