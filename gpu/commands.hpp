@@ -26,7 +26,7 @@
 #include <vector>
 
 #include "gpu/buffer.hpp"
-#include "gpu/compute_pipeline.hpp"
+#include "gpu/pipelines.hpp"
 
 namespace burin::gpu {
 

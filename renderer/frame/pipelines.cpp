@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "gpu/graphics_pipeline.hpp"
+#include "gpu/pipelines.hpp"
 #include "renderer/surface/patch_detail.hpp"
 #include "shaders/backdrop.frag.spv.hpp"
 #include "shaders/backdrop.vert.spv.hpp"

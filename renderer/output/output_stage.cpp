@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "gpu/graphics_pipeline.hpp"
+#include "gpu/pipelines.hpp"
 #include "renderer/output/compose.hpp"
 #include "renderer/output/eye_images.hpp"
 #include "shaders/output.frag.spv.hpp"

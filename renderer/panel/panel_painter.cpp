@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-#include "gpu/graphics_pipeline.hpp"
+#include "gpu/pipelines.hpp"
 #include "renderer/panel/panel_vulkan.hpp"
 #include "shaders/panel.frag.spv.hpp"
 #include "shaders/panel.vert.spv.hpp"

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "gpu/graphics_pipeline.hpp"
+#include "gpu/pipelines.hpp"
 #include "shaders/panel_quad.frag.spv.hpp"
 #include "shaders/panel_quad.vert.spv.hpp"
 #include "shaders/shared/frame_uniforms.h"

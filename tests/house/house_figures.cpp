@@ -15,8 +15,10 @@ namespace burin::house {
 namespace {
 
 constexpr std::array kExceptions{
-    FragmentException{"bench", 26}, FragmentException{"compute", 20},  FragmentException{"geometry", 22},
-    FragmentException{"gpu", 17},   FragmentException{"renderer", 27},
+    FragmentException{"bench", 26},
+    FragmentException{"compute", 20},
+    FragmentException{"geometry", 22},
+    FragmentException{"renderer", 27},
 };
 
 bool is_cpp(const std::string& path) { return path.ends_with(".cpp") || path.ends_with(".hpp"); }

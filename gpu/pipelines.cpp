@@ -1,13 +1,24 @@
 // SPDX-License-Identifier: MIT
-#include "gpu/graphics_pipeline.hpp"
+#include "gpu/pipelines.hpp"
 
 #include <array>
 
-#include "gpu/compute_pipeline.hpp"
-
 namespace burin::gpu {
-
 namespace {
+
+Result<ShaderHandle> create_shader(Device& device, std::span<const std::uint32_t> spirv, const std::string& name) {
+    constexpr std::uint32_t kSpirvMagic = 0x07230203;
+    if (spirv.size() < 5 || spirv[0] != kSpirvMagic) return fail(name, "is not SPIR-V");
+    const std::shared_ptr<Core>& core = device.core();
+    auto info = structure<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
+    info.codeSize = spirv.size_bytes();
+    info.pCode = spirv.data();
+    VkShaderModule shader = VK_NULL_HANDLE;
+    if (const VkResult r = core->vk.vkCreateShaderModule(core->device, &info, nullptr, &shader); r != VK_SUCCESS) {
+        return vulkan_failure(name, "the shader was refused", r);
+    }
+    return ShaderHandle(core, shader);
+}
 
 VkPipelineShaderStageCreateInfo stage_of(VkShaderStageFlagBits stage, VkShaderModule module) {
     auto info = structure<VkPipelineShaderStageCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO);
@@ -15,6 +26,51 @@ VkPipelineShaderStageCreateInfo stage_of(VkShaderStageFlagBits stage, VkShaderMo
     info.module = module;
     info.pName = "main";
     return info;
+}
+
+// Map the specialization constants, constant_id 0, 1, ..., to four bytes each.
+std::vector<VkSpecializationMapEntry> map_entries(std::span<const std::uint32_t> constants) {
+    std::vector<VkSpecializationMapEntry> entries;
+    for (std::uint32_t i = 0; i < constants.size(); ++i) entries.push_back({i, 4 * i, 4});
+    return entries;
+}
+VkSpecializationInfo specialization(const std::vector<VkSpecializationMapEntry>& entries,
+                                    std::span<const std::uint32_t> constants) {
+    return {static_cast<std::uint32_t>(entries.size()), entries.data(), constants.size_bytes(), constants.data()};
+}
+
+Result<SetLayoutHandle> create_set_layout(const std::shared_ptr<Core>& core, const ComputePipelineSpec& spec) {
+    std::vector<VkDescriptorSetLayoutBinding> bindings(spec.storage_buffers);
+    for (std::uint32_t i = 0; i < spec.storage_buffers; ++i) {
+        bindings[i].binding = i;
+        bindings[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        bindings[i].descriptorCount = 1;
+        bindings[i].stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
+    }
+    auto info = structure<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
+    info.bindingCount = spec.storage_buffers;
+    info.pBindings = bindings.data();
+    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+    if (const VkResult r = core->vk.vkCreateDescriptorSetLayout(core->device, &info, nullptr, &layout);
+        r != VK_SUCCESS) {
+        return vulkan_failure(spec.name, "no descriptor set layout", r);
+    }
+    return SetLayoutHandle(core, layout);
+}
+
+Result<PipelineLayoutHandle> create_layout(const std::shared_ptr<Core>& core, const ComputePipelineSpec& spec,
+                                           const VkDescriptorSetLayout& set_layout) {
+    const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, spec.push_constant_bytes};
+    auto info = structure<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
+    info.setLayoutCount = 1;
+    info.pSetLayouts = &set_layout;
+    info.pushConstantRangeCount = spec.push_constant_bytes > 0 ? 1 : 0;
+    info.pPushConstantRanges = &push;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    if (const VkResult r = core->vk.vkCreatePipelineLayout(core->device, &info, nullptr, &layout); r != VK_SUCCESS) {
+        return vulkan_failure(spec.name, "no pipeline layout", r);
+    }
+    return PipelineLayoutHandle(core, layout);
 }
 
 VkPipelineRasterizationStateCreateInfo rasterization_of(const GraphicsPipelineSpec& spec) {
@@ -43,6 +99,41 @@ VkPipelineColorBlendAttachmentState blend_of(bool blend) {
 
 }  // namespace
 
+Result<ComputePipeline> ComputePipeline::create(Device& device, const ComputePipelineSpec& spec) {
+    const std::shared_ptr<Core>& core = device.core();
+    if (spec.push_constant_bytes > core->capabilities.max_push_constant_bytes) {
+        return fail(spec.name, "needs " + std::to_string(spec.push_constant_bytes) + " bytes of push constants, but " +
+                                   core->info.name + " has " +
+                                   std::to_string(core->capabilities.max_push_constant_bytes));
+    }
+    auto shader = create_shader(device, spec.spirv, spec.name);
+    if (!shader) return std::unexpected(shader.error());
+    auto set_layout = create_set_layout(core, spec);
+    if (!set_layout) return std::unexpected(set_layout.error());
+    auto layout = create_layout(core, spec, set_layout->raw());
+    if (!layout) return std::unexpected(layout.error());
+
+    const auto entries = map_entries(spec.constants);
+    const VkSpecializationInfo constants = specialization(entries, spec.constants);
+    auto info = structure<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
+    info.layout = layout->raw();
+    info.stage = stage_of(VK_SHADER_STAGE_COMPUTE_BIT, shader->raw());
+    info.stage.pSpecializationInfo = entries.empty() ? nullptr : &constants;
+    VkPipeline raw = VK_NULL_HANDLE;
+    if (const VkResult r =
+            core->vk.vkCreateComputePipelines(core->device, core->pipeline_cache, 1, &info, nullptr, &raw);
+        r != VK_SUCCESS) {
+        return vulkan_failure(spec.name, "could not be compiled", r);
+    }
+    ComputePipeline pipeline;
+    pipeline.set_layout_ = std::move(*set_layout);
+    pipeline.layout_ = std::move(*layout);
+    pipeline.pipeline_ = PipelineHandle(core, raw);
+    pipeline.storage_buffers_ = spec.storage_buffers;
+    pipeline.push_constant_bytes_ = spec.push_constant_bytes;
+    return pipeline;
+}
+
 Result<PipelineHandle> create_graphics_pipeline(Device& device, const GraphicsPipelineSpec& spec) {
     const std::shared_ptr<Core>& core = device.core();
     auto vertex = create_shader(device, spec.vertex_spirv, spec.name + " vertex shader");
@@ -56,10 +147,8 @@ Result<PipelineHandle> create_graphics_pipeline(Device& device, const GraphicsPi
         stages[1] = stage_of(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.raw());
     }
 
-    std::vector<VkSpecializationMapEntry> entries;
-    for (std::uint32_t i = 0; i < spec.constants.size(); ++i) entries.push_back({i, 4 * i, 4});
-    const VkSpecializationInfo constants{static_cast<std::uint32_t>(entries.size()), entries.data(),
-                                         spec.constants.size_bytes(), spec.constants.data()};
+    const auto entries = map_entries(spec.constants);
+    const VkSpecializationInfo constants = specialization(entries, spec.constants);
     if (!entries.empty()) stages[0].pSpecializationInfo = stages[1].pSpecializationInfo = &constants;
 
     auto input =
