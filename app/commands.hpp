@@ -11,7 +11,7 @@
 
 #include "app/command_line.hpp"
 #include "base/error.hpp"
-#include "compute/rays/combine.hpp"
+#include "compute/rays/set_algebra.hpp"
 #include "session/state/session_options.hpp"
 
 namespace burin::app {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "compute/repair/repair_intersections.hpp"
+#include "compute/repair/self_intersections.hpp"
 #include "compute/repair/slivers.hpp"
 #include "sculpt/progress.hpp"
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "bench/measure/timing.hpp"
-#include "compute/repair/repair_intersections.hpp"
+#include "compute/repair/self_intersections.hpp"
 #include "renderer/scene/frame_setup.hpp"
 #include "sculpt/sculpt_service.hpp"
 #include "sculpt/workpiece.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Proposes remedies for a self-intersection of a welded surface (repair_intersections.hpp), without applying any of
+// Proposes remedies for a self-intersection of a welded surface (self_intersections.hpp), without applying any of
 // them.
 #pragma once
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "compute/repair/repair_intersections.hpp"
+#include "compute/repair/self_intersections.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
-#include "compute/repair/planes_around.hpp"
 #include "compute/repair/remedies.hpp"
-#include "compute/repair/self_intersections.hpp"
 #include "geometry/mesh/triangle_contact.hpp"
 #include "geometry/mesh/triangle_tree.hpp"
+#include "shaders/shared/octahedral.h"
 
 namespace burin::compute {
 namespace {
@@ -27,6 +27,63 @@ double most_deviation(int round) {
     return static_cast<std::size_t>(round) < kMost.size() ? kMost[static_cast<std::size_t>(round)] : 2.0;
 }
 constexpr int kCureOnly = 2;  // number of first rounds in which a remedy must leave no fault behind
+
+struct TangentPlane {
+    Vec3 point_m, normal;
+};
+
+// Finds the tangent planes that a solid's rays give around the vertices of its mesh, and caches them by vertex; the
+// deviation of a moved vertex is measured against them. Frame: the object frame. To be used from one thread.
+class PlanesAround {
+public:
+    // Takes the vertices as they were meshed.
+    PlanesAround(const Solid& solid, const std::vector<Vec3>& vertices_m) : solid_(solid), vertices_m_(vertices_m) {}
+
+    // Returns the tangent planes at the ends of rays within a cell's width of the vertex, along each axis. The search
+    // is not limited to the vertex's own cell: a feature may lie in a cell that has no crossing.
+    [[nodiscard]] const std::vector<TangentPlane>& at(std::uint32_t vertex);
+
+private:
+    void add_crossings(int axis, int u, int v, double at_cells, std::vector<TangentPlane>& planes) const;
+
+    const Solid& solid_;
+    const std::vector<Vec3>& vertices_m_;
+    std::unordered_map<std::uint32_t, std::vector<TangentPlane>> planes_;  // cache, by vertex
+};
+
+const std::vector<TangentPlane>& PlanesAround::at(std::uint32_t vertex) {
+    const Lattice& lattice = solid_.lattice;
+    const auto whole = [](double x) { return static_cast<int>(std::floor(x)); };
+    const auto [known, fresh] = planes_.try_emplace(vertex);
+    if (!fresh) return known->second;
+    const Vec3 cells = (vertices_m_[vertex] - lattice.origin_object) / lattice.spacing_m;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double at_u = cells[(axis + 1) % 3], at_v = cells[(axis + 2) % 3];
+        for (int ray_v = whole(at_v - 1.0) + 1; ray_v <= at_v + 1.0; ++ray_v) {
+            for (int ray_u = whole(at_u - 1.0) + 1; ray_u <= at_u + 1.0; ++ray_u) {
+                add_crossings(axis, ray_u, ray_v, cells[axis], known->second);
+            }
+        }
+    }
+    return known->second;
+}
+
+void PlanesAround::add_crossings(int axis, int u, int v, double at_cells, std::vector<TangentPlane>& planes) const {
+    const Lattice& lattice = solid_.lattice;
+    if (u < 0 || v < 0 || u >= lattice.rays_u(axis) || v >= lattice.rays_v(axis)) return;
+    const std::size_t ray =
+        static_cast<std::size_t>(v) * static_cast<std::size_t>(lattice.rays_u(axis)) + static_cast<std::size_t>(u);
+    for (const shared::DexelEnd& end : solid_.sets[static_cast<std::size_t>(axis)].ends(ray)) {
+        const double depth = shared::depth_of(end);
+        if (std::abs(depth - at_cells * shared::kUnitsPerCell) > shared::kUnitsPerCell) continue;
+        Vec3 units;
+        units[axis] = depth;
+        units[(axis + 1) % 3] = static_cast<double>(u) * shared::kUnitsPerCell;
+        units[(axis + 2) % 3] = static_cast<double>(v) * shared::kUnitsPerCell;
+        const shared::Direction n = shared::decode_normal(end.normal);
+        planes.push_back({lattice.object_from_units(units), Vec3(n.x, n.y, n.z)});
+    }
+}
 
 class Repairer {
 public:

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "compute/rays/ray_algebra.hpp"
+#include "compute/rays/set_algebra.hpp"
 #include "compute/tools/smooth.hpp"
 #include "compute/tools/tool_spans.hpp"
 #include "shaders/shared/capsule.h"

@@ -4,7 +4,7 @@
 //
 // Consecutive cuts, fills and paint with a ball are passed to the engine itself (CarvingEngine::carve) in one call.
 // Everything else is computed here: what the tool covers of each ray (tool_spans.hpp) and the set algebra of that ray
-// (ray_algebra.hpp), or the smoothed surface (smooth.hpp). The rays whose ends differ are then assigned. For a ball,
+// (set_algebra.hpp), or the smoothed surface (smooth.hpp). The rays whose ends differ are then assigned. For a ball,
 // both ways agree to the bit.
 // The result depends neither on the number of threads nor on the kind of engine.
 #pragma once

@@ -6,8 +6,8 @@
 #include <tuple>
 
 #include "compute/rays/normal_code.hpp"
-#include "compute/rays/ray_algebra.hpp"
 #include "compute/rays/ray_crossings.hpp"
+#include "compute/rays/set_algebra.hpp"
 
 namespace burin::compute {
 namespace {

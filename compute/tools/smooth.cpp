@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "compute/rays/normal_code.hpp"
-#include "compute/rays/ray_algebra.hpp"
+#include "compute/rays/set_algebra.hpp"
 
 namespace burin::compute {
 namespace {

@@ -8,8 +8,8 @@
 #include <cstdlib>
 
 #include "compute/mesher/surface.hpp"
-#include "compute/rays/ray_algebra.hpp"
 #include "compute/rays/scan_convert.hpp"
+#include "compute/rays/set_algebra.hpp"
 #include "compute/tools/mesh_tool.hpp"
 #include "tests/compute/mesh_topology.hpp"
 #include "tests/compute/test_meshes.hpp"

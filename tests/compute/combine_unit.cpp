@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compute/rays/combine.hpp"
+#include "compute/rays/set_algebra.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "compute/mesher/surface.hpp"
-#include "compute/rays/ray_algebra.hpp"
 #include "compute/rays/scan_convert.hpp"
 #include "compute/tools/apply.hpp"
 #include "compute/tools/mesh_tool.hpp"

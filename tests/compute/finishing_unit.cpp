@@ -9,7 +9,6 @@
 #include "compute/mesher/surface.hpp"
 #include "compute/rays/engine.hpp"
 #include "compute/repair/decimate.hpp"
-#include "compute/repair/repair_intersections.hpp"
 #include "compute/repair/self_intersections.hpp"
 #include "compute/repair/slivers.hpp"
 #include "geometry/mesh/triangle_contact.hpp"

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <map>
 
-#include "compute/rays/ray_algebra.hpp"
 #include "compute/rays/scan_convert.hpp"
+#include "compute/rays/set_algebra.hpp"
 #include "compute/tools/apply.hpp"
 #include "compute/tools/tool_spans.hpp"
 #include "tests/compute/test_meshes.hpp"

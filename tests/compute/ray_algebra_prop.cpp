@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Set algebra of rays against sets of depths, one by one.
-#include "compute/rays/ray_algebra.hpp"
+#include "compute/rays/set_algebra.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

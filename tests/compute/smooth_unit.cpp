@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "compute/mesher/surface.hpp"
-#include "compute/rays/ray_algebra.hpp"
 #include "compute/rays/scan_convert.hpp"
+#include "compute/rays/set_algebra.hpp"
 #include "compute/tools/apply.hpp"
 #include "shaders/shared/octahedral.h"
 #include "tests/compute/mesh_topology.hpp"

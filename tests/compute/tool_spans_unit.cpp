@@ -10,7 +10,7 @@
 #include <map>
 
 #include "compute/rays/engine.hpp"
-#include "compute/rays/ray_algebra.hpp"
+#include "compute/rays/set_algebra.hpp"
 #include "compute/tools/turning_sweep.hpp"
 #include "shaders/shared/octahedral.h"
 #include "tests/compute/tool_reference.hpp"

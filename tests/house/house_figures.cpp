@@ -16,7 +16,6 @@ namespace {
 
 constexpr std::array kExceptions{
     FragmentException{"bench", 26},
-    FragmentException{"compute", 20},
     FragmentException{"geometry", 22},
     FragmentException{"renderer", 27},
 };
