@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "app/output_files.hpp"
-#include "bench/measure/machine.hpp"
+#include "bench/measure/timing.hpp"
 #include "bench/stroke/pareto.hpp"
 #include "bench/stroke/stroke_report.hpp"
 #include "compute/rays/lattice.hpp"

@@ -9,9 +9,7 @@
 #include "base/statistics.hpp"
 #include "bench/frame/frame_display.hpp"
 #include "bench/frame/frame_peers.hpp"
-#include "bench/frame/frame_start.hpp"
 #include "bench/measure/flip.hpp"
-#include "bench/measure/machine.hpp"
 #include "bench/measure/timing.hpp"
 
 namespace burin::bench {

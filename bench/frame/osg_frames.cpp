@@ -19,8 +19,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "bench/frame/frame_peers.hpp"
-#include "bench/frame/gl_light.hpp"
-#include "bench/frame/gl_views.hpp"
+#include "bench/frame/gl_frames.hpp"
 
 namespace burin::bench {
 namespace {

@@ -25,8 +25,7 @@
 #include <array>
 
 #include "bench/frame/frame_peers.hpp"
-#include "bench/frame/gl_light.hpp"
-#include "bench/frame/gl_views.hpp"
+#include "bench/frame/gl_frames.hpp"
 
 namespace burin::bench {
 namespace {

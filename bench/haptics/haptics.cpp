@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bench/haptics/haptics.hpp"
 
-#include "bench/measure/machine.hpp"
+#include "bench/measure/timing.hpp"
 #include "haptics/realtime.hpp"
 
 namespace burin::bench {

@@ -6,9 +6,8 @@
 #include <random>
 
 #include "base/statistics.hpp"
+#include "bench/haptics/hand_path.hpp"
 #include "bench/haptics/haptics.hpp"
-#include "bench/haptics/path_device.hpp"
-#include "bench/haptics/pressed_path.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "geometry/contact/touch_mesh.hpp"
 #include "haptics/haptic_loop.hpp"

@@ -5,8 +5,8 @@
 #include <random>
 
 #include "bench/haptics/bumpy_sphere.hpp"
+#include "bench/haptics/hand_path.hpp"
 #include "bench/haptics/haptics.hpp"
-#include "bench/haptics/path_device.hpp"
 #include "bench/measure/timing.hpp"
 #include "geometry/contact/touch_mesh.hpp"
 #include "haptics/haptic_loop.hpp"

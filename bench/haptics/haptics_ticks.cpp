@@ -9,9 +9,8 @@
 #include <memory>
 #include <thread>
 
+#include "bench/haptics/hand_path.hpp"
 #include "bench/haptics/haptics.hpp"
-#include "bench/haptics/path_device.hpp"
-#include "bench/haptics/pressed_path.hpp"
 #include "compute/mesher/surface.hpp"
 #include "compute/rays/engine.hpp"
 #include "geometry/contact/touch_mesh.hpp"

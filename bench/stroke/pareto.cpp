@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "bench/measure/machine.hpp"
 #include "bench/measure/surface_errors.hpp"
+#include "bench/measure/timing.hpp"
 #include "bench/peers/peers.hpp"
 #include "bench/stroke/stroke.hpp"
 #include "bench/stroke/stroke_report.hpp"

@@ -11,9 +11,9 @@
 
 #include "bench/frame/frame_display.hpp"
 #include "bench/frame/frame_peers.hpp"
-#include "bench/frame/frame_start.hpp"
 #include "bench/haptics/bumpy_sphere.hpp"
 #include "bench/measure/flip.hpp"
+#include "bench/measure/timing.hpp"
 
 namespace burin::bench {
 namespace {

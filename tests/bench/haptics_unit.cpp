@@ -12,7 +12,7 @@
 
 #include "base/json.hpp"
 #include "bench/haptics/bumpy_sphere.hpp"
-#include "bench/haptics/pressed_path.hpp"
+#include "bench/haptics/hand_path.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::bench {

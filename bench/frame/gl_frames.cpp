@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "bench/frame/gl_light.hpp"
+#include "bench/frame/gl_frames.hpp"
 
 #include <array>
 #include <cstdio>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "wall/projection.hpp"
 
 namespace burin::bench {
 namespace {
@@ -57,6 +60,27 @@ vec3 light_of(vec3 n, vec3 v) {
 )";
 
 }  // namespace
+
+GlView gl_view(const FrameScene& scene, const Vec3& eye_world) {
+    Mat4 gl_from_vulkan(1.0);
+    gl_from_vulkan[1][1] = -1.0;
+    gl_from_vulkan[2][2] = 2.0;
+    gl_from_vulkan[3][2] = -1.0;  // z' = 2 z - w
+    const Mat4 clip_from_world =
+        gl_from_vulkan * off_axis_projection(scene.screen, eye_world, scene.near_m, scene.far_m);
+    return {glm::translate(Mat4(1.0), -eye_world), clip_from_world * glm::translate(Mat4(1.0), eye_world)};
+}
+
+Image image_of_gl(ImageSize size, const unsigned char* rgba, std::size_t row_pixels) {
+    Image image{size, {}};
+    image.rgba.reserve(std::size_t{4} * size.width * size.height);
+    for (std::uint32_t y = size.height; y-- > 0;) {
+        const unsigned char* row = rgba + 4 * row_pixels * y;
+        image.rgba.insert(image.rgba.end(), row, row + std::size_t{4} * size.width);
+    }
+    for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
+    return image;
+}
 
 std::string gl_light_function(const FrameLook& look, FrameLight light) {
     if (light == FrameLight::simple) {
