@@ -24,7 +24,6 @@
 
 #include "compute/light/clearance.hpp"
 #include "geometry/contact/surface_tile.hpp"
-#include "geometry/contact/vertex_light.hpp"
 
 namespace burin::compute {
 

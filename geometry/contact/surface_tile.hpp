@@ -5,6 +5,7 @@
 // A published tile never changes: an update makes a new one. So the renderer, the haptic thread and an export may go on
 // reading the tiles that they hold while carving goes on, without copies and without locks.
 // Frame: the object frame, relative to the lattice's origin, metres.
+// The light of its vertices is kept beside the tile (VertexLight), since it changes with the material around it too.
 #pragma once
 
 #include <array>
@@ -38,5 +39,14 @@ struct SurfaceTile {
 
     [[nodiscard]] std::size_t triangles() const { return indices.size() / 3; }
 };
+
+// The share of light that reaches a vertex past the workpiece itself, from 0 (none) to 255 (all): computed by
+// compute/light/tile_light.hpp, drawn by renderer/. The two bytes are in memory as the vertex shader reads them.
+struct VertexLight {
+    std::uint8_t sun = 255;   // from the lamp
+    std::uint8_t open = 255;  // from the surroundings
+    bool operator==(const VertexLight&) const = default;
+};
+static_assert(sizeof(VertexLight) == 2);
 
 }  // namespace burin::geometry

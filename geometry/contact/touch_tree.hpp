@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "geometry/contact/touch_order.hpp"
+#include "geometry/contact/touch_layout.hpp"
 #include "geometry/contact/touch_patch.hpp"
 
 namespace burin::geometry {

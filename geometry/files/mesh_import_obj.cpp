@@ -2,6 +2,7 @@
 // Reads OBJ: v (with w or with a colour: x y z r g b), f (and the old fo) with positive or negative indices, usemtl,
 // mtllib. A face may name a vertex that comes later. Texture coordinates, normals, groups and smoothing are skipped
 // silently, since they do not change the surface; lines, points, curves and free-form surfaces are counted in a remark.
+// Of the material files (MTL) only the diffuse colours (Kd) are read.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,7 +10,6 @@
 #include <set>
 
 #include "geometry/files/mesh_soup.hpp"
-#include "geometry/files/mtl.hpp"
 #include "geometry/files/text_scanner.hpp"
 
 namespace burin::geometry {
@@ -21,6 +21,52 @@ constexpr std::size_t kMostLibraries = 64;  // limit for material files; a hosti
 // Keywords that do not change the surface's shape or colour.
 constexpr std::string_view kSkipped[] = {"vt",     "vn",     "g",   "s",     "o",        "mg",
                                          "usemap", "maplib", "lod", "bevel", "c_interp", "d_interp"};
+
+// The diffuse colours of a material file. A fault in the file never stops an import, since the shape does not depend on
+// it: it becomes a remark and the material keeps the plain colour.
+struct MaterialLibrary {
+    std::map<std::string, Colour, std::less<>> colours;
+    std::vector<std::string> remarks;
+};
+
+// Reads the numbers of a Kd statement. A single number means grey.
+std::optional<Colour> diffuse(TextScanner& scan) {
+    Colour colour;
+    std::size_t count = 0;
+    for (std::string_view word = scan.token_in_line('#'); !word.empty() && count < 3; word = scan.token_in_line('#')) {
+        const auto value = number_from(word);
+        if (!value || !(*value >= 0.0 && *value <= 1.0)) return std::nullopt;
+        colour[count++] = static_cast<std::uint8_t>(std::lround(*value * 255.0));
+    }
+    if (count == 1) return Colour{colour[0], colour[0], colour[0]};
+    return count == 3 ? std::optional(colour) : std::nullopt;
+}
+
+// Reads all materials of an MTL file. Kd numbers run from 0 to 1 and are taken as sRGB, as most programs write them.
+MaterialLibrary read_mtl(std::string_view text, const std::string& name) {
+    MaterialLibrary library;
+    Colour* current = nullptr;
+    std::size_t faults = 0;
+    std::uint64_t first_fault = 0;
+    for (TextScanner scan(text); !scan.at_end(); scan.next_line()) {
+        const std::string_view keyword = scan.token_in_line('#');
+        if (equals_ignoring_case(keyword, "newmtl")) {
+            current = &library.colours.insert_or_assign(std::string(scan.rest_of_line()), kPlainColour).first->second;
+        } else if (equals_ignoring_case(keyword, "kd")) {
+            const auto colour = diffuse(scan);
+            if (colour && current != nullptr) {
+                *current = *colour;
+            } else if (faults++ == 0) {
+                first_fault = scan.line();
+            }
+        }
+    }
+    if (faults > 0) {
+        library.remarks.push_back(std::to_string(faults) + " colours of material file " + in_quotes(name) +
+                                  " could not be understood, the first in line " + std::to_string(first_fault));
+    }
+    return library;
+}
 
 class ObjReader {
 public:

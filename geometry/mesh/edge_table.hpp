@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which triangles meet at each edge of a triangle soup of any topology, as one sorted array: edges in ascending order
-// of (lower vertex, higher vertex), the uses of one edge side by side in ascending order of triangle. For geometry/ and
-// compute/.
+// of (lower vertex, higher vertex), the uses of one edge side by side in ascending order of triangle; and the holes
+// that these edges bound. For geometry/ and compute/.
 #pragma once
 
 #include <cstddef>
@@ -53,6 +53,17 @@ void for_each_edge(std::span<const EdgeUse> uses, F&& f) {
     for (const EdgeUse& use : edge) sum += use.upwards ? 1 : -1;
     return sum;
 }
+
+// A hole of the mesh: a simple loop of at least 3 vertices, none of which occurs twice. It runs so that triangles
+// (loop[i], loop[i+1], other) are oriented like most of their neighbours across the loop.
+struct HoleLoop {
+    std::vector<std::uint32_t> vertices;
+};
+
+// Returns all holes, in a deterministic order. The edges with an odd number of uses meet every vertex an even number of
+// times (each triangle enters a vertex as often as it leaves it), so they always decompose into closed loops, in a mesh
+// of any topology and orientation.
+[[nodiscard]] std::vector<HoleLoop> hole_loops(std::span<const EdgeUse> uses);
 
 // Disjoint sets of the numbers 0 .. n-1 (union-find); a set is identified by its least member.
 class DisjointSets {

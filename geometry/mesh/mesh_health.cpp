@@ -6,7 +6,6 @@
 #include <cstdlib>
 
 #include "geometry/mesh/edge_table.hpp"
-#include "geometry/mesh/hole_loops.hpp"
 
 namespace burin::geometry {
 namespace {

@@ -8,8 +8,6 @@
 #include <unordered_set>
 
 #include "geometry/mesh/edge_table.hpp"
-#include "geometry/mesh/hole_loops.hpp"
-#include "geometry/mesh/least_area.hpp"
 #include "geometry/mesh/polygon.hpp"
 #include "geometry/mesh/vertex_weld.hpp"
 

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "base/space.hpp"
-#include "geometry/contact/vertex_light.hpp"
+#include "geometry/contact/surface_tile.hpp"
 #include "shaders/shared/surface_vertex.h"
 
 namespace burin::renderer {

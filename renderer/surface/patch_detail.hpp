@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-#include "geometry/contact/vertex_light.hpp"
+#include "geometry/contact/surface_tile.hpp"
 #include "shaders/shared/surface_vertex.h"
 
 namespace burin::renderer {

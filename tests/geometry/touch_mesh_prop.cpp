@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "geometry/contact/touch_order.hpp"
+#include "geometry/contact/touch_layout.hpp"
 #include "geometry/mesh/triangle_tree.hpp"
 #include "tests/geometry/touch_samples.hpp"
 

@@ -15,7 +15,6 @@ namespace burin::house {
 namespace {
 
 constexpr std::array kExceptions{
-    FragmentException{"geometry", 22},
     FragmentException{"renderer", 27},
 };
 
