@@ -7,7 +7,7 @@
 // shadows of the workpiece and the plinth. The light comes from far above, so closed forms of a ball and a cylinder
 // serve better than a shadow map.
 
-// Whether grid and shadows are visible and therefore drawn (renderer/frame/room_parts.cpp).
+// Whether grid and shadows are visible and therefore drawn (renderer/frame/scene_choice.cpp).
 layout(constant_id = 2) const bool kGrid = true;
 layout(constant_id = 3) const bool kShadows = true;
 

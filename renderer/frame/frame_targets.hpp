@@ -4,11 +4,14 @@
 // With several samples a pixel, shaders write linear light and the device resolves and encodes it. With one sample
 // there is nothing to resolve, and shaders write sRGB values themselves (`encodes`): on a software driver that saves a
 // third of the time of a pixel.
-// Between frames the finished picture is in layout SHADER_READ_ONLY_OPTIMAL, ready to be sampled or copied.
+// Between frames the finished picture is in layout SHADER_READ_ONLY_OPTIMAL, ready to be sampled, or copied and read
+// back to the host.
 // Ownership: move-only. Thread: as gpu::Device.
 #pragma once
 
 #include "base/image.hpp"
+#include "gpu/buffer.hpp"
+#include "gpu/commands.hpp"
 #include "gpu/image.hpp"
 
 namespace burin::renderer {
@@ -32,6 +35,22 @@ struct FrameTargets {
     // samples is 1 or capabilities().msaa_samples.
     [[nodiscard]] static Result<FrameTargets> create(gpu::Device& device, ImageSize size, std::uint32_t samples,
                                                      Views views = Views::both);
+};
+
+// Reads both eyes' finished pictures back to the host.
+class Readback {
+public:
+    // Allocates the buffer for pictures of this size; does nothing if it has this size already.
+    [[nodiscard]] Result<void> fit(gpu::Device& device, ImageSize size);
+    // Records the copy of an image of two layers of 4 bytes a
+    // pixel, in layout SHADER_READ_ONLY_OPTIMAL before and after.
+    void copy(const gpu::Device& device, gpu::Commands& commands, VkImage picture);
+    // Returns the pictures; call it once the commands of copy() have finished.
+    [[nodiscard]] StereoImage pictures() const;
+
+private:
+    gpu::Buffer buffer_;
+    ImageSize size_;
 };
 
 }  // namespace burin::renderer

@@ -5,6 +5,7 @@
 // with its ring, its shadow and the light it occludes, where these fall on something, up to a stated distance
 // (shaders/shared/frame_uniforms.h); the marks of its contact, the workspace's boxes, the standing panel, and patches
 // of the surface. Each has a rectangle around it in both eyes' views. Pixels outside of these would come out the same.
+// Many such rectangles are merged into a few damage rectangles.
 // Pure functions; any thread.
 #pragma once
 
@@ -36,5 +37,11 @@ struct Shown {
 // (changed_near_tool in surface/patch_choice.hpp).
 [[nodiscard]] std::vector<PixelRect> changed_rects(const Shown& shown, const Shown& wanted, ImageSize size,
                                                    std::span<const Box> changed);
+
+// Merges damaged rectangles into a few that cover them with little excess: each is a draw of its own with a fixed cost,
+// but one rectangle around a tool, its shadow and a panel, which lie far apart, would be most of the picture. Returns
+// rectangles that cover all of `rects`: the whole picture where they would cover most of it, none where all given are
+// empty. They lie within the picture if the given ones do, and may overlap. Cost: some microseconds for a hundred.
+[[nodiscard]] std::vector<PixelRect> damage_rectangles(std::span<const PixelRect> rects, ImageSize size);
 
 }  // namespace burin::renderer

@@ -6,13 +6,10 @@
 #include <numeric>
 
 #include "gpu/commands.hpp"
-#include "renderer/frame/damage_rectangles.hpp"
 #include "renderer/frame/frame_targets.hpp"
 #include "renderer/frame/pipelines.hpp"
-#include "renderer/frame/readback.hpp"
 #include "renderer/frame/redraw.hpp"
-#include "renderer/frame/room_parts.hpp"
-#include "renderer/frame/shape_choice.hpp"
+#include "renderer/frame/scene_choice.hpp"
 #include "renderer/panel/panel_quad.hpp"
 #include "renderer/scene/frame_setup.hpp"
 #include "renderer/scene/primitives.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "renderer/output/srgb.hpp"
+#include "shaders/shared/srgb.h"
 
 namespace burin::renderer {
 
@@ -45,7 +45,8 @@ constexpr int kAdvance = 6;  // five columns and one between letters
 }  // namespace
 
 Rgb8 grey_of_light(double share) {
-    const auto value = static_cast<std::uint8_t>(std::lround(255.0 * linear_to_srgb(std::clamp(share, 0.0, 1.0))));
+    const auto value =
+        static_cast<std::uint8_t>(std::lround(255.0 * shared::srgb_of_component(std::clamp(share, 0.0, 1.0))));
     return {value, value, value};
 }
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "renderer/output/srgb.hpp"
 #include "shaders/shared/output_rules.h"
 #include "wall/output_settings.hpp"
 
@@ -25,6 +24,9 @@ static_assert(static_cast<int>(wall::StereoMode::checkerboard) == shared::kModeC
 static_assert(static_cast<int>(wall::StereoMode::anaglyph_red_cyan) == shared::kModeRedCyan);
 static_assert(static_cast<int>(wall::StereoMode::anaglyph_green_magenta) == shared::kModeGreenMagenta);
 static_assert(static_cast<int>(wall::StereoMode::anaglyph_amber_blue) == shared::kModeAmberBlue);
+
+// Returns the linear light of a pixel's three sRGB bytes: red, green, blue.
+Vec3 light_of_bytes(const std::uint8_t* pixel) { return shared::linear_of(Vec3{pixel[0], pixel[1], pixel[2]} / 255.0); }
 
 wall::Eye eye_of(int number) { return number == 0 ? wall::Eye::left : wall::Eye::right; }
 

@@ -2,7 +2,6 @@
 #include "tests/house/house_figures.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
 
 #include "base/text.hpp"
@@ -13,10 +12,6 @@
 namespace burin::house {
 
 namespace {
-
-constexpr std::array kExceptions{
-    FragmentException{"renderer", 27},
-};
 
 bool is_cpp(const std::string& path) { return path.ends_with(".cpp") || path.ends_with(".hpp"); }
 
@@ -57,13 +52,6 @@ std::vector<FolderFragments> fragments_by_folder(const std::filesystem::path& ro
     return found;
 }
 
-std::span<const FragmentException> fragment_exceptions() { return kExceptions; }
-
-std::size_t most_fragments_percent(const std::string& folder) {
-    const auto exception = std::ranges::find(kExceptions, folder, &FragmentException::folder);
-    return exception != kExceptions.end() ? exception->most_percent : kMostFragments_percent;
-}
-
 std::vector<Figure> house_figures(const std::filesystem::path& root) {
     std::vector<Figure> figures;
     figures.push_back(counted("types defined twice in a namespace", types_defined_twice(root)));
@@ -74,15 +62,9 @@ std::vector<Figure> house_figures(const std::filesystem::path& root) {
     figures.push_back(
         places_touched(root, "haptic device", "devices/haptic/simulated_omni", "open_simulated_omni", 3.0));
     for (FolderFragments& folder : fragments_by_folder(root)) {
-        const std::size_t bar = most_fragments_percent(folder.folder);
         Figure figure{formatted("%% of files under %zu lines in %s/", kFragmentLines, folder.folder.c_str()),
-                      folder.percent(), static_cast<double>(bar), std::move(folder.fragments),
+                      folder.percent(), static_cast<double>(kMostFragments_percent), std::move(folder.fragments),
                       formatted("%zu files", folder.files)};
-        if (bar > kMostFragments_percent) {
-            figure.remark += figure.value <= static_cast<double>(kMostFragments_percent)
-                                 ? formatted("; reaches %zu, so take it off the exceptions", kMostFragments_percent)
-                                 : formatted("; an exception to %zu", kMostFragments_percent);
-        }
         figures.push_back(std::move(figure));
     }
     return figures;

@@ -29,17 +29,6 @@ struct FolderFragments {
 // Counts each top folder's C++ files and fragments. tests/ and shaders/ are left aside.
 [[nodiscard]] std::vector<FolderFragments> fragments_by_folder(const std::filesystem::path& root);
 
-// The folders that do not reach the bar yet, and the share that they must not exceed meanwhile. This list only shrinks,
-// and so do its numbers.
-struct FragmentException {
-    const char* folder;
-    std::size_t most_percent;
-};
-[[nodiscard]] std::span<const FragmentException> fragment_exceptions();
-
-// Returns the bar of a folder: its exception's, or kMostFragments_percent.
-[[nodiscard]] std::size_t most_fragments_percent(const std::string& folder);
-
 struct Figure {
     std::string name;
     double value = 0.0;

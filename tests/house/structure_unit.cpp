@@ -33,18 +33,9 @@ TEST(Fragments, AreFewInEachFolder) {
     for (const FolderFragments& folder : folders) {
         std::string names;
         for (const std::string& path : folder.fragments) names += "\n  " + path;
-        EXPECT_TRUE(folder.within(most_fragments_percent(folder.folder)))
+        EXPECT_TRUE(folder.within(kMostFragments_percent))
             << folder.folder << ": " << folder.percent() << " % of its files have fewer than " << kFragmentLines
             << " lines:" << names;
-    }
-}
-
-TEST(Fragments, HaveExceptionsForFoldersThatExistAlone) {
-    const auto folders = fragments_by_folder(BURIN_SOURCE_FOLDER);
-    for (const FragmentException& exception : fragment_exceptions()) {
-        EXPECT_GT(exception.most_percent, kMostFragments_percent) << exception.folder;
-        EXPECT_NE(std::ranges::find(folders, exception.folder, &FolderFragments::folder), folders.end())
-            << exception.folder;
     }
 }
 
@@ -64,7 +55,6 @@ TEST(FragmentRules, CountShortFilesByFolder) {
     EXPECT_TRUE(folders[0].within(50));
     EXPECT_FALSE(folders[0].within(49));
     EXPECT_TRUE(folders[1].fragments.empty());
-    EXPECT_EQ(most_fragments_percent("no exception"), kMostFragments_percent);
 }
 
 TEST(Figures, MissTheirBarsOnATreeThatBreaksTheRulesAndSayWhere) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Few rectangles hold many and little else, whatever these are.
-#include "renderer/frame/damage_rectangles.hpp"
+#include "renderer/frame/redraw.hpp"
 
 #include <gtest/gtest.h>
 

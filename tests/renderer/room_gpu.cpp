@@ -2,7 +2,7 @@
 // The room's pixels that have neither grid nor shadow look the same when they are drawn by a shader that has neither.
 #include <random>
 
-#include "renderer/frame/room_parts.hpp"
+#include "renderer/frame/scene_choice.hpp"
 #include "tests/renderer/test_scene.hpp"
 
 namespace burin::renderer {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/frame/shape_choice.hpp"
+#include "renderer/frame/scene_choice.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,6 @@
 
 #include "renderer/output/compose.hpp"
 #include "renderer/output/eye_images.hpp"
-#include "renderer/output/srgb.hpp"
 #include "renderer/panel/panel_painter.hpp"
 #include "renderer/png.hpp"
 #include "session/panel/panel.hpp"

@@ -6,10 +6,10 @@
 #include <optional>
 #include <random>
 
-#include "renderer/output/anaglyph.hpp"
 #include "renderer/output/compose.hpp"
 #include "renderer/output/eye_images.hpp"
 #include "renderer/output/output_stage.hpp"
+#include "shaders/shared/output_rules.h"
 #include "tests/gpu/test_device.hpp"
 #include "tests/renderer/output/output_pictures.hpp"
 #include "wall/output_settings.hpp"
@@ -28,8 +28,8 @@ Image noise(ImageSize size, unsigned seed) {
 }
 
 int tolerance_of(wall::StereoMode mode) {
-    const bool mixes =
-        is_anaglyph(mode) || mode == wall::StereoMode::side_by_side_half || mode == wall::StereoMode::top_bottom_half;
+    const bool mixes = shared::is_anaglyph_mode(mode_number(mode)) || mode == wall::StereoMode::side_by_side_half ||
+                       mode == wall::StereoMode::top_bottom_half;
     return mixes ? 1 : 0;
 }
 

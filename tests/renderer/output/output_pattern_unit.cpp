@@ -6,9 +6,9 @@
 #include <cstdlib>
 
 #include "renderer/output/canvas.hpp"
-#include "renderer/output/srgb.hpp"
 #include "renderer/output/test_pattern.hpp"
 #include "renderer/png.hpp"
+#include "shaders/shared/srgb.h"
 #include "tests/renderer/output/output_pictures.hpp"
 
 namespace burin::renderer {
@@ -80,7 +80,8 @@ TEST(GhostingPattern, PairsAKnownGreyOfOneEyeWithWhiteOfTheOther) {
         for (std::size_t i = 0; i < steps.size(); ++i) {
             const std::uint32_t grey_x = static_cast<std::uint32_t>(i) * cell + cell / 4,
                                 white_x = grey_x + 3 * cell / 8;
-            EXPECT_NEAR(srgb_to_linear(*own.pixel(grey_x, y) / 255.0), steps[i], 0.0035) << "half a step of sRGB";
+            EXPECT_NEAR(shared::linear_of_component(*own.pixel(grey_x, y) / 255.0), steps[i], 0.0035)
+                << "half a step of sRGB";
             EXPECT_EQ(*others.pixel(grey_x, y), 0);
             EXPECT_EQ(*own.pixel(white_x, y), 0);
             EXPECT_TRUE(is_white(others.pixel(white_x, y)));

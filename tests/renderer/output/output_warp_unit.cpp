@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "renderer/output/compose.hpp"
-#include "renderer/output/srgb.hpp"
+#include "shaders/shared/srgb.h"
 #include "tests/renderer/output/output_pictures.hpp"
 #include "wall/output_settings.hpp"
 
@@ -81,7 +81,7 @@ TEST(Homography, ShowsEachPlaceOfThePictureWhereItBelongs) {
     const ImageSize eye{64, 48};
     Image picture = filled(eye, 0, 0, 0);
     const auto byte_of = [](double light) {
-        return static_cast<std::uint8_t>(std::lround(255.0 * linear_to_srgb(light)));
+        return static_cast<std::uint8_t>(std::lround(255.0 * shared::srgb_of_component(light)));
     };
     for (std::uint32_t y = 0; y < eye.height; ++y) {
         for (std::uint32_t x = 0; x < eye.width; ++x) {
@@ -101,8 +101,8 @@ TEST(Homography, ShowsEachPlaceOfThePictureWhereItBelongs) {
             if (edge < -0.02) {
                 EXPECT_EQ(*shown.pixel(x, y), 0);
             } else if (edge > 0.02) {
-                EXPECT_NEAR(*shown.pixel(x, y), 255.0 * linear_to_srgb(0.2 + 0.6 * uv.x), 1.0);
-                EXPECT_NEAR(shown.pixel(x, y)[1], 255.0 * linear_to_srgb(0.2 + 0.6 * uv.y), 1.0);
+                EXPECT_NEAR(*shown.pixel(x, y), 255.0 * shared::srgb_of_component(0.2 + 0.6 * uv.x), 1.0);
+                EXPECT_NEAR(shown.pixel(x, y)[1], 255.0 * shared::srgb_of_component(0.2 + 0.6 * uv.y), 1.0);
                 ++compared;
             }
         }
