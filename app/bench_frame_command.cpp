@@ -54,8 +54,9 @@ Result<void> check(const Options& options) {
 // Adds the ratios to a file, so that it holds those of many runs; a new file begins with the names of its columns.
 Result<void> add_ratios(const bench::FrameReport& report, const std::string& path) {
     if (path.empty()) return {};
+    std::error_code none;
     std::ostringstream before;
-    if (const std::ifstream file(path); file) before << file.rdbuf();
+    if (const std::ifstream file(path); file && std::filesystem::is_regular_file(path, none)) before << file.rdbuf();
     const std::string rows = bench::ratio_rows(report, gpu::driver_threads(), before.str().empty());
     return write_output(path, before.str() + rows);
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <array>
 #include <cstdio>
 #include <filesystem>
 
@@ -9,6 +10,7 @@
 #include "compute/mesher/surface.hpp"
 #include "compute/rays/scan_convert.hpp"
 #include "geometry/files/mesh_export.hpp"
+#include "sculpt/finishing.hpp"
 #include "sculpt/workpiece.hpp"
 
 namespace burin::app {
@@ -56,7 +58,8 @@ void print(const Json& report) {
 }  // namespace
 
 Result<void> combine_files(const CombineOptions& options) {
-    if (const auto ok = check_outputs(options.exports, options.report); !ok) return ok;
+    const std::array inputs{options.a, options.b};
+    if (const auto ok = check_outputs(options.exports, options.report, inputs); !ok) return ok;
     Result<sculpt::ClosedMesh> a = sculpt::load_closed_mesh(options.a, options.close_holes);
     if (!a) return std::unexpected(a.error());
     Result<sculpt::ClosedMesh> b = sculpt::load_closed_mesh(options.b, options.close_holes);
@@ -70,7 +73,9 @@ Result<void> combine_files(const CombineOptions& options) {
     bounds.include(of_b.hi);
     const Result<compute::Lattice> lattice = compute::lattice_around(bounds, options.resolution);
     if (!lattice) return std::unexpected(lattice.error());
-    if (const auto ok = check_precision(options.exports, *lattice); !ok) return ok;
+    for (const std::string& path : options.exports) {
+        if (const auto ok = sculpt::check_precision(path, *lattice); !ok) return ok;
+    }
 
     MonotonicClock clock;
     const Nanoseconds start_ns = clock.now_ns();

@@ -2,10 +2,27 @@
 #include "app/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <map>
 
 namespace burin::app {
+namespace {
+
+bool is_nan(const std::string& text) {
+    char* end = nullptr;
+    return std::isnan(std::strtod(text.c_str(), &end)) && end != text.c_str();
+}
+
+// Refuses a sign where no negative number can be meant: the library would wrap it to a huge one.
+CommandOption unsigned_only(CLI::Option* option) {
+    option->check(
+        [](const std::string& text) { return text.starts_with('-') ? text + " is below zero" : std::string(); });
+    return CommandOption(option);
+}
+
+}  // namespace
 
 CommandOption CommandOption::required() {
     option_->required();
@@ -28,6 +45,8 @@ CommandOption CommandOption::within(std::uint64_t least, std::uint64_t most) {
 }
 
 CommandOption CommandOption::within(double least, double most) {
+    // CLI::Range lets a number pass that is none.
+    option_->check([](const std::string& text) { return is_nan(text) ? text + " is no number" : std::string(); });
     option_->check(CLI::Range(least, most));
     return *this;
 }
@@ -61,11 +80,11 @@ CommandOption Command::option(const std::string& name, int& to, const std::strin
 }
 
 CommandOption Command::option(const std::string& name, unsigned& to, const std::string& help) {
-    return CommandOption(app_->add_option(name, to, help));
+    return unsigned_only(app_->add_option(name, to, help));
 }
 
 CommandOption Command::option(const std::string& name, std::uint64_t& to, const std::string& help) {
-    return CommandOption(app_->add_option(name, to, help));
+    return unsigned_only(app_->add_option(name, to, help));
 }
 
 CommandOption Command::option(const std::string& name, double& to, const std::string& help) {
@@ -73,7 +92,7 @@ CommandOption Command::option(const std::string& name, double& to, const std::st
 }
 
 CommandOption Command::option(const std::string& name, std::optional<unsigned>& to, const std::string& help) {
-    return CommandOption(app_->add_option(name, to, help));
+    return unsigned_only(app_->add_option(name, to, help));
 }
 
 CommandOption Command::option(const std::string& name, std::optional<double>& to, const std::string& help) {

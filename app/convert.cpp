@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
 #include <cstdio>
 
 #include "app/commands.hpp"
+#include "app/output_files.hpp"
 #include "geometry/files/mesh_export.hpp"
 #include "geometry/files/mesh_import.hpp"
 #include "geometry/mesh/mesh_health.hpp"
@@ -20,10 +23,29 @@ void print_health(const geometry::TriangleMesh& mesh) {
     for (const std::string& complaint : geometry::complaints(health)) std::printf("  %s\n", complaint.c_str());
 }
 
+// Checks that corners which differ still do so in the single-precision numbers of .stl and .ply.
+Result<void> check_precision(const geometry::TriangleMesh& mesh, const std::string& out) {
+    if (geometry::mesh_format_of(out) == geometry::MeshFormat::obj) return {};
+    const auto fall_together = [&](std::uint32_t a, std::uint32_t b) {
+        const Vec3 &p = mesh.positions_m[a], &q = mesh.positions_m[b];
+        return p != q && glm::vec3(p) == glm::vec3(q);
+    };
+    const auto collapses = [&](const std::array<std::uint32_t, 3>& t) {
+        return fall_together(t[0], t[1]) || fall_together(t[1], t[2]) || fall_together(t[2], t[0]);
+    };
+    const auto lost = std::ranges::count_if(mesh.triangles, collapses);
+    if (lost == 0) return {};
+    return fail(out,
+                "would hold single-precision numbers, in which " + std::to_string(lost) + " triangles have no area",
+                "move the mesh nearer to its origin, or write .obj");
+}
+
 }  // namespace
 
 Result<void> convert(const ConvertOptions& options) {
     if (const auto ok = sculpt::check_simplification(options.simplify_m); !ok) return ok;
+    const std::array inputs{options.in};
+    if (const auto ok = check_overwrites_none(options.out, inputs); !ok) return ok;
     Result<geometry::ImportedMesh> imported = geometry::import_mesh(options.in);
     if (!imported) return std::unexpected(imported.error());
     geometry::TriangleMesh& mesh = imported->mesh;
@@ -51,6 +73,7 @@ Result<void> convert(const ConvertOptions& options) {
         mesh = std::move(simplified->mesh);
         print_health(mesh);
     }
+    if (const auto ok = check_precision(mesh, options.out); !ok) return ok;
     return geometry::export_mesh(mesh, options.out);
 }
 

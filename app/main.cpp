@@ -18,7 +18,8 @@ namespace {
 
 void add_sculpt_options(Command command, session::SculptOptions& options) {
     command
-        .option("--workpiece", options.workpiece.source, "FILE (STL, OBJ, PLY, OFF), block:X,Y,Z or ball:R, in metres")
+        .option("--workpiece", options.workpiece.source,
+                "FILE (STL, OBJ, PLY, OFF), block:X,Y,Z from the origin on, or ball:R about it, in metres")
         .show_default();
     command.flag("--close-holes", options.workpiece.close_holes, "Fill the holes of a mesh that is not closed");
     command.option("--tool", options.tool.shape, sculpt::alternatives(sculpt::tool_synopses()) + ", in metres")
@@ -146,7 +147,11 @@ void print_version() {
 }
 
 int finish(const Result<void>& outcome) {
-    if (outcome) return 0;
+    if (outcome && std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return 0;
+    if (outcome) {
+        std::fprintf(stderr, "burin: standard output: not all could be written; is it closed, or its disk full?\n");
+        return 1;
+    }
     std::fprintf(stderr, "burin: %s\n", outcome.error().line().c_str());
     return 1;
 }

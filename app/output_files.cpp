@@ -5,6 +5,8 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <set>
+#include <vector>
 
 #include "base/file_io.hpp"
 #include "geometry/files/mesh_export.hpp"
@@ -27,7 +29,17 @@ Result<void> check_place(const std::string& path) {
     return {};
 }
 
-Result<void> check_outputs(std::span<const std::string> exports, const std::string& report) {
+Result<void> check_overwrites_none(const std::string& output, std::span<const std::string> inputs) {
+    std::error_code ignored;
+    for (const std::string& input : inputs) {
+        if (!fs::equivalent(output, input, ignored)) continue;
+        return fail(output, "is an input of this command, which it would overwrite", "choose another place");
+    }
+    return {};
+}
+
+Result<void> check_outputs(std::span<const std::string> exports, const std::string& report,
+                           std::span<const std::string> inputs) {
     for (const std::string& path : exports) {
         const auto format = geometry::mesh_format_of(path);
         if (!format || *format == geometry::MeshFormat::off) {
@@ -35,16 +47,14 @@ Result<void> check_outputs(std::span<const std::string> exports, const std::stri
         }
         if (const auto ok = check_place(path); !ok) return ok;
     }
-    return check_place(report);
-}
-
-Result<void> check_precision(std::span<const std::string> exports, const compute::Lattice& lattice) {
-    for (const std::string& path : exports) {
-        if (lattice.fits_floats() || geometry::mesh_format_of(path) == geometry::MeshFormat::obj) continue;
-        return fail(path,
-                    "would hold single-precision numbers, which cannot tell the workpiece's details apart so far from "
-                    "its origin",
-                    "move the workpiece nearer to its origin, or export .obj");
+    if (const auto ok = check_place(report); !ok) return ok;
+    std::vector<std::string> outputs(exports.begin(), exports.end());
+    if (!report.empty()) outputs.push_back(report);
+    std::set<fs::path> places;
+    for (const std::string& path : outputs) {
+        if (const auto ok = check_overwrites_none(path, inputs); !ok) return ok;
+        if (!places.insert(fs::weakly_canonical(path)).second)
+            return fail(path, "is named for two outputs, of which one would overwrite the other", "give each its own");
     }
     return {};
 }

@@ -8,7 +8,6 @@
 
 #include "base/error.hpp"
 #include "base/json.hpp"
-#include "compute/rays/lattice.hpp"
 
 namespace burin::app {
 
@@ -18,11 +17,12 @@ inline constexpr const char* kStandardOutput = "-";
 // is wanted.
 [[nodiscard]] Result<void> check_place(const std::string& path);
 
-// Checks whether meshes of a known format and a report (empty: none) can be written there.
-[[nodiscard]] Result<void> check_outputs(std::span<const std::string> exports, const std::string& report);
-
-// Checks whether the formats hold the lattice's details. Only a mesh's coordinates tell, so call this after loading it.
-[[nodiscard]] Result<void> check_precision(std::span<const std::string> exports, const compute::Lattice& lattice);
+// Checks whether meshes of a known format and a report (empty: none) can be written there, each to a place of its own
+// and none over one of the inputs.
+[[nodiscard]] Result<void> check_outputs(std::span<const std::string> exports, const std::string& report,
+                                         std::span<const std::string> inputs = {});
+// Checks whether an output is not one of the inputs, by whatever path.
+[[nodiscard]] Result<void> check_overwrites_none(const std::string& output, std::span<const std::string> inputs);
 
 // Writes a file, or to standard output; nothing where the path is empty.
 [[nodiscard]] Result<void> write_output(const std::string& path, const std::string& text);

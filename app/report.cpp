@@ -125,7 +125,8 @@ void print_table(const Json& report) {
         row("an update takes (median, p99)",
             text("%.2f ms, %.2f ms", number("/timing/update_ms_median"), number("/timing/update_ms_p99")));
     }
-    row("volume removed", text("%.2f cm3", number("/carving/volume_removed_m3") * 1e6));
+    const double removed_cm3 = 1e6 * number("/carving/volume_removed_m3");
+    row(removed_cm3 < 0.0 ? "volume added" : "volume removed", text("%.2f cm3", std::abs(removed_cm3)));
     if (report["timing"].contains("tick_us_median")) {  // in real time the ticks are not timed one by one
         row("a haptic tick takes (median, p99.9)",
             text("%.1f us, %.1f us", number("/timing/tick_us_median"), number("/timing/tick_us_p999")));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -6,7 +7,7 @@
 #include "app/commands.hpp"
 #include "app/output_files.hpp"
 #include "app/report.hpp"
-#include "compute/tools/tool_spans.hpp"
+#include "compute/tools/apply.hpp"
 #include "geometry/files/mesh_export.hpp"
 #include "sculpt/finishing.hpp"
 #include "sculpt/stroke_file.hpp"
@@ -43,6 +44,13 @@ Result<void> write_plots(const std::string& report_path, const session::FeltFigu
     return {};
 }
 
+void say_that_nothing_was_touched(const sculpt::Sculpture& carving) {
+    const Box box = sculpt::workpiece_bounds(carving.surface().lattice());
+    std::fprintf(stderr,
+                 "burin: the tool has touched nothing; the workpiece lies between (%g, %g, %g) and (%g, %g, %g) m\n",
+                 box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z);
+}
+
 // Undoes the last strokes and describes what was undone for the report.
 Result<Json> take_back(sculpt::Sculpture& carving, std::size_t strokes) {
     carving.end_stroke();
@@ -73,7 +81,8 @@ Result<void> sculpt(const session::SculptOptions& options) {
     }
     const Result<sculpt::Feel> feel = sculpt::parse_feel(options.feel);
     if (!feel) return std::unexpected(feel.error());
-    if (const auto ok = check_outputs(options.exports, options.report); !ok) return ok;
+    const std::array inputs{options.workpiece.source, options.stroke};
+    if (const auto ok = check_outputs(options.exports, options.report, inputs); !ok) return ok;
     if (const auto ok = sculpt::check_simplification(options.simplify_m); !ok) return ok;
     sculpt::Stroke stroke;
     if (!options.stroke.empty()) {
@@ -84,10 +93,12 @@ Result<void> sculpt(const session::SculptOptions& options) {
     WorkerPool pool(options.threads);
     Result<sculpt::LoadedWorkpiece> workpiece = sculpt::load_workpiece(options.workpiece, pool);
     if (!workpiece) return std::unexpected(workpiece.error());
-    if (const auto ok = check_precision(options.exports, workpiece->solid.lattice); !ok) return ok;
+    for (const std::string& path : options.exports) {
+        if (const auto ok = sculpt::check_precision(path, workpiece->solid.lattice); !ok) return ok;
+    }
     tool->material = static_cast<std::uint8_t>(workpiece->solid.materials.size());
     workpiece->solid.materials.push_back(material);
-    if (const auto ok = compute::check_sweep(workpiece->solid, tool->sweep(Pose{}, Pose{})); !ok) return ok;
+    if (const auto ok = compute::check_tool(workpiece->solid, tool->sweep(Pose{}, Pose{})); !ok) return ok;
 
     std::optional<session::Pictures> pictures;
     if (!options.pictures.empty()) {
@@ -135,6 +146,7 @@ Result<void> sculpt(const session::SculptOptions& options) {
     report["engine"] = {
         {"name", carving.engine().name()}, {"device", chosen->device}, {"chosen_because", chosen->reason}};
     report["carving"] = describe_carving(carving);
+    if (!stroke.empty() && report["carving"]["rays_touched"] == 0) say_that_nothing_was_touched(carving);
     report["mesh"] = describe_mesh(mesh);
     report["mesh"]["self_intersections"] = finished->self_intersections;
     report["slivers"] = finished->slivers;

@@ -172,6 +172,7 @@ std::vector<wall::CalibrationSample> guided_samples(std::istream& in, std::ostre
 Result<void> calibrate_wall(const WallCalibrationOptions& options) {
     for (const std::string& place : {options.out, options.json}) {
         if (const auto ok = check_place(place); !ok) return ok;
+        if (const auto ok = check_overwrites_none(place, std::array{options.samples}); !ok) return ok;
     }
     auto setup = wall::read_wall(options.wall);
     if (!setup) return std::unexpected(setup.error());

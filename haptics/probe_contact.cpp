@@ -183,8 +183,7 @@ std::uint32_t deepest_of(const ContactRecord& contact) {
 }  // namespace
 
 ProbeStep touch_surface(const ProbeState& state, const ProbeInput& input) noexcept {
-    ProbeStep step;
-    step.next = state;
+    ProbeStep step{state, {}, 0};
     ContactRecord& contact = step.contact;
     contact.point_count = input.parameters.probe.count;
     const bool pressed = (input.sample.buttons & 1u) != 0;
@@ -224,8 +223,7 @@ ProbeStep touch_surface(const ProbeState& state, const ProbeInput& input) noexce
 }
 
 ProbeStep follow_hand(const ProbeState& state, const ProbeInput& input) noexcept {
-    ProbeStep step;
-    step.next = state;
+    ProbeStep step{state, {}, 0};
     step.contact.point_count = input.parameters.probe.count;
     for (std::uint32_t i = 0; i < step.contact.point_count; ++i) PointContact(input, step, i).stay_with_hand();
     step.contact.cut_object_m = step.contact.points[0].hip_object_m;

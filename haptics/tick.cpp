@@ -47,9 +47,15 @@ void end_contact(ProbeState& state) {
     state.cutting.engaged = false;
 }
 
+// Where a tick puts its results, six kilobytes that full_tick() would otherwise copy.
+struct TickResult {
+    TickState& next;  // holds the state before
+    TickRecord& record;
+};
+
 // The tick of input that makes no sense: contact starts afresh when it is valid again, and so does the velocity, for a
 // sample is missing then (with_sample).
-Tick refused(Tick t) {
+void refuse(const TickResult& t) {
     // The last known position of the tool.
     const Vec3 last_object_m = t.next.probe.proxies[0].position_object_m;
     end_contact(t.next.probe);
@@ -57,7 +63,6 @@ Tick refused(Tick t) {
     t.record.contact.point_count = 1;
     t.record.contact.points[0].hip_object_m = t.record.contact.points[0].proxy_object_m = last_object_m;
     t.record.motion.object_from_device = t.next.workspace.object_from_device;
-    return t;
 }
 
 // Applies the passivity controller to the contact's force.
@@ -82,13 +87,10 @@ GuidanceStep guided(const GuidanceState& state, const TickRecord& record, const 
                  parameters.curve, parameters.guidance);
 }
 
-}  // namespace
-
-Tick tick(const TickState& state, const devices::DeviceSample& sample, const geometry::LocalSurface& surface,
-          const TickParameters& parameters, const devices::DeviceDescription& device, Nanoseconds now_ns,
-          double dt_s) noexcept {
-    Tick t;
-    TickState& next = t.next = state;
+void compute_tick(const TickResult& t, const TickState& state, const devices::DeviceSample& sample,
+                  const geometry::LocalSurface& surface, const TickParameters& parameters,
+                  const devices::DeviceDescription& device, Nanoseconds now_ns, double dt_s) {
+    TickState& next = t.next;
     TickRecord& record = t.record;
     record.time_ns = now_ns;
     record.sample = sample;
@@ -96,7 +98,7 @@ Tick tick(const TickState& state, const devices::DeviceSample& sample, const geo
     record.parameter_sequence = parameters.sequence;
     record.sample_finite = finite(sample.position_device_m) && unit(sample.orientation_device);
     record.parameters_sensible = parameters_are_sensible(parameters);
-    if (!record.sample_finite || !record.parameters_sensible) return refused(t);
+    if (!record.sample_finite || !record.parameters_sensible) return refuse(t);
 
     // Motion of the hand.
     MotionRecord& motion = record.motion;
@@ -153,6 +155,15 @@ Tick tick(const TickState& state, const devices::DeviceSample& sample, const geo
     others.force_device_N += guidance.force_device_N + workspace.force_device_N;
     record.wanted = driven_part(
         {contact.force_device_N + others.force_device_N, contact.torque_device_Nm + others.torque_device_Nm}, device);
+}
+
+}  // namespace
+
+Tick tick(const TickState& state, const devices::DeviceSample& sample, const geometry::LocalSurface& surface,
+          const TickParameters& parameters, const devices::DeviceDescription& device, Nanoseconds now_ns,
+          double dt_s) noexcept {
+    Tick t{state, {}};
+    compute_tick({t.next, t.record}, state, sample, surface, parameters, device, now_ns, dt_s);
     return t;
 }
 
@@ -177,9 +188,9 @@ GateInput gate_input(const TickRecord& record, const devices::DeviceDescription&
 FullTick full_tick(const FullTickState& state, const devices::DeviceSample& sample,
                    const geometry::LocalSurface& surface, const TickParameters& parameters,
                    const devices::DeviceDescription& device, Nanoseconds now_ns, double dt_s) noexcept {
-    const Tick t = tick(state.tick, sample, surface, parameters, device, now_ns, dt_s);
-    FullTick full{{t.next, {}, now_ns}, t.record};
+    FullTick full{{state.tick, {}, now_ns}, {}};
     TickRecord& record = full.record;
+    compute_tick({full.next.tick, record}, state.tick, sample, surface, parameters, device, now_ns, dt_s);
     GateInput input = gate_input(record, device);
     if (state.now_ns > 0) input.loop_gap_s = seconds(now_ns - state.now_ns);
     const GateStep gate = pass_gate(state.gate, input, parameters.limits, dt_s);
@@ -194,7 +205,7 @@ FullTick full_tick(const FullTickState& state, const devices::DeviceSample& samp
     // The passivity controller accounts for contact forces only, so the other forces are subtracted.
     const Vec3 others_N = record.wanted.force_device_N - record.contact.wrench.force_device_N;
     full.next.tick.passivity =
-        with_commanded_force(t.next.passivity, on ? record.gate.given.force_device_N - others_N : Vec3(0.0));
+        with_commanded_force(full.next.tick.passivity, on ? record.gate.given.force_device_N - others_N : Vec3(0.0));
     return full;
 }
 

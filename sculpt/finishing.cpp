@@ -6,6 +6,7 @@
 
 #include "compute/repair/self_intersections.hpp"
 #include "compute/repair/slivers.hpp"
+#include "geometry/files/mesh_export.hpp"
 #include "sculpt/progress.hpp"
 
 namespace burin::sculpt {
@@ -37,6 +38,14 @@ Json describe(const compute::SliverReport& slivers) {
 }
 
 }  // namespace
+
+Result<void> check_precision(const std::string& path, const compute::Lattice& lattice) {
+    if (lattice.fits_floats() || geometry::mesh_format_of(path) == geometry::MeshFormat::obj) return {};
+    return fail(path,
+                "would hold single-precision numbers, which cannot tell the workpiece's details apart so far from its "
+                "origin",
+                "move the workpiece nearer to its origin, or export .obj");
+}
 
 Result<void> check_simplification(std::optional<double> bound_m) {
     if (!bound_m || (std::isfinite(*bound_m) && *bound_m > 0.0)) return {};

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "base/json.hpp"
 #include "compute/mesher/surface.hpp"
@@ -26,6 +27,10 @@ struct FinishedMesh {
 // Welds and finishes the mesh. The bound must have been checked.
 [[nodiscard]] Result<FinishedMesh> finish_mesh(const compute::Surface& surface, const compute::Solid& solid,
                                                std::optional<double> simplify_bound_m, WorkerPool& pool);
+
+// Checks whether a mesh file's format holds the lattice's details: .stl and .ply have single-precision numbers, which
+// do not far from the origin. Only a loaded workpiece tells.
+[[nodiscard]] Result<void> check_precision(const std::string& path, const compute::Lattice& lattice);
 
 struct SimplifiedMesh {
     geometry::TriangleMesh mesh;

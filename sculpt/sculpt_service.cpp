@@ -4,7 +4,7 @@
 #include <chrono>
 #include <utility>
 
-#include "compute/tools/tool_spans.hpp"
+#include "compute/tools/apply.hpp"
 #include "geometry/files/mesh_export.hpp"
 
 namespace burin::sculpt {
@@ -47,10 +47,14 @@ Result<void> SculptService::update(Nanoseconds now_ns, const UpdateSeen* recorde
     SweptSamples swept;
     do {
         swept = reader_.read(recorded != nullptr ? recorded->last_tick : UINT64_MAX);
+        drop_invalid(swept.sweeps);
         if (!swept.sweeps.empty()) {
             if (const auto updated = sculpture_.update(swept.sweeps); !updated) return updated;
         }
-        if (swept.stroke_ended) sculpture_.end_stroke();
+        if (swept.stroke_ended) {
+            sculpture_.end_stroke();
+            said_why_ = false;
+        }
     } while (swept.stroke_ended);
     seen_.last_tick = reader_.last_tick();
     if (const auto published = publish(now_ns); !published) return published;
@@ -61,6 +65,18 @@ Result<void> SculptService::update(Nanoseconds now_ns, const UpdateSeen* recorde
         for (const std::string& notice : sculpture_.history()->take_notices()) notify(notice);
     }
     return {};
+}
+
+// Drops sweeps that cannot be carved, such as smoothing too far at once, and says why once a stroke: a session that
+// ended for one of them would lose all others.
+void SculptService::drop_invalid(std::vector<compute::ToolSweep>& sweeps) {
+    const compute::Solid& solid = sculpture_.engine().solid();
+    std::erase_if(sweeps, [&](const compute::ToolSweep& sweep) {
+        std::optional<Error> why = refused_;
+        if (const auto ok = compute::check_tool(solid, sweep); !ok && !why) why = ok.error();
+        if (why && !std::exchange(said_why_, true)) notify(why->line());
+        return why.has_value();
+    });
 }
 
 Result<void> SculptService::publish(Nanoseconds now_ns) {
@@ -107,7 +123,9 @@ void SculptService::carry_out(const UseTool& use) {
     if (!material) return notify(material.error().line());
     Tool tool = use.tool;
     tool.material = *material;
-    if (const auto ok = compute::check_sweep(sculpture_.engine().solid(), tool.sweep(Pose{}, Pose{})); !ok) {
+    refused_.reset();
+    if (const auto ok = compute::check_tool(sculpture_.engine().solid(), tool.sweep(Pose{}, Pose{})); !ok) {
+        refused_ = ok.error();
         return notify(ok.error().line());
     }
     reader_.use_tool(tool, use.hardness_Ns_per_m3);
@@ -129,6 +147,8 @@ void SculptService::carry_out(const RedoStroke&) {
 // Copies the surface and the rays: tiles are shared, so the rays are the only large part of the copy.
 void SculptService::carry_out(const ExportSurface& wanted) {
     if (export_.valid()) return notify("an export is under way; wait for it to end");
+    if (const auto ok = check_precision(wanted.path, sculpture_.surface().lattice()); !ok)
+        return notify(ok.error().line());
     sculpture_.end_stroke();
     if (const auto read = sculpture_.read_back(); !read) return notify(read.error().line());
     export_ = std::async(std::launch::async, [surface = sculpture_.surface(), solid = sculpture_.engine().solid(),

@@ -100,6 +100,7 @@ private:
     void carry_out(const RedoStroke&);
     void carry_out(const ExportSurface& wanted);
     void carry_out(const LightFrom& from);
+    void drop_invalid(std::vector<compute::ToolSweep>& sweeps);
     void notify(std::string message);
     [[nodiscard]] bool export_is_done() const;
     [[nodiscard]] Result<void> publish(Nanoseconds now_ns);
@@ -113,6 +114,8 @@ private:
     bool stroke_open_ = false;         // the button was down at the end of the last update
     bool status_changed_ = true;       // something other than tiles and messages has to be reported
     std::future<std::string> export_;  // gives the message for the user
+    std::optional<Error> refused_;     // why the tool that was asked for last cannot carve; nothing does until another
+    bool said_why_ = false;            // this stroke's user has been told why nothing is carved
     std::vector<std::string> messages_;
     UpdateSeen seen_;
 };

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <vector>
 
 #include "base/plot/svg.hpp"
 #include "base/text.hpp"
@@ -59,17 +60,29 @@ double fit(View& view, const std::vector<Vec3>& points) {
     return size_m;
 }
 
+constexpr int kMostLines = 20;  // of a grid in one direction
+
+// Returns where lines lie within an extent: at multiples of a step that gives at most a dozen of them, however large
+// the wall is.
+std::vector<double> grid_lines(double from_m, double size_m) {
+    double step = size_m > 2.5 ? 1.0 : size_m > 1.2 ? 0.5 : 0.1;
+    if (size_m > 12.0) step = 5.0 * std::max(1.0, std::pow(10.0, std::ceil(std::log10(size_m / 60.0))));
+    std::vector<double> lines;
+    const double first = std::ceil(from_m / step);
+    for (int i = 0; i <= kMostLines && (first + i) * step < from_m + size_m; ++i) lines.push_back((first + i) * step);
+    return lines;
+}
+
 std::string grid(const View& v) {
-    const double step = v.size_m > 12.0 ? 5.0 : v.size_m > 2.5 ? 1.0 : v.size_m > 1.2 ? 0.5 : 0.1;
     const double scale = kView / v.size_m, x0 = v.left + kMargin;
     std::string text = plot::rectangle(x0, kTop, kView, kView, "#fafafa", "#888888");
-    for (double m = step * std::ceil(v.lo_m.x / step); m < v.lo_m.x + v.size_m; m += step) {
+    for (const double m : grid_lines(v.lo_m.x, v.size_m)) {
         const double x = x0 + (m - v.lo_m.x) * scale;
         text += plot::line_down(x, kTop, kView, "#e2e2e2");
         text +=
             write({x, kTop + kView + 15}, "text-anchor=\"middle\"", formatted("%.3g", std::abs(m) < 1e-9 ? 0.0 : m));
     }
-    for (double m = step * std::ceil(v.lo_m.y / step); m < v.lo_m.y + v.size_m; m += step) {
+    for (const double m : grid_lines(v.lo_m.y, v.size_m)) {
         const double y = kTop + kView - (m - v.lo_m.y) * scale;
         text += plot::line_across(x0, y, kView, "#e2e2e2");
         const double shown = v.y_label[0] == 'z' ? -m : m;

@@ -22,26 +22,6 @@ BallSweep ball_sweep(const ToolSweep& sweep) {
             sweep.operation};
 }
 
-Result<void> check(const Solid& solid, const ToolSweep& sweep) {
-    if (sweep.operation == Operation::smooth) {
-        if (!std::holds_alternative<BallTool>(sweep.shape)) {
-            return fail("tool", "cannot smooth: only a ball has a middle to smooth from", "use --tool ball:R");
-        }
-        if (!(sweep.smooth_strength >= 0.0 && sweep.smooth_strength <= 1.0)) {
-            return fail("smooth strength", "is outside 0 to 1", "give a strength from 0 to 1");
-        }
-        if (const auto good = check_sweep(solid, sweep); !good) return good;
-        const double radius_m = std::get<BallTool>(sweep.shape).radius_m;
-        const Vec3 along = sweep.end.position_m - sweep.start.position_m;
-        if (radius_m > kLargestSmoothCells * solid.lattice.spacing_m || glm::length(along) > 4096.0 * radius_m) {
-            return fail("tool", "is too large, or goes too far at once, to smooth with",
-                        "choose a ball of at most 100 lattice cells, and more rows in the stroke");
-        }
-        return {};
-    }
-    return check_sweep(solid, sweep);
-}
-
 void append_result(Operation operation, RayEnds held, RayEnds covered, std::vector<shared::DexelEnd>& to) {
     switch (operation) {
         case Operation::cut: return append_difference(held, covered, to);
@@ -128,9 +108,29 @@ Result<CarveStats> apply_on_host(CarvingEngine& engine, const ToolSweep& sweep, 
 
 }  // namespace
 
+Result<void> check_tool(const Solid& solid, const ToolSweep& sweep) {
+    if (sweep.operation == Operation::smooth) {
+        if (!std::holds_alternative<BallTool>(sweep.shape)) {
+            return fail("tool", "cannot smooth: only a ball has a middle to smooth from", "use --tool ball:R");
+        }
+        if (!(sweep.smooth_strength >= 0.0 && sweep.smooth_strength <= 1.0)) {
+            return fail("smooth strength", "is outside 0 to 1", "give a strength from 0 to 1");
+        }
+        if (const auto good = check_sweep(solid, sweep); !good) return good;
+        const double radius_m = std::get<BallTool>(sweep.shape).radius_m;
+        const Vec3 along = sweep.end.position_m - sweep.start.position_m;
+        if (radius_m > kLargestSmoothCells * solid.lattice.spacing_m || glm::length(along) > 4096.0 * radius_m) {
+            return fail("tool", "is too large, or goes too far at once, to smooth with",
+                        "choose a ball of at most 100 lattice cells, and more rows in the stroke");
+        }
+        return {};
+    }
+    return check_sweep(solid, sweep);
+}
+
 Result<CarveStats> apply(CarvingEngine& engine, std::span<const ToolSweep> sweeps, WorkerPool& pool) {
     for (const ToolSweep& sweep : sweeps) {
-        if (const auto good = check(engine.solid(), sweep); !good) return std::unexpected(good.error());
+        if (const auto good = check_tool(engine.solid(), sweep); !good) return std::unexpected(good.error());
     }
     CarveStats stats;
     std::vector<BallSweep> balls;

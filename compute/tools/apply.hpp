@@ -14,10 +14,13 @@
 
 namespace burin::compute {
 
+// Checks a sweep as apply() does: check_sweep (tool_spans.hpp), and what smoothing asks for besides, a ball of at most
+// 100 cells and a strength from 0 to 1.
+[[nodiscard]] Result<void> check_tool(const Solid& solid, const ToolSweep& sweep);
+
 // Carries out the sweeps in order; filled material is clipped to the lattice. Fails, with the solid unchanged, on an
-// invalid sweep (check_sweep in tool_spans.hpp; smoothing needs a ball and a strength from 0 to 1). When a device fails
-// part of the way, the solid holds the result of the sweeps before. Touched rays are those of which the tool covers a
-// part, counted for each sweep.
+// invalid sweep (check_tool). When a device fails part of the way, the solid holds the result of the sweeps before.
+// Touched rays are those of which the tool covers a part, counted for each sweep.
 [[nodiscard]] Result<CarveStats> apply(CarvingEngine& engine, std::span<const ToolSweep> sweeps, WorkerPool& pool);
 
 }  // namespace burin::compute

@@ -26,12 +26,12 @@ constexpr Nanoseconds kSettled_ns = 3'000'000'000;
 // Global because a signal handler cannot reach anything but static state.
 volatile sig_atomic_t g_signal_came = 0;
 
-// Handles SIGINT and SIGTERM while an instance exists: the first signal asks the session to end, which then finishes
-// its files; a second one ends the program at once, as without a handler. A signal that was ignored when the program
-// started stays ignored. At most one instance at a time.
+// Handles SIGINT, SIGTERM and SIGHUP, of a terminal that was closed, while an instance exists: the first signal asks
+// the session to end, which then finishes its files; a second one ends the program at once, as without a handler. A
+// signal that was ignored when the program started stays ignored. At most one instance at a time.
 class EndSignals {
 public:
-    EndSignals() : before_{{{SIGINT, {}}, {SIGTERM, {}}}} {
+    EndSignals() : before_{{{SIGINT, {}}, {SIGTERM, {}}, {SIGHUP, {}}}} {
         g_signal_came = 0;
         for (Before& one : before_) {
             sigaction(one.signal, nullptr, &one.action);
@@ -56,7 +56,7 @@ private:
         int signal = 0;
         struct sigaction action{};
     };
-    std::array<Before, 2> before_;
+    std::array<Before, 3> before_;
 };
 
 // ---- Frames

@@ -2,8 +2,10 @@
 #include "session/drive/session.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 
+#include "session/picture/pictures.hpp"
 #include "session/state/session_settings.hpp"
 
 namespace burin::session {
@@ -24,6 +26,25 @@ Result<InputSource> open_input(const SculptOptions& options, std::optional<Input
         recorder = std::move(*writer);
     }
     return log ? InputSource::play(std::move(*log), std::move(recorder)) : InputSource::live(std::move(recorder));
+}
+
+// Refuses what only carving along a stroke does: a session would leave it undone without a word.
+Result<void> check_for_a_session(const SculptOptions& options) {
+    struct Misplaced {
+        bool given;
+        const char *option, *instead;
+    };
+    const std::array misplaced{
+        Misplaced{!options.stroke.empty(), "--stroke", "carve it without a session first, or write it as an --input"},
+        Misplaced{!options.exports.empty(), "--export",
+                  "export from the session's panel, or with 'command export FILE' in its --input"},
+        Misplaced{!options.pictures.empty(), "--pictures",
+                  "press F12 in the session, or give 'command screenshot FILE' in its --input"},
+        Misplaced{!options.report.empty(), "--report", "time sessions with burin profile --json"},
+    };
+    for (const Misplaced& one : misplaced)
+        if (one.given) return fail(one.option, "belongs to carving along a --stroke and not to a session", one.instead);
+    return {};
 }
 
 // Reports errors in the options before a window opens, also those in the file of a mesh tool.
@@ -66,9 +87,13 @@ bool wants_session(const SculptOptions& options) {
 }
 
 Result<void> run_session(const SculptOptions& options) {
+    if (const auto ok = check_for_a_session(options); !ok) return ok;
     if (options.live.offscreen && options.live.input.empty()) {
         return fail("--offscreen", "needs an --input: without a window nobody can do anything",
                     "give a log or a script, or leave --offscreen out");
+    }
+    if (!options.live.screenshots.empty()) {
+        if (const auto made = make_picture_folder(options.live.screenshots, "--screenshots"); !made) return made;
     }
     std::optional<InputLog> log;
     if (!options.live.input.empty()) {

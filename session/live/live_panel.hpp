@@ -37,8 +37,8 @@ struct PanelContext {
     [[nodiscard]] ImageSize eye() const { return wall::eye_size(shown.mode, output.size); }
 };
 
-// What the panel leaves of a step's input to the scene: events without the presses and turns of wheel and stick that met
-// a panel in the scene, and what it captures of the others.
+// What the panel leaves of a step's input to the scene: events without the presses and turns of wheel and stick that
+// met a panel in the scene, and what it captures of the others.
 struct SceneInput {
     std::vector<InputEvent> events;
     Captured captured;

@@ -23,6 +23,14 @@ double longest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
 
 }  // namespace
 
+Result<void> make_picture_folder(const std::filesystem::path& folder, const std::string& option) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (std::filesystem::is_directory(folder)) return {};
+    return fail(folder.string(), "cannot be made as a folder for pictures (" + error.message() + ")",
+                "choose another " + option + " folder");
+}
+
 Pictures::Pictures(std::filesystem::path folder, gpu::Device device, renderer::Renderer renderer,
                    const Box& bounds_object)
     : folder_(std::move(folder)), device_(std::move(device)), renderer_(std::move(renderer)) {
@@ -35,12 +43,7 @@ Pictures::Pictures(std::filesystem::path folder, gpu::Device device, renderer::R
 }
 
 Result<Pictures> Pictures::create(const std::filesystem::path& folder, const Box& bounds_object) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (!std::filesystem::is_directory(folder)) {
-        return fail(folder.string(), "cannot be made as a folder for pictures (" + error.message() + ")",
-                    "choose another --pictures folder");
-    }
+    if (const auto made = make_picture_folder(folder, "--pictures"); !made) return std::unexpected(made.error());
     Result<gpu::Device> device = gpu::Device::create();
     if (!device) {
         Error e = device.error();

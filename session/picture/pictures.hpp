@@ -12,6 +12,9 @@
 
 namespace burin::session {
 
+// Makes a folder that pictures are to be written to, with those above it, unless it is there. option: what named it.
+[[nodiscard]] Result<void> make_picture_folder(const std::filesystem::path& folder, const std::string& option);
+
 class Pictures {
 public:
     // Opens the Vulkan device and checks that the folder can be written. `bounds_object` are the workpiece's bounds.

@@ -21,7 +21,7 @@ void DisplayWatch::finished(Presenter& stage, const FramePlan& plan, Nanoseconds
     FrameMeasure measure;
     measure.plan = plan;
     measure.sampled_ns = sampled_ns;
-    measure.finished_ns = measure.submitted_ns = now_ns - blocked.for_ns;  // waiting is not work
+    measure.finished_ns = now_ns - blocked.for_ns;  // waiting is not work
     measure.blocked_ns = blocked.for_ns;
     measure.flip_ns = blocked.until_ns;
     pacing_ = frame_finished(pacing_, plan, now_ns);

@@ -27,17 +27,8 @@ constexpr std::uint32_t kQueueLength = 2;
 
 Nanoseconds whole(double t_ns) { return static_cast<Nanoseconds>(std::floor(t_ns + 0.5)); }
 
-// Smooths a load that determines the rate: follows an increase at once and a decrease slowly.
-Nanoseconds followed(Nanoseconds before, Nanoseconds now) { return now > before ? now : before - (before - now) / 16; }
-
 Nanoseconds need_ns(const PacingState& state) {
     return expected_work_ns(state) + whole(state.margin_ns) + state.settings.lead_ns;
-}
-
-// Returns the least time between two frames.
-Nanoseconds busy_ns(const PacingState& state) {
-    if (!state.settings.overlap) return need_ns(state);
-    return std::max(state.processor_ns, state.graphics_ns) + whole(state.margin_ns);
 }
 
 // Returns the number of periods from the known vblank to the first one not before a time, with half a microsecond of
@@ -53,7 +44,7 @@ Nanoseconds vblank(const PacingState& state, std::int64_t periods) {
 
 void choose_interval(PacingState& state) {
     const auto periods = [&](double share) {
-        const double wanted = std::ceil(static_cast<double>(busy_ns(state)) / (share * state.period_ns) - 1e-6);
+        const double wanted = std::ceil(static_cast<double>(need_ns(state)) / (share * state.period_ns) - 1e-6);
         return static_cast<std::uint32_t>(std::clamp(wanted, 1.0, static_cast<double>(kMostInterval)));
     };
     state.frames_wanting_more = periods(1.0) > state.interval ? state.frames_wanting_more + 1 : 0;
@@ -84,8 +75,7 @@ Nanoseconds next_vblank(const PacingState& state, Nanoseconds now_ns) {
 Nanoseconds next_free_time(const PacingState& state, Nanoseconds now_ns) {
     const Nanoseconds soonest_ns = now_ns + need_ns(state);
     if (state.last_plan.frame == 0) return soonest_ns;
-    const Nanoseconds between_ns = std::max(whole(state.period_ns), state.settings.overlap ? busy_ns(state) : 0);
-    return std::max(soonest_ns, state.last_plan.display_ns + between_ns);
+    return std::max(soonest_ns, state.last_plan.display_ns + whole(state.period_ns));
 }
 
 void restart_flips(PacingState& state, Nanoseconds flip_ns) {
@@ -149,8 +139,6 @@ void learn_display(PacingState& state, const FrameMeasure& m, bool in_time) {
 void learn_work(PacingState& state, const FrameMeasure& m) {
     const Nanoseconds total_ns = std::max<Nanoseconds>(m.finished_ns - m.plan.wake_ns, 0);
     state.work_ns[state.work_count++ % state.work_ns.size()] = total_ns;
-    state.processor_ns = followed(state.processor_ns, std::max<Nanoseconds>(m.submitted_ns - m.plan.wake_ns, 0));
-    state.graphics_ns = followed(state.graphics_ns, std::max<Nanoseconds>(m.graphics_ns, 0));
 }
 
 void adapt_margin(PacingState& state, bool in_time) {

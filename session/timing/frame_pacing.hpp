@@ -40,9 +40,6 @@ struct PacingSettings {
     Nanoseconds least_margin_ns = 500'000;
     Nanoseconds most_margin_ns = 6'000'000;
     Nanoseconds lead_ns = 500'000;  // a picture finished less than this before a vblank misses it
-    // Lets the next frame's work on the processor begin while the graphics device draws this one: more frames, none of
-    // them sooner.
-    bool overlap = false;
 };
 
 struct FramePlan {
@@ -56,11 +53,9 @@ struct FramePlan {
 // Measured outcome of a plan.
 struct FrameMeasure {
     FramePlan plan;
-    Nanoseconds sampled_ns = 0;    // when the head that it shows was sampled
-    Nanoseconds submitted_ns = 0;  // the processor's work was done
-    Nanoseconds finished_ns = 0;   // the graphics device's work was done
-    Nanoseconds graphics_ns = 0;   // of which the device worked for this frame
-    Nanoseconds blocked_ns = 0;    // acquire and present waited for the display
+    Nanoseconds sampled_ns = 0;   // when the head that it shows was sampled
+    Nanoseconds finished_ns = 0;  // the processor's and the graphics device's work was done
+    Nanoseconds blocked_ns = 0;   // acquire and present waited for the display
     // A vblank that was seen: by a present that was waited for, a vblank counter, or the return of a call that blocked.
     std::optional<Nanoseconds> flip_ns;
     // When this very frame was first shown, where the window system reports it.
@@ -82,7 +77,6 @@ struct PacingState {
     // The work.
     std::array<Nanoseconds, 32> work_ns{};  // a ring; work_count says how many are valid
     std::uint64_t work_count = 0;
-    Nanoseconds processor_ns = 0, graphics_ns = 0;  // recent work of each alone
     double margin_ns = 0.0;
     // The rate.
     std::uint32_t interval = 1;

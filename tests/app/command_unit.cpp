@@ -45,6 +45,8 @@ TEST(Command, RefusesWrongUsageWithStatusTwo) {
     expect_refused(place, "sculpt --workpiece ball:1 --engine gpu", 2, {"--engine"});
     expect_refused(place, "sculpt --workpiece ball:1 --hand mine", 2, {"--hand"});
     expect_refused(place, "sculpt --workpiece ball:1 --bogus", 2, {"--bogus"});
+    expect_refused(place, "sculpt --workpiece ball:1 --undo -1", 2, {"--undo", "below zero"});
+    expect_refused(place, "sculpt --workpiece ball:1 --sweep-tolerance nan", 2, {"--sweep-tolerance", "nan"});
     expect_refused(place, "fly", 2, {"fly"});
 }
 
@@ -221,6 +223,12 @@ TEST(Command, AWorkpieceFarFromItsOriginIsExportedOnlyWhereNumbersSuffice) {
     const auto outcome = place.run(kBurin + " sculpt --workpiece far.off --resolution 48 --export out.obj");
     EXPECT_EQ(outcome.status, 0) << outcome.output;
     EXPECT_EQ(place.run(std::string(MESH_AUDIT) + " out.obj").status, 0);
+    place.write("tiny.off",
+                "OFF\n4 4 0\n100000 0 0\n100000.001 0 0\n100000 1 0\n100000 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+    const auto converted = place.run(kBurin + " convert tiny.off tiny.stl");
+    EXPECT_EQ(converted.status, 1) << converted.output;
+    EXPECT_TRUE(converted.output.contains("2 triangles have no area")) << converted.output;
+    EXPECT_EQ(place.run(kBurin + " convert tiny.off tiny.obj").status, 0);
 }
 
 TEST(Command, AnExistingFileSurvivesAFailedRun) {
@@ -254,6 +262,7 @@ TEST(Command, ConvertsBetweenFormatsAndTellsHealth) {
     EXPECT_NE(outcome.output.find("4 triangles"), std::string::npos) << outcome.output;
     EXPECT_EQ(place.run(std::string(MESH_AUDIT) + " t.ply").status, 0);
     expect_refused(place, "convert missing.off t.stl", 1, {"missing.off"});
+    expect_refused(place, "convert t.off ./t.off", 1, {"t.off", "overwrite"});
 }
 
 TEST(Command, VersionListsTheVulkanDevicesOrSaysWhyNot) {

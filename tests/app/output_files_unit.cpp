@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <vector>
 
 #include "tests/support/run_command.hpp"
 
@@ -26,6 +27,21 @@ TEST(OutputFiles, AreRefusedBeforeAnythingIsWrittenWhereTheyCannotBe) {
     EXPECT_NE(refused(std::array{good[0], missing + "/c.ply"}, report).find(missing), std::string::npos);
     EXPECT_NE(refused(std::array{good[0], (place / "c.off").string()}, report).find("c.off"), std::string::npos);
     EXPECT_EQ(place.files(), 0u);
+}
+
+TEST(OutputFiles, OverwriteNeitherAnInputNorEachOther) {
+    const Workplace place;
+    place.write("in.csv", "x");
+    place.write("in.stl", "x");
+    const std::array inputs{(place / "in.stl").string(), (place / "in.csv").string(), std::string("block:1,1,1")};
+    const auto refused = [&](const std::vector<std::string>& exports, const std::string& report) {
+        const auto checked = check_outputs(exports, report, inputs);
+        return checked ? "" : checked.error().line();
+    };
+    EXPECT_EQ(refused({(place / "a.stl").string()}, (place / "r.json").string()), "");
+    EXPECT_TRUE(refused({(place / "./in.stl").string()}, "").contains("is an input"));
+    EXPECT_TRUE(refused({}, (place / "in.csv").string()).contains("is an input"));
+    EXPECT_TRUE(refused({(place / "a.stl").string(), (place / "./a.stl").string()}, "").contains("two outputs"));
 }
 
 }  // namespace burin::app

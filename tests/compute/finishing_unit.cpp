@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is done to a carved mesh before it leaves: self-intersections found and repaired, slivers counted, simplification
-// that adds no faults.
+// What is done to a carved mesh before it leaves: self-intersections found and repaired, slivers counted,
+// simplification that adds no faults.
 #include <gtest/gtest.h>
 
 #include <algorithm>

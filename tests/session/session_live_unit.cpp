@@ -2,7 +2,9 @@
 // The roles beside a live session: what it watches, logs and queues.
 #include <gtest/gtest.h>
 
+#include "session/drive/session.hpp"
 #include "session/live/live_session.hpp"
+#include "tests/support/run_command.hpp"
 
 namespace burin::session {
 namespace {
@@ -161,6 +163,54 @@ TEST(ScreenshotQueue, GivesEachNameOnceInItsFolder) {
 TEST(LivePanel, KeepsAWandsPressesOnAStandingPanelFromTheScene) {
     EXPECT_NEAR(carried_m(-0.3, 1.25), 0.1, 1e-6) << "beside the panel the wand carries the scene";
     EXPECT_EQ(carried_m(1.05, 1.25), 0.0) << "on the panel it does not";
+}
+
+namespace {
+
+// A script that refuses to begin needs no graphics device.
+SculptOptions scripted(const Workplace& place, const std::string& script) {
+    place.write("script.txt", "burin-input 1\n" + script);
+    SculptOptions options;
+    options.workpiece = {"ball:0.1", 32, false};
+    options.live.input = (place / "script.txt").string();
+    options.live.offscreen = true;
+    return options;
+}
+
+}  // namespace
+
+TEST(RunSession, RefusesWhatOnlyCarvingAlongAStrokeDoesAndSaysWhatToDoInstead) {
+    const Workplace place;
+    const SculptOptions plain = scripted(place, "0.1 command quit\n");
+    const auto refused = [&](const std::string& option, const SculptOptions& options) {
+        const auto outcome = run_session(options);
+        ASSERT_FALSE(outcome) << option;
+        EXPECT_EQ(outcome.error().where, option);
+        EXPECT_FALSE(outcome.error().remedy.empty()) << option;
+    };
+    SculptOptions options = plain;
+    options.stroke = "stroke.csv";
+    refused("--stroke", options);
+    options = plain;
+    options.exports = {"part.stl"};
+    refused("--export", options);
+    options = plain;
+    options.pictures = "pictures";
+    refused("--pictures", options);
+    options = plain;
+    options.report = "report.json";
+    refused("--report", options);
+}
+
+TEST(RunSession, NamesAFolderForScreenshotsThatCannotBeMade) {
+    const Workplace place;
+    SculptOptions options = scripted(place, "0.1 command quit\n");
+    place.write("file", "");
+    options.live.screenshots = (place / "file").string() + "/shots";
+    const auto outcome = run_session(options);
+    ASSERT_FALSE(outcome);
+    EXPECT_EQ(outcome.error().where, options.live.screenshots);
+    EXPECT_TRUE(outcome.error().line().contains("--screenshots")) << outcome.error().line();
 }
 
 }  // namespace burin::session

@@ -69,15 +69,10 @@ private:
         now_ns_ = m.plan.wake_ns + up_to(oversleep_ns);
         m.sampled_ns = now_ns_;
         now_ns_ += processor(m.plan.frame);
-        m.submitted_ns = now_ns_;
-        m.graphics_ns = graphics(m.plan.frame);
-        m.finished_ns = std::max(now_ns_, graphics_free_ns_) + m.graphics_ns;
-        graphics_free_ns_ = m.finished_ns;
+        m.finished_ns = now_ns_ + graphics(m.plan.frame);
         const Nanoseconds shown_ns = present(m);
-        if (!state.settings.overlap) {
-            now_ns_ = std::max(now_ns_, m.finished_ns);
-            state = frame_finished(state, m.plan, m.finished_ns);
-        }
+        now_ns_ = std::max(now_ns_, m.finished_ns);
+        state = frame_finished(state, m.plan, m.finished_ns);
         pending_.emplace_back(shown_ns, m);
         return {m.plan, m.sampled_ns, m.finished_ns, shown_ns, m.plan.interval};
     }
@@ -111,7 +106,7 @@ private:
 
     std::mt19937 random_{1};
     Nanoseconds now_ns_ = 1'000'000'000'000;  // like a monotonic clock, not from 0
-    Nanoseconds graphics_free_ns_ = 0, last_shown_ns_ = 0;
+    Nanoseconds last_shown_ns_ = 0;
     std::deque<Nanoseconds> queue_;
     std::deque<std::pair<Nanoseconds, FrameMeasure>> pending_;
 };
@@ -222,21 +217,6 @@ TEST(FramePacing, ALoadAboutAsLongAsAPeriodChangesItsRateSeldom) {
     EXPECT_LE(changes, 4);
 }
 
-TEST(FramePacing, OverlapKeepsTheFullRateWhereProcessorAndGraphicsEachFit) {
-    Session session({.overlap = true});
-    session.processor = [](std::uint64_t) { return 7 * kMs; };
-    session.graphics = [](std::uint64_t) { return 11 * kMs; };  // 18 ms in all
-    const auto frames = last(session.run(600), 300);
-    EXPECT_NEAR(rate_Hz(frames), 60.0, 0.01);
-    EXPECT_EQ(late(frames, k60), 0);
-    EXPECT_LE(oldest_head(frames), 20 * kMs);
-
-    Session alone;  // one frame at a time
-    alone.processor = session.processor;
-    alone.graphics = session.graphics;
-    EXPECT_NEAR(rate_Hz(last(alone.run(600), 300)), 30.0, 0.01);
-}
-
 TEST(FramePacing, OversleepingAndNoisyFlipsOfMillisecondsAreRiddenOut) {
     Session session;
     session.oversleep_ns = 3 * kMs;
@@ -344,7 +324,7 @@ PacingState with_lead() {
         FrameMeasure m;
         m.plan = planned.plan;
         m.sampled_ns = m.plan.wake_ns;
-        m.submitted_ns = m.finished_ns = m.plan.wake_ns + 2 * kMs;
+        m.finished_ns = m.plan.wake_ns + 2 * kMs;
         m.displayed_ns = m.flip_ns = m.plan.display_ns / k60 * k60;
         state = after_frame(frame_finished(planned.state, m.plan, m.finished_ns), m);
     }
@@ -372,7 +352,7 @@ TEST(FramePacing, APictureFinishedWithinTheLeadIsTakenToBeSeenAPeriodLater) {
     FrameMeasure m;
     m.plan = first.plan;
     m.sampled_ns = first.plan.wake_ns;
-    m.submitted_ns = m.finished_ns = finished_ns;
+    m.finished_ns = finished_ns;
     const PacingState told = after_frame(late, m);
     EXPECT_EQ(told.missed, late.missed + 1);
     EXPECT_NEAR(static_cast<double>(told.head_age_ns),
@@ -382,7 +362,7 @@ TEST(FramePacing, APictureFinishedWithinTheLeadIsTakenToBeSeenAPeriodLater) {
     const PlannedFrame free = plan_frame(blind, 0);
     m.plan = free.plan;
     m.sampled_ns = 0;
-    m.submitted_ns = m.finished_ns = 20 * kMs;
+    m.finished_ns = 20 * kMs;
     EXPECT_EQ(after_frame(free.state, m).head_age_ns, 20 * kMs + kLead);
 }
 

@@ -61,7 +61,7 @@ struct Loop {
         measure.plan = planned.plan;
         measure.sampled_ns = now_ns;
         now_ns += work_ns;
-        measure.submitted_ns = measure.finished_ns = now_ns;
+        measure.finished_ns = now_ns;
         pacing = frame_finished(pacing, planned.plan, now_ns);
         frames.handed(measure, display.hand(now_ns), now_ns);
         foreseen_wrong_ns.push_back(std::abs(display.shown_ns.back() - planned.plan.display_ns));

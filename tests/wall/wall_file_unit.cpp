@@ -181,6 +181,9 @@ TEST(WallCommand, ShowsChecksAndDraws) {
     EXPECT_NE(bad.output.find("on a line"), std::string::npos) << bad.output;
     place.write("mode.toml", with("pixels", "mode = \"shutter\"\npixels"));
     EXPECT_EQ(place.run(kBurin + " wall check mode.toml").status, 1);
+    place.write("wide.toml", with("[-100, 150, 0]", "[-100, 1e30, 0]"));
+    EXPECT_LT(place.run(kBurin + " wall show wide.toml --svg wide.svg").output.size(), 1u << 20);
+    EXPECT_LT(place.read("wide.svg").size(), 1u << 20) << "a line for every few metres";
     EXPECT_EQ(place.run(kBurin + " wall").status, 2);
     const auto missing = place.run(kBurin + " wall show none.toml");
     EXPECT_EQ(missing.status, 1);
