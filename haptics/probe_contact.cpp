@@ -17,7 +17,7 @@ constexpr double kJump_m = 0.0005;
 class PointContact {
 public:
     // Records into `step`, which must outlive the object.
-    PointContact(const ProbeInput& input, ProbeStep& step, std::uint32_t index)
+    PointContact(const ProbeInput& input, const ProbeStep& step, std::uint32_t index)
         : input_(input),
           step_(step),
           point_(input.parameters.probe.points[index]),
@@ -110,7 +110,7 @@ private:
     }
 
     const ProbeInput& input_;
-    ProbeStep& step_;
+    const ProbeStep& step_;
     const ProbePoint& point_;
     ProxyState& state_;
     std::uint8_t& material_;
@@ -182,8 +182,7 @@ std::uint32_t deepest_of(const ContactRecord& contact) {
 
 }  // namespace
 
-ProbeStep touch_surface(const ProbeState& state, const ProbeInput& input) noexcept {
-    ProbeStep step{state, {}, 0};
+void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept {
     ContactRecord& contact = step.contact;
     contact.point_count = input.parameters.probe.count;
     const bool pressed = (input.sample.buttons & 1u) != 0;
@@ -219,15 +218,12 @@ ProbeStep touch_surface(const ProbeState& state, const ProbeInput& input) noexce
     contact.deepest = deepest_of(contact);
     contact.wrench = sum_of({forces.data(), contact.point_count});
     contact.wrench.force_device_N += drag_device_N;
-    return step;
 }
 
-ProbeStep follow_hand(const ProbeState& state, const ProbeInput& input) noexcept {
-    ProbeStep step{state, {}, 0};
+void follow_hand(const ProbeStep& step, const ProbeInput& input) noexcept {
     step.contact.point_count = input.parameters.probe.count;
     for (std::uint32_t i = 0; i < step.contact.point_count; ++i) PointContact(input, step, i).stay_with_hand();
     step.contact.cut_object_m = step.contact.points[0].hip_object_m;
-    return step;
 }
 
 }  // namespace burin::haptics

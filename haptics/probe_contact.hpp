@@ -26,17 +26,19 @@ struct ProbeInput {
     double dt_s;
 };
 
+// Where a step of the probe puts its results: in the tick's own, which are too large to be copied a thousand times a
+// second.
 struct ProbeStep {
-    ProbeState next;
-    ContactRecord contact;    // its wrench is as the walls give it, not yet filtered
-    std::uint32_t flags = 0;  // TickFlag bits that contact sets
+    ProbeState& next;        // holds the state before
+    ContactRecord& contact;  // default; its wrench becomes what the walls give, not yet filtered
+    std::uint32_t& flags;    // TickFlag bits that contact sets are added
 };
 
 // Computes, for each point, its proxy on the surface, the wall as the device may render it, and the force; the first
 // point also cuts.
-[[nodiscard]] ProbeStep touch_surface(const ProbeState& state, const ProbeInput& input) noexcept;
+void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept;
 
 // Lets the proxies follow the hand while nothing is touched.
-[[nodiscard]] ProbeStep follow_hand(const ProbeState& state, const ProbeInput& input) noexcept;
+void follow_hand(const ProbeStep& step, const ProbeInput& input) noexcept;
 
 }  // namespace burin::haptics

@@ -127,10 +127,11 @@ void compute_tick(const TickResult& t, const TickState& state, const devices::De
     if (!searchable) record.flags |= kTickNoSurface;
     const bool touches = searchable && parameters.enabled && !workspace.paused;
     const ProbeInput input{sample, motion, surface, parameters, device, dt_s};
-    const ProbeStep probe = touches ? touch_surface(next.probe, input) : follow_hand(next.probe, input);
-    next.probe = probe.next;
-    record.contact = probe.contact;
-    record.flags |= probe.flags;
+    const ProbeStep probe{next.probe, record.contact, record.flags};
+    if (touches)
+        touch_surface(probe, input);
+    else
+        follow_hand(probe, input);
     next.in_contact = record.in_contact();
     const double age_s = seconds(now_ns - surface.made_ns);
     if (next.in_contact && parameters.max_surface_age_s > 0.0 && age_s > parameters.max_surface_age_s)
