@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the peers that draw with OpenGL (OpenSceneGraph and VTK) share: an eye's view in OpenGL's conventions, the
+// Shared by the peers that draw with OpenGL (OpenSceneGraph and VTK): an eye's view in OpenGL's conventions, the
 // conversion of their pictures, and the light of a way (bench/frame/frame.hpp) as text in GLSL, with the scene's
 // constants in it. An eye's axes are the world's, so directions are the same in both frames.
 #pragma once

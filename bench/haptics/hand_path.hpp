@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the hand moves in bench haptics: on a given path, pressed into the surface, with a device that does not yield to
+// Moves the hand in bench haptics: on a given path, pressed into the surface, with a device that does not yield to
 // force, so that every run touches the same places.
 #pragma once
 

@@ -2,7 +2,7 @@
 // Reads OBJ: v (with w or with a colour: x y z r g b), f (and the old fo) with positive or negative indices, usemtl,
 // mtllib. A face may name a vertex that comes later. Texture coordinates, normals, groups and smoothing are skipped
 // silently, since they do not change the surface; lines, points, curves and free-form surfaces are counted in a remark.
-// Of the material files (MTL) only the diffuse colours (Kd) are read.
+// Reads only the diffuse colours (Kd) of material files (MTL).
 #include <algorithm>
 #include <cmath>
 #include <limits>

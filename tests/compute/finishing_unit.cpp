@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is done to a carved mesh before it leaves: self-intersections found and repaired, slivers counted,
+// Finishing of a carved mesh for export: self-intersections found and repaired, slivers counted,
 // simplification that adds no faults.
 #include <gtest/gtest.h>
 

@@ -209,7 +209,7 @@ TEST(SurfaceUpdate, MergedTellsTheNewestOfEverythingAndEveryMessage) {
 // ---- Where the tool works
 
 namespace {
-// As Bench::sample, with all places of its own.
+// Pushes a pressed sample whose hand and proxy are apart, with its flags and phase.
 void push(Bench& bench, const Vec3& hand, const Vec3& proxy, std::uint32_t flags,
           haptics::WorkspacePhase phase = haptics::WorkspacePhase::editing) {
     haptics::StrokeSample s;
