@@ -14,11 +14,25 @@ Candidates::Ball Candidates::ball_around(const geometry::Triangle& t) const noex
     return {middle, size2 * 1.00002f};
 }
 
+// The lanes decide in float whether a foot lies inside an edge. Where that is uncertain, by an angle's sine times the
+// rounding of coordinates, the distance is uncertain by as much; slivers are thus left to the exact test.
 void Candidates::add(std::uint32_t id, const geometry::Triangle& t, const Vec3& unit_normal,
                      const Ball& ball) noexcept {
-    fours_[count_ / geometry::kLanes].set(count_ % geometry::kLanes, Vec3f(unit_normal),
-                                          static_cast<float>(glm::dot(way_.from - t.a, unit_normal)), ball.middle,
-                                          std::sqrt(ball.size2) * 1.000001f);
+    Four& four = fours_[count_ / geometry::kLanes];
+    const std::size_t lane = count_ % geometry::kLanes;
+    const Vec3f u(t.b - t.a), v(t.c - t.a);
+    const float size = std::sqrt(ball.size2) * 1.000001f;
+    set(four.normal, lane, Vec3f(unit_normal));
+    four.height[lane] = static_cast<float>(glm::dot(way_.from - t.a, unit_normal));
+    set(four.middle, lane, ball.middle);
+    four.radius[lane] = size;
+    four.clear_until[lane] = 0.0f;
+    set(four.corner, lane, Vec3f(t.a - way_.from));
+    set(four.u, lane, u);
+    set(four.v, lane, v);
+    const Vec3f twice_area = glm::cross(u, v);
+    const float sine2 = glm::dot(twice_area, twice_area) / (glm::dot(u, u) * glm::dot(v, v));
+    four.rounding[lane] = rounding_ + 1e-6f * (2.5e6f * rounding_ + size) / std::sqrt(sine2);
     ids_[count_] = id;
     triangles_[count_] = t;
     ++count_;
@@ -26,14 +40,22 @@ void Candidates::add(std::uint32_t id, const geometry::Triangle& t, const Vec3& 
 
 // Fills the last group of four with planes that nothing reaches, so that passes need not treat it separately.
 void Candidates::fill_last_four() noexcept {
-    for (std::uint32_t i = count_; i % geometry::kLanes != 0; ++i)
-        fours_[i / geometry::kLanes].set(i % geometry::kLanes, Vec3f(0.0f), HUGE_VALF, Vec3f(0.0f), 0.0f);
+    for (std::uint32_t i = count_; i % geometry::kLanes != 0; ++i) {
+        Four& four = fours_[i / geometry::kLanes];
+        const std::size_t lane = i % geometry::kLanes;
+        for (geometry::Vec3Lanes* lanes : {&four.normal, &four.middle, &four.corner, &four.u, &four.v})
+            set(*lanes, lane, Vec3f(0.0f));
+        four.height[lane] = four.clear_until[lane] = HUGE_VALF;
+        four.radius[lane] = four.rounding[lane] = 0.0f;
+    }
 }
 
 Candidates::Gathered Candidates::gather(const geometry::LocalSurface& surface, const Way& way, double radius,
                                         double slack, std::uint32_t& looks_left) noexcept {
     way_ = way;
     slack_ = -1.0;
+    center_ = way.from;
+    travel_ = 0.0f;
     count_ = 0;
     const double reach = radius + slack, reach2 = reach * reach;
     const Vec3 motion = way.to - way.from;

@@ -20,6 +20,10 @@ constexpr double kPointProbeOfEdge = 1.0 / 500.0;
 // more; under shading also when the HIP is off the normal by less than this angle, a tenth of what a hand may notice.
 constexpr double kStill = 1e-5, kStillAngle = 1e-4;
 
+// A step that brings the ball nearer to the HIP by less than this part of its length spends leeway; of what is left, this
+// share is kept for the next tick.
+constexpr double kLeastGain = 1e-3, kKeptLeeway = 0.9;
+
 // Greatest gap, as a fraction of the radius, at which a plane bears the ball with friction.
 constexpr double kBears = 1e-4;
 
@@ -85,8 +89,15 @@ public:
           still_(kStill * std::max(radius_, 0.05 * edge_)),
           hip_(hip_object_m - surface.origin_object),
           search_(surface, radius_, budget, result_.work),
-          facets_(surface) {
-        result_.next = {hip_object_m, surface.sequence, true};
+          facets_(surface),
+          step_share_(state.placed ? state.step_share : 1.0) {
+        result_.next = {.position_object_m = hip_object_m,
+                        .surface_sequence = surface.sequence,
+                        .placed = true,
+                        .hip_object_m = hip_object_m};
+        leeway_ = state.placed ? std::min(kKeptLeeway * state.leeway_m + glm::length(hip_object_m - state.hip_object_m),
+                                          radius_ + edge_)
+                               : 0.0;
         center_ = state.placed ? state.position_object_m - surface.origin_object : hip_;
         slips_ = state.slipping;
     }
@@ -146,9 +157,25 @@ private:
         }
         Goal goal = goal_of(plain, pull);
         if (!goal.found || !goal.in_contact || !settings_.shading) return goal;
-        shade(goal, plain, pull, false);
-        if (goal.is_shaded) onto_surface(goal);
-        return goal;
+        Goal smooth = goal;
+        shade(smooth, plain, pull, false);
+        if (!smooth.is_shaded) return goal;
+        onto_surface(smooth);
+        return smooth.left <= smooth.enough || spend_leeway(smooth, goal, pull) ? smooth : goal;
+    }
+
+    // Shading may lead the ball away from the HIP. On a rough surface it can then slide back for ever, round and round,
+    // while the hand holds still. So it spends leeway, which only the hand's motion gives, on each step that does not
+    // bring the ball nearer to the HIP by a small part of its length. When none is left the ball goes where it goes
+    // without shading, which always is nearer to the HIP: its way comes to an end. Compared with the goal without
+    // shading, for a ball that must be pushed out of the surface goes away from the HIP in any case.
+    [[nodiscard]] bool spend_leeway(const Goal& smooth, const Goal& plain, const Vec3& pull) {
+        const double before = std::max(glm::length(pull), glm::length(pull - plain.step));
+        const double cost = glm::length(pull - smooth.step) - before + kLeastGain * glm::length(smooth.step);
+        if (cost <= 0.0) return true;
+        if (cost > leeway_) return false;
+        leeway_ -= cost;
+        return true;
     }
 
     NearestInside nearest_in(std::span<const HalfSpace> planes, const Vec3& pull) {
@@ -278,6 +305,7 @@ private:
         if (goal.step == Vec3(0.0)) return;
         const double share = goal.is_shaded ? step_share_.of(center_, goal.step) : 1.0;
         goal.step = onto_true_planes(touches_, share * goal.step, goal.normal, kPlane * radius_);
+        goal.left = std::min(goal.left, glm::length(goal.step) / share);
     }
 
     void note_active(const NearestInside& goal) {
@@ -333,7 +361,6 @@ private:
     }
 
     ProxyResult at_rest(const Goal& goal) {
-        if (goal.left <= still_) center_ += goal.step;
         stay();
         result_.sticking = !slid_ && settings_.static_friction > 0.0;
         result_.normal_object = goal.normal;
@@ -360,6 +387,8 @@ private:
         result_.next.slipping = slid_;
         result_.next.touching = true;
         result_.next.motion_object_m = center_ - began_;
+        result_.next.leeway_m = leeway_;
+        result_.next.step_share = step_share_.last();
     }
 
     ProxySettings settings_;
@@ -376,7 +405,8 @@ private:
     StepShare step_share_;
     struct {
         std::uint32_t constraints = 0, triangle = 0;
-    } last_;              // the last contact found in this tick
+    } last_;  // the last contact found in this tick
+    double leeway_ = 0.0;
     bool slips_ = false;  // the cone of dynamic friction applies, not the static one
     bool slid_ = false;   // in this tick
 };

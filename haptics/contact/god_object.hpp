@@ -41,6 +41,9 @@ struct ProxyState {
     // as the first guess of the broad phase.
     bool touching = false;
     Vec3 motion_object_m{0.0};
+    Vec3 hip_object_m{0.0};   // of the last tick
+    double leeway_m = 0.0;    // what shading may still spend on moving the proxy away from the HIP
+    double step_share = 1.0;  // of the last step under shading
 };
 
 struct ProxySettings {

@@ -188,16 +188,15 @@ Vec3 onto_true_planes(const Touches& touches, const Vec3& wish, const Vec3& norm
 }
 
 double StepShare::of(const Vec3& center, const Vec3& wish) noexcept {
-    double share = 1.0;
     if (known_) {
         const Vec3 moved = center - center_, lost = wish_ - wish;
         const double curvature = glm::dot(moved, lost), moved2 = glm::dot(moved, moved);
-        if (curvature > 0.0) share = std::clamp(moved2 / curvature, 0.05, 2.0);
+        if (curvature > 0.0) share_ = std::clamp(moved2 / curvature, 0.05, 2.0);
     }
     known_ = true;
     center_ = center;
     wish_ = wish;
-    return share;
+    return share_;
 }
 
 }  // namespace burin::haptics

@@ -66,10 +66,13 @@ private:
 // Numerical Analysis 8, 1988).
 class StepShare {
 public:
+    explicit StepShare(double share) noexcept : share_(share) {}
     [[nodiscard]] double of(const Vec3& center, const Vec3& wish) noexcept;
+    [[nodiscard]] double last() const noexcept { return share_; }
 
 private:
     bool known_ = false;
+    double share_;
     Vec3 center_{0.0}, wish_{0.0};
 };
 

@@ -272,13 +272,18 @@ TEST(GodObject, MillimetresAndMetresGiveTheSameMotion) {
         const Surface unit =
             test::height_field(2.0, 40, [](double x, double z) { return 0.3 * std::sin(3.0 * x) * std::cos(2.0 * z); });
         Walker w{wavy.get(), 0.2 * scale}, u{unit.get(), 0.2};
+        int compared = 0;
         for (int i = 0; i < 500; ++i) {
             const Vec3 hip(1.5 * std::sin(0.011 * i), 0.6 - 0.002 * i, 1.5 * std::sin(0.007 * i));
             w.put(scale * hip);
             u.put(hip);
+            // A proxy that is still on its way when its steps are used up may be a step ahead of the other.
+            if (w.last.work_limited || u.last.work_limited) continue;
+            ++compared;
             // Single-precision vertices round differently at each scale: 1e-7 of 2.
             EXPECT_LT(glm::length(w.proxy() / scale - u.proxy()), 1e-4) << scale << ' ' << i;
         }
+        EXPECT_GE(compared, 480);
     }
 }
 
