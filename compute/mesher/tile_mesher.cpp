@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "compute/mesher/cell_table.hpp"
 #include "compute/mesher/cell_vertices.hpp"
@@ -39,6 +40,17 @@ std::uint64_t lattice_key(const Lattice& lattice, const std::array<int, 3>& firs
     return key * 16 + static_cast<std::uint64_t>(slot);
 }
 
+float longest_edge_m(const geometry::SurfaceTile& tile) {
+    float longest2 = 0.0f;
+    const auto place = [&](std::size_t i) { return geometry::place_of(tile.vertices[tile.indices[i]]); };
+    for (std::size_t i = 0; i < tile.indices.size(); i += 3) {
+        const Vec3f a = place(i), b = place(i + 1), c = place(i + 2);
+        const Vec3f ab = b - a, bc = c - b, ca = a - c;
+        longest2 = std::max({longest2, glm::dot(ab, ab), glm::dot(bc, bc), glm::dot(ca, ca)});
+    }
+    return std::sqrt(longest2);
+}
+
 // Buffers of one thread, kept between calls so that their memory is reused.
 struct Scratch {
     TileSamples samples;
@@ -65,6 +77,7 @@ public:
         make_quads();
         draft_.vertices.assign_to(mesh_.vertices);
         draft_.indices.assign_to(mesh_.indices);
+        mesh_.longest_edge_m = longest_edge_m(mesh_);
         draft_.quads.assign_to(mesh_.quads);
         draft_.cells.assign_to(mesh_.cells);
         draft_.vertex_of_edge.assign_to(mesh_.vertex_of_edge);

@@ -12,7 +12,7 @@
 // it asks for a newer one.
 // Positions are float, in metres, relative to origin_object, so that their resolution is 1e-7 of the solid's size
 // however far it lies from the object's origin. A triangle winds counter-clockwise seen from outside the material; only
-// its outer side can be touched.
+// its outer side can be touched, but for those of a mesh without thickness (TouchedMesh::two_sided).
 // Validity: the surface is complete within the ball (center_object, radius_m) and unknown outside it: a tick whose tool
 // leaves the ball flags that and gives no force. Triangles of a tile beyond the ball are correct all the same.
 // made_ns is also the carving side's heartbeat: while the tool is in contact it must publish at least as often as
@@ -36,6 +36,8 @@ namespace burin::geometry {
 struct TouchedMesh {
     std::shared_ptr<const TouchSnapshot> snapshot;
     std::uint8_t material = 0;  // which of the session's materials (haptics/forces/touch_force.hpp)
+    // A surface without thickness, felt from either side: the side on which the tool is. Else only the outer side is.
+    bool two_sided = false;
 };
 
 struct LocalSurface {
@@ -58,6 +60,8 @@ struct LocalSurface {
     [[nodiscard]] Triangle triangle(std::uint32_t id) const noexcept;
     // Returns the triangle's material; 0 for tiles and loose triangles.
     [[nodiscard]] std::uint8_t material(std::uint32_t id) const noexcept;
+    // Tells whether the triangle is part of a mesh that is felt from either side.
+    [[nodiscard]] bool two_sided(std::uint32_t id) const noexcept;
     // Returns the normals at the triangle's corners; unknown for loose triangles.
     [[nodiscard]] CornerNormals corner_normals(std::uint32_t id) const noexcept;
     // Returns the length scale of the surface: the smallest of the tiles' cell, the loose triangles' mean edge and the
@@ -105,6 +109,11 @@ inline Triangle LocalSurface::triangle(std::uint32_t id) const noexcept {
 inline std::uint8_t LocalSurface::material(std::uint32_t id) const noexcept {
     const Place place = in_meshes(id);
     return place.mesh == nullptr ? std::uint8_t{0} : place.mesh->material;
+}
+
+inline bool LocalSurface::two_sided(std::uint32_t id) const noexcept {
+    const Place place = in_meshes(id);
+    return place.mesh != nullptr && place.mesh->two_sided;
 }
 
 inline CornerNormals LocalSurface::corner_normals(std::uint32_t id) const noexcept {

@@ -9,39 +9,55 @@
 
 namespace burin::geometry {
 
-// Visits the triangles of one mesh, whose origin is `shift` from the surface's origin; their ids begin with `first`.
-template <typename Visit>
+// Visits the triangles of one mesh, whose origin is `shift` from the surface's origin; their numbers begin with `first`.
+template <typename Visitor>
 bool for_each_near_in_mesh(const TouchSnapshot& snapshot, const Vec3& shift, std::uint32_t first, Near& near,
-                           Visit&& visit) {
-    Near shifted{near.lo - shift, near.hi - shift, near.reach_m, near.looks_left};
-    const bool all = for_each_near(snapshot, shifted, [&](std::uint32_t i, const Triangle& t) {
+                           const Visitor& visit) {
+    Near shifted = near;
+    for (Vec3* const place : {&shifted.lo, &shifted.hi, &shifted.from, &shifted.to}) *place -= shift;
+    const auto triangle = [&](std::uint32_t i, const Triangle& t) {
         near.looks_left = shifted.looks_left;
-        if (!visit(first + i, Triangle{t.a + shift, t.b + shift, t.c + shift})) return false;
+        if (!visit.triangle(first + i, Triangle{t.a + shift, t.b + shift, t.c + shift})) return false;
         shifted.reach_m = near.reach_m;
         return true;
-    });
+    };
+    bool all = false;
+    if constexpr (Visitor::kWantsPoints)
+        all = for_each_near(snapshot, shifted, MixedVisitor{triangle, visit.point, visit.fineness}, shift);
+    else
+        all = for_each_near(snapshot, shifted, TriangleVisitor{triangle});
     near.looks_left = shifted.looks_left;
     return all;
 }
 
-// Calls visit(id, triangle) once for each triangle within near.reach_m of the box [near.lo, near.hi], and for some a
-// little farther off, but for no degenerate one. visit may reduce near.reach_m for the triangles that follow. The order
-// depends only on the surface and the query. Ends and returns false when visit returns false, or when near.looks_left
-// is used up.
-template <typename Visit>
-bool for_each_triangle_near(const LocalSurface& surface, Near& near, Visit&& visit) {
+// Visits the triangles within near.reach_m of the box [near.lo, near.hi], each once, and some a little farther off, but
+// no degenerate one: visit.triangle(id, triangle). It may reduce near.reach_m for the triangles that follow. Where the
+// visitor wants points and the surface is fine, visits the vertices near the segment of the query instead:
+// visit.point(point). The order depends only on the surface and the query. Ends and returns false when a visit returns
+// false, or when near.looks_left is used up.
+template <typename Visitor>
+bool for_each_near(const LocalSurface& surface, Near& near, const Visitor& visit) {
     if (surface.tiles.triangles > 0 && !for_each_near(surface.tiles, near, visit)) return false;
     std::uint32_t first = surface.tiles.triangles;
-    const auto visit_loose = [&](std::uint32_t i, const Triangle& t) { return visit(first + i, t); };
+    const auto visit_loose = [&](std::uint32_t i, const Triangle& t) { return visit.triangle(first + i, t); };
     if (surface.loose && !for_each_near(*surface.loose, near, visit_loose)) return false;
     first += surface.loose_triangles();
     for (const TouchedMesh& mesh : surface.meshes) {
         if (!mesh.snapshot) continue;
         const Vec3 shift = mesh.snapshot->origin_object - surface.origin_object;
-        if (!for_each_near_in_mesh(*mesh.snapshot, shift, first, near, visit)) return false;
+        // Vertices do not say which side of a sheet they are seen from.
+        if (mesh.two_sided ? !for_each_near_in_mesh(*mesh.snapshot, shift, first, near, TriangleVisitor{visit.triangle})
+                           : !for_each_near_in_mesh(*mesh.snapshot, shift, first, near, visit))
+            return false;
         first += mesh.snapshot->triangles();
     }
     return true;
+}
+
+// Visits triangles alone.
+template <typename Visit>
+bool for_each_triangle_near(const LocalSurface& surface, Near& near, Visit&& visit) {
+    return for_each_near(surface, near, TriangleVisitor{visit});
 }
 
 // Visits each triangle that may meet the box.
@@ -49,6 +65,18 @@ template <typename Visit>
 bool for_each_triangle_near(const LocalSurface& surface, const Vec3& lo, const Vec3& hi, Visit&& visit) {
     Near near{lo, hi};
     return for_each_triangle_near(surface, near, visit);
+}
+
+// Visits the triangles that have a corner at a vertex of the surface.
+template <typename Visit>
+void for_each_triangle_around(const LocalSurface& surface, const Vec3& vertex, Visit&& visit) {
+    const double tie = 1e-6 * surface.mean_edge_m();  // far below an edge, far above rounding
+    Near near{.lo = vertex, .hi = vertex, .reach_m = tie};
+    for_each_triangle_near(surface, near, [&](std::uint32_t id, const Triangle& t) {
+        for (const Vec3& corner : {t.a, t.b, t.c})
+            if (glm::dot(corner - vertex, corner - vertex) <= tie * tie) return visit(id, t);
+        return true;
+    });
 }
 
 // Returns a box that contains the centre of every triangle.

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/space.hpp"
 #include "shaders/shared/surface_vertex.h"
 
 namespace burin::geometry {
@@ -36,9 +37,12 @@ struct SurfaceTile {
     static constexpr std::size_t kRows = 3 * kCells;
     std::array<std::uint16_t, kRows + 1> row_quads{};
     std::array<std::uint32_t, kRows + 1> row_triangles{};
+    float longest_edge_m = 0.0f;  // of all triangles
 
     [[nodiscard]] std::size_t triangles() const { return indices.size() / 3; }
 };
+
+[[nodiscard]] inline Vec3f place_of(const shared::SurfaceVertex& v) noexcept { return {v.x, v.y, v.z}; }
 
 // The share of light that reaches a vertex past the workpiece itself, from 0 (none) to 255 (all): computed by
 // compute/light/tile_light.hpp, drawn by renderer/. The two bytes are in memory as the vertex shader reads them.

@@ -19,9 +19,9 @@
 #include <vector>
 
 #include "geometry/contact/quad_gate.hpp"
+#include "geometry/contact/surface_points.hpp"
 #include "geometry/contact/surface_tile.hpp"
 #include "geometry/mesh/triangle.hpp"
-#include "shaders/shared/octahedral.h"
 
 namespace burin::geometry {
 
@@ -59,8 +59,6 @@ private:
     using Corners = std::array<const shared::SurfaceVertex*, 3>;
     [[nodiscard]] Corners corners(std::uint32_t number) const noexcept;
 };
-
-[[nodiscard]] inline Vec3f place_of(const shared::SurfaceVertex& v) noexcept { return {v.x, v.y, v.z}; }
 
 inline TileBlock::Corners TileBlock::corners(std::uint32_t number) const noexcept {
     // Finds the last place that does not begin after the number; of several that begin there, the last has triangles.
@@ -255,13 +253,26 @@ bool for_each_near_in_tile(const SurfaceTile& tile, const EdgeDistances& edges, 
     return quads_near.end();
 }
 
-// Visits triangles as for_each_triangle_near does (geometry/contact/local_surface_search.hpp); calls visit(number,
-// triangle).
-template <typename Visit>
-bool for_each_near(const TileBlock& block, Near& near, Visit&& visit) {
+// Whether a tile's surface may be within reach; `first_node` is the tile's first node in the lattice.
+[[nodiscard]] inline bool tile_is_near(const Near& near, double cell_m, const std::array<int, 3>& first_node) noexcept {
+    double outside2 = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double lo = (first_node[static_cast<std::size_t>(axis)] - TileBlock::kReach) * cell_m;
+        const double hi = lo + (SurfaceTile::kCells - 1 + 2.0 * TileBlock::kReach) * cell_m;
+        const double outside = std::max({near.lo[axis] - hi, lo - near.hi[axis], 0.0});
+        outside2 += outside * outside;
+    }
+    return outside2 <= near.reach_m * near.reach_m * (1.0 + 1e-5);
+}
+
+// Visits triangles and points as for_each_near(LocalSurface) does (geometry/contact/local_surface_search.hpp);
+// triangles by their number.
+template <typename Visitor>
+bool for_each_near(const TileBlock& block, Near& near, const Visitor& visit) {
     constexpr int kCells = SurfaceTile::kCells;
     // the longest edge is at most the diagonal of a cube of 2 kReach cells
     QuadGate gate(near, 5.5 * block.cell_m, block.cell_m);
+    const PointGate points(near, Vec3(0.0));
     const NodeRange nodes = nodes_near(block, near);
     std::array<int, 3> from{}, to{};  // indices of places
     for (std::size_t k = 0; k < 3; ++k) {
@@ -275,11 +286,18 @@ bool for_each_near(const TileBlock& block, Near& near, Visit&& visit) {
                 const TileBlock::Place& place =
                     block.places[static_cast<std::size_t>((z * block.count[1] + y) * block.count[0] + x)];
                 if (!place.tile) continue;
-                const EdgeDistances edges(
-                    near, block.cell_m,
-                    {(block.first[0] + x) * kCells, (block.first[1] + y) * kCells, (block.first[2] + z) * kCells});
+                const std::array<int, 3> first_node{(block.first[0] + x) * kCells, (block.first[1] + y) * kCells,
+                                                    (block.first[2] + z) * kCells};
+                if constexpr (Visitor::kWantsPoints)
+                    if (place.tile->longest_edge_m <= visit.fineness.longest_edge_m) {
+                        if (tile_is_near(near, block.cell_m, first_node) &&
+                            !for_each_point_near(*place.tile, points, visit.fineness.stride, near, visit.point))
+                            return false;
+                        continue;
+                    }
+                const EdgeDistances edges(near, block.cell_m, first_node);
                 const auto visit_numbered = [&](std::uint32_t i, const Triangle& t) {
-                    return visit(place.first_triangle + i, t);
+                    return visit.triangle(place.first_triangle + i, t);
                 };
                 if (!for_each_near_in_tile(*place.tile, edges, gate, near, visit_numbered)) return false;
             }

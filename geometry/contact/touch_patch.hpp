@@ -18,6 +18,7 @@
 #include <memory>
 #include <vector>
 
+#include "geometry/contact/surface_points.hpp"
 #include "geometry/contact/touch_boxes.hpp"
 #include "geometry/mesh/componentwise.hpp"
 #include "geometry/mesh/triangle.hpp"
@@ -45,6 +46,7 @@ struct TouchPatch : TouchPart {
     std::vector<Vec3f> positions_m;
     std::vector<Vec3f> normals;
     std::vector<std::uint32_t> mesh_triangles;  // index in the mesh of each triangle
+    float longest_edge_m = 0.0f;                // of all triangles
 
     [[nodiscard]] const std::array<std::uint16_t, 3>& corners(std::uint32_t i) const noexcept {
         return leaves[i / TouchBoxes::kMost].corners[i % TouchBoxes::kMost];
@@ -136,8 +138,10 @@ class TouchSearch {
 public:
     explicit TouchSearch(Near& near) noexcept : near_(near), lo_(near.lo), hi_(near.hi) { widen(); }
 
-    template <typename Visit>
-    bool run(const TouchNode& root, Visit&& visit) {
+    // Points are visited relative to the surface's origin, from which the mesh's is `shift`.
+    template <typename Visitor>
+    bool run(const TouchNode& root, const Visitor& visit, const Vec3& shift = Vec3(0.0)) {
+        const PointGate gate(near_, Vec3(0.0));
         struct Step {
             const TouchNode* node;
             std::uint32_t first, left;  // number of the node's first triangle; bits of children still to be searched
@@ -159,7 +163,7 @@ public:
             const auto child = static_cast<std::uint32_t>(std::countr_zero(at.left));
             at.left &= at.left - 1;
             const std::uint32_t first = at.first + at.node->first_triangle[child];
-            if (!(at.node->of_patches ? in_patch(at.node->patch(child), first, visit)
+            if (!(at.node->of_patches ? in_patch(at.node->patch(child), first, visit, gate, shift)
                                       : enter(at.node->node(child), first)))
                 return false;
         }
@@ -167,10 +171,15 @@ public:
     }
 
 private:
-    template <typename Visit>
-    bool in_patch(const TouchPatch& patch, std::uint32_t first, Visit& visit) {
+    template <typename Visitor>
+    bool in_patch(const TouchPatch& patch, std::uint32_t first, const Visitor& visit, const PointGate& gate,
+                  const Vec3& shift) {
         if (!near_.look()) return false;
         if (!within_reach(patch.frame.lo, patch.frame.hi)) return true;
+        if constexpr (Visitor::kWantsPoints)
+            if (patch.longest_edge_m <= visit.fineness.longest_edge_m)
+                return for_each_point_near(patch.positions_m, patch.normals, shift, gate, visit.fineness.stride, near_,
+                                           visit.point);
         const SteppedBox asked = stepped(patch.frame);
         const Vec3f step_m = 1.0f / patch.frame.steps_per_m;
         for (std::uint32_t leaves = patch.boxes.meeting(asked, patch.count); leaves != 0; leaves &= leaves - 1) {
@@ -188,15 +197,15 @@ private:
         return true;
     }
 
-    template <typename Visit>
+    template <typename Visitor>
     bool in_triangle(const TouchPatch& patch, const std::array<std::uint16_t, 3>& corner, std::uint32_t number,
-                     Visit& visit) {
+                     const Visitor& visit) {
         if (!near_.look()) return false;
         const Vec3f &a = patch.positions_m[corner[0]], &b = patch.positions_m[corner[1]],
                     &c = patch.positions_m[corner[2]];
         if (!within_reach(lower_of(lower_of(a, b), c), upper_of(upper_of(a, b), c))) return true;
         const double reach = near_.reach_m;
-        if (!visit(number, Triangle{Vec3(a), Vec3(b), Vec3(c)})) return false;
+        if (!visit.triangle(number, Triangle{Vec3(a), Vec3(b), Vec3(c)})) return false;
         if (near_.reach_m != reach) widen();
         return true;
     }
@@ -225,14 +234,14 @@ private:
     float reach2_ = 0.0f;
 };
 
-// Visits triangles as for_each_triangle_near does (geometry/contact/local_surface_search.hpp); calls visit(number,
-// triangle), all relative to the snapshot's origin. A look is a test of sixteen boxes of a node, a patch or a leaf, or
-// of one triangle.
-template <typename Visit>
-bool for_each_near(const TouchSnapshot& snapshot, Near& near, Visit&& visit) {
+// Visits triangles and points as for_each_near(LocalSurface) does (geometry/contact/local_surface_search.hpp); triangles
+// by their number, all relative to the snapshot's origin but for points, from whose origin it is `shift`. A look is a
+// test of sixteen boxes of a node, a patch or a leaf, of one triangle, or of four points.
+template <typename Visitor>
+bool for_each_near(const TouchSnapshot& snapshot, Near& near, const Visitor& visit, const Vec3& shift = Vec3(0.0)) {
     // A NaN in the query box meets nothing.
     if (snapshot.triangles() == 0 || !(glm::dot(near.lo, near.hi) + near.reach_m < HUGE_VAL)) return true;
-    return TouchSearch(near).run(*snapshot.root, visit);
+    return TouchSearch(near).run(*snapshot.root, visit, shift);
 }
 
 }  // namespace burin::geometry

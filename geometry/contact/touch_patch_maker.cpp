@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <utility>
 
 #include "geometry/mesh/componentwise.hpp"
 
@@ -33,6 +35,18 @@ TouchFrame frame_around(std::span<const Vec3f> positions_m) {
     Vec3f lo = positions_m.front(), hi = lo;
     for (const Vec3f& p : positions_m) lo = lower_of(lo, p), hi = upper_of(hi, p);
     return TouchFrame::around(lo, hi);
+}
+
+float longest_edge_m(const TouchPatch& patch) {
+    float longest2 = 0.0f;
+    for (std::uint32_t i = 0; i < patch.triangles; ++i) {
+        const auto& [a, b, c] = patch.corners(i);
+        for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, a}}) {
+            const Vec3f edge = patch.positions_m[to] - patch.positions_m[from];
+            longest2 = std::max(longest2, glm::dot(edge, edge));
+        }
+    }
+    return std::sqrt(longest2);
 }
 
 }  // namespace
@@ -71,6 +85,7 @@ void TouchPatchMaker::take_vertices(TouchPatch& patch, TouchSurface& surface) {
     }
     patch.positions_m.assign(positions_m_.begin(), positions_m_.begin() + vertices_);
     patch.normals.assign(normals_.begin(), normals_.begin() + vertices_);
+    patch.longest_edge_m = longest_edge_m(patch);
 }
 
 std::uint16_t TouchPatchMaker::add_vertex(std::uint32_t vertex, const Vec3f& position_m, const Vec3f& normal) {

@@ -30,6 +30,10 @@ constexpr double kBears = 1e-4;
 // Depth, as a fraction of the radius, beyond which a plane has sunk into the ball.
 constexpr double kSunk = 5e-3;
 
+// Where the ball touches points, and one is nearer to its centre than this fraction of the radius, the triangles between
+// them decide on inside or outside.
+constexpr double kAmongPoints = 0.9;
+
 // Range of the vote on inside or outside, as a multiple of the nearest triangle's distance; one mean edge is added.
 constexpr double kVote = 1.5;
 
@@ -128,7 +132,8 @@ private:
             onward = Vec3(0.0);
         if (!search_.broad_phase({center_, center_ + onward}) || !touch()) return false;
         const bool unsure = !state.placed || state.surface_sequence != surface_.sequence;
-        if (unsure && !(nearest_.distance < HUGE_VAL))
+        const bool among_points = search_.candidates().points() > 0 && nearest_.distance < kAmongPoints * radius_;
+        if ((unsure && !(nearest_.distance < HUGE_VAL)) || among_points)
             nearest_ = search_.nearest(center_, known_around(center_, surface_));
         if (!inside_material(nearest_, center_, surface_)) return true;
         // A facet folded over may be nearest and show its back to a ball that is outside.
@@ -309,24 +314,29 @@ private:
     }
 
     void note_active(const NearestInside& goal) {
-        result_.constraints = goal.bearing_count;
+        touched_.constraints = goal.bearing_count;
         if (goal.bearing_count == 0) return;
         std::uint32_t heaviest = 0;
         for (std::uint32_t i = 1; i < goal.bearing_count; ++i)
             if (goal.weights[i] > goal.weights[heaviest]) heaviest = i;
-        result_.active_triangle = touches_.planes[goal.bearing[heaviest]].triangle;
-        last_ = {result_.constraints, result_.active_triangle};
+        note(goal.bearing[heaviest], goal.bearing_count);
+        last_ = touched_;
     }
 
     void note_most_opposed() {
         double most = 0.0;
-        for (const HalfSpace& plane : touches_.span()) {
-            const double opposed = -glm::dot(plane.normal, hip_ - center_);
+        for (std::uint32_t i = 0; i < touches_.count; ++i) {
+            const double opposed = -glm::dot(touches_.planes[i].normal, hip_ - center_);
             if (opposed <= most) continue;
             most = opposed;
-            result_.constraints = 1;
-            result_.active_triangle = plane.triangle;
+            note(i, 1);
         }
+    }
+
+    void note(std::uint32_t touch, std::uint32_t constraints) {
+        const Touches::Place& place = touches_.places[touch];
+        touched_ = {constraints, Candidates::is_point(place.candidate), 0, place.point};
+        if (!touched_.is_point) touched_.triangle = search_.candidates().id(place.candidate);
     }
 
     [[nodiscard]] bool arrived(const Goal& goal) const {
@@ -354,11 +364,7 @@ private:
     }
 
     // Free space: the proxy is the HIP, exactly.
-    ProxyResult free() {
-        result_.constraints = 0;
-        result_.active_triangle = ProxyResult{}.active_triangle;
-        return result_;
-    }
+    ProxyResult free() { return result_; }
 
     ProxyResult at_rest(const Goal& goal) {
         stay();
@@ -371,18 +377,18 @@ private:
     // waits at a safe position and continues in the next tick; the planes it lies on still bear it.
     ProxyResult limited() {
         result_.work_limited = true;
-        if (result_.constraints == 0) note_most_opposed();
+        if (touched_.constraints == 0) note_most_opposed();
         // Between two facets no plane bears the ball: the last contact of this tick is reported.
-        if (result_.constraints == 0 && last_.constraints > 0) {
-            result_.constraints = last_.constraints;
-            result_.active_triangle = last_.triangle;
-        }
+        if (touched_.constraints == 0) touched_ = last_;
         stay();
         result_.normal_object = unit_or_zero(center_ - hip_);
         return result_;
     }
 
     void stay() {
+        result_.constraints = touched_.constraints;
+        if (touched_.constraints > 0)
+            result_.active_triangle = touched_.is_point ? search_.triangle_at(touched_.point) : touched_.triangle;
         result_.next.position_object_m = surface_.origin_object + center_;
         result_.next.slipping = slid_;
         result_.next.touching = true;
@@ -403,9 +409,13 @@ private:
     StaticVector<HalfSpace, Touches::kMost> flat_;
     Nearest nearest_;
     StepShare step_share_;
-    struct {
-        std::uint32_t constraints = 0, triangle = 0;
-    } last_;  // the last contact found in this tick
+    struct Touched {
+        std::uint32_t constraints = 0;  // number of planes that bear the ball
+        bool is_point = false;          // else a triangle
+        std::uint32_t triangle = 0;     // what bears most of the contact
+        Vec3 point{0.0};
+    };
+    Touched touched_, last_;  // now, and the last contact found in this tick
     double leeway_ = 0.0;
     bool slips_ = false;  // the cone of dynamic friction applies, not the static one
     bool slid_ = false;   // in this tick

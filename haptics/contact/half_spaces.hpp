@@ -18,7 +18,6 @@ namespace burin::haptics {
 struct HalfSpace {
     Vec3 normal{0.0};     // unit
     double offset = 0.0;  // inside: dot(normal, x) >= offset
-    std::uint32_t triangle = 0;
 };
 
 struct NearestInside {

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
+#include "geometry/contact/local_surface_search.hpp"
 #include "haptics/contact/triangle_contact.hpp"
 
 namespace burin::haptics {
@@ -22,18 +24,20 @@ constexpr double kAsNear = 1.0 + 4e-4;  // ratio of squared distances that count
 
 using Facet = SmoothFacet;
 
-std::optional<Facet> facet_of(const geometry::LocalSurface& surface, const Candidates& candidates,
-                              std::uint32_t candidate) {
-    const geometry::CornerNormals corners = surface.corner_normals(candidates.id(candidate));
+std::optional<Facet> facet_of(const geometry::LocalSurface& surface, std::uint32_t id, const geometry::Triangle& t,
+                              bool from_back) {
+    const geometry::CornerNormals corners = surface.corner_normals(id);
     if (!corners.known) return std::nullopt;
-    Facet facet{candidates.triangle(candidate), {}, {}};
-    const geometry::Triangle& t = facet.triangle;
-    facet.normal = glm::cross(t.b - t.a, t.c - t.a);
-    const double least = kSmooth * std::sqrt(glm::dot(facet.normal, facet.normal));
-    for (std::size_t k = 0; k < 3; ++k) {
-        facet.normals[k] = Vec3(corners.normals[k]);
-        if (!(glm::dot(facet.normals[k], facet.normal) >= least)) return std::nullopt;
+    Facet facet{t, {}, {}};
+    for (std::size_t k = 0; k < 3; ++k) facet.normals[k] = Vec3(corners.normals[k]);
+    if (from_back) {
+        std::swap(facet.triangle.b, facet.triangle.c);
+        facet.normals = {-facet.normals[0], -facet.normals[2], -facet.normals[1]};
     }
+    facet.normal = glm::cross(facet.triangle.b - facet.triangle.a, facet.triangle.c - facet.triangle.a);
+    const double least = kSmooth * std::sqrt(glm::dot(facet.normal, facet.normal));
+    for (const Vec3& normal : facet.normals)
+        if (!(glm::dot(normal, facet.normal) >= least)) return std::nullopt;
     return facet;
 }
 
@@ -68,7 +72,8 @@ public:
         : facets_(facets), candidates_(candidates), touches_(touches), center_(center), radius_(radius) {}
 
     [[nodiscard]] std::optional<Vec3> normal_of(std::uint32_t touch) const {
-        const auto own = facets_.of(candidates_, touches_.places[touch].candidate);
+        if (Candidates::is_point(touches_.places[touch].candidate)) return normal_at_point(touch);
+        const auto own = facet(touch);
         if (!own || !agreed(*own, touch)) return std::nullopt;
         Best best;
         look_at(best, *own);
@@ -83,6 +88,41 @@ private:
         double inside = -HUGE_VAL;  // the least barycentric coordinate
         Vec3 normal{0.0};
     };
+
+    // The triangle that is touched, if it is part of a smooth surface.
+    [[nodiscard]] std::optional<Facet> facet(std::uint32_t touch) const {
+        const Touches::Place& place = touches_.places[touch];
+        return facets_.of(candidates_.id(place.candidate), candidates_.triangle(place.candidate), place.seen_from_back);
+    }
+
+    // The same from the facets around a vertex, all of which must agree about its normal.
+    [[nodiscard]] std::optional<Vec3> normal_at_point(std::uint32_t touch) const {
+        const Vec3& vertex = touches_.places[touch].point;
+        Best best;
+        std::optional<Vec3> agreed;
+        bool smooth = true;
+        std::uint32_t tried = 0;
+        geometry::for_each_triangle_around(
+            facets_.surface(), vertex, [&](std::uint32_t id, const geometry::Triangle& t) {
+                const auto facet = facets_.of(id, t, false);
+                smooth = facet && ++tried <= kMostTried && agree(agreed, normal_at(*facet, vertex));
+                if (smooth) look_at(best, *facet);
+                return smooth;
+            });
+        if (!smooth || !best.found) return std::nullopt;
+        return best.normal;
+    }
+    // The normal at the facet's corner nearest to a vertex.
+    [[nodiscard]] static const Vec3& normal_at(const Facet& facet, const Vec3& vertex) {
+        const auto apart2 = [&](const Vec3& corner) { return glm::dot(corner - vertex, corner - vertex); };
+        const double a = apart2(facet.triangle.a), b = apart2(facet.triangle.b), c = apart2(facet.triangle.c);
+        return facet.normals[a <= b && a <= c ? 0 : (b <= c ? 1 : 2)];
+    }
+    [[nodiscard]] static bool agree(std::optional<Vec3>& known, const Vec3& normal) {
+        if (!known) known = normal;
+        const Vec3 difference = normal - *known;
+        return glm::dot(difference, difference) <= kSameNormal * kSameNormal;
+    }
 
     // Keeps the facet under the centre: the one whose moved triangle contains it by the largest margin.
     void look_at(Best& best, const Facet& facet) const {
@@ -104,7 +144,8 @@ private:
             if (i == touch || glm::dot(touches_.planes[i].normal, way) < kOneRegion) continue;
             if (many && distance2_of(i) > nearest2 * kAsNear) continue;
             ++tried;
-            if (const auto facet = facets_.of(candidates_, touches_.places[i].candidate)) look_at(best, *facet);
+            if (Candidates::is_point(touches_.places[i].candidate)) continue;
+            if (const auto beside = facet(i)) look_at(best, *beside);
             if (best.inside >= 0.0) return;
         }
     }
@@ -127,7 +168,8 @@ private:
             const Vec3 apart = touches_.places[i].point - place.point;
             if (i == touch || glm::dot(apart, apart) > tie * tie) continue;
             if (++tried > kMostTried) return false;
-            const auto other = facets_.of(candidates_, touches_.places[i].candidate);
+            if (Candidates::is_point(touches_.places[i].candidate)) continue;
+            const auto other = facet(i);
             if (!other) return false;
             const auto there = coordinates(other->triangle, other->normal, place.point);
             if (!there) return false;
@@ -146,13 +188,15 @@ private:
 
 }  // namespace
 
-std::optional<SmoothFacet> SmoothFacets::of(const Candidates& candidates, std::uint32_t candidate) noexcept {
-    const std::uint32_t id = candidates.id(candidate);
+std::optional<SmoothFacet> SmoothFacets::of(std::uint32_t id, const geometry::Triangle& triangle,
+                                            bool from_back) noexcept {
     for (std::uint32_t i = 0; i < std::min(count_, kMost); ++i)
-        if (ids_[i] == id) return is_smooth_[i] ? std::optional(facets_[i]) : std::nullopt;
+        if (ids_[i] == id && from_back_[i] == from_back)
+            return is_smooth_[i] ? std::optional(facets_[i]) : std::nullopt;
     const std::uint32_t place = count_++ % kMost;
-    const auto facet = facet_of(surface_, candidates, candidate);
+    const auto facet = facet_of(surface_, id, triangle, from_back);
     ids_[place] = id;
+    from_back_[place] = from_back;
     is_smooth_[place] = facet.has_value();
     if (facet) facets_.put(place, *facet);
     return facet;

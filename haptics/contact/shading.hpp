@@ -39,14 +39,17 @@ struct SmoothFacet {
 class SmoothFacets {
 public:
     explicit SmoothFacets(const geometry::LocalSurface& surface) noexcept : surface_(surface) {}
-    // Returns nothing for a candidate that is not known to be part of a smooth surface.
-    [[nodiscard]] std::optional<SmoothFacet> of(const Candidates& candidates, std::uint32_t candidate) noexcept;
+    // Returns nothing for a triangle that is not known to be part of a smooth surface. From the back the facet and its
+    // normals are turned over.
+    [[nodiscard]] std::optional<SmoothFacet> of(std::uint32_t id, const geometry::Triangle& triangle,
+                                                bool from_back) noexcept;
+    [[nodiscard]] const geometry::LocalSurface& surface() const noexcept { return surface_; }
 
 private:
-    static constexpr std::uint32_t kMost = 8;
+    static constexpr std::uint32_t kMost = 16;
     const geometry::LocalSurface& surface_;
     std::array<std::uint32_t, kMost> ids_;
-    std::array<bool, kMost> is_smooth_;
+    std::array<bool, kMost> is_smooth_, from_back_;
     StaticVector<SmoothFacet, kMost> facets_;
     std::uint32_t count_ = 0;  // facets ever asked for; the newest is in slot (count_ - 1) % kMost
 };

@@ -35,11 +35,14 @@ bool ContactSearch::broad_phase(const Way& way) noexcept {
     for (int tries = 0; tries < 6; ++tries) {
         std::uint32_t looks = budget_.max_triangles_seen - work_.triangles_seen;
         const std::uint32_t before = looks;
-        const auto found = candidates_.gather(surface_, {way.from, way.from + share * motion}, radius_, slack, looks);
+        const auto found =
+            candidates_.gather(surface_, {{way.from, way.from + share * motion}, radius_, slack, fineness_}, looks);
         work_.triangles_seen += before - looks;
-        for (std::uint32_t i = 0; i < candidates_.count(); ++i) touches_already_.put(i, false);
+        std::fill_n(touches_already_.begin(), candidates_.triangles(), false);
+        std::fill_n(touches_already_.begin() + Candidates::kMost, candidates_.points(), false);
         if (found == Candidates::Gathered::all) return true;
         if (found == Candidates::Gathered::out_of_looks) return false;
+        if (found == Candidates::Gathered::too_many_points && tries > 0) fineness_.stride *= 2;
         share *= 0.25;
         slack *= 0.25;
     }
@@ -62,32 +65,54 @@ void ContactSearch::keep_nearest(Nearest& best, const Nearest& other) const noex
         best = other;
 }
 
+void ContactSearch::add(Touches& touches, const HalfSpace& plane, const Touches::Place& place) noexcept {
+    touches.planes.put(touches.count, plane);
+    touches.places.put(touches.count++, place);
+    touches_already_[place.candidate] = true;
+}
+
+bool ContactSearch::touch_triangle(std::uint32_t candidate, const Vec3& center, Touching& result,
+                                   Touches& touches) noexcept {
+    const double reach = radius_ * (1.0 + kTouch);
+    const geometry::Triangle& t = candidates_.triangle(candidate);
+    const NearestOnTriangle on = nearest_on_triangle(center, t);
+    const Vec3 off = center - on.point;
+    if (glm::dot(off, off) > reach * reach) return true;
+    const double distance = std::sqrt(glm::dot(off, off));
+    Vec3 normal = outward_normal(t);
+    double height = glm::dot(off, normal);
+    const bool from_back = height < 0.0 && candidates_.two_sided(candidate);
+    if (from_back) normal = -normal, height = -height;
+    keep_nearest(result.nearest, {distance, height, on.point, normal});
+    if (height < 0.0) return true;
+    const bool flat = on.on_face || distance < kTie * radius_;
+    add(touches, {flat ? normal : off / distance, radius_ * (flat ? 1.0 : 1.0 - kTouch) - distance},
+        {on.point, candidate, flat, from_back});
+    return true;
+}
+
+bool ContactSearch::touch_point(std::uint32_t candidate, const Vec3& center, Touching& result,
+                                Touches& touches) noexcept {
+    const double reach = radius_ * (1.0 + kTouch);
+    const geometry::SurfacePoint& point = candidates_.point(candidate);
+    const Vec3 off = center - point.position, normal = point.normal();
+    const double distance2 = glm::dot(off, off);
+    if (distance2 > reach * reach || distance2 == 0.0) return true;
+    const double distance = std::sqrt(distance2), height = glm::dot(off, normal);
+    keep_nearest(result.nearest, {distance, height, point.position, normal});
+    if (height < 0.0) return true;
+    add(touches, {off / distance, radius_ * (1.0 - kTouch) - distance}, {point.position, candidate, false, false});
+    return true;
+}
+
 ContactSearch::Touching ContactSearch::touching(const Vec3& center, Touches& touches) noexcept {
     Touching result;
-    for (std::uint32_t i = 0; i < touches.count;
-         ++i)  // candidates of earlier broad phases too; clearing a flag twice does no harm
-        if (const std::uint32_t candidate = touches.places[i].candidate; candidate < candidates_.count())
-            touches_already_[candidate] = false;
+    for (std::uint32_t i = 0; i < touches.count; ++i)  // those of earlier broad phases too; clearing twice does no harm
+        touches_already_[touches.places[i].candidate] = false;
     touches.count = 0;
-    const double reach = radius_ * (1.0 + kTouch);
-    result.complete = candidates_.for_each_at(center, reach, [&](std::uint32_t i) {
-        if (!count_test()) return false;
-        const geometry::Triangle& t = candidates_.triangle(i);
-        const NearestOnTriangle on = nearest_on_triangle(center, t);
-        const Vec3 off = center - on.point;
-        if (glm::dot(off, off) > reach * reach) return true;
-        const double distance = std::sqrt(glm::dot(off, off));
-        const Vec3 normal = outward_normal(t);
-        const double height = glm::dot(off, normal);
-        keep_nearest(result.nearest, {distance, height, on.point, normal});
-        if (height < 0.0) return true;
-        if (touches.count == Touches::kMost) return false;
-        const bool flat = on.on_face || distance < kTie * radius_;
-        touches.planes.put(touches.count, {flat ? normal : off / distance,
-                                           radius_ * (flat ? 1.0 : 1.0 - kTouch) - distance, candidates_.id(i)});
-        touches.places.put(touches.count++, {on.point, i, flat});
-        touches_already_[i] = true;
-        return true;
+    result.complete = candidates_.for_each_at(center, radius_ * (1.0 + kTouch), [&](std::uint32_t candidate) {
+        if (Candidates::is_point(candidate)) return touch_point(candidate, center, result, touches);
+        return count_test() && touch_triangle(candidate, center, result, touches);
     });
     return result;
 }
@@ -96,24 +121,44 @@ ContactSearch::Sweep ContactSearch::sweep(const Vec3& center, const Vec3& motion
     Sweep result;
     const double radius = radius_ * (1.0 - 2.0 * kTouch);
     const Way way{center, center + motion};
-    result.complete = candidates_.for_each_on_way(way, radius, [&](std::uint32_t i) {
-        if (touches_already_[i]) return true;
-        const geometry::Triangle& t = candidates_.triangle(i);
-        if (!count_test()) return false;
-        result.fraction = std::min(result.fraction, fraction_until_touch(center, motion, radius, t));
+    result.complete = candidates_.for_each_on_way(way, radius, [&](std::uint32_t candidate) {
+        if (touches_already_[candidate]) return true;
+        double fraction = 0.0;
+        if (Candidates::is_point(candidate)) {
+            const geometry::SurfacePoint& point = candidates_.point(candidate);
+            fraction = fraction_until_touch(center, motion, radius, point.position, point.normal());
+        } else {
+            if (!count_test()) return false;
+            const geometry::Triangle& t = candidates_.triangle(candidate);
+            const bool from_back =
+                candidates_.two_sided(candidate) && glm::dot(center - t.a, glm::cross(t.b - t.a, t.c - t.a)) < 0.0;
+            fraction = fraction_until_touch(center, motion, radius, from_back ? geometry::Triangle{t.a, t.c, t.b} : t);
+        }
+        result.fraction = std::min(result.fraction, fraction);
         return true;
     });
     return result;
 }
 
+std::uint32_t ContactSearch::triangle_at(const Vec3& vertex) const noexcept {
+    std::uint32_t found = ProxyResult{}.active_triangle;
+    geometry::for_each_triangle_around(surface_, vertex, [&](std::uint32_t id, const geometry::Triangle&) {
+        found = id;
+        return false;
+    });
+    return found;
+}
+
 Nearest ContactSearch::nearest(const Vec3& center, double most) noexcept {
     Nearest result;
     geometry::Near near{.lo = center, .hi = center, .by_way = true, .from = center, .to = center};
-    const auto visit = [&](std::uint32_t, const geometry::Triangle& t) {
+    const auto visit = [&](std::uint32_t id, const geometry::Triangle& t) {
         if (beside(t, {center, center}, result.distance * (1.0 + kTie))) return true;
         if (!count_test()) return false;
         const NearestOnTriangle on = nearest_on_triangle(center, t);
-        const Vec3 off = center - on.point, normal = outward_normal(t);
+        const Vec3 off = center - on.point;
+        Vec3 normal = outward_normal(t);
+        if (glm::dot(off, normal) < 0.0 && surface_.two_sided(id)) normal = -normal;
         keep_nearest(result, {std::sqrt(glm::dot(off, off)), glm::dot(off, normal), on.point, normal});
         near.reach_m = std::min(near.reach_m, result.distance * (1.0 + kTie));
         return true;
@@ -139,8 +184,8 @@ bool ContactSearch::sees_backs(const Vec3& center, double reach) noexcept {
     const std::uint32_t looks = budget_.max_triangles_seen - work_.triangles_seen;
     near.looks_left = looks;
     const bool complete =
-        geometry::for_each_triangle_near(surface_, near, [&](std::uint32_t, const geometry::Triangle& t) {
-            sum += solid_angle_tangent(center, t);
+        geometry::for_each_triangle_near(surface_, near, [&](std::uint32_t id, const geometry::Triangle& t) {
+            if (!surface_.two_sided(id)) sum += solid_angle_tangent(center, t);
             return true;
         });
     work_.triangles_seen += looks - near.looks_left;

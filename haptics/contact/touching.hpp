@@ -19,17 +19,22 @@ namespace burin::haptics {
 
 // A triangle counts as touched within this fraction of the radius.
 inline constexpr double kTouch = 1e-3;
+// Where no edge is longer than this part of the radius the ball touches vertices alone, and then sinks into the surface
+// by at most kFineEdge^2 / 6, or 1/200, of the radius, and usually by a quarter of that.
+inline constexpr double kFineEdge = 0.1732;
 // Two triangles within this fraction of the radius share their nearest point: an edge or a corner.
 inline constexpr double kTie = 1e-6;
 
-// The half-spaces, relative to the ball's centre, of the triangles that it touches from outside.
+// The half-spaces, relative to the ball's centre, of what it touches from outside.
 struct Touches {
-    static constexpr std::uint32_t kMost = 1024;  // a ball in its own groove touches about 100 facets
+    // As many as there can be candidates: a ball in its own groove touches hundreds.
+    static constexpr std::uint32_t kMost = 2 * Candidates::kMost;
 
     struct Place {
-        Vec3 point{0.0};  // the triangle's point nearest to the centre
+        Vec3 point{0.0};  // the candidate's point nearest to the centre
         std::uint32_t candidate = 0;
-        bool on_face = false;  // inside the triangle; else on an edge or a corner
+        bool on_face = false;         // inside a triangle; else on an edge or a corner
+        bool seen_from_back = false;  // of a two-sided triangle
     };
     StaticVector<HalfSpace, kMost> planes;
     StaticVector<Place, kMost> places;
@@ -50,7 +55,7 @@ class ContactSearch {
 public:
     ContactSearch(const geometry::LocalSurface& surface, double radius, const ProxyBudget& budget,
                   ProxyWork& work) noexcept
-        : surface_(surface), radius_(radius), budget_(budget), work_(work) {}
+        : surface_(surface), radius_(radius), budget_(budget), work_(work), fineness_{kFineEdge * radius, 1} {}
 
     // Broad phase: gathers the triangles that the ball may touch along the segment and a little beside it. If there are
     // too many, covers a shorter part of the segment from its beginning. Returns false when the tick's work budget is
@@ -85,6 +90,9 @@ public:
     // when the tick's work budget is used up.
     [[nodiscard]] bool sees_backs(const Vec3& center, double reach) noexcept;
 
+    // The id of a triangle that has a corner at this vertex.
+    [[nodiscard]] std::uint32_t triangle_at(const Vec3& vertex) const noexcept;
+
     [[nodiscard]] const Candidates& candidates() const noexcept { return candidates_; }
 
 private:
@@ -94,6 +102,11 @@ private:
         return true;
     }
     void keep_nearest(Nearest& best, const Nearest& other) const noexcept;
+    [[nodiscard]] bool touch_triangle(std::uint32_t candidate, const Vec3& center, Touching& result,
+                                      Touches& touches) noexcept;
+    [[nodiscard]] bool touch_point(std::uint32_t candidate, const Vec3& center, Touching& result,
+                                   Touches& touches) noexcept;
+    void add(Touches& touches, const HalfSpace& plane, const Touches::Place& place) noexcept;
 
     const geometry::LocalSurface& surface_;
     double radius_;
@@ -101,7 +114,9 @@ private:
     ProxyWork& work_;
     int looks_taken_ = 0;
     Candidates candidates_;
-    StaticVector<bool, Candidates::kMost> touches_already_;  // indices below candidates_.count()
+    geometry::Fineness fineness_;
+    std::uint32_t fours_before_ = 0;                           // measured in earlier broad phases
+    std::array<bool, 2 * Candidates::kMost> touches_already_;  // of the present candidates
 };
 
 }  // namespace burin::haptics

@@ -114,6 +114,12 @@ double fraction_until_touch(const Vec3& center, const Vec3& motion, double radiu
                      sweep.until_corner(t.a), sweep.until_corner(t.b), sweep.until_corner(t.c)});
 }
 
+double fraction_until_touch(const Vec3& center, const Vec3& motion, double radius, const Vec3& point,
+                            const Vec3& normal) noexcept {
+    return Sweep{center, motion, radius, glm::dot(center - point, normal), glm::dot(motion, normal)}.until_corner(
+        point);
+}
+
 double solid_angle_tangent(const Vec3& p, const geometry::Triangle& t) noexcept {
     const Vec3 a = t.a - p, b = t.b - p, c = t.c - p;
     const double la = std::sqrt(glm::dot(a, a)), lb = std::sqrt(glm::dot(b, b)), lc = std::sqrt(glm::dot(c, c));

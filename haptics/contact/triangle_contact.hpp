@@ -25,6 +25,10 @@ struct NearestOnTriangle {
 [[nodiscard]] double fraction_until_touch(const Vec3& center, const Vec3& motion, double radius,
                                           const geometry::Triangle& t) noexcept;
 
+// The same for a point of a surface with this normal there; zero: it is touched from any side.
+[[nodiscard]] double fraction_until_touch(const Vec3& center, const Vec3& motion, double radius, const Vec3& point,
+                                          const Vec3& normal) noexcept;
+
 // The tangent of half the solid angle of the triangle seen from p, at most 1e3 in size; negative where p is on the
 // outer side (van Oosterom and Strackee 1983).
 [[nodiscard]] double solid_angle_tangent(const Vec3& p, const geometry::Triangle& t) noexcept;

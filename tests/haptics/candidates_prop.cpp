@@ -72,7 +72,7 @@ void expect_nothing_missed(const geometry::LocalSurface& surface, const Vec3& mi
         const Way way{from, from + around(i % 3 == 0 ? 0.0 : edge)};
         const double slack = random.between(0.0, 0.5) * (radius + glm::length(way.to - way.from));
         std::uint32_t looks = 1'000'000;
-        if (candidates->gather(surface, way, radius, slack, looks) != Candidates::Gathered::all) continue;
+        if (candidates->gather(surface, {way, radius, slack, {}}, looks) != Candidates::Gathered::all) continue;
         for (int k = 0; k < 8; ++k) {
             const auto place = [&] {
                 return from + random.between(0, 1) * (way.to - from) + around(slack / std::sqrt(3.0));
@@ -80,6 +80,9 @@ void expect_nothing_missed(const geometry::LocalSurface& surface, const Vec3& mi
             const Vec3 at = place(), to = place();
             ASSERT_TRUE(candidates->covers(at));
             std::set<std::uint32_t> found, on_way;
+            // Asked a few times at other places, for what lies near is remembered.
+            candidates->for_each_at(place(), radius, [](std::uint32_t) { return true; });
+            candidates->for_each_on_way({place(), place()}, radius, [](std::uint32_t) { return true; });
             candidates->for_each_at(at, radius,
                                     [&](std::uint32_t c) { return found.insert(candidates->id(c)).second; });
             for (const std::uint32_t id : within(surface, at, radius)) {

@@ -113,7 +113,7 @@ TEST(HalfSpaces, NearestPointSatisfiesTheOptimalityConditions) {
         for (int i = 0; i < n; ++i) {
             const Vec3 v = any_in_cube(1);
             RC_PRE(glm::length(v) > 0.1);
-            spaces.push_back({glm::normalize(v), -any_between(0.0, 0.2), static_cast<std::uint32_t>(i)});
+            spaces.push_back({glm::normalize(v), -any_between(0.0, 0.2)});
         }
         const Vec3 goal = any_in_cube(3);
         const NearestInside best = nearest_inside(spaces, goal, 1e-9);
@@ -131,7 +131,7 @@ TEST(HalfSpaces, NearestPointSatisfiesTheOptimalityConditions) {
 }
 
 TEST(HalfSpaces, SaysSoWhenThereIsNoCommonPoint) {
-    const std::vector<HalfSpace> apart{{{0, 1, 0}, 1.0, 0}, {{0, -1, 0}, 1.0, 1}};
+    const std::vector<HalfSpace> apart{{{0, 1, 0}, 1.0}, {{0, -1, 0}, 1.0}};
     EXPECT_FALSE(nearest_inside(apart, Vec3(0.0), 1e-9).found);
 }
 

@@ -207,12 +207,12 @@ TEST(ForceShading, FacetsThatAreAskedForAgainAreTheSameInAnyOrder) {
     ContactSearch search(*mesh, 0.02, ProxyBudget{}, work);
     ASSERT_TRUE(search.broad_phase({top, top}));
     const Candidates& candidates = search.candidates();
-    ASSERT_GT(candidates.count(), 30u);
+    ASSERT_GT(candidates.triangles(), 30u);
     SmoothFacets facets(*mesh);
     for (std::uint32_t i = 0; i < 2000; ++i) {
         const std::uint32_t candidate =
-            (i * i + i / 3) % std::min(candidates.count(), 12u);  // a few more than it keeps
-        const auto facet = facets.of(candidates, candidate);
+            (i * i + i / 3) % std::min(candidates.triangles(), 20u);  // a few more than it keeps
+        const auto facet = facets.of(candidates.id(candidate), candidates.triangle(candidate), false);
         ASSERT_TRUE(facet);
         ASSERT_EQ(facet->triangle.a, candidates.triangle(candidate).a) << i;
         ASSERT_EQ(facet->triangle.b, candidates.triangle(candidate).b) << i;
