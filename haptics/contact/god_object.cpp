@@ -16,8 +16,8 @@ namespace {
 // Fractions of the ball's radius; kTouch and kTie are in touching.hpp.
 constexpr double kPlane = 1e-9;  // bound on the rounding of plane offsets, far below anything felt
 constexpr double kPointProbeOfEdge = 1.0 / 500.0;
-// The proxy is at rest when it moves less than this fraction of the radius, or of a twentieth of an edge if that is
-// more; under shading also when the HIP is off the normal by less than this angle, a tenth of what a hand may notice.
+// The proxy is at rest when it has less to go than this fraction of the radius, or of a twentieth of an edge if that is
+// more, or when the HIP is off the normal by less than this angle, a tenth of what a hand may notice.
 constexpr double kStill = 1e-5, kStillAngle = 1e-4;
 
 // A step that brings the ball nearer to the HIP by less than this part of its length spends leeway; of what is left, this
@@ -161,10 +161,10 @@ private:
             plain = nearest_in(touches_.span(), pull);
         }
         Goal goal = goal_of(plain, pull);
-        if (!goal.found || !goal.in_contact || !settings_.shading) return goal;
+        if (!goal.found || !goal.in_contact) return goal;
         Goal smooth = goal;
-        shade(smooth, plain, pull, false);
-        if (!smooth.is_shaded) return goal;
+        if (settings_.shading) shade(smooth, plain, pull, false);
+        if (!smooth.is_shaded) return farther(goal, pull);
         onto_surface(smooth);
         return smooth.left <= smooth.enough || spend_leeway(smooth, goal, pull) ? smooth : goal;
     }
@@ -183,6 +183,16 @@ private:
         return true;
     }
 
+    // Around an edge or a corner the ball goes on a circle, and a tangent's nearest point leaves it short of its rest, each
+    // step by the same part. So it goes farther, by what the last steps have shown, as long as it has leeway.
+    [[nodiscard]] Goal farther(const Goal& goal, const Vec3& pull) {
+        Goal far = goal;
+        const double share = step_share_.of(center_, goal.step);
+        if (!(share > 1.0) || goal.left <= goal.enough) return goal;
+        far.step = onto_true_planes(touches_, share * goal.step, goal.normal, kPlane * radius_);
+        return spend_leeway(far, goal, pull) ? far : goal;
+    }
+
     NearestInside nearest_in(std::span<const HalfSpace> planes, const Vec3& pull) {
         ++result_.work.plane_solves;
         return nearest_inside(planes, pull, kPlane * radius_);
@@ -199,10 +209,10 @@ private:
         note_active(plain);
         goal.step = plain.point;
         goal.left = glm::length(goal.step);
-        goal.enough = still_;
         goal.in_contact = plain.bearing_count > 0;
         goal.is_hip = plain.found && !goal.in_contact;
         if (plain.found && goal.in_contact) goal.normal = unit_or_zero(goal.step - pull);
+        goal.enough = enough(goal, pull);
         return goal;
     }
 
@@ -289,7 +299,14 @@ private:
         goal.step = smooth.point;
         goal.left = glm::length(goal.step);
         goal.normal = unit_or_zero(goal.step - pull);
-        goal.enough = std::max(still_, kStillAngle * -glm::dot(pull, goal.normal));
+        goal.enough = enough(goal, pull);
+    }
+
+    [[nodiscard]] double enough(const Goal& goal, const Vec3& pull) const {
+        // Planes are reached exactly, in a step or two; only around edges and under shading does the rest come nearer
+        // and nearer.
+        if (!goal.is_shaded && result_.work.steps <= kPushingSteps) return still_;
+        return std::max(still_, kStillAngle * -glm::dot(pull, goal.normal));
     }
 
     // Lets friction shorten the displacement along the surface, possibly to zero.
@@ -308,7 +325,7 @@ private:
     // Moves the goal along the surface onto the true planes.
     void onto_surface(Goal& goal) {
         if (goal.step == Vec3(0.0)) return;
-        const double share = goal.is_shaded ? step_share_.of(center_, goal.step) : 1.0;
+        const double share = std::max(step_share_.of(center_, goal.step), goal.is_shaded ? 0.0 : 1.0);
         goal.step = onto_true_planes(touches_, share * goal.step, goal.normal, kPlane * radius_);
         goal.left = std::min(goal.left, glm::length(goal.step) / share);
     }
@@ -367,6 +384,8 @@ private:
     ProxyResult free() { return result_; }
 
     ProxyResult at_rest(const Goal& goal) {
+        // Rounding alone must not move it: a hand that holds still feels the same force for ever.
+        if (glm::length(center_ - began_) <= still_) center_ = began_;
         stay();
         result_.sticking = !slid_ && settings_.static_friction > 0.0;
         result_.normal_object = goal.normal;

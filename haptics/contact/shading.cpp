@@ -235,7 +235,7 @@ double StepShare::of(const Vec3& center, const Vec3& wish) noexcept {
     if (known_) {
         const Vec3 moved = center - center_, lost = wish_ - wish;
         const double curvature = glm::dot(moved, lost), moved2 = glm::dot(moved, moved);
-        if (curvature > 0.0) share_ = std::clamp(moved2 / curvature, 0.05, 2.0);
+        if (curvature > 0.0) share_ = std::clamp(moved2 / curvature, 0.05, 4.0);
     }
     known_ = true;
     center_ = center;

