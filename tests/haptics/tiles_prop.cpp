@@ -64,7 +64,7 @@ void expect_alike(const geometry::LocalSurface& tiles, const geometry::LocalSurf
         // is still on its way when its steps are used up may be a step ahead.
         const double apart = glm::length(a.next.position_object_m - b.next.position_object_m);
         if (!a.work_limited) {
-            ASSERT_LT(apart, kTouch * tool_radius) << i;
+            ASSERT_LT(apart, 2.0 * kTouch * tool_radius) << i;
         }
         apart_by_more += apart > 3e-5 * tool_radius;
         ASSERT_EQ(a.constraints > 0, b.constraints > 0) << i;
@@ -72,7 +72,7 @@ void expect_alike(const geometry::LocalSurface& tiles, const geometry::LocalSurf
         state = a.next;
     }
     EXPECT_GT(in_contact, compute::test::repeated(1500) / 8);
-    EXPECT_LE(apart_by_more, 2);
+    EXPECT_LE(apart_by_more, compute::test::repeated(1500) / 100);
 }
 
 // At one of many places on it; never less than it is.
