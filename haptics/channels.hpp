@@ -16,6 +16,7 @@
 #include "base/ring.hpp"
 #include "devices/haptic/haptic_device.hpp"
 #include "geometry/contact/local_surface.hpp"
+#include "haptics/contact/contact_work.hpp"
 #include "haptics/contact/probe.hpp"
 #include "haptics/forces/guidance.hpp"
 #include "haptics/forces/touch_force.hpp"
@@ -63,6 +64,7 @@ struct TickParameters {
     // In contact, a surface older than this is not trusted and gives zero force. 0: a surface of any age is trusted.
     double max_surface_age_s = 0.5;
     GateLimits limits;
+    WorkSettings work;
 };
 
 // The view of a tick for the carving side (stroke_of): it sweeps the tool from the sample before to this one.
@@ -108,14 +110,6 @@ enum TickFlag : std::uint32_t {
     kTickLoopGap = 1u << 19,        // ticks were lost before this one
 };
 
-// Counts of the work that a tick did; unlike times they do not depend on the machine's speed.
-struct TickWork {
-    std::uint32_t triangles_tested = 0;  // exact distance or sweep computations
-    std::uint32_t triangles_seen = 0;    // checked by their bounding box or ball; a quad counts as one
-    std::uint32_t proxy_steps = 0;
-    std::uint32_t plane_solves = 0;
-};
-
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 
 // Contact of one point of the probe.
@@ -149,7 +143,7 @@ struct ContactRecord {
     StiffnessBound stiffness_bound = StiffnessBound::none;
     double spring_energy_J = 0.0;  // energy stored in the springs of the walls touched
     devices::DeviceWrench wrench;  // of the contact, after filter and passivity
-    TickWork work;
+    ContactWork work;
 };
 
 // Everything a tick used and did; the other records are views of it. With the surface and the parameters of the

@@ -100,11 +100,7 @@ private:
     }
 
     void count_work(const ProxyResult& moved) {
-        TickWork& work = step_.contact.work;
-        work.triangles_tested += moved.work.triangles_tested;
-        work.triangles_seen += moved.work.triangles_seen;
-        work.proxy_steps += moved.work.steps;
-        work.plane_solves += moved.work.plane_solves;
+        step_.contact.work += moved.work;
         if (moved.pushed_out) step_.flags |= kTickPushedOut;
         if (moved.work_limited) step_.flags |= kTickWorkLimited;
     }
@@ -165,12 +161,9 @@ CutByPoint cut_by(const PointContact& point, const CuttingState& state, const Co
 }
 
 // Divides the rest of the tick's work budget among the remaining points.
-ProxyBudget share_of_rest(const ContactRecord& contact, std::uint32_t point) {
-    ProxyBudget budget;
-    const std::uint32_t sharing = contact.point_count - point;
-    budget.max_triangles_tested = (budget.max_triangles_tested - contact.work.triangles_tested) / sharing;
-    budget.max_triangles_seen = (budget.max_triangles_seen - contact.work.triangles_seen) / sharing;
-    return budget;
+ProxyBudget share_of_rest(const ContactRecord& contact, std::uint32_t point, double budget_ns) {
+    const double left_ns = std::max(budget_ns - cost_ns(contact.work), 0.0);
+    return {.max_cost_ns = left_ns / (contact.point_count - point)};
 }
 
 std::uint32_t deepest_of(const ContactRecord& contact) {
@@ -190,8 +183,9 @@ void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept {
     const bool cutting = pressed && input.parameters.action == ToolAction::cut;
     std::array<std::optional<PointContact>, kMostProbePoints> points;
     std::uint32_t in_contact = 0;
+    const double budget = budget_ns(input.parameters.work, input.dt_s);
     for (std::uint32_t i = 0; i < contact.point_count; ++i) {
-        points[i].emplace(input, step, i).touch(painting, share_of_rest(contact, i));
+        points[i].emplace(input, step, i).touch(painting, share_of_rest(contact, i, budget));
         if (points[i]->in_contact()) ++in_contact;
     }
     std::array<PointForce, kMostProbePoints> forces;

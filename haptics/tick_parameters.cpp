@@ -30,6 +30,10 @@ bool sensible(const GuidanceCurve& curve, const GuidanceSettings& s) {
            not_negative(s.reach_m) && std::isfinite(s.lead_speed_m_per_s);
 }
 
+bool sensible(const WorkSettings& w) {
+    return w.share > 0.0 && w.share <= 1.0 && w.pace > 0.0 && std::isfinite(w.pace);
+}
+
 bool sensible(const WeightSettings& w) {
     return not_negative(w.compensated_mass_kg) && not_negative(w.tool_mass_kg) &&
            finite(w.tool_centre_of_mass_device_m) && std::abs(glm::dot(w.down_device, w.down_device) - 1.0) <= 2e-6;
@@ -43,7 +47,7 @@ bool parameters_are_sensible(const TickParameters& p) noexcept {
     return settings_are_sensible(p.workspace) && sensible(p.probe) && share(p.clearance_ratio) &&
            share(p.signals.velocity_alpha) && share(p.signals.force_alpha) &&
            not_negative(p.coupling.stiffness_N_per_m) && not_negative(p.coupling.damping_Ns_per_m) &&
-           not_negative(p.passivity.max_damping_Ns_per_m) && not_negative(p.passivity.reserve_J) &&
+           not_negative(p.passivity.max_damping_Ns_per_m) && not_negative(p.passivity.reserve_J) && sensible(p.work) &&
            sensible(p.weight) && sensible(p.curve, p.guidance) && not_negative(p.position_noise_m) &&
            not_negative(p.max_surface_age_s);
 }

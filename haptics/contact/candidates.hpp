@@ -39,7 +39,7 @@ public:
 
     enum class Gathered : std::uint8_t {
         all,
-        too_many_triangles,  // more than kMost: the caller retries with a shorter segment
+        too_many_triangles,  // more than wanted: the caller retries with a shorter segment
         too_many_points,     // likewise, or with a greater stride
         out_of_looks,        // the tick's work budget is used up
     };
@@ -48,6 +48,7 @@ public:
         Way way;
         double radius = 0.0, slack = 0.0;
         geometry::Fineness fineness;
+        std::uint32_t most = kMost;  // triangles, and as many points; at most kMost
     };
 
     Candidates() noexcept {}

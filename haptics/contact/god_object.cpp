@@ -104,6 +104,7 @@ public:
                                : 0.0;
         center_ = state.placed ? state.position_object_m - surface.origin_object : hip_;
         slips_ = state.slipping;
+        touched_before_ = state.placed && state.touching;
     }
 
     ProxyResult move(const ProxyState& state) {
@@ -399,6 +400,8 @@ private:
         if (touched_.constraints == 0) note_most_opposed();
         // Between two facets no plane bears the ball: the last contact of this tick is reported.
         if (touched_.constraints == 0) touched_ = last_;
+        // A proxy that could not even look around stays where it was in contact.
+        if (touched_.constraints == 0 && touched_before_) touched_ = {1, false, ProxyResult{}.active_triangle, {}};
         stay();
         result_.normal_object = unit_or_zero(center_ - hip_);
         return result_;
@@ -436,8 +439,9 @@ private:
     };
     Touched touched_, last_;  // now, and the last contact found in this tick
     double leeway_ = 0.0;
-    bool slips_ = false;  // the cone of dynamic friction applies, not the static one
-    bool slid_ = false;   // in this tick
+    bool touched_before_ = false;  // in the last tick
+    bool slips_ = false;           // the cone of dynamic friction applies, not the static one
+    bool slid_ = false;            // in this tick
 };
 
 }  // namespace

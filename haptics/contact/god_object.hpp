@@ -29,6 +29,7 @@
 #include <cstdint>
 
 #include "geometry/contact/local_surface.hpp"
+#include "haptics/contact/contact_work.hpp"
 
 namespace burin::haptics {
 
@@ -57,13 +58,6 @@ struct ProxySettings {
     double dynamic_friction = 0.0;
 };
 
-struct ProxyWork {
-    std::uint32_t triangles_tested = 0;
-    std::uint32_t triangles_seen = 0;  // checked by their bounding box or ball; a quad counts as one
-    std::uint32_t steps = 0;
-    std::uint32_t plane_solves = 0;
-};
-
 struct ProxyResult {
     ProxyState next;
     std::uint32_t active_triangle = 0xffffffffu;  // the one that bears most of the contact; none in free space
@@ -72,18 +66,14 @@ struct ProxyResult {
     std::uint32_t constraints = 0;                // active planes, 0 to 3
     bool pushed_out = false;
     bool work_limited = false;
-    ProxyWork work;
+    ContactWork work;
 };
 
 struct ProxyBudget {
     std::uint32_t max_steps = 12;
-    // Exact distance and sweep computations a tick, about 0.2 us each with their overhead. When they are used up the
-    // proxy waits at a safe position and continues in the next tick, for example when a tool is torn out of a deep
-    // groove.
-    std::uint32_t max_triangles_tested = 4000;
-    // Bounding boxes checked a tick, about 10 ns each; a large tool on a fine lattice has many. When they are used up
-    // the proxy waits likewise.
-    std::uint32_t max_triangles_seen = 60000;
+    // When it is used up the proxy waits at a safe position and continues in the next tick, for example when a tool is
+    // torn out of a deep groove. A third of a period of 1 ms.
+    double max_cost_ns = 333e3;
 };
 
 // Moves the proxy towards the HIP for one tick. Requires finite, non-negative settings, dynamic friction at most static

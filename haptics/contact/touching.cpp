@@ -24,6 +24,11 @@ bool beside(const geometry::Triangle& t, const Way& way, double reach) {
     return distance2(way, 0.5 * (lo + hi)) > limit * limit;
 }
 
+// How many times this cost can be paid.
+std::uint32_t times(double allowed_ns, double cost_ns) {
+    return static_cast<std::uint32_t>(std::clamp(allowed_ns / cost_ns, 0.0, 4e9));
+}
+
 }  // namespace
 
 bool ContactSearch::broad_phase(const Way& way) noexcept {
@@ -32,17 +37,27 @@ bool ContactSearch::broad_phase(const Way& way) noexcept {
     const double most = std::ldexp(kFirstLookOfRadius * radius_ + kFirstLookOfEdge * edge, looks_taken_++);
     double share = length > most ? most / length : 1.0;
     double slack = kBesideOfRadius * radius_ + kBesideOfEdge * edge + kBesideOfWay * share * length;
-    for (int tries = 0; tries < 6; ++tries) {
-        std::uint32_t looks = budget_.max_triangles_seen - work_.triangles_seen;
-        const std::uint32_t before = looks;
+    constexpr int kMostTries = 6;
+    for (int tries = 1; tries <= kMostTries; ++tries) {
+        // Half of what is left for each try, so that one over a shorter way is still possible.
+        const double allowed_ns = (tries < kMostTries ? 0.5 : 1.0) * left_ns();
+        const std::uint32_t most_looks = times(0.5 * allowed_ns, WorkCost::kLook_ns);
+        std::uint32_t looks_left = most_looks;
         const auto found =
-            candidates_.gather(surface_, {{way.from, way.from + share * motion}, radius_, slack, fineness_}, looks);
-        work_.triangles_seen += before - looks;
+            candidates_.gather(surface_,
+                               {{way.from, way.from + share * motion},
+                                radius_,
+                                slack,
+                                fineness_,
+                                std::min(times(0.5 * allowed_ns, WorkCost::kGathered_ns), Candidates::kMost)},
+                               looks_left);
+        work_.triangles_seen += most_looks - looks_left;
+        work_.gathered += candidates_.triangles() + candidates_.points();
+        fours_before_ = work_.fours_measured;
         std::fill_n(touches_already_.begin(), candidates_.triangles(), false);
         std::fill_n(touches_already_.begin() + Candidates::kMost, candidates_.points(), false);
         if (found == Candidates::Gathered::all) return true;
-        if (found == Candidates::Gathered::out_of_looks) return false;
-        if (found == Candidates::Gathered::too_many_points && tries > 0) fineness_.stride *= 2;
+        if (found == Candidates::Gathered::too_many_points && tries > 1) fineness_.stride *= 2;
         share *= 0.25;
         slack *= 0.25;
     }
@@ -114,6 +129,7 @@ ContactSearch::Touching ContactSearch::touching(const Vec3& center, Touches& tou
         if (Candidates::is_point(candidate)) return touch_point(candidate, center, result, touches);
         return count_test() && touch_triangle(candidate, center, result, touches);
     });
+    work_.fours_measured = fours_before_ + candidates_.fours_measured();
     return result;
 }
 
@@ -137,6 +153,7 @@ ContactSearch::Sweep ContactSearch::sweep(const Vec3& center, const Vec3& motion
         result.fraction = std::min(result.fraction, fraction);
         return true;
     });
+    work_.fours_measured = fours_before_ + candidates_.fours_measured();
     return result;
 }
 
@@ -169,10 +186,9 @@ Nearest ContactSearch::nearest(const Vec3& center, double most) noexcept {
     // Starts a little above the radius: after a cut the surface is just out of contact.
     for (double reach = std::max(1.1 * radius_, 2.0 * surface_.mean_edge_m());; reach *= 2.0) {
         near.reach_m = reach;
-        const std::uint32_t looks = budget_.max_triangles_seen - work_.triangles_seen;
-        near.looks_left = looks;
+        const std::uint32_t most_looks = near.looks_left = times(left_ns(), WorkCost::kLook_ns);
         const bool complete = geometry::for_each_triangle_near(surface_, near, visit);
-        work_.triangles_seen += looks - near.looks_left;
+        work_.triangles_seen += most_looks - near.looks_left;
         if (!complete) return {};
         if (result.distance <= reach || reach >= everything) return result;
     }
@@ -181,14 +197,13 @@ Nearest ContactSearch::nearest(const Vec3& center, double most) noexcept {
 bool ContactSearch::sees_backs(const Vec3& center, double reach) noexcept {
     double sum = 0.0;
     geometry::Near near{.lo = center, .hi = center, .reach_m = reach, .by_way = true, .from = center, .to = center};
-    const std::uint32_t looks = budget_.max_triangles_seen - work_.triangles_seen;
-    near.looks_left = looks;
+    const std::uint32_t most_looks = near.looks_left = times(left_ns(), WorkCost::kLook_ns);
     const bool complete =
         geometry::for_each_triangle_near(surface_, near, [&](std::uint32_t id, const geometry::Triangle& t) {
             if (!surface_.two_sided(id)) sum += solid_angle_tangent(center, t);
             return true;
         });
-    work_.triangles_seen += looks - near.looks_left;
+    work_.triangles_seen += most_looks - near.looks_left;
     return complete && sum > 0.0;
 }
 

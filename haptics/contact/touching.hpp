@@ -54,7 +54,7 @@ struct Nearest {
 class ContactSearch {
 public:
     ContactSearch(const geometry::LocalSurface& surface, double radius, const ProxyBudget& budget,
-                  ProxyWork& work) noexcept
+                  ContactWork& work) noexcept
         : surface_(surface), radius_(radius), budget_(budget), work_(work), fineness_{kFineEdge * radius, 1} {}
 
     // Broad phase: gathers the triangles that the ball may touch along the segment and a little beside it. If there are
@@ -97,10 +97,11 @@ public:
 
 private:
     [[nodiscard]] bool count_test() noexcept {
-        if (work_.triangles_tested >= budget_.max_triangles_tested) return false;
+        if (left_ns() <= 0.0) return false;
         ++work_.triangles_tested;
         return true;
     }
+    [[nodiscard]] double left_ns() const noexcept { return budget_.max_cost_ns - cost_ns(work_); }
     void keep_nearest(Nearest& best, const Nearest& other) const noexcept;
     [[nodiscard]] bool touch_triangle(std::uint32_t candidate, const Vec3& center, Touching& result,
                                       Touches& touches) noexcept;
@@ -111,7 +112,7 @@ private:
     const geometry::LocalSurface& surface_;
     double radius_;
     ProxyBudget budget_;
-    ProxyWork& work_;
+    ContactWork& work_;
     int looks_taken_ = 0;
     Candidates candidates_;
     geometry::Fineness fineness_;

@@ -302,15 +302,34 @@ TEST(GodObject, StopsSafelyWhenItsWorkIsUsedUp) {
     const Surface plane = test::plane(0.05, 40);
     Walker w{plane.get(), 5 * kMm};
     w.put({0.0, 0.0052, 0.0});
-    const ProxyResult r =
-        move_proxy(w.state, {0.0, -0.01, 0.0}, {w.radius}, *plane, {.max_steps = 12, .max_triangles_tested = 3});
+    const Vec3 hip(0.0, -0.01, 0.0);
+    const ContactWork needed = move_proxy(w.state, hip, {w.radius}, *plane).work;
+    // At any budget it stays outside and keeps to the budget but for its last step; with enough it arrives.
+    int limited = 0;
+    for (double share = 0.0; share <= 2.5; share += 0.01) {
+        const double budget = share * cost_ns(needed);
+        const ProxyResult r = move_proxy(w.state, hip, {w.radius}, *plane, {.max_cost_ns = budget});
+        EXPECT_GE(r.next.position_object_m.y, 0.998 * w.radius) << share;
+        EXPECT_LE(cost_ns(r.work), std::max(budget, WorkCost::kTick_ns) + WorkCost::kStep_ns + 2e3) << share;
+        limited += r.work_limited;
+        if (!r.work_limited) {
+            EXPECT_NEAR(r.next.position_object_m.y, w.radius, 1e-6) << share;
+        }
+    }
+    EXPECT_GT(limited, 20);
+    EXPECT_FALSE(move_proxy(w.state, hip, {w.radius}, *plane, {.max_cost_ns = 2.5 * cost_ns(needed)}).work_limited);
+}
+
+TEST(GodObject, AProxyThatCannotLookAroundStaysInContact) {
+    const Surface plane = test::plane(0.05, 40);
+    Walker w{plane.get(), 5 * kMm};
+    w.put({0.0, 0.0052, 0.0});
+    w.put({0.0, 0.004, 0.0});
+    const ProxyResult r = move_proxy(w.state, {0.0, 0.0039, 0.0}, {w.radius}, *plane, {.max_cost_ns = 0.0});
     EXPECT_TRUE(r.work_limited);
-    EXPECT_LE(r.work.triangles_tested, 3u);
-    EXPECT_GE(r.next.position_object_m.y, 0.998 * w.radius);
-    const ProxyResult looked = move_proxy(w.state, {0.0, -0.01, 0.0}, {w.radius}, *plane, {.max_triangles_seen = 7});
-    EXPECT_TRUE(looked.work_limited);
-    EXPECT_LE(looked.work.triangles_seen, 7u);
-    EXPECT_GE(looked.next.position_object_m.y, 0.998 * w.radius);
+    EXPECT_GT(r.constraints, 0u);
+    EXPECT_EQ(r.next.position_object_m, w.proxy());
+    EXPECT_NEAR(r.normal_object.y, 1.0, 1e-6);
 }
 
 // At the front of a cut a facet may be folded over: it stands a little proud and shows its back. A ball that comes by
@@ -362,7 +381,7 @@ TEST(GodObject, ASunkBallComesOutDespiteFriction) {
 TEST(GodObject, EachQuestionToTheSurfaceCountsWhatItLooksAtAndEndsWithTheTicksWork) {
     const test::Surface fine = test::plane(0.05, 60);
     const Vec3 center(0.001, -0.0005, 0.002);
-    ProxyWork work;
+    ContactWork work;
     ContactSearch search(*fine, 0.004, ProxyBudget{}, work);
     EXPECT_NEAR(search.nearest(center, 1.0).distance, 0.0005, 1e-9);
     const std::uint32_t after_nearest = work.triangles_seen;
@@ -373,8 +392,8 @@ TEST(GodObject, EachQuestionToTheSurfaceCountsWhatItLooksAtAndEndsWithTheTicksWo
     EXPECT_TRUE(search.broad_phase({center, center}));
     EXPECT_GT(work.triangles_seen, after_backs);
 
-    ProxyWork little;
-    ContactSearch poor(*fine, 0.004, {.max_triangles_seen = 5}, little);
+    ContactWork little;
+    ContactSearch poor(*fine, 0.004, {.max_cost_ns = WorkCost::kTick_ns + 5 * WorkCost::kLook_ns}, little);
     EXPECT_EQ(poor.nearest(center, 1.0).distance, HUGE_VAL);
     EXPECT_FALSE(poor.sees_backs(center, 0.004));
     EXPECT_FALSE(poor.broad_phase({center, center}));

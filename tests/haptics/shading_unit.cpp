@@ -181,7 +181,7 @@ TEST(ForceShading, NormalsAreCarriedOnPastAFacetsRimByAQuarterOfItAtMost) {
     for (const double radius : {2 * kMm, 5 * kMm, 20 * kMm})
         for (const double beyond : {0.1, 0.5, 0.9}) {  // of the radius: the ball touches the rim with its side
             const Vec3 center = radius * Vec3(-beyond, std::sqrt(1.0 - beyond * beyond), 0.0) - mesh->origin_object;
-            ProxyWork work;
+            ContactWork work;
             ContactSearch search(*mesh, radius, ProxyBudget{}, work);
             ASSERT_TRUE(search.broad_phase({center, center}));
             Touches touches;
@@ -203,7 +203,7 @@ TEST(ForceShading, NormalsAreCarriedOnPastAFacetsRimByAQuarterOfItAtMost) {
 TEST(ForceShading, FacetsThatAreAskedForAgainAreTheSameInAnyOrder) {
     const test::Surface mesh = test::touchable(test::mesh_of(BumpySphere{}, 3));
     const Vec3 top = Vec3(0.0, 0.05, 0.0) - mesh->origin_object;
-    ProxyWork work;
+    ContactWork work;
     ContactSearch search(*mesh, 0.02, ProxyBudget{}, work);
     ASSERT_TRUE(search.broad_phase({top, top}));
     const Candidates& candidates = search.candidates();

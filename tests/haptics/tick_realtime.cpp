@@ -80,8 +80,8 @@ TEST(HapticLoop, TenThousandStepsAllocateLockThrowAndOpenNothing) {
         total += scope.counts();
         in_contact += (record.flags & kTickInContact) != 0;
         faulty += record.gate.cause != GateCause::none;
-        EXPECT_LE(record.contact.work.triangles_tested, ProxyBudget{}.max_triangles_tested);
-        EXPECT_LE(record.contact.work.proxy_steps, ProxyBudget{}.max_steps);
+        EXPECT_LE(cost_ns(record.contact.work), ProxyBudget{}.max_cost_ns);
+        EXPECT_LE(record.contact.work.steps, ProxyBudget{}.max_steps);
     }
     expect_none(total);
     EXPECT_GT(in_contact, 1000);
@@ -120,7 +120,7 @@ TEST(HapticLoop, StepsOnTilesThatAreCarvedMeanwhileAllocateFreeAndLockNothing) {
         const TickRecord record = rig.loop.step();
         total += scope.counts();
         in_contact += (record.flags & kTickInContact) != 0;
-        EXPECT_LE(record.contact.work.triangles_seen, ProxyBudget{}.max_triangles_seen);
+        EXPECT_LE(cost_ns(record.contact.work), ProxyBudget{}.max_cost_ns);
     }
     expect_none(total);
     EXPECT_GT(in_contact, 300);
