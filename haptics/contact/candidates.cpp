@@ -59,7 +59,7 @@ Candidates::Gathered Candidates::gather(const geometry::LocalSurface& surface, c
         const Vec3 normal = glm::cross(t.b - t.a, t.c - t.a);
         const double normal2 = glm::dot(normal, normal);
         if (beside.is_above_or_below(t, normal, normal2)) return true;
-        if (fours_.count() == query.most) {
+        if (fours_.count() == query.most_triangles) {
             gathered = Gathered::too_many_triangles;
             return false;
         }
@@ -71,7 +71,7 @@ Candidates::Gathered Candidates::gather(const geometry::LocalSurface& surface, c
         return true;
     };
     const auto add_point = [&](const geometry::SurfacePoint& point) {
-        if (points_.count() == query.most) {
+        if (points_.count() == query.most_points) {
             gathered = Gathered::too_many_points;
             return false;
         }

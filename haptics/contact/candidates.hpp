@@ -48,7 +48,7 @@ public:
         Way way;
         double radius = 0.0, slack = 0.0;
         geometry::Fineness fineness;
-        std::uint32_t most = kMost;  // triangles, and as many points; at most kMost
+        std::uint32_t most_triangles = kMost, most_points = kMost;  // at most kMost
     };
 
     Candidates() noexcept {}
