@@ -21,7 +21,7 @@
 //
 // The curve is a cubic Hermite spline over the targets' times. Its velocity at a target is that of the polynomial
 // through up to five targets, one of them later if it is known: a circle given by ten targets a turn is followed within
-// 0.0006 of its radius. It is bounded so that the curve never goes back nor beyond a target at which it rests. At a
+// 0.0003 of its radius. It is bounded so that the curve never goes back nor beyond a target at which it rests. At a
 // corner (a turn by more than 60 degrees, or by more than 5 and three times that before) and where a rest begins or ends
 // the velocity changes at once, as it does with many targets. Straight, even paths stay so to rounding.
 //

@@ -70,9 +70,9 @@ inline GroovePath circle_path(double speed_m_per_s, double radius_m, double dura
 // Legs of 0.4 s with sharp turns between them.
 inline GroovePath corner_path(double speed_m_per_s) {
     constexpr double kLeg_s = 0.4;
-    std::vector<Vec2> corners{{-0.045, -0.03}};
+    std::vector<Vec2> corners{{-0.06, -0.01}};
     double direction = 0.0;
-    for (const double turn : {0.0, 1.2, -1.8, 0.9, 1.2}) {
+    for (const double turn : {0.0, 1.2, -1.8, -1.8, -0.9}) {
         direction += turn;
         corners.push_back(corners.back() + kLeg_s * speed_m_per_s * Vec2(std::cos(direction), std::sin(direction)));
     }
@@ -199,10 +199,9 @@ struct GrooveDifference {
     std::size_t rays = 0;
 };
 
-// Compares two grooves along the path between two times, leaving out what is near its corners: the distance of their
-// surfaces along the normal, about.
+// Compares two grooves along the path between two times: the distance of their surfaces along the normal, about.
 inline GrooveDifference difference(const Groove& one, const Groove& other, const GroovePath& path, double from_s,
-                                   double to_s, const std::vector<double>& without_s = {}, double without_m = 0.0) {
+                                   double to_s) {
     struct Place {
         double time_s;
         Vec3 device_m;
@@ -224,11 +223,6 @@ inline GrooveDifference difference(const Groove& one, const Groove& other, const
                 }
             }
             if (nearest == nullptr || nearest->time_s < from_s || nearest->time_s > to_s) continue;
-            if (std::ranges::any_of(without_s, [&](double t) {
-                    const Vec3 p = path.at(t);
-                    return std::hypot(p.x - node.x, p.y - node.y) < without_m;
-                }))
-                continue;
             double slope = 0.0;  // the steepest beside, since a groove has edges
             for (const Groove* g : {&one, &other}) {
                 for (int side = -1; side <= 1; side += 2) {

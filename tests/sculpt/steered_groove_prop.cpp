@@ -19,7 +19,6 @@ struct NamedPath {
     // each. On a circle two more intervals pass until enough targets after the corner tell how it is bent, and one does
     // before its end.
     double from_s = 0.0, to_s = 0.0;
-    std::vector<double> corners_s = {};
 
     NamedPath(std::string called, GroovePath along, double after_s, double before_s)
         : name(std::move(called)),
@@ -38,16 +37,7 @@ NamedPath circle(double speed_mm_per_s) {
     return {"circle", circle_path(1e-3 * speed_mm_per_s, radius_m, speed_mm_per_s > 100.0 ? 2.0 : 1.6), 0.6, 0.4};
 }
 
-NamedPath corners(double speed_mm_per_s) {
-    NamedPath named("corners", corner_path(1e-3 * speed_mm_per_s), 0.1, 0.1);
-    for (int i = 1; i < 5; ++i) named.corners_s.push_back(named.path.begin_s + kGrooveDown_s + 0.4 * i);
-    return named;
-}
-
-GrooveDifference compare(const NamedPath& along, const Groove& one, const Groove& other) {
-    // A hand that is thrown round a corner swings over, and how it meets the material there differs by a tick.
-    return difference(one, other, along.path, along.from_s, along.to_s, along.corners_s, 0.003);
-}
+NamedPath corners(double speed_mm_per_s) { return {"corners", corner_path(1e-3 * speed_mm_per_s), 0.1, 0.1}; }
 
 std::string text(const GrooveDifference& d, const GroovePath& path) {
     return std::to_string(d.most_cells) + " cells at " + std::to_string(d.at_s - path.begin_s) + " s, p99 " +
@@ -64,7 +54,7 @@ void expect_same(const NamedPath& along, const std::vector<NamedSampling>& sampl
     const Groove often = carve_steered(along.path, deliver(along.path, {.rate_Hz = 240.0}));
     for (const NamedSampling& one : samplings) {
         const Groove groove = carve_steered(along.path, deliver(along.path, one.sampling));
-        const GrooveDifference d = compare(along, often, groove);
+        const GrooveDifference d = difference(often, groove, along.path, along.from_s, along.to_s);
         EXPECT_LT(d.most_cells, kSame_cells) << along.name << ", " << one.name << ": " << text(d, along.path);
         EXPECT_GT(d.rays, 100u);
         EXPECT_GT(d.deepest_cells, 0.9) << along.name;  // there is a groove
