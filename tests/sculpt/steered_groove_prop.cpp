@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The same path steered at any rate gives the same groove. Once it did not: one target a frame, reached in at most 50
-// ms, made ribs of 0.3 to 0.6 cells at 10 frames a second, and a string of beads of 0.6 to 2 cells at 5.
+// ms, made ribs of 0.2 to 0.6 cells at 10 frames a second, and a string of beads of 0.7 to 2.1 cells at 5.
 #include <gtest/gtest.h>
 
 #include <string>
