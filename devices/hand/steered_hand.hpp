@@ -14,16 +14,16 @@
 // to it. A target needs the delay (its arrival - the time of the target before it); where targets are so far apart that
 // the curve needs the one beyond as well (from 50 to 100 ms), up to an interval more. The delay in use is the greatest
 // need of the last 1.5 to 3 s. It grows at once where the goal rests anyway, and is then there from a stroke's
-// beginning; under way it grows and shrinks by slowing the goal down or speeding it up by a fiftieth. A target where the
-// one before it was is never late: the goal rests there already. A target that nevertheless comes late finds the goal
-// waiting. After a gap of more than 350 ms the source is taken to have rested until 50 ms before, and no target is
-// reached more than half a second after it came; what has piled up beyond that is gone through faster.
+// beginning; under way it grows and shrinks by slowing the goal down or speeding it up by a fiftieth. A target at the
+// place of the one before is never late: the goal rests there already. A target that nevertheless comes late finds the
+// goal waiting. After a gap of over 350 ms the source is taken to have rested until 50 ms before. The delay is half
+// a second at most; targets that have piled up by a tenth more are gone through faster.
 //
 // The curve is a cubic Hermite spline over the targets' times. Its velocity at a target is that of the polynomial
 // through up to five targets, one of them later if it is known: a circle given by ten targets a turn is followed within
 // 0.0003 of its radius. It is bounded so that the curve never goes back nor beyond a target at which it rests. At a
-// corner (a turn by more than 60 degrees, or by more than 5 and three times that before) and where a rest begins or ends
-// the velocity changes at once, as it does with many targets. Straight, even paths stay so to rounding.
+// corner (a turn by more than 60 degrees, or by more than 5 and three times that before), and where a rest begins or
+// ends, the velocity changes at once, as it does with many targets. Straight, even paths stay so to rounding.
 //
 // Only +, -, *, / and sqrt are used: every machine computes the same bits.
 // Frame: device, metres. Time: the caller's, from 0; internal steps of 50 us, so the bits do not depend on how often
@@ -94,7 +94,7 @@ public:
     static constexpr Nanoseconds kStep_ns = 50'000;
     // The longest time by which one call moves the hand on; for the rest of a longer time it stood still.
     static constexpr Nanoseconds kMostCatchUp_ns = 100'000'000;
-    // No target is reached later than this after it came, unless the hand's limits hold it up.
+    // The greatest delay: from when a target came until the goal reaches it.
     static constexpr Nanoseconds kMostDelay_ns = 500'000'000;
     // A button is held at least this long, so that a tick sees it.
     static constexpr Nanoseconds kLeastPress_ns = 2'000'000;

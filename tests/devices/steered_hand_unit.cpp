@@ -437,7 +437,7 @@ TEST(SteeredHand, NeverPassesATargetAtWhichThePathRests) {
     }
 }
 
-// Targets on a circle, so many a turn: how far the hand is off it, as a part of its radius, three targets from its ends.
+// Targets on a circle, so many a turn: how far the hand is off it, as a part of its radius, some targets from its ends.
 double off_circle(int targets_a_turn) {
     constexpr double kRadius_m = 0.05, kTurn = 6.283185307179586;
     const Nanoseconds interval = 200 * kMs;
