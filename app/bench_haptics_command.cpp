@@ -12,13 +12,14 @@ namespace {
 struct Options {
     bool quick = false;
     std::uint64_t contact_ticks = 0, paced_ticks = 0;  // 0: the default number
-    std::string csv, svg, json;
+    std::string models, csv, svg, json;
 };
 
 bench::HapticsOptions haptics_options(const Options& options) {
     bench::HapticsOptions wanted = options.quick ? bench::quick_haptics() : bench::HapticsOptions{};
     if (options.contact_ticks > 0) wanted.contact_ticks = options.contact_ticks;
     if (options.paced_ticks > 0) wanted.paced_ticks = options.paced_ticks;
+    wanted.scenes.models = options.models;
     return wanted;
 }
 
@@ -49,8 +50,10 @@ BenchSubcommand add_bench_haptics(Command bench) {
         .within(std::uint64_t{1}, std::uint64_t{1'000'000'000});
     command
         .option("--paced-ticks", options->paced_ticks,
-                "How many paced ticks of each scene, 1 ms each, with warm-up ticks and again cold (5000)")
+                "How many ticks of each scene and probe, 1 ms each, cold, and as many rehearsed (2000)")
         .within(std::uint64_t{1}, std::uint64_t{10'000'000});
+    command.option("--models", options->models,
+                   "A folder of meshes (STL, OBJ, PLY, OFF) to be touched besides, each scaled to 100 mm");
     command.option("--csv", options->csv, "A file for the table of ticks; - for standard output");
     command.option("--svg", options->svg, "A file for the figure");
     command.option("--json", options->json, "A file for every figure; - for standard output");

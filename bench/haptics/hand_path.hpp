@@ -23,10 +23,12 @@ public:
         description_.damping_Ns_per_m = 5.0;
         description_.friction_N = 0.26;
     }
-    void go_to(const Vec3& position_device_m, const Quat& orientation_device, Nanoseconds time_ns) noexcept {
+    void go_to(const Vec3& position_device_m, const Quat& orientation_device, Nanoseconds time_ns,
+               std::uint32_t buttons = 0) noexcept {
         sample_.position_device_m = position_device_m;
         sample_.orientation_device = orientation_device;
         sample_.time_ns = time_ns;
+        sample_.buttons = buttons;
     }
     [[nodiscard]] const devices::DeviceDescription& description() const noexcept override { return description_; }
     [[nodiscard]] devices::DeviceSample read() noexcept override { return sample_; }

@@ -9,13 +9,14 @@ namespace burin::bench {
 HapticsOptions quick_haptics() {
     HapticsOptions quick;
     quick.sizes = {2'000, 20'000};
+    quick.scenes = {.spheres = {2'000}, .rough_triangles = 2'000, .sides = 16, .needles = 10};
     quick.accuracy_size = 20'000;
-    quick.paced_ticks = 50;
-    quick.back_to_back_ticks = 300;
+    quick.paced_ticks = 10;
+    quick.back_to_back_ticks = 100;
     quick.accuracy_ticks = 2'000;
     quick.contact_ticks = 5'000;
     quick.edits = 5;
-    quick.solid_resolution = 48;
+    quick.solid_resolutions = {48};
     quick.ask_for_realtime = false;
     return quick;
 }
@@ -33,6 +34,8 @@ Result<Haptics> run_haptics(const HapticsOptions& options, const Tell& notify) {
         all.realtime = notice.text.empty() ? "priority and locked memory" : notice.text;
     }
     if (auto done = measure_ticks(all, notify); !done) return std::unexpected(done.error());
+    if (auto done = measure_carving_ticks(all, notify); !done) return std::unexpected(done.error());
+    sort_worst_first(all.ticks);
     return all;
 }
 

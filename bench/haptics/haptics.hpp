@@ -1,48 +1,60 @@
 // SPDX-License-Identifier: MIT
-// Measures the cost and the accuracy of touch: ticks of the haptic loop on bumpy spheres
-// (bench/haptics/bumpy_sphere.hpp) of 20 thousand to 2 million triangles and on a solid that is being carved; the proxy
-// against the true surface; lost contacts; the time from an edit until it is felt; the force's jumps at the edges of
-// facets.
+// Measures the cost and the accuracy of touch: ticks of the haptic loop on scenes of detail (touch_scenes.hpp) and on a
+// solid that is being carved, with a point, balls and many points, with friction and without; the proxy against the
+// true surface; lost contacts; the time from an edit until it is felt; the force's jumps at the edges of facets.
 //
-// Ticks are whole steps of HapticLoop, from reading the device to publishing the tool. Paced: at 1 kHz, as
-// HapticLoop::run does it, with a warm-up tick just before the deadline. Paced cold: asleep until the deadline and
-// timed from waking, with caches as cold as other work left them. Back to back: one after the other. The device follows
-// a path, pressed 1 to 2 mm deep at 100 mm/s, and does not yield to force, so that every run touches the same places.
+// Ticks are whole steps of HapticLoop with a session's own settings (touch_run.hpp). The device follows a path, pressed
+// 1 to 2 mm deep at 100 mm/s (surface_walk.hpp), and does not yield to force, so that every run touches the same
+// places. Cold ticks are what counts; rehearsed and back-to-back ones stand beside them. The work of a tick is counted
+// too: the counts do not depend on the machine.
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
 #include "base/json.hpp"
+#include "bench/haptics/touch_scenes.hpp"
 
 namespace burin::bench {
 
 struct HapticsOptions {
-    std::vector<std::size_t> sizes{20'000, 200'000, 2'000'000};  // approximate triangle counts; the last one is edited
+    // Approximate triangle counts of the spheres; the last one is edited.
+    std::vector<std::size_t> sizes{20'000, 200'000, 2'000'000};
+    TouchSceneOptions scenes{.spheres = sizes};
     std::size_t accuracy_size = 200'000;
-    std::uint64_t paced_ticks = 5'000;  // for each scene
-    std::uint64_t back_to_back_ticks = 20'000;
+    std::uint64_t paced_ticks = 2'000;         // of each scene and probe, cold, and as many rehearsed
+    std::uint64_t back_to_back_ticks = 5'000;  // likewise; the counts are of these
     std::uint64_t accuracy_ticks = 20'000;
     std::uint64_t contact_ticks = 1'000'000;
     std::uint64_t edits = 100;
-    int solid_resolution = 192;
-    bool ask_for_realtime = true;  // real-time priority and locked memory, where the system grants them
+    std::vector<int> solid_resolutions{256, 512};  // cells along the side of a ball of 100 mm that is carved
+    bool ask_for_realtime = true;                  // real-time priority and locked memory, where the system grants them
 };
 
 // Returns options with small sizes and few ticks, to check within seconds that everything works.
 [[nodiscard]] HapticsOptions quick_haptics();
 
-// The ticks of one combination of scene, probe and pacing.
+// The ticks of one combination of scene, probe, friction and pacing.
 struct TickCosts {
-    // Scene: "sphere" or "carving"; probe: "point", ..; pacing: "paced", "paced_cold" or "back_to_back".
-    std::string scene, probe, pacing;
+    std::string scene, probe, pacing;  // pacing: "cold", "rehearsed" or "back_to_back"
+    bool friction = true;
+    bool smooth = false;  // of the scene: a sphere
     std::size_t triangles = 0;
-    std::vector<double> tick_us, lateness_us;  // one value a tick; lateness of paced ticks only
-    std::vector<double> warm_up_us;          // of warm-up ticks, where there were any
-    std::vector<double> triangles_tested, triangles_seen;
-    std::uint64_t in_contact = 0, skipped_deadlines = 0, surfaces_used = 0;
+    double radius_m = 0.0, mean_edge_m = 0.0;  // of the probe; of the surface
+    // One value a tick that counts: time and how late it began (0 back to back); time of the warm-up tick, where there
+    // was one.
+    std::vector<double> tick_us, lateness_us, warm_up_us;
+    // The work of each: exact tests, looks at bounds, steps of the proxy, solves for the nearest point under planes.
+    std::vector<double> tests, looks, steps, solves;
+    // Ticks in contact, of which the work ran into its limit, with the probe inside the material and put outside, and
+    // with the probe caught far from the hand; and deadlines that passed in a tick.
+    std::uint64_t in_contact = 0, work_limited = 0, pushed_out = 0, left_behind = 0, skipped_deadlines = 0;
+    std::uint64_t surfaces_used = 0;
+    // Ticks without contact though the probe meets the mesh: counted back to back, for points and balls alone on a mesh.
+    std::optional<std::uint64_t> contact_lost;
 };
 
 // The errors of a point's proxy against the true surface.
@@ -85,7 +97,8 @@ struct Haptics {
     std::string machine;   // recorded before the first run
     std::string realtime;  // what the system granted
     HapticsOptions options;
-    std::vector<TickCosts> ticks;
+    std::vector<std::string> notes;  // what could not be measured, and why
+    std::vector<TickCosts> ticks;    // the worst first: by the p99.9 of cold ticks
     ProxyErrors errors;
     std::vector<LostContact> contact;
     // Distance between the proxies of the same run in metres and in a scaled unit,
@@ -105,14 +118,19 @@ using Tell = std::function<void(const std::string&)>;
 
 // Measure one part each, into its fields of `all`.
 [[nodiscard]] Result<void> measure_ticks(Haptics& all, const Tell& notify);
+[[nodiscard]] Result<void> measure_carving_ticks(Haptics& all, const Tell& notify);
 [[nodiscard]] Result<void> measure_accuracy(Haptics& all, const Tell& notify);
 [[nodiscard]] Result<void> measure_edits(Haptics& all, const Tell& notify);
+
+// Brings all.ticks into order: combinations of scene, probe and friction by the p99.9 of their cold ticks, the largest
+// first; within one: cold, rehearsed, back to back.
+void sort_worst_first(std::vector<TickCosts>& ticks);
 
 [[nodiscard]] std::string haptics_table(const Haptics& all);
 // Returns a comment line that names the machine, one of column names, and a row for each scene of ticks.
 [[nodiscard]] std::string haptics_csv(const Haptics& all);
 [[nodiscard]] Json haptics_json(const Haptics& all);
-// Plots, for each scene, the share of paced ticks that take a time or longer.
+// Plots, for the worst scenes, the share of cold ticks that take a time or longer.
 [[nodiscard]] std::string haptics_svg(const Haptics& all);
 
 }  // namespace burin::bench

@@ -164,9 +164,6 @@ void SurfaceWalk::advance(double length_m) {
 
 // ---- The hand
 
-PressedWalk::PressedWalk(SurfaceWalk walk, const HandPress& press)
-    : walk_(std::move(walk)), press_(press), tremble_(press.seed + 1, 100, 0.05) {}
-
 Result<PressedWalk> PressedWalk::create(const geometry::TriangleMesh& mesh, const HandPress& press) {
     Result<SurfaceWalk> walk = SurfaceWalk::create(mesh, press.seed);
     if (!walk) return std::unexpected(walk.error());

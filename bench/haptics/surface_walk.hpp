@@ -15,7 +15,9 @@
 // says, since nothing but the four operations and the square root is used.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
@@ -130,6 +132,9 @@ struct HandPress {
 class PressedWalk {
 public:
     [[nodiscard]] static Result<PressedWalk> create(const geometry::TriangleMesh& mesh, const HandPress& press);
+    // Follows a walk that has not begun to move.
+    PressedWalk(SurfaceWalk walk, const HandPress& press)
+        : walk_(std::move(walk)), press_(press), tremble_(press.seed + 1, 100, 0.05) {}
 
     // Advances by a tick.
     void step();
@@ -144,12 +149,11 @@ public:
     [[nodiscard]] bool pressed() const { return ticks_ > come_down_ticks() + settle_ticks(); }
 
 private:
-    PressedWalk(SurfaceWalk walk, const HandPress& press);
     [[nodiscard]] std::uint64_t ticks_in(double time_s) const {
         return static_cast<std::uint64_t>(time_s / press_.tick_s + 0.5);
     }
     [[nodiscard]] std::uint64_t come_down_ticks() const { return ticks_in(press_.comes_down_s); }
-    [[nodiscard]] std::uint64_t settle_ticks() const { return ticks_in(4.0 * press_.follows_s); }
+    [[nodiscard]] std::uint64_t settle_ticks() const { return ticks_in(6.0 * press_.follows_s); }
     void begin_stroke();
     [[nodiscard]] Vec3 aim_m();
 

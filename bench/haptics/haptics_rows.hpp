@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// How the figures of ticks are written: as a table, rows and a figure. Used by haptics_output.cpp.
+#pragma once
+
+#include <array>
+#include <cstdio>
+
+#include "bench/haptics/haptics.hpp"
+
+namespace burin::bench {
+
+template <typename... Values>
+[[nodiscard]] std::string formatted(const char* format, Values... values) {
+    std::array<char, 512> text{};
+    std::snprintf(text.data(), text.size(), format, values...);
+    return text.data();
+}
+
+// Returns median, p99, p99.9 and maximum, named NAME_median_UNIT and so on.
+[[nodiscard]] Json quantiles(const std::string& name, const std::string& unit, const std::vector<double>& values);
+
+// Returns everything that is known of one combination of scene, probe, friction and pacing.
+[[nodiscard]] Json tick_row(const TickCosts& t);
+
+// Returns two lines of a heading, a row for each combination of scene, probe and friction, the worst first, and a line
+// that says how many deadlines were skipped.
+[[nodiscard]] std::string ticks_table(const std::vector<TickCosts>& ticks);
+
+}  // namespace burin::bench
