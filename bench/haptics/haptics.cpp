@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bench/haptics/haptics.hpp"
 
+#include "bench/haptics/haptics_rows.hpp"
 #include "bench/measure/timing.hpp"
 #include "haptics/realtime.hpp"
 
@@ -13,6 +14,7 @@ HapticsOptions quick_haptics() {
     quick.accuracy_size = 20'000;
     quick.paced_ticks = 10;
     quick.back_to_back_ticks = 100;
+    quick.peer_ticks = 5;
     quick.accuracy_ticks = 2'000;
     quick.contact_ticks = 5'000;
     quick.edits = 5;
@@ -35,6 +37,7 @@ Result<Haptics> run_haptics(const HapticsOptions& options, const Tell& notify) {
     }
     if (auto done = measure_ticks(all, notify); !done) return std::unexpected(done.error());
     if (auto done = measure_carving_ticks(all, notify); !done) return std::unexpected(done.error());
+    if (auto done = measure_peer_ticks(all, notify); !done) return std::unexpected(done.error());
     sort_worst_first(all.ticks);
     return all;
 }

@@ -27,6 +27,7 @@ struct HapticsOptions {
     std::size_t accuracy_size = 200'000;
     std::uint64_t paced_ticks = 2'000;         // of each scene and probe, cold, and as many rehearsed
     std::uint64_t back_to_back_ticks = 5'000;  // likewise; the counts are of these
+    std::uint64_t peer_ticks = 1'000;          // cold, of each program and mode; twice as many back to back
     std::uint64_t accuracy_ticks = 20'000;
     std::uint64_t contact_ticks = 1'000'000;
     std::uint64_t edits = 100;
@@ -53,8 +54,23 @@ struct TickCosts {
     // with the probe caught far from the hand; and deadlines that passed in a tick.
     std::uint64_t in_contact = 0, work_limited = 0, pushed_out = 0, left_behind = 0, skipped_deadlines = 0;
     std::uint64_t surfaces_used = 0;
-    // Ticks without contact though the probe meets the mesh: counted back to back, for points and balls alone on a mesh.
+    // Ticks without contact though the probe meets the mesh: counted back to back, for a point or one ball on a mesh.
     std::optional<std::uint64_t> contact_lost;
+};
+
+// Ticks of ours or of a peer's (bench/peers/proxy_peer.hpp), taken in turn on one mesh and path.
+struct PeerTicks {
+    // "burin_tick", the whole tick of our loop; "burin_contact", its proxy alone; "burin_unshaded", the same without
+    // force shading, which the peer's proxy does not do; "chai3d_static", "chai3d_dynamic".
+    std::string scene, probe, who;
+    bool friction = true;
+    std::size_t triangles = 0;
+    double radius_m = 0.0;
+    std::vector<double> cold_us, back_to_back_us;
+    // Of the ticks back to back: how deep the ball is in the mesh, how far the proxy is from the hand, and from the
+    // mesh's point nearest to the hand, for a point.
+    std::vector<double> sunk_um, from_hand_mm, from_nearest_um;
+    std::uint64_t contact_lost = 0;
 };
 
 // The errors of a point's proxy against the true surface.
@@ -99,6 +115,7 @@ struct Haptics {
     HapticsOptions options;
     std::vector<std::string> notes;  // what could not be measured, and why
     std::vector<TickCosts> ticks;    // the worst first: by the p99.9 of cold ticks
+    std::vector<PeerTicks> peers;    // five in turn for each combination; empty in a build without the peer
     ProxyErrors errors;
     std::vector<LostContact> contact;
     // Distance between the proxies of the same run in metres and in a scaled unit,
@@ -119,12 +136,9 @@ using Tell = std::function<void(const std::string&)>;
 // Measure one part each, into its fields of `all`.
 [[nodiscard]] Result<void> measure_ticks(Haptics& all, const Tell& notify);
 [[nodiscard]] Result<void> measure_carving_ticks(Haptics& all, const Tell& notify);
+[[nodiscard]] Result<void> measure_peer_ticks(Haptics& all, const Tell& notify);
 [[nodiscard]] Result<void> measure_accuracy(Haptics& all, const Tell& notify);
 [[nodiscard]] Result<void> measure_edits(Haptics& all, const Tell& notify);
-
-// Brings all.ticks into order: combinations of scene, probe and friction by the p99.9 of their cold ticks, the largest
-// first; within one: cold, rehearsed, back to back.
-void sort_worst_first(std::vector<TickCosts>& ticks);
 
 [[nodiscard]] std::string haptics_table(const Haptics& all);
 // Returns a comment line that names the machine, one of column names, and a row for each scene of ticks.

@@ -53,7 +53,7 @@ Json jump_of(const ForceJumps& j) {
 std::string haptics_table(const Haptics& all) {
     std::string text = all.machine + "; real time: " + all.realtime + "\n\n" + ticks_table(all.ticks);
     for (const std::string& note : all.notes) text += note + "\n";
-    text += "\n";
+    text += "\n" + peers_table(all.peers);
     const ProxyErrors& e = all.errors;
     text += formatted("proxy on %zu triangles at 100 mm/s (mesh within %.4f mm of the surface), mm: median, p99, max\n",
                       e.triangles, e.chord_mm);
@@ -88,6 +88,9 @@ Json haptics_json(const Haptics& all) {
     report["ticks"] = Json::array();
     for (const TickCosts& t : all.ticks) report["ticks"].push_back(tick_row(t));
     report["notes"] = all.notes;
+    report["peers"] = Json::array();
+    for (const PeerTicks& t : all.peers) report["peers"].push_back(peer_row(t));
+    report["peer_ratios"] = peer_ratios(all.peers);
     report["proxy_error"] = errors_of(all.errors);
     report["contact"] = Json::array();
     for (const LostContact& c : all.contact) report["contact"].push_back(contact_of(c));

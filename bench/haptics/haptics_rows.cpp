@@ -125,6 +125,17 @@ Json tick_row(const TickCosts& t) {
     return row;
 }
 
+void sort_worst_first(std::vector<TickCosts>& ticks) {
+    const auto group_of = [](const TickCosts& t) { return std::tuple(t.scene, t.triangles, t.probe, t.friction); };
+    std::map<decltype(group_of(ticks.front())), double> worst_us;
+    for (const TickCosts& t : ticks)
+        if (t.pacing == kCold) worst_us[group_of(t)] = quantile(t.tick_us, 0.999);
+    std::ranges::stable_sort(ticks, [&](const TickCosts& a, const TickCosts& b) {
+        const auto of_a = group_of(a), of_b = group_of(b);
+        return of_a != of_b && std::pair(worst_us[of_a], of_a) > std::pair(worst_us[of_b], of_b);
+    });
+}
+
 std::string ticks_table(const std::vector<TickCosts>& ticks) {
     std::string text =
         formatted("%-16s %9s %-14s %6s %-3s%32s%16s%16s%22s%23s%11s%12s%8s%6s%8s\n", "", "", "", "radius", "fri",

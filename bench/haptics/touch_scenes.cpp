@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <numbers>
 
 #include "bench/haptics/bumpy_sphere.hpp"
 #include "bench/haptics/rough_surfaces.hpp"
@@ -71,6 +72,22 @@ Result<void> add_models(TouchScenes& all, const std::string& folder) {
     return {};
 }
 
+constexpr std::size_t kMostJudged = 200;  // ticks without contact in a run; a judgement looks at every triangle
+constexpr double kInside_m = 2e-5;        // deep enough that rounding does not decide
+
+// Returns how often the mesh winds around the point: 1 inside a closed one, 0 outside (Jacobson et al. 2013), with the
+// solid angles of Van Oosterom and Strackee 1983.
+double winding_number(const geometry::TriangleMesh& mesh, const Vec3& p) {
+    double sum = 0.0;
+    for (const auto& [i, j, k] : mesh.triangles) {
+        const Vec3 a = mesh.positions_m[i] - p, b = mesh.positions_m[j] - p, c = mesh.positions_m[k] - p;
+        const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+        sum += std::atan2(glm::dot(a, glm::cross(b, c)),
+                          la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
+    }
+    return sum / (2.0 * std::numbers::pi);
+}
+
 }  // namespace
 
 geometry::TriangleMesh scaled_to(geometry::TriangleMesh mesh, double extent_m) {
@@ -106,6 +123,40 @@ Result<TouchScenes> touch_scenes(const TouchSceneOptions& options) {
     }
     if (const auto added = add_models(all, options.models); !added) return std::unexpected(added.error());
     return all;
+}
+
+Result<std::unique_ptr<const TouchedScene>> touched(const TouchScene& scene) {
+    Result<geometry::TriangleMesh> mesh = scene.make();
+    if (!mesh) return std::unexpected(mesh.error());
+    auto touch = geometry::TouchMesh::create(*mesh);
+    if (!touch) return std::unexpected(touch.error());
+    Result<SurfaceWalk> walk = SurfaceWalk::create(*mesh, 1);
+    if (!walk) return std::unexpected(walk.error());
+    geometry::TriangleMesh kept = std::move(*mesh);
+    // The tree refers to arrays that moving the mesh leaves in place.
+    geometry::TriangleTree tree(kept.positions_m, kept.triangles);
+    return std::make_unique<const TouchedScene>(
+        TouchedScene{scene.name, scene.smooth, std::move(kept), touch->snapshot(), std::move(*walk), std::move(tree)});
+}
+
+std::uint64_t contacts_lost(const TouchedScene& scene, const std::vector<Vec3>& hands_m, double radius_m) {
+    if (hands_m.empty()) return 0;
+    const std::size_t stride = (hands_m.size() + kMostJudged - 1) / kMostJudged;
+    std::uint64_t judged = 0, lost = 0;
+    for (std::size_t i = 0; i < hands_m.size(); i += stride) {
+        ++judged;
+        const double distance_m = scene.tree.nearest(hands_m[i], 0).distance_m;
+        const bool meets = distance_m < 0.95 * radius_m;  // a ball in a session is a little smaller than its tool
+        if (meets || (distance_m > kInside_m && winding_number(scene.mesh, hands_m[i]) > 0.5)) ++lost;
+    }
+    return lost * hands_m.size() / judged;
+}
+
+void fill(geometry::LocalSurface& draft, const TouchedScene& scene, std::uint64_t sequence, Nanoseconds now_ns) {
+    draft.sequence = sequence;
+    draft.made_ns = now_ns;
+    draft.radius_m = 1e3;
+    draft.meshes.assign(1, {scene.snapshot, 0});
 }
 
 std::vector<NamedProbe> probes_on(double mean_edge_m) {

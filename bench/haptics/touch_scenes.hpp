@@ -6,11 +6,15 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
-#include "geometry/mesh/triangle_mesh.hpp"
+#include "bench/haptics/surface_walk.hpp"
+#include "geometry/contact/local_surface.hpp"
+#include "geometry/contact/touch_mesh.hpp"
+#include "geometry/mesh/triangle_tree.hpp"
 #include "haptics/channels.hpp"
 
 namespace burin::bench {
@@ -36,6 +40,25 @@ struct TouchSceneOptions {
 
 // Fails where the folder of models cannot be read or holds none.
 [[nodiscard]] Result<TouchScenes> touch_scenes(const TouchSceneOptions& options);
+
+// A mesh that is touched, ready for every probe, and for other programs' proxies beside ours.
+struct TouchedScene {
+    std::string name;
+    bool smooth = false;
+    geometry::TriangleMesh mesh;
+    std::shared_ptr<const geometry::TouchSnapshot> snapshot;
+    SurfaceWalk walk;  // has not moved yet
+    geometry::TriangleTree tree;
+};
+
+[[nodiscard]] Result<std::unique_ptr<const TouchedScene>> touched(const TouchScene& scene);
+
+// Counts the hands from which a ball of this radius, or a point, should have felt the mesh. Looks at some hundreds of
+// them at most, and draws on all.
+[[nodiscard]] std::uint64_t contacts_lost(const TouchedScene& scene, const std::vector<Vec3>& hands_m, double radius_m);
+
+// Sets the surface to the whole mesh, as it is published at this time.
+void fill(geometry::LocalSurface& draft, const TouchedScene& scene, std::uint64_t sequence, Nanoseconds now_ns);
 
 // Moves the mesh's middle to the origin and scales its largest extent to this length.
 [[nodiscard]] geometry::TriangleMesh scaled_to(geometry::TriangleMesh mesh, double extent_m);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Replaces the peers, those of bench/frame/ too, in a build without them.
-#include "bench/frame/frame_peers.hpp"
+// Replaces the peers in a build without them.
 #include "bench/peers/peers.hpp"
 
 namespace burin::bench {
@@ -24,18 +23,6 @@ Result<PeerRun> run_cgal(const CarveScene& /*scene*/, int /*subdivisions*/) { re
 
 Result<std::uint64_t> count_self_intersections_with_cgal(const geometry::TriangleMesh& /*mesh*/) {
     return not_built("CGAL");
-}
-
-bool has_frame_peers() { return false; }
-
-Result<std::unique_ptr<FrameSubject>> open_osg(const FrameScene& /*scene*/, unsigned /*samples*/,
-                                               OsgDrawables /*drawables*/, const FrameWay& /*way*/) {
-    return not_built("OpenSceneGraph");
-}
-
-Result<std::unique_ptr<FrameSubject>> open_vtk(const FrameScene& /*scene*/, unsigned /*samples*/,
-                                               const FrameWay& /*way*/, bool /*gouraud*/) {
-    return not_built("VTK");
 }
 
 }  // namespace burin::bench
