@@ -2,6 +2,7 @@
 // Writes our ticks beside CHAI3D's.
 #include <algorithm>
 #include <array>
+#include <tuple>
 
 #include "base/statistics.hpp"
 #include "bench/haptics/haptics_rows.hpp"
@@ -26,8 +27,11 @@ std::vector<Five> fives_of(const std::vector<PeerTicks>& peers) {
     std::vector<Five> all;
     for (std::size_t i = 0; i + 4 < peers.size(); i += 5)
         all.push_back({&peers[i], &peers[i + 1], &peers[i + 2], &peers[i + 3], &peers[i + 4]});
-    const auto worst = [](const Five& f) { return -ratio(f.contact->cold_us, f.dynamic->cold_us, 0.999); };
-    std::ranges::stable_sort(all, {}, worst);
+    const auto worst = [](const Five& f) {
+        return std::tuple(-ratio(f.contact->cold_us, f.dynamic->cold_us, 0.999), f.tick->scene, f.tick->triangles,
+                          f.tick->probe, f.tick->friction);
+    };
+    std::ranges::sort(all, {}, worst);
     return all;
 }
 

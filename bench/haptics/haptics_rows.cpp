@@ -130,9 +130,11 @@ void sort_worst_first(std::vector<TickCosts>& ticks) {
     std::map<decltype(group_of(ticks.front())), double> worst_us;
     for (const TickCosts& t : ticks)
         if (t.pacing == kCold) worst_us[group_of(t)] = quantile(t.tick_us, 0.999);
-    std::ranges::stable_sort(ticks, [&](const TickCosts& a, const TickCosts& b) {
+    const auto place_of = [](const TickCosts& t) { return t.pacing == kCold ? 0 : t.pacing == kRehearsed ? 1 : 2; };
+    std::ranges::sort(ticks, [&](const TickCosts& a, const TickCosts& b) {
         const auto of_a = group_of(a), of_b = group_of(b);
-        return of_a != of_b && std::pair(worst_us[of_a], of_a) > std::pair(worst_us[of_b], of_b);
+        if (of_a == of_b) return place_of(a) < place_of(b);
+        return std::pair(worst_us[of_a], of_a) > std::pair(worst_us[of_b], of_b);
     });
 }
 

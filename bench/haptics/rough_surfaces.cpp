@@ -170,7 +170,7 @@ struct Cell {
 class CellPlate {
 public:
     CellPlate(std::uint32_t columns, std::uint32_t rows, const Vec2& cell_m, double thickness_m)
-        : columns_(columns), rows_(rows), cell_m_(cell_m), thickness_m_(thickness_m) {
+        : columns_(columns), rows_(rows), cell_m_(cell_m) {
         for (const double z : {0.0, -thickness_m})
             for (std::uint32_t j = 0; j <= rows; ++j)
                 for (std::uint32_t i = 0; i <= columns; ++i)
@@ -260,7 +260,6 @@ private:
 
     std::uint32_t columns_, rows_;
     Vec2 cell_m_;
-    double thickness_m_;
     TriangleMesh mesh_;
 };
 

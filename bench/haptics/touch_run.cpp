@@ -76,7 +76,7 @@ void TouchRun::take(std::uint64_t ticks, Pacing pacing, const Update& update) {
         wait(deadline_ns, pacing);
         tick(clock_.now_ns() - deadline_ns);
         const Nanoseconds missed = (clock_.now_ns() - deadline_ns) / kPeriod_ns;
-        costs_.skipped_deadlines += static_cast<std::uint64_t>(missed);
+        if (path_.pressed()) costs_.skipped_deadlines += static_cast<std::uint64_t>(missed);
         deadline_ns += (missed + 1) * kPeriod_ns;
     }
 }
