@@ -48,8 +48,10 @@ struct TickCosts {
     // One value a tick that counts: time and how late it began (0 back to back); time of the warm-up tick, where there
     // was one.
     std::vector<double> tick_us, lateness_us, warm_up_us;
-    // The work of each: exact tests, looks at bounds, steps of the proxy, solves for the nearest point under planes.
-    std::vector<double> tests, looks, steps, solves;
+    // The work of each: exact tests, looks at bounds, triangles and points gathered, steps of the proxy, solves for the
+    // nearest point under planes; and what all this costs on the reference core, us, by which the tick is bounded
+    // (haptics/contact/contact_work.hpp).
+    std::vector<double> tests, looks, gathered, steps, solves, cost_us;
     // Ticks in contact, of which the work ran into its limit, with the probe inside the material and put outside, and
     // with the probe caught far from the hand; and deadlines that passed in a tick.
     std::uint64_t in_contact = 0, work_limited = 0, pushed_out = 0, left_behind = 0, skipped_deadlines = 0;

@@ -59,8 +59,8 @@ std::string table_row(const Runs& runs) {
     for (const double share : {0.5, 0.999}) text += time_cell(runs.back_to_back, share);
     text += formatted("%8.1f%7.0f%7.0f", mean(counted.tests), quantile(counted.tests, 0.999), most(counted.tests));
     text += formatted("%8.1f%7.0f%8.0f", mean(counted.looks), quantile(counted.looks, 0.999), most(counted.looks));
-    text += formatted("%6.1f%5.0f%7.1f%5.0f", mean(counted.steps), most(counted.steps), mean(counted.solves),
-                      most(counted.solves));
+    text += formatted("%6.1f%5.0f%8.1f%6.0f%6.0f", mean(counted.steps), most(counted.steps), mean(counted.cost_us),
+                      quantile(counted.cost_us, 0.999), most(counted.cost_us));
     text += formatted("%8.2f", percent(counted.work_limited, counted.tick_us.size())) + lost_cell(counted);
     const std::uint64_t skipped = (runs.cold != nullptr ? runs.cold->skipped_deadlines : 0) +
                                   (runs.rehearsed != nullptr ? runs.rehearsed->skipped_deadlines : 0);
@@ -103,8 +103,9 @@ Json tick_row(const TickCosts& t) {
                 {"pacing", t.pacing},
                 {"ticks", t.tick_us.size()}};
     row.update(quantiles("tick", "us", t.tick_us));
-    for (const auto& [name, values] : {std::pair{"tests", &t.tests}, std::pair{"looks", &t.looks},
-                                       std::pair{"steps", &t.steps}, std::pair{"solves", &t.solves}}) {
+    for (const auto& [name, values] :
+         {std::pair{"tests", &t.tests}, std::pair{"looks", &t.looks}, std::pair{"gathered", &t.gathered},
+          std::pair{"steps", &t.steps}, std::pair{"solves", &t.solves}, std::pair{"cost_us", &t.cost_us}}) {
         const std::string of = name;
         row[of + "_mean"] = mean(*values);
         row[of + "_p50"] = median(*values);
@@ -140,12 +141,12 @@ void sort_worst_first(std::vector<TickCosts>& ticks) {
 
 std::string ticks_table(const std::vector<TickCosts>& ticks) {
     std::string text =
-        formatted("%-16s %9s %-14s %6s %-3s%32s%16s%16s%22s%23s%11s%12s%8s%6s%8s\n", "", "", "", "radius", "fri",
+        formatted("%-16s %9s %-14s %6s %-3s%32s%16s%16s%22s%23s%11s%20s%8s%6s%8s\n", "", "", "", "radius", "fri",
                   "cold, us: p50 p99 p99.9 max", "rehearsed", "back to back", "tests: mean p99.9 max",
-                  "looks: mean p99.9 max", "steps", "solves", "limit", "lost", "skipped");
-    text +=
-        formatted("%-16s %9s %-14s %6s %-3s%32s%16s%16s%22s%23s%11s%12s%8s%6s%8s\n", "scene", "triangles", "probe",
-                  "/ edge", "ct.", "", "p50, p99.9", "p50, p99.9", "", "", "mean max", "mean max", "%", "ticks", "");
+                  "looks: mean p99.9 max", "steps", "cost by count, us", "limit", "lost", "skipped");
+    text += formatted("%-16s %9s %-14s %6s %-3s%32s%16s%16s%22s%23s%11s%20s%8s%6s%8s\n", "scene", "triangles", "probe",
+                      "/ edge", "ct.", "", "p50, p99.9", "p50, p99.9", "", "", "mean max", "mean p99.9 max", "%",
+                      "ticks", "");
     for (const Runs& runs : combinations_of(ticks)) text += table_row(runs);
     std::uint64_t deadlines = 0, skipped = 0, runs_that_skipped = 0, limited = 0, counted = 0;
     for (const TickCosts& t : ticks) {

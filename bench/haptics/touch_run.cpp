@@ -116,12 +116,14 @@ void TouchRun::tick(Nanoseconds lateness_ns) {
 }
 
 void TouchRun::count(const haptics::TickRecord& record, double took_us) {
-    const haptics::TickWork& work = record.contact.work;
+    const haptics::ContactWork& work = record.contact.work;
     costs_.tick_us.push_back(took_us);
     costs_.tests.push_back(work.triangles_tested);
     costs_.looks.push_back(work.triangles_seen);
-    costs_.steps.push_back(work.proxy_steps);
+    costs_.gathered.push_back(work.gathered + work.points);
+    costs_.steps.push_back(work.steps);
     costs_.solves.push_back(work.plane_solves);
+    costs_.cost_us.push_back(1e-3 * haptics::cost_ns(work));
     if (record.in_contact())
         ++costs_.in_contact;
     else

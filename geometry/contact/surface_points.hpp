@@ -64,20 +64,25 @@ private:
     float reach2_ = 0.0f;
 };
 
-// Calls visit(i) for the points that pass the gate, of `count` whose coordinates at(i) gives as three floats in a row,
+// The points first, first + stride, .., below end.
+struct PointRange {
+    std::uint32_t first = 0, end = 0, stride = 1;
+};
+
+// Calls visit(i) for the points of the range that pass the gate. Their coordinates are at(i): three floats in a row,
 // followed by at least one more readable float. A look is a test of four points.
 template <typename At, typename Visit>
-bool for_each_point(const PointGate& gate, std::uint32_t count, std::uint32_t stride, Near& near, At&& at,
-                    Visit&& visit) {
-    const std::uint32_t four = static_cast<std::uint32_t>(kLanes) * stride;
-    for (std::uint32_t first = 0; first < count; first += four) {
+bool for_each_point(const PointGate& gate, const PointRange& range, Near& near, At&& at, Visit&& visit) {
+    const std::uint32_t four = static_cast<std::uint32_t>(kLanes) * range.stride;
+    for (std::uint32_t first = range.first; first < range.end; first += four) {
         if (!near.look()) return false;
         const float* from[kLanes];
-        for (std::uint32_t k = 0; k < kLanes; ++k) from[k] = at(std::min(first + k * stride, count - 1));
+        for (std::uint32_t k = 0; k < kLanes; ++k) from[k] = at(std::min(first + k * range.stride, range.end - 1));
         const LaneMask is_near = gate.near(gathered(from));
         if (!any(is_near)) continue;
         for (std::uint32_t k = 0; k < kLanes; ++k)
-            if (is_near[k] != 0 && first + k * stride < count && !visit(first + k * stride)) return false;
+            if (is_near[k] != 0 && first + k * range.stride < range.end && !visit(first + k * range.stride))
+                return false;
     }
     return true;
 }
@@ -88,20 +93,19 @@ bool for_each_point_near(const SurfaceTile& tile, const PointGate& gate, std::ui
                          Visit&& visit) {
     const std::span<const shared::SurfaceVertex> vertices = tile.vertices;
     return for_each_point(
-        gate, static_cast<std::uint32_t>(vertices.size()), stride, near,
+        gate, {0, static_cast<std::uint32_t>(vertices.size()), stride}, near,
         [&](std::uint32_t i) { return &vertices[i].x; },
         [&](std::uint32_t i) { return visit(SurfacePoint{Vec3(place_of(vertices[i])), &vertices[i], nullptr}); });
 }
 
-// Visits the points of a part of a mesh whose origin is at `shift`, by their positions and normals.
+// Visits points of a part of a mesh whose origin is at `shift`, by their positions and normals.
 template <typename Visit>
-bool for_each_point_near(std::span<const Vec3f> positions, std::span<const Vec3f> normals, const Vec3& shift,
-                         const PointGate& gate, std::uint32_t stride, Near& near, Visit&& visit) {
-    const auto count = static_cast<std::uint32_t>(positions.size());
+bool for_each_point_near(std::span<const Vec3f> positions, std::span<const Vec3f> normals, const PointRange& range,
+                         const Vec3& shift, const PointGate& gate, Near& near, Visit&& visit) {
     // After the last position there is nothing more to read.
     const std::array<float, 4> last{positions.back().x, positions.back().y, positions.back().z, 0.0f};
     return for_each_point(
-        gate, count, stride, near, [&](std::uint32_t i) { return i + 1 < count ? &positions[i].x : last.data(); },
+        gate, range, near, [&](std::uint32_t i) { return i + 1 < positions.size() ? &positions[i].x : last.data(); },
         [&](std::uint32_t i) { return visit(SurfacePoint{Vec3(positions[i]) + shift, nullptr, &normals[i]}); });
 }
 

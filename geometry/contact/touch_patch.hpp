@@ -39,6 +39,9 @@ struct TouchPatch : TouchPart {
     struct Leaf {
         TouchBoxes boxes;
         std::array<std::array<std::uint16_t, 3>, TouchBoxes::kMost> corners{};  // indices of vertices
+        // The leaf's own vertices: those that no leaf before it has. They come in a row, up to the next leaf's.
+        std::uint16_t first_vertex = 0;
+        float longest_edge_m = 0.0f;  // of its triangles
     };
     TouchBoxes boxes;  // bounds of the leaves
     std::vector<Leaf> leaves;
@@ -46,10 +49,12 @@ struct TouchPatch : TouchPart {
     std::vector<Vec3f> positions_m;
     std::vector<Vec3f> normals;
     std::vector<std::uint32_t> mesh_triangles;  // index in the mesh of each triangle
-    float longest_edge_m = 0.0f;                // of all triangles
 
     [[nodiscard]] const std::array<std::uint16_t, 3>& corners(std::uint32_t i) const noexcept {
         return leaves[i / TouchBoxes::kMost].corners[i % TouchBoxes::kMost];
+    }
+    [[nodiscard]] std::uint32_t vertices_end(std::uint32_t leaf) const noexcept {
+        return leaf + 1 < count ? leaves[leaf + 1].first_vertex : static_cast<std::uint32_t>(positions_m.size());
     }
     [[nodiscard]] std::uint32_t in_leaf(std::uint32_t leaf) const noexcept {
         return std::min(TouchBoxes::kMost, triangles - leaf * TouchBoxes::kMost);
@@ -176,10 +181,6 @@ private:
                   const Vec3& shift) {
         if (!near_.look()) return false;
         if (!within_reach(patch.frame.lo, patch.frame.hi)) return true;
-        if constexpr (Visitor::kWantsPoints)
-            if (patch.longest_edge_m <= visit.fineness.longest_edge_m)
-                return for_each_point_near(patch.positions_m, patch.normals, shift, gate, visit.fineness.stride, near_,
-                                           visit.point);
         const SteppedBox asked = stepped(patch.frame);
         const Vec3f step_m = 1.0f / patch.frame.steps_per_m;
         for (std::uint32_t leaves = patch.boxes.meeting(asked, patch.count); leaves != 0; leaves &= leaves - 1) {
@@ -189,6 +190,14 @@ private:
                               patch.frame.lo + step_m * (patch.boxes.hi_of(number) + 1.0f)))
                 continue;
             const TouchPatch::Leaf& leaf = patch.leaves[number];
+            if constexpr (Visitor::kWantsPoints)
+                // A vertex that it shares with a leaf before it is within reach where that leaf is, and visited there.
+                if (leaf.longest_edge_m <= visit.fineness.longest_edge_m) {
+                    const PointRange range{leaf.first_vertex, patch.vertices_end(number), visit.fineness.stride};
+                    if (!for_each_point_near(patch.positions_m, patch.normals, range, shift, gate, near_, visit.point))
+                        return false;
+                    continue;
+                }
             for (std::uint32_t left = leaf.boxes.meeting(asked, patch.in_leaf(number)); left != 0; left &= left - 1) {
                 const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
                 if (!in_triangle(patch, leaf.corners[i], first + number * TouchBoxes::kMost + i, visit)) return false;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <utility>
 
 #include "geometry/mesh/componentwise.hpp"
@@ -37,18 +36,6 @@ TouchFrame frame_around(std::span<const Vec3f> positions_m) {
     return TouchFrame::around(lo, hi);
 }
 
-float longest_edge_m(const TouchPatch& patch) {
-    float longest2 = 0.0f;
-    for (std::uint32_t i = 0; i < patch.triangles; ++i) {
-        const auto& [a, b, c] = patch.corners(i);
-        for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, a}}) {
-            const Vec3f edge = patch.positions_m[to] - patch.positions_m[from];
-            longest2 = std::max(longest2, glm::dot(edge, edge));
-        }
-    }
-    return std::sqrt(longest2);
-}
-
 }  // namespace
 
 std::shared_ptr<const TouchPatch> TouchPatchMaker::make(TouchSurface& surface, std::span<const std::uint32_t> slots,
@@ -80,12 +67,15 @@ void TouchPatchMaker::take_vertices(TouchPatch& patch, TouchSurface& surface) {
     for (std::uint32_t i = 0; i < patch.triangles; ++i) {
         const std::uint32_t slot = slots_[i];
         const auto& [a, b, c] = surface.triangle(slot);
-        patch.leaves[i / TouchBoxes::kMost].corners[i % TouchBoxes::kMost] = {
+        TouchPatch::Leaf& leaf = patch.leaves[i / TouchBoxes::kMost];
+        if (i % TouchBoxes::kMost == 0) leaf.first_vertex = static_cast<std::uint16_t>(vertices_);
+        const auto& corner = leaf.corners[i % TouchBoxes::kMost] = {
             vertex_of(surface, a, slot), vertex_of(surface, b, slot), vertex_of(surface, c, slot)};
+        for (const auto& [from, to] : {std::pair{corner[0], corner[1]}, {corner[1], corner[2]}, {corner[2], corner[0]}})
+            leaf.longest_edge_m = std::max(leaf.longest_edge_m, glm::length(positions_m_[to] - positions_m_[from]));
     }
     patch.positions_m.assign(positions_m_.begin(), positions_m_.begin() + vertices_);
     patch.normals.assign(normals_.begin(), normals_.begin() + vertices_);
-    patch.longest_edge_m = longest_edge_m(patch);
 }
 
 std::uint16_t TouchPatchMaker::add_vertex(std::uint32_t vertex, const Vec3f& position_m, const Vec3f& normal) {

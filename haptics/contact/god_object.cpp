@@ -103,6 +103,7 @@ public:
                                           radius_ + edge_)
                                : 0.0;
         center_ = state.placed ? state.position_object_m - surface.origin_object : hip_;
+        search_.begin_with_stride(state.stride);
         slips_ = state.slipping;
         touched_before_ = state.placed && state.touching;
     }
@@ -417,6 +418,7 @@ private:
         result_.next.motion_object_m = center_ - began_;
         result_.next.leeway_m = leeway_;
         result_.next.step_share = step_share_.last();
+        result_.next.stride = search_.next_stride();
     }
 
     ProxySettings settings_;

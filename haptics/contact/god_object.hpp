@@ -12,9 +12,15 @@
 //      it; these are the active ones. Shading turns them to the smooth surface's normals (shading.hpp), friction holds
 //      the ball back as it slides along them (friction.hpp), and the true planes still keep it out.
 //   3. The ball is swept towards the goal against all other triangles and stops at the first, which joins the contact
-//      set in the next step. Without shading the distance to the HIP never grows, and the steps end when the ball
-//      stands still. Only the outer side of a triangle is felt, so the material must be closed where the surface is
-//      known.
+//      set in the next step. Only the outer side of a triangle is felt, so the material must be closed where the
+//      surface is known; of a two-sided sheet it is the side on which the ball is.
+//
+// Rest: planes alone never take the ball away from the HIP, so that it comes to a stand. Shading may, and so may the
+// longer steps that the ball takes around edges. Each step that does not bring it nearer spends leeway, which only the
+// hand's motion gives and which fades; so a hand that holds still has a proxy that holds still.
+//
+// A ball much larger than the triangles around it touches their vertices alone (geometry/contact/surface_points.hpp),
+// within kFineEdge^2 / 6 of the radius (touching.hpp).
 //
 // Tolerances are fractions of the ball's radius R, so that millimetres and metres behave alike (kTouch in
 // touching.hpp): a triangle counts as touched within 1e-3 R; an edge or corner may sink in by as much, which lets the
@@ -22,8 +28,8 @@
 // deep, so that what the ball slides along is not hit again. A point probe is a ball of 1/500 of the mean edge.
 //
 // A proxy that is found inside material (after an edit, at a first contact) is put outside by the shortest
-// displacement; the gate fades in the force that follows. Frame: object, metres. No heap, lock, throw; steps and
-// triangles are bounded and counted.
+// displacement; the gate fades in the force that follows. Frame: object, metres. No heap, lock, throw; the work is
+// counted and bounded (contact_work.hpp).
 #pragma once
 
 #include <cstdint>
@@ -42,9 +48,10 @@ struct ProxyState {
     // as the first guess of the broad phase.
     bool touching = false;
     Vec3 motion_object_m{0.0};
-    Vec3 hip_object_m{0.0};   // of the last tick
-    double leeway_m = 0.0;    // what shading may still spend on moving the proxy away from the HIP
-    double step_share = 1.0;  // of the last step under shading
+    Vec3 hip_object_m{0.0};    // of the last tick
+    double leeway_m = 0.0;     // what shading may still spend on moving the proxy away from the HIP
+    double step_share = 1.0;   // of the last step under shading or around an edge
+    std::uint32_t stride = 1;  // among very many vertices only each so manieth is touched
 };
 
 struct ProxySettings {

@@ -57,6 +57,13 @@ public:
                   ContactWork& work) noexcept
         : surface_(surface), radius_(radius), budget_(budget), work_(work), fineness_{kFineEdge * radius, 1} {}
 
+    // Among very many vertices only each so manieth is touched: as in the last tick, and for the next one.
+    void begin_with_stride(std::uint32_t stride) noexcept { fineness_.stride = stride; }
+    [[nodiscard]] std::uint32_t next_stride() const noexcept {
+        const bool few = candidates_.points() < Candidates::kMost / 3;
+        return few && fineness_.stride > 1 ? fineness_.stride / 2 : fineness_.stride;
+    }
+
     // Broad phase: gathers the triangles that the ball may touch along the segment and a little beside it. If there are
     // too many, covers a shorter part of the segment from its beginning. Returns false when the tick's work budget is
     // used up.

@@ -132,7 +132,7 @@ TEST(BenchHaptics, TicksTouchEverySceneWithEveryProbe) {
         EXPECT_EQ(t.tick_us.size(), paced ? all.options.paced_ticks : all.options.back_to_back_ticks) << what;
         EXPECT_EQ(t.lateness_us.size(), t.tick_us.size()) << what;
         EXPECT_EQ(t.warm_up_us.size(), t.pacing == "rehearsed" ? t.tick_us.size() : 0u) << what;
-        for (const auto* counts : {&t.tests, &t.looks, &t.steps, &t.solves})
+        for (const auto* counts : {&t.tests, &t.looks, &t.gathered, &t.steps, &t.solves, &t.cost_us})
             EXPECT_EQ(counts->size(), t.tick_us.size()) << what;
         EXPECT_EQ(t.contact_lost.has_value(), !paced && t.probe != "two_points" && t.probe != "20_points") << what;
         // Between needles a point is in the open.
@@ -246,7 +246,7 @@ TEST(BenchHaptics, RatiosToThePeerAreOfTheSameTicksAndTheWorstStandsFirst) {
         }
     const Json ratios = peer_ratios(peers);
     ASSERT_EQ(ratios.size(), 2u);
-    EXPECT_EQ(ratios[0]["scene"], "hard");
+    EXPECT_EQ(ratios[0]["scene"].get<std::string>(), "hard");
     EXPECT_EQ(ratios[0]["cold_contact_over_dynamic_p999"], 1.5);
     EXPECT_EQ(ratios[1]["back_to_back_tick_over_static_p50"], 0.5);
     EXPECT_LT(peers_table(peers).find("hard"), peers_table(peers).find("easy"));
@@ -282,7 +282,7 @@ TEST(BenchHaptics, ReportsAsJson) {
     const auto report = Json::parse(place.read("out.json"));
     EXPECT_GT(report["ticks"].size(), 150u);
     EXPECT_TRUE(report["ticks"][0].contains("tick_p999_us"));
-    EXPECT_EQ(report["ticks"][0]["pacing"], "cold");
+    EXPECT_EQ(report["ticks"][0]["pacing"].get<std::string>(), "cold");
     EXPECT_GE(report["notes"].size(), 2u);
     EXPECT_EQ(report["contact"][0]["ticks"], 500);
     EXPECT_TRUE(report["edit"].contains("prepare_p99_ms"));

@@ -215,8 +215,8 @@ RC_GTEST_PROP(TouchMesh, AfterEditsIsTheSameAsOneMadeAnew, (std::uint32_t seed))
             RC_ASSERT(glm::length(edited->corner_normals(i).normals[k] - same->second[k]) < 1e-3f);
         bool found = false;
         Near near{t.a, t.a, 0.0};
-        for_each_near(*edited, near,
-                      [&](std::uint32_t number, const Triangle&) { return found = found || number == i, true; });
+        const auto note = [&](std::uint32_t number, const Triangle&) { return found = found || number == i, true; };
+        for_each_near(*edited, near, TriangleVisitor{note});
         RC_ASSERT(found);
     }
 }
