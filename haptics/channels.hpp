@@ -102,7 +102,7 @@ enum TickFlag : std::uint32_t {
     kTickSampleDropped = 1u << 12,  // the carving side's ring was full: this stroke sample was lost
     // a material is stiffer than what the device renders passively; StiffnessBound says why
     kTickStiffnessLimited = 1u << 13,
-    kTickPassivityActs = 1u << 14,  // the passivity controller adds damping
+    kTickPassivityActs = 1u << 14,  // the passivity controller adds damping, or scales the wrench
     kTickPaused = 1u << 15,         // the workspace is being moved: nothing is touched or carved
     kTickSticking = 1u << 16,       // friction holds the proxy
     kTickCutting = 1u << 17,        // the tool is cutting into material

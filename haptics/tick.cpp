@@ -65,12 +65,17 @@ void refuse(const TickResult& t) {
     t.record.motion.object_from_device = t.next.workspace.object_from_device;
 }
 
-// Applies the passivity controller to the contact's force.
-PassivityStep kept_passive(const PassivityState& state, const TickRecord& record, const TickParameters& parameters,
-                           const devices::DeviceDescription& device, double dt_s) {
+// Applies the passivity controller to the contact's wrench.
+PassivityStep kept_passive(const PassivityState& state, const TickRecord& record, const VelocityWindow& window,
+                           const TickParameters& parameters, const devices::DeviceDescription& device, double dt_s) {
     PassivityInput input;
+    input.time_ns = record.sample.time_ns;
+    input.now_ns = record.time_ns;
     input.position_device_m = record.sample.position_device_m;
-    input.wanted_force_device_N = record.contact.wrench.force_device_N;
+    input.orientation_device = record.sample.orientation_device;
+    input.window = &window;
+    input.turns = device.max_torque_Nm != Vec3(0.0);
+    input.wanted = driven_part(record.contact.wrench, device);
     input.stored_J = record.contact.spring_energy_J;
     input.max_force_N = std::min(parameters.limits.max_force_N, device.max_force_N);
     input.in_contact = record.in_contact();
@@ -142,11 +147,12 @@ void compute_tick(const TickResult& t, const TickState& state, const devices::De
     const double alpha = parameters.signals.force_alpha;
     next.force_average = with_input(state.force_average, contact.force_device_N, alpha);
     if (alpha > 0.0) contact.force_device_N = next.force_average.value;
-    const PassivityStep passive = kept_passive(state.passivity, record, parameters, device, dt_s);
+    const PassivityStep passive = kept_passive(state.passivity, record, next.motion.window, parameters, device, dt_s);
     next.passivity = passive.next;
     record.passivity = passive.record;
-    contact.force_device_N = passive.force_device_N;
-    if (passive.record.damping_Ns_per_m > 0.0) record.flags |= kTickPassivityActs;
+    contact.force_device_N = passive.wrench.force_device_N;
+    contact.torque_device_Nm *= passive.record.share;
+    if (passive.record.damping_Ns_per_m > 0.0 || passive.record.share < 1.0) record.flags |= kTickPassivityActs;
 
     // Forces that act in free space too: the tool's weight, guidance, the workspace's elastic border.
     devices::DeviceWrench others = weight_wrench(parameters.weight, sample.orientation_device);
@@ -172,7 +178,9 @@ GateInput gate_input(const TickRecord& record, const devices::DeviceDescription&
     GateInput in;
     in.wanted = record.wanted;
     in.velocity_device_m_per_s = record.motion.velocity_device_m_per_s;
-    in.device_max_force_N = device.max_force_N;
+    // What the energy account does not afford may not be held up by the slew limit either.
+    const Vec3 others = record.wanted.force_device_N - record.contact.wrench.force_device_N;
+    in.device_max_force_N = std::min(device.max_force_N, record.passivity.most_N + std::sqrt(glm::dot(others, others)));
     in.device_axis_max_force_N = device.axis_max_force_N;
     in.device_max_torque_Nm = device.max_torque_Nm;
     in.sample_age_s = seconds(record.time_ns - record.sample.time_ns);
@@ -203,10 +211,17 @@ FullTick full_tick(const FullTickState& state, const devices::DeviceSample& samp
     if (record.gate.slew_limited) record.flags |= kTickSlewLimited;
     if (record.gate.ramping) record.flags |= kTickRamping;
     if (input.loop_gap_s > 1.5 * dt_s) record.flags |= kTickLoopGap;
-    // The passivity controller accounts for contact forces only, so the other forces are subtracted.
-    const Vec3 others_N = record.wanted.force_device_N - record.contact.wrench.force_device_N;
-    full.next.tick.passivity =
-        with_commanded_force(full.next.tick.passivity, on ? record.gate.given.force_device_N - others_N : Vec3(0.0));
+    // The passivity controller accounts for the contact only, so what the gate let through of the rest is subtracted.
+    devices::DeviceWrench given;
+    if (on) {
+        const devices::DeviceWrench contact = driven_part(record.contact.wrench, device);
+        const double faded = gate.next.faded();
+        given.force_device_N =
+            record.gate.given.force_device_N - faded * (record.wanted.force_device_N - contact.force_device_N);
+        given.torque_device_Nm =
+            record.gate.given.torque_device_Nm - faded * (record.wanted.torque_device_Nm - contact.torque_device_Nm);
+    }
+    set_commanded_wrench(full.next.tick.passivity, given, now_ns);
     return full;
 }
 

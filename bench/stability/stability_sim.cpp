@@ -86,7 +86,7 @@ public:
 
     StabilityRun run(std::vector<Trace>* trace) {
         for (int tick = 0; tick < ticks_; ++tick) {
-            told_N_.push_back(control());
+            told_N_.push_back(control(tick));
             note(tick);
             if (trace != nullptr) trace->push_back({tick * period_s_, body_.position_m, told_N_.back()});
             for (int i = 0; i < steps_; ++i) {
@@ -116,13 +116,13 @@ private:
     }
 
     // Computes one tick, from the encoder's position to the commanded force.
-    double control() {
+    double control(int tick) {
         const double D = what_.device.resolution_m;
         const double measured = D > 0.0 ? D * std::floor(body_.position_m / D + 0.5) : body_.position_m;
         const bool in_contact = !held_ || measured < 0.0;
         Vec3 velocity(0.0);
+        window_ = haptics::with_position(window_, {0.0, measured, 0.0});
         if (wall_.damping_Ns_per_m > 0.0) {
-            window_ = haptics::with_position(window_, {0.0, measured, 0.0});
             const haptics::VelocityEstimate estimate =
                 haptics::estimate_velocity(what_.signals, window_, velocity_, D, period_s_);
             velocity_ = estimate.average;
@@ -135,11 +135,12 @@ private:
             force = filtered_.value;
         }
         const double spring_J = in_contact ? 0.5 * wall_.stiffness_N_per_m * measured * measured : 0.0;
-        if (held_) force = kept_passive({0.0, measured, 0.0}, force, spring_J, in_contact);
+        const Nanoseconds now_ns = nanoseconds((tick + 1) * period_s_);
+        if (held_) force = kept_passive(now_ns, {0.0, measured, 0.0}, force, spring_J, in_contact);
         out_.contact_ticks += in_contact ? 1 : 0;
         const double most = what_.device.max_force_N > 0.0 ? what_.device.max_force_N : HUGE_VAL;
         const double given = std::clamp(force.y, -most, most);
-        if (held_) passivity_ = haptics::with_commanded_force(passivity_, {0.0, given, 0.0});
+        if (held_) haptics::set_commanded_wrench(passivity_, {{0.0, given, 0.0}, Vec3(0.0)}, now_ns);
         return given;
     }
 
@@ -155,18 +156,20 @@ private:
         return touch_force_device(touch);
     }
 
-    Vec3 kept_passive(const Vec3& measured, const Vec3& force, double spring_J, bool in_contact) {
+    Vec3 kept_passive(Nanoseconds now_ns, const Vec3& measured, const Vec3& force, double spring_J, bool in_contact) {
         haptics::PassivityInput input;
+        input.time_ns = input.now_ns = now_ns;
+        input.window = &window_;
         input.position_device_m = measured;
-        input.wanted_force_device_N = force;
+        input.wanted.force_device_N = force;
         input.stored_J = spring_J;
         input.max_force_N = what_.device.max_force_N;
         input.in_contact = in_contact;
         const haptics::PassivityStep kept =
             haptics::keep_passive(passivity_, input, settings_, what_.device, period_s_);
         passivity_ = kept.next;
-        out_.acted_ticks += kept.record.damping_Ns_per_m > 0.0 ? 1 : 0;
-        return kept.force_device_N;
+        out_.acted_ticks += kept.record.damping_Ns_per_m > 0.0 || kept.record.share < 1.0 ? 1 : 0;
+        return kept.wrench.force_device_N;
     }
 
     // The hand's goal and the velocity at which it moves.

@@ -26,6 +26,15 @@ struct DeviceDescription {
     double damping_Ns_per_m = 0.0;     // viscous, of the arm
     double friction_N = 0.0;           // Coulomb, of the arm
     double delay_s = 0.0;              // from write() until the motors act, on top of the hold over a period
+    // Time without a write() after which the device takes all force and torque off its motors by itself; 0: it has no
+    // such watchdog, and holds what it was given last. A driver sets it when it opens the device, to a few periods.
+    double watchdog_s = 0.0;
+    // Rotation of the handle about any axis.
+    double max_torsion_Nm_per_rad = 0.0;       // stiffest wall it should be asked to render
+    double apparent_inertia_kgm2 = 0.0;        // of the arm, at the hand
+    double angular_damping_Nms_per_rad = 0.0;  // viscous, of the arm
+    double angular_friction_Nm = 0.0;          // Coulomb, of the arm
+    double orientation_step_rad = 0.0;         // orientation quantum
 };
 
 // A force and a torque about the device's position, in the device frame. The device ignores components of axes that it

@@ -41,7 +41,8 @@ SimulatedOmni::SimulatedOmni(OmniHand hand, const OmniModel& model, Clock* clock
     description_.apparent_mass_kg = model_.apparent_mass_kg;
     description_.damping_Ns_per_m = model_.damping_Ns_per_m;
     description_.friction_N = model_.friction_N;
-    description_.delay_s = 0.001;  // transport delay of one tick
+    description_.delay_s = seconds(kDelay_ns);
+    description_.watchdog_s = model_.watchdog_s;
     if (clock_ != nullptr) clock_start_ns_ = clock_->now_ns();
     const Vec3 half = 0.5 * model_.workspace_m;
     position_m_ = glm::clamp(hand_target(0.0).position_device_m, -half, half);
@@ -65,6 +66,21 @@ void SimulatedOmni::advance(Nanoseconds dt_ns) noexcept {
         step();
         owed_ns_ -= kStep_ns;
         time_ns_ += kStep_ns;
+        update_acting_force();
+    }
+}
+
+void SimulatedOmni::update_acting_force() noexcept {
+    for (std::uint32_t ago = 0; ago < kCommands; ++ago) {
+        const Command& command = commands_[(newest_ + kCommands - ago) % kCommands];
+        if (command.time_ns + kDelay_ns > time_ns_) continue;
+        acting_force_N_ = command.force_N;
+        // A command that arrived too late revives the motors only when it acts itself.
+        const Nanoseconds written_ns =
+            ago > 0 ? commands_[(newest_ + kCommands - ago + 1) % kCommands].time_ns : time_ns_ + 1;
+        const Nanoseconds silent_ns = command.time_ns + nanoseconds(model_.watchdog_s);
+        if (model_.watchdog_s > 0.0 && time_ns_ >= silent_ns && written_ns > silent_ns) acting_force_N_ = Vec3(0.0);
+        return;
     }
 }
 
@@ -107,13 +123,14 @@ DeviceSample SimulatedOmni::read() noexcept {
         clock_start_ns_ += lost_ns;
         advance(behind_ns - lost_ns);
     }
-    acting_force_N_ = written_force_N_;  // transport delay of one tick
+    update_acting_force();
     switch (injected_) {
         case InjectedFault::none: last_sample_ = honest_sample(); break;
         case InjectedFault::frozen: break;
         case InjectedFault::disconnected:
             last_sample_.fault = DeviceFault::disconnected;
-            acting_force_N_ = written_force_N_ = Vec3(0.0);
+            acting_force_N_ = Vec3(0.0);
+            commands_ = {};
             break;
         case InjectedFault::nan_position:
             last_sample_ = honest_sample();
@@ -131,7 +148,8 @@ DeviceSample SimulatedOmni::read() noexcept {
 
 void SimulatedOmni::write(const DeviceWrench& wrench) noexcept {
     if (injected_ == InjectedFault::disconnected) return;
-    written_force_N_ = clamped(wrench.force_device_N, model_.max_force_N);
+    newest_ = (newest_ + 1) % kCommands;
+    commands_[newest_] = {clamped(wrench.force_device_N, model_.max_force_N), time_ns_};
 }
 
 }  // namespace burin::devices

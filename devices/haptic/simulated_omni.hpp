@@ -4,8 +4,8 @@
 // Model, each axis alike, in the device frame: (m_device + m_hand) a = F_motor + F_grip - b v - Coulomb friction.
 // Friction holds the stylus exactly still until the other forces exceed it. Steps of 50 us, semi-implicit Euler with
 // damping taken implicitly and friction as an impulse that never reverses the motion. Input and output match the real
-// device: positions in steps of the encoder, forces clamped, held between ticks, and acting one tick after they are
-// written. The workspace box ends in hard stops. Constants: 162.6 x 121.9 x 71.1 mm, 3.3 N from the maker's data as the
+// device: positions in steps of the encoder, forces clamped, held until the next one acts, and acting a millisecond
+// after they are written; an optional watchdog takes them off the motors when nothing is written any more. The workspace box ends in hard stops. Constants: 162.6 x 121.9 x 71.1 mm, 3.3 N from the maker's data as the
 // PowerWall paper gives it; 0.055 mm, 45 g, 0.26 N from the data sheet; 0.05 Ns/m is an assumption.
 //
 // Time: either the caller moves it with advance(), or a clock is given and read() catches up with it first. Both take
@@ -13,6 +13,7 @@
 // Thread: create it anywhere, then one thread only. After construction nothing allocates, locks or throws.
 #pragma once
 
+#include <array>
 #include <variant>
 
 #include "devices/hand/simulated_hand.hpp"
@@ -29,6 +30,7 @@ struct OmniModel {
     double damping_Ns_per_m = 0.05;
     double max_force_N = 3.3;
     double max_stiffness_N_per_m = 700.0;
+    double watchdog_s = 0.0;  // time without a write() after which the motors give nothing; 0: none, as the data sheet
 };
 
 // Faults that tests and drills inject.
@@ -46,6 +48,7 @@ using OmniHand = std::variant<SimulatedHand, SteeredHand>;
 class SimulatedOmni final : public HapticDevice {
 public:
     static constexpr Nanoseconds kStep_ns = 50'000;
+    static constexpr Nanoseconds kDelay_ns = 1'000'000;  // of transport
     // The longest time by which read() catches up with its clock; for the rest of a longer time the model stands still
     // (a debugger's pause must not cost thousands of steps in one tick).
     static constexpr Nanoseconds kMostCatchUp_ns = 100'000'000;
@@ -74,6 +77,7 @@ public:
 
 private:
     void step() noexcept;
+    void update_acting_force() noexcept;
     [[nodiscard]] HandTarget hand_target(double time_s) noexcept;
     [[nodiscard]] const HandGrip& grip() const noexcept;
     [[nodiscard]] DeviceSample honest_sample() noexcept;
@@ -86,8 +90,14 @@ private:
     Nanoseconds time_ns_ = 0;  // of the model and of the hand
     Nanoseconds owed_ns_ = 0;  // requested by advance() but less than a step
     Vec3 position_m_{0.0}, velocity_m_per_s_{0.0};
-    Vec3 written_force_N_{0.0};  // by the last write()
-    Vec3 acting_force_N_{0.0};   // on the motors since the last read()
+    struct Command {
+        Vec3 force_N{0.0};
+        Nanoseconds time_ns = 0;  // of the write(), in the model's time
+    };
+    static constexpr std::uint32_t kCommands = 4;
+    std::array<Command, kCommands> commands_{};  // a ring buffer: the last ones may still be on their way
+    std::uint32_t newest_ = 0;
+    Vec3 acting_force_N_{0.0};  // on the motors now
     InjectedFault injected_ = InjectedFault::none;
     DeviceSample last_sample_;
     Vec3 runaway_m_{0.0};

@@ -4,28 +4,33 @@
 // exact, Ryu, Preusche, Hannaford and Hirzinger 2005, who also compare with the energy that is meant to be there
 // instead of with 0).
 //
-//   E(n) = E(n-1) - f . (x(n) - x(n-1))        energy put into the wall since the contact began; f is the
-//                                              force that acted in between: commanded a transport delay before
+//   E(n) = E(n-1) - f . (x(n) - x(n-1))        energy put into the wall since the contact began; f is what acted in
+//                                              between, commanded a transport delay before; torque and rotation too
 //   R(n) = R(n-1) + [E(n) - E(n-1)] - [U(n) - U(n-1)] + c |dx| + b dx^2 / T,   R <= reserve
-//   R < 0: f += -a v along f, a = min(-R / (v^2 T (1 + delay in ticks)), a_max), v = dx / T
+//   R < 0: f += -a v along f, a = min(-R / (v^2 T (1 + delay in ticks)), a_max)
 //
 // U is the energy stored in the wall's springs. A passive wall has E >= U, since what it stores has been put in. The
 // amount by which E is below U is what the wall will give in excess, known while the hand is still in it and not only
 // when it has left. c and b are the device's friction and damping: the wall may give out what they dissipate, so the
-// controller is inactive wherever the stiffness limiter's promise holds (stiffness_limit.hpp). The reserve is bounded,
+// damping is inactive wherever the stiffness limiter's promise holds (rendered_wall.hpp). The reserve is bounded,
 // or a long quiet contact would pay for a later oscillation.
 //
-// The controller acts along the desired force only, never reverses it (no pull), never drives in the direction of
-// motion (no energy), and is inactive below two encoder steps of motion a tick: there v is zero, one or two steps a
-// period, and damping by it would chatter. All is reset in free space once no force is left. While the gate fades a
-// force in, the controller waits.
+// v is taken over the shortest window of at most 16 ticks in which the tool has moved by two encoder steps: over one
+// tick, v is zero, one or two steps a period where the motion is slow, and damping by it would chatter. The damping
+// acts along the desired force only, never reverses it (no pull), never drives in the direction of motion (no energy).
+// While the gate fades a force in, it waits.
+//
+// Last the whole wrench is scaled to what the energy account affords (energy_account.hpp), which is exact, and keeps
+// the promise over lost ticks and while forces fade in: R is what is to be expected, the account what is certain.
+// Where nothing is known of the device's friction and damping nothing is promised, and nothing is scaled.
 // Frame: device. Pure; no clock, heap, lock or throw.
 #pragma once
 
-#include <array>
-#include <cstdint>
+#include <cmath>
 
-#include "devices/haptic/haptic_device.hpp"
+#include "haptics/signals/filters.hpp"
+#include "haptics/stability/energy_account.hpp"
+#include "haptics/stability/rendered_wall.hpp"
 
 namespace burin::haptics {
 
@@ -33,28 +38,37 @@ struct PassivitySettings {
     bool control = true;                // false: observe only
     double max_damping_Ns_per_m = 5.0;  // a_max: a tenth of what stops the Omni's own 45 g in a tick
     double reserve_J = 0.0005;          // the energy of hand and stylus at 0.1 m/s
+    // The promise holds up to these speeds, over this many lost ticks in a row.
+    double contact_speed_m_per_s = kContactSpeed_m_per_s;
+    double turn_speed_rad_per_s = kTurnSpeed_rad_per_s;
+    std::uint32_t lost_ticks = 5;
 };
 
 struct PassivityState {
-    static constexpr std::uint32_t kLongestDelay = 8;  // ticks of transport; longer ones count as this
-    // Commanded forces, a ring buffer: they act after the transport delay.
-    std::array<Vec3, kLongestDelay + 1> forces_device_N{};
-    std::uint32_t newest = 0;
+    EnergyAccount account;
     Vec3 position_device_m{0.0};  // x(n-1)
-    double asked_N = 0.0;         // magnitude asked of the gate, as far as the device can give it
-    double energy_J = 0.0;        // E
-    double stored_J = 0.0;        // U
-    double reserve_J = 0.0;       // R
+    double asked_N = 0.0;         // magnitude of the desired force, as far as the device can give it
+    std::uint32_t delay_ticks = 0;
+    double energy_J = 0.0;   // E
+    double stored_J = 0.0;   // U
+    double reserve_J = 0.0;  // R
     // False: there was no tick before, or its commanded force is not known, so there is no energy to count.
     bool known = false;
-    bool fading = false;  // the gate gave less than was asked of it
+    // Ticks in which what acts may still be less than the springs' force: the gate or the account gave less than that.
+    std::uint32_t faded_ticks = 0;
 };
 
 struct PassivityInput {
+    Nanoseconds time_ns = 0;  // of the sample
+    Nanoseconds now_ns = 0;   // when the wrench is commanded
     Vec3 position_device_m{0.0};
-    Vec3 wanted_force_device_N{0.0};
+    Quat orientation_device{1.0, 0.0, 0.0, 0.0};
+    // The last positions, this one included; null: the last two are used.
+    const VelocityWindow* window = nullptr;
+    devices::DeviceWrench wanted;
     double stored_J = 0.0;     // energy stored in the wall's springs at this position
     double max_force_N = 0.0;  // the most that gate and device give; 0: no limit
+    bool turns = false;        // the device may be given torque
     bool in_contact = false;
     bool jumped = false;  // the contact is not continuous with that of the last tick
 };
@@ -62,21 +76,25 @@ struct PassivityInput {
 // What the controller saw and did in a tick.
 struct PassivityRecord {
     double energy_J = 0.0;          // E(n), put into the rendered world since contact began, before the controller acts
-    double damping_Ns_per_m = 0.0;  // a; 0: the controller is inactive
+    double budget_J = 0.0;          // A(n) of the account: what the world may still give out, for certain
+    double damping_Ns_per_m = 0.0;  // a; 0: no damping is added
+    double share = 1.0;             // of the wrench: less than 1 where the account affords no more
+    double most_N = HUGE_VAL;       // the greatest force that the account affords
 };
 
 struct PassivityStep {
-    PassivityState next;       // with_commanded_force() completes it after the gate
-    Vec3 force_device_N{0.0};  // the desired force with the controller's damping
+    PassivityState next;           // set_commanded_wrench() completes it after the gate
+    devices::DeviceWrench wrench;  // the desired one with the controller's damping, scaled to what is affordable
     PassivityRecord record;
 };
 
-// Updates the energy account with this tick's motion and damps the desired force where the account is negative.
+// Updates the energy account with this tick's motion, damps the desired force where more would come out than went in,
+// and scales the wrench to what the account affords.
 [[nodiscard]] PassivityStep keep_passive(const PassivityState& state, const PassivityInput& input,
                                          const PassivitySettings& settings, const devices::DeviceDescription& device,
                                          double dt_s) noexcept;
 
-// Stores the force commanded to the device after the gate. Call it once a tick, after keep_passive().
-[[nodiscard]] PassivityState with_commanded_force(PassivityState state, const Vec3& force_device_N) noexcept;
+// Stores the wrench commanded to the device after the gate. Call it once a tick, after keep_passive().
+void set_commanded_wrench(PassivityState& state, const devices::DeviceWrench& wrench, Nanoseconds now_ns) noexcept;
 
 }  // namespace burin::haptics

@@ -71,6 +71,13 @@ struct CoupledWall {
 
 // ---- Stiffness limit
 
+// The fastest motion in the wall for which passivity is promised. A deliberate tap arrives at 0.1 m/s; this is half
+// as much again, and the most at which the Omni renders the default material (600 N/m, 0.5 Ns/m) in full. Beyond it
+// the passivity controller removes the excess energy (haptics/stability/passivity.hpp).
+inline constexpr double kContactSpeed_m_per_s = 0.15;
+// The same for rotation: the contact speed at the end of a handle of 0.16 m, held in its middle.
+inline constexpr double kTurnSpeed_rad_per_s = kContactSpeed_m_per_s / 0.08;
+
 // The tightest bound; shown as the reason for a limit.
 enum class StiffnessBound : std::uint8_t {
     none,  // the desired stiffness and damping are within all bounds
@@ -91,10 +98,7 @@ struct StiffnessLimit {
 struct ContactDemand {
     double stiffness_N_per_m = 0.0;
     double damping_Ns_per_m = 0.0;
-    // The fastest motion in the wall for which passivity is promised. A deliberate tap arrives at 0.1 m/s; this is half
-    // as much again, and the most at which the Omni renders the default material (600 N/m, 0.5 Ns/m) in full. Beyond it
-    // the passivity controller removes the excess energy (haptics/stability/passivity.hpp).
-    double contact_speed_m_per_s = 0.15;
+    double contact_speed_m_per_s = kContactSpeed_m_per_s;
     double filter_lag_s = 0.0;  // mean lag of a filter on the force; counts as delay
     double period_s = 0.0;      // of the loop; 0: the device's own rate
 };

@@ -18,7 +18,20 @@ bool sensible(const GateLimits& limits) {
            not_negative(limits.max_loop_gap_s) && not_negative(limits.max_sample_age_s);
 }
 
-GateCause find_cause(const GateInput& in, const GateLimits& limits) {
+// One lost tick, and half a period of jitter, go unnoticed.
+constexpr double kUnnoticed = 2.5, kLeastGap = 4.5;  // periods
+
+double longest_gap_s(const GateLimits& limits, double dt_s) {
+    return std::max(limits.max_loop_gap_s, kLeastGap * dt_s);
+}
+
+// The share of the force that is left after a gap.
+double left_after(double gap_s, const GateLimits& limits, double dt_s) {
+    const double longest_s = longest_gap_s(limits, dt_s), unnoticed_s = kUnnoticed * dt_s;
+    return std::clamp((longest_s - gap_s) / (longest_s - unnoticed_s), 0.0, 1.0);
+}
+
+GateCause find_cause(const GateState& state, const GateInput& in, const GateLimits& limits, double dt_s) {
     if (in.device_fault != devices::DeviceFault::none) return GateCause::device_fault;
     if (!in.sample_finite || !std::isfinite(length(in.wanted.force_device_N)) ||
         !std::isfinite(length(in.wanted.torque_device_Nm)) || !finite(in.velocity_device_m_per_s) ||
@@ -27,7 +40,8 @@ GateCause find_cause(const GateInput& in, const GateLimits& limits) {
         return GateCause::not_finite;
     if (!in.parameters_sensible || !sensible(limits)) return GateCause::bad_parameters;
     if (in.sample_age_s > limits.max_sample_age_s) return GateCause::stale_sample;
-    if (in.loop_gap_s > limits.max_loop_gap_s) return GateCause::lost_loop;
+    const bool held = state.given.force_device_N != Vec3(0.0) || state.given.torque_device_Nm != Vec3(0.0);
+    if (held && in.loop_gap_s > longest_gap_s(limits, dt_s)) return GateCause::lost_loop;
     if (length(in.velocity_device_m_per_s) > limits.max_speed_m_per_s) return GateCause::overspeed;
     if (in.in_contact && in.surface_stale) return GateCause::stale_surface;
     if (in.in_contact && in.outside_known) return GateCause::outside_known;
@@ -98,7 +112,7 @@ GateStep pass_gate(const GateState& state, const GateInput& input, const GateLim
     GateStep step;
     GateState& next = step.next;
     GateOutput& out = step.output;
-    out.cause = find_cause(input, limits);
+    out.cause = find_cause(state, input, limits, dt_s);
     if (out.cause != GateCause::none) {
         next.faulted = true;
         return step;
@@ -108,8 +122,9 @@ GateStep pass_gate(const GateState& state, const GateInput& input, const GateLim
     if (!next.faulted) next.ramp = risen(state.ramp, limits.ramp_s, dt_s);
     // Only a contact can jump; out of contact the ramp is kept for the next one.
     next.contact_ramp = input.contact_jumped ? 0.0 : risen(state.contact_ramp, limits.contact_ramp_s, dt_s);
+    next.contact_ramp = std::min(next.contact_ramp, left_after(input.loop_gap_s, limits, dt_s));
     out.ramping = next.ramp < 1.0 || next.contact_ramp < 1.0;
-    const double ramp = next.ramp * next.contact_ramp;
+    const double ramp = next.faded();
     const Limited force{std::min(limits.max_force_N, input.device_max_force_N), input.device_axis_max_force_N, true,
                         limits.max_slew_N_per_s * dt_s};
     const Limited torque{HUGE_VAL, input.device_max_torque_Nm, false, limits.max_torque_slew_Nm_per_s * dt_s};

@@ -9,6 +9,11 @@
 // on wins over the slew limit. After a fault has gone the gate waits recovery_s, then fades in again over ramp_s; a
 // contact that has jumped fades in over contact_ramp_s. Every zero force has a cause: it is named in GateOutput::cause,
 // kept in the tick record, and has a text for people.
+// Lost ticks: one is passed over. From the second on the force is scaled down, the more the longer the gap, to zero at
+// max_loop_gap_s, and fades in again over contact_ramp_s; beyond that gap it is zero, with a cause. A gap in which no
+// force was on the motors moved nothing, so it is no fault, but a contact that has begun meanwhile fades in.
+// A force that fades in is a spring that grows stiffer while it is pressed, which takes energy out of nothing: so the
+// desired wrench never exceeds what the energy account affords (haptics/stability/energy_account.hpp), ramp or not.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +47,7 @@ struct GateLimits {
     double recovery_s = 0.05;                // time without fault before the ramp begins again
     double max_speed_m_per_s = 3.0;          // of the tool, at the device
     double max_sample_age_s = 0.02;          // 20 ticks without a new sample
-    double max_loop_gap_s = 0.02;            // since the last tick
+    double max_loop_gap_s = 0.005;           // since the last tick; four and a half periods where that is longer
 };
 
 struct GateInput {
@@ -63,9 +68,12 @@ struct GateInput {
 };
 
 struct GateState {
+    // The share of the desired wrench that the ramps let through.
+    [[nodiscard]] double faded() const { return ramp * contact_ramp; }
+
     devices::DeviceWrench given;  // commanded in the last tick
     double ramp = 0.0;            // 0 to 1, at the start and after a fault
-    double contact_ramp = 1.0;    // 0 to 1, after a contact that has jumped
+    double contact_ramp = 1.0;    // 0 to 1, after a contact that has jumped, and after lost ticks
     double well_s = 0.0;          // time since the last fault
     bool faulted = false;         // a fault has happened and recovery_s is not yet over
 };

@@ -47,7 +47,7 @@ TEST(SimulatedOmni, AConstantForceGivesTheClosedFormMotion) {
     const OmniModel model;
     const double net = 1.0 - model.friction_N;
     omni.write({{1.0, 0.0, 0.0}});
-    static_cast<void>(omni.read());  // from here on the force acts
+    omni.advance(kMs);  // from here on the force acts
     for (int i = 0; i < 60; ++i) {
         omni.advance(kMs);
         const double t = 1e-3 * (i + 1), rate = model.damping_Ns_per_m / model.apparent_mass_kg;
@@ -62,10 +62,9 @@ TEST(SimulatedOmni, AConstantForceGivesTheClosedFormMotion) {
 TEST(SimulatedOmni, FrictionStopsASlidingStylusAndKeepsItStill) {
     SimulatedOmni omni(resting(kLetGo));
     omni.write({{3.0, 1.0, 0.0}});
-    static_cast<void>(omni.read());
-    omni.write({});
     omni.advance(5 * kMs);
     static_cast<void>(omni.read());
+    omni.write({});
     EXPECT_GT(glm::length(omni.true_velocity_device_m_per_s()), 0.2);
     omni.advance(200 * kMs);
     EXPECT_EQ(omni.true_velocity_device_m_per_s(), Vec3(0.0));
@@ -75,20 +74,40 @@ TEST(SimulatedOmni, FrictionStopsASlidingStylusAndKeepsItStill) {
     EXPECT_EQ(omni.true_position_device_m(), rest);
 }
 
-TEST(SimulatedOmni, ForcesActOneTickLateAndAreHeldAndClamped) {
+TEST(SimulatedOmni, ForcesActAMillisecondLateAndAreHeldAndClamped) {
     SimulatedOmni omni(resting());
     omni.advance(kMs);
     static_cast<void>(omni.read());
     omni.write({{30.0, 40.0, 0.0}});
     EXPECT_EQ(omni.acting_force_device_N(), Vec3(0.0));
-    omni.advance(kMs);
-    EXPECT_EQ(omni.acting_force_device_N(), Vec3(0.0));  // still the tick of transport
-    static_cast<void>(omni.read());
+    omni.advance(kMs - SimulatedOmni::kStep_ns);
+    EXPECT_EQ(omni.acting_force_device_N(), Vec3(0.0));  // still in transport
+    omni.advance(20 * kMs);                              // held, however long nothing new is written
     EXPECT_NEAR(omni.acting_force_device_N().x, 3.3 * 0.6, 1e-12);
     EXPECT_NEAR(omni.acting_force_device_N().y, 3.3 * 0.8, 1e-12);
     omni.write({{std::nan(""), 0.0, 0.0}});
-    static_cast<void>(omni.read());
+    omni.advance(kMs);
     EXPECT_EQ(omni.acting_force_device_N(), Vec3(0.0));
+}
+
+TEST(SimulatedOmni, AWatchdogTakesTheForceOffUntilSomethingIsWrittenAgain) {
+    OmniModel model;
+    model.watchdog_s = 0.004;
+    SimulatedOmni omni(resting(), model);
+    EXPECT_EQ(omni.description().watchdog_s, 0.004);
+    for (int i = 0; i < 3; ++i) {  // written every 3 ms: it stays on
+        omni.write({{1.0, 0.0, 0.0}});
+        omni.advance(3 * kMs);
+        EXPECT_EQ(omni.acting_force_device_N().x, 1.0);
+    }
+    omni.advance(2 * kMs);
+    EXPECT_EQ(omni.acting_force_device_N().x, 0.0);
+    omni.write({{2.0, 0.0, 0.0}});
+    omni.advance(kMs / 2);
+    omni.write({{2.0, 0.0, 0.0}});
+    EXPECT_EQ(omni.acting_force_device_N().x, 0.0) << "what was silenced does not come back";
+    omni.advance(kMs / 2);
+    EXPECT_EQ(omni.acting_force_device_N().x, 2.0);
 }
 
 TEST(SimulatedOmni, PositionsComeInEncoderSteps) {
@@ -198,6 +217,7 @@ TEST(SimulatedOmni, EachRunawayBeginsWhereTheStylusIs) {
 TEST(SimulatedOmni, TheForceGoesWithTheConnection) {
     SimulatedOmni omni(resting());
     omni.write({{1.0, 0.0, 0.0}});
+    omni.advance(kMs);
     static_cast<void>(omni.read());
     ASSERT_EQ(omni.acting_force_device_N(), Vec3(1.0, 0.0, 0.0));
     omni.inject(InjectedFault::disconnected);

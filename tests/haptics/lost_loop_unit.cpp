@@ -16,6 +16,7 @@ struct Session {
     TickParameters parameters;
     FullTickState state{};
     Nanoseconds now_ns = 0;
+    double y_m = 0.0019;
 
     Session() {
         parameters.probe = ball_probe(0.004);
@@ -23,12 +24,12 @@ struct Session {
         parameters.passivity.control = false;
         parameters.max_surface_age_s = 0.0;
     }
-    // A hand that rests 2 mm beyond the surface.
+    // A hand that rests, at first 2 mm beyond the surface.
     TickRecord after(Nanoseconds gap_ns) {
         now_ns += gap_ns;
         devices::DeviceSample sample;
         sample.time_ns = now_ns;
-        sample.position_device_m = {0.0, 0.0019, 0.0};
+        sample.position_device_m = {0.0, y_m, 0.0};
         const FullTick full = full_tick(state, sample, *plane, parameters, test::kStrongDevice, now_ns, kDt);
         state = full.next;
         return full.record;
@@ -65,14 +66,34 @@ TEST(LostLoop, AGapOfThirtyMillisecondsGivesNoForceSaysWhyAndComesBackGently) {
     EXPECT_NEAR(last_N, full_N, 1e-3);
 }
 
-TEST(LostLoop, AFewLostTicksAreFlaggedAndDoNotSilenceTheForce) {
+TEST(LostLoop, OneLostTickIsFlaggedAndFromTheSecondOnTheForceFades) {
+    const auto left_after = [](Nanoseconds gap_ns) {
+        Session session;
+        session.parameters.limits.max_slew_N_per_s = 1e6;
+        const double full_N = session.many(500).gate.given.force_device_N.y;
+        const TickRecord late = session.after(gap_ns);
+        EXPECT_EQ(late.gate.cause, GateCause::none);
+        EXPECT_NE(late.flags & kTickLoopGap, 0u);
+        EXPECT_EQ((late.flags & kTickRamping) != 0, gap_ns > 2 * kMs);
+        EXPECT_EQ(session.after(kMs).flags & kTickLoopGap, 0u);
+        EXPECT_NEAR(session.many(100).gate.given.force_device_N.y, full_N, 1e-3);  // and comes back
+        return late.gate.given.force_device_N.y / full_N;
+    };
+    EXPECT_NEAR(left_after(2 * kMs), 1.0, 0.03);
+    EXPECT_NEAR(left_after(3 * kMs), 0.8, 0.03);
+    EXPECT_NEAR(left_after(4 * kMs), 0.4, 0.03);
+    EXPECT_NEAR(left_after(5 * kMs), 0.0, 0.03);
+}
+
+TEST(LostLoop, AGapWithoutForceIsNoFaultAndAContactThatBeganInItFadesIn) {
     Session session;
-    const double full_N = session.many(500).gate.given.force_device_N.y;
-    const TickRecord late = session.after(5 * kMs);
-    EXPECT_EQ(late.gate.cause, GateCause::none);
-    EXPECT_NE(late.flags & kTickLoopGap, 0u);
-    EXPECT_NEAR(late.gate.given.force_device_N.y, full_N, 0.05);
-    EXPECT_EQ(session.after(kMs).flags & kTickLoopGap, 0u);
+    session.y_m = 0.01;  // in the air: a loop that rests ticks every 14 ms
+    for (int i = 0; i < 50; ++i) EXPECT_EQ(session.after(14 * kMs).gate.cause, GateCause::none);
+    session.y_m = 0.0019;
+    const TickRecord touch = session.after(14 * kMs);
+    EXPECT_EQ(touch.gate.cause, GateCause::none);
+    EXPECT_LT(touch.gate.given.force_device_N.y, 0.02);
+    EXPECT_GT(session.many(300).gate.given.force_device_N.y, 0.5);
 }
 
 }  // namespace burin::haptics

@@ -18,13 +18,14 @@ struct Tap {
 };
 
 // The hand lowers its target 3 mm into the wall at 0.1 m/s and holds it there.
-Tap tap(double stiffness, devices::HandGrip grip) {
+Tap tap(double stiffness, devices::HandGrip grip, bool control = true) {
     test::Rig rig({{0.0, Vec3(0.0, 0.01, 0.0)}, {0.3, Vec3(0.0, 0.01, 0.0)}, {0.43, Vec3(0.0, -0.003, 0.0)}}, grip);
     rig.publish(*test::plane(0.05, 2), 1);
     TickParameters p;
     p.probe.points[0].radius_m = 0.002;
     p.clearance_ratio = 0.0;
     p.limit_stiffness = false;
+    p.passivity.control = control;
     p.materials[0].stiffness_N_per_m = stiffness;
     p.materials[0].damping_Ns_per_m = 0.0;
     p.max_surface_age_s = 0.0;
@@ -81,8 +82,11 @@ TEST(Stability, WallsUpToThreeKilonewtonsAMetreSettleInTheBenchHand) {
     }
 }
 
-TEST(Stability, AWallFarAboveTheLimitNeverSettles) {
-    const Tap t = tap(60'000.0, kBenchHand);
+TEST(Stability, AWallFarAboveTheLimitNeverSettlesUnlessItsEnergyIsBounded) {
+    const Tap t = tap(60'000.0, kBenchHand, false), bounded = tap(60'000.0, kBenchHand);
+    EXPECT_LT(bounded.swing_late_m, 1e-9);
+    EXPECT_EQ(bounded.change_late_N, 0.0);
+    EXPECT_LT(bounded.worst_energy_gain_J, kArrival_J);
     EXPECT_GT(t.swing_late_m, 0.2e-3);  // several encoder steps, for ever
     EXPECT_GT(t.change_late_N, 0.05);   // where the walls above give exactly 0
 }
