@@ -67,6 +67,7 @@ public:
     }
     [[nodiscard]] double radius_m() const { return point_.radius_m * (1.0 - input_.parameters.clearance_ratio); }
     [[nodiscard]] const PointRecord& record() const { return record_; }
+    [[nodiscard]] double squared_arm_m2() const { return glm::dot(arm_device_m_, arm_device_m_); }
 
     // The force of this point on the hand, borne at the proxy or at the cutting point.
     [[nodiscard]] PointForce force(const CoupledWall& wall, const Vec3& bearing_object_m) {
@@ -119,21 +120,33 @@ struct RenderedWall {
     StiffnessBound bound = StiffnessBound::none;  // why it is softer than the material
 };
 
+// The points that touch at once.
+struct Touching {
+    std::uint32_t points = 0;
+    double squared_arms_m2 = 0.0;  // sum; 0 with one point
+};
+
 // The wall as the device may render it: through the coupling, and limited to the stiffness at which it stays passive.
 // Points that touch at once are parallel springs whose stiffnesses add up where their normals agree, so each gets its
-// share of the limit.
-RenderedWall rendered(const TouchMaterial& material, const ProbeInput& input, std::uint32_t points_in_contact) {
+// share of the limit; and so does the resistance to rotation that they make up together.
+RenderedWall rendered(const TouchMaterial& material, const ProbeInput& input, const Touching& touching) {
     const TickParameters& parameters = input.parameters;
     const CoupledWall wall = through(parameters.coupling, {material.stiffness_N_per_m, material.damping_Ns_per_m});
     if (!parameters.limit_stiffness) return {wall};
-    const double points = std::max(points_in_contact, 1u);
+    const double points = std::max(touching.points, 1u);
     ContactDemand demand;
     demand.stiffness_N_per_m = wall.stiffness_N_per_m * points;
     demand.damping_Ns_per_m = wall.damping_Ns_per_m * points;
     demand.filter_lag_s = mean_lag_s(parameters.signals.force_alpha, input.dt_s);
     demand.period_s = input.dt_s;
     const StiffnessLimit limit = limited(demand, input.device);
-    return {{limit.stiffness_N_per_m / points, limit.damping_Ns_per_m / points}, limit.bound};
+    const CoupledWall each{limit.stiffness_N_per_m / points, limit.damping_Ns_per_m / points};
+    if (!(touching.squared_arms_m2 > 0.0)) return {each, limit.bound};
+    demand.stiffness_N_per_m = each.stiffness_N_per_m;
+    demand.damping_Ns_per_m = each.damping_Ns_per_m;
+    const StiffnessLimit turning = limited_by_rotation(demand, touching.squared_arms_m2, input.device);
+    return {{turning.stiffness_N_per_m, turning.damping_Ns_per_m},
+            turning.bound != StiffnessBound::none ? turning.bound : limit.bound};
 }
 
 struct CutByPoint {
@@ -182,17 +195,19 @@ void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept {
     const bool painting = pressed && input.parameters.action == ToolAction::paint;
     const bool cutting = pressed && input.parameters.action == ToolAction::cut;
     std::array<std::optional<PointContact>, kMostProbePoints> points;
-    std::uint32_t in_contact = 0;
+    Touching touching;
     const double budget = budget_ns(input.parameters.work, input.dt_s);
     for (std::uint32_t i = 0; i < contact.point_count; ++i) {
         points[i].emplace(input, step, i).touch(painting, share_of_rest(contact, i, budget));
-        if (points[i]->in_contact()) ++in_contact;
+        if (!points[i]->in_contact()) continue;
+        ++touching.points;
+        if (contact.point_count > 1) touching.squared_arms_m2 += points[i]->squared_arm_m2();
     }
     std::array<PointForce, kMostProbePoints> forces;
     Vec3 drag_device_N(0.0);
     for (std::uint32_t i = 0; i < contact.point_count; ++i) {
         PointContact& point = *points[i];
-        const RenderedWall rendered_wall = rendered(point.material(), input, in_contact);
+        const RenderedWall rendered_wall = rendered(point.material(), input, touching);
         if (rendered_wall.bound != StiffnessBound::none) {
             step.flags |= kTickStiffnessLimited;
             contact.stiffness_bound = rendered_wall.bound;

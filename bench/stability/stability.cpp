@@ -4,12 +4,46 @@
 #include <cmath>
 #include <iterator>
 #include <span>
+#include <utility>
+
+#include "base/worker_pool.hpp"
 
 namespace burin::bench {
 namespace {
 
-// Range of the bisection, N/m. Stiffness that is stable up to kHighest counts as "any".
+// Range of the scan, N/m. Stiffness that is stable up to kHighest counts as "any".
 constexpr double kLowest = 10.0, kHighest = 1e5;
+constexpr double kStep = 1.005, kQuickStep = 1.1;  // ratio of neighbours
+
+// The rows, and the scans that are still to be run for them.
+struct Plan {
+    struct Cell {
+        std::size_t row = 0;
+        StabilityCase what;
+        double lowest_N_per_m = kLowest, highest_N_per_m = kHighest;
+    };
+    std::vector<Json> rows;
+    std::vector<Cell> cells;
+
+    void add(const Json& row, const StabilityCase& what, double lowest = kLowest, double highest = kHighest) {
+        cells.push_back({rows.size(), what, lowest, highest});
+        rows.push_back(row);
+    }
+    void run(double ratio) {
+        WorkerPool().run(cells.size(), [&](std::size_t i) {
+            const Cell& cell = cells[i];
+            const StiffnessScan scan = scan_stiffness(cell.what, cell.lowest_N_per_m, cell.highest_N_per_m, ratio);
+            Json& row = rows[cell.row];
+            row["largest_stable_stiffness_N_per_m"] = scan.stable_up_to_N_per_m;
+            row["first_failure_N_per_m"] =
+                scan.first_failure_N_per_m > 0.0 ? Json(scan.first_failure_N_per_m) : Json(nullptr);
+            row["failing_share_above"] = scan.failing_share;
+            row["any_stiffness"] = scan.first_failure_N_per_m == 0.0;
+            if (row.contains("theory_N_per_m"))
+                row["ratio"] = scan.stable_up_to_N_per_m / row["theory_N_per_m"].get<double>();
+        });
+    }
+};
 
 StabilityCase held_by(const NamedGrip& grip) {
     StabilityCase c;
@@ -52,20 +86,17 @@ Json conditions(const char* section, const char* grip, const StabilityCase& c) {
 }
 
 // `published` is the same figure from another simulation; 0: none.
-Json stiffest(const char* section, const NamedGrip& grip, const StabilityCase& c, double published = 0.0) {
+void stiffest(Plan& plan, const char* section, const NamedGrip& grip, const StabilityCase& c, double published = 0.0) {
     Json row = conditions(section, grip.name, c);
-    const double found = largest_stable_stiffness(c, kLowest, kHighest);
-    row["largest_stable_stiffness_N_per_m"] = found;
-    row["any_stiffness"] = found >= kHighest;
     row["published_N_per_m"] = published > 0.0 ? Json(published) : Json(nullptr);
-    return row;
+    plan.add(row, c);
 }
 
 // Without friction, encoder steps, limits or a hand, a wall becomes unstable at K = b / (T/2 + t_d): 2 b / T without
 // delay (Colgate and Schenkel). That holds where the device's own damping is slow compared with a period.
 constexpr double kApplies = 0.1;  // b T / m
 
-void add_theory(std::vector<Json>& rows, bool quick) {
+void add_theory(Plan& plan, bool quick) {
     for (const double rate : {250.0, 1000.0, 4000.0}) {
         for (const double damping : {0.05, 0.2, 1.0, 3.0}) {
             for (const int delay : {0, 1, 2}) {
@@ -78,13 +109,10 @@ void add_theory(std::vector<Json>& rows, bool quick) {
                 c.device.delay_s = delay / rate;
                 Json row = conditions("theory", "no hand", c);
                 const double theory = damping / (0.5 / rate + c.device.delay_s);
-                const double found = largest_stable_stiffness(c, 0.2 * theory, 10.0 * theory);
                 row["device_damping_Ns_per_m"] = damping;
-                row["largest_stable_stiffness_N_per_m"] = found;
                 row["theory_N_per_m"] = theory;
-                row["ratio"] = found / theory;
                 row["theory_applies"] = damping / rate / c.device.apparent_mass_kg <= kApplies;
-                rows.push_back(row);
+                plan.add(row, c, 0.2 * theory, 10.0 * theory);
             }
         }
     }
@@ -109,30 +137,30 @@ bool left_out(const NamedGrip& grip, bool quick) { return quick && std::string(g
 
 bool is_published_hand(const NamedGrip& grip) { return std::string(grip.name) == "hand"; }
 
-void add_rates(std::vector<Json>& rows, bool quick) {
+void add_rates(Plan& plan, bool quick) {
     for (const NamedGrip& grip : grips()) {
         if (left_out(grip, quick)) continue;
         over(kRates, quick, [&](const Published& p) {
             StabilityCase c = held_by(grip);
             c.device.rate_Hz = p.at;
-            rows.push_back(stiffest("rate", grip, c, is_published_hand(grip) ? p.stiffness_N_per_m : 0.0));
+            stiffest(plan, "rate", grip, c, is_published_hand(grip) ? p.stiffness_N_per_m : 0.0);
         });
     }
 }
 
-void add_delays(std::vector<Json>& rows, bool quick) {
+void add_delays(Plan& plan, bool quick) {
     for (const NamedGrip& grip : grips()) {
         if (left_out(grip, quick)) continue;
         over(kDelays_ms, quick, [&](const Published& p) {
             StabilityCase c = held_by(grip);
             c.device.delay_s = 1e-3 * p.at;
-            rows.push_back(stiffest("delay", grip, c, is_published_hand(grip) ? p.stiffness_N_per_m : 0.0));
+            stiffest(plan, "delay", grip, c, is_published_hand(grip) ? p.stiffness_N_per_m : 0.0);
         });
     }
 }
 
 // Sweeps the filter without delay, as published, and with the Omni's one millisecond.
-void add_filters(std::vector<Json>& rows, bool quick) {
+void add_filters(Plan& plan, bool quick) {
     for (const double delay_s : {0.0, 0.001}) {
         for (const NamedGrip& grip : grips()) {
             if (left_out(grip, quick)) continue;
@@ -142,13 +170,13 @@ void add_filters(std::vector<Json>& rows, bool quick) {
                 c.device.delay_s = delay_s;
                 c.signals.force_alpha = p.at;
                 const bool published = delay_s == 0.0 && is_published_hand(grip);
-                rows.push_back(stiffest("filter", grip, c, published ? p.stiffness_N_per_m : 0.0));
+                stiffest(plan, "filter", grip, c, published ? p.stiffness_N_per_m : 0.0);
             });
         }
     }
 }
 
-void add_velocities(std::vector<Json>& rows, bool quick) {
+void add_velocities(Plan& plan, bool quick) {
     const NamedGrip& grip = grip_called("hand");
     for (const auto method : {haptics::VelocityMethod::adaptive_window, haptics::VelocityMethod::moving_average,
                               haptics::VelocityMethod::difference}) {
@@ -158,7 +186,7 @@ void add_velocities(std::vector<Json>& rows, bool quick) {
             c.device.delay_s = 0.001;
             c.signals.velocity = method;
             c.wall_damping_Ns_per_m = damping;
-            rows.push_back(stiffest("velocity", grip, c));
+            stiffest(plan, "velocity", grip, c);
         }
     }
 }
@@ -172,12 +200,12 @@ std::vector<StabilityCase> controllers(const StabilityCase& plain) {
     return all;
 }
 
-void add_controllers(std::vector<Json>& rows, bool quick) {
+void add_controllers(Plan& plan, bool quick) {
     for (const NamedGrip& grip : grips()) {
         if (left_out(grip, quick) || grip.task == HandTask::none) continue;
         StabilityCase plain = held_by(grip);
         plain.device.delay_s = 0.001;
-        for (const StabilityCase& c : controllers(plain)) rows.push_back(stiffest("controller", grip, c));
+        for (const StabilityCase& c : controllers(plain)) stiffest(plan, "controller", grip, c);
     }
 }
 
@@ -185,7 +213,7 @@ void add_controllers(std::vector<Json>& rows, bool quick) {
 void add_contacts(std::vector<Json>& rows, bool quick) {
     for (const char* name : {"light", "hand", "firm", "rigid"}) {
         if (quick && std::string(name) != "hand") continue;
-        for (const double speed : {0.1, 0.3, 0.6}) {
+        for (const double speed : {0.02, 0.05, 0.1, 0.3, 0.6}) {
             for (const double stiffness : {600.0, 1500.0, 5000.0, 15000.0}) {
                 if (quick && speed != 0.3) continue;
                 const NamedGrip& grip = grip_called(name);
@@ -203,6 +231,7 @@ void add_contacts(std::vector<Json>& rows, bool quick) {
                     row["force_change_a_tick_N"] = run.force_change_N;
                     row["late_force_change_a_tick_N"] = run.late_change_N;
                     row["net_energy_mJ"] = 1e3 * run.net_energy_J;
+                    row["deepest_mm"] = 1e3 * run.deepest_m;
                     row["controller_ticks"] = run.acted_ticks;
                     rows.push_back(row);
                 }
@@ -223,13 +252,16 @@ const std::vector<NamedGrip>& grips() {
 }
 
 Stability run_stability(bool quick) {
+    Plan plan;
+    add_theory(plan, quick);
+    add_rates(plan, quick);
+    add_delays(plan, quick);
+    add_filters(plan, quick);
+    add_velocities(plan, quick);
+    add_controllers(plan, quick);
+    plan.run(quick ? kQuickStep : kStep);
     Stability s;
-    add_theory(s.rows, quick);
-    add_rates(s.rows, quick);
-    add_delays(s.rows, quick);
-    add_filters(s.rows, quick);
-    add_velocities(s.rows, quick);
-    add_controllers(s.rows, quick);
+    s.rows = std::move(plan.rows);
     add_contacts(s.rows, quick);
     s.figure7 = run_figure7(quick);
     return s;

@@ -113,7 +113,7 @@ double stiffest(const Figure7Run& run, const Figure7& figure) {
     c.grip = {0.1, 100.0, 3.0};
     c.signals = run.signals;
     c.wall_damping_Ns_per_m = figure.damping_Ns_per_m;
-    return largest_stable_stiffness(c);
+    return scan_stiffness(c, 10.0, 1e5).stable_up_to_N_per_m;
 }
 
 }  // namespace

@@ -284,21 +284,26 @@ bool stable(const StabilityCase& what, const StabilityRun& run) {
     return run.swing_m <= still_m && run.late_change_N <= kStill_N;
 }
 
-double largest_stable_stiffness(const StabilityCase& what, double lowest_N_per_m, double highest_N_per_m) {
+StiffnessScan scan_stiffness(const StabilityCase& what, double lowest_N_per_m, double highest_N_per_m, double ratio) {
     const auto good = [&](double stiffness) { return stable(what, run_wall(what, stiffness)); };
-    if (!good(lowest_N_per_m)) return 0.0;
-    double low = lowest_N_per_m, high = low;
-    while (true) {
-        if (low >= highest_N_per_m) return highest_N_per_m;
-        high = std::min(1.5 * low, highest_N_per_m);
-        if (!good(high)) break;
-        low = high;
+    StiffnessScan scan;
+    int tested = 0, failing = 0;
+    const int steps = static_cast<int>(std::ceil(std::log(highest_N_per_m / lowest_N_per_m) / std::log(ratio)));
+    for (int i = 0; i <= steps; ++i) {
+        const double stiffness = std::min(lowest_N_per_m * std::pow(ratio, i), highest_N_per_m);
+        const bool fails = !good(stiffness);
+        if (fails && failing == 0) scan.first_failure_N_per_m = stiffness;
+        if (!fails && failing == 0) scan.stable_up_to_N_per_m = stiffness;
+        failing += fails ? 1 : 0;
+        tested += failing > 0 ? 1 : 0;
     }
-    while (high > 1.001 * low) {
+    scan.failing_share = tested > 0 ? static_cast<double>(failing) / tested : 0.0;
+    double &low = scan.stable_up_to_N_per_m, &high = scan.first_failure_N_per_m;
+    while (low > 0.0 && high > 1.001 * low) {
         const double middle = std::sqrt(low * high);
         (good(middle) ? low : high) = middle;
     }
-    return low;
+    return scan;
 }
 
 }  // namespace burin::bench

@@ -72,9 +72,16 @@ struct StabilityRun {
 // N a tick on average; a free one if it swings no wider at the end than at the beginning.
 [[nodiscard]] bool stable(const StabilityCase& what, const StabilityRun& run);
 
-// Returns the stiffness up to which all tested values are stable: in steps of a factor of 1.5 from `lowest` on, then by
-// bisection to 0.1 %; 0 if the lowest is not stable, `highest` if all are.
-[[nodiscard]] double largest_stable_stiffness(const StabilityCase& what, double lowest_N_per_m = 10.0,
-                                              double highest_N_per_m = 2e5);
+// What a scan over the stiffness found. Instability comes in windows: a wall may shake at one stiffness and settle at
+// a greater one, so the whole range is tested, in steps of one ratio, and nothing is skipped.
+struct StiffnessScan {
+    double stable_up_to_N_per_m = 0.0;   // every tested stiffness up to here is stable; 0: the lowest is not
+    double first_failure_N_per_m = 0.0;  // the lowest that is not stable; 0: all are
+    double failing_share = 0.0;          // of the tested ones from the first failure to the end of the scan
+};
+
+// Tests lowest, lowest * ratio, ... , highest; the edge of the first failure is then found to 0.1 %.
+[[nodiscard]] StiffnessScan scan_stiffness(const StabilityCase& what, double lowest_N_per_m, double highest_N_per_m,
+                                           double ratio = 1.01);
 
 }  // namespace burin::bench

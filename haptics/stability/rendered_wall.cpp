@@ -107,6 +107,28 @@ StiffnessLimit limited(const ContactDemand& wanted, const devices::DeviceDescrip
     return out;
 }
 
+StiffnessLimit limited_by_rotation(const ContactDemand& wall, double sum_of_squared_arms_m2,
+                                   const devices::DeviceDescription& device) noexcept {
+    const StiffnessLimit wanted{wall.stiffness_N_per_m, wall.damping_Ns_per_m, StiffnessBound::none};
+    if (!(sum_of_squared_arms_m2 > 0.0) || device.max_torque_Nm == Vec3(0.0)) return wanted;
+    // In angular units the conditions are the same.
+    devices::DeviceDescription rotation;
+    rotation.rate_Hz = device.rate_Hz;
+    rotation.delay_s = device.delay_s;
+    rotation.friction_N = device.angular_friction_Nm;
+    rotation.damping_Ns_per_m = device.angular_damping_Nms_per_rad;
+    rotation.resolution_m = device.orientation_step_rad;
+    rotation.max_stiffness_N_per_m = device.max_torsion_Nm_per_rad;
+    ContactDemand demand = wall;
+    demand.stiffness_N_per_m *= sum_of_squared_arms_m2;
+    demand.damping_Ns_per_m *= sum_of_squared_arms_m2;
+    demand.contact_speed_m_per_s = kTurnSpeed_rad_per_s;
+    const StiffnessLimit limit = limited(demand, rotation);
+    if (limit.bound == StiffnessBound::none) return wanted;
+    return {limit.stiffness_N_per_m / sum_of_squared_arms_m2, limit.damping_Ns_per_m / sum_of_squared_arms_m2,
+            StiffnessBound::rotation};
+}
+
 const char* text(StiffnessBound bound) noexcept {
     switch (bound) {
         case StiffnessBound::none: return "as stiff as the material says";
@@ -120,6 +142,8 @@ const char* text(StiffnessBound bound) noexcept {
         case StiffnessBound::device: return "softer than the material says: the device is not made for stiffer walls";
         case StiffnessBound::damping:
             return "less damped than the material says: the device cannot take away what more damping gives out";
+        case StiffnessBound::rotation:
+            return "softer than the material says: the torque of several points is more than the device renders";
     }
     return "softer than the material says";
 }

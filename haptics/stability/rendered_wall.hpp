@@ -23,7 +23,8 @@
 //
 // (with virtual damping: since a velocity window before it, for a damper remembers the approach), so only the hand puts
 // energy in. It holds for every motion, every hand and every mass; tests/haptics/passivity_prop.cpp tries it on random
-// ones. It is for one point: the stiffnesses of points that touch at once add up.
+// ones. It is for one point: the stiffnesses of points that touch at once add up, and so do their torsional
+// stiffnesses, the stiffness times the square of the arm, for which the same conditions hold in angular units.
 //
 // Derivation. A spring of stiffness K whose force is sampled every T and held, and acts t_d (in whole periods) and a
 // filter's mean lag t_f late, lags its own potential K x^2 / 2 by at most
@@ -87,6 +88,7 @@ enum class StiffnessBound : std::uint8_t {
     device,        // the limit that the device's maker gives
     // The stiffness is kept; the desired virtual damping is more than the device can compensate.
     damping,
+    rotation,  // one of these, of the torque that several points give together
 };
 
 struct StiffnessLimit {
@@ -105,6 +107,12 @@ struct ContactDemand {
 
 // Limits the desired stiffness and damping. Requires a finite, non-negative demand.
 [[nodiscard]] StiffnessLimit limited(const ContactDemand& wanted, const devices::DeviceDescription& device) noexcept;
+
+// The same for rotation about the device's position. Walls of stiffness k touched at the arms r_i resist rotation with at
+// most k sum(r_i^2), likewise damping. Returns the stiffness and damping of each of these walls; those that are wanted
+// where the device gives no torque, or where nothing is known of its rotation.
+[[nodiscard]] StiffnessLimit limited_by_rotation(const ContactDemand& wall, double sum_of_squared_arms_m2,
+                                                 const devices::DeviceDescription& device) noexcept;
 
 // A sentence for people; static storage.
 [[nodiscard]] const char* text(StiffnessBound bound) noexcept;

@@ -45,7 +45,7 @@ TEST(StabilityBench, FindsTheOnsetOfTheSampledSpringExactlyAndTwoBOverTWithinThr
         for (const double damping : {0.2, 1.0}) {
             const StabilityCase c = alone(damping, rate);
             const double theory = 2.0 * damping * rate;
-            const double found = largest_stable_stiffness(c, 0.3 * theory, 4.0 * theory);
+            const double found = scan_stiffness(c, 0.3 * theory, 2.0 * theory, 1.05).stable_up_to_N_per_m;
             EXPECT_NEAR(found / onset(c.device.apparent_mass_kg, damping, 1.0 / rate), 1.0, 0.003);
             EXPECT_NEAR(found / theory, 1.0, 0.03);
         }
@@ -56,15 +56,31 @@ TEST(StabilityBench, DelayAndFilterOnTheForceLowerTheStiffestWall) {
     StabilityCase plain, delayed, filtered;
     delayed.device.delay_s = 0.002;
     filtered.signals.force_alpha = 0.9;
-    const double most = largest_stable_stiffness(plain);
-    EXPECT_LT(largest_stable_stiffness(delayed), 0.3 * most);
-    EXPECT_LT(largest_stable_stiffness(filtered), 0.1 * most);
+    const auto first = [](const StabilityCase& c) { return scan_stiffness(c, 300.0, 3e4, 1.02).first_failure_N_per_m; };
+    EXPECT_LT(first(delayed), 0.4 * first(plain));
+    EXPECT_LT(first(filtered), 0.12 * first(plain));
 }
 
 TEST(StabilityBench, AnEncoderStepThrowsARestingToolOffWhereItIsWorthMoreThanPressAndFriction) {
     const StabilityCase c;
     const double closed_form = (c.press_N + c.device.friction_N) / c.device.resolution_m;
-    EXPECT_NEAR(largest_stable_stiffness(c) / closed_form, 1.0, 0.01);
+    const StiffnessScan above = scan_stiffness(c, 1.01 * closed_form, 4.0 * closed_form, 1.05);
+    EXPECT_EQ(above.stable_up_to_N_per_m, 0.0);
+    EXPECT_EQ(above.failing_share, 1.0);
+    EXPECT_EQ(scan_stiffness(c, 0.7 * closed_form, 0.99 * closed_form, 1.05).first_failure_N_per_m, 0.0);
+}
+
+// A search that doubles and halves jumped over this window and called 22,846 N/m the largest stable stiffness.
+TEST(StabilityBench, TheScanFindsAWindowOfShakingFarBelowTheStiffestWallThatSettles) {
+    const StabilityCase c;
+    EXPECT_FALSE(stable(c, run_wall(c, 11'440.0)));
+    EXPECT_TRUE(stable(c, run_wall(c, 15'000.0)));
+    const StiffnessScan scan = scan_stiffness(c, 9000.0, 16'000.0);
+    EXPECT_LE(scan.first_failure_N_per_m, 11'440.0);
+    EXPECT_GT(scan.first_failure_N_per_m, 11'000.0);
+    EXPECT_LE(scan.first_failure_N_per_m, 1.001 * scan.stable_up_to_N_per_m);
+    EXPECT_GT(scan.failing_share, 0.2);
+    EXPECT_LT(scan.failing_share, 0.8);
 }
 
 TEST(StabilityBench, AHandThatRestsOnAWallSinksInAsItsSpringsSay) {
@@ -117,7 +133,10 @@ TEST(StabilityBench, TheControllerTakesEnergyOutOfAHardWallAndLeavesASoftOneAlon
     off.tap_speed_m_per_s = on.tap_speed_m_per_s = 0.3;
     on.control = true;
     EXPECT_LT(run_wall(on, 1500.0).net_energy_J, 0.5 * run_wall(off, 1500.0).net_energy_J);
-    const StabilityRun soft = run_wall(on, 600.0), bare = run_wall(off, 600.0);
+    // Within the limiter and at the contact speed it changes no bit.
+    StabilityCase slow_off = off, slow_on = on;
+    slow_off.tap_speed_m_per_s = slow_on.tap_speed_m_per_s = 0.1;
+    const StabilityRun soft = run_wall(slow_on, 600.0), bare = run_wall(slow_off, 600.0);
     EXPECT_EQ(soft.acted_ticks, 0u);
     EXPECT_EQ(soft.force_change_N, bare.force_change_N);
     // A light grip on 5 kN/m swings for ever; with the controller it comes to rest.
@@ -131,7 +150,8 @@ TEST(StabilityBench, AgreesWithAPublishedSimulationOfTheSameHand) {
         if (!row.contains("published_N_per_m") || row["published_N_per_m"].is_null()) continue;
         const auto published = row["published_N_per_m"].get<double>();
         const auto found = row["largest_stable_stiffness_N_per_m"].get<double>();
-        if (published > 20'000.0) continue;  // there the tool is thrown off by single steps here
+        // From 11 kN/m on single encoder steps are felt here, in windows; that simulation does not look at the force.
+        if (published > 10'000.0) continue;
         EXPECT_NEAR(found / published, 1.0, 0.2) << row.dump();
     }
 }
@@ -161,7 +181,7 @@ TEST(StabilityBench, WritesTheSameTableCsvJsonAndFiguresEachTime) {
     for (; std::getline(csv, line); ++rows) EXPECT_EQ(std::ranges::count(line, ','), columns) << line;
     EXPECT_EQ(rows, again.rows.size());
     const std::string table = stability_table(again);
-    for (const char* part : {"ratio", "published", "limiter", "Figure 7"})
+    for (const char* part : {"ratio", "published", "passivity", "Figure 7"})
         EXPECT_NE(table.find(part), std::string::npos);
     EXPECT_EQ(stability_json(again)["rows"].size(), again.rows.size());
     EXPECT_EQ(stability_svg(again).find("nan"), std::string::npos);
@@ -192,7 +212,7 @@ TEST(BenchCommand, MeasuresStabilityAndWritesWhereAsked) {
     const auto outcome =
         place.run(kBurin + " bench stability --quick --csv s.csv --svg s.svg --figure7-svg f.svg --json s.json");
     ASSERT_EQ(outcome.status, 0) << outcome.output;
-    EXPECT_NE(outcome.output.find("Largest stable stiffness"), std::string::npos);
+    EXPECT_NE(outcome.output.find("First stiffness that shakes"), std::string::npos);
     EXPECT_EQ(place.read("s.csv"), stability_csv(quick()));
     EXPECT_TRUE(place.read("s.svg").starts_with("<svg "));
     EXPECT_TRUE(place.read("f.svg").starts_with("<svg "));

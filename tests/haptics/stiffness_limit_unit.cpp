@@ -132,10 +132,29 @@ TEST(StiffnessLimit, ACoarseEncoderWithoutFrictionToHideItIsNamed) {
     EXPECT_NEAR(limit.stiffness_N_per_m, 200.0, 1e-9);
 }
 
+TEST(StiffnessLimit, TheTorqueOfSeveralPointsIsLimitedAsTheirForceIs) {
+    devices::DeviceDescription wand = omni();
+    const double squares = 2.0 * 0.08 * 0.08;  // 7.7 N m/rad at 600 N/m
+    const auto torsion = [&] { return limited_by_rotation(demand(600.0, 0.5), squares, wand); };
+    EXPECT_EQ(torsion().bound, StiffnessBound::none) << "it gives no torque";
+    wand.max_torque_Nm = Vec3(0.5);
+    EXPECT_EQ(torsion().stiffness_N_per_m, 600.0) << "nothing is known of its rotation";
+    wand.max_torsion_Nm_per_rad = 3.0;
+    EXPECT_EQ(torsion().bound, StiffnessBound::rotation);
+    EXPECT_NEAR(torsion().stiffness_N_per_m * squares, 3.0, 1e-12);
+    wand.max_torsion_Nm_per_rad = 0.0;
+    wand.angular_friction_Nm = 0.01;
+    wand.orientation_step_rad = 0.0015;
+    // K ((T/2 + t_d) W + step/2) = c
+    EXPECT_NEAR(torsion().stiffness_N_per_m * squares, 0.01 / (0.0015 * kTurnSpeed_rad_per_s + 0.00075), 1e-9);
+    EXPECT_EQ(torsion().damping_Ns_per_m, 0.0);
+    EXPECT_EQ(limited_by_rotation(demand(600.0, 0.5), 0.0, wand).stiffness_N_per_m, 600.0) << "one point, no arm";
+}
+
 TEST(StiffnessLimit, EveryReasonHasASentenceOfItsOwn) {
     std::set<std::string> sentences;
     for (const auto bound : {StiffnessBound::none, StiffnessBound::sampling, StiffnessBound::quantisation,
-                             StiffnessBound::device, StiffnessBound::damping}) {
+                             StiffnessBound::device, StiffnessBound::damping, StiffnessBound::rotation}) {
         EXPECT_TRUE(sentences.insert(text(bound)).second);
         EXPECT_FALSE(std::string(text(bound)).empty());
     }
