@@ -23,7 +23,8 @@ struct NamedGrip {
 
 // One row a figure. "section" is theory, rate, delay, filter, velocity, controller (each with
 // largest_stable_stiffness_N_per_m, up to which all tested ones are stable, first_failure_N_per_m, and
-// failing_share_above of the tested ones from there to the end of the scan) or contact (with the figures of one contact).
+// failing_share_above of the tested ones from there to the end of the scan) or contact (with the figures of one
+// contact).
 struct Stability {
     std::vector<Json> rows;
     Figure7 figure7;
