@@ -6,8 +6,8 @@
 // damping taken implicitly and friction as an impulse that never reverses the motion. Input and output match the real
 // device: positions in steps of the encoder, forces clamped, held until the next one acts, and acting a millisecond
 // after they are written; an optional watchdog takes them off the motors when nothing is written any more.
-// The workspace box ends in hard stops. Constants: 162.6 x 121.9 x 71.1 mm, 3.3 N from the maker's data as the PowerWall
-// paper gives it; 0.055 mm, 45 g, 0.26 N from the data sheet; 0.05 Ns/m is an assumption.
+// The workspace box ends in hard stops. Constants: 162.6 x 121.9 x 71.1 mm, 3.3 N from the maker's data as the
+// PowerWall paper gives it; 0.055 mm, 45 g, 0.26 N from the data sheet; 0.05 Ns/m is an assumption.
 //
 // Time: either the caller moves it with advance(), or a clock is given and read() catches up with it first. Both take
 // the same steps, so a session in simulated time gives the same bits as a real-time one with the same ticks.

@@ -109,7 +109,8 @@ struct ContactDemand {
 [[nodiscard]] StiffnessLimit limited(const ContactDemand& wanted, const devices::DeviceDescription& device) noexcept;
 
 // The same for rotation about the device's position. Walls of stiffness k touched at the arms r_i resist rotation with
-// at most k sum(r_i^2), likewise damping. Returns the stiffness and damping of each of these walls; those that are wanted
+// at most k sum(r_i^2), likewise damping. Returns the stiffness and damping of each of these walls; those that are
+// wanted
 // where the device gives no torque, or where nothing is known of its rotation.
 [[nodiscard]] StiffnessLimit limited_by_rotation(const ContactDemand& wall, double sum_of_squared_arms_m2,
                                                  const devices::DeviceDescription& device) noexcept;
