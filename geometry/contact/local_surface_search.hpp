@@ -9,7 +9,8 @@
 
 namespace burin::geometry {
 
-// Visits the triangles of one mesh, whose origin is `shift` from the surface's origin; their numbers begin with `first`.
+// Visits the triangles of one mesh, whose origin is `shift` from the surface's origin; their numbers begin with
+// `first`.
 template <typename Visitor>
 bool for_each_near_in_mesh(const TouchSnapshot& snapshot, const Vec3& shift, std::uint32_t first, Near& near,
                            const Visitor& visit) {

@@ -243,7 +243,8 @@ private:
     float reach2_ = 0.0f;
 };
 
-// Visits triangles and points as for_each_near(LocalSurface) does (geometry/contact/local_surface_search.hpp); triangles
+// Visits triangles and points as for_each_near(LocalSurface) does (geometry/contact/local_surface_search.hpp);
+// triangles
 // by their number, all relative to the snapshot's origin but for points, from whose origin it is `shift`. A look is a
 // test of sixteen boxes of a node, a patch or a leaf, of one triangle, or of four points.
 template <typename Visitor>

@@ -20,8 +20,8 @@ constexpr double kPointProbeOfEdge = 1.0 / 500.0;
 // more, or when the HIP is off the normal by less than this angle, a tenth of what a hand may notice.
 constexpr double kStill = 1e-5, kStillAngle = 1e-4;
 
-// A step that brings the ball nearer to the HIP by less than this part of its length spends leeway; of what is left, this
-// share is kept for the next tick.
+// A step that brings the ball nearer to the HIP by less than this part of its length spends leeway; of what is left,
+// this share is kept for the next tick.
 constexpr double kLeastGain = 1e-3, kKeptLeeway = 0.9;
 
 // Greatest gap, as a fraction of the radius, at which a plane bears the ball with friction.
@@ -30,8 +30,8 @@ constexpr double kBears = 1e-4;
 // Depth, as a fraction of the radius, beyond which a plane has sunk into the ball.
 constexpr double kSunk = 5e-3;
 
-// Where the ball touches points, and one is nearer to its centre than this fraction of the radius, the triangles between
-// them decide on inside or outside.
+// Where the ball touches points, and one is nearer to its centre than this fraction of the radius, the triangles
+// between them decide on inside or outside.
 constexpr double kAmongPoints = 0.9;
 
 // Range of the vote on inside or outside, as a multiple of the nearest triangle's distance; one mean edge is added.
@@ -44,6 +44,8 @@ constexpr std::uint32_t kPushingSteps = 3;
 // Shading converges in two or three steps. Where it does not, as in a corner of the smooth surface, the ball stays
 // where this many steps took it.
 constexpr std::uint32_t kShadingSteps = 10;
+
+bool rubs(const ProxySettings& settings) { return settings.static_friction > 0.0 || settings.dynamic_friction > 0.0; }
 
 Vec3 unit_or_zero(const Vec3& v) {
     const double length2 = glm::dot(v, v);
@@ -94,7 +96,8 @@ public:
           hip_(hip_object_m - surface.origin_object),
           search_(surface, radius_, budget, result_.work),
           facets_(surface),
-          step_share_(state.placed ? state.step_share : 1.0) {
+          // With friction a first step must not be longer than it is known to be: what slides too far stays there.
+          step_share_(state.placed && !rubs(settings) ? state.step_share : 1.0) {
         result_.next = {.position_object_m = hip_object_m,
                         .surface_sequence = surface.sequence,
                         .placed = true,
@@ -154,8 +157,7 @@ private:
     Goal aim() {
         const bool pushing = result_.work.steps <= kPushingSteps;
         if (!pushing) only_no_deeper();
-        const bool rubs = settings_.static_friction > 0.0 || settings_.dynamic_friction > 0.0;
-        if (rubs && touches_.count > 0 && !(pushing && sunk())) return held_goal();
+        if (rubs(settings_) && touches_.count > 0 && !(pushing && sunk())) return held_goal();
         const Vec3 pull = hip_ - center_;
         NearestInside plain = nearest_in(touches_.span(), pull);
         if (!plain.found && pushing) {  // there is no free space to be pushed out into
@@ -185,8 +187,8 @@ private:
         return true;
     }
 
-    // Around an edge or a corner the ball goes on a circle, and a tangent's nearest point leaves it short of its rest, each
-    // step by the same part. So it goes farther, by what the last steps have shown, as long as it has leeway.
+    // Around an edge or a corner the ball goes on a circle, and a tangent's nearest point leaves it short of its rest,
+    // each step by the same part. So it goes farther, by what the last steps have shown, as long as it has leeway.
     [[nodiscard]] Goal farther(const Goal& goal, const Vec3& pull) {
         Goal far = goal;
         const double share = step_share_.of(center_, goal.step);

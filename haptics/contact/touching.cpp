@@ -16,8 +16,8 @@ constexpr double kBesideOfRadius = 0.001, kBesideOfEdge = 0.02, kBesideOfWay = 0
 // later one twice as much.
 constexpr double kFirstLookOfRadius = 2.0, kFirstLookOfEdge = 8.0;
 
-// Where the tick's work does not suffice the ball touches vertices of surfaces with edges longer by this factor, at each
-// try: after five of them up to 0.43 of the radius, where it sinks in by 3 % at most.
+// Where the tick's work does not suffice the ball touches vertices of surfaces with edges longer by this factor, at
+// each try: after five of them up to 0.43 of the radius, where it sinks in by 3 % at most.
 constexpr double kCoarser = 1.2;
 
 // Whether the ball around the triangle's bounding box is farther than `reach` from the whole segment: a cheap test

