@@ -61,7 +61,7 @@ private:
     std::uint64_t ticks_ = 0;
 };
 
-// What of our tick corresponds to the peer's: the proxy alone.
+// Times our proxy alone, which is the part of a tick that the peer has too.
 class ContactAlone final : public Subject {
 public:
     ContactAlone(const TouchedScene& scene, const haptics::ProxySettings& settings) : settings_(settings) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the figures of ticks are written: as a table, rows and a figure. Used by haptics.cpp and haptics_output.cpp.
+// Writes the figures of ticks as a table, rows and a figure. Used by haptics.cpp and haptics_output.cpp.
 #pragma once
 
 #include <array>

@@ -50,7 +50,7 @@ Result<void> measure_ticks(Haptics& all, const Tell& log_progress) {
             continue;
         }
         for (const NamedProbe& probe : probes_on((*scene)->snapshot->mean_edge_m())) {
-            // Of the easy ones only what shows that the size of the mesh does not matter.
+            // Runs few probes on smooth spheres: they only show that the size of the mesh does not matter.
             if (wanted.smooth && probe.name != "point" && probe.name != "ball_2_mm") continue;
             log_progress("ticks on " + wanted.name + ", " + std::to_string((*scene)->snapshot->triangles()) +
                          " triangles, " + probe.name);

@@ -71,7 +71,7 @@ void TouchRun::take(std::uint64_t ticks, Pacing pacing, const Update& update) {
         }
         if (deadline_ns == 0) deadline_ns = clock_.now_ns() + kPeriod_ns;
         if (pacing == Pacing::cold) evictor_.evict();
-        // What is done between ticks is not the tick's fault.
+        // Excludes the time spent between ticks.
         while (deadline_ns < clock_.now_ns()) deadline_ns += kPeriod_ns;
         wait(deadline_ns, pacing);
         tick(clock_.now_ns() - deadline_ns);

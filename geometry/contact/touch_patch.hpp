@@ -243,10 +243,10 @@ private:
     float reach2_ = 0.0f;
 };
 
-// Visits triangles and points as for_each_near(LocalSurface) does (geometry/contact/local_surface_search.hpp);
-// triangles
-// by their number, all relative to the snapshot's origin but for points, from whose origin it is `shift`. A look is a
-// test of sixteen boxes of a node, a patch or a leaf, of one triangle, or of four points.
+// Visits triangles and points as for_each_near(LocalSurface) does (geometry/contact/local_surface_search.hpp).
+// Triangles come by their number and relative to the snapshot's origin; points come relative to the surface's origin,
+// from which the snapshot's is `shift`. A look is a test of sixteen boxes of a node, a patch or a leaf, of one
+// triangle, or of four points.
 template <typename Visitor>
 bool for_each_near(const TouchSnapshot& snapshot, Near& near, const Visitor& visit, const Vec3& shift = Vec3(0.0)) {
     // A NaN in the query box meets nothing.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a ball may touch in this tick: gathered from the surface once (broad phase), then tested in every step.
+// Holds the triangles and vertices that a ball may touch in this tick: gathered from the surface once (broad phase),
+// then tested in every step.
 //
 // Gathered along a straight segment with a slack: the set is complete for every ball centre within `slack` of the
 // segment. It holds triangles, and vertices alone where the surface is so fine that the ball cannot tell the difference
