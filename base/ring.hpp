@@ -41,6 +41,21 @@ public:
         return &values_[head & mask_];
     }
 
+    // Consumer only: the number of values that wait; more may come meanwhile.
+    [[nodiscard]] std::size_t waiting() const noexcept {
+        // acquire: pairs with push's release, so that the values counted are seen whole.
+        return tail_.load(std::memory_order_acquire) - head_.load(std::memory_order_relaxed);
+    }
+    // Consumer only: the value behind `older` others, which stays until it is popped. older < waiting().
+    [[nodiscard]] const T& at(std::size_t older) const noexcept {
+        return values_[(head_.load(std::memory_order_relaxed) + older) & mask_];  // only the consumer writes head_
+    }
+    // Consumer only: removes the oldest value; the ring must not be empty.
+    void drop() noexcept {
+        // release: our reads of the slot are done before the producer may overwrite it.
+        head_.store(head_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+    }
+
     // Consumer only: true and the oldest value, or false when the ring is empty.
     bool pop(T& value) noexcept {
         const std::size_t head = head_.load(std::memory_order_relaxed);   // only the consumer writes it

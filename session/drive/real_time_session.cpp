@@ -8,6 +8,7 @@
 #include "devices/trackers/tracker.hpp"
 #include "session/drive/session.hpp"
 #include "session/drive/session_frames.hpp"
+#include "session/input/event_times.hpp"
 #include "session/input/input_line.hpp"
 #include "session/present/display_watch.hpp"
 
@@ -85,10 +86,10 @@ private:
     [[nodiscard]] bool wants_picture() override { return true; }
     void finished(const FrameInput& frame, bool anew) override;
 
-    [[nodiscard]] std::vector<Input> wait_for_frame();
-    [[nodiscard]] std::vector<Input> wait_for_refresh();
-    [[nodiscard]] std::vector<Input> wait_for_input(Nanoseconds until_ns);
-    void take_tracker_input();
+    [[nodiscard]] std::vector<InputEvent> wait_for_frame();
+    [[nodiscard]] std::vector<InputEvent> wait_for_refresh();
+    [[nodiscard]] std::vector<InputEvent> wait_for_input(Nanoseconds until_ns);
+    void take_tracker_input(std::vector<InputEvent>& happened);
 
     // Time on the clock, and processor time of all threads.
     struct Moment {
@@ -99,6 +100,7 @@ private:
     Clock& clock_;
     devices::Tracker* tracker_;
     DisplayWatch display_;
+    EventTimes event_times_;
     EndSignals end_;
     FramePlan plan_;              // of the frame in progress
     Moment began_, turn_;         // when the session began, and when the wait for this frame did
@@ -112,10 +114,11 @@ std::optional<FrameInput> LiveFrames::next_input() {
     SessionTimes& times = session_.times();
     times.begin();
     turn_ = now();
-    std::vector<Input> happened = wait_for_frame();
+    std::vector<InputEvent> happened = wait_for_frame();
     times.reached(FrameStage::wait);
-    take_tracker_input();  // before other input: it arrived earlier
-    for (Input& event : happened) input_.push(clock_.now_ns() - session_.start_ns(), std::move(event));
+    take_tracker_input(happened);
+    std::ranges::stable_sort(happened, {}, &InputEvent::time_ns);
+    for (InputEvent& event : happened) input_.push(event.time_ns, std::move(event.input));
     recorder_.outside();
     const auto frame =
         input_.begin_frame(clock_.now_ns() - session_.start_ns(), plan_.display_ns - session_.start_ns());
@@ -126,42 +129,47 @@ std::optional<FrameInput> LiveFrames::next_input() {
 }
 
 // Waits until it is time for the next frame, plans it, and returns what has happened in the windows.
-std::vector<Input> LiveFrames::wait_for_frame() {
+std::vector<InputEvent> LiveFrames::wait_for_frame() {
     const bool active = presenter_.takes_turns(session_) || clock_.now_ns() - changed_ns_ < kActive_ns;
     presenter_.refine_beside(!active);
     display_.shown_at(presenter_.refresh_Hz());
     if (active) return wait_for_refresh();
     Nanoseconds until_ns = clock_.now_ns() + kRest_ns;
     if (const auto event_ns = input_.next_event_ns()) until_ns = std::min(until_ns, session_.start_ns() + *event_ns);
-    std::vector<Input> happened = wait_for_input(until_ns);
+    std::vector<InputEvent> happened = wait_for_input(until_ns);
     plan_ = display_.plan(clock_.now_ns());
     plan_.wake_ns = clock_.now_ns();
     return happened;
 }
 
 // Waits as late as the display allows. Polls the display meanwhile.
-std::vector<Input> LiveFrames::wait_for_refresh() {
+std::vector<InputEvent> LiveFrames::wait_for_refresh() {
     plan_ = display_.plan(clock_.now_ns());
-    std::vector<Input> happened;
+    std::vector<InputEvent> happened;
     do {
         const Nanoseconds look_ns = display_.next_look_ns().value_or(plan_.wake_ns);
-        for (Input& input : wait_for_input(std::min(plan_.wake_ns, look_ns))) happened.push_back(std::move(input));
+        for (InputEvent& event : wait_for_input(std::min(plan_.wake_ns, look_ns))) happened.push_back(std::move(event));
         display_.look(presenter_, clock_.now_ns());
     } while (clock_.now_ns() < plan_.wake_ns);
     return happened;
 }
 
 // Waits until the time has come or something happens; returns what has happened.
-std::vector<Input> LiveFrames::wait_for_input(Nanoseconds until_ns) {
-    if (presenter_.shows()) return presenter_.inputs(std::max(seconds(until_ns - clock_.now_ns()), 0.0));
+std::vector<InputEvent> LiveFrames::wait_for_input(Nanoseconds until_ns) {
+    if (presenter_.shows()) {
+        const Nanoseconds asked_ns = clock_.now_ns();
+        std::vector<Input> told = presenter_.inputs(std::max(seconds(until_ns - asked_ns), 0.0));
+        return event_times_.timed(std::move(told), asked_ns - session_.start_ns(),
+                                  clock_.now_ns() - session_.start_ns());
+    }
     clock_.sleep_until(until_ns);
     return {};
 }
 
-void LiveFrames::take_tracker_input() {
+void LiveFrames::take_tracker_input(std::vector<InputEvent>& happened) {
     if (tracker_ == nullptr) return;
     for (devices::TrackerSample& sample : tracker_->take())
-        input_.push(sample.time_ns - session_.start_ns(), input_of(std::move(sample.input)));
+        happened.push_back({sample.time_ns - session_.start_ns(), input_of(std::move(sample.input))});
     for (const std::string& message : tracker_->take_messages()) session_.notify_of_event(message);
 }
 

@@ -181,9 +181,18 @@ DeskStep step_desk(DeskState state, std::span<const InputEvent> events, double d
                    const DeskSettings& settings) {
     BURIN_CHECK(dt_s >= 0.0 && view.scene_scale > 0.0 && settings.flight_lag_s > 0.0);
     Steps steps{view, settings, std::move(state), 0, {}, {}};
-    for (const InputEvent& event : events) std::visit(steps, event.input);
-    fly(steps.state, dt_s, settings);
     DeskStep step;
+    for (const InputEvent& event : events) {
+        const Vec3 before_m = steps.state.target_device_m;
+        const std::uint32_t before = steps.state.buttons;
+        std::visit(steps, event.input);
+        const bool moved = std::holds_alternative<MouseMove>(event.input) || steps.state.target_device_m != before_m ||
+                           steps.state.buttons != before;
+        if (moved)
+            step.way.push_back({event.time_ns, steps.state.target_device_m, step.target.orientation_device,
+                                steps.state.buttons | steps.clicked});
+    }
+    fly(steps.state, dt_s, settings);
     step.target.position_device_m = steps.state.target_device_m;
     step.target.buttons = steps.state.buttons | steps.clicked;
     step.head_world = steps.state.head_world;

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "base/space.hpp"
-#include "devices/hand/simulated_hand.hpp"
+#include "devices/hand/steered_hand.hpp"
 #include "session/input/desk_input_table.hpp"
 #include "session/input/input_event.hpp"
 
@@ -69,7 +69,9 @@ struct DeskState {
 
 struct DeskStep {
     DeskState state;
-    devices::HandTarget target;  // without a velocity; orientation as the hand rests
+    // Where the mouse led the hand: a target for each of its events, and for each that changes buttons.
+    std::vector<devices::SteeredTarget> way;
+    devices::HandTarget target;  // at the end; without a velocity; orientation as the hand rests
     Pose head_world;
     Similarity scene_change;      // world_from_scene becomes scene_change * world_from_scene
     std::vector<Action> actions;  // in order; reset_view is among them and also resets the head here

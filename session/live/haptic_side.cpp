@@ -12,6 +12,7 @@ Result<void> HapticSide::open(std::string_view device, Clock& clock, const Vec3&
     rest.position_device_m = rest_device_m;
     Result<devices::SteeredHand> hand = devices::SteeredHand::create(&steering_, rest);
     if (!hand) return std::unexpected(hand.error());
+    told_.position_device_m = rest_device_m;
     auto opened = devices::open_haptic_device(device, {clock, std::move(*hand)});
     if (!opened) return std::unexpected(opened.error());
     device_ = std::move(*opened);
@@ -19,10 +20,15 @@ Result<void> HapticSide::open(std::string_view device, Clock& clock, const Vec3&
     return {};
 }
 
-void HapticSide::move_hand(Nanoseconds time_ns, const devices::HandTarget& target) {
-    steering_.draft() = {++hand_sequence_, time_ns, target.position_device_m, target.orientation_device,
-                         target.buttons};
-    steering_.publish();
+void HapticSide::move_hand(std::span<const devices::SteeredTarget> way, Nanoseconds time_ns,
+                           const devices::HandTarget& end) {
+    const auto tell = [&](const devices::SteeredTarget& target) {
+        if (steering_.push(target)) told_ = target;  // else the next frame tells the end again
+    };
+    for (const devices::SteeredTarget& target : way) tell(target);
+    const bool is_there = end.position_device_m == told_.position_device_m && end.buttons == told_.buttons &&
+                          end.orientation_device == told_.orientation_device;
+    if (!is_there) tell({time_ns, end.position_device_m, end.orientation_device, end.buttons});
 }
 
 void HapticSide::publish(haptics::TickParameters parameters) {

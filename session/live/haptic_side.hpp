@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "devices/hand/steered_hand.hpp"
@@ -22,8 +23,11 @@ public:
     // Opens the device of that name (devices/haptic/device_registry.hpp), a simulated one with its hand at rest there.
     // The clock must outlive it.
     [[nodiscard]] Result<void> open(std::string_view device, Clock& clock, const Vec3& rest_device_m);
-    // Publishes where the hand is to go, for the device's next ticks; time_ns: session time.
-    void move_hand(Nanoseconds time_ns, const devices::HandTarget& target);
+    // Publishes where the hand is to go, for the device's next ticks: through the targets of the way, each at its own
+    // time, to where it is to be at time_ns if the way does not end there. All times are session time.
+    void move_hand(std::span<const devices::SteeredTarget> way, Nanoseconds time_ns, const devices::HandTarget& end);
+    // Returns the number of targets that were lost to a full channel.
+    [[nodiscard]] std::uint64_t lost_targets() const { return steering_.lost(); }
     // Publishes other parameters of the ticks; numbers them.
     void publish(haptics::TickParameters parameters);
     // Returns the newest tool state that the loop has published.
@@ -38,7 +42,8 @@ private:
     devices::HandSteering steering_;
     std::unique_ptr<devices::HapticDevice> device_;
     std::optional<haptics::HapticLoop> loop_;
-    std::uint64_t hand_sequence_ = 0, parameter_sequence_ = 0;
+    devices::SteeredTarget told_;  // the last target published
+    std::uint64_t parameter_sequence_ = 0;
 };
 
 }  // namespace burin::session

@@ -101,7 +101,7 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
             step.orders.messages.push_back(done.error().line());
     }
     fit_desk_screen(room_.wall, main_eye());  // a command may have changed the mode
-    haptics_.move_hand(input.time_ns, step.hand);
+    haptics_.move_hand(step.hand_way, input.time_ns, step.hand);
     carry_out(std::move(step.orders), carve);
     watch(input.time_ns);
 }

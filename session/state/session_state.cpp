@@ -139,6 +139,7 @@ SessionStep step_session(SessionState state, const Room& room, std::span<const I
     state.head = follow_head(state.head, room.wall.setup, timing_in(room.wall.setup, mode), events, view.display_ns,
                              state.desk.head_world);
     step.hand = desk.target;
+    step.hand_way = std::move(desk.way);
     const Similarity before = state.world_from_object;
     if (desk.scene_change != Similarity{}) state.world_from_object = desk.scene_change * before;
     WandStep wands =

@@ -82,6 +82,8 @@ struct SessionView {
 struct SessionStep {
     SessionState state;
     SessionOrders orders;
+    // Where the hand is to go meanwhile, at the times of the events, and at the end.
+    std::vector<devices::SteeredTarget> hand_way;
     devices::HandTarget hand;
 };
 [[nodiscard]] SessionStep step_session(SessionState state, const Room& room, std::span<const InputEvent> events,

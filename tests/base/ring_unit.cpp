@@ -60,6 +60,21 @@ TEST(Ring, TheOldestStaysUntilItIsPopped) {
     EXPECT_EQ(ring.oldest(), nullptr);
 }
 
+TEST(Ring, ShowsWhatWaitsAndDropsTheOldest) {
+    Ring<int> ring(4);
+    EXPECT_EQ(ring.waiting(), 0u);
+    for (int next = 0; next < 11; next += 3) {
+        for (int i = 0; i < 3; ++i) ASSERT_TRUE(ring.push(next + i));
+        ASSERT_EQ(ring.waiting(), 3u);
+        for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(ring.at(i), next + static_cast<int>(i));
+        ring.drop();
+        EXPECT_EQ(ring.at(0), next + 1);
+        ring.drop();
+        ring.drop();
+        EXPECT_EQ(ring.waiting(), 0u);
+    }
+}
+
 TEST(Ring, BehavesAsAQueueThroughManyWrapArounds) {
     Ring<int> ring(8);
     std::deque<int> model;

@@ -19,8 +19,7 @@ TEST(SteeredHand, AllocatesLocksThrowsAndOpensNothingInTenThousandTicks) {
         for (int i = 0; i < 10000; ++i) {
             if (i % 16 == 0) {  // leaps, rests and nonsense
                 const double x = i % 160 == 0 ? NAN : 0.08 * std::sin(0.1 * i);
-                channel.draft() = {static_cast<std::uint64_t>(i + 1), i * 1'000'000, {x, 0.0, 0.0}, {1, 0, 0, 0}, 1};
-                channel.publish();
+                static_cast<void>(channel.push({i * 1'000'000, {x, 0.0, 0.0}, {1, 0, 0, 0}, 1}));
             }
             omni.advance(1'000'000);
             static_cast<void>(omni.read());

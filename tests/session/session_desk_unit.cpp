@@ -123,6 +123,28 @@ TEST(DeskInput, ButtonsAreTheStylussAndAQuickClickIsNotLost) {
     EXPECT_EQ(desk.step().target.buttons, 0u);
 }
 
+TEST(DeskInput, TellsTheHandOfEachEventAtItsOwnTime) {
+    Desk desk;
+    const std::vector<InputEvent> events{{1, MouseMove{{0.0, 0.0}}},
+                                         {2, MouseMove{{8.0, 0.0}}},
+                                         {3, press(Key::w)},  // nothing to the hand
+                                         {4, MouseClick{MouseButton::left, true, {}}},
+                                         {5, MouseMove{{8.0, 0.0}}},  // still there
+                                         {6, MouseClick{MouseButton::left, false, {}}},
+                                         {7, MouseMove{{8.0, -8.0}}}};
+    const DeskStep step = step_desk(desk.state, events, kFrame_s, desk.view, desk.settings);
+    ASSERT_EQ(step.way.size(), 6u);
+    const std::vector<Nanoseconds> times{1, 2, 4, 5, 6, 7};
+    const double d = 8.0 * desk.view.device_m_per_px;
+    const std::vector<Vec3> places{Vec3(0.0), {d, 0, 0}, {d, 0, 0}, {d, 0, 0}, {d, 0, 0}, {d, d, 0}};
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        EXPECT_EQ(step.way[i].time_ns, times[i]);
+        EXPECT_LT(apart(step.way[i].position_device_m, places[i]), 1e-15) << i;
+        EXPECT_EQ(step.way[i].buttons, i < 2 ? 0u : 1u) << i;  // a click within a frame lasts until its end
+    }
+    EXPECT_EQ(step.target.position_device_m, step.way.back().position_device_m);
+}
+
 TEST(DeskInput, LosingTheFocusReleasesEverything) {
     Desk desk;
     desk.step({MouseMove{{0.0, 0.0}}, MouseClick{MouseButton::left, true, {}}, press(Key::w), press(Key::shift)});
