@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "session/panel/panel_input.hpp"
 #include "session/panel/panel_sections.hpp"
@@ -131,9 +132,11 @@ public:
     std::uint64_t laid_out_ = 0, spared_ = 0;
 
 private:
-    // Lays out once for each step of the events since the last time, and once more for a list that has opened.
+    // Lays out once for each step of the events since the last time, and once more for a list that has opened or
+    // contents whose height has changed.
     renderer::PanelMesh lay_out(const PanelModel& model, Nanoseconds time_ns) {
         double dt_s = std::clamp(1e-9 * static_cast<double>(time_ns - last_ns_), 1e-4, 0.25);
+        int refits = 0;
         do {
             ImGuiIO& io = ImGui::GetIO();
             io.DisplaySize = {static_cast<float>(size_.width), static_cast<float>(size_.height)};
@@ -150,6 +153,9 @@ private:
             ImGui::Render();
             ++laid_out_;
             std::ranges::move(kit_.actions, std::back_inserter(frame_.actions));
+            // The toolkit gives the scroll bar the length that fits the contents of the layout before.
+            const bool fits = std::exchange(scrolls_over_, inside_height_) == inside_height_;
+            kit_.again = kit_.again || (!fits && ++refits < kSettling);
         } while (!events_.empty() || kit_.again);
         frame_.wants_mouse = ImGui::GetIO().WantCaptureMouse;
         frame_.wants_keyboard = ImGui::GetIO().WantTextInput;
@@ -192,6 +198,7 @@ private:
         kit_.visible_lo = top;
         kit_.visible_hi = {top.x + inside.x, top.y + inside.y};
         show_inside(model);
+        inside_height_ = ImGui::GetCursorPosY();
         ImGui::EndChild();
         kit_.visible_lo = {0.0f, 0.0f};
         kit_.visible_hi = screen;
@@ -219,6 +226,7 @@ private:
 
     ImGuiContext* context_ = nullptr;
     Nanoseconds last_ns_ = 0;
+    float inside_height_ = 0.0f, scrolls_over_ = 0.0f;  // of what scrolls, and what its bar is for
 };
 
 Panel::Panel(std::unique_ptr<Implementation> implementation) : implementation_(std::move(implementation)) {}

@@ -334,6 +334,21 @@ TEST(PanelRest, LaysNothingOutWhileNothingChanges) {
     EXPECT_TRUE(desk.panel.show(desk.model, desk.now_ns).changed);
 }
 
+// A message that is broken into other lines changes the height of what scrolls. The bar kept the length that fitted the
+// message before, for as long as nothing else changed, so that pictures of the same state differed.
+TEST(PanelRest, LooksTheSameWhateverMessageCameBefore) {
+    const auto after = [](const std::string& before) {
+        Desk desk(workable_model(), {340, 680});
+        for (int i = 0; i < 5; ++i) desk.show();
+        for (const std::string& message : {before, std::string("wrote part.stl")}) {
+            desk.model.message = message;
+            desk.show();
+        }
+        return desk.panel.show(desk.model, desk.now_ns).mesh;
+    };
+    EXPECT_TRUE(after("wrote it") == after("wrote a file in a folder with a name so long that it takes several lines"));
+}
+
 TEST(PanelHidden, IsEmptyAndWantsNothing) {
     Desk desk(workable_model());
     const Vec2 at = desk.middle_of("quit");
