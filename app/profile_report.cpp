@@ -94,6 +94,8 @@ Json describe_run(const ProfiledRun& run) {
     json["ticks"] = {{"count", r.ticks},
                      {"late", r.late_ticks},
                      {"missed_deadlines", r.missed_deadlines},
+                     {"machine_pace", r.machine_pace},
+                     {"lost_targets", r.lost_targets},
                      {"duration_us", in_us(r.tick_duration)},
                      {"lateness_us", in_us(r.tick_lateness)}};
     json["warnings"] = r.warnings;
@@ -118,6 +120,9 @@ std::string profile_table(const Json& run) {
     text += "\n" + heading("1 kHz loop, us") + row("tick", ticks["duration_us"]) + row("late by", ticks["lateness_us"]);
     text += line("  %zu ticks, %zu late, %zu deadlines missed\n", ticks["count"].get<std::size_t>(),
                  ticks["late"].get<std::size_t>(), ticks["missed_deadlines"].get<std::size_t>());
+    text +=
+        line("  contact takes this machine %.2f times as long as the reference core; %zu targets of the hand lost\n",
+             ticks["machine_pace"].get<double>(), ticks["lost_targets"].get<std::size_t>());
     for (const Json& warning : run["warnings"]) text += "\nwarning: " + warning.get<std::string>();
     if (!run["warnings"].empty()) text += "\n";
     return text;

@@ -11,6 +11,7 @@
 #include "session/input/event_times.hpp"
 #include "session/input/input_line.hpp"
 #include "session/present/display_watch.hpp"
+#include "session/timing/machine_pace.hpp"
 
 namespace burin::session {
 namespace {
@@ -207,8 +208,11 @@ SessionRecord LiveFrames::record() const {
 }
 
 // Adds what the threads did; call it after they have ended.
-void add_threads(SessionRecord& record, const haptics::HapticLoop& loop, const ThreadedExecutor& threads) {
+void add_threads(SessionRecord& record, LiveSession& session, const ThreadedExecutor& threads) {
+    const haptics::HapticLoop& loop = session.loop();
     record.carve_update = summarised(threads.update_duration());
+    record.machine_pace = session.pace();
+    record.lost_targets = session.lost_targets();
     record.ticks = loop.ticks();
     record.late_ticks = loop.late_ticks();
     record.missed_deadlines = loop.skipped_deadlines();
@@ -224,7 +228,8 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
     Result<Presenter> presenter = Presenter::open(options.live, wall, std::move(run.driver));
     if (!presenter) return std::unexpected(presenter.error());
     const auto wake = [&to = *presenter] { to.wake(); };
-    auto opened = LiveSession::create(options, wall, clock);
+    const double machine_pace = run.machine_pace ? *run.machine_pace : measured_pace();
+    auto opened = LiveSession::create(options, wall, clock, machine_pace);
     if (!opened) return std::unexpected(opened.error());
     LiveSession& session = **opened;
     if (run.keep_frames) session.times().keep_frames();
@@ -245,7 +250,11 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
     if (!driven) return std::unexpected(driven.error());
     if (!ended) return std::unexpected(ended.error());
     SessionRecord record = frames.record();
-    add_threads(record, session.loop(), threads);
+    add_threads(record, session, threads);
+    if (record.lost_targets > 0) {
+        session.notify_of_event(std::to_string(record.lost_targets) +
+                                " places of the hand were lost: its ticks stood still for too long");
+    }
     return record;
 }
 

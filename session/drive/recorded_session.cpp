@@ -68,14 +68,6 @@ private:
     std::optional<Error> departed_;
 };
 
-Result<void> check_device(LiveSession& session, const ThreadLog& log, const std::string& name) {
-    if (log.clock.period_ns == session.loop().period_ns()) return {};
-    return fail(name,
-                "its ticks are " + std::to_string(log.clock.period_ns) + " ns apart, this device's " +
-                    std::to_string(session.loop().period_ns()),
-                "replay it with the device that it was recorded with");
-}
-
 Result<void> check_screens(const Presenter& presenter, const ThreadLog& log, const std::string& name) {
     for (const FrameSeen& seen : log.frames) {
         for (const OutputSeen& output : seen.outputs) {
@@ -96,11 +88,9 @@ Result<void> replay_as_recorded(const SculptOptions& options, const SessionWall&
     const std::string& name = options.live.input;
     InputSource input = InputSource::replay(std::move(log));
     SimulatedClock clock;
-    clock.sleep_until(threads.clock.start_ns);  // makes all times equal to the bit
-    auto opened = LiveSession::create(options, wall, clock);
+    auto opened = open_as_recorded(options, wall, threads, name, clock);
     if (!opened) return std::unexpected(opened.error());
     LiveSession& session = **opened;
-    if (const auto fits = check_device(session, threads, name); !fits) return fits;
     Result<Presenter> presenter = Presenter::open(options.live, wall);
     if (!presenter) return std::unexpected(presenter.error());
     if (const auto fits = check_screens(*presenter, threads, name); !fits) return fits;

@@ -33,6 +33,8 @@ namespace burin::session {
 struct RealTimeRun {
     bool keep_frames = false;  // keeps every frame and its times in the record
     haptics::LoopPace pace = {.rests = true};
+    std::optional<double>
+        machine_pace{};  // haptics::WorkSettings::pace; none: it is measured before the session begins
     DirectDriver driver = direct_driver();
 };
 // Runs in real time: haptics and carving have threads of their own, and a frame is drawn when something has changed, as

@@ -31,7 +31,7 @@ private:
 };
 
 ThreadClock clock_of(LiveSession& session) {
-    return {session.start_ns(), session.loop().period_ns(), session.device().resolution_m};
+    return {session.start_ns(), session.loop().period_ns(), session.device().resolution_m, session.pace()};
 }
 
 bool same(const wall::OutputPlace& a, const wall::OutputPlace& b) {

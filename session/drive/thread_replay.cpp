@@ -13,6 +13,20 @@ const T* seen(std::deque<T>& values, std::uint64_t sequence) {
 
 }  // namespace
 
+Result<std::unique_ptr<LiveSession>> open_as_recorded(const SculptOptions& options, const SessionWall& wall,
+                                                      const ThreadLog& log, const std::string& name,
+                                                      SimulatedClock& clock) {
+    clock.sleep_until(log.clock.start_ns);
+    auto session = LiveSession::create(options, wall, clock, log.clock.pace);
+    if (!session) return session;
+    const Nanoseconds period_ns = (*session)->loop().period_ns();
+    if (log.clock.period_ns == period_ns) return session;
+    return fail(name,
+                "its ticks are " + std::to_string(log.clock.period_ns) + " ns apart, this device's " +
+                    std::to_string(period_ns),
+                "replay it with the device that it was recorded with");
+}
+
 ThreadReplay::ThreadReplay(LiveSession& session, const ThreadLog& log, const std::string& name)
     : session_(session),
       log_(log),

@@ -33,6 +33,7 @@ void HapticSide::move_hand(std::span<const devices::SteeredTarget> way, Nanoseco
 
 void HapticSide::publish(haptics::TickParameters parameters) {
     parameters.sequence = ++parameter_sequence_;
+    parameters.work.pace = pace_;
     channels_.parameters.draft() = std::move(parameters);
     channels_.parameters.publish();
 }

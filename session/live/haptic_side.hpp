@@ -17,8 +17,8 @@ namespace burin::session {
 
 class HapticSide {
 public:
-    // records: ticks that the recording's ring holds.
-    explicit HapticSide(std::size_t records) : channels_(haptics::HapticChannels::kStrokes, records) {}
+    // records: ticks that the recording's ring holds. pace: of the machine (haptics::WorkSettings).
+    HapticSide(std::size_t records, double pace) : channels_(haptics::HapticChannels::kStrokes, records), pace_(pace) {}
 
     // Opens the device of that name (devices/haptic/device_registry.hpp), a simulated one with its hand at rest there.
     // The clock must outlive it.
@@ -28,17 +28,19 @@ public:
     void move_hand(std::span<const devices::SteeredTarget> way, Nanoseconds time_ns, const devices::HandTarget& end);
     // Returns the number of targets that were lost to a full channel.
     [[nodiscard]] std::uint64_t lost_targets() const { return steering_.lost(); }
-    // Publishes other parameters of the ticks; numbers them.
+    // Publishes other parameters of the ticks; numbers them, and gives them the machine's pace.
     void publish(haptics::TickParameters parameters);
     // Returns the newest tool state that the loop has published.
     [[nodiscard]] const haptics::ToolState& newest_tool() { return channels_.tool.newest(); }
 
+    [[nodiscard]] double pace() const { return pace_; }
     [[nodiscard]] haptics::HapticLoop& loop() { return *loop_; }
     [[nodiscard]] haptics::HapticChannels& channels() { return channels_; }
     [[nodiscard]] const devices::DeviceDescription& device() const { return device_->description(); }
 
 private:
     haptics::HapticChannels channels_;
+    double pace_;
     devices::HandSteering steering_;
     std::unique_ptr<devices::HapticDevice> device_;
     std::optional<haptics::HapticLoop> loop_;

@@ -26,15 +26,15 @@ Room room_of(const compute::Lattice& lattice, const SessionWall& wall) {
 
 }  // namespace
 
-LiveSession::LiveSession(Clock& clock, const SculptOptions& options)
+LiveSession::LiveSession(Clock& clock, const SculptOptions& options, double pace)
     : clock_(clock),
       pool_(options.threads),
-      haptics_(options.live.record.empty() ? haptics::HapticChannels::kRecords : kTicksToRecord),
+      haptics_(options.live.record.empty() ? haptics::HapticChannels::kRecords : kTicksToRecord, pace),
       screenshots_(options.live.screenshots) {}
 
 Result<std::unique_ptr<LiveSession>> LiveSession::create(const SculptOptions& options, const SessionWall& wall,
-                                                         Clock& clock) {
-    auto session = std::unique_ptr<LiveSession>(new LiveSession(clock, options));
+                                                         Clock& clock, double pace) {
+    auto session = std::unique_ptr<LiveSession>(new LiveSession(clock, options, pace));
     if (const auto loaded = session->load(options, wall); !loaded) return std::unexpected(loaded.error());
     if (const auto taken = session->take_up_tool(options); !taken) return std::unexpected(taken.error());
     return session;

@@ -48,9 +48,11 @@ private:
 class LiveSession {
 public:
     // Loads and meshes the workpiece. Session time counts from the clock's present value; the clock must outlive the
-    // session.
+    // session. pace: how much slower than the reference core the machine is (haptics::WorkSettings); as measured where
+    // time is real (timing/machine_pace.hpp), as recorded in a replay, and 1 where results must depend on no machine.
     [[nodiscard]] static Result<std::unique_ptr<LiveSession>> create(const SculptOptions& options,
-                                                                     const SessionWall& wall, Clock& clock);
+                                                                     const SessionWall& wall, Clock& clock,
+                                                                     double pace = 1.0);
 
     // Applies one frame's input. `output` is the main screen's output, `tool` the tool as the frame draws it. Orders to
     // the carving side are passed to `carve`.
@@ -89,6 +91,8 @@ public:
     [[nodiscard]] const SessionState& state() const { return state_; }
     [[nodiscard]] const Room& room() const { return room_; }
     [[nodiscard]] haptics::HapticLoop& loop() { return haptics_.loop(); }
+    [[nodiscard]] double pace() const { return haptics_.pace(); }
+    [[nodiscard]] std::uint64_t lost_targets() const { return haptics_.lost_targets(); }
     [[nodiscard]] sculpt::SculptService& desk() { return *desk_; }
     [[nodiscard]] SessionTimes& times() { return times_; }
     [[nodiscard]] Nanoseconds start_ns() const { return start_ns_; }
@@ -113,7 +117,7 @@ public:
     [[nodiscard]] const compute::Surface& surface() const { return carving_->surface(); }
 
 private:
-    LiveSession(Clock& clock, const SculptOptions& options);
+    LiveSession(Clock& clock, const SculptOptions& options, double pace);
     [[nodiscard]] Result<void> load(const SculptOptions& options, const SessionWall& wall);
     [[nodiscard]] Result<void> take_up_tool(const SculptOptions& options);
     SceneInput feed_panel(const FrameInput& input);

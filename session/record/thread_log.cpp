@@ -12,13 +12,14 @@
 namespace burin::session {
 namespace {
 
+constexpr double kSlightestPace = 1e-3, kGreatestPace = 1e3;
 constexpr Nanoseconds kLatestStart_ns = Nanoseconds{1} << 60;  // 36 years after a machine's start
 
 struct Kind {
     std::string_view name, arguments;
 };
 constexpr std::array kKinds = {
-    Kind{"clock", "START_NS TICK_PERIOD_NS RESOLUTION_M"},
+    Kind{"clock", "START_NS TICK_PERIOD_NS RESOLUTION_M [PACE]"},
     Kind{"ticks", "FIRST TICK;TICK;..."},
     Kind{"updates", "FIRST UPDATE;UPDATE;..."},
     Kind{"output", "SCREEN WIDTH_PX HEIGHT_PX X_PX Y_PX"},
@@ -89,7 +90,8 @@ bool take_lines(const std::vector<std::string>& words, std::size_t line, Text& t
 // ---- Writing
 
 std::string text_of(const ThreadClock& clock) {
-    return "clock " + text(clock.start_ns) + " " + text(clock.period_ns) + " " + text(clock.resolution_m);
+    return "clock " + text(clock.start_ns) + " " + text(clock.period_ns) + " " + text(clock.resolution_m) + " " +
+           text(clock.pace);
 }
 
 std::string text_of(const OutputSeen& output) {
@@ -147,14 +149,17 @@ Result<void> ThreadLogReader::take(const std::vector<std::string>& words, std::s
 }
 
 bool ThreadLogReader::take_clock(const std::vector<std::string>& words) {
-    if (log_ || words.size() != 4) return false;
+    if (log_ || words.size() < 4 || words.size() > 5) return false;
     const auto start = number<Nanoseconds>(words[1]);
     const auto period = number<Nanoseconds>(words[2]);
     const auto resolution = number<double>(words[3]);
+    // Older recordings have none.
+    const auto pace = words.size() == 5 ? number<double>(words[4]) : std::optional(1.0);
     if (!start || *start < 0 || *start > kLatestStart_ns) return false;
     if (!period || *period < 1 || *period > kNanosecondsPerSecond) return false;
     if (!resolution || !std::isfinite(*resolution) || *resolution < 0.0) return false;
-    log_.emplace().clock = {*start, *period, *resolution};
+    if (!pace || *pace < kSlightestPace || *pace > kGreatestPace) return false;
+    log_.emplace().clock = {*start, *period, *resolution, *pace};
     ticks_.emplace(log_->clock);
     updates_.emplace(log_->clock);
     return true;

@@ -53,12 +53,13 @@ struct FrameSeen {
     std::size_t line = 0;
 };
 
-// Clock and device resolution that a session's ticks were recorded with.
+// Clock, device resolution and machine that a session's ticks were recorded with.
 struct ThreadClock {
     Nanoseconds start_ns = 0;   // when the session's time began
     Nanoseconds period_ns = 1;  // of ticks
     // Step of most recorded positions; 0: unknown.
     double resolution_m = 0.0;
+    double pace = 1.0;  // of the machine (haptics::WorkSettings): a replay's ticks do as much work as these did
     friend bool operator==(const ThreadClock&, const ThreadClock&) = default;
 };
 

@@ -129,7 +129,9 @@ struct SessionRecord {
     Nanoseconds rested_ns = 0, rested_processor_ns = 0;
     // On the carving thread, of updates that changed the surface.
     FigureSummary carve_update;
+    double machine_pace = 1.0;  // that bounded a tick's work (haptics::WorkSettings)
     std::uint64_t ticks = 0, late_ticks = 0, missed_deadlines = 0;
+    std::uint64_t lost_targets = 0;  // of the steered hand
     FigureSummary tick_lateness, tick_duration;
     std::vector<std::string> warnings;  // of the last frames
     std::string device;

@@ -35,6 +35,8 @@ ProfiledRun hundred_frames() {
     run.record.ticks = 5000;
     run.record.late_ticks = 7;
     run.record.missed_deadlines = 3;
+    run.record.machine_pace = 1.75;
+    run.record.lost_targets = 2;
     run.record.tick_duration = {5000, 1'000, 12'500, 20'000, 30'000, 40'000};
     run.record.tick_lateness = {5000, 0, 250, 500, 1'500, 900'000};
     run.record.warnings = {"too late"};
@@ -69,11 +71,14 @@ TEST(ProfileReport, GivesTheMedianThe99thPercentileAndTheWorst) {
     EXPECT_DOUBLE_EQ(run["ticks"]["duration_us"]["median"].get<double>(), 12.5);
     EXPECT_DOUBLE_EQ(run["ticks"]["lateness_us"]["worst"].get<double>(), 900.0);
     EXPECT_EQ(run["ticks"]["missed_deadlines"].get<int>(), 3);
+    EXPECT_DOUBLE_EQ(run["ticks"]["machine_pace"].get<double>(), 1.75);
+    EXPECT_EQ(run["ticks"]["lost_targets"].get<int>(), 2);
     EXPECT_TRUE(run["driver_threads"].is_null());
 }
 
 TEST(ProfileReport, TheTableHasALineForEachFigure) {
     const std::string table = profile_table(describe_run(hundred_frames()));
+    EXPECT_EQ(lines_with(table, "1.75 times as long as the reference core; 2 targets"), 1u);
     for (std::size_t stage = 0; stage < session::kFrameStages; ++stage)
         EXPECT_GE(lines_with(table, "  " + std::string(name_of(static_cast<session::FrameStage>(stage)))), 1u) << stage;
     for (std::size_t figure = 0; figure < session::kFrameFigures; ++figure)

@@ -55,10 +55,10 @@ struct Live {
 
 class RecordedSession {
 public:
-    RecordedSession(const Workplace& place, Clock& clock) : place_(place) {
+    RecordedSession(const Workplace& place, Clock& clock, double pace = 1.0) : place_(place) {
         const std::string path = (place / "live.log").string();
         const SculptOptions options = options_for(path);
-        auto created = LiveSession::create(options, *session_wall(options.live), clock);
+        auto created = LiveSession::create(options, *session_wall(options.live), clock, pace);
         auto writer = InputLogWriter::create(path, settings_line(options));
         auto script = parse_input_log(kScript, "script");
         if (!created || !writer || !script) throw std::runtime_error("the session does not open");
@@ -161,9 +161,9 @@ private:
     std::size_t orders_ = 0;
 };
 
-Live overtaking(const Workplace& place) {
+Live overtaking(const Workplace& place, double pace = 1.0) {
     SimulatedClock clock;
-    RecordedSession recorded(place, clock);
+    RecordedSession recorded(place, clock, pace);
     UndrawnFrames frames(recorded, clock, 0);
     OvertakingExecutor executor(*recorded.session, clock);
     EXPECT_TRUE(drive(executor, frames));
@@ -176,6 +176,7 @@ struct Again {
     std::uint64_t surface = 0;
     Vec3 force_N{0.0};
     std::uint64_t ticks = 0;
+    double pace = 0.0;
     std::optional<Error> error;
     bool log_ends = false;
 };
@@ -216,9 +217,12 @@ Again again(const std::string& text) {
     }
     const ThreadLog threads = *log->threads;
     SimulatedClock clock;
-    clock.sleep_until(threads.clock.start_ns);
     const SculptOptions options = options_for("");
-    auto session = LiveSession::create(options, *session_wall(options.live), clock);
+    auto session = open_as_recorded(options, *session_wall(options.live), threads, "live.log", clock);
+    if (!session) {
+        result.error = session.error();
+        return result;
+    }
     LiveSession& s = **session;
     ThreadReplay replay(s, threads, "live.log");
     FramesAgain frames(s, InputSource::replay(std::move(*log)), threads, replay, result);
@@ -232,6 +236,7 @@ Again again(const std::string& text) {
     result.surface = check_of(s.surface());
     result.force_N = s.newest_tool().given.force_device_N;
     result.ticks = s.loop().ticks();
+    result.pace = s.channels().parameters.newest().work.pace;
     return result;
 }
 
@@ -286,6 +291,20 @@ TEST(ThreadReplay, KeepsWhatTicksSawThatTheRestHasOvertaken) {
     EXPECT_EQ(is.departed, 0u);
     EXPECT_EQ(is.surface, was.surface);
     EXPECT_EQ(is.force_N, was.force_N);
+}
+
+// What a tick may compute depends on how fast the machine of the recording was, not on that of the replay.
+TEST(ThreadReplay, BoundsTheTicksWorkByThePaceOfTheRecording) {
+    const Workplace place, another;
+    const Again as_recorded = again(overtaking(place, 1.7).log);
+    ASSERT_FALSE(as_recorded.error);
+    EXPECT_EQ(as_recorded.pace, 1.7);
+    EXPECT_EQ(as_recorded.departed, 0u);
+    // So slow that no tick finishes its contact.
+    const std::string slow = overtaking(another, 900.0).log;
+    ASSERT_TRUE(has(slow, " 900\n"));
+    EXPECT_EQ(again(slow).departed, 0u);
+    EXPECT_GT(again(replaced(slow, " 900\n", " 1\n")).departed, 0u);
 }
 
 TEST(ThreadReplay, NoticesWhatIsNotAsItWas) {

@@ -100,6 +100,7 @@ TEST(ThreadLog, NamesLineAndRemedyOfWhatItDoesNotUnderstand) {
                                   "plotted 1 nan 2",
                                   "figures 1",
                                   "clock 5 1000000 0.000055",
+                                  "clock 5 1000000 0.000055 1.5",
                                   "refused mono",
                                   "end x"}) {
         EXPECT_TRUE(has(complaint("0.1 " + bad), "in.log:4: ")) << bad << " -> " << complaint("0.1 " + bad);
@@ -110,9 +111,21 @@ TEST(ThreadLog, NamesLineAndRemedyOfWhatItDoesNotUnderstand) {
     const auto unclocked = parse_input_log("burin-input 2 x\n0 ticks 1 5;\n", "in.log");
     ASSERT_FALSE(unclocked);
     EXPECT_TRUE(has(unclocked.error().line(), "in.log:2: "));
+    for (const std::string pace : {"0", "-1", "nan", "inf", "1e9", "1 1"})
+        EXPECT_FALSE(parse_input_log("burin-input 2 x\n0 clock 5 1000000 0 " + pace + "\n", "in.log")) << pace;
     // In a log of the first kind there is no such line.
     EXPECT_FALSE(parse_input_log("burin-input 1 x\n0 clock 5 1000000 0.000055\n", "in.log"));
     EXPECT_FALSE(parse_input_log("burin-input 2 x\n0 close\n", "in.log")->threads);
+}
+
+TEST(ThreadLog, KeepsTheMachinesPaceToTheBit) {
+    const ThreadClock slow{5, 1'000'000, 0.000055, 1.7 + 0.1};
+    const auto log = parse_input_log("burin-input 2 x\n0 " + text_of(slow) + "\n", "in.log");
+    ASSERT_TRUE(log) << log.error().line();
+    EXPECT_EQ(log->threads->clock, slow);
+    const auto older = parse_input_log("burin-input 2 x\n0 clock 5 1000000 0.000055\n", "in.log");
+    ASSERT_TRUE(older) << older.error().line();
+    EXPECT_EQ(older->threads->clock.pace, 1.0);
 }
 
 TEST(ThreadLog, KeepsWhatThePanelShowed) {

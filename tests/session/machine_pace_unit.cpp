@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// The machine's pace, and that only a session in real time has one of its own.
+#include <gtest/gtest.h>
+
+#include "session/live/live_session.hpp"
+#include "session/timing/machine_pace.hpp"
+
+namespace burin::session {
+
+TEST(MachinePace, IsTheTimeTakenOverTheReferencesWithinBounds) {
+    EXPECT_DOUBLE_EQ(pace_of(1'700'000, 1e6), 1.7);
+    EXPECT_EQ(pace_of(1, 1e6), kLeastPace);
+    EXPECT_EQ(pace_of(1'000'000'000, 1e6), kMostPace);
+}
+
+// How fast this machine is nobody knows; but it does the work, and the parameters of a tick accept what comes out.
+TEST(MachinePace, AsMeasuredIsSensible) {
+    haptics::TickParameters parameters;
+    parameters.work.pace = measured_pace();
+    EXPECT_GE(parameters.work.pace, kLeastPace);
+    EXPECT_LE(parameters.work.pace, kMostPace);
+    EXPECT_TRUE(haptics::parameters_are_sensible(parameters));
+}
+
+TEST(MachinePace, IsOneForAScriptAndThatOfTheSessionInAllItsParameters) {
+    SculptOptions options;
+    options.workpiece.resolution = 16;
+    options.engine = sculpt::EngineChoice::cpu;
+    const auto wall = session_wall(options.live);
+    for (const double pace : {1.0, 1.7}) {
+        SimulatedClock clock;
+        auto session =
+            pace == 1.0 ? LiveSession::create(options, *wall, clock) : LiveSession::create(options, *wall, clock, pace);
+        ASSERT_TRUE(session);
+        LiveSession& s = **session;
+        EXPECT_EQ(s.channels().parameters.newest().work.pace, pace);
+        // Another feel: the next set has it as well.
+        const std::vector<InputEvent> events{{1'000'000, CommandInput{"friction", {"0.4"}}}};
+        s.step({2'000'000, 2'000'000, events}, {.size = {640, 360}}, s.newest_tool(), [](sculpt::SculptOrder) {});
+        EXPECT_EQ(s.channels().parameters.newest().sequence, 2u);
+        EXPECT_EQ(s.channels().parameters.newest().work.pace, pace);
+    }
+}
+
+}  // namespace burin::session
