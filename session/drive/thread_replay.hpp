@@ -25,9 +25,9 @@
 
 namespace burin::session {
 
-// Opens the session that a log was recorded of: with its start on the clock, so that all times are equal to the bit, and
-// with its machine's pace. Fails where the options do not open, or its device ticks at another rate. name: the log's
-// file name.
+// Opens the session that a log was recorded of: with its start on the clock, so that all times are equal to the bit,
+// and with its machine's pace. Fails where the options do not open, or its device ticks at another rate. name: the
+// log's file name.
 [[nodiscard]] Result<std::unique_ptr<LiveSession>> open_as_recorded(const SculptOptions& options,
                                                                     const SessionWall& wall, const ThreadLog& log,
                                                                     const std::string& name, SimulatedClock& clock);

@@ -2,9 +2,9 @@
 // How much slower this machine computes contact than the reference core: WorkSettings::pace of a session in real time
 // (haptics/contact/contact_work.hpp).
 //
-// A ball is dragged over a bumpy plate, once each with a radius of half an edge to four edges, and the processor time of
-// that is compared with what its counted work costs on the reference core. The build counts as part of the machine: one
-// for debugging is several times slower.
+// Balls with radii from half an edge to four edges are dragged over a bumpy plate, and the processor time of that is
+// compared with what its counted work costs on the reference core. The build counts as part of the machine: one for
+// debugging is several times slower.
 // Simulated time and scripts do without, so that their results depend on no machine. A recording keeps the pace that
 // its ticks had (session/record/thread_log.hpp).
 #pragma once

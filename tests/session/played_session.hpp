@@ -21,9 +21,9 @@
 namespace burin::session {
 
 // Carves from 0.3 to 0.8 s, with the panel open; photographs before, meanwhile and at the end. What is refused is said
-// on the panel, where it takes the place of what was said of a loss: else the pictures would differ by that. A device is
-// lost only where there is something to draw; so the panel has another friction to show at 0.83 s, while the hand has
-// not set out yet.
+// on the panel, where it takes the place of what was said of a loss: else the pictures would differ by that. A device
+// is lost only where there is something to draw; so the panel has another friction to show at 0.83 s, while the hand
+// has not set out yet.
 inline const std::string kScript = R"(burin-input 1 test
 0.02 mouse 160 180
 0.04 scroll 0 15
