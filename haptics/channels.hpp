@@ -141,8 +141,9 @@ struct ContactRecord {
     Vec3 cut_object_m{0.0};
     bool jumped = false;  // not continuous with the contact of the last tick
     StiffnessBound stiffness_bound = StiffnessBound::none;
-    double spring_energy_J = 0.0;  // energy stored in the springs of the walls touched
-    devices::DeviceWrench wrench;  // of the contact, after filter and passivity
+    Vec3 surface_velocity_device_m_per_s{0.0};  // of what is touched; zero where it rests
+    double spring_energy_J = 0.0;               // energy stored in the springs of the walls touched
+    devices::DeviceWrench wrench;               // of the contact, after filter and passivity
     ContactWork work;
 };
 

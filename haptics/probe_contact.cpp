@@ -10,16 +10,21 @@
 namespace burin::haptics {
 namespace {
 
-// A contact that moves farther than this in one tick, at the device, counts as a new contact: its force fades in.
+// A contact that is pushed farther than this in one tick, at the device, by what no published motion explains, counts
+// as a new contact: its force fades in (haptics/contact/moving_bodies.hpp).
 constexpr double kJump_m = 0.0005;
+
+// How long a body is followed beyond its time where a surface of any age is trusted.
+constexpr double kLongestFollowed_s = 0.5;
 
 // Contact of one point of the probe: the motion of its proxy and the work it took.
 class PointContact {
 public:
     // Records into `step`, which must outlive the object.
-    PointContact(const ProbeInput& input, const ProbeStep& step, std::uint32_t index)
+    PointContact(const ProbeInput& input, const ProbeStep& step, const MovingBodies& bodies, std::uint32_t index)
         : input_(input),
           step_(step),
+          bodies_(bodies),
           point_(input.parameters.probe.points[index]),
           state_(step.next.proxies[index]),
           material_(step.next.materials[index]),
@@ -37,10 +42,21 @@ public:
 
     void touch(bool painting, const ProxyBudget& budget) {
         const bool was_placed = state_.placed;
-        const Vec3 before = state_.position_object_m;
-        const ProxyResult moved = move_proxy(state_, record_.hip_object_m, settings(painting), input_.surface, budget);
+        const bool published = state_.surface_sequence != input_.surface.sequence;
+        // With a moving body relative to it, as friction asks; the body touched in the last tick.
+        const ProxySettings settings = this->settings(painting);
+        const CarriedProxy carried = carry(state_, bodies_, settings.contact_radius_m, kElsewhere_m * scale(), budget);
+        const Vec3 before = carried.state.position_object_m;
+        ProxyBudget left = budget;
+        if (bodies_.any()) left.max_cost_ns -= cost_ns(carried.work) - WorkCost::kTick_ns;
+        const ProxyResult moved = move_proxy(carried.state, record_.hip_object_m, settings, bodies_.surface(), left);
+        const std::uint64_t carrier = state_.carrier;
         state_ = moved.next;
-        count_work(moved);
+        if (bodies_.any() && moved.constraints > 0)
+            state_.carrier = moved.active_triangle != kNoTriangle ? bodies_.name_of(moved.active_triangle) : carrier;
+        count_work(carried.work, !carried.complete);
+        count_work(moved.work, moved.work_limited);
+        if (moved.pushed_out) step_.flags |= kTickPushedOut;
         record_.proxy_object_m = moved.next.position_object_m;
         const Vec3 reach = record_.proxy_object_m - input_.surface.center_object;
         if (!(std::sqrt(glm::dot(reach, reach)) + radius_m() <= input_.surface.radius_m))
@@ -55,9 +71,10 @@ public:
         record_.active_triangle = moved.active_triangle;
         record_.penetration_m = depth;
         record_.normal_object = moved.normal_object;
-        const Vec3 jump = record_.proxy_object_m - before;
-        const double jump_m = kJump_m * input_.motion.object_from_device.scale;
-        if (!was_placed || (moved.pushed_out && glm::dot(jump, jump) > jump_m * jump_m)) step_.contact.jumped = true;
+        if (state_.carrier != 0)
+            surface_velocity_device_m_per_s_ =
+                at_device(bodies_.velocity(moved.active_triangle, record_.proxy_object_m));
+        if (!was_placed || has_jumped(moved, before, carried.unexplained_m, published)) step_.contact.jumped = true;
     }
 
     [[nodiscard]] bool in_contact() const { return record_.constraints > 0; }
@@ -73,12 +90,16 @@ public:
     [[nodiscard]] PointForce force(const CoupledWall& wall, const Vec3& bearing_object_m) {
         if (in_contact()) {
             const Similarity& map = input_.motion.object_from_device;
-            record_.force_device_N = touch_force_device({record_.hip_object_m, bearing_object_m, record_.normal_object,
-                                                         velocity_device_m_per_s_, map.orientation, map.scale,
-                                                         wall.stiffness_N_per_m, wall.damping_Ns_per_m});
+            record_.force_device_N =
+                touch_force_device({record_.hip_object_m, bearing_object_m, record_.normal_object,
+                                    velocity_device_m_per_s_ - surface_velocity_device_m_per_s_, map.orientation,
+                                    map.scale, wall.stiffness_N_per_m, wall.damping_Ns_per_m});
         }
         return {arm_device_m_, record_.force_device_N};
     }
+
+    // Of the surface touched; zero where it rests.
+    [[nodiscard]] const Vec3& surface_velocity_device_m_per_s() const { return surface_velocity_device_m_per_s_; }
 
     // Energy stored in the wall's spring at this point.
     [[nodiscard]] double spring_energy_J(const CoupledWall& wall, const Vec3& bearing_object_m) const {
@@ -93,26 +114,45 @@ private:
         s.contact_radius_m = radius_m();
         s.shading = input_.parameters.shading;
         if (painting) return s;
-        const double speed = std::sqrt(glm::dot(velocity_device_m_per_s_, velocity_device_m_per_s_));
+        Vec3 slip = velocity_device_m_per_s_;
+        if (state_.carrier != 0) slip -= at_device(bodies_.velocity_of_body(state_.carrier, state_.position_object_m));
+        const double speed = std::sqrt(glm::dot(slip, slip));
         const FrictionCone cone = friction_at(material(), speed);
         s.static_friction = cone.static_friction;
         s.dynamic_friction = cone.dynamic_friction;
         return s;
     }
 
-    void count_work(const ProxyResult& moved) {
-        step_.contact.work += moved.work;
-        if (moved.pushed_out) step_.flags |= kTickPushedOut;
-        if (moved.work_limited) step_.flags |= kTickWorkLimited;
+    // Whether the contact has been pushed by something that no motion explains.
+    [[nodiscard]] bool has_jumped(const ProxyResult& moved, const Vec3& before, const Vec3& unexplained_m,
+                                  bool published) const {
+        const double jump_m = kJump_m * scale();
+        const Vec3 jump = record_.proxy_object_m - before, spring = record_.proxy_object_m - record_.hip_object_m;
+        if (moved.pushed_out && glm::dot(jump, jump) > jump_m * jump_m) return true;
+        // A published surface may push the ball while its centre stays outside.
+        const double spring_m = glm::length(spring);
+        if (published && spring_m - glm::length(before - record_.hip_object_m) > jump_m) return true;
+        return glm::dot(unexplained_m, spring) > jump_m * spring_m;
+    }
+
+    void count_work(const ContactWork& work, bool limited) {
+        step_.contact.work += work;
+        if (limited) step_.flags |= kTickWorkLimited;
+    }
+
+    [[nodiscard]] double scale() const { return input_.motion.object_from_device.scale; }
+    [[nodiscard]] Vec3 at_device(const Vec3& velocity_object_m_per_s) const {
+        return glm::conjugate(input_.motion.object_from_device.orientation) * velocity_object_m_per_s / scale();
     }
 
     const ProbeInput& input_;
     const ProbeStep& step_;
+    const MovingBodies& bodies_;
     const ProbePoint& point_;
     ProxyState& state_;
     std::uint8_t& material_;
     PointRecord& record_;
-    Vec3 arm_device_m_{0.0}, velocity_device_m_per_s_{0.0};
+    Vec3 arm_device_m_{0.0}, velocity_device_m_per_s_{0.0}, surface_velocity_device_m_per_s_{0.0};
 };
 
 struct RenderedWall {
@@ -179,6 +219,22 @@ ProxyBudget share_of_rest(const ContactRecord& contact, std::uint32_t point, dou
     return {.max_cost_ns = left_ns / (contact.point_count - point)};
 }
 
+// The mean velocity of the surfaces touched, weighted by the forces: exact for one point, and for several whose forces
+// are parallel.
+class SurfaceVelocity {
+public:
+    void add(const Vec3& velocity_m_per_s, const Vec3& force_N) {
+        const double weight = glm::length(force_N);
+        sum_ += weight * velocity_m_per_s;
+        weights_ += weight;
+    }
+    [[nodiscard]] Vec3 mean() const { return weights_ > 0.0 ? sum_ / weights_ : Vec3(0.0); }
+
+private:
+    Vec3 sum_{0.0};
+    double weights_ = 0.0;
+};
+
 std::uint32_t deepest_of(const ContactRecord& contact) {
     std::uint32_t deepest = 0;
     for (std::uint32_t i = 1; i < contact.point_count; ++i)
@@ -194,17 +250,21 @@ void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept {
     const bool pressed = (input.sample.buttons & 1u) != 0;
     const bool painting = pressed && input.parameters.action == ToolAction::paint;
     const bool cutting = pressed && input.parameters.action == ToolAction::cut;
+    const double longest_s = input.parameters.max_surface_age_s;
+    const MovingBodies bodies(step.next.bodies, input.surface, input.now_ns,
+                              longest_s > 0.0 ? longest_s : kLongestFollowed_s);
     std::array<std::optional<PointContact>, kMostProbePoints> points;
     Touching touching;
     const double budget = budget_ns(input.parameters.work, input.dt_s);
     for (std::uint32_t i = 0; i < contact.point_count; ++i) {
-        points[i].emplace(input, step, i).touch(painting, share_of_rest(contact, i, budget));
+        points[i].emplace(input, step, bodies, i).touch(painting, share_of_rest(contact, i, budget));
         if (!points[i]->in_contact()) continue;
         ++touching.points;
         if (contact.point_count > 1) touching.squared_arms_m2 += points[i]->squared_arm_m2();
     }
     std::array<PointForce, kMostProbePoints> forces;
     Vec3 drag_device_N(0.0);
+    SurfaceVelocity surface;
     for (std::uint32_t i = 0; i < contact.point_count; ++i) {
         PointContact& point = *points[i];
         const RenderedWall rendered_wall = rendered(point.material(), input, touching);
@@ -222,8 +282,10 @@ void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept {
             bearing = contact.cut_object_m = cut.step.bearing_object_m;
         }
         forces[i] = point.force(rendered_wall.wall, bearing);
+        surface.add(point.surface_velocity_device_m_per_s(), forces[i].force_device_N);
         contact.spring_energy_J += point.spring_energy_J(rendered_wall.wall, bearing);
     }
+    contact.surface_velocity_device_m_per_s = surface.mean();
     contact.deepest = deepest_of(contact);
     contact.wrench = sum_of({forces.data(), contact.point_count});
     contact.wrench.force_device_N += drag_device_N;
@@ -231,7 +293,9 @@ void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept {
 
 void follow_hand(const ProbeStep& step, const ProbeInput& input) noexcept {
     step.contact.point_count = input.parameters.probe.count;
-    for (std::uint32_t i = 0; i < step.contact.point_count; ++i) PointContact(input, step, i).stay_with_hand();
+    step.next.bodies.count = 0;
+    const MovingBodies none;
+    for (std::uint32_t i = 0; i < step.contact.point_count; ++i) PointContact(input, step, none, i).stay_with_hand();
     step.contact.cut_object_m = step.contact.points[0].hip_object_m;
 }
 

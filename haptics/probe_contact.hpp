@@ -5,6 +5,7 @@
 
 #include "haptics/channels.hpp"
 #include "haptics/contact/god_object.hpp"
+#include "haptics/contact/moving_bodies.hpp"
 #include "haptics/forces/cutting.hpp"
 
 namespace burin::haptics {
@@ -14,6 +15,7 @@ struct ProbeState {
     std::array<ProxyState, kMostProbePoints> proxies{};
     std::array<std::uint8_t, kMostProbePoints> materials{};  // material that each point touched in the last tick
     CuttingState cutting;
+    BodiesState bodies;
 };
 
 // References hold for the call.
@@ -24,6 +26,7 @@ struct ProbeInput {
     const TickParameters& parameters;
     const devices::DeviceDescription& device;
     double dt_s;
+    Nanoseconds now_ns;
 };
 
 // Where a step of the probe puts its results: in the tick's own, which are too large to be copied a thousand times a

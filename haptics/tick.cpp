@@ -80,6 +80,7 @@ PassivityStep kept_passive(const PassivityState& state, const TickRecord& record
     input.max_force_N = std::min(parameters.limits.max_force_N, device.max_force_N);
     input.in_contact = record.in_contact();
     input.jumped = record.contact.jumped;
+    input.surface_velocity_device_m_per_s = record.contact.surface_velocity_device_m_per_s;
     return keep_passive(state, input, parameters.passivity, device, dt_s);
 }
 
@@ -131,7 +132,7 @@ void compute_tick(const TickResult& t, const TickState& state, const devices::De
     const bool searchable = surface.sequence > 0;
     if (!searchable) record.flags |= kTickNoSurface;
     const bool touches = searchable && parameters.enabled && !workspace.paused;
-    const ProbeInput input{sample, motion, surface, parameters, device, dt_s};
+    const ProbeInput input{sample, motion, surface, parameters, device, dt_s, now_ns};
     const ProbeStep probe{next.probe, record.contact, record.flags};
     if (touches)
         touch_surface(probe, input);

@@ -17,6 +17,8 @@
 // leaves the ball flags that and gives no force. Triangles of a tile beyond the ball are correct all the same.
 // made_ns is also the carving side's heartbeat: while the tool is in contact it must publish at least as often as
 // TickParameters::max_surface_age_s asks, even if nothing has changed.
+// A mesh may move as a rigid body (TouchedMesh::motion): it is published with pose, velocity and their time, and the
+// tick touches it where it is by then (haptics/contact/moving_bodies.hpp).
 #pragma once
 
 #include <array>
@@ -27,6 +29,7 @@
 #include "base/clock.hpp"
 #include "base/space.hpp"
 #include "geometry/contact/gridded_triangles.hpp"
+#include "geometry/contact/mesh_motion.hpp"
 #include "geometry/contact/tile_block.hpp"
 #include "geometry/contact/touch_patch.hpp"
 
@@ -38,6 +41,9 @@ struct TouchedMesh {
     std::uint8_t material = 0;  // which of the session's materials (haptics/forces/touch_force.hpp)
     // A surface without thickness, felt from either side: the side on which the tool is. Else only the outer side is.
     bool two_sided = false;
+    MeshMotion motion{};  // by default none: the snapshot's place is in the object frame
+
+    [[nodiscard]] bool moves() const noexcept { return motion.body != 0; }
 };
 
 struct LocalSurface {
@@ -56,17 +62,25 @@ struct LocalSurface {
         return loose ? static_cast<std::uint32_t>(loose->triangles.size()) : 0u;
     }
     [[nodiscard]] std::uint32_t triangles() const noexcept;
-    // Returns the triangle with this id, which must be below triangles(), relative to origin_object.
+    // Returns the triangle with this id, which must be below triangles(), relative to origin_object. One of a moving
+    // mesh is where its mesh was published.
     [[nodiscard]] Triangle triangle(std::uint32_t id) const noexcept;
     // Returns the triangle's material; 0 for tiles and loose triangles.
     [[nodiscard]] std::uint8_t material(std::uint32_t id) const noexcept;
     // Tells whether the triangle is part of a mesh that is felt from either side.
     [[nodiscard]] bool two_sided(std::uint32_t id) const noexcept;
-    // Returns the normals at the triangle's corners; unknown for loose triangles.
+    // Returns the normals at the triangle's corners; unknown for loose triangles. Those of a moving mesh are in its own
+    // frame.
     [[nodiscard]] CornerNormals corner_normals(std::uint32_t id) const noexcept;
     // Returns the length scale of the surface: the smallest of the tiles' cell, the loose triangles' mean edge and the
     // meshes' mean edges; 0 when there are no triangles.
     [[nodiscard]] double mean_edge_m() const noexcept;
+    // Returns the index of the mesh that the triangle is part of; kNoMesh for tiles and loose triangles.
+    static constexpr std::uint32_t kNoMesh = 0xffffffffu;
+    [[nodiscard]] std::uint32_t mesh_of(std::uint32_t id) const noexcept {
+        const Place place = in_meshes(id);
+        return place.mesh == nullptr ? kNoMesh : static_cast<std::uint32_t>(place.mesh - meshes.data());
+    }
 
 private:
     struct Place {
@@ -103,6 +117,11 @@ inline Triangle LocalSurface::triangle(std::uint32_t id) const noexcept {
     const TouchSnapshot& snapshot = *place.mesh->snapshot;
     const Vec3 shift = snapshot.origin_object - origin_object;
     const Triangle t = snapshot.triangle(place.number);
+    if (place.mesh->moves()) {
+        const Pose& pose = place.mesh->motion.object_from_mesh;
+        const auto placed = [&](const Vec3& p) { return pose * (p + snapshot.origin_object) - origin_object; };
+        return {placed(t.a), placed(t.b), placed(t.c)};
+    }
     return {t.a + shift, t.b + shift, t.c + shift};
 }
 

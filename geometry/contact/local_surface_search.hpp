@@ -5,7 +5,7 @@
 // geometry/contact/touch_patch.hpp.
 #pragma once
 
-#include "geometry/contact/local_surface.hpp"
+#include "geometry/contact/posed_surface.hpp"
 
 namespace burin::geometry {
 
@@ -31,46 +31,102 @@ bool for_each_near_in_mesh(const TouchSnapshot& snapshot, const Vec3& shift, std
     return all;
 }
 
+// The same for a mesh that has a pose. The query is carried into the mesh's frame, and what it finds back. An axis-
+// aligned box becomes the smallest one around it there, which for a query by way is that of the way itself.
+template <typename Visitor>
+bool for_each_near_in_posed_mesh(const TouchSnapshot& snapshot, const Pose& pose, const Vec3& origin_object,
+                                 std::uint32_t first, Near& near, const Visitor& visit) {
+    const glm::dmat3 turn = glm::mat3_cast(pose.orientation);  // columns: the mesh's axes in the object frame
+    const Vec3 offset = turn * snapshot.origin_object + pose.position_m - origin_object;
+    const auto in_mesh = [&](const Vec3& p) { return (p - offset) * turn; };  // the transpose is the inverse
+    Near turned = near;
+    turned.from = in_mesh(near.from), turned.to = in_mesh(near.to);
+    if (near.by_way) {
+        turned.lo = glm::min(turned.from, turned.to), turned.hi = glm::max(turned.from, turned.to);
+    } else {
+        const Vec3 middle = in_mesh(0.5 * (near.lo + near.hi)), half = 0.5 * (near.hi - near.lo);
+        Vec3 reach(0.0);
+        for (int axis = 0; axis < 3; ++axis) reach[axis] = glm::dot(glm::abs(turn[axis]), half);
+        turned.lo = middle - reach, turned.hi = middle + reach;
+    }
+    // Rounding of the transform, far above one part in 2^53 of any length in it.
+    const double size = glm::length(turned.from) + glm::length(turned.to) + glm::length(offset);
+    const auto widened = [size](double reach_m) { return reach_m * (1.0 + 1e-12) + 1e-14 * size; };
+    turned.reach_m = widened(near.reach_m);
+    const auto triangle = [&](std::uint32_t i, const Triangle& t) {
+        near.looks_left = turned.looks_left;
+        if (!visit.triangle(first + i, Triangle{turn * t.a + offset, turn * t.b + offset, turn * t.c + offset}))
+            return false;
+        turned.reach_m = widened(near.reach_m);
+        return true;
+    };
+    bool all = false;
+    if constexpr (Visitor::kWantsPoints) {
+        const auto point = [&](const SurfacePoint& p) {
+            return visit.point(SurfacePoint{turn * p.position + offset, nullptr, p.of_mesh, &pose.orientation});
+        };
+        all = for_each_near(snapshot, turned, MixedVisitor{triangle, point, visit.fineness}, Vec3(0.0));
+    } else {
+        all = for_each_near(snapshot, turned, TriangleVisitor{triangle});
+    }
+    near.looks_left = turned.looks_left;
+    return all;
+}
+
+// Visits what is near of the mesh with this index.
+template <typename Visitor>
+bool for_each_near_of_mesh(const PosedSurface& posed, std::uint32_t index, std::uint32_t first, Near& near,
+                           const Visitor& visit) {
+    const TouchedMesh& mesh = posed.surface().meshes[index];
+    if (mesh.moves())
+        return for_each_near_in_posed_mesh(*mesh.snapshot, posed.pose(index), posed.origin_object(), first, near,
+                                           visit);
+    return for_each_near_in_mesh(*mesh.snapshot, mesh.snapshot->origin_object - posed.origin_object(), first, near,
+                                 visit);
+}
+
 // Visits the triangles within near.reach_m of the box [near.lo, near.hi], each once, and some a little farther off, but
 // no degenerate one: visit.triangle(id, triangle). It may reduce near.reach_m for the triangles that follow. Where the
 // visitor wants points and the surface is fine, visits the vertices near the segment of the query instead:
 // visit.point(point). The order depends only on the surface and the query. Ends and returns false when a visit returns
 // false, or when near.looks_left is used up.
 template <typename Visitor>
-bool for_each_near(const LocalSurface& surface, Near& near, const Visitor& visit) {
-    if (surface.tiles.triangles > 0 && !for_each_near(surface.tiles, near, visit)) return false;
+bool for_each_near(const PosedSurface& posed, Near& near, const Visitor& visit) {
+    const LocalSurface& surface = posed.surface();
+    const bool ground = posed.shows_ground();
+    if (ground && surface.tiles.triangles > 0 && !for_each_near(surface.tiles, near, visit)) return false;
     std::uint32_t first = surface.tiles.triangles;
     const auto visit_loose = [&](std::uint32_t i, const Triangle& t) { return visit.triangle(first + i, t); };
-    if (surface.loose && !for_each_near(*surface.loose, near, visit_loose)) return false;
+    if (ground && surface.loose && !for_each_near(*surface.loose, near, visit_loose)) return false;
     first += surface.loose_triangles();
-    for (const TouchedMesh& mesh : surface.meshes) {
-        if (!mesh.snapshot) continue;
-        const Vec3 shift = mesh.snapshot->origin_object - surface.origin_object;
-        // Vertices do not say which side of a sheet they are seen from.
-        if (mesh.two_sided ? !for_each_near_in_mesh(*mesh.snapshot, shift, first, near, TriangleVisitor{visit.triangle})
-                           : !for_each_near_in_mesh(*mesh.snapshot, shift, first, near, visit))
+    for (std::uint32_t i = 0; i < surface.meshes.size(); ++i) {
+        const TouchedMesh& mesh = surface.meshes[i];
+        if (posed.shows(i) &&
+            // Vertices do not say which side of a sheet they are seen from.
+            (mesh.two_sided ? !for_each_near_of_mesh(posed, i, first, near, TriangleVisitor{visit.triangle})
+                            : !for_each_near_of_mesh(posed, i, first, near, visit)))
             return false;
-        first += mesh.snapshot->triangles();
+        first += triangles_of(mesh);
     }
     return true;
 }
 
 // Visits triangles alone.
 template <typename Visit>
-bool for_each_triangle_near(const LocalSurface& surface, Near& near, Visit&& visit) {
+bool for_each_triangle_near(const PosedSurface& surface, Near& near, Visit&& visit) {
     return for_each_near(surface, near, TriangleVisitor{visit});
 }
 
 // Visits each triangle that may meet the box.
 template <typename Visit>
-bool for_each_triangle_near(const LocalSurface& surface, const Vec3& lo, const Vec3& hi, Visit&& visit) {
+bool for_each_triangle_near(const PosedSurface& surface, const Vec3& lo, const Vec3& hi, Visit&& visit) {
     Near near{lo, hi};
     return for_each_triangle_near(surface, near, visit);
 }
 
 // Visits the triangles that have a corner at a vertex of the surface.
 template <typename Visit>
-void for_each_triangle_around(const LocalSurface& surface, const Vec3& vertex, Visit&& visit) {
+void for_each_triangle_around(const PosedSurface& surface, const Vec3& vertex, Visit&& visit) {
     const double tie = 1e-6 * surface.mean_edge_m();  // far below an edge, far above rounding
     Near near{.lo = vertex, .hi = vertex, .reach_m = tie};
     for_each_triangle_near(surface, near, [&](std::uint32_t id, const Triangle& t) {
@@ -81,7 +137,8 @@ void for_each_triangle_around(const LocalSurface& surface, const Vec3& vertex, V
 }
 
 // Returns a box that contains the centre of every triangle.
-[[nodiscard]] inline Box bounds(const LocalSurface& surface) noexcept {
+[[nodiscard]] inline Box bounds(const PosedSurface& posed) noexcept {
+    const LocalSurface& surface = posed.surface();
     Box box;
     const auto include = [&](const Box& other) {
         box.include(other.lo);
@@ -89,11 +146,19 @@ void for_each_triangle_around(const LocalSurface& surface, const Vec3& vertex, V
     };
     if (surface.tiles.triangles > 0) include(surface.tiles.bounds());
     if (surface.loose && surface.loose->search.listed > 0) include(surface.loose->search.bounds());
-    for (const TouchedMesh& mesh : surface.meshes) {
+    for (std::uint32_t i = 0; i < surface.meshes.size(); ++i) {
+        const TouchedMesh& mesh = surface.meshes[i];
         if (triangles_of(mesh) == 0) continue;
         const Vec3 shift = mesh.snapshot->origin_object - surface.origin_object;
         const Box own = mesh.snapshot->bounds();
-        include({own.lo + shift, own.hi + shift});
+        if (!mesh.moves()) {
+            include({own.lo + shift, own.hi + shift});
+        } else if (posed.shows(i)) {
+            // Whichever way it is turned.
+            const Vec3 middle = posed.pose(i) * (own.center() + mesh.snapshot->origin_object) - surface.origin_object;
+            const Vec3 half(0.5 * glm::length(own.extent()));
+            include({middle - half, middle + half});
+        }
     }
     return box;
 }

@@ -23,9 +23,11 @@ struct SurfacePoint {
     // Where its normal is: one of them is null. Read only where it is needed, for decoding takes longer than the rest.
     const shared::SurfaceVertex* of_tile = nullptr;
     const Vec3f* of_mesh = nullptr;
+    const Quat* turned_by = nullptr;  // null: that normal is in the object frame; else the mesh is turned by this
 
     // The normal of the smooth surface; zero where it is not known.
     [[nodiscard]] Vec3 normal() const noexcept {
+        if (turned_by != nullptr) return *turned_by * Vec3(*of_mesh);
         if (of_tile == nullptr) return Vec3(*of_mesh);
         const shared::Direction d = shared::decode_normal(of_tile->normal);
         return {d.x, d.y, d.z};

@@ -43,7 +43,7 @@ private:
 
 }  // namespace
 
-Candidates::Gathered Candidates::gather(const geometry::LocalSurface& surface, const Query& query,
+Candidates::Gathered Candidates::gather(const geometry::PosedSurface& surface, const Query& query,
                                         std::uint32_t& looks_left) noexcept {
     const Way& way = way_ = query.way;
     slack_ = -1.0;
@@ -51,7 +51,7 @@ Candidates::Gathered Candidates::gather(const geometry::LocalSurface& surface, c
     fours_.begin(way.from, reach + length, surface.mean_edge_m());
     points_.begin(way.from, reach + length);
     const BesideSegment beside(way, reach);
-    const bool any_two_sided = std::ranges::any_of(surface.meshes, &geometry::TouchedMesh::two_sided);
+    const bool any_two_sided = std::ranges::any_of(surface.surface().meshes, &geometry::TouchedMesh::two_sided);
     auto gathered = Gathered::all;
     const auto add_triangle = [&](std::uint32_t id, const geometry::Triangle& t) {
         const TriangleBall ball = fours_.ball_around(t);

@@ -11,7 +11,7 @@
 #include <array>
 #include <cstdint>
 
-#include "geometry/contact/local_surface.hpp"
+#include "geometry/contact/posed_surface.hpp"
 #include "haptics/contact/point_fours.hpp"
 #include "haptics/contact/triangle_fours.hpp"
 
@@ -55,7 +55,7 @@ public:
     Candidates() noexcept {}
 
     // Gathers what is within radius + slack of the segment. Counts looks_left down by the bounding boxes checked.
-    [[nodiscard]] Gathered gather(const geometry::LocalSurface& surface, const Query& query,
+    [[nodiscard]] Gathered gather(const geometry::PosedSurface& surface, const Query& query,
                                   std::uint32_t& looks_left) noexcept;
 
     // Whether the candidates include everything that a ball around this centre may touch.

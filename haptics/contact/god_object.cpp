@@ -15,7 +15,6 @@ namespace {
 
 // Fractions of the ball's radius; kTouch and kTie are in touching.hpp.
 constexpr double kPlane = 1e-9;  // bound on the rounding of plane offsets, far below anything felt
-constexpr double kPointProbeOfEdge = 1.0 / 500.0;
 // The proxy is at rest when it has less to go than this fraction of the radius, or of a twentieth of an edge if that is
 // more, or when the HIP is off the normal by less than this angle, a tenth of what a hand may notice.
 constexpr double kStill = 1e-5, kStillAngle = 1e-4;
@@ -53,14 +52,15 @@ Vec3 unit_or_zero(const Vec3& v) {
 }
 
 // Distance from `center` to the border of the ball within which the surface is known; negative outside it.
-double known_around(const Vec3& center, const geometry::LocalSurface& surface) {
+double known_around(const Vec3& center, const geometry::PosedSurface& posed) {
+    const geometry::LocalSurface& surface = posed.surface();
     const Vec3 off = center - (surface.center_object - surface.origin_object);
     return surface.radius_m - std::sqrt(glm::dot(off, off));
 }
 
 // Decides only where the ball around `center` that reaches the nearest triangle lies within the known surface;
 // elsewhere a nearer triangle may be unknown.
-bool inside_material(const Nearest& nearest, const Vec3& center, const geometry::LocalSurface& surface) {
+bool inside_material(const Nearest& nearest, const Vec3& center, const geometry::PosedSurface& surface) {
     return nearest.height < 0.0 && nearest.distance <= known_around(center, surface);
 }
 
@@ -86,26 +86,26 @@ struct Goal {
 class Mover {
 public:
     Mover(const ProxyState& state, const Vec3& hip_object_m, const ProxySettings& settings,
-          const geometry::LocalSurface& surface, const ProxyBudget& budget)
+          const geometry::PosedSurface& surface, const ProxyBudget& budget)
         : settings_(settings),
           surface_(surface),
           budget_(budget),
           edge_(surface.mean_edge_m()),
-          radius_(std::max(settings.contact_radius_m, kPointProbeOfEdge * edge_)),
+          radius_(felt_radius_m(settings.contact_radius_m, edge_)),
           still_(kStill * std::max(radius_, 0.05 * edge_)),
-          hip_(hip_object_m - surface.origin_object),
+          hip_(hip_object_m - surface.origin_object()),
           search_(surface, radius_, budget, result_.work),
           facets_(surface),
           // With friction a first step must not be longer than it is known to be: what slides too far stays there.
           step_share_(state.placed && !rubs(settings) ? state.step_share : 1.0) {
         result_.next = {.position_object_m = hip_object_m,
-                        .surface_sequence = surface.sequence,
+                        .surface_sequence = surface.surface().sequence,
                         .placed = true,
                         .hip_object_m = hip_object_m};
         leeway_ = state.placed ? std::min(kKeptLeeway * state.leeway_m + glm::length(hip_object_m - state.hip_object_m),
                                           radius_ + edge_)
                                : 0.0;
-        center_ = state.placed ? state.position_object_m - surface.origin_object : hip_;
+        center_ = state.placed ? state.position_object_m - surface.origin_object() : hip_;
         search_.begin_with_stride(state.stride);
         slips_ = state.slipping;
         touched_before_ = state.placed && state.touching;
@@ -136,7 +136,7 @@ private:
             // The hand has turned back or stopped: the last motion is no guess for this one.
             onward = Vec3(0.0);
         if (!search_.broad_phase({center_, center_ + onward}) || !touch()) return false;
-        const bool unsure = !state.placed || state.surface_sequence != surface_.sequence;
+        const bool unsure = !state.placed || state.surface_sequence != surface_.surface().sequence;
         const bool among_points = search_.candidates().points() > 0 && nearest_.distance < kAmongPoints * radius_;
         if ((unsure && !(nearest_.distance < HUGE_VAL)) || among_points)
             nearest_ = search_.nearest(center_, known_around(center_, surface_));
@@ -414,7 +414,7 @@ private:
         result_.constraints = touched_.constraints;
         if (touched_.constraints > 0)
             result_.active_triangle = touched_.is_point ? search_.triangle_at(touched_.point) : touched_.triangle;
-        result_.next.position_object_m = surface_.origin_object + center_;
+        result_.next.position_object_m = surface_.origin_object() + center_;
         result_.next.slipping = slid_;
         result_.next.touching = true;
         result_.next.motion_object_m = center_ - began_;
@@ -424,7 +424,7 @@ private:
     }
 
     ProxySettings settings_;
-    const geometry::LocalSurface& surface_;
+    geometry::PosedSurface surface_;
     ProxyBudget budget_;
     double edge_, radius_, still_;
     Vec3 hip_, center_{0.0}, began_{0.0};
@@ -451,10 +451,10 @@ private:
 }  // namespace
 
 ProxyResult move_proxy(const ProxyState& state, const Vec3& hip_object_m, const ProxySettings& settings,
-                       const geometry::LocalSurface& surface, const ProxyBudget& budget) noexcept {
+                       const geometry::PosedSurface& surface, const ProxyBudget& budget) noexcept {
     if (!(surface.mean_edge_m() > 0.0)) {  // the surface is empty
         ProxyResult free;
-        free.next = {hip_object_m, surface.sequence, true};
+        free.next = {hip_object_m, surface.surface().sequence, true};
         return free;
     }
     Mover mover(state, hip_object_m, settings, surface, budget);

@@ -34,7 +34,7 @@
 
 #include <cstdint>
 
-#include "geometry/contact/local_surface.hpp"
+#include "geometry/contact/posed_surface.hpp"
 #include "haptics/contact/contact_work.hpp"
 
 namespace burin::haptics {
@@ -48,10 +48,11 @@ struct ProxyState {
     // as the first guess of the broad phase.
     bool touching = false;
     Vec3 motion_object_m{0.0};
-    Vec3 hip_object_m{0.0};    // of the last tick
-    double leeway_m = 0.0;     // what shading may still spend on moving the proxy away from the HIP
-    double step_share = 1.0;   // of the last step under shading or around an edge
-    std::uint32_t stride = 1;  // among very many vertices only each so manieth is touched
+    Vec3 hip_object_m{0.0};     // of the last tick
+    double leeway_m = 0.0;      // what shading may still spend on moving the proxy away from the HIP
+    double step_share = 1.0;    // of the last step under shading or around an edge
+    std::uint64_t carrier = 0;  // the moving body that it touched in the last tick (moving_bodies.hpp); 0: none
+    std::uint32_t stride = 1;   // among very many vertices only each so manieth is touched
 };
 
 struct ProxySettings {
@@ -87,6 +88,6 @@ struct ProxyBudget {
 // friction, and finite positions. Reads, but does not change, what the surface refers to
 // (geometry/contact/local_surface.hpp).
 [[nodiscard]] ProxyResult move_proxy(const ProxyState& state, const Vec3& hip_object_m, const ProxySettings& settings,
-                                     const geometry::LocalSurface& surface, const ProxyBudget& budget = {}) noexcept;
+                                     const geometry::PosedSurface& surface, const ProxyBudget& budget = {}) noexcept;
 
 }  // namespace burin::haptics

@@ -24,7 +24,7 @@ constexpr double kAsNear = 1.0 + 4e-4;  // ratio of squared distances that count
 
 using Facet = SmoothFacet;
 
-std::optional<Facet> facet_of(const geometry::LocalSurface& surface, std::uint32_t id, const geometry::Triangle& t,
+std::optional<Facet> facet_of(const geometry::PosedSurface& surface, std::uint32_t id, const geometry::Triangle& t,
                               bool from_back) {
     const geometry::CornerNormals corners = surface.corner_normals(id);
     if (!corners.known) return std::nullopt;

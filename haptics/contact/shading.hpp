@@ -38,16 +38,16 @@ struct SmoothFacet {
 // normals takes a descent through the surface's tree.
 class SmoothFacets {
 public:
-    explicit SmoothFacets(const geometry::LocalSurface& surface) noexcept : surface_(surface) {}
+    explicit SmoothFacets(const geometry::PosedSurface& surface) noexcept : surface_(surface) {}
     // Returns nothing for a triangle that is not known to be part of a smooth surface. From the back the facet and its
     // normals are turned over.
     [[nodiscard]] std::optional<SmoothFacet> of(std::uint32_t id, const geometry::Triangle& triangle,
                                                 bool from_back) noexcept;
-    [[nodiscard]] const geometry::LocalSurface& surface() const noexcept { return surface_; }
+    [[nodiscard]] const geometry::PosedSurface& surface() const noexcept { return surface_; }
 
 private:
     static constexpr std::uint32_t kMost = 16;
-    const geometry::LocalSurface& surface_;
+    geometry::PosedSurface surface_;
     std::array<std::uint32_t, kMost> ids_;
     std::array<bool, kMost> is_smooth_, from_back_;
     StaticVector<SmoothFacet, kMost> facets_;

@@ -6,6 +6,7 @@
 // origin, metres. No heap, lock, throw.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -22,6 +23,11 @@ inline constexpr double kTouch = 1e-3;
 // Where no edge is longer than this part of the radius the ball touches vertices alone, and then sinks into the surface
 // by at most kFineEdge^2 / 6, or 1/200, of the radius, and usually by a quarter of that.
 inline constexpr double kFineEdge = 0.1732;
+// A point probe is a ball of this part of a mean edge.
+inline constexpr double kPointProbeOfEdge = 1.0 / 500.0;
+[[nodiscard]] inline double felt_radius_m(double contact_radius_m, double mean_edge_m) noexcept {
+    return std::max(contact_radius_m, kPointProbeOfEdge * mean_edge_m);
+}
 // Two triangles within this fraction of the radius share their nearest point: an edge or a corner.
 inline constexpr double kTie = 1e-6;
 
@@ -53,7 +59,7 @@ struct Nearest {
 // The queries of one tick for a ball of one radius.
 class ContactSearch {
 public:
-    ContactSearch(const geometry::LocalSurface& surface, double radius, const ProxyBudget& budget,
+    ContactSearch(const geometry::PosedSurface& surface, double radius, const ProxyBudget& budget,
                   ContactWork& work) noexcept
         : surface_(surface), radius_(radius), budget_(budget), work_(work), fineness_{kFineEdge * radius, 1} {}
 
@@ -116,7 +122,7 @@ private:
                                    Touches& touches) noexcept;
     void add(Touches& touches, const HalfSpace& plane, const Touches::Place& place) noexcept;
 
-    const geometry::LocalSurface& surface_;
+    geometry::PosedSurface surface_;
     double radius_;
     ProxyBudget budget_;
     ContactWork& work_;

@@ -188,6 +188,8 @@ AccountStep count_energy(const EnergyAccount& account, const AccountInput& in, c
                 [&](Nanoseconds from, Nanoseconds to, const DeviceWrench& acting, const DeviceWrench* before) {
                     const double share = seconds(to - from) / gap_s;
                     step.taken_J -= share * glm::dot(acting.force_device_N, moved);
+                    step.given_by_surface_J +=
+                        seconds(to - from) * glm::dot(acting.force_device_N, in.surface_velocity_device_m_per_s);
                     if (in.turns) step.taken_J -= share * glm::dot(acting.torque_device_Nm, turned);
                     if (before == nullptr) return;
                     const double since_s = seconds(from - account.time_ns), until_s = seconds(in.time_ns - from);
@@ -203,6 +205,7 @@ AccountStep count_energy(const EnergyAccount& account, const AccountInput& in, c
         dissipated_J += r.friction * spun.shortest + r.damping * spun.squares_per_time;
     }
     next.budget_J += step.taken_J + dissipated_J - charge_J;
+    next.budget_J += std::max(0.0, step.given_by_surface_J);
     next.counting = in.in_contact || !wrenches_are_gone(next, promise, device);
     if (!next.counting) next.budget_J = 0.0;
     return step;

@@ -23,6 +23,8 @@
 // changes by dF, the work is uncertain by dF D/2, and by more where it changes between two samples, as far as the tool
 // can be away from the straight line at the speed V. Both are charged. Friction is credited for the shortest way that
 // the read positions admit (a play of half a step), damping for the slowest motion that they admit.
+// A surface that moves adds the work that the acting force has done along its announced velocity, where that is above
+// zero (stability/passivity.hpp states the rule): then only the hand and announced bodies put energy in.
 // Frame: device. Pure; no clock, heap, lock or throw; bounded loops.
 #pragma once
 
@@ -71,15 +73,17 @@ struct AccountInput {
     Nanoseconds time_ns = 0;  // of the sample
     bool turns = false;       // the device is given torque, so rotation counts
     bool in_contact = false;
-    bool known = true;  // the motion since the last sample is known
+    bool known = true;                          // the motion since the last sample is known
+    Vec3 surface_velocity_device_m_per_s{0.0};  // of the surface touched, as far as its motion is announced
 };
 
 // What happened since the last sample.
 struct AccountStep {
     EnergyAccount next;
-    double taken_J = 0.0;       // by the world, from hand and device
-    double dissipated_J = 0.0;  // by the device, as far as the read positions tell
-    bool counted = false;       // false: the account begins, or there is no contact
+    double taken_J = 0.0;             // by the world, from hand and device
+    double dissipated_J = 0.0;        // by the device, as far as the read positions tell
+    double given_by_surface_J = 0.0;  // by a surface that moves, to hand and springs; negative: taken
+    bool counted = false;             // false: the account begins, or there is no contact
 };
 
 [[nodiscard]] AccountStep count_energy(const EnergyAccount& account, const AccountInput& input,

@@ -29,13 +29,19 @@ double held_J(const PassivityInput& in, double wanted_N) {
     return in.stored_J * share * (2.0 - share);
 }
 
+Vec3 honest_velocity(const PassivityInput& in, const PassivitySettings& settings) {
+    const Vec3& v = in.surface_velocity_device_m_per_s;
+    const double speed = length(v);
+    return speed > settings.surface_speed_m_per_s ? v * (settings.surface_speed_m_per_s / speed) : v;
+}
+
 // Updates E, U, R and A for the motion since the last tick.
 void count(PassivityState& next, const PassivityState& before, const PassivityInput& in, double wanted_N,
            const PassivitySettings& settings, const devices::DeviceDescription& device, double dt_s) {
-    const AccountStep step =
-        count_energy(before.account,
-                     {in.position_device_m, in.orientation_device, in.time_ns, in.turns, in.in_contact, before.known},
-                     promise_of(settings, dt_s), device);
+    const AccountStep step = count_energy(before.account,
+                                          {in.position_device_m, in.orientation_device, in.time_ns, in.turns,
+                                           in.in_contact, before.known, honest_velocity(in, settings)},
+                                          promise_of(settings, dt_s), device);
     next.account = step.next;
     if (!before.known || !(step.counted || step.next.counting)) {
         next.energy_J = next.stored_J = next.reserve_J = 0.0;
@@ -43,8 +49,8 @@ void count(PassivityState& next, const PassivityState& before, const PassivityIn
     }
     next.energy_J = before.energy_J + step.taken_J;
     next.stored_J = held_J(in, wanted_N);
-    next.reserve_J = std::min(settings.reserve_J,
-                              before.reserve_J + step.taken_J - (next.stored_J - before.stored_J) + step.dissipated_J);
+    next.reserve_J = std::min(settings.reserve_J, before.reserve_J + step.taken_J - (next.stored_J - before.stored_J) +
+                                                      step.dissipated_J + step.given_by_surface_J);
     if (in.jumped || before.faded_ticks > 0) next.reserve_J = std::max(0.0, next.reserve_J);
     next.account.budget_J = std::min(next.account.budget_J, next.stored_J + settings.reserve_J);
 }

@@ -6,7 +6,7 @@
 //
 //   E(n) = E(n-1) - f . (x(n) - x(n-1))        energy put into the wall since the contact began; f is what acted in
 //                                              between, commanded a transport delay before; torque and rotation too
-//   R(n) = R(n-1) + [E(n) - E(n-1)] - [U(n) - U(n-1)] + c |dx| + b dx^2 / T,   R <= reserve
+//   R(n) = R(n-1) + [E(n) - E(n-1)] - [U(n) - U(n-1)] + c |dx| + b dx^2 / T + f . s,   R <= reserve
 //   R < 0: f += -a v along f, a = min(-R / (v^2 T (1 + delay in ticks)), a_max)
 //
 // U is the energy stored in the wall's springs. A passive wall has E >= U, since what it stores has been put in. The
@@ -14,6 +14,12 @@
 // when it has left. c and b are the device's friction and damping: the wall may give out what they dissipate, so the
 // damping is inactive wherever the stiffness limiter's promise holds (rendered_wall.hpp). The reserve is bounded,
 // or a long quiet contact would pay for a later oscillation.
+//
+// s is the way of the surface touched, as its publisher has announced it (haptics/contact/moving_bodies.hpp): a body
+// that moves may honestly do work on the hand, and f . s is that work. The rule, and its bounds: only the force that
+// has acted counts, only along the announced velocity, which counts up to settings.surface_speed_m_per_s, and never for
+// what nothing explains; the certain account takes what a body gives and never what it takes back; and as ever neither
+// keeps more than what the springs store and the reserve, so that no body's work pays for an oscillation after it.
 //
 // v is taken over the shortest window of at most 16 ticks in which the tool has moved by two encoder steps: over one
 // tick, v is zero, one or two steps a period where the motion is slow, and damping by it would chatter. The damping
@@ -42,6 +48,8 @@ struct PassivitySettings {
     double contact_speed_m_per_s = kContactSpeed_m_per_s;
     double turn_speed_rad_per_s = kTurnSpeed_rad_per_s;
     std::uint32_t lost_ticks = 5;
+    // A body's work on the hand counts as honest up to this speed: that of a ball that has fallen from 0.2 m.
+    double surface_speed_m_per_s = 2.0;
 };
 
 struct PassivityState {
@@ -70,7 +78,8 @@ struct PassivityInput {
     double max_force_N = 0.0;  // the most that gate and device give; 0: no limit
     bool turns = false;        // the device may be given torque
     bool in_contact = false;
-    bool jumped = false;  // the contact is not continuous with that of the last tick
+    bool jumped = false;                        // the contact is not continuous with that of the last tick
+    Vec3 surface_velocity_device_m_per_s{0.0};  // of the surface touched
 };
 
 // What the controller saw and did in a tick.

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+// A surface that moves is felt as one that rests is felt by a hand that moves.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/haptics/bodies.hpp"
+
+namespace burin::haptics {
+namespace {
+
+constexpr double kRadius_m = 0.004, kStiffness_N_per_m = 600.0, kDamping_Ns_per_m = 0.5;
+
+// Up and down between two heights at one speed, turning only when it is published.
+struct Zigzag {
+    double speed_m_per_s = 0.0, lowest_m = 0.0;
+    int ticks = 10;  // one way
+
+    [[nodiscard]] double height_m(double time_s) const {
+        const double at = time_s * 1e3 / ticks, part = at - 2.0 * std::floor(0.5 * at + 1e-9);
+        return lowest_m + speed_m_per_s * 1e-3 * ticks * (part < 1.0 ? part : 2.0 - part);
+    }
+    [[nodiscard]] double speed(double time_s) const {
+        const double at = std::floor(time_s * 1e3 / ticks + 1e-9);
+        return at - 2.0 * std::floor(0.5 * at) < 0.5 ? speed_m_per_s : -speed_m_per_s;
+    }
+};
+
+struct Pressed {
+    double worst_N = 0.0, least_N = HUGE_VAL, mean_N = 0.0;  // error against spring and damper; force
+    int ramping = 0;
+};
+
+// A plate that goes up and down by up to 3 mm under a held stylus, after the ramp of the first contact.
+Pressed press(double speed_m_per_s, bool announced) {
+    Zigzag way{speed_m_per_s, 0.0, 100};
+    while (way.speed_m_per_s * 1e-3 * way.ticks > 0.003 && way.ticks > 10) way.ticks -= 10;
+    test::Bodies bodies;
+    bodies.parameters.passivity.control = false;  // what the wall gives out is judged elsewhere
+    bodies.announced = announced;
+    bodies.surface = test::around({{test::plate(0.05, 0.01), 0}});
+    bodies.motions = {
+        test::along_y([way](double t) { return way.height_m(t); }, [way](double t) { return way.speed(t); })};
+    // Touched from 1 to 4 mm deep.
+    const Vec3 hand(0.0, kRadius_m - 0.001, 0.0);
+    Pressed felt;
+    constexpr int kTicks = 1200, kFrom = 500;
+    for (int i = 0; i < kTicks; ++i) {
+        const double t = bodies.time_s();
+        const TickRecord record = bodies.tick(hand);
+        if (i < kFrom) continue;
+        const double depth_m = way.height_m(t) + 0.001;
+        const double expected_N = kStiffness_N_per_m * depth_m + kDamping_Ns_per_m * way.speed(t);
+        const double given_N = record.gate.given.force_device_N.y;
+        felt.worst_N = std::max(felt.worst_N, std::abs(given_N - expected_N));
+        felt.least_N = std::min(felt.least_N, given_N);
+        felt.mean_N += given_N / (kTicks - kFrom);
+        felt.ramping += (record.flags & kTickRamping) != 0;
+    }
+    return felt;
+}
+
+TEST(MovingBodies, APlateThatMovesIsFeltInEveryTickAsSpringAndDamperAgainstAHandAtRest) {
+    for (const double speed : {0.02, 0.05, 0.1, 0.3}) {
+        const Pressed felt = press(speed, true);
+        EXPECT_EQ(felt.ramping, 0) << speed;
+        EXPECT_LT(felt.worst_N, 0.02) << speed << ": a hundredth of what is felt, and no saw's teeth";
+        EXPECT_GT(felt.least_N, 0.4) << speed;
+    }
+}
+
+TEST(MovingBodies, AMotionThatNobodyAnnouncesStillFadesIn) {
+    // What each motion was before: above 50 mm/s the ramp begins anew at each publication.
+    for (const double speed : {0.1, 0.3}) {
+        const Pressed felt = press(speed, false);
+        EXPECT_GT(felt.ramping, 600) << speed;
+        EXPECT_LT(felt.mean_N, 0.3) << speed;
+    }
+    EXPECT_EQ(press(0.02, false).ramping, 0) << "below half a millimetre a publication nothing fades";
+}
+
+TEST(MovingBodies, AFallingBodyThatHitsAHandAtRestIsFeltAtOnceWithoutARamp) {
+    for (const double speed : {0.2, 1.0, 2.0}) {
+        test::Bodies bodies;
+        bodies.parameters.passivity.control = false;
+        bodies.surface = test::around({{test::plate(0.05, 0.0005), 0}});  // a sheet of metal, half a millimetre
+        bodies.motions = {
+            test::along_y([speed](double t) { return -0.5 + speed * t; }, [speed](double) { return speed; })};
+        const Vec3 hand(0.0);
+        bool felt = false;
+        for (int i = 0; i < 5000 && !felt; ++i) {
+            const double t = bodies.time_s();
+            const TickRecord record = bodies.tick(hand);
+            const double depth_m = -0.5 + speed * t + kRadius_m;
+            ASSERT_EQ(record.in_contact(), depth_m > 1e-5) << speed << ' ' << depth_m;
+            if (!record.in_contact()) continue;
+            EXPECT_EQ(record.flags & kTickRamping, 0u);
+            EXPECT_NEAR(record.deepest().proxy_object_m.y, depth_m, 1e-4) << "on its upper side, pushed along";
+            felt = depth_m > 0.003;
+        }
+        EXPECT_TRUE(felt) << speed;
+    }
+}
+
+TEST(MovingBodies, AProxyThatSticksIsCarriedSidewaysAndOneThatSlidesRubsByTheRelativeMotionAlone) {
+    test::Bodies bodies;
+    bodies.parameters.passivity.control = false;
+    bodies.parameters.materials[0].static_friction = bodies.parameters.materials[0].dynamic_friction = 0.5;
+    bodies.surface = test::around({{test::plate(0.2, 0.01), 0}});
+    const double speed = 0.1;
+    bodies.motions = {[speed](double t) {
+        geometry::MeshMotion motion;
+        motion.body = 7;
+        motion.object_from_mesh.position_m.x = speed * t;
+        motion.velocity_object_m_per_s.x = speed;
+        return motion;
+    }};
+    const auto hand_at = [&](double x) { return Vec3(x, kRadius_m - 0.002, 0.0); };
+    // The hand goes along with the plate: it sticks, and nothing drags.
+    for (int i = 0; i < 600; ++i) {
+        const TickRecord record = bodies.tick(hand_at(speed * bodies.time_s()));
+        ASSERT_TRUE(record.in_contact());
+        ASSERT_NE(record.flags & kTickSticking, 0u) << i;
+        ASSERT_NEAR(record.deepest().proxy_object_m.x, speed * 1e-3 * i, 1e-6) << i;
+    }
+    // The hand holds still: the plate drags it along by the friction cone.
+    const Vec3 held = hand_at(speed * bodies.time_s());
+    TickRecord record;
+    for (int i = 0; i < 300; ++i) {
+        record = bodies.tick(held);
+        ASSERT_EQ(record.contact.jumped, false) << i;
+    }
+    EXPECT_EQ(record.flags & kTickSticking, 0u);
+    const Vec3 force = record.gate.given.force_device_N;
+    EXPECT_NEAR(force.y, kStiffness_N_per_m * 0.002, 0.01);
+    EXPECT_NEAR(force.x, 0.5 * force.y, 0.02 * force.y);
+}
+
+TEST(MovingBodies, ADrumThatTurnsDragsTheHandRound) {
+    for (const double speed : {-20.0, -2.0, 2.0, 20.0}) {  // rad/s
+        test::Bodies bodies;
+        bodies.parameters.passivity.control = false;
+        bodies.parameters.materials[0].static_friction = bodies.parameters.materials[0].dynamic_friction = 0.3;
+        bodies.surface = test::around({{test::drum(0.05, 0.05, 360), 0}});
+        bodies.motions = {[speed](double t) {
+            geometry::MeshMotion motion;
+            motion.body = 1;
+            motion.object_from_mesh = geometry::moved_on({}, Vec3(0.0), {0.0, 0.0, speed}, t);
+            motion.angular_velocity_object_rad_per_s.z = speed;
+            return motion;
+        }};
+        const Vec3 hand(0.0, 0.05 + kRadius_m - 0.002, 0.0);
+        double least = HUGE_VAL, most = -HUGE_VAL;
+        for (int i = 0; i < 1500; ++i) {
+            const TickRecord record = bodies.tick(hand);
+            ASSERT_TRUE(record.in_contact()) << i;
+            ASSERT_EQ(record.contact.jumped, i == 0) << i;
+            if (i < 800) continue;
+            const Vec3 force = record.gate.given.force_device_N;
+            least = std::min(least, force.x / force.y), most = std::max(most, force.x / force.y);
+        }
+        // Dragged the way its top goes, by the cone; the proxy has gone round by its angle.
+        const double sense = speed > 0.0 ? -1.0 : 1.0, cone = 0.3;
+        EXPECT_GT(std::min(sense * least, sense * most), 0.8 * cone) << speed;
+        EXPECT_LT(std::max(sense * least, sense * most), 1.3 * cone) << speed;
+    }
+}
+
+TEST(MovingBodies, WhatIsSetElsewhereOrRaisedByAnEditFadesInAndWhatRetreatsDoesNot) {
+    for (const double rise_m : {-0.003, 0.0003, 0.003, 0.03}) {
+        test::Bodies bodies;
+        bodies.surface = test::around({{test::plate(0.05, 0.1), 0}});
+        bodies.motions = {
+            test::along_y([rise_m](double t) { return t < 0.5 ? 0.0 : rise_m; }, [](double) { return 0.0; })};
+        bool jumped = false;
+        const Vec3 hand(0.0, kRadius_m - 0.004, 0.0);
+        for (int i = 0; i < 520; ++i) {
+            const TickRecord record = bodies.tick(hand);
+            if (i > 0) jumped = jumped || record.contact.jumped;
+        }
+        EXPECT_EQ(jumped, rise_m > 0.0005) << rise_m;
+    }
+    // A mesh that rests, and whose top is raised.
+    for (const double rise_m : {0.0003, 0.003}) {
+        test::Bodies bodies;
+        bodies.surface = test::around({{test::plate(0.05, 0.1), 0}});
+        const Vec3 hand(0.0, kRadius_m - 0.001, 0.0);
+        for (int i = 0; i < 500; ++i) (void)bodies.tick(hand);
+        auto raised = test::snapshot_of(test::box({-0.05, -0.1, -0.05}, {0.05, rise_m, 0.05}, 4));
+        bodies.surface.meshes[0].snapshot = raised;
+        EXPECT_EQ(bodies.tick(hand).contact.jumped, rise_m > 0.0005) << rise_m;
+    }
+}
+
+TEST(MovingBodies, ABodyStandsWhenItIsNoLongerPublished) {
+    test::Bodies bodies;
+    bodies.parameters.max_surface_age_s = 0.05;
+    bodies.publish_every = 1000;
+    bodies.surface = test::around({{test::plate(0.05, 0.01), 0}});
+    bodies.motions = {test::along_y([](double t) { return -0.1 + t; }, [](double) { return 1.0; })};
+    TickRecord record;
+    for (int i = 0; i < 200; ++i) record = bodies.tick({0.0, -0.047, 0.0});
+    EXPECT_NEAR(record.deepest().proxy_object_m.y, -0.05 + kRadius_m, 1e-4);
+    EXPECT_EQ(record.contact.surface_velocity_device_m_per_s, Vec3(0.0));
+    EXPECT_EQ(record.gate.cause, GateCause::stale_surface);
+}
+
+}  // namespace
+}  // namespace burin::haptics
