@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
 
+#include "base/plot/figures.hpp"
+#include "base/text.hpp"
 #include "tests/haptics/bodies.hpp"
 #include "tests/haptics/rig.hpp"
 
@@ -19,14 +22,16 @@ struct Fall {
     double before_m_per_s = 0.0, after_m_per_s = 0.0, contact_s = 0.0;
     int ramping = 0, ticks = 0;
     bool passed_through = false;
+    std::vector<double> times_s, heights_mm, hands_mm, forces_N;  // for the picture
 };
 
 // The ball moves along y alone. It is published every 10 ms; in between the tick follows it.
-Fall fall(double speed_m_per_s, bool announced) {
+Fall fall(double speed_m_per_s, bool announced, double honest_m_per_s = 2.0) {
     test::Rig rig({{0.0, Vec3(0.0)}});
     TickParameters parameters;
     parameters.probe = ball_probe(kTool_m);
     parameters.clearance_ratio = 0.0;
+    parameters.passivity.surface_speed_m_per_s = honest_m_per_s;
     rig.publish(parameters, 1);
     geometry::LocalSurface surface = test::around({{test::snapshot_of(test::sphere(kBall_m, 3)), 0}});
     const double drop_m = std::min(0.03, 0.2 * speed_m_per_s * speed_m_per_s / kGravity_m_per_s2);
@@ -49,6 +54,10 @@ Fall fall(double speed_m_per_s, bool announced) {
         // What the wall asks, as far as the device can give it, acts on the ball.
         const double asked_N = std::clamp(-record.contact.points[0].force_device_N.y, 0.0, 3.3);
         f.asked_Ns += asked_N * kStep_s;
+        f.times_s.push_back(kStep_s * (i - kReleased));
+        f.heights_mm.push_back(1e3 * (y - kBall_m));
+        f.hands_mm.push_back(1e3 * (record.sample.position_device_m.y + kTool_m));
+        f.forces_N.push_back(-record.gate.given.force_device_N.y);
         f.felt_Ns -= record.gate.given.force_device_N.y * kStep_s;
         if (record.in_contact()) {
             if (f.ticks++ == 0) f.before_m_per_s = v;
@@ -80,6 +89,33 @@ TEST(FallingBall, IsFeltByTheHandWithTheMomentumThatItLoses) {
         EXPECT_EQ(f.ramping, 0) << speed;
         EXPECT_NEAR(f.felt_Ns, theory_Ns, 0.25 * theory_Ns) << speed;
     }
+}
+
+TEST(FallingBall, DoesItsWorkOnTheHandBecauseTheEnergyAccountCountsItAsHonest) {
+    for (const double speed : {0.5, 1.0, 2.0}) {
+        const Fall counted = fall(speed, true), not_counted = fall(speed, true, 0.0);
+        std::printf("%.1f m/s, work not counted: felt %.4f Ns, counted %.4f Ns\n", speed, not_counted.felt_Ns,
+                    counted.felt_Ns);
+        EXPECT_LT(not_counted.felt_Ns, 0.8 * counted.felt_Ns) << speed;
+    }
+}
+
+// docs/pictures/falling-ball.svg is this file.
+TEST(FallingBall, IsSeenInAPicture) {
+    std::vector<plot::TimePlot> plots;
+    for (const double speed : {0.5, 1.0, 2.0}) {
+        const Fall f = fall(speed, true);
+        plots.push_back({formatted("falls at %.1f m/s", speed),
+                         "mm",
+                         f.times_s,
+                         {{"ball, lowest point", f.heights_mm}, {"top of the tool", f.hands_mm}}});
+        plots.push_back({"force on the hand", "N", f.times_s, {{"commanded", f.forces_N}}});
+    }
+    const std::string text = plot::time_figure("A ball of 50 g falls on a held stylus", plots, 2);
+    EXPECT_NE(text.find("force on the hand"), std::string::npos);
+    std::ofstream file(testing::TempDir() + "falling-ball.svg");
+    file << text;
+    EXPECT_TRUE(file.good());
 }
 
 TEST(FallingBall, IsHardlyFeltWhereNobodyAnnouncesItsMotion) {
