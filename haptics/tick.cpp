@@ -184,6 +184,8 @@ GateInput gate_input(const TickRecord& record, const devices::DeviceDescription&
     in.device_max_force_N = std::min(device.max_force_N, record.passivity.most_N + std::sqrt(glm::dot(others, others)));
     in.device_axis_max_force_N = device.axis_max_force_N;
     in.device_max_torque_Nm = device.max_torque_Nm;
+    const Vec3 turning = record.wanted.torque_device_Nm - driven_part(record.contact.wrench, device).torque_device_Nm;
+    in.most_torque_Nm = record.passivity.most_Nm + std::sqrt(glm::dot(turning, turning));
     in.sample_age_s = seconds(record.time_ns - record.sample.time_ns);
     in.device_fault = record.sample.fault;
     in.sample_finite = record.sample_finite;

@@ -218,22 +218,24 @@ bool can_promise(const DeviceDescription& device) noexcept {
 Affordable affordable(const EnergyAccount& account, const DeviceWrench& wrench, const PromiseLimits& promise,
                       const DeviceDescription& device, Nanoseconds now_ns) noexcept {
     const Resistance t = of_translation(promise, device), r = of_rotation(promise, device);
-    if (!account.counting) return {1.0, t.friction};
-    const bool turns = wrench.torque_device_Nm != Vec3(0.0) && rotation_is_known(device);
+    const bool may_turn = rotation_is_known(device);
+    if (!account.counting) return {1.0, t.friction, may_turn ? r.friction : HUGE_VAL};
+    const bool turns = wrench.torque_device_Nm != Vec3(0.0) && may_turn;
     // What acts until this command does, and what the uncertain position is worth to what acts now.
     const Nanoseconds begins = std::max(now_ns, account.time_ns) + delay_ns(promise, device);
-    double under_way_J = 0.0, uncertain = 0.0;
+    double under_way_J = 0.0, turning_J = 0.0, uncertain = 0.0;
     over_pieces(account, promise, device, account.time_ns, begins + 1, now_ns,
                 [&](Nanoseconds from, Nanoseconds to, const DeviceWrench& acting, const DeviceWrench*) {
                     const double time_s = seconds(std::min(to, begins) - from);
                     under_way_J += loss_J(length(acting.force_device_N), time_s, t);
-                    if (turns) under_way_J += loss_J(length(acting.torque_device_Nm), time_s, r);
+                    if (may_turn) turning_J += loss_J(length(acting.torque_device_Nm), time_s, r);
                     if (from == account.time_ns)
                         uncertain = 0.5 * (sum_of_axes(acting.force_device_N) * t.step +
                                            sum_of_axes(acting.torque_device_Nm) * r.step);
                 });
     const double budget_J = account.budget_J - uncertain, hold_s = longest_hold_s(promise, device);
     const double wait_s = seconds(begins - account.time_ns);
+    if (turns) under_way_J += turning_J;
     // The first bound is the tighter one as long as the forces under way are no greater than this one. It keeps the
     // force from alternating between what is under way and what is left.
     Affordable most;
@@ -245,6 +247,13 @@ Affordable affordable(const EnergyAccount& account, const DeviceWrench& wrench, 
                                most_share(budget_J - under_way_J, hold_s, force, t, torque, r)});
     } else if (force > most.force_N) {
         most.share = most.force_N / force;
+    }
+    if (may_turn) {
+        if (!turns) under_way_J += turning_J;
+        const double held = length(account.commands[account.newest].wrench.force_device_N);
+        const double beside = std::min(most.force_N, std::max(most.share * force, held));
+        most.torque_Nm = std::min(most_force(budget_J - loss_J(beside, hold_s + wait_s, t), hold_s + wait_s, r),
+                                  most_force(budget_J - under_way_J - loss_J(beside, hold_s, t), hold_s, r));
     }
     return most;
 }

@@ -29,6 +29,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "devices/haptic/haptic_device.hpp"
@@ -96,6 +97,9 @@ struct AccountStep {
 struct Affordable {
     double share = 1.0;    // of the wrench, at most 1
     double force_N = 0.0;  // the greatest force, without torque
+    // The greatest torque beside the most force that may be commanded, this tick's or what the slew limit holds up of
+    // the last one's; infinite where nothing is known of the device's rotation.
+    double torque_Nm = HUGE_VAL;
 };
 [[nodiscard]] Affordable affordable(const EnergyAccount& account, const devices::DeviceWrench& wrench,
                                     const PromiseLimits& promise, const devices::DeviceDescription& device,

@@ -114,6 +114,7 @@ PassivityStep keep_passive(const PassivityState& state, const PassivityInput& in
             affordable(step.next.account, step.wrench, promise_of(settings, dt_s), device, in.now_ns);
         step.record.share = most.share;
         step.record.most_N = most.force_N;
+        step.record.most_Nm = most.torque_Nm;
         if (most.share < 1.0) {
             step.wrench.force_device_N *= most.share;
             step.wrench.torque_device_Nm *= most.share;

@@ -89,6 +89,7 @@ struct PassivityRecord {
     double damping_Ns_per_m = 0.0;  // a; 0: no damping is added
     double share = 1.0;             // of the wrench: less than 1 where the account affords no more
     double most_N = HUGE_VAL;       // the greatest force that the account affords
+    double most_Nm = HUGE_VAL;      // the greatest torque beside it
 };
 
 struct PassivityStep {

@@ -36,7 +36,8 @@ GateCause find_cause(const GateState& state, const GateInput& in, const GateLimi
     if (!in.sample_finite || !std::isfinite(length(in.wanted.force_device_N)) ||
         !std::isfinite(length(in.wanted.torque_device_Nm)) || !finite(in.velocity_device_m_per_s) ||
         !std::isfinite(in.sample_age_s) || !std::isfinite(in.loop_gap_s) || !not_negative(in.device_max_force_N) ||
-        !not_negative(in.device_axis_max_force_N) || !not_negative(in.device_max_torque_Nm))
+        !not_negative(in.device_axis_max_force_N) || !not_negative(in.device_max_torque_Nm) ||
+        !(in.most_torque_Nm >= 0.0))
         return GateCause::not_finite;
     if (!in.parameters_sensible || !sensible(limits)) return GateCause::bad_parameters;
     if (in.sample_age_s > limits.max_sample_age_s) return GateCause::stale_sample;
@@ -127,7 +128,8 @@ GateStep pass_gate(const GateState& state, const GateInput& input, const GateLim
     const double ramp = next.faded();
     const Limited force{std::min(limits.max_force_N, input.device_max_force_N), input.device_axis_max_force_N, true,
                         limits.max_slew_N_per_s * dt_s};
-    const Limited torque{HUGE_VAL, input.device_max_torque_Nm, false, limits.max_torque_slew_Nm_per_s * dt_s};
+    const Limited torque{input.most_torque_Nm, input.device_max_torque_Nm, false,
+                         limits.max_torque_slew_Nm_per_s * dt_s};
     out.given.force_device_N = passed(state.given.force_device_N, ramp * input.wanted.force_device_N, force, out);
     out.given.torque_device_Nm =
         passed(state.given.torque_device_Nm, ramp * input.wanted.torque_device_Nm, torque, out);

@@ -5,10 +5,10 @@
 // get no torque.
 //
 // A pure function with its state in a struct: no clock, heap, lock or throw; wait-free, a few dozen operations.
-// Order: faults (zero at once: safe comes before smooth), ramps, limits, slew. A limit that is lowered while a force is
-// on wins over the slew limit. After a fault has gone the gate waits recovery_s, then fades in again over ramp_s; a
-// contact that has jumped fades in over contact_ramp_s. Every zero force has a cause: it is named in GateOutput::cause,
-// kept in the tick record, and has a text for people.
+// Order: faults (zero at once: safe comes before smooth), ramps, limits, slew. A limit that is lowered while a force or
+// a torque is on wins over the slew limit. After a fault has gone the gate waits recovery_s, then fades in again over
+// ramp_s; a contact that has jumped fades in over contact_ramp_s. Every zero force has a cause: it is named in
+// GateOutput::cause, kept in the tick record, and has a text for people.
 // Lost ticks: one is passed over. From the second on the force is scaled down, the more the longer the gap, to zero at
 // max_loop_gap_s, and fades in again over contact_ramp_s; beyond that gap it is zero, with a cause. A gap in which no
 // force was on the motors moved nothing, so it is no fault, but a contact that has begun meanwhile fades in.
@@ -16,6 +16,7 @@
 // desired wrench never exceeds what the energy account affords (haptics/stability/energy_account.hpp), ramp or not.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "devices/haptic/haptic_device.hpp"
@@ -56,6 +57,7 @@ struct GateInput {
     double device_max_force_N = 0.0;
     Vec3 device_axis_max_force_N{0.0};  // 0: that axis has no limit of its own
     Vec3 device_max_torque_Nm{0.0};     // 0: that axis is passive
+    double most_torque_Nm = HUGE_VAL;   // about any axis: what the energy account affords
     double sample_age_s = 0.0;          // now minus the sample's time
     double loop_gap_s = 0.0;            // now minus the last tick's time; 0 for the first
     devices::DeviceFault device_fault = devices::DeviceFault::none;

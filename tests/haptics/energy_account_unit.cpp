@@ -91,4 +91,21 @@ TEST(EnergyAccount, AffordsForceAndTorqueTogether) {
     EXPECT_NEAR(0.0075 * ((3.0 * share - 0.26) * 0.15 + (0.2 * share - 0.01) * 2.0), 0.001, 1e-12);
 }
 
+TEST(EnergyAccount, AffordsNoTorqueBesideAForceThatTheSlewLimitMayHoldUp) {
+    devices::DeviceDescription d = device();
+    EXPECT_EQ(affordable(begun(d), {}, kPromise, d, 2 * kMs).torque_Nm, HUGE_VAL) << "rotation is not known";
+    d.angular_friction_Nm = 0.01;
+    EnergyAccount account = count_energy({}, at(kMs, 0.0), kPromise, d).next;
+    account.budget_J = 0.001;
+    // Nothing is commanded: all that there is, for 7.5 ms at 2 rad/s.
+    EXPECT_NEAR(affordable(account, {}, kPromise, d, kMs).torque_Nm, 0.01 + 0.001 / (0.0075 * 2.0), 1e-12);
+    // 0.5 N is to be commanded, or has been.
+    const double left = 0.01 + (0.001 - 0.0075 * 0.15 * (0.5 - 0.26)) / (0.0075 * 2.0);
+    EXPECT_NEAR(affordable(account, {{0.0, 0.5, 0.0}, Vec3(0.0)}, kPromise, d, kMs).torque_Nm, left, 1e-12);
+    remember(account, {{0.0, 0.5, 0.0}, Vec3(0.0)}, kMs);
+    EXPECT_NEAR(affordable(account, {}, kPromise, d, kMs).torque_Nm, left, 1e-6);
+    // A force that takes all that there is leaves what friction bears.
+    EXPECT_NEAR(affordable(account, {{0.0, 9.0, 0.0}, Vec3(0.0)}, kPromise, d, kMs).torque_Nm, 0.01, 1e-12);
+}
+
 }  // namespace burin::haptics

@@ -116,4 +116,21 @@ TEST(SafetyGate, NeverExceedsAnAxisLimitOfForceOrTorqueOnAnyInputOrLimits) {
     }));
 }
 
+TEST(SafetyGate, TorqueStaysBelowItsCapHoweverThatFalls) {
+    EXPECT_TRUE(rc::check([] {
+        const auto thousandths = [](int most) { return *rc::gen::inRange(0, most) / 1000.0; };
+        const GateLimits limits{.max_torque_slew_Nm_per_s = *rc::gen::inRange(0, 100), .ramp_s = 0.0};
+        GateState state;
+        for (int i = 0; i < 40; ++i) {
+            GateInput in;
+            in.wanted.torque_device_Nm = {thousandths(400) - 0.2, thousandths(400) - 0.2, thousandths(400) - 0.2};
+            in.device_max_torque_Nm = {0.23, 0.23, 0.25};
+            in.most_torque_Nm = thousandths(300);
+            const GateStep out = pass_gate(state, in, limits, 1e-3);
+            RC_ASSERT(glm::length(out.output.given.torque_device_Nm) <= in.most_torque_Nm);
+            state = out.next;
+        }
+    }));
+}
+
 }  // namespace burin::haptics

@@ -8,6 +8,8 @@
 #include <set>
 #include <string>
 
+#include "haptics/tick.hpp"
+
 namespace burin::haptics {
 namespace {
 
@@ -177,6 +179,33 @@ TEST(SafetyGate, TorqueChangesNoFasterThanItsSlewLimit) {
         EXPECT_EQ(out.output.slew_limited, i < 11) << i;
         state = out.next;
     }
+}
+
+TEST(SafetyGate, SlewHoldsNoTorqueAboveACapThatHasFallen) {
+    const GateLimits limits{.max_torque_slew_Nm_per_s = 20.0};
+    for (const Vec3& wanted : {Vec3(0.0), Vec3(0.1, 0.0, 0.1)}) {
+        GateState open = open_at(Vec3(0.0));
+        open.given.torque_device_Nm = {0.2, 0.0, 0.1};
+        GateInput in = turning_by(wanted);
+        in.most_torque_Nm = 0.05;
+        const GateStep out = pass_gate(open, in, limits, kDt);
+        EXPECT_LE(glm::length(out.output.given.torque_device_Nm), 0.05);
+        EXPECT_GT(out.output.given.torque_device_Nm.x, 0.04) << "no lower than it must be";
+    }
+    GateInput in = turning_by(Vec3(0.0));
+    in.most_torque_Nm = kNan;
+    EXPECT_EQ(pass_gate(open_at(Vec3(0.0)), in, limits, kDt).output.cause, GateCause::not_finite);
+}
+
+TEST(SafetyGate, TheTickHandsItTheTorqueThatTheAccountAffords) {
+    devices::DeviceDescription device;
+    device.max_torque_Nm = Vec3(1.0);
+    TickRecord record;
+    EXPECT_EQ(gate_input(record, device).most_torque_Nm, HUGE_VAL);
+    record.passivity.most_Nm = 0.02;
+    record.contact.wrench.torque_device_Nm = {0.1, 0.0, 0.0};
+    record.wanted.torque_device_Nm = {0.1, 0.0, 0.03};  // a held tool's weight turns it, too
+    EXPECT_NEAR(gate_input(record, device).most_torque_Nm, 0.05, 1e-15);
 }
 
 TEST(SafetyGate, AnAxisWithALimitOfItsOwnIsNeverAskedForMore) {
