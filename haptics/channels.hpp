@@ -9,6 +9,7 @@
 // happen.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -147,6 +148,17 @@ struct ContactRecord {
     ContactWork work;
 };
 
+// A tick's share of its turn: the parts of a device that are ticked in one turn of the loop divide one period's budget.
+// What the parts before have not used up is there for those that are left.
+struct TurnShare {
+    double spent_ns = 0.0;  // by the parts before, as cost_ns() counts
+    std::uint32_t parts_left = 1;
+
+    [[nodiscard]] double of(double budget_ns) const noexcept {
+        return std::max(budget_ns - spent_ns, 0.0) / parts_left;
+    }
+};
+
 // Everything a tick used and did; the other records are views of it. With the surface and the parameters of the
 // sequence numbers recorded here it replays to the same bits. tick() (haptics/tick.hpp) fills it but for the gate,
 // full_tick() adds the gate, and HapticLoop the tick number, the lateness and its own flags.
@@ -157,6 +169,7 @@ struct TickRecord {
     devices::DeviceSample sample;
     std::uint64_t surface_sequence = 0;
     std::uint64_t parameter_sequence = 0;
+    TurnShare turn;
     bool sample_finite = true, parameters_sensible = true;  // false: nothing else was computed, the force is zero
     MotionRecord motion;
     ContactRecord contact;
@@ -194,7 +207,8 @@ struct ToolState {
 [[nodiscard]] ToolState tool_of(const TickRecord& record, std::uint64_t late_ticks,
                                 std::uint64_t dropped_samples) noexcept;
 
-// The five channels in one place. The session owns them and outlives the threads. Allocates in the constructor only.
+// The five channels in one place, of one part of a device. The session owns them and outlives the threads. Allocates in
+// the constructor only.
 // Capacities: four seconds of ticks for a carving side that stalls, one second for a recorder that writes.
 struct HapticChannels {
     static constexpr std::size_t kStrokes = 4096, kRecords = 1024;

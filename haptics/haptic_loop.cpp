@@ -5,61 +5,105 @@
 
 namespace burin::haptics {
 
-HapticLoop::HapticLoop(devices::HapticDevice& device, Clock& clock, HapticChannels& channels) noexcept
-    : device_(device),
-      clock_(clock),
-      channels_(channels),
-      period_ns_(nanoseconds(1.0 / device.description().rate_Hz)),
-      dt_s_(seconds(period_ns_)) {}
-
 TickRecord HapticLoop::step(Nanoseconds lateness_ns) noexcept {
     const Nanoseconds now_ns = clock_.now_ns();
-    const devices::DeviceSample sample = device_.read();
-    const geometry::LocalSurface& surface = channels_.surface.newest();
-    const TickParameters& parameters = channels_.parameters.newest();
-    return repeat(sample, surface, parameters, now_ns, lateness_ns);
+    for (Part& part : parts_) {
+        part.input = {part.device->read(), &part.channels->surface.newest(), &part.channels->parameters.newest()};
+    }
+    return turn(now_ns, lateness_ns);
 }
 
 TickRecord HapticLoop::repeat(const devices::DeviceSample& sample, const geometry::LocalSurface& surface,
                               const TickParameters& parameters, Nanoseconds now_ns, Nanoseconds lateness_ns) noexcept {
-    FullTick full = full_tick(state_, sample, surface, parameters, device_.description(), now_ns, dt_s_);
-    TickRecord& record = full.record;
-    device_.write(record.gate.given);
-    watch_stillness(record);
-    state_ = full.next;
-    sample_ = sample;
-    velocity_device_m_per_s_ = record.motion.velocity_device_m_per_s;
+    return repeat(std::array{PartInput{sample, &surface, &parameters}}, now_ns, lateness_ns);
+}
 
-    record.tick = ++ticks_;
-    record.lateness_ns = lateness_ns;
-    if (lateness_ns > period_ns_ / 2) {
-        ++late_ticks_;
-        record.flags |= kTickLate;
+TickRecord HapticLoop::repeat(std::span<const PartInput> inputs, Nanoseconds now_ns, Nanoseconds lateness_ns) noexcept {
+    BURIN_CHECK(inputs.size() == parts_.size());
+    for (std::size_t i = 0; i < parts_.size(); ++i) parts_[i].input = inputs[i];
+    return turn(now_ns, lateness_ns);
+}
+
+TickRecord HapticLoop::turn(Nanoseconds now_ns, Nanoseconds lateness_ns) noexcept {
+    spread_fault();
+    ++ticks_;
+    if (lateness_ns > period_ns_ / 2) ++late_ticks_;
+    newest_ns_ = now_ns;
+    TurnShare share{0.0, static_cast<std::uint32_t>(parts_.size())};
+    const TickRecord first = tick_part(parts_[0], share, now_ns, lateness_ns);
+    for (std::size_t i = 1; i < parts_.size(); ++i) tick_part(parts_[i], share, now_ns, lateness_ns);
+    return first;
+}
+
+// A fault of the whole device counts as one of each part that has none of its own.
+void HapticLoop::spread_fault() noexcept {
+    devices::DeviceFault fault = devices::DeviceFault::none;
+    for (const Part& part : parts_) {
+        const devices::DeviceSample& sample = part.input.sample;
+        if (sample.fault_is_of_all && fault == devices::DeviceFault::none) fault = sample.fault;
     }
-    if (!channels_.stroke.push(stroke_of(record))) record.flags |= kTickSampleDropped;
-    channels_.records.push(record);  // a full ring counts the records it refuses
-    channels_.tool.draft() = tool_of(record, late_ticks_, channels_.stroke.refused());
-    channels_.tool.publish();
+    if (fault == devices::DeviceFault::none) return;
+    for (Part& part : parts_)
+        if (part.input.sample.fault == devices::DeviceFault::none) part.input.sample.fault = fault;
+}
+
+TickRecord HapticLoop::tick_part(Part& part, TurnShare& share, Nanoseconds now_ns, Nanoseconds lateness_ns) noexcept {
+    const auto& [sample, surface, parameters] = part.input;
+    FullTick full =
+        full_tick(part.state, sample, *surface, *parameters, part.device->description(), now_ns, dt_s_, share);
+    TickRecord& record = full.record;
+    part.device->write(record.gate.given);
+    share.spent_ns += cost_ns(record.contact.work);
+    --share.parts_left;
+    watch_stillness(part.still, record);
+    part.state = full.next;
+    part.sample = sample;
+    part.velocity_device_m_per_s = record.motion.velocity_device_m_per_s;
+
+    record.tick = ticks_;
+    record.lateness_ns = lateness_ns;
+    if (lateness_ns > period_ns_ / 2) record.flags |= kTickLate;
+    HapticChannels& channels = *part.channels;
+    if (!channels.stroke.push(stroke_of(record))) record.flags |= kTickSampleDropped;
+    channels.records.push(record);  // a full ring counts the records it refuses
+    channels.tool.draft() = tool_of(record, late_ticks_, channels.stroke.refused());
+    channels.tool.publish();
     return record;
 }
 
-void HapticLoop::watch_stillness(const TickRecord& tick) noexcept {
-    const bool still = tick.gate.given.force_device_N == Vec3(0.0) && tick.gate.given.torque_device_Nm == Vec3(0.0) &&
-                       tick.sample.position_device_m == still_.sample.position_device_m &&
-                       tick.sample.orientation_device == still_.sample.orientation_device &&
-                       tick.sample.buttons == still_.sample.buttons && tick.sample.fault == still_.sample.fault &&
-                       tick.parameter_sequence == still_.parameter_sequence;
-    if (!still) still_ = {tick.time_ns, tick.sample, tick.parameter_sequence};
-    newest_ns_ = tick.time_ns;
+void HapticLoop::watch_stillness(Still& still, const TickRecord& tick) noexcept {
+    const bool is_same = tick.gate.given.force_device_N == Vec3(0.0) && tick.gate.given.torque_device_Nm == Vec3(0.0) &&
+                         tick.sample.position_device_m == still.sample.position_device_m &&
+                         tick.sample.orientation_device == still.sample.orientation_device &&
+                         tick.sample.buttons == still.sample.buttons && tick.sample.fault == still.sample.fault &&
+                         tick.parameter_sequence == still.parameter_sequence;
+    if (!is_same) still = {tick.time_ns, tick.sample, tick.parameter_sequence};
 }
 
-void HapticLoop::warm_up() noexcept {
-    devices::DeviceSample expected = sample_;
-    expected.time_ns += period_ns_;
-    expected.position_device_m += dt_s_ * velocity_device_m_per_s_;
-    const FullTick full = full_tick(state_, expected, channels_.surface.newest(), channels_.parameters.newest(),
-                                    device_.description(), clock_.now_ns(), dt_s_);
-    warmed_up_ += full.record.contact.work.triangles_tested;
+bool HapticLoop::is_still() const noexcept {
+    for (const Part& part : parts_)
+        if (newest_ns_ - part.still.since_ns < kStill_ns) return false;
+    return true;
+}
+
+void HapticLoop::warm_up() noexcept { warm_up_until(INT64_MAX); }
+
+// Parts whose turn would come after the deadline go without: a warm-up must not make the turn late.
+void HapticLoop::warm_up_until(Nanoseconds deadline_ns) noexcept {
+    TurnShare share{0.0, static_cast<std::uint32_t>(parts_.size())};
+    for (const Part& part : parts_) {
+        const Nanoseconds now_ns = clock_.now_ns();
+        if (&part != parts_.data() && now_ns >= deadline_ns) return;
+        devices::DeviceSample expected = part.sample;
+        expected.time_ns += period_ns_;
+        expected.position_device_m += dt_s_ * part.velocity_device_m_per_s;
+        const FullTick full =
+            full_tick(part.state, expected, part.channels->surface.newest(), part.channels->parameters.newest(),
+                      part.device->description(), now_ns, dt_s_, share);
+        warmed_up_ += full.record.contact.work.triangles_tested;
+        share.spent_ns += cost_ns(full.record.contact.work);
+        --share.parts_left;
+    }
 }
 
 void HapticLoop::run(const std::atomic<bool>& stop, const LoopPace& pace) noexcept {
@@ -76,7 +120,7 @@ void HapticLoop::run_ticks(std::uint64_t count, const std::atomic<bool>* stop, c
         if (stop != nullptr && stop->load(std::memory_order_acquire)) break;
         clock_.sleep_until(deadline_ns - lead_ns);
         if (lead_ns > 0) {
-            warm_up();
+            warm_up_until(deadline_ns);
             clock_.spin_until(deadline_ns);
         }
         const Nanoseconds begin_ns = clock_.now_ns();
@@ -89,7 +133,7 @@ void HapticLoop::run_ticks(std::uint64_t count, const std::atomic<bool>* stop, c
         deadline_ns += (missed + 1) * period_ns_;
         if (pace.rests && is_still()) deadline_ns += std::max<Nanoseconds>(kRest_ns - period_ns_, 0);
     }
-    device_.write({});
+    for (Part& part : parts_) part.device->write({});
 }
 
 }  // namespace burin::haptics

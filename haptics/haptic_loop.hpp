@@ -3,6 +3,12 @@
 //
 // step() does exactly this: read the device, borrow the newest surface and parameters, tick, gate, write the device,
 // publish tool state, stroke sample and tick record. run() calls it at absolute deadlines one period apart.
+// A device of several parts that move by themselves (a glove's fingertips) is one loop with a list of parts, fixed when
+// the loop is made. One turn reads all parts, then ticks and writes one after the other. Each has channels, state,
+// parameters, gate and energy account of its own, so limits, slew and passivity hold for each. The turn's work is
+// bounded as one tick's is: the parts divide the period's budget (TurnShare). A fault of one part gives that part no
+// force, and the others go on; a fault that a part reports as the whole device's (DeviceSample::fault_is_of_all) gives
+// none to any part, in the same turn. Warm-up, idling, late and skipped ticks are the turn's, and so alike for all.
 // In simulated time: advance the clock (and the device, if it does not follow the clock) by a period and call step();
 // or call run() with a SimulatedClock, which does just that.
 // Thread: one at a time calls step() or run(). Neither allocates, locks, throws or opens a file.
@@ -18,14 +24,31 @@
 // that the loop never runs a burst of ticks to catch up.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
+#include <span>
+#include <vector>
 
+#include "base/error.hpp"
 #include "haptics/channels.hpp"
 #include "haptics/histogram.hpp"
 #include "haptics/tick.hpp"
 
 namespace burin::haptics {
+
+// A part of a device: what is read and written, and what the other threads exchange with it. Each has its own channels.
+struct LoopPart {
+    devices::HapticDevice& device;
+    HapticChannels& channels;
+};
+
+// What a part's tick is computed from, besides its state. The references hold for the call.
+struct PartInput {
+    devices::DeviceSample sample;
+    const geometry::LocalSurface* surface = nullptr;
+    const TickParameters* parameters = nullptr;
+};
 
 // Timing policy of run().
 struct LoopPace {
@@ -37,16 +60,29 @@ struct LoopPace {
 class HapticLoop {
 public:
     // device, clock and channels must outlive the loop. The period is 1 / device rate.
-    HapticLoop(devices::HapticDevice& device, Clock& clock, HapticChannels& channels) noexcept;
+    HapticLoop(devices::HapticDevice& device, Clock& clock, HapticChannels& channels)
+        : HapticLoop(std::array{LoopPart{device, channels}}, clock) {}
+    // At least one part; all of one rate. Allocates here only: in this header, so that no object that ticks can.
+    HapticLoop(std::span<const LoopPart> parts, Clock& clock)
+        : clock_(clock),
+          period_ns_(nanoseconds(1.0 / parts.front().device.description().rate_Hz)),
+          dt_s_(seconds(period_ns_)),
+          parts_(parts.begin(), parts.end()) {
+        for (const LoopPart& part : parts)
+            BURIN_CHECK(part.device.description().rate_Hz == parts.front().device.description().rate_Hz);
+    }
 
-    // Runs one tick at the clock's present time. lateness_ns is only recorded. Returns the published tick record.
+    // Runs one turn at the clock's present time: a tick of each part. lateness_ns is only recorded. Returns the first
+    // part's tick record as published; those of the others are in their channels.
     TickRecord step(Nanoseconds lateness_ns = 0) noexcept;
     // Runs the next tick with the sample, surface, parameters and time of a recorded session, whatever the channels
     // hold. Otherwise as step(): the same inputs give the same ticks.
     TickRecord repeat(const devices::DeviceSample& sample, const geometry::LocalSurface& surface,
                       const TickParameters& parameters, Nanoseconds now_ns, Nanoseconds lateness_ns) noexcept;
+    // Likewise for all parts, in their order.
+    TickRecord repeat(std::span<const PartInput> inputs, Nanoseconds now_ns, Nanoseconds lateness_ns) noexcept;
 
-    // Computes the expected next tick without its effects, to warm the caches.
+    // Computes the expected next tick of all parts without its effects, to warm the caches.
     void warm_up() noexcept;
 
     // Lead for a warm-up tick: wake-ups are some 50 us late on an ordinary kernel, and a tick takes 10 or 20 us.
@@ -69,27 +105,38 @@ public:
     // end. Any thread.
     [[nodiscard]] const Histogram& lateness() const noexcept { return lateness_; }
     [[nodiscard]] const Histogram& duration() const noexcept { return duration_; }
-    [[nodiscard]] const FullTickState& state() const noexcept { return state_; }
+    [[nodiscard]] std::size_t parts() const noexcept { return parts_.size(); }
+    [[nodiscard]] const FullTickState& state(std::size_t part = 0) const noexcept { return parts_[part].state; }
 
 private:
-    void watch_stillness(const TickRecord& tick) noexcept;
-    [[nodiscard]] bool is_still() const noexcept { return newest_ns_ - still_.since_ns >= kStill_ns; }
-
-    devices::HapticDevice& device_;
-    Clock& clock_;
-    HapticChannels& channels_;
-    Nanoseconds period_ns_;
-    double dt_s_;
-    FullTickState state_;
-    devices::DeviceSample sample_;       // of the last tick
-    Vec3 velocity_device_m_per_s_{0.0};  // of the last tick
-    std::uint64_t ticks_ = 0, late_ticks_ = 0, skipped_deadlines_ = 0;
     struct Still {
         Nanoseconds since_ns = 0;
         devices::DeviceSample sample;
         std::uint64_t parameter_sequence = 0;
     };
-    Still still_;                // the state last seen to change, and when
+    struct Part {
+        explicit Part(const LoopPart& part) : device(&part.device), channels(&part.channels) {}
+        devices::HapticDevice* device;
+        HapticChannels* channels;
+        FullTickState state;
+        PartInput input;                    // of this turn
+        devices::DeviceSample sample;       // of the last tick
+        Vec3 velocity_device_m_per_s{0.0};  // of the last tick
+        Still still;                        // the state last seen to change, and when
+    };
+
+    TickRecord turn(Nanoseconds now_ns, Nanoseconds lateness_ns) noexcept;
+    TickRecord tick_part(Part& part, TurnShare& share, Nanoseconds now_ns, Nanoseconds lateness_ns) noexcept;
+    void spread_fault() noexcept;
+    void warm_up_until(Nanoseconds deadline_ns) noexcept;
+    static void watch_stillness(Still& still, const TickRecord& tick) noexcept;
+    [[nodiscard]] bool is_still() const noexcept;
+
+    Clock& clock_;
+    Nanoseconds period_ns_;
+    double dt_s_;
+    std::vector<Part> parts_;
+    std::uint64_t ticks_ = 0, late_ticks_ = 0, skipped_deadlines_ = 0;
     Nanoseconds newest_ns_ = 0;  // time of the last tick
     // Triangle count of the warm-up ticks, kept so that an optimizing compiler cannot remove them.
     std::uint64_t warmed_up_ = 0;

@@ -255,7 +255,7 @@ void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept {
                               longest_s > 0.0 ? longest_s : kLongestFollowed_s);
     std::array<std::optional<PointContact>, kMostProbePoints> points;
     Touching touching;
-    const double budget = budget_ns(input.parameters.work, input.dt_s);
+    const double budget = input.turn.of(budget_ns(input.parameters.work, input.dt_s));
     for (std::uint32_t i = 0; i < contact.point_count; ++i) {
         points[i].emplace(input, step, bodies, i).touch(painting, share_of_rest(contact, i, budget));
         if (!points[i]->in_contact()) continue;

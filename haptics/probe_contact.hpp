@@ -27,6 +27,7 @@ struct ProbeInput {
     const devices::DeviceDescription& device;
     double dt_s;
     Nanoseconds now_ns;
+    TurnShare turn{};
 };
 
 // Where a step of the probe puts its results: in the tick's own, which are too large to be copied a thousand times a

@@ -132,7 +132,7 @@ void compute_tick(const TickResult& t, const TickState& state, const devices::De
     const bool searchable = surface.sequence > 0;
     if (!searchable) record.flags |= kTickNoSurface;
     const bool touches = searchable && parameters.enabled && !workspace.paused;
-    const ProbeInput input{sample, motion, surface, parameters, device, dt_s, now_ns};
+    const ProbeInput input{sample, motion, surface, parameters, device, dt_s, now_ns, record.turn};
     const ProbeStep probe{next.probe, record.contact, record.flags};
     if (touches)
         touch_surface(probe, input);
@@ -199,9 +199,11 @@ GateInput gate_input(const TickRecord& record, const devices::DeviceDescription&
 
 FullTick full_tick(const FullTickState& state, const devices::DeviceSample& sample,
                    const geometry::LocalSurface& surface, const TickParameters& parameters,
-                   const devices::DeviceDescription& device, Nanoseconds now_ns, double dt_s) noexcept {
+                   const devices::DeviceDescription& device, Nanoseconds now_ns, double dt_s,
+                   const TurnShare& turn) noexcept {
     FullTick full{{state.tick, {}, now_ns}, {}};
     TickRecord& record = full.record;
+    record.turn = turn;
     compute_tick({full.next.tick, record}, state.tick, sample, surface, parameters, device, now_ns, dt_s);
     GateInput input = gate_input(record, device);
     if (state.now_ns > 0) input.loop_gap_s = seconds(now_ns - state.now_ns);

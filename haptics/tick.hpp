@@ -58,7 +58,7 @@ struct Tick {
 // Collects the gate's inputs from a tick; all but loop_gap_s.
 [[nodiscard]] GateInput gate_input(const TickRecord& record, const devices::DeviceDescription& device) noexcept;
 
-// The whole of a tick, gate included: what HapticLoop runs, and what replay runs again.
+// The whole of a tick, gate included: what HapticLoop runs for each part, and what replay runs again.
 struct FullTickState {
     TickState tick;
     GateState gate;
@@ -72,6 +72,7 @@ struct FullTick {
 
 [[nodiscard]] FullTick full_tick(const FullTickState& state, const devices::DeviceSample& sample,
                                  const geometry::LocalSurface& surface, const TickParameters& parameters,
-                                 const devices::DeviceDescription& device, Nanoseconds now_ns, double dt_s) noexcept;
+                                 const devices::DeviceDescription& device, Nanoseconds now_ns, double dt_s,
+                                 const TurnShare& turn = {}) noexcept;
 
 }  // namespace burin::haptics

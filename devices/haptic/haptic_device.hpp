@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The interface of a force-feedback device: a description, samples in, forces out, all plain data.
-// Frames: everything here is in the device frame (base/space.hpp). Threads: read() and write() are called by the haptic
-// thread only, once a tick each, and must be wait-free: no heap, lock, throw or file.
+// A device whose parts move by themselves, such as a glove's fingers, offers a HapticDevice for each part. All parts
+// have the same rate, and one loop reads them all before it writes the first (haptics/haptic_loop.hpp); so a driver may
+// exchange one packet for all when the first is read and when the last is written.
+// Frames: everything here is in the device frame (base/space.hpp), which all parts of a device share. Threads: read()
+// and write() are called by the haptic thread only, once a tick each, and must be wait-free: no heap, lock, throw or
+// file.
 #pragma once
 
 #include <cstdint>
 
 #include "base/clock.hpp"
 #include "base/space.hpp"
+#include "devices/haptic/joints.hpp"
 
 namespace burin::devices {
 
@@ -35,6 +40,10 @@ struct DeviceDescription {
     double angular_damping_Nms_per_rad = 0.0;  // viscous, of the arm
     double angular_friction_Nm = 0.0;          // Coulomb, of the arm
     double orientation_step_rad = 0.0;         // orientation quantum
+    // How far the handle turns about each axis from where its orientation is the identity; both 0: not known.
+    Vec3 lowest_turn_rad{0.0}, highest_turn_rad{0.0};
+    // The driver that knows them and their Jacobian fills resolution_m and orientation_step_rad by step_at_handle().
+    Joints joints{};
 };
 
 // A force and a torque about the device's position, in the device frame. The device ignores components of axes that it
@@ -52,6 +61,10 @@ struct DeviceSample {
     Quat orientation_device{1.0, 0.0, 0.0, 0.0};
     std::uint32_t buttons = 0;  // bit 0: the stylus button
     DeviceFault fault = DeviceFault::none;
+    // The fault is of the device that this is a part of, such as a lost cable: all parts get no force. False: of this
+    // part alone, and the others go on.
+    bool fault_is_of_all = false;
+    JointValues joints{};  // as read, for those who record or draw them; no tick depends on them
 };
 
 // A virtual interface, because the device is chosen at run time.

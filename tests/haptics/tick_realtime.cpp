@@ -8,6 +8,7 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "tests/haptics/fingertip.hpp"
 #include "tests/haptics/rig.hpp"
 #include "tests/haptics/workpiece.hpp"
 #include "tests/support/realtime_counters.hpp"
@@ -124,6 +125,41 @@ TEST(HapticLoop, StepsOnTilesThatAreCarvedMeanwhileAllocateFreeAndLockNothing) {
     }
     expect_none(total);
     EXPECT_GT(in_contact, 300);
+}
+
+TEST(HapticLoop, TurnsOfTwentyPartsAllocateLockThrowAndOpenNothing) {
+    test::PartsRig rig(test::point_hands(20, 2.0));
+    const test::Surface sphere = test::fingertip_sphere();
+    rig.publish_to_all(test::point_parameters());
+    int in_contact = 0, faulty = 0;
+    burin::test::RealtimeCounts total;
+    for (int i = 0; i < 2000; ++i) {
+        if (i % 100 == 0) rig.publish(*sphere, static_cast<std::uint64_t>(i) + 1);
+        if (i % 500 == 300) rig.fingers.inject(7, static_cast<devices::InjectedFault>(1 + i / 500));
+        if (i % 500 == 330) rig.fingers.inject(7, devices::InjectedFault::none);
+        if (i == 1600) rig.fingers.lose_link(true);
+        if (i == 1610) rig.fingers.lose_link(false);
+        rig.clock.sleep_until(rig.clock.now_ns() + rig.loop.period_ns());
+        {
+            const burin::test::RealtimeScope scope;
+            rig.loop.warm_up();
+            rig.loop.step();
+            total += scope.counts();
+        }
+        double spent_ns = 0.0;
+        for (HapticChannels& one : rig.channels) {
+            TickRecord record;
+            one.records.pop(record);
+            for (StrokeSample read; one.stroke.pop(read);) continue;
+            in_contact += record.in_contact() ? 1 : 0;
+            faulty += record.gate.cause != GateCause::none ? 1 : 0;
+            spent_ns += cost_ns(record.contact.work);
+        }
+        EXPECT_LE(spent_ns, budget_ns(WorkSettings{}, 1e-3));
+    }
+    expect_none(total);
+    EXPECT_GT(in_contact, 10'000);
+    EXPECT_GT(faulty, 200 + 4 * 20);
 }
 
 }  // namespace burin::haptics
