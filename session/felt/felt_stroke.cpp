@@ -9,8 +9,10 @@
 #include "devices/haptic/simulated_omni.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "haptics/realtime.hpp"
+#include "sculpt/felt_tool.hpp"
 #include "sculpt/progress.hpp"
 #include "sculpt/sculpt_service.hpp"
+#include "sculpt/tool_mesh.hpp"
 #include "session/drive/driver.hpp"
 
 namespace burin::session {
@@ -88,12 +90,12 @@ Result<devices::SimulatedHand> hand_along(const sculpt::Stroke& stroke, const Si
 Result<devices::SimulatedHand> pressing_hand(sculpt::Sculpture& carving, const sculpt::Stroke& stroke,
                                              const sculpt::Tool& tool, const sculpt::Feel& feel,
                                              const Similarity& object_from_device) {
-    const double radius_m = tool.ball_radius_m();
+    const double around_m = sculpt::reach_of(tool.shape) + sculpt::size_of(tool.shape);
     geometry::LocalSurface surface;
     Result<void> outcome;
     const auto into_material = [&](const Vec3& place) {
-        if (const auto done = carving.local_surface(place, 2.0 * radius_m, surface); !done) outcome = done;
-        return haptics::engagement(surface, place, radius_m).engagement.into_object;
+        if (const auto done = carving.local_surface(place, around_m, surface); !done) outcome = done;
+        return haptics::into_material(surface, place, around_m);
     };
     Result<devices::SimulatedHand> hand = hand_along(stroke, object_from_device, feel, into_material);
     if (!outcome) return std::unexpected(outcome.error());
@@ -204,7 +206,9 @@ Result<FeltFigures> carve_by_feel(sculpt::Sculpture& carving, const sculpt::Stro
     haptics::TickParameters& parameters = channels.parameters.draft();
     parameters.sequence = 1;
     parameters.workspace.object_from_device = figures.object_from_device;
-    parameters.probe = haptics::ball_probe(tool.ball_radius_m());
+    const sculpt::FeltTool felt_tool = sculpt::felt_tool(tool.shape);
+    parameters.probe = felt_tool.probe;
+    parameters.tool = felt_tool.surface;
     parameters.materials.fill(options.feel.material);
     parameters.action = sculpt::action_of(tool.operation);
     channels.parameters.publish();
