@@ -111,18 +111,28 @@ ToolSurface tool_surface(const geometry::TriangleMesh& mesh, double size_m) {
     tool.size_m = size_m;
     tool.reach_m = kReach * size_m;
     const std::vector<std::uint32_t> group = grouped(points, ToolSurface::kMost, kTurn * size_m).group;
-    std::array<SurfacePoint, ToolSurface::kMost> sums{};
+    struct Sum {
+        Vec3 position{0.0}, normal{0.0};
+        double area_m2 = 0.0, height = 0.0;
+    };
+    std::array<Sum, ToolSurface::kMost> sums{};
     for (std::size_t i = 0; i < points.size(); ++i) {
-        SurfacePoint& sum = sums[group[i]];
-        sum.position_m += points[i].area_m2 * points[i].position_m;
-        sum.normal += points[i].area_m2 * points[i].normal;
-        sum.area_m2 += points[i].area_m2;
+        const SurfacePoint& p = points[i];
+        Sum& sum = sums[group[i]];
+        sum.position += p.area_m2 * p.position_m;
+        sum.normal += p.area_m2 * p.normal;
+        sum.area_m2 += p.area_m2;
+        sum.height += p.area_m2 * glm::dot(p.normal, p.position_m);
     }
-    for (const SurfacePoint& sum : sums) {
+    for (const Sum& sum : sums) {
         const double length = std::sqrt(glm::dot(sum.normal, sum.normal));
         if (!(length > 0.0)) continue;
-        tool.samples[tool.count++] = {Vec3f(sum.position_m / sum.area_m2),
-                                      Vec3f(sum.normal / length),
+        const Vec3 normal = sum.normal / length, middle = sum.position / sum.area_m2;
+        // The middle of a round part lies inside it. On the plane whose height is the mean of its tangent planes a
+        // sample meets the plane of its own bed, which is found in the same way (engagement.hpp).
+        const Vec3 place = middle + (sum.height / length - glm::dot(normal, middle)) * normal;
+        tool.samples[tool.count++] = {Vec3f(place),
+                                      Vec3f(normal),
                                       static_cast<float>(sum.area_m2),
                                       static_cast<float>(std::sqrt(sum.area_m2 / std::numbers::pi)),
                                       {}};
