@@ -164,8 +164,11 @@ TriangleMesh mesh_of(const compute::ToolShape& shape) {
     }
     return std::visit(
         [&](const auto& turned) {
-            if constexpr (requires { outline_of(turned); }) return revolved(outline_of(turned), step_m);
-            return TriangleMesh{};
+            using Shape = std::decay_t<decltype(turned)>;
+            if constexpr (std::is_same_v<Shape, compute::BoxTool> || std::is_same_v<Shape, compute::MeshTool>)
+                return TriangleMesh{};  // made above
+            else
+                return revolved(outline_of(turned), step_m);
         },
         shape);
 }
