@@ -119,7 +119,7 @@ TEST(SafetyGate, NeverExceedsAnAxisLimitOfForceOrTorqueOnAnyInputOrLimits) {
 TEST(SafetyGate, TorqueStaysBelowItsCapHoweverThatFalls) {
     EXPECT_TRUE(rc::check([] {
         const auto thousandths = [](int most) { return *rc::gen::inRange(0, most) / 1000.0; };
-        const GateLimits limits{.max_torque_slew_Nm_per_s = *rc::gen::inRange(0, 100), .ramp_s = 0.0};
+        const GateLimits limits{.max_torque_slew_Nm_per_s = 1.0 * *rc::gen::inRange(0, 100), .ramp_s = 0.0};
         GateState state;
         for (int i = 0; i < 40; ++i) {
             GateInput in;
