@@ -13,6 +13,7 @@ double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 
 // Of the tool's size or of one radian: so much motion asks for another look.
 constexpr double kLookAgain = 0.1;
+constexpr std::uint32_t kMostStride = 1024;
 // A sample whose plane is opposite to its normal by this much fits its bed; between the two the bed's allowance fades.
 constexpr double kNoFit = 0.9, kFit = 0.98;
 // Least share of the half width over which a sample becomes engaged, and least cosine of a way onto a plane.
@@ -232,7 +233,7 @@ LookedAt look_at(const CuttingState& state, const CuttingInput& in, const ToolSu
     EngagementLook look = look_around(surface, tool, in.proxy_object_m, in.orientation_object, known.stride, most);
     if (!look.complete) {
         LookedAt as_before{known, look.work};
-        as_before.known.stride = known.stride * 2;
+        as_before.known.stride = std::min(known.stride * 2, kMostStride);
         // Where a look has never been complete the part seen is better than nothing.
         if (known.surface_sequence == 0) as_before.known = look.engagement;
         return as_before;
