@@ -20,7 +20,6 @@
 #include "haptics/contact/contact_work.hpp"
 #include "haptics/contact/probe.hpp"
 #include "haptics/forces/guidance.hpp"
-#include "haptics/forces/tool_surface.hpp"
 #include "haptics/forces/touch_force.hpp"
 #include "haptics/signals/filters.hpp"
 #include "haptics/stability/passivity.hpp"
@@ -45,7 +44,6 @@ struct TickParameters {
     // Mapping from device to scene; its scale is the position gain g: motions grow by g, forces shrink by g.
     WorkspaceSettings workspace;
     Probe probe;
-    ToolSurface tool;  // what cuts; count 0: nothing
     // The ball that touches is smaller than the ball that carves by this fraction of its radius. A ball lying in the
     // groove it has cut would otherwise be pinched by the facets, which cut the circle's corner: a facet of length s
     // stands s^2 / (8 R) proud. 0.02 leaves room for facets of 0.4 R.
@@ -141,8 +139,6 @@ struct ContactRecord {
     std::uint32_t point_count = 0;
     std::uint32_t deepest = 0;  // index of the point deepest in contact; 0 in free space
     std::array<PointRecord, kMostProbePoints> points{};
-    bool rigid_tool = false;
-    PointRecord tool;  // of a rigid tool as a whole
     Vec3 cut_object_m{0.0};
     bool jumped = false;  // not continuous with the contact of the last tick
     StiffnessBound stiffness_bound = StiffnessBound::none;
@@ -182,12 +178,7 @@ struct TickRecord {
     GateOutput gate;               // its `given` is the commanded wrench, as written to the device
     std::uint32_t flags = 0;       // TickFlag bits
 
-    // The point that bears most, or a rigid tool as a whole.
-    [[nodiscard]] const PointRecord& deepest() const {
-        return contact.rigid_tool ? contact.tool : contact.points[contact.deepest];
-    }
-    // The point that works: the first, or a rigid tool as a whole.
-    [[nodiscard]] const PointRecord& working() const { return contact.rigid_tool ? contact.tool : contact.points[0]; }
+    [[nodiscard]] const PointRecord& deepest() const { return contact.points[contact.deepest]; }
     [[nodiscard]] bool in_contact() const { return (flags & kTickInContact) != 0; }
 };
 

@@ -88,8 +88,8 @@ GuidanceStep guided(const GuidanceState& state, const TickRecord& record, const 
                     double dt_s) {
     const MotionRecord& motion = record.motion;
     return guide(state,
-                 {record.working().hip_object_m, motion.velocity_device_m_per_s, motion.object_from_device.orientation,
-                  motion.object_from_device.scale, dt_s},
+                 {record.contact.points[0].hip_object_m, motion.velocity_device_m_per_s,
+                  motion.object_from_device.orientation, motion.object_from_device.scale, dt_s},
                  parameters.curve, parameters.guidance);
 }
 

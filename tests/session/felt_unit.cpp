@@ -9,7 +9,6 @@
 #include "haptics/forces/cutting.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/felt/felt_stroke.hpp"
-#include "tests/haptics/cutting_ball.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {
@@ -112,8 +111,7 @@ TEST(Felt, TheGrooveIsAsDeepAsTheClosedFormOfForceHardnessAndSpeedSays) {
         ASSERT_GT(at.depth_m, 0.0002);
         // The lift of a tool that runs so deep bears the press: H A_nt v = F_n. How deep it lies is read from facets of
         // a seventh of its radius and from a surface that is up to 10 ms old; a quarter of the force is the tolerance.
-        const double lift_N =
-            hardness * 1e6 * haptics::test::engaged_areas(kRadius_m, at.depth_m).lift_m2 * at.speed_m_per_s;
+        const double lift_N = hardness * 1e6 * haptics::engaged_areas(kRadius_m, at.depth_m).lift_m2 * at.speed_m_per_s;
         EXPECT_NEAR(lift_N / at.press_N, 1.0, 0.25) << hardness << ' ' << press_N << ' ' << at.depth_m;
         EXPECT_GT(at.drag_N, 0.0);
         EXPECT_LT(at.drag_N, at.press_N);
@@ -138,8 +136,7 @@ TEST(Felt, PressedOnTheSpotTheToolSinksAsTheClosedFormSays) {
     ASSERT_GT(depth_m, 0.0003);
     double resistance_Ns = 0.0;
     for (int i = 0; i < 1000; ++i)
-        resistance_Ns +=
-            20e6 * haptics::test::engaged_areas(kRadius_m, depth_m * (i + 0.5) / 1000).into_m2 * depth_m / 1000;
+        resistance_Ns += 20e6 * haptics::engaged_areas(kRadius_m, depth_m * (i + 0.5) / 1000).into_m2 * depth_m / 1000;
     EXPECT_NEAR(resistance_Ns / impulse_Ns, 1.0, 0.2) << depth_m;
 }
 
