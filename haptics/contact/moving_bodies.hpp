@@ -39,7 +39,7 @@
 //
 // Frame: object, metres. Turning by w in a tick of T bends the way of the proxy in a body's frame, which is taken as
 // straight, by r (w T)^2 / 8: 1 um at 0.1 m and 10 rad/s. No heap, lock, throw. Cost: nothing where nothing moves; for
-// each moving body some 0.1 us, and a broad phase with a sweep where the proxy's way comes near it. At most
+// each moving body its pose, and a broad phase with a sweep where the proxy's way comes near it. At most
 // PosedSurface::kMostFollowed bodies are followed.
 #pragma once
 
