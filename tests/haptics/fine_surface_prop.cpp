@@ -76,6 +76,36 @@ TEST(FineSurface, ALargeBallCostsNoMoreThanASmallOne) {
     }
 }
 
+// The stride among the vertices grows in ticks whose budget is too small for a look. It once grew without a bound, up to
+// 2^32, which is 0: then no later look came to an end, and the hand was held for good.
+TEST(FineSurface, ABallIsFreeAgainAfterTicksThatWereTooShort) {
+    const BumpySphere shape{.radius_m = 0.05, .bump_m = 0.0005};
+    const test::Surface surface = test::touchable(test::mesh_of(shape, 6));
+    const double radius = 14.0 * surface->mean_edge_m();
+    for (const double budget_ns : {2e3, 5e3, 10e3, 20e3, 333e3}) {
+        const ProxyBudget budget{.max_cost_ns = budget_ns};
+        ProxyState state;
+        int limited = 0;
+        for (int i = 0; i < 400; ++i) {
+            const ProxyResult r = move_proxy(state, hand_at(shape, radius, 40 * i), {radius, true}, *surface, budget);
+            state = r.next;
+            limited += r.work_limited;
+            ASSERT_GE(state.stride, 1u) << budget_ns << " ns, tick " << i;
+        }
+        if (budget_ns <= 5e3) EXPECT_GT(limited, 100) << budget_ns;
+        // Straight away from where the ball is, so that nothing lies between.
+        const Vec3 out = glm::normalize(state.position_object_m);
+        ProxyResult last;
+        for (int i = 1; i <= 100; ++i) {
+            last = move_proxy(state, (0.06 + std::min(0.001 * i, 0.03)) * out + 2.0 * radius * out, {radius, true},
+                              *surface, ProxyBudget{});
+            state = last.next;
+        }
+        EXPECT_EQ(last.constraints, 0u) << budget_ns;
+        EXPECT_FALSE(last.work_limited) << budget_ns;
+    }
+}
+
 TEST(FineSurface, AProxyOnANeedleArrives) {
     geometry::TriangleMesh needle;
     constexpr std::uint32_t kSides = 8;
