@@ -16,12 +16,12 @@
 namespace burin::app {
 namespace {
 
-struct Options {
+struct FrameBench {
     bench::FrameOptions frame;
     std::string scene = "all", peer, ways = "all", json, csv, ratios, pictures;
 };
 
-bench::FrameOptions frame_options(const Options& options) {
+bench::FrameOptions frame_options(const FrameBench& options) {
     bench::FrameOptions wanted = options.frame;
     const bool all = options.scene == "all";
     std::erase_if(wanted.motions,
@@ -34,7 +34,7 @@ bench::FrameOptions frame_options(const Options& options) {
     return wanted;
 }
 
-Result<void> check(const Options& options) {
+Result<void> check(const FrameBench& options) {
     for (const std::string& path : {options.json, options.csv, options.ratios}) {
         if (const auto ok = check_place(path); !ok) return ok;
     }
@@ -73,7 +73,7 @@ Result<void> write_pictures(const bench::FrameReport& report, const std::filesys
     return {};
 }
 
-Result<void> run(const Options& options) {
+Result<void> run_frame_bench(const FrameBench& options) {
     if (const auto ok = check(options); !ok) return ok;
     gpu::leave_a_core_to_touch();  // as a session does, so that the figures are those of a session
     const auto report = bench::run_frames(
@@ -99,7 +99,7 @@ Result<void> run(const Options& options) {
 BenchSubcommand add_bench_frame(Command bench) {
     Command command =
         bench.subcommand("frame", "Stereo frames off screen: their cost, beside OpenSceneGraph's and VTK's");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<FrameBench>();
     command.option("--triangles", options->frame.triangles, "How many the surface has, about")
         .within(std::size_t{1'000}, std::size_t{10'000'000})
         .show_default();
@@ -127,7 +127,7 @@ BenchSubcommand add_bench_frame(Command bench) {
     command.option("--ratios", options->ratios,
                    "A file that the ratios to the peers are added to, for medians of many runs");
     command.option("--json", options->json, "A file for every figure; - for standard output");
-    return {command, [options] { return run(*options); }};
+    return {command, [options] { return run_frame_bench(*options); }};
 }
 
 }  // namespace burin::app

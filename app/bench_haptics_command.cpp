@@ -9,13 +9,13 @@
 namespace burin::app {
 namespace {
 
-struct Options {
+struct HapticsBench {
     bool quick = false;
     std::uint64_t contact_ticks = 0, paced_ticks = 0;  // 0: the default number
     std::string models, csv, svg, json;
 };
 
-bench::HapticsOptions haptics_options(const Options& options) {
+bench::HapticsOptions haptics_options(const HapticsBench& options) {
     bench::HapticsOptions wanted = options.quick ? bench::quick_haptics() : bench::HapticsOptions{};
     if (options.contact_ticks > 0) wanted.contact_ticks = options.contact_ticks;
     if (options.paced_ticks > 0) wanted.paced_ticks = options.paced_ticks;
@@ -23,7 +23,7 @@ bench::HapticsOptions haptics_options(const Options& options) {
     return wanted;
 }
 
-Result<void> run(const Options& options) {
+Result<void> run_haptics_bench(const HapticsBench& options) {
     for (const std::string& path : {options.csv, options.svg, options.json}) {
         if (const auto ok = check_place(path); !ok) return ok;
     }
@@ -44,7 +44,7 @@ Result<void> run(const Options& options) {
 BenchSubcommand add_bench_haptics(Command bench) {
     Command command = bench.subcommand(
         "haptics", "Ticks of the haptic loop: their cost, the proxy's error, lost contact, edits, the force's jumps");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<HapticsBench>();
     command.flag("--quick", options->quick, "Small meshes and few ticks: whether it works, in seconds");
     command.option("--ticks", options->contact_ticks, "How many ticks are looked at for lost contact (1000000)")
         .within(std::uint64_t{1}, std::uint64_t{1'000'000'000});
@@ -57,7 +57,7 @@ BenchSubcommand add_bench_haptics(Command bench) {
     command.option("--csv", options->csv, "A file for the table of ticks; - for standard output");
     command.option("--svg", options->svg, "A file for the figure");
     command.option("--json", options->json, "A file for every figure; - for standard output");
-    return {command, [options] { return run(*options); }};
+    return {command, [options] { return run_haptics_bench(*options); }};
 }
 
 }  // namespace burin::app

@@ -9,12 +9,12 @@
 namespace burin::app {
 namespace {
 
-struct Options {
+struct StabilityBench {
     bool quick = false;
     std::string csv, svg, figure7_svg, json;
 };
 
-Result<void> run(const Options& options) {
+Result<void> run_stability_bench(const StabilityBench& options) {
     for (const std::string& path : {options.csv, options.svg, options.figure7_svg, options.json}) {
         if (const auto ok = check_place(path); !ok) return ok;
     }
@@ -35,13 +35,13 @@ BenchSubcommand add_bench_stability(Command bench) {
     Command command = bench.subcommand(
         "stability",
         "How stiff a wall may be before a simulated device shakes, over rate, delay, filter and controller");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<StabilityBench>();
     command.flag("--quick", options->quick, "A few points of each table");
     command.option("--csv", options->csv, "A file for the figures; - for standard output");
     command.option("--svg", options->svg, "A file for the plots of the largest stable stiffness");
     command.option("--figure7-svg", options->figure7_svg, "A file for the force over time with and without a filter");
     command.option("--json", options->json, "A file for every figure; - for standard output");
-    return {command, [options] { return run(*options); }};
+    return {command, [options] { return run_stability_bench(*options); }};
 }
 
 }  // namespace burin::app

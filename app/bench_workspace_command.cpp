@@ -9,12 +9,12 @@
 namespace burin::app {
 namespace {
 
-struct Options {
+struct WorkspaceBench {
     bench::WorkspaceTask task;
     std::string csv, svg, json;
 };
 
-Result<void> run(const Options& options) {
+Result<void> run_workspace_bench(const WorkspaceBench& options) {
     for (const std::string& path : {options.csv, options.svg, options.json}) {
         if (const auto ok = check_place(path); !ok) return ok;
     }
@@ -36,7 +36,7 @@ Result<void> run(const Options& options) {
 BenchSubcommand add_bench_workspace(Command bench) {
     Command command =
         bench.subcommand("workspace", "Reach across the wall with a small device, by each workspace technique");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<WorkspaceBench>();
     command.option("--targets", options->task.targets, "How many targets each technique reaches for")
         .within(1, 10'000)
         .show_default();
@@ -44,7 +44,7 @@ BenchSubcommand add_bench_workspace(Command bench) {
     command.option("--csv", options->csv, "A file for the table; - for standard output");
     command.option("--svg", options->svg, "A file for the figure");
     command.option("--json", options->json, "A file for the figures of every target; - for standard output");
-    return {command, [options] { return run(*options); }};
+    return {command, [options] { return run_workspace_bench(*options); }};
 }
 
 }  // namespace burin::app

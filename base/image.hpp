@@ -17,6 +17,7 @@ struct ImageSize {
 
     bool operator==(const ImageSize&) const = default;
 };
+[[nodiscard]] constexpr bool is_empty(ImageSize size) { return size.width == 0 || size.height == 0; }
 
 // The eyes whose views are rendered. The pixels of the other view are then undefined.
 enum class Views : std::uint8_t { both, left, right };

@@ -1,7 +1,12 @@
-# What nearly every source reads first is compiled once for all of them (docs/decisions/016-build-time.md). Preset ci
-# does without, so that a source that forgets an include does not go unnoticed.
+# What nearly every source reads first is compiled once for all of them (docs/decisions/016-build-time.md). Where the
+# sources of a room are compiled as one there is little left to gain, and a cache works better without. Preset ci
+# does without too, so that a source that forgets an include does not go unnoticed.
 #   burin_precompile(TARGET [tests])   with GoogleTest, for test programs
-option(BURIN_PRECOMPILE "Compile the common headers once for all sources" ON)
+set(precompile ON)
+if(BURIN_ROOM_BUILDS)
+  set(precompile OFF)
+endif()
+option(BURIN_PRECOMPILE "Compile the common headers once for all sources" ${precompile})
 
 function(burin_precompiled_headers NAME)
   if(NOT BURIN_PRECOMPILE)

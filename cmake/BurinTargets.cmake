@@ -1,11 +1,12 @@
-# burin_folder(NAME MAY_INCLUDE folder... [EXCEPT file...] [LINKS library...])
+# burin_folder(NAME MAY_INCLUDE folder... [EXCEPT file...] [ALONE file...] [LINKS library...])
 # One target a folder: burin_NAME, also burin::NAME, of all sources in the folder and its rooms (subfolders) but those
-# after EXCEPT. MAY_INCLUDE is the layer rule of docs/architecture.md; the folders named there are linked, and the test
+# after EXCEPT; those after ALONE are compiled by themselves in every preset (BurinRooms.cmake). MAY_INCLUDE is the layer rule of docs/architecture.md; the folders named there are linked, and the test
 # house.layers fails on an include of any other.
 function(burin_folder NAME)
-  cmake_parse_arguments(ARG "" "" "EXCEPT;MAY_INCLUDE;LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "EXCEPT;ALONE;MAY_INCLUDE;LINKS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *.cpp)
   list(REMOVE_ITEM sources main.cpp ${ARG_EXCEPT})
+  burin_rooms(sources ${NAME} SOURCES ${sources} ALONE ${ARG_ALONE})
   add_library(burin_${NAME} STATIC ${sources})
   burin_precompile(burin_${NAME})
   add_library(burin::${NAME} ALIAS burin_${NAME})
@@ -27,7 +28,7 @@ endfunction()
 # fuzz is a libFuzzer program (no GoogleTest), built by preset fuzz only; its ctest replays tests/FOLDER/corpus and then
 # mutates it for a fixed number of runs.
 function(burin_test)
-  cmake_parse_arguments(ARG "RUNS_BURIN" "FOLDER;KIND" "SOURCES;FOLDERS;LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "RUNS_BURIN" "FOLDER;KIND" "SOURCES;ALONE;FOLDERS;LINKS" ${ARGN})
   set(target ${ARG_FOLDER}_${ARG_KIND})
   if(ARG_KIND STREQUAL "fuzz")
     burin_fuzzer(${target} ${ARGN})
@@ -39,7 +40,8 @@ function(burin_test)
     list(REMOVE_ITEM ARG_SOURCES ${taken})
   endif()
   set_property(DIRECTORY APPEND PROPERTY BURIN_TAKEN_TESTS ${ARG_SOURCES})
-  add_executable(${target} ${ARG_SOURCES})
+  burin_rooms(sources ${target} SOURCES ${ARG_SOURCES} ALONE ${ARG_ALONE})
+  add_executable(${target} ${sources})
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   target_link_libraries(${target} PRIVATE burin_test_support ${ARG_LINKS})
   burin_precompile(${target} tests)
@@ -52,6 +54,7 @@ function(burin_test)
       MESH_AUDIT="$<TARGET_FILE:mesh_audit>"
       BURIN_SESSIONS="${CMAKE_SOURCE_DIR}/assets/sessions" BURIN_WALLS="${CMAKE_SOURCE_DIR}/assets/walls")
   endif()
+  burin_test_needs(${ARG_FOLDER}.${ARG_KIND} ${target})
   add_test(NAME ${ARG_FOLDER}.${ARG_KIND}
     COMMAND ${target} --gtest_output=xml:${CMAKE_BINARY_DIR}/test-reports/${ARG_FOLDER}.${ARG_KIND}.xml
     WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
@@ -65,6 +68,13 @@ function(burin_test)
   if(ARG_KIND STREQUAL "realtime")
     set_tests_properties(${ARG_FOLDER}.${ARG_KIND} PROPERTIES RUN_SERIAL ON)
   endif()
+endfunction()
+
+# burin_test_needs(TEST target...): what is built before ctest TEST runs. scripts/test --only builds just that, as listed
+# in build/PRESET/test-targets.txt. burin_test calls it; tests that are added otherwise call it themselves.
+function(burin_test_needs TEST)
+  string(REPLACE ";" " " targets "${ARGN}")
+  file(APPEND ${CMAKE_BINARY_DIR}/test-targets.txt "${TEST} ${targets}\n")
 endfunction()
 
 # Called by burin_test for kind fuzz.
@@ -86,6 +96,7 @@ function(burin_fuzzer TARGET)
   if(IS_DIRECTORY ${CMAKE_SOURCE_DIR}/tests/${ARG_FOLDER}/corpus)
     list(APPEND corpus ${CMAKE_SOURCE_DIR}/tests/${ARG_FOLDER}/corpus)
   endif()
+  burin_test_needs(${ARG_FOLDER}.fuzz ${TARGET})
   add_test(NAME ${ARG_FOLDER}.fuzz COMMAND ${TARGET} -seed=1 -runs=100000 -timeout=10 -rss_limit_mb=2048 ${corpus}
     WORKING_DIRECTORY ${CMAKE_BINARY_DIR})
   set_tests_properties(${ARG_FOLDER}.fuzz PROPERTIES LABELS fuzz TIMEOUT ${BURIN_TEST_TIMEOUT_S})

@@ -17,7 +17,7 @@
 namespace burin::wall {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr double kDegreesOfRadian = 180.0 / std::numbers::pi;
 constexpr double kSmallest_m = 0.1, kLargest_m = 30.0;       // a screen's side: from a telephone to a cinema
 constexpr double kOnALine = 0.05;                            // sine of the angle at the corner
 constexpr double kRightAngle = 1e-3;                         // cosine, as can_be_seen() demands: 3 mm over 3 m
@@ -83,7 +83,7 @@ bool check_shape(Problems& problems, const WallSetup& setup, const WallScreen& s
     if (std::abs(cosine) > kRightAngle) {
         problems.error(screen.name,
                        formatted("the angle at its lower left corner is %.2f degrees and not a right one",
-                                 std::atan2(sine, cosine) * kDegrees),
+                                 std::atan2(sine, cosine) * kDegreesOfRadian),
                        "measure it again, or let burin wall calibrate find the best rectangle");
         return false;
     }
@@ -254,7 +254,7 @@ void check_eyes(Problems& problems, const WallSetup& setup) {
     } else if (apart_m > 0.0 && rightwards < 0.5 * apart_m) {
         problems.warning("viewer",
                          formatted("the fallback head's eyes stand %.0f degrees from level on screen %s",
-                                   std::acos(rightwards / apart_m) * kDegrees, screen->name.c_str()),
+                                   std::acos(rightwards / apart_m) * kDegreesOfRadian, screen->name.c_str()),
                          "correct the eyes or the fallback head's orientation");
     }
 }

@@ -12,13 +12,13 @@
 namespace burin::wall {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
 Json list(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 // The angle of a side seen from the eye, whose foot lies at at_m along the side, distance_m away.
 double angle_deg(double at_m, double length_m, double distance_m) {
-    return kDegrees * (std::atan(at_m / distance_m) + std::atan((length_m - at_m) / distance_m));
+    return kDegreesPerRadian * (std::atan(at_m / distance_m) + std::atan((length_m - at_m) / distance_m));
 }
 
 void add_viewing(Json& out, const WallSetup& setup, const Screen& s, const Eyes& eyes, const Vec2& size_m) {
@@ -49,7 +49,7 @@ Json screen_figures(const WallSetup& setup, const WallScreen& screen, const Eyes
     out["pixel_mm"] = {1e3 * size_m.x / screen.pixels[0], 1e3 * size_m.y / screen.pixels[1]};
     out["normal_world"] = list(normal);
     // Angle from upright: a floor leans back by 90 degrees, a ceiling forward.
-    out["tilt_deg"] = kDegrees * std::asin(std::clamp(normal.y, -1.0, 1.0)) + 0.0;  // + 0.0 turns -0 into 0
+    out["tilt_deg"] = kDegreesPerRadian * std::asin(std::clamp(normal.y, -1.0, 1.0)) + 0.0;  // + 0.0 turns -0 into 0
     out["lower_left_world_m"] = list(s.lower_left_world);
     out["lower_right_world_m"] = list(s.lower_right_world);
     out["upper_left_world_m"] = list(s.upper_left_world);

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
+#include "window/window_system.hpp"
 
 namespace burin::window {
 

@@ -9,13 +9,14 @@ namespace burin::plot {
 namespace {
 
 // Lengths in pixels.
-constexpr double kCellWidth = 560, kCellHeight = 270, kLeft = 66, kTop = 44, kWidth = 474, kHeight = 176, kHeader = 44;
+constexpr double kTimeCellWidth = 560, kTimeCellHeight = 270, kLeft = 66, kTimeTop = 44, kWidth = 474, kHeight = 176,
+                 kHeader = 44;
 
-struct Axis {
+struct TimeAxis {
     double lo = 0.0, hi = 0.0, step = 1.0;
 
     // Chooses a round step, about five of them to the axis.
-    static Axis around(double lo, double hi) {
+    static TimeAxis around(double lo, double hi) {
         if (!(hi > lo)) hi = lo + 1.0;
         const double step = round_step((hi - lo) / 5.0);
         return {step * std::floor(lo / step), step * std::ceil(hi / step), step};
@@ -23,19 +24,19 @@ struct Axis {
     [[nodiscard]] double place(double value) const { return (value - lo) / (hi - lo); }
 };
 
-struct Frame {
+struct TimeFrame {
     double left, top;
-    Axis x, y;
+    TimeAxis x, y;
     [[nodiscard]] double at_x(double value) const { return left + kWidth * x.place(value); }
     [[nodiscard]] double at_y(double value) const { return top + kHeight * (1.0 - y.place(value)); }
 };
 
-Axis values_of(const TimePlot& plot) {
+TimeAxis values_of(const TimePlot& plot) {
     double lo = HUGE_VAL, hi = -HUGE_VAL;
     for (const TimeSeries& s : plot.series)
         for (const double v : s.values)
             if (std::isfinite(v)) lo = std::min(lo, v), hi = std::max(hi, v);
-    return lo <= hi ? Axis::around(lo, hi) : Axis::around(0.0, 1.0);
+    return lo <= hi ? TimeAxis::around(lo, hi) : TimeAxis::around(0.0, 1.0);
 }
 
 std::string label(double value, double step) {
@@ -43,7 +44,7 @@ std::string label(double value, double step) {
     return formatted("%.*f", digits, value == 0.0 ? 0.0 : value);
 }
 
-std::string grid(const Frame& f) {
+std::string time_grid(const TimeFrame& f) {
     std::string text;
     for (double v = f.x.lo; v <= f.x.hi + 0.5 * f.x.step; v += f.x.step) {
         const double x = f.at_x(v);
@@ -59,7 +60,7 @@ std::string grid(const Frame& f) {
     return text + rectangle(f.left, f.top, kWidth, kHeight, "none", "#444444");
 }
 
-std::string curve(const TimePlot& plot, const TimeSeries& series, const Frame& f, const char* colour) {
+std::string curve(const TimePlot& plot, const TimeSeries& series, const TimeFrame& f, const char* colour) {
     std::string path;
     bool drawing = false;
     for (std::size_t i = 0; i < std::min(plot.times_s.size(), series.values.size()); ++i) {
@@ -75,7 +76,7 @@ std::string curve(const TimePlot& plot, const TimeSeries& series, const Frame& f
            "\" stroke-width=\"1.1\" stroke-linejoin=\"round\"/>\n";
 }
 
-std::string legend(const TimePlot& plot, const Frame& f) {
+std::string legend(const TimePlot& plot, const TimeFrame& f) {
     std::string text;
     double x = f.left;
     for (std::size_t i = 0; i < plot.series.size(); ++i) {
@@ -89,10 +90,10 @@ std::string legend(const TimePlot& plot, const Frame& f) {
 
 std::string plot_text(const TimePlot& plot, double left, double top) {
     const double end_s = plot.times_s.empty() ? 1.0 : plot.times_s.back();
-    Axis x = Axis::around(plot.times_s.empty() ? 0.0 : plot.times_s.front(), end_s);
+    TimeAxis x = TimeAxis::around(plot.times_s.empty() ? 0.0 : plot.times_s.front(), end_s);
     x.hi = std::min(x.hi, std::max(end_s, x.lo + x.step));
-    const Frame f{left + kLeft, top + kTop, x, values_of(plot)};
-    std::string text = grid(f);
+    const TimeFrame f{left + kLeft, top + kTimeTop, x, values_of(plot)};
+    std::string text = time_grid(f);
     text += write(f.left, f.top - 26, "font-size=\"13\" font-weight=\"bold\"", plot.title);
     text += write_upright(left + 14, f.top + kHeight / 2, plot.y_label);
     text += write(f.left + kWidth / 2, f.top + kHeight + 32, "text-anchor=\"middle\"", "time, s");
@@ -104,12 +105,12 @@ std::string plot_text(const TimePlot& plot, double left, double top) {
 
 std::string time_figure(const std::string& title, const std::vector<TimePlot>& plots, std::size_t columns) {
     const std::size_t rows = (plots.size() + columns - 1) / columns;
-    const double width = kCellWidth * static_cast<double>(columns);
-    const double height = kHeader + kCellHeight * static_cast<double>(rows);
+    const double width = kTimeCellWidth * static_cast<double>(columns);
+    const double height = kHeader + kTimeCellHeight * static_cast<double>(rows);
     std::string text = svg_begin(width, height, title, 28);
     for (std::size_t i = 0; i < plots.size(); ++i) {
-        text += plot_text(plots[i], kCellWidth * static_cast<double>(i % columns),
-                          kHeader + kCellHeight * static_cast<double>(i / columns));
+        text += plot_text(plots[i], kTimeCellWidth * static_cast<double>(i % columns),
+                          kHeader + kTimeCellHeight * static_cast<double>(i / columns));
     }
     return text + "</svg>\n";
 }

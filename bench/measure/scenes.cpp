@@ -12,15 +12,14 @@
 namespace burin::bench {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kPlaces = 1000;
 constexpr double kStrokeRadius_m = 0.06;
 const Vec3 kCubeCentre(0.5);
 
 Vec3 stroke_place(int i) {
     const double t = i / (kPlaces - 1.0);
-    return {0.5 + 0.42 * std::sin(6 * kPi * t), 0.5 + 0.42 * std::sin(4 * kPi * t + 0.6),
-            0.985 + 0.03 * std::sin(10 * kPi * t)};
+    return {0.5 + 0.42 * std::sin(6 * std::numbers::pi * t), 0.5 + 0.42 * std::sin(4 * std::numbers::pi * t + 0.6),
+            0.985 + 0.03 * std::sin(10 * std::numbers::pi * t)};
 }
 
 geometry::TriangleMesh cube_mesh() {
@@ -89,22 +88,22 @@ Result<compute::Solid> uncut_solid(const CarveScene& scene, int resolution, Work
 CarveScene ball_scene() {
     constexpr double r = 0.2, depth = 0.05, cap_height = r - depth;
     const Vec3 center(0.47, 0.52, 1.0 - depth);
-    const double cap = kPi * cap_height * cap_height * (3 * r - cap_height) / 3;
-    return {"ball", {{center, center, r, 0}}, 4.0 / 3.0 * kPi * r * r * r - cap};
+    const double cap = std::numbers::pi * cap_height * cap_height * (3 * r - cap_height) / 3;
+    return {"ball", {{center, center, r, 0}}, 4.0 / 3.0 * std::numbers::pi * r * r * r - cap};
 }
 
 CarveScene capsule_scene() {
     constexpr double r = 0.12;
     const Vec3 from(0.31, 0.27, 1.0), to(0.66, 0.71, 1.0);
     const double length = glm::length(to - from);
-    return {"capsule", {{from, to, r, 0}}, 0.5 * kPi * r * r * (length + 4.0 / 3.0 * r)};
+    return {"capsule", {{from, to, r, 0}}, 0.5 * std::numbers::pi * r * r * (length + 4.0 / 3.0 * r)};
 }
 
 CarveScene cavity_scene() {
     constexpr double r = 0.13;
     const Vec3 from(0.3, 0.35, 0.31), to(0.62, 0.55, 0.7);
     const double length = glm::length(to - from);
-    return {"cavity", {{from, to, r, 0}}, kPi * r * r * (length + 4.0 / 3.0 * r)};
+    return {"cavity", {{from, to, r, 0}}, std::numbers::pi * r * r * (length + 4.0 / 3.0 * r)};
 }
 
 CarveScene stroke_1000_scene() {
@@ -124,7 +123,7 @@ CarveScene stroke_1000_swept_scene() {
 }
 
 CarveScene turned(CarveScene scene) {
-    const Quat turn = glm::angleAxis(kPi / 9.0, glm::normalize(Vec3(1.0, 2.0, 3.0)));
+    const Quat turn = glm::angleAxis(std::numbers::pi / 9.0, glm::normalize(Vec3(1.0, 2.0, 3.0)));
     scene.name += "-turned";
     scene.object_from_scene = {kCubeCentre - turn * kCubeCentre, turn};
     return scene;

@@ -15,7 +15,7 @@ namespace {
 using shared::DexelEnd;
 using shared::kUnitsPerCell;
 
-constexpr double kLargestReach = 1 << 24;  // lattice units, as for balls: 4096 cells
+constexpr double kLargestMeshReach = 1 << 24;  // lattice units, as for balls: 4096 cells
 constexpr double kMostTriangles = 400'000'000;
 
 // The surfaces swept by all moves, as one mesh with a normal code for each triangle.
@@ -253,7 +253,7 @@ Result<MeshTool> prepare_mesh_tool(std::shared_ptr<const geometry::TriangleMesh>
 Result<Extent> extent_of(const MeshTool& tool, double unit_m) {
     const Extent extent{tool.edges->middle_m / unit_m, tool.edges->radius_m / unit_m, false};
     // A vertex far from the tool's origin would lose precision and leave the range of the exact arithmetic.
-    if (std::sqrt(glm::dot(extent.middle, extent.middle)) + extent.radius <= kLargestReach) return extent;
+    if (std::sqrt(glm::dot(extent.middle, extent.middle)) + extent.radius <= kLargestMeshReach) return extent;
     return fail("tool mesh", "is too large for the workpiece, or lies too far from its own origin",
                 "bring it within 4096 lattice cells of its origin");
 }

@@ -10,12 +10,12 @@ namespace burin::compute {
 namespace {
 
 // A part lo <= t <= hi of a segment start + t * along; empty when lo > hi.
-struct Part {
+struct PartInBox {
     double lo = 0.0, hi = 1.0;
 };
 
-Part clip(const Vec3& start, const Vec3& along, const Vec3& lo, const Vec3& hi) {
-    Part part;
+PartInBox clip(const Vec3& start, const Vec3& along, const Vec3& lo, const Vec3& hi) {
+    PartInBox part;
     for (int a = 0; a < 3; ++a) {
         if (along[a] == 0.0) {
             if (start[a] < lo[a] || start[a] > hi[a]) return {1.0, 0.0};
@@ -49,7 +49,7 @@ std::optional<shared::Capsule> capsule_in_units(const Lattice& lattice, const Ba
     const double radius = sweep.radius_m / lattice.unit_m();
     const double reach = radius + shared::kUnitsPerCell;
     const Vec3 size = Vec3(lattice.cells[0], lattice.cells[1], lattice.cells[2]) * double(shared::kUnitsPerCell);
-    const Part part = clip(start, along, Vec3(-reach), size + Vec3(reach));
+    const PartInBox part = clip(start, along, Vec3(-reach), size + Vec3(reach));
     if (part.lo > part.hi) return std::nullopt;
     // An end that was not clipped keeps its exact position.
     const Vec3 end = part.hi < 1.0 ? start + along * part.hi : start + along;

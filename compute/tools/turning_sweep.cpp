@@ -33,14 +33,14 @@ bool turns_about_y(const Quat& from, const Quat& to) {
     return turn.x * turn.x + turn.z * turn.z < 1e-24;
 }
 
-struct Part {
+struct PartNearLattice {
     double lo = 0.0, hi = 1.0;
 };
 
 // Returns the part of a motion in which a ball of radius `reach` about the tool's middle meets the lattice; empty when
 // lo > hi.
-Part near_lattice(const Lattice& lattice, const Vec3& middle, const Vec3& along, double reach) {
-    Part part;
+PartNearLattice near_lattice(const Lattice& lattice, const Vec3& middle, const Vec3& along, double reach) {
+    PartNearLattice part;
     for (int a = 0; a < 3; ++a) {
         const double lo = -reach,
                      hi = lattice.cells[static_cast<std::size_t>(a)] * double(shared::kUnitsPerCell) + reach;
@@ -58,7 +58,7 @@ Part near_lattice(const Lattice& lattice, const Vec3& middle, const Vec3& along,
 void add_move(const Lattice& lattice, const Extent& extent, const Quat& orientation, const Vec3& middle,
               const Vec3& middle_end, std::vector<StraightMove>& moves) {
     const Vec3 along = middle_end - middle;
-    const Part part = near_lattice(lattice, middle, along, extent.radius + shared::kUnitsPerCell);
+    const PartNearLattice part = near_lattice(lattice, middle, along, extent.radius + shared::kUnitsPerCell);
     if (part.lo > part.hi) return;
     const Vec3 start = middle - orientation * extent.middle + along * part.lo;
     moves.push_back({orientation, start, along * (part.hi - part.lo), lattice.object_from_units(start)});
@@ -117,7 +117,7 @@ Result<std::vector<StraightMove>> straight_moves(const Lattice& lattice, const T
     std::vector<StraightMove> moves;
     if (from == to || (extent.turns_on_itself && turns_about_y(from, to))) {
         const Vec3 middle = start + from * extent.middle;
-        const Part part = near_lattice(lattice, middle, end - start, extent.radius + shared::kUnitsPerCell);
+        const PartNearLattice part = near_lattice(lattice, middle, end - start, extent.radius + shared::kUnitsPerCell);
         if (part.lo > part.hi) return moves;
         const Vec3 along = (end - start) * (part.hi - part.lo);
         if (part.lo == 0.0) return std::vector{StraightMove{from, start, along, sweep.start.position_m}};

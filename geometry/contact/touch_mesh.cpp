@@ -13,8 +13,6 @@
 namespace burin::geometry {
 namespace {
 
-constexpr std::uint32_t kNone = TouchSurface::kNone;
-
 // Beyond this distance the squares of areas leave the range of float; no touched object is as large.
 constexpr double kFarthest_m = 1e8;
 
@@ -80,7 +78,7 @@ struct TouchMesh::Parts {
 
 Result<TouchMesh> TouchMesh::create(const TriangleMesh& mesh) {
     if (mesh.triangles.empty()) return fail(kWhere, "there is no triangle", "give a mesh with triangles");
-    if (mesh.triangles.size() >= kNone / 4)
+    if (mesh.triangles.size() >= TouchSurface::kNone / 4)
         return fail(kWhere, std::to_string(mesh.triangles.size()) + " triangles are too many", "part the mesh");
     if (auto ok = check_triangles(mesh.triangles, mesh.positions_m.size()); !ok) return std::unexpected(ok.error());
     if (auto ok = check_positions(mesh.positions_m, Vec3(0.0)); !ok) return std::unexpected(ok.error());

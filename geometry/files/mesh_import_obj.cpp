@@ -15,7 +15,7 @@
 namespace burin::geometry {
 namespace {
 
-constexpr char kComment = '#';
+constexpr char kObjComment = '#';
 constexpr std::size_t kMostLibraries = 64;  // limit for material files; a hostile file could name thousands
 
 // Keywords that do not change the surface's shape or colour.
@@ -104,7 +104,7 @@ private:
     // Returns the next word of the statement. A backslash at the end of a line joins it with the next.
     std::string_view word() {
         for (;;) {
-            std::string_view found = scan_.token_in_line(kComment);
+            std::string_view found = scan_.token_in_line(kObjComment);
             if (!found.ends_with('\\')) return found;
             found.remove_suffix(1);
             scan_.next_line();

@@ -13,7 +13,7 @@
 namespace burin::geometry {
 namespace {
 
-constexpr char kComment = '#';
+constexpr char kOffComment = '#';
 
 class OffReader {
 public:
@@ -28,7 +28,7 @@ public:
         for (std::uint64_t i = 0; i < faces_; ++i) {
             if (auto done = face(); !done) return std::unexpected(done.error());
         }
-        if (!scan_.token(kComment).empty()) soup_.report.remarks.push_back("text after the last face was ignored");
+        if (!scan_.token(kOffComment).empty()) soup_.report.remarks.push_back("text after the last face was ignored");
         if (uncoloured_ > 0) {
             soup_.report.remarks.push_back("the colour map indices of " + std::to_string(uncoloured_) +
                                            " faces were ignored");
@@ -44,7 +44,7 @@ private:
     }
 
     Done header() {
-        std::string_view word = scan_.token(kComment);
+        std::string_view word = scan_.token(kOffComment);
         has_texture_ = take_prefix(word, "st");
         has_colours_ = take_prefix(word, "c");
         has_normals_ = take_prefix(word, "n");
@@ -52,14 +52,14 @@ private:
             return wrong("does not begin with OFF, or with a kind of OFF other than [ST][C][N]OFF",
                          "convert it to PLY");
         }
-        word = scan_.token(kComment);
+        word = scan_.token(kOffComment);
         if (equals_ignoring_case(word, "binary")) return wrong("is a binary OFF file", "convert it to PLY");
         std::array<std::uint64_t, 3> counts{};
         for (auto& count : counts) {
             const auto value = integer_from<std::uint64_t>(word);
             if (!value) return wrong(in_quotes(word) + " stands where a count should");
             count = *value;
-            if (&count != &counts.back()) word = scan_.token(kComment);
+            if (&count != &counts.back()) word = scan_.token(kOffComment);
         }
         vertices_ = counts[0];
         faces_ = counts[1];
@@ -80,7 +80,7 @@ private:
     }
 
     Result<double> number() {
-        const std::string_view word = scan_.token(kComment);
+        const std::string_view word = scan_.token(kOffComment);
         if (word.empty()) return wrong("ends in the middle of its vertices or faces");
         const auto value = number_from(word);
         if (!value) return wrong(in_quotes(word) + " is not a number");
@@ -112,12 +112,12 @@ private:
     }
 
     Done face() {
-        const std::string_view word = scan_.token(kComment);
+        const std::string_view word = scan_.token(kOffComment);
         if (word.empty()) return wrong("ends in the middle of its faces");
         const auto count = integer_from<std::uint32_t>(word);
         if (!count) return wrong(in_quotes(word) + " stands where a face's number of corners should");
         for (std::uint32_t i = 0; i < *count; ++i) {
-            const std::string_view corner = scan_.token(kComment);
+            const std::string_view corner = scan_.token(kOffComment);
             if (corner.empty()) return wrong("ends in the middle of a face of " + std::to_string(*count) + " corners");
             const auto index = integer_from<std::uint32_t>(corner);
             if (!index) return wrong(in_quotes(corner) + " is not a vertex index");
@@ -149,8 +149,8 @@ private:
         std::array<double, 6> values{};
         std::size_t count = 0;
         bool whole = true;
-        for (std::string_view word = scan_.token_in_line(kComment); !word.empty();
-             word = scan_.token_in_line(kComment)) {
+        for (std::string_view word = scan_.token_in_line(kOffComment); !word.empty();
+             word = scan_.token_in_line(kOffComment)) {
             const auto value = number_from(word);
             if (!value || !std::isfinite(*value))
                 return wrong(in_quotes(word) + " stands where a colour should", "repair the file");

@@ -25,14 +25,14 @@ std::vector<std::size_t> first_use_of_vertex(std::span<const VertexTriple> trian
 }
 
 // An edge with an odd number of uses, seen from one of its ends.
-struct Step {
+struct OddStep {
     std::uint32_t from = 0, to = 0;
     std::uint32_t edge = 0;
     bool against = false;  // runs against the mesh's triangle, as the triangles of a filling must
 };
 
-std::vector<Step> odd_steps(std::span<const EdgeUse> uses, std::uint32_t& edges) {
-    std::vector<Step> steps;
+std::vector<OddStep> odd_steps(std::span<const EdgeUse> uses, std::uint32_t& edges) {
+    std::vector<OddStep> steps;
     for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
         if (edge.size() % 2 == 0) return;
         const std::uint32_t lo = lower_vertex(edge[0].key), hi = higher_vertex(edge[0].key);
@@ -42,7 +42,7 @@ std::vector<Step> odd_steps(std::span<const EdgeUse> uses, std::uint32_t& edges)
         ++edges;
     });
     // Sorts steps of the right direction first, so that a walk prefers them where several loops meet.
-    std::ranges::sort(steps, [](const Step& a, const Step& b) {
+    std::ranges::sort(steps, [](const OddStep& a, const OddStep& b) {
         return std::tuple(a.from, !a.against, a.to) < std::tuple(b.from, !b.against, b.to);
     });
     return steps;
@@ -54,9 +54,9 @@ public:
     explicit Walker(std::span<const EdgeUse> uses) : steps_(odd_steps(uses, edges_)) {
         used_.resize(edges_);
         std::uint32_t vertices = 0;
-        for (const Step& s : steps_) vertices = std::max(vertices, s.from + 1);
+        for (const OddStep& s : steps_) vertices = std::max(vertices, s.from + 1);
         first_.assign(vertices + 1, 0);
-        for (const Step& s : steps_) ++first_[s.from + 1];
+        for (const OddStep& s : steps_) ++first_[s.from + 1];
         for (std::size_t v = 0; v < vertices; ++v) first_[v + 1] += first_[v];
         next_.assign(first_.begin(), first_.end());
         place_.assign(vertices, kNowhere);
@@ -77,10 +77,10 @@ private:
     // Walks until no unused edge is left. Every vertex has an even number of odd edges, so the walk ends where it
     // began.
     void walk_from(std::uint32_t start) {
-        std::vector<Step> path;
+        std::vector<OddStep> path;
         std::uint32_t at = start;
         place_[at] = 0;
-        for (const Step* step = unused_step(at); step != nullptr; step = unused_step(at)) {
+        for (const OddStep* step = unused_step(at); step != nullptr; step = unused_step(at)) {
             used_[step->edge] = true;
             path.push_back(*step);
             at = step->to;
@@ -93,13 +93,13 @@ private:
         place_[start] = kNowhere;
     }
 
-    const Step* unused_step(std::uint32_t vertex) {
+    const OddStep* unused_step(std::uint32_t vertex) {
         std::uint32_t& next = next_[vertex];
         while (next < first_[vertex + 1] && used_[steps_[next].edge]) ++next;
         return next < first_[vertex + 1] ? &steps_[next] : nullptr;
     }
 
-    void cut_loop(std::vector<Step>& path, std::uint32_t since) {
+    void cut_loop(std::vector<OddStep>& path, std::uint32_t since) {
         HoleLoop loop;
         std::ptrdiff_t votes = 0;
         for (std::size_t i = since; i < path.size(); ++i) {
@@ -113,7 +113,7 @@ private:
     }
 
     std::uint32_t edges_ = 0;
-    std::vector<Step> steps_;
+    std::vector<OddStep> steps_;
     std::vector<bool> used_;
     // Where each vertex's steps begin, and the first that may be unused.
     std::vector<std::uint32_t> first_, next_;

@@ -17,8 +17,6 @@ constexpr int kParts = 6;
 // body, give or take kTouch, is still outside it: what overlaps is not held back.
 constexpr double kSlimmer = 2.0 * kTouch;
 
-double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
-
 Vec3 in_frame(const Pose& pose, const Vec3& p) { return glm::conjugate(pose.orientation) * (p - pose.position_m); }
 
 // Whether the way of a ball comes near the bounding box of the mesh.
@@ -75,7 +73,7 @@ public:
 private:
     [[nodiscard]] bool is_near_expected(std::uint32_t mesh) const {
         const Vec3 now = bodies_.carried(mesh, state_.position_object_m);
-        return length(bodies_.unexplained(mesh, now)) <= elsewhere_;
+        return glm::length(bodies_.unexplained(mesh, now)) <= elsewhere_;
     }
 
     // Sweeps the ball to `at`, and shortens the way where it touches. Returns whether it did.

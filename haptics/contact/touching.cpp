@@ -19,8 +19,8 @@ constexpr double kFirstLookOfRadius = 2.0, kFirstLookOfEdge = 8.0;
 // Where the tick's work does not suffice the ball touches vertices of surfaces with edges longer by this factor, at
 // each try: after five of them up to 0.43 of the radius, where it sinks in by 3 % at most.
 constexpr double kCoarser = 1.2;
-// Greatest stride among the vertices. Beyond it a look skips whole patches of a mesh without costing less; unbounded, it
-// would overflow to 0 after some ticks without enough budget, and a look with stride 0 never comes to an end.
+// Greatest stride among the vertices. Beyond it a look skips whole patches of a mesh without costing less. Unbounded,
+// it would overflow to 0 after some ticks without enough budget, and a look with stride 0 never comes to an end.
 constexpr std::uint32_t kMostStride = 1024;
 
 // Whether the ball around the triangle's bounding box is farther than `reach` from the whole segment: a cheap test

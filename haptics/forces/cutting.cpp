@@ -8,8 +8,6 @@
 namespace burin::haptics {
 namespace {
 
-double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
-
 // Bisection steps: enough for every digit of a double.
 constexpr int kHalvings = 54;
 
@@ -48,8 +46,8 @@ private:
 Vec3 carried_over(const CuttingState& state, const CuttingInput& in) {
     if (!state.engaged) return in.proxy_object_m;
     const Vec3 lag = state.point_object_m - in.hip_object_m;
-    const double most = length(in.proxy_object_m - in.hip_object_m) + in.slack_m;
-    const double lag_m = length(lag);
+    const double most = glm::length(in.proxy_object_m - in.hip_object_m) + in.slack_m;
+    const double lag_m = glm::length(lag);
     return lag_m > most ? in.hip_object_m + lag * (most / lag_m) : state.point_object_m;
 }
 
@@ -97,7 +95,7 @@ CuttingStep cut(const CuttingState& state, const CuttingInput& in, const TouchMa
     const double depth_m = std::max(0.0, state.known.depth_m + ahead_m);
     const double pull = in.stiffness_N_per_m * in.scale * in.scale * in.dt_s;
 
-    const double way_across_m = length(way_across);
+    const double way_across_m = glm::length(way_across);
     const Advance advance{hardness, pull, in.tool_radius_m, depth_m, way_in_m, way_across_m};
     const Advance::Step done = hardness > 0.0 ? advance.step() : Advance::Step{way_in_m, way_across_m};
     const Vec3 sideways = way_across_m > 0.0 ? way_across * (done.across_m / way_across_m) : Vec3(0.0);
@@ -107,19 +105,19 @@ CuttingStep cut(const CuttingState& state, const CuttingInput& in, const TouchMa
     step.engaged_depth_m = depth_m + done.in_m;
     const EngagedAreas areas = engaged_areas(in.tool_radius_m, step.engaged_depth_m);
     step.engaged_area_m2 = areas.into_m2 / (in.scale * in.scale);
-    step.cut_speed_m_per_s = length(done.in_m * into + sideways) / (in.scale * in.dt_s);
+    step.cut_speed_m_per_s = glm::length(done.in_m * into + sideways) / (in.scale * in.dt_s);
     step.drag_device_N = drag(in, material, step.engaged_area_m2);
     return step;
 }
 
 LookedAt look_at(const CuttingState& state, const CuttingInput& in, const geometry::LocalSurface& surface) noexcept {
-    const double moved_m = length(in.proxy_object_m - state.looked_at_object_m);
+    const double moved_m = glm::length(in.proxy_object_m - state.looked_at_object_m);
     if (state.surface_sequence == surface.sequence && moved_m <= 0.1 * in.tool_radius_m) return {state, 0};
     // Direction in which the tool is driven sideways; its length is the sideways share of the drive.
     const Vec3 way = in.hip_object_m - carried_over(state, in);
     const Vec3 into = into_material(state, in);
     const Vec3 across = way - glm::dot(way, into) * into;
-    const double way_m = length(way);
+    const double way_m = glm::length(way);
     const EngagementLook look =
         engagement(surface, in.proxy_object_m, in.tool_radius_m, way_m > 0.0 ? across / way_m : Vec3(0.0));
     LookedAt looked{state, look.triangles_seen};

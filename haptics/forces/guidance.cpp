@@ -11,8 +11,6 @@ constexpr double kFullUpTo = 0.75;   // of the reach
 constexpr double kKeepsFor = 0.1;    // of the reach; how much nearer another stretch must be to take over
 constexpr double kLeadsUpTo = 0.25;  // of the reach; the lead speed falls to zero at twice that
 
-double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
-
 // A point of the curve with its arc length and its distance from the tool.
 struct Foot {
     Vec3 at{0.0};
@@ -39,7 +37,7 @@ public:
             const Foot foot = foot_on(i, begin_m);
             if (foot.distance_m < feet.nearest.distance_m) feet.nearest = foot;
             if (along_m >= begin_m) home = i, home_m = begin_m;
-            begin_m += length(point(i + 1) - point(i));
+            begin_m += glm::length(point(i + 1) - point(i));
         }
         feet.kept = walk(walk(foot_on(home, home_m), home, home_m, true), home, home_m, false);
         return feet;
@@ -50,7 +48,7 @@ public:
         double begin_m = 0.0;
         for (std::uint32_t i = 0; i < segments(); ++i) {
             const Vec3 edge = point(i + 1) - point(i);
-            const double l = length(edge);
+            const double l = glm::length(edge);
             if (along_m <= begin_m + l || i + 1 == segments()) {
                 const double t = l > 0.0 ? std::clamp((along_m - begin_m) / l, 0.0, 1.0) : 0.0;
                 return foot_at(i, begin_m, t);
@@ -66,12 +64,12 @@ private:
 
     [[nodiscard]] Foot foot_at(std::uint32_t i, double begin_m, double t) const {
         const Vec3 edge = point(i + 1) - point(i);
-        const double l = length(edge);
+        const double l = glm::length(edge);
         Foot foot;
         foot.at = point(i) + t * edge;
         if (l > 0.0) foot.tangent = edge / l;
         foot.along_m = begin_m + t * l;
-        foot.distance_m = length(foot.at - hip_);
+        foot.distance_m = glm::length(foot.at - hip_);
         return foot;
     }
     [[nodiscard]] Foot foot_on(std::uint32_t i, double begin_m) const {
@@ -83,9 +81,9 @@ private:
     // Moves from segment to segment as long as the next one is no farther.
     [[nodiscard]] Foot walk(Foot foot, std::uint32_t i, double begin_m, bool forwards) const {
         while (forwards ? i + 1 < segments() : i > 0) {
-            if (forwards) begin_m += length(point(i + 1) - point(i));
+            if (forwards) begin_m += glm::length(point(i + 1) - point(i));
             i += forwards ? 1u : -1u;
-            if (!forwards) begin_m -= length(point(i + 1) - point(i));
+            if (!forwards) begin_m -= glm::length(point(i + 1) - point(i));
             const Foot next = foot_on(i, begin_m);
             if (!(next.distance_m <= foot.distance_m)) break;
             foot = next;
@@ -117,7 +115,7 @@ double fade(double distance_m, double reach_m) {
 }
 
 Vec3 at_most(const Vec3& v, double most) {
-    const double l = length(v);
+    const double l = glm::length(v);
     return l > most ? v * (most / l) : v;
 }
 

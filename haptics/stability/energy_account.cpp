@@ -15,7 +15,6 @@ constexpr std::uint32_t kCommands = EnergyAccount::kCommands;
 // Wrenches below this move no device; a filtered force never decays to zero altogether.
 constexpr double kNoForce_N = 0.001, kNoTorque_Nm = 0.0001;
 
-double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 double sum_of_axes(const Vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
 // Dissipation and limits of one kind of motion: translation or rotation.
@@ -73,13 +72,13 @@ Way follow(Path& path, const Vec3& position, Nanoseconds time_ns, double step) {
     const double half = 0.5 * std::sqrt(3.0) * step;  // half a step along each axis
     Way way;
     const Vec3 away = position - path.play;
-    const double distance = length(away);
+    const double distance = glm::length(away);
     if (distance > half) {
         way.shortest = distance - half;
         path.play += away * (way.shortest / distance);
     }
     const Vec3 moved = position - path.anchor;
-    const double far = length(moved) - 2.0 * half;
+    const double far = glm::length(moved) - 2.0 * half;
     constexpr Nanoseconds kLongest_ns = 16'000'000;
     const Nanoseconds elapsed = time_ns - path.anchor_ns;
     if (elapsed > 0 && (far >= 3.0 * step || elapsed >= kLongest_ns)) {
@@ -106,7 +105,7 @@ double uncertain_J(const Vec3& change, double way, double since_s, double until_
     const double mean = way / (since_s + until_s);
     const double off = std::min(std::max(0.0, r.speed - mean) * std::max(since_s, until_s),
                                 (r.speed + mean) * std::min(since_s, until_s));
-    return sum_of_axes(change) * 0.5 * r.step + length(change) * off;
+    return sum_of_axes(change) * 0.5 * r.step + glm::length(change) * off;
 }
 
 // ---- What a wrench may cost
@@ -154,8 +153,8 @@ bool wrenches_are_gone(const EnergyAccount& account, const PromiseLimits& promis
     const Nanoseconds later = account.time_ns + delay_ns(promise, device) + 1;
     over_pieces(account, promise, device, account.time_ns, later, account.time_ns,
                 [&](Nanoseconds, Nanoseconds, const DeviceWrench& acting, const DeviceWrench*) {
-                    gone = gone && length(acting.force_device_N) <= kNoForce_N &&
-                           length(acting.torque_device_Nm) <= kNoTorque_Nm;
+                    gone = gone && glm::length(acting.force_device_N) <= kNoForce_N &&
+                           glm::length(acting.torque_device_Nm) <= kNoTorque_Nm;
                 });
     return gone;
 }
@@ -171,7 +170,7 @@ AccountStep count_energy(const EnergyAccount& account, const AccountInput& in, c
     const Nanoseconds gap_ns = in.time_ns - account.time_ns;
     const bool follows = in.known && gap_ns > 0;
     const Vec3 moved = in.position_device_m - account.moved.at;
-    const double way = length(moved), gap_s = seconds(gap_ns);
+    const double way = glm::length(moved), gap_s = seconds(gap_ns);
     if (follows) step.dissipated_J = device.friction_N * way + device.damping_Ns_per_m * way * way / gap_s;
     if (!follows || !account.counting) {
         next.budget_J = 0.0;
@@ -195,7 +194,7 @@ AccountStep count_energy(const EnergyAccount& account, const AccountInput& in, c
                     const double since_s = seconds(from - account.time_ns), until_s = seconds(in.time_ns - from);
                     charge_J += uncertain_J(acting.force_device_N - before->force_device_N, way, since_s, until_s, t);
                     if (in.turns)
-                        charge_J += uncertain_J(acting.torque_device_Nm - before->torque_device_Nm, length(turned),
+                        charge_J += uncertain_J(acting.torque_device_Nm - before->torque_device_Nm, glm::length(turned),
                                                 since_s, until_s, r);
                 });
     const Way went = follow(next.moved, in.position_device_m, in.time_ns, t.step);
@@ -227,8 +226,8 @@ Affordable affordable(const EnergyAccount& account, const DeviceWrench& wrench, 
     over_pieces(account, promise, device, account.time_ns, begins + 1, now_ns,
                 [&](Nanoseconds from, Nanoseconds to, const DeviceWrench& acting, const DeviceWrench*) {
                     const double time_s = seconds(std::min(to, begins) - from);
-                    under_way_J += loss_J(length(acting.force_device_N), time_s, t);
-                    if (may_turn) turning_J += loss_J(length(acting.torque_device_Nm), time_s, r);
+                    under_way_J += loss_J(glm::length(acting.force_device_N), time_s, t);
+                    if (may_turn) turning_J += loss_J(glm::length(acting.torque_device_Nm), time_s, r);
                     if (from == account.time_ns)
                         uncertain = 0.5 * (sum_of_axes(acting.force_device_N) * t.step +
                                            sum_of_axes(acting.torque_device_Nm) * r.step);
@@ -240,9 +239,9 @@ Affordable affordable(const EnergyAccount& account, const DeviceWrench& wrench, 
     // force from alternating between what is under way and what is left.
     Affordable most;
     most.force_N = std::min(most_force(budget_J, hold_s + wait_s, t), most_force(budget_J - under_way_J, hold_s, t));
-    const double force = length(wrench.force_device_N);
+    const double force = glm::length(wrench.force_device_N);
     if (turns) {
-        const double torque = length(wrench.torque_device_Nm);
+        const double torque = glm::length(wrench.torque_device_Nm);
         most.share = std::min({1.0, most_share(budget_J, hold_s + wait_s, force, t, torque, r),
                                most_share(budget_J - under_way_J, hold_s, force, t, torque, r)});
     } else if (force > most.force_N) {
@@ -250,7 +249,7 @@ Affordable affordable(const EnergyAccount& account, const DeviceWrench& wrench, 
     }
     if (may_turn) {
         if (!turns) under_way_J += turning_J;
-        const double held = length(account.commands[account.newest].wrench.force_device_N);
+        const double held = glm::length(account.commands[account.newest].wrench.force_device_N);
         const double beside = std::min(most.force_N, std::max(most.share * force, held));
         most.torque_Nm = std::min(most_force(budget_J - loss_J(beside, hold_s + wait_s, t), hold_s + wait_s, r),
                                   most_force(budget_J - under_way_J - loss_J(beside, hold_s, t), hold_s, r));

@@ -11,8 +11,6 @@ namespace {
 // the limit.
 constexpr double kGiven = 0.99;
 
-double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
-
 PromiseLimits promise_of(const PassivitySettings& settings, double dt_s) {
     return {settings.contact_speed_m_per_s, settings.turn_speed_rad_per_s, settings.lost_ticks, dt_s};
 }
@@ -31,7 +29,7 @@ double held_J(const PassivityInput& in, double wanted_N) {
 
 Vec3 honest_velocity(const PassivityInput& in, const PassivitySettings& settings) {
     const Vec3& v = in.surface_velocity_device_m_per_s;
-    const double speed = length(v);
+    const double speed = glm::length(v);
     return speed > settings.surface_speed_m_per_s ? v * (settings.surface_speed_m_per_s / speed) : v;
 }
 
@@ -96,7 +94,7 @@ PassivityStep keep_passive(const PassivityState& state, const PassivityInput& in
     PassivityStep step;
     step.next = state;
     step.wrench = in.wanted;
-    const double wanted_N = length(in.wanted.force_device_N);
+    const double wanted_N = glm::length(in.wanted.force_device_N);
     count(step.next, state, in, wanted_N, settings, device, dt_s);
     step.record.energy_J = step.next.energy_J;
     step.record.budget_J = step.next.account.budget_J;
@@ -106,7 +104,7 @@ PassivityStep keep_passive(const PassivityState& state, const PassivityInput& in
     if (settings.control && step.next.reserve_J < 0.0 && wanted_N > 0.0)
         take_back(step, state, in, wanted_N, settings, device, dt_s);
     // What the account does not afford counts as faded out.
-    const double asked_N = length(step.wrench.force_device_N);
+    const double asked_N = glm::length(step.wrench.force_device_N);
     step.next.asked_N = in.max_force_N > 0.0 ? std::min(asked_N, in.max_force_N) : asked_N;
     if (settings.control && can_promise(device)) {
         if (!step.next.account.counting) step.wrench = {};  // a filter's tail, too small to be counted
@@ -125,7 +123,7 @@ PassivityStep keep_passive(const PassivityState& state, const PassivityInput& in
 
 void set_commanded_wrench(PassivityState& state, const devices::DeviceWrench& wrench, Nanoseconds now_ns) noexcept {
     remember(state.account, wrench, now_ns);
-    if (length(wrench.force_device_N) < kGiven * state.asked_N)
+    if (glm::length(wrench.force_device_N) < kGiven * state.asked_N)
         state.faded_ticks = 1 + state.delay_ticks;
     else if (state.faded_ticks > 0)
         --state.faded_ticks;

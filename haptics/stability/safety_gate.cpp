@@ -9,8 +9,6 @@
 namespace burin::haptics {
 namespace {
 
-double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
-
 bool sensible(const GateLimits& limits) {
     return not_negative(limits.max_force_N) && not_negative(limits.max_slew_N_per_s) && not_negative(limits.ramp_s) &&
            not_negative(limits.recovery_s) && not_negative(limits.max_speed_m_per_s) &&
@@ -33,8 +31,8 @@ double left_after(double gap_s, const GateLimits& limits, double dt_s) {
 
 GateCause find_cause(const GateState& state, const GateInput& in, const GateLimits& limits, double dt_s) {
     if (in.device_fault != devices::DeviceFault::none) return GateCause::device_fault;
-    if (!in.sample_finite || !std::isfinite(length(in.wanted.force_device_N)) ||
-        !std::isfinite(length(in.wanted.torque_device_Nm)) || !finite(in.velocity_device_m_per_s) ||
+    if (!in.sample_finite || !std::isfinite(glm::length(in.wanted.force_device_N)) ||
+        !std::isfinite(glm::length(in.wanted.torque_device_Nm)) || !finite(in.velocity_device_m_per_s) ||
         !std::isfinite(in.sample_age_s) || !std::isfinite(in.loop_gap_s) || !not_negative(in.device_max_force_N) ||
         !not_negative(in.device_axis_max_force_N) || !not_negative(in.device_max_torque_Nm) ||
         !(in.most_torque_Nm >= 0.0))
@@ -43,7 +41,7 @@ GateCause find_cause(const GateState& state, const GateInput& in, const GateLimi
     if (in.sample_age_s > limits.max_sample_age_s) return GateCause::stale_sample;
     const bool held = state.given.force_device_N != Vec3(0.0) || state.given.torque_device_Nm != Vec3(0.0);
     if (held && in.loop_gap_s > longest_gap_s(limits, dt_s)) return GateCause::lost_loop;
-    if (length(in.velocity_device_m_per_s) > limits.max_speed_m_per_s) return GateCause::overspeed;
+    if (glm::length(in.velocity_device_m_per_s) > limits.max_speed_m_per_s) return GateCause::overspeed;
     if (in.in_contact && in.surface_stale) return GateCause::stale_surface;
     if (in.in_contact && in.outside_known) return GateCause::outside_known;
     return GateCause::none;
@@ -51,7 +49,7 @@ GateCause find_cause(const GateState& state, const GateInput& in, const GateLimi
 
 // Scales a vector to at most the length `most`, less a rounding margin.
 Vec3 shortened(const Vec3& v, double most, bool& cut) {
-    const double l = length(v);
+    const double l = glm::length(v);
     if (l <= most) return v;
     cut = true;
     return v * (most * (1.0 - 1e-15) / l);

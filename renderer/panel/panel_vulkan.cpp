@@ -11,7 +11,7 @@ namespace {
 
 using gpu::structure;
 
-constexpr const char* kWhere = "panel";
+constexpr const char* kWherePanelVulkan = "panel";
 
 void move_layout(gpu::Device& device, gpu::Commands& commands, VkImage image, VkImageLayout from, VkImageLayout to) {
     auto barrier = structure<VkImageMemoryBarrier>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER);
@@ -61,7 +61,7 @@ Result<gpu::SamplerHandle> create_linear_sampler(gpu::Device& device) {
     const auto& core = device.core();
     VkSampler sampler = VK_NULL_HANDLE;
     if (const VkResult r = core->vk.vkCreateSampler(core->device, &info, nullptr, &sampler); r != VK_SUCCESS) {
-        return gpu::vulkan_failure(kWhere, "no sampler", r);
+        return gpu::vulkan_failure(kWherePanelVulkan, "no sampler", r);
     }
     return gpu::SamplerHandle(core, sampler);
 }
@@ -76,7 +76,7 @@ Result<gpu::SetLayoutHandle> create_picture_set_layout(gpu::Device& device) {
     VkDescriptorSetLayout layout = VK_NULL_HANDLE;
     if (const VkResult r = core->vk.vkCreateDescriptorSetLayout(core->device, &info, nullptr, &layout);
         r != VK_SUCCESS) {
-        return gpu::vulkan_failure(kWhere, "no descriptor set layout", r);
+        return gpu::vulkan_failure(kWherePanelVulkan, "no descriptor set layout", r);
     }
     return gpu::SetLayoutHandle(core, layout);
 }
@@ -93,7 +93,7 @@ Result<gpu::PipelineLayoutHandle> create_push_layout(gpu::Device& device,
     const auto& core = device.core();
     VkPipelineLayout layout = VK_NULL_HANDLE;
     if (const VkResult r = core->vk.vkCreatePipelineLayout(core->device, &info, nullptr, &layout); r != VK_SUCCESS) {
-        return gpu::vulkan_failure(kWhere, "no pipeline layout", r);
+        return gpu::vulkan_failure(kWherePanelVulkan, "no pipeline layout", r);
     }
     return gpu::PipelineLayoutHandle(core, layout);
 }
@@ -108,7 +108,7 @@ Result<PictureSet> create_picture_set(gpu::Device& device, const gpu::SetLayoutH
     pool_info.pPoolSizes = &size;
     VkDescriptorPool pool = VK_NULL_HANDLE;
     if (const VkResult r = core->vk.vkCreateDescriptorPool(core->device, &pool_info, nullptr, &pool); r != VK_SUCCESS) {
-        return gpu::vulkan_failure(kWhere, "no descriptor pool", r);
+        return gpu::vulkan_failure(kWherePanelVulkan, "no descriptor pool", r);
     }
     PictureSet made{gpu::DescriptorPoolHandle(core, pool), VK_NULL_HANDLE};
     auto info = structure<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
@@ -116,7 +116,7 @@ Result<PictureSet> create_picture_set(gpu::Device& device, const gpu::SetLayoutH
     info.descriptorSetCount = 1;
     info.pSetLayouts = set_layout.pointer();
     if (const VkResult r = core->vk.vkAllocateDescriptorSets(core->device, &info, &made.set); r != VK_SUCCESS) {
-        return gpu::vulkan_failure(kWhere, "no descriptor set", r);
+        return gpu::vulkan_failure(kWherePanelVulkan, "no descriptor set", r);
     }
     const VkDescriptorImageInfo picture{sampler.raw(), view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
     auto write = structure<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);

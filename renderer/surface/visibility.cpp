@@ -15,7 +15,7 @@ constexpr double kPad_px = 1.0;
 // Share of the screen's distance: a box nearer than this to the plane of an eye counts as bent without further tests.
 constexpr double kNearest = 0.02;
 
-Vec3 place(const shared::SurfaceVertex& v) { return {v.x, v.y, v.z}; }
+Vec3 position_of(const shared::SurfaceVertex& v) { return {v.x, v.y, v.z}; }
 
 // Returns whether the segment from the eye to p meets the box, by the slabs of the three axes.
 bool meets(const Vec3& eye, const Vec3& p, const Box& box) {
@@ -68,14 +68,14 @@ FadedEdges faded_edges(const Scene& scene, const EyeFrustum& middle) {
 
 PatchShape shape_of(std::span<const shared::SurfaceVertex> vertices, std::span<const std::uint32_t> indices) {
     PatchShape shape;
-    for (const shared::SurfaceVertex& v : vertices) shape.bounds.include(place(v));
+    for (const shared::SurfaceVertex& v : vertices) shape.bounds.include(position_of(v));
     shape.center = shape.bounds.center();
     shape.radius_m = 0.5 * glm::length(shape.bounds.extent());
     Vec3 sum(0.0);
     double edges_squared = 0.0;
     const auto normal_of = [&](std::size_t i) {
-        const Vec3 a = place(vertices[indices[i]]), b = place(vertices[indices[i + 1]]),
-                   c = place(vertices[indices[i + 2]]);
+        const Vec3 a = position_of(vertices[indices[i]]), b = position_of(vertices[indices[i + 1]]),
+                   c = position_of(vertices[indices[i + 2]]);
         edges_squared += glm::dot(b - a, b - a) + glm::dot(c - b, c - b) + glm::dot(a - c, a - c);
         return glm::cross(b - a, c - a);
     };

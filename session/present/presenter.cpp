@@ -48,8 +48,6 @@ bool is_of_main_alone(const Input& input) {
            std::holds_alternative<WindowFocus>(input);
 }
 
-bool is_empty(ImageSize size) { return size.width == 0 || size.height == 0; }
-
 // Positions desktop windows side by side, in rows as wide as the main monitor.
 class Rows {
 public:

@@ -8,8 +8,6 @@
 namespace burin::session {
 namespace {
 
-bool is_empty(ImageSize size) { return size.width == 0 || size.height == 0; }
-
 bool same_place(const wall::OutputPlace& a, const wall::OutputPlace& b, const wall::OutputSettings& settings) {
     if (a.size != b.size) return false;
     return !wall::needs_of(settings.mode).monitor_pixels || (a.monitor_x == b.monitor_x && a.monitor_y == b.monitor_y);

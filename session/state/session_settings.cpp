@@ -76,21 +76,21 @@ bool read(const std::string& text, std::optional<T>& value) {
     return read(text, value.emplace());
 }
 
-using Words = std::map<std::string, std::string>;
+using OptionWords = std::map<std::string, std::string>;
 
 // Returns the values of all options that are present, by option.
-Words words_behind(const SculptOptions& options) {
-    Words words;
+OptionWords words_behind(const SculptOptions& options) {
+    OptionWords words;
     visit_settings(options, [&](const char* name, const auto& value) {
         if (const auto behind = text(value)) words.emplace(name, *behind);
     });
     return words;
 }
 
-Result<Words> words_on(const std::string& line) {
+Result<OptionWords> words_on(const std::string& line) {
     Result<std::vector<std::string>> all = words_of(line, "the recording's first line");
     if (!all) return std::unexpected(all.error());
-    Words words;
+    OptionWords words;
     std::string option;
     for (const std::string& word : *all) {
         if (word.starts_with("--")) {
@@ -103,7 +103,7 @@ Result<Words> words_on(const std::string& line) {
     return words;
 }
 
-std::string shown(const std::string& name, const Words& words) {
+std::string shown(const std::string& name, const OptionWords& words) {
     const auto found = words.find(name);
     if (found == words.end()) return "no " + name;
     return found->second.empty() ? name : name + " " + as_word(found->second);
@@ -125,10 +125,10 @@ std::string settings_line(const SculptOptions& options) {
 Result<RecordedOptions> options_as_recorded(const std::string& line, const SculptOptions& given) {
     RecordedOptions recorded{given, {}};
     if (!line.starts_with(std::string(kCommand) + " --")) return recorded;  // recorded without options
-    Result<Words> words = words_on(line);
+    Result<OptionWords> words = words_on(line);
     if (!words) return std::unexpected(words.error());
     const SculptOptions defaults;
-    const Words given_words = words_behind(given), left_out = words_behind(defaults);
+    const OptionWords given_words = words_behind(given), left_out = words_behind(defaults);
     std::string wrong;
     visit_settings(recorded.options, [&]<typename T>(const std::string& name, T& value) {
         const std::string now = shown(name, given_words), then = shown(name, *words);

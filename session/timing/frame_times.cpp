@@ -11,7 +11,7 @@
 namespace burin::session {
 namespace {
 
-constexpr std::array<std::string_view, kFrameFigures> kNames = {
+constexpr std::array<std::string_view, kFrameFigures> kFigureNames = {
     "head age", "motion to photon", "tool age", "touch before sight", "carve age", "frame time", "draw time"};
 
 // Published limits of perception, for each figure from strict to lax; the last one that is exceeded is reported.
@@ -65,7 +65,7 @@ std::string line_of(const Limit& limit, Nanoseconds p95_ns) {
 
 }  // namespace
 
-std::string_view name_of(FrameFigure figure) { return kNames.at(static_cast<std::size_t>(figure)); }
+std::string_view name_of(FrameFigure figure) { return kFigureNames.at(static_cast<std::size_t>(figure)); }
 
 FrameAges ages_of(const FrameTimes& frame, const FrameTimes* before, const LatencySettings& settings) {
     FrameAges ages;

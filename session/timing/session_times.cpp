@@ -9,11 +9,11 @@
 namespace burin::session {
 namespace {
 
-constexpr std::array<std::string_view, kFrameStages> kNames = {"wait", "input", "step", "record", "show", "draw"};
+constexpr std::array<std::string_view, kFrameStages> kStageNames = {"wait", "input", "step", "record", "show", "draw"};
 
 }  // namespace
 
-std::string_view name_of(FrameStage stage) { return kNames.at(static_cast<std::size_t>(stage)); }
+std::string_view name_of(FrameStage stage) { return kStageNames.at(static_cast<std::size_t>(stage)); }
 
 Nanoseconds begins_to_show_ns(Nanoseconds handed_ns, const DisplayBeat& beat) {
     if (!beat.vblank_ns || beat.period_ns <= 0) return handed_ns + beat.period_ns / 2;

@@ -15,7 +15,7 @@ namespace {
 
 const int kResolution = 48;
 
-CarveScene short_scene() { return beginning_of(stroke_1000_scene(), 25, 400); }
+CarveScene short_peer_scene() { return beginning_of(stroke_1000_scene(), 25, 400); }
 
 compute::Lattice unit_lattice() { return *compute::lattice_around({Vec3(0.0), Vec3(1.0)}, kResolution); }
 
@@ -23,8 +23,8 @@ compute::Lattice unit_lattice() { return *compute::lattice_around({Vec3(0.0), Ve
 
 TEST(Peers, SayHowToGetThemWhereTheyAreNotBuilt) {
     if (has_peers()) GTEST_SKIP() << "they are built in";
-    const auto vdb = run_openvdb(short_scene(), unit_lattice(), 1, VdbMethod::csg_difference);
-    const auto cgal = run_cgal(short_scene(), 2);
+    const auto vdb = run_openvdb(short_peer_scene(), unit_lattice(), 1, VdbMethod::csg_difference);
+    const auto cgal = run_cgal(short_peer_scene(), 2);
     const auto pairs = count_self_intersections_with_cgal({});
     for (const std::string& line : {vdb.error().line(), cgal.error().line(), pairs.error().line()}) {
         EXPECT_NE(line.find("scripts/setup --peers"), std::string::npos) << line;
@@ -34,7 +34,7 @@ TEST(Peers, SayHowToGetThemWhereTheyAreNotBuilt) {
 
 TEST(Peers, OpenVdbCarvesTheSameSolidEitherWay) {
     BURIN_NEEDS_PEERS();
-    const CarveScene scene = short_scene();
+    const CarveScene scene = short_peer_scene();
     for (const VdbMethod method : {VdbMethod::csg_difference, VdbMethod::leaf_brush}) {
         const auto run = run_openvdb(scene, unit_lattice(), 2, method);
         ASSERT_TRUE(run.has_value());

@@ -14,7 +14,7 @@
 namespace burin::bench {
 namespace {
 
-const std::string kBurin = BURIN_COMMAND;
+const std::string kStabilityBurin = BURIN_COMMAND;
 
 StabilityCase alone(double damping, double rate_Hz) {
     StabilityCase c;
@@ -209,15 +209,15 @@ TEST(SvgFigure, DrawsCurvesBelowZeroOnLinearAxes) {
 
 TEST(BenchCommand, MeasuresStabilityAndWritesWhereAsked) {
     const Workplace place;
-    const auto outcome =
-        place.run(kBurin + " bench stability --quick --csv s.csv --svg s.svg --figure7-svg f.svg --json s.json");
+    const auto outcome = place.run(
+        kStabilityBurin + " bench stability --quick --csv s.csv --svg s.svg --figure7-svg f.svg --json s.json");
     ASSERT_EQ(outcome.status, 0) << outcome.output;
     EXPECT_NE(outcome.output.find("First stiffness that shakes"), std::string::npos);
     EXPECT_EQ(place.read("s.csv"), stability_csv(quick()));
     EXPECT_TRUE(place.read("s.svg").starts_with("<svg "));
     EXPECT_TRUE(place.read("f.svg").starts_with("<svg "));
     EXPECT_FALSE(Json::parse(place.read("s.json"))["rows"].empty());
-    EXPECT_EQ(place.run(kBurin + " bench stability --quick --csv nowhere/s.csv").status, 1);
+    EXPECT_EQ(place.run(kStabilityBurin + " bench stability --quick --csv nowhere/s.csv").status, 1);
 }
 
 }  // namespace burin::bench

@@ -40,7 +40,7 @@ Capsule capsule_of(const Case& c) {
 RaySpan span_of(const Case& c) { return capsule_span(capsule_from_ray(capsule_of(c), 2, 0, 0)); }
 
 // Written from the definition, in 128 bits: is the ray's point at depth z in the closed capsule?
-bool inside(const Case& c, std::int64_t z) {
+bool inside_capsule(const Case& c, std::int64_t z) {
     Int128 to_point2 = 0, length2 = 0, along_dot = 0, to_end2 = 0;
     const std::array<std::int64_t, 3> p{0, 0, z};
     for (std::size_t a = 0; a < 3; ++a) {
@@ -81,13 +81,13 @@ std::string disagreement(const Case& c) {
     const RaySpan span = span_of(c);
     std::string what;
     if (span.lo <= span.hi) {
-        if (!inside(c, span.lo)) what += " lo outside";
-        if (!inside(c, span.hi)) what += " hi outside";
-        if (inside(c, span.lo - 1)) what += " lo not the first";
-        if (inside(c, span.hi + 1)) what += " hi not the last";
+        if (!inside_capsule(c, span.lo)) what += " lo outside";
+        if (!inside_capsule(c, span.hi)) what += " hi outside";
+        if (inside_capsule(c, span.lo - 1)) what += " lo not the first";
+        if (inside_capsule(c, span.hi + 1)) what += " hi not the last";
     } else {
         for (const std::int64_t z : nearest_depths(c)) {
-            if (inside(c, z)) what = " missed depth " + std::to_string(z);
+            if (inside_capsule(c, z)) what = " missed depth " + std::to_string(z);
         }
     }
     if (what.empty()) return what;
@@ -142,7 +142,7 @@ TEST(Capsule, SpanEqualsScanningEveryDepthOfSmallCapsules) {
         c.radius2 = random.whole(0, size * size);
         const RaySpan span = span_of(c);
         for (std::int64_t z = -130; z <= 130; ++z) {
-            ASSERT_EQ(span.lo <= z && z <= span.hi, inside(c, z)) << z << disagreement(c);
+            ASSERT_EQ(span.lo <= z && z <= span.hi, inside_capsule(c, z)) << z << disagreement(c);
         }
         hits += span.lo <= span.hi ? 1 : 0;
     }

@@ -10,7 +10,7 @@
 namespace burin::compute::test {
 namespace {
 
-Solid cube(int resolution) {
+Solid painted_cube(int resolution) {
     Solid solid = *make_block(Vec3(1), resolution, {"cube", {}});
     solid.materials.push_back({"paint", {200, 0, 0}});
     return solid;
@@ -64,7 +64,7 @@ bool same_mesh(const Surface& a, const Surface& b) {
 }  // namespace
 
 TEST(History, UndoOfAThousandStrokesGivesBackTheFirstSolidBitForBit) {
-    const Solid start = cube(kSanitized ? 32 : 64);
+    const Solid start = painted_cube(kSanitized ? 32 : 64);
     Session session(start);
     const auto scene = bench::stroke_1000_scene();
     for (const BallSweep& sweep : scene.sweeps) {
@@ -89,7 +89,7 @@ TEST(History, UndoOfAThousandStrokesGivesBackTheFirstSolidBitForBit) {
 
 TEST(History, EveryStateOnTheWayComesBackInBothDirections) {
     Random random(1);
-    Session session(cube(32));
+    Session session(painted_cube(32));
     std::vector<Solid> states{session.engine->solid()};
     for (int stroke = 0; stroke < 12; ++stroke) {
         const int updates = random.small(1, 6);
@@ -112,7 +112,7 @@ TEST(History, EveryStateOnTheWayComesBackInBothDirections) {
 
 TEST(History, AnOpenStrokeIsClosedByUndo) {
     Random random(2);
-    const Solid start = cube(24);
+    const Solid start = painted_cube(24);
     Session session(start);
     session.carve({Vec3(0.5), Vec3(0.6), 0.2, 0});
     session.carve({Vec3(0.6), Vec3(0.7), 0.2, 1});
@@ -123,7 +123,7 @@ TEST(History, AnOpenStrokeIsClosedByUndo) {
 }
 
 TEST(History, ANewStrokeForgetsWhatCouldBeRedone) {
-    Session session(cube(24));
+    Session session(painted_cube(24));
     session.carve({Vec3(0.5), Vec3(0.5), 0.2, 0});
     ASSERT_TRUE(session.undo());
     ASSERT_EQ(session.history.redoable(), 1u);
@@ -134,7 +134,7 @@ TEST(History, ANewStrokeForgetsWhatCouldBeRedone) {
 
 // Else strokes would be dropped although there is room, sooner the more somebody goes to and fro.
 TEST(History, CountsNoMemoryThatItHasGivenBack) {
-    Session session(cube(24)), fresh(cube(24));
+    Session session(painted_cube(24)), fresh(painted_cube(24));
     const BallSweep first{Vec3(0.5), Vec3(0.6), 0.2, 0}, second{Vec3(0.2), Vec3(0.2), 0.3, 1},
         third{Vec3(0.9), Vec3(0.9), 0.1, 0};
     for (const BallSweep& sweep : {first, second}) {
@@ -158,7 +158,7 @@ TEST(History, CountsNoMemoryThatItHasGivenBack) {
 TEST(History, KeepsWithinItsBudgetDropsTheOldestFirstAndSaysSo) {
     Random random(3);
     constexpr std::size_t kBudget = 300'000;
-    Session session(cube(48), kBudget);
+    Session session(painted_cube(48), kBudget);
     std::vector<Solid> states{session.engine->solid()};
     std::size_t strokes = 0;
     while (session.history.dropped_strokes() < 5 && strokes < 500) {

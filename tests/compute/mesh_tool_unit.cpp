@@ -17,9 +17,9 @@
 namespace burin::compute::test {
 namespace {
 
-using Rays = std::map<std::uint32_t, std::vector<shared::DexelEnd>>;
+using RaysByNumber = std::map<std::uint32_t, std::vector<shared::DexelEnd>>;
 
-WorkerPool& pool() {
+WorkerPool& tool_pool() {
     static WorkerPool two(2);
     return two;
 }
@@ -30,9 +30,9 @@ MeshTool tool_of(geometry::TriangleMesh mesh) {
     return prepared ? *prepared : MeshTool{};
 }
 
-Rays spans(const Solid& solid, const ToolSweep& sweep) {
-    Rays rays;
-    const auto batch = tool_spans(solid, sweep, pool());
+RaysByNumber spans(const Solid& solid, const ToolSweep& sweep) {
+    RaysByNumber rays;
+    const auto batch = tool_spans(solid, sweep, tool_pool());
     EXPECT_TRUE(batch) << batch.error().line();
     if (!batch) return rays;
     for (const RayBatch::Ray& ray : batch->rays) {
@@ -48,14 +48,14 @@ double length_of(RayEnds ends) {
     return sum;
 }
 
-double length_of(const Rays& rays) {
+double length_of(const RaysByNumber& rays) {
     double sum = 0.0;
     for (const auto& [code, ends] : rays) sum += length_of(ends);
     return sum;
 }
 
 // What of `a` is not in `b`, all rays together.
-double rest_of(const Rays& a, const Rays& b) {
+double rest_of(const RaysByNumber& a, const RaysByNumber& b) {
     double sum = 0.0;
     for (const auto& [code, ends] : a) {
         const auto found = b.find(code);
@@ -66,7 +66,7 @@ double rest_of(const Rays& a, const Rays& b) {
     return sum;
 }
 
-void expect_alike(const Rays& a, const Rays& b, double share) {
+void expect_alike(const RaysByNumber& a, const RaysByNumber& b, double share) {
     ASSERT_GT(length_of(a), 0.0);
     EXPECT_LE(rest_of(a, b), share * length_of(a));
     EXPECT_LE(rest_of(b, a), share * length_of(a));
@@ -116,7 +116,7 @@ TEST(MeshTool, AHollowShapeSweepsTheUnionOfItsParts) {
         foot.shape = angle.foot;
         leg.shape = angle.leg;
         for (Pose* pose : {&leg.start, &leg.end}) pose->position_m = *pose * angle.leg_middle;
-        Rays both = spans(solid, foot);
+        RaysByNumber both = spans(solid, foot);
         for (const auto& [code, ends] : spans(solid, leg)) {
             std::vector<shared::DexelEnd> united;
             append_union(both[code], ends, united);
@@ -133,11 +133,11 @@ TEST(MeshTool, ASweepHoldsEveryStampOnItsWay) {
     for (int i = 0; i < repeated(12); ++i) {
         ToolSweep sweep = any_sweep(random, tool, i % 2 == 1);
         sweep.tolerance_cells = 0.05;
-        const Rays swept = spans(solid, sweep);
+        const RaysByNumber swept = spans(solid, sweep);
         for (int k = 0; k <= 8; ++k) {
             ToolSweep stamp = sweep;
             stamp.start = stamp.end = pose_at(sweep, k / 8.0);
-            const Rays stamped = spans(solid, stamp);
+            const RaysByNumber stamped = spans(solid, stamp);
             // Turning, the surface may lie 0.05 cells inside; on a tool five cells thick that is a few hundredths.
             EXPECT_LE(rest_of(stamped, swept), (i % 2 == 1 ? 0.03 : 1e-3) * length_of(stamped));
         }
@@ -165,11 +165,11 @@ TEST(MeshTool, AMeshTakesItsOwnScanConversionAwayToTheBit) {
         geometry::TriangleMesh mesh = i % 2 == 0
                                           ? transformed(ball_mesh(0.5, 3), any_orientation(random), Vec3(0.1, 7, -2))
                                           : transformed(Angle{}.mesh, any_orientation(random), Vec3(-3, 0.2, 0));
-        auto converted = scan_convert(mesh, random.small(16, 64), pool());
+        auto converted = scan_convert(mesh, random.small(16, 64), tool_pool());
         ASSERT_TRUE(converted) << converted.error().line();
-        const auto engine = make_cpu_engine(std::move(converted->solid), pool());
+        const auto engine = make_cpu_engine(std::move(converted->solid), tool_pool());
         const ToolSweep sweep{tool_of(mesh), {}, {}};
-        ASSERT_TRUE(apply(*engine, {&sweep, 1}, pool()));
+        ASSERT_TRUE(apply(*engine, {&sweep, 1}, tool_pool()));
         for (const DexelSet& set : engine->solid().sets) {
             for (std::size_t r = 0; r < set.ray_count(); ++r) ASSERT_TRUE(set.ends(r).empty());
         }
@@ -184,9 +184,9 @@ TEST(MeshTool, ManyMovesInBatchesCoverTheSame) {
         const auto moves =
             straight_moves(solid.lattice, any_sweep(random, tool, true), *extent_of(tool, solid.lattice.unit_m()));
         ASSERT_TRUE(moves);
-        const auto at_once = mesh_spans(solid.lattice, tool, *moves, 0, pool());
-        const auto in_three =
-            mesh_spans(solid.lattice, tool, *moves, 0, pool(), (moves->size() + 2) / 3 * tool.mesh->triangles.size());
+        const auto at_once = mesh_spans(solid.lattice, tool, *moves, 0, tool_pool());
+        const auto in_three = mesh_spans(solid.lattice, tool, *moves, 0, tool_pool(),
+                                         (moves->size() + 2) / 3 * tool.mesh->triangles.size());
         ASSERT_TRUE(at_once && in_three);
         ASSERT_EQ(at_once->rays.size(), in_three->rays.size());
         for (std::size_t r = 0; r < at_once->rays.size(); ++r) {
@@ -202,9 +202,9 @@ TEST(MeshTool, UnpreparedMeshesDoTheSame) {
     const Solid solid = *make_block(Vec3(1), 32, {"cube", {}});
     Random random(6);
     ToolSweep sweep = any_sweep(random, tool_of(Angle{}.mesh), true);
-    const auto prepared = tool_spans(solid, sweep, pool());
+    const auto prepared = tool_spans(solid, sweep, tool_pool());
     std::get<MeshTool>(sweep.shape).edges = nullptr;
-    const auto unprepared = tool_spans(solid, sweep, pool());
+    const auto unprepared = tool_spans(solid, sweep, tool_pool());
     ASSERT_TRUE(prepared && unprepared);
     EXPECT_TRUE(same_ends(prepared->ends, unprepared->ends));
 }

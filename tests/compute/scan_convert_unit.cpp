@@ -15,13 +15,13 @@
 namespace burin::compute::test {
 namespace {
 
-WorkerPool& pool() {
+WorkerPool& scan_pool() {
     static WorkerPool two(2);
     return two;
 }
 
 ScanConversion converted(const geometry::TriangleMesh& mesh, int resolution) {
-    auto result = scan_convert(mesh, resolution, pool());
+    auto result = scan_convert(mesh, resolution, scan_pool());
     EXPECT_TRUE(result.has_value()) << (result ? "" : result.error().line());
     return result ? std::move(*result) : ScanConversion{};
 }
@@ -39,7 +39,7 @@ double ray_volume(const Solid& solid, std::size_t axis) {
 
 double mesh_volume(const Solid& solid) {
     Surface surface(solid.lattice);
-    surface.mesh_all(solid, pool());
+    surface.mesh_all(solid, scan_pool());
     EXPECT_EQ(topology_of(surface.welded()), MeshTopology{});
     return surface.volume_m3();
 }
@@ -60,8 +60,8 @@ Quat random_turn(Random& random) {
         Quat(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)));
 }
 
-std::string refusal(const geometry::TriangleMesh& mesh, int resolution = 32) {
-    const auto result = scan_convert(mesh, resolution, pool());
+std::string scan_refusal(const geometry::TriangleMesh& mesh, int resolution = 32) {
+    const auto result = scan_convert(mesh, resolution, scan_pool());
     return result ? "" : result.error().line();
 }
 
@@ -203,7 +203,8 @@ TEST(ScanConvert, ThreadsDoNotChangeTheSolid) {
     Random random(3);
     const geometry::TriangleMesh mesh =
         joined(transformed(ball_mesh(0.5, 4), random_turn(random)), box_mesh(Vec3(0), Vec3(0.6), 4));
-    const auto a = scan_convert(mesh, 48, one), b = scan_convert(mesh, 48, pool()), c = scan_convert(mesh, 48, five);
+    const auto a = scan_convert(mesh, 48, one), b = scan_convert(mesh, 48, scan_pool()),
+               c = scan_convert(mesh, 48, five);
     ASSERT_TRUE(a && b && c);
     EXPECT_TRUE(a->solid.same_content(b->solid));
     EXPECT_TRUE(a->solid.same_content(c->solid));
@@ -245,33 +246,33 @@ TEST(ScanConvert, RefusesWhatHasNoInside) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     geometry::TriangleMesh open = box_mesh(Vec3(0), Vec3(1), 2);
     open.triangles.pop_back();
-    EXPECT_NE(refusal(open).find("holes"), std::string::npos);
+    EXPECT_NE(scan_refusal(open).find("holes"), std::string::npos);
     geometry::TriangleMesh not_finite = box_mesh(Vec3(0), Vec3(1));
     not_finite.positions_m[3].y = nan;
-    EXPECT_NE(refusal(not_finite).find("not finite"), std::string::npos);
-    EXPECT_NE(refusal(geometry::TriangleMesh{}).find("no triangles"), std::string::npos);
-    EXPECT_NE(refusal(box_mesh(Vec3(0), Vec3(1)), 8).find("16 to 2048"), std::string::npos);
-    EXPECT_NE(refusal(inverted(box_mesh(Vec3(0), Vec3(1)))).find("encloses no material"), std::string::npos);
+    EXPECT_NE(scan_refusal(not_finite).find("not finite"), std::string::npos);
+    EXPECT_NE(scan_refusal(geometry::TriangleMesh{}).find("no triangles"), std::string::npos);
+    EXPECT_NE(scan_refusal(box_mesh(Vec3(0), Vec3(1)), 8).find("16 to 2048"), std::string::npos);
+    EXPECT_NE(scan_refusal(inverted(box_mesh(Vec3(0), Vec3(1)))).find("encloses no material"), std::string::npos);
     geometry::TriangleMesh flat = box_mesh(Vec3(0), Vec3(1, 1, 0));
-    EXPECT_NE(refusal(flat), "");
+    EXPECT_NE(scan_refusal(flat), "");
     geometry::TriangleMesh dangling = box_mesh(Vec3(0), Vec3(1));
     dangling.triangles[0][1] = 1000;
-    EXPECT_NE(refusal(dangling).find("does not exist"), std::string::npos);
+    EXPECT_NE(scan_refusal(dangling).find("does not exist"), std::string::npos);
     geometry::TriangleMesh unknown = box_mesh(Vec3(0), Vec3(1));
     unknown.triangle_materials.assign(unknown.triangles.size(), 3);
-    EXPECT_NE(refusal(unknown).find("material 3"), std::string::npos);
+    EXPECT_NE(scan_refusal(unknown).find("material 3"), std::string::npos);
     unknown.triangle_materials.assign(5, 0);
-    EXPECT_NE(refusal(unknown).find("some triangles"), std::string::npos);
+    EXPECT_NE(scan_refusal(unknown).find("some triangles"), std::string::npos);
 }
 
 TEST(ScanConvert, OnAGivenLatticeItIsTheSameAndMustFit) {
     const geometry::TriangleMesh mesh = box_mesh(Vec3(0), Vec3(1), 2);
     const auto alone = converted(mesh, 32);
-    const auto onto = scan_convert_onto(mesh, alone.solid.lattice, pool());
+    const auto onto = scan_convert_onto(mesh, alone.solid.lattice, scan_pool());
     ASSERT_TRUE(onto);
     EXPECT_TRUE(onto->solid.same_content(alone.solid));
     const auto outside =
-        scan_convert_onto(transformed(mesh, Quat(1, 0, 0, 0), Vec3(0.5, 0, 0)), alone.solid.lattice, pool());
+        scan_convert_onto(transformed(mesh, Quat(1, 0, 0, 0), Vec3(0.5, 0, 0)), alone.solid.lattice, scan_pool());
     ASSERT_FALSE(outside);
     EXPECT_NE(outside.error().line().find("lattice"), std::string::npos);
 }

@@ -18,7 +18,7 @@
 namespace burin::compute::test {
 namespace {
 
-WorkerPool& pool() {
+WorkerPool& smoothing_pool() {
     static WorkerPool two(2);
     return two;
 }
@@ -31,15 +31,15 @@ ToolSweep smoothing(const Vec3& from, const Vec3& to, double radius_m, double st
 
 void apply_to(CarvingEngine& engine, const ToolSweep& sweep, int times = 1) {
     for (int i = 0; i < times; ++i) {
-        const auto done = apply(engine, {&sweep, 1}, pool());
+        const auto done = apply(engine, {&sweep, 1}, smoothing_pool());
         ASSERT_TRUE(done) << done.error().line();
     }
     ASSERT_TRUE(well_formed(engine.solid()));
 }
 
-Surface meshed(const Solid& solid) {
+Surface meshed_here(const Solid& solid) {
     Surface surface(solid.lattice);
-    surface.mesh_all(solid, pool());
+    surface.mesh_all(solid, smoothing_pool());
     EXPECT_EQ(topology_of(surface.welded()), MeshTopology{});
     return surface;
 }
@@ -82,7 +82,7 @@ double height_rms_cells(const Solid& solid, double within_m) {
 
 TEST(Smooth, FlatFacesStayToTheBit) {
     const Solid block = *make_block(Vec3(1), 48, {"block", {}});
-    const auto engine = make_cpu_engine(block, pool());
+    const auto engine = make_cpu_engine(block, smoothing_pool());
     apply_to(*engine, smoothing(Vec3(0.4, 0.5, 1.0), Vec3(0.6, 0.5, 1.0), 0.15), 5);
     EXPECT_TRUE(engine->solid().same_content(block));
     EXPECT_TRUE(engine->take_changes().empty());
@@ -94,7 +94,7 @@ TEST(Smooth, SlantingFacesDoNotDrift) {
     for (int i = 0; i < 4; ++i) {
         const Quat turn = any_orientation(random);
         const geometry::TriangleMesh box = transformed(box_mesh(Vec3(-0.5), Vec3(0.5)), turn);
-        const auto engine = make_cpu_engine(scan_convert(box, 64, pool())->solid, pool());
+        const auto engine = make_cpu_engine(scan_convert(box, 64, smoothing_pool())->solid, smoothing_pool());
         const Solid before = engine->solid();
         const Vec3 middle = turn * Vec3(0.5, 0, 0);
         apply_to(*engine, smoothing(middle, middle, 0.2), 6);
@@ -115,12 +115,12 @@ TEST(Smooth, SlantingFacesDoNotDrift) {
 }
 
 TEST(Smooth, ALargeBallDoesNotDrift) {
-    const auto engine = make_cpu_engine(*make_ball(0.5, 80, {"ball", {}}), pool());
+    const auto engine = make_cpu_engine(*make_ball(0.5, 80, {"ball", {}}), smoothing_pool());
     const Lattice lattice = engine->solid().lattice;
-    const double before_m3 = meshed(engine->solid()).volume_m3();
+    const double before_m3 = meshed_here(engine->solid()).volume_m3();
     const Vec3 top = 0.5 * glm::normalize(Vec3(1, 2, 3));
     apply_to(*engine, smoothing(top, top, 0.2), 10);
-    const Surface after = meshed(engine->solid());
+    const Surface after = meshed_here(engine->solid());
     // Ten times with full strength over a patch of about 0.12 m2: a drift of a thousandth of a cell would show.
     EXPECT_NEAR(after.volume_m3(), before_m3, 0.12 * 0.01 * lattice.spacing_m);
     double worst = 0.0;
@@ -132,12 +132,12 @@ TEST(Smooth, ALargeBallDoesNotDrift) {
 TEST(Smooth, NoiseGetsSmallerAndKeepsItsMean) {
     Random random(1);
     const Solid rough = rough_block(48, random);
-    const auto engine = make_cpu_engine(rough, pool());
-    const double before = height_rms_cells(rough, 0.1), volume_m3 = meshed(rough).volume_m3();
+    const auto engine = make_cpu_engine(rough, smoothing_pool());
+    const double before = height_rms_cells(rough, 0.1), volume_m3 = meshed_here(rough).volume_m3();
     apply_to(*engine, smoothing(Vec3(0.5, 0.5, 1.0), Vec3(0.5, 0.5, 1.0), 0.3), 4);
     EXPECT_GT(before, 0.15);
     EXPECT_LT(height_rms_cells(engine->solid(), 0.1), 0.4 * before);
-    EXPECT_NEAR(meshed(engine->solid()).volume_m3(), volume_m3, 0.28 * 0.1 * rough.lattice.spacing_m);
+    EXPECT_NEAR(meshed_here(engine->solid()).volume_m3(), volume_m3, 0.28 * 0.1 * rough.lattice.spacing_m);
     // Beyond the ball nothing changed.
     for (int axis = 0; axis < 3; ++axis) {
         const Lattice& lattice = rough.lattice;
@@ -156,11 +156,11 @@ TEST(Smooth, NoiseGetsSmallerAndKeepsItsMean) {
 }
 
 TEST(Smooth, ASharpRidgeGetsRounder) {
-    const auto engine = make_cpu_engine(*make_block(Vec3(1), 48, {"block", {}}), pool());
-    const double cell = engine->solid().lattice.spacing_m, before_m3 = meshed(engine->solid()).volume_m3();
+    const auto engine = make_cpu_engine(*make_block(Vec3(1), 48, {"block", {}}), smoothing_pool());
+    const double cell = engine->solid().lattice.spacing_m, before_m3 = meshed_here(engine->solid()).volume_m3();
     const auto ridge = [&] {  // how far the edge at x = z = 1 has moved in, half-way along
         double nearest = 1e300;
-        for (const Vec3& p : meshed(engine->solid()).welded().positions_m) {
+        for (const Vec3& p : meshed_here(engine->solid()).welded().positions_m) {
             if (std::abs(p.y - 0.5) < 0.05) nearest = std::min(nearest, glm::length(Vec2(p.x - 1.0, p.z - 1.0)));
         }
         return nearest / cell;
@@ -174,7 +174,7 @@ TEST(Smooth, ASharpRidgeGetsRounder) {
         last = now;
     }
     EXPECT_GT(last, 0.15);
-    EXPECT_LT(meshed(engine->solid()).volume_m3(), before_m3);
+    EXPECT_LT(meshed_here(engine->solid()).volume_m3(), before_m3);
 }
 
 // Whatever the rays say, and whether or not they agree: well formed afterwards, and about nodes within the tool they
@@ -184,7 +184,7 @@ TEST(Smooth, NoiseOfAnyKindStaysWellFormedAndComesToAgree) {
     for (const Rays rays : {Rays::agree, Rays::disturbed, Rays::unrelated}) {
         for (int i = 0; i < repeated(6); ++i) {
             const Solid noise = noise_solid({24, 20, 22}, random.between(0.2, 0.8), rays, random.bits());
-            const auto engine = make_cpu_engine(noise, pool());
+            const auto engine = make_cpu_engine(noise, smoothing_pool());
             const Vec3 middle = noise.lattice.object_from_units(Vec3(12, 10, 11) * 4096.0);
             const double radius_m = 7 * noise.lattice.spacing_m;
             apply_to(*engine, smoothing(middle, middle, radius_m, random.between(0.1, 1.0)), 2);
@@ -226,11 +226,12 @@ TEST(Smooth, ThreadsDoNotMatterAndStrengthZeroDoesNothing) {
 TEST(Smooth, ALongWayIsTheStretchesOfARadiusThatItConsistsOf) {
     Random random(8);
     const Solid start = rough_block(48, random);
-    const auto at_once = make_cpu_engine(start, pool()), by_stretches = make_cpu_engine(start, pool());
+    const auto at_once = make_cpu_engine(start, smoothing_pool()),
+               by_stretches = make_cpu_engine(start, smoothing_pool());
     apply_to(*at_once, smoothing(Vec3(0.25, 0.5, 1.0), Vec3(0.75, 0.5, 1.0), 0.125));
     for (double x = 0.25; x < 0.75; x += 0.125) {
         const SmoothBall stretch{Vec3(x, 0.5, 1.0), Vec3(x + 0.125, 0.5, 1.0), 0.125, 1.0, 0};
-        const auto done = by_stretches->assign(smoothed_rays(by_stretches->solid(), stretch, pool()));
+        const auto done = by_stretches->assign(smoothed_rays(by_stretches->solid(), stretch, smoothing_pool()));
         ASSERT_TRUE(done);
         EXPECT_GT(done->rays_changed, 0u) << x;
     }
@@ -238,7 +239,7 @@ TEST(Smooth, ALongWayIsTheStretchesOfARadiusThatItConsistsOf) {
 }
 
 TEST(Smooth, ReachesTheBorderOfTheLatticeUnharmed) {
-    const auto engine = make_cpu_engine(*make_ball(0.5, 24, {"ball", {}}), pool());
+    const auto engine = make_cpu_engine(*make_ball(0.5, 24, {"ball", {}}), smoothing_pool());
     const ToolSweep fill{BallTool{0.4}, Pose{Vec3(0.5)}, Pose{Vec3(0.5)}, Operation::fill};
     apply_to(*engine, fill);
     apply_to(*engine, smoothing(Vec3(0.5), Vec3(0.6), 0.4), 3);

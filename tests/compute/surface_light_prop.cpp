@@ -54,7 +54,7 @@ struct Workpiece {
 };
 
 // -1 when all light is the same.
-int first_difference(const SurfaceLight& a, const SurfaceLight& b, std::size_t tiles) {
+int first_light_difference(const SurfaceLight& a, const SurfaceLight& b, std::size_t tiles) {
     for (std::uint32_t t = 0; t < tiles; ++t) {
         const TileLight *of_a = a.shared_light(t).get(), *of_b = b.shared_light(t).get();
         if ((of_a == nullptr) != (of_b == nullptr)) return static_cast<int>(t);
@@ -72,7 +72,7 @@ void expect_fresh_light(Workpiece& piece, const char* when) {
     fresh.step(Vec3(0.0), surface.tile_count(), piece.pool);
     ASSERT_EQ(fresh.pending(), 0u);
     ASSERT_EQ(piece.light.pending(), 0u);
-    ASSERT_EQ(first_difference(piece.light, fresh, surface.tile_count()), -1) << when;
+    ASSERT_EQ(first_light_difference(piece.light, fresh, surface.tile_count()), -1) << when;
 }
 
 TEST(SurfaceLightKept, EqualsAFreshBakeAfterRandomCuts) {
@@ -103,7 +103,7 @@ TEST(SurfaceLightKept, IsTheSameOnAnyNumberOfThreads) {
         const auto baked = pieces[0]->light.take_baked();
         EXPECT_EQ(baked.size(), 7u);
         for (std::size_t i = 1; i < pieces.size(); ++i) {
-            EXPECT_EQ(first_difference(pieces[0]->light, pieces[i]->light, pieces[0]->surface.tile_count()), -1);
+            EXPECT_EQ(first_light_difference(pieces[0]->light, pieces[i]->light, pieces[0]->surface.tile_count()), -1);
             EXPECT_EQ(pieces[i]->light.take_baked(), baked);
         }
     }

@@ -18,7 +18,7 @@
 namespace burin::compute::test {
 namespace {
 
-WorkerPool& pool() {
+WorkerPool& span_pool() {
     static WorkerPool two(2);
     return two;
 }
@@ -63,7 +63,7 @@ struct Agreement {
 
 // Random rays through the tool's bounds; those it misses by less than a thousandth of a unit are left to rounding.
 void compare(const Solid& solid, const ToolSweep& sweep, int rays, Random& random, Agreement& sum) {
-    const auto spans = tool_spans(solid, sweep, pool());
+    const auto spans = tool_spans(solid, sweep, span_pool());
     ASSERT_TRUE(spans) << spans.error().line();
     const auto covered = by_code(*spans);
     for (int i = 0; i < rays; ++i) {
@@ -126,7 +126,7 @@ namespace {
 // Depths along a ray at which the tool certainly is, or certainly is not, going by its distance.
 void expect_within_tolerance(const Solid& solid, const ToolSweep& sweep, double tolerance_m, int poses,
                              Random& random) {
-    const auto spans = tool_spans(solid, sweep, pool());
+    const auto spans = tool_spans(solid, sweep, span_pool());
     ASSERT_TRUE(spans) << spans.error().line();
     ASSERT_FALSE(spans->rays.empty());
     const auto covered = by_code(*spans);
@@ -205,7 +205,7 @@ TEST(ToolSpans, BullNosesStayWithinTheirTolerance) {
     for (int i = 0; i < repeated(16); ++i) {
         ToolSweep sweep = any_straight_sweep(random, kKindOf<BullNoseTool>);
         sweep.tolerance_cells = random.chance(0.5) ? 0.1 : 0.01;
-        if (tool_spans(solid, sweep, pool())->rays.size() < 50) continue;
+        if (tool_spans(solid, sweep, span_pool())->rays.size() < 50) continue;
         const double pose_error_m = 0.5 * glm::length(sweep.end.position_m - sweep.start.position_m) / 2000;
         expect_within_tolerance(solid, sweep, 0.25 * sweep.tolerance_cells * solid.lattice.spacing_m + pose_error_m,
                                 2000, random);
@@ -221,7 +221,7 @@ TEST(ToolSpans, NormalsAreTheGradientOfTheDistance) {
     for (int i = 0; i < repeated(200); ++i) {
         ToolSweep sweep = any_straight_sweep(random, without_ball(i));
         sweep.tolerance_cells = 0.004;  // so that a bull-nose's slices lie on its surface
-        const auto spans = tool_spans(solid, sweep, pool());
+        const auto spans = tool_spans(solid, sweep, span_pool());
         ASSERT_TRUE(spans);
         for (int k = 0; k < 20 && !spans->rays.empty(); ++k) {
             const auto pick =
@@ -260,10 +260,10 @@ TEST(ToolSpans, ABallsSpansAreThoseOfTheEngine) {
         const double radius = random.between(0.01, 0.4);
         ToolSweep sweep{
             BallTool{radius}, {from, any_orientation(random)}, {to, any_orientation(random)}, Operation::cut, 1};
-        const auto engine = make_cpu_engine(solid, pool());
+        const auto engine = make_cpu_engine(solid, span_pool());
         const BallSweep ball{from, to, radius, 1, Operation::cut};
         ASSERT_TRUE(engine->carve({&ball, 1}));
-        const auto spans = tool_spans(solid, sweep, pool());
+        const auto spans = tool_spans(solid, sweep, span_pool());
         ASSERT_TRUE(spans);
         const auto covered = by_code(*spans);
         for (int axis = 0; axis < 3; ++axis) {
@@ -304,9 +304,9 @@ TEST(ToolSpans, FacesOnRaysAndTangentRaysCount) {
     const auto node = [&](int x, int y, int z) { return lattice.object_from_units(Vec3(x, y, z) * 4096.0); };
     const double h = lattice.spacing_m;
     const ToolSweep box{BoxTool{Vec3(4 * h, 3 * h, 2 * h)}, Pose{node(20, 20, 20)}, Pose{node(20, 20, 30)}};
-    const auto of_box = by_code(*tool_spans(solid, box, pool()));
+    const auto of_box = by_code(*tool_spans(solid, box, span_pool()));
     const ToolSweep cylinder{CylinderTool{3 * h, 5 * h}, Pose{node(20, 20, 20)}, Pose{node(26, 20, 20)}};
-    const auto of_cylinder = by_code(*tool_spans(solid, cylinder, pool()));
+    const auto of_cylinder = by_code(*tool_spans(solid, cylinder, span_pool()));
     const auto expect_span = [&](const auto& rays, int axis, int u, int v, double lo, double hi) {
         const auto found = rays.find(shared::ray_code(axis, u, v));
         ASSERT_NE(found, rays.end()) << axis << ' ' << u << ' ' << v;
@@ -329,16 +329,16 @@ TEST(ToolSpans, ToolsFarLargerAndFarSmallerThanACell) {
     const double h = solid.lattice.spacing_m;
     const Vec3 on_ray = solid.lattice.object_from_units(Vec3(16.0, 16.0, 16.3) * 4096.0);
     const ToolSweep tiny{BoxTool{Vec3(0.01 * h)}, Pose{on_ray}, Pose{on_ray}};
-    EXPECT_EQ(tool_spans(solid, tiny, pool())->rays.size(), 1u);
+    EXPECT_EQ(tool_spans(solid, tiny, span_pool())->rays.size(), 1u);
     const ToolSweep nothing{CylinderTool{1e-9 * h, 1e-9 * h}, Pose{on_ray}, Pose{on_ray}};
-    EXPECT_EQ(tool_spans(solid, nothing, pool())->rays.size(), 0u);
+    EXPECT_EQ(tool_spans(solid, nothing, span_pool())->rays.size(), 0u);
     Random random(12);
     const Pose middle{Vec3(0.5), any_orientation(random)};
     for (const ToolShape& huge : {ToolShape(BoxTool{Vec3(50.0)}), ToolShape(CylinderTool{60.0, 60.0})}) {
         ToolSweep all{huge, middle, middle};
         if (!std::holds_alternative<BoxTool>(huge))
             all.start.position_m = all.end.position_m -= middle.orientation * Vec3(0, 30, 0);
-        const auto spans = tool_spans(solid, all, pool());
+        const auto spans = tool_spans(solid, all, span_pool());
         ASSERT_TRUE(spans) << spans.error().line();
         ASSERT_EQ(spans->rays.size(), solid.rays_held());
         for (const RayBatch::Ray& ray : spans->rays) {
@@ -359,12 +359,12 @@ TEST(ToolSpans, LongWaysAreClippedAndFarOnesMiss) {
         far.end.position_m = Vec3(0.5) + 1e4 * way;
         near.start.position_m = Vec3(0.5) - 4.0 * way;
         near.end.position_m = Vec3(0.5) + 4.0 * way;
-        const auto a = tool_spans(solid, far, pool()), b = tool_spans(solid, near, pool());
+        const auto a = tool_spans(solid, far, span_pool()), b = tool_spans(solid, near, span_pool());
         ASSERT_TRUE(a && b);
         EXPECT_NEAR(static_cast<double>(a->rays.size()), static_cast<double>(b->rays.size()), 3.0);
         far.start.position_m += Vec3(-way.y, way.x, 0) * 1e5 + Vec3(0, 0, 1e5);
         far.end.position_m = far.start.position_m + way;
-        EXPECT_TRUE(tool_spans(solid, far, pool())->rays.empty());
+        EXPECT_TRUE(tool_spans(solid, far, span_pool())->rays.empty());
     }
 }
 
@@ -404,7 +404,7 @@ TEST(ToolSpans, RefusesToolsThatCannotBeNamingTheRemedy) {
     EXPECT_TRUE(check_sweep(solid, good));
     for (std::size_t i = 0; i < bad.size(); ++i) {
         const auto checked = check_sweep(solid, bad[i]);
-        const auto spans = tool_spans(solid, bad[i], pool());
+        const auto spans = tool_spans(solid, bad[i], span_pool());
         ASSERT_FALSE(checked.has_value()) << i;
         ASSERT_FALSE(spans.has_value()) << i;
         EXPECT_EQ(checked.error().line(), spans.error().line()) << i;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A simulated device of several parts, and the joints of a description.
 #include "devices/haptic/simulated_fingers.hpp"
+#include "tests/support/test_units.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +11,6 @@
 
 namespace burin::devices {
 namespace {
-
-constexpr Nanoseconds kMs = 1'000'000;
 
 SimulatedHand moving_along(int axis) {
     Vec3 to(0.0);

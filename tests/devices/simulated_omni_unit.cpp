@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "devices/haptic/simulated_omni.hpp"
+#include "tests/support/test_units.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,16 +10,14 @@
 namespace burin::devices {
 namespace {
 
-constexpr Nanoseconds kMs = 1'000'000;
-
 // A hand that does not hold: for the device's own dynamics.
 constexpr HandGrip kLetGo{0.0, 0.0, 0.0};
 
-SimulatedHand hand(std::vector<HandPose> script, HandGrip grip = {}) {
+SimulatedHand gripping_hand(std::vector<HandPose> script, HandGrip grip = {}) {
     return *SimulatedHand::create(std::move(script), HandPath::straight, grip);
 }
 
-SimulatedHand resting(HandGrip grip = {}, const Vec3& at = Vec3(0.0)) { return hand({{0.0, at}}, grip); }
+SimulatedHand resting(HandGrip grip = {}, const Vec3& at = Vec3(0.0)) { return gripping_hand({{0.0, at}}, grip); }
 
 }  // namespace
 
@@ -111,7 +110,7 @@ TEST(SimulatedOmni, AWatchdogTakesTheForceOffUntilSomethingIsWrittenAgain) {
 }
 
 TEST(SimulatedOmni, PositionsComeInEncoderSteps) {
-    SimulatedOmni omni(hand({{0.0, Vec3(0.0)}, {1.0, Vec3(0.02, -0.01, 0.005)}}));
+    SimulatedOmni omni(gripping_hand({{0.0, Vec3(0.0)}, {1.0, Vec3(0.02, -0.01, 0.005)}}));
     for (int i = 0; i < 1000; ++i) {
         omni.advance(kMs);
         const DeviceSample sample = omni.read();
@@ -130,7 +129,7 @@ TEST(SimulatedOmni, TheHandFollowsASlowPathWithinTwoMillimetresInFreeAir) {
         const double a = 2.0 * 3.14159265358979 * i / 200.0;
         circle.push_back({0.02 * i, Vec3(0.025 * std::cos(a), 0.025 * std::sin(a), 0.005 * std::sin(2 * a))});
     }
-    SimulatedOmni omni(hand(circle));
+    SimulatedOmni omni(gripping_hand(circle));
     double worst = 0.0;
     for (int i = 1; i <= 4000; ++i) {
         omni.advance(kMs);
@@ -142,7 +141,7 @@ TEST(SimulatedOmni, TheHandFollowsASlowPathWithinTwoMillimetresInFreeAir) {
 }
 
 TEST(SimulatedOmni, StopsAtTheEndOfItsWorkspace) {
-    SimulatedOmni omni(hand({{0.0, Vec3(0.0)}, {0.5, Vec3(0.2, -0.2, 0.2)}}));
+    SimulatedOmni omni(gripping_hand({{0.0, Vec3(0.0)}, {0.5, Vec3(0.2, -0.2, 0.2)}}));
     omni.advance(1000 * kMs);
     EXPECT_EQ(omni.true_position_device_m(), 0.5 * Vec3(0.1626, -0.1219, 0.0711));
 }
@@ -151,7 +150,7 @@ TEST(SimulatedOmni, TheSameScriptGivesTheSameBitsByAdvanceAndByClock) {
     const std::vector<HandPose> script{
         {0.0, Vec3(0.0)}, {0.3, Vec3(0.03, 0.01, 0.0), {0.9, 0.1, 0, 0}, 1}, {0.7, Vec3(-0.02, 0.02, 0.01)}};
     SimulatedClock clock;
-    SimulatedOmni a(hand(script)), b(hand(script)), by_clock(hand(script), {}, &clock);
+    SimulatedOmni a(gripping_hand(script)), b(gripping_hand(script)), by_clock(gripping_hand(script), {}, &clock);
     for (int i = 1; i <= 800; ++i) {
         a.advance(kMs);
         b.advance(400'000);  // the same millisecond in unequal parts
@@ -173,7 +172,7 @@ TEST(SimulatedOmni, TheSameScriptGivesTheSameBitsByAdvanceAndByClock) {
 
 TEST(SimulatedOmni, ALongPauseOfItsClockIsNotCaughtUp) {
     SimulatedClock clock;
-    SimulatedOmni omni(hand({{0.0, Vec3(0.0)}, {100.0, Vec3(0.05, 0.0, 0.0)}}), {}, &clock);
+    SimulatedOmni omni(gripping_hand({{0.0, Vec3(0.0)}, {100.0, Vec3(0.05, 0.0, 0.0)}}), {}, &clock);
     clock.sleep_until(60 * kNanosecondsPerSecond);
     const DeviceSample sample = omni.read();
     EXPECT_EQ(omni.time_ns(), SimulatedOmni::kMostCatchUp_ns);
@@ -229,17 +228,17 @@ TEST(SimulatedOmni, TheForceGoesWithTheConnection) {
 }
 
 TEST(SimulatedOmni, RestsAtTheEndOfItsWorkspaceAndBeginsWithinIt) {
-    SimulatedOmni pushed(hand({{0.0, Vec3(0.0)}, {0.5, Vec3(0.2, -0.2, 0.2)}}));
+    SimulatedOmni pushed(gripping_hand({{0.0, Vec3(0.0)}, {0.5, Vec3(0.2, -0.2, 0.2)}}));
     pushed.advance(1000 * kMs);
     EXPECT_EQ(pushed.true_velocity_device_m_per_s(), Vec3(0.0));
-    const SimulatedOmni beyond(hand({{0.0, Vec3(0.2, -0.2, 0.2)}}));
+    const SimulatedOmni beyond(gripping_hand({{0.0, Vec3(0.2, -0.2, 0.2)}}));
     EXPECT_EQ(beyond.true_position_device_m(), 0.5 * Vec3(0.1626, -0.1219, 0.0711));
 }
 
 TEST(SimulatedOmni, FollowsAClockInPartsOfAStepWithoutRunningAhead) {
     const std::vector<HandPose> script{{0.0, Vec3(0.0)}, {0.3, Vec3(0.03, 0.01, 0.0)}};
     SimulatedClock clock;
-    SimulatedOmni omni(hand(script), {}, &clock);
+    SimulatedOmni omni(gripping_hand(script), {}, &clock);
     for (int i = 1; i <= 3000; ++i) {
         const Nanoseconds now_ns = i * Nanoseconds{133'337};
         clock.sleep_until(now_ns);

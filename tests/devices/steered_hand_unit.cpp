@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "devices/haptic/simulated_omni.hpp"
+#include "tests/support/test_units.hpp"
 
 namespace burin::devices {
 namespace {
 
-constexpr Nanoseconds kMs = 1'000'000;
 constexpr Nanoseconds kFrame = 16'666'667;
 
 class Steering {

@@ -12,7 +12,7 @@ using Rgb = std::array<std::uint8_t, 3>;
 constexpr std::string_view kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 Result<geometry::ImportedMesh> import_obj(std::string_view text) { return import_text(text, MeshFormat::obj); }
-std::string refused(const std::string& text) { return refusal(text, MeshFormat::obj); }
+std::string refused_obj(const std::string& text) { return refusal(text, MeshFormat::obj); }
 
 TEST(ObjImport, ReadsPositiveNegativeAndForwardIndices) {
     const auto result = import_obj("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3//-1 -2/7 -1/2/5\nv 0 0 1\nf 4 -4 1\n");
@@ -152,15 +152,15 @@ TEST(ObjImport, NamesTheLineAndTheRemedyOfWhatIsWrong) {
     for (const char* bad :
          {"f 1 2 4", "f 0 1 2", "f 1 2 -4", "f 1 2", "f 1 2 x", "f 1 2 3.5", "f 1 2 99999999999999999999", "v 1 2",
           "v 1 2 nan", "v 1 -inf 2", "v 1 2 1e400", "v 1 2 2e9", "v 1 2 3 4 5 6 7 8", "v 1,5 2 3", "v 0 0 0 -1 0 0"}) {
-        const std::string message = refused(start + bad + "\nf 1 2 3\n");
+        const std::string message = refused_obj(start + bad + "\nf 1 2 3\n");
         EXPECT_EQ(message.substr(0, 11), "test.obj:4:") << bad << " -> " << message;
         EXPECT_NE(message.find("; "), std::string::npos) << message;
     }
 }
 
 TEST(ObjImport, RefusesAFileWithoutFaces) {
-    EXPECT_NE(refused(std::string(kTriangle)).find("has no triangles"), std::string::npos);
-    EXPECT_NE(refused("\x7f\x45LF rubbish\n\n").find("has no triangles"), std::string::npos);
+    EXPECT_NE(refused_obj(std::string(kTriangle)).find("has no triangles"), std::string::npos);
+    EXPECT_NE(refused_obj("\x7f\x45LF rubbish\n\n").find("has no triangles"), std::string::npos);
 }
 
 TEST(ObjImport, CountsWhatIsNotAPolygonInARemark) {

@@ -14,11 +14,11 @@ using Triangle = std::array<std::uint32_t, 3>;
 using Rgb = std::array<std::uint8_t, 3>;
 
 Result<ImportedMesh> import_ply(std::string_view text) { return import_text(text, MeshFormat::ply); }
-std::string refused(const std::string& text) { return refusal(text, MeshFormat::ply); }
+std::string refused_ply(const std::string& text) { return refusal(text, MeshFormat::ply); }
 
 const std::string kVertexHeader = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
 const std::string kFaceHeader = "element face 1\nproperty list uchar int vertex_indices\n";
-const std::string kPlain =
+const std::string kPlainPly =
     "ply\nformat ascii 1.0\n" + kVertexHeader + kFaceHeader + "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
 template <typename T>
@@ -70,23 +70,24 @@ TEST(PlyImport, ReadsBinaryOfBothByteOrdersWithMixedTypes) {
 
 TEST(PlyImport, RefusesABinaryFileCutAnywhere) {
     const std::string whole = binary_ply(std::endian::big);
-    for (std::size_t size = 0; size < whole.size(); ++size) EXPECT_NE(refused(whole.substr(0, size)), "") << size;
+    for (std::size_t size = 0; size < whole.size(); ++size) EXPECT_NE(refused_ply(whole.substr(0, size)), "") << size;
 }
 
 TEST(PlyImport, RefusesAnAsciiFileCutAfterAnyWord) {
-    for (std::size_t at = kPlain.find('\n'); at + 2 < kPlain.size(); at = kPlain.find_first_of(" \n", at + 1)) {
-        EXPECT_NE(refused(kPlain.substr(0, at)), "") << kPlain.substr(0, at);
+    for (std::size_t at = kPlainPly.find('\n'); at + 2 < kPlainPly.size();
+         at = kPlainPly.find_first_of(" \n", at + 1)) {
+        EXPECT_NE(refused_ply(kPlainPly.substr(0, at)), "") << kPlainPly.substr(0, at);
     }
-    EXPECT_EQ(refused(kPlain), "");
+    EXPECT_EQ(refused_ply(kPlainPly), "");
 }
 
 TEST(PlyImport, ReadsCarriageReturnsAndOddCase) {
-    std::string text = kPlain;
+    std::string text = kPlainPly;
     for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.replace(at, 1, "\r\n");
-    EXPECT_EQ(refused(text), "");
-    EXPECT_EQ(refused("PLY\nFormat ASCII 1.0\nobj_info none\nElement Vertex 3\nProperty Float32 X\nproperty FLOAT "
-                      "y\nproperty float z\n" +
-                      kFaceHeader + "END_HEADER\n0 0 0 1 0 0 0 1 0 3 0 1 2"),
+    EXPECT_EQ(refused_ply(text), "");
+    EXPECT_EQ(refused_ply("PLY\nFormat ASCII 1.0\nobj_info none\nElement Vertex 3\nProperty Float32 X\nproperty FLOAT "
+                          "y\nproperty float z\n" +
+                          kFaceHeader + "END_HEADER\n0 0 0 1 0 0 0 1 0 3 0 1 2"),
               "");
 }
 
@@ -109,7 +110,8 @@ TEST(PlyImport, ReadsFloatColoursFromZeroToOne) {
     const auto result = import_ply(head + "0 0 0 1 .5 0\n1 0 0 1 .5 0\n0 1 0 1 .5 0\n3 0 1 2\n");
     ASSERT_TRUE(result) << result.error().line();
     EXPECT_EQ(result->mesh.colours[0], (Rgb{255, 128, 0}));
-    EXPECT_NE(refused(head + "0 0 0 2 .5 0\n1 0 0 1 .5 0\n0 1 0 1 .5 0\n3 0 1 2\n").find("colour"), std::string::npos);
+    EXPECT_NE(refused_ply(head + "0 0 0 2 .5 0\n1 0 0 1 .5 0\n0 1 0 1 .5 0\n3 0 1 2\n").find("colour"),
+              std::string::npos);
 }
 
 TEST(PlyImport, GivesAFaceTheColourThatTwoOfItsCornersShare) {
@@ -141,26 +143,26 @@ TEST(PlyImport, ReadsColoursOfSixteenBits) {
 
 TEST(PlyImport, NamesTheLineOfWhatIsWrong) {
     const auto with = [](const std::string& from, const std::string& to) {
-        std::string text = kPlain;
+        std::string text = kPlainPly;
         return text.replace(text.find(from), from.size(), to);
     };
-    EXPECT_EQ(refused(with("3 0 1 2", "3 0 1 3")).substr(0, 12), "test.ply:13:");
-    EXPECT_EQ(refused(with("3 0 1 2", "3 0 -1 2")).substr(0, 12), "test.ply:13:");
-    EXPECT_EQ(refused(with("3 0 1 2", "3 0 .5 2")).substr(0, 12), "test.ply:13:");
-    EXPECT_EQ(refused(with("3 0 1 2", "-3 0 1 2")).substr(0, 12), "test.ply:13:");
-    EXPECT_EQ(refused(with("3 0 1 2", "nan 0 1 2")).substr(0, 12), "test.ply:13:");
-    EXPECT_EQ(refused(with("1 0 0", "1 nan 0")).substr(0, 12), "test.ply:11:");
-    EXPECT_EQ(refused(with("1 0 0", "1 0,5 0")).substr(0, 12), "test.ply:11:");
-    EXPECT_EQ(refused(with("float y", "float q")).substr(0, 8), "test.ply");
-    EXPECT_EQ(refused(with("float y", "half y")).substr(0, 11), "test.ply:5:");
-    EXPECT_EQ(refused(with("float y", "float x")).substr(0, 11), "test.ply:5:");
-    EXPECT_EQ(refused(with("ascii", "utf8")).substr(0, 11), "test.ply:2:");
-    EXPECT_EQ(refused(with("vertex 3", "vertex -3")).substr(0, 11), "test.ply:3:");
-    EXPECT_EQ(refused(with("vertex_indices", "corners")).substr(0, 8), "test.ply");
+    EXPECT_EQ(refused_ply(with("3 0 1 2", "3 0 1 3")).substr(0, 12), "test.ply:13:");
+    EXPECT_EQ(refused_ply(with("3 0 1 2", "3 0 -1 2")).substr(0, 12), "test.ply:13:");
+    EXPECT_EQ(refused_ply(with("3 0 1 2", "3 0 .5 2")).substr(0, 12), "test.ply:13:");
+    EXPECT_EQ(refused_ply(with("3 0 1 2", "-3 0 1 2")).substr(0, 12), "test.ply:13:");
+    EXPECT_EQ(refused_ply(with("3 0 1 2", "nan 0 1 2")).substr(0, 12), "test.ply:13:");
+    EXPECT_EQ(refused_ply(with("1 0 0", "1 nan 0")).substr(0, 12), "test.ply:11:");
+    EXPECT_EQ(refused_ply(with("1 0 0", "1 0,5 0")).substr(0, 12), "test.ply:11:");
+    EXPECT_EQ(refused_ply(with("float y", "float q")).substr(0, 8), "test.ply");
+    EXPECT_EQ(refused_ply(with("float y", "half y")).substr(0, 11), "test.ply:5:");
+    EXPECT_EQ(refused_ply(with("float y", "float x")).substr(0, 11), "test.ply:5:");
+    EXPECT_EQ(refused_ply(with("ascii", "utf8")).substr(0, 11), "test.ply:2:");
+    EXPECT_EQ(refused_ply(with("vertex 3", "vertex -3")).substr(0, 11), "test.ply:3:");
+    EXPECT_EQ(refused_ply(with("vertex_indices", "corners")).substr(0, 8), "test.ply");
 }
 
 TEST(PlyImport, RefusesTriangleStripsRatherThanLosingThem) {
-    const std::string message = refused(
+    const std::string message = refused_ply(
         "ply\nformat ascii 1.0\n" + kVertexHeader +
         "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
     EXPECT_NE(message.find("triangle strips"), std::string::npos) << message;
@@ -169,10 +171,10 @@ TEST(PlyImport, RefusesTriangleStripsRatherThanLosingThem) {
 TEST(PlyImport, RefusesCountsThatTheFileCannotHold) {
     for (const char* count : {"4", "1000000", "4294967295", "18446744073709551615", "99999999999999999999"}) {
         for (const char* element : {"vertex 3", "face 1"}) {
-            std::string text = kPlain;
+            std::string text = kPlainPly;
             text.replace(text.find(element), std::strlen(element),
                          std::string(element, std::strchr(element, ' ')) + " " + count);
-            EXPECT_NE(refused(text), "") << element << " " << count;
+            EXPECT_NE(refused_ply(text), "") << element << " " << count;
         }
     }
 }
@@ -188,8 +190,8 @@ TEST(PlyImport, CountsFacesOfFewerThanThreeCorners) {
 }
 
 TEST(PlyImport, SkipsAnElementWithoutPropertiesWhateverItsCount) {
-    EXPECT_EQ(refused("ply\nformat ascii 1.0\nelement nothing 18446744073709551615\n" +
-                      kPlain.substr(kPlain.find("element"))),
+    EXPECT_EQ(refused_ply("ply\nformat ascii 1.0\nelement nothing 18446744073709551615\n" +
+                          kPlainPly.substr(kPlainPly.find("element"))),
               "");
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kRadius_m = 0.110, kSeamDepth_m = 0.001, kRounding_m = 1e-6;
 
-const ImportedMesh& ball() {
+const ImportedMesh& soccer_ball() {
     static const Result<ImportedMesh> loaded = import_mesh("assets/workpieces/soccer_ball.obj");
     if (!loaded) ADD_FAILURE() << loaded.error().line();
     return *loaded;
@@ -43,23 +43,23 @@ std::size_t panels(const TriangleMesh& mesh, std::uint8_t material) {
 }
 
 TEST(SoccerBall, IsASoundSolid) {
-    const MeshHealth health = examine(ball().mesh);
+    const MeshHealth health = examine(soccer_ball().mesh);
     for (const std::string& complaint : complaints(health)) ADD_FAILURE() << complaint;
     EXPECT_TRUE(health.closed && health.manifold() && health.consistently_oriented && !health.inside_out());
     EXPECT_EQ(health.shells, 1u);
     EXPECT_EQ(health.vertices + health.triangles, health.edges + 2);  // a sphere
-    EXPECT_TRUE(ball().report.remarks.empty());
+    EXPECT_TRUE(soccer_ball().report.remarks.empty());
 }
 
 TEST(SoccerBall, HasTheRightSizeAndSeamDepth) {
     double least = 1.0, most = 0.0;
-    for (const Vec3& p : ball().mesh.positions_m) {
+    for (const Vec3& p : soccer_ball().mesh.positions_m) {
         least = std::min(least, glm::length(p));
         most = std::max(most, glm::length(p));
     }
     EXPECT_NEAR(most, kRadius_m, 2 * kRounding_m);
     EXPECT_NEAR(least, kRadius_m - kSeamDepth_m, 2 * kRounding_m);
-    const MeshHealth health = examine(ball().mesh);
+    const MeshHealth health = examine(soccer_ball().mesh);
     const double sphere = 4.0 / 3.0 * std::numbers::pi * std::pow(kRadius_m, 3);
     // Seams: 90 edges of about 44 mm, 1.5 mm^2 in section (mean depth 0.5 mm over 3 mm): 0.11 %; chords: below 0.1 %.
     EXPECT_LT(health.signed_volume_m3, sphere * (1 - 0.0008));
@@ -68,7 +68,7 @@ TEST(SoccerBall, HasTheRightSizeAndSeamDepth) {
 }
 
 TEST(SoccerBall, HasTwelveBlackPanelsAndTheRestIsWhite) {
-    const TriangleMesh& mesh = ball().mesh;
+    const TriangleMesh& mesh = soccer_ball().mesh;
     ASSERT_EQ(mesh.materials.size(), 2u);
     EXPECT_EQ(mesh.materials[0].name, "black");
     EXPECT_EQ(mesh.materials[1].name, "white");
@@ -90,7 +90,7 @@ TEST(SoccerBall, HasTwelveBlackPanelsAndTheRestIsWhite) {
 }
 
 TEST(SoccerBall, TurnsAWhiteHexagonToTheViewer) {
-    const TriangleMesh& mesh = ball().mesh;
+    const TriangleMesh& mesh = soccer_ball().mesh;
     std::size_t front = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const Vec3 middle = mesh.positions_m[mesh.triangles[t][0]] + mesh.positions_m[mesh.triangles[t][1]] +

@@ -12,7 +12,7 @@
 namespace burin::geometry::test {
 namespace {
 
-using Corners = std::array<Vec3, 3>;
+using CornersOfOne = std::array<Vec3, 3>;
 using Whole = std::array<std::int64_t, 3>;
 
 // Rational reference by clipping: cuts the second triangle's edges with the first one's plane in exact fractions, and
@@ -102,7 +102,7 @@ TEST(ExactSign, DecidesWhereRoundingWouldNot) {
 }
 
 TEST(TriangleContact, KnownConfigurations) {
-    const Corners base{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
+    const CornersOfOne base{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
     const auto meets = [&](const Vec3& a, const Vec3& b, const Vec3& c) { return triangles_meet(base, {a, b, c}); };
     EXPECT_TRUE(meets({1, 1, -1}, {1, 1, 1}, {9, 9, 1})) << "pierced";
     EXPECT_TRUE(meets({1, 1, 0}, {1, 1, 1}, {2, 2, 1})) << "touched by a vertex";
@@ -149,8 +149,8 @@ TEST(TriangleContact, EqualsWholeNumbersOnSmallLattices) {
         // The same by floats of another scale, whose differences are not so round.
         const double unit = 1.0 / 1024.0 + 0x1p-20;
         const Vec3 origin(3.0, -1.0, 0.5);
-        const Corners a{place(s[0], unit, origin), place(s[1], unit, origin), place(s[2], unit, origin)};
-        const Corners b{place(t[0], unit, origin), place(t[1], unit, origin), place(t[2], unit, origin)};
+        const CornersOfOne a{place(s[0], unit, origin), place(s[1], unit, origin), place(s[2], unit, origin)};
+        const CornersOfOne b{place(t[0], unit, origin), place(t[1], unit, origin), place(t[2], unit, origin)};
         ASSERT_EQ(triangles_meet(a, b), expected) << i;
         ASSERT_EQ(triangles_meet(b, a), expected) << i;
     }

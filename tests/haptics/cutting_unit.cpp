@@ -9,12 +9,12 @@
 #include <random>
 
 #include "tests/haptics/surfaces.hpp"
+#include "tests/support/test_units.hpp"
 
 namespace burin::haptics {
 namespace {
 
-constexpr double kDt = 1e-3;
-constexpr double kRadius_m = 0.003;
+constexpr double kCutterRadius_m = 0.003;
 constexpr double kStiffness = 600.0;
 const Vec3 kDown(0.0, -1.0, 0.0);
 
@@ -29,7 +29,7 @@ CuttingInput pressing(double hip_y_m, double dt_s = kDt) {
     CuttingInput in;
     in.hip_object_m = {0.0, hip_y_m, 0.0};
     in.normal_object = -kDown;
-    in.tool_radius_m = kRadius_m;
+    in.tool_radius_m = kCutterRadius_m;
     in.cutting = true;
     in.stiffness_N_per_m = kStiffness;
     in.dt_s = dt_s;
@@ -43,7 +43,7 @@ Vec3 force_on_hand_N(const CuttingInput& in, const CuttingStep& step) {
 // The time that a hand held at depth x needs to bring the tool from the surface to depth s <= R: the integral of
 // A(y) / (x - y) dy, times H / k, with A(y) = 2 pi (R y - y^2 + y^3 / (3 R)); by Simpson's rule.
 double time_to_depth_s(double s, double x, double hardness) {
-    const double R = kRadius_m;
+    const double R = kCutterRadius_m;
     const auto integrand = [&](double y) {
         return 2.0 * std::numbers::pi * (R * y - y * y + y * y * y / (3.0 * R)) / (x - y);
     };
@@ -66,27 +66,27 @@ double depth_after(double time_s, double x, double hardness, double dt_s) {
 }  // namespace
 
 TEST(Cutting, EngagedAreasAreIntegralsOverTheCap) {
-    EXPECT_EQ(engaged_areas(kRadius_m, 0.0).into_m2, 0.0);
+    EXPECT_EQ(engaged_areas(kCutterRadius_m, 0.0).into_m2, 0.0);
     EXPECT_EQ(engaged_areas(0.0, 0.001).into_m2, 0.0);
     for (const double depth : {0.0001, 0.0005, 0.0015, 0.003}) {
         double into = 0.0, across = 0.0, lift = 0.0;
         const int rings = 400, steps = 400;
-        const double theta = std::acos((kRadius_m - depth) / kRadius_m);
+        const double theta = std::acos((kCutterRadius_m - depth) / kCutterRadius_m);
         for (int i = 0; i < rings; ++i)
             for (int j = 0; j < steps; ++j) {
                 const double phi = theta * (i + 0.5) / rings, alpha = 2.0 * std::numbers::pi * (j + 0.5) / steps;
                 const double element =
-                    kRadius_m * kRadius_m * std::sin(phi) * theta / rings * 2.0 * std::numbers::pi / steps;
+                    kCutterRadius_m * kCutterRadius_m * std::sin(phi) * theta / rings * 2.0 * std::numbers::pi / steps;
                 const double m_n = std::cos(phi), m_t = std::sin(phi) * std::cos(alpha);
                 into += m_n * m_n * element;
                 if (m_t > 0.0) across += m_t * m_t * element, lift += m_n * m_t * element;
             }
-        const EngagedAreas areas = engaged_areas(kRadius_m, depth);
+        const EngagedAreas areas = engaged_areas(kCutterRadius_m, depth);
         EXPECT_NEAR(areas.into_m2, into, 1e-4 * into) << depth;
         EXPECT_NEAR(areas.across_m2, across, 1e-4 * across) << depth;
         EXPECT_NEAR(areas.lift_m2, lift, 1e-4 * lift) << depth;
     }
-    EXPECT_EQ(engaged_areas(kRadius_m, 1.0).into_m2, engaged_areas(kRadius_m, kRadius_m).into_m2);
+    EXPECT_EQ(engaged_areas(kCutterRadius_m, 1.0).into_m2, engaged_areas(kCutterRadius_m, kCutterRadius_m).into_m2);
 }
 
 TEST(Cutting, AtASteadyPressTheToolCutsAtForceOverHardnessTimesArea) {
@@ -100,11 +100,12 @@ TEST(Cutting, AtASteadyPressTheToolCutsAtForceOverHardnessTimesArea) {
             y -= speed * kDt * scale;
             in = pressing(y);
             in.scale = scale;
-            in.tool_radius_m = kRadius_m * scale;
+            in.tool_radius_m = kCutterRadius_m * scale;
             step = cut(state, in, of_hardness(hardness));
             state = step.next;
         }
-        const double area_m2 = 2.0 / 3.0 * std::numbers::pi * kRadius_m * kRadius_m;  // deeper than the radius by now
+        const double area_m2 =
+            2.0 / 3.0 * std::numbers::pi * kCutterRadius_m * kCutterRadius_m;  // deeper than the radius by now
         EXPECT_NEAR(step.engaged_area_m2, area_m2, 1e-12) << scale;
         EXPECT_NEAR(step.cut_speed_m_per_s, speed, 1e-9) << scale;
         EXPECT_NEAR(force_on_hand_N(in, step).y, hardness * area_m2 * speed, 1e-7) << scale;
@@ -130,13 +131,13 @@ TEST(Cutting, DrawnAlongItRunsAtTheDepthWhereTheLiftBearsThePress) {
             step = cut(state, in, of_hardness(hardness));
             state = step.next;
         }
-        const EngagedAreas areas = engaged_areas(kRadius_m, step.engaged_depth_m);
+        const EngagedAreas areas = engaged_areas(kCutterRadius_m, step.engaged_depth_m);
         EXPECT_NEAR(hardness * areas.lift_m2 * speed, press_N, 0.001 * press_N);
         EXPECT_NEAR(-force_on_hand_N(in, step).x, hardness * areas.across_m2 * speed, 1e-3 * press_N);
         EXPECT_GT(step.engaged_depth_m, last_depth);
         last_depth = step.engaged_depth_m;
     }
-    EXPECT_LT(last_depth, kRadius_m);
+    EXPECT_LT(last_depth, kCutterRadius_m);
 }
 
 TEST(Cutting, AHeldHandSinksInAsTheGrowingCapLetsIt) {
@@ -216,7 +217,7 @@ TEST(Cutting, HowDeepItGetsDoesNotDependOnHowOftenTheSurfaceArrives) {
     const auto depth_when_published_every = [&](int ticks) {
         CuttingState state;
         CuttingInput in = pressing(-0.002);
-        in.slack_m = 0.02 * kRadius_m;
+        in.slack_m = 0.02 * kCutterRadius_m;
         CuttingStep step;
         for (int i = 1; i <= 500; ++i) {
             step = cut(state, in, of_hardness(hardness));
@@ -302,13 +303,14 @@ TEST(Engagement, OnAPlaneItIsHowDeepTheBallLies) {
     for (const int squares : {10, 80, 400}) {  // of 10 mm, of 1.25 mm, of a quarter of one
         const test::Surface plane = test::plane(0.05, squares);
         for (const double depth : {0.0, 0.0003, 0.001, 0.002}) {
-            const Engagement seen = engagement(*plane, {0.0011, kRadius_m - depth, 0.0007}, kRadius_m).engagement;
-            EXPECT_NEAR(seen.depth_m, depth, 0.06 * kRadius_m) << squares;
+            const Engagement seen =
+                engagement(*plane, {0.0011, kCutterRadius_m - depth, 0.0007}, kCutterRadius_m).engagement;
+            EXPECT_NEAR(seen.depth_m, depth, 0.06 * kCutterRadius_m) << squares;
             EXPECT_GT(glm::dot(seen.into_object, kDown), 0.99) << squares;
         }
     }
     const test::Surface plane = test::plane();
-    const Engagement away = engagement(*plane, {0.0, 2.0 * kRadius_m, 0.0}, kRadius_m).engagement;
+    const Engagement away = engagement(*plane, {0.0, 2.0 * kCutterRadius_m, 0.0}, kCutterRadius_m).engagement;
     EXPECT_EQ(away.depth_m, 0.0);
     EXPECT_EQ(away.into_object, Vec3(0.0));
 }
@@ -316,15 +318,15 @@ TEST(Engagement, OnAPlaneItIsHowDeepTheBallLies) {
 TEST(Engagement, InAGrooveItIsWhatTheWallsTakeUpOfTheView) {
     // Half a pipe, open at both ends: within 1.1 R of the middle it is z0 = sqrt(0.21) R long to both sides, and takes
     // up W = 2 pi z0 / (1.1 R) of the view.
-    const test::Surface groove = test::groove(kRadius_m, 0.05, 24, 200, 0.0);
-    const Engagement seen = engagement(*groove, Vec3(0.0), kRadius_m).engagement;
-    EXPECT_NEAR(seen.depth_m, (std::sqrt(0.21) - 0.1) * kRadius_m, 0.03 * kRadius_m);
+    const test::Surface groove = test::groove(kCutterRadius_m, 0.05, 24, 200, 0.0);
+    const Engagement seen = engagement(*groove, Vec3(0.0), kCutterRadius_m).engagement;
+    EXPECT_NEAR(seen.depth_m, (std::sqrt(0.21) - 0.1) * kCutterRadius_m, 0.03 * kCutterRadius_m);
     EXPECT_GT(glm::dot(seen.into_object, kDown), 0.999);
 }
 
 TEST(Engagement, DoesNotDependOnTheUnitOfLengthOrThePlace) {
     for (const double scale : {1e-3, 1.0, 1e3}) {
-        const double R = kRadius_m * scale;
+        const double R = kCutterRadius_m * scale;
         const Vec3 origin = scale * Vec3(3.0, -2.0, 1.0);
         const test::Surface wavy = test::height_field(
             0.02 * scale, 80, [&](double x, double z) { return 0.1 * R * std::sin(x / R) * std::cos(z / R); },
@@ -332,9 +334,9 @@ TEST(Engagement, DoesNotDependOnTheUnitOfLengthOrThePlace) {
         wavy->origin_object = origin;
         const Engagement seen = engagement(*wavy, origin + scale * Vec3(0.0004, 0.0021, 0.001), R).engagement;
         const test::Surface same = test::height_field(0.02, 80, [&](double x, double z) {
-            return 0.1 * kRadius_m * std::sin(x / kRadius_m) * std::cos(z / kRadius_m);
+            return 0.1 * kCutterRadius_m * std::sin(x / kCutterRadius_m) * std::cos(z / kCutterRadius_m);
         });
-        const Engagement unscaled = engagement(*same, Vec3(0.0004, 0.0021, 0.001), kRadius_m).engagement;
+        const Engagement unscaled = engagement(*same, Vec3(0.0004, 0.0021, 0.001), kCutterRadius_m).engagement;
         EXPECT_NEAR(seen.depth_m / scale, unscaled.depth_m, 1e-6);
     }
 }
@@ -343,14 +345,14 @@ TEST(Engagement, PiecesOfLargeTrianglesCountAsWorkThatComesToAnEnd) {
     // Sides of eight radii are cut into 24 parts, and so the triangle into 576 pieces. A thousand such triangles lie
     // one above the other.
     test::SurfaceBuilder b;
-    const double side = 8.0 * kRadius_m;
+    const double side = 8.0 * kCutterRadius_m;
     for (int i = 0; i < 1000; ++i) {
-        const double y = -0.5 * kRadius_m - 1e-7 * i;
+        const double y = -0.5 * kCutterRadius_m - 1e-7 * i;
         b.triangle(b.vertex({-0.3 * side, y, -0.3 * side}), b.vertex({-0.3 * side, y, 0.4 * side}),
                    b.vertex({0.4 * side, y, -0.3 * side}));
     }
     const test::Surface many = b.finish();
-    const EngagementLook look = engagement(*many, Vec3(0.0), kRadius_m);
+    const EngagementLook look = engagement(*many, Vec3(0.0), kCutterRadius_m);
     EXPECT_GT(look.engagement.depth_m, 0.0);
     // The longest side, 0.7 sqrt(2) times 8 radii, makes 24 parts of a third of a radius; four triangles are cut up at
     // once.
@@ -358,19 +360,20 @@ TEST(Engagement, PiecesOfLargeTrianglesCountAsWorkThatComesToAnEnd) {
 }
 
 TEST(Engagement, TwoLargeTrianglesAreSeenAsManySmallOnes) {
-    const test::Surface coarse = test::plane(4.0 * kRadius_m, 1), fine = test::plane(4.0 * kRadius_m, 40);
-    for (const double depth : {0.2 * kRadius_m, 0.5 * kRadius_m, 0.8 * kRadius_m}) {
-        const Vec3 center(0.0, kRadius_m - depth, 0.0);
-        const double of_few = engagement(*coarse, center, kRadius_m).engagement.depth_m;
+    const test::Surface coarse = test::plane(4.0 * kCutterRadius_m, 1), fine = test::plane(4.0 * kCutterRadius_m, 40);
+    for (const double depth : {0.2 * kCutterRadius_m, 0.5 * kCutterRadius_m, 0.8 * kCutterRadius_m}) {
+        const Vec3 center(0.0, kCutterRadius_m - depth, 0.0);
+        const double of_few = engagement(*coarse, center, kCutterRadius_m).engagement.depth_m;
         // Pieces of half a radius instead of a third, which a triangle of eleven radii would have to be cut into.
-        EXPECT_NEAR(of_few, engagement(*fine, center, kRadius_m).engagement.depth_m, 0.15 * kRadius_m) << depth;
+        EXPECT_NEAR(of_few, engagement(*fine, center, kCutterRadius_m).engagement.depth_m, 0.15 * kCutterRadius_m)
+            << depth;
     }
 }
 
 TEST(Engagement, WhatLiesAheadCountsForBothHalvesAndWhatLiesBehindForNone) {
     // An uncut wall at the ball's side.
     test::SurfaceBuilder b;
-    const double x = 0.5 * kRadius_m, half = 3.0 * kRadius_m;
+    const double x = 0.5 * kCutterRadius_m, half = 3.0 * kCutterRadius_m;
     constexpr int kCells = 40;
     const double s = 2.0 * half / kCells;
     for (int j = 0; j < kCells; ++j)
@@ -380,13 +383,14 @@ TEST(Engagement, WhatLiesAheadCountsForBothHalvesAndWhatLiesBehindForNone) {
         }
     const test::Surface wall = b.finish();
     const auto depth = [&](const Vec3& ahead) {
-        return engagement(*wall, Vec3(0.0), kRadius_m, ahead).engagement.depth_m + 0.1 * kRadius_m;  // 1.1 D
+        return engagement(*wall, Vec3(0.0), kCutterRadius_m, ahead).engagement.depth_m +
+               0.1 * kCutterRadius_m;  // 1.1 D
     };
     const double around = depth(Vec3(0.0));
-    ASSERT_GT(around, 0.2 * kRadius_m);
-    EXPECT_NEAR(depth({1.0, 0.0, 0.0}), 2.0 * around, 1e-6 * kRadius_m);
-    EXPECT_NEAR(depth({0.5, 0.0, 0.0}), 1.5 * around, 1e-6 * kRadius_m);
-    EXPECT_EQ(depth({-1.0, 0.0, 0.0}), 0.1 * kRadius_m);
+    ASSERT_GT(around, 0.2 * kCutterRadius_m);
+    EXPECT_NEAR(depth({1.0, 0.0, 0.0}), 2.0 * around, 1e-6 * kCutterRadius_m);
+    EXPECT_NEAR(depth({0.5, 0.0, 0.0}), 1.5 * around, 1e-6 * kCutterRadius_m);
+    EXPECT_EQ(depth({-1.0, 0.0, 0.0}), 0.1 * kCutterRadius_m);
 }
 
 TEST(Cutting, LooksAgainAtTheSurfaceWhenItIsAnotherOrTheToolHasMovedOnAndElseSparesItself) {
@@ -400,13 +404,13 @@ TEST(Cutting, LooksAgainAtTheSurfaceWhenItIsAnotherOrTheToolHasMovedOnAndElseSpa
     looked = look_at(looked.next, in, *plane);
     EXPECT_EQ(looked.triangles_seen, 0u) << "nothing is new";
     EXPECT_EQ(looked.next.known.depth_m, depth);
-    in.proxy_object_m.y -= 0.05 * kRadius_m;
+    in.proxy_object_m.y -= 0.05 * kCutterRadius_m;
     looked = look_at(looked.next, in, *plane);
     EXPECT_EQ(looked.triangles_seen, 0u);
-    in.proxy_object_m.y -= 0.15 * kRadius_m;
+    in.proxy_object_m.y -= 0.15 * kCutterRadius_m;
     looked = look_at(looked.next, in, *plane);
     EXPECT_GT(looked.triangles_seen, 0u);
-    EXPECT_NEAR(looked.next.known.depth_m - depth, 0.2 * kRadius_m, 1e-4);
+    EXPECT_NEAR(looked.next.known.depth_m - depth, 0.2 * kCutterRadius_m, 1e-4);
     plane->sequence = 2;
     EXPECT_GT(look_at(looked.next, in, *plane).triangles_seen, 0u);
 }

@@ -2,6 +2,7 @@
 // The energy account: the work of wrenches that were held over lost ticks, silenced by a watchdog, or turned; and what
 // may be commanded with it.
 #include "haptics/stability/energy_account.hpp"
+#include "tests/support/test_units.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,17 +11,16 @@
 namespace burin::haptics {
 namespace {
 
-constexpr Nanoseconds kMs = 1'000'000;
 constexpr PromiseLimits kPromise{0.15, 2.0, 5, 0.001};
 
-devices::DeviceDescription device() {
+devices::DeviceDescription account_device() {
     devices::DeviceDescription d;
     d.friction_N = 0.26;
     d.delay_s = 0.001;
     return d;
 }
 
-AccountInput at(Nanoseconds time_ns, double y_m) {
+AccountInput account_input(Nanoseconds time_ns, double y_m) {
     AccountInput in;
     in.position_device_m = {0.0, y_m, 0.0};
     in.time_ns = time_ns;
@@ -30,9 +30,9 @@ AccountInput at(Nanoseconds time_ns, double y_m) {
 
 // In contact since 1 ms, with 1 N commanded then and 2 N a millisecond later.
 EnergyAccount begun(const devices::DeviceDescription& d) {
-    EnergyAccount account = count_energy({}, at(kMs, 0.0), kPromise, d).next;
+    EnergyAccount account = count_energy({}, account_input(kMs, 0.0), kPromise, d).next;
     remember(account, {{0.0, 1.0, 0.0}, Vec3(0.0)}, kMs);
-    account = count_energy(account, at(2 * kMs, 0.0), kPromise, d).next;
+    account = count_energy(account, account_input(2 * kMs, 0.0), kPromise, d).next;
     remember(account, {{0.0, 2.0, 0.0}, Vec3(0.0)}, 2 * kMs);
     return account;
 }
@@ -41,22 +41,23 @@ EnergyAccount begun(const devices::DeviceDescription& d) {
 
 TEST(EnergyAccount, CountsTheWorkOfTheForceThatWasHeldOverLostTicks) {
     // 1 N acts for the first of six milliseconds, 2 N for the others; the tool moves out by 6 mm.
-    const AccountStep step = count_energy(begun(device()), at(8 * kMs, 0.006), kPromise, device());
+    const AccountStep step =
+        count_energy(begun(account_device()), account_input(8 * kMs, 0.006), kPromise, account_device());
     EXPECT_NEAR(step.taken_J, -(1.0 * 0.001 + 2.0 * 0.005), 1e-12);
     EXPECT_NEAR(step.dissipated_J, 0.26 * 0.006, 1e-12);
 }
 
 TEST(EnergyAccount, CountsNothingOnceTheWatchdogHasTakenTheForceOff) {
-    devices::DeviceDescription d = device();
+    devices::DeviceDescription d = account_device();
     d.watchdog_s = 0.003;  // written last at 2 ms
-    const AccountStep step = count_energy(begun(d), at(8 * kMs, 0.006), kPromise, d);
+    const AccountStep step = count_energy(begun(d), account_input(8 * kMs, 0.006), kPromise, d);
     EXPECT_NEAR(step.taken_J, -(1.0 * 0.001 + 2.0 * 0.002), 1e-12);
 }
 
 TEST(EnergyAccount, CountsTorqueTimesRotation) {
-    devices::DeviceDescription d = device();
+    devices::DeviceDescription d = account_device();
     d.angular_friction_Nm = 0.002;
-    AccountInput first = at(kMs, 0.0), second = at(3 * kMs, 0.0);
+    AccountInput first = account_input(kMs, 0.0), second = account_input(3 * kMs, 0.0);
     first.turns = second.turns = true;
     second.orientation_device = {std::cos(0.005), 0.0, 0.0, std::sin(0.005)};  // 0.01 rad about z
     EnergyAccount account = count_energy({}, first, kPromise, d).next;
@@ -68,8 +69,8 @@ TEST(EnergyAccount, CountsTorqueTimesRotation) {
 }
 
 TEST(EnergyAccount, AffordsFrictionForNothingAndMoreAsEnergyHasComeIn) {
-    const devices::DeviceDescription d = device();
-    EnergyAccount account = count_energy({}, at(kMs, 0.0), kPromise, d).next;
+    const devices::DeviceDescription d = account_device();
+    EnergyAccount account = count_energy({}, account_input(kMs, 0.0), kPromise, d).next;
     const auto most = [&] { return affordable(account, {{0.0, 5.0, 0.0}, Vec3(0.0)}, kPromise, d, kMs).force_N; };
     EXPECT_DOUBLE_EQ(most(), 0.26);
     account.budget_J = 0.001;
@@ -80,9 +81,9 @@ TEST(EnergyAccount, AffordsFrictionForNothingAndMoreAsEnergyHasComeIn) {
 }
 
 TEST(EnergyAccount, AffordsForceAndTorqueTogether) {
-    devices::DeviceDescription d = device();
+    devices::DeviceDescription d = account_device();
     d.angular_friction_Nm = 0.01;
-    EnergyAccount account = count_energy({}, at(kMs, 0.0), kPromise, d).next;
+    EnergyAccount account = count_energy({}, account_input(kMs, 0.0), kPromise, d).next;
     account.budget_J = 0.001;
     const devices::DeviceWrench wrench{{0.0, 3.0, 0.0}, {0.0, 0.0, 0.2}};
     const double share = affordable(account, wrench, kPromise, d, kMs).share;
@@ -92,10 +93,10 @@ TEST(EnergyAccount, AffordsForceAndTorqueTogether) {
 }
 
 TEST(EnergyAccount, AffordsNoTorqueBesideAForceThatTheSlewLimitMayHoldUp) {
-    devices::DeviceDescription d = device();
+    devices::DeviceDescription d = account_device();
     EXPECT_EQ(affordable(begun(d), {}, kPromise, d, 2 * kMs).torque_Nm, HUGE_VAL) << "rotation is not known";
     d.angular_friction_Nm = 0.01;
-    EnergyAccount account = count_energy({}, at(kMs, 0.0), kPromise, d).next;
+    EnergyAccount account = count_energy({}, account_input(kMs, 0.0), kPromise, d).next;
     account.budget_J = 0.001;
     // Nothing is commanded: all that there is, for 7.5 ms at 2 rad/s.
     EXPECT_NEAR(affordable(account, {}, kPromise, d, kMs).torque_Nm, 0.01 + 0.001 / (0.0075 * 2.0), 1e-12);

@@ -76,7 +76,7 @@ TEST(FineSurface, ALargeBallCostsNoMoreThanASmallOne) {
     }
 }
 
-// The stride among the vertices grows in ticks whose budget is too small for a look. It once grew without a bound, up to
+// The stride among the vertices grows in ticks whose budget is too small for a look. It once grew without a bound, to
 // 2^32, which is 0: then no later look came to an end, and the hand was held for good.
 TEST(FineSurface, ABallIsFreeAgainAfterTicksThatWereTooShort) {
     const BumpySphere shape{.radius_m = 0.05, .bump_m = 0.0005};

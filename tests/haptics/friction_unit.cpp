@@ -4,11 +4,10 @@
 
 #include "haptics/contact/god_object.hpp"
 #include "tests/haptics/smooth_shapes.hpp"
+#include "tests/support/test_units.hpp"
 
 namespace burin::haptics {
 namespace {
-
-constexpr double kMm = 1e-3;
 
 struct Rubbing {
     const geometry::LocalSurface* surface;

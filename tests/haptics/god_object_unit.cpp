@@ -8,6 +8,7 @@
 
 #include "haptics/contact/touching.hpp"
 #include "tests/haptics/surfaces.hpp"
+#include "tests/support/test_units.hpp"
 
 namespace burin::haptics {
 namespace {
@@ -36,8 +37,6 @@ struct Walker {
     }
     [[nodiscard]] Vec3 proxy() const { return last.next.position_object_m; }
 };
-
-constexpr double kMm = 1e-3;
 
 }  // namespace
 

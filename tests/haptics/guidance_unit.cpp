@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "haptics/forces/guidance.hpp"
+#include "tests/support/test_units.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +10,6 @@
 
 namespace burin::haptics {
 namespace {
-
-constexpr double kDt = 1e-3;
 
 GuidanceCurve curve_through(const std::vector<Vec3>& points) {
     GuidanceCurve curve;

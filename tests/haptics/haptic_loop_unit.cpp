@@ -9,13 +9,12 @@
 
 #include "haptics/realtime.hpp"
 #include "tests/haptics/rig.hpp"
+#include "tests/support/test_units.hpp"
 
 namespace burin::haptics {
 namespace {
 
 using test::Rig;
-
-constexpr Nanoseconds kMs = 1'000'000;
 
 // Down from 10 mm above to 6 mm below the ball's rest on the plane y = 0, hold, drag, up again. Tool radius 5 mm.
 std::vector<devices::HandPose> press_and_drag() {

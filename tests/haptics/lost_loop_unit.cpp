@@ -4,12 +4,10 @@
 
 #include "haptics/tick.hpp"
 #include "tests/haptics/surfaces.hpp"
+#include "tests/support/test_units.hpp"
 
 namespace burin::haptics {
 namespace {
-
-constexpr double kDt = 1e-3;
-constexpr Nanoseconds kMs = 1'000'000;
 
 struct Session {
     test::Surface plane = test::plane();

@@ -19,12 +19,12 @@
 namespace burin::haptics {
 namespace {
 
-constexpr int kSteps = 16;  // a period
+constexpr int kLostSteps = 16;  // a period
 constexpr std::uint32_t kMostLost = 5;
 
-class Dice {
+class LostDice {
 public:
-    explicit Dice(std::uint64_t seed) : engine_(seed) {}
+    explicit LostDice(std::uint64_t seed) : engine_(seed) {}
     double between(double lo, double hi) { return lo + (hi - lo) * static_cast<double>(engine_() >> 11) * 0x1p-53; }
     double spread(double lo, double hi) { return lo * std::pow(hi / lo, between(0.0, 1.0)); }  // logarithmically
     bool one_in(int n) { return engine_() % static_cast<std::uint64_t>(n) == 0; }
@@ -34,9 +34,9 @@ private:
     std::mt19937_64 engine_;  // its numbers are the same everywhere
 };
 
-enum class Motion { back_and_forth, random_turns, against_the_wall, held_by_a_hand };
+enum class LostMotion { back_and_forth, random_turns, against_the_wall, held_by_a_hand };
 
-struct Draw {
+struct LostDraw {
     devices::DeviceDescription device;
     Nanoseconds step_ns = 0;
     int delay_steps = 0, watchdog_steps = 0, jitter_steps = 0;
@@ -47,26 +47,26 @@ struct Draw {
     PassivitySettings passivity;
     GateLimits limits;
     int jumps_one_in = 0, faults_one_in = 0, edits_one_in = 0;  // ticks; 0: never
-    Motion motion = Motion::back_and_forth;
+    LostMotion motion = LostMotion::back_and_forth;
     double depth_m = 0.0;
     double hand_mass_kg = 0.0, hand_stiffness_N_per_m = 0.0, hand_damping_Ns_per_m = 0.0;
 };
 
-Draw draw(Dice& dice) {
-    Draw d;
-    d.step_ns = nanoseconds(1.0 / (dice.spread(100.0, 4000.0) * kSteps));
-    const double step_s = seconds(d.step_ns), period_s = kSteps * step_s;
+LostDraw draw_lost(LostDice& dice) {
+    LostDraw d;
+    d.step_ns = nanoseconds(1.0 / (dice.spread(100.0, 4000.0) * kLostSteps));
+    const double step_s = seconds(d.step_ns), period_s = kLostSteps * step_s;
     d.device.rate_Hz = 1.0 / period_s;
     d.device.apparent_mass_kg = dice.spread(0.02, 0.5);
     d.device.damping_Ns_per_m = dice.one_in(5) ? 0.0 : dice.spread(0.01, 20.0);
     if (!dice.one_in(5) || d.device.damping_Ns_per_m == 0.0) d.device.friction_N = dice.spread(0.01, 2.0);
     d.device.resolution_m = dice.one_in(5) ? 0.0 : dice.spread(1e-6, 2e-4);
     d.device.max_force_N = dice.spread(1.0, 30.0);
-    d.delay_steps = dice.one_in(2) ? kSteps * dice.below(4) : dice.below(4 * kSteps);
+    d.delay_steps = dice.one_in(2) ? kLostSteps * dice.below(4) : dice.below(4 * kLostSteps);
     d.device.delay_s = d.delay_steps * step_s;
-    if (dice.one_in(4)) d.watchdog_steps = d.delay_steps + 2 * kSteps + dice.below(8 * kSteps);
+    if (dice.one_in(4)) d.watchdog_steps = d.delay_steps + 2 * kLostSteps + dice.below(8 * kLostSteps);
     d.device.watchdog_s = d.watchdog_steps * step_s;
-    d.jitter_steps = dice.one_in(3) ? 0 : 1 + dice.below(kSteps / 2 - 1);
+    d.jitter_steps = dice.one_in(3) ? 0 : 1 + dice.below(kLostSteps / 2 - 1);
     d.loses_one_in = dice.one_in(8) ? 0 : 1 + dice.below(20);
     d.demand.contact_speed_m_per_s = d.passivity.contact_speed_m_per_s = dice.spread(0.02, 1.0);
     d.demand.stiffness_N_per_m = dice.one_in(2) ? 1e7 : dice.spread(10.0, 1e4);
@@ -88,7 +88,7 @@ Draw draw(Dice& dice) {
     if (dice.one_in(3)) d.jumps_one_in = 5 + dice.below(50);
     if (dice.one_in(4)) d.faults_one_in = 20 + dice.below(100);
     if (dice.one_in(4)) d.edits_one_in = 5 + dice.below(50);
-    d.motion = static_cast<Motion>(dice.below(4));
+    d.motion = static_cast<LostMotion>(dice.below(4));
     d.depth_m = d.demand.contact_speed_m_per_s * period_s * dice.between(1.0, 40.0);
     d.hand_mass_kg = dice.spread(0.02, 1.0);
     d.hand_stiffness_N_per_m = dice.spread(10.0, 3000.0);
@@ -97,10 +97,10 @@ Draw draw(Dice& dice) {
 }
 
 // Depth is positive into the wall, and so is motion; the force pushes out.
-class Simulation {
+class LostSimulation {
 public:
-    Simulation(const Draw& d, std::uint64_t seed) : d_(d), dice_(seed), step_s_(seconds(d.step_ns)) {
-        const bool held = d.motion == Motion::held_by_a_hand;
+    LostSimulation(const LostDraw& d, std::uint64_t seed) : d_(d), dice_(seed), step_s_(seconds(d.step_ns)) {
+        const bool held = d.motion == LostMotion::held_by_a_hand;
         x_ = held ? -0.1 * d.depth_m : -0.5 * d.depth_m;
         v_ = held ? 0.7 * d.demand.contact_speed_m_per_s : d.demand.contact_speed_m_per_s;
         target_m_ = 0.5 * d.depth_m;
@@ -108,7 +108,7 @@ public:
 
     // The most that has come out beyond what the device took; above 0 the promise is broken.
     double worst_excess_J(int periods) {
-        for (int i = 0; i < periods * kSteps && !too_fast_; ++i, ++now_) {
+        for (int i = 0; i < periods * kLostSteps && !too_fast_; ++i, ++now_) {
             if (now_ == next_tick_) {
                 sample();
                 next_tick_ = following_tick();
@@ -127,13 +127,13 @@ private:
     int following_tick() {
         int periods = 1;
         if (d_.loses_one_in > 0 && dice_.one_in(d_.loses_one_in)) periods += 1 + dice_.below(kMostLost);
-        deadline_ += periods * kSteps;
+        deadline_ += periods * kLostSteps;
         return deadline_ + (d_.jitter_steps > 0 ? dice_.below(d_.jitter_steps + 1) : 0);
     }
 
     void sample() {
         const Nanoseconds now_ns = 1'000'000'000 + now_ * d_.step_ns, last_ns = time_ns_;
-        const double period_s = kSteps * step_s_, gap_s = last_ns > 0 ? seconds(now_ns - last_ns) : 0.0;
+        const double period_s = kLostSteps * step_s_, gap_s = last_ns > 0 ? seconds(now_ns - last_ns) : 0.0;
         time_ns_ = now_ns;
         bool jumped = d_.jumps_one_in > 0 && dice_.one_in(d_.jumps_one_in);
         if (d_.edits_one_in > 0 && dice_.one_in(d_.edits_one_in)) {
@@ -202,19 +202,19 @@ private:
     double step(double force_N) {
         const double V = d_.demand.contact_speed_m_per_s;
         switch (d_.motion) {
-            case Motion::back_and_forth: turn_at_ends(); break;
-            case Motion::random_turns:
+            case LostMotion::back_and_forth: turn_at_ends(); break;
+            case LostMotion::random_turns:
                 if (dice_.one_in(12)) v_ = dice_.between(-V, V);
                 if (dice_.one_in(12)) v_ = std::copysign(V, v_);
                 turn_at_ends();
                 break;
             // Moves in where the force is less than the spring would have it, and out where it is more.
-            case Motion::against_the_wall:
+            case LostMotion::against_the_wall:
                 v_ = std::copysign(V, d_.wall.stiffness_N_per_m * std::max(0.0, x_ - surface_m_) - force_N);
                 if (dice_.one_in(20)) v_ = -v_;
                 turn_at_ends();
                 break;
-            case Motion::held_by_a_hand: move_freely(force_N); break;
+            case LostMotion::held_by_a_hand: move_freely(force_N); break;
         }
         x_ += v_ * step_s_;
         return v_ * step_s_;
@@ -227,7 +227,7 @@ private:
 
     void move_freely(double force_N) {
         const double mass = d_.device.apparent_mass_kg + d_.hand_mass_kg;
-        if (dice_.one_in(40 * kSteps)) target_m_ = dice_.between(-0.5, 1.0) * d_.depth_m;
+        if (dice_.one_in(40 * kLostSteps)) target_m_ = dice_.between(-0.5, 1.0) * d_.depth_m;
         const double pull = d_.hand_stiffness_N_per_m * (target_m_ - x_) - force_N;
         const double damping = d_.device.damping_Ns_per_m + d_.hand_damping_Ns_per_m;
         const double v = (v_ + step_s_ / mass * pull) / (1.0 + step_s_ / mass * damping);
@@ -254,8 +254,8 @@ private:
         int step = 0;
         double force_N = 0.0;
     };
-    const Draw& d_;
-    Dice dice_;
+    const LostDraw& d_;
+    LostDice dice_;
     double step_s_;
     int now_ = 0, next_tick_ = 0, deadline_ = 0;
     Nanoseconds time_ns_ = 0;
@@ -270,43 +270,43 @@ private:
     double given_J_ = 0.0, taken_J_ = 0.0, worst_J_ = -HUGE_VAL;
 };
 
-constexpr int kDraws = 10'000, kPeriods = 250;
-constexpr double kRounding_J = 1e-12;
+constexpr int kLostDraws = 10'000, kPeriods = 250;
+constexpr double kLostRounding_J = 1e-12;
 
 }  // namespace
 
 TEST(LostTicks, BreakNoPromiseOnTenThousandDevicesHandsJittersAndLosses) {
     int touched = 0;
-    for (std::uint64_t seed = 1; seed <= kDraws; ++seed) {
-        Dice dice(seed);
-        const Draw d = draw(dice);
-        Simulation simulation(d, seed);
+    for (std::uint64_t seed = 1; seed <= kLostDraws; ++seed) {
+        LostDice dice(seed);
+        const LostDraw d = draw_lost(dice);
+        LostSimulation simulation(d, seed);
         const double excess = simulation.worst_excess_J(kPeriods);
         touched += simulation.touched() ? 1 : 0;
-        ASSERT_LE(excess, kRounding_J) << "draw " << seed << ", wall " << d.wall.stiffness_N_per_m << " N/m, "
-                                       << d.wall.damping_Ns_per_m << " Ns/m, motion " << static_cast<int>(d.motion);
+        ASSERT_LE(excess, kLostRounding_J) << "draw " << seed << ", wall " << d.wall.stiffness_N_per_m << " N/m, "
+                                           << d.wall.damping_Ns_per_m << " Ns/m, motion " << static_cast<int>(d.motion);
     }
-    EXPECT_GT(touched, kDraws * 9 / 10);
+    EXPECT_GT(touched, kLostDraws * 9 / 10);
 }
 
 // The test above would also pass if nothing ever came out, or with an account that gives next to no force.
 TEST(LostTicks, BreakItOnManyOfThemWhereNothingKeepsIt) {
     int broken = 0;
-    for (std::uint64_t seed = 1; seed <= kDraws / 10; ++seed) {
-        Dice dice(seed);
-        Draw d = draw(dice);
+    for (std::uint64_t seed = 1; seed <= kLostDraws / 10; ++seed) {
+        LostDice dice(seed);
+        LostDraw d = draw_lost(dice);
         d.passivity.control = false;
-        broken += Simulation(d, seed).worst_excess_J(kPeriods) > kRounding_J ? 1 : 0;
+        broken += LostSimulation(d, seed).worst_excess_J(kPeriods) > kLostRounding_J ? 1 : 0;
     }
-    EXPECT_GT(broken, kDraws / 10 / 10);
+    EXPECT_GT(broken, kLostDraws / 10 / 10);
 }
 
 TEST(LostTicks, TheDefaultWallOnAnOmniIsFeltInFullWhileNoneIsLost) {
     // Hands that hold the stylus, at up to the contact speed: how often the account cuts the force.
     int cut = 0, contact = 0;
     for (std::uint64_t seed = 1; seed <= 300; ++seed) {
-        Dice dice(seed);
-        Draw d = draw(dice);
+        LostDice dice(seed);
+        LostDraw d = draw_lost(dice);
         d.step_ns = 62'500;
         d.device = {};
         d.device.friction_N = 0.26;
@@ -315,7 +315,7 @@ TEST(LostTicks, TheDefaultWallOnAnOmniIsFeltInFullWhileNoneIsLost) {
         d.device.resolution_m = 0.055e-3;
         d.device.max_force_N = 3.3;
         d.device.delay_s = 0.001;
-        d.delay_steps = kSteps;
+        d.delay_steps = kLostSteps;
         d.watchdog_steps = d.jitter_steps = d.loses_one_in = 0;
         d.jumps_one_in = d.faults_one_in = d.edits_one_in = 0;
         d.demand = {600.0, 0.5};
@@ -324,10 +324,10 @@ TEST(LostTicks, TheDefaultWallOnAnOmniIsFeltInFullWhileNoneIsLost) {
         d.passivity = {};
         d.limits = {};
         d.limits.ramp_s = 0.0;
-        d.motion = Motion::held_by_a_hand;
+        d.motion = LostMotion::held_by_a_hand;
         d.depth_m = dice.between(1e-3, 8e-3);
-        Simulation simulation(d, seed);
-        EXPECT_LE(simulation.worst_excess_J(400), kRounding_J) << seed;
+        LostSimulation simulation(d, seed);
+        EXPECT_LE(simulation.worst_excess_J(400), kLostRounding_J) << seed;
         cut += simulation.cut_ticks();
         contact += simulation.contact_ticks();
     }

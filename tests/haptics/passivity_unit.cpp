@@ -12,15 +12,14 @@
 
 #include "haptics/tick.hpp"
 #include "tests/haptics/surfaces.hpp"
+#include "tests/support/test_units.hpp"
 
 namespace burin::haptics {
 namespace {
 
-constexpr double kDt = 1e-3, kStep = 0.055e-3;
-
-devices::DeviceDescription device(double friction = 0.26, double damping = 0.05, double delay_s = 0.001) {
+devices::DeviceDescription wall_device(double friction = 0.26, double damping = 0.05, double delay_s = 0.001) {
     devices::DeviceDescription d;
-    d.resolution_m = kStep;
+    d.resolution_m = kEncoderStep;
     d.friction_N = friction;
     d.damping_Ns_per_m = damping;
     d.delay_s = delay_s;
@@ -28,7 +27,7 @@ devices::DeviceDescription device(double friction = 0.26, double damping = 0.05,
 }
 
 // A wall of stiffness K below y = 0, pushing up.
-PassivityInput at(double y_m, double stiffness, double max_force_N = 0.0) {
+PassivityInput wall_input(double y_m, double stiffness, double max_force_N = 0.0) {
     PassivityInput in;
     in.position_device_m = {0.0, y_m, 0.0};
     const double depth = std::max(0.0, -y_m);
@@ -64,9 +63,9 @@ Push push(double stiffness, double speed, double depth_m, const devices::DeviceD
     double told_N = 0.0, acting_N = 0.0, y = 0.0042e-3, before = y;
     bool down = true;
     for (int i = 0; i < 4000 && y < 2e-3; ++i) {
-        const double sampled = kStep * std::floor(y / kStep + 0.5);
+        const double sampled = kEncoderStep * std::floor(y / kEncoderStep + 0.5);
         const PassivityStep step =
-            keep_passive(state, next(state, at(sampled, stiffness, max_force_N)), settings, d, kDt);
+            keep_passive(state, next(state, wall_input(sampled, stiffness, max_force_N)), settings, d, kDt);
         out.work_J += acting_N * (y - before);
         if (step.record.energy_J != 0.0) out.left_J = step.record.energy_J;
         out.most_damping = std::max(out.most_damping, step.record.damping_Ns_per_m);
@@ -88,7 +87,7 @@ TEST(PassivityObserver, CountsTheEnergyOfASampledWallAsTheClosedFormDoes) {
     observe.control = false;
     for (const double delay : {0.0, 0.001}) {
         const double K = 800.0, v = 0.1, depth = 4e-3;
-        const Push p = push(K, v, depth, device(0.26, 0.05, delay), observe);
+        const Push p = push(K, v, depth, wall_device(0.26, 0.05, delay), observe);
         const double expected = -K * (0.5 * kDt + delay) * v * 2.0 * depth;
         EXPECT_NEAR(p.left_J / expected, 1.0, 0.1) << delay;  // the turn, and the steps of the encoder
         EXPECT_NEAR(p.left_J, -p.work_J, 0.05 * std::abs(p.work_J));
@@ -98,17 +97,17 @@ TEST(PassivityObserver, CountsTheEnergyOfASampledWallAsTheClosedFormDoes) {
 
 TEST(PassivityController, IsQuietWhereTheDevicesFrictionCoversTheWall) {
     // 600 N/m at 0.15 m/s lies within the limiter's promise for this device.
-    for (const double v : {0.02, 0.1, 0.15}) EXPECT_EQ(push(600.0, v, 4e-3, device()).most_damping, 0.0) << v;
+    for (const double v : {0.02, 0.1, 0.15}) EXPECT_EQ(push(600.0, v, 4e-3, wall_device()).most_damping, 0.0) << v;
 }
 
 TEST(PassivityController, IsQuietOnASoftWallPressedBeyondTheForceLimit) {
-    EXPECT_EQ(push(600.0, 0.12, 15e-3, device(), {}, 3.3).most_damping, 0.0);
+    EXPECT_EQ(push(600.0, 0.12, 15e-3, wall_device(), {}, 3.3).most_damping, 0.0);
 }
 
 TEST(PassivityController, TakesBackWhatAStiffWallGivesOutTooMuch) {
     PassivitySettings observe, control;
     observe.control = false;
-    const devices::DeviceDescription bare = device(0.0, 0.0, 0.001);
+    const devices::DeviceDescription bare = wall_device(0.0, 0.0, 0.001);
     const Push without = push(1000.0, 0.2, 4e-3, bare, observe), with = push(1000.0, 0.2, 4e-3, bare, control);
     EXPECT_GT(with.most_damping, 0.0);
     EXPECT_LT(with.work_J, 0.5 * without.work_J);
@@ -126,13 +125,13 @@ TEST(PassivityController, NeverTurnsAForceAddsEnergyOrExceedsItsGainOnAnyMotion)
         // Half of them without friction and damping: nothing is known of these, so nothing is scaled.
         const double known = run % 2;
         const devices::DeviceDescription d =
-            device(known * number(0.0, 0.2), known * number(0.0, 0.2), number(0.0, 0.02));
+            wall_device(known * number(0.0, 0.2), known * number(0.0, 0.2), number(0.0, 0.02));
         PassivityState state;
         Vec3 position(0.0);
         for (int i = 0; i < 200; ++i) {
             const Vec3 moved = Vec3(number(-1, 1), number(-1, 1), number(-1, 1)) * number(0.0, 4e-4);
             position += moved;
-            PassivityInput in = at(position.y, number(100.0, 20'000.0), 3.3);
+            PassivityInput in = wall_input(position.y, number(100.0, 20'000.0), 3.3);
             in.position_device_m = position;
             in.wanted.force_device_N.x = number(-0.5, 0.5) * in.wanted.force_device_N.y;
             in.jumped = number(0.0, 1.0) < 0.01;
@@ -145,7 +144,7 @@ TEST(PassivityController, NeverTurnsAForceAddsEnergyOrExceedsItsGainOnAnyMotion)
             EXPECT_NEAR(glm::length(glm::cross(step.wrench.force_device_N, in.wanted.force_device_N)), 0.0, 1e-9);
             EXPECT_LE(glm::length(added), settings.max_damping_Ns_per_m * glm::length(moved) / kDt + 1e-12);
             EXPECT_LE(step.record.damping_Ns_per_m, settings.max_damping_Ns_per_m);
-            if (i > 0 && std::abs(glm::dot(moved, in.wanted.force_device_N)) < 1.99 * kStep * wanted) {
+            if (i > 0 && std::abs(glm::dot(moved, in.wanted.force_device_N)) < 1.99 * kEncoderStep * wanted) {
                 EXPECT_EQ(step.record.damping_Ns_per_m, 0.0);  // quiet below two steps where there is no window
                 EXPECT_LE(glm::length(added), 1e-12);          // rounding of the share
             }
@@ -158,7 +157,7 @@ TEST(PassivityController, NeverTurnsAForceAddsEnergyOrExceedsItsGainOnAnyMotion)
 
 TEST(PassivityController, ActsOnASlowLeakOverAWindowOfTicksAndNotOnAMotionThatHasTurned) {
     // Drawn out at 20 mm/s, a step in every third tick, with a debt.
-    const devices::DeviceDescription d = device(0.0, 0.0, 0.0);
+    const devices::DeviceDescription d = wall_device(0.0, 0.0, 0.0);
     const auto damping = [&](double last_steps) {
         VelocityWindow window;
         PassivityState state;
@@ -168,23 +167,23 @@ TEST(PassivityController, ActsOnASlowLeakOverAWindowOfTicksAndNotOnAMotionThatHa
         for (int i = 0; i < 8; ++i) {
             const double steps = i < 7 ? std::floor(i / 3.0) : 2.0 + last_steps;
             state.position_device_m = in.position_device_m;
-            in = next(state, at(-2e-3 + kStep * steps, 500.0));
+            in = next(state, wall_input(-2e-3 + kEncoderStep * steps, 500.0));
             window = with_position(window, in.position_device_m);
         }
         in.stored_J = 0.0;  // nothing but the debt
         in.window = &window;
         return keep_passive(state, in, {}, d, kDt).record.damping_Ns_per_m;
     };
-    EXPECT_NEAR(damping(0.0), 1e-6 / (std::pow(2.0 * kStep / (5 * kDt), 2.0) * kDt), 1e-9);
-    EXPECT_NEAR(damping(1.0), 1e-6 / (std::pow(2.0 * kStep / (2 * kDt), 2.0) * kDt), 1e-9);
+    EXPECT_NEAR(damping(0.0), 1e-6 / (std::pow(2.0 * kEncoderStep / (5 * kDt), 2.0) * kDt), 1e-9);
+    EXPECT_NEAR(damping(1.0), 1e-6 / (std::pow(2.0 * kEncoderStep / (2 * kDt), 2.0) * kDt), 1e-9);
     EXPECT_EQ(damping(-1.0), 0.0);
 }
 
 TEST(PassivityObserver, StartsAnewInFreeSpaceOnceTheLastForceHasActed) {
     PassivityState state;
-    const devices::DeviceDescription d = device();
+    const devices::DeviceDescription d = wall_device();
     const auto go = [&](double y) {
-        const PassivityStep step = keep_passive(state, next(state, at(y, 1000.0)), {}, d, kDt);
+        const PassivityStep step = keep_passive(state, next(state, wall_input(y, 1000.0)), {}, d, kDt);
         state = commanded(step.next, step.wrench.force_device_N);
         return step.record.energy_J;
     };
@@ -200,7 +199,7 @@ TEST(PassivityController, DoesNothingWhereNobodySaysWhatTheDeviceWasTold) {
     PassivityState state;
     for (int i = 0; i < 40; ++i) {
         const PassivityStep step =
-            keep_passive(state, next(state, at(-0.0003 * i, 2000.0)), {}, device(0.0, 0.0, 0.0), kDt);
+            keep_passive(state, next(state, wall_input(-0.0003 * i, 2000.0)), {}, wall_device(0.0, 0.0, 0.0), kDt);
         EXPECT_EQ(step.record.damping_Ns_per_m, 0.0);
         EXPECT_EQ(step.record.energy_J, 0.0);
         state = step.next;
@@ -209,10 +208,10 @@ TEST(PassivityController, DoesNothingWhereNobodySaysWhatTheDeviceWasTold) {
 
 TEST(PassivityController, WaitsWhileTheGateFadesAForceIn) {
     PassivityState state;
-    const devices::DeviceDescription d = device(0.0, 0.0, 0.0);
+    const devices::DeviceDescription d = wall_device(0.0, 0.0, 0.0);
     double damping = 0.0;
     for (int i = 0; i < 40; ++i) {
-        PassivityInput in = at(-0.0003 * i, 2000.0);
+        PassivityInput in = wall_input(-0.0003 * i, 2000.0);
         in.jumped = i <= 1;
         const PassivityStep step = keep_passive(state, next(state, in), {}, d, kDt);
         damping = std::max(damping, step.record.damping_Ns_per_m);
@@ -289,11 +288,11 @@ TEST(PassivityObserver, CountsNeitherTheToolsWeightNorGuidanceNorTheWorkspacesFo
 TEST(PassivityController, ALongQuietContactSavesUpNoMoreThanTheReserve) {
     PassivityState state;
     PassivitySettings settings;
-    const devices::DeviceDescription d = device(0.26, 0.05, 0.0);
+    const devices::DeviceDescription d = wall_device(0.26, 0.05, 0.0);
     double most = 0.0;
     for (int i = 0; i < 2000; ++i) {  // back and forth in a soft wall; friction takes more than the wall gives out
         const PassivityStep step =
-            keep_passive(state, next(state, at(-2e-3 - 1e-3 * std::sin(0.05 * i), 200.0)), settings, d, kDt);
+            keep_passive(state, next(state, wall_input(-2e-3 - 1e-3 * std::sin(0.05 * i), 200.0)), settings, d, kDt);
         most = std::max(most, step.next.reserve_J);
         state = commanded(step.next, step.wrench.force_device_N);
     }
@@ -308,13 +307,13 @@ TEST(PassivityController, TakesBackNoMoreInOneTickThanTheOrdersUnderWayWill) {
     state.reserve_J = -1e-5;
     PassivitySettings settings;
     settings.max_damping_Ns_per_m = 1e6;
-    PassivityInput in = at(-2e-3, 500.0);
+    PassivityInput in = wall_input(-2e-3, 500.0);
     state.position_device_m = {0.0, -2e-3 - 2e-4, 0.0};  // going out at 0.2 m/s
     in.stored_J = state.stored_J = 0.0;                  // nothing but the debt
     const double immediate =
-        keep_passive(state, next(state, in), settings, device(0.0, 0.0, 0.0), kDt).record.damping_Ns_per_m;
+        keep_passive(state, next(state, in), settings, wall_device(0.0, 0.0, 0.0), kDt).record.damping_Ns_per_m;
     const double delayed =
-        keep_passive(state, next(state, in), settings, device(0.0, 0.0, 0.003), kDt).record.damping_Ns_per_m;
+        keep_passive(state, next(state, in), settings, wall_device(0.0, 0.0, 0.003), kDt).record.damping_Ns_per_m;
     EXPECT_NEAR(immediate, 1e-5 / (0.2 * 0.2 * kDt), 1e-6);
     EXPECT_NEAR(delayed, immediate / 4.0, 1e-6);
 }
@@ -327,7 +326,7 @@ TEST(PassivityObserver, InTheTickALimitOfTheSettingsOrOfTheDeviceIsTheSpringsLim
         p.passivity.control = true;
         devices::DeviceDescription d = test::kStrongDevice;
         d.friction_N = 0.26;
-        d.resolution_m = kStep;
+        d.resolution_m = kEncoderStep;
         (by_device ? d.max_force_N : p.limits.max_force_N) = 1.0;
         FullTickState state;
         for (int i = 0; i < 200; ++i) {
@@ -394,9 +393,9 @@ TEST(PassivityController, IsQuietWhereTheDevicesDampingCoversTheWall) {
     settings.lost_ticks = 0;
     const double K = 600.0, covers = K * (0.5 * kDt + 0.001);
     for (const double v : {0.05, 0.15, 0.3}) {
-        EXPECT_EQ(push(K, v, 6e-3, device(0.0, 1.3 * covers), settings).most_damping, 0.0) << v;
+        EXPECT_EQ(push(K, v, 6e-3, wall_device(0.0, 1.3 * covers), settings).most_damping, 0.0) << v;
     }
-    EXPECT_GT(push(K, 0.3, 6e-3, device(0.0, 0.0)).most_damping, 0.0) << "else it were no feat";
+    EXPECT_GT(push(K, 0.3, 6e-3, wall_device(0.0, 0.0)).most_damping, 0.0) << "else it were no feat";
 }
 
 }  // namespace burin::haptics

@@ -10,13 +10,12 @@
 #include "haptics/contact/touching.hpp"
 #include "tests/compute/effort.hpp"
 #include "tests/haptics/smooth_shapes.hpp"
+#include "tests/support/test_units.hpp"
 
 namespace burin::haptics {
 namespace {
 
 using test::BumpySphere;
-
-constexpr double kMm = 1e-3;
 
 Vec3 around(double angle) {
     return glm::normalize(Vec3(std::sin(angle) * 0.8, std::cos(angle), std::sin(angle) * 0.6) + Vec3(0.01, 0.02, 0.1));

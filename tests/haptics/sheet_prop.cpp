@@ -7,11 +7,10 @@
 #include "haptics/contact/god_object.hpp"
 #include "tests/compute/effort.hpp"
 #include "tests/haptics/smooth_shapes.hpp"
+#include "tests/support/test_units.hpp"
 
 namespace burin::haptics {
 namespace {
-
-constexpr double kMm = 1e-3;
 
 Vec3 any_direction(compute::test::Random& random) {
     for (;;) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "haptics/signals/filters.hpp"
+#include "tests/support/test_units.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +11,7 @@
 namespace burin::haptics {
 namespace {
 
-constexpr double kStep = 0.055e-3, kDt = 1e-3;
-
-double quantised(double x) { return kStep * std::floor(x / kStep + 0.5); }
+double quantised(double x) { return kEncoderStep * std::floor(x / kEncoderStep + 0.5); }
 
 SignalSettings by(VelocityMethod method, double alpha = 0.9) {
     SignalSettings settings;
@@ -42,7 +41,7 @@ double rms_error_mm_per_s(const SignalSettings& settings, const Motion& motion) 
     int n = 0;
     for (int i = 0; i < 4000; ++i) {
         window = with_position(window, {quantised(motion.x(kDt * i)), 0.0, 0.0});
-        const VelocityEstimate estimate = estimate_velocity(settings, window, average, kStep, kDt);
+        const VelocityEstimate estimate = estimate_velocity(settings, window, average, kEncoderStep, kDt);
         average = estimate.average;
         if (i < 200) continue;
         const double error = 1e3 * (estimate.velocity_m_per_s.x - motion.v(kDt * i));
@@ -103,9 +102,9 @@ TEST(VelocityChoice, IsZeroUntilTwoPositionsAreKnownAndForgetsWithTheWindow) {
          {VelocityMethod::adaptive_window, VelocityMethod::moving_average, VelocityMethod::difference}) {
         VelocityWindow window;
         const MovingAverage stale{Vec3(5.0), true};
-        EXPECT_EQ(estimate_velocity(by(method), window, stale, kStep, kDt).velocity_m_per_s, Vec3(0.0));
+        EXPECT_EQ(estimate_velocity(by(method), window, stale, kEncoderStep, kDt).velocity_m_per_s, Vec3(0.0));
         window = with_position(window, {0.1, 0.2, 0.3});
-        const VelocityEstimate one = estimate_velocity(by(method), window, stale, kStep, kDt);
+        const VelocityEstimate one = estimate_velocity(by(method), window, stale, kEncoderStep, kDt);
         EXPECT_EQ(one.velocity_m_per_s, Vec3(0.0));
         EXPECT_FALSE(one.average.begun);
     }
@@ -116,7 +115,8 @@ TEST(VelocityChoice, TheDifferenceIsTheLastStepOfEachAxisAlsoWhenTheRingHasTurne
     for (int i = 0; i < 100; ++i) {
         window = with_position(window, Vec3(1.0, -2.0, 0.5) * (1e-4 * i * i));
         if (i == 0) continue;
-        const Vec3 v = estimate_velocity(by(VelocityMethod::difference), window, {}, kStep, kDt).velocity_m_per_s;
+        const Vec3 v =
+            estimate_velocity(by(VelocityMethod::difference), window, {}, kEncoderStep, kDt).velocity_m_per_s;
         EXPECT_NEAR(glm::length(v - Vec3(1.0, -2.0, 0.5) * (0.1 * (2 * i - 1))), 0.0, 1e-9);
     }
 }
@@ -126,9 +126,9 @@ TEST(VelocityChoice, AChangeOfMethodFindsTheAverageInStep) {
     MovingAverage always, sometimes;
     for (int i = 0; i < 300; ++i) {
         window = with_position(window, {quantised(0.002 * std::sin(0.05 * i)), 0.0, 0.0});
-        const auto a = estimate_velocity(by(VelocityMethod::moving_average), window, always, kStep, kDt);
+        const auto a = estimate_velocity(by(VelocityMethod::moving_average), window, always, kEncoderStep, kDt);
         const auto method = i < 250 ? VelocityMethod::adaptive_window : VelocityMethod::moving_average;
-        const auto b = estimate_velocity(by(method), window, sometimes, kStep, kDt);
+        const auto b = estimate_velocity(by(method), window, sometimes, kEncoderStep, kDt);
         always = a.average;
         sometimes = b.average;
         if (i < 250) continue;

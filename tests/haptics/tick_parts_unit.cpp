@@ -4,27 +4,26 @@
 
 #include "haptics/tick.hpp"
 #include "tests/haptics/surfaces.hpp"
+#include "tests/support/test_units.hpp"
 
 namespace burin::haptics {
 namespace {
 
-constexpr double kDt = 1e-3;
-constexpr Nanoseconds kMs = 1'000'000;
-constexpr double kRadius_m = 0.004, kStiffness_N_per_m = 600.0;
+constexpr double kTipRadius_m = 0.004, kTipStiffness_N_per_m = 600.0;
 
 TickParameters bare_parameters() {
     TickParameters p;
-    p.probe = ball_probe(kRadius_m);
+    p.probe = ball_probe(kTipRadius_m);
     p.clearance_ratio = 0.0;
     p.limit_stiffness = false;
     p.passivity.control = false;
-    p.materials[0].stiffness_N_per_m = kStiffness_N_per_m;
+    p.materials[0].stiffness_N_per_m = kTipStiffness_N_per_m;
     p.materials[0].damping_Ns_per_m = 0.0;
     p.max_surface_age_s = 0.0;
     return p;
 }
 
-struct Ticker {
+struct PartTicker {
     test::Surface surface = test::plane(0.05, 40);
     TickParameters parameters = bare_parameters();
     TickState state{};
@@ -43,15 +42,15 @@ struct Ticker {
 };
 
 TEST(TickParts, TheForceFilterLetsATenthOfANewForceThroughInItsFirstTick) {
-    Ticker t;
+    PartTicker t;
     t.parameters.signals.force_alpha = 0.9;
     t.at({0.0, 0.01, 0.0});
-    EXPECT_NEAR(t.at({0.0, 0.003, 0.0}).wanted.force_device_N.y, 0.1 * kStiffness_N_per_m * 0.001, 1e-6);
-    EXPECT_NEAR(t.at({0.0, 0.003, 0.0}).wanted.force_device_N.y, 0.19 * kStiffness_N_per_m * 0.001, 1e-6);
+    EXPECT_NEAR(t.at({0.0, 0.003, 0.0}).wanted.force_device_N.y, 0.1 * kTipStiffness_N_per_m * 0.001, 1e-6);
+    EXPECT_NEAR(t.at({0.0, 0.003, 0.0}).wanted.force_device_N.y, 0.19 * kTipStiffness_N_per_m * 0.001, 1e-6);
 }
 
 TEST(TickParts, TheAveragedVelocityRisesToTheHandsByATenthOfTheRestATick) {
-    Ticker t;
+    PartTicker t;
     t.parameters.signals.velocity = VelocityMethod::moving_average;
     t.parameters.signals.velocity_alpha = 0.9;
     for (int i = 0; i < 3; ++i) t.at({0.0, 0.02, 0.0});
@@ -63,7 +62,7 @@ TEST(TickParts, TheAveragedVelocityRisesToTheHandsByATenthOfTheRestATick) {
 }
 
 TEST(TickParts, GuidanceLeadsOnFromTickToTick) {
-    Ticker t;
+    PartTicker t;
     t.parameters.guidance.stiffness_N_per_m = 100.0;
     t.parameters.guidance.lead_speed_m_per_s = 0.05;
     t.parameters.curve.count = 2;
@@ -77,20 +76,20 @@ TEST(TickParts, GuidanceLeadsOnFromTickToTick) {
 }
 
 TEST(TickParts, TheSpringsOfAllPointsHoldEnergy) {
-    Ticker t;
+    PartTicker t;
     t.parameters.probe.count = 2;
-    t.parameters.probe.points[0] = {{0.01, 0.0, 0.0}, kRadius_m};
-    t.parameters.probe.points[1] = {{-0.01, -0.0005, 0.0}, kRadius_m};
+    t.parameters.probe.points[0] = {{0.01, 0.0, 0.0}, kTipRadius_m};
+    t.parameters.probe.points[1] = {{-0.01, -0.0005, 0.0}, kTipRadius_m};
     t.at({0.0, 0.01, 0.0});
     const TickRecord out = t.at({0.0, 0.003, 0.0});
-    const double first_J = 0.5 * kStiffness_N_per_m * 0.001 * 0.001;
-    const double second_J = 0.5 * kStiffness_N_per_m * 0.0015 * 0.0015;
+    const double first_J = 0.5 * kTipStiffness_N_per_m * 0.001 * 0.001;
+    const double second_J = 0.5 * kTipStiffness_N_per_m * 0.0015 * 0.0015;
     EXPECT_NEAR(out.contact.spring_energy_J, first_J + second_J, 1e-3 * second_J);
 }
 
 TEST(TickParts, WhereNothingIsTouchedTheCuttingPointIsWhereTheHandIs) {
     for (const bool enabled : {true, false}) {  // in free space, and inside material that is not felt
-        Ticker t;
+        PartTicker t;
         t.parameters.enabled = enabled;
         const Vec3 hand(0.001, enabled ? 0.02 : -0.02, 0.003);
         const TickRecord out = t.at(hand, 1);
@@ -102,10 +101,10 @@ TEST(TickParts, WhereNothingIsTouchedTheCuttingPointIsWhereTheHandIs) {
 // Two hands do the same but for what a cut adds; they press the button in their last tick, while the contact is the
 // same in both.
 struct Pair {
-    Ticker without, with;
+    PartTicker without, with;
 
     Pair() {
-        for (Ticker* t : {&without, &with}) {
+        for (PartTicker* t : {&without, &with}) {
             t->parameters.action = ToolAction::cut;
             t->parameters.materials[0].hardness_Ns_per_m3 = 1e7;
             t->at({-0.001, 0.01, 0.0});

@@ -7,12 +7,10 @@
 #include <limits>
 
 #include "tests/haptics/surfaces.hpp"
+#include "tests/support/test_units.hpp"
 
 namespace burin::haptics {
 namespace {
-
-constexpr double kDt = 1e-3;
-constexpr Nanoseconds kMs = 1'000'000;
 
 struct Ticker {
     const geometry::LocalSurface* surface;

@@ -9,12 +9,10 @@
 
 #include "haptics/tick.hpp"
 #include "tests/haptics/surfaces.hpp"
+#include "tests/support/test_units.hpp"
 
 namespace burin::haptics {
 namespace {
-
-constexpr double kDt = 1e-3;
-constexpr Nanoseconds kMs = 1'000'000;
 
 TouchInput resting(const Vec3& hip, const Vec3& velocity = Vec3(0.0)) {
     TouchInput in;
@@ -27,7 +25,7 @@ TouchInput resting(const Vec3& hip, const Vec3& velocity = Vec3(0.0)) {
     return in;
 }
 
-struct Ticker {
+struct TouchTicker {
     const geometry::LocalSurface* surface;
     TickParameters parameters;
     TickState state{};
@@ -117,7 +115,7 @@ TEST(TouchForce, FrictionHasAConeOrGrowsWithTheSlipSpeedUpToTheCoulombVelocity) 
 TEST(TouchForce, InTheTickFrictionWithACoulombVelocityFollowsTheSlipSpeed) {
     const test::Surface plane = test::plane(0.05, 20);
     for (const double speed : {0.005, 0.01, 0.02, 0.05}) {
-        Ticker t{plane.get(), ball(600.0)};
+        TouchTicker t{plane.get(), ball(600.0)};
         t.parameters.materials[0].static_friction = t.parameters.materials[0].dynamic_friction = 0.4;
         t.parameters.materials[0].coulomb_velocity_m_per_s = 0.02;
         t.parameters.position_noise_m = 1e-9;
@@ -131,7 +129,7 @@ TEST(TouchForce, InTheTickFrictionWithACoulombVelocityFollowsTheSlipSpeed) {
 
 TEST(TouchForce, AMaterialMayChangeWhileTheLoopRuns) {
     const test::Surface plane = test::plane();
-    Ticker t{plane.get(), ball(300.0)};
+    TouchTicker t{plane.get(), ball(300.0)};
     t.at({0.0, 0.01, 0.0});
     EXPECT_NEAR(t.at({0.0, 0.003, 0.0}).wanted.force_device_N.y, 0.3, 1e-5);
     t.parameters.materials[0].stiffness_N_per_m = 900.0;
@@ -146,7 +144,7 @@ TEST(TouchForce, AMaterialMayChangeWhileTheLoopRuns) {
 
 TEST(TouchForce, WhileItCutsTheHandFeelsLessThanTheUncutWallAndTheStrokeSaysWhereItIs) {
     const test::Surface plane = test::plane(0.05, 40);
-    Ticker t{plane.get(), ball(600.0)};
+    TouchTicker t{plane.get(), ball(600.0)};
     t.parameters.action = ToolAction::cut;
     t.parameters.materials[0].hardness_Ns_per_m3 = 1e7;
     t.at({0.0, 0.01, 0.0}, 1);
@@ -175,7 +173,7 @@ TEST(TouchForce, WhileItCutsTheHandFeelsLessThanTheUncutWallAndTheStrokeSaysWher
 TEST(TouchForce, PaintingHasNoFriction) {
     const test::Surface plane = test::plane(0.05, 20);
     for (const ToolAction action : {ToolAction::touch, ToolAction::paint}) {
-        Ticker t{plane.get(), ball(600.0)};
+        TouchTicker t{plane.get(), ball(600.0)};
         t.parameters.action = action;
         t.parameters.materials[0].static_friction = t.parameters.materials[0].dynamic_friction = 0.4;
         t.at({-0.03, 0.01, 0.0}, 1);
@@ -202,7 +200,7 @@ TEST(TouchForce, AHeldToolWeighsWhatItWeighsAndTheArmDoesNot) {
     EXPECT_EQ(weight_wrench({}, level).force_device_N, Vec3(0.0));
     // In free space, through the tick.
     const test::Surface plane = test::plane();
-    Ticker t{plane.get(), ball(600.0)};
+    TouchTicker t{plane.get(), ball(600.0)};
     t.parameters.weight = weight;
     EXPECT_NEAR(t.at({0.0, 0.03, 0.0}).wanted.force_device_N.y, -(0.1 - 0.045) * 9.80665, 1e-12);
 }

@@ -8,11 +8,11 @@
 #include "haptics/contact/god_object.hpp"
 #include "tests/compute/effort.hpp"
 #include "tests/haptics/smooth_shapes.hpp"
+#include "tests/support/test_units.hpp"
 
 namespace burin::haptics {
 namespace {
 
-constexpr double kMm = 1e-3;
 constexpr double kTube = 12 * kMm, kLength = 200 * kMm;
 constexpr int kSides = 24, kRings = 60;
 // Chords lie inside the circle by this much.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "haptics/signals/filters.hpp"
+#include "tests/support/test_units.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +11,7 @@
 namespace burin::haptics {
 namespace {
 
-constexpr double kStep = 0.055e-3, kDt = 1e-3;
-
-double quantised(double x) { return kStep * std::floor(x / kStep + 0.5); }
+double measured_by_encoder(double x) { return kEncoderStep * std::floor(x / kEncoderStep + 0.5); }
 
 // Root mean square error of the estimate (m/s) for a motion along x, sampled in encoder steps.
 double rms_error(const std::function<double(double)>& x, const std::function<double(double)>& v) {
@@ -21,9 +20,9 @@ double rms_error(const std::function<double(double)>& x, const std::function<dou
     int n = 0;
     for (int i = 0; i < 2000; ++i) {
         const double t = kDt * i;
-        window = with_position(window, {quantised(x(t)), 0.0, 0.0});
+        window = with_position(window, {measured_by_encoder(x(t)), 0.0, 0.0});
         if (i < 50) continue;
-        const double error = velocity_m_per_s(window, kStep, kDt).x - v(t);
+        const double error = velocity_m_per_s(window, kEncoderStep, kDt).x - v(t);
         sum += error * error;
         ++n;
     }
@@ -34,9 +33,9 @@ double rms_error(const std::function<double(double)>& x, const std::function<dou
 
 TEST(Velocity, IsZeroUntilTwoPositionsAreKnown) {
     VelocityWindow window;
-    EXPECT_EQ(velocity_m_per_s(window, kStep, kDt), Vec3(0.0));
+    EXPECT_EQ(velocity_m_per_s(window, kEncoderStep, kDt), Vec3(0.0));
     window = with_position(window, {1, 2, 3});
-    EXPECT_EQ(velocity_m_per_s(window, kStep, kDt), Vec3(0.0));
+    EXPECT_EQ(velocity_m_per_s(window, kEncoderStep, kDt), Vec3(0.0));
 }
 
 TEST(Velocity, OfASteadyMotionWithoutNoiseIsExact) {
@@ -51,10 +50,10 @@ TEST(Velocity, OfASteadyMotionWithoutNoiseIsExact) {
 TEST(Velocity, ABoundaryFlickerOfOneEncoderStepIsTakenAsAlmostRest) {
     VelocityWindow window;
     for (int i = 0; i < 40; ++i) {
-        window = with_position(window, {i % 2 == 0 ? 0.0 : kStep, 0.0, 0.0});
+        window = with_position(window, {i % 2 == 0 ? 0.0 : kEncoderStep, 0.0, 0.0});
         if (i < 20) continue;
         // One step over the whole window at most, where a plain difference says 55 mm/s.
-        EXPECT_LE(std::abs(velocity_m_per_s(window, kStep, kDt).x), kStep / (16 * kDt) * 1.0001);
+        EXPECT_LE(std::abs(velocity_m_per_s(window, kEncoderStep, kDt).x), kEncoderStep / (16 * kDt) * 1.0001);
     }
 }
 
@@ -62,9 +61,9 @@ TEST(Velocity, ASuddenStartIsSeenAtOnce) {
     VelocityWindow window;
     for (int i = 0; i < 40; ++i) window = with_position(window, Vec3(0.0));
     window = with_position(window, {0.5e-3, 0.0, 0.0});
-    EXPECT_NEAR(velocity_m_per_s(window, kStep, kDt).x, 0.5, 0.06);
+    EXPECT_NEAR(velocity_m_per_s(window, kEncoderStep, kDt).x, 0.5, 0.06);
     window = with_position(window, {1.0e-3, 0.0, 0.0});
-    EXPECT_NEAR(velocity_m_per_s(window, kStep, kDt).x, 0.5, 0.06);
+    EXPECT_NEAR(velocity_m_per_s(window, kEncoderStep, kDt).x, 0.5, 0.06);
 }
 
 TEST(Velocity, ReproducesThePublishedComparisonWithAPlainDifference) {
@@ -84,10 +83,10 @@ TEST(Velocity, ReproducesThePublishedComparisonWithAPlainDifference) {
 TEST(Velocity, AxesDoNotInfluenceOneAnother) {
     VelocityWindow one, both;
     for (int i = 0; i < 60; ++i) {
-        const double x = quantised(0.03 * kDt * i), y = quantised(0.002 * std::sin(0.2 * i));
+        const double x = measured_by_encoder(0.03 * kDt * i), y = measured_by_encoder(0.002 * std::sin(0.2 * i));
         one = with_position(one, {x, 0.0, 0.0});
         both = with_position(both, {x, y, -y});
-        EXPECT_EQ(velocity_m_per_s(one, kStep, kDt).x, velocity_m_per_s(both, kStep, kDt).x);
+        EXPECT_EQ(velocity_m_per_s(one, kEncoderStep, kDt).x, velocity_m_per_s(both, kEncoderStep, kDt).x);
     }
 }
 
@@ -95,14 +94,15 @@ TEST(Velocity, AFlickerOfOneStepIsAlmostRestWhereverOnTheEncoderItHappens) {
     // Multiples of the step are rounded: two that lie one step apart differ by a little more than it, or a little less.
     int apart_by_more = 0;
     for (int at = 0; at < 1500; at += 7) {
-        const double here = kStep * at, beside = kStep * (at + 1);
-        apart_by_more += beside - here > kStep ? 1 : 0;
+        const double here = kEncoderStep * at, beside = kEncoderStep * (at + 1);
+        apart_by_more += beside - here > kEncoderStep ? 1 : 0;
         VelocityWindow window;
         for (int i = 0; i < 40; ++i) {
             window = with_position(window, {i % 2 == 0 ? here : beside, 0.0, 0.0});
             if (i < 20) continue;
             // One step over the whole window at most.
-            ASSERT_LE(std::abs(velocity_m_per_s(window, kStep, kDt).x), kStep / (16 * kDt) * 1.0001) << at << ' ' << i;
+            ASSERT_LE(std::abs(velocity_m_per_s(window, kEncoderStep, kDt).x), kEncoderStep / (16 * kDt) * 1.0001)
+                << at << ' ' << i;
         }
     }
     EXPECT_GT(apart_by_more, 20) << "else rounding was not tried";

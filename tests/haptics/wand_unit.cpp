@@ -6,12 +6,11 @@
 
 #include "haptics/tick.hpp"
 #include "tests/haptics/surfaces.hpp"
+#include "tests/support/test_units.hpp"
 
 namespace burin::haptics {
 namespace {
 
-constexpr double kDt = 1e-3;
-constexpr Nanoseconds kMs = 1'000'000;
 const Vec3 kTop(0.0, 0.08, 0.0), kBottom(0.0, -0.08, 0.0);
 
 // What the wand's maker says: yaw, about y, is passive.
@@ -32,7 +31,7 @@ TickParameters wand(double radius_m, double stiffness_N_per_m) {
     return p;
 }
 
-struct Hand {
+struct WandHand {
     const geometry::LocalSurface* surface;
     TickParameters parameters;
     devices::DeviceDescription device = test::kStrongDevice;
@@ -112,7 +111,7 @@ TEST(Wand, TheTickHasTheCheckValuesOfTheRequirements) {
     add_corner(b, top_apex, top_force, 0.03);
     add_corner(b, bottom_apex, bottom_force, 0.06);
     const test::Surface corners = b.finish();
-    Hand hand{corners.get(), wand(radius, k)};
+    WandHand hand{corners.get(), wand(radius, k)};
     hand.parameters.shading = false;
     hand.at(position, R);
     // Both ends come from the open side of their corners.
@@ -140,7 +139,7 @@ TEST(Wand, OnACubeTopAloneTurnsOneWayBottomAloneTheOtherAndBothCancel) {
     // The wand stands upright before the cube's face z = 0 and is pressed into it along +z; a narrow cube meets one end
     // alone.
     const auto press = [](const geometry::LocalSurface& cube) {
-        Hand hand{&cube, wand(0.004, 500.0)};
+        WandHand hand{&cube, wand(0.004, 500.0)};
         hand.at({0.0, 0.0, -0.02});
         return hand.at({0.0, 0.0, -0.002});  // 2 mm beyond where the balls touch
     };
@@ -163,7 +162,7 @@ TEST(Wand, ASinglePointFeelsNothingAtItsEnds) {
     const test::Surface upper = test::box({-0.2, 0.02, 0.0}, {0.2, 0.2, 0.4}, 8);
     TickParameters p = wand(0.004, 500.0);
     p.probe = ball_probe(0.004);
-    Hand hand{upper.get(), p};
+    WandHand hand{upper.get(), p};
     hand.at({0.0, 0.0, -0.02});
     const TickRecord out = hand.at({0.0, 0.0, 0.01});  // the upper end would be a centimetre deep
     EXPECT_EQ(out.wanted.force_device_N, Vec3(0.0));
@@ -174,8 +173,8 @@ TEST(Wand, PassiveAxesGetNoTorque) {
     // Pressed at the top, sideways and turned: torque about all three axes, but for the yaw that nothing drives.
     const test::Surface wall = test::box({-0.2, 0.02, 0.0}, {0.2, 0.2, 0.4}, 8);
     const Quat lean = glm::normalize(Quat(1.0, 0.05, 0.1, 0.2));
-    Hand free{wall.get(), wand(0.004, 500.0)}, driven{wall.get(), wand(0.004, 500.0), kWand};
-    for (Hand* hand : {&free, &driven}) hand->at({0.0, 0.0, -0.04}, lean);
+    WandHand free{wall.get(), wand(0.004, 500.0)}, driven{wall.get(), wand(0.004, 500.0), kWand};
+    for (WandHand* hand : {&free, &driven}) hand->at({0.0, 0.0, -0.04}, lean);
     const TickRecord all = free.at({0.0, 0.0, -0.012}, lean), some = driven.at({0.0, 0.0, -0.012}, lean);
     ASSERT_GT(std::abs(all.wanted.torque_device_Nm.y), 1e-3);
     EXPECT_EQ(some.wanted.torque_device_Nm.y, 0.0);
@@ -188,7 +187,7 @@ TEST(Wand, AGainScalesTheSceneAndLeavesForceAndTorqueAsTheyWere) {
     devices::DeviceWrench unscaled;
     for (const double gain : {1.0, 0.2, 30.0}) {
         const test::Surface cube = test::box(gain * Vec3(-0.2, 0.02, 0.0), gain * Vec3(0.2, 0.2, 0.4), 8);
-        Hand hand{cube.get(), wand(0.004 * gain, 500.0)};
+        WandHand hand{cube.get(), wand(0.004 * gain, 500.0)};
         hand.parameters.workspace.object_from_device.scale = gain;
         hand.at({0.0, 0.0, -0.02});
         const TickRecord out = hand.at({0.0, 0.0, -0.002});
@@ -208,7 +207,7 @@ TEST(Wand, TwoPointsThatTouchShareTheStiffnessThatTheDeviceRenders) {
         parameters.limit_stiffness = true;
         parameters.probe.points[0].offset_device_m = top;
         parameters.probe.points[1].offset_device_m = bottom;
-        Hand hand{plane.get(), parameters, device};
+        WandHand hand{plane.get(), parameters, device};
         hand.at({0.0, 0.003, 0.0});
         return hand.at({0.0, 0.001, 0.0});
     };
@@ -224,7 +223,7 @@ TEST(Wand, TurnsAtTheSameSpeedWhenTheQuaternionChangesItsSign) {
     const test::Surface far_away = test::plane(0.05, 2, -5.0);
     const double turn_a_tick = 0.004;
     const Vec3 axis = glm::normalize(Vec3(1.0, -2.0, 0.5));
-    Hand steady{far_away.get(), wand(0.004, 500.0)}, signs{far_away.get(), wand(0.004, 500.0)};
+    WandHand steady{far_away.get(), wand(0.004, 500.0)}, signs{far_away.get(), wand(0.004, 500.0)};
     for (int i = 0; i < 60; ++i) {
         const double half = 0.5 * turn_a_tick * i;
         const Quat q(std::cos(half), std::sin(half) * axis);
@@ -249,7 +248,7 @@ TEST(Wand, AnEndInABusyPlaceLeavesTheOtherItsShareOfTheTicksWork) {
         }
     b.quad({0.05, 0.0, -0.05}, {0.05, 0.0, 0.05}, {0.15, 0.0, 0.05}, {0.15, 0.0, -0.05});
     const test::Surface surface = b.finish();
-    Hand hand{surface.get(), wand(radius, 500.0)};
+    WandHand hand{surface.get(), wand(radius, 500.0)};
     hand.parameters.probe.points[0].offset_device_m = {0.0, 0.0001, 0.0};  // just behind the fine patch
     hand.parameters.probe.points[1].offset_device_m = {0.1, 0.004, 0.0};   // 1 mm deep in the coarse one
     const TickRecord out = hand.at(Vec3(0.0));
@@ -262,7 +261,7 @@ TEST(Wand, AnEndInABusyPlaceLeavesTheOtherItsShareOfTheTicksWork) {
 
 TEST(Wand, AfterAGapInTheSamplesItIsNotTakenToHaveTurnedFast) {
     const test::Surface far_away = test::plane(0.05, 2, -5.0);
-    Hand hand{far_away.get(), wand(0.004, 500.0)};
+    WandHand hand{far_away.get(), wand(0.004, 500.0)};
     for (int i = 0; i < 20; ++i) hand.at(Vec3(0.0));
     hand.now_ns += 30 * kMs;  // ticks were lost, and the wand was turned by a fifth of a radian meanwhile
     EXPECT_EQ(hand.at(Vec3(0.0), Quat(std::cos(0.1), 0.0, 0.0, std::sin(0.1))).motion.angular_velocity_device_rad_per_s,
@@ -273,7 +272,7 @@ TEST(Wand, ATurningEndIsDampedByItsOwnSpeed) {
     // Turned about z at w, the upper end goes to -x at w times 80 mm, against a wall that looks to +x.
     const double stiffness = 500.0, damping = 2.0, w = 1.0, radius = 0.004, wall_x = -0.02;
     const test::Surface wall = test::box({-0.2, 0.02, -0.2}, {wall_x, 0.3, 0.2}, 8);
-    Hand hand{wall.get(), wand(radius, stiffness)};
+    WandHand hand{wall.get(), wand(radius, stiffness)};
     hand.parameters.materials[0].damping_Ns_per_m = damping;
     hand.parameters.materials[0].static_friction = hand.parameters.materials[0].dynamic_friction = 0.0;
     hand.parameters.position_noise_m = 1e-9;
@@ -291,7 +290,7 @@ TEST(Wand, ATurningEndIsDampedByItsOwnSpeed) {
 
 TEST(Wand, OnlyItsFirstEndCuts) {
     const test::Surface plane = test::plane(0.2, 40);
-    Hand hand{plane.get(), wand(0.005, 500.0)};
+    WandHand hand{plane.get(), wand(0.005, 500.0)};
     hand.parameters.probe.points[0].offset_device_m = {0.03, 0.0, 0.0};
     hand.parameters.probe.points[1].offset_device_m = {-0.03, 0.0, 0.0};
     hand.parameters.action = ToolAction::cut;

@@ -63,7 +63,7 @@ std::vector<Figure> house_figures(const std::filesystem::path& root) {
         places_touched(root, "haptic device", "devices/haptic/simulated_omni", "open_simulated_omni", 3.0));
     for (FolderFragments& folder : fragments_by_folder(root)) {
         Figure figure{formatted("%% of files under %zu lines in %s/", kFragmentLines, folder.folder.c_str()),
-                      folder.percent(), static_cast<double>(kMostFragments_percent), std::move(folder.fragments),
+                      folder.percent(), std::nullopt, std::move(folder.fragments),
                       formatted("%zu files", folder.files)};
         figures.push_back(std::move(figure));
     }
@@ -73,8 +73,9 @@ std::vector<Figure> house_figures(const std::filesystem::path& root) {
 std::string table_of(std::span<const Figure> figures) {
     std::string text;
     for (const Figure& figure : figures) {
-        text += formatted("%-6s %-46s %6.1f  bar %4.0f  %s\n", figure.reached() ? "ok" : "MISSED", figure.name.c_str(),
-                          figure.value, figure.bar, figure.remark.c_str());
+        const std::string bar = figure.bar ? formatted("bar %4.0f", *figure.bar) : "no bar  ";
+        text += formatted("%-6s %-46s %6.1f  %s  %s\n", figure.reached() ? "ok" : "MISSED", figure.name.c_str(),
+                          figure.value, bar.c_str(), figure.remark.c_str());
         for (const std::string& place : figure.places)
             if (!figure.reached()) text += "         " + place + "\n";
     }

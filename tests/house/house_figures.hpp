@@ -5,22 +5,22 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace burin::house {
 
-// A file of fewer lines is a fragment. Few of a folder's files may be: a concept is one or two files, not six.
+// A file of fewer lines is a fragment. A concept is one or two files, not six; how many a folder has is a figure to look
+// at, without a bar, since a narrow header before a deep source is no fault.
 inline constexpr std::size_t kFragmentLines = 40;
-inline constexpr std::size_t kMostFragments_percent = 15;
 
 struct FolderFragments {
     std::string folder;
     std::size_t files = 0;  // C++ sources and headers, those of the folder's rooms included
     std::vector<std::string> fragments;
 
-    [[nodiscard]] bool within(std::size_t percent) const { return 100 * fragments.size() <= percent * files; }
     [[nodiscard]] double percent() const {
         return files == 0 ? 0.0 : 100.0 * static_cast<double>(fragments.size()) / static_cast<double>(files);
     }
@@ -32,10 +32,10 @@ struct FolderFragments {
 struct Figure {
     std::string name;
     double value = 0.0;
-    double bar = 0.0;                 // the figure must not exceed it
+    std::optional<double> bar = 0.0;  // the figure must not exceed it; none: it is only shown
     std::vector<std::string> places;  // where the figure comes from
     std::string remark;
-    [[nodiscard]] bool reached() const { return value <= bar; }
+    [[nodiscard]] bool reached() const { return !bar || value <= *bar; }
 };
 
 // Returns double type names, cycles of rooms, long lines, missing document paths, places that a tracker and a haptic

@@ -10,7 +10,7 @@
 namespace burin::renderer {
 namespace {
 
-bool holds(const PixelRect& part, std::uint32_t x, std::uint32_t y) {
+bool part_holds(const PixelRect& part, std::uint32_t x, std::uint32_t y) {
     return x >= part.x && x < part.x + part.width && y >= part.y && y < part.y + part.height;
 }
 
@@ -40,7 +40,8 @@ TEST(FewParts, HoldEveryPixelOfManyAndStayWithinThePicture) {
         for (const PixelRect& r : rects)
             for (std::uint32_t y = r.y; y < r.y + r.height; ++y)
                 for (std::uint32_t x = r.x; x < r.x + r.width; ++x)
-                    ASSERT_TRUE(std::ranges::any_of(parts, [&](const PixelRect& part) { return holds(part, x, y); }))
+                    ASSERT_TRUE(
+                        std::ranges::any_of(parts, [&](const PixelRect& part) { return part_holds(part, x, y); }))
                         << "round " << round << ": " << x << ", " << y;
     }
 }

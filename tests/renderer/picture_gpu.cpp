@@ -9,12 +9,12 @@ namespace burin::renderer {
 
 namespace {
 
-double linear(double srgb) {
+double linear_value(double srgb) {
     const double c = srgb / 255.0;
     return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
 }
 
-double srgb(double linear) {
+double srgb_value(double linear) {
     return 255.0 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055);
 }
 
@@ -95,7 +95,9 @@ TEST_F(Picture, HasSmoothEdgesMixedInLinearLight) {
         bool found = false;
         for (std::size_t step = 0; step < 3 && !found; ++step) {
             const double covered = static_cast<double>(step + 1) / 4.0;
-            found = std::abs(value - srgb(covered * linear(inside) + (1.0 - covered) * linear(outside))) < 6.0;
+            found =
+                std::abs(value - srgb_value(covered * linear_value(inside) + (1.0 - covered) * linear_value(outside))) <
+                6.0;
             if (found) ++steps[step];
         }
         strays += found ? 0 : 1;

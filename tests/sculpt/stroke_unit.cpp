@@ -17,7 +17,7 @@ std::unique_ptr<compute::CarvingEngine> ball_engine(WorkerPool& pool) {
 }
 
 // Pushes a sample of material without hardness, which gives way where the hand is.
-void push(haptics::HapticChannels& channels, std::uint64_t tick, const Vec3& place, bool pressed) {
+void push_sample(haptics::HapticChannels& channels, std::uint64_t tick, const Vec3& place, bool pressed) {
     haptics::StrokeSample sample;
     sample.tick = tick;
     sample.time_ns = static_cast<Nanoseconds>(tick) * 1'000'000;
@@ -31,10 +31,10 @@ void push(haptics::HapticChannels& channels, std::uint64_t tick, const Vec3& pla
 TEST(StrokeReader, StopsAtEachReleaseOfTheButton) {
     haptics::HapticChannels channels;
     StrokeReader reader(channels, kBall, 0.0, 0.005);
-    push(channels, 1, {0.0, 0.0, 0.1}, true);
-    push(channels, 2, {0.01, 0.0, 0.1}, true);
-    push(channels, 3, {0.01, 0.0, 0.2}, false);
-    push(channels, 4, {0.05, 0.0, 0.1}, true);
+    push_sample(channels, 1, {0.0, 0.0, 0.1}, true);
+    push_sample(channels, 2, {0.01, 0.0, 0.1}, true);
+    push_sample(channels, 3, {0.01, 0.0, 0.2}, false);
+    push_sample(channels, 4, {0.05, 0.0, 0.1}, true);
     const SweptSamples first = reader.read(UINT64_MAX);
     EXPECT_TRUE(first.stroke_ended);
     ASSERT_EQ(first.sweeps.size(), 1u);
@@ -53,7 +53,7 @@ TEST(StrokeReader, StopsAtEachReleaseOfTheButton) {
 TEST(StrokeReader, LeavesSamplesOfLaterTicksInTheRing) {
     haptics::HapticChannels channels;
     StrokeReader reader(channels, kBall, 0.0, 0.005);
-    for (std::uint64_t tick = 1; tick <= 4; ++tick) push(channels, tick, {0.01 * double(tick), 0.0, 0.1}, true);
+    for (std::uint64_t tick = 1; tick <= 4; ++tick) push_sample(channels, tick, {0.01 * double(tick), 0.0, 0.1}, true);
     const SweptSamples first = reader.read(2);
     ASSERT_FALSE(first.sweeps.empty());
     EXPECT_EQ(first.sweeps.back().end.position_m, Vec3(0.02, 0.0, 0.1));
@@ -72,8 +72,8 @@ TEST(SculptService, WithoutUndoMemoryLeavesTheHistoryAndItsNoticesToTheirOwner) 
     std::uint64_t tick = 0;
     const auto two_strokes = [&](double x) {
         for (const double y : {-0.03, 0.03}) {
-            push(channels, ++tick, {x, y, 0.09}, true);
-            push(channels, ++tick, {x, y, 0.2}, false);
+            push_sample(channels, ++tick, {x, y, 0.09}, true);
+            push_sample(channels, ++tick, {x, y, 0.2}, false);
         }
     };
     sculpture.keep_history(1);  // room for one stroke: the first of two is dropped with a notice
@@ -99,7 +99,7 @@ TEST(SculptService, CarvesWithoutAnyHistory) {
     Sculpture sculpture(ball_engine(pool), pool);
     haptics::HapticChannels channels;
     SculptService service(sculpture, channels, kBall, 0.0, 0.02, std::nullopt);
-    push(channels, 1, {0.0, 0.0, 0.1}, true);
+    push_sample(channels, 1, {0.0, 0.0, 0.1}, true);
     ASSERT_TRUE(service.update(0));
     EXPECT_EQ(sculpture.history(), nullptr);
     EXPECT_GT(sculpture.figures().rays_changed, 0u);

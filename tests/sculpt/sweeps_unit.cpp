@@ -8,7 +8,7 @@
 namespace burin::sculpt {
 namespace {
 
-const Tool kBall{compute::BallTool{0.01}, compute::Operation::cut, 3};
+const Tool kSweptBall{compute::BallTool{0.01}, compute::Operation::cut, 3};
 const Tool kCylinder{compute::CylinderTool{0.01, 0.02}, compute::Operation::fill, 2};
 
 }  // namespace
@@ -16,7 +16,7 @@ const Tool kCylinder{compute::CylinderTool{0.01, 0.02}, compute::Operation::fill
 TEST(Sweeps, AStraightRunBecomesOneSweep) {
     std::vector<Pose> poses;
     for (int i = 0; i <= 10; ++i) poses.push_back({Vec3(i * 0.001, 0.0, 0.0)});
-    for (const Tool& tool : {kBall, kCylinder}) {
+    for (const Tool& tool : {kSweptBall, kCylinder}) {
         const auto sweeps = sweeps_along(poses, tool, 1e-6);
         ASSERT_EQ(sweeps.size(), 1u);
         EXPECT_EQ(sweeps[0].start.position_m, poses.front().position_m);
@@ -24,14 +24,14 @@ TEST(Sweeps, AStraightRunBecomesOneSweep) {
         EXPECT_EQ(sweeps[0].material, tool.material);
         EXPECT_EQ(sweeps[0].operation, tool.operation);
     }
-    EXPECT_EQ(sweeps_along(poses, kBall, -1.0).size(), 10u);  // nothing merged
+    EXPECT_EQ(sweeps_along(poses, kSweptBall, -1.0).size(), 10u);  // nothing merged
 }
 
 TEST(Sweeps, AnArcStaysWithinToleranceAndKeepsItsEnds) {
     constexpr double kTolerance = 1e-3;
     std::vector<Pose> poses;
     for (int i = 0; i <= 90; ++i) poses.push_back({Vec3(std::cos(i * M_PI / 180), std::sin(i * M_PI / 180), 0.0)});
-    const auto sweeps = sweeps_along(poses, kBall, kTolerance);
+    const auto sweeps = sweeps_along(poses, kSweptBall, kTolerance);
     EXPECT_EQ(sweeps.size(), 18u);  // a chord of angle a lies a^2 / 8 from the arc: five of the one-degree steps each
     EXPECT_EQ(sweeps.front().start.position_m, poses.front().position_m);
     EXPECT_EQ(sweeps.back().end.position_m, poses.back().position_m);
@@ -50,7 +50,7 @@ TEST(Sweeps, ATurningToolIsNotMergedButABallIs) {
         const double half = i < 5 ? 0.0 : 0.05 * (i - 4);
         poses.push_back({Vec3(i * 0.001, 0.0, 0.0), Quat(std::cos(half), std::sin(half), 0, 0)});
     }
-    EXPECT_EQ(sweeps_along(poses, kBall, 1e-6).size(), 1u);
+    EXPECT_EQ(sweeps_along(poses, kSweptBall, 1e-6).size(), 1u);
     const auto sweeps = sweeps_along(poses, kCylinder, 1e-6);
     ASSERT_EQ(sweeps.size(), 7u);  // poses 0 to 4, then each step
     EXPECT_EQ(sweeps[0].end.position_m, poses[4].position_m);
@@ -59,8 +59,8 @@ TEST(Sweeps, ATurningToolIsNotMergedButABallIs) {
 
 TEST(Sweeps, APointIsAStampAndNothingIsNothing) {
     const std::vector<Pose> pose{{Vec3(1, 2, 3)}};
-    ASSERT_EQ(sweeps_along(pose, kBall, 1.0).size(), 1u);
-    EXPECT_TRUE(sweeps_along({}, kBall, 1.0).empty());
+    ASSERT_EQ(sweeps_along(pose, kSweptBall, 1.0).size(), 1u);
+    EXPECT_TRUE(sweeps_along({}, kSweptBall, 1.0).empty());
 }
 
 }  // namespace burin::sculpt

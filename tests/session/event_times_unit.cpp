@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "session/input/event_times.hpp"
+#include "tests/support/test_units.hpp"
 
 #include <gtest/gtest.h>
 
 namespace burin::session {
 namespace {
-
-constexpr Nanoseconds kMs = 1'000'000;
 
 std::vector<Input> moves(int count, double from_px = 0.0) {
     std::vector<Input> told;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "session/panel/panel_feed.hpp"
+#include "tests/support/test_units.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +9,6 @@
 
 namespace burin::session {
 namespace {
-
-constexpr Nanoseconds kMs = 1'000'000;
 
 // A session of a frame every 10 ms, each with a force and a tick of its own.
 struct Session {

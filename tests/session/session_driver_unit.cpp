@@ -8,11 +8,10 @@
 
 #include "devices/haptic/simulated_omni.hpp"
 #include "sculpt/workpiece.hpp"
+#include "tests/support/test_units.hpp"
 
 namespace burin::session {
 namespace {
-
-constexpr Nanoseconds kMs = 1'000'000;
 
 // Notes what it is asked for; fails at a time of choice.
 class NotingExecutor final : public Executor {

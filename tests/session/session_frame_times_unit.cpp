@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "session/timing/frame_times.hpp"
+#include "tests/support/test_units.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,13 +10,11 @@
 namespace burin::session {
 namespace {
 
-constexpr Nanoseconds kMs = 1'000'000;
-
 Nanoseconds value(const FrameAges& ages, FrameFigure figure, std::size_t eye) {
     return ages[static_cast<std::size_t>(figure)][eye].value();
 }
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool report_has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 // Frames seen every 16 ms with a head and a tool of the ages given.
 FrameHistory history(Nanoseconds head_age_ns, Nanoseconds tool_age_ns, const LatencySettings& settings = {},
@@ -123,17 +122,17 @@ TEST(FrameTimes, WarnExactlyAboveThePublishedLimits) {
         const auto lines = history(age, 10 * kMs).warnings();
         return lines.size() == 1 ? lines[0].line : std::to_string(lines.size()) + " lines";
     };
-    EXPECT_TRUE(has(head(17 * kMs + 100'000), "motion to photon 17.1 ms, above 17 ms"));
-    EXPECT_TRUE(has(head(17 * kMs + 100'000), "Adelstein"));
-    EXPECT_TRUE(has(head(21 * kMs), "21.0 ms, above 20 ms"));  // the laxest that is exceeded, alone
-    EXPECT_TRUE(has(head(51 * kMs), "51.0 ms, above 50 ms"));
+    EXPECT_TRUE(report_has(head(17 * kMs + 100'000), "motion to photon 17.1 ms, above 17 ms"));
+    EXPECT_TRUE(report_has(head(17 * kMs + 100'000), "Adelstein"));
+    EXPECT_TRUE(report_has(head(21 * kMs), "21.0 ms, above 20 ms"));  // the laxest that is exceeded, alone
+    EXPECT_TRUE(report_has(head(51 * kMs), "51.0 ms, above 50 ms"));
     const auto tool = [](Nanoseconds age) {
         const auto lines = history(5 * kMs, age).warnings();
         return lines.size() == 1 ? lines[0].line : std::to_string(lines.size()) + " lines";
     };
-    EXPECT_TRUE(has(tool(17 * kMs), "touch before sight 16.0 ms, above 15 ms"));
-    EXPECT_TRUE(has(tool(17 * kMs), "Di Luca"));
-    EXPECT_TRUE(has(tool(-51 * kMs), "minus touch before sight 52.0 ms, above 50 ms"));
+    EXPECT_TRUE(report_has(tool(17 * kMs), "touch before sight 16.0 ms, above 15 ms"));
+    EXPECT_TRUE(report_has(tool(17 * kMs), "Di Luca"));
+    EXPECT_TRUE(report_has(tool(-51 * kMs), "minus touch before sight 52.0 ms, above 50 ms"));
     EXPECT_TRUE(history(5 * kMs, -49 * kMs).warnings().empty());
     EXPECT_EQ(history(60 * kMs, 60 * kMs).warnings().size(), 2u);
 }

@@ -27,7 +27,7 @@ std::string complaint(const std::string& lines) {
     return log ? "" : log.error().line();
 }
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool line_has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 std::filesystem::path fresh_file(const std::string& name) {
     const auto path = std::filesystem::temp_directory_path() / ("burin-" + std::to_string(getpid()) + "-" + name);
@@ -203,9 +203,9 @@ TEST(InputLog, TimesAreExactToTheNanosecond) {
 TEST(InputLog, NamesFileLineAndRemedyOfEveryMistake) {
     const auto expect = [](const std::string& line, const std::string& part) {
         const std::string text = complaint("0 close\n" + line + "\n");
-        EXPECT_TRUE(has(text, "in.log:3: ")) << line << " -> " << text;
-        EXPECT_TRUE(has(text, part)) << line << " -> " << text;
-        EXPECT_TRUE(has(text, "; ")) << "no remedy: " << text;
+        EXPECT_TRUE(line_has(text, "in.log:3: ")) << line << " -> " << text;
+        EXPECT_TRUE(line_has(text, part)) << line << " -> " << text;
+        EXPECT_TRUE(line_has(text, "; ")) << "no remedy: " << text;
     };
     expect("1 mose 3 4", "'mose' is no kind of input; the nearest is 'mouse'");
     expect("1 comand undo", "the nearest is 'command'");
@@ -241,7 +241,7 @@ TEST(InputLog, NamesFileLineAndRemedyOfEveryMistake) {
     expect("1", "nothing follows the time");
     expect("soon close", "'soon' is no time");
     expect("-1 close", "'-1' is no time");
-    EXPECT_TRUE(has(complaint("2 close\n1 close\n"), "in.log:3: its time 1 is before 2"));
+    EXPECT_TRUE(line_has(complaint("2 close\n1 close\n"), "in.log:3: its time 1 is before 2"));
 }
 
 TEST(InputLog, RefusesWhatIsNoLogOrOfAnotherVersion) {
@@ -249,11 +249,11 @@ TEST(InputLog, RefusesWhatIsNoLogOrOfAnotherVersion) {
                                   "burin-input 1x\n", "burin-input 1"}) {
         const auto log = parse_input_log(bad, "in.log");
         ASSERT_FALSE(log) << bad;
-        EXPECT_TRUE(has(log.error().line(), "in.log:1: ")) << log.error().line();
+        EXPECT_TRUE(line_has(log.error().line(), "in.log:1: ")) << log.error().line();
     }
     const auto newer = parse_input_log("burin-input 3 x\n", "in.log");
     ASSERT_FALSE(newer);
-    EXPECT_TRUE(has(newer.error().line(), "version 3"));
+    EXPECT_TRUE(line_has(newer.error().line(), "version 3"));
     for (const std::string known : {"burin-input 1\n", "burin-input 2\n"})
         EXPECT_TRUE(parse_input_log(known, "in.log"));
 }
@@ -263,9 +263,10 @@ TEST(InputLog, MakesNothingOfLinesThatOnlyClaimMuch) {
     EXPECT_TRUE(parse_line(words, "w"));
     std::string many = "1 command x";
     for (int i = 0; i < 1000; ++i) many += " a";
-    EXPECT_TRUE(has(parse_line(many, "w").error().line(), "more than 64 words"));
-    EXPECT_TRUE(has(parse_line(std::string(kMostLineBytes + 1, 'a'), "w").error().line(), "longer than any event"));
-    EXPECT_TRUE(has(complaint("1 text \"" + std::string(kMostTextBytes + 1, 'a') + "\"\n"), "out of its range"));
+    EXPECT_TRUE(line_has(parse_line(many, "w").error().line(), "more than 64 words"));
+    EXPECT_TRUE(
+        line_has(parse_line(std::string(kMostLineBytes + 1, 'a'), "w").error().line(), "longer than any event"));
+    EXPECT_TRUE(line_has(complaint("1 text \"" + std::string(kMostTextBytes + 1, 'a') + "\"\n"), "out of its range"));
 }
 
 TEST(InputLog, ReportsATornLastLineAndLeavesItOut) {
@@ -281,7 +282,7 @@ TEST(InputLog, ReportsATornLastLineAndLeavesItOut) {
         ASSERT_EQ(log->events.size(), lines - 1);
         for (std::size_t i = 0; i < log->events.size(); ++i) EXPECT_EQ(log->events[i], all->events[i]);
         EXPECT_EQ(log->torn_line.has_value(), whole[cut - 1] != '\n');
-        EXPECT_TRUE(!log->torn_line || has(*log->torn_line, "in.log:" + std::to_string(lines + 1)));
+        EXPECT_TRUE(!log->torn_line || line_has(*log->torn_line, "in.log:" + std::to_string(lines + 1)));
     }
 }
 
@@ -306,7 +307,7 @@ TEST(InputLogWriter, LeavesAnExistingFileAlone) {
     std::ofstream(path) << "precious";
     const auto writer = InputLogWriter::create(path, "");
     ASSERT_FALSE(writer);
-    EXPECT_TRUE(has(writer.error().line(), path.string())) << writer.error().line();
+    EXPECT_TRUE(line_has(writer.error().line(), path.string())) << writer.error().line();
     EXPECT_EQ(content(path), "precious");
     std::filesystem::remove(path);
     EXPECT_FALSE(InputLogWriter::create("no/such/folder/in.log", ""));
@@ -345,7 +346,7 @@ TEST(InputLogWriter, AFullDiskEndsTheLogButNotTheSession) {
     setrlimit(RLIMIT_FSIZE, &before);
     std::signal(SIGXFSZ, ignored);
     ASSERT_TRUE(source.recording_error());
-    EXPECT_TRUE(has(source.recording_error()->line(), path.string()));
+    EXPECT_TRUE(line_has(source.recording_error()->line(), path.string()));
     const auto log = read_input_log(path);
     ASSERT_TRUE(log) << log.error().line();
     EXPECT_TRUE(log->torn_line);

@@ -10,14 +10,15 @@
 #include <vector>
 
 #include "session/timing/frame_pacing.hpp"
+#include "tests/support/test_units.hpp"
 
 namespace burin::session {
 namespace {
 
-constexpr Nanoseconds kMs = 1'000'000, kUs = 1000;
+constexpr Nanoseconds kUs = 1000;
 constexpr Nanoseconds k60 = 16'666'667, k120 = 8'333'333;
 
-struct Display {
+struct PacedDisplay {
     Nanoseconds period_ns = k60;
     Nanoseconds phase_ns = 3'000'000;
     bool throttles = true;      // first in, first out, at vblanks
@@ -32,15 +33,15 @@ struct Shown {
     std::uint32_t interval;
 };
 
-class Session {
+class PacedSession {
 public:
-    Display display;
+    PacedDisplay display;
     std::function<Nanoseconds(std::uint64_t frame)> processor = [](std::uint64_t) { return 2 * kMs; };
     std::function<Nanoseconds(std::uint64_t frame)> graphics = [](std::uint64_t) { return 4 * kMs; };
     Nanoseconds oversleep_ns = 0, flip_noise_ns = 0;  // at most; uniform
     PacingState state;
 
-    explicit Session(PacingSettings settings = {}) : state(begin_pacing(settings)) {}
+    explicit PacedSession(PacingSettings settings = {}) : state(begin_pacing(settings)) {}
 
     std::vector<Shown> run(int frames) {
         std::vector<Shown> shown;
@@ -140,7 +141,7 @@ Nanoseconds worst_prediction(const std::vector<Shown>& frames) {
 
 TEST(FramePacing, ASteadyLoadIsShownEveryPeriodWithAHeadHardlyOlderThanTheWork) {
     for (const Nanoseconds period : {k60, k120}) {
-        Session session({.period_ns = period});
+        PacedSession session({.period_ns = period});
         session.display.period_ns = period;
         session.graphics = [&](std::uint64_t) { return period / 3; };
         const auto frames = last(session.run(600), 500);
@@ -153,7 +154,7 @@ TEST(FramePacing, ASteadyLoadIsShownEveryPeriodWithAHeadHardlyOlderThanTheWork) 
 }
 
 TEST(FramePacing, LearnsAPeriodThatIsNotTheOneAnnounced) {
-    Session session({.period_ns = k60});
+    PacedSession session({.period_ns = k60});
     session.display.period_ns = 16'683'350;  // 59.94 Hz
     const auto frames = last(session.run(1200), 600);
     EXPECT_EQ(late(frames, k60), 0);
@@ -162,7 +163,7 @@ TEST(FramePacing, LearnsAPeriodThatIsNotTheOneAnnounced) {
 }
 
 TEST(FramePacing, ALoadThatJumpsCostsAFewFramesAndNoMore) {
-    Session session;
+    PacedSession session;
     session.graphics = [](std::uint64_t frame) { return frame < 300 ? 3 * kMs : 9 * kMs; };
     const auto frames = session.run(700);
     const std::vector<Shown> during(frames.begin() + 299, frames.begin() + 320), after = last(frames, 300);
@@ -174,7 +175,7 @@ TEST(FramePacing, ALoadThatJumpsCostsAFewFramesAndNoMore) {
 }
 
 TEST(FramePacing, ALoadThatFallsMakesHeadsYoungAgain) {
-    Session session;
+    PacedSession session;
     session.graphics = [](std::uint64_t frame) { return frame < 300 ? 9 * kMs : 3 * kMs; };
     const auto frames = session.run(400);
     EXPECT_EQ(late(last(frames, 100), k60), 0);
@@ -182,7 +183,7 @@ TEST(FramePacing, ALoadThatFallsMakesHeadsYoungAgain) {
 }
 
 TEST(FramePacing, ASingleHitchIsSoonForgotten) {
-    Session session;
+    PacedSession session;
     session.graphics = [](std::uint64_t frame) { return frame == 300 ? 12 * kMs : 3 * kMs; };
     const auto frames = session.run(330);
     EXPECT_LE(late(last(frames, 32), k60), 1);
@@ -191,7 +192,7 @@ TEST(FramePacing, ASingleHitchIsSoonForgotten) {
 
 TEST(FramePacing, ALoadLongerThanAPeriodRunsAtHalfRateWithoutFluttering) {
     for (const Nanoseconds load : {15 * kMs + 400 * kUs, 16 * kMs, 18 * kMs, 25 * kMs}) {
-        Session session;
+        PacedSession session;
         session.processor = [](std::uint64_t) { return kMs; };
         session.graphics = [&](std::uint64_t frame) {
             return load - kMs + static_cast<Nanoseconds>(frame % 5) * 200 * kUs;
@@ -205,7 +206,7 @@ TEST(FramePacing, ALoadLongerThanAPeriodRunsAtHalfRateWithoutFluttering) {
 }
 
 TEST(FramePacing, ALoadAboutAsLongAsAPeriodChangesItsRateSeldom) {
-    Session session;
+    PacedSession session;
     std::mt19937 random(5);
     session.processor = [](std::uint64_t) { return kMs; };
     session.graphics = [&](std::uint64_t) {
@@ -218,7 +219,7 @@ TEST(FramePacing, ALoadAboutAsLongAsAPeriodChangesItsRateSeldom) {
 }
 
 TEST(FramePacing, OversleepingAndNoisyFlipsOfMillisecondsAreRiddenOut) {
-    Session session;
+    PacedSession session;
     session.oversleep_ns = 3 * kMs;
     session.flip_noise_ns = 2 * kMs;
     const auto frames = last(session.run(2000), 1500);
@@ -234,7 +235,7 @@ TEST(FramePacing, OversleepingAndNoisyFlipsOfMillisecondsAreRiddenOut) {
 }
 
 TEST(FramePacing, MissedVblanksAreCountedAndTheNextFramesAreInTimeAgain) {
-    Session session;
+    PacedSession session;
     session.processor = [](std::uint64_t frame) { return frame % 100 == 99 ? 30 * kMs : 2 * kMs; };  // a stall
     const auto frames = session.run(1000);
     const int seen = late(frames, k60);
@@ -247,13 +248,13 @@ TEST(FramePacing, MissedVblanksAreCountedAndTheNextFramesAreInTimeAgain) {
 }
 
 TEST(FramePacing, ADisplayThatDoesNotThrottleIsFedAtThePeriodOrAsFastAsTheWorkAllows) {
-    Session light;
+    PacedSession light;
     light.display.throttles = light.display.tells_display = false;
     const auto steady = last(light.run(300), 200);
     EXPECT_NEAR(rate_Hz(steady), 60.0, 0.05);
     EXPECT_FALSE(light.state.flips_seen);
 
-    Session heavy;
+    PacedSession heavy;
     heavy.display = light.display;
     heavy.graphics = [](std::uint64_t) { return 40 * kMs; };  // a software device: 42 ms, no need to wait for 50
     const auto frames = last(heavy.run(300), 200);
@@ -262,7 +263,7 @@ TEST(FramePacing, ADisplayThatDoesNotThrottleIsFedAtThePeriodOrAsFastAsTheWorkAl
 }
 
 TEST(FramePacing, WithoutFlipsALoadThatFallsHoldsNoFrameUp) {
-    Session session;
+    PacedSession session;
     session.display.throttles = session.display.tells_display = false;
     session.graphics = [](std::uint64_t frame) { return frame < 50 ? 300 * kMs : 20 * kMs; };
     const auto frames = last(session.run(100), 45);
@@ -273,7 +274,7 @@ TEST(FramePacing, WithoutFlipsALoadThatFallsHoldsNoFrameUp) {
 TEST(FramePacing, AQueueThatHasFilledIsEmptiedAgain) {
     // A burst before anything is known fills the swapchain's queue: every frame is then in time and yet seen late.
     for (const bool tells : {true, false}) {
-        Session session({.period_ns = k60 * 9 / 10});  // too fast: it runs into the queue's end
+        PacedSession session({.period_ns = k60 * 9 / 10});  // too fast: it runs into the queue's end
         session.display.tells_display = tells;
         const auto frames = session.run(3000);
         EXPECT_LE(oldest_head(last(frames, 20)), (tells ? 1 : 2) * k60 + 8 * kMs) << tells;
@@ -284,7 +285,7 @@ TEST(FramePacing, AQueueThatHasFilledIsEmptiedAgain) {
 
 TEST(FramePacing, AnotherRateOfTheDisplayIsLearnt) {
     for (const Nanoseconds now : {Nanoseconds{13'333'333}, Nanoseconds{20'000'000}, Nanoseconds{33'333'333}}) {
-        Session session;
+        PacedSession session;
         session.run(300);
         session.display.period_ns = now;  // nobody tells the pacer
         const auto frames = last(session.run(500), 200);
@@ -293,7 +294,7 @@ TEST(FramePacing, AnotherRateOfTheDisplayIsLearnt) {
         EXPECT_NEAR(rate_Hz(frames), 1e9 / static_cast<double>(now), 0.05) << now;
         EXPECT_LE(oldest_head(frames), 8 * kMs) << now;
     }
-    Session told;
+    PacedSession told;
     told.run(300);
     told.display.period_ns = k120;
     told.state = display_changed(told.state, k120);
@@ -302,7 +303,7 @@ TEST(FramePacing, AnotherRateOfTheDisplayIsLearnt) {
 
 TEST(FramePacing, TheSameTimesGiveTheSamePlans) {
     const auto plans = [] {
-        Session session;
+        PacedSession session;
         session.oversleep_ns = 2 * kMs;
         std::vector<Nanoseconds> wakes;
         for (const Shown& s : session.run(200)) wakes.push_back(s.plan.wake_ns);
@@ -367,7 +368,7 @@ TEST(FramePacing, APictureFinishedWithinTheLeadIsTakenToBeSeenAPeriodLater) {
 }
 
 TEST(FramePacing, AnotherDisplayIsNotShownFramesAsRarelyAsTheOldOneHadTo) {
-    Session session;
+    PacedSession session;
     session.graphics = [](std::uint64_t frame) { return frame < 300 ? 25 * kMs : kMs; };
     session.run(300);
     ASSERT_EQ(session.state.interval, 2u);

@@ -43,7 +43,7 @@ std::size_t count_of(const Image& image, std::array<int, 3> colour) {
 
 }  // namespace
 
-class PanelPicture : public gpu::DeviceTest {
+class SessionPanel : public gpu::DeviceTest {
 protected:
     Image paint(Panel& panel, const PanelModel& model, Nanoseconds time_ns = 0) {
         const PanelFrame& frame = panel.show(model, time_ns);
@@ -69,7 +69,7 @@ protected:
     }
 };
 
-TEST_F(PanelPicture, ShowsEachStateOfASession) {
+TEST_F(SessionPanel, ShowsEachStateOfASession) {
     const std::array<std::pair<const char*, PanelModel>, 5> states{{{"idle", idle_model()},
                                                                     {"carving", carving_model()},
                                                                     {"no_force", no_force_model()},
@@ -89,7 +89,7 @@ TEST_F(PanelPicture, ShowsEachStateOfASession) {
     EXPECT_LT(count_of(pictures[0], {230, 124, 112}), 5u);
 }
 
-TEST_F(PanelPicture, IsLargerForAWallSeenFromAfar) {
+TEST_F(SessionPanel, IsLargerForAWallSeenFromAfar) {
     auto panel = Panel::create({.size = {680, 1440}, .scale = 2.0});
     ASSERT_TRUE(panel) << panel.error().line();
     keep(paint(*panel, carving_model()), "wall");
@@ -102,7 +102,7 @@ TEST_F(PanelPicture, IsLargerForAWallSeenFromAfar) {
     EXPECT_NEAR(b->height, 2.0 * a->height, 3.0);
 }
 
-TEST_F(PanelPicture, ShowsAnOpenListOverAllElse) {
+TEST_F(SessionPanel, ShowsAnOpenListOverAllElse) {
     auto panel = Panel::create({.size = {340, 1180}});
     ASSERT_TRUE(panel);
     const PanelModel model = carving_model();

@@ -19,13 +19,13 @@ namespace {
 constexpr Nanoseconds kFrame_ns = 16'000'000;
 
 // Tall enough that nothing is scrolled away.
-struct Desk {
+struct PanelDesk {
     Panel panel;
     PanelModel model;
     Nanoseconds now_ns = 0;
     std::vector<CommandInput> actions;  // of the last frame
 
-    explicit Desk(PanelModel shown, ImageSize size = {340, 1600})
+    explicit PanelDesk(PanelModel shown, ImageSize size = {340, 1600})
         : panel(std::move(Panel::create({.size = size}).value())), model(std::move(shown)) {
         show();
     }
@@ -131,8 +131,8 @@ PanelModel workable_model() {
 TEST(PanelWidgets, GiveExactlyTheirCommandWhenClicked) {
     const std::map<std::string, Commands> all = expected_commands();
     std::set<std::string> seen;
-    for (const std::string& label : Desk(workable_model()).panel.labels()) {
-        Desk desk(workable_model());
+    for (const std::string& label : PanelDesk(workable_model()).panel.labels()) {
+        PanelDesk desk(workable_model());
         const Commands given = desk.click(label);
         seen.insert(label);
         if (kSliders.contains(label)) {
@@ -158,7 +158,7 @@ TEST(PanelWidgets, GiveExactlyTheirCommandWhenClicked) {
 
 TEST(PanelWidgets, OfferEveryEntryOfTheirLists) {
     const auto choose = [](const char* list, const std::string& entry) {
-        Desk desk(workable_model());
+        PanelDesk desk(workable_model());
         (void)desk.click(list);
         return desk.click(std::string(list) + " " + entry);
     };
@@ -178,7 +178,7 @@ TEST(PanelWidgets, SaySizesOfEveryToolThatATakerTakes) {
         model.tool = panel::tool_like(model.tool, kind);
         for (const sculpt::ToolSize& size : sculpt::descriptor_of(kind).used_sizes()) {
             const std::string label = size.name == "radius" ? "radius" : "tool " + std::string(size.name);
-            Desk desk(model);
+            PanelDesk desk(model);
             const Commands given = desk.click(label);
             ASSERT_EQ(given.size(), 1u) << label;
             EXPECT_EQ(given[0].name, kind == sculpt::ToolKind::ball ? "radius" : "tool");
@@ -193,13 +193,13 @@ TEST(PanelWidgets, ThatAreOffGiveNothing) {
     model.exporting = true;
     model.tool = panel::tool_like(model.tool, sculpt::ToolKind::box);  // which cannot smooth
     for (const char* label : {"undo", "redo", "export", "operation smooth"}) {
-        Desk desk(model);
+        PanelDesk desk(model);
         EXPECT_TRUE(desk.click(label).empty()) << label;
     }
 }
 
 TEST(PanelWidgets, GiveNothingWhenTheHandSlipsOffBeforeRelease) {
-    Desk desk(workable_model());
+    PanelDesk desk(workable_model());
     desk.send({MouseMove{desk.middle_of("quit")}, MouseClick{MouseButton::left, true, {}}});
     desk.send({MouseMove{desk.middle_of("State")}});
     desk.send({MouseClick{MouseButton::left, false, {}}});
@@ -207,7 +207,7 @@ TEST(PanelWidgets, GiveNothingWhenTheHandSlipsOffBeforeRelease) {
 }
 
 TEST(PanelSlider, GivesAValueOnceWhileTheHandRests) {
-    Desk desk(workable_model());
+    PanelDesk desk(workable_model());
     const auto at = *desk.panel.place_of("friction");
     const auto place = [&](double part) { return Vec2(at.x + part * at.width, at.y + 0.5 * at.height); };
     desk.send({MouseMove{place(0.5)}, MouseClick{MouseButton::left, true, {}}});
@@ -233,7 +233,7 @@ TEST(PanelSlider, GivesAValueOnceWhileTheHandRests) {
 }
 
 TEST(PanelAtRest, IsNotLaidOutAgainForBeingToldItsSize) {
-    Desk desk(workable_model());
+    PanelDesk desk(workable_model());
     for (int i = 0; i < 10; ++i) desk.show();  // until it rests
     const std::uint64_t before = desk.panel.laid_out();
     for (int i = 0; i < 10; ++i) {
@@ -250,7 +250,7 @@ TEST(PanelCard, KeepsWhatIsBesideItsTitleOffTheTitle) {
     const auto letters_of_title = [](haptics::WorkspacePhase phase) {
         PanelModel model = workable_model();
         model.phase = phase;
-        Desk desk(model);
+        PanelDesk desk(model);
         const PixelRect card = *desk.panel.place_of("Workspace");
         const double top = card.y, bottom = top + card.height, right = card.x + 96.0;
         const renderer::PanelMesh& mesh = desk.panel.show(model, desk.now_ns).mesh;
@@ -264,7 +264,7 @@ TEST(PanelCard, KeepsWhatIsBesideItsTitleOffTheTitle) {
 }
 
 TEST(PanelText, IsTypedIntoThePathAndExportedByEnter) {
-    Desk desk(workable_model());
+    PanelDesk desk(workable_model());
     (void)desk.click("path");
     EXPECT_TRUE(desk.panel.show(desk.model, desk.now_ns).wants_keyboard);
     desk.send({KeyInput{Key::a, KeyMotion::press, {.ctrl = true}}, KeyInput{Key::a, KeyMotion::release, {.ctrl = true}},
@@ -277,7 +277,7 @@ TEST(PanelText, IsTypedIntoThePathAndExportedByEnter) {
 }
 
 TEST(PanelMouse, IsWantedOverThePanelOnly) {
-    Desk desk(workable_model());
+    PanelDesk desk(workable_model());
     desk.send({MouseMove{{170.0, 300.0}}});
     EXPECT_TRUE(desk.panel.show(desk.model, desk.now_ns).wants_mouse);
     desk.send({MouseMove{{-20.0, 300.0}}});
@@ -285,7 +285,7 @@ TEST(PanelMouse, IsWantedOverThePanelOnly) {
 }
 
 TEST(PanelMouse, IsFoundWhereThePanelIsInTheOutput) {
-    Desk desk(workable_model());
+    PanelDesk desk(workable_model());
     const Vec2 at = desk.middle_of("undo");
     const PanelPlace place{{900.0, 40.0}, {0.5, 1.0}};  // as in side by side, half width
     const Vec2 output = place.origin_px + at * place.px_per_panel_px;
@@ -298,7 +298,7 @@ TEST(PanelMouse, IsFoundWhereThePanelIsInTheOutput) {
 }
 
 TEST(PanelWand, PressesWhatItPointsAt) {
-    Desk desk(workable_model());
+    PanelDesk desk(workable_model());
     const Vec2 at = desk.middle_of("operation fill");
     desk.panel.point(at, true);
     desk.show();
@@ -313,7 +313,7 @@ TEST(PanelWand, PressesWhatItPointsAt) {
 }
 
 TEST(PanelWheel, BringsUpWhatIsBelow) {
-    Desk desk(workable_model(), {340, 500});
+    PanelDesk desk(workable_model(), {340, 500});
     EXPECT_FALSE(desk.panel.place_of("export"));
     for (int i = 0; i < 40; ++i) desk.send({MouseMove{{170.0, 250.0}}, Scroll{{0.0, -1.0}, {}}});
     EXPECT_TRUE(desk.panel.place_of("State"));
@@ -321,7 +321,7 @@ TEST(PanelWheel, BringsUpWhatIsBelow) {
 }
 
 TEST(PanelRest, LaysNothingOutWhileNothingChanges) {
-    Desk desk(workable_model());
+    PanelDesk desk(workable_model());
     for (int i = 0; i < 5; ++i) desk.show();
     const std::uint64_t before = desk.panel.laid_out();
     for (int i = 0; i < 100; ++i) {
@@ -338,7 +338,7 @@ TEST(PanelRest, LaysNothingOutWhileNothingChanges) {
 // message before, for as long as nothing else changed, so that pictures of the same state differed.
 TEST(PanelRest, LooksTheSameWhateverMessageCameBefore) {
     const auto after = [](const std::string& before) {
-        Desk desk(workable_model(), {340, 680});
+        PanelDesk desk(workable_model(), {340, 680});
         for (int i = 0; i < 5; ++i) desk.show();
         for (const std::string& message : {before, std::string("wrote part.stl")}) {
             desk.model.message = message;
@@ -350,7 +350,7 @@ TEST(PanelRest, LooksTheSameWhateverMessageCameBefore) {
 }
 
 TEST(PanelHidden, IsEmptyAndWantsNothing) {
-    Desk desk(workable_model());
+    PanelDesk desk(workable_model());
     const Vec2 at = desk.middle_of("quit");
     desk.model.visible = false;
     desk.send({MouseMove{at}, MouseClick{MouseButton::left, true, {}}, MouseClick{MouseButton::left, false, {}}});
@@ -369,13 +369,13 @@ TEST(PanelType, ThatCannotBeUsedIsNamed) {
 }
 
 TEST(PanelHelp, NamesEveryKeyAndCommand) {
-    Desk desk(help_model());
+    PanelDesk desk(help_model());
     EXPECT_TRUE(desk.panel.place_of("Keys"));
     EXPECT_FALSE(desk.panel.place_of("tool ball"));
     EXPECT_EQ(desk.click("toggle-help"), (Commands{{"toggle-help", {}}}));
 }
 
-Input any_input(std::mt19937& random) {
+Input random_input(std::mt19937& random) {
     const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
     switch (below(8)) {
         case 0:
@@ -412,7 +412,7 @@ TEST(PanelReplay, IsTheSameBitForBitWhateverOtherPanelsDo) {
         auto other = Panel::create({.size = {400, 500}, .scale = 1.3});
         for (Nanoseconds now_ns = 0; now_ns < 40 * kFrame_ns; now_ns += kFrame_ns) {
             std::vector<InputEvent> events;
-            for (unsigned i = random() % 8; i > 0; --i) events.push_back({now_ns, any_input(random)});
+            for (unsigned i = random() % 8; i > 0; --i) events.push_back({now_ns, random_input(random)});
             const PanelModel& model = models[random() % 16 == 0 ? random() % 3 : 0];
             one->feed(events);
             two->feed(events);

@@ -23,7 +23,7 @@ Vec3 on_panel(const Vec2& px) {
 }
 
 template <typename Event>
-std::vector<Event> only(const std::vector<InputEvent>& events) {
+std::vector<Event> only_of(const std::vector<InputEvent>& events) {
     std::vector<Event> found;
     for (const InputEvent& event : events)
         if (const auto* e = std::get_if<Event>(&event.input)) found.push_back(*e);
@@ -48,7 +48,7 @@ TEST(PanelPointer, TheMouseIsWhereTheEyesSeeIt) {
         const std::vector<InputEvent> events{{0, MouseMove{px}}};
         const Pointed pointed = point_at_panel({}, events, kStand, kPanel, mouse);
         ASSERT_TRUE(pointed.pointer.over);
-        const auto moves = only<MouseMove>(pointed.panel);
+        const auto moves = only_of<MouseMove>(pointed.panel);
         ASSERT_EQ(moves.size(), 1u);
         EXPECT_LT(glm::length(moves[0].position_px - wanted), 1e-6);
     }
@@ -58,17 +58,17 @@ TEST(PanelPointer, AWandThatPressesThePanelDoesNotGrabTheScene) {
     const auto wand = [](const Vec3& at) { return WandInput{0, {at + Vec3(0, 0, 1), Quat{1, 0, 0, 0}}, true}; };
     const std::vector<InputEvent> on{{0, wand(on_panel({50, 60}))}, {1, WandClick{0, 0, true}}};
     Pointed pointed = point_at_panel({}, on, kStand, kPanel, {});
-    EXPECT_EQ(only<WandClick>(pointed.rest).size(), 0u);
-    ASSERT_EQ(only<MouseClick>(pointed.panel).size(), 1u);
-    EXPECT_LT(glm::length(only<MouseMove>(pointed.panel)[0].position_px - Vec2(50, 60)), 1e-6);
+    EXPECT_EQ(only_of<WandClick>(pointed.rest).size(), 0u);
+    ASSERT_EQ(only_of<MouseClick>(pointed.panel).size(), 1u);
+    EXPECT_LT(glm::length(only_of<MouseMove>(pointed.panel)[0].position_px - Vec2(50, 60)), 1e-6);
     // Released beside it: the panel is told, and the scene still is not.
     const std::vector<InputEvent> beside{
         {2, wand({-3, 1, 0})}, {3, WandClick{0, 0, false}}, {4, WandClick{0, 0, true}}};
     pointed = point_at_panel(pointed.pointer, beside, kStand, kPanel, {});
-    ASSERT_EQ(only<MouseClick>(pointed.panel).size(), 1u);
-    EXPECT_FALSE(only<MouseClick>(pointed.panel)[0].pressed);
-    ASSERT_EQ(only<WandClick>(pointed.rest).size(), 1u) << "what begins beside the panel is the scene's";
-    EXPECT_TRUE(only<WandClick>(pointed.rest)[0].pressed);
+    ASSERT_EQ(only_of<MouseClick>(pointed.panel).size(), 1u);
+    EXPECT_FALSE(only_of<MouseClick>(pointed.panel)[0].pressed);
+    ASSERT_EQ(only_of<WandClick>(pointed.rest).size(), 1u) << "what begins beside the panel is the scene's";
+    EXPECT_TRUE(only_of<WandClick>(pointed.rest)[0].pressed);
 }
 
 namespace {
@@ -159,7 +159,7 @@ void expect_hit_where_lit(const wall::OutputSettings& output, Shot& shot, const 
         if (output.mode == wall::StereoMode::two_windows && shot.place.eye == wall::Eye::right)
             px.x += wall::kRightWindow_px;
         const std::vector<InputEvent> events{{0, MouseMove{px}}};
-        const auto moves = only<MouseMove>(point_at_panel({}, events, kStand, kPanel, mouse).panel);
+        const auto moves = only_of<MouseMove>(point_at_panel({}, events, kStand, kPanel, mouse).panel);
         ASSERT_EQ(moves.size(), 1u) << file_name_of(output.mode) << " misses at " << px.x << ", " << px.y;
         const Vec2 off = glm::abs(projected(from, on_panel(moves[0].position_px), size) - at);
         EXPECT_LE(off.x, pixel.x + 1e-6) << file_name_of(output.mode);
@@ -203,7 +203,7 @@ TEST(PanelPointer, WhatIsDraggedOffAnEyesPictureStaysWithThatEye) {
                                          {0, MouseMove{{700, 100}}},
                                          {0, MouseClick{MouseButton::left, false, {}}},
                                          {0, MouseMove{{701, 100}}}};
-    const auto moves = only<MouseMove>(mouse_on_picture({}, events, output, place).events);
+    const auto moves = only_of<MouseMove>(mouse_on_picture({}, events, output, place).events);
     ASSERT_EQ(moves.size(), 3u);
     EXPECT_EQ(moves[0].position_px, Vec2(600, 100));
     EXPECT_EQ(moves[1].position_px, Vec2(700, 100)) << "beyond its right edge, not at the other's left one";
@@ -215,7 +215,7 @@ TEST(PanelPointer, WhatIsDraggedOffAnEyesPictureStaysWithThatEye) {
     const std::vector<InputEvent> pulled{
         {0, MouseMove{on}}, {0, MouseClick{MouseButton::left, true, {}}}, {0, MouseMove{{0, 0}}}};
     Pointed pointed = point_at_panel({}, pulled, kStand, kPanel, mouse);
-    EXPECT_EQ(only<MouseMove>(pointed.panel).size(), 1u);
+    EXPECT_EQ(only_of<MouseMove>(pointed.panel).size(), 1u);
     const std::vector<InputEvent> released{{1, MouseClick{MouseButton::left, false, {}}}};
     pointed = point_at_panel(pointed.pointer, released, kStand, kPanel, mouse);
     ASSERT_EQ(pointed.panel.size(), 2u);
@@ -233,7 +233,7 @@ TEST(PanelPointer, OnADeskTheMouseMeetsThePanelOfEitherEye) {
         const bool above = mode == wall::StereoMode::top_bottom || mode == wall::StereoMode::top_bottom_half;
         const Vec2 place = 0.3 * share, second = above ? Vec2(0.0, share.y) : Vec2(share.x, 0.0);
         const std::vector<InputEvent> events{{0, MouseMove{place}}, {0, MouseMove{place + second}}};
-        const auto moves = only<MouseMove>(mouse_on_picture({}, events, output, {.size = size}).events);
+        const auto moves = only_of<MouseMove>(mouse_on_picture({}, events, output, {.size = size}).events);
         ASSERT_EQ(moves.size(), 2u);
         for (const MouseMove& move : moves)
             EXPECT_LT(glm::length(move.position_px - 0.3 * Vec2(eye.width, eye.height)), 1e-9) << file_name_of(mode);

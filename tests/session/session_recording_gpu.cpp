@@ -11,7 +11,7 @@ namespace burin::session {
 namespace {
 
 // Wide enough for the panel, whose plots and figures are measured.
-const std::string kScript = R"(burin-input 1 test
+const std::string kRecordedScript = R"(burin-input 1 test
 0.05 mouse 480 270
 0.1 scroll 0 15
 0.4 command screenshot before.png
@@ -37,7 +37,9 @@ const std::string kScript = R"(burin-input 1 test
 )";
 const std::string kPictures[] = {"before.png", "carving.png", "carved.png", "undone.png", "anaglyph.png", "late.png"};
 
-std::string sculpt(const std::string& more) { return std::string(BURIN_COMMAND) + " sculpt --offscreen " + more; }
+std::string sculpt_offscreen(const std::string& more) {
+    return std::string(BURIN_COMMAND) + " sculpt --offscreen " + more;
+}
 
 // Where the lines of the frame end that took this picture.
 std::size_t end_of_frame_with(const std::string& log, const std::string& name) {
@@ -49,10 +51,10 @@ protected:
     void SetUp() override {
         const auto devices = gpu::list_devices();
         if (!devices) GTEST_SKIP() << "no Vulkan device: " << devices.error().line();
-        place.write("script.txt", kScript);
+        place.write("script.txt", kRecordedScript);
         for (const char* folder : {"live", "again"}) std::filesystem::create_directory(place / folder);
-        live =
-            place.run(sculpt("--workpiece ball:0.1 --resolution 48 --tool ball:0.012 --width 960 --height 540 "
+        live = place.run(
+            sculpt_offscreen("--workpiece ball:0.1 --resolution 48 --tool ball:0.012 --width 960 --height 540 "
                              "--screenshots live --input script.txt --record live.log"));
         ASSERT_EQ(live.status, 0) << live.output;
         ASSERT_NE(place.read("live.log").find(" end "), std::string::npos)
@@ -71,7 +73,7 @@ protected:
 TEST_F(Recording, GivesThePicturesThatWereTaken) {
     std::filesystem::rename(place / "undone.ply", place / "undone-live.ply");
     // Other options than it was recorded with do not count.
-    const auto again = place.run(sculpt("--tool ball:0.03 --screenshots again --input live.log"));
+    const auto again = place.run(sculpt_offscreen("--tool ball:0.03 --screenshots again --input live.log"));
     ASSERT_EQ(again.status, 0) << again.output;
     EXPECT_NE(again.output.find("--tool ball:0.012"), std::string::npos) << again.output;
     for (const std::string& name : kPictures) {
@@ -91,7 +93,7 @@ TEST_F(Recording, FailsWhenATickGoesAnotherWay) {
     ASSERT_TRUE(std::regex_search(after, log.cend(), quiet, std::regex(";-?[0-9]+;")));
     log.insert(static_cast<std::size_t>(quiet[0].second - log.cbegin()) - 1, "z90");
     place.write("bent.log", log);
-    const auto bent = place.run(sculpt("--screenshots again --input bent.log"));
+    const auto bent = place.run(sculpt_offscreen("--screenshots again --input bent.log"));
     EXPECT_EQ(bent.status, 1) << bent.output;
     EXPECT_NE(bent.output.find("departs from the recording"), std::string::npos) << bent.output;
     EXPECT_TRUE(picture("live", "before.png") == picture("again", "before.png"));  // until then all was well
@@ -103,7 +105,7 @@ TEST_F(Recording, IsReplayedAsFarAsItGoes) {
     // In the line behind that frame. It may be lost itself: the record of a tick that an update has taken can come a
     // moment later.
     place.write("torn.log", log.substr(0, end_of_frame_with(log, "carved.png") + 5));
-    const auto torn = place.run(sculpt("--screenshots again --input torn.log"));
+    const auto torn = place.run(sculpt_offscreen("--screenshots again --input torn.log"));
     EXPECT_EQ(torn.status, 0) << torn.output;
     EXPECT_TRUE(picture("live", "carving.png") == picture("again", "carving.png"));
     EXPECT_TRUE(picture("again", "late.png").empty());

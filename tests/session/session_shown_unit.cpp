@@ -8,11 +8,10 @@
 #include <vector>
 
 #include "session/timing/shown_frames.hpp"
+#include "tests/support/test_units.hpp"
 
 namespace burin::session {
 namespace {
-
-constexpr Nanoseconds kMs = 1'000'000;
 
 // Shows what it was handed from the next vblank on, a picture each.
 struct Display {

@@ -240,7 +240,7 @@ Again again(const std::string& text) {
     return result;
 }
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool log_has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
     const std::size_t at = text.find(what);
@@ -276,7 +276,7 @@ TEST(ThreadReplay, DoesTheSameAsTheThreadsDid) {
     EXPECT_EQ(is.surface, was.surface);
     EXPECT_EQ(is.force_N, was.force_N);
     EXPECT_NE(was.surface, was.untouched);  // it carved
-    EXPECT_TRUE(has(was.log, "o1"));
+    EXPECT_TRUE(log_has(was.log, "o1"));
 }
 
 TEST(ThreadReplay, KeepsWhatTicksSawThatTheRestHasOvertaken) {
@@ -302,7 +302,7 @@ TEST(ThreadReplay, BoundsTheTicksWorkByThePaceOfTheRecording) {
     EXPECT_EQ(as_recorded.departed, 0u);
     // So slow that no tick finishes its contact.
     const std::string slow = overtaking(another, 900.0).log;
-    ASSERT_TRUE(has(slow, " 900\n"));
+    ASSERT_TRUE(log_has(slow, " 900\n"));
     EXPECT_EQ(again(slow).departed, 0u);
     EXPECT_GT(again(replaced(slow, " 900\n", " 1\n")).departed, 0u);
 }
@@ -342,13 +342,13 @@ TEST(ThreadReplay, NamesTheLineThatContradictsTheOthers) {
     const std::string settings = replaced(was.log, "p1", "p900000");
     const Again of_settings = again(settings);
     ASSERT_TRUE(of_settings.error);
-    EXPECT_TRUE(has(of_settings.error->line(), line_with(settings, "p900000") + ": "));
-    EXPECT_TRUE(has(of_settings.error->line(), "parameters")) << of_settings.error->line();
+    EXPECT_TRUE(log_has(of_settings.error->line(), line_with(settings, "p900000") + ": "));
+    EXPECT_TRUE(log_has(of_settings.error->line(), "parameters")) << of_settings.error->line();
     // An order that nobody gave.
     const std::string orders = replaced(was.log, "o1", "o900");
     const Again of_orders = again(orders);
     ASSERT_TRUE(of_orders.error);
-    EXPECT_TRUE(has(of_orders.error->line(), line_with(orders, "o900") + ": ")) << of_orders.error->line();
+    EXPECT_TRUE(log_has(of_orders.error->line(), line_with(orders, "o900") + ": ")) << of_orders.error->line();
     EXPECT_FALSE(of_orders.log_ends);
 }
 
@@ -383,12 +383,12 @@ TEST(ThreadRecorder, EndsTheRecordingWhenTicksWereLost) {
     tick(10'000);
     frame();
     ASSERT_TRUE(input.recording_error());
-    EXPECT_TRUE(has(input.recording_error()->line(), "ticks were lost"));
+    EXPECT_TRUE(log_has(input.recording_error()->line(), "ticks were lost"));
     testing::internal::CaptureStderr();
     recorder.outside();
     recorder.outside();
     const std::string told = testing::internal::GetCapturedStderr();
-    EXPECT_TRUE(has(told, "ticks were lost"));
+    EXPECT_TRUE(log_has(told, "ticks were lost"));
     EXPECT_EQ(told.find("ticks were lost"), told.rfind("ticks were lost"));  // once
     const auto log = read_input_log(path);
     ASSERT_TRUE(log) << log.error().line();
@@ -413,7 +413,7 @@ TEST(ThreadRecorder, WritesTheModeThatAScreenWentBackTo) {
     frame();
     testing::internal::CaptureStderr();
     s.refuse_mode(wall::StereoMode::left, {"it cannot be shown", "screen", ""});
-    EXPECT_TRUE(has(testing::internal::GetCapturedStderr(), "it cannot be shown"));
+    EXPECT_TRUE(log_has(testing::internal::GetCapturedStderr(), "it cannot be shown"));
     EXPECT_EQ(s.state().output.mode, wall::StereoMode::left);
     frame();
     frame();
@@ -448,8 +448,8 @@ TEST(SessionSettings, AreThoseOfTheRecording) {
     EXPECT_EQ(settings_line(overruled->options), line);
     EXPECT_EQ(overruled->options.live.screenshots, "here");
     ASSERT_EQ(overruled->overruled.size(), 1u);
-    EXPECT_TRUE(has(overruled->overruled[0], "--tool ball:0.012")) << overruled->overruled[0];
-    EXPECT_TRUE(has(overruled->overruled[0], "--tool ball:0.02 "));
+    EXPECT_TRUE(log_has(overruled->overruled[0], "--tool ball:0.012")) << overruled->overruled[0];
+    EXPECT_TRUE(log_has(overruled->overruled[0], "--tool ball:0.02 "));
 
     EXPECT_EQ(options_as_recorded("somebody's own", other)->options.tool.shape, "ball:0.02");
     EXPECT_FALSE(options_as_recorded(line + " --flavour sweet", other));

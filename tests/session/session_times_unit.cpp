@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "session/timing/session_times.hpp"
+#include "tests/support/test_units.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -10,18 +11,17 @@
 namespace burin::session {
 namespace {
 
-constexpr Nanoseconds kMs = 1'000'000;
 constexpr DisplayBeat kUnseen{10 * kMs, std::nullopt, 0};
 
 Nanoseconds processor_now_ns = 0;
 Nanoseconds fake_processor_ns() noexcept { return processor_now_ns; }
 
 // A loop whose every stage takes as long as it is told.
-struct Loop {
+struct TimedLoop {
     SimulatedClock clock;
     SessionTimes times{clock, fake_processor_ns};
 
-    Loop() {
+    TimedLoop() {
         times.keep_frames();
         pass(1000 * kMs);
     }
@@ -58,7 +58,7 @@ TEST(DisplayBeat, ShowsAPictureFromTheNextVblankOn) {
 }
 
 TEST(SessionTimes, GiveEachStageTheTimeSinceTheOneBefore) {
-    Loop loop;
+    TimedLoop loop;
     loop.times.begin();
     loop.stage(FrameStage::wait, 9 * kMs);
     loop.stage(FrameStage::input, 1 * kMs);
@@ -83,7 +83,7 @@ TEST(SessionTimes, GiveEachStageTheTimeSinceTheOneBefore) {
 }
 
 TEST(SessionTimes, AgesAreFromTheSampleToTheMiddleOfTheScanOut) {
-    Loop loop;
+    TimedLoop loop;
     loop.frame(3 * kMs, 6 * kMs);
     const TimedFrame& frame = loop.times.frames()[0];
     // Six milliseconds until it is handed over, five until the display begins with it, five until it is in its middle.
@@ -104,7 +104,7 @@ TEST(SessionTimes, AgesAreFromTheSampleToTheMiddleOfTheScanOut) {
 }
 
 TEST(SessionTimes, KnowNoFrameTimeWhereFramesWereSkipped) {
-    Loop loop;
+    TimedLoop loop;
     loop.frame(4 * kMs, 6 * kMs);
     loop.frame(4 * kMs, 6 * kMs);
     loop.frame(50 * kMs, 0, false);
@@ -120,7 +120,7 @@ TEST(SessionTimes, KnowNoFrameTimeWhereFramesWereSkipped) {
 }
 
 TEST(SessionTimes, ACutHasAnAgeInTheFirstFrameThatShowsIt) {
-    Loop loop;
+    TimedLoop loop;
     const Nanoseconds cut_ns = loop.clock.now_ns() - 20 * kMs;
     for (int i = 0; i < 3; ++i) {
         loop.times.begin();
@@ -134,7 +134,7 @@ TEST(SessionTimes, ACutHasAnAgeInTheFirstFrameThatShowsIt) {
 }
 
 TEST(SessionTimes, ASessionThatNeverBeginsHasNone) {
-    Loop loop;
+    TimedLoop loop;
     loop.times.sampled(1, 1);
     loop.times.cut(1);
     loop.times.reached(FrameStage::draw);
@@ -145,7 +145,7 @@ TEST(SessionTimes, ASessionThatNeverBeginsHasNone) {
 }
 
 TEST(SessionTimes, SayEachWarningOnceWhenItBegins) {
-    Loop loop;
+    TimedLoop loop;
     std::vector<std::string> said;
     const auto go = [&](int frames, Nanoseconds draw_ns) {
         for (int i = 0; i < frames; ++i) {
@@ -168,7 +168,7 @@ TEST(SessionTimes, SayEachWarningOnceWhenItBegins) {
 }
 
 TEST(Warnings, AreShortEnoughForAPanel) {
-    Loop loop;
+    TimedLoop loop;
     for (int i = 0; i < 100; ++i) loop.frame(0, 800 * kMs);
     for (const FrameWarning& warning : loop.times.warnings()) EXPECT_LE(warning.title.size(), 45u) << warning.title;
     EXPECT_EQ(loop.times.warnings().size(), 2u);

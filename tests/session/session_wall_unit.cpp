@@ -22,7 +22,7 @@ SessionWall wall_of(const std::string& name, const LiveOptions& more = {}) {
     return *wall;
 }
 
-Room room_before(const SessionWall& wall) {
+Room room_before_wall(const SessionWall& wall) {
     Room room;
     room.workpiece_object = {Vec3(-0.1), Vec3(0.1)};
     room.wall = wall;
@@ -32,7 +32,9 @@ Room room_before(const SessionWall& wall) {
     return room;
 }
 
-SessionState state_in(const Room& room) { return begin_session(room, {}, {}, room.wall.screens[room.wall.main].shown); }
+SessionState state_in_room(const Room& room) {
+    return begin_session(room, {}, {}, room.wall.screens[room.wall.main].shown);
+}
 
 InputEvent head_at(Nanoseconds t, const Vec3& place) { return {t, HeadInput{{place, Quat{1, 0, 0, 0}}, true}}; }
 
@@ -124,8 +126,8 @@ TEST(SessionWall, NamesTheFileTheScreenAndTheRemedy) {
 }
 
 TEST(SessionHead, IsTheFlownOneUntilATrackerSpeaks) {
-    const Room room = room_before(wall_of("powerwall.toml"));
-    SessionState state = state_in(room);
+    const Room room = room_before_wall(wall_of("powerwall.toml"));
+    SessionState state = state_in_room(room);
     const Vec3 home = head_world(room.wall.setup, state.head).position_m;
     EXPECT_LT(glm::length(home - room.desk.home_head_world.position_m), 1e-12);
     const std::vector<InputEvent> press{{0, KeyInput{Key::right, KeyMotion::press, {}}}};
@@ -142,7 +144,7 @@ TEST(SessionHead, IsTheFlownOneUntilATrackerSpeaks) {
 }
 
 TEST(SessionHead, IsPredictedToEachEyesOwnTime) {
-    const Room room = room_before(wall_of("powerwall.toml"));
+    const Room room = room_before_wall(wall_of("powerwall.toml"));
     ASSERT_EQ(room.wall.setup.timing.eye_order, wall::EyeOrder::left_first);
     std::vector<InputEvent> said;
     const double speed_m_per_s = 0.6;
@@ -163,8 +165,8 @@ TEST(SessionHead, SeesATurnOfTheSessionsOwnWithBothEyesAtItsTime) {
 }
 
 TEST(SessionHead, GivesEveryScreenTheSameEyes) {
-    const Room room = room_before(wall_of("cave.toml"));
-    const SessionState state = state_in(room);
+    const Room room = room_before_wall(wall_of("cave.toml"));
+    const SessionState state = state_in_room(room);
     const wall::Eyes eyes = wall::eyes_world(room.wall.setup, state.head.poses);
     for (std::size_t i = 0; i < room.wall.screens.size(); ++i) {
         const View sight = view_of(room.wall.setup, i, state.head, state.interpupillary_m);
@@ -177,8 +179,8 @@ TEST(SessionHead, GivesEveryScreenTheSameEyes) {
 }
 
 TEST(SessionHead, BehindAScreenLeavesThatOneDark) {
-    const Room room = room_before(wall_of("cave.toml"));
-    SessionState state = state_in(room);
+    const Room room = room_before_wall(wall_of("cave.toml"));
+    SessionState state = state_in_room(room);
     state.head =
         follow_head(state.head, room.wall.setup, room.wall.setup.timing, {}, 0, {{-1.8, 1.6, 1.5}, Quat{1, 0, 0, 0}});
     EXPECT_FALSE(scene_of(state, room, 0, Vec3(0.0), {})) << "the left wall";
@@ -186,8 +188,8 @@ TEST(SessionHead, BehindAScreenLeavesThatOneDark) {
 }
 
 TEST(SessionState, StrainsNobodyAtHomeAndSaysSoWhenTheWorkpieceComesTooNear) {
-    const Room room = room_before(wall_of("powerwall.toml"));
-    SessionState state = state_in(room);
+    const Room room = room_before_wall(wall_of("powerwall.toml"));
+    SessionState state = state_in_room(room);
     haptics::ToolState tool;
     tool.proxy_object_m = {0.0, 0.0, 0.1};
     const wall::ComfortFinding home = comfort_of(state, room, tool);
@@ -199,8 +201,8 @@ TEST(SessionState, StrainsNobodyAtHomeAndSaysSoWhenTheWorkpieceComesTooNear) {
 }
 
 TEST(SessionState, AWandCarriesTheScene) {
-    const Room room = room_before(wall_of("powerwall.toml"));
-    SessionState state = state_in(room);
+    const Room room = room_before_wall(wall_of("powerwall.toml"));
+    SessionState state = state_in_room(room);
     const auto wand = [](double x) { return WandInput{0, {{x, 1.2, 1.0}, Quat{1, 0, 0, 0}}, true}; };
     const SessionView view{.dt_s = 0.02, .eye_size = {1280, 720}, .tool = {}, .captured = {}};
     const std::vector<InputEvent> grabs{{0, wand(0.0)}, {0, WandClick{0, 0, true}}}, moves{{20'000'000, wand(0.25)}};

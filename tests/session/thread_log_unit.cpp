@@ -11,7 +11,7 @@
 namespace burin::session {
 namespace {
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool text_has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 
@@ -103,14 +103,14 @@ TEST(ThreadLog, NamesLineAndRemedyOfWhatItDoesNotUnderstand) {
                                   "clock 5 1000000 0.000055 1.5",
                                   "refused mono",
                                   "end x"}) {
-        EXPECT_TRUE(has(complaint("0.1 " + bad), "in.log:4: ")) << bad << " -> " << complaint("0.1 " + bad);
-        EXPECT_TRUE(has(complaint("0.1 " + bad), "write: TIME_S ")) << bad;
+        EXPECT_TRUE(text_has(complaint("0.1 " + bad), "in.log:4: ")) << bad << " -> " << complaint("0.1 " + bad);
+        EXPECT_TRUE(text_has(complaint("0.1 " + bad), "write: TIME_S ")) << bad;
     }
-    EXPECT_TRUE(has(complaint("0.1 saw 0 0 1\n0.1 saw 0 0 1"), "in.log:5: "));  // a frame sees once
-    EXPECT_TRUE(has(complaint("0 said \"early\""), "is before"));
+    EXPECT_TRUE(text_has(complaint("0.1 saw 0 0 1\n0.1 saw 0 0 1"), "in.log:5: "));  // a frame sees once
+    EXPECT_TRUE(text_has(complaint("0 said \"early\""), "is before"));
     const auto unclocked = parse_input_log("burin-input 2 x\n0 ticks 1 5;\n", "in.log");
     ASSERT_FALSE(unclocked);
-    EXPECT_TRUE(has(unclocked.error().line(), "in.log:2: "));
+    EXPECT_TRUE(text_has(unclocked.error().line(), "in.log:2: "));
     for (const std::string pace : {"0", "-1", "nan", "inf", "1e9", "1 1"})
         EXPECT_FALSE(parse_input_log("burin-input 2 x\n0 clock 5 1000000 0 " + pace + "\n", "in.log")) << pace;
     // In a log of the first kind there is no such line.

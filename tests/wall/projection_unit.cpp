@@ -7,6 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "tests/wall/wall_samples.hpp"
+
 namespace burin::wall {
 
 namespace {
@@ -19,21 +21,16 @@ Vec2 projected(const Mat4& clip_from_world, const Wall& wall, const Vec3& p) {
     return {(clip.x / clip.w + 1.0) * 0.5 * wall.width_m, (1.0 - clip.y / clip.w) * 0.5 * wall.height_m};
 }
 
-Quat turned(double yaw, double pitch, double roll) {
-    return glm::angleAxis(yaw, Vec3{0, 1, 0}) * glm::angleAxis(pitch, Vec3{1, 0, 0}) *
-           glm::angleAxis(roll, Vec3{0, 0, 1});
-}
-
-const std::array<Pose, 10> kHeads{{{{0.0, 1.143, 2.0}, turned(0, 0, 0)},
-                                   {{0.5, 1.6, 1.5}, turned(0, 0, 0)},
-                                   {{-0.9, 1.7, 2.5}, turned(0.3, 0, 0)},
-                                   {{1.4, 1.2, 0.6}, turned(-0.6, 0.1, 0)},
-                                   {{0.0, 1.8, 3.2}, turned(0, -0.2, 0.1)},
-                                   {{2.2, 1.5, 1.0}, turned(0.9, 0, 0)},
-                                   {{-2.0, 0.9, 1.8}, turned(-0.4, 0.3, -0.2)},
-                                   {{0.2, 2.0, 0.4}, turned(0, 0, 0.5)},
-                                   {{0.1, 1.5, 5.0}, turned(0.2, 0.2, 0.2)},
-                                   {{-0.3, 1.65, 2.1}, turned(0, 0, 1.5707963267948966)}}};
+const std::array<Pose, 10> kHeadsAtOneWall{{{{0.0, 1.143, 2.0}, turned(0, 0, 0)},
+                                            {{0.5, 1.6, 1.5}, turned(0, 0, 0)},
+                                            {{-0.9, 1.7, 2.5}, turned(0.3, 0, 0)},
+                                            {{1.4, 1.2, 0.6}, turned(-0.6, 0.1, 0)},
+                                            {{0.0, 1.8, 3.2}, turned(0, -0.2, 0.1)},
+                                            {{2.2, 1.5, 1.0}, turned(0.9, 0, 0)},
+                                            {{-2.0, 0.9, 1.8}, turned(-0.4, 0.3, -0.2)},
+                                            {{0.2, 2.0, 0.4}, turned(0, 0, 0.5)},
+                                            {{0.1, 1.5, 5.0}, turned(0.2, 0.2, 0.2)},
+                                            {{-0.3, 1.65, 2.1}, turned(0, 0, 1.5707963267948966)}}};
 
 const std::array<Vec3, 6> kPoints{
     {{0, 1.1, 0}, {0.3, 1.4, 0.25}, {-0.8, 0.4, -1.0}, {0, 1.2, 0.2}, {1.2, 2.0, -3.0}, {0.05, 1.143, 0.3}}};
@@ -43,7 +40,7 @@ const std::array<Vec3, 6> kPoints{
 // By similar triangles: an eye at e and a point at p meet the plane z = 0 at x = e.x + (p.x - e.x) e.z / (e.z - p.z).
 TEST(OffAxisProjection, PutsKnownPointsAndDisparitiesOnTheWallForTenHeads) {
     const Wall wall;
-    for (const Pose& head : kHeads) {
+    for (const Pose& head : kHeadsAtOneWall) {
         const Eyes eyes = eyes_of({head, 0.063});
         for (const Vec3& p : kPoints) {
             std::array<Vec2, 2> seen, expected;
@@ -83,7 +80,7 @@ TEST(OffAxisProjection, GivesCrossedDisparityInFrontAndUncrossedBehind) {
 TEST(OffAxisProjection, MapsTheScreensCornersToThePicturesCorners) {
     const Wall wall;
     const Screen s = screen_of(wall);
-    for (const Pose& head : kHeads) {
+    for (const Pose& head : kHeadsAtOneWall) {
         const Mat4 m = off_axis_projection(s, head.position_m, 0.05, 100.0);
         const Vec3 upper_right = s.lower_right_world + s.upper_left_world - s.lower_left_world;
         const std::array<std::pair<Vec3, Vec2>, 4> corners{{{s.lower_left_world, {-1, 1}},
@@ -130,7 +127,7 @@ TEST(OffAxisProjection, DoesNotDependOnWhereTheScreenStands) {
 }
 
 TEST(Eyes, LieOnTheHeadsOwnAxisHoweverItIsTurned) {
-    for (const Pose& head : kHeads) {
+    for (const Pose& head : kHeadsAtOneWall) {
         const Eyes eyes = eyes_of({head, 0.070});
         const Vec3 apart = eyes.right_world - eyes.left_world;
         EXPECT_NEAR(glm::length(apart), 0.070, 1e-12);

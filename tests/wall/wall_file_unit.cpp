@@ -28,7 +28,7 @@ const std::string kSmall =
     "[viewer.fallback_head]\n"       // 8
     "position = [0, 120, 150]\n";    // 9
 
-std::string with(const std::string& from, const std::string& to) {
+std::string with_text(const std::string& from, const std::string& to) {
     std::string text = kSmall;
     return text.replace(text.find(from), from.size(), to);
 }
@@ -131,16 +131,16 @@ TEST(WallFile, WritingAndReadingKeepsEverySetting) {
 
 TEST(WallFile, RefusesWhatItDoesNotUnderstandByLineWithTheRemedy) {
     ASSERT_TRUE(parse_wall(kSmall, "w.toml"));
-    expect_refused(with("pixels", "pixles"), {"w.toml:7", "pixles", "did you mean pixels?"});
-    expect_refused(with("units", "unit"), {"w.toml", "units"});
-    expect_refused(with("\"cm\"", "\"yd\""), {"w.toml:1", "yd", "ft"});
-    expect_refused(with("\"cm\"", "3"), {"w.toml:1", "quotes"});
-    expect_refused(with("[-100, 0, 0]", "[-100, 0]"), {"w.toml:4", "3 numbers"});
-    expect_refused(with("[-100, 0, 0]", "[-100, 0, nan]"), {"w.toml:4", "3 numbers"});
-    expect_refused(with("[-100, 0, 0]", "[-100, 0,"), {"w.toml:", "not TOML"});
-    expect_refused(with("lower_left = [-100, 0, 0]\n", ""), {"w.toml:2", "lower_left"});
-    expect_refused(with("[1200, 900]", "[1200.5, 900]"), {"w.toml:7", "whole"});
-    expect_refused(with("[[screen]]", "[screen]"), {"w.toml:", "[[screen]]"});
+    expect_refused(with_text("pixels", "pixles"), {"w.toml:7", "pixles", "did you mean pixels?"});
+    expect_refused(with_text("units", "unit"), {"w.toml", "units"});
+    expect_refused(with_text("\"cm\"", "\"yd\""), {"w.toml:1", "yd", "ft"});
+    expect_refused(with_text("\"cm\"", "3"), {"w.toml:1", "quotes"});
+    expect_refused(with_text("[-100, 0, 0]", "[-100, 0]"), {"w.toml:4", "3 numbers"});
+    expect_refused(with_text("[-100, 0, 0]", "[-100, 0, nan]"), {"w.toml:4", "3 numbers"});
+    expect_refused(with_text("[-100, 0, 0]", "[-100, 0,"), {"w.toml:", "not TOML"});
+    expect_refused(with_text("lower_left = [-100, 0, 0]\n", ""), {"w.toml:2", "lower_left"});
+    expect_refused(with_text("[1200, 900]", "[1200.5, 900]"), {"w.toml:7", "whole"});
+    expect_refused(with_text("[[screen]]", "[screen]"), {"w.toml:", "[[screen]]"});
     expect_refused("units = \"m\"\n", {"w.toml", "[[screen]]"});
     expect_refused("", {"w.toml", "units"});
     expect_refused(kSmall + "[comfort]\ncrossed = 1\n", {"w.toml:11", "crossed_deg"});
@@ -149,13 +149,13 @@ TEST(WallFile, RefusesWhatItDoesNotUnderstandByLineWithTheRemedy) {
     expect_refused(
         "units = \"m\"\nzebra = 1\n[[screen]]\nlower_left=[0,0,0]\nlower_right=[1,0,0]\nupper_left=[0,1,0]\n",
         {"w.toml:2", "zebra", "its keys are"});
-    expect_refused(with("name = \"front\"", "output = -1"), {"w.toml:3", "output"});
-    expect_refused(with("pixels", "direct = \"hdmi\"\npixels"),
+    expect_refused(with_text("name = \"front\"", "output = -1"), {"w.toml:3", "output"});
+    expect_refused(with_text("pixels", "direct = \"hdmi\"\npixels"),
                    {"w.toml:7", "hdmi-3d", "onboard-din", "inband-displayport", "plain"});
-    expect_refused(with("pixels", "direct = true\npixels"), {"w.toml:7", "quotes"});
-    expect_refused(with("name = \"front\"", "swap_eyes = 1"), {"w.toml:3", "true or false"});
-    expect_refused(with("name = \"front\"", "homography = [[1, 0, 0], [0, 1, 0]]"), {"w.toml:3", "homography"});
-    expect_refused(with("[viewer.fallback_head]", "[viewer]\nleft_eye = [0, 0, 0]\n[viewer.fallback_head]"),
+    expect_refused(with_text("pixels", "direct = true\npixels"), {"w.toml:7", "quotes"});
+    expect_refused(with_text("name = \"front\"", "swap_eyes = 1"), {"w.toml:3", "true or false"});
+    expect_refused(with_text("name = \"front\"", "homography = [[1, 0, 0], [0, 1, 0]]"), {"w.toml:3", "homography"});
+    expect_refused(with_text("[viewer.fallback_head]", "[viewer]\nleft_eye = [0, 0, 0]\n[viewer.fallback_head]"),
                    {"w.toml:8", "right_eye"});
     expect_refused("[[[", {"w.toml:1"});
     expect_refused(std::string(3000, '['), {"w.toml:1"});
@@ -174,14 +174,14 @@ TEST(WallCommand, ShowsChecksAndDraws) {
     EXPECT_NE(place.read("w.svg").find("</svg>"), std::string::npos);
     EXPECT_EQ(place.run(kBurin + " wall check '" + (kWalls / "cave.toml").string() + "'").status, 0);
 
-    place.write("bad.toml", with("[-100, 150, 0]", "[0, 0, 0]"));
+    place.write("bad.toml", with_text("[-100, 150, 0]", "[0, 0, 0]"));
     const auto bad = place.run(kBurin + " wall check bad.toml");
     EXPECT_EQ(bad.status, 1) << bad.output;
     EXPECT_NE(bad.output.find("front"), std::string::npos);
     EXPECT_NE(bad.output.find("on a line"), std::string::npos) << bad.output;
-    place.write("mode.toml", with("pixels", "mode = \"shutter\"\npixels"));
+    place.write("mode.toml", with_text("pixels", "mode = \"shutter\"\npixels"));
     EXPECT_EQ(place.run(kBurin + " wall check mode.toml").status, 1);
-    place.write("wide.toml", with("[-100, 150, 0]", "[-100, 1e30, 0]"));
+    place.write("wide.toml", with_text("[-100, 150, 0]", "[-100, 1e30, 0]"));
     EXPECT_LT(place.run(kBurin + " wall show wide.toml --svg wide.svg").output.size(), 1u << 20);
     EXPECT_LT(place.read("wide.svg").size(), 1u << 20) << "a line for every few metres";
     EXPECT_EQ(place.run(kBurin + " wall").status, 2);
@@ -193,7 +193,7 @@ TEST(WallCommand, ShowsChecksAndDraws) {
 TEST(WallCommand, ChecksAndShowsADisplayDrivenDirectly) {
     Workplace place;
     const auto check = [&](const std::string& keys) {
-        place.write("w.toml", with("pixels", keys + "\npixels"));
+        place.write("w.toml", with_text("pixels", keys + "\npixels"));
         return place.run(kBurin + " wall check w.toml");
     };
     const auto sound = check("direct = \"hdmi-3d\"\nmode = \"two_layers\"");
@@ -284,7 +284,8 @@ TEST(WallCommand, AsksForTouchAfterTouch) {
 
 TEST(WallFile, ReadsEyesByTheirMiddleAndDistanceInTheFilesUnit) {
     const auto viewer = [](const std::string& keys) {
-        return parse_wall(with("[viewer.fallback_head]", "[viewer]\n" + keys + "\n[viewer.fallback_head]"), "w.toml");
+        return parse_wall(with_text("[viewer.fallback_head]", "[viewer]\n" + keys + "\n[viewer.fallback_head]"),
+                          "w.toml");
     };
     const auto by_middle =
         viewer("middle_of_eyes = [1, -8, 5]\ninterpupillary_m = 0.06");  // centimetres, but for the distance
@@ -300,7 +301,7 @@ TEST(WallFile, ReadsEyesByTheirMiddleAndDistanceInTheFilesUnit) {
 
 TEST(WallFile, RefusesEyesThatAreGivenInTwoWays) {
     const auto eyes = [](const std::string& keys) {
-        return with("[viewer.fallback_head]", "[viewer]\n" + keys + "\n[viewer.fallback_head]");
+        return with_text("[viewer.fallback_head]", "[viewer]\n" + keys + "\n[viewer.fallback_head]");
     };
     const std::string both = "left_eye = [-3, 0, 0]\nright_eye = [3, 0, 0]\n";
     ASSERT_TRUE(parse_wall(eyes(both), "w.toml"));

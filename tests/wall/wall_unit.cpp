@@ -11,10 +11,10 @@
 namespace burin::wall {
 namespace {
 
-constexpr double kTolerance_m = 1e-5;  // 0.01 mm on the wall
+constexpr double kScreenTolerance_m = 1e-5;  // 0.01 mm on the wall
 
 // Where the matrix puts a point: metres from the screen's lower left corner, rightwards and upwards.
-Vec2 projected(const Screen& screen, const Vec3& eye, const Vec3& p) {
+Vec2 projected_on(const Screen& screen, const Vec3& eye, const Vec3& p) {
     const glm::dvec4 clip = off_axis_projection(screen, eye, 0.01, 100.0) * glm::dvec4(p, 1.0);
     const double width_m = glm::length(screen.lower_right_world - screen.lower_left_world);
     const double height_m = glm::length(screen.upper_left_world - screen.lower_left_world);
@@ -64,13 +64,13 @@ TEST(StereoGeometry, DisparitiesOnEveryScreenOfACaveEqualTheClosedFormForTenTurn
                 // Only what is well before the eyes has a place on the screen.
                 if (before(name, p) > 0.9 * std::min(before(name, eyes.left_world), before(name, eyes.right_world)))
                     continue;
-                const Vec2 left = projected(views[i].screen, eyes.left_world, p);
-                const Vec2 right = projected(views[i].screen, eyes.right_world, p);
+                const Vec2 left = projected_on(views[i].screen, eyes.left_world, p);
+                const Vec2 right = projected_on(views[i].screen, eyes.right_world, p);
                 const Vec2 left_true = expected_in_cave(name, eyes.left_world, p);
                 const Vec2 right_true = expected_in_cave(name, eyes.right_world, p);
-                EXPECT_LT(glm::length(left - left_true), kTolerance_m) << name;
-                EXPECT_LT(glm::length(right - right_true), kTolerance_m) << name;
-                EXPECT_LT(glm::length((right - left) - (right_true - left_true)), kTolerance_m) << name;
+                EXPECT_LT(glm::length(left - left_true), kScreenTolerance_m) << name;
+                EXPECT_LT(glm::length(right - right_true), kScreenTolerance_m) << name;
+                EXPECT_LT(glm::length((right - left) - (right_true - left_true)), kScreenTolerance_m) << name;
                 ++compared;
             }
         }
@@ -85,7 +85,7 @@ TEST(StereoGeometry, HoldsForAnEyeThatLooksAlongTheWall) {
         for (const Vec3& p : {Vec3{0.4, 1.3, -0.5}, {-1.2, 0.2, -3.0}, {1.0, 2.0, 0.004}}) {
             const double k = e.z / (e.z - p.z);
             const Vec2 expected{e.x + (p.x - e.x) * k + 1.524, e.y + (p.y - e.y) * k};
-            EXPECT_LT(glm::length(projected(wall, e, p) - expected), kTolerance_m);
+            EXPECT_LT(glm::length(projected_on(wall, e, p) - expected), kScreenTolerance_m);
         }
     }
 }
@@ -98,12 +98,12 @@ TEST(StereoGeometry, ScreensThatMeetShowOneRoom) {
         for (const double height : {0.1, 1.2, 2.9}) {
             const Vec3 corner{-1.5, height, 0.0};  // where left and front meet
             const Vec3 beyond = views[0].eyes.left_world + 2.5 * (corner - views[0].eyes.left_world);
-            const Vec2 on_left = projected(views[0].screen, views[0].eyes.left_world, beyond);
-            const Vec2 on_front = projected(views[1].screen, views[1].eyes.left_world, beyond);
-            EXPECT_NEAR(on_left.x, 3.0, kTolerance_m);
-            EXPECT_NEAR(on_front.x, 0.0, kTolerance_m);
-            EXPECT_NEAR(on_left.y, height, kTolerance_m);
-            EXPECT_NEAR(on_front.y, height, kTolerance_m);
+            const Vec2 on_left = projected_on(views[0].screen, views[0].eyes.left_world, beyond);
+            const Vec2 on_front = projected_on(views[1].screen, views[1].eyes.left_world, beyond);
+            EXPECT_NEAR(on_left.x, 3.0, kScreenTolerance_m);
+            EXPECT_NEAR(on_front.x, 0.0, kScreenTolerance_m);
+            EXPECT_NEAR(on_left.y, height, kScreenTolerance_m);
+            EXPECT_NEAR(on_front.y, height, kScreenTolerance_m);
         }
     }
 }

@@ -1,0 +1,45 @@
+# Room builds: the sources of a room (a subfolder) are compiled as one, since most of a source's time is spent on headers
+# that its neighbours read too (docs/decisions/016-build-time.md). So a name in an anonymous namespace is unique within
+# its folder. Presets ci and dev compile each source alone: there a missing include does not go unnoticed.
+#   burin_rooms(RESULT NAME SOURCES source... [ALONE source...])
+# Sets RESULT to what is compiled for these sources, whose paths are relative to the current folder: texts in
+# build/rooms/NAME/ that include the sources of a room, and the sources after ALONE, which have compile options of their
+# own. The texts name sources from the repository's root, so that they are the same in every clone, as ccache asks.
+option(BURIN_ROOM_BUILDS "Compile the sources of a room as one" ON)
+
+# A text includes sources of at most so many bytes together, or one core would wait for the other's longest text.
+set(BURIN_BYTES_TOGETHER 60000)
+
+function(burin_rooms RESULT NAME)
+  cmake_parse_arguments(ARG "" "" "SOURCES;ALONE" ${ARGN})
+  if(NOT BURIN_ROOM_BUILDS)
+    set(${RESULT} ${ARG_SOURCES} PARENT_SCOPE)
+    return()
+  endif()
+  file(RELATIVE_PATH here ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  set(compiled)
+  set(texts)
+  foreach(source IN LISTS ARG_SOURCES)
+    if(source IN_LIST ARG_ALONE OR IS_ABSOLUTE "${source}" OR NOT source MATCHES "\\.cpp$")
+      list(APPEND compiled ${source})
+      continue()
+    endif()
+    get_filename_component(room ${source} DIRECTORY)
+    string(REPLACE "/" "_" room "${room}")
+    if(NOT room)
+      set(room ${NAME})
+    endif()
+    file(SIZE ${CMAKE_CURRENT_SOURCE_DIR}/${source} bytes)
+    math(EXPR bytes_${room} "0${bytes_${room}} + ${bytes}")
+    math(EXPR number "${bytes_${room}} / ${BURIN_BYTES_TOGETHER}")
+    set(text ${CMAKE_BINARY_DIR}/rooms/${NAME}/${room}${number}.cpp)
+    list(APPEND texts ${text})
+    string(APPEND content_${room}${number} "#include \"${here}/${source}\"\n")
+    set(content_of_${text} content_${room}${number})
+  endforeach()
+  list(REMOVE_DUPLICATES texts)
+  foreach(text IN LISTS texts)
+    file(CONFIGURE OUTPUT ${text} CONTENT "${${content_of_${text}}}" @ONLY)
+  endforeach()
+  set(${RESULT} ${compiled} ${texts} PARENT_SCOPE)
+endfunction()
