@@ -44,8 +44,9 @@ Result<void> check_precision(const geometry::TriangleMesh& mesh, const std::stri
 
 Result<void> convert(const ConvertOptions& options) {
     if (const auto ok = sculpt::check_simplification(options.simplify_m); !ok) return ok;
-    const std::array inputs{options.in};
+    const std::array inputs{options.in}, outputs{options.out};
     if (const auto ok = check_overwrites_none(options.out, inputs); !ok) return ok;
+    if (const auto ok = check_outputs(outputs, ""); !ok) return ok;
     Result<geometry::ImportedMesh> imported = geometry::import_mesh(options.in);
     if (!imported) return std::unexpected(imported.error());
     geometry::TriangleMesh& mesh = imported->mesh;

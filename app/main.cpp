@@ -129,6 +129,9 @@ void add_live_options(Command command, session::LiveOptions& options) {
         .one_of({0, 1, 4})
         .show_default();
     command.option("--screenshots", options.screenshots, "The folder for the session's screenshots");
+    command.option("--outputs", options.outputs,
+                   "With --input: the folder below which all its files go; else one in the working folder, named after "
+                   "the log: LOG-outputs");
 }
 
 // burin --version: prints the version and the Vulkan devices found.

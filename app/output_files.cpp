@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/output_files.hpp"
 
-#include <unistd.h>
-
 #include <cstdio>
 #include <filesystem>
 #include <set>
@@ -16,17 +14,7 @@ namespace fs = std::filesystem;
 
 Result<void> check_place(const std::string& path) {
     if (path.empty() || path == kStandardOutput) return {};
-    const fs::path folder = fs::absolute(path).parent_path();
-    std::error_code ignored;
-    if (!fs::is_directory(folder, ignored)) {
-        return fail(path, "cannot be written: there is no folder " + folder.string(),
-                    "make the folder, or choose another place");
-    }
-    if (fs::is_directory(path, ignored)) return fail(path, "is a folder", "give the name of a file");
-    if (access(folder.c_str(), W_OK) != 0) {
-        return fail(path, "cannot be written: no permission in folder " + folder.string(), "choose another place");
-    }
-    return {};
+    return check_writable(path);
 }
 
 Result<void> check_overwrites_none(const std::string& output, std::span<const std::string> inputs) {

@@ -66,7 +66,8 @@ ProfileCommand::ProfileCommand(Command app)
     Options& o = *options_;
     o.sculpt = first_carve();
     session::SculptOptions& s = o.sculpt;
-    command_.option("--input", s.live.input, "A recorded or written log of a session's input").show_default();
+    command_.option("--input", s.live.input, "A recorded or written log of a session's input; it leaves no files")
+        .show_default();
     command_.flag("--window", o.window, "Show it in a window, instead of drawing what nobody sees");
     command_.flag("--simulated-hand", o.simulated_hand,
                   "Ticks as a session without a device has them, which may rest; else as a device's user needs them");

@@ -44,6 +44,13 @@ Result<void> write_plots(const std::string& report_path, const session::FeltFigu
     return {};
 }
 
+// Checks the plots' places, where a report is wanted of a stroke that is felt.
+Result<void> check_plots(const session::SculptOptions& options) {
+    if (options.report.empty() || options.stroke.empty() || options.hand != session::HandChoice::simulated) return {};
+    if (const auto ok = check_place(session::felt_figure_path(options.report)); !ok) return ok;
+    return check_place(session::felt_table_path(options.report));
+}
+
 void say_that_nothing_was_touched(const sculpt::Sculpture& carving) {
     const Box box = sculpt::workpiece_bounds(carving.surface().lattice());
     std::fprintf(stderr,
@@ -83,6 +90,7 @@ Result<void> sculpt(const session::SculptOptions& options) {
     if (!feel) return std::unexpected(feel.error());
     const std::array inputs{options.workpiece.source, options.stroke};
     if (const auto ok = check_outputs(options.exports, options.report, inputs); !ok) return ok;
+    if (const auto ok = check_plots(options); !ok) return ok;
     if (const auto ok = sculpt::check_simplification(options.simplify_m); !ok) return ok;
     sculpt::Stroke stroke;
     if (!options.stroke.empty()) {

@@ -59,6 +59,7 @@ const char* writing_remedy(int code) {
         case EDQUOT: return "free some space or choose another folder; the target was not touched";
         case EFBIG: return "choose another disk or a lower resolution; the target was not touched";
         case ENAMETOOLONG: return "choose a shorter name";
+        case ELOOP: return "remove the symbolic link, which leads in a circle, or choose another name";
         default: return "choose another folder; the target was not touched";
     }
 }
@@ -164,6 +165,20 @@ Result<std::vector<std::byte>> read_file(const fs::path& path, std::uint64_t max
         filled += static_cast<std::size_t>(got);
     }
     return bytes;
+}
+
+Result<void> check_writable(const fs::path& path) {
+    const Result<Target> target = examine_target(path);
+    if (!target) return std::unexpected(target.error());
+    const fs::path parent = target->path.parent_path(), folder = parent.empty() ? "." : parent;
+    std::error_code ignored;
+    if (!fs::is_directory(folder, ignored)) {
+        return fail(path.string(), "cannot be written: there is no folder " + fs::absolute(folder).string(),
+                    "make the folder, or choose another place");
+    }
+    if (::access(folder.c_str(), W_OK | X_OK) == 0) return {};
+    return fail(path.string(), "cannot be written: no permission in folder " + fs::absolute(folder).string(),
+                "choose another place");
 }
 
 Result<void> write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {

@@ -28,4 +28,8 @@ inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{2} << 30;  // enoug
 // temporary file behind.
 [[nodiscard]] Result<void> write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
+// Checks, as far as that shows beforehand, whether write_file_atomically() can write there: that nothing but a writable
+// file has the name, and that there is a folder in which files can be made. Writes nothing.
+[[nodiscard]] Result<void> check_writable(const std::filesystem::path& path);
+
 }  // namespace burin

@@ -2,6 +2,7 @@
 #include "sculpt/sculpt_service.hpp"
 
 #include <chrono>
+#include <filesystem>
 #include <utility>
 
 #include "compute/tools/apply.hpp"
@@ -14,15 +15,27 @@ namespace {
 // (haptics/forces/engagement.hpp): so many radii.
 constexpr double kSurroundings = 1.6;
 
-// Finishes and writes the mesh on a worker of its own, so that carving keeps its pool; returns the message for the
-// user.
-std::string export_surface(const compute::Surface& surface, const compute::Solid& solid, const std::string& path) {
+// Finishes and writes the mesh on a worker of its own, so that carving keeps its pool.
+ExportOutcome export_surface(const compute::Surface& surface, const compute::Solid& solid,
+                             const ExportSurface& wanted) {
+    const std::string& name = wanted.name.empty() ? wanted.path : wanted.name;
+    ExportOutcome outcome{"", wanted.path, wanted.asked_by};
+    const auto ended = [&](std::string message) {
+        outcome.message = std::move(message);
+        return outcome;
+    };
+    if (wanted.refused) return ended(wanted.refused->line());
     WorkerPool alone(1);
     const Result<FinishedMesh> finished = finish_mesh(surface, solid, std::nullopt, alone);
-    if (!finished) return finished.error().line();
-    if (finished->mesh.triangles.empty()) return path + ": there is nothing left to export; undo some strokes";
-    if (const auto written = geometry::export_mesh(finished->mesh, path); !written) return written.error().line();
-    return "exported " + std::to_string(finished->mesh.triangles.size()) + " triangles to " + path;
+    if (!finished) return ended(finished.error().line());
+    if (finished->mesh.triangles.empty()) return ended(name + ": there is nothing left to export; undo some strokes");
+    std::error_code ignored;
+    const bool was_there = std::filesystem::exists(wanted.path, ignored);
+    if (const auto written = geometry::export_mesh(finished->mesh, wanted.path); !written)
+        return ended(written.error().line());
+    outcome.written = true;
+    outcome.replaced = was_there;
+    return ended("exported " + std::to_string(finished->mesh.triangles.size()) + " triangles to " + name);
 }
 
 }  // namespace
@@ -99,7 +112,7 @@ std::optional<SurfaceUpdate> SculptService::take_surface_update() {
             {tile, sculpture_.surface().shared_tile(tile), light != nullptr ? light->shared_light(tile) : nullptr});
     }
     if (light != nullptr) update.inner_boxes_object = light->inner_boxes_object();
-    if (update.tiles.empty() && messages_.empty() && !status_changed_) return std::nullopt;
+    if (update.tiles.empty() && messages_.empty() && exports_.empty() && !status_changed_) return std::nullopt;
     status_changed_ = false;
     update.cut_ns = reader_.last_worked_ns();
     if (const compute::History* history = sculpture_.history()) {
@@ -108,6 +121,7 @@ std::optional<SurfaceUpdate> SculptService::take_surface_update() {
     }
     update.exporting = export_.valid();
     update.messages = std::exchange(messages_, {});
+    update.exports = std::exchange(exports_, {});
     return update;
 }
 
@@ -146,13 +160,13 @@ void SculptService::carry_out(const RedoStroke&) {
 
 // Copies the surface and the rays: tiles are shared, so the rays are the only large part of the copy.
 void SculptService::carry_out(const ExportSurface& wanted) {
-    if (export_.valid()) return notify("an export is under way; wait for it to end");
-    if (const auto ok = check_precision(wanted.path, sculpture_.surface().lattice()); !ok)
-        return notify(ok.error().line());
+    const auto refuse = [&](const Error& why) { exports_.push_back({why.line(), wanted.path, wanted.asked_by}); };
+    if (export_.valid()) return refuse({"an export is under way", "", "wait for it to end"});
+    if (const auto ok = check_precision(wanted.path, sculpture_.surface().lattice()); !ok) return refuse(ok.error());
     sculpture_.end_stroke();
-    if (const auto read = sculpture_.read_back(); !read) return notify(read.error().line());
+    if (const auto read = sculpture_.read_back(); !read) return refuse(read.error());
     export_ = std::async(std::launch::async, [surface = sculpture_.surface(), solid = sculpture_.engine().solid(),
-                                              path = wanted.path] { return export_surface(surface, solid, path); });
+                                              wanted] { return export_surface(surface, solid, wanted); });
 }
 
 void SculptService::carry_out(const LightFrom& from) {
@@ -167,7 +181,7 @@ bool SculptService::export_is_done() const {
 
 void SculptService::finish_export() {
     if (!export_.valid()) return;
-    notify(export_.get());
+    exports_.push_back(export_.get());
     status_changed_ = true;
 }
 

@@ -31,7 +31,10 @@ struct UseTool {
 struct UndoStroke {};
 struct RedoStroke {};
 struct ExportSurface {
-    std::string path;  // .stl, .ply or .obj
+    std::string path;                // .stl, .ply or .obj
+    std::string name{};              // what the message calls it; empty: its path
+    std::size_t asked_by = 0;        // comes back with the outcome; whoever gives the order knows what it means
+    std::optional<Error> refused{};  // why nothing is written; carving takes the same course as if it were
 };
 struct LightFrom {
     compute::Lamp lamp_object;
@@ -44,6 +47,14 @@ struct TileUpdate {
     std::shared_ptr<const compute::TileLight> light;       // of the tile's vertices; null means full light
 };
 
+// How an export has ended.
+struct ExportOutcome {
+    std::string message;  // for the user
+    std::string path;
+    std::size_t asked_by = 0;
+    bool written = false, replaced = false;  // replaced: there was a file
+};
+
 // Changes since the previous surface update.
 struct SurfaceUpdate {
     std::vector<TileUpdate> tiles;
@@ -52,6 +63,7 @@ struct SurfaceUpdate {
     std::size_t undoable = 0, redoable = 0;
     bool exporting = false;             // an export is under way
     std::vector<std::string> messages;  // for the user
+    std::vector<ExportOutcome> exports;  // that have ended, for the user as well
 };
 
 // Inputs of an update besides the orders before it; with them a recording can repeat the update.
@@ -113,10 +125,11 @@ private:
     std::uint64_t sequence_ = 0;       // of the last local surface
     bool stroke_open_ = false;         // the button was down at the end of the last update
     bool status_changed_ = true;       // something other than tiles and messages has to be reported
-    std::future<std::string> export_;  // gives the message for the user
+    std::future<ExportOutcome> export_;
     std::optional<Error> refused_;     // why the tool that was asked for last cannot carve; nothing does until another
     bool said_why_ = false;            // this stroke's user has been told why nothing is carved
     std::vector<std::string> messages_;
+    std::vector<ExportOutcome> exports_;  // that have ended and nobody knows of
     UpdateSeen seen_;
 };
 

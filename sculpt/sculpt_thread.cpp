@@ -108,6 +108,7 @@ void merge(SurfaceUpdate& into, SurfaceUpdate later) {
     into.redoable = later.redoable;
     into.exporting = later.exporting;
     std::ranges::move(later.messages, std::back_inserter(into.messages));
+    std::ranges::move(later.exports, std::back_inserter(into.exports));
 }
 
 }  // namespace burin::sculpt

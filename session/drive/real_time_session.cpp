@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <signal.h>
-
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "devices/trackers/tracker.hpp"
+#include "session/drive/end_signals.hpp"
 #include "session/drive/session.hpp"
 #include "session/drive/session_frames.hpp"
 #include "session/input/event_times.hpp"
@@ -22,44 +20,6 @@ constexpr Nanoseconds kRest_ns = 1'000'000'000;
 constexpr Nanoseconds kActive_ns = 300'000'000;
 // Time after the last change until the session counts as resting.
 constexpr Nanoseconds kSettled_ns = 3'000'000'000;
-
-// ---- Signals
-
-// Global because a signal handler cannot reach anything but static state.
-volatile sig_atomic_t g_signal_came = 0;
-
-// Handles SIGINT, SIGTERM and SIGHUP, of a terminal that was closed, while an instance exists: the first signal asks
-// the session to end, which then finishes its files; a second one ends the program at once, as without a handler. A
-// signal that was ignored when the program started stays ignored. At most one instance at a time.
-class EndSignals {
-public:
-    EndSignals() : before_{{{SIGINT, {}}, {SIGTERM, {}}, {SIGHUP, {}}}} {
-        g_signal_came = 0;
-        for (Before& one : before_) {
-            sigaction(one.signal, nullptr, &one.action);
-            if (one.action.sa_handler == SIG_IGN) continue;
-            struct sigaction ours{};
-            ours.sa_handler = [](int) { g_signal_came = 1; };
-            ours.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
-            sigemptyset(&ours.sa_mask);
-            sigaction(one.signal, &ours, nullptr);
-        }
-    }
-    ~EndSignals() {
-        for (const Before& one : before_) sigaction(one.signal, &one.action, nullptr);
-    }
-    EndSignals(const EndSignals&) = delete;
-    EndSignals& operator=(const EndSignals&) = delete;
-
-    [[nodiscard]] bool came() const { return g_signal_came != 0; }
-
-private:
-    struct Before {
-        int signal = 0;
-        struct sigaction action{};
-    };
-    std::array<Before, 3> before_;
-};
 
 // ---- Frames
 
@@ -102,7 +62,6 @@ private:
     devices::Tracker* tracker_;
     DisplayWatch display_;
     EventTimes event_times_;
-    EndSignals end_;
     FramePlan plan_;              // of the frame in progress
     Moment began_, turn_;         // when the session began, and when the wait for this frame did
     Moment lasted_;               // from the beginning to the end of the last frame
@@ -255,6 +214,7 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
         session.notify_of_event(std::to_string(record.lost_targets) +
                                 " places of the hand were lost: its ticks stood still for too long");
     }
+    if (const auto whole = session.outcome(); !whole) return std::unexpected(whole.error());
     return record;
 }
 

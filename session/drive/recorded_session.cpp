@@ -33,7 +33,7 @@ public:
 
 private:
     [[nodiscard]] std::optional<FrameInput> next_input() override {
-        if (next_ == log_.frames.size()) return std::nullopt;
+        if (next_ == log_.frames.size() || look_for_signal()) return std::nullopt;
         const auto input = input_.begin_frame(0, 0);
         if (!input) return std::nullopt;
         const FrameSeen& seen = log_.frames[next_++];
@@ -98,11 +98,14 @@ Result<void> replay_as_recorded(const SculptOptions& options, const SessionWall&
     ThreadReplay replay(session, threads, name);
     RecordedFrames frames(session, *presenter, std::move(input), threads, name, replay);
     Result<void> done = drive(replay, frames);
-    if (done) done = frames.finish_as_recorded();
+    if (done && !frames.cut_short()) done = frames.finish_as_recorded();
     if (!done && !replay.log_ends()) return done;
     if (!done) std::fprintf(stderr, "burin: %s\n", done.error().line().c_str());
+    // An export may be under way where the log breaks off.
+    session.desk().finish_export();
+    if (auto last = session.desk().take_surface_update()) session.take(std::move(*last));
     if (frames.departed()) return std::unexpected(*frames.departed());
-    return {};
+    return session.outcome();
 }
 
 }  // namespace burin::session

@@ -6,14 +6,18 @@
 #include <cstdio>
 
 #include "session/picture/pictures.hpp"
+#include "session/record/log_outputs.hpp"
 #include "session/state/session_settings.hpp"
 
 namespace burin::session {
 namespace {
 
+// Reads a log, all of whose commands make sense.
 Result<InputLog> open_log(const std::string& path) {
     Result<InputLog> log = read_input_log(path);
-    if (log && log->torn_line) std::fprintf(stderr, "burin: %s\n", log->torn_line->c_str());
+    if (!log) return log;
+    if (log->torn_line) std::fprintf(stderr, "burin: %s\n", log->torn_line->c_str());
+    if (const auto sound = check_commands(*log, path); !sound) return std::unexpected(sound.error());
     return log;
 }
 
@@ -72,16 +76,12 @@ Result<void> check_somebody_leads(const LiveOptions& live, const SessionWall& wa
                 "give a --tracker whose wand works the panel, or an --input; or try the wall with --windowed");
 }
 
-bool writes_a_file(const InputEvent& event) {
-    const auto* command = std::get_if<CommandInput>(&event.input);
-    return command != nullptr && (command->name == "screenshot" || command->name == "export");
-}
-
 }  // namespace
 
 bool wants_session(const SculptOptions& options) {
     const LiveOptions& live = options.live;
-    const bool named = live.live || live.offscreen || !live.wall.empty() || !live.input.empty() || !live.record.empty();
+    const bool named = live.live || live.offscreen || !live.wall.empty() || !live.input.empty() ||
+                       !live.record.empty() || !live.outputs.empty();
     return named ||
            (options.stroke.empty() && options.exports.empty() && options.pictures.empty() && options.report.empty());
 }
@@ -92,6 +92,10 @@ Result<void> run_session(const SculptOptions& options) {
         return fail("--offscreen", "needs an --input: without a window nobody can do anything",
                     "give a log or a script, or leave --offscreen out");
     }
+    if (!options.live.outputs.empty() && options.live.input.empty()) {
+        return fail("--outputs", "is where the files of an --input go, and there is none",
+                    "leave it out: keys and panel name a file's place, --screenshots that of pictures");
+    }
     if (!options.live.screenshots.empty()) {
         if (const auto made = make_picture_folder(options.live.screenshots, "--screenshots"); !made) return made;
     }
@@ -99,6 +103,8 @@ Result<void> run_session(const SculptOptions& options) {
     if (!options.live.input.empty()) {
         Result<InputLog> read = open_log(options.live.input);
         if (!read) return std::unexpected(read.error());
+        const SessionOutputs outputs(options.live);
+        if (const auto ready = outputs.prepare(*read, options.live.input); !ready) return ready;
         if (read->threads && options.live.record.empty()) return run_as_recorded(options, std::move(*read));
         log = std::move(*read);
     }
@@ -114,13 +120,13 @@ Result<void> run_session(const SculptOptions& options) {
     return run ? Result<void>{} : std::unexpected(run.error());
 }
 
-Result<SessionRecord> time_session(const SculptOptions& options, bool for_a_device) {
+Result<SessionRecord> time_session(SculptOptions options, bool for_a_device) {
+    options.live.writes_nothing = true;
     if (const auto ok = check(options); !ok) return std::unexpected(ok.error());
     const Result<SessionWall> wall = session_wall(options.live);
     if (!wall) return std::unexpected(wall.error());
     Result<InputLog> log = open_log(options.live.input);
     if (!log) return std::unexpected(log.error());
-    std::erase_if(log->events, writes_a_file);
     RealTimeRun run{.keep_frames = true};
     if (for_a_device) run.pace = {.lead_ns = haptics::HapticLoop::kLead_ns};
     return run_in_real_time(options, *wall, InputSource::play(std::move(*log)), std::move(run));

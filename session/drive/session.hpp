@@ -17,15 +17,17 @@ namespace burin::session {
 // Returns whether these options ask for a session instead of a stroke.
 [[nodiscard]] bool wants_session(const SculptOptions& options);
 
-// A recording is replayed, any other log is a script. Without a log, or where one is to be recorded (live.record), time
+// A recording is replayed, any other log is a script. All commands of a log are checked before anything else is done,
+// and its files go below one folder (session/record/log_outputs.hpp); the session fails at its end where one of them is
+// missing. Without a log, or where one is to be recorded (live.record), time
 // is real.
 [[nodiscard]] Result<void> run_session(const SculptOptions& options);
 
 // Runs the session of an input log in real time, with the threads and the loop of a live one, and returns what all of
-// it took; with a window, or without one (options.live.offscreen). Commands of the log that write files are left out.
+// it took; with a window, or without one (options.live.offscreen). Files that the log asks for are not written.
 // for_a_device: ticks are as punctual as a device's user needs them; otherwise as those of a simulated hand, which may
 // rest.
-[[nodiscard]] Result<SessionRecord> time_session(const SculptOptions& options, bool for_a_device);
+[[nodiscard]] Result<SessionRecord> time_session(SculptOptions options, bool for_a_device);
 
 // ---- The three kinds
 

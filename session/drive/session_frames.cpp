@@ -62,9 +62,17 @@ Result<void> SessionFrames::finish(Executor& executor) {
     return {};
 }
 
+bool SessionFrames::look_for_signal() {
+    if (!end_.came()) return false;
+    cut_short_ = true;
+    session_.notify_of_loss("the session was ended by a signal; what follows in the log was not done");
+    return true;
+}
+
 // ---- A script
 
 std::optional<FrameInput> ScriptedFrames::next_input() {
+    if (look_for_signal()) return std::nullopt;
     const std::optional<FrameInput> input = input_.begin_frame(0, 0);
     if (input) presenter_.look();
     return input;
@@ -83,7 +91,8 @@ Result<void> run_in_simulated_time(const SculptOptions& options, const SessionWa
     if (!presenter) return std::unexpected(presenter.error());
     ScriptedFrames frames(session, *presenter, std::move(input));
     SteppedExecutor executor(clock, session.loop(), session.channels(), session.desk());
-    return drive(executor, frames);
+    const Result<void> driven = drive(executor, frames);
+    return driven ? session.outcome() : driven;
 }
 
 }  // namespace burin::session

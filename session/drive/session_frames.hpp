@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "session/drive/driver.hpp"
+#include "session/drive/end_signals.hpp"
 #include "session/drive/thread_recorder.hpp"
 #include "session/live/live_session.hpp"
 #include "session/present/presenter.hpp"
@@ -30,11 +31,15 @@ public:
     [[nodiscard]] Result<void> make(Executor& executor) final;
     // Takes what was done after the last frame, when the executor has stopped, and ends the recording.
     [[nodiscard]] Result<void> finish(Executor& executor);
+    // Returns whether a signal has ended the session before its log.
+    [[nodiscard]] bool cut_short() const { return cut_short_; }
 
 protected:
     // Returns the next frame's input; nothing at the end. Waits for it in real time, and has the presenter know where
     // its outputs are.
     [[nodiscard]] virtual std::optional<FrameInput> next_input() = 0;
+    // Looks for a signal, and reports that what follows in the log is lost by it.
+    [[nodiscard]] bool look_for_signal();
     // Called after the frame's step, before its picture.
     virtual void stepped() {}
     // Asked before each attempt to draw the frame; where the device was lost meanwhile there is another one.
@@ -46,11 +51,13 @@ protected:
     Presenter& presenter_;
     InputSource input_;
     ThreadRecorder recorder_;
+    EndSignals end_;
 
 private:
     [[nodiscard]] Result<bool> draw();
 
     FrameInput frame_;
+    bool cut_short_ = false;
 };
 
 // The frames of a script: each at the time that the input gives it. Events of windows are ignored.

@@ -101,7 +101,7 @@ ThreadRecorder::ThreadRecorder(InputSource& input, LiveSession& session)
 
 void ThreadRecorder::outside() {
     const LiveSession::Outside outside = session_.take_outside();
-    if (recording_ && !input_.records()) session_.notify(input_.recording_error()->line());
+    if (recording_ && !input_.records()) session_.notify_of_loss(input_.recording_error()->line());
     recording_ = input_.records();
     if (!recording_) return;
     if (outside.refused) input_.record_threads(refused_text(*outside.refused));

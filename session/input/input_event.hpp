@@ -109,7 +109,10 @@ using Input = std::variant<KeyInput, MouseMove, MouseClick, Scroll, TextInput, W
 struct InputEvent {
     Nanoseconds time_ns = 0;  // not negative, non-decreasing over events
     Input input;
-    friend bool operator==(const InputEvent&, const InputEvent&) = default;
+    std::size_t line = 0;  // of the log that it stands in, for messages; 0: none. No part of what happened
+    friend bool operator==(const InputEvent& a, const InputEvent& b) {
+        return a.time_ns == b.time_ns && a.input == b.input;
+    }
 };
 
 // Returns whether an input may be recorded and acted on: finite numbers, quaternions of unit length to 1e-6, valid

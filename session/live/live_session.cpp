@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 
+#include "renderer/png.hpp"
 #include "sculpt/workpiece.hpp"
 
 namespace burin::session {
@@ -24,13 +26,22 @@ Room room_of(const compute::Lattice& lattice, const SessionWall& wall) {
     return room;
 }
 
+// Says on the terminal where a file lies, if the message does not, and that another one was there.
+std::string where_it_lies(const std::string& message, const std::string& path, bool replaced) {
+    const std::string place = message.ends_with(" " + path) ? "" : path;
+    const std::string instead = replaced ? "in place of the file that was there" : "";
+    if (place.empty() && instead.empty()) return {};
+    return " (" + place + (place.empty() || instead.empty() ? "" : ", ") + instead + ")";
+}
+
 }  // namespace
 
 LiveSession::LiveSession(Clock& clock, const SculptOptions& options, double pace)
     : clock_(clock),
       pool_(options.threads),
       haptics_(options.live.record.empty() ? haptics::HapticChannels::kRecords : kTicksToRecord, pace),
-      screenshots_(options.live.screenshots) {}
+      outputs_(options.live),
+      log_name_(options.live.input) {}
 
 Result<std::unique_ptr<LiveSession>> LiveSession::create(const SculptOptions& options, const SessionWall& wall,
                                                          Clock& clock, double pace) {
@@ -92,13 +103,15 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
     times_.sampled(start_ns_ + head_sampled_ns(input), tool_.time_ns);
     const double dt_s = seconds(std::max<Nanoseconds>(input.time_ns - last_step_ns_, 0));
     last_step_ns_ = input.time_ns;
+    if (!input.events.empty()) last_line_ = input.events.back().line;
     const SceneInput left = feed_panel(input);
     SessionStep step =
         step_session(state_, room_, left.events, {dt_s, input.display_ns, main_eye(), tool_, left.captured});
     state_ = std::move(step.state);
+    step.orders.line = input.events.empty() ? 0 : input.events.back().line;
     for (const CommandInput& action : panel_.actions()) {
         if (const auto done = run_command(state_, step.orders, action); !done)
-            step.orders.messages.push_back(done.error().line());
+            step.orders.messages.push_back({done.error().line()});
     }
     fit_desk_screen(room_.wall, main_eye());  // a command may have changed the mode
     haptics_.move_hand(step.hand_way, input.time_ns, step.hand);
@@ -130,10 +143,21 @@ SceneInput LiveSession::feed_panel(const FrameInput& input) {
 
 void LiveSession::carry_out(SessionOrders orders, const Carve& carve) {
     if (orders.parameters) haptics_.publish(parameters_of(state_, room_));
-    for (sculpt::SculptOrder& order : orders.carving) carve(std::move(order));
+    for (sculpt::SculptOrder& order : orders.carving) {
+        auto* wanted = std::get_if<sculpt::ExportSurface>(&order);
+        if (wanted != nullptr && !outputs_.write()) continue;
+        if (wanted != nullptr) place(*wanted);
+        carve(std::move(order));
+    }
     if (const auto lamp = lamp_.look(state_)) carve(sculpt::LightFrom{*lamp});
-    for (const std::string& message : orders.messages) notify(message);
-    for (const std::string& name : orders.screenshots) screenshots_.add(name);
+    for (const Asked& message : orders.messages) {
+        if (message.line == 0) {
+            notify(message.text);
+        } else {
+            log_.notify(message.text, {failed_on(message.line), {}});
+        }
+    }
+    if (outputs_.write()) std::ranges::move(orders.screenshots, std::back_inserter(screenshots_));
     exchange_full_screen_ = exchange_full_screen_ || orders.full_screen;
 }
 
@@ -144,11 +168,66 @@ void LiveSession::watch(Nanoseconds time_ns) {
 
 void LiveSession::take(sculpt::SurfaceUpdate news) {
     for (const std::string& message : news.messages) notify(message);
+    for (const sculpt::ExportOutcome& ended : news.exports) take(ended);
     undoable_ = news.undoable;
     redoable_ = news.redoable;
     exporting_ = news.exporting;
     times_.cut(news.cut_ns);
     updates_.push_back(std::move(news));
+}
+
+// ---- Files
+
+// A refused export is ordered as well, since a recording counts the orders.
+void LiveSession::place(sculpt::ExportSurface& wanted) const {
+    const auto placed = outputs_.place_of(wanted.path, OutputKind::mesh);
+    if (!placed) {
+        wanted.refused = placed.error();
+        return;
+    }
+    wanted.name = outputs_.shown(wanted.path, *placed);
+    wanted.path = placed->string();
+}
+
+void LiveSession::take(const sculpt::ExportOutcome& ended) {
+    if (ended.written) {
+        log_.notify(ended.message, {{}, where_it_lies(ended.message, ended.path, ended.replaced)});
+    } else {
+        log_.notify(ended.message, {failed_on(ended.asked_by), {}});
+    }
+}
+
+void LiveSession::keep_screenshot(const Asked& wanted, const Result<Image>& image) {
+    const auto place = image ? outputs_.place_of(wanted.text, OutputKind::picture) : std::unexpected(image.error());
+    std::error_code ignored;
+    const bool was_there = place && std::filesystem::exists(*place, ignored);
+    const auto written = place ? renderer::write_png(*place, *image) : std::unexpected(place.error());
+    if (written) {
+        const std::string message = "wrote " + outputs_.shown(wanted.text, *place);
+        log_.notify_of_event(message, {{}, where_it_lies(message, place->string(), was_there)});
+    } else {
+        log_.notify_of_event(written.error().line(), {failed_on(wanted.line), {}});
+    }
+}
+
+std::string LiveSession::failed_on(std::size_t line) {
+    if (log_name_.empty()) return {};
+    ++failures_;
+    return line == 0 ? log_name_ + ": " : log_name_ + ":" + std::to_string(line) + ": ";
+}
+
+void LiveSession::notify_of_loss(const std::string& message) {
+    const std::string where = failed_on(last_line_);
+    if (where.empty()) ++failures_;
+    log_.notify(message, {where, {}});
+}
+
+Result<void> LiveSession::outcome() const {
+    if (failures_ == 0) return {};
+    return fail(log_name_.empty() ? "the session" : log_name_,
+                failures_ == 1 ? "one thing that was asked for is missing"
+                               : std::to_string(failures_) + " things that were asked for are missing",
+                "see above what, and why");
 }
 
 void LiveSession::refuse_mode(wall::StereoMode working, const Error& error) {

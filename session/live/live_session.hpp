@@ -6,12 +6,11 @@
 //                 |-> orders                           ->   the carving service (its own thread, or stepped)
 //   the carving service's surface updates -> take() -> take_surface_updates() -> tiles of the picture
 //
-// Each role has a class of its own: HapticSide, LivePanel, MessageLog, ScreenshotQueue, and the watches of
+// Each role has a class of its own: HapticSide, LivePanel, MessageLog, SessionOutputs, and the watches of
 // session_watch.hpp. A driver gives the session its frames (session.hpp), the Presenter draws them. What the threads of
 // a real-time session did can be recorded (drive/thread_recorder.hpp) and replayed (drive/thread_replay.hpp).
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -24,26 +23,11 @@
 #include "session/live/message_log.hpp"
 #include "session/live/session_watch.hpp"
 #include "session/record/input_source.hpp"
+#include "session/record/log_outputs.hpp"
 #include "session/state/session_options.hpp"
 #include "session/state/session_state.hpp"
 
 namespace burin::session {
-
-// Screenshots that commands have asked for and the next frame takes.
-class ScreenshotQueue {
-public:
-    // Names are relative to the folder; an absolute one stays as it is.
-    explicit ScreenshotQueue(std::filesystem::path folder) : folder_(std::move(folder)) {}
-
-    void add(const std::string& name) { paths_.push_back(folder_ / name); }
-    [[nodiscard]] bool empty() const { return paths_.empty(); }
-    // Returns the paths to write to, in the order of the commands.
-    [[nodiscard]] std::vector<std::filesystem::path> take() { return std::exchange(paths_, {}); }
-
-private:
-    std::filesystem::path folder_;
-    std::vector<std::filesystem::path> paths_;
-};
 
 class LiveSession {
 public:
@@ -84,9 +68,11 @@ public:
     // Reports that a screen cannot be shown in the requested mode, and changes the session to the mode that works.
     void refuse_mode(wall::StereoMode working, const Error& error);
     void go_back_to(wall::StereoMode mode) { state_.output.mode = mode; }
-    // Screenshots that commands have asked for since the last call: the paths to write them to.
+    // Screenshots that were asked for since the last call, by their names.
     [[nodiscard]] bool wants_screenshots() const { return !screenshots_.empty(); }
-    [[nodiscard]] std::vector<std::filesystem::path> take_screenshots() { return screenshots_.take(); }
+    [[nodiscard]] std::vector<Asked> take_screenshots() { return std::exchange(screenshots_, {}); }
+    // Writes a screenshot to the place of its name, and tells of it.
+    void keep_screenshot(const Asked& wanted, const Result<Image>& image);
 
     [[nodiscard]] const SessionState& state() const { return state_; }
     [[nodiscard]] const Room& room() const { return room_; }
@@ -100,6 +86,11 @@ public:
     // See MessageLog.
     void notify(const std::string& message) { log_.notify(message); }
     void notify_of_event(const std::string& message) { log_.notify_of_event(message); }
+    // Reports that what the session should leave is lost: a recording that ended, the rest of a log. It then fails at
+    // its end.
+    void notify_of_loss(const std::string& message);
+    // Returns whether all that a log asked for was done, once the session is over.
+    [[nodiscard]] Result<void> outcome() const;
     void replay_events(std::span<const std::string> recorded) { log_.replay_events(recorded); }
     // See LivePanel.
     [[nodiscard]] const PanelMeasured& measured() const { return panel_.measured(); }
@@ -122,6 +113,10 @@ private:
     [[nodiscard]] Result<void> take_up_tool(const SculptOptions& options);
     SceneInput feed_panel(const FrameInput& input);
     void carry_out(SessionOrders orders, const Carve& carve);
+    void place(sculpt::ExportSurface& wanted) const;
+    void take(const sculpt::ExportOutcome& ended);
+    // Returns the log's line, for the terminal; counts a failure there.
+    [[nodiscard]] std::string failed_on(std::size_t line);
     void watch(Nanoseconds time_ns);
     [[nodiscard]] ImageSize main_eye() const { return wall::eye_size(output_on(room_.wall.main).mode, output_.size); }
 
@@ -142,7 +137,11 @@ private:
     bool exporting_ = false;
     LivePanel panel_;
     MessageLog log_;
-    ScreenshotQueue screenshots_;
+    SessionOutputs outputs_;
+    std::string log_name_;            // of the input; empty: a user's
+    std::vector<Asked> screenshots_;  // that the next picture gives
+    std::size_t last_line_ = 0;       // of the log, that was seen by a step
+    std::size_t failures_ = 0;        // of what a log asked for, and of the recording
     SessionTimes times_{clock_};
     ComfortWatch comfort_;
     TrackerWatch tracker_;

@@ -11,18 +11,23 @@
 
 namespace burin::session {
 
+// What the terminal alone shows beside a message: the panel's pictures do not depend on it.
+struct Beside {
+    std::string before, after;
+};
+
 class MessageLog {
 public:
     // Logs a message that follows from the input.
-    void notify(const std::string& message) {
+    void notify(const std::string& message, const Beside& beside = {}) {
         newest_ = message;
-        std::fprintf(stderr, "burin: %s\n", message.c_str());
+        print(message, beside);
     }
     // Logs a message from outside the session: from windows, files, trackers or the system. In a session that replays a
     // recording the panel shows the recorded ones instead (replay_events).
-    void notify_of_event(const std::string& message) {
+    void notify_of_event(const std::string& message, const Beside& beside = {}) {
         if (!follows_recording_) newest_ = message;
-        std::fprintf(stderr, "burin: %s\n", message.c_str());
+        print(message, beside);
         events_.push_back(message);
     }
     void replay_events(std::span<const std::string> recorded) {
@@ -34,6 +39,10 @@ public:
     [[nodiscard]] const std::string& newest() const { return newest_; }
 
 private:
+    static void print(const std::string& message, const Beside& beside) {
+        std::fprintf(stderr, "burin: %s%s%s\n", beside.before.c_str(), message.c_str(), beside.after.c_str());
+    }
+
     std::string newest_;
     bool follows_recording_ = false;
     std::vector<std::string> events_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "session/picture/pictures.hpp"
 
+#include "base/file_io.hpp"
 #include "renderer/scene/frame_setup.hpp"
 
 #include <algorithm>
@@ -18,6 +19,12 @@ const Vec3 kPlace_world{0.0, 1.22, -0.45};
 const Vec3 kHead_world{0.0, 1.60, 2.00};
 
 constexpr std::size_t kTilesAStep = 256;
+
+constexpr const char* kBefore = "before.png";
+constexpr const char* kAfter = "after.png";
+constexpr const char* kLeft = "left.png";
+constexpr const char* kRight = "right.png";
+constexpr const char* kStereo = "stereo.png";
 
 double longest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
 
@@ -44,6 +51,9 @@ Pictures::Pictures(std::filesystem::path folder, gpu::Device device, renderer::R
 
 Result<Pictures> Pictures::create(const std::filesystem::path& folder, const Box& bounds_object) {
     if (const auto made = make_picture_folder(folder, "--pictures"); !made) return std::unexpected(made.error());
+    for (const char* name : {kBefore, kAfter, kLeft, kRight, kStereo}) {
+        if (const auto ok = check_writable(folder / name); !ok) return std::unexpected(ok.error());
+    }
     Result<gpu::Device> device = gpu::Device::create();
     if (!device) {
         Error e = device.error();
@@ -106,23 +116,23 @@ Result<void> Pictures::take_before(sculpt::Sculpture& carving) {
     const auto image = renderer_.render(close_scene(carving));
     if (!image) return std::unexpected(image.error());
     carving.drop_light();  // not needed until the next picture
-    return renderer::write_png(folder_ / "before.png", image->left);
+    return renderer::write_png(folder_ / kBefore, image->left);
 }
 
 Result<void> Pictures::take_after(sculpt::Sculpture& carving, const Staging& staging) {
     if (const auto ready = bring_up_to_date(carving); !ready) return std::unexpected(ready.error());
     const auto close = renderer_.render(close_scene(carving));
     if (!close) return std::unexpected(close.error());
-    if (const auto done = renderer::write_png(folder_ / "after.png", close->left); !done) return done;
+    if (const auto done = renderer::write_png(folder_ / kAfter, close->left); !done) return done;
 
     renderer::Scene scene = wall_scene(carving);
     stage(scene, staging, world_from_object_);
 
     const auto stereo = renderer_.render(scene);
     if (!stereo) return std::unexpected(stereo.error());
-    if (const auto done = renderer::write_png(folder_ / "left.png", stereo->left); !done) return done;
-    if (const auto done = renderer::write_png(folder_ / "right.png", stereo->right); !done) return done;
-    return renderer::write_png(folder_ / "stereo.png", side_by_side(*stereo));
+    if (const auto done = renderer::write_png(folder_ / kLeft, stereo->left); !done) return done;
+    if (const auto done = renderer::write_png(folder_ / kRight, stereo->right); !done) return done;
+    return renderer::write_png(folder_ / kStereo, side_by_side(*stereo));
 }
 
 Result<Image> Pictures::view_of_wall(sculpt::Sculpture& carving, const Staging& staging) {

@@ -121,7 +121,7 @@ private:
     [[nodiscard]] wall::Eye eye_in_turn(ScreenStage& screen, Nanoseconds frame_ns);
     [[nodiscard]] Result<void> wait_for_device();
     void take_screenshots(LiveSession& session);
-    void photograph(std::size_t screen, LiveSession& session, const std::vector<std::filesystem::path>& paths);
+    void photograph(std::size_t screen, LiveSession& session, const std::vector<Asked>& wanted);
 
     LiveOptions options_;
     const SessionWall* wall_;

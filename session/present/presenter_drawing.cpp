@@ -2,7 +2,6 @@
 // Draws one frame into a presenter's outputs, and in each output only the parts that changed.
 #include <algorithm>
 
-#include "renderer/png.hpp"
 #include "session/present/presenter.hpp"
 
 namespace burin::session {
@@ -13,10 +12,9 @@ bool same_place(const wall::OutputPlace& a, const wall::OutputPlace& b, const wa
     return !wall::needs_of(settings.mode).monitor_pixels || (a.monitor_x == b.monitor_x && a.monitor_y == b.monitor_y);
 }
 
-std::filesystem::path named_after(const std::filesystem::path& path, const std::string& screen) {
-    std::filesystem::path named = path;
-    named.replace_filename(path.stem().string() + "-" + screen + path.extension().string());
-    return named;
+std::string named_after(const std::string& name, const std::string& screen) {
+    const std::filesystem::path path = name;
+    return (path.parent_path() / (path.stem().string() + "-" + screen + path.extension().string())).string();
 }
 
 }  // namespace
@@ -214,26 +212,26 @@ Result<void> Presenter::show_in(ScreenStage& screen, const Outlet& outlet) {
 
 void Presenter::take_screenshots(LiveSession& session) {
     if (!session.wants_screenshots()) return;
-    const std::vector<std::filesystem::path> paths = session.take_screenshots();
-    for (std::size_t i = 0; i < screens_.size(); ++i) photograph(i, session, paths);
+    const std::vector<Asked> wanted = session.take_screenshots();
+    for (std::size_t i = 0; i < screens_.size(); ++i) photograph(i, session, wanted);
 }
 
 // Saves screenshots. Where each eye has a display or a turn of its own, the picture has both side by side.
-void Presenter::photograph(std::size_t i, LiveSession& session, const std::vector<std::filesystem::path>& paths) {
+void Presenter::photograph(std::size_t i, LiveSession& session, const std::vector<Asked>& wanted) {
     ScreenStage& screen = screens_[i];
     wall::OutputSettings settings = screen.shown;
     wall::OutputPlace place = screen.shown_place;
-    if (is_empty(place.size)) return;
+    const std::string& name = wall_->screens[i].name;
+    const auto keep = [&](const Result<Image>& image) {
+        for (const Asked& one : wanted)
+            session.keep_screenshot({screens_.size() > 1 ? named_after(one.text, name) : one.text, one.line}, image);
+    };
+    if (is_empty(place.size)) return keep(fail("screen " + name, "is minimised: no picture was taken", "show it"));
     if (wall::shows_one_eye_at_a_time(settings.mode) && needs_of(settings.mode).both_eyes) {
         settings.mode = wall::StereoMode::side_by_side;
         place.size = wall::output_size(settings.mode, screen.picture->eye());
     }
-    const Result<Image> image = screen.picture->photograph(place, settings);
-    for (const std::filesystem::path& name : paths) {
-        const std::filesystem::path path = screens_.size() > 1 ? named_after(name, wall_->screens[i].name) : name;
-        const Result<void> written = image ? renderer::write_png(path, *image) : std::unexpected(image.error());
-        session.notify_of_event(written ? "wrote " + path.string() : written.error().line());
-    }
+    keep(screen.picture->photograph(place, settings));
 }
 
 }  // namespace burin::session

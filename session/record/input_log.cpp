@@ -117,6 +117,7 @@ Result<InputLog> parse_input_log(std::string_view text, const std::string& name)
             if (!event) return std::unexpected(event.error());
             if (!*event) continue;
             time_ns = (*event)->time_ns;
+            (*event)->line = line_number;
             if (std::holds_alternative<FrameStart>((*event)->input)) threads.frame_begins();
             log.events.push_back(std::move(**event));
         }

@@ -53,10 +53,10 @@ public:
     }
     Result<void> operator()(const ExportTo& wanted) {
         state_.export_path = wanted.path;
-        return order(sculpt::ExportSurface{wanted.path});
+        return export_to(wanted.path);
     }
     Result<void> operator()(const ScreenshotTo& wanted) {
-        orders_.screenshots.push_back(wanted.path);
+        orders_.screenshots.push_back({wanted.path, orders_.line});
         return {};
     }
 
@@ -87,6 +87,9 @@ private:
     Result<void> order(sculpt::SculptOrder order) {
         orders_.carving.push_back(std::move(order));
         return {};
+    }
+    Result<void> export_to(const std::string& path) {
+        return order(sculpt::ExportSurface{.path = path, .asked_by = orders_.line});
     }
     Result<void> toggle(bool SessionState::* flag) {
         state_.*flag = !(state_.*flag);
@@ -140,8 +143,8 @@ Result<void> Runner::operator()(const RunAction& run) {
         case Action::toggle_help: return toggle(&SessionState::help);
         case Action::toggle_frame_figures: return toggle(&SessionState::figures);
         case Action::toggle_full_screen: orders_.full_screen = true; return {};
-        case Action::take_screenshot: orders_.screenshots.emplace_back(kScreenshotName); return {};
-        case Action::export_mesh: return order(sculpt::ExportSurface{state_.export_path});
+        case Action::take_screenshot: orders_.screenshots.push_back({kScreenshotName, orders_.line}); return {};
+        case Action::export_mesh: return export_to(state_.export_path);
         case Action::save_session:
             return fail("save-session", "sessions cannot be saved yet", "export the mesh (export FILE, Ctrl+E)");
         case Action::reset_view: state_.world_from_object = state_.home_world_from_object; return update_touch();

@@ -151,13 +151,15 @@ SessionStep step_session(SessionState state, const Room& room, std::span<const I
         state.world_from_object.orientation = glm::normalize(state.world_from_object.orientation);
         step.orders.parameters = true;  // the workpiece has moved under the hand
     }
-    const auto run = [&](const CommandInput& command) {
+    const auto run = [&](const CommandInput& command, std::size_t line) {
         if (const auto done = run_command(state, step.orders, command); !done)
-            step.orders.messages.push_back(done.error().line());
+            step.orders.messages.push_back({done.error().line(), line});
     };
-    for (const Action action : desk.actions) run({std::string(name_of(action)), {}});
+    step.orders.line = events.empty() ? 0 : events.back().line;
+    for (const Action action : desk.actions) run({std::string(name_of(action)), {}}, 0);
     for (const InputEvent& event : events) {
-        if (const auto* command = std::get_if<CommandInput>(&event.input)) run(*command);
+        step.orders.line = event.line;
+        if (const auto* command = std::get_if<CommandInput>(&event.input)) run(*command, event.line);
         if (std::holds_alternative<WindowClose>(event.input)) state.quit = true;
     }
     step.state = std::move(state);

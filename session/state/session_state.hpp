@@ -46,13 +46,20 @@ struct SessionState {
     bool quit = false;
 };
 
+// A file that is asked for, or a message about what was.
+struct Asked {
+    std::string text;
+    std::size_t line = 0;  // of the log that asked; 0: none
+};
+
 // Orders that a step gives to the other parts of the session.
 struct SessionOrders {
+    std::size_t line = 0;  // of the log, for commands that are run now
     std::vector<sculpt::SculptOrder> carving;
     bool parameters = false;  // the haptic thread's parameters have changed
-    std::vector<std::string> screenshots;
-    bool full_screen = false;           // toggle between window and full screen
-    std::vector<std::string> messages;  // for the user
+    std::vector<Asked> screenshots;  // names
+    bool full_screen = false;        // toggle between window and full screen
+    std::vector<Asked> messages;     // for the user: why a command was not carried out; with the line of one in a log
 };
 
 // Positions at the start: the workpiece before the viewer, the hand's workspace over its front.

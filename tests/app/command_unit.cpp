@@ -265,6 +265,30 @@ TEST(Command, ConvertsBetweenFormatsAndTellsHealth) {
     expect_refused(place, "convert t.off ./t.off", 1, {"t.off", "overwrite"});
 }
 
+// The input, which could not be read either, is not looked at before.
+TEST(Command, RefusesAnOutputThatCannotBeWrittenBeforeTheWork) {
+    Workplace place;
+    std::filesystem::create_symlink("/dev/full", place / "full.stl");
+    std::filesystem::create_symlink("loop.ply", place / "loop.ply");
+    std::filesystem::create_directory(place / "shots");
+    std::filesystem::create_symlink("/dev/full", place / "shots" / "after.png");
+    std::filesystem::create_symlink("/dev/full", place / "r-felt.csv");
+    place.write("s.csv", kStrokeHeader + "0,0,0,0.1,0,0,0,1,1\n");
+    for (const auto& [output, why] : {std::pair{"full.stl", "not a regular file"}, {"loop.ply", "symbolic link"}}) {
+        const std::string name = output;
+        expect_refused(place, "convert missing.off " + name, 1, {name, why});
+        expect_refused(place, "combine missing.off none.off --operation union --export " + name, 1, {name, why});
+        expect_refused(place, "sculpt --workpiece missing.off --export " + name, 1, {name, why});
+        expect_refused(place, "sculpt --workpiece missing.off --report " + name, 1, {name, why});
+    }
+    expect_refused(place, "convert missing.off t.step", 1, {"t.step", ".stl"});
+    expect_refused(place, "sculpt --workpiece missing.off --stroke s.csv --hand simulated --report r.json", 1,
+                   {"r-felt.csv", "not a regular file"});
+    expect_refused(place, "sculpt --workpiece ball:0.1 --resolution 16 --pictures shots", 1,
+                   {"after.png", "not a regular file"});
+    EXPECT_FALSE(std::filesystem::exists(place / "shots" / "before.png"));
+}
+
 TEST(Command, VersionListsTheVulkanDevicesOrSaysWhyNot) {
     Workplace place;
     const auto outcome = place.run(kBurin + " --version");

@@ -3,6 +3,7 @@
 #include "app/output_files.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
 #include <vector>
@@ -27,6 +28,27 @@ TEST(OutputFiles, AreRefusedBeforeAnythingIsWrittenWhereTheyCannotBe) {
     EXPECT_NE(refused(std::array{good[0], missing + "/c.ply"}, report).find(missing), std::string::npos);
     EXPECT_NE(refused(std::array{good[0], (place / "c.off").string()}, report).find("c.off"), std::string::npos);
     EXPECT_EQ(place.files(), 0u);
+}
+
+// All of these were noticed only when the file was written, which may be hours later.
+TEST(OutputFiles, AreRefusedBeforehandWhereNoFileCanBeReplaced) {
+    const Workplace place;
+    const auto refused = [&](const std::string& report) {
+        const auto checked = check_outputs({}, report);
+        return checked ? "" : checked.error().line();
+    };
+    std::filesystem::create_symlink(place / "loop.json", place / "loop.json");
+    std::filesystem::create_symlink("/dev/full", place / "full.json");
+    place.write("good.json", "");
+    std::filesystem::create_symlink(place / "good.json", place / "link.json");
+    EXPECT_TRUE(refused("/dev/full").contains("not a regular file"));
+    EXPECT_TRUE(refused(place / "full.json").contains("not a regular file"));
+    EXPECT_TRUE(refused(place / "loop.json").contains("symbolic link")) << refused(place / "loop.json");
+    EXPECT_EQ(refused(place / "link.json"), "");
+    EXPECT_EQ(refused(place / "new.json"), "");
+    if (geteuid() == 0) return;  // who may write everywhere
+    std::filesystem::permissions(place / "good.json", std::filesystem::perms::owner_read);
+    EXPECT_TRUE(refused(place / "good.json").contains("write-protected"));
 }
 
 TEST(OutputFiles, OverwriteNeitherAnInputNorEachOther) {

@@ -237,7 +237,9 @@ Tool tool_for(compute::Operation operation) {
 // Returns whether a message since the last call has this part.
 bool said(Bench& bench, const std::string& part) {
     const auto update = bench.desk.take_surface_update();
-    return update && std::ranges::any_of(update->messages, [&](const std::string& m) { return m.contains(part); });
+    if (!update) return false;
+    return std::ranges::any_of(update->messages, [&](const std::string& m) { return m.contains(part); }) ||
+           std::ranges::any_of(update->exports, [&](const ExportOutcome& e) { return e.message.contains(part); });
 }
 
 }  // namespace

@@ -351,7 +351,7 @@ TEST_F(DirectSession, ByTheCommandNamesTheScreenAndTheWaysOut) {
     EXPECT_NE(alone.output.find("--tracker"), std::string::npos) << alone.output;
     const auto offscreen = place.run(burin + "--input script.txt --offscreen");
     EXPECT_EQ(offscreen.status, 0) << offscreen.output;
-    EXPECT_FALSE(place.read("a.png").empty());
+    EXPECT_FALSE(place.read("script-outputs/a.png").empty());
 }
 
 }  // namespace burin::session

@@ -131,7 +131,8 @@ TEST(LampWatch, FollowsATurningWorkpieceInStepsAndARestingOneAtOnce) {
 TEST(MessageLog, ShowsRecordedEventsInPlaceOfItsOwnInAReplay) {
     testing::internal::CaptureStderr();
     MessageLog log;
-    log.notify("undone");
+    log.notify("undone", {"script.txt:3: ", " (elsewhere)"});
+    EXPECT_EQ(log.newest(), "undone") << "what the panel shows depends on no file's name";
     log.notify_of_event("a monitor has gone");
     EXPECT_EQ(log.newest(), "a monitor has gone");
     EXPECT_EQ(log.take_events(), std::vector<std::string>{"a monitor has gone"}) << "no message of the input's";
@@ -146,18 +147,9 @@ TEST(MessageLog, ShowsRecordedEventsInPlaceOfItsOwnInAReplay) {
     log.notify("undone again");
     EXPECT_EQ(log.newest(), "undone again");
     const std::string said = testing::internal::GetCapturedStderr();
-    for (const char* line : {"burin: undone\n", "burin: a monitor has gone\n", "burin: not as recorded\n"})
+    for (const char* line : {"burin: script.txt:3: undone (elsewhere)\n", "burin: a monitor has gone\n",
+                             "burin: not as recorded\n"})
         EXPECT_NE(said.find(line), std::string::npos) << said;
-}
-
-TEST(ScreenshotQueue, GivesEachNameOnceInItsFolder) {
-    ScreenshotQueue queue("shots");
-    EXPECT_TRUE(queue.empty());
-    queue.add("a.png");
-    queue.add("/elsewhere/b.png");
-    EXPECT_FALSE(queue.empty());
-    EXPECT_EQ(queue.take(), (std::vector<std::filesystem::path>{"shots/a.png", "/elsewhere/b.png"}));
-    EXPECT_TRUE(queue.empty());
 }
 
 TEST(LivePanel, KeepsAWandsPressesOnAStandingPanelFromTheScene) {

@@ -15,7 +15,7 @@ const std::string kRecordedScript = R"(burin-input 1 test
 0.05 mouse 480 270
 0.1 scroll 0 15
 0.4 command screenshot before.png
-0.45 command figures
+0.45 command toggle-frame-figures
 0.5 button press left
 0.55 scroll 0 8
 0.7 mouse 490 272
@@ -55,7 +55,7 @@ protected:
         for (const char* folder : {"live", "again"}) std::filesystem::create_directory(place / folder);
         live = place.run(
             sculpt_offscreen("--workpiece ball:0.1 --resolution 48 --tool ball:0.012 --width 960 --height 540 "
-                             "--screenshots live --input script.txt --record live.log"));
+                             "--outputs live --input script.txt --record live.log"));
         ASSERT_EQ(live.status, 0) << live.output;
         ASSERT_NE(place.read("live.log").find(" end "), std::string::npos)
             << "it was not recorded to its end: " << live.output;
@@ -71,16 +71,16 @@ protected:
 }  // namespace
 
 TEST_F(Recording, GivesThePicturesThatWereTaken) {
-    std::filesystem::rename(place / "undone.ply", place / "undone-live.ply");
     // Other options than it was recorded with do not count.
-    const auto again = place.run(sculpt_offscreen("--tool ball:0.03 --screenshots again --input live.log"));
+    const auto again = place.run(sculpt_offscreen("--tool ball:0.03 --outputs again --input live.log"));
     ASSERT_EQ(again.status, 0) << again.output;
     EXPECT_NE(again.output.find("--tool ball:0.012"), std::string::npos) << again.output;
     for (const std::string& name : kPictures) {
         EXPECT_FALSE(picture("live", name).empty()) << name;
         EXPECT_TRUE(picture("live", name) == picture("again", name)) << name;
     }
-    EXPECT_TRUE(place.read("undone.ply") == place.read("undone-live.ply"));
+    EXPECT_FALSE(place.read("live/undone.ply").empty());
+    EXPECT_TRUE(place.read("live/undone.ply") == place.read("again/undone.ply"));
     // That pictures can tell one moment from another.
     EXPECT_TRUE(picture("live", "before.png") != picture("live", "late.png"));
 }
@@ -93,7 +93,7 @@ TEST_F(Recording, FailsWhenATickGoesAnotherWay) {
     ASSERT_TRUE(std::regex_search(after, log.cend(), quiet, std::regex(";-?[0-9]+;")));
     log.insert(static_cast<std::size_t>(quiet[0].second - log.cbegin()) - 1, "z90");
     place.write("bent.log", log);
-    const auto bent = place.run(sculpt_offscreen("--screenshots again --input bent.log"));
+    const auto bent = place.run(sculpt_offscreen("--outputs again --input bent.log"));
     EXPECT_EQ(bent.status, 1) << bent.output;
     EXPECT_NE(bent.output.find("departs from the recording"), std::string::npos) << bent.output;
     EXPECT_TRUE(picture("live", "before.png") == picture("again", "before.png"));  // until then all was well
@@ -105,7 +105,7 @@ TEST_F(Recording, IsReplayedAsFarAsItGoes) {
     // In the line behind that frame. It may be lost itself: the record of a tick that an update has taken can come a
     // moment later.
     place.write("torn.log", log.substr(0, end_of_frame_with(log, "carved.png") + 5));
-    const auto torn = place.run(sculpt_offscreen("--screenshots again --input torn.log"));
+    const auto torn = place.run(sculpt_offscreen("--outputs again --input torn.log"));
     EXPECT_EQ(torn.status, 0) << torn.output;
     EXPECT_TRUE(picture("live", "carving.png") == picture("again", "carving.png"));
     EXPECT_TRUE(picture("again", "late.png").empty());

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+#include "session/record/log_outputs.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "base/file_io.hpp"
+#include "geometry/files/mesh_import.hpp"
+#include "session/input/input_words.hpp"
+#include "session/state/session_state.hpp"
+
+namespace burin::session {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kStayBelow = "name it relative to the session's --outputs folder, such as ";
+
+const char* example_of(OutputKind kind) { return kind == OutputKind::picture ? "cut.png" : "part.stl"; }
+
+bool has_extension_of(const fs::path& name, OutputKind kind) {
+    if (kind == OutputKind::picture) return name.extension() == ".png";
+    const auto format = geometry::mesh_format_of(name);
+    return format && *format != geometry::MeshFormat::off;
+}
+
+bool lies_in(const fs::path& place, const fs::path& folder) {
+    return std::ranges::mismatch(folder, place).in1 == folder.end();
+}
+
+// Follows what is there already of a name below a canonical folder; the rest stands in the place as it is in the name.
+Result<fs::path> followed(const fs::path& folder, const std::string& name) {
+    fs::path place = folder;
+    for (const fs::path& part : fs::path(name)) {
+        place /= part;
+        std::error_code failed;
+        if (!fs::is_symlink(fs::symlink_status(place, failed))) continue;
+        const fs::path target = fs::canonical(place, failed);
+        if (failed) return fail(place.string(), "is a symbolic link to nothing", "remove the link");
+        if (!lies_in(target, folder)) {
+            return fail(place.string(), "is a symbolic link that leads out of the log's folder",
+                        "remove the link, or give another --outputs folder");
+        }
+        place = target;
+    }
+    return place;
+}
+
+struct AskedFile {
+    std::string name;
+    OutputKind kind = OutputKind::picture;
+};
+
+// Returns the file that a command names.
+std::optional<AskedFile> file_of(const SessionCommand& command) {
+    if (const auto* mesh = std::get_if<ExportTo>(&command)) return AskedFile{mesh->path, OutputKind::mesh};
+    if (const auto* picture = std::get_if<ScreenshotTo>(&command)) return AskedFile{picture->path, OutputKind::picture};
+    return std::nullopt;
+}
+
+std::optional<AskedFile> file_of(const InputEvent& event) {
+    const auto* input = std::get_if<CommandInput>(&event.input);
+    if (input == nullptr) return std::nullopt;
+    const Result<SessionCommand> command = parse_command(*input);
+    return command ? file_of(*command) : std::nullopt;
+}
+
+// Names the log's line in an error.
+std::unexpected<Error> on_line(Error error, const std::string& log, std::size_t line) {
+    error.where = log + ":" + std::to_string(line) + (error.where.empty() ? "" : ": " + error.where);
+    return std::unexpected(std::move(error));
+}
+
+// Returns the state of a session that was started without options: a command that cannot be carried out there cannot
+// be anywhere.
+Result<SessionState> plain_state() {
+    const auto tool = sculpt::parse_tool_settings({});
+    if (!tool) return std::unexpected(tool.error());
+    const auto feel = sculpt::parse_feel_settings({});
+    if (!feel) return std::unexpected(feel.error());
+    SessionState state;
+    state.tool = *tool;
+    state.feel = *feel;
+    return state;
+}
+
+Result<void> check_command(const CommandInput& input, SessionState state) {
+    const Result<SessionCommand> command = parse_command(input);
+    if (!command) return std::unexpected(command.error());
+    if (const auto file = file_of(*command)) {
+        if (const auto ok = check_output_name(file->name, file->kind); !ok) return ok;
+    }
+    SessionOrders ignored;
+    return run_command(state, ignored, input);
+}
+
+}  // namespace
+
+Result<void> check_output_name(const std::string& name, OutputKind kind) {
+    const fs::path path = name;
+    const std::string where = as_word(name);
+    const std::string below = kStayBelow + std::string(example_of(kind));
+    const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+    if (path.is_absolute()) return fail(where, "is an absolute path, and a log has its files in one folder", below);
+    if (std::ranges::find(path, "..") != path.end())
+        return fail(where, "leads up by \"..\", and a log has its files in one folder", below);
+    if (std::ranges::any_of(name, control)) return fail(where, "holds control characters", below);
+    if (has_extension_of(path, kind)) return {};
+    if (kind == OutputKind::picture) return fail(where, "is no name of a picture", "name it .png");
+    return fail(where, "has no extension that Burin exports", "name it .stl, .ply or .obj");
+}
+
+Result<void> check_commands(const InputLog& log, const std::string& name) {
+    const Result<SessionState> state = plain_state();
+    if (!state) return std::unexpected(state.error());
+    for (const InputEvent& event : log.events) {
+        const auto* command = std::get_if<CommandInput>(&event.input);
+        if (command == nullptr) continue;
+        if (const auto ok = check_command(*command, *state); !ok) return on_line(ok.error(), name, event.line);
+    }
+    return {};
+}
+
+// ---- Places
+
+SessionOutputs::SessionOutputs(const LiveOptions& live) {
+    if (live.writes_nothing) {
+        rule_ = Rule::nothing;
+    } else if (!live.input.empty()) {
+        rule_ = Rule::in_folder;
+        const bool named = !live.outputs.empty();
+        meshes_ = {named ? live.outputs : fs::path(live.input).stem().string() + "-outputs", "--outputs", named};
+        pictures_ = live.screenshots.empty() ? meshes_ : Folder{live.screenshots, "--screenshots", true};
+    } else {
+        pictures_.path = live.screenshots;
+    }
+}
+
+Result<void> SessionOutputs::make(const Folder& folder) {
+    std::error_code failed;
+    if (!folder.may_be_link && fs::is_symlink(fs::symlink_status(folder.path, failed))) {
+        return fail(folder.path.string(), "is a symbolic link, and nobody has named it as the folder of a log's files",
+                    "remove the link, or give " + folder.option + " with a folder of your choice");
+    }
+    fs::create_directories(folder.path, failed);
+    std::error_code ignored;
+    if (!fs::is_directory(folder.path, ignored)) {
+        return fail(folder.path.string(), "cannot be made as the folder of a log's files (" + failed.message() + ")",
+                    "give another " + folder.option + " folder");
+    }
+    if (::access(folder.path.c_str(), W_OK | X_OK) == 0) return {};
+    return fail(folder.path.string(), "no file can be made in this folder of a log's files",
+                "give another " + folder.option + " folder");
+}
+
+Result<void> SessionOutputs::prepare(const InputLog& log, const std::string& name) const {
+    if (rule_ != Rule::in_folder) return {};
+    for (const InputEvent& event : log.events) {
+        const auto file = file_of(event);
+        if (!file) continue;
+        const Result<fs::path> place = place_of(file->name, file->kind);
+        if (!place) return on_line(place.error(), name, event.line);
+        if (const auto ok = check_writable(*place); !ok) return on_line(ok.error(), name, event.line);
+    }
+    return {};
+}
+
+Result<fs::path> SessionOutputs::place_of(const std::string& name, OutputKind kind) const {
+    const Folder& folder = kind == OutputKind::picture ? pictures_ : meshes_;
+    if (rule_ != Rule::in_folder) return folder.path / name;
+    if (const auto ok = check_output_name(name, kind); !ok) return std::unexpected(ok.error());
+    if (const auto made = make(folder); !made) return std::unexpected(made.error());
+    std::error_code failed;
+    const fs::path root = fs::canonical(folder.path, failed);
+    if (failed) return fail(folder.path.string(), "cannot be found: " + failed.message(), "give another folder");
+    const Result<fs::path> place = followed(root, name);
+    if (!place) return place;
+    fs::create_directories(place->parent_path(), failed);
+    if (failed) {
+        return fail(place->parent_path().string(), "cannot be made as a folder: " + failed.message(),
+                    "choose another name");
+    }
+    return folder.path / place->lexically_relative(root);
+}
+
+}  // namespace burin::session

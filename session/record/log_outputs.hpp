@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Decides what the commands of a log may write. A script or a recording can come from anybody; so its files go below
+// one folder, that the session's user names, and are pictures and meshes alone.
+//
+//   names     relative, without "..", with the extension of a picture or of a mesh: check_output_name()
+//   commands  all that a log holds are checked before its session begins: check_commands()
+//   places    no symbolic link leads out of the folder; looked at right before a file is written: SessionOutputs
+//
+// A user at keys and panel writes wherever the system lets them: names are taken as they are. Failure: an Error that
+// names the file and the remedy; check_commands() names the log's line as well. One thread.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "base/error.hpp"
+#include "session/record/input_log.hpp"
+#include "session/state/session_options.hpp"
+
+namespace burin::session {
+
+enum class OutputKind : std::uint8_t { picture, mesh };
+
+// Checks a file name that a log gives; looks at no file.
+[[nodiscard]] Result<void> check_output_name(const std::string& name, OutputKind kind);
+
+// Checks all commands of a log: that they are known, that their arguments make sense, and that a session of whatever
+// state could carry them out. name: the log's file name.
+[[nodiscard]] Result<void> check_commands(const InputLog& log, const std::string& name);
+
+// Places the files that a session is asked for. What is asked for in a log's session is the log's doing, by whatever
+// way: keys, the panel and the mouse on it are events of the log.
+class SessionOutputs {
+public:
+    explicit SessionOutputs(const LiveOptions& live);
+
+    // Returns whether files are written at all.
+    [[nodiscard]] bool write() const { return rule_ != Rule::nothing; }
+    // Makes the folders that the log's commands need, and checks that files can be written there.
+    [[nodiscard]] Result<void> prepare(const InputLog& log, const std::string& name) const;
+    // Returns where a file of this name goes. Makes the folders on its way.
+    [[nodiscard]] Result<std::filesystem::path> place_of(const std::string& name, OutputKind kind) const;
+    // Returns what a message calls the file: a log's by its name, so that pictures of the panel do not depend on the
+    // folder.
+    [[nodiscard]] std::string shown(const std::string& name, const std::filesystem::path& place) const {
+        return rule_ == Rule::in_folder ? name : place.string();
+    }
+
+private:
+    enum class Rule : std::uint8_t { anywhere, in_folder, nothing };
+    struct Folder {
+        std::filesystem::path path;
+        std::string option;        // that names it
+        bool may_be_link = false;  // the user has named it, and so knows where it leads
+    };
+    [[nodiscard]] static Result<void> make(const Folder& folder);
+
+    Rule rule_ = Rule::anywhere;
+    Folder pictures_, meshes_;
+};
+
+}  // namespace burin::session
