@@ -16,13 +16,16 @@ constexpr double kSurroundings = 1.6;
 
 // Finishes and writes the mesh on a worker of its own, so that carving keeps its pool; returns the message for the
 // user.
-std::string export_surface(const compute::Surface& surface, const compute::Solid& solid, const std::string& path) {
+std::string export_surface(const compute::Surface& surface, const compute::Solid& solid, const ExportSurface& wanted) {
+    const std::string& path = wanted.path;
     WorkerPool alone(1);
     const Result<FinishedMesh> finished = finish_mesh(surface, solid, std::nullopt, alone);
     if (!finished) return finished.error().line();
     if (finished->mesh.triangles.empty()) return path + ": there is nothing left to export; undo some strokes";
-    if (const auto written = geometry::export_mesh(finished->mesh, path); !written) return written.error().line();
-    return "exported " + std::to_string(finished->mesh.triangles.size()) + " triangles to " + path;
+    if (const auto written = geometry::export_mesh(finished->mesh, path, wanted.unit); !written)
+        return written.error().line();
+    return "exported " + std::to_string(finished->mesh.triangles.size()) + " triangles to " + path + ", in " +
+           descriptor_of(wanted.unit).plural;
 }
 
 }  // namespace
@@ -152,7 +155,7 @@ void SculptService::carry_out(const ExportSurface& wanted) {
     sculpture_.end_stroke();
     if (const auto read = sculpture_.read_back(); !read) return notify(read.error().line());
     export_ = std::async(std::launch::async, [surface = sculpture_.surface(), solid = sculpture_.engine().solid(),
-                                              path = wanted.path] { return export_surface(surface, solid, path); });
+                                              wanted] { return export_surface(surface, solid, wanted); });
 }
 
 void SculptService::carry_out(const LightFrom& from) {

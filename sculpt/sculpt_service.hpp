@@ -32,6 +32,7 @@ struct UndoStroke {};
 struct RedoStroke {};
 struct ExportSurface {
     std::string path;  // .stl, .ply or .obj
+    LengthUnit unit = LengthUnit::m;
 };
 struct LightFrom {
     compute::Lamp lamp_object;

@@ -88,6 +88,9 @@ public:
     [[nodiscard]] bool wants_screenshots() const { return !screenshots_.empty(); }
     [[nodiscard]] std::vector<std::filesystem::path> take_screenshots() { return screenshots_.take(); }
 
+    // Returns the options with what the session found out in place of what they leave open: the unit of the workpiece's
+    // file and the tool.
+    [[nodiscard]] SculptOptions settled(SculptOptions options) const;
     [[nodiscard]] const SessionState& state() const { return state_; }
     [[nodiscard]] const Room& room() const { return room_; }
     [[nodiscard]] haptics::HapticLoop& loop() { return haptics_.loop(); }
@@ -123,6 +126,7 @@ private:
     SceneInput feed_panel(const FrameInput& input);
     void carry_out(SessionOrders orders, const Carve& carve);
     void watch(Nanoseconds time_ns);
+    void warn_of_misfit(const sculpt::Tool& tool);
     [[nodiscard]] ImageSize main_eye() const { return wall::eye_size(output_on(room_.wall.main).mode, output_.size); }
 
     Clock& clock_;
@@ -132,6 +136,10 @@ private:
     HapticSide haptics_;
     std::optional<sculpt::SculptService> desk_;
     std::string workpiece_name_;
+    LengthUnit unit_ = LengthUnit::m;  // of the workpiece's file
+    sculpt::ToolOptions tool_options_;  // as the session began
+    ToolSizeRange tool_sizes_;
+    bool warns_of_misfit_ = true, misfits_ = false;
     Room room_;
     SessionState state_;
     haptics::ToolState tool_;

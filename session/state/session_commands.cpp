@@ -53,7 +53,7 @@ public:
     }
     Result<void> operator()(const ExportTo& wanted) {
         state_.export_path = wanted.path;
-        return order(sculpt::ExportSurface{wanted.path});
+        return order(sculpt::ExportSurface{wanted.path, state_.export_unit});
     }
     Result<void> operator()(const ScreenshotTo& wanted) {
         orders_.screenshots.push_back(wanted.path);
@@ -141,7 +141,7 @@ Result<void> Runner::operator()(const RunAction& run) {
         case Action::toggle_frame_figures: return toggle(&SessionState::figures);
         case Action::toggle_full_screen: orders_.full_screen = true; return {};
         case Action::take_screenshot: orders_.screenshots.emplace_back(kScreenshotName); return {};
-        case Action::export_mesh: return order(sculpt::ExportSurface{state_.export_path});
+        case Action::export_mesh: return order(sculpt::ExportSurface{state_.export_path, state_.export_unit});
         case Action::save_session:
             return fail("save-session", "sessions cannot be saved yet", "export the mesh (export FILE, Ctrl+E)");
         case Action::reset_view: state_.world_from_object = state_.home_world_from_object; return update_touch();

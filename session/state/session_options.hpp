@@ -46,10 +46,14 @@ struct SculptOptions {
     std::size_t undo = 0;                // strokes to undo at the end, from press to release
     std::size_t undo_memory_MiB = 1024;  // memory for strokes that can be undone
     std::vector<std::string> exports;    // STL, PLY, OBJ
+    std::optional<LengthUnit> export_units = std::nullopt;  // none: those of the workpiece's file, metres for a shape
     std::optional<double> simplify_m;    // bound on the exported surface's motion; none: all triangles
     std::string pictures;                // a folder; empty: none
     std::string report;                  // a JSON file; empty: none; plots of the felt stroke lie beside it
     unsigned threads = 0;                // 0: one per core
+    // A recording from before sessions knew of units: the panel's ranges suit no workpiece in particular, and nothing
+    // is said of sizes that do not fit. No option of the command line.
+    bool from_before_units = false;
     LiveOptions live;
 };
 

@@ -43,6 +43,7 @@ struct SessionState {
     wall::OutputSettings output;  // of the main screen (output_on(), session_screens.hpp)
     bool panel = true, help = false, figures = false;
     std::string export_path = "part.stl";
+    LengthUnit export_unit = LengthUnit::m;
     bool quit = false;
 };
 
