@@ -48,10 +48,10 @@ const char* text(compute::Combination operation) {
 void print(const Json& report) {
     const Json& mesh = report["mesh"];
     std::printf(
-        "%s of %s and %s: %zu triangles, volume %g m3; %zu open, %zu non-manifold, %zu wrongly oriented edges\n",
+        "%s of %s and %s: %zu triangles, volume %g cm3; %zu open, %zu non-manifold, %zu wrongly oriented edges\n",
         report["operation"].get<std::string>().c_str(), report["a"]["source"].get<std::string>().c_str(),
         report["b"]["source"].get<std::string>().c_str(), mesh["triangles"].get<std::size_t>(),
-        mesh["volume_m3"].get<double>(), mesh["open_edges"].get<std::size_t>(),
+        1e6 * mesh["volume_m3"].get<double>(), mesh["open_edges"].get<std::size_t>(),
         mesh["nonmanifold_edges"].get<std::size_t>(), mesh["misoriented_edges"].get<std::size_t>());
 }
 
@@ -60,9 +60,9 @@ void print(const Json& report) {
 Result<void> combine_files(const CombineOptions& options) {
     const std::array inputs{options.a, options.b};
     if (const auto ok = check_outputs(options.exports, options.report, inputs); !ok) return ok;
-    Result<sculpt::ClosedMesh> a = sculpt::load_closed_mesh(options.a, options.close_holes);
+    Result<sculpt::ClosedMesh> a = sculpt::load_closed_mesh(options.a, options.close_holes, options.units);
     if (!a) return std::unexpected(a.error());
-    Result<sculpt::ClosedMesh> b = sculpt::load_closed_mesh(options.b, options.close_holes);
+    Result<sculpt::ClosedMesh> b = sculpt::load_closed_mesh(options.b, options.close_holes, options.units);
     if (!b) return std::unexpected(b.error());
     name_materials(*a, options.a, {205, 195, 178});
     name_materials(*b, options.b, {224, 142, 54});
@@ -92,15 +92,19 @@ Result<void> combine_files(const CombineOptions& options) {
     const geometry::TriangleMesh mesh = surface.welded();
     if (mesh.triangles.empty()) {
         return fail(options.a + " and " + options.b,
-                    "leave nothing: their " + std::string(text(options.operation)) + " is empty",
-                    "check where the two lie, or choose another --operation");
+                    "leave nothing: their " + std::string(text(options.operation)) + " is empty (" + a->size + "; " +
+                        b->size + ")",
+                    "check where the two lie and their units, or choose another --operation");
     }
     report["lattice_cells"] = lattice->cells;
     report["lattice_spacing_m"] = lattice->spacing_m;
     report["disagreeing_edges"] = surface.disagreeing_edges();
     report["mesh"] = describe_mesh(mesh);
+    std::printf("%s\n%s\n", a->size.c_str(), b->size.c_str());
+    const LengthUnit unit = options.export_units.value_or(a->unit);
     for (const std::string& path : options.exports) {
-        if (const auto written = geometry::export_mesh(mesh, path); !written) return written;
+        if (const auto written = geometry::export_mesh(mesh, path, unit); !written) return written;
+        std::printf("%s: written in %s\n", path.c_str(), descriptor_of(unit).plural);
         report["exports"].push_back(std::filesystem::path(path).filename().string());
     }
     report["timing"] = {{"total_ms", static_cast<double>(clock.now_ns() - start_ns) * 1e-6}};

@@ -115,6 +115,13 @@ CommandOption Command::add_choice(const std::string& name, const std::string& he
     return CommandOption(option);
 }
 
+CommandOption Command::unit(const std::string& name, std::optional<LengthUnit>& to, const std::string& help) {
+    std::vector<std::pair<std::string, int>> words;
+    for (const LengthUnitDescriptor& known : length_units())
+        words.emplace_back(known.name, static_cast<int>(known.unit));
+    return add_choice(name, help, words, [&to](int value) { to = static_cast<LengthUnit>(value); });
+}
+
 bool Command::parsed() const { return app_->parsed(); }
 
 CommandLine::CommandLine(const std::string& description) : app_(std::make_unique<CLI::App>(description)) {

@@ -14,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/length_unit.hpp"
+
 namespace CLI {
 class App;
 class Option;
@@ -68,6 +70,8 @@ public:
         for (const auto& [word, value] : words) numbered.emplace_back(word, static_cast<int>(value));
         return add_choice(name, help, numbered, [&to](int value) { to = static_cast<Choice>(value); });
     }
+    // Adds an option that takes a unit of length by its name: m, cm, mm, in or ft.
+    CommandOption unit(const std::string& name, std::optional<LengthUnit>& to, const std::string& help);
 
     [[nodiscard]] bool parsed() const;  // whether it was named on the command line
 

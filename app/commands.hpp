@@ -11,6 +11,7 @@
 
 #include "app/command_line.hpp"
 #include "base/error.hpp"
+#include "base/length_unit.hpp"
 #include "compute/rays/set_algebra.hpp"
 #include "session/state/session_options.hpp"
 
@@ -20,9 +21,11 @@ namespace burin::app {
 // all input has been read and all output places have been checked.
 [[nodiscard]] Result<void> sculpt(const session::SculptOptions& options);
 
-// burin convert IN OUT: any mesh format in, STL, PLY or OBJ out; prints the mesh's health.
+// burin convert IN OUT: any mesh format in, STL, PLY or OBJ out; prints the mesh's size and health.
 struct ConvertOptions {
     std::string in, out;
+    std::optional<LengthUnit> units;         // of IN; none: as the file states, else guessed (mesh_unit.hpp)
+    std::optional<LengthUnit> export_units;  // of OUT; none: those of IN
     bool close_holes = false;
     std::optional<double> simplify_m;  // bound on the surface's motion; none: all triangles
 };
@@ -31,7 +34,9 @@ struct ConvertOptions {
 // burin combine A B: makes two closed meshes into one, as solids on a lattice that holds both. Writes nothing before
 // all input has been read and the result is known not to be empty.
 struct CombineOptions {
-    std::string a, b;  // STL, OBJ, PLY, OFF
+    std::string a, b;                        // STL, OBJ, PLY, OFF
+    std::optional<LengthUnit> units;         // of both files; none: as each states, else guessed (mesh_unit.hpp)
+    std::optional<LengthUnit> export_units;  // none: those of A
     compute::Combination operation = compute::Combination::unite;
     int resolution = 256;  // cells along the longest side of both together
     bool close_holes = false;

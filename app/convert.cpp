@@ -17,9 +17,8 @@ namespace {
 
 void print_health(const geometry::TriangleMesh& mesh) {
     const geometry::MeshHealth health = geometry::examine(mesh);
-    const Vec3 size = health.bounds_m.extent();
-    std::printf("  size %g x %g x %g m, %zu shells, area %g m2, volume %g m3\n", size.x, size.y, size.z, health.shells,
-                health.area_m2, health.signed_volume_m3);
+    std::printf("  size %s, %zu shells, area %g cm2, volume %g cm3\n", in_millimetres(health.bounds_m.extent()).c_str(),
+                health.shells, 1e4 * health.area_m2, 1e6 * health.signed_volume_m3);
     for (const std::string& complaint : geometry::complaints(health)) std::printf("  %s\n", complaint.c_str());
 }
 
@@ -47,11 +46,13 @@ Result<void> convert(const ConvertOptions& options) {
     const std::array inputs{options.in}, outputs{options.out};
     if (const auto ok = check_overwrites_none(options.out, inputs); !ok) return ok;
     if (const auto ok = check_outputs(outputs, ""); !ok) return ok;
-    Result<geometry::ImportedMesh> imported = geometry::import_mesh(options.in);
+    Result<geometry::ImportedMesh> imported = geometry::import_mesh(options.in, options.units);
     if (!imported) return std::unexpected(imported.error());
     geometry::TriangleMesh& mesh = imported->mesh;
     std::printf("%s: %s, %zu triangles, %zu vertices\n", options.in.c_str(), imported->report.format.c_str(),
                 mesh.triangles.size(), mesh.positions_m.size());
+    const geometry::ImportReport& report = imported->report;
+    std::printf("%s\n", geometry::describe_size(options.in, report.size_m, report.unit).c_str());
     for (const std::string& remark : imported->report.remarks) std::printf("  %s\n", remark.c_str());
     print_health(mesh);
     if (options.close_holes) {
@@ -68,14 +69,18 @@ Result<void> convert(const ConvertOptions& options) {
         WorkerPool pool;
         Result<sculpt::SimplifiedMesh> simplified = sculpt::simplify_with_progress(mesh, *options.simplify_m, pool);
         if (!simplified) return std::unexpected(simplified.error());
-        std::printf("  simplified from %zu to %zu triangles, at most %g m away (asked: %g m)\n", mesh.triangles.size(),
-                    simplified->mesh.triangles.size(), simplified->figures["error_max_m"].get<double>(),
-                    *options.simplify_m);
+        std::printf("  simplified from %zu to %zu triangles, at most %s away (asked: %s)\n", mesh.triangles.size(),
+                    simplified->mesh.triangles.size(),
+                    in_millimetres(simplified->figures["error_max_m"].get<double>()).c_str(),
+                    in_millimetres(*options.simplify_m).c_str());
         mesh = std::move(simplified->mesh);
         print_health(mesh);
     }
     if (const auto ok = check_precision(mesh, options.out); !ok) return ok;
-    return geometry::export_mesh(mesh, options.out);
+    const LengthUnit unit = options.export_units.value_or(report.unit.unit);
+    if (const auto written = geometry::export_mesh(mesh, options.out, unit); !written) return written;
+    std::printf("%s: written in %s\n", options.out.c_str(), descriptor_of(unit).plural);
+    return {};
 }
 
 }  // namespace burin::app

@@ -16,14 +16,22 @@
 namespace burin::app {
 namespace {
 
+constexpr const char* kUnitsHelp =
+    "Unit of the numbers in a mesh file that is read; else as the file states, else mm where its longest side is above "
+    "5, and m where not";
+
 void add_sculpt_options(Command command, session::SculptOptions& options) {
     command
         .option("--workpiece", options.workpiece.source,
                 "FILE (STL, OBJ, PLY, OFF), block:X,Y,Z from the origin on, or ball:R about it, in metres")
         .show_default();
+    command.unit("--units", options.workpiece.units, kUnitsHelp);
+    command.unit("--export-units", options.export_units,
+                 "Unit of the numbers in exported files; else that of the workpiece's file, or m");
     command.flag("--close-holes", options.workpiece.close_holes, "Fill the holes of a mesh that is not closed");
-    command.option("--tool", options.tool.shape, sculpt::alternatives(sculpt::tool_synopses()) + ", in metres")
-        .show_default();
+    command.option("--tool", options.tool.shape,
+                   sculpt::alternatives(sculpt::tool_synopses()) +
+                       ", in metres; else a ball whose radius is 5 % of the workpiece's longest side");
     std::vector<std::pair<std::string, compute::Operation>> operations;
     for (const sculpt::OperationDescriptor& known : sculpt::operations())
         operations.emplace_back(known.name, known.operation);
@@ -98,6 +106,8 @@ void add_combine_options(Command command, CombineOptions& options) {
     command.option("--resolution", options.resolution, "Lattice cells along the longest side of both together")
         .within(compute::kMinResolution, compute::kMaxResolution)
         .show_default();
+    command.unit("--units", options.units, std::string("Of both files: ") + kUnitsHelp);
+    command.unit("--export-units", options.export_units, "Unit of the numbers in exported files; else that of A");
     command.flag("--close-holes", options.close_holes, "Fill the holes of meshes that are not closed");
     command.option("--export", options.exports,
                    "Where to write the result: .stl, .ply (with colour) or .obj; may be repeated");
@@ -176,6 +186,8 @@ int run(int argc, char** argv) {
     Command convert = app.subcommand("convert", "Convert a mesh file to STL, PLY or OBJ and print its health");
     convert.option("IN", convert_options.in, "STL, OBJ, PLY or OFF").required();
     convert.option("OUT", convert_options.out, ".stl, .ply or .obj").required();
+    convert.unit("--units", convert_options.units, kUnitsHelp);
+    convert.unit("--export-units", convert_options.export_units, "Unit of the numbers in OUT; else that of IN");
     convert.flag("--close-holes", convert_options.close_holes, "Fill holes and turn the triangles outwards");
     convert.option("--simplify", convert_options.simplify_m,
                    "Fewer triangles: the surface moves at most this far, in metres");

@@ -9,6 +9,7 @@
 #include "app/report.hpp"
 #include "compute/tools/apply.hpp"
 #include "geometry/files/mesh_export.hpp"
+#include "geometry/files/mesh_import.hpp"
 #include "sculpt/finishing.hpp"
 #include "sculpt/stroke_file.hpp"
 #include "sculpt/workpiece.hpp"
@@ -54,8 +55,56 @@ Result<void> check_plots(const session::SculptOptions& options) {
 void say_that_nothing_was_touched(const sculpt::Sculpture& carving) {
     const Box box = sculpt::workpiece_bounds(carving.surface().lattice());
     std::fprintf(stderr,
-                 "burin: the tool has touched nothing; the workpiece lies between (%g, %g, %g) and (%g, %g, %g) m\n",
-                 box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z);
+                 "burin: the tool has touched nothing; the workpiece lies between (%g, %g, %g) and (%g, %g, %g) mm, "
+                 "and the stroke's file is in metres\n",
+                 1e3 * box.lo.x, 1e3 * box.lo.y, 1e3 * box.lo.z, 1e3 * box.hi.x, 1e3 * box.hi.y, 1e3 * box.hi.z);
+}
+
+// Says how large the mesh of a tool's file is, and in which unit it was read.
+Result<std::string> size_of_file(const sculpt::ToolSpec& tool) {
+    const Result<geometry::ImportedMesh> read = geometry::import_mesh(tool.file, tool.units);
+    if (!read) return std::unexpected(read.error());
+    return geometry::describe_size(tool.file, read->report.size_m, read->report.unit);
+}
+
+struct ChosenTool {
+    sculpt::ToolOptions options;  // with the tool that was taken where none was given
+    sculpt::ToolSettings settings;
+    sculpt::Tool tool;
+};
+
+// Makes the tool. Where none is given the workpiece's longest side decides; before it is known a ball stands in.
+Result<ChosenTool> choose_tool(const session::SculptOptions& options, std::optional<double> longest_side_m) {
+    sculpt::ToolOptions wanted = options.tool;
+    wanted.units = options.workpiece.units;
+    if (longest_side_m) wanted = sculpt::with_tool(wanted, *longest_side_m);
+    Result<sculpt::ToolSettings> settings = sculpt::parse_tool_settings(wanted);
+    if (!settings) return std::unexpected(settings.error());
+    Result<sculpt::Tool> tool = sculpt::make_tool(*settings);
+    if (!tool) return std::unexpected(tool.error());
+    const bool is_a_file = settings->shape.kind == sculpt::ToolKind::mesh;
+    if (const auto ok = sculpt::check_units(options.workpiece, is_a_file); !ok) return std::unexpected(ok.error());
+    return ChosenTool{std::move(wanted), std::move(*settings), std::move(*tool)};
+}
+
+// Tells the user what the tool's file was read as, and whether a tool that is used suits the workpiece; returns the
+// tool's part of the report.
+Result<Json> introduce(const ChosenTool& chosen, const geometry::Material& material, const sculpt::Sculpture& carving,
+                       bool is_used) {
+    Json report = sculpt::describe_tool(chosen.options, material);
+    if (chosen.settings.shape.kind == sculpt::ToolKind::mesh) {
+        const auto size = size_of_file(chosen.settings.shape);
+        if (!size) return std::unexpected(size.error());
+        report["size"] = *size;
+        std::printf("%s\n", size->c_str());
+    }
+    const compute::Lattice& lattice = carving.surface().lattice();
+    const auto misfit = sculpt::misfit(chosen.settings, chosen.tool,
+                                       sculpt::longest_side_m(sculpt::workpiece_bounds(lattice)), lattice.spacing_m);
+    if (!is_used || !misfit) return report;
+    std::fprintf(stderr, "burin: %s\n", misfit->c_str());
+    report["misfit"] = *misfit;
+    return report;
 }
 
 // Undoes the last strokes and describes what was undone for the report.
@@ -78,12 +127,9 @@ Result<Json> take_back(sculpt::Sculpture& carving, std::size_t strokes) {
 
 Result<void> sculpt(const session::SculptOptions& options) {
     // Finds everything that can be wrong with the input before the first long step.
-    const Result<sculpt::ToolSettings> settings = sculpt::parse_tool_settings(options.tool);
-    if (!settings) return std::unexpected(settings.error());
-    Result<sculpt::Tool> tool = sculpt::make_tool(*settings);
-    if (!tool) return std::unexpected(tool.error());
-    const geometry::Material material = sculpt::material_of(*settings);
-    if (options.hand == session::HandChoice::simulated && tool->ball_radius_m() == 0.0) {
+    Result<ChosenTool> chosen_tool = choose_tool(options, std::nullopt);
+    if (!chosen_tool) return std::unexpected(chosen_tool.error());
+    if (options.hand == session::HandChoice::simulated && chosen_tool->tool.ball_radius_m() == 0.0) {
         return fail("--hand simulated", "feels with a ball only", "use --tool ball:R, or --hand rigid");
     }
     const Result<sculpt::Feel> feel = sculpt::parse_feel(options.feel);
@@ -104,9 +150,14 @@ Result<void> sculpt(const session::SculptOptions& options) {
     for (const std::string& path : options.exports) {
         if (const auto ok = sculpt::check_precision(path, workpiece->solid.lattice); !ok) return ok;
     }
-    tool->material = static_cast<std::uint8_t>(workpiece->solid.materials.size());
+    const double longest_side_m = sculpt::longest_side_m(sculpt::workpiece_bounds(workpiece->solid.lattice));
+    if (options.tool.shape.empty()) chosen_tool = choose_tool(options, longest_side_m);
+    if (!chosen_tool) return std::unexpected(chosen_tool.error());
+    sculpt::Tool& tool = chosen_tool->tool;
+    const geometry::Material material = sculpt::material_of(chosen_tool->settings);
+    tool.material = static_cast<std::uint8_t>(workpiece->solid.materials.size());
     workpiece->solid.materials.push_back(material);
-    if (const auto ok = compute::check_tool(workpiece->solid, tool->sweep(Pose{}, Pose{})); !ok) return ok;
+    if (const auto ok = compute::check_tool(workpiece->solid, tool.sweep(Pose{}, Pose{})); !ok) return ok;
 
     std::optional<session::Pictures> pictures;
     if (!options.pictures.empty()) {
@@ -122,17 +173,19 @@ Result<void> sculpt(const session::SculptOptions& options) {
         if (const auto taken = pictures->take_before(carving); !taken) return taken;
     }
 
+    Result<Json> tool_report = introduce(*chosen_tool, material, carving, !stroke.empty());
+    if (!tool_report) return std::unexpected(tool_report.error());
+    std::printf("%s\n", workpiece->size.c_str());
     if (options.undo > 0) carving.keep_history(options.undo_memory_MiB << 20);
-    if (std::holds_alternative<compute::BallTool>(tool->shape) && tool->operation != compute::Operation::smooth) {
+    if (std::holds_alternative<compute::BallTool>(tool.shape) && tool.operation != compute::Operation::smooth) {
         if (const auto ready = carving.mesh_on_device(); !ready) return ready;
     }
     std::optional<session::FeltFigures> felt;
     if (!stroke.empty() && options.hand == session::HandChoice::rigid) {
-        if (const auto carved = sculpt::carve_rigidly(carving, stroke, *tool, options.merge_rows); !carved)
+        if (const auto carved = sculpt::carve_rigidly(carving, stroke, tool, options.merge_rows); !carved)
             return carved;
     } else if (!stroke.empty()) {
-        Result<session::FeltFigures> carved =
-            session::carve_by_feel(carving, stroke, *tool, {*feel, options.real_time});
+        Result<session::FeltFigures> carved = session::carve_by_feel(carving, stroke, tool, {*feel, options.real_time});
         if (!carved) return std::unexpected(carved.error());
         felt = std::move(*carved);
     }
@@ -150,7 +203,7 @@ Result<void> sculpt(const session::SculptOptions& options) {
     if (!finished) return std::unexpected(finished.error());
     const geometry::TriangleMesh& mesh = finished->mesh;
     Json report = {{"burin", BURIN_VERSION}, {"workpiece", workpiece->report}};
-    report["tool"] = sculpt::describe_tool(options.tool, material);
+    report["tool"] = std::move(*tool_report);
     report["engine"] = {
         {"name", carving.engine().name()}, {"device", chosen->device}, {"chosen_because", chosen->reason}};
     report["carving"] = describe_carving(carving);
@@ -166,12 +219,15 @@ Result<void> sculpt(const session::SculptOptions& options) {
         return fail(options.workpiece.source, "has been carved away altogether, so there is nothing to export",
                     "use a smaller tool or a shorter stroke");
     }
+    const LengthUnit export_unit = options.export_units.value_or(workpiece->unit);
     for (const std::string& path : options.exports) {
-        if (const auto written = geometry::export_mesh(mesh, path); !written) return written;
+        if (const auto written = geometry::export_mesh(mesh, path, export_unit); !written) return written;
         report["exports"].push_back(fs::path(path).filename().string());
+        std::printf("%s: written in %s\n", path.c_str(), descriptor_of(export_unit).plural);
     }
+    if (!options.exports.empty()) report["export_unit"] = name_of(export_unit);
     if (pictures) {
-        if (const auto taken = pictures->take_after(carving, staging_of(stroke, *tool, felt)); !taken) return taken;
+        if (const auto taken = pictures->take_after(carving, staging_of(stroke, tool, felt)); !taken) return taken;
         report["pictures"] = {{"device", pictures->device_name()}, {"scene_scale", pictures->scene_scale()}};
     }
     if (!options.report.empty()) {

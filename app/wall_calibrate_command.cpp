@@ -179,7 +179,7 @@ Result<void> calibrate_wall(const WallCalibrationOptions& options) {
     const auto index = find_screen(*setup, options);
     if (!index) return std::unexpected(index.error());
     wall::WallScreen& screen = setup->screens[*index];
-    const auto samples = read_samples(options, wall::metres_in(setup->unit));
+    const auto samples = read_samples(options, metres_in(setup->unit));
     if (!samples) return std::unexpected(samples.error());
     std::optional<wall::ScreenSize> size;
     if (options.keep_size) {

@@ -31,11 +31,12 @@ ExportOutcome export_surface(const compute::Surface& surface, const compute::Sol
     if (finished->mesh.triangles.empty()) return ended(name + ": there is nothing left to export; undo some strokes");
     std::error_code ignored;
     const bool was_there = std::filesystem::exists(wanted.path, ignored);
-    if (const auto written = geometry::export_mesh(finished->mesh, wanted.path); !written)
+    if (const auto written = geometry::export_mesh(finished->mesh, wanted.path, wanted.unit); !written)
         return ended(written.error().line());
     outcome.written = true;
     outcome.replaced = was_there;
-    return ended("exported " + std::to_string(finished->mesh.triangles.size()) + " triangles to " + name);
+    return ended("exported " + std::to_string(finished->mesh.triangles.size()) + " triangles to " + name + ", in " +
+                 descriptor_of(wanted.unit).plural);
 }
 
 }  // namespace

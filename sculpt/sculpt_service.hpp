@@ -31,8 +31,9 @@ struct UseTool {
 struct UndoStroke {};
 struct RedoStroke {};
 struct ExportSurface {
-    std::string path;                // .stl, .ply or .obj
-    std::string name{};              // what the message calls it; empty: its path
+    std::string path;    // .stl, .ply or .obj
+    std::string name{};  // what the message calls it; empty: its path
+    LengthUnit unit = LengthUnit::m;
     std::size_t asked_by = 0;        // comes back with the outcome; whoever gives the order knows what it means
     std::optional<Error> refused{};  // why nothing is written; carving takes the same course as if it were
 };
@@ -61,8 +62,8 @@ struct SurfaceUpdate {
     std::vector<Box> inner_boxes_object;  // boxes that now lie wholly inside the material
     Nanoseconds cut_ns = 0;               // time at which the tool worked last
     std::size_t undoable = 0, redoable = 0;
-    bool exporting = false;             // an export is under way
-    std::vector<std::string> messages;  // for the user
+    bool exporting = false;              // an export is under way
+    std::vector<std::string> messages;   // for the user
     std::vector<ExportOutcome> exports;  // that have ended, for the user as well
 };
 
@@ -122,12 +123,12 @@ private:
     StrokeReader reader_;
     double reach_m_;
     bool keeps_history_;
-    std::uint64_t sequence_ = 0;       // of the last local surface
-    bool stroke_open_ = false;         // the button was down at the end of the last update
-    bool status_changed_ = true;       // something other than tiles and messages has to be reported
+    std::uint64_t sequence_ = 0;  // of the last local surface
+    bool stroke_open_ = false;    // the button was down at the end of the last update
+    bool status_changed_ = true;  // something other than tiles and messages has to be reported
     std::future<ExportOutcome> export_;
-    std::optional<Error> refused_;     // why the tool that was asked for last cannot carve; nothing does until another
-    bool said_why_ = false;            // this stroke's user has been told why nothing is carved
+    std::optional<Error> refused_;  // why the tool that was asked for last cannot carve; nothing does until another
+    bool said_why_ = false;         // this stroke's user has been told why nothing is carved
     std::vector<std::string> messages_;
     std::vector<ExportOutcome> exports_;  // that have ended and nobody knows of
     UpdateSeen seen_;

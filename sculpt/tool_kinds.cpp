@@ -16,7 +16,7 @@ constexpr std::string_view kAboveZero = "give sizes above zero, in metres";
 constexpr std::string_view kConeSizes = "give a length above zero, and one radius above zero";
 
 Made read_mesh_tool(const ToolSpec& spec) {
-    Result<ClosedMesh> closed = load_closed_mesh(spec.file, false);
+    Result<ClosedMesh> closed = load_closed_mesh(spec.file, false, spec.units);
     if (!closed) return std::unexpected(closed.error());
     Result<compute::MeshTool> tool =
         compute::prepare_mesh_tool(std::make_shared<const geometry::TriangleMesh>(std::move(closed->mesh)));
@@ -179,6 +179,13 @@ Result<void> check_sizes(const ToolSpec& tool, const std::string& where) {
 }
 
 Result<compute::ToolShape> make_shape(const ToolSpec& tool) { return descriptor_of(tool.kind).make(tool); }
+
+double half_width_m(const ToolSpec& tool) {
+    const ToolSizes& of_unit_ball = descriptor_of(tool.kind).proportions;
+    const auto measure = std::ranges::find_if(of_unit_ball, [](double part) { return part > 0.0; });
+    if (measure == of_unit_ball.end()) return 0.0;
+    return tool.sizes_m.at(static_cast<std::size_t>(measure - of_unit_ball.begin())) / *measure;
+}
 
 double ball_radius_m(const ToolSpec& tool) { return tool.kind == ToolKind::ball ? tool.sizes_m[0] : 0.0; }
 

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/length_unit.hpp"
 #include "compute/tools/tool.hpp"
 
 namespace burin::sculpt {
@@ -30,7 +32,8 @@ using ToolSizes = std::array<double, 3>;
 struct ToolSpec {
     ToolKind kind = ToolKind::ball;
     ToolSizes sizes_m{0.01, 0.0, 0.0};
-    std::string file;  // of a mesh; empty for other kinds
+    std::string file;                                // of a mesh; empty for other kinds
+    std::optional<LengthUnit> units = std::nullopt;  // of that file; none: as it states, else guessed
 
     bool operator==(const ToolSpec&) const = default;
 };
@@ -88,6 +91,8 @@ struct ToolDescriptor {
 // Makes the shape of a tool that check_sizes accepts. Reads the file of a mesh, which must be closed.
 [[nodiscard]] Result<compute::ToolShape> make_shape(const ToolSpec& tool);
 
+// Returns about the radius of a ball as wide as the tool; 0 for one that a file describes.
+[[nodiscard]] double half_width_m(const ToolSpec& tool);
 // Returns the radius of the ball that the tool is; 0 for other tools, which are neither felt nor drawn.
 [[nodiscard]] double ball_radius_m(const ToolSpec& tool);
 

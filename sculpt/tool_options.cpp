@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.hpp"
 #include "sculpt/workpiece.hpp"
 
 namespace burin::sculpt {
@@ -11,6 +12,8 @@ namespace {
 
 // Bounds the poses that one sweep may replace, because the search for the next sweep looks at all of them.
 constexpr std::size_t kLongestRun = 1024;
+// Radius of the tool where none is given, as a share of the workpiece's longest side.
+constexpr double kUsualRadius = 0.05;
 
 Result<std::array<std::uint8_t, 3>> parse_colour(const std::string& text) {
     const std::string where = "--material " + text;
@@ -34,13 +37,31 @@ double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
     return glm::length(p - (a + ab * t));
 }
 
+// Returns how wide a tool is across: of a ball the diameter, of a mesh the longest side of its box.
+double width_of(const ToolSpec& spec, const compute::ToolShape& shape) {
+    if (const auto* mesh = std::get_if<compute::MeshTool>(&shape)) {
+        Box box;
+        for (const Vec3& p : mesh->mesh->positions_m) box.include(p);
+        return longest_side_m(box);
+    }
+    return 2.0 * half_width_m(spec);
+}
+
 }  // namespace
+
+ToolOptions with_tool(ToolOptions options, double longest_side_m) {
+    if (options.shape.empty()) options.shape = formatted("ball:%.2g", kUsualRadius * longest_side_m);
+    return options;
+}
 
 Result<ToolSettings> parse_tool_settings(const ToolOptions& options) {
     ToolSettings settings;
-    auto shape = parse_tool_spec(options.shape, "--tool " + options.shape);
-    if (!shape) return std::unexpected(shape.error());
-    settings.shape = std::move(*shape);
+    if (!options.shape.empty()) {
+        auto shape = parse_tool_spec(options.shape, "--tool " + options.shape);
+        if (!shape) return std::unexpected(shape.error());
+        settings.shape = std::move(*shape);
+        settings.shape.units = options.units;
+    }
     settings.operation = options.operation;
     settings.sweep_tolerance_cells = options.sweep_tolerance_cells;
     settings.smooth_strength = options.smooth_strength;
@@ -82,6 +103,22 @@ Json describe_tool(const ToolOptions& options, const geometry::Material& materia
             {"operation", descriptor_of(options.operation).name},
             {"material_rgb", material.colour},
             {"sweep_tolerance_cells", options.sweep_tolerance_cells}};
+}
+
+std::optional<std::string> misfit(const ToolSettings& settings, const Tool& tool, double longest_side_m,
+                                  double cell_m) {
+    const double width_m = width_of(settings.shape, tool.shape);
+    const bool large = width_m > longest_side_m;
+    if (!large && width_m >= cell_m) return std::nullopt;
+    const std::string suits = with_tool({}, longest_side_m).shape;
+    const std::string tool_is = "the tool " + text_of(settings.shape) + " is " + in_millimetres(width_m) + " wide";
+    if (large) {
+        return tool_is + ", wider than the whole workpiece, whose longest side is " + in_millimetres(longest_side_m) +
+               "; take one such as " + suits + ", or check the workpiece's size and unit (--units)";
+    }
+    return tool_is + ", narrower than a cell of the lattice, which is " + in_millimetres(cell_m) +
+           " in a workpiece whose longest side is " + in_millimetres(longest_side_m) + "; take one such as " + suits +
+           ", raise --resolution, or check the workpiece's size and unit (--units)";
 }
 
 std::vector<compute::ToolSweep> sweeps_along(std::span<const Pose> poses, const Tool& tool, double tolerance_m) {

@@ -20,11 +20,12 @@ namespace burin::sculpt {
 
 // As the command line and the first line of an input log have it.
 struct ToolOptions {
-    std::string shape = "ball:0.01";  // KIND:SIZES or mesh:FILE (tool_kinds.hpp)
+    std::string shape = {};  // KIND:SIZES or mesh:FILE (tool_kinds.hpp); empty: one that suits the workpiece
     compute::Operation operation = compute::Operation::cut;
     std::string material = {};  // R,G,B, 0 to 255 each; empty: the operation's colour
     double sweep_tolerance_cells = 0.1;
     double smooth_strength = 0.5;
+    std::optional<LengthUnit> units = std::nullopt;  // of a mesh's file (geometry/files/mesh_unit.hpp)
 };
 
 struct ToolSettings {
@@ -54,7 +55,12 @@ struct Tool {
     }
 };
 
-// Parses and checks all options; reads no file.
+// Returns the options with a tool that suits the workpiece in place of none: a ball whose radius is 5 % of the
+// workpiece's longest side, to two digits.
+[[nodiscard]] ToolOptions with_tool(ToolOptions options, double longest_side_m);
+
+// Parses and checks all options; reads no file. Without a shape the settings have the ball of a ToolSpec, until the
+// workpiece is known (with_tool).
 [[nodiscard]] Result<ToolSettings> parse_tool_settings(const ToolOptions& options);
 // Fails on sizes that make no tool, and on an operation that the tool cannot do.
 [[nodiscard]] Result<void> check_tool(const ToolSettings& settings);
@@ -68,6 +74,11 @@ struct Tool {
 [[nodiscard]] geometry::Material material_of(const ToolSettings& settings);
 // Describes the tool for a report, its shape in the user's own words.
 [[nodiscard]] Json describe_tool(const ToolOptions& options, const geometry::Material& material);
+
+// Says that a tool is wider than the whole workpiece or narrower than a cell of its lattice, with both sizes and the
+// remedy; nothing where they suit one another.
+[[nodiscard]] std::optional<std::string> misfit(const ToolSettings& settings, const Tool& tool, double longest_side_m,
+                                                double cell_m);
 
 // Returns the sweeps of a tool that was at these poses one after the other. From the first pose on, the longest run of
 // one orientation that a straight sweep replaces to within tolerance_m becomes one sweep; where the tool turns there is

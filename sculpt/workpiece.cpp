@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sculpt/workpiece.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -32,8 +33,19 @@ Json describe(const geometry::MeshHealth& health) {
             {"closed", health.closed}};
 }
 
+const char* word_for(geometry::UnitSource source) {
+    switch (source) {
+        case geometry::UnitSource::given: return "given";
+        case geometry::UnitSource::stated: return "stated";
+        case geometry::UnitSource::guessed: break;
+    }
+    return "guessed";
+}
+
 Json describe(const geometry::ImportReport& import) {
     return {{"format", import.format},
+            {"unit", name_of(import.unit.unit)},
+            {"unit_source", word_for(import.unit.source)},
             {"faces_in_file", import.faces_in_file},
             {"triangles_in_file", import.triangles_in_file},
             {"polygons_split", import.polygons_in_file},
@@ -81,9 +93,9 @@ Result<void> make_ready(geometry::TriangleMesh& mesh, const std::string& file, b
 }
 
 Result<LoadedWorkpiece> from_file(const WorkpieceOptions& options, WorkerPool& pool) {
-    Result<ClosedMesh> closed = load_closed_mesh(options.source, options.close_holes);
+    Result<ClosedMesh> closed = load_closed_mesh(options.source, options.close_holes, options.units);
     if (!closed) return std::unexpected(closed.error());
-    LoadedWorkpiece workpiece{{}, std::move(closed->report)};
+    LoadedWorkpiece workpiece{{}, std::move(closed->report), std::move(closed->size), closed->unit};
     Result<compute::ScanConversion> converted = compute::scan_convert(closed->mesh, options.resolution, pool);
     if (!converted) {
         Error error = converted.error();
@@ -98,6 +110,8 @@ Result<LoadedWorkpiece> from_file(const WorkpieceOptions& options, WorkerPool& p
     return workpiece;
 }
 
+bool is_shape(const std::string& source) { return source.starts_with("block:") || source.starts_with("ball:"); }
+
 Result<LoadedWorkpiece> from_shape(const WorkpieceOptions& options) {
     const std::size_t colon = options.source.find(':');
     const std::string shape = options.source.substr(0, colon);
@@ -109,7 +123,10 @@ Result<LoadedWorkpiece> from_shape(const WorkpieceOptions& options) {
             ? compute::make_block({(*numbers)[0], (*numbers)[1], (*numbers)[2]}, options.resolution, kPlainMaterial)
             : compute::make_ball((*numbers)[0], options.resolution, kPlainMaterial);
     if (!solid) return std::unexpected(solid.error());
-    return LoadedWorkpiece{std::move(*solid), {{"source", options.source}}};
+    const Vec3 size_m =
+        shape == "block" ? Vec3((*numbers)[0], (*numbers)[1], (*numbers)[2]) : Vec3(2.0 * (*numbers)[0]);
+    const std::string size = options.source + ": " + in_millimetres(size_m);
+    return LoadedWorkpiece{std::move(*solid), {{"source", options.source}, {"size", size}}, size};
 }
 
 ChosenEngine native(compute::Solid solid, WorkerPool& pool, std::string reason) {
@@ -150,12 +167,14 @@ Result<std::vector<double>> parse_numbers(std::string_view text, std::size_t cou
     return numbers;
 }
 
-Result<ClosedMesh> load_closed_mesh(const std::string& file, bool close_holes) {
-    Result<geometry::ImportedMesh> imported = geometry::import_mesh(file);
+Result<ClosedMesh> load_closed_mesh(const std::string& file, bool close_holes, std::optional<LengthUnit> units) {
+    Result<geometry::ImportedMesh> imported = geometry::import_mesh(file, units);
     if (!imported) return std::unexpected(imported.error());
-    ClosedMesh closed{std::move(imported->mesh), {}};
+    const geometry::ImportReport& import = imported->report;
+    ClosedMesh closed{std::move(imported->mesh), {}, describe_size(file, import.size_m, import.unit), import.unit.unit};
     closed.report["source"] = file;
-    closed.report["import"] = describe(imported->report);
+    closed.report["size"] = closed.size;
+    closed.report["import"] = describe(import);
     if (const auto ready = make_ready(closed.mesh, file, close_holes, closed.report); !ready) {
         return std::unexpected(ready.error());
     }
@@ -163,8 +182,19 @@ Result<ClosedMesh> load_closed_mesh(const std::string& file, bool close_holes) {
 }
 
 Result<LoadedWorkpiece> load_workpiece(const WorkpieceOptions& options, WorkerPool& pool) {
-    const bool shape = options.source.starts_with("block:") || options.source.starts_with("ball:");
-    return shape ? from_shape(options) : from_file(options, pool);
+    return is_shape(options.source) ? from_shape(options) : from_file(options, pool);
+}
+
+Result<void> check_units(const WorkpieceOptions& options, bool tool_is_a_file) {
+    const LengthUnit unit = options.units.value_or(LengthUnit::m);
+    if (unit == LengthUnit::m || tool_is_a_file || !is_shape(options.source)) return {};
+    return fail(std::string("--units ") + name_of(unit), "is for mesh files, and " + options.source + " is in metres",
+                "leave --units out and write the sizes in metres");
+}
+
+double longest_side_m(const Box& box) {
+    const Vec3 size = box.extent();
+    return std::max({size.x, size.y, size.z});
 }
 
 Box workpiece_bounds(const compute::Lattice& lattice) {

@@ -4,12 +4,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/error.hpp"
 #include "base/json.hpp"
+#include "base/length_unit.hpp"
 #include "base/worker_pool.hpp"
 #include "compute/rays/engine.hpp"
 
@@ -21,26 +23,35 @@ struct WorkpieceOptions {
     std::string source = "ball:0.1";  // FILE | block:X,Y,Z | ball:R
     int resolution = 256;             // lattice cells along the longest side
     bool close_holes = false;
+    std::optional<LengthUnit> units = std::nullopt;  // of a file; none: as it states, else guessed (mesh_unit.hpp)
 };
 
 struct LoadedWorkpiece {
     compute::Solid solid;
-    Json report;  // the file's health, repairs, and the conversion
+    Json report;                      // the file's health, repairs, and the conversion
+    std::string size = {};            // in a line, and for a file in which unit it was read
+    LengthUnit unit = LengthUnit::m;  // of the file's numbers
 };
 
 struct ClosedMesh {
     geometry::TriangleMesh mesh;  // facing outwards
     Json report;
+    std::string size = {};  // as of a LoadedWorkpiece
+    LengthUnit unit = LengthUnit::m;
 };
 
 // Reads a mesh file, welds it (equal positions become one vertex) and turns it to face outwards; the report says how
 // much of each. Fails on a mesh that is not closed, with the reason, unless its holes are to be closed.
-[[nodiscard]] Result<ClosedMesh> load_closed_mesh(const std::string& file, bool close_holes);
+[[nodiscard]] Result<ClosedMesh> load_closed_mesh(const std::string& file, bool close_holes,
+                                                  std::optional<LengthUnit> units = std::nullopt);
 // Makes the solid of a file or a shape. Every triangle of a file is in the solid or in the report.
 [[nodiscard]] Result<LoadedWorkpiece> load_workpiece(const WorkpieceOptions& options, WorkerPool& pool);
 
 // Returns the bounds of an uncarved workpiece, which its lattice surrounds with some empty cells.
 [[nodiscard]] Box workpiece_bounds(const compute::Lattice& lattice);
+[[nodiscard]] double longest_side_m(const Box& box);
+// Checks whether --units has a mesh file to speak of: sizes of shapes are in metres.
+[[nodiscard]] Result<void> check_units(const WorkpieceOptions& options, bool tool_is_a_file);
 
 // Parses numbers separated by commas: exactly `count`, all finite. An Error names `what`.
 [[nodiscard]] Result<std::vector<double>> parse_numbers(std::string_view text, std::size_t count,

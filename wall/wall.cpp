@@ -6,25 +6,6 @@
 namespace burin::wall {
 namespace {
 
-struct NamedUnit {
-    LengthUnit unit;
-    const char* name;
-    double metres;
-};
-// The inch is 25.4 mm exactly (1959).
-constexpr std::array<NamedUnit, 5> kUnits{{{LengthUnit::m, "m", 1.0},
-                                           {LengthUnit::cm, "cm", 0.01},
-                                           {LengthUnit::mm, "mm", 0.001},
-                                           {LengthUnit::inch, "in", 0.0254},
-                                           {LengthUnit::ft, "ft", 0.3048}}};
-
-const NamedUnit& entry(LengthUnit unit) {
-    for (const NamedUnit& u : kUnits) {
-        if (u.unit == unit) return u;
-    }
-    return kUnits[0];
-}
-
 // The smallest rotation that takes one unit vector to the other.
 Quat rotation_between(const Vec3& from, const Vec3& to) {
     const Vec3 half = from + to;
@@ -38,17 +19,6 @@ Quat rotation_between(const Vec3& from, const Vec3& to) {
 }
 
 }  // namespace
-
-const char* name_of(LengthUnit unit) { return entry(unit).name; }
-
-double metres_in(LengthUnit unit) { return entry(unit).metres; }
-
-std::optional<LengthUnit> length_unit(const std::string& name) {
-    for (const NamedUnit& u : kUnits) {
-        if (name == u.name) return u.unit;
-    }
-    return std::nullopt;
-}
 
 const char* name_of(EyeOrder order) {
     switch (order) {

@@ -13,15 +13,13 @@
 #include <vector>
 
 #include "base/display_stereo.hpp"
+#include "base/length_unit.hpp"
 #include "wall/screen.hpp"
 
 namespace burin::wall {
 
 // The unit of lengths in a wall file; everything here is in metres all the same.
-enum class LengthUnit : std::uint8_t { m, cm, mm, inch, ft };
-[[nodiscard]] const char* name_of(LengthUnit unit);  // "m", "cm", "mm", "in", "ft"
-[[nodiscard]] std::optional<LengthUnit> length_unit(const std::string& name);
-[[nodiscard]] double metres_in(LengthUnit unit);
+using burin::LengthUnit;
 
 // Edge blending: a projector fades towards an edge that a neighbour's picture overlaps, over the given fraction of the
 // picture's width (left, right) or height (top, bottom), 0 to 0.5. gamma is the projector's, so that the light adds up

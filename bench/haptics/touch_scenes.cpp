@@ -47,7 +47,7 @@ haptics::Probe four_fingers() {
 
 TouchScene of_file(const std::filesystem::path& path) {
     return {path.stem().string(), false, [path]() -> Result<geometry::TriangleMesh> {
-                auto read = geometry::import_mesh(path);
+                auto read = geometry::import_mesh(path, LengthUnit::m);  // whatever its unit: it is scaled
                 if (!read) return std::unexpected(read.error());
                 return scaled_to(std::move(read->mesh), kExtent_m);
             }};

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <string_view>
 
 #include "base/file_io.hpp"
@@ -46,7 +47,12 @@ private:
     std::vector<std::byte> bytes_;
 };
 
-Result<void> check(const TriangleMesh& mesh, MeshFormat format, const std::string& name) {
+// Converts a position to numbers of the file.
+Vec3 in_unit(const Vec3& p_m, LengthUnit unit) {
+    return {from_metres(p_m.x, unit), from_metres(p_m.y, unit), from_metres(p_m.z, unit)};
+}
+
+Result<void> check(const TriangleMesh& mesh, MeshFormat format, const std::string& name, LengthUnit unit) {
     if (mesh.triangles.empty()) return fail(name, "there are no triangles to write", "nothing was written");
     if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max()) {
         return fail(name, "there are more triangles than the format can count", "choose a lower resolution");
@@ -60,7 +66,7 @@ Result<void> check(const TriangleMesh& mesh, MeshFormat format, const std::strin
         format == MeshFormat::obj ? std::numeric_limits<double>::max() : double{std::numeric_limits<float>::max()};
     for (const Vec3& p : mesh.positions_m) {
         for (int k = 0; k < 3; ++k) {
-            if (!(std::abs(p[k]) <= limit)) {
+            if (!(std::abs(from_metres(p[k], unit)) <= limit)) {
                 return fail(name, "the mesh has a coordinate that the format cannot hold", "nothing was written");
             }
         }
@@ -95,30 +101,31 @@ Vec3f normal_of(const Vec3& a, const Vec3& b, const Vec3& c) {
     return length > 0.0 && std::isfinite(length) ? Vec3f(n / length) : Vec3f(0.0f);
 }
 
-std::vector<std::byte> encode_stl(const TriangleMesh& mesh) {
+std::vector<std::byte> encode_stl(const TriangleMesh& mesh, LengthUnit unit) {
     Bytes out;
     out.reserve(84 + 50 * mesh.triangles.size());
     std::array<char, 80> header{};  // must not begin with "solid", or readers take it for text
-    constexpr std::string_view kTitle = "binary STL by Burin, in metres";
-    std::ranges::copy(kTitle, header.begin());
+    const std::string title = std::string("binary STL by Burin, UNITS=") + name_of(unit);
+    std::ranges::copy(title, header.begin());
     out.put(header);
     out.put(static_cast<std::uint32_t>(mesh.triangles.size()));
     for (const auto& t : mesh.triangles) {
         const Vec3 &a = mesh.positions_m[t[0]], &b = mesh.positions_m[t[1]], &c = mesh.positions_m[t[2]];
         out.put_point(normal_of(a, b, c));
-        for (const Vec3* p : {&a, &b, &c}) out.put_point(Vec3f(*p));
+        for (const Vec3* p : {&a, &b, &c}) out.put_point(Vec3f(in_unit(*p, unit)));
         out.put(std::uint16_t{0});
     }
     return out.take();
 }
 
-std::vector<std::byte> encode_ply(const TriangleMesh& mesh) {
+std::vector<std::byte> encode_ply(const TriangleMesh& mesh, LengthUnit unit) {
     const std::vector<Colour> colours = vertex_colours(mesh);
     const bool face_colours = has_face_colours(mesh);
     constexpr std::string_view kColourProperties = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     Bytes out;
     out.reserve(512 + 15 * mesh.positions_m.size() + 16 * mesh.triangles.size());
-    out.put_text("ply\nformat binary_little_endian 1.0\ncomment by Burin, in metres\nelement vertex ");
+    out.put_text("ply\nformat binary_little_endian 1.0\ncomment by Burin\ncomment " + comment_of(unit) +
+                 "\nelement vertex ");
     out.put_number(mesh.positions_m.size());
     out.put_text("\nproperty float x\nproperty float y\nproperty float z\n");
     if (!colours.empty()) out.put_text(kColourProperties);
@@ -128,7 +135,7 @@ std::vector<std::byte> encode_ply(const TriangleMesh& mesh) {
     if (face_colours) out.put_text(kColourProperties);
     out.put_text("end_header\n");
     for (std::size_t v = 0; v < mesh.positions_m.size(); ++v) {
-        out.put_point(Vec3f(mesh.positions_m[v]));
+        out.put_point(Vec3f(in_unit(mesh.positions_m[v], unit)));
         if (!colours.empty()) out.put(colours[v]);
     }
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -139,15 +146,36 @@ std::vector<std::byte> encode_ply(const TriangleMesh& mesh) {
     return out.take();
 }
 
-std::vector<std::byte> encode_obj(const TriangleMesh& mesh) {
+std::size_t digits_of(double value) {
+    std::array<char, 32> text;
+    return static_cast<std::size_t>(std::to_chars(text.data(), text.data() + text.size(), value).ptr - text.data());
+}
+
+// Converts a length to a number of the file that reads back as the same bits, the one with the fewest digits; so a
+// file's 12.3 mm are 12.3 again and not 12.300000000000002. Reading and writing round twice each, so such a number, if
+// there is one, is at most the second beside the quotient; without one the quotient is as good.
+double shortest_in_unit(double length_m, LengthUnit unit) {
+    const double quotient = from_metres(length_m, unit);
+    if (unit == LengthUnit::m || quotient == 0.0 || !std::isfinite(quotient)) return quotient;
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    std::optional<double> best;
+    double number = std::nextafter(std::nextafter(quotient, -kInfinity), -kInfinity);
+    for (int i = 0; i < 5; ++i, number = std::nextafter(number, kInfinity)) {
+        if (to_metres(number, unit) != length_m) continue;
+        if (!best || digits_of(number) < digits_of(*best)) best = number;
+    }
+    return best.value_or(quotient);
+}
+
+std::vector<std::byte> encode_obj(const TriangleMesh& mesh, LengthUnit unit) {
     const std::vector<Colour> colours = vertex_colours(mesh);
     Bytes out;
-    out.put_text("# by Burin, in metres\n");
+    out.put_text("# by Burin\n# " + comment_of(unit) + "\n");
     for (std::size_t v = 0; v < mesh.positions_m.size(); ++v) {
         out.put_text("v");
         for (int k = 0; k < 3; ++k) {
             out.put_text(" ");
-            out.put_number(mesh.positions_m[v][k]);
+            out.put_number(shortest_in_unit(mesh.positions_m[v][k], unit));
         }
         for (std::size_t k = 0; k < 3 && !colours.empty(); ++k) {
             out.put_text(" ");
@@ -168,21 +196,22 @@ std::vector<std::byte> encode_obj(const TriangleMesh& mesh) {
 
 }  // namespace
 
-Result<std::vector<std::byte>> encode_mesh(const TriangleMesh& mesh, MeshFormat format, const std::string& name) {
-    if (const auto sound = check(mesh, format, name); !sound) return std::unexpected(sound.error());
+Result<std::vector<std::byte>> encode_mesh(const TriangleMesh& mesh, MeshFormat format, const std::string& name,
+                                           LengthUnit unit) {
+    if (const auto sound = check(mesh, format, name, unit); !sound) return std::unexpected(sound.error());
     switch (format) {
-        case MeshFormat::stl: return encode_stl(mesh);
-        case MeshFormat::ply: return encode_ply(mesh);
-        case MeshFormat::obj: return encode_obj(mesh);
+        case MeshFormat::stl: return encode_stl(mesh, unit);
+        case MeshFormat::ply: return encode_ply(mesh, unit);
+        case MeshFormat::obj: return encode_obj(mesh, unit);
         case MeshFormat::off: break;
     }
     return fail(name, "OFF is read but not written", "name it .stl, .ply or .obj");
 }
 
-Result<void> export_mesh(const TriangleMesh& mesh, const std::filesystem::path& path) {
+Result<void> export_mesh(const TriangleMesh& mesh, const std::filesystem::path& path, LengthUnit unit) {
     const auto format = mesh_format_of(path);
     if (!format) return fail(path.string(), "has an extension that is not a mesh format", "name it .stl, .ply or .obj");
-    const auto bytes = encode_mesh(mesh, *format, path.string());
+    const auto bytes = encode_mesh(mesh, *format, path.string(), unit);
     if (!bytes) return std::unexpected(bytes.error());
     return write_file_atomically(path, *bytes);
 }

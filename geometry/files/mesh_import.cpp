@@ -40,7 +40,7 @@ std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& path) {
     return std::nullopt;
 }
 
-Result<ImportedMesh> import_mesh(const std::filesystem::path& path) {
+Result<ImportedMesh> import_mesh(const std::filesystem::path& path, std::optional<LengthUnit> given_unit) {
     const std::string name = path.string();
     const auto format = mesh_format_of(path);
     if (!format) {
@@ -52,15 +52,15 @@ Result<ImportedMesh> import_mesh(const std::filesystem::path& path) {
     }
     const auto bytes = read_file(path);
     if (!bytes) return std::unexpected(bytes.error());
-    return import_mesh(*bytes, *format, name, files_beside(path));
+    return import_mesh(*bytes, *format, name, files_beside(path), given_unit);
 }
 
 Result<ImportedMesh> import_mesh(std::span<const std::byte> bytes, MeshFormat format, const std::string& name,
-                                 const MaterialFileReader& material_files) {
+                                 const MaterialFileReader& material_files, std::optional<LengthUnit> given_unit) {
     if (bytes.empty()) return fail(name, "is empty", "export it again");
     Result<MeshSoup> soup = read(bytes, format, name, material_files);
     if (!soup) return std::unexpected(soup.error());
-    return finished(std::move(*soup), name);
+    return finished(std::move(*soup), name, given_unit);
 }
 
 }  // namespace burin::geometry

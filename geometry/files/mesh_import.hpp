@@ -7,8 +7,9 @@
 // exception is due to the format: STL has no shared vertices, so equal positions become one vertex (bit for bit; -0
 // equals 0).
 //
-// Units and frame: file numbers are taken as metres in the object frame, as doubles. Every coordinate is finite and at
-// most kMaxCoordinate_m. Faces wind counter-clockwise seen from outside where the file keeps to that.
+// Units and frame: the mesh is in metres, as doubles, in the object frame. Which unit the file's numbers are in says
+// mesh_unit.hpp; the report says which it was and why. Every coordinate of a file is finite and at most kMaxCoordinate.
+// Faces wind counter-clockwise seen from outside where the file keeps to that.
 // Failure: an Error with the file, the line (text) or byte (binary), and the remedy. Memory is bounded by a small
 // multiple of the file's size: a count in a header is compared with the bytes that follow before anything is allocated.
 // Cost: linear in the file; a binary STL of a million triangles takes a fraction of a second. Any thread; no locale.
@@ -34,11 +35,12 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "geometry/files/mesh_unit.hpp"
 #include "geometry/mesh/triangle_mesh.hpp"
 
 namespace burin::geometry {
 
-inline constexpr double kMaxCoordinate_m = 1e9;  // keeps areas and volumes far from overflow
+inline constexpr double kMaxCoordinate = 1e9;  // keeps areas and volumes far from overflow
 // A material is one byte; two values stay free for the solid's own use.
 inline constexpr std::size_t kMaxMaterials = 254;
 
@@ -58,6 +60,8 @@ struct ImportReport {
     std::uint64_t vertices_merged = 0;   // STL corners that met at an equal position
     std::uint64_t materials_merged = 0;  // number of materials removed by merging down to kMaxMaterials
     std::vector<std::string> remarks;    // one line each, for the user: what was ignored or assumed
+    FileUnit unit;                       // of the file's numbers
+    Vec3 size_m{0.0};                    // of the box around all triangles; describe_size() says both in a line
 };
 
 struct ImportedMesh {
@@ -66,15 +70,17 @@ struct ImportedMesh {
 };
 
 // Reads the file, whose format follows from the extension (any case). Reads an OBJ's MTL files from the OBJ's folder; a
-// missing one is a remark.
-[[nodiscard]] Result<ImportedMesh> import_mesh(const std::filesystem::path& path);
+// missing one is a remark. The unit is found out where none is given.
+[[nodiscard]] Result<ImportedMesh> import_mesh(const std::filesystem::path& path,
+                                               std::optional<LengthUnit> given_unit = std::nullopt);
 
 // Returns the text of a material file named by an OBJ.
 using MaterialFileReader = std::function<Result<std::string>(std::string_view name)>;
 
 // Reads a mesh from memory; `name` stands for the file in messages. Without a reader, OBJ materials are plain grey.
 [[nodiscard]] Result<ImportedMesh> import_mesh(std::span<const std::byte> bytes, MeshFormat format,
-                                               const std::string& name, const MaterialFileReader& material_files = {});
+                                               const std::string& name, const MaterialFileReader& material_files = {},
+                                               std::optional<LengthUnit> given_unit = std::nullopt);
 
 // Returns the format that an extension stands for (".stl", any case), if any.
 [[nodiscard]] std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& path);

@@ -2,7 +2,7 @@
 // Reads OBJ: v (with w or with a colour: x y z r g b), f (and the old fo) with positive or negative indices, usemtl,
 // mtllib. A face may name a vertex that comes later. Texture coordinates, normals, groups and smoothing are skipped
 // silently, since they do not change the surface; lines, points, curves and free-form surfaces are counted in a remark.
-// Reads only the diffuse colours (Kd) of material files (MTL).
+// Reads only the diffuse colours (Kd) of material files (MTL). A comment near the beginning may state the unit.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -71,10 +71,11 @@ MaterialLibrary read_mtl(std::string_view text, const std::string& name) {
 class ObjReader {
 public:
     ObjReader(std::string_view text, const std::string& name, const MaterialFileReader& material_files)
-        : scan_(text), name_(name), material_files_(material_files) {}
+        : text_(text), scan_(text), name_(name), material_files_(material_files) {}
 
     Result<MeshSoup> read() {
         soup_.report.format = "OBJ";
+        soup_.stated_unit = unit_in_comments(text_);
         for (; !scan_.at_end(); scan_.next_line()) {
             if (auto done = statement(); !done) return std::unexpected(done.error());
         }
@@ -145,7 +146,7 @@ private:
         for (std::size_t k = 0; k < 3; ++k) {
             if (const char* fault = coordinate_fault(values[k])) return wrong(fault, kCoordinateRemedy);
         }
-        soup_.positions_m.emplace_back(values[0], values[1], values[2]);
+        soup_.positions.emplace_back(values[0], values[1], values[2]);
         return count >= 6 ? vertex_colour(values, count - 3) : Done{};
     }
 
@@ -176,7 +177,7 @@ private:
     Done corner(std::string_view w) {
         const auto index = integer_from<std::int64_t>(w);
         if (!index) return wrong(in_quotes(w) + " is not a vertex index");
-        const auto known = static_cast<std::int64_t>(soup_.positions_m.size());
+        const auto known = static_cast<std::int64_t>(soup_.positions.size());
         if (*index == 0) return wrong("a face names vertex 0; OBJ counts from 1");
         if (*index < -known || *index > std::numeric_limits<std::uint32_t>::max()) {
             return wrong("a face names vertex " + std::to_string(*index) + ", but only " + std::to_string(known) +
@@ -192,18 +193,18 @@ private:
     }
 
     Done resolve_corners() {
-        if (soup_.corners.empty() || farthest_corner_ < soup_.positions_m.size()) return {};
+        if (soup_.corners.empty() || farthest_corner_ < soup_.positions.size()) return {};
         return fail(at_line(name_, farthest_line_),
                     "a face names vertex " + std::to_string(std::uint64_t{farthest_corner_} + 1) +
-                        ", but there are only " + std::to_string(soup_.positions_m.size()),
+                        ", but there are only " + std::to_string(soup_.positions.size()),
                     "repair the file or export it again");
     }
 
     Done resolve_colours() {
         if (colours_.empty()) return {};
-        if (colours_.size() != soup_.positions_m.size()) {
+        if (colours_.size() != soup_.positions.size()) {
             soup_.report.remarks.push_back("vertex colours were ignored: only " + std::to_string(colours_.size()) +
-                                           " of " + std::to_string(soup_.positions_m.size()) + " vertices have one");
+                                           " of " + std::to_string(soup_.positions.size()) + " vertices have one");
             return {};
         }
         const float scale = brightest_ > 1.0f ? 1.0f : 255.0f;
@@ -269,6 +270,7 @@ private:
         std::ranges::move(read.remarks, std::back_inserter(soup_.report.remarks));
     }
 
+    std::string_view text_;
     TextScanner scan_;
     const std::string& name_;
     const MaterialFileReader& material_files_;

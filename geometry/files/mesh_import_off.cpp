@@ -2,7 +2,7 @@
 // Reads ASCII OFF: [ST][C][N]OFF, three counts (vertices, faces, edges), then the vertices x y z [normal] [colour]
 // [texture] and the faces n i1 .. in [colour]. Comments start with #. A colour runs to the end of its line: 3 or 4
 // numbers, integers (0 to 255) or with a decimal point (0 to 1); a face's single number is an index into a map that the
-// file does not hold.
+// file does not hold. A comment near the beginning may state the unit.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,6 +21,7 @@ public:
 
     Result<MeshSoup> read() {
         soup_.report.format = "OFF";
+        soup_.stated_unit = unit_in_comments(text_);
         if (auto done = header(); !done) return std::unexpected(done.error());
         for (std::uint64_t i = 0; i < vertices_; ++i) {
             if (auto done = vertex(); !done) return std::unexpected(done.error());
@@ -95,7 +96,7 @@ private:
             if (const char* fault = coordinate_fault(*value)) return wrong(fault, kCoordinateRemedy);
             p[k] = *value;
         }
-        soup_.positions_m.push_back(p);
+        soup_.positions.push_back(p);
         for (int k = 0; has_normals_ && k < 3; ++k) {
             if (const auto value = number(); !value) return std::unexpected(value.error());
         }

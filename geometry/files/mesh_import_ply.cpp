@@ -2,7 +2,7 @@
 // Reads PLY 1.0, ASCII and binary of both byte orders: element vertex (x, y, z and red, green, blue), element face
 // (vertex_indices or vertex_index, and red, green, blue). Other elements and properties are skipped; skipped elements
 // are named in a remark. Triangle strips are refused rather than lost. A header's count is compared with the bytes that
-// follow.
+// follow. A comment or obj_info line of the header may state the unit.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,6 +20,7 @@ public:
         : name_(name), header_(std::move(header)), values_(bytes, header_) {}
 
     Result<MeshSoup> read() {
+        soup_.stated_unit = header_.stated_unit;
         soup_.report.format = header_.encoding == PlyEncoding::ascii           ? "PLY, ASCII"
                               : header_.encoding == PlyEncoding::little_endian ? "PLY, binary little endian"
                                                                                : "PLY, binary big endian";
@@ -118,7 +119,7 @@ private:
             return element.count == 0 ? Done{} : wrong("its vertices lack x, y or z");
         }
         const bool coloured = element.has_colour();
-        soup_.positions_m.reserve(element.count);
+        soup_.positions.reserve(element.count);
         if (coloured) soup_.colours.reserve(element.count);
         for (std::uint64_t row = 0; row < element.count; ++row) {
             Vec3 p(0.0);
@@ -135,7 +136,7 @@ private:
                     return done;
                 }
             }
-            soup_.positions_m.push_back(p);
+            soup_.positions.push_back(p);
             if (coloured) soup_.colours.push_back(colour);
         }
         return {};
@@ -181,10 +182,10 @@ private:
 
     // Checks indices after reading everything, since faces may come before vertices.
     Done check_corners() {
-        if (soup_.corners.empty() || farthest_corner_ < soup_.positions_m.size()) return {};
+        if (soup_.corners.empty() || farthest_corner_ < soup_.positions.size()) return {};
         return fail(values_.where(name_, farthest_where_),
                     "a face names vertex " + std::to_string(farthest_corner_) + ", but there are only " +
-                        std::to_string(soup_.positions_m.size()) + " (counted from 0)",
+                        std::to_string(soup_.positions.size()) + " (counted from 0)",
                     "repair the file or export it again");
     }
 

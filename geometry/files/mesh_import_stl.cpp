@@ -2,7 +2,7 @@
 // Reads STL. Binary: an 80-byte header, a 32-bit count, then 50 bytes a triangle (normal, three corners, attribute),
 // little endian. ASCII: solid, facet normal, outer loop, vertex, endloop, endfacet, endsolid; any case, any number of
 // solids. A binary header may say "solid" too, so the file's size decides first. Normals are ignored: the winding gives
-// them.
+// them. The header of a binary file, or the name of a solid, may state the unit: "UNITS=mm".
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -16,7 +16,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "binary STL is read as the machine's own floats");
 
-constexpr std::size_t kHeaderBytes = 84, kTriangleBytes = 50, kNormalBytes = 12;
+constexpr std::size_t kTitleBytes = 80, kHeaderBytes = 84, kTriangleBytes = 50, kNormalBytes = 12;
 
 std::uint64_t bytes_claimed(std::span<const std::byte> bytes) {
     std::uint32_t count = 0;
@@ -45,11 +45,12 @@ Result<MeshSoup> read_binary(std::span<const std::byte> bytes, const std::string
     }
     MeshSoup soup;
     soup.report.format = "STL, binary";
+    soup.stated_unit = unit_in_comment(text_of(bytes.first(kTitleBytes)));
     if (claimed < bytes.size()) {
         soup.report.remarks.push_back(std::to_string(bytes.size() - claimed) +
                                       " bytes after the last triangle were ignored");
     }
-    VertexWeld weld(soup.positions_m);
+    VertexWeld weld(soup.positions);
     soup.corners.reserve(3 * count);
     soup.corner_counts.assign(count, 3);
     std::uint64_t with_attribute = 0;
@@ -70,19 +71,20 @@ Result<MeshSoup> read_binary(std::span<const std::byte> bytes, const std::string
         soup.report.remarks.push_back("the attributes (colours) of " + std::to_string(with_attribute) +
                                       " triangles were ignored");
     }
-    soup.report.vertices_merged = soup.corners.size() - soup.positions_m.size();
+    soup.report.vertices_merged = soup.corners.size() - soup.positions.size();
     return soup;
 }
 
 class AsciiStl {
 public:
-    AsciiStl(std::string_view text, const std::string& name) : scan_(text), name_(name), weld_(soup_.positions_m) {}
+    AsciiStl(std::string_view text, const std::string& name) : scan_(text), name_(name), weld_(soup_.positions) {}
 
     Result<MeshSoup> read() {
         soup_.report.format = "STL, ASCII";
         for (std::string_view word = scan_.token(); !word.empty(); word = scan_.token()) {
             if (equals_ignoring_case(word, "solid") || equals_ignoring_case(word, "endsolid")) {
                 open_ = equals_ignoring_case(word, "solid");
+                if (!soup_.stated_unit) soup_.stated_unit = unit_in_comment(scan_.rest_of_line());
                 scan_.next_line();  // skips the solid's name
             } else if (!equals_ignoring_case(word, "facet")) {
                 return wrong(word, "facet");
@@ -91,7 +93,7 @@ public:
             }
         }
         if (open_) return fail(at_line(name_, scan_.line()), "ends before endsolid", kTruncatedRemedy);
-        soup_.report.vertices_merged = soup_.corners.size() - soup_.positions_m.size();
+        soup_.report.vertices_merged = soup_.corners.size() - soup_.positions.size();
         return std::move(soup_);
     }
 

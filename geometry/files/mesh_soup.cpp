@@ -107,7 +107,7 @@ void split_faces(const MeshSoup& soup, TriangleMesh& mesh, ImportReport& report)
             mesh.triangles.push_back({corner[0], corner[1], corner[2]});
         } else {
             polygon.clear();
-            for (std::uint32_t i = 0; i < count; ++i) polygon.push_back(soup.positions_m[corner[i]]);
+            for (std::uint32_t i = 0; i < count; ++i) polygon.push_back(soup.positions[corner[i]]);
             // The limit of 256 corners bounds the work that a hostile file can cause to some thousand steps a corner.
             const SplitPolygon split = split_polygon(polygon, 256);
             count_polygon(report, split.how);
@@ -117,6 +117,23 @@ void split_faces(const MeshSoup& soup, TriangleMesh& mesh, ImportReport& report)
             mesh.triangle_materials.resize(mesh.triangles.size(), static_cast<std::uint8_t>(soup.face_materials[face]));
         }
     }
+}
+
+// Brings the mesh, whose positions are numbers of the file, to metres. Metres stay as they are to the last bit.
+void bring_to_metres(ImportedMesh& imported, std::optional<LengthUnit> given, std::optional<LengthUnit> stated) {
+    Box bounds;
+    for (const auto& triangle : imported.mesh.triangles) {
+        for (const std::uint32_t v : triangle) bounds.include(imported.mesh.positions_m[v]);
+    }
+    const Vec3 size = bounds.extent();
+    ImportReport& report = imported.report;
+    report.unit = choose_unit(given, stated, std::max({size.x, size.y, size.z}));
+    const auto in_metres = [unit = report.unit.unit](const Vec3& p) {
+        return Vec3(to_metres(p.x, unit), to_metres(p.y, unit), to_metres(p.z, unit));
+    };
+    report.size_m = in_metres(size);
+    if (report.unit.unit == LengthUnit::m) return;
+    std::ranges::transform(imported.mesh.positions_m, imported.mesh.positions_m.begin(), in_metres);
 }
 
 }  // namespace
@@ -135,20 +152,20 @@ std::uint32_t ColourMaterials::index_of(const Colour& colour) {
 std::string at_line(const std::string& name, std::uint64_t line) { return name + ":" + std::to_string(line); }
 std::string at_byte(const std::string& name, std::uint64_t byte) { return name + ", byte " + std::to_string(byte); }
 
-const char* coordinate_fault(double value_m) {
-    if (std::isnan(value_m)) return "a coordinate is not a number";
-    if (std::isinf(value_m)) return "a coordinate is infinite";
-    if (std::abs(value_m) > kMaxCoordinate_m) return "a coordinate lies beyond a million kilometres";
+const char* coordinate_fault(double number) {
+    if (std::isnan(number)) return "a coordinate is not a number";
+    if (std::isinf(number)) return "a coordinate is infinite";
+    if (std::abs(number) > kMaxCoordinate) return "a coordinate lies beyond 1e9";
     return nullptr;
 }
 
-Result<ImportedMesh> finished(MeshSoup&& soup, const std::string& name) {
+Result<ImportedMesh> finished(MeshSoup&& soup, const std::string& name, std::optional<LengthUnit> given_unit) {
     if (soup.face_materials.empty() && !soup.colours.empty()) materials_from_vertices(soup);
     reduce_palette(soup);
     ImportedMesh result{{}, std::move(soup.report)};
     ImportReport& report = result.report;
     report.faces_in_file = soup.corner_counts.size();
-    report.vertices_in_file = soup.positions_m.size() + report.vertices_merged;
+    report.vertices_in_file = soup.positions.size() + report.vertices_merged;
     split_faces(soup, result.mesh, report);
     if (result.mesh.triangles.empty()) {
         return fail(name, "has no triangles", "export it again as a surface of triangles or polygons");
@@ -162,7 +179,8 @@ Result<ImportedMesh> finished(MeshSoup&& soup, const std::string& name) {
             std::to_string(report.polygons_fanned_blindly) +
             " polygons are flat, crossed or huge and were split as plain fans, which may fold over");
     }
-    result.mesh.positions_m = std::move(soup.positions_m);
+    result.mesh.positions_m = std::move(soup.positions);
+    bring_to_metres(result, given_unit, soup.stated_unit);
     result.mesh.colours = std::move(soup.colours);
     result.mesh.materials = std::move(soup.materials);
     return result;

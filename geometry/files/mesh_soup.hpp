@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,7 +23,8 @@ using Colour = std::array<std::uint8_t, 3>;
 inline constexpr Colour kPlainColour{200, 200, 200};
 
 struct MeshSoup {
-    std::vector<Vec3> positions_m;
+    std::vector<Vec3> positions;                // numbers of the file, in whichever unit
+    std::optional<LengthUnit> stated_unit;      // by a comment or a header of the file
     std::vector<Colour> colours;                // one for each vertex, or empty
     std::vector<std::uint32_t> corners;         // corners of all faces, one face after another
     std::vector<std::uint32_t> corner_counts;   // one for each face
@@ -46,13 +48,15 @@ private:
 [[nodiscard]] std::string at_line(const std::string& name, std::uint64_t line);
 [[nodiscard]] std::string at_byte(const std::string& name, std::uint64_t byte);
 
-// Describes the fault of a coordinate; nullptr when there is none.
-[[nodiscard]] const char* coordinate_fault(double value_m);
-inline constexpr const char* kCoordinateRemedy = "repair the file, and give coordinates in metres";
+// Describes the fault of a coordinate, a number of the file; nullptr when there is none.
+[[nodiscard]] const char* coordinate_fault(double number);
+inline constexpr const char* kCoordinateRemedy = "repair the file or export it again";
 inline constexpr const char* kTruncatedRemedy = "the file is cut short or damaged: export or copy it again";
 
-// Splits polygons, reduces the palette and checks that there is a triangle. Every corner must be a valid index.
-[[nodiscard]] Result<ImportedMesh> finished(MeshSoup&& soup, const std::string& name);
+// Splits polygons, reduces the palette, checks that there is a triangle and brings the numbers to metres. Every corner
+// must be a valid index.
+[[nodiscard]] Result<ImportedMesh> finished(MeshSoup&& soup, const std::string& name,
+                                            std::optional<LengthUnit> given_unit);
 
 [[nodiscard]] Result<MeshSoup> read_stl(std::span<const std::byte> bytes, const std::string& name);
 [[nodiscard]] Result<MeshSoup> read_obj(std::string_view text, const std::string& name,

@@ -65,8 +65,9 @@ public:
                 done = element();
             } else if (equals_ignoring_case(keyword, "property")) {
                 done = property();
-            } else if (!keyword.empty() && !equals_ignoring_case(keyword, "comment") &&
-                       !equals_ignoring_case(keyword, "obj_info")) {
+            } else if (equals_ignoring_case(keyword, "comment") || equals_ignoring_case(keyword, "obj_info")) {
+                if (!header_.stated_unit) header_.stated_unit = unit_in_comment(scan_.rest_of_line());
+            } else if (!keyword.empty()) {
                 done = wrong(in_quotes(keyword) + " is not a keyword of a PLY header", "repair the header");
             }
             if (!done) return std::unexpected(done.error());

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "geometry/files/mesh_unit.hpp"
 #include "geometry/files/text_scanner.hpp"
 
 namespace burin::geometry {
@@ -51,8 +52,9 @@ struct PlyElement {
 struct PlyHeader {
     PlyEncoding encoding = PlyEncoding::ascii;
     std::vector<PlyElement> elements;
-    std::size_t data_begin = 0;   // the byte after the header
-    std::uint64_t data_line = 1;  // line number of that byte
+    std::optional<LengthUnit> stated_unit;  // by a comment
+    std::size_t data_begin = 0;             // the byte after the header
+    std::uint64_t data_line = 1;            // line number of that byte
 };
 
 [[nodiscard]] Result<PlyHeader> read_ply_header(std::string_view text, const std::string& name);

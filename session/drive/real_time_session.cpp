@@ -9,6 +9,7 @@
 #include "session/input/event_times.hpp"
 #include "session/input/input_line.hpp"
 #include "session/present/display_watch.hpp"
+#include "session/state/session_settings.hpp"
 #include "session/timing/machine_pace.hpp"
 
 namespace burin::session {
@@ -179,6 +180,16 @@ void add_threads(SessionRecord& record, LiveSession& session, const ThreadedExec
     record.tick_duration = summarised(loop.duration());
 }
 
+// Begins the recording that the options ask for.
+Result<void> begin_recording(InputSource& input, const SculptOptions& options, const LiveSession& session) {
+    if (options.live.record.empty() || input.records()) return {};
+    Result<InputLogWriter> writer =
+        InputLogWriter::create(options.live.record, settings_line(session.settled(options)));
+    if (!writer) return std::unexpected(writer.error());
+    input.record_to(std::move(*writer));
+    return {};
+}
+
 }  // namespace
 
 Result<SessionRecord> run_in_real_time(const SculptOptions& options, const SessionWall& wall, InputSource input,
@@ -191,6 +202,7 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
     auto opened = LiveSession::create(options, wall, clock, machine_pace);
     if (!opened) return std::unexpected(opened.error());
     LiveSession& session = **opened;
+    if (const auto begun = begin_recording(input, options, session); !begun) return std::unexpected(begun.error());
     if (run.keep_frames) session.times().keep_frames();
     std::unique_ptr<devices::Tracker> tracker;
     if (!options.live.tracker.empty()) {

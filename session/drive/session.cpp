@@ -21,17 +21,6 @@ Result<InputLog> open_log(const std::string& path) {
     return log;
 }
 
-// Opens the input of a user, or of a log in the user's place; recorded if requested.
-Result<InputSource> open_input(const SculptOptions& options, std::optional<InputLog> log) {
-    std::optional<InputLogWriter> recorder;
-    if (!options.live.record.empty()) {
-        Result<InputLogWriter> writer = InputLogWriter::create(options.live.record, settings_line(options));
-        if (!writer) return std::unexpected(writer.error());
-        recorder = std::move(*writer);
-    }
-    return log ? InputSource::play(std::move(*log), std::move(recorder)) : InputSource::live(std::move(recorder));
-}
-
 // Refuses what only carving along a stroke does: a session would leave it undone without a word.
 Result<void> check_for_a_session(const SculptOptions& options) {
     struct Misplaced {
@@ -55,7 +44,7 @@ Result<void> check_for_a_session(const SculptOptions& options) {
 Result<void> check(const SculptOptions& options) {
     if (const auto tool = sculpt::parse_tool(options.tool); !tool) return std::unexpected(tool.error());
     if (const auto feel = sculpt::parse_feel(options.feel); !feel) return std::unexpected(feel.error());
-    return {};
+    return sculpt::check_units(options.workpiece, false);  // a session has no tool from a file
 }
 
 // Replays a recording with its own options wherever they affect its frames.
@@ -114,9 +103,7 @@ Result<void> run_session(const SculptOptions& options) {
     if (const auto ok = check_somebody_leads(options.live, *wall); !ok) return ok;
     if (log && options.live.record.empty())
         return run_in_simulated_time(options, *wall, InputSource::replay(std::move(*log)));
-    Result<InputSource> input = open_input(options, std::move(log));
-    if (!input) return std::unexpected(input.error());
-    const auto run = run_in_real_time(options, *wall, std::move(*input));
+    const auto run = run_in_real_time(options, *wall, log ? InputSource::play(std::move(*log)) : InputSource::live());
     return run ? Result<void>{} : std::unexpected(run.error());
 }
 

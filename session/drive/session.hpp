@@ -40,8 +40,9 @@ struct RealTimeRun {
     DirectDriver driver = direct_driver();
 };
 // Runs in real time: haptics and carving have threads of their own, and a frame is drawn when something has changed, as
-// late as the display allows. Input comes from a user, or from a log in the user's place. SIGINT and SIGTERM end the
-// session as closing its window does; a second signal ends the program at once. (real_time_session.cpp)
+// late as the display allows. Input comes from a user, or from a log in the user's place. Where options.live.record
+// asks for it, it is recorded once the session has found out what the recording's first line has to hold. SIGINT and
+// SIGTERM end the session as closing its window does; a second signal ends the program at once. (real_time_session.cpp)
 [[nodiscard]] Result<SessionRecord> run_in_real_time(const SculptOptions& options, const SessionWall& wall,
                                                      InputSource input, RealTimeRun run = {});
 

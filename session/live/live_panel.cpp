@@ -48,6 +48,7 @@ PanelModel LivePanel::model_of(const PanelContext& context, const std::string& m
     m.workpiece = context.workpiece;
     const auto value = [&](Quantity quantity) { return descriptor_of(quantity).value(state); };
     m.tool = state.tool.shape;
+    m.tool_sizes = context.tool_sizes;
     m.operation = state.tool.operation;
     const geometry::Material material = sculpt::material_of(state.tool);
     for (std::size_t i = 0; i < 3; ++i) m.colour_srgb[i] = material.colour[i] / 255.0;

@@ -28,6 +28,7 @@ struct PanelContext {
     const haptics::ToolState& tool;
     const wall::TrackerReport& tracker;  // meaningless without a tracker
     const std::string& workpiece;        // its name
+    ToolSizeRange tool_sizes = {};
     std::size_t undoable = 0, redoable = 0;
     bool exporting = false;
     const SessionTimes& times;

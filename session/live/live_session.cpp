@@ -54,7 +54,13 @@ Result<std::unique_ptr<LiveSession>> LiveSession::create(const SculptOptions& op
 Result<void> LiveSession::load(const SculptOptions& options, const SessionWall& wall) {
     Result<sculpt::LoadedWorkpiece> workpiece = sculpt::load_workpiece(options.workpiece, pool_);
     if (!workpiece) return std::unexpected(workpiece.error());
+    std::fprintf(stderr, "burin: %s\n", workpiece->size.c_str());
+    unit_ = workpiece->unit;
     room_ = room_of(workpiece->solid.lattice, wall);
+    const double longest_side_m = sculpt::longest_side_m(room_.workpiece_object);
+    tool_options_ = sculpt::with_tool(options.tool, longest_side_m);
+    if (!options.from_before_units) tool_sizes_ = tool_sizes_for(longest_side_m);
+    warns_of_misfit_ = !options.from_before_units;
     Result<sculpt::ChosenEngine> chosen = sculpt::choose_engine(options.engine, std::move(workpiece->solid), pool_);
     if (!chosen) return std::unexpected(chosen.error());
     carving_ = std::make_unique<sculpt::Sculpture>(std::move(chosen->engine), pool_);
@@ -71,13 +77,15 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
         if (!mode) return std::unexpected(mode.error());
         output.mode = *mode;
     }
-    const auto tool = sculpt::parse_tool_settings(options.tool);
+    const auto tool = sculpt::parse_tool_settings(tool_options_);
     if (!tool) return std::unexpected(tool.error());
     const auto feel = sculpt::parse_feel_settings(options.feel);
     if (!feel) return std::unexpected(feel.error());
     state_ = begin_session(room_, *tool, *feel, output);
+    state_.export_unit = options.export_units.value_or(unit_);
     const Result<sculpt::UseTool> use = tool_of(state_);
     if (!use) return std::unexpected(use.error());
+    warn_of_misfit(use->tool);
 
     start_ns_ = clock_.now_ns();
     const Vec3 rest_device_m = state_.desk.target_device_m;
@@ -126,6 +134,7 @@ SceneInput LiveSession::feed_panel(const FrameInput& input) {
                              .tool = tool_,
                              .tracker = tracker_.report(),
                              .workpiece = workpiece_name_,
+                             .tool_sizes = tool_sizes_,
                              .undoable = undoable_,
                              .redoable = redoable_,
                              .exporting = exporting_,
@@ -144,6 +153,7 @@ SceneInput LiveSession::feed_panel(const FrameInput& input) {
 void LiveSession::carry_out(SessionOrders orders, const Carve& carve) {
     if (orders.parameters) haptics_.publish(parameters_of(state_, room_));
     for (sculpt::SculptOrder& order : orders.carving) {
+        if (const auto* use = std::get_if<sculpt::UseTool>(&order)) warn_of_misfit(use->tool);
         auto* wanted = std::get_if<sculpt::ExportSurface>(&order);
         if (wanted != nullptr && !outputs_.write()) continue;
         if (wanted != nullptr) place(*wanted);
@@ -159,6 +169,21 @@ void LiveSession::carry_out(SessionOrders orders, const Carve& carve) {
     }
     if (outputs_.write()) std::ranges::move(orders.screenshots, std::back_inserter(screenshots_));
     exchange_full_screen_ = exchange_full_screen_ || orders.full_screen;
+}
+
+// Says once, until tool and workpiece suit one another again, that they do not.
+void LiveSession::warn_of_misfit(const sculpt::Tool& tool) {
+    if (!warns_of_misfit_) return;
+    const auto misfit = sculpt::misfit(state_.tool, tool, sculpt::longest_side_m(room_.workpiece_object),
+                                       carving_->surface().lattice().spacing_m);
+    if (misfit && !misfits_) notify(*misfit);
+    misfits_ = misfit.has_value();
+}
+
+SculptOptions LiveSession::settled(SculptOptions options) const {
+    options.workpiece.units = unit_;
+    options.tool = tool_options_;
+    return options;
 }
 
 void LiveSession::watch(Nanoseconds time_ns) {

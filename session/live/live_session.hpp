@@ -74,6 +74,9 @@ public:
     // Writes a screenshot to the place of its name, and tells of it.
     void keep_screenshot(const Asked& wanted, const Result<Image>& image);
 
+    // Returns the options with what the session found out in place of what they leave open: the unit of the workpiece's
+    // file and the tool.
+    [[nodiscard]] SculptOptions settled(SculptOptions options) const;
     [[nodiscard]] const SessionState& state() const { return state_; }
     [[nodiscard]] const Room& room() const { return room_; }
     [[nodiscard]] haptics::HapticLoop& loop() { return haptics_.loop(); }
@@ -118,6 +121,7 @@ private:
     // Returns the log's line, for the terminal; counts a failure there.
     [[nodiscard]] std::string failed_on(std::size_t line);
     void watch(Nanoseconds time_ns);
+    void warn_of_misfit(const sculpt::Tool& tool);
     [[nodiscard]] ImageSize main_eye() const { return wall::eye_size(output_on(room_.wall.main).mode, output_.size); }
 
     Clock& clock_;
@@ -127,6 +131,10 @@ private:
     HapticSide haptics_;
     std::optional<sculpt::SculptService> desk_;
     std::string workpiece_name_;
+    LengthUnit unit_ = LengthUnit::m;   // of the workpiece's file
+    sculpt::ToolOptions tool_options_;  // as the session began
+    ToolSizeRange tool_sizes_;
+    bool warns_of_misfit_ = true, misfits_ = false;
     Room room_;
     SessionState state_;
     haptics::ToolState tool_;

@@ -39,6 +39,12 @@ PanelSavings savings_of(const renderer::RenderStats& drawn, const PanelFacts& fa
 
 }  // namespace
 
+ToolSizeRange tool_sizes_for(double longest_side_m) {
+    const QuantityDescriptor& radius = descriptor_of(Quantity::radius);
+    const double to_m = std::clamp(longest_side_m / 4.0, 100.0 * radius.least, 0.5 * radius.most);
+    return {std::max(to_m / 100.0, radius.least), to_m};
+}
+
 void PanelFeed::feed(const PanelFacts& facts) {
     measured_ = {};
     if (facts.stirring) stirred_ns_ = facts.time_ns;

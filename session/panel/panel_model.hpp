@@ -64,11 +64,21 @@ struct PanelSavings {
     bool operator==(const PanelSavings&) const = default;
 };
 
+// The range that sliders offer for a tool's radius; its other sizes go up to twice as much.
+struct ToolSizeRange {
+    double from_m = 0.0005, radius_to_m = 0.05;
+
+    bool operator==(const ToolSizeRange&) const = default;
+};
+// Returns the range for a workpiece: from 1/400 to 1/4 of its longest side, within the bounds of the command.
+[[nodiscard]] ToolSizeRange tool_sizes_for(double longest_side_m);
+
 struct PanelModel {
     bool visible = true, show_help = false, show_figures = false;  // Tab, F1, F2
     std::string title = "Burin", workpiece;                        // "soccer ball, 256 cells"
 
     sculpt::ToolSpec tool;
+    ToolSizeRange tool_sizes;
     compute::Operation operation = compute::Operation::cut;
     std::array<double, 3> colour_srgb{0.88, 0.56, 0.21};
     double hardness_Ns_per_m3 = 1e6;

@@ -13,7 +13,7 @@ ImDrawList& draw() { return *ImGui::GetWindowDrawList(); }
 
 std::string millimetres(double length_m) {
     const double mm = 1e3 * length_m;
-    return written(mm < 9.95 ? "%.1f mm" : "%.0f mm", mm);
+    return written(mm < 0.995 ? "%.3g mm" : mm < 9.95 ? "%.1f mm" : "%.0f mm", mm);
 }
 
 // Draws the tool from the side, its tip below.
@@ -76,20 +76,19 @@ void show_tool_kinds(Kit& kit, const PanelModel& model) {
 
 void show_sizes(Kit& kit, const PanelModel& model) {
     const auto sizes = sculpt::descriptor_of(model.tool.kind).used_sizes();
-    const QuantityDescriptor& range = descriptor_of(Quantity::radius);
+    const double from = model.tool_sizes.from_m, to = 2.0 * model.tool_sizes.radius_to_m;
     for (std::size_t i = 0; i < sizes.size(); ++i) {
         const double size = model.tool.sizes_m[i];
         const std::string name(sizes[i].name);
-        const double to = 2.0 * range.to;
         const std::string label = name == "radius" ? name : "tool " + name;
-        const auto part = kit.slider(label, capitalised(name), part_of(size, range.from, to, true), millimetres(size));
+        const auto part = kit.slider(label, capitalised(name), part_of(size, from, to, true), millimetres(size));
         if (!part) continue;
-        const double wanted = *part <= 0.0 && sizes[i].may_be_zero ? 0.0 : value_at(*part, range.from, to, true);
+        const double wanted = *part <= 0.0 && sizes[i].may_be_zero ? 0.0 : value_at(*part, from, to, true);
         if (wanted == size) continue;
         if (model.tool.kind == sculpt::ToolKind::ball) {
             kit.give_held(SetQuantity{Quantity::radius, wanted});
         } else {
-            kit.give_held(SetTool{with_size(model.tool, i, wanted)});
+            kit.give_held(SetTool{with_size(model.tool, i, wanted, from)});
         }
     }
 }
@@ -169,21 +168,13 @@ Item item_of(std::string_view command, std::string_view name, std::string title)
     return {std::string(command) + " " + std::string(name), std::move(title), true};
 }
 
-// Returns about the radius of a ball as wide as the tool; 0 for a tool of another kind than the panel offers.
-double half_width_m(const sculpt::ToolSpec& tool) {
-    const sculpt::ToolSizes& of_unit_ball = sculpt::descriptor_of(tool.kind).proportions;
-    const auto measure = std::ranges::find_if(of_unit_ball, [](double part) { return part > 0.0; });
-    if (measure == of_unit_ball.end()) return 0.0;
-    return tool.sizes_m.at(static_cast<std::size_t>(measure - of_unit_ball.begin())) / *measure;
-}
-
 }  // namespace
 
 sculpt::ToolSpec tool_like(const sculpt::ToolSpec& tool, sculpt::ToolKind kind) {
     constexpr double kUsual_m = 0.005, kMost_m = 1.0;
     const sculpt::ToolDescriptor& descriptor = sculpt::descriptor_of(kind);
     if (!descriptor.on_panel()) return tool;
-    const double r = half_width_m(tool);
+    const double r = sculpt::half_width_m(tool);
     const double rounded_m = rounded(r > 0.0 ? std::min(r, kMost_m) : kUsual_m, 3);
     sculpt::ToolSpec like{kind, {}, {}};
     for (std::size_t i = 0; i < like.sizes_m.size(); ++i)
@@ -191,10 +182,10 @@ sculpt::ToolSpec tool_like(const sculpt::ToolSpec& tool, sculpt::ToolKind kind) 
     return like;
 }
 
-sculpt::ToolSpec with_size(sculpt::ToolSpec tool, std::size_t index, double size_m) {
+sculpt::ToolSpec with_size(sculpt::ToolSpec tool, std::size_t index, double size_m, double least_m) {
     tool.sizes_m.at(index) = size_m;
     const auto adapted = sculpt::descriptor_of(tool.kind).rule.adapted;
-    if (adapted != nullptr) tool.sizes_m = adapted(tool.sizes_m, index, descriptor_of(Quantity::radius).from);
+    if (adapted != nullptr) tool.sizes_m = adapted(tool.sizes_m, index, least_m);
     return tool;
 }
 

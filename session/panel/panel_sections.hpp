@@ -22,7 +22,9 @@ void show_footer(Kit& kit, const PanelModel& model);
 // Returns a tool of another kind and about the same width, with sizes that the parser accepts; the same tool where the
 // panel does not offer the kind.
 [[nodiscard]] sculpt::ToolSpec tool_like(const sculpt::ToolSpec& tool, sculpt::ToolKind kind);
-// Returns the tool with one size changed, and the others where they must follow.
-[[nodiscard]] sculpt::ToolSpec with_size(sculpt::ToolSpec tool, std::size_t index, double size_m);
+// Returns the tool with one size changed, and the others where they must follow; one that has to be above zero becomes
+// least_m.
+[[nodiscard]] sculpt::ToolSpec with_size(sculpt::ToolSpec tool, std::size_t index, double size_m,
+                                         double least_m = ToolSizeRange{}.from_m);
 
 }  // namespace burin::session::panel

@@ -40,6 +40,8 @@ public:
     // shows what was asked for on slow machines too. FrameStart events are left out, since a recording's frames are not
     // those that are made now. Recorded if wanted, as live input is.
     [[nodiscard]] static InputSource play(InputLog log, std::optional<InputLogWriter> recorder = std::nullopt);
+    // Records all input from now on; to be called before the first frame.
+    void record_to(InputLogWriter recorder) { recorder_ = std::move(recorder); }
 
     // Returns whether the log sets the time.
     [[nodiscard]] bool replays() const { return kind_ == Kind::replay; }

@@ -28,9 +28,9 @@ struct LiveOptions {
     bool windowed = false;    // the wall's screens as desktop windows, fitted into width x height
     std::string full_screen;  // a monitor's name or index; empty: a window
     int width = 1280, height = 720;
-    std::uint32_t samples = 0;  // per pixel, 1 or 4; 0: 4 on hardware, 1 on a software device
-    std::string screenshots;    // folder for screenshots with a relative name; empty: the working directory
-    std::string outputs;        // folder for all files of an input; empty: one named after the input
+    std::uint32_t samples = 0;    // per pixel, 1 or 4; 0: 4 on hardware, 1 on a software device
+    std::string screenshots;      // folder for screenshots with a relative name; empty: the working directory
+    std::string outputs;          // folder for all files of an input; empty: one named after the input
     bool writes_nothing = false;  // files that are asked for are left out
 };
 
@@ -45,13 +45,17 @@ struct SculptOptions {
     HandChoice hand = HandChoice::rigid;
     sculpt::FeelOptions feel;  // with a simulated hand
     bool real_time = false;
-    std::size_t undo = 0;                // strokes to undo at the end, from press to release
-    std::size_t undo_memory_MiB = 1024;  // memory for strokes that can be undone
-    std::vector<std::string> exports;    // STL, PLY, OBJ
-    std::optional<double> simplify_m;    // bound on the exported surface's motion; none: all triangles
-    std::string pictures;                // a folder; empty: none
-    std::string report;                  // a JSON file; empty: none; plots of the felt stroke lie beside it
-    unsigned threads = 0;                // 0: one per core
+    std::size_t undo = 0;                                   // strokes to undo at the end, from press to release
+    std::size_t undo_memory_MiB = 1024;                     // memory for strokes that can be undone
+    std::vector<std::string> exports;                       // STL, PLY, OBJ
+    std::optional<LengthUnit> export_units = std::nullopt;  // none: those of the workpiece's file, metres for a shape
+    std::optional<double> simplify_m;  // bound on the exported surface's motion; none: all triangles
+    std::string pictures;              // a folder; empty: none
+    std::string report;                // a JSON file; empty: none; plots of the felt stroke lie beside it
+    unsigned threads = 0;              // 0: one per core
+    // A recording from before sessions knew of units: the panel's ranges suit no workpiece in particular, and nothing
+    // is said of sizes that do not fit. No option of the command line.
+    bool from_before_units = false;
     LiveOptions live;
 };
 

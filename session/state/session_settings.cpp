@@ -16,6 +16,8 @@ constexpr const char* kCommand = "burin sculpt";
 template <typename Options, typename Visit>
 void visit_settings(Options& o, Visit&& visit) {
     visit("--workpiece", o.workpiece.source);
+    visit("--units", o.workpiece.units);
+    visit("--export-units", o.export_units);
     visit("--close-holes", o.workpiece.close_holes);
     visit("--resolution", o.workpiece.resolution);
     visit("--tool", o.tool.shape);
@@ -44,6 +46,7 @@ std::optional<std::string> text(bool on) { return on ? std::optional<std::string
 std::optional<std::string> text(compute::Operation operation) {
     return std::string(sculpt::descriptor_of(operation).name);
 }
+std::optional<std::string> text(LengthUnit unit) { return name_of(unit); }
 template <typename T>
 std::optional<std::string> text(T number) {
     std::array<char, 32> digits;
@@ -65,6 +68,11 @@ bool read(const std::string& text, compute::Operation& value) {
         if (known.name == text) return true;
     }
     return false;
+}
+bool read(const std::string& text, LengthUnit& value) {
+    const auto unit = length_unit(text);
+    value = unit.value_or(LengthUnit::m);
+    return unit.has_value();
 }
 template <typename T>
 bool read(const std::string& text, T& number) {
@@ -109,6 +117,15 @@ std::string shown(const std::string& name, const OptionWords& words) {
     return found->second.empty() ? name : name + " " + as_word(found->second);
 }
 
+// Completes the options of a recording that names no unit. Every recording has named one since there are units; before,
+// files were read in metres, and a session without a --tool had a ball of 10 mm.
+void as_before_units(SculptOptions& options) {
+    options.from_before_units = !options.workpiece.units.has_value();
+    if (!options.from_before_units) return;
+    options.workpiece.units = LengthUnit::m;
+    if (options.tool.shape.empty()) options.tool.shape = "ball:0.01";
+}
+
 }  // namespace
 
 std::string settings_line(const SculptOptions& options) {
@@ -124,7 +141,10 @@ std::string settings_line(const SculptOptions& options) {
 
 Result<RecordedOptions> options_as_recorded(const std::string& line, const SculptOptions& given) {
     RecordedOptions recorded{given, {}};
-    if (!line.starts_with(std::string(kCommand) + " --")) return recorded;  // recorded without options
+    if (!line.starts_with(std::string(kCommand) + " --")) {  // recorded without options
+        as_before_units(recorded.options);
+        return recorded;
+    }
     Result<OptionWords> words = words_on(line);
     if (!words) return std::unexpected(words.error());
     const SculptOptions defaults;
@@ -142,6 +162,7 @@ Result<RecordedOptions> options_as_recorded(const std::string& line, const Sculp
     if (!wrong.empty())
         return fail("the recording's first line", wrong + " is no option that a session knows",
                     "replay it with the program that recorded it");
+    as_before_units(recorded.options);
     return recorded;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Formats the options that a session's frames depend on as the first line of a recording: "burin sculpt --workpiece
 // ball:0.1 ...", which a shell takes as well. Leaves out what only sets where and how fast a session runs (engine,
-// threads, display, files). Pure.
+// threads, display, files). What the command line left open, the workpiece's unit and the tool, has to be settled first
+// (LiveSession::settled), so that a replay does not guess. Pure.
 #pragma once
 
 #include <string>
@@ -13,8 +14,8 @@ namespace burin::session {
 
 [[nodiscard]] std::string settings_line(const SculptOptions& options);
 
-// Reads the options of a recording's line; options that such lines never hold keep their given values. The Error names
-// an option that is unknown or wrong.
+// Reads the options of a recording's line; options that such lines never hold keep their given values. A recording
+// without a unit is read in metres, as it was made. The Error names an option that is unknown or wrong.
 struct RecordedOptions {
     SculptOptions options;
     std::vector<std::string> overruled;  // a message for each given option that the recording contradicts

@@ -43,6 +43,7 @@ struct SessionState {
     wall::OutputSettings output;  // of the main screen (output_on(), session_screens.hpp)
     bool panel = true, help = false, figures = false;
     std::string export_path = "part.stl";
+    LengthUnit export_unit = LengthUnit::m;
     bool quit = false;
 };
 
@@ -56,7 +57,7 @@ struct Asked {
 struct SessionOrders {
     std::size_t line = 0;  // of the log, for commands that are run now
     std::vector<sculpt::SculptOrder> carving;
-    bool parameters = false;  // the haptic thread's parameters have changed
+    bool parameters = false;         // the haptic thread's parameters have changed
     std::vector<Asked> screenshots;  // names
     bool full_screen = false;        // toggle between window and full screen
     std::vector<Asked> messages;     // for the user: why a command was not carried out; with the line of one in a log

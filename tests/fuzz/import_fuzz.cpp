@@ -30,7 +30,7 @@ void check_accounts(const burin::geometry::ImportedMesh& read) {
     }
     for (const auto& p : read.mesh.positions_m) {
         for (int k = 0; k < 3; ++k)
-            require(p[k] >= -burin::geometry::kMaxCoordinate_m && p[k] <= burin::geometry::kMaxCoordinate_m);
+            require(p[k] >= -burin::geometry::kMaxCoordinate && p[k] <= burin::geometry::kMaxCoordinate);
     }
 }
 

@@ -31,7 +31,8 @@ TEST(ObjImport, ReadsCommentsCarriageReturnsJoinedLinesAndOddCase) {
 }
 
 TEST(ObjImport, KeepsEveryDigitOfADouble) {
-    const auto result = import_obj("v 0.1234567890123456 1e-3 -7.0000000000000009\nv 1 0 0\nv 0 1 0\nf 1 2 3");
+    const auto result =
+        import_obj("# units m\nv 0.1234567890123456 1e-3 -7.0000000000000009\nv 1 0 0\nv 0 1 0\nf 1 2 3");
     ASSERT_TRUE(result);
     EXPECT_EQ(result->mesh.positions_m[0], Vec3(0.1234567890123456, 1e-3, -7.0000000000000009));
 }

@@ -33,7 +33,8 @@ void put(std::string& out, T value, std::endian order) {
 std::string binary_ply(std::endian order) {
     std::string out =
         std::string("ply\r\nformat ") + (order == std::endian::little ? "binary_little_endian" : "binary_big_endian") +
-        " 1.0\r\ncomment by hand\r\nelement vertex 4\r\nproperty list ushort short ring\r\nproperty double z\r\n"
+        " 1.0\r\ncomment by hand, units m\r\n"
+        "element vertex 4\r\nproperty list ushort short ring\r\nproperty double z\r\n"
         "property uint8 red\r\nproperty uchar green\r\nproperty uchar blue\r\nproperty float32 x\r\nproperty int16 "
         "y\r\n"
         "element edge 2\r\nproperty int vertex1\r\nproperty uint vertex2\r\n"

@@ -462,6 +462,20 @@ TEST(PanelSizes, OfAnotherKindAreAboutAsWide) {
         EXPECT_EQ(like(panel::tool_like(ball, kind), ToolKind::ball), "ball:0.004");
 }
 
+TEST(PanelSizes, ThatAreOfferedSuitTheWorkpiece) {
+    const ToolSizeRange usual = tool_sizes_for(0.2);  // as the panel has always had them, for a ball of 100 mm
+    EXPECT_DOUBLE_EQ(usual.from_m, ToolSizeRange{}.from_m);
+    EXPECT_DOUBLE_EQ(usual.radius_to_m, ToolSizeRange{}.radius_to_m);
+    EXPECT_DOUBLE_EQ(tool_sizes_for(0.05).radius_to_m, 0.0125);
+    EXPECT_DOUBLE_EQ(tool_sizes_for(0.05).from_m, 0.000125);
+    for (const double longest_side_m : {1e-9, 1e-4, 50.0, 1e6}) {
+        const ToolSizeRange range = tool_sizes_for(longest_side_m);
+        EXPECT_GE(range.from_m, descriptor_of(Quantity::radius).least);
+        EXPECT_LT(range.from_m, range.radius_to_m);
+        EXPECT_LE(2.0 * range.radius_to_m, descriptor_of(Quantity::radius).most);
+    }
+}
+
 TEST(PanelSizes, FollowTheOneThatIsSet) {
     using sculpt::ToolKind;
     const sculpt::ToolSpec nose{ToolKind::bullnose, {0.004, 0.001, 0.016}, {}};

@@ -85,6 +85,52 @@ TEST_F(Recording, GivesThePicturesThatWereTaken) {
     EXPECT_TRUE(picture("live", "before.png") != picture("live", "late.png"));
 }
 
+// A cube of 50, which no line of the file says a unit of.
+const std::string kPart = [] {
+    std::string text;
+    for (int corner = 0; corner < 8; ++corner) {
+        text += "v";
+        for (int axis = 0; axis < 3; ++axis) text += (corner >> axis & 1) != 0 ? " 50" : " 0";
+        text += "\n";
+    }
+    return text + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+}();
+
+// The recording holds the unit that was guessed and the tool that was taken, so that its replay does not guess.
+TEST_F(Recording, OfAPartInMillimetresHoldsItsUnitAndItsTool) {
+    place.write("part.obj", kPart);
+    const std::string options = "--workpiece part.obj --resolution 48 --width 960 --height 540 ";
+    const auto run = place.run(sculpt(options + "--screenshots live --input script.txt --record part.log"));
+    ASSERT_EQ(run.status, 0) << run.output;
+    EXPECT_NE(run.output.find("part.obj: 50 x 50 x 50 mm (no unit is given"), std::string::npos) << run.output;
+    const std::string log = place.read("part.log");
+    const std::string first = log.substr(0, log.find('\n'));
+    EXPECT_NE(first.find(" --units mm"), std::string::npos) << first;
+    EXPECT_NE(first.find(" --tool ball:0.0025"), std::string::npos) << first;
+    std::filesystem::rename(place / "undone.ply", place / "undone-live.ply");
+    const auto again = place.run(sculpt("--screenshots again --input part.log"));
+    ASSERT_EQ(again.status, 0) << again.output;
+    for (const std::string& name : kPictures) EXPECT_TRUE(picture("live", name) == picture("again", name)) << name;
+    EXPECT_TRUE(place.read("undone.ply") == place.read("undone-live.ply"));
+    EXPECT_NE(place.read("undone.ply").find("comment units mm\n"), std::string::npos);
+}
+
+// Before there were units every file was read in metres, and no recording said so.
+TEST_F(Recording, WithoutAUnitIsReadInMetresAsItWasMade) {
+    place.write("part.obj", kPart);
+    const std::string options = "--workpiece part.obj --units m --resolution 48 --width 960 --height 540 ";
+    const auto run = place.run(sculpt(options + "--screenshots live --input script.txt --record part.log"));
+    ASSERT_EQ(run.status, 0) << run.output;
+    std::filesystem::rename(place / "undone.ply", place / "undone-live.ply");
+    std::string log = place.read("part.log");
+    const std::size_t unit = log.find(" --units m");
+    ASSERT_LT(unit, log.find('\n'));
+    place.write("old.log", log.erase(unit, std::string(" --units m").size()));
+    const auto again = place.run(sculpt("--screenshots again --input old.log"));
+    ASSERT_EQ(again.status, 0) << again.output;  // every tick and surface came out as recorded
+    EXPECT_TRUE(place.read("undone.ply") == place.read("undone-live.ply"));
+}
+
 TEST_F(Recording, FailsWhenATickGoesAnotherWay) {
     std::string log = place.read("live.log");
     // After the first picture the hand is 5 mm beside where it was, for good.

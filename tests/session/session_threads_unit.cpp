@@ -433,6 +433,8 @@ TEST(SessionSettings, AreThoseOfTheRecording) {
     recorded.tool.operation = compute::Operation::paint;
     recorded.feel.friction = 0.1;
     recorded.live.swap_eyes = true;
+    recorded.workpiece.units = LengthUnit::mm;
+    recorded.export_units = LengthUnit::inch;
     const std::string line = settings_line(recorded);
     const SculptOptions defaults;
     const auto same = options_as_recorded(line, defaults);
@@ -454,6 +456,29 @@ TEST(SessionSettings, AreThoseOfTheRecording) {
     EXPECT_EQ(options_as_recorded("somebody's own", other)->options.tool.shape, "ball:0.02");
     EXPECT_FALSE(options_as_recorded(line + " --flavour sweet", other));
     EXPECT_FALSE(options_as_recorded("burin sculpt --resolution many", other));
+    EXPECT_FALSE(options_as_recorded("burin sculpt --units yards", other));
+}
+
+TEST(Recordings, FromBeforeThereWereUnitsAreReadInMetresWhateverTheFileLooksLike) {
+    const SculptOptions none;
+    SculptOptions given;
+    given.workpiece.units = LengthUnit::mm;
+    for (const std::string line : {"burin sculpt --workpiece part.stl --tool ball:0.02", "somebody's own"}) {
+        const auto old = options_as_recorded(line, none);
+        ASSERT_TRUE(old) << old.error().line();
+        EXPECT_EQ(old->options.workpiece.units, LengthUnit::m) << line;
+        EXPECT_TRUE(old->options.from_before_units) << line;
+    }
+    const auto old = options_as_recorded("burin sculpt --workpiece part.stl", given);
+    ASSERT_TRUE(old) << old.error().line();
+    EXPECT_EQ(old->options.workpiece.units, LengthUnit::m);
+    EXPECT_EQ(old->options.tool.shape, "ball:0.01");  // the tool of that time
+    EXPECT_EQ(old->overruled.size(), 1u);
+    const auto one_of_today =
+        options_as_recorded("burin sculpt --workpiece part.stl --units mm --tool ball:0.02", none);
+    ASSERT_TRUE(one_of_today);
+    EXPECT_EQ(one_of_today->options.workpiece.units, LengthUnit::mm);
+    EXPECT_FALSE(one_of_today->options.from_before_units);
 }
 
 }  // namespace burin::session
