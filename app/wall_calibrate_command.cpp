@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cstdio>
 #include <iostream>
+#include <utility>
 
 #include "app/output_files.hpp"
 #include "app/wall_commands.hpp"
@@ -67,9 +68,9 @@ bool skipped(std::string_view line) { return line.empty() || line.front() == '#'
 
 Result<std::vector<wall::CalibrationSample>> read_samples(const WallCalibrationOptions& options, double unit_m) {
     if (options.samples == kStandardOutput) return guided_samples(std::cin, std::cerr, unit_m);
-    const auto bytes = read_file(options.samples, 1 << 24);
-    if (!bytes) return std::unexpected(bytes.error());
-    return parse_samples({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, options.samples, unit_m);
+    const auto text = read_text_file(options.samples, 1 << 24);
+    if (!text) return std::unexpected(text.error());
+    return parse_samples(*text, options.samples, unit_m);
 }
 
 Result<std::size_t> find_screen(const wall::WallSetup& setup, const WallCalibrationOptions& options) {
@@ -152,8 +153,9 @@ std::vector<wall::CalibrationSample> guided_samples(std::istream& in, std::ostre
             prompts << "enough; done, or place,x,y,z for more: " << std::flush;
         }
     };
+    bool first = true;
     for (prompt(); std::getline(in, line); prompt()) {
-        const std::string_view text = trimmed(line);
+        const std::string_view text = trimmed(std::exchange(first, false) ? without_byte_order_mark(line) : line);
         if (text == "done") break;
         if (skipped(text)) continue;
         const std::string place = asked < kAsked.size() * kTouches ? kAsked[asked / kTouches] : "";

@@ -6,10 +6,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -138,9 +140,9 @@ void flush_folder(const fs::path& folder) {
     if (directory.valid()) static_cast<void>(::fsync(directory.number()));
 }
 
-}  // namespace
-
-Result<std::vector<std::byte>> read_file(const fs::path& path, std::uint64_t max_bytes) {
+// Reads a regular file into a container of bytes or characters.
+template <typename Bytes>
+Result<Bytes> read_whole(const fs::path& path, std::uint64_t max_bytes) {
     // O_NONBLOCK: opening a pipe that nobody writes must not block; it is refused just below.
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (!file.valid()) return cannot_read(path, errno);
@@ -155,7 +157,8 @@ Result<std::vector<std::byte>> read_file(const fs::path& path, std::uint64_t max
                     "has " + std::to_string(size) + " bytes, more than the limit of " + std::to_string(max_bytes),
                     "reduce it first");
     }
-    std::vector<std::byte> bytes(static_cast<std::size_t>(size));
+    Bytes bytes;
+    bytes.resize(static_cast<std::size_t>(size));
     std::size_t filled = 0;
     while (filled < bytes.size()) {
         const ssize_t got = ::read(file.number(), bytes.data() + filled, bytes.size() - filled);
@@ -164,6 +167,69 @@ Result<std::vector<std::byte>> read_file(const fs::path& path, std::uint64_t max
         if (got == 0) return fail(path.string(), "became shorter while it was read", "try again when nobody writes it");
         filled += static_cast<std::size_t>(got);
     }
+    return bytes;
+}
+
+constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";
+
+struct Encoding {
+    const char* name;
+    std::string_view mark;       // the byte-order mark
+    std::array<bool, 4> zeroes;  // which of the first four bytes are zero where two letters of ASCII come first
+};
+
+// The longer marks come first: that of UTF-16 begins the one of UTF-32.
+constexpr std::array<Encoding, 4> kForeignEncodings{{
+    {"UTF-32", {"\xFF\xFE\0\0", 4}, {false, true, true, true}},
+    {"UTF-32", {"\0\0\xFE\xFF", 4}, {true, true, true, false}},
+    {"UTF-16", {"\xFF\xFE", 2}, {false, true, false, true}},
+    {"UTF-16", {"\xFE\xFF", 2}, {true, false, true, false}},
+}};
+
+bool has_zeroes_of(std::string_view bytes, const Encoding& encoding) {
+    if (bytes.size() < encoding.zeroes.size()) return false;
+    for (std::size_t i = 0; i < encoding.zeroes.size(); ++i) {
+        if ((bytes[i] == '\0') != encoding.zeroes[i]) return false;
+    }
+    return true;
+}
+
+// Makes every line end LF.
+void unify_line_ends(std::string& text) {
+    std::size_t kept = text.find('\r');
+    if (kept == std::string::npos) return;
+    for (std::size_t i = kept; i < text.size(); ++i) {
+        const bool pair = text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n';
+        if (!pair) text[kept++] = text[i] == '\r' ? '\n' : text[i];
+    }
+    text.resize(kept);
+}
+
+}  // namespace
+
+Result<std::vector<std::byte>> read_file(const fs::path& path, std::uint64_t max_bytes) {
+    return read_whole<std::vector<std::byte>>(path, max_bytes);
+}
+
+std::string_view without_byte_order_mark(std::string_view text) {
+    return text.starts_with(kUtf8Mark) ? text.substr(kUtf8Mark.size()) : text;
+}
+
+Result<std::string_view> utf8_text(std::string_view bytes, const std::string& name) {
+    for (const Encoding& encoding : kForeignEncodings) {
+        if (bytes.starts_with(encoding.mark) || has_zeroes_of(bytes, encoding))
+            return fail(name, std::string("is ") + encoding.name + " text", "save it as UTF-8");
+    }
+    return without_byte_order_mark(bytes);
+}
+
+Result<std::string> read_text_file(const fs::path& path, std::uint64_t max_bytes) {
+    Result<std::string> bytes = read_whole<std::string>(path, max_bytes);
+    if (!bytes) return bytes;
+    const Result<std::string_view> text = utf8_text(*bytes, path.string());
+    if (!text) return std::unexpected(text.error());
+    bytes->erase(0, bytes->size() - text->size());
+    unify_line_ends(*bytes);
     return bytes;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads and writes whole files, for import, export and everything else that must not damage a user's file.
+// Reads and writes whole files, for import, export and everything else that must not damage a user's file; and tells
+// which bytes are text that this program reads. Every text file goes through read_text_file or utf8_text.
 //
 // Threads: any; nothing shared. Failure: an Error that names the path and the remedy. Cost: the file's size in memory
 // and one write with fsync (milliseconds on a disk). Never called from the haptic thread.
@@ -9,6 +10,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/error.hpp"
@@ -21,6 +24,18 @@ inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{2} << 30;  // enoug
 // max_bytes.
 [[nodiscard]] Result<std::vector<std::byte>> read_file(const std::filesystem::path& path,
                                                        std::uint64_t max_bytes = kMaxFileBytes);
+
+// Returns text without a UTF-8 byte-order mark at its start, which some editors write and no format here knows.
+[[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
+
+// Returns the text that a file's bytes hold, without a byte-order mark. Refuses UTF-16 and UTF-32, which begin with
+// another mark or have zero bytes between their first letters. `name` stands for the file in the message. The first
+// bytes of a binary file may look like anything: ask only where text is expected.
+[[nodiscard]] Result<std::string_view> utf8_text(std::string_view bytes, const std::string& name);
+
+// Reads a text file: what utf8_text() leaves of it, with every line end (LF, CR LF or CR) as LF.
+[[nodiscard]] Result<std::string> read_text_file(const std::filesystem::path& path,
+                                                 std::uint64_t max_bytes = kMaxFileBytes);
 
 // Writes the bytes under a temporary name in the target's folder, flushes them to the disk and then renames, so that
 // the target holds either its old content or all of the new, whatever happens. A symbolic link is followed; an existing

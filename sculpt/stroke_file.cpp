@@ -90,9 +90,9 @@ Result<Stroke> parse_stroke(std::string_view text, const std::string& name) {
 }
 
 Result<Stroke> read_stroke(const std::filesystem::path& path) {
-    const auto bytes = read_file(path);
-    if (!bytes) return std::unexpected(bytes.error());
-    return parse_stroke({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string());
+    const auto text = read_text_file(path);
+    if (!text) return std::unexpected(text.error());
+    return parse_stroke(*text, path.string());
 }
 
 Result<void> carve_rigidly(Sculpture& sculpture, const Stroke& stroke, const Tool& tool, bool merge_rows) {

@@ -161,9 +161,9 @@ Result<WallSetup> parse_wall(std::string_view text, const std::string& name) {
 }
 
 Result<WallSetup> read_wall(const std::filesystem::path& path) {
-    const auto bytes = read_file(path, kMostBytes);
-    if (!bytes) return std::unexpected(bytes.error());
-    return parse_wall({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string());
+    const auto text = read_text_file(path, kMostBytes);
+    if (!text) return std::unexpected(text.error());
+    return parse_wall(*text, path.string());
 }
 
 }  // namespace burin::wall

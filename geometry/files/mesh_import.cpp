@@ -12,20 +12,16 @@ constexpr std::uint64_t kMaxMaterialFileBytes = 16 << 20;
 
 Result<MeshSoup> read(std::span<const std::byte> bytes, MeshFormat format, const std::string& name,
                       const MaterialFileReader& material_files) {
-    switch (format) {
-        case MeshFormat::stl: return read_stl(bytes, name);
-        case MeshFormat::obj: return read_obj(text_of(bytes), name, material_files);
-        case MeshFormat::ply: return read_ply(bytes, name);
-        case MeshFormat::off: return read_off(text_of(bytes), name);
-    }
-    return fail(name, "has an unknown format", "name it .stl, .obj, .ply or .off");
+    if (format == MeshFormat::stl) return read_stl(bytes, name);  // tells itself whether it is text
+    if (format == MeshFormat::ply) return read_ply(bytes, name);  // begins with text
+    const Result<std::string_view> text = utf8_text(text_of(bytes), name);
+    if (!text) return std::unexpected(text.error());
+    return format == MeshFormat::obj ? read_obj(*text, name, material_files) : read_off(*text, name);
 }
 
 MaterialFileReader files_beside(const std::filesystem::path& obj) {
     return [folder = obj.parent_path()](std::string_view name) -> Result<std::string> {
-        auto bytes = read_file(folder / std::filesystem::path(name), kMaxMaterialFileBytes);
-        if (!bytes) return std::unexpected(bytes.error());
-        return std::string(text_of(*bytes));
+        return read_text_file(folder / std::filesystem::path(name), kMaxMaterialFileBytes);
     };
 }
 

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstring>
 
+#include "base/file_io.hpp"
 #include "geometry/files/mesh_soup.hpp"
 #include "geometry/files/text_scanner.hpp"
 #include "geometry/mesh/vertex_weld.hpp"
@@ -145,8 +146,12 @@ private:
 }  // namespace
 
 Result<MeshSoup> read_stl(std::span<const std::byte> bytes, const std::string& name) {
-    const bool exact_binary = bytes.size() >= kHeaderBytes && bytes_claimed(bytes) == bytes.size();
-    if (!exact_binary && looks_like_text(text_of(bytes))) return AsciiStl(text_of(bytes), name).read();
+    const bool has_count = bytes.size() >= kHeaderBytes;
+    if (has_count && bytes_claimed(bytes) == bytes.size()) return read_binary(bytes, name);
+    const Result<std::string_view> text = utf8_text(text_of(bytes), name);
+    if (text && looks_like_text(*text)) return AsciiStl(*text, name).read();
+    // Four bytes of UTF-16, taken for a count of triangles, claim more than any file holds.
+    if (!text && (!has_count || bytes_claimed(bytes) > bytes.size())) return std::unexpected(text.error());
     return read_binary(bytes, name);
 }
 

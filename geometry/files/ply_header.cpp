@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 
+#include "base/file_io.hpp"
 #include "geometry/files/mesh_soup.hpp"
 
 namespace burin::geometry {
@@ -45,7 +46,8 @@ PlyRole role_of(std::string_view name, bool is_list) {
 
 class HeaderReader {
 public:
-    HeaderReader(std::string_view text, const std::string& name) : scan_(text), name_(name) {}
+    HeaderReader(std::string_view text, const std::string& name)
+        : scan_(text), name_(name), lines_end_with_cr_(begins_with_a_cr_line(text)) {}
 
     Result<PlyHeader> read() {
         if (!equals_ignoring_case(scan_.token_in_line(), "ply")) {
@@ -73,15 +75,29 @@ public:
             if (!done) return std::unexpected(done.error());
         }
         if (!has_format) return wrong("its header names no format", "repair the header");
-        scan_.next_line();
-        header_.data_begin = scan_.position();
-        header_.data_line = scan_.line();
+        end_header();
         return std::move(header_);
     }
 
 private:
     std::unexpected<Error> wrong(const std::string& what, const char* remedy) const {
         return fail(at_line(name_, scan_.line()), what, remedy);
+    }
+
+    // Tells whether the first line ends with a CR alone.
+    static bool begins_with_a_cr_line(std::string_view text) {
+        const std::size_t end = text.find_first_of("\r\n");
+        return end != std::string_view::npos && text[end] == '\r' && !text.substr(end + 1).starts_with('\n');
+    }
+
+    // Finds the data. Behind a header whose lines end with CR a line feed is the first byte of the data.
+    void end_header() {
+        static_cast<void>(scan_.rest_of_line());
+        const std::size_t line_end = scan_.position();
+        const bool one_byte = lines_end_with_cr_ && !scan_.at_end();
+        scan_.next_line();
+        header_.data_begin = one_byte ? line_end + 1 : scan_.position();
+        header_.data_line = scan_.line();
     }
 
     Result<void> format() {
@@ -136,6 +152,7 @@ private:
 
     TextScanner scan_;
     const std::string& name_;
+    const bool lines_end_with_cr_;
     PlyHeader header_;
 };
 
@@ -163,8 +180,12 @@ std::uint64_t PlyElement::least_row_bytes(PlyEncoding encoding) const {
     return sum;
 }
 
-Result<PlyHeader> read_ply_header(std::string_view text, const std::string& name) {
-    return HeaderReader(text, name).read();
+Result<PlyHeader> read_ply_header(std::string_view file, const std::string& name) {
+    const Result<std::string_view> text = utf8_text(file, name);
+    if (!text) return std::unexpected(text.error());
+    Result<PlyHeader> header = HeaderReader(*text, name).read();
+    if (header) header->data_begin += file.size() - text->size();
+    return header;
 }
 
 PlyValues::PlyValues(std::span<const std::byte> bytes, const PlyHeader& header)

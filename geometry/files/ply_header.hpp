@@ -57,7 +57,8 @@ struct PlyHeader {
     std::uint64_t data_line = 1;            // line number of that byte
 };
 
-[[nodiscard]] Result<PlyHeader> read_ply_header(std::string_view text, const std::string& name);
+// Reads the header at the start of a file, which may begin with a byte-order mark.
+[[nodiscard]] Result<PlyHeader> read_ply_header(std::string_view file, const std::string& name);
 
 // Reads the values after the header, one after another, in any encoding.
 class PlyValues {

@@ -136,9 +136,9 @@ Result<InputLog> parse_input_log(std::string_view text, const std::string& name)
 }
 
 Result<InputLog> read_input_log(const std::filesystem::path& path) {
-    const auto bytes = read_file(path, kMostLogBytes);
-    if (!bytes) return std::unexpected(bytes.error());
-    return parse_input_log({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string());
+    const auto text = read_text_file(path, kMostLogBytes);
+    if (!text) return std::unexpected(text.error());
+    return parse_input_log(*text, path.string());
 }
 
 Result<InputLogWriter> InputLogWriter::create(const std::filesystem::path& path, const std::string& settings) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/run_command.hpp"
+
 namespace burin::sculpt {
 namespace {
 
@@ -47,6 +49,24 @@ TEST(StrokeFile, NamesTheLineOfEveryKindOfMistake) {
               std::string::npos);
     EXPECT_NE(complaint(kHeader + "0,0,0,0,0,0,0,0,0\n").find("quaternion"), std::string::npos);
     EXPECT_NE(complaint(kHeader + "0,0,0,0,0,0,0,1,0.5\n").find("button"), std::string::npos);
+}
+
+TEST(StrokeFile, IsReadAfterAByteOrderMarkAndWithAnyLineEnds) {
+    const Workplace place;
+    for (const std::string mark : {"", "\xEF\xBB\xBF"}) {
+        for (const std::string end : {"\n", "\r\n", "\r"}) {
+            const std::string header = kHeader.substr(0, kHeader.size() - 1);
+            place.write("s.csv", mark + header + end + "0,0,0,0,0,0,0,1,0" + end + "1,7,0,0,0,0,0,1,1" + end);
+            const auto stroke = read_stroke(place / "s.csv");
+            ASSERT_TRUE(stroke) << stroke.error().line();
+            ASSERT_EQ(stroke->size(), 2u);
+            EXPECT_EQ((*stroke)[1].position_object_m.x, 7.0);
+            place.write("s.csv", mark + header + end + "0,0,0,0,0,0,0,1,0" + end + "1,7" + end);
+            EXPECT_NE(read_stroke(place / "s.csv").error().line().find("s.csv:3: "), std::string::npos);
+        }
+    }
+    place.write("s.csv", std::string("\xFF\xFEt\0i\0", 6));
+    EXPECT_NE(read_stroke(place / "s.csv").error().line().find("is UTF-16 text; save it as UTF-8"), std::string::npos);
 }
 
 TEST(StrokeFile, MissingFileIsNamed) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "session/record/input_log.hpp"
+#include "tests/support/run_command.hpp"
 
 namespace burin::session {
 namespace {
@@ -14,6 +15,30 @@ namespace {
 bool text_has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
+
+TEST(InputLog, IsReadAfterAByteOrderMarkAndWithAnyLineEnds) {
+    const Workplace place;
+    const auto read = [&](const std::string& bytes) {
+        place.write("marked.log", bytes);
+        return read_input_log(place / "marked.log");
+    };
+    for (const std::string mark : {"", "\xEF\xBB\xBF"}) {
+        for (const std::string end : {"\n", "\r\n", "\r"}) {
+            const std::string start = mark + "burin-input 1 test" + end + "0 mouse 12 34" + end;
+            const auto log = read(start + "1 close" + end);
+            ASSERT_TRUE(log) << log.error().line();
+            EXPECT_EQ(log->settings, "test");
+            EXPECT_EQ(log->events.size(), 2u);
+            EXPECT_FALSE(log->torn_line);
+            const auto torn = read(start + "1 close");
+            ASSERT_TRUE(torn) << torn.error().line();
+            EXPECT_EQ(torn->events.size(), 1u);
+            EXPECT_TRUE(torn->torn_line);
+            EXPECT_TRUE(has(read(start + "1 nonsense" + end).error().line(), "marked.log:3"));
+        }
+    }
+    EXPECT_TRUE(has(read(std::string("b\0u\0", 4)).error().line(), "is UTF-16 text; save it as UTF-8"));
+}
 
 TEST(ThreadLog, TicksReadBackToTheSameBits) {
     const ThreadClock clock{5'000'000'000, 1'000'000, 0.000055};

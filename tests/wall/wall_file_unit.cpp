@@ -269,6 +269,46 @@ TEST(WallCommand, LeavesTheWallFileAloneWhenItCannotCalibrate) {
     refused(mirrored, "--screen front", "exchanged");
 }
 
+std::string with_ends(const std::string& text, const std::string& end) {
+    std::string result;
+    for (const char c : text) result += c == '\n' ? end : std::string(1, c);
+    return result;
+}
+
+TEST(WallFile, IsReadAfterAByteOrderMarkAndWithAnyLineEnds) {
+    const Workplace place;
+    for (const std::string mark : {"", "\xEF\xBB\xBF"}) {
+        for (const std::string end : {"\n", "\r\n", "\r"}) {
+            place.write("wall.toml", mark + with_ends(kSmall, end));
+            const auto setup = read_wall(place / "wall.toml");
+            ASSERT_TRUE(setup) << setup.error().line();
+            EXPECT_EQ(wall_text(*setup), wall_text(*parse_wall(kSmall, "small")));
+            place.write("wall.toml", mark + with_ends("units = \"m\"\n\n= 3\n", end));
+            EXPECT_NE(read_wall(place / "wall.toml").error().line().find("wall.toml:3: "), std::string::npos);
+        }
+    }
+    place.write("wall.toml", std::string("\xFE\xFF\0u\0n", 6));
+    EXPECT_NE(read_wall(place / "wall.toml").error().line().find("is UTF-16 text; save it as UTF-8"),
+              std::string::npos);
+}
+
+TEST(WallCommand, ReadsTouchesAfterAByteOrderMarkAndWithAnyLineEnds) {
+    const Workplace place;
+    place.write("wall.toml", kSmall);
+    const auto calibrated = [&](const std::string& bytes, const std::string& samples) {
+        place.write("touches.csv", bytes);
+        const auto outcome = place.run(kBurin + " wall calibrate --wall wall.toml --screen front --out new.toml " +
+                                       "--samples " + samples);
+        return outcome.status == 0 ? place.read("new.toml") : outcome.output;
+    };
+    const std::string wanted = calibrated(touches(), "touches.csv");
+    ASSERT_TRUE(parse_wall(wanted, "new.toml")) << wanted;
+    for (const std::string end : {"\n", "\r\n", "\r"})
+        EXPECT_EQ(calibrated("\xEF\xBB\xBF" + with_ends(touches(), end), "touches.csv"), wanted);
+    EXPECT_NE(calibrated(std::string("l\0o\0", 4), "touches.csv").find("is UTF-16 text; save it as UTF-8"),
+              std::string::npos);
+}
+
 TEST(WallCommand, AsksForTouchAfterTouch) {
     std::istringstream in("1,2,3\nnonsense\n4,5,6\n\n7,8,9\nupper_right,0,0,1\n10,11,12\ndone\n1,1,1\n");
     std::ostringstream prompts;
@@ -278,6 +318,8 @@ TEST(WallCommand, AsksForTouchAfterTouch) {
     EXPECT_EQ(samples[2].tip_tracker, (Vec3{0.07, 0.08, 0.09}));
     EXPECT_EQ(samples[3].place, "upper_right");
     EXPECT_EQ(samples[4].place, "lower_right") << "the next corner, after three touches";
+    std::istringstream marked("\xEF\xBB\xBF" "1,2,3\r\ndone\r\n");
+    EXPECT_EQ(app::guided_samples(marked, prompts, 0.01).size(), 1u) << "a file with a byte-order mark came by a pipe";
     EXPECT_NE(prompts.str().find("touch lower_right with the wand's tip, 1 of 3"), std::string::npos) << prompts.str();
     EXPECT_NE(prompts.str().find("is not a sample"), std::string::npos);
 }
