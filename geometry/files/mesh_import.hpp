@@ -51,10 +51,11 @@ struct ImportReport {
     std::string format;                         // e.g. "PLY, binary little endian"
     std::uint64_t faces_in_file = 0;            // = triangles_in_file + polygons_in_file + faces_without_area
     std::uint64_t triangles_in_file = 0;        // taken unchanged
-    std::uint64_t polygons_in_file = 0;         // of n > 3 corners, split into n - 2 triangles each:
+    std::uint64_t polygons_in_file = 0;         // of n > 3 corners, split into n - 2 triangles each (polygon.hpp):
     std::uint64_t polygons_fanned = 0;          //   convex ones, as a fan from their first corner
-    std::uint64_t polygons_ear_clipped = 0;     // the others, by ear clipping in their mean plane
-    std::uint64_t polygons_fanned_blindly = 0;  //   no ears found (flat, crossed or huge): a fan, which may fold over
+    std::uint64_t polygons_swept = 0;           //   other simple ones: their triangles cover them once
+    std::uint64_t polygons_touching = 0;        //   that touch themselves: likewise
+    std::uint64_t polygons_crossing = 0;        //   that cross themselves or have no area: triangles may overlap
     std::uint64_t faces_without_area = 0;       // of fewer than 3 corners: not in the mesh
     std::uint64_t vertices_in_file = 0;
     std::uint64_t vertices_merged = 0;   // STL corners that met at an equal position

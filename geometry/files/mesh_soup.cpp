@@ -81,17 +81,41 @@ void reduce_palette(MeshSoup& soup) {
     soup.materials = std::move(merged);
 }
 
-void count_polygon(ImportReport& report, PolygonSplit how) {
+// The numbers of the first faces of a kind in the file, from 1.
+struct FirstFaces {
+    std::size_t touching = 0, crossing = 0;
+};
+
+void count_polygon(ImportReport& report, PolygonSplit how, std::size_t face, FirstFaces& first) {
     ++report.polygons_in_file;
     switch (how) {
         case PolygonSplit::fan: ++report.polygons_fanned; break;
-        case PolygonSplit::ears: ++report.polygons_ear_clipped; break;
-        case PolygonSplit::blind_fan: ++report.polygons_fanned_blindly; break;
+        case PolygonSplit::sweep: ++report.polygons_swept; break;
+        case PolygonSplit::touching:
+            if (report.polygons_touching++ == 0) first.touching = face + 1;
+            break;
+        case PolygonSplit::crossing:
+            if (report.polygons_crossing++ == 0) first.crossing = face + 1;
+            break;
     }
 }
 
-void split_faces(const MeshSoup& soup, TriangleMesh& mesh, ImportReport& report) {
+void remark_polygons(ImportReport& report, const FirstFaces& first) {
+    if (report.polygons_touching > 0) {
+        report.remarks.push_back(std::to_string(report.polygons_touching) +
+                                 " polygons touch themselves, the first is face " + std::to_string(first.touching) +
+                                 "; they were split without overlaps");
+    }
+    if (report.polygons_crossing > 0) {
+        report.remarks.push_back(std::to_string(report.polygons_crossing) +
+                                 " polygons cross themselves or have no area, the first is face " +
+                                 std::to_string(first.crossing) + "; their triangles may overlap");
+    }
+}
+
+FirstFaces split_faces(const MeshSoup& soup, TriangleMesh& mesh, ImportReport& report) {
     mesh.triangles.reserve(soup.corner_counts.size());
+    FirstFaces first_faces;
     std::vector<Vec3> polygon;
     std::size_t first = 0;
     for (std::size_t face = 0; face < soup.corner_counts.size(); ++face) {
@@ -108,15 +132,15 @@ void split_faces(const MeshSoup& soup, TriangleMesh& mesh, ImportReport& report)
         } else {
             polygon.clear();
             for (std::uint32_t i = 0; i < count; ++i) polygon.push_back(soup.positions[corner[i]]);
-            // The limit of 256 corners bounds the work that a hostile file can cause to some thousand steps a corner.
-            const SplitPolygon split = split_polygon(polygon, 256);
-            count_polygon(report, split.how);
+            const SplitPolygon split = split_polygon(polygon);
+            count_polygon(report, split.how, face, first_faces);
             for (const auto& t : split.triangles) mesh.triangles.push_back({corner[t[0]], corner[t[1]], corner[t[2]]});
         }
         if (!soup.face_materials.empty()) {
             mesh.triangle_materials.resize(mesh.triangles.size(), static_cast<std::uint8_t>(soup.face_materials[face]));
         }
     }
+    return first_faces;
 }
 
 // Brings the mesh, whose positions are numbers of the file, to metres. Metres stay as they are to the last bit.
@@ -166,7 +190,7 @@ Result<ImportedMesh> finished(MeshSoup&& soup, const std::string& name, std::opt
     ImportReport& report = result.report;
     report.faces_in_file = soup.corner_counts.size();
     report.vertices_in_file = soup.positions.size() + report.vertices_merged;
-    split_faces(soup, result.mesh, report);
+    const FirstFaces first_faces = split_faces(soup, result.mesh, report);
     if (result.mesh.triangles.empty()) {
         return fail(name, "has no triangles", "export it again as a surface of triangles or polygons");
     }
@@ -174,11 +198,7 @@ Result<ImportedMesh> finished(MeshSoup&& soup, const std::string& name, std::opt
         report.remarks.push_back(std::to_string(report.faces_without_area) +
                                  " faces have fewer than three corners and are not in the mesh");
     }
-    if (report.polygons_fanned_blindly > 0) {
-        report.remarks.push_back(
-            std::to_string(report.polygons_fanned_blindly) +
-            " polygons are flat, crossed or huge and were split as plain fans, which may fold over");
-    }
+    remark_polygons(report, first_faces);
     result.mesh.positions_m = std::move(soup.positions);
     bring_to_metres(result, given_unit, soup.stated_unit);
     result.mesh.colours = std::move(soup.colours);

@@ -112,15 +112,19 @@ int side_of_plane(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     return exact_side(a, b, c, d);
 }
 
-int turn_seen_along(int axis, const Vec3& a, const Vec3& b, const Vec3& c) {
-    const int right = (axis + 1) % 3, up = (axis + 2) % 3;
-    const double first = (b[right] - a[right]) * (c[up] - a[up]), second = (b[up] - a[up]) * (c[right] - a[right]);
+int turn_in_plane(const Vec2& a, const Vec2& b, const Vec2& c) {
+    const double first = (b.x - a.x) * (c.y - a.y), second = (b.y - a.y) * (c.x - a.x);
     const double estimate = first - second, size = std::abs(first) + std::abs(second);
     if (std::abs(estimate) > kPlaneBound * size) return sign_of(estimate);
     if (size == 0.0) return 0;
-    return exact_cross(exact_difference(b[right], a[right]), exact_difference(b[up], a[up]),
-                       exact_difference(c[right], a[right]), exact_difference(c[up], a[up]))
+    return exact_cross(exact_difference(b.x, a.x), exact_difference(b.y, a.y), exact_difference(c.x, a.x),
+                       exact_difference(c.y, a.y))
         .sign();
+}
+
+int turn_seen_along(int axis, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const int right = (axis + 1) % 3, up = (axis + 2) % 3;
+    return turn_in_plane({a[right], a[up]}, {b[right], b[up]}, {c[right], c[up]});
 }
 
 }  // namespace burin::geometry

@@ -14,6 +14,10 @@ namespace burin::geometry {
 // plane.
 [[nodiscard]] int side_of_plane(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
+// Returns 1 when a, b, c run counter-clockwise, x to the right and y upwards, -1 when clockwise, 0 when they lie on one
+// line.
+[[nodiscard]] int turn_in_plane(const Vec2& a, const Vec2& b, const Vec2& c);
+
 // Returns the orientation of a, b, c projected along an axis onto the other two, (axis + 1) % 3 to the right and (axis
 // + 2) % 3 upwards: 1 when they run counter-clockwise, -1 clockwise, 0 when they lie on one line.
 [[nodiscard]] int turn_seen_along(int axis, const Vec3& a, const Vec3& b, const Vec3& c);

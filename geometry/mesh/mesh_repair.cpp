@@ -65,9 +65,9 @@ private:
             split = least_area_triangulation(corners, [&](std::size_t i, std::size_t j) {
                 return !taken_.contains(edge_key(loop.vertices[i], loop.vertices[j]));
             });
-        } else if (SplitPolygon ears = split_polygon(corners); ears.how != PolygonSplit::blind_fan) {
-            filling = HoleFilling::ears;
-            split = std::move(ears.triangles);
+        } else if (SplitPolygon flat = split_polygon(corners); flat.how != PolygonSplit::crossing) {
+            filling = HoleFilling::flat;
+            split = std::move(flat.triangles);
             if (reuses_an_edge(loop, *split)) split.reset();
         }
         if (!split) {

@@ -22,7 +22,7 @@ WeldReport weld_vertices(TriangleMesh& mesh);
 // The method that filled a hole.
 enum class HoleFilling : std::uint8_t {
     least_area,  // the triangulation of least area over the loop's own vertices (Barequet and Sharir 1995, O(n^3))
-    ears,        // long loops: ear clipping in the loop's mean plane
+    flat,        // long loops: split as polygons that are nearly flat (polygon.hpp)
     centre_fan,  // the others: a new vertex at the centre, joined with every edge
 };
 

@@ -4,93 +4,115 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <utility>
+
+#include "geometry/mesh/exact_sign.hpp"
+#include "geometry/mesh/flat_polygon.hpp"
 
 namespace burin::geometry {
 namespace {
 
-using Corners = std::vector<std::uint32_t>;
+// What the vector area must at least be of the areas that it sums up to say how a polygon lies. Less is left where
+// the loops of a figure of eight cancel.
+constexpr double kLeastVectorArea = 1e-6;
 
-// Returns twice the vector area (Newell 1972), about the first corner so that distant polygons keep their precision.
-Vec3 vector_area(std::span<const Vec3> p) {
-    Vec3 sum(0.0);
-    for (std::size_t i = 1; i + 1 < p.size(); ++i) sum += glm::cross(p[i] - p[0], p[i + 1] - p[0]);
-    return sum;
+// Where a polygon lies, from its triangles about corner 0, so that distant polygons keep their precision.
+struct PolygonPlane {
+    Vec3 normal{0.0};     // twice the vector area
+    Vec3 absolute{0.0};   // the same sums without signs
+    int axis = 0;         // along which the polygon is seen largest
+
+    [[nodiscard]] bool has_area() const { return absolute[axis] > 0.0; }
+};
+
+int largest_axis(const Vec3& v) { return v.x >= v.y && v.x >= v.z ? 0 : v.y >= v.z ? 1 : 2; }
+
+PolygonPlane plane_of(std::span<const Vec3> p) {
+    PolygonPlane o;
+    for (std::size_t i = 1; i + 1 < p.size(); ++i) {
+        const Vec3 area = glm::cross(p[i] - p[0], p[i + 1] - p[0]);
+        o.normal += area;
+        o.absolute += glm::abs(area);
+    }
+    const Vec3 size = glm::abs(o.normal);
+    o.axis = largest_axis(size);
+    if (size[o.axis] < kLeastVectorArea * o.absolute[largest_axis(o.absolute)]) o.axis = largest_axis(o.absolute);
+    return o;
 }
 
-// Projects the corners onto the mean plane, counter-clockwise; nothing when the polygon has no mean plane.
-std::optional<std::vector<Vec2>> flattened(std::span<const Vec3> p) {
-    const Vec3 area = vector_area(p);
-    const double length = glm::length(area);
-    if (!(length > 0.0) || !std::isfinite(length)) return std::nullopt;
-    const Vec3 n = area / length;
+// Returns the corners as seen along the axis, against the normal; no coordinate is rounded.
+std::vector<Vec2> seen_along_axis(std::span<const Vec3> p, const PolygonPlane& o) {
+    const int right = (o.axis + 1) % 3, up = (o.axis + 2) % 3;
+    const double sign = o.normal[o.axis] < 0.0 ? -1.0 : 1.0;
+    std::vector<Vec2> flat;
+    flat.reserve(p.size());
+    for (const Vec3& corner : p) flat.emplace_back(corner[right], sign * corner[up]);
+    return flat;
+}
+
+// Returns the corners projected onto the mean plane, in rounded numbers.
+std::vector<Vec2> in_mean_plane(std::span<const Vec3> p, const PolygonPlane& o) {
+    const Vec3 n = glm::normalize(o.normal);
     const Vec3 aside = std::abs(n.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
-    const Vec3 u = glm::normalize(glm::cross(aside, n));
-    const Vec3 v = glm::cross(n, u);
+    const Vec3 u = glm::normalize(glm::cross(aside, n)), v = glm::cross(n, u);
     std::vector<Vec2> flat;
     flat.reserve(p.size());
     for (const Vec3& corner : p) flat.emplace_back(glm::dot(corner - p[0], u), glm::dot(corner - p[0], v));
     return flat;
 }
 
-double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
+bool comes_first(const Vec2& a, const Vec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
 
-// Tells whether every corner turns left and the directions go round once: a polygon that winds twice is not convex.
-bool convex(const std::vector<Vec2>& p) {
+// Tells whether every corner turns left and the polygon goes to the right and back once; one that winds twice goes
+// there twice.
+bool convex(std::span<const Vec2> p) {
     const std::size_t n = p.size();
+    std::size_t rightmost = 0;
     for (std::size_t i = 0; i < n; ++i) {
-        if (turn(p[i], p[(i + 1) % n], p[(i + 2) % n]) < 0.0) return false;
+        const Vec2 &a = p[i], &b = p[(i + 1) % n], &c = p[(i + 2) % n];
+        if (turn_in_plane(a, b, c) <= 0) return false;
+        if (comes_first(a, b) && comes_first(c, b)) ++rightmost;
     }
-    for (std::size_t i = 1; i + 1 < n; ++i) {
-        if (turn(p[0], p[i], p[i + 1]) < 0.0) return false;
-    }
-    return true;
+    return rightmost == 1;
 }
 
-bool inside(const Vec2& q, const Vec2& a, const Vec2& b, const Vec2& c) {
-    return turn(a, b, q) >= 0.0 && turn(b, c, q) >= 0.0 && turn(c, a, q) >= 0.0;
-}
-
-bool is_ear(const std::vector<Vec2>& p, const Corners& left, std::size_t i) {
-    const std::size_t n = left.size();
-    const Vec2 &a = p[left[(i + n - 1) % n]], &b = p[left[i]], &c = p[left[(i + 1) % n]];
-    if (turn(a, b, c) <= 0.0) return false;
-    return std::ranges::none_of(left, [&](std::uint32_t k) {
-        const Vec2& q = p[k];
-        return q != a && q != b && q != c && inside(q, a, b, c);
-    });
-}
-
-// Cuts ears one after another; nothing when no ear is left among more than three corners.
-std::optional<std::vector<std::array<std::uint32_t, 3>>> cut_ears(const std::vector<Vec2>& p) {
-    Corners left(p.size());
-    std::iota(left.begin(), left.end(), 0u);
-    std::vector<std::array<std::uint32_t, 3>> triangles;
-    // Continues where the last ear was: cutting in turns keeps the triangles well shaped.
-    std::size_t next = 0;
-    // A simple polygon needs about two tests a corner; a crossed one could need n * n.
-    std::size_t tests = 8 * p.size();
-    while (left.size() > 3) {
-        const std::size_t n = left.size();
-        std::size_t tried = 0;
-        while (tried < n && tests > 0 && !is_ear(p, left, (next + tried) % n)) ++tried, --tests;
-        if (tried == n || tests == 0) return std::nullopt;
-        const std::size_t ear = (next + tried) % n;
-        triangles.push_back({left[(ear + n - 1) % n], left[ear], left[(ear + 1) % n]});
-        left.erase(left.begin() + static_cast<std::ptrdiff_t>(ear));
-        next = (ear + 1) % left.size();
-    }
-    triangles.push_back({left[0], left[1], left[2]});
-    return triangles;
-}
-
-std::vector<std::array<std::uint32_t, 3>> fan(std::size_t corners) {
-    std::vector<std::array<std::uint32_t, 3>> triangles;
+std::vector<CornerTriple> fan(std::size_t corners) {
+    std::vector<CornerTriple> triangles;
     triangles.reserve(corners - 2);
     for (std::uint32_t i = 1; i + 1 < corners; ++i) triangles.push_back({0, i, i + 1});
     return triangles;
+}
+
+// Splits a polygon no corner of which repeats the place of the one before.
+SplitPolygon split_distinct(std::span<const Vec3> p) {
+    if (p.size() == 3) return {PolygonSplit::fan, fan(3)};
+    const PolygonPlane o = plane_of(p);
+    if (!o.has_area()) return {PolygonSplit::crossing, fan(p.size())};
+    const std::vector<Vec2> seen = seen_along_axis(p, o);
+    if (convex(seen)) return {PolygonSplit::fan, fan(p.size())};
+    SweptPolygon swept = sweep_polygon(seen);
+    if (swept.contact == SelfContact::none) return {PolygonSplit::sweep, std::move(swept.triangles)};
+    if (glm::length(o.normal) > 0.0) {
+        SweptPolygon flat = sweep_polygon(in_mean_plane(p, o));
+        if (flat.contact == SelfContact::none) return {PolygonSplit::sweep, std::move(flat.triangles)};
+    }
+    if (!swept.triangles.empty()) return {PolygonSplit::touching, std::move(swept.triangles)};
+    ClippedPolygon clipped = clip_ears(seen);
+    const bool crosses = clipped.folded || swept.contact == SelfContact::cross;
+    return {crosses ? PolygonSplit::crossing : PolygonSplit::touching, std::move(clipped.triangles)};
+}
+
+// Adds the triangles of the corners that were left out: each hangs on the edge that leads on from the corner that it
+// repeats.
+void add_repeats(std::size_t corners, const std::vector<std::uint32_t>& kept, SplitPolygon& split) {
+    for (CornerTriple& t : split.triangles) {
+        for (std::uint32_t& corner : t) corner = kept[corner];
+    }
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        const std::uint32_t onward = kept[(i + 1) % kept.size()], n = static_cast<std::uint32_t>(corners);
+        for (std::uint32_t k = kept[i]; (k + 1) % n != onward; k = (k + 1) % n)
+            split.triangles.push_back({k, (k + 1) % n, onward});
+    }
 }
 
 constexpr double kImpossible = std::numeric_limits<double>::infinity();
@@ -115,15 +137,19 @@ double area(const Vec3& a, const Vec3& b, const Vec3& c) { return glm::length(gl
 
 }  // namespace
 
-SplitPolygon split_polygon(std::span<const Vec3> corners_m, std::size_t max_ear_corners) {
-    if (corners_m.size() == 3) return {PolygonSplit::fan, {{0, 1, 2}}};
-    const auto flat = flattened(corners_m);
-    if (!flat) return {PolygonSplit::blind_fan, fan(corners_m.size())};
-    if (convex(*flat)) return {PolygonSplit::fan, fan(corners_m.size())};
-    if (corners_m.size() <= max_ear_corners) {
-        if (auto ears = cut_ears(*flat)) return {PolygonSplit::ears, std::move(*ears)};
+SplitPolygon split_polygon(std::span<const Vec3> corners_m) {
+    const std::size_t n = corners_m.size();
+    std::vector<std::uint32_t> kept;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        if (corners_m[i] != corners_m[i == 0 ? n - 1 : i - 1]) kept.push_back(i);
     }
-    return {PolygonSplit::blind_fan, fan(corners_m.size())};
+    if (kept.size() == n) return split_distinct(corners_m);
+    if (kept.size() < 3) return {n == 3 ? PolygonSplit::fan : PolygonSplit::crossing, fan(n)};
+    std::vector<Vec3> distinct;
+    for (const std::uint32_t i : kept) distinct.push_back(corners_m[i]);
+    SplitPolygon split = split_distinct(distinct);
+    add_repeats(n, kept, split);
+    return split;
 }
 
 std::optional<std::vector<std::array<std::uint32_t, 3>>> least_area_triangulation(

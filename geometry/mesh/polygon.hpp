@@ -16,22 +16,24 @@
 namespace burin::geometry {
 
 enum class PolygonSplit : std::uint8_t {
-    fan,        // convex in its mean plane: a fan from corner 0
-    ears,       // ear clipping in the mean plane
-    blind_fan,  // flat, crossed, or above the corner limit: a fan from corner 0 that may fold over
+    fan,       // convex: a fan from corner 0
+    sweep,     // another simple polygon
+    touching,  // touches itself; the triangles do not overlap
+    crossing,  // crosses itself or has no area: triangles overlap or face the other way
 };
 
 struct SplitPolygon {
     PolygonSplit how = PolygonSplit::fan;
-    // n - 2 triangles of corner numbers, in the polygon's direction.
+    // n - 2 triangles of corner numbers, in the polygon's direction. Every edge of the polygon is an edge of one.
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-inline constexpr std::size_t kMaxEarCorners = 2048;
-
-// Splits a polygon of n >= 3 finite points. The mean plane is Newell's (the normal of the vector area). O(n) for a
-// convex polygon, O(n^2) for another of at most max_ear_corners corners.
-[[nodiscard]] SplitPolygon split_polygon(std::span<const Vec3> corners_m, std::size_t max_ear_corners = kMaxEarCorners);
+// Splits a polygon of n >= 3 finite points (flat_polygon.hpp). It is seen along the axis that its normal is nearest to,
+// in which no coordinate is rounded, and otherwise in its mean plane: that of the vector area (Newell 1972). Corners
+// need not lie in one plane, as long as the polygon is simple as seen in either of them. The triangles of a simple
+// polygon have positive areas there; those at a corner that repeats the place of the one before have none. O(n) for a
+// convex polygon, O(n log n) for another simple one.
+[[nodiscard]] SplitPolygon split_polygon(std::span<const Vec3> corners_m);
 
 // Finds the triangulation of least area by dynamic programming (G. Barequet, M. Sharir, "Filling gaps in the boundary
 // of a polyhedron", CAGD 12 (1995), 207-229, with the area as the weight). Returns n - 2 triangles of corner numbers in

@@ -19,7 +19,11 @@ std::string read_back(const std::string& bytes, std::uint64_t max_bytes = kMaxFi
 }
 
 TEST(ReadTextFile, LeavesOutAByteOrderMarkAtTheStartAlone) {
-    EXPECT_EQ(read_back("\xEF\xBB\xBF" "1 \xC3\xBC\n\xEF\xBB\xBF" "2"), "1 \xC3\xBC\n\xEF\xBB\xBF" "2");
+    EXPECT_EQ(read_back("\xEF\xBB\xBF"
+                        "1 \xC3\xBC\n\xEF\xBB\xBF"
+                        "2"),
+              "1 \xC3\xBC\n\xEF\xBB\xBF"
+              "2");
     EXPECT_EQ(read_back("\xEF\xBB\xBF"), "");
     EXPECT_EQ(read_back("\xEF\xBB"), "\xEF\xBB");
     EXPECT_EQ(read_back(""), "");

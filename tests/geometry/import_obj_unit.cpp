@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "geometry/mesh/mesh_health.hpp"
 #include "tests/geometry/mesh_samples.hpp"
 
 namespace burin::geometry::test {
@@ -45,15 +46,16 @@ TEST(ObjImport, KeepsFansAndRepeatedFacesAndRepeatedCorners) {
     EXPECT_EQ(result->report.faces_in_file, 5u);
 }
 
-TEST(ObjImport, SplitsConvexPolygonsAsFansAndTheOthersByEars) {
+TEST(ObjImport, SplitsConvexPolygonsAsFansAndTheOthersByASweep) {
     const auto result = import_obj(
         "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3 4\n"  // a square
-        "v 1 1 0\nf 1 2 3 5\n"                             // flat at 1 1: still convex
+        "v 1 1 0\nf 1 2 3 5\n"                             // flat at 1 1: a fan would have a triangle without area
         "v 1.5 .5 0\nf 1 2 3 6\n");                        // an arrowhead
     ASSERT_TRUE(result) << result.error().line();
     EXPECT_EQ(result->report.polygons_in_file, 3u);
-    EXPECT_EQ(result->report.polygons_fanned, 2u);
-    EXPECT_EQ(result->report.polygons_ear_clipped, 1u);
+    EXPECT_EQ(result->report.polygons_fanned, 1u);
+    EXPECT_EQ(result->report.polygons_swept, 2u);
+    EXPECT_EQ(examine(result->mesh).degenerate_triangles, 0u);
     ASSERT_EQ(result->mesh.triangles.size(), 6u);
     double area = 0.0;  // of the arrowhead: both triangles point up, so the sum is the polygon's own area
     for (std::size_t t = 4; t < 6; ++t) {

@@ -6,7 +6,6 @@
 
 #include "geometry/mesh/mesh_health.hpp"
 #include "geometry/mesh/mesh_repair.hpp"
-#include "geometry/mesh/polygon.hpp"
 #include "tests/geometry/mesh_samples.hpp"
 
 namespace burin::geometry::test {
@@ -53,35 +52,6 @@ TEST(OrientOutward, UndoesAnyTurningOfTriangles) {
         }
         RC_ASSERT(orient_outward(mesh).conflicts == 0u);
         RC_ASSERT(mesh.triangles == good);
-    }));
-}
-
-// A simple polygon: corners at random distances around a centre.
-TEST(SplitPolygon, CoversAStarShapedPolygonExactlyOnce) {
-    EXPECT_TRUE(rc::check([] {
-        const auto radii = *rc::gen::suchThat(rc::gen::container<std::vector<int>>(rc::gen::inRange(1, 100)),
-                                              [](const auto& r) { return r.size() >= 3; });
-        std::vector<Vec3> polygon;
-        double shoelace = 0.0;
-        for (std::size_t i = 0; i < radii.size(); ++i) {
-            const double a = 6.283185307179586 * static_cast<double>(i) / static_cast<double>(radii.size());
-            polygon.emplace_back(radii[i] * std::cos(a), 0.5,
-                                 -radii[i] * std::sin(a));  // seen from +Y, counter-clockwise
-        }
-        for (std::size_t i = 0; i < polygon.size(); ++i) {
-            const Vec3 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-            shoelace += (p.z * q.x - p.x * q.z) / 2;
-        }
-        const SplitPolygon split = split_polygon(polygon);
-        RC_ASSERT(split.triangles.size() == polygon.size() - 2);
-        if (split.how == PolygonSplit::blind_fan) RC_DISCARD("three corners in a line leave no strict ear");
-        double sum = 0.0;
-        for (const auto& t : split.triangles) {
-            const double y = glm::cross(polygon[t[1]] - polygon[t[0]], polygon[t[2]] - polygon[t[0]]).y / 2;
-            RC_ASSERT(y >= -1e-9);
-            sum += y;
-        }
-        RC_ASSERT(std::abs(sum - shoelace) <= 1e-9 * (1.0 + std::abs(shoelace)));
     }));
 }
 

@@ -37,7 +37,7 @@ TEST(CloseHoles, FillsAFlatRimWithItsOwnAreaWhateverTheMethod) {
         const ClosingReport report = close_holes(mesh);
         ASSERT_EQ(report.holes.size(), 1u);
         EXPECT_EQ(report.holes[0].edges, n);
-        EXPECT_EQ(report.holes[0].filling, n <= kLeastAreaEdges ? HoleFilling::least_area : HoleFilling::ears);
+        EXPECT_EQ(report.holes[0].filling, n <= kLeastAreaEdges ? HoleFilling::least_area : HoleFilling::flat);
         EXPECT_NEAR(report.holes[0].perimeter_m, 2 * n * std::sin(std::numbers::pi / n), 1e-9);
         EXPECT_NEAR(report.holes[0].area_added_m2, disc_area(n), 1e-9);
         const MeshHealth health = examine(mesh);

@@ -94,9 +94,8 @@ TEST(MeshText, AMarkBeforeAMaterialFileHidesNoMaterial) {
 
 TEST(MeshText, ABinaryStlIsReadWhateverItsHeaderLooksLike) {
     const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-    for (const std::string& start :
-         {kMark + "solid in a binary header"s, "\xFF\xFE"s, "\xFE\xFF"s, "\xFF\xFE\0\0"s, "s\0o\0l\0i\0d\0"s, "\0s\0o"s,
-          std::string(kMark)}) {
+    for (const std::string& start : {kMark + "solid in a binary header"s, "\xFF\xFE"s, "\xFE\xFF"s, "\xFF\xFE\0\0"s,
+                                     "s\0o\0l\0i\0d\0"s, "\0s\0o"s, std::string(kMark)}) {
         std::vector<std::byte> bytes = binary_stl(corners, 1);
         std::memcpy(bytes.data(), start.data(), start.size());
         const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());

@@ -110,8 +110,11 @@ TEST(SessionOutputs, LieBesideWhereTheProgramRunsUnlessAFolderIsNamed) {
     // A folder that came with the log may lead anywhere.
     fs::create_directory("home");
     fs::create_symlink("home", "other-outputs");
-    EXPECT_TRUE(SessionOutputs(led_by("other.log", "")).place_of("a.stl", OutputKind::mesh).error().line().contains(
-        "--outputs"));
+    EXPECT_TRUE(SessionOutputs(led_by("other.log", ""))
+                    .place_of("a.stl", OutputKind::mesh)
+                    .error()
+                    .line()
+                    .contains("--outputs"));
     EXPECT_EQ(SessionOutputs(led_by("other.log", "other-outputs")).place_of("a.stl", OutputKind::mesh).value(),
               "other-outputs/a.stl");
     fs::current_path(before);

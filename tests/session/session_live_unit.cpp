@@ -147,8 +147,8 @@ TEST(MessageLog, ShowsRecordedEventsInPlaceOfItsOwnInAReplay) {
     log.notify("undone again");
     EXPECT_EQ(log.newest(), "undone again");
     const std::string said = testing::internal::GetCapturedStderr();
-    for (const char* line : {"burin: script.txt:3: undone (elsewhere)\n", "burin: a monitor has gone\n",
-                             "burin: not as recorded\n"})
+    for (const char* line :
+         {"burin: script.txt:3: undone (elsewhere)\n", "burin: a monitor has gone\n", "burin: not as recorded\n"})
         EXPECT_NE(said.find(line), std::string::npos) << said;
 }
 

@@ -59,8 +59,9 @@ TEST_F(OutputsOfASession, LieInAFolderNamedAfterTheLogOrInTheOneThatIsNamed) {
 TEST_F(OutputsOfASession, AreNeverPutInPlaceOfOthersWithoutAWord) {
     EXPECT_FALSE(play("", kTwoFiles).output.contains("in place of"));
     const auto again = play("", kTwoFiles);
-    expect_said(again, 0, {"(script-outputs/a.png, in place of the file that was there)",
-                           "(script-outputs/parts/b.stl, in place of the file that was there)"});
+    expect_said(again, 0,
+                {"(script-outputs/a.png, in place of the file that was there)",
+                 "(script-outputs/parts/b.stl, in place of the file that was there)"});
 }
 
 TEST_F(OutputsOfASession, CannotOverwriteTheUsersFiles) {
@@ -68,7 +69,7 @@ TEST_F(OutputsOfASession, CannotOverwriteTheUsersFiles) {
     place.write("mine.stl", "mine");
     const std::string mine = (place / "mine").string();
     for (const std::string& command : {"screenshot " + mine + ".png", "export " + mine + ".stl",
-                                      std::string("screenshot ../mine.png"), std::string("export ../mine.stl")}) {
+                                       std::string("screenshot ../mine.png"), std::string("export ../mine.stl")}) {
         const auto refused = play("--outputs out", "0.1 mouse 9 9\n0.2 command " + command + "\n0.3 command quit\n");
         expect_said(refused, 1, {"script.txt:3: "});
         EXPECT_FALSE(is_there("out")) << "the session has not begun";
@@ -95,11 +96,13 @@ TEST_F(OutputsOfASession, OfKeysFollowNoLinkOutOfTheFolderAndTheSessionGoesOn) {
 
 // SIGXFSZ ignored, a file that grows too large is as a full disk.
 TEST_F(OutputsOfASession, ThatFailMeanwhileAreToldWithFileAndLineAndEndInFailure) {
-    const auto outcome = play("", "0.1 command export large.stl\n0.2 command undo\n0.3 command screenshot large.png\n" +
-                                      std::string("0.4 command quit\n"),
+    const auto outcome = play("",
+                              "0.1 command export large.stl\n0.2 command undo\n0.3 command screenshot large.png\n" +
+                                  std::string("0.4 command quit\n"),
                               "trap '' XFSZ; ulimit -f 1; ");
-    expect_said(outcome, 1, {"script.txt:2: ", "large.stl: cannot be written", "no stroke to undo", "script.txt:4: ",
-                             "large.png", "2 things"});
+    expect_said(outcome, 1,
+                {"script.txt:2: ", "large.stl: cannot be written", "no stroke to undo", "script.txt:4: ", "large.png",
+                 "2 things"});
     EXPECT_FALSE(is_there("script-outputs/large.stl"));
 }
 

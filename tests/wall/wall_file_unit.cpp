@@ -318,7 +318,9 @@ TEST(WallCommand, AsksForTouchAfterTouch) {
     EXPECT_EQ(samples[2].tip_tracker, (Vec3{0.07, 0.08, 0.09}));
     EXPECT_EQ(samples[3].place, "upper_right");
     EXPECT_EQ(samples[4].place, "lower_right") << "the next corner, after three touches";
-    std::istringstream marked("\xEF\xBB\xBF" "1,2,3\r\ndone\r\n");
+    std::istringstream marked(
+        "\xEF\xBB\xBF"
+        "1,2,3\r\ndone\r\n");
     EXPECT_EQ(app::guided_samples(marked, prompts, 0.01).size(), 1u) << "a file with a byte-order mark came by a pipe";
     EXPECT_NE(prompts.str().find("touch lower_right with the wand's tip, 1 of 3"), std::string::npos) << prompts.str();
     EXPECT_NE(prompts.str().find("is not a sample"), std::string::npos);
