@@ -58,9 +58,10 @@ std::string text_of_file(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-Result<geometry::ImportedMesh> import_text(std::string_view text, MeshFormat format) {
+Result<geometry::ImportedMesh> import_text(std::string_view text, MeshFormat format,
+                                           std::optional<LengthUnit> given_unit) {
     static constexpr const char* kNames[] = {"test.stl", "test.obj", "test.ply", "test.off"};
-    return geometry::import_mesh(bytes_of(text), format, kNames[static_cast<std::size_t>(format)]);
+    return geometry::import_mesh(bytes_of(text), format, kNames[static_cast<std::size_t>(format)], {}, given_unit);
 }
 
 std::string refusal(std::string_view text, MeshFormat format) {

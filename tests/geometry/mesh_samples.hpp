@@ -24,7 +24,8 @@ TriangleMesh torus(std::size_t rings, std::size_t sides, double radius_m, double
 [[nodiscard]] std::string text_of_file(const std::filesystem::path& path);
 
 // Imports text as if it were a file named "test.<format>".
-Result<geometry::ImportedMesh> import_text(std::string_view text, MeshFormat format);
+Result<geometry::ImportedMesh> import_text(std::string_view text, MeshFormat format,
+                                           std::optional<LengthUnit> given_unit = std::nullopt);
 // The message of a refusal; an empty string when the text was accepted.
 std::string refusal(std::string_view text, MeshFormat format);
 

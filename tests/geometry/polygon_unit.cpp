@@ -23,7 +23,7 @@ std::string obj_of(const LatticePolygon& polygon) {
 }
 
 double area_after_import(const LatticePolygon& polygon) {
-    const auto read = import_text(obj_of(polygon), MeshFormat::obj);
+    const auto read = import_text(obj_of(polygon), MeshFormat::obj, LengthUnit::m);
     if (!read) return -1.0;
     EXPECT_TRUE(read->report.remarks.empty()) << read->report.remarks[0];
     return examine(read->mesh).area_m2;
@@ -49,10 +49,10 @@ TEST(PolygonImport, SaysWhichPolygonsCrossOrTouchThemselves) {
     const auto read = import_text(
         "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 1 0 0\n"
         "f 1 2 3 4\n"
-        "f 1 3 2 4\n"      // a bow tie
-        "f 1 5 2 5\n"      // a line
-        "f 1 3 4 2\n"      // another bow tie
-        "f 1 2 3 5 4\n",   // its fourth corner lies on its first edge
+        "f 1 3 2 4\n"     // a bow tie
+        "f 1 5 2 5\n"     // a line
+        "f 1 3 4 2\n"     // another bow tie
+        "f 1 2 3 5 4\n",  // its fourth corner lies on its first edge
         MeshFormat::obj);
     ASSERT_TRUE(read) << read.error().line();
     EXPECT_EQ(read->report.polygons_fanned, 1u);

@@ -123,7 +123,7 @@ TEST(MeshText, ABinaryPlyIsReadToTheByteAfterAMarkAndAnyLineEnd) {
         for (const char* end : {"\n", "\r\n", "\r"}) {
             // A coordinate of 10 has the code of a line feed; it belongs to the data even behind a lone CR.
             for (const char x : {'\0', '\n'}) {
-                const auto read = import_text(mark + byte_ply(end, x), MeshFormat::ply);
+                const auto read = import_text(mark + byte_ply(end, x), MeshFormat::ply, LengthUnit::m);
                 ASSERT_TRUE(read) << read.error().line();
                 EXPECT_EQ(read->mesh.positions_m[0], Vec3(x, 0, 0));
                 EXPECT_EQ(read->mesh.positions_m[2], Vec3(0, 1, 0));

@@ -12,8 +12,8 @@
 
 namespace burin::house {
 
-// A file of fewer lines is a fragment. A concept is one or two files, not six; how many a folder has is a figure to look
-// at, without a bar, since a narrow header before a deep source is no fault.
+// A file of fewer lines is a fragment. A concept is one or two files, not six. How many a folder has is a figure to
+// look at, without a bar, since a narrow header before a deep source is no fault.
 inline constexpr std::size_t kFragmentLines = 40;
 
 struct FolderFragments {

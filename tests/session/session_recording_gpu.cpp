@@ -100,35 +100,33 @@ const std::string kPart = [] {
 TEST_F(Recording, OfAPartInMillimetresHoldsItsUnitAndItsTool) {
     place.write("part.obj", kPart);
     const std::string options = "--workpiece part.obj --resolution 48 --width 960 --height 540 ";
-    const auto run = place.run(sculpt(options + "--screenshots live --input script.txt --record part.log"));
+    const auto run = place.run(sculpt_offscreen(options + "--outputs live --input script.txt --record part.log"));
     ASSERT_EQ(run.status, 0) << run.output;
     EXPECT_NE(run.output.find("part.obj: 50 x 50 x 50 mm (no unit is given"), std::string::npos) << run.output;
     const std::string log = place.read("part.log");
     const std::string first = log.substr(0, log.find('\n'));
     EXPECT_NE(first.find(" --units mm"), std::string::npos) << first;
     EXPECT_NE(first.find(" --tool ball:0.0025"), std::string::npos) << first;
-    std::filesystem::rename(place / "undone.ply", place / "undone-live.ply");
-    const auto again = place.run(sculpt("--screenshots again --input part.log"));
+    const auto again = place.run(sculpt_offscreen("--outputs again --input part.log"));
     ASSERT_EQ(again.status, 0) << again.output;
     for (const std::string& name : kPictures) EXPECT_TRUE(picture("live", name) == picture("again", name)) << name;
-    EXPECT_TRUE(place.read("undone.ply") == place.read("undone-live.ply"));
-    EXPECT_NE(place.read("undone.ply").find("comment units mm\n"), std::string::npos);
+    EXPECT_TRUE(place.read("live/undone.ply") == place.read("again/undone.ply"));
+    EXPECT_NE(place.read("again/undone.ply").find("comment units mm\n"), std::string::npos);
 }
 
 // Before there were units every file was read in metres, and no recording said so.
 TEST_F(Recording, WithoutAUnitIsReadInMetresAsItWasMade) {
     place.write("part.obj", kPart);
     const std::string options = "--workpiece part.obj --units m --resolution 48 --width 960 --height 540 ";
-    const auto run = place.run(sculpt(options + "--screenshots live --input script.txt --record part.log"));
+    const auto run = place.run(sculpt_offscreen(options + "--outputs live --input script.txt --record part.log"));
     ASSERT_EQ(run.status, 0) << run.output;
-    std::filesystem::rename(place / "undone.ply", place / "undone-live.ply");
     std::string log = place.read("part.log");
     const std::size_t unit = log.find(" --units m");
     ASSERT_LT(unit, log.find('\n'));
     place.write("old.log", log.erase(unit, std::string(" --units m").size()));
-    const auto again = place.run(sculpt("--screenshots again --input old.log"));
+    const auto again = place.run(sculpt_offscreen("--outputs again --input old.log"));
     ASSERT_EQ(again.status, 0) << again.output;  // every tick and surface came out as recorded
-    EXPECT_TRUE(place.read("undone.ply") == place.read("undone-live.ply"));
+    EXPECT_TRUE(place.read("live/undone.ply") == place.read("again/undone.ply"));
 }
 
 TEST_F(Recording, FailsWhenATickGoesAnotherWay) {

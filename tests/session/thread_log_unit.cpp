@@ -34,10 +34,10 @@ TEST(InputLog, IsReadAfterAByteOrderMarkAndWithAnyLineEnds) {
             ASSERT_TRUE(torn) << torn.error().line();
             EXPECT_EQ(torn->events.size(), 1u);
             EXPECT_TRUE(torn->torn_line);
-            EXPECT_TRUE(has(read(start + "1 nonsense" + end).error().line(), "marked.log:3"));
+            EXPECT_TRUE(text_has(read(start + "1 nonsense" + end).error().line(), "marked.log:3"));
         }
     }
-    EXPECT_TRUE(has(read(std::string("b\0u\0", 4)).error().line(), "is UTF-16 text; save it as UTF-8"));
+    EXPECT_TRUE(text_has(read(std::string("b\0u\0", 4)).error().line(), "is UTF-16 text; save it as UTF-8"));
 }
 
 TEST(ThreadLog, TicksReadBackToTheSameBits) {
