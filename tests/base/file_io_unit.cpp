@@ -14,7 +14,9 @@ std::string read_back(const std::string& bytes, std::uint64_t max_bytes = kMaxFi
     const Workplace place;
     place.write("notes.txt", bytes);
     const auto text = read_text_file(place / "notes.txt", max_bytes);
-    if (!text) EXPECT_EQ(text.error().where, (place / "notes.txt").string());
+    if (!text) {
+        EXPECT_EQ(text.error().where, (place / "notes.txt").string());
+    }
     return text ? *text : "refused: it " + text.error().what + "; " + text.error().remedy;
 }
 

@@ -92,7 +92,9 @@ TEST(FineSurface, ABallIsFreeAgainAfterTicksThatWereTooShort) {
             limited += r.work_limited;
             ASSERT_GE(state.stride, 1u) << budget_ns << " ns, tick " << i;
         }
-        if (budget_ns <= 5e3) EXPECT_GT(limited, 100) << budget_ns;
+        if (budget_ns <= 5e3) {
+            EXPECT_GT(limited, 100) << budget_ns;
+        }
         // Straight away from where the ball is, so that nothing lies between.
         const Vec3 out = glm::normalize(state.position_object_m);
         ProxyResult last;
