@@ -64,10 +64,7 @@ Result<void> BenchCommand::Options::check_stroke() const {
     if (!peer.empty() && tool != "ball") {
         return fail("--peer " + peer, "carves with a ball at one place after the other", "leave --tool at ball");
     }
-    if (!peer.empty() && !bench::has_peers()) {
-        return fail("--peer " + peer, "is not built into this program",
-                    "install it with scripts/setup --peers and configure with -DBURIN_WITH_PEERS=ON");
-    }
+    if (!peer.empty() && !bench::has_peers()) return bench::peer_not_built("--peer " + peer);
     return {};
 }
 

@@ -10,6 +10,7 @@
 #include "app/output_files.hpp"
 #include "bench/frame/frame.hpp"
 #include "bench/frame/frame_peers.hpp"
+#include "bench/peers/peers.hpp"
 #include "gpu/driver_threads.hpp"
 #include "renderer/png.hpp"
 
@@ -41,10 +42,7 @@ Result<void> check(const Options& options) {
     if (!options.pictures.empty() && !std::filesystem::is_directory(options.pictures)) {
         return fail(options.pictures, "is not a folder", "make it first");
     }
-    if (!options.peer.empty() && !bench::has_frame_peers()) {
-        return fail("--peer " + options.peer, "is not built into this program",
-                    "install it with scripts/setup --peers and configure with -DBURIN_WITH_PEERS=ON");
-    }
+    if (!options.peer.empty() && !bench::has_frame_peers()) return bench::peer_not_built("--peer " + options.peer);
     if (options.frame.samples != 1 && options.frame.samples != 4) {
         return fail("--samples " + std::to_string(options.frame.samples), "is not possible", "choose 1 or 4");
     }

@@ -76,9 +76,6 @@ Result<void> sculpt(const session::SculptOptions& options) {
     Result<sculpt::Tool> tool = sculpt::make_tool(*settings);
     if (!tool) return std::unexpected(tool.error());
     const geometry::Material material = sculpt::material_of(*settings);
-    if (options.hand == session::HandChoice::simulated && tool->ball_radius_m() == 0.0) {
-        return fail("--hand simulated", "feels with a ball only", "use --tool ball:R, or --hand rigid");
-    }
     const Result<sculpt::Feel> feel = sculpt::parse_feel(options.feel);
     if (!feel) return std::unexpected(feel.error());
     const std::array inputs{options.workpiece.source, options.stroke};

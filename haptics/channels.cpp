@@ -4,13 +4,13 @@
 namespace burin::haptics {
 
 StrokeSample stroke_of(const TickRecord& record) noexcept {
-    const PointRecord& first = record.contact.points[0];
+    const PointRecord& working = record.working();
     StrokeSample stroke;
     stroke.tick = record.tick;
     stroke.time_ns = record.time_ns;
-    stroke.position_object_m = first.hip_object_m;
+    stroke.position_object_m = working.hip_object_m;
     stroke.cut_object_m = record.contact.cut_object_m;
-    stroke.proxy_object_m = first.proxy_object_m;
+    stroke.proxy_object_m = working.proxy_object_m;
     stroke.orientation_object = record.motion.orientation_object;
     stroke.force_object_N = record.motion.object_from_device.orientation * record.gate.given.force_device_N;
     stroke.buttons = record.sample.buttons;

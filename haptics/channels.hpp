@@ -20,6 +20,8 @@
 #include "haptics/contact/contact_work.hpp"
 #include "haptics/contact/probe.hpp"
 #include "haptics/forces/guidance.hpp"
+#include "haptics/forces/piston.hpp"
+#include "haptics/forces/tool_surface.hpp"
 #include "haptics/forces/touch_force.hpp"
 #include "haptics/signals/filters.hpp"
 #include "haptics/stability/passivity.hpp"
@@ -44,6 +46,7 @@ struct TickParameters {
     // Mapping from device to scene; its scale is the position gain g: motions grow by g, forces shrink by g.
     WorkspaceSettings workspace;
     Probe probe;
+    ToolSurface tool;  // what cuts; count 0: nothing
     // The ball that touches is smaller than the ball that carves by this fraction of its radius. A ball lying in the
     // groove it has cut would otherwise be pinched by the facets, which cut the circle's corner: a facet of length s
     // stands s^2 / (8 R) proud. 0.02 leaves room for facets of 0.4 R.
@@ -54,6 +57,7 @@ struct TickParameters {
     // Limits the stiffness of materials to what the device renders passively; false: uses it as set.
     bool limit_stiffness = true;
     CouplingSettings coupling;
+    PistonSettings piston;  // of a device that one drives
     PassivitySettings passivity;
     SignalSettings signals;
     WeightSettings weight;
@@ -109,6 +113,7 @@ enum TickFlag : std::uint32_t {
     kTickCutting = 1u << 17,        // the tool is cutting into material
     kTickGuided = 1u << 18,         // the guidance force pulls the tool to its curve
     kTickLoopGap = 1u << 19,        // ticks were lost before this one
+    kTickPistonBound = 1u << 20,    // the piston gives less than its rule asks for; PistonBound says why
 };
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
@@ -139,9 +144,13 @@ struct ContactRecord {
     std::uint32_t point_count = 0;
     std::uint32_t deepest = 0;  // index of the point deepest in contact; 0 in free space
     std::array<PointRecord, kMostProbePoints> points{};
+    bool rigid_tool = false;
+    PointRecord tool;  // of a rigid tool as a whole
     Vec3 cut_object_m{0.0};
     bool jumped = false;  // not continuous with the contact of the last tick
     StiffnessBound stiffness_bound = StiffnessBound::none;
+    PistonBound piston_bound = PistonBound::none;
+    std::uint64_t piston_bound_ticks = 0;       // in which it was not `none`, since the start
     Vec3 surface_velocity_device_m_per_s{0.0};  // of what is touched; zero where it rests
     double spring_energy_J = 0.0;               // energy stored in the springs of the walls touched
     devices::DeviceWrench wrench;               // of the contact, after filter and passivity
@@ -178,7 +187,12 @@ struct TickRecord {
     GateOutput gate;               // its `given` is the commanded wrench, as written to the device
     std::uint32_t flags = 0;       // TickFlag bits
 
-    [[nodiscard]] const PointRecord& deepest() const { return contact.points[contact.deepest]; }
+    // The point that bears most, or a rigid tool as a whole.
+    [[nodiscard]] const PointRecord& deepest() const {
+        return contact.rigid_tool ? contact.tool : contact.points[contact.deepest];
+    }
+    // The point that works: the first, or a rigid tool as a whole.
+    [[nodiscard]] const PointRecord& working() const { return contact.rigid_tool ? contact.tool : contact.points[0]; }
     [[nodiscard]] bool in_contact() const { return (flags & kTickInContact) != 0; }
 };
 

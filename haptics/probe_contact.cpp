@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
+#include "haptics/contact/half_spaces.hpp"
 #include "haptics/forces/touch_force.hpp"
 
 namespace burin::haptics {
@@ -30,7 +32,8 @@ public:
           material_(step.next.materials[index]),
           record_(step.contact.points[index]) {
         const MotionRecord& motion = input.motion;
-        arm_device_m_ = input.sample.orientation_device * point_.offset_device_m;
+        const double per_m = input.parameters.probe.rigid_tool ? 1.0 / motion.object_from_device.scale : 1.0;
+        arm_device_m_ = input.sample.orientation_device * (per_m * point_.offset_device_m);
         velocity_device_m_per_s_ = motion.velocity_device_m_per_s;
         if (input.parameters.probe.count > 1)
             velocity_device_m_per_s_ += glm::cross(motion.angular_velocity_device_rad_per_s, arm_device_m_);
@@ -85,27 +88,15 @@ public:
     [[nodiscard]] double radius_m() const { return point_.radius_m * (1.0 - input_.parameters.clearance_ratio); }
     [[nodiscard]] const PointRecord& record() const { return record_; }
     [[nodiscard]] double squared_arm_m2() const { return glm::dot(arm_device_m_, arm_device_m_); }
-
-    // The force of this point on the hand, borne at the proxy or at the cutting point.
-    [[nodiscard]] PointForce force(const CoupledWall& wall, const Vec3& bearing_object_m) {
-        if (in_contact()) {
-            const Similarity& map = input_.motion.object_from_device;
-            record_.force_device_N =
-                touch_force_device({record_.hip_object_m, bearing_object_m, record_.normal_object,
-                                    velocity_device_m_per_s_ - surface_velocity_device_m_per_s_, map.orientation,
-                                    map.scale, wall.stiffness_N_per_m, wall.damping_Ns_per_m});
-        }
-        return {arm_device_m_, record_.force_device_N};
-    }
+    [[nodiscard]] const Vec3& velocity_device_m_per_s() const { return velocity_device_m_per_s_; }
 
     // Of the surface touched; zero where it rests.
     [[nodiscard]] const Vec3& surface_velocity_device_m_per_s() const { return surface_velocity_device_m_per_s_; }
 
-    // Energy stored in the wall's spring at this point.
-    [[nodiscard]] double spring_energy_J(const CoupledWall& wall, const Vec3& bearing_object_m) const {
-        if (!in_contact()) return 0.0;
-        const Vec3 spring_device_m = (bearing_object_m - record_.hip_object_m) / input_.motion.object_from_device.scale;
-        return 0.5 * wall.stiffness_N_per_m * glm::dot(spring_device_m, spring_device_m);
+    // Records what this point bears of a rigid tool's force.
+    [[nodiscard]] PointForce bears(const Vec3& force_device_N) const {
+        record_.force_device_N = force_device_N;
+        return {arm_device_m_, force_device_N};
     }
 
 private:
@@ -189,28 +180,81 @@ RenderedWall rendered(const TouchMaterial& material, const ProbeInput& input, co
             turning.bound != StiffnessBound::none ? turning.bound : limit.bound};
 }
 
-struct CutByPoint {
-    CuttingStep step;
-    std::uint32_t triangles_seen = 0;
+// What holds the tool off the hand: one point of the probe, or all points of a rigid tool together.
+struct Bearing {
+    Vec3 hip_object_m{0.0};
+    Vec3 proxy_object_m{0.0};
+    Vec3 normal_object{0.0};
+    bool in_contact = false;
+    std::uint32_t leading = 0;                    // the point whose material it is
+    std::array<Vec3, kMostProbePoints> shares{};  // of the way from the HIP to the proxy, borne by each point
 };
 
-// Advances the cutting point with the probe's first point.
-CutByPoint cut_by(const PointContact& point, const CuttingState& state, const CoupledWall& wall, bool cutting,
-                  const ProbeInput& in) {
+Bearing of_point(const PointRecord& point) {
+    return {point.hip_object_m, point.proxy_object_m, point.normal_object, point.constraints > 0, 0, {}};
+}
+
+// The nearest place at which a rigid tool is as far out as each of its points has to be. Each point asks for its own
+// way from HIP to proxy, friction included.
+Bearing of_rigid_tool(const ContactRecord& contact, const Vec3& hip_object_m) {
+    Bearing bearing{hip_object_m, hip_object_m, Vec3(0.0), false, contact.deepest, {}};
+    std::array<HalfSpace, kMostProbePoints> asked;
+    std::array<std::uint32_t, kMostProbePoints> by{};
+    std::uint32_t count = 0;
+    for (std::uint32_t i = 0; i < contact.point_count; ++i) {
+        const PointRecord& point = contact.points[i];
+        if (point.constraints == 0) continue;
+        asked[count] = {(point.proxy_object_m - point.hip_object_m) / point.penetration_m, point.penetration_m};
+        by[count++] = i;
+    }
+    if (count == 0) return bearing;
+    bearing.in_contact = true;
+    const PointRecord& deepest = contact.points[contact.deepest];
+    Vec3 out = deepest.proxy_object_m - deepest.hip_object_m;
+    const NearestInside nearest =
+        nearest_inside(std::span(asked).first(count), Vec3(0.0), 1e-6 * deepest.penetration_m);
+    if (nearest.found) {
+        out = nearest.point;
+        for (std::uint32_t k = 0; k < nearest.bearing_count; ++k)
+            bearing.shares[by[nearest.bearing[k]]] = nearest.weights[k] * asked[nearest.bearing[k]].normal;
+    } else {
+        bearing.shares[contact.deepest] = out;
+    }
+    bearing.proxy_object_m += out;
+    bearing.normal_object = out / std::sqrt(glm::dot(out, out));
+    return bearing;
+}
+
+// What one tick may spend on contact; the parts of a device share it.
+double budget_of(const ProbeInput& in) { return in.turn.of(budget_ns(in.parameters.work, in.dt_s)); }
+
+// Advances the cutting point of a tool that a bearing holds.
+CuttingStep cut_by(const Bearing& bearing, CuttingState& state, const TouchMaterial& material, const CoupledWall& wall,
+                   bool cutting, const ProbeInput& in, ContactWork& work) {
+    const ToolSurface& tool = in.parameters.tool;
     CuttingInput input;
-    input.hip_object_m = point.record().hip_object_m;
-    input.proxy_object_m = point.record().proxy_object_m;
-    input.normal_object = point.record().normal_object;
+    input.hip_object_m = bearing.hip_object_m;
+    input.proxy_object_m = bearing.proxy_object_m;
+    input.orientation_object = in.motion.orientation_object;
     input.velocity_device_m_per_s = in.motion.velocity_device_m_per_s;
     input.scale = in.motion.object_from_device.scale;
-    input.tool_radius_m = in.parameters.probe.points[0].radius_m;
-    input.slack_m = in.parameters.clearance_ratio * input.tool_radius_m;
-    input.cutting = cutting && point.in_contact();
+    input.slack_m = in.parameters.clearance_ratio * tool.size_m;
+    input.cutting = cutting && bearing.in_contact;
     input.stiffness_N_per_m = wall.stiffness_N_per_m;
     input.dt_s = in.dt_s;
-    LookedAt looked{state, 0};
-    if (input.cutting) looked = look_at(state, input, in.surface);
-    return {cut(looked.next, input, point.material()), looked.triangles_seen};
+    if (input.cutting) {
+        const double left_ns = std::max(budget_of(in) - cost_ns(work), 0.0);
+        const EngagementWork most{static_cast<std::uint32_t>(0.25 * left_ns / WorkCost::kLook_ns),
+                                  static_cast<std::uint32_t>(0.25 * left_ns / WorkCost::kPiece_ns)};
+        const LookedAt looked = look_at(state, input, tool, in.surface, most);
+        state.known = looked.known;
+        work.triangles_seen += looked.work.looks;
+        work.pieces += looked.work.pieces;
+    }
+    CuttingStep step = cut(state, input, tool, material);
+    work.cutting_terms += step.terms;
+    state = step.next;
+    return step;
 }
 
 // Divides the rest of the tick's work budget among the remaining points.
@@ -242,53 +286,136 @@ std::uint32_t deepest_of(const ContactRecord& contact) {
     return deepest;
 }
 
-}  // namespace
+// The points of a probe in one tick.
+using Points = std::span<std::optional<PointContact>>;
 
-void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept {
+CoupledWall wall_at(const PointContact& point, const Touching& touching, const ProbeStep& step,
+                    const ProbeInput& input) {
+    const RenderedWall wall = rendered(point.material(), input, touching);
+    if (wall.bound != StiffnessBound::none) {
+        step.flags |= kTickStiffnessLimited;
+        step.contact.stiffness_bound = wall.bound;
+    }
+    return wall.wall;
+}
+
+PointForce spring_between(const Bearing& bearing, const Vec3& end_object_m, const PointContact& point,
+                          const CoupledWall& wall, const ProbeInput& input) {
+    const Similarity& map = input.motion.object_from_device;
+    if (!bearing.in_contact) return point.bears(Vec3(0.0));
+    return point.bears(touch_force_device({bearing.hip_object_m, end_object_m, bearing.normal_object,
+                                           point.velocity_device_m_per_s() - point.surface_velocity_device_m_per_s(),
+                                           map.orientation, map.scale, wall.stiffness_N_per_m, wall.damping_Ns_per_m}));
+}
+
+double spring_energy_J(const Bearing& bearing, const Vec3& end_object_m, const CoupledWall& wall,
+                       const ProbeInput& input) {
+    if (!bearing.in_contact) return 0.0;
+    const Vec3 spring_device_m = (end_object_m - bearing.hip_object_m) / input.motion.object_from_device.scale;
+    return 0.5 * wall.stiffness_N_per_m * glm::dot(spring_device_m, spring_device_m);
+}
+
+// The points bear by themselves, and the hand feels the sum; the first one cuts.
+void feel_points(const ProbeStep& step, const ProbeInput& input, Points points, bool cutting) {
     ContactRecord& contact = step.contact;
-    contact.point_count = input.parameters.probe.count;
-    const bool pressed = (input.sample.buttons & 1u) != 0;
-    const bool painting = pressed && input.parameters.action == ToolAction::paint;
-    const bool cutting = pressed && input.parameters.action == ToolAction::cut;
-    const double longest_s = input.parameters.max_surface_age_s;
-    const MovingBodies bodies(step.next.bodies, input.surface, input.now_ns,
-                              longest_s > 0.0 ? longest_s : kLongestFollowed_s);
-    std::array<std::optional<PointContact>, kMostProbePoints> points;
     Touching touching;
-    const double budget = input.turn.of(budget_ns(input.parameters.work, input.dt_s));
-    for (std::uint32_t i = 0; i < contact.point_count; ++i) {
-        points[i].emplace(input, step, bodies, i).touch(painting, share_of_rest(contact, i, budget));
-        if (!points[i]->in_contact()) continue;
+    for (const auto& point : points) {
+        if (!point->in_contact()) continue;
         ++touching.points;
-        if (contact.point_count > 1) touching.squared_arms_m2 += points[i]->squared_arm_m2();
+        if (points.size() > 1) touching.squared_arms_m2 += point->squared_arm_m2();
     }
     std::array<PointForce, kMostProbePoints> forces;
     Vec3 drag_device_N(0.0);
     SurfaceVelocity surface;
-    for (std::uint32_t i = 0; i < contact.point_count; ++i) {
-        PointContact& point = *points[i];
-        const RenderedWall rendered_wall = rendered(point.material(), input, touching);
-        if (rendered_wall.bound != StiffnessBound::none) {
-            step.flags |= kTickStiffnessLimited;
-            contact.stiffness_bound = rendered_wall.bound;
-        }
-        Vec3 bearing = point.record().proxy_object_m;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const PointContact& point = *points[i];
+        const CoupledWall wall = wall_at(point, touching, step, input);
+        const Bearing bearing = of_point(point.record());
+        Vec3 end = bearing.proxy_object_m;
         if (i == 0) {
-            const CutByPoint cut = cut_by(point, step.next.cutting, rendered_wall.wall, cutting, input);
-            step.next.cutting = cut.step.next;
-            contact.work.triangles_seen += cut.triangles_seen;
-            if (cut.step.next.engaged) step.flags |= kTickCutting;
-            drag_device_N = cut.step.drag_device_N;
-            bearing = contact.cut_object_m = cut.step.bearing_object_m;
+            const CuttingStep cut =
+                cut_by(bearing, step.next.cutting, point.material(), wall, cutting, input, contact.work);
+            if (cut.next.engaged) step.flags |= kTickCutting;
+            drag_device_N = cut.drag_device_N;
+            end = contact.cut_object_m = cut.bearing_object_m;
         }
-        forces[i] = point.force(rendered_wall.wall, bearing);
+        forces[i] = spring_between(bearing, end, point, wall, input);
         surface.add(point.surface_velocity_device_m_per_s(), forces[i].force_device_N);
-        contact.spring_energy_J += point.spring_energy_J(rendered_wall.wall, bearing);
+        contact.spring_energy_J += spring_energy_J(bearing, end, wall, input);
     }
     contact.surface_velocity_device_m_per_s = surface.mean();
-    contact.deepest = deepest_of(contact);
-    contact.wrench = sum_of({forces.data(), contact.point_count});
+    contact.wrench = sum_of({forces.data(), points.size()});
     contact.wrench.force_device_N += drag_device_N;
+}
+
+void record_of(ContactRecord& contact, const Bearing& bearing) {
+    const Vec3 spring = bearing.proxy_object_m - bearing.hip_object_m;
+    const PointRecord& leading = contact.points[bearing.leading];
+    contact.tool = {bearing.hip_object_m,
+                    bearing.proxy_object_m,
+                    bearing.normal_object,
+                    Vec3(0.0),
+                    std::sqrt(glm::dot(spring, spring)),
+                    leading.active_triangle,
+                    leading.constraints};
+}
+
+// The points are one body, held off the hand by one spring; its torque is that of what each point bears, or while it
+// cuts that of the material.
+void feel_rigid_tool(const ProbeStep& step, const ProbeInput& input, Points points, bool cutting) {
+    ContactRecord& contact = step.contact;
+    const Similarity& map = input.motion.object_from_device;
+    const Bearing bearing = of_rigid_tool(contact, map * input.sample.position_device_m);
+    const PointContact& leading = *points[bearing.leading];
+    Touching touching{1, 0.0};
+    for (const auto& point : points)
+        touching.squared_arms_m2 = std::max(touching.squared_arms_m2, point->squared_arm_m2());
+    const CoupledWall wall = wall_at(leading, touching, step, input);
+    const CuttingStep cut = cut_by(bearing, step.next.cutting, leading.material(), wall, cutting, input, contact.work);
+    record_of(contact, bearing);
+    contact.cut_object_m = cut.bearing_object_m;
+    contact.spring_energy_J = spring_energy_J(bearing, cut.bearing_object_m, wall, input);
+    if (!bearing.in_contact) return;
+    contact.surface_velocity_device_m_per_s = leading.surface_velocity_device_m_per_s();
+    contact.wrench.force_device_N = contact.tool.force_device_N =
+        touch_force_device({bearing.hip_object_m, cut.bearing_object_m, bearing.normal_object,
+                            input.motion.velocity_device_m_per_s - leading.surface_velocity_device_m_per_s(),
+                            map.orientation, map.scale, wall.stiffness_N_per_m, wall.damping_Ns_per_m}) +
+        cut.drag_device_N;
+    if (cut.next.engaged) {
+        step.flags |= kTickCutting;
+        contact.wrench.torque_device_Nm = glm::conjugate(map.orientation) * cut.torque_device_Nm;
+        return;
+    }
+    const Vec3 out = bearing.proxy_object_m - bearing.hip_object_m;
+    const double per_m =
+        std::sqrt(glm::dot(contact.wrench.force_device_N, contact.wrench.force_device_N) / glm::dot(out, out));
+    std::array<PointForce, kMostProbePoints> forces;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        forces[i] = points[i]->bears(per_m * (glm::conjugate(map.orientation) * bearing.shares[i]));
+    contact.wrench.torque_device_Nm = sum_of({forces.data(), points.size()}).torque_device_Nm;
+}
+
+}  // namespace
+
+void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept {
+    ContactRecord& contact = step.contact;
+    const TickParameters& parameters = input.parameters;
+    contact.point_count = parameters.probe.count;
+    contact.rigid_tool = parameters.probe.rigid_tool;
+    const bool pressed = (input.sample.buttons & 1u) != 0;
+    const bool painting = pressed && parameters.action == ToolAction::paint;
+    const bool cutting = pressed && parameters.action == ToolAction::cut;
+    const double longest_s = parameters.max_surface_age_s;
+    const MovingBodies bodies(step.next.bodies, input.surface, input.now_ns,
+                              longest_s > 0.0 ? longest_s : kLongestFollowed_s);
+    std::array<std::optional<PointContact>, kMostProbePoints> points;
+    const double budget = budget_of(input);
+    for (std::uint32_t i = 0; i < contact.point_count; ++i)
+        points[i].emplace(input, step, bodies, i).touch(painting, share_of_rest(contact, i, budget));
+    contact.deepest = deepest_of(contact);
+    const auto feel = parameters.probe.rigid_tool ? feel_rigid_tool : feel_points;
+    feel(step, input, std::span(points).first(contact.point_count), cutting);
 }
 
 void follow_hand(const ProbeStep& step, const ProbeInput& input) noexcept {
@@ -296,7 +423,12 @@ void follow_hand(const ProbeStep& step, const ProbeInput& input) noexcept {
     step.next.bodies.count = 0;
     const MovingBodies none;
     for (std::uint32_t i = 0; i < step.contact.point_count; ++i) PointContact(input, step, none, i).stay_with_hand();
-    step.contact.cut_object_m = step.contact.points[0].hip_object_m;
+    step.contact.rigid_tool = input.parameters.probe.rigid_tool;
+    if (step.contact.rigid_tool)
+        step.contact.tool.hip_object_m = step.contact.tool.proxy_object_m =
+            input.motion.object_from_device * input.sample.position_device_m;
+    step.contact.cut_object_m =
+        step.contact.rigid_tool ? step.contact.tool.hip_object_m : step.contact.points[0].hip_object_m;
 }
 
 }  // namespace burin::haptics

@@ -65,6 +65,22 @@ void refuse(const TickResult& t) {
     t.record.motion.object_from_device = t.next.workspace.object_from_device;
 }
 
+// Maps the contact's wrench to the piston that drives the device: a force along its axis, and the springs' energy as
+// the hand finds it there.
+void give_to_piston(const TickResult& t, const TickParameters& parameters, const devices::DeviceDescription& device) {
+    ContactRecord& contact = t.record.contact;
+    const Vec3 along = t.record.sample.position_device_m - device.piston.foot_device_m;
+    const PistonForce piston = piston_force(contact.wrench.force_device_N, along, parameters.piston);
+    contact.wrench = {piston.force_N, Vec3(0.0)};
+    contact.spring_energy_J *= piston.gain;
+    contact.piston_bound = piston.bound;
+    if (piston.bound != PistonBound::none) {
+        t.record.flags |= kTickPistonBound;
+        ++t.next.piston_bound_ticks;
+    }
+    contact.piston_bound_ticks = t.next.piston_bound_ticks;
+}
+
 // Applies the passivity controller to the contact's wrench.
 PassivityStep kept_passive(const PassivityState& state, const TickRecord& record, const VelocityWindow& window,
                            const TickParameters& parameters, const devices::DeviceDescription& device, double dt_s) {
@@ -88,8 +104,8 @@ GuidanceStep guided(const GuidanceState& state, const TickRecord& record, const 
                     double dt_s) {
     const MotionRecord& motion = record.motion;
     return guide(state,
-                 {record.contact.points[0].hip_object_m, motion.velocity_device_m_per_s,
-                  motion.object_from_device.orientation, motion.object_from_device.scale, dt_s},
+                 {record.working().hip_object_m, motion.velocity_device_m_per_s, motion.object_from_device.orientation,
+                  motion.object_from_device.scale, dt_s},
                  parameters.curve, parameters.guidance);
 }
 
@@ -143,11 +159,13 @@ void compute_tick(const TickResult& t, const TickState& state, const devices::De
     if (next.in_contact && parameters.max_surface_age_s > 0.0 && age_s > parameters.max_surface_age_s)
         record.flags |= kTickStaleSurface;
 
-    // The chosen force filter, then the passivity controller.
+    // The device's piston, if it has one, then the chosen force filter, then the passivity controller.
+    if (device.piston.drives) give_to_piston(t, parameters, device);
     devices::DeviceWrench& contact = record.contact.wrench;
     const double alpha = parameters.signals.force_alpha;
     next.force_average = with_input(state.force_average, contact.force_device_N, alpha);
-    if (alpha > 0.0) contact.force_device_N = next.force_average.value;
+    if (alpha > 0.0)
+        contact.force_device_N = pushed_part(next.force_average.value, device.piston, sample.position_device_m);
     const PassivityStep passive = kept_passive(state.passivity, record, next.motion.window, parameters, device, dt_s);
     next.passivity = passive.next;
     record.passivity = passive.record;
@@ -162,7 +180,9 @@ void compute_tick(const TickResult& t, const TickState& state, const devices::De
     if (guidance.next.held) record.flags |= kTickGuided;
     others.force_device_N += guidance.force_device_N + workspace.force_device_N;
     record.wanted = driven_part(
-        {contact.force_device_N + others.force_device_N, contact.torque_device_Nm + others.torque_device_Nm}, device);
+        {pushed_part(contact.force_device_N + others.force_device_N, device.piston, sample.position_device_m),
+         contact.torque_device_Nm + others.torque_device_Nm},
+        device);
 }
 
 }  // namespace

@@ -2,11 +2,14 @@
 // One tick of the haptic loop as a pure function: a sample, a surface and settings in, a force out.
 //
 // Data flow, one line each, all in haptics/:
-//   device sample -> velocity (signals/) -> mapping into the scene (workspace/)
-//   for each point of the probe: proxy on the surface (contact/) -> spring, damper, friction (forces/touch_force.hpp)
-//   -> the cutting point advances (forces/cutting.hpp) -> one force and torque (forces/wrench.hpp)
-//   -> filter (signals/smoothing.hpp) -> passivity (stability/passivity.hpp) -> weight, guidance, workspace force
-//   -> the gate (stability/safety_gate.hpp): turns the desired wrench into the commanded wrench.
+//   device sample -> velocity (signals/filters.hpp) -> mapping into the scene (workspace/technique.hpp)
+//   for each point of the probe: proxy on the surface (contact/god_object.hpp), the wall as the device renders it
+//   (stability/rendered_wall.hpp), spring, damper and friction on it (forces/touch_force.hpp)
+//   -> the cutting point advances (forces/cutting.hpp) -> one force and torque (forces/touch_force.hpp)
+//   -> the device's piston, where it has one (forces/piston.hpp) -> filter (signals/filters.hpp)
+//   -> passivity (stability/passivity.hpp), scaled to what the energy account affords (stability/energy_account.hpp)
+//   -> weight (forces/touch_force.hpp), guidance (forces/guidance.hpp), workspace force (workspace/technique.hpp)
+//   -> the gate (stability/safety_gate.hpp): turns the desired wrench into the commanded one, which the account is told
 // Position gain g: points are scaled by g, forces divided by g, so that stiffness and damping are felt at the device as
 // set, whatever the scale of the scene. Damping acts along the contact normal, in contact only, and never pulls
 // the tool into the surface.
@@ -37,6 +40,7 @@ struct TickState {
     GuidanceState guidance;
     MovingAverage force_average;
     PassivityState passivity;
+    std::uint64_t piston_bound_ticks = 0;  // since the start
     bool in_contact = false;
 };
 

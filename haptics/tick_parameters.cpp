@@ -47,6 +47,7 @@ bool parameters_are_sensible(const TickParameters& p) noexcept {
     return settings_are_sensible(p.workspace) && sensible(p.probe) && share(p.clearance_ratio) &&
            share(p.signals.velocity_alpha) && share(p.signals.force_alpha) &&
            not_negative(p.coupling.stiffness_N_per_m) && not_negative(p.coupling.damping_Ns_per_m) &&
+           p.piston.least_cosine > 0.0 && p.piston.least_cosine <= 1.0 &&
            not_negative(p.passivity.max_damping_Ns_per_m) && not_negative(p.passivity.reserve_J) &&
            not_negative(p.passivity.surface_speed_m_per_s) && sensible(p.work) && sensible(p.weight) &&
            sensible(p.curve, p.guidance) && not_negative(p.position_noise_m) && not_negative(p.max_surface_age_s);

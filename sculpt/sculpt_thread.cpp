@@ -50,11 +50,15 @@ SculptThread::Woken SculptThread::wait_for_orders(Nanoseconds until_ns) {
     return {std::exchange(orders_, {}), stopping_};
 }
 
-// Returns whether the haptic loop rests, which it does while the hand stands still: ticks then come a tenth as often.
+// Returns whether every hand's haptic loop rests, which it does while the hand stands still: ticks then come a tenth as
+// often.
 bool SculptThread::loop_rests(const UpdateSeen& before) const {
     const UpdateSeen& now = service_.seen();
     const auto most = static_cast<std::uint64_t>(2 * (now.time_ns - before.time_ns) / haptics::HapticLoop::kRest_ns);
-    return now.last_tick - before.last_tick <= std::max<std::uint64_t>(most, 1);
+    bool rests = now.last_tick - before.last_tick <= std::max<std::uint64_t>(most, 1);
+    for (std::size_t i = 0; i < now.other_ticks.size(); ++i)
+        rests = rests && now.other_ticks[i] - before.other_ticks[i] <= std::max<std::uint64_t>(most, 1);
+    return rests;
 }
 
 void SculptThread::run() {
@@ -65,7 +69,7 @@ void SculptThread::run() {
         for (const SculptOrder& order : orders) service_.order(order);
         const UpdateSeen before = service_.seen();
         const Nanoseconds began_ns = clock_.now_ns();
-        const auto updated = service_.update(began_ns);
+        const auto updated = last ? service_.finish(began_ns) : service_.update(began_ns);
         const Nanoseconds took_ns = clock_.now_ns() - began_ns;
         std::optional<SurfaceUpdate> surface = service_.take_surface_update();
         if (surface && !surface->tiles.empty()) update_duration_.add(took_ns);

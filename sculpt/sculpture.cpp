@@ -30,7 +30,7 @@ Sculpture::Sculpture(std::unique_ptr<compute::CarvingEngine> engine, WorkerPool&
     initial_volume_m3_ = surface_.volume_m3();
 }
 
-Result<void> Sculpture::update(std::span<const compute::ToolSweep> sweeps) {
+Result<void> Sculpture::update(std::span<const compute::ToolSweep> sweeps, std::size_t hand) {
     if (on_device_ && std::ranges::all_of(sweeps, is_for_device)) return update_on_device(sweeps);
     if (on_device_) {
         if (const auto read = read_back(); !read) return read;
@@ -44,7 +44,7 @@ Result<void> Sculpture::update(std::span<const compute::ToolSweep> sweeps) {
     const compute::Changes changes = engine_->take_changes();
     const compute::RemeshStats remeshed = surface_.update(engine_->solid(), changes, pool_);
     const Nanoseconds meshed_ns = clock.now_ns();
-    if (history_) history_->record(changes);
+    if (history_) history_->record(changes, hand);
     note_changed_tiles();
     ++figures_.updates;
     figures_.sweeps += sweeps.size();

@@ -43,8 +43,9 @@ public:
     Sculpture(std::unique_ptr<compute::CarvingEngine> engine, WorkerPool& pool);
 
     // Carries out the sweeps in order and brings the surface, the history and the light's bookkeeping up to date. Fails
-    // on an invalid sweep, and then changes nothing, or when the engine does (compute/tools/apply.hpp).
-    [[nodiscard]] Result<void> update(std::span<const compute::ToolSweep> sweeps);
+    // on an invalid sweep, and then changes nothing, or when the engine does (compute/tools/apply.hpp). What changes is
+    // of this hand's stroke (compute/rays/history.hpp).
+    [[nodiscard]] Result<void> update(std::span<const compute::ToolSweep> sweeps, std::size_t hand = 0);
     // Sets `out` to the surface within a ball, ready for contact; leaves its sequence and time as they are.
     [[nodiscard]] Result<void> local_surface(const Vec3& center_object, double radius_m, geometry::LocalSurface& out);
 
@@ -58,9 +59,17 @@ public:
 
     // Keeps what each stroke changes, so that it can be undone, from the next update on. Costs time and memory.
     void keep_history(std::size_t budget_bytes) { history_.emplace(budget_bytes); }
-    // Makes one stroke of the updates since the last call.
-    void end_stroke() {
-        if (history_) history_->end_stroke();
+    // Makes one stroke of the hand's updates since the last call.
+    void end_stroke(std::size_t hand = 0) {
+        if (history_) history_->end_stroke(engine_->solid(), hand);
+    }
+    // Ends the strokes of all hands.
+    void end_strokes() {
+        if (history_) history_->end_strokes(engine_->solid());
+    }
+    // Makes one of the strokes of two hands.
+    void join_strokes(std::size_t hand, std::size_t other) {
+        if (history_) history_->join(hand, other);
     }
     // Undoes or repeats up to `strokes` strokes, the last first; returns how many there were.
     [[nodiscard]] Result<std::size_t> undo(std::size_t strokes);

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "bench/haptics/bumpy_sphere.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <unordered_map>
 
 namespace burin::bench {
 namespace {
@@ -64,41 +62,11 @@ BumpySphere::Nearest BumpySphere::nearest(const Vec3& from, const Vec3& begin) c
 }
 
 geometry::TriangleMesh mesh_of(const BumpySphere& shape, int n) {
-    geometry::TriangleMesh mesh;
-    // Vertices by their position on the cube, counted in squares.
-    std::unordered_map<std::uint64_t, std::uint32_t> vertex_of;
-    const auto vertex = [&](const std::array<int, 3>& at) {
-        const auto side = static_cast<std::uint64_t>(n) + 1;
-        const std::uint64_t key =
-            (static_cast<std::uint64_t>(at[0]) * side + static_cast<std::uint64_t>(at[1])) * side +
-            static_cast<std::uint64_t>(at[2]);
-        const auto [known, is_new] = vertex_of.try_emplace(key, static_cast<std::uint32_t>(mesh.positions_m.size()));
-        if (is_new) {
-            const auto place = [&](int i) { return std::tan((2.0 * i / n - 1.0) * std::numbers::pi / 4.0); };
-            const Vec3 direction = glm::normalize(Vec3(place(at[0]), place(at[1]), place(at[2])));
-            mesh.positions_m.push_back(shape.radius_at_m(direction) * direction);
-        }
-        return known->second;
-    };
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        for (const int end : {0, n})
-            for (int j = 0; j < n; ++j)
-                for (int i = 0; i < n; ++i) {
-                    const auto corner = [&](int u, int v) {
-                        std::array<int, 3> at{};
-                        at[axis] = end, at[(axis + 1) % 3] = u, at[(axis + 2) % 3] = end > 0 ? v : n - v;
-                        return vertex(at);
-                    };
-                    const std::uint32_t a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1),
-                                        d = corner(i, j + 1);
-                    mesh.triangles.push_back({a, b, c});
-                    mesh.triangles.push_back({a, c, d});
-                }
-    return mesh;
-}
-
-int squares_for(std::size_t triangles) {
-    return std::max(1, static_cast<int>(std::lround(std::sqrt(static_cast<double>(triangles) / 12.0))));
+    return mesh_of_cube(n, [&](const std::array<int, 3>& at) {
+        const auto place = [&](int i) { return std::tan((2.0 * i / n - 1.0) * std::numbers::pi / 4.0); };
+        const Vec3 direction = glm::normalize(Vec3(place(at[0]), place(at[1]), place(at[2])));
+        return shape.radius_at_m(direction) * direction;
+    });
 }
 
 void SphereWalk::step(double angle) {

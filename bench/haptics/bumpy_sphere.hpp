@@ -5,11 +5,10 @@
 // Definition: p = r(n) n for each direction n, r(n) = R (1 + b sin(w n_x) sin(w n_y) sin(w n_z)), with R = 50 mm,
 // b = 0.02 and w = 12 unless stated otherwise: hills and hollows of 1 mm, 26 mm from one to the next. Vertices lie on
 // it exactly, to double precision.
-// The mesh is that of a cube whose faces have n by n squares at equal
-// angles, projected onto the surface: 12 n^2 triangles, closed.
+// The mesh is that of a cube whose faces have n by n squares at equal angles, projected onto the surface.
 #pragma once
 
-#include "geometry/mesh/triangle_mesh.hpp"
+#include "bench/haptics/cube_mesh.hpp"
 
 namespace burin::bench {
 
@@ -34,8 +33,6 @@ struct BumpySphere {
 };
 
 [[nodiscard]] geometry::TriangleMesh mesh_of(const BumpySphere& shape, int squares_a_side);
-// Returns the number of squares a side that gives about so many triangles.
-[[nodiscard]] int squares_for(std::size_t triangles);
 
 // A point that moves over the unit sphere at constant speed on a bending path that covers all of it in time.
 class SphereWalk {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <utility>
 
+#include "bench/haptics/cube_mesh.hpp"
 #include "bench/haptics/surface_walk.hpp"
 
 namespace burin::bench {
@@ -267,35 +267,13 @@ private:
 
 geometry::TriangleMesh rough_ball(std::size_t triangles, const Roughness& roughness) {
     constexpr double kRadius_m = 0.05;
-    const double squares = std::max(1.0, std::floor(std::sqrt(static_cast<double>(triangles) / 12.0) + 0.5));
-    const auto n = static_cast<std::int64_t>(squares);
+    const int squares = squares_for(triangles);
     RoughHeight height(roughness, kRadius_m * 1.8 / squares);  // a face of the cube spans some 90 degrees
-    TriangleMesh mesh;
-    std::map<std::array<std::int64_t, 3>, std::uint32_t> vertex_of;
-    const auto vertex = [&](const std::array<std::int64_t, 3>& at) {
-        const auto [known, is_new] = vertex_of.try_emplace(at, static_cast<std::uint32_t>(mesh.positions_m.size()));
-        if (is_new) {
-            const auto place = [&](std::int64_t i) { return 2.0 * static_cast<double>(i) / squares - 1.0; };
-            const Vec3 direction = on_unit_sphere({place(at[0]), place(at[1]), place(at[2])});
-            mesh.positions_m.push_back((kRadius_m + height.at(kRadius_m * direction)) * direction);
-        }
-        return known->second;
-    };
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        for (const bool far : {false, true})
-            for (std::int64_t j = 0; j < n; ++j)
-                for (std::int64_t i = 0; i < n; ++i) {
-                    const auto corner = [&](std::int64_t u, std::int64_t v) {
-                        std::array<std::int64_t, 3> at{};
-                        at[axis] = far ? n : 0, at[(axis + 1) % 3] = u, at[(axis + 2) % 3] = far ? v : n - v;
-                        return vertex(at);
-                    };
-                    const std::uint32_t a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1),
-                                        d = corner(i, j + 1);
-                    mesh.triangles.push_back({a, b, c});
-                    mesh.triangles.push_back({a, c, d});
-                }
-    return mesh;
+    return mesh_of_cube(squares, [&](const std::array<int, 3>& at) {
+        const auto place = [&](int i) { return 2.0 * i / squares - 1.0; };
+        const Vec3 direction = on_unit_sphere({place(at[0]), place(at[1]), place(at[2])});
+        return (kRadius_m + height.at(kRadius_m * direction)) * direction;
+    });
 }
 
 geometry::TriangleMesh rough_plate(std::size_t triangles, const Roughness& roughness) {

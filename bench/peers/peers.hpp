@@ -32,6 +32,12 @@ struct PeerRun {
 
 [[nodiscard]] bool has_peers();
 
+// What is said of a peer that needs -DBURIN_WITH_PEERS=ON, those of bench/frame/ included.
+[[nodiscard]] inline std::unexpected<Error> peer_not_built(const std::string& peer) {
+    return fail(peer, "is not built into this program",
+                "install it with scripts/setup --peers and configure with -DBURIN_WITH_PEERS=ON");
+}
+
 enum class VdbMethod {
     csg_difference,  // a level set of the ball, csgDifference with pruning: what the library's documentation shows
     leaf_brush       // the ball's distance written into the 8^3 leaves it touches, in parallel: the best a user can do

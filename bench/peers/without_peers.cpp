@@ -3,26 +3,18 @@
 #include "bench/peers/peers.hpp"
 
 namespace burin::bench {
-namespace {
-
-std::unexpected<Error> not_built(const char* library) {
-    return fail(library, "is not built into this program",
-                "install it with scripts/setup --peers and configure with -DBURIN_WITH_PEERS=ON");
-}
-
-}  // namespace
 
 bool has_peers() { return false; }
 
 Result<PeerRun> run_openvdb(const CarveScene& /*scene*/, const compute::Lattice& /*lattice*/, unsigned /*threads*/,
                             VdbMethod /*method*/) {
-    return not_built("OpenVDB");
+    return peer_not_built("OpenVDB");
 }
 
-Result<PeerRun> run_cgal(const CarveScene& /*scene*/, int /*subdivisions*/) { return not_built("CGAL"); }
+Result<PeerRun> run_cgal(const CarveScene& /*scene*/, int /*subdivisions*/) { return peer_not_built("CGAL"); }
 
 Result<std::uint64_t> count_self_intersections_with_cgal(const geometry::TriangleMesh& /*mesh*/) {
-    return not_built("CGAL");
+    return peer_not_built("CGAL");
 }
 
 }  // namespace burin::bench

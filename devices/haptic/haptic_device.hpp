@@ -16,6 +16,13 @@
 
 namespace burin::devices {
 
+// A piston between a foot that is fixed in the device frame, as on a glove's palm, and the position: it pushes the
+// position away from its foot and gives no force in other directions, and none inwards.
+struct Piston {
+    bool drives = false;  // false: the device has motors for all directions
+    Vec3 foot_device_m{0.0};
+};
+
 // Capabilities of the device; the safety gate, the stiffness limiter and the workspace mapping are set up from it.
 // Unknown figures stay 0.
 struct DeviceDescription {
@@ -42,6 +49,7 @@ struct DeviceDescription {
     double orientation_step_rad = 0.0;         // orientation quantum
     // How far the handle turns about each axis from where its orientation is the identity; both 0: not known.
     Vec3 lowest_turn_rad{0.0}, highest_turn_rad{0.0};
+    Piston piston{};
     // The driver that knows them and their Jacobian fills resolution_m and orientation_step_rad by step_at_handle().
     Joints joints{};
 };

@@ -20,40 +20,39 @@ struct Projection {
     std::array<double, 3> weights{};
 };
 
-// The point on the planes' intersection that is nearest to the goal. Not valid for nearly parallel planes.
+double lack_at(const HalfSpace& space, const Vec3& x) { return space.offset - glm::dot(space.normal, x); }
+
+// The point on the planes' intersection that is nearest to the goal. Not valid for nearly parallel planes. Each plane
+// is met by a step along those met before, by as much as is lacking there. So planes that differ by a ten-thousandth of
+// a radian, as those around a corner do, are met as exactly as others; by differences of what the goal lacks they would
+// be missed by more than a tolerance.
 Projection project(std::span<const HalfSpace> spaces, const Bearing& set, const Vec3& goal) {
     Projection result;
     const auto plane = [&](std::size_t i) -> const HalfSpace& { return spaces[set.planes[i]]; };
-    const auto lack = [&](std::size_t i) { return plane(i).offset - glm::dot(plane(i).normal, goal); };
     const Vec3& n0 = plane(0).normal;
-    if (set.count == 1) {
-        result.weights[0] = lack(0);
-    } else if (set.count == 2) {
+    result.weights[0] = lack_at(plane(0), goal);
+    result.point = goal + result.weights[0] * n0;
+    if (set.count > 1) {
         const Vec3& n1 = plane(1).normal;
         const Vec3 line = glm::cross(n0, n1);
         const double sine2 = glm::dot(line, line);
         if (sine2 < 1e-14) return result;
-        const double cosine = glm::dot(n0, n1);
-        result.weights[0] = (lack(0) - cosine * lack(1)) / sine2;
-        result.weights[1] = (lack(1) - cosine * lack(0)) / sine2;
-    } else {
-        const Vec3 &n1 = plane(1).normal, &n2 = plane(2).normal;
-        const Vec3 c12 = glm::cross(n1, n2), c20 = glm::cross(n2, n0), c01 = glm::cross(n0, n1);
-        const double volume = glm::dot(n0, c12);
-        if (std::abs(volume) < 1e-9) return result;
-        const Vec3 step = (c12 * lack(0) + c20 * lack(1) + c01 * lack(2)) / volume;
-        result.weights = {glm::dot(step, c12) / volume, glm::dot(step, c20) / volume, glm::dot(step, c01) / volume};
-        result.point = goal + step;
-        result.valid = true;
-        return result;
+        result.weights[1] = lack_at(plane(1), result.point) / sine2;
+        result.weights[0] -= glm::dot(n0, n1) * result.weights[1];
+        result.point += result.weights[1] * glm::cross(line, n0);
+        if (set.count > 2) {
+            const Vec3& n2 = plane(2).normal;
+            const double volume = glm::dot(n2, line);
+            if (std::abs(volume) < 1e-9) return result;
+            result.point += (lack_at(plane(2), result.point) / volume) * line;
+            const Vec3 step = result.point - goal;
+            result.weights = {glm::dot(step, glm::cross(n1, n2)) / volume, glm::dot(step, glm::cross(n2, n0)) / volume,
+                              glm::dot(step, line) / volume};
+        }
     }
-    result.point = goal;
-    for (std::uint32_t i = 0; i < set.count; ++i) result.point += result.weights[i] * plane(i).normal;
     result.valid = true;
     return result;
 }
-
-double lack_at(const HalfSpace& space, const Vec3& x) { return space.offset - glm::dot(space.normal, x); }
 
 // Finds the optimum over the old bearing planes and the added one. The added plane certainly bears, since the old
 // optimum violates it; so the subsets are: the added plane alone, with each old one, with each pair. A point that

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <numbers>
 #include <sstream>
 
 #include "base/json.hpp"
@@ -205,6 +207,35 @@ TEST(SvgFigure, DrawsCurvesBelowZeroOnLinearAxes) {
     EXPECT_NEAR(y[1], 0.5 * (y[0] + y[2]), 0.11);
     EXPECT_LT(x[0], x[2]);
     EXPECT_GT(y[0], y[2]);  // up is less in SVG
+}
+
+TEST(SvgFigure, DrawsRowsOfPlotsAndACircleRound) {
+    plot::Plot plot{"t", "x", "y", {{"s", {}}}};
+    for (int i = 0; i < 360; ++i) {
+        const double angle = std::numbers::pi * i / 180.0;
+        plot.series[0].points.push_back({30.0 + 2.0 * std::cos(angle), 2.0 * std::sin(angle), ""});
+    }
+    plot.x_linear = plot.y_linear = plot.same_scale = true;
+    plot.markers = false;
+    const std::string svg = plot::svg_figure("rows", {plot, plot, plot}, 2);
+    double width = 0.0, height = 0.0;
+    ASSERT_EQ(std::sscanf(svg.c_str() + svg.find(" width="), " width=\"%lf\" height=\"%lf", &width, &height), 2);
+    EXPECT_EQ(width, 860.0);
+    int plots = 0;
+    for (std::size_t at = svg.find("<path d=\"M"); at != std::string::npos; at = svg.find("<path d=\"M", at + 1)) {
+        double x_lo = HUGE_VAL, x_hi = -HUGE_VAL, y_lo = HUGE_VAL, y_hi = -HUGE_VAL, x = 0.0, y = 0.0;
+        for (std::size_t next = at + 10; std::sscanf(svg.c_str() + next, "%lf %lf", &x, &y) == 2;) {
+            x_lo = std::min(x_lo, x), x_hi = std::max(x_hi, x), y_lo = std::min(y_lo, y), y_hi = std::max(y_hi, y);
+            const std::size_t end = svg.find_first_of("L\"", next);
+            if (svg[end] != 'L') break;
+            next = end + 1;
+        }
+        EXPECT_NEAR(x_hi - x_lo, y_hi - y_lo, 0.5);
+        EXPECT_GT(y_lo, plots < 2 ? 0.0 : 0.5 * height) << "the third stands in the second row";
+        EXPECT_LT(x_hi, plots == 1 ? width : 0.5 * width);
+        ++plots;
+    }
+    EXPECT_EQ(plots, 3);
 }
 
 TEST(BenchCommand, MeasuresStabilityAndWritesWhereAsked) {

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <optional>
+
 #include "bench/measure/scenes.hpp"
 #include "compute/mesher/surface.hpp"
 #include "tests/compute/effort.hpp"
@@ -36,11 +40,11 @@ struct Session {
         : surface(solid.lattice), history(budget), engine(make_cpu_engine(std::move(solid), pool)) {
         surface.mesh_all(engine->solid(), pool);
     }
-    void carve(const BallSweep& sweep) {
+    void carve(const BallSweep& sweep, std::size_t hand = 0) {
         ASSERT_TRUE(engine->carve(std::span(&sweep, 1)).has_value());
         const Changes changes = engine->take_changes();
         surface.update(engine->solid(), changes, pool);
-        history.record(changes);
+        history.record(changes, hand);
     }
     bool undo() { return follow(history.undo(*engine)); }
     bool redo() { return follow(history.redo(*engine)); }
@@ -69,7 +73,7 @@ TEST(History, UndoOfAThousandStrokesGivesBackTheFirstSolidBitForBit) {
     const auto scene = bench::stroke_1000_scene();
     for (const BallSweep& sweep : scene.sweeps) {
         session.carve(sweep);
-        session.history.end_stroke();
+        session.history.end_stroke(session.engine->solid());
     }
     const Solid carved = session.engine->solid();
     EXPECT_FALSE(carved.same_content(start));
@@ -94,7 +98,7 @@ TEST(History, EveryStateOnTheWayComesBackInBothDirections) {
     for (int stroke = 0; stroke < 12; ++stroke) {
         const int updates = random.small(1, 6);
         for (int i = 0; i < updates; ++i) session.carve(random_sweep(random));
-        session.history.end_stroke();
+        session.history.end_stroke(session.engine->solid());
         if (!session.engine->solid().same_content(states.back())) states.push_back(session.engine->solid());
     }
     std::size_t at = states.size() - 1;
@@ -139,7 +143,7 @@ TEST(History, CountsNoMemoryThatItHasGivenBack) {
         third{Vec3(0.9), Vec3(0.9), 0.1, 0};
     for (const BallSweep& sweep : {first, second}) {
         session.carve(sweep);
-        session.history.end_stroke();
+        session.history.end_stroke(session.engine->solid());
     }
     const std::size_t both = session.history.bytes();
     for (int i = 0; i < 10; ++i) {
@@ -150,7 +154,7 @@ TEST(History, CountsNoMemoryThatItHasGivenBack) {
     ASSERT_TRUE(session.undo());
     session.carve(third);  // what could be redone is forgotten
     fresh.carve(first);
-    fresh.history.end_stroke();
+    fresh.history.end_stroke(fresh.engine->solid());
     fresh.carve(third);
     EXPECT_EQ(session.history.bytes(), fresh.history.bytes());
 }
@@ -163,7 +167,7 @@ TEST(History, KeepsWithinItsBudgetDropsTheOldestFirstAndSaysSo) {
     std::size_t strokes = 0;
     while (session.history.dropped_strokes() < 5 && strokes < 500) {
         session.carve(random_sweep(random));
-        session.history.end_stroke();
+        session.history.end_stroke(session.engine->solid());
         ++strokes;
         if (!session.engine->solid().same_content(states.back())) states.push_back(session.engine->solid());
     }
@@ -178,6 +182,144 @@ TEST(History, KeepsWithinItsBudgetDropsTheOldestFirstAndSaysSo) {
     while (session.undo()) {
     }
     EXPECT_TRUE(session.engine->solid().same_content(states[states.size() - 1 - kept]));
+}
+
+// ---- Several hands
+
+namespace {
+
+// A ball's sweep within a slab of the cube.
+BallSweep sweep_within(Random& random, double lo_x, double hi_x) {
+    BallSweep sweep = random_sweep(random);
+    sweep.radius_m = random.between(0.02, 0.4 * (hi_x - lo_x));
+    for (Vec3* place : {&sweep.start_object_m, &sweep.end_object_m})
+        place->x = random.between(lo_x + sweep.radius_m, hi_x - sweep.radius_m);
+    return sweep;
+}
+
+struct Done {
+    BallSweep sweep;
+    std::size_t stroke;
+};
+
+// The solid after all sweeps but those of some strokes.
+Solid without(const std::vector<Done>& all, const std::vector<std::size_t>& strokes) {
+    WorkerPool pool(1);
+    const auto engine = make_cpu_engine(cube(24), pool);
+    for (const Done& done : all) {
+        if (std::ranges::find(strokes, done.stroke) != strokes.end()) continue;
+        EXPECT_TRUE(engine->carve(std::span(&done.sweep, 1)).has_value());
+    }
+    return engine->solid();
+}
+
+}  // namespace
+
+// Rays along x go through both halves.
+TEST(History, StrokesOfTwoHandsSideBySideAreUndoneEachAloneTheLastEndedFirst) {
+    for (unsigned seed = 0; seed < 8; ++seed) {
+        Random random(seed);
+        Session session(cube(24));
+        std::vector<Done> all;
+        std::vector<std::size_t> ended;
+        std::array<std::optional<std::size_t>, 2> open;
+        std::size_t strokes = 0;
+        for (int i = 0; i < 60; ++i) {
+            const std::size_t hand = random.chance(0.5) ? 1 : 0;
+            if (open[hand] && random.chance(0.3)) {
+                session.history.end_stroke(session.engine->solid(), hand);
+                ended.push_back(*std::exchange(open[hand], std::nullopt));
+                continue;
+            }
+            const BallSweep sweep = sweep_within(random, hand == 0 ? 0.0 : 0.52, hand == 0 ? 0.48 : 1.0);
+            const std::size_t before = session.history.undoable();
+            session.carve(sweep, hand);
+            if (!open[hand] && session.history.undoable() == before) continue;  // it changed nothing
+            if (!open[hand]) open[hand] = strokes++;
+            all.push_back({sweep, *open[hand]});
+        }
+        for (std::size_t hand = 0; hand < 2; ++hand) {
+            session.history.end_stroke(session.engine->solid(), hand);
+            if (open[hand]) ended.push_back(*open[hand]);
+        }
+        ASSERT_EQ(session.history.undoable(), strokes);
+        ASSERT_GT(strokes, 6u);
+        const Solid last = session.engine->solid();
+        for (std::size_t left = strokes; left-- > 0;) {
+            ASSERT_TRUE(session.undo());
+            const std::vector<std::size_t> undone(ended.begin() + static_cast<std::ptrdiff_t>(left), ended.end());
+            ASSERT_TRUE(session.engine->solid().same_content(without(all, undone))) << seed << ", " << left << " left";
+        }
+        while (session.redo()) continue;
+        EXPECT_TRUE(session.engine->solid().same_content(last));
+    }
+}
+
+TEST(History, StrokesThatMeetAreOneAndNothingIsLost) {
+    const BallSweep left{Vec3(0.2, 0.5, 0.5), Vec3(0.2, 0.5, 0.5), 0.1},
+        right{Vec3(0.8, 0.5, 0.5), Vec3(0.8, 0.5, 0.5), 0.1}, across{Vec3(0.2, 0.5, 0.5), Vec3(0.8, 0.5, 0.5), 0.12};
+    const Solid whole = cube(24);
+    {  // The first goes to where the second is, while both are open; either ends first.
+        for (const std::size_t first : {0u, 1u}) {
+            Session session(whole);
+            session.carve(left, 0);
+            session.carve(right, 1);
+            EXPECT_EQ(session.history.undoable(), 2u);
+            session.carve(across, 0);
+            EXPECT_EQ(session.history.undoable(), 1u);
+            session.history.end_stroke(session.engine->solid(), first);
+            session.carve({Vec3(0.5, 0.9, 0.5), Vec3(0.5, 0.9, 0.5), 0.1}, 1 - first);
+            session.history.end_stroke(session.engine->solid(), 1 - first);
+            EXPECT_EQ(session.history.undoable(), 1u);
+            ASSERT_TRUE(session.undo());
+            EXPECT_TRUE(session.engine->solid().same_content(whole));
+        }
+    }
+    {  // The second has ended before the first comes there: it stays when the first is undone.
+        Session session(whole), second(whole);
+        session.carve(left, 0);
+        session.carve(right, 1);
+        session.history.end_stroke(session.engine->solid(), 1);
+        session.carve(across, 0);
+        EXPECT_EQ(session.history.undoable(), 2u);
+        ASSERT_TRUE(session.undo());
+        second.carve(right);
+        EXPECT_TRUE(session.engine->solid().same_content(second.engine->solid()));
+        ASSERT_TRUE(session.undo());
+        EXPECT_TRUE(session.engine->solid().same_content(whole));
+        ASSERT_TRUE(session.redo() && session.redo());
+        second.carve(left);
+        second.carve(across);
+        EXPECT_TRUE(session.engine->solid().same_content(second.engine->solid()));
+    }
+}
+
+TEST(History, OfTwoHandsAnywhereGivesBackTheFirstSolidBitForBitAndTheLast) {
+    for (unsigned seed = 0; seed < 10; ++seed) {
+        Random random(seed);
+        const Solid whole = cube(24);
+        Session session(whole);
+        for (int i = 0; i < 80; ++i) {
+            const std::size_t hand = random.chance(0.5) ? 1 : 0;
+            if (random.chance(0.25)) session.history.end_stroke(session.engine->solid(), hand);
+            BallSweep sweep = random_sweep(random);
+            sweep.end_object_m = sweep.start_object_m;
+            session.carve(sweep, hand);
+        }
+        const Solid last = session.engine->solid();
+        const std::size_t strokes = session.history.undoable();
+        EXPECT_GT(strokes, 5u);
+        session.history.end_strokes(session.engine->solid());
+        const std::size_t bytes = session.history.bytes();
+        for (int i = 0; i < 2; ++i) {
+            while (session.undo()) continue;
+            ASSERT_TRUE(session.engine->solid().same_content(whole)) << seed;
+            while (session.redo()) continue;
+            ASSERT_TRUE(session.engine->solid().same_content(last)) << seed;
+        }
+        EXPECT_EQ(session.history.undoable(), strokes);
+        EXPECT_EQ(session.history.bytes(), bytes);
+    }
 }
 
 }  // namespace burin::compute::test

@@ -32,7 +32,7 @@ std::unique_ptr<CarvingEngine> plates(int resolution, double plate_share, Worker
     }
     EXPECT_TRUE(apply(*engine, slots, pool).has_value());
     history.record(engine->take_changes());
-    history.end_stroke();
+    history.end_stroke(engine->solid());
     return engine;
 }
 
@@ -86,7 +86,7 @@ TEST(Plates, AllTwoHundredComeThroughCutFillUndoMeshAndExport) {
     Changes changes = engine->take_changes();
     surface.update(engine->solid(), changes, pool);
     history.record(changes);
-    history.end_stroke();
+    history.end_stroke(engine->solid());
     EXPECT_EQ(shells_of_exported(surface, "bored.ply"), static_cast<std::size_t>(kPlates));
 
     BallSweep rod = bore;
@@ -95,7 +95,7 @@ TEST(Plates, AllTwoHundredComeThroughCutFillUndoMeshAndExport) {
     changes = engine->take_changes();
     surface.update(engine->solid(), changes, pool);
     history.record(changes);
-    history.end_stroke();
+    history.end_stroke(engine->solid());
     EXPECT_EQ(shells_of_exported(surface, "strung.ply"), 1u) << "the rod joins all plates";
 
     for (int i = 0; i < 2; ++i) {
@@ -121,7 +121,7 @@ TEST(Plates, ThinnerThanACellTheyAreKeptAndNamed) {
         sweep.operation = operation;
         ASSERT_TRUE(engine->carve(std::span(&sweep, 1)).has_value());
         history.record(engine->take_changes());
-        history.end_stroke();
+        history.end_stroke(engine->solid());
     }
     ASSERT_TRUE(history.undo(*engine).has_value());
     ASSERT_TRUE(history.undo(*engine).has_value());

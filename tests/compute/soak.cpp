@@ -164,7 +164,7 @@ private:
         }
         last_ = sweep;
         follow(sweep.operation);
-        if (random_.chance(0.3)) history_.end_stroke();
+        if (random_.chance(0.3)) history_.end_stroke(engine_->solid());
     }
 
     // (A - B) - B = A - B, and so for filling and painting: the second time nothing changes.

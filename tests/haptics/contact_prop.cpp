@@ -9,6 +9,7 @@
 #include "geometry/contact/local_surface_search.hpp"
 #include "haptics/contact/half_spaces.hpp"
 #include "haptics/contact/triangle_contact.hpp"
+#include "tests/compute/effort.hpp"
 #include "tests/haptics/surfaces.hpp"
 
 namespace burin::haptics {
@@ -133,6 +134,38 @@ TEST(HalfSpaces, NearestPointSatisfiesTheOptimalityConditions) {
 TEST(HalfSpaces, SaysSoWhenThereIsNoCommonPoint) {
     const std::vector<HalfSpace> apart{{{0, 1, 0}, 1.0}, {{0, -1, 0}, 1.0}};
     EXPECT_FALSE(nearest_inside(apart, Vec3(0.0), 1e-9).found);
+}
+
+TEST(HalfSpaces, ThatDifferByLittleAreMetAsExactlyAsOthers) {
+    // What a ball of a millimetre has around a corner: a plane for each triangle there, all of almost one direction.
+    // Two or three of them bear the answer, which is known, and others are just satisfied.
+    compute::test::Random random(4);
+    constexpr double kRadius_m = 1e-3, kTolerance_m = 1e-9 * kRadius_m;
+    int borne_by_more = 0;
+    const int times = compute::test::repeated(100'000);
+    for (int i = 0; i < times; ++i) {
+        const double differ = std::pow(10.0, random.between(-6.0, -1.0));
+        const auto near = [&](const Vec3& v, double most) {
+            return v + most * Vec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+        };
+        const Vec3 up = glm::normalize(near(Vec3(0.0), 1.0));
+        std::vector<HalfSpace> spaces;
+        for (int k = random.small(2, 6); k > 0; --k) spaces.push_back({glm::normalize(near(up, differ)), 0.0});
+        const std::size_t bearing = std::min<std::size_t>(spaces.size(), random.chance(0.5) ? 2 : 3);
+        const Vec3 goal = near(-3.0 * kRadius_m * up, 0.5 * kRadius_m);
+        Vec3 answer = goal;
+        for (std::size_t k = 0; k < bearing; ++k) answer += random.between(0.2, 1.0) * kRadius_m * spaces[k].normal;
+        for (std::size_t k = 0; k < spaces.size(); ++k)
+            spaces[k].offset = glm::dot(spaces[k].normal, answer) -
+                               (k < bearing ? 0.0 : random.between(0.0, 1.0) * differ * differ * kRadius_m);
+        const NearestInside best = nearest_inside(spaces, goal, kTolerance_m);
+        ASSERT_TRUE(best.found) << i << ", planes that differ by " << differ;
+        for (const HalfSpace& space : spaces)
+            ASSERT_GE(glm::dot(space.normal, best.point), space.offset - 2.0 * kTolerance_m) << i;
+        ASSERT_LE(glm::length(best.point - goal), glm::length(answer - goal) + 2.0 * kTolerance_m) << i;
+        borne_by_more += best.bearing_count > 1 ? 1 : 0;
+    }
+    EXPECT_GT(borne_by_more, times / 2);
 }
 
 TEST(LocalSurfaceSearch, EveryBoxFindsEachOfItsTrianglesOnce) {

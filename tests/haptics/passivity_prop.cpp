@@ -7,85 +7,44 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <random>
 
-#include "haptics/signals/filters.hpp"
-#include "haptics/stability/rendered_wall.hpp"
+#include "tests/haptics/wall_and_hand.hpp"
 
 namespace burin::haptics {
 namespace {
 
+using test::Dice;
+using test::Motion;
+using Draw = test::WallAndHand;
+
 constexpr int kSteps = 8;  // a period
-
-class Dice {
-public:
-    explicit Dice(std::uint64_t seed) : engine_(seed) {}
-    double between(double lo, double hi) { return lo + (hi - lo) * static_cast<double>(engine_() >> 11) * 0x1p-53; }
-    double spread(double lo, double hi) { return lo * std::pow(hi / lo, between(0.0, 1.0)); }  // logarithmically
-    bool one_in(int n) { return engine_() % static_cast<std::uint64_t>(n) == 0; }
-    int below(int n) { return static_cast<int>(engine_() % static_cast<std::uint64_t>(n)); }
-
-private:
-    std::mt19937_64 engine_;  // its numbers are the same everywhere
-};
-
-enum class Motion { back_and_forth, random_turns, against_the_wall, held_by_a_hand };
-
-struct Draw {
-    devices::DeviceDescription device;
-    ContactDemand demand;
-    SignalSettings signals;
-    Motion motion = Motion::back_and_forth;
-    int delay_steps = 0;
-    double depth_m = 0.0;  // how deep the motion goes
-    double hand_mass_kg = 0.0, hand_stiffness_N_per_m = 0.0, hand_damping_Ns_per_m = 0.0;
-};
 
 Draw draw(Dice& dice) {
     Draw d;
+    d.steps = kSteps;
     d.device.rate_Hz = dice.spread(100.0, 4000.0);
     const double period_s = 1.0 / d.device.rate_Hz;
-    d.device.apparent_mass_kg = dice.spread(0.02, 0.5);
-    d.device.damping_Ns_per_m = dice.one_in(5) ? 0.0 : dice.spread(0.01, 20.0);
-    if (!dice.one_in(5) || d.device.damping_Ns_per_m == 0.0) d.device.friction_N = dice.spread(0.01, 2.0);
-    d.device.resolution_m = dice.one_in(5) ? 0.0 : dice.spread(1e-6, 2e-4);
-    d.device.max_force_N = dice.spread(1.0, 30.0);
-    d.delay_steps = dice.one_in(2) ? kSteps * dice.below(4) : dice.below(4 * kSteps);
-    d.device.delay_s = d.delay_steps * period_s / kSteps;
-    d.demand.contact_speed_m_per_s = dice.spread(0.02, 1.0);
-    d.demand.stiffness_N_per_m = dice.one_in(2) ? 1e7 : dice.spread(10.0, 1e4);
-    d.demand.damping_Ns_per_m = dice.one_in(2) ? 0.0 : dice.spread(0.05, 20.0);
-    d.signals.force_alpha = dice.one_in(3) ? dice.between(0.1, 0.95) : 0.0;
-    d.demand.filter_lag_s = mean_lag_s(d.signals.force_alpha, period_s);
-    d.signals.velocity = static_cast<VelocityMethod>(dice.below(3));
-    d.motion = static_cast<Motion>(dice.below(4));
-    d.depth_m = d.demand.contact_speed_m_per_s * period_s * dice.between(1.0, 40.0);
-    d.hand_mass_kg = dice.spread(0.02, 1.0);
-    d.hand_stiffness_N_per_m = dice.spread(10.0, 3000.0);
-    d.hand_damping_Ns_per_m = dice.spread(0.3, 30.0);
+    d.draw_device(dice, period_s);
+    d.draw_wall(dice, period_s);
+    d.draw_hand(dice, period_s);
     return d;
 }
 
-// Depth is positive into the wall, and so is motion; the force pushes out.
 class Simulation {
 public:
     Simulation(const Draw& d, const StiffnessLimit& wall, std::uint64_t seed)
         : d_(d), wall_(wall), dice_(seed), period_s_(1.0 / d.device.rate_Hz), step_s_(period_s_ / kSteps) {
-        // A hand that starts at full speed would soon be too fast.
-        const bool held = d.motion == Motion::held_by_a_hand;
-        x_ = held ? -0.1 * d.depth_m : -0.5 * d.depth_m;
-        v_ = held ? 0.7 * d.demand.contact_speed_m_per_s : d.demand.contact_speed_m_per_s;
-        target_m_ = 0.5 * d.depth_m;
         told_.assign(static_cast<std::size_t>(d.delay_steps) + 1, 0.0);
     }
 
     // The most that has come out beyond what the device took; above 0 the promise is broken.
     double worst_excess_J(int ticks) {
-        for (int i = 0; i < ticks * kSteps && !too_fast_; ++i) {
+        for (int i = 0; i < ticks * kSteps && !tool_.too_fast(); ++i) {
             if (i % kSteps == 0) sample();
             told_.push_back(command_N_);
             told_.pop_front();
-            account(step(told_.front()), told_.front());
+            const double spring_N = wall_.stiffness_N_per_m * std::max(0.0, tool_.at_m());
+            account(tool_.step(told_.front(), spring_N), told_.front());
         }
         return worst_J_;
     }
@@ -93,10 +52,9 @@ public:
 
 private:
     void sample() {
-        const double D = d_.device.resolution_m;
-        const double measured = D > 0.0 ? D * std::floor(x_ / D + 0.5) : x_;
+        const double measured = test::read_m(tool_.at_m(), d_.device);
         window_ = with_position(window_, {measured, 0.0, 0.0});
-        const VelocityEstimate v = estimate_velocity(d_.signals, window_, velocity_, D, period_s_);
+        const VelocityEstimate v = estimate_velocity(d_.signals, window_, velocity_, d_.device.resolution_m, period_s_);
         velocity_ = v.average;
         double force = 0.0;
         if (measured > 0.0) {
@@ -107,50 +65,13 @@ private:
         command_N_ = force_.value.x;
     }
 
-    double step(double force_N) {
-        const double V = d_.demand.contact_speed_m_per_s;
-        switch (d_.motion) {
-            case Motion::back_and_forth: turn_at_ends(); break;
-            case Motion::random_turns:
-                if (dice_.one_in(6)) v_ = dice_.between(-V, V);
-                if (dice_.one_in(6)) v_ = std::copysign(V, v_);
-                turn_at_ends();
-                break;
-            // Moves in where the force is less than the spring would have it, and out where it is more.
-            case Motion::against_the_wall:
-                v_ = std::copysign(V, wall_.stiffness_N_per_m * std::max(0.0, x_) - force_N);
-                if (dice_.one_in(10)) v_ = -v_;
-                turn_at_ends();
-                break;
-            case Motion::held_by_a_hand: move_freely(force_N); break;
-        }
-        x_ += v_ * step_s_;
-        return v_ * step_s_;
-    }
-
-    void turn_at_ends() {
-        if (x_ > d_.depth_m) v_ = -std::abs(v_);
-        if (x_ < -0.3 * d_.depth_m) v_ = std::abs(v_);
-    }
-
-    void move_freely(double force_N) {
-        const double mass = d_.device.apparent_mass_kg + d_.hand_mass_kg;
-        if (dice_.one_in(40 * kSteps)) target_m_ = dice_.between(-0.5, 1.0) * d_.depth_m;
-        const double pull = d_.hand_stiffness_N_per_m * (target_m_ - x_) - force_N;
-        const double damping = d_.device.damping_Ns_per_m + d_.hand_damping_Ns_per_m;
-        const double v = (v_ + step_s_ / mass * pull) / (1.0 + step_s_ / mass * damping);
-        const double brake = step_s_ * d_.device.friction_N / mass;
-        v_ = std::abs(v) <= brake ? 0.0 : v - std::copysign(brake, v);
-        too_fast_ = std::abs(v_) > d_.demand.contact_speed_m_per_s;  // nothing is promised of that
-    }
-
     void account(double dx, double force_N) {
-        if (too_fast_) return;
+        if (tool_.too_fast()) return;
         const double lost = d_.device.friction_N * std::abs(dx) + d_.device.damping_Ns_per_m * dx * dx / step_s_;
         recent_.push_back(lost);
         if (recent_.size() > static_cast<std::size_t>(kSteps * (VelocityWindow::kLongest + 1))) recent_.pop_front();
         // A contact is over when no force is left on its way either.
-        const bool touches = x_ > 0.0 || x_ - dx > 0.0 || command_N_ > 1e-12 ||
+        const bool touches = tool_.at_m() > 0.0 || tool_.at_m() - dx > 0.0 || command_N_ > 1e-12 ||
                              std::ranges::any_of(told_, [](double force) { return force > 1e-12; });
         if (!touches) {
             in_contact_ = false;
@@ -178,11 +99,12 @@ private:
     StiffnessLimit wall_;
     Dice dice_;
     double period_s_, step_s_;
-    double x_ = 0.0, v_ = 0.0, target_m_ = 0.0, command_N_ = 0.0;
+    test::MovedTool tool_{d_, step_s_, dice_};
+    double command_N_ = 0.0;
     std::deque<double> told_, recent_;
     VelocityWindow window_;
     MovingAverage velocity_, force_;
-    bool in_contact_ = false, touched_ = false, too_fast_ = false;
+    bool in_contact_ = false, touched_ = false;
     double given_J_ = 0.0, taken_J_ = 0.0, worst_J_ = -HUGE_VAL;
 };
 

@@ -2,6 +2,7 @@
 // A stroke from the ring of samples to the carved solid: what is read, what an update does, and what its figures say.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "sculpt/sculpt_service.hpp"
@@ -35,14 +36,17 @@ TEST(StrokeReader, StopsAtEachReleaseOfTheButton) {
     push(channels, 2, {0.01, 0.0, 0.1}, true);
     push(channels, 3, {0.01, 0.0, 0.2}, false);
     push(channels, 4, {0.05, 0.0, 0.1}, true);
-    const SweptSamples first = reader.read(UINT64_MAX);
+    reader.take(UINT64_MAX);
+    EXPECT_EQ(reader.last_tick(), 4u);
+    EXPECT_EQ(reader.release_ns(INT64_MAX), 3'000'000);
+    const SweptSamples first = reader.read(INT64_MAX);
     EXPECT_TRUE(first.stroke_ended);
     ASSERT_EQ(first.sweeps.size(), 1u);
     EXPECT_EQ(first.sweeps[0].start.position_m, Vec3(0.0, 0.0, 0.1));
     EXPECT_EQ(first.sweeps[0].end.position_m, Vec3(0.01, 0.0, 0.1));
-    EXPECT_EQ(reader.last_tick(), 3u);
+    EXPECT_EQ(reader.oldest_ns(), 4'000'000);
     EXPECT_FALSE(reader.pressed());
-    const SweptSamples second = reader.read(UINT64_MAX);
+    const SweptSamples second = reader.read(INT64_MAX);
     EXPECT_FALSE(second.stroke_ended);
     ASSERT_EQ(second.sweeps.size(), 1u);
     EXPECT_EQ(second.sweeps[0].start.position_m, Vec3(0.05, 0.0, 0.1));
@@ -54,15 +58,39 @@ TEST(StrokeReader, LeavesSamplesOfLaterTicksInTheRing) {
     haptics::HapticChannels channels;
     StrokeReader reader(channels, kBall, 0.0, 0.005);
     for (std::uint64_t tick = 1; tick <= 4; ++tick) push(channels, tick, {0.01 * double(tick), 0.0, 0.1}, true);
-    const SweptSamples first = reader.read(2);
+    reader.take(2);
+    const SweptSamples first = reader.read(INT64_MAX);
     ASSERT_FALSE(first.sweeps.empty());
     EXPECT_EQ(first.sweeps.back().end.position_m, Vec3(0.02, 0.0, 0.1));
     EXPECT_EQ(reader.last_tick(), 2u);
-    const SweptSamples rest = reader.read(UINT64_MAX);
+    reader.take(UINT64_MAX);
+    const SweptSamples rest = reader.read(INT64_MAX);
     ASSERT_FALSE(rest.sweeps.empty());
     EXPECT_EQ(rest.sweeps.front().start.position_m, Vec3(0.02, 0.0, 0.1)) << "goes on from where it was";
     EXPECT_EQ(rest.sweeps.back().end.position_m, Vec3(0.04, 0.0, 0.1));
-    EXPECT_TRUE(reader.read(UINT64_MAX).sweeps.empty());
+    EXPECT_TRUE(reader.read(INT64_MAX).sweeps.empty());
+}
+
+TEST(StrokeReader, ReadsUpToATimeAndMakesASweepOfEachSampleWhereTheirOrderMatters) {
+    haptics::HapticChannels channels;
+    for (const bool alone : {false, true}) {
+        StrokeReader reader(channels, kBall, 0.0, 0.005);
+        for (std::uint64_t tick = 1; tick <= 6; ++tick)  // it stands still from the fourth on
+            push(channels, tick, {0.01 * double(std::min<std::uint64_t>(tick, 4)), 0.0, 0.1}, true);
+        reader.take(UINT64_MAX);
+        // Two samples, the tool's radius, and three cells.
+        EXPECT_NEAR(reader.reach_object(3'000'000).hi.x, 0.02 + 0.02 + 0.015, 1e-12);
+        EXPECT_NEAR(reader.reach_object(3'000'000).lo.y, -0.02 - 0.015, 1e-12);
+        const SweptSamples first = reader.read(4'000'000, alone), rest = reader.read(INT64_MAX, alone);
+        EXPECT_EQ(first.samples + rest.samples, 6u);
+        EXPECT_EQ(first.sweeps.size(), alone ? 2u : 1u);
+        EXPECT_EQ(rest.sweeps.size(), alone ? 3u : 1u);
+        EXPECT_EQ(first.ends_ns, alone ? (std::vector<Nanoseconds>{2'000'000, 3'000'000}) : std::vector<Nanoseconds>{});
+        EXPECT_EQ(alone ? rest.ends_ns.back() : 6'000'000, 6'000'000);
+        EXPECT_EQ(rest.sweeps.front().start.position_m, first.sweeps.back().end.position_m);
+        EXPECT_EQ(rest.sweeps.back().end.position_m, Vec3(0.04, 0.0, 0.1));
+        EXPECT_TRUE(reader.reach_object(INT64_MAX).empty());
+    }
 }
 
 TEST(SculptService, WithoutUndoMemoryLeavesTheHistoryAndItsNoticesToTheirOwner) {

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "sculpt/felt_tool.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "sculpt/tool_mesh.hpp"
+
+namespace burin::sculpt {
+namespace {
+
+double area_of(const haptics::ToolSurface& surface) {
+    double sum_m2 = 0.0;
+    for (std::uint32_t i = 0; i < surface.count; ++i) sum_m2 += static_cast<double>(surface.samples[i].area_m2);
+    return sum_m2;
+}
+
+// How far outside a ball may stand: below zero it lies inside. Distances in closed form.
+double out_of_cylinder(const haptics::ProbePoint& ball, double radius_m, double length_m) {
+    const Vec3& c = ball.offset_device_m;
+    return std::max(
+        {std::hypot(c.x, c.z) + ball.radius_m - radius_m, ball.radius_m - c.y, c.y + ball.radius_m - length_m});
+}
+double out_of_box(const haptics::ProbePoint& ball, const Vec3& half_m) {
+    const Vec3 out = glm::abs(ball.offset_device_m) + ball.radius_m - half_m;
+    return std::max({out.x, out.y, out.z});
+}
+
+}  // namespace
+
+TEST(FeltTool, ABallTouchesAsItIsInAnySize) {
+    for (const double radius_m : {0.0, 1e-4, 0.003, 2.0}) {
+        const FeltTool felt = felt_tool(compute::BallTool{radius_m});
+        EXPECT_EQ(felt.probe.count, 1u);
+        EXPECT_FALSE(felt.probe.rigid_tool);
+        EXPECT_EQ(felt.probe.points[0].radius_m, radius_m);
+        const double sphere_m2 = 4.0 * std::numbers::pi * radius_m * radius_m;
+        EXPECT_NEAR(area_of(felt.surface), sphere_m2, 0.01 * sphere_m2);
+        EXPECT_NEAR(felt.surface.size_m, radius_m, 1e-12);
+    }
+}
+
+TEST(FeltTool, TheSamplesOfEachShapeHaveItsArea) {
+    const double pi = std::numbers::pi;
+    EXPECT_NEAR(area_of(felt_tool(compute::CylinderTool{0.002, 0.01}).surface), pi * (2 * 0.004 * 0.01 / 2 + 2 * 4e-6),
+                0.01 * 1.5e-4);
+    EXPECT_NEAR(area_of(felt_tool(compute::BoxTool{{0.002, 0.003, 0.004}}).surface), 8.0 * (6e-6 + 12e-6 + 8e-6), 1e-9);
+    const double slant = std::hypot(0.003, 0.008);
+    EXPECT_NEAR(area_of(felt_tool(compute::ConeTool{0.0, 0.003, 0.008}).surface), pi * (0.003 * slant + 9e-6),
+                0.01 * 1.1e-4);
+}
+
+TEST(FeltTool, ItsBallsLieInsideAndWhatStandsOutOfThemIsSaid) {
+    const double clearance = haptics::TickParameters{}.clearance_ratio;
+    const auto as_touched = [&](haptics::ProbePoint ball) {
+        ball.radius_m *= 1.0 - clearance;
+        return ball;
+    };
+    const FeltTool mill = felt_tool(compute::CylinderTool{0.002, 0.008});
+    EXPECT_TRUE(mill.probe.rigid_tool);
+    EXPECT_GE(mill.probe.count, 10u);
+    for (std::uint32_t i = 0; i < mill.probe.count; ++i)
+        EXPECT_LT(out_of_cylinder(as_touched(mill.probe.points[i]), 0.002, 0.008), 0.0) << i;
+    EXPECT_LT(mill.uncovered_m, 0.3 * 0.002);
+    const Vec3 half(0.002, 0.003, 0.004);
+    const FeltTool box = felt_tool(compute::BoxTool{half});
+    for (std::uint32_t i = 0; i < box.probe.count; ++i)
+        EXPECT_LT(out_of_box(as_touched(box.probe.points[i]), half), 0.0) << i;
+    EXPECT_LT(box.uncovered_m, 0.5 * 0.002);
+}
+
+TEST(ToolMesh, ReachesAsFarAsTheShapeAndIsAsWide) {
+    EXPECT_DOUBLE_EQ(size_of(compute::BullNoseTool{0.005, 0.001, 0.02}), 0.005);
+    EXPECT_DOUBLE_EQ(size_of(compute::CylinderTool{0.005, 0.002}), 0.001);
+    EXPECT_DOUBLE_EQ(reach_of(compute::BallTool{0.007}), 0.007);
+    for (const compute::ToolShape& shape : {compute::ToolShape(compute::ConeTool{0.001, 0.004, 0.01}),
+                                            compute::ToolShape(compute::BoxTool{Vec3(0.003)})}) {
+        double farthest = 0.0;
+        for (const Vec3& p : mesh_of(shape).positions_m) farthest = std::max(farthest, glm::length(p));
+        EXPECT_LE(farthest, reach_of(shape) * (1.0 + 1e-12));
+        EXPECT_GT(farthest, 0.9 * reach_of(shape));
+    }
+}
+
+}  // namespace burin::sculpt
