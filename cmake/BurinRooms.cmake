@@ -1,4 +1,4 @@
-# Room builds: the sources of a room (a subfolder) are compiled as one, since most of a source's time is spent on headers
+# Room builds: the sources of a room (a subfolder) are compiled as one, since most of a source's time goes into headers
 # that its neighbours read too (docs/decisions/016-build-time.md). So a name in an anonymous namespace is unique within
 # its folder. Presets ci and dev compile each source alone: there a missing include does not go unnoticed.
 #   burin_rooms(RESULT NAME SOURCES source... [ALONE source...])

@@ -1,7 +1,8 @@
 # burin_folder(NAME MAY_INCLUDE folder... [EXCEPT file...] [ALONE file...] [LINKS library...])
 # One target a folder: burin_NAME, also burin::NAME, of all sources in the folder and its rooms (subfolders) but those
-# after EXCEPT; those after ALONE are compiled by themselves in every preset (BurinRooms.cmake). MAY_INCLUDE is the layer rule of docs/architecture.md; the folders named there are linked, and the test
-# house.layers fails on an include of any other.
+# after EXCEPT; those after ALONE are compiled by themselves in every preset (BurinRooms.cmake). MAY_INCLUDE is the layer
+# rule of docs/architecture.md; the folders named there are linked, and the test house.layers fails on an include of any
+# other.
 function(burin_folder NAME)
   cmake_parse_arguments(ARG "" "" "EXCEPT;ALONE;MAY_INCLUDE;LINKS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *.cpp)
@@ -70,7 +71,7 @@ function(burin_test)
   endif()
 endfunction()
 
-# burin_test_needs(TEST target...): what is built before ctest TEST runs. scripts/test --only builds just that, as listed
+# burin_test_needs(TEST target...)  names what ctest TEST runs. scripts/test --only builds just that, as listed
 # in build/PRESET/test-targets.txt. burin_test calls it; tests that are added otherwise call it themselves.
 function(burin_test_needs TEST)
   string(REPLACE ";" " " targets "${ARGN}")

@@ -48,7 +48,7 @@ struct TileUpdate {
     std::shared_ptr<const compute::TileLight> light;       // of the tile's vertices; null means full light
 };
 
-// How an export has ended.
+// Tells how an export has ended.
 struct ExportOutcome {
     std::string message;  // for the user
     std::string path;

@@ -79,7 +79,7 @@ FileUnit choose_unit(std::optional<LengthUnit> given, std::optional<LengthUnit> 
 }
 
 std::optional<LengthUnit> unit_in_comment(std::string_view comment) {
-    // What Burin wrote before its exports named their unit in a way that others read as well.
+    // Recognises how older exports of Burin named their unit; other programs did not read that.
     if (comment.contains("by Burin, in metres")) return LengthUnit::m;
     while (!comment.empty()) {
         const std::string_view word = take_word(comment);

@@ -14,7 +14,7 @@ namespace {
 
 // A file could hold nothing but such polygons: each may take some 10 microseconds a corner.
 constexpr std::uint64_t kStepsPerCorner = 4096;
-// What a determinant costs beside a comparison of coordinates, in steps; more when it needs exact arithmetic.
+// Cost of a determinant in steps, where a step is a comparison of coordinates; more where it needs exact arithmetic.
 constexpr std::uint64_t kSteps = 64, kStepsWhenExact = 256;
 
 class EarClipper {

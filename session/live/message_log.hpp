@@ -11,7 +11,7 @@
 
 namespace burin::session {
 
-// What the terminal alone shows beside a message: the panel's pictures do not depend on it.
+// Text that the terminal alone shows beside a message: the panel's pictures do not depend on it.
 struct Beside {
     std::string before, after;
 };

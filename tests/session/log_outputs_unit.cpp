@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a log's commands may write, and that they are checked before its session begins.
+// Tests what a log's commands may write, and that they are checked before its session begins.
 #include "session/record/log_outputs.hpp"
 
 #include <gtest/gtest.h>
