@@ -111,7 +111,7 @@ TEST(MeshUnit, IsReadWhereEachFormatHasRoomForIt) {
     }
 }
 
-// Round trip of each format and unit: an export states its unit, and reading it back gives the same size without an option.
+// Round trip of each format and unit: an export states its unit, and read back it has the same size without an option.
 TEST(MeshUnit, AnExportReadBackHasTheSameSize) {
     for (const LengthUnitDescriptor& unit : length_units()) {
         for (const double side_m : {0.05, 3.0}) {
