@@ -1,20 +1,20 @@
 # burin_folder(NAME MAY_INCLUDE folder... [EXCEPT file...] [ALONE file...] [LINKS library...])
-# One target a folder: burin_NAME, also burin::NAME, of all sources in the folder and its rooms (subfolders) but those
-# after EXCEPT; those after ALONE are compiled by themselves in every preset (BurinRooms.cmake). MAY_INCLUDE is the layer
-# rule of docs/architecture.md; the folders named there are linked, and the test house.layers fails on an include of any
-# other.
+# One target a folder: burin_NAME (burin_A_B for folder A/B), of all sources in the folder and its rooms (subfolders)
+# but those after EXCEPT; those after ALONE are compiled by themselves in every preset (BurinRooms.cmake). MAY_INCLUDE
+# is the layer rule of docs/architecture.md; the folders named there are linked, and the test house.layers fails on an
+# include of any other.
 function(burin_folder NAME)
   cmake_parse_arguments(ARG "" "" "EXCEPT;ALONE;MAY_INCLUDE;LINKS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *.cpp)
   list(REMOVE_ITEM sources main.cpp ${ARG_EXCEPT})
-  burin_rooms(sources ${NAME} SOURCES ${sources} ALONE ${ARG_ALONE})
-  add_library(burin_${NAME} STATIC ${sources})
-  burin_precompile(burin_${NAME})
-  add_library(burin::${NAME} ALIAS burin_${NAME})
-  target_link_libraries(burin_${NAME} PUBLIC burin_options Threads::Threads glm::glm ${ARG_LINKS})
+  string(REPLACE "/" "_" name "${NAME}")
+  burin_rooms(sources ${name} SOURCES ${sources} ALONE ${ARG_ALONE})
+  add_library(burin_${name} STATIC ${sources})
+  burin_precompile(burin_${name})
+  target_link_libraries(burin_${name} PUBLIC burin_options Threads::Threads glm::glm ${ARG_LINKS})
   foreach(layer IN LISTS ARG_MAY_INCLUDE)
     string(REPLACE "/" "_" target "${layer}")
-    target_link_libraries(burin_${NAME} PUBLIC burin_${target})
+    target_link_libraries(burin_${name} PUBLIC burin_${target})
   endforeach()
   string(REPLACE ";" " " allowed "${ARG_MAY_INCLUDE}")
   set_property(GLOBAL APPEND PROPERTY BURIN_LAYER_RULES "${NAME}: ${allowed}")

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "bench/haptics/bumpy_sphere.hpp"
+#include "bench/measure/bumpy_sphere.hpp"
 
 namespace burin::bench {
 namespace {

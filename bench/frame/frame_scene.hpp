@@ -2,7 +2,7 @@
 // The scene that `burin bench frame` draws, as plain data given alike to Burin and its peers: one surface, as a whole
 // and as patches; a screen, a head on a small path, one lamp, one material.
 //
-// Surface: bench/haptics/bumpy_sphere.hpp with a radius of 1 m, centred at the world's
+// Surface: bench/measure/bumpy_sphere.hpp with a radius of 1 m, centred at the world's
 // origin, with the true surface's normals. Patches: the triangles whose centres lie
 // in the same cube of a grid; a vertex on a seam belongs to each patch beside it.
 // Screen: 16 : 9 in the plane z = 0 around the sphere's centre, 1.9 m from the head's mean position, 37 degrees high

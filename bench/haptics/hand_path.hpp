@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "bench/haptics/bumpy_sphere.hpp"
+#include "bench/measure/bumpy_sphere.hpp"
 #include "devices/haptic/haptic_device.hpp"
 
 namespace burin::bench {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <random>
 
-#include "bench/haptics/bumpy_sphere.hpp"
+#include "bench/measure/bumpy_sphere.hpp"
 #include "bench/haptics/hand_path.hpp"
 #include "bench/haptics/haptics.hpp"
 #include "bench/measure/timing.hpp"

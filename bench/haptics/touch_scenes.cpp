@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <numbers>
 
-#include "bench/haptics/bumpy_sphere.hpp"
+#include "bench/measure/bumpy_sphere.hpp"
 #include "bench/haptics/rough_surfaces.hpp"
 #include "geometry/files/mesh_import.hpp"
 #include "sculpt/feel_options.hpp"

@@ -11,7 +11,7 @@
 
 #include "bench/frame/frame_display.hpp"
 #include "bench/frame/frame_peers.hpp"
-#include "bench/haptics/bumpy_sphere.hpp"
+#include "bench/measure/bumpy_sphere.hpp"
 #include "bench/measure/flip.hpp"
 #include "bench/measure/timing.hpp"
 

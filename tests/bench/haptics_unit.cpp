@@ -10,7 +10,7 @@
 #include <set>
 
 #include "base/json.hpp"
-#include "bench/haptics/bumpy_sphere.hpp"
+#include "bench/measure/bumpy_sphere.hpp"
 #include "bench/haptics/hand_path.hpp"
 #include "bench/haptics/haptics_rows.hpp"
 #include "bench/peers/proxy_peer.hpp"

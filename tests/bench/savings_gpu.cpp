@@ -9,7 +9,7 @@
 #include <numbers>
 #include <string>
 
-#include "bench/haptics/bumpy_sphere.hpp"
+#include "bench/measure/bumpy_sphere.hpp"
 #include "bench/measure/flip.hpp"
 #include "compute/rays/normal_code.hpp"
 #include "renderer/frame/renderer.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "bench/haptics/bumpy_sphere.hpp"
+#include "bench/measure/bumpy_sphere.hpp"
 #include "bench/haptics/rough_surfaces.hpp"
 #include "geometry/mesh/mesh_health.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "bench/haptics/bumpy_sphere.hpp"
+#include "bench/measure/bumpy_sphere.hpp"
 #include "compute/mesher/surface.hpp"
 #include "geometry/contact/touch_mesh.hpp"
 #include "haptics/contact/candidates.hpp"

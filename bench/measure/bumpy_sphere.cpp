@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/haptics/bumpy_sphere.hpp"
+#include "bench/measure/bumpy_sphere.hpp"
 
 #include <algorithm>
 #include <cmath>
