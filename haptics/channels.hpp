@@ -109,6 +109,10 @@ enum TickFlag : std::uint32_t {
     kTickCutting = 1u << 17,        // the tool is cutting into material
     kTickGuided = 1u << 18,         // the guidance force pulls the tool to its curve
     kTickLoopGap = 1u << 19,        // ticks were lost before this one
+    kTickDoubted = 1u << 20,        // the watch finds no sound contact: its force fades out (contact/contact_watch.hpp)
+    kTickLetGo = 1u << 21,          // ... and the tool was set to the hand in this tick
+    // a part of several for which no work was left in this turn: its contacts are held on their last planes
+    kTickHeldOver = 1u << 22,
 };
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
@@ -148,15 +152,18 @@ struct ContactRecord {
     ContactWork work;
 };
 
-// A tick's share of its turn: the parts of a device that are ticked in one turn of the loop divide one period's budget.
-// What the parts before have not used up is there for those that are left.
+// A tick's share of its turn. The parts of a device that are ticked in one turn of the loop have one period's budget
+// among them, by need: each may use what those before it have left over. A part for which too little is left is held
+// over: its contacts stay on their last planes, and the next turn begins with it.
 struct TurnShare {
-    double spent_ns = 0.0;  // by the parts before, as cost_ns() counts
-    std::uint32_t parts_left = 1;
+    // A part with less than this share of the budget, or less time, is held over. A tick on a scan takes a tenth of the
+    // budget on average.
+    static constexpr double kLeast = 0.15, kLeast_ns = 4000.0;
 
-    [[nodiscard]] double of(double budget_ns) const noexcept {
-        return std::max(budget_ns - spent_ns, 0.0) / parts_left;
-    }
+    double spent_ns = 0.0;  // by the parts before, as cost_ns() counts
+    bool held_over = false;
+
+    [[nodiscard]] double of(double budget_ns) const noexcept { return std::max(budget_ns - spent_ns, 0.0); }
 };
 
 // Everything a tick used and did; the other records are views of it. With the surface and the parameters of the
@@ -170,7 +177,8 @@ struct TickRecord {
     std::uint64_t surface_sequence = 0;
     std::uint64_t parameter_sequence = 0;
     TurnShare turn;
-    bool sample_finite = true, parameters_sensible = true;  // false: nothing else was computed, the force is zero
+    // One false: nothing else was computed, the force is zero. So it is for a sample stamped ahead of time.
+    bool sample_finite = true, within_reach = true, parameters_sensible = true;
     MotionRecord motion;
     ContactRecord contact;
     PassivityRecord passivity;
@@ -199,6 +207,7 @@ struct ToolState {
     std::uint32_t buttons = 0;
     std::uint32_t flags = 0;
     GateCause cause = GateCause::none;
+    Nanoseconds let_go_ns = 0;          // time of the last tick in which the watch let the hand go; 0: there was none
     std::uint64_t late_ticks = 0;       // since the start
     std::uint64_t dropped_samples = 0;  // stroke samples lost to a full ring since the start
 };

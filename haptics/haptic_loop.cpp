@@ -29,10 +29,24 @@ TickRecord HapticLoop::turn(Nanoseconds now_ns, Nanoseconds lateness_ns) noexcep
     ++ticks_;
     if (lateness_ns > period_ns_ / 2) ++late_ticks_;
     newest_ns_ = now_ns;
-    TurnShare share{0.0, static_cast<std::uint32_t>(parts_.size())};
-    const TickRecord first = tick_part(parts_[0], share, now_ns, lateness_ns);
-    for (std::size_t i = 1; i < parts_.size(); ++i) tick_part(parts_[i], share, now_ns, lateness_ns);
-    return first;
+    TickRecord of_first;
+    TurnShare share;
+    std::size_t next_first = first_;
+    for (std::size_t n = 0; n < parts_.size(); ++n) {
+        const std::size_t i = in_turn(n);
+        if (share.held_over && next_first == first_) next_first = i;
+        const TickRecord record = tick_part(parts_[i], share, now_ns, lateness_ns);
+        pass_on(share, record, *parts_[in_turn(n + 1)].input.parameters);
+        if (i == 0) of_first = record;
+    }
+    first_ = next_first;
+    return of_first;
+}
+
+void HapticLoop::pass_on(TurnShare& share, const TickRecord& record, const TickParameters& next) const noexcept {
+    share.spent_ns += cost_ns(record.contact.work);
+    const double budget = budget_ns(next.work, dt_s_);
+    share.held_over = share.of(budget) < std::max(TurnShare::kLeast * budget, TurnShare::kLeast_ns);
 }
 
 // A fault of the whole device counts as one of each part that has none of its own.
@@ -53,8 +67,6 @@ TickRecord HapticLoop::tick_part(Part& part, TurnShare& share, Nanoseconds now_n
         full_tick(part.state, sample, *surface, *parameters, part.device->description(), now_ns, dt_s_, share);
     TickRecord& record = full.record;
     part.device->write(record.gate.given);
-    share.spent_ns += cost_ns(record.contact.work);
-    --share.parts_left;
     watch_stillness(part.still, record);
     part.state = full.next;
     part.sample = sample;
@@ -66,7 +78,9 @@ TickRecord HapticLoop::tick_part(Part& part, TurnShare& share, Nanoseconds now_n
     HapticChannels& channels = *part.channels;
     if (!channels.stroke.push(stroke_of(record))) record.flags |= kTickSampleDropped;
     channels.records.push(record);  // a full ring counts the records it refuses
+    if ((record.flags & kTickLetGo) != 0) part.let_go_ns = now_ns;
     channels.tool.draft() = tool_of(record, late_ticks_, channels.stroke.refused());
+    channels.tool.draft().let_go_ns = part.let_go_ns;
     channels.tool.publish();
     return record;
 }
@@ -90,19 +104,19 @@ void HapticLoop::warm_up() noexcept { warm_up_until(INT64_MAX); }
 
 // Parts whose turn would come after the deadline go without: a warm-up must not make the turn late.
 void HapticLoop::warm_up_until(Nanoseconds deadline_ns) noexcept {
-    TurnShare share{0.0, static_cast<std::uint32_t>(parts_.size())};
-    for (const Part& part : parts_) {
+    TurnShare share;
+    for (std::size_t n = 0; n < parts_.size(); ++n) {
+        const Part& part = parts_[in_turn(n)];
         const Nanoseconds now_ns = clock_.now_ns();
-        if (&part != parts_.data() && now_ns >= deadline_ns) return;
+        if (n > 0 && now_ns >= deadline_ns) return;
         devices::DeviceSample expected = part.sample;
         expected.time_ns += period_ns_;
         expected.position_device_m += dt_s_ * part.velocity_device_m_per_s;
-        const FullTick full =
-            full_tick(part.state, expected, part.channels->surface.newest(), part.channels->parameters.newest(),
-                      part.device->description(), now_ns, dt_s_, share);
+        const TickParameters& parameters = part.channels->parameters.newest();
+        const FullTick full = full_tick(part.state, expected, part.channels->surface.newest(), parameters,
+                                        part.device->description(), now_ns, dt_s_, share);
         warmed_up_ += full.record.contact.work.triangles_tested;
-        share.spent_ns += cost_ns(full.record.contact.work);
-        --share.parts_left;
+        pass_on(share, full.record, parameters);
     }
 }
 

@@ -6,7 +6,8 @@
 // A device of several parts that move by themselves (a glove's fingertips) is one loop with a list of parts, fixed when
 // the loop is made. One turn reads all parts, then ticks and writes one after the other. Each has channels, state,
 // parameters, gate and energy account of its own, so limits, slew and passivity hold for each. The turn's work is
-// bounded as one tick's is: the parts divide the period's budget (TurnShare). A fault of one part gives that part no
+// bounded as one tick's is: the parts have one period's budget among them (TurnShare). A part for which nothing is left
+// is held over, and the next turn begins with the first such part, so that each gets its turn. A fault of one part gives that part no
 // force, and the others go on; a fault that a part reports as the whole device's (DeviceSample::fault_is_of_all) gives
 // none to any part, in the same turn. Warm-up, idling, late and skipped ticks are the turn's, and so alike for all.
 // In simulated time: advance the clock (and the device, if it does not follow the clock) by a period and call step();
@@ -123,10 +124,15 @@ private:
         devices::DeviceSample sample;       // of the last tick
         Vec3 velocity_device_m_per_s{0.0};  // of the last tick
         Still still;                        // the state last seen to change, and when
+        Nanoseconds let_go_ns = 0;          // when the watch last let the hand go
     };
 
     TickRecord turn(Nanoseconds now_ns, Nanoseconds lateness_ns) noexcept;
     TickRecord tick_part(Part& part, TurnShare& share, Nanoseconds now_ns, Nanoseconds lateness_ns) noexcept;
+    // Ends the share of one part and begins that of the next.
+    void pass_on(TurnShare& share, const TickRecord& record, const TickParameters& next) const noexcept;
+    // The part that is ticked as the n-th of this turn.
+    [[nodiscard]] std::size_t in_turn(std::size_t n) const noexcept { return (first_ + n) % parts_.size(); }
     void spread_fault() noexcept;
     void warm_up_until(Nanoseconds deadline_ns) noexcept;
     static void watch_stillness(Still& still, const TickRecord& tick) noexcept;
@@ -136,6 +142,7 @@ private:
     Nanoseconds period_ns_;
     double dt_s_;
     std::vector<Part> parts_;
+    std::size_t first_ = 0;  // the part with which the next turn begins
     std::uint64_t ticks_ = 0, late_ticks_ = 0, skipped_deadlines_ = 0;
     Nanoseconds newest_ns_ = 0;  // time of the last tick
     // Triangle count of the warm-up ticks, kept so that an optimizing compiler cannot remove them.

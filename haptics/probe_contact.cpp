@@ -5,14 +5,20 @@
 #include <cmath>
 #include <optional>
 
+#include "haptics/contact/friction.hpp"
+#include "haptics/contact/touching.hpp"
 #include "haptics/forces/touch_force.hpp"
 
 namespace burin::haptics {
 namespace {
 
-// A contact that is pushed farther than this in one tick, at the device, by what no published motion explains, counts
-// as a new contact: its force fades in (haptics/contact/moving_bodies.hpp).
+// Where a motion that nothing has announced lengthens the spring by more than this in one tick, at the device, that
+// length is left out of the force at first and comes back over time (haptics/contact/moving_bodies.hpp).
 constexpr double kJump_m = 0.0005;
+// How fast: by exp(-kComingBack) within the gate's ramp for contacts.
+constexpr double kComingBack = 3.0;
+// The share of the spring from which on a part left out of it is told.
+constexpr double kFelt = 0.01;
 
 // How long a body is followed beyond its time where a surface of any age is trusted.
 constexpr double kLongestFollowed_s = 0.5;
@@ -28,6 +34,9 @@ public:
           point_(input.parameters.probe.points[index]),
           state_(step.next.proxies[index]),
           material_(step.next.materials[index]),
+          watch_(step.next.watches[index]),
+          last_(step.next.contacts[index]),
+          left_out_m_(step.next.left_out_m[index]),
           record_(step.contact.points[index]) {
         const MotionRecord& motion = input.motion;
         arm_device_m_ = input.sample.orientation_device * point_.offset_device_m;
@@ -38,43 +47,78 @@ public:
         record_.proxy_object_m = record_.hip_object_m;
     }
 
-    void stay_with_hand() { state_ = {record_.hip_object_m, input_.surface.sequence, false}; }
+    void stay_with_hand() {
+        state_ = {record_.hip_object_m, input_.surface.sequence, false};
+        watch_ = {};
+        last_ = {};
+        left_out_m_ = 0.0;
+        record_.proxy_object_m = record_.hip_object_m;
+    }
 
     void touch(bool painting, const ProxyBudget& budget) {
-        const bool was_placed = state_.placed;
+        const bool was_fitting = state_.placed && state_.unfit_ticks == 0;
         const bool published = state_.surface_sequence != input_.surface.sequence;
+        if (!was_fitting) left_out_m_ = 0.0;
         // With a moving body relative to it, as friction asks; the body touched in the last tick.
         const ProxySettings settings = this->settings(painting);
-        const CarriedProxy carried = carry(state_, bodies_, settings.contact_radius_m, kElsewhere_m * scale(), budget);
+        ContactWork watched;
+        if (last_.constraints > 0 && was_fitting) watch(watched);
+        ProxyBudget left = less(budget, watched);
+        const CarriedProxy carried = carry(state_, bodies_, settings.contact_radius_m, kElsewhere_m * scale(), left);
         const Vec3 before = carried.state.position_object_m;
-        ProxyBudget left = budget;
-        if (bodies_.any()) left.max_cost_ns -= cost_ns(carried.work) - WorkCost::kTick_ns;
+        if (bodies_.any()) left = less(left, carried.work);
         const ProxyResult moved = move_proxy(carried.state, record_.hip_object_m, settings, bodies_.surface(), left);
         const std::uint64_t carrier = state_.carrier;
         state_ = moved.next;
         if (bodies_.any() && moved.constraints > 0)
             state_.carrier = moved.active_triangle != kNoTriangle ? bodies_.name_of(moved.active_triangle) : carrier;
+        count_work(watched, false);
         count_work(carried.work, !carried.complete);
         count_work(moved.work, moved.work_limited);
         if (moved.pushed_out) step_.flags |= kTickPushedOut;
+        last_ = {};
+        ContactWatch::note(watch_, moved.work_limited, moved.next.position_object_m != before);
+        if (ContactWatch::gives_up(watch_)) return let_go();
+        if (state_.unfit_ticks > 0) return;
         record_.proxy_object_m = moved.next.position_object_m;
         const Vec3 reach = record_.proxy_object_m - input_.surface.center_object;
         if (!(std::sqrt(glm::dot(reach, reach)) + radius_m() <= input_.surface.radius_m))
             step_.flags |= kTickOutsideKnown;
-        const Vec3 spring = record_.proxy_object_m - record_.hip_object_m;
-        const double depth = std::sqrt(glm::dot(spring, spring));
         if (moved.active_triangle != kNoTriangle) material_ = input_.surface.material(moved.active_triangle);
-        if (moved.constraints == 0 || !(depth > 0.0) || !material().enabled) return;
-        step_.flags |= kTickInContact;
+        if (!bears(moved.constraints, moved.normal_object)) return;
+        last_ = {moved.normal_object, moved.constraints};
         if (moved.sticking) step_.flags |= kTickSticking;
-        record_.constraints = moved.constraints;
         record_.active_triangle = moved.active_triangle;
-        record_.penetration_m = depth;
-        record_.normal_object = moved.normal_object;
         if (state_.carrier != 0)
             surface_velocity_device_m_per_s_ =
                 at_device(bodies_.velocity(moved.active_triangle, record_.proxy_object_m));
-        if (!was_placed || has_jumped(moved, before, carried.unexplained_m, published)) step_.contact.jumped = true;
+        if (!was_fitting || was_put_elsewhere(moved, before))
+            step_.contact.jumped = true;
+        else
+            leave_out(unexplained_m(before, carried.unexplained_m, published));
+    }
+
+    // A part that is held over touches the plane of its last contact alone, as that moves with its body, and does not
+    // look for others; in free space it waits. Its next tick goes on from where the last one has left the proxy.
+    void touch_last_plane() {
+        if (!state_.placed || last_.constraints == 0) return;
+        ContactWatch::wait(watch_);
+        if (ContactWatch::gives_up(watch_)) return let_go();
+        const std::uint32_t body = bodies_.with_name(state_.carrier);
+        if (state_.carrier != 0 && body == MovingBodies::kNone) return;
+        const Vec3 at =
+            state_.carrier != 0 ? bodies_.carried(body, state_.position_object_m) : state_.position_object_m;
+        const Vec3 spring = at - record_.hip_object_m;
+        const double depth = glm::dot(spring, last_.normal_object);
+        if (!(depth > 0.0)) return;
+        const ProxySettings settings = this->settings(false);
+        const Vec3 along = depth * last_.normal_object - spring;
+        const double coefficient = state_.slipping ? settings.dynamic_friction : settings.static_friction;
+        record_.proxy_object_m = at + sliding_share(along, depth, coefficient) * along;
+        if (!bears(last_.constraints, last_.normal_object)) return;
+        if (state_.carrier != 0)
+            surface_velocity_device_m_per_s_ = at_device(bodies_.velocity_of_body(state_.carrier, at));
+        leave_out(0.0);
     }
 
     [[nodiscard]] bool in_contact() const { return record_.constraints > 0; }
@@ -86,11 +130,18 @@ public:
     [[nodiscard]] const PointRecord& record() const { return record_; }
     [[nodiscard]] double squared_arm_m2() const { return glm::dot(arm_device_m_, arm_device_m_); }
 
-    // The force of this point on the hand, borne at the proxy or at the cutting point.
+    // What bears the force: the proxy, or the cutting point, less what is left out of the spring.
+    [[nodiscard]] Vec3 less_left_out(const Vec3& bearing_object_m) const {
+        const double share = in_contact() ? 1.0 - left_out_m_ / record_.penetration_m : 1.0;
+        return record_.hip_object_m + share * (bearing_object_m - record_.hip_object_m);
+    }
+
+    // The force of this point on the hand.
     [[nodiscard]] PointForce force(const CoupledWall& wall, const Vec3& bearing_object_m) {
         if (in_contact()) {
             const Similarity& map = input_.motion.object_from_device;
             record_.force_device_N =
+                ContactWatch::share(watch_) *
                 touch_force_device({record_.hip_object_m, bearing_object_m, record_.normal_object,
                                     velocity_device_m_per_s_ - surface_velocity_device_m_per_s_, map.orientation,
                                     map.scale, wall.stiffness_N_per_m, wall.damping_Ns_per_m});
@@ -105,7 +156,7 @@ public:
     [[nodiscard]] double spring_energy_J(const CoupledWall& wall, const Vec3& bearing_object_m) const {
         if (!in_contact()) return 0.0;
         const Vec3 spring_device_m = (bearing_object_m - record_.hip_object_m) / input_.motion.object_from_device.scale;
-        return 0.5 * wall.stiffness_N_per_m * glm::dot(spring_device_m, spring_device_m);
+        return ContactWatch::share(watch_) * 0.5 * wall.stiffness_N_per_m * glm::dot(spring_device_m, spring_device_m);
     }
 
 private:
@@ -123,16 +174,58 @@ private:
         return s;
     }
 
-    // Whether the contact has been pushed by something that no motion explains.
-    [[nodiscard]] bool has_jumped(const ProxyResult& moved, const Vec3& before, const Vec3& unexplained_m,
-                                  bool published) const {
-        const double jump_m = kJump_m * scale();
-        const Vec3 jump = record_.proxy_object_m - before, spring = record_.proxy_object_m - record_.hip_object_m;
-        if (moved.pushed_out && glm::dot(jump, jump) > jump_m * jump_m) return true;
+    // Whether the ball has been set elsewhere.
+    [[nodiscard]] bool was_put_elsewhere(const ProxyResult& moved, const Vec3& before) const {
+        return moved.pushed_out && glm::length(record_.proxy_object_m - before) > kJump_m * scale();
+    }
+
+    // By how much something that no motion explains has lengthened the spring; negative: shortened.
+    [[nodiscard]] double unexplained_m(const Vec3& before, const Vec3& of_bodies_m, bool published) const {
+        const Vec3 spring = record_.proxy_object_m - record_.hip_object_m;
         // A published surface may push the ball while its centre stays outside.
-        const double spring_m = glm::length(spring);
-        if (published && spring_m - glm::length(before - record_.hip_object_m) > jump_m) return true;
-        return glm::dot(unexplained_m, spring) > jump_m * spring_m;
+        const double pushed_m =
+            published ? record_.penetration_m - glm::length(before - record_.hip_object_m) : -HUGE_VAL;
+        const double moved_m = glm::dot(of_bodies_m, spring) / record_.penetration_m;
+        return pushed_m > kJump_m * scale() ? std::max(pushed_m, moved_m) : moved_m;
+    }
+
+    // Leaves what has come unexplained out of the force, and lets what was left out come back. What has gone
+    // unexplained makes up for what has come before.
+    void leave_out(double unexplained_m) {
+        left_out_m_ *= std::exp(-kComingBack * input_.dt_s / std::max(input_.parameters.limits.contact_ramp_s, 1e-6));
+        if (unexplained_m > kJump_m * scale() || unexplained_m < 0.0) left_out_m_ += unexplained_m;
+        left_out_m_ = std::clamp(left_out_m_, 0.0, record_.penetration_m);
+        if (left_out_m_ > kFelt * record_.penetration_m) step_.flags |= kTickRamping;
+    }
+
+    // Notes a contact at the proxy, if there is one.
+    bool bears(std::uint32_t constraints, const Vec3& normal_object) {
+        const double depth = glm::length(record_.proxy_object_m - record_.hip_object_m);
+        if (constraints == 0 || !(depth > 0.0) || !material().enabled) return false;
+        step_.flags |= kTickInContact;
+        record_.constraints = constraints;
+        record_.penetration_m = depth;
+        record_.normal_object = normal_object;
+        return true;
+    }
+
+    void let_go() {
+        step_.flags |= kTickLetGo;
+        stay_with_hand();
+    }
+
+    // Has the watch look at the contact of the last tick.
+    void watch(ContactWork& work) {
+        const Vec3& origin = input_.surface.origin_object;
+        const double felt = felt_radius_m(radius_m(), bodies_.surface().mean_edge_m());
+        ContactWatch::look(watch_, {state_.position_object_m - origin, state_.hip_object_m - origin, felt},
+                           bodies_.surface(), work);
+        if (watch_.doubtful_looks > 0 || watch_.faded_ticks > 0) step_.flags |= kTickDoubted;
+    }
+
+    static ProxyBudget less(ProxyBudget budget, const ContactWork& work) {
+        budget.max_cost_ns -= cost_ns(work) - WorkCost::kTick_ns;
+        return budget;
     }
 
     void count_work(const ContactWork& work, bool limited) {
@@ -151,6 +244,9 @@ private:
     const ProbePoint& point_;
     ProxyState& state_;
     std::uint8_t& material_;
+    WatchState& watch_;
+    LastContact& last_;
+    double& left_out_m_;
     PointRecord& record_;
     Vec3 arm_device_m_{0.0}, velocity_device_m_per_s_{0.0}, surface_velocity_device_m_per_s_{0.0};
 };
@@ -251,13 +347,22 @@ void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept {
     const bool painting = pressed && input.parameters.action == ToolAction::paint;
     const bool cutting = pressed && input.parameters.action == ToolAction::cut;
     const double longest_s = input.parameters.max_surface_age_s;
-    const MovingBodies bodies(step.next.bodies, input.surface, input.now_ns,
+    const bool held_over = input.turn.held_over;
+    if (held_over) step.flags |= kTickHeldOver;
+    // A part that is held over takes no notice of where the bodies have gone: its next tick sweeps their whole way.
+    BodiesState unnoticed;
+    if (held_over) unnoticed = step.next.bodies;
+    const MovingBodies bodies(held_over ? unnoticed : step.next.bodies, input.surface, input.now_ns,
                               longest_s > 0.0 ? longest_s : kLongestFollowed_s);
     std::array<std::optional<PointContact>, kMostProbePoints> points;
     Touching touching;
     const double budget = input.turn.of(budget_ns(input.parameters.work, input.dt_s));
     for (std::uint32_t i = 0; i < contact.point_count; ++i) {
-        points[i].emplace(input, step, bodies, i).touch(painting, share_of_rest(contact, i, budget));
+        points[i].emplace(input, step, bodies, i);
+        if (held_over)
+            points[i]->touch_last_plane();
+        else
+            points[i]->touch(painting, share_of_rest(contact, i, budget));
         if (!points[i]->in_contact()) continue;
         ++touching.points;
         if (contact.point_count > 1) touching.squared_arms_m2 += points[i]->squared_arm_m2();
@@ -281,6 +386,7 @@ void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept {
             drag_device_N = cut.step.drag_device_N;
             bearing = contact.cut_object_m = cut.step.bearing_object_m;
         }
+        bearing = point.less_left_out(bearing);
         forces[i] = point.force(rendered_wall.wall, bearing);
         surface.add(point.surface_velocity_device_m_per_s(), forces[i].force_device_N);
         contact.spring_energy_J += point.spring_energy_J(rendered_wall.wall, bearing);

@@ -4,16 +4,28 @@
 #pragma once
 
 #include "haptics/channels.hpp"
+#include "haptics/contact/contact_watch.hpp"
 #include "haptics/contact/god_object.hpp"
 #include "haptics/contact/moving_bodies.hpp"
 #include "haptics/forces/cutting.hpp"
 
 namespace burin::haptics {
 
+// How a point touched in the last tick.
+struct LastContact {
+    Vec3 normal_object{0.0};
+    std::uint32_t constraints = 0;  // 0: it did not touch
+};
+
 // What contact keeps from tick to tick.
 struct ProbeState {
     std::array<ProxyState, kMostProbePoints> proxies{};
     std::array<std::uint8_t, kMostProbePoints> materials{};  // material that each point touched in the last tick
+    std::array<WatchState, kMostProbePoints> watches{};
+    // The contact of each point in the last tick, for a tick in which it is held over, and what its force still leaves
+    // out of the spring after an unexplained motion, in the object frame.
+    std::array<LastContact, kMostProbePoints> contacts{};
+    std::array<double, kMostProbePoints> left_out_m{};
     CuttingState cutting;
     BodiesState bodies;
 };

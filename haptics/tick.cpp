@@ -42,8 +42,21 @@ MotionState with_sample(MotionState state, const devices::DeviceSample& sample, 
     return state;
 }
 
+// The workspace is where a device is at its best; its arm reaches farther. Nothing on a desk reaches kBeyond farther, and
+// a device whose workspace is not known is no farther than kAnywhere from its origin.
+bool within_reach(const Vec3& position_device_m, const devices::DeviceDescription& device) {
+    constexpr double kBeyond_m = 0.5, kAnywhere_m = 10.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double width_m = device.workspace_m[axis];
+        const double most_m = width_m > 0.0 ? 0.5 * width_m + kBeyond_m : kAnywhere_m;
+        if (!(std::abs(position_device_m[axis]) <= most_m)) return false;
+    }
+    return true;
+}
+
 void end_contact(ProbeState& state) {
     for (ProxyState& proxy : state.proxies) proxy.placed = false;
+    state.watches = {};
     state.cutting.engaged = false;
 }
 
@@ -104,7 +117,9 @@ void compute_tick(const TickResult& t, const TickState& state, const devices::De
     record.parameter_sequence = parameters.sequence;
     record.sample_finite = finite(sample.position_device_m) && unit(sample.orientation_device);
     record.parameters_sensible = parameters_are_sensible(parameters);
-    if (!record.sample_finite || !record.parameters_sensible) return refuse(t);
+    record.within_reach = within_reach(sample.position_device_m, device);
+    const bool ahead = seconds(sample.time_ns - now_ns) > parameters.limits.max_ahead_s;
+    if (!record.sample_finite || !record.parameters_sensible || !record.within_reach || ahead) return refuse(t);
 
     // Motion of the hand.
     MotionRecord& motion = record.motion;
@@ -189,11 +204,13 @@ GateInput gate_input(const TickRecord& record, const devices::DeviceDescription&
     in.sample_age_s = seconds(record.time_ns - record.sample.time_ns);
     in.device_fault = record.sample.fault;
     in.sample_finite = record.sample_finite;
+    in.within_reach = record.within_reach;
     in.parameters_sensible = record.parameters_sensible;
     in.in_contact = record.in_contact();
     in.contact_jumped = record.contact.jumped;
     in.surface_stale = (record.flags & kTickStaleSurface) != 0;
     in.outside_known = (record.flags & kTickOutsideKnown) != 0;
+    in.let_go = (record.flags & kTickLetGo) != 0;
     return in;
 }
 
@@ -207,6 +224,7 @@ FullTick full_tick(const FullTickState& state, const devices::DeviceSample& samp
     compute_tick({full.next.tick, record}, state.tick, sample, surface, parameters, device, now_ns, dt_s);
     GateInput input = gate_input(record, device);
     if (state.now_ns > 0) input.loop_gap_s = seconds(now_ns - state.now_ns);
+    input.promised_gap_s = promised_gap_s(parameters.passivity, device, dt_s);
     const GateStep gate = pass_gate(state.gate, input, parameters.limits, dt_s);
     full.next.gate = gate.next;
     record.gate = gate.output;

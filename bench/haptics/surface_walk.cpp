@@ -35,14 +35,6 @@ double share_of(double tick_s, double time_s) { return tick_s / (time_s + tick_s
 
 }  // namespace
 
-double SplitMix::signed_unit() {
-    std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    z ^= z >> 31;
-    return static_cast<double>(z >> 11) * 0x1.0p-52 - 1.0;
-}
-
 double Wander::step() {
     if (steps_++ % interval_ == 0) aim_ = random_.signed_unit();
     return value_ += share_ * (aim_ - value_);

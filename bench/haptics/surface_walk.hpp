@@ -21,20 +21,10 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "bench/measure/split_mix.hpp"
 #include "geometry/mesh/triangle_mesh.hpp"
 
 namespace burin::bench {
-
-// Numbers that are the same on every machine (splitmix64, Steele, Lea and Flood 2014).
-class SplitMix {
-public:
-    explicit SplitMix(std::uint64_t seed) : state_(seed) {}
-    // Returns a number from -1 to 1.
-    [[nodiscard]] double signed_unit();
-
-private:
-    std::uint64_t state_;
-};
 
 // A value that moves smoothly towards a new random number from -1 to 1 again and again.
 class Wander {

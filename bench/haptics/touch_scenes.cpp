@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "bench/measure/bumpy_sphere.hpp"
-#include "bench/haptics/rough_surfaces.hpp"
+#include "bench/measure/rough_surfaces.hpp"
 #include "geometry/files/mesh_import.hpp"
 #include "sculpt/feel_options.hpp"
 #include "sculpt/stroke_reader.hpp"

@@ -9,7 +9,7 @@
 namespace burin::bench {
 namespace {
 
-constexpr double kBend = 0.31;  // radians that the path turns for each radian that it advances
+constexpr double kBendOfPath = 0.31;  // radians that the path turns for each radian that it advances
 
 // Returns the Hessian, by central differences of the gradient.
 glm::dmat3 curvature(const BumpySphere& shape, const Vec3& p) {
@@ -103,7 +103,7 @@ int squares_for(std::size_t triangles) {
 
 void SphereWalk::step(double angle) {
     const Vec3 across = glm::cross(along_, outward_);
-    along_ = glm::normalize(std::cos(kBend * angle) * along_ + std::sin(kBend * angle) * across);
+    along_ = glm::normalize(std::cos(kBendOfPath * angle) * along_ + std::sin(kBendOfPath * angle) * across);
     const Vec3 on = glm::normalize(std::cos(angle) * outward_ + std::sin(angle) * along_);
     along_ = glm::normalize(along_ - glm::dot(along_, on) * on);
     outward_ = on;

@@ -33,6 +33,11 @@ constexpr double kSunk = 5e-3;
 // between them decide on inside or outside.
 constexpr double kAmongPoints = 0.9;
 
+// Depth, as a fraction of the radius, beyond which a ball that was set somewhere does not fit there. More than fine
+// surfaces and edges let it sink in. It is pushed out for so many ticks before it is set to the HIP again.
+constexpr double kUnfit = 0.1;
+constexpr std::uint32_t kMostUnfitTicks = 16;
+
 // Range of the vote on inside or outside, as a multiple of the nearest triangle's distance; one mean edge is added.
 constexpr double kVote = 1.5;
 
@@ -109,6 +114,8 @@ public:
         search_.begin_with_stride(state.stride);
         slips_ = state.slipping;
         touched_before_ = state.placed && state.touching;
+        unfit_ticks_ = state.placed ? state.unfit_ticks : 0;
+        was_set_ = !state.placed || unfit_ticks_ > 0;
     }
 
     ProxyResult move(const ProxyState& state) {
@@ -117,7 +124,8 @@ public:
         began_ = center_;
         for (;;) {
             ++result_.work.steps;
-            const Goal goal = aim();
+            Goal goal = aim();
+            if (!goal.found) goal = creep();
             if (!goal.found) return limited();
             if (arrived(goal)) return goal.in_contact ? at_rest(goal) : free();
             const Going going = go(goal);
@@ -144,7 +152,7 @@ private:
         // A facet folded over may be nearest and show its back to a ball that is outside.
         if (!search_.sees_backs(center_, kVote * nearest_.distance + edge_)) return true;
         center_ = put_outside(nearest_, center_, radius_);
-        result_.pushed_out = true;
+        result_.pushed_out = was_set_ = true;
         return search_.broad_phase({center_, center_}) && touch();
     }
 
@@ -292,6 +300,45 @@ private:
         return goal;
     }
 
+    // Among nearly parallel planes there may be no goal to be found although there is room. Then the ball goes along
+    // the plane that stands most in its way, or along the edge of this one and the next, up to the first plane.
+    Goal creep() {
+        const Vec3 pull = hip_ - center_;
+        Vec3 way = pull, first(0.0);
+        for (int planes = 0; planes < 3; ++planes) {
+            const double share = share_to_first_plane(way);
+            if (share * glm::length(way) > still_) {
+                Goal goal;
+                goal.found = true;
+                goal.step = std::min(share, 1.0) * way;
+                goal.left = glm::length(way);
+                goal.in_contact = planes > 0;
+                goal.is_hip = planes == 0 && share >= 1.0;
+                goal.normal = planes > 0 ? unit_or_zero(way - pull) : Vec3(0.0);
+                goal.enough = enough(goal, pull);
+                if (goal.in_contact) note_most_opposed();
+                return goal;
+            }
+            const Vec3 normal = most_opposed_to(way);
+            if (normal == Vec3(0.0)) break;
+            const Vec3 edge = unit_or_zero(glm::cross(first, normal));
+            way = planes == 0 ? way - glm::dot(way, normal) * normal : glm::dot(pull, edge) * edge;
+            if (planes == 0) first = normal;
+        }
+        return {};
+    }
+
+    // The normal of the touched plane that the ball would go into most steeply.
+    [[nodiscard]] Vec3 most_opposed_to(const Vec3& way) const {
+        Vec3 normal(0.0);
+        double most = 0.0;
+        for (const HalfSpace& plane : touches_.span()) {
+            const double sinking = glm::dot(plane.normal, way);
+            if (sinking < most) most = sinking, normal = plane.normal;
+        }
+        return normal;
+    }
+
     void shade(Goal& goal, const NearestInside& plain, const Vec3& pull, bool through_center) {
         ShadedPlanes planes = shaded(facets_, search_.candidates(), touches_, plain, center_, radius_);
         if (!planes.any) return;
@@ -390,6 +437,7 @@ private:
     ProxyResult at_rest(const Goal& goal) {
         // Rounding alone must not move it: a hand that holds still feels the same force for ever.
         if (glm::length(center_ - began_) <= still_) center_ = began_;
+        if (was_set_ && overlaps()) return unfit();
         stay();
         result_.sticking = !slid_ && settings_.static_friction > 0.0;
         result_.normal_object = goal.normal;
@@ -400,6 +448,7 @@ private:
     // waits at a safe position and continues in the next tick; the planes it lies on still bear it.
     ProxyResult limited() {
         result_.work_limited = true;
+        if (was_set_ && overlaps()) return unfit();
         if (touched_.constraints == 0) note_most_opposed();
         // Between two facets no plane bears the ball: the last contact of this tick is reported.
         if (touched_.constraints == 0) touched_ = last_;
@@ -407,6 +456,22 @@ private:
         if (touched_.constraints == 0 && touched_before_) touched_ = {1, false, ProxyResult{}.active_triangle, {}};
         stay();
         result_.normal_object = unit_or_zero(center_ - hip_);
+        return result_;
+    }
+
+    // Whether the ball is deep in what it touches, or its centre inside.
+    [[nodiscard]] bool overlaps() const {
+        return nearest_.distance < (1.0 - kUnfit) * radius_ || nearest_.height < 0.0;
+    }
+
+    // The ball has been set where it does not fit, or it is not known yet whether it does. It is no contact, and goes on
+    // from here for some ticks.
+    ProxyResult unfit() {
+        touched_ = {};
+        stay();
+        result_.next.touching = false;
+        result_.next.unfit_ticks = unfit_ticks_ + 1;
+        result_.next.placed = result_.next.unfit_ticks < kMostUnfitTicks;
         return result_;
     }
 
@@ -443,6 +508,8 @@ private:
     };
     Touched touched_, last_;  // now, and the last contact found in this tick
     double leeway_ = 0.0;
+    std::uint32_t unfit_ticks_ = 0;
+    bool was_set_ = false;         // not known to fit where this tick began
     bool touched_before_ = false;  // in the last tick
     bool slips_ = false;           // the cone of dynamic friction applies, not the static one
     bool slid_ = false;            // in this tick

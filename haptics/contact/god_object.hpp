@@ -28,7 +28,9 @@
 // deep, so that what the ball slides along is not hit again. A point probe is a ball of 1/500 of the mean edge.
 //
 // A proxy that is found inside material (after an edit, at a first contact) is put outside by the shortest
-// displacement; the gate fades in the force that follows. Frame: object, metres. No heap, lock, throw; the work is
+// displacement, and out of what the ball meets there, for some ticks if need be; until the ball fits there is no
+// contact, so a ball that fits nowhere goes out along the hand's way without force. The gate fades in the force that
+// follows. Frame: object, metres. No heap, lock, throw; the work is
 // counted and bounded (contact_work.hpp).
 #pragma once
 
@@ -53,6 +55,8 @@ struct ProxyState {
     double step_share = 1.0;    // of the last step under shading or around an edge
     std::uint64_t carrier = 0;  // the moving body that it touched in the last tick (moving_bodies.hpp); 0: none
     std::uint32_t stride = 1;   // among very many vertices only each so manieth is touched
+    // Above 0: the ball, set here from inside material, still overlaps it after so many ticks; there is no contact.
+    std::uint32_t unfit_ticks = 0;
 };
 
 struct ProxySettings {

@@ -137,14 +137,10 @@ double most_share(double budget_J, double time_s, double force, const Resistance
                      (rate + t.speed * t.friction + r.speed * r.friction) / (by_force + by_torque)});
 }
 
-bool rotation_is_known(const DeviceDescription& device) {
-    return device.angular_friction_Nm > 0.0 || device.angular_damping_Nms_per_rad > 0.0;
-}
-
 // How long a command may act, from when it begins to: until the next one does, which the device's watchdog awaits at
 // most for its own time.
 double longest_hold_s(const PromiseLimits& promise, const DeviceDescription& device) {
-    const double hold_s = (promise.lost_ticks + 1.5) * promise.period_s;
+    const double hold_s = longest_gap_s(promise);
     return device.watchdog_s > 0.0 ? std::min(hold_s, device.watchdog_s) : hold_s;
 }
 
@@ -213,6 +209,12 @@ AccountStep count_energy(const EnergyAccount& account, const AccountInput& in, c
 bool can_promise(const DeviceDescription& device) noexcept {
     return device.friction_N > 0.0 || device.damping_Ns_per_m > 0.0;
 }
+
+bool rotation_is_known(const DeviceDescription& device) noexcept {
+    return device.angular_friction_Nm > 0.0 || device.angular_damping_Nms_per_rad > 0.0;
+}
+
+double longest_gap_s(const PromiseLimits& promise) noexcept { return (promise.lost_ticks + 1.5) * promise.period_s; }
 
 Affordable affordable(const EnergyAccount& account, const DeviceWrench& wrench, const PromiseLimits& promise,
                       const DeviceDescription& device, Nanoseconds now_ns) noexcept {

@@ -92,6 +92,10 @@ struct AccountStep {
 
 // Whether friction or damping of the device is known: else nothing can be promised.
 [[nodiscard]] bool can_promise(const devices::DeviceDescription& device) noexcept;
+// The same of its rotation: else nothing limits the torque.
+[[nodiscard]] bool rotation_is_known(const devices::DeviceDescription& device) noexcept;
+// The longest time from tick to tick, lost ticks and jitter included, for which the promise is kept.
+[[nodiscard]] double longest_gap_s(const PromiseLimits& promise) noexcept;
 
 // What may be commanded at the time now_ns without overdrawing the account before the next tick's command acts.
 struct Affordable {

@@ -121,6 +121,13 @@ PassivityStep keep_passive(const PassivityState& state, const PassivityInput& in
     return step;
 }
 
+double promised_gap_s(const PassivitySettings& settings, const devices::DeviceDescription& device,
+                      double dt_s) noexcept {
+    const bool turns = device.max_torque_Nm != Vec3(0.0);
+    const bool promises = settings.control && can_promise(device) && (!turns || rotation_is_known(device));
+    return promises ? longest_gap_s(promise_of(settings, dt_s)) : 0.0;
+}
+
 void set_commanded_wrench(PassivityState& state, const devices::DeviceWrench& wrench, Nanoseconds now_ns) noexcept {
     remember(state.account, wrench, now_ns);
     if (glm::length(wrench.force_device_N) < kGiven * state.asked_N)

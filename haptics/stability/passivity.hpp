@@ -104,6 +104,12 @@ struct PassivityStep {
                                          const PassivitySettings& settings, const devices::DeviceDescription& device,
                                          double dt_s) noexcept;
 
+// How long after a tick the device may hold what that tick commands, by the account's promise: over the ticks that may
+// be lost. 0: nothing is promised, since the controller only observes, or friction and damping are not known of all
+// that the device drives.
+[[nodiscard]] double promised_gap_s(const PassivitySettings& settings, const devices::DeviceDescription& device,
+                                    double dt_s) noexcept;
+
 // Stores the wrench commanded to the device after the gate. Call it once a tick, after keep_passive().
 void set_commanded_wrench(PassivityState& state, const devices::DeviceWrench& wrench, Nanoseconds now_ns) noexcept;
 

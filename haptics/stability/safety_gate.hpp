@@ -9,9 +9,12 @@
 // a torque is on wins over the slew limit. After a fault has gone the gate waits recovery_s, then fades in again over
 // ramp_s; a contact that has jumped fades in over contact_ramp_s. Every zero force has a cause: it is named in
 // GateOutput::cause, kept in the tick record, and has a text for people.
-// Lost ticks: one is passed over. From the second on the force is scaled down, the more the longer the gap, to zero at
-// max_loop_gap_s, and fades in again over contact_ramp_s; beyond that gap it is zero, with a cause. A gap in which no
-// force was on the motors moved nothing, so it is no fault, but a contact that has begun meanwhile fades in.
+// Lost ticks: over gaps up to promised_gap_s the energy account alone decides, since the force that it affords stays
+// safe for so long. Where it promises nothing, one lost tick is passed over; from the second on the force is scaled
+// down, the more the longer the gap, to zero at max_loop_gap_s, and fades in again over contact_ramp_s. Beyond the
+// longer of the two gaps the force is zero, with a cause, and comes back over the ramp as far as the account affords. A
+// gap in which no force was on the motors moved nothing, so it is no fault, but a contact that has begun meanwhile
+// fades in.
 // A force that fades in is a spring that grows stiffer while it is pressed, which takes energy out of nothing: so the
 // desired wrench never exceeds what the energy account affords (haptics/stability/energy_account.hpp), ramp or not.
 #pragma once
@@ -30,9 +33,12 @@ enum class GateCause : std::uint8_t {
     not_finite,      // a sample, a desired force or a device limit is NaN, infinite or negative
     bad_parameters,  // settings that make no sense, such as a negative stiffness
     stale_sample,    // the device has stopped sending
+    future_sample,   // its time stamps lie ahead of the loop's clock
+    out_of_reach,    // it reports a position that its arm cannot reach
     overspeed,       // the tool moves faster than any hand should
     stale_surface,   // in contact with a surface that the carving side no longer keeps up to date
     outside_known,   // in contact where the surface is not known
+    caught,          // the tool was held by a contact that is not there, and has been let go
     lost_loop,       // the loop itself stood still: what it knows of the hand is out of date
 };
 
@@ -49,6 +55,7 @@ struct GateLimits {
     double max_speed_m_per_s = 3.0;          // of the tool, at the device
     double max_sample_age_s = 0.02;          // 20 ticks without a new sample
     double max_loop_gap_s = 0.005;           // since the last tick; four and a half periods where that is longer
+    double max_ahead_s = 0.005;              // of a sample's time stamp, before the clock
 };
 
 struct GateInput {
@@ -60,13 +67,16 @@ struct GateInput {
     double most_torque_Nm = HUGE_VAL;   // about any axis: what the energy account affords
     double sample_age_s = 0.0;          // now minus the sample's time
     double loop_gap_s = 0.0;            // now minus the last tick's time; 0 for the first
+    double promised_gap_s = 0.0;        // over which the energy account keeps its promise; 0: it makes none
     devices::DeviceFault device_fault = devices::DeviceFault::none;
     bool sample_finite = true;
+    bool within_reach = true;  // the sample's position, of the device's arm
     bool parameters_sensible = true;
     bool in_contact = false;
     bool contact_jumped = false;  // the contact is not continuous with that of the last tick: fade in
     bool surface_stale = false;
     bool outside_known = false;
+    bool let_go = false;  // a contact has been given up (haptics/contact/contact_watch.hpp)
 };
 
 struct GateState {

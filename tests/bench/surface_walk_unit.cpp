@@ -8,7 +8,7 @@
 #include <set>
 
 #include "bench/measure/bumpy_sphere.hpp"
-#include "bench/haptics/rough_surfaces.hpp"
+#include "bench/measure/rough_surfaces.hpp"
 #include "geometry/mesh/mesh_health.hpp"
 
 namespace burin::bench {

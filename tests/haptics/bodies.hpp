@@ -77,7 +77,8 @@ struct Bodies {
     std::vector<Motion> motions;  // one for each mesh; empty: it rests
     TickParameters parameters;
     devices::DeviceDescription device = kStrongDevice;
-    int publish_every = 10;  // ticks
+    int publish_every = 10;     // ticks
+    int next_publication = -1;  // the tick of the next one; below 0: each publish_every ticks
     // False: a body is published where it is, as an edit of the scene, without its motion.
     bool announced = true;
     FullTickState state{};
@@ -104,7 +105,7 @@ struct Bodies {
         }
     }
     TickRecord tick(const Vec3& hand_m) {
-        if (ticks % publish_every == 0) publish();
+        if (next_publication < 0 ? ticks % publish_every == 0 : ticks == next_publication) publish();
         devices::DeviceSample sample;
         sample.time_ns = now_ns();
         sample.position_device_m = hand_m;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/haptics/rough_surfaces.hpp"
+#include "bench/measure/rough_surfaces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "bench/haptics/surface_walk.hpp"
+#include "bench/measure/split_mix.hpp"
 
 namespace burin::bench {
 namespace {

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "haptics/contact/contact_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/contact/local_surface_search.hpp"
+#include "haptics/contact/triangle_contact.hpp"
+
+namespace burin::haptics {
+namespace {
+
+// What the watch has seen around a place.
+struct Seen {
+    double distance_m = HUGE_VAL, height_m = 0.0;  // of the nearest triangle
+    bool stands_between = false;                   // a triangle in reach that keeps the ball from going along `pull`
+    bool complete = true;
+};
+
+constexpr double kTie = 1e-9;  // of the reach
+
+Seen look_around(const Vec3& center, double reach_m, const Vec3& pull, const geometry::PosedSurface& surface,
+                 ContactWork& work) {
+    Seen seen;
+    const bool only_nearest = pull == Vec3(0.0);
+    geometry::Near near{.lo = center, .hi = center, .reach_m = reach_m, .by_way = true, .from = center, .to = center};
+    near.looks_left = ContactWatch::kMostLooks;
+    seen.complete = geometry::for_each_triangle_near(surface, near, [&](std::uint32_t id, const geometry::Triangle& t) {
+        const NearestOnTriangle on = nearest_on_triangle(center, t);
+        ++work.triangles_tested;
+        const Vec3 off = center - on.point;
+        const double distance_m = glm::length(off);
+        if (distance_m > reach_m) return true;
+        double height_m = glm::dot(off, outward_normal(t));
+        if (surface.two_sided(id)) height_m = std::abs(height_m);
+        if (height_m >= 0.0 && glm::dot(off, pull) < 0.0) seen.stands_between = true;
+        // Of triangles that share the nearest point the one seen most squarely tells the side.
+        const bool nearer = distance_m < seen.distance_m - kTie * reach_m;
+        if (nearer || (distance_m <= seen.distance_m + kTie * reach_m && std::abs(height_m) > std::abs(seen.height_m)))
+            seen.distance_m = distance_m, seen.height_m = height_m;
+        if (only_nearest) near.reach_m = std::min(near.reach_m, seen.distance_m * (1.0 + kTie));
+        return true;
+    });
+    work.triangles_seen += ContactWatch::kMostLooks - near.looks_left;
+    return seen;
+}
+
+// Outside of all material, with the ball clear of it. Looked for in balls that double, as far as the looks suffice.
+bool is_free(const Vec3& hand, double radius_m, const geometry::PosedSurface& surface, ContactWork& work) {
+    const Box all = geometry::bounds(surface);
+    const double everything = glm::length(glm::max(glm::abs(hand - all.lo), glm::abs(hand - all.hi)));
+    for (double reach_m = radius_m;; reach_m *= 2.0) {
+        const Seen seen = look_around(hand, reach_m, Vec3(0.0), surface, work);
+        if (seen.distance_m <= radius_m) return false;
+        // What cannot be seen holds nobody.
+        if (!seen.complete || reach_m > everything) return !(seen.height_m < 0.0);
+        if (seen.distance_m <= reach_m) return seen.height_m >= 0.0;
+    }
+}
+
+}  // namespace
+
+void ContactWatch::look(WatchState& state, const Contact& contact, const geometry::PosedSurface& surface,
+                        ContactWork& work) noexcept {
+    if (state.ticks_to_look > 0) {
+        --state.ticks_to_look;
+        return;
+    }
+    state.ticks_to_look = kInterval - 1;
+    const double radius_m = contact.radius_m;
+    const Seen seen =
+        look_around(contact.proxy_m, kTouching * radius_m, contact.hand_m - contact.proxy_m, surface, work);
+    const bool fits = seen.distance_m >= (1.0 - kDeep) * radius_m && seen.height_m >= 0.0;
+    const bool stuck = state.stuck_ticks >= kInterval;
+    const bool sound = fits && seen.stands_between;
+    const bool doubtful = stuck || (seen.complete && !sound);
+    if (doubtful && is_free(contact.hand_m, radius_m, surface, work))
+        state.doubtful_looks = std::min(state.doubtful_looks + 1, kLooks);
+    else
+        state.doubtful_looks = 0;
+}
+
+void ContactWatch::note(WatchState& state, bool limited, bool moved) noexcept {
+    state.stuck_ticks = limited && !moved ? std::min(state.stuck_ticks + 1, kInterval) : 0;
+}
+
+bool ContactWatch::gives_up(WatchState& state) noexcept {
+    if (state.doubtful_looks >= kLooks)
+        ++state.faded_ticks;
+    else if (state.faded_ticks > 0)
+        --state.faded_ticks;
+    if (state.faded_ticks < kFade) return false;
+    state = {};
+    return true;
+}
+
+}  // namespace burin::haptics
