@@ -77,7 +77,7 @@ public:
         count_work(moved.work, moved.work_limited);
         if (moved.pushed_out) step_.flags |= kTickPushedOut;
         last_ = {};
-        ContactWatch::note(watch_, moved.work_limited, moved.next.position_object_m != before);
+        ContactWatch::note(watch_, moved.work_limited);
         if (ContactWatch::gives_up(watch_)) return let_go();
         if (state_.unfit_ticks > 0) return;
         record_.proxy_object_m = moved.next.position_object_m;

@@ -17,7 +17,7 @@ struct Seen {
     bool complete = true;
 };
 
-constexpr double kTie = 1e-9;  // of the reach
+constexpr double kTie = 1e-6;  // of the reach
 
 Seen look_around(const Vec3& center, double reach_m, const Vec3& pull, const geometry::PosedSurface& surface,
                  ContactWork& work) {
@@ -71,17 +71,17 @@ void ContactWatch::look(WatchState& state, const Contact& contact, const geometr
     const Seen seen =
         look_around(contact.proxy_m, kTouching * radius_m, contact.hand_m - contact.proxy_m, surface, work);
     const bool fits = seen.distance_m >= (1.0 - kDeep) * radius_m && seen.height_m >= 0.0;
-    const bool stuck = state.stuck_ticks >= kInterval;
+    const bool falls_behind = state.short_ticks >= kInterval;
     const bool sound = fits && seen.stands_between;
-    const bool doubtful = stuck || (seen.complete && !sound);
+    const bool doubtful = falls_behind || (seen.complete && !sound);
     if (doubtful && is_free(contact.hand_m, radius_m, surface, work))
         state.doubtful_looks = std::min(state.doubtful_looks + 1, kLooks);
     else
         state.doubtful_looks = 0;
 }
 
-void ContactWatch::note(WatchState& state, bool limited, bool moved) noexcept {
-    state.stuck_ticks = limited && !moved ? std::min(state.stuck_ticks + 1, kInterval) : 0;
+void ContactWatch::note(WatchState& state, bool work_limited) noexcept {
+    state.short_ticks = work_limited ? std::min(state.short_ticks, kInterval) + 1 : 0;
 }
 
 bool ContactWatch::gives_up(WatchState& state) noexcept {

@@ -6,12 +6,12 @@
 // surface itself, by queries of its own that share nothing with that search but the surface:
 //   1. At the proxy: is a triangle within kTouching of the radius that stands between the proxy and the hand, and does
 //      the ball fit there, with no surface deeper in it than kDeep?
-//   2. Has the proxy stood still for a whole interval although the search ran out of work in each tick?
+//   2. Has the search run out of work in each tick of a whole interval, so that the proxy falls behind the hand?
 //   3. Only where 1 or 2 speaks against the contact: is the hand free? It is where the ball at the hand touches nothing
 //      and its centre is outside, by the nearest triangle's side.
 // A contact that is found wanting in kLooks looks in a row, one each kInterval ticks, is faded out over kFade ticks and
 // then given up: the proxy is set to the hand, and the gate gives no force, with a cause of its own. That is at most
-// kInterval kLooks + kFade = 78 ticks after the hand has come free. A look that finds the contact sound, or the hand not
+// kInterval kLooks + kFade = 44 ticks after the hand has come free. A look that finds the contact sound, or the hand not
 // free, takes the doubt back.
 // What it does not end: a contact that is sound although the hand is in free air, such as one with a wall, or the rim of
 // a hole too narrow for the ball, between proxy and hand.
@@ -29,14 +29,14 @@ namespace burin::haptics {
 
 struct WatchState {
     std::uint32_t ticks_to_look = 0;
-    std::uint32_t stuck_ticks = 0;     // in a row without work enough, the proxy unmoved
+    std::uint32_t short_ticks = 0;     // in a row in which the work did not suffice
     std::uint32_t doubtful_looks = 0;  // in a row
     std::uint32_t faded_ticks = 0;     // of kFade
 };
 
 class ContactWatch {
 public:
-    static constexpr std::uint32_t kInterval = 16, kLooks = 3, kFade = 30;
+    static constexpr std::uint32_t kInterval = 8, kLooks = 3, kFade = 20;
     static constexpr std::uint32_t kMostLooks = 2000;
     // Of the radius. A ball on very fine triangles sinks in by up to a tenth (touching.hpp).
     static constexpr double kTouching = 1.15, kDeep = 0.2;
@@ -50,12 +50,13 @@ public:
     // Looks, where a look is due, and adds its work. Call it once a tick in contact, before the proxy moves.
     static void look(WatchState& state, const Contact& contact, const geometry::PosedSurface& surface,
                      ContactWork& work) noexcept;
-    // Lets a tick pass in which nothing is searched.
+    // Lets a tick pass in which nothing is searched. After it a look is due: such ticks are many where they come at all.
     static void wait(WatchState& state) noexcept {
-        if (state.ticks_to_look > 0) --state.ticks_to_look;
+        state.ticks_to_look = 0;
+        if (state.short_ticks > 0) ++state.short_ticks;
     }
     // Notes what the search has done in this tick.
-    static void note(WatchState& state, bool limited, bool moved) noexcept;
+    static void note(WatchState& state, bool work_limited) noexcept;
     // Fades a doubted contact by a tick. Returns whether it is to be given up now; then the state is as new.
     [[nodiscard]] static bool gives_up(WatchState& state) noexcept;
     // The share of the force that is left.
