@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "haptics/tick.hpp"
-#include "tests/haptics/surfaces.hpp"
+#include "tests/haptics/rig.hpp"
 #include "tests/support/test_units.hpp"
 
 namespace burin::haptics {
@@ -64,7 +64,7 @@ TEST(LostLoop, AGapOfThirtyMillisecondsGivesNoForceSaysWhyAndComesBackGently) {
     EXPECT_NEAR(last_N, full_N, 1e-3);
 }
 
-TEST(LostLoop, OneLostTickIsFlaggedAndFromTheSecondOnTheForceFades) {
+TEST(LostLoop, WithoutAPromiseOneLostTickIsFlaggedAndFromTheSecondOnTheForceFades) {
     const auto left_after = [](Nanoseconds gap_ns) {
         Session session;
         session.parameters.limits.max_slew_N_per_s = 1e6;
@@ -81,6 +81,45 @@ TEST(LostLoop, OneLostTickIsFlaggedAndFromTheSecondOnTheForceFades) {
     EXPECT_NEAR(left_after(3 * kMs), 0.8, 0.03);
     EXPECT_NEAR(left_after(4 * kMs), 0.4, 0.03);
     EXPECT_NEAR(left_after(5 * kMs), 0.0, 0.03);
+}
+
+// An Omni that a hand presses on a plate with 2 N, at rest, and a loop that loses ticks in bursts.
+TEST(LostLoop, AToolAtRestDoesNotSinkInOverFiveLostTicksAndComesToBearAgainAfterMore) {
+    for (const int lost : {1, 2, 3, 4, 5, 30}) {
+        const double at_rest_m = 0.004 - 2.0 / 600.0;
+        const devices::HandGrip grip{0.1, 100.0, 3.0};
+        test::Rig rig({{0.0, {0.0, 0.01, 0.0}}, {0.5, {0.0, at_rest_m - 2.0 / 100.0, 0.0}}}, grip);
+        rig.publish(*test::plane(), 1);
+        TickParameters parameters;
+        parameters.probe = ball_probe(0.004);
+        parameters.clearance_ratio = 0.0;
+        parameters.max_surface_age_s = 0.0;
+        rig.publish(parameters, 1);
+        TickRecord record = rig.ticks(2000).back();
+        const double before_m = record.sample.position_device_m.y, before_N = record.gate.given.force_device_N.y;
+        EXPECT_NEAR(before_N, 2.0, 0.3);
+        double lowest_m = before_m;
+        for (int burst = 0; burst < 40; ++burst) {
+            rig.clock.sleep_until(rig.clock.now_ns() + lost * rig.loop.period_ns());
+            for (int i = 0; i < 20; ++i) {
+                record = rig.tick();
+                lowest_m = std::min(lowest_m, record.sample.position_device_m.y);
+            }
+            if (lost > 5) break;
+        }
+        record = rig.ticks(2000).back();
+        lowest_m = std::min(lowest_m, record.sample.position_device_m.y);
+        if (lost <= 5) {
+            EXPECT_LE(before_m - lowest_m, 1e-4) << lost << " lost";
+            EXPECT_NEAR(record.gate.given.force_device_N.y, before_N, 0.1) << lost << " lost";
+        } else {
+            // Without force for 50 ms and more, it sinks; then what the hand has paid for bears it again.
+            const double rests_at_m = record.sample.position_device_m.y, pressed_N = record.gate.given.force_device_N.y;
+            EXPECT_LE(std::abs(rig.ticks(1000).back().sample.position_device_m.y - rests_at_m), 1e-4);
+            EXPECT_GT(pressed_N, 1.0);
+            EXPECT_LE(before_m - lowest_m, 0.01);
+        }
+    }
 }
 
 TEST(LostLoop, AGapWithoutForceIsNoFaultAndAContactThatBeganInItFadesIn) {

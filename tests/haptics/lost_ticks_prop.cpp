@@ -171,6 +171,7 @@ private:
         gate.wanted = kept.wrench;
         gate.device_max_force_N = std::min(d_.device.max_force_N, kept.record.most_N);
         gate.loop_gap_s = gap_s;
+        gate.promised_gap_s = promised_gap_s(d_.passivity, d_.device, period_s);
         gate.in_contact = in.in_contact;
         gate.contact_jumped = jumped;
         if (d_.faults_one_in > 0 && dice_.one_in(d_.faults_one_in)) gate.device_fault = devices::DeviceFault::other;
