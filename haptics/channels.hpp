@@ -62,6 +62,8 @@ struct TickParameters {
     // The noise bound of the velocity estimate, in the device frame: the encoder's step.
     double position_noise_m = 0.000055;
     bool enabled = true;  // false: no contact, zero force, the proxy stays with the HIP
+    // A drill: a proxy in contact stays where it is, as if its work never sufficed. The watch lets the hand go.
+    bool catch_drill = false;
     // In contact, a surface older than this is not trusted and gives zero force. 0: a surface of any age is trusted.
     double max_surface_age_s = 0.5;
     GateLimits limits;

@@ -67,7 +67,10 @@ public:
         const CarriedProxy carried = carry(state_, bodies_, settings.contact_radius_m, kElsewhere_m * scale(), left);
         const Vec3 before = carried.state.position_object_m;
         if (bodies_.any()) left = less(left, carried.work);
-        const ProxyResult moved = move_proxy(carried.state, record_.hip_object_m, settings, bodies_.surface(), left);
+        const bool caught = input_.parameters.catch_drill && last_.constraints > 0;
+        const ProxyResult moved =
+            caught ? as_caught(carried.state)
+                   : move_proxy(carried.state, record_.hip_object_m, settings, bodies_.surface(), left);
         const std::uint64_t carrier = state_.carrier;
         state_ = moved.next;
         if (bodies_.any() && moved.constraints > 0)
@@ -207,6 +210,17 @@ private:
         record_.penetration_m = depth;
         record_.normal_object = normal_object;
         return true;
+    }
+
+    // The drill's result.
+    [[nodiscard]] ProxyResult as_caught(const ProxyState& state) const {
+        ProxyResult result;
+        result.next = state;
+        result.next.hip_object_m = record_.hip_object_m;
+        result.normal_object = last_.normal_object;
+        result.constraints = last_.constraints;
+        result.work_limited = true;
+        return result;
     }
 
     void let_go() {

@@ -22,7 +22,9 @@ constexpr std::array kDegraded{Degraded{haptics::kTickLate, "tick began late"},
                                Degraded{haptics::kTickForceSaturated, "the force limit cut"},
                                Degraded{haptics::kTickSlewLimited, "the slew limit cut"},
                                Degraded{haptics::kTickPassivityActs, "the passivity controller added damping"},
-                               Degraded{haptics::kTickPushedOut, "the tool was inside material and was put outside"}};
+                               Degraded{haptics::kTickPushedOut, "the tool was inside material and was put outside"},
+                               Degraded{haptics::kTickDoubted, "no sound contact was found: its force faded out"},
+                               Degraded{haptics::kTickHeldOver, "a part was held on its last planes"}};
 
 }  // namespace
 

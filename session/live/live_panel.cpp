@@ -14,6 +14,9 @@ constexpr double kStandingWidth = 0.34, kStandingTurn_rad = 0.3;
 // At most this share of the screen's width, since the workpiece stands in the middle.
 constexpr double kOfScreensWidth = 0.26;
 
+// How long the panel tells that the hand has been let go.
+constexpr Nanoseconds kTold_ns = 5'000'000'000;
+
 PanelSource hand_source(const haptics::ToolState& tool) {
     const bool silent = tool.cause != haptics::GateCause::none;
     return {"Hand", silent ? haptics::text(tool.cause) : "simulated, steered by the mouse",
@@ -73,6 +76,7 @@ PanelModel LivePanel::model_of(const PanelContext& context, const std::string& m
     m.touch.force_on = state.force_on;
     m.touch.in_contact = (tool_state.flags & haptics::kTickInContact) != 0;
     m.touch.cause = tool_state.cause;
+    m.touch.was_let_go = tool_state.let_go_ns > 0 && tool_state.time_ns - tool_state.let_go_ns < kTold_ns;
     m.touch.flags = tool_state.flags & haptics::kTickInContact;
     m.sources = {hand_source(tool_state)};
     if (state.head.tracked) m.sources.push_back(tracker_source(context.tracker));

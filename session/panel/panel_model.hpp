@@ -38,6 +38,7 @@ struct PanelTouch {
     bool in_contact = false;  // kTickInContact
     // ToolState::cause: why there is no force although it is on.
     haptics::GateCause cause = haptics::GateCause::none;
+    bool was_let_go = false;  // within the last seconds: the watch has let the hand go
     std::uint32_t flags = 0;  // ToolState::flags, TickFlag bits
     std::uint64_t late_ticks = 0, dropped_samples = 0;
     double force_N = 0.0;

@@ -87,8 +87,11 @@ void show_header(Kit& kit, const PanelModel& model) {
     if (!touch.force_on) {
         kit.banner(Condition::warning, "Force is switched off",
                    "The device is held at zero; switch it on under Touch.");
-    } else if (touch.cause != haptics::GateCause::none) {
+    } else if (touch.cause != haptics::GateCause::none && touch.cause != haptics::GateCause::caught) {
         kit.banner(Condition::fault, "No force", sentence(text(touch.cause)));
+    } else if (touch.was_let_go) {
+        kit.banner(Condition::warning, "The tool has been let go",
+                   "It was caught on the surface while the hand was free. The force has faded out and comes back.");
     }
     for (const std::string& warning : model.warnings) kit.banner(Condition::warning, warning, "");
     for (const std::string& notice : model.notices) kit.banner(Condition::idle, notice, "");

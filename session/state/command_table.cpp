@@ -141,6 +141,12 @@ Parsed parse_force_shown(Arguments words) {
     return SetForceShown{*on};
 }
 
+Parsed parse_catch_drill(Arguments words) {
+    const auto on = parse_switch("catch-drill", words[0]);
+    if (!on) return std::unexpected(on.error());
+    return SetCatchDrill{*on};
+}
+
 Result<std::string> parse_path(std::string_view command, const std::string& path, const char* example) {
     if (path.empty() || path.contains('\0')) {
         return no_argument(command, "", "name a file, such as " + std::string(example));
@@ -197,6 +203,7 @@ const std::vector<Entry>& entries() {
         {{"test-pattern", "NAME", "Show none, eye_order, ghosting or geometry"}, parse_pattern},
         entry_of<Quantity::eye_distance>(),
         {{"show-force", "on|off", "Whether an arrow shows the force"}, parse_force_shown},
+        {{"catch-drill", "on|off", "Hold the tool where it is, to see the watch let the hand go"}, parse_catch_drill},
         {{"export", "FILE", "Write the mesh to a file"}, parse_export},
         {{"screenshot", "FILE", "Write a picture of the screen to a file"}, parse_screenshot},
     };

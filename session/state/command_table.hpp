@@ -92,6 +92,12 @@ struct SetForceShown {
     bool on = false;
     bool operator==(const SetForceShown&) const = default;
 };
+// A drill: the search for contact stops where it is, as if its work never sufficed, until the watch lets the hand go
+// (haptics/contact/contact_watch.hpp).
+struct SetCatchDrill {
+    bool on = false;
+    bool operator==(const SetCatchDrill&) const = default;
+};
 struct ExportTo {
     std::string path;
     bool operator==(const ExportTo&) const = default;
@@ -103,7 +109,7 @@ struct ScreenshotTo {
 
 using SessionCommand =
     std::variant<RunAction, SetTool, SetOperation, SetColour, SetQuantity, SetTechnique, SetStereoMode, SetTestPattern,
-                 SetEyeSwap, SetForce, SetForceShown, ExportTo, ScreenshotTo>;
+                 SetEyeSwap, SetForce, SetForceShown, SetCatchDrill, ExportTo, ScreenshotTo>;
 
 struct SessionState;
 

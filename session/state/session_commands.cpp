@@ -51,6 +51,10 @@ public:
         state_.force_shown = set.on;
         return {};
     }
+    Result<void> operator()(const SetCatchDrill& set) {
+        state_.catch_drill = set.on;
+        return update_touch();
+    }
     Result<void> operator()(const ExportTo& wanted) {
         state_.export_path = wanted.path;
         return export_to(wanted.path);

@@ -187,6 +187,7 @@ haptics::TickParameters parameters_of(const SessionState& state, const Room& roo
         p.signals.velocity_alpha = state.velocity_filter;
     }
     p.enabled = state.force_on;
+    p.catch_drill = state.catch_drill;
     return p;
 }
 

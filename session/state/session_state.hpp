@@ -38,6 +38,7 @@ struct SessionState {
     double force_filter = 0.0, velocity_filter = 0.0;
     double workspace_gain = 1.0;  // multiplies the workspace's gain at home
     bool force_on = true;
+    bool catch_drill = false;
     bool force_shown = false;     // as an arrow
     bool only_touch = false;      // the tool feels the surface but leaves it unchanged
     wall::OutputSettings output;  // of the main screen (output_on(), session_screens.hpp)
