@@ -217,7 +217,8 @@ private:
         ProxyResult result;
         result.next = state;
         result.next.hip_object_m = record_.hip_object_m;
-        result.normal_object = last_.normal_object;
+        const Vec3 spring = state.position_object_m - record_.hip_object_m;
+        result.normal_object = spring / std::max(glm::length(spring), 1e-12);
         result.constraints = last_.constraints;
         result.work_limited = true;
         return result;

@@ -13,27 +13,30 @@ namespace {
 // What the watch has seen around a place.
 struct Seen {
     double distance_m = HUGE_VAL, height_m = 0.0;  // of the nearest triangle
-    bool stands_between = false;                   // a triangle in reach that keeps the ball from going along `pull`
+    double ahead_m = HUGE_VAL;                     // distance of the nearest one a step ahead
     bool complete = true;
 };
 
 constexpr double kTie = 1e-6;  // of the reach
 
-Seen look_around(const Vec3& center, double reach_m, const Vec3& pull, const geometry::PosedSurface& surface,
+// With a step, looks at all triangles in reach, else for the nearest one alone.
+Seen look_around(const Vec3& center, double reach_m, const Vec3& step, const geometry::PosedSurface& surface,
                  ContactWork& work) {
     Seen seen;
-    const bool only_nearest = pull == Vec3(0.0);
+    const bool only_nearest = step == Vec3(0.0);
     geometry::Near near{.lo = center, .hi = center, .reach_m = reach_m, .by_way = true, .from = center, .to = center};
     near.looks_left = ContactWatch::kMostLooks;
     seen.complete = geometry::for_each_triangle_near(surface, near, [&](std::uint32_t id, const geometry::Triangle& t) {
-        const NearestOnTriangle on = nearest_on_triangle(center, t);
         ++work.triangles_tested;
-        const Vec3 off = center - on.point;
+        const Vec3 off = center - nearest_on_triangle(center, t).point;
         const double distance_m = glm::length(off);
         if (distance_m > reach_m) return true;
+        if (!only_nearest) {
+            const Vec3 ahead = center + step;
+            seen.ahead_m = std::min(seen.ahead_m, glm::length(ahead - nearest_on_triangle(ahead, t).point));
+        }
         double height_m = glm::dot(off, outward_normal(t));
         if (surface.two_sided(id)) height_m = std::abs(height_m);
-        if (height_m >= 0.0 && glm::dot(off, pull) < 0.0) seen.stands_between = true;
         // Of triangles that share the nearest point the one seen most squarely tells the side.
         const bool nearer = distance_m < seen.distance_m - kTie * reach_m;
         if (nearer || (distance_m <= seen.distance_m + kTie * reach_m && std::abs(height_m) > std::abs(seen.height_m)))
@@ -68,11 +71,14 @@ void ContactWatch::look(WatchState& state, const Contact& contact, const geometr
     }
     state.ticks_to_look = kInterval - 1;
     const double radius_m = contact.radius_m;
-    const Seen seen =
-        look_around(contact.proxy_m, kTouching * radius_m, contact.hand_m - contact.proxy_m, surface, work);
+    const Vec3 pull = contact.hand_m - contact.proxy_m;
+    const double pull_m = glm::length(pull), step_m = kStep * radius_m;
+    if (!(pull_m > 0.0)) return;
+    const Seen seen = look_around(contact.proxy_m, kTouching * radius_m, (step_m / pull_m) * pull, surface, work);
     const bool fits = seen.distance_m >= (1.0 - kDeep) * radius_m && seen.height_m >= 0.0;
+    const bool in_the_way = seen.distance_m - seen.ahead_m > kInTheWay * step_m;
     const bool falls_behind = state.short_ticks >= kInterval;
-    const bool sound = fits && seen.stands_between;
+    const bool sound = fits && in_the_way;
     const bool doubtful = falls_behind || (seen.complete && !sound);
     if (doubtful && is_free(contact.hand_m, radius_m, surface, work))
         state.doubtful_looks = std::min(state.doubtful_looks + 1, kLooks);

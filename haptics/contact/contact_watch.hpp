@@ -4,8 +4,8 @@
 // The god-object (god_object.hpp) is bounded in its work and continues from its own last result, so a fault in it, or
 // work that never suffices, could hold a hand in free air for good, at the device's full force. The watch asks the
 // surface itself, by queries of its own that share nothing with that search but the surface:
-//   1. At the proxy: is a triangle within kTouching of the radius that stands between the proxy and the hand, and does
-//      the ball fit there, with no surface deeper in it than kDeep?
+//   1. At the proxy: is the surface within kTouching of the radius, would it come nearer on the way to the hand, and
+//      does the ball fit there, with nothing deeper in it than kDeep?
 //   2. Has the search run out of work in each tick of a whole interval, so that the proxy falls behind the hand?
 //   3. Only where 1 or 2 speaks against the contact: is the hand free? It is where the ball at the hand touches nothing
 //      and its centre is outside, by the nearest triangle's side.
@@ -40,6 +40,9 @@ public:
     static constexpr std::uint32_t kMostLooks = 2000;
     // Of the radius. A ball on very fine triangles sinks in by up to a tenth (touching.hpp).
     static constexpr double kTouching = 1.15, kDeep = 0.2;
+    // The surface stands in the way where a step of kStep radii to the hand brings it nearer by this part of the step. A
+    // wall along which the ball could go does not.
+    static constexpr double kStep = 0.1, kInTheWay = 0.25;
 
     // A contact as the last tick has left it.
     struct Contact {

@@ -33,9 +33,10 @@ constexpr double kSunk = 5e-3;
 // between them decide on inside or outside.
 constexpr double kAmongPoints = 0.9;
 
-// Depth, as a fraction of the radius, beyond which a ball that was set somewhere does not fit there. More than fine
-// surfaces and edges let it sink in. It is pushed out for so many ticks before it is set to the HIP again.
-constexpr double kUnfit = 0.1;
+// Depth, as a fraction of the radius, beyond which a ball that was set somewhere does not fit there: between walls that
+// are nearer than its diameter it could not even move along them. It is pushed out for so many ticks; then it follows the
+// hand.
+constexpr double kUnfit = 0.01;
 constexpr std::uint32_t kMostUnfitTicks = 16;
 
 // Range of the vote on inside or outside, as a multiple of the nearest triangle's distance; one mean edge is added.
@@ -116,10 +117,12 @@ public:
         touched_before_ = state.placed && state.touching;
         unfit_ticks_ = state.placed ? state.unfit_ticks : 0;
         was_set_ = !state.placed || unfit_ticks_ > 0;
+        if (unfit_ticks_ >= kMostUnfitTicks) center_ = hip_;
     }
 
     ProxyResult move(const ProxyState& state) {
         began_ = center_;
+        if (unfit_ticks_ >= kMostUnfitTicks) return wait_outside();
         if (!begin(state)) return limited();
         began_ = center_;
         for (;;) {
@@ -154,6 +157,15 @@ private:
         center_ = put_outside(nearest_, center_, radius_);
         result_.pushed_out = was_set_ = true;
         return search_.broad_phase({center_, center_}) && touch();
+    }
+
+    // A ball that could not be pushed out follows the hand without contact until it fits where the hand is.
+    ProxyResult wait_outside() {
+        if (!search_.broad_phase({center_, center_}) || !touch()) return unfit();
+        if (!(nearest_.distance < HUGE_VAL)) nearest_ = search_.nearest(center_, known_around(center_, surface_));
+        const bool inside = inside_material(nearest_, center_, surface_) &&
+                            search_.sees_backs(center_, kVote * nearest_.distance + edge_);
+        return inside || nearest_.distance < (1.0 - kUnfit) * radius_ ? unfit() : result_;
     }
 
     bool touch() {
@@ -431,8 +443,12 @@ private:
         return unseen && !search_.broad_phase({center_, end}) ? Going::out_of_work : Going::on;
     }
 
-    // Free space: the proxy is the HIP, exactly.
-    ProxyResult free() { return result_; }
+    // Free space: the proxy is the HIP, exactly. But a ball that was set between walls may slide along them to the HIP.
+    ProxyResult free() {
+        if (!was_set_ || !overlaps()) return result_;
+        center_ = hip_;
+        return unfit();
+    }
 
     ProxyResult at_rest(const Goal& goal) {
         // Rounding alone must not move it: a hand that holds still feels the same force for ever.
@@ -470,8 +486,7 @@ private:
         touched_ = {};
         stay();
         result_.next.touching = false;
-        result_.next.unfit_ticks = unfit_ticks_ + 1;
-        result_.next.placed = result_.next.unfit_ticks < kMostUnfitTicks;
+        result_.next.unfit_ticks = std::min(unfit_ticks_ + 1, kMostUnfitTicks);
         return result_;
     }
 

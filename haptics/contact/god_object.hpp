@@ -55,7 +55,7 @@ struct ProxyState {
     double step_share = 1.0;    // of the last step under shading or around an edge
     std::uint64_t carrier = 0;  // the moving body that it touched in the last tick (moving_bodies.hpp); 0: none
     std::uint32_t stride = 1;   // among very many vertices only each so manieth is touched
-    // Above 0: the ball, set here from inside material, still overlaps it after so many ticks; there is no contact.
+    // Above 0: the ball, set here from inside material, overlaps it still after so many ticks; there is no contact.
     std::uint32_t unfit_ticks = 0;
 };
 
