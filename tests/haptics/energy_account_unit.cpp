@@ -68,6 +68,20 @@ TEST(EnergyAccount, CountsTorqueTimesRotation) {
     EXPECT_NEAR(step.next.budget_J, step.taken_J + 0.002 * 0.01, 1e-8);
 }
 
+// What a surface gives is what the acting force does along its announced way; what it takes back gives nothing up.
+TEST(EnergyAccount, CountsWhatAMovingSurfaceGivesOnceAndNeverTheWayBack) {
+    for (const double speed : {0.1, -0.1}) {
+        AccountInput in = account_input(8 * kMs, 0.0);
+        const EnergyAccount before = begun(account_device());
+        const double resting_J = count_energy(before, in, kPromise, account_device()).next.budget_J;
+        in.surface_velocity_device_m_per_s = {0.03, speed, 0.0};  // the force is along y
+        const AccountStep step = count_energy(before, in, kPromise, account_device());
+        EXPECT_NEAR(step.given_by_surface_J, speed * (1.0 * 0.001 + 2.0 * 0.005), 1e-15);
+        EXPECT_NEAR(step.next.budget_J - resting_J, std::max(0.0, step.given_by_surface_J), 1e-15) << speed;
+        EXPECT_EQ(step.taken_J, 0.0) << "the tool has not moved";
+    }
+}
+
 TEST(EnergyAccount, AffordsFrictionForNothingAndMoreAsEnergyHasComeIn) {
     const devices::DeviceDescription d = account_device();
     EnergyAccount account = count_energy({}, account_input(kMs, 0.0), kPromise, d).next;

@@ -316,7 +316,7 @@ TEST(LetGo, AHandInFreeAirIsNotHeld) {
     const std::uint64_t ticks = number_in("BURIN_SOAK_OPERATIONS", 60'000), seed = number_in("BURIN_TEST_SEED", 1);
     const std::vector<LetGoScene> all = scenes();
     LetGoFigures sum;
-    std::uint64_t run = 0, let_go_at_ease = 0;
+    std::uint64_t run = 42, let_go_at_ease = 0;  // begins with hard ones
     LetGoDice dice(seed);
     while (sum.ticks < ticks) {
         const LetGoScene& scene = all[run % all.size()];

@@ -133,4 +133,30 @@ TEST(LostLoop, AGapWithoutForceIsNoFaultAndAContactThatBeganInItFadesIn) {
     EXPECT_GT(session.many(300).gate.given.force_device_N.y, 0.5);
 }
 
+// One wrong sample among good ones: no force in its tick, a cause, and the contact afterwards as if it had begun then.
+TEST(LostLoop, ASampleOutOfReachOrAheadOfTheClockGivesNoForceAndNoKick) {
+    for (const bool ahead : {false, true}) {
+        Session session;
+        session.parameters.passivity.control = true;
+        session.many(500);
+        devices::DeviceSample sample;
+        session.now_ns += kMs;
+        sample.time_ns = session.now_ns + (ahead ? 1000 * kMs : 0);
+        sample.position_device_m = {0.0, ahead ? session.y_m : -1e8, 0.0};
+        const FullTick wrong = full_tick(session.state, sample, *session.plane, session.parameters, test::kStrongDevice,
+                                         session.now_ns, kDt);
+        session.state = wrong.next;
+        EXPECT_EQ(wrong.record.gate.cause, ahead ? GateCause::future_sample : GateCause::out_of_reach);
+        EXPECT_EQ(wrong.record.gate.given.force_device_N, Vec3(0.0));
+        double last_N = 0.0;
+        for (int i = 0; i < 400; ++i) {
+            const TickRecord record = session.after(kMs);
+            EXPECT_EQ(record.gate.cause, GateCause::none) << i;
+            EXPECT_LE(record.gate.given.force_device_N.y - last_N, 0.02) << i;
+            last_N = record.gate.given.force_device_N.y;
+        }
+        EXPECT_GT(last_N, 0.5);
+    }
+}
+
 }  // namespace burin::haptics

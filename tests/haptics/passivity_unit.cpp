@@ -220,6 +220,25 @@ TEST(PassivityController, WaitsWhileTheGateFadesAForceIn) {
     EXPECT_EQ(damping, 0.0);
 }
 
+// A body that claims to be faster than anything honest gives no more than one at the limit.
+TEST(PassivityController, BelievesABodyUpToASpeed) {
+    const devices::DeviceDescription d = wall_device();
+    const PassivitySettings settings{.reserve_J = 1.0, .surface_speed_m_per_s = 2.0};
+    const auto reserve_after = [&](double speed) {
+        PassivityState state;
+        for (int i = 0; i < 4; ++i) {
+            PassivityInput in = wall_input(-0.003, 600.0);
+            in.surface_velocity_device_m_per_s = {0.0, speed, 0.0};
+            const PassivityStep step = keep_passive(state, next(state, in), settings, d, kDt);
+            state = commanded(step.next, step.wrench.force_device_N);
+        }
+        return state.reserve_J;
+    };
+    EXPECT_GT(reserve_after(1.0), reserve_after(0.0) + 1e-6);
+    EXPECT_GT(reserve_after(2.0), reserve_after(1.0) + 1e-6);
+    EXPECT_EQ(reserve_after(1000.0), reserve_after(2.0));
+}
+
 // ---- In the tick: the account is of contact alone
 
 namespace {

@@ -86,6 +86,11 @@ TEST(SafetyGate, EveryCauseGivesZeroAtOnceAndItsOwnName) {
         {GateCause::bad_parameters, [](GateInput&, GateLimits& l) { l.max_force_N = kNan; }},
         {GateCause::bad_parameters, [](GateInput&, GateLimits& l) { l.max_slew_N_per_s = -1.0; }},
         {GateCause::stale_sample, [](GateInput& in, GateLimits&) { in.sample_age_s = 0.021; }},
+        {GateCause::future_sample, [](GateInput& in, GateLimits&) { in.sample_age_s = -0.0051; }},
+        {GateCause::out_of_reach, [](GateInput& in, GateLimits&) { in.within_reach = false; }},
+        {GateCause::caught, [](GateInput& in, GateLimits&) { in.let_go = true; }},
+        {GateCause::not_finite, [](GateInput& in, GateLimits&) { in.promised_gap_s = kNan; }},
+        {GateCause::bad_parameters, [](GateInput&, GateLimits& l) { l.max_ahead_s = kNan; }},
         {GateCause::overspeed, [](GateInput& in, GateLimits&) { in.velocity_device_m_per_s.x = -3.1; }},
         {GateCause::stale_surface, [](GateInput& in, GateLimits&) { in.in_contact = in.surface_stale = true; }},
         {GateCause::outside_known, [](GateInput& in, GateLimits&) { in.in_contact = in.outside_known = true; }},
@@ -110,7 +115,7 @@ TEST(SafetyGate, EveryCauseGivesZeroAtOnceAndItsOwnName) {
     }
     std::set<std::string> texts;
     for (const GateCause cause : seen) texts.insert(text(cause));
-    EXPECT_EQ(texts.size(), 8u);  // all but `none`, each with words of its own
+    EXPECT_EQ(texts.size(), 11u);  // all but `none`, each with words of its own
     for (const std::string& words : texts) EXPECT_EQ(words.rfind("no force: ", 0), 0u) << words;
     EXPECT_EQ(texts.count(text(static_cast<GateCause>(200))), 0u);
 }
