@@ -209,7 +209,7 @@ void SteeredHand::set_out() noexcept {
     under_way_ = true;
     const bool moves = to_.position_m != from_.position_m;
     leaving_m_per_s_ = moves ? leaving() : Vec3(0.0);
-    arriving_ = moves ? arriving() : Velocity{Vec3(0.0), true};
+    arriving_m_per_s_ = moves ? arriving() : Vec3(0.0);
 }
 
 void SteeredHand::play_on() noexcept {
@@ -251,7 +251,7 @@ SteeredHand::Knot SteeredHand::goal() const noexcept {
     const Vec3& a = from_.position_m;
     return {played_ns_,
             a + (u * u * (3.0 - 2.0 * u)) * (to_.position_m - a) +
-                (h_s * u * r) * (r * leaving_m_per_s_ - u * arriving_.m_per_s),
+                (h_s * u * r) * (r * leaving_m_per_s_ - u * arriving_m_per_s_),
             normalised_lerp(from_.orientation, to_.orientation, u)};
 }
 
@@ -316,19 +316,17 @@ bool SteeredHand::turns_at(const Knot& at, const Knot& before, const Knot& after
 }
 
 // Returns the curve's velocity at to_, as it is known when the goal sets out to it.
-SteeredHand::Velocity SteeredHand::arriving() const noexcept {
+Vec3 SteeredHand::arriving() const noexcept {
     const Nanoseconds interval_ns = to_.time_ns - from_.time_ns;
     const Vec3 mean = (to_.position_m - from_.position_m) / seconds(interval_ns);
     std::array<Node, 5> nodes;
     std::size_t count = 0;
     nodes[count++] = {to_.time_ns, to_.position_m};
-    Velocity at;
     Vec3 beyond = mean;
     bool two_sided = false;
     if (looked_at_ > 1) {
         const Knot after = knot(1);
-        at.corner = after.position_m == to_.position_m || turns_at(to_, from_, after);
-        if (!at.corner) {
+        if (after.position_m != to_.position_m && !turns_at(to_, from_, after)) {
             beyond = (after.position_m - to_.position_m) / seconds(after.time_ns - to_.time_ns);
             two_sided = are_alike(after.time_ns - to_.time_ns, interval_ns);
             if (two_sided) nodes[count++] = {after.time_ns, after.position_m};
@@ -342,16 +340,16 @@ SteeredHand::Velocity SteeredHand::arriving() const noexcept {
         nodes[count++] = {behind_[i].time_ns, behind_[i].position_m};
         later_ns = behind_[i].time_ns;
     }
-    at.m_per_s = bounded(velocity_through(nodes, count), mean, beyond);
-    return at;
+    return bounded(velocity_through(nodes, count), mean, beyond);
 }
 
 // Returns the curve's velocity at from_ on the way to to_, and forgets the path before a corner.
 Vec3 SteeredHand::leaving() noexcept {
     const Nanoseconds interval_ns = to_.time_ns - from_.time_ns;
     const Vec3 mean = (to_.position_m - from_.position_m) / seconds(interval_ns);
-    const bool goes_on = came_moving_ && !arriving_.corner && run_ > 0 && !turns_at(from_, behind_[0], to_);
-    if (goes_on) return bounded(arriving_.m_per_s, mean, mean);
+    // A corner that was seen when the goal set out to from_ is seen again: what lies around it is the same.
+    const bool goes_on = run_ > 0 && !turns_at(from_, behind_[0], to_);
+    if (goes_on) return bounded(arriving_m_per_s_, mean, mean);
     run_ = 0;
     if (looked_at_ < 2) return mean;
     const Knot after = knot(1);

@@ -116,10 +116,6 @@ private:
         Vec3 position_m{0.0};
         Quat orientation{1.0, 0.0, 0.0, 0.0};
     };
-    struct Velocity {
-        Vec3 m_per_s{0.0};
-        bool corner = false;
-    };
     SteeredHand() = default;
     // ---- What the targets need
     void look_at_arrivals() noexcept;
@@ -138,7 +134,7 @@ private:
     void set_out() noexcept;
     void play_on() noexcept;
     [[nodiscard]] bool arrive() noexcept;
-    [[nodiscard]] Velocity arriving() const noexcept;
+    [[nodiscard]] Vec3 arriving() const noexcept;
     [[nodiscard]] Vec3 leaving() noexcept;
     [[nodiscard]] bool turns_at(const Knot& at, const Knot& before, const Knot& after) const noexcept;
     [[nodiscard]] Knot goal() const noexcept;
@@ -161,7 +157,7 @@ private:
     std::size_t run_ = 0;         // how many of them lie on one smooth path with from_
     Knot from_, to_;
     bool under_way_ = false;                    // from from_ to to_, which is the oldest waiting target
-    Velocity arriving_;                         // at to_, or at from_ while not under way
+    Vec3 arriving_m_per_s_{0.0};                // at to_, or at from_ while not under way
     Vec3 leaving_m_per_s_{0.0};                 // at from_
     Nanoseconds played_ns_ = 0;                 // the source's time at which the goal is
     Nanoseconds arrived_ns_ = 0;                // when the goal came to from_, by the hand's time

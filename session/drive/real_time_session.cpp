@@ -51,7 +51,7 @@ private:
     [[nodiscard]] std::vector<InputEvent> wait_for_frame();
     [[nodiscard]] std::vector<InputEvent> wait_for_refresh();
     [[nodiscard]] std::vector<InputEvent> wait_for_input(Nanoseconds until_ns);
-    void take_tracker_input(std::vector<InputEvent>& happened);
+    [[nodiscard]] std::vector<InputEvent> take_tracker_input();
 
     // Time on the clock, and processor time of all threads.
     struct Moment {
@@ -77,9 +77,8 @@ std::optional<FrameInput> LiveFrames::next_input() {
     turn_ = now();
     std::vector<InputEvent> happened = wait_for_frame();
     times.reached(FrameStage::wait);
-    take_tracker_input(happened);
-    std::ranges::stable_sort(happened, {}, &InputEvent::time_ns);
-    for (InputEvent& event : happened) input_.push(event.time_ns, std::move(event.input));
+    for (InputEvent& event : in_order_of_time(std::move(happened), take_tracker_input()))
+        input_.push(event.time_ns, std::move(event.input));
     recorder_.outside();
     const auto frame =
         input_.begin_frame(clock_.now_ns() - session_.start_ns(), plan_.display_ns - session_.start_ns());
@@ -127,11 +126,13 @@ std::vector<InputEvent> LiveFrames::wait_for_input(Nanoseconds until_ns) {
     return {};
 }
 
-void LiveFrames::take_tracker_input(std::vector<InputEvent>& happened) {
-    if (tracker_ == nullptr) return;
+std::vector<InputEvent> LiveFrames::take_tracker_input() {
+    std::vector<InputEvent> heard;
+    if (tracker_ == nullptr) return heard;
     for (devices::TrackerSample& sample : tracker_->take())
-        happened.push_back({sample.time_ns - session_.start_ns(), input_of(std::move(sample.input))});
+        heard.push_back({sample.time_ns - session_.start_ns(), input_of(std::move(sample.input))});
     for (const std::string& message : tracker_->take_messages()) session_.notify_of_event(message);
+    return heard;
 }
 
 void LiveFrames::stepped() {

@@ -2,6 +2,7 @@
 #include "session/input/event_times.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace burin::session {
@@ -23,6 +24,13 @@ std::vector<InputEvent> EventTimes::timed(std::vector<Input> told, Nanoseconds a
         time_ns += apart_ns;
     }
     return events;
+}
+
+std::vector<InputEvent> in_order_of_time(std::vector<InputEvent> of_window, std::vector<InputEvent> of_trackers) {
+    std::vector<InputEvent> all = std::move(of_window);
+    std::ranges::move(of_trackers, std::back_inserter(all));
+    std::ranges::stable_sort(all, {}, &InputEvent::time_ns);
+    return all;
 }
 
 }  // namespace burin::session

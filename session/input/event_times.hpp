@@ -8,6 +8,9 @@
 // A mouse that moves after a rest was where it rested until one report before: a motion to there is added, since the
 // curve through its positions would begin where the rest began.
 // Times are the session's. Thread: one.
+//
+// Samples of trackers have times of their own: in_order_of_time() puts them among a window's events, since
+// InputSource::push() moves an event that comes after a later one to the time of that.
 #pragma once
 
 #include <optional>
@@ -31,5 +34,9 @@ private:
     Nanoseconds looked_ns_ = 0;        // when the look before ended
     std::optional<InputEvent> mouse_;  // its last motion
 };
+
+// Returns the events of both, in the order of their times; those of one time as they stand, the window's first.
+[[nodiscard]] std::vector<InputEvent> in_order_of_time(std::vector<InputEvent> of_window,
+                                                       std::vector<InputEvent> of_trackers);
 
 }  // namespace burin::session

@@ -141,6 +141,24 @@ TEST(RoundTrip, ReadsAsOpenMeshDoesOnSoundMeshes) {
     }
 }
 
+// Where triangles of two materials meet, the first of them in the file decides.
+TEST(MeshExport, AVertexWithoutAColourOfItsOwnHasThatOfItsFirstTriangle) {
+    using Rgb = std::array<std::uint8_t, 3>;
+    constexpr Rgb kRed{255, 0, 0}, kBlue{0, 0, 255};
+    TriangleMesh mesh;
+    mesh.positions_m = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {5, 5, 5}};  // the last bears no triangle
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    mesh.materials = {{"", kBlue}, {"", kRed}};
+    mesh.triangle_materials = {1, 0};
+    for (const MeshFormat format : {MeshFormat::ply, MeshFormat::obj}) {
+        const auto bytes = encode_mesh(mesh, format, "test");
+        ASSERT_TRUE(bytes) << bytes.error().line();
+        const auto back = import_mesh(*bytes, format, "test");
+        ASSERT_TRUE(back) << back.error().line();
+        EXPECT_EQ(back->mesh.colours, (std::vector<Rgb>{kRed, kRed, kRed, kBlue, kRed})) << back->report.format;
+    }
+}
+
 TEST(MeshExport, RefusesWhatAFormatCannotHoldAndTouchesNothing) {
     const TemporaryFolder folder;
     const auto path = folder.write("a.stl", "precious");

@@ -175,6 +175,23 @@ TEST(SculptService, QuickClicksAreStrokesOfTheirOwnAlsoWithinOneUpdate) {
     expect_each_is_undone_alone(bench, strokes);
 }
 
+// What a file holds can be had back: an undo after it takes away only what was carved since.
+TEST(SculptService, AnExportInMidStrokeEndsTheStroke) {
+    const Workplace place;
+    Bench bench;
+    press_at(bench, -0.05);
+    ASSERT_TRUE(bench.desk.update(0));
+    bench.desk.order(ExportSurface{(place / "part.stl").string()});
+    const compute::Solid exported = bench.carving.engine().solid();
+    bench.desk.finish_export();
+    press_at(bench, 0.05);  // the button is still down
+    release_at(bench, 0.05);
+    ASSERT_TRUE(bench.desk.update(0));
+    EXPECT_EQ(bench.carving.history()->undoable(), 2u);
+    bench.desk.order(UndoStroke{});
+    EXPECT_TRUE(bench.carving.engine().solid().same_content(exported));
+}
+
 TEST(SurfaceUpdate, MergedTellsTheNewestOfEverythingAndEveryMessage) {
     const auto tile = std::make_shared<const geometry::SurfaceTile>();
     SurfaceUpdate news, later;

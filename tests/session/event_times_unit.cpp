@@ -66,4 +66,14 @@ TEST(EventTimes, KeepsTheOrderOfAllKindsOfEvents) {
     EXPECT_TRUE(std::holds_alternative<MouseClick>(events[1].input));
 }
 
+// A window tells in one batch what has happened since the last; samples of trackers come between.
+TEST(EventTimes, OfTrackersLieAmongThoseOfTheWindow) {
+    const std::vector<InputEvent> of_window{{1000 * kMs, MouseMove{}}, {1016 * kMs, MouseClick{}}};
+    const std::vector<InputEvent> of_trackers{{1008 * kMs, HeadInput{}}, {1016 * kMs, HeadInput{}}};
+    const std::vector<InputEvent> all{of_window[0], of_trackers[0], of_window[1], of_trackers[1]};
+    EXPECT_EQ(in_order_of_time(of_window, of_trackers), all);
+    EXPECT_EQ(in_order_of_time({}, of_trackers), of_trackers);
+    EXPECT_EQ(in_order_of_time(of_window, {}), of_window);
+}
+
 }  // namespace burin::session

@@ -369,7 +369,7 @@ TEST(InputSource, AReplayGivesTheFramesOfTheLiveSession) {
                     now_ns += *rc::gen::inRange(-500, 5000);  // window systems' times may fall
                     live.push(now_ns, any_input());
                 }
-                now_ns += 1000;
+                now_ns += *rc::gen::inRange(-500, 2000);  // events may have later times
                 const auto input = live.begin_frame(now_ns, now_ns + 8000);
                 RC_ASSERT(input.has_value());
                 seen.emplace_back(*input, std::vector(input->events.begin(), input->events.end()));
@@ -447,6 +447,7 @@ TEST(InputSource, PlaysALogAtItsTimes) {
     EXPECT_EQ(early->time_ns, 99 * kMs);
     EXPECT_EQ(early->display_ns, 105 * kMs);
     EXPECT_EQ(source.begin_frame(100 * kMs, 105 * kMs)->events.size(), 1u);
+    EXPECT_EQ(source.begin_frame(98 * kMs, 105 * kMs)->time_ns, 100 * kMs) << "never before the frame before";
     EXPECT_EQ(source.next_event_ns(), 200 * kMs);
     const auto late = source.begin_frame(400 * kMs, 405 * kMs);
     ASSERT_TRUE(late);

@@ -44,6 +44,28 @@ double carried_m(double x_world, double y_world) {
     return glm::length(session->state().world_from_object.position_m - before_world);
 }
 
+// Returns how many files a session asks for when a log wants a mesh and a picture in each of two ways.
+std::size_t files_asked_for(bool writes_nothing) {
+    const Workplace place;
+    SculptOptions options;
+    options.workpiece = {"ball:0.1", 32, false};
+    options.engine = sculpt::EngineChoice::cpu;
+    options.live.input = "script.txt";
+    options.live.outputs = (place / "out").string();
+    options.live.writes_nothing = writes_nothing;
+    SimulatedClock clock;
+    const auto session = LiveSession::create(options, session_wall(options.live).value(), clock).value();
+    std::size_t meshes = 0;
+    const std::vector<InputEvent> events{{0, CommandInput{"export", {"a.stl"}}},
+                                         {0, CommandInput{"export-mesh", {}}},
+                                         {0, CommandInput{"screenshot", {"a.png"}}},
+                                         {0, CommandInput{"take-screenshot", {}}}};
+    session->step({10'000'000, 10'000'000, events}, {.size = {640, 360}}, {}, [&](const sculpt::SculptOrder& order) {
+        meshes += std::holds_alternative<sculpt::ExportSurface>(order) ? 1 : 0;
+    });
+    return meshes + session->take_screenshots().size();
+}
+
 }  // namespace
 
 TEST(ComfortWatch, WarnsOnceEachTimeThatTheStrainBegins) {
@@ -150,6 +172,11 @@ TEST(MessageLog, ShowsRecordedEventsInPlaceOfItsOwnInAReplay) {
     for (const char* line :
          {"burin: script.txt:3: undone (elsewhere)\n", "burin: a monitor has gone\n", "burin: not as recorded\n"})
         EXPECT_NE(said.find(line), std::string::npos) << said;
+}
+
+TEST(LiveSession, ThatWritesNothingOrdersNeitherMeshesNorPictures) {
+    EXPECT_EQ(files_asked_for(false), 4u);
+    EXPECT_EQ(files_asked_for(true), 0u);
 }
 
 TEST(LivePanel, KeepsAWandsPressesOnAStandingPanelFromTheScene) {

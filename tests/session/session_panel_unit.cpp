@@ -125,6 +125,7 @@ PanelModel workable_model() {
     model.undo_count = 3;
     model.redo_count = 1;
     model.hardness_Ns_per_m3 = 3e6;  // not the middle
+    model.tool_sizes = tool_sizes_for(0.05);
     return model;
 }
 
@@ -142,8 +143,10 @@ TEST(PanelWidgets, GiveExactlyTheirCommandWhenClicked) {
             ASSERT_TRUE(command) << command.error().line();
             const auto& quantity = std::get<SetQuantity>(*command);
             const QuantityDescriptor& range = descriptor_of(quantity.quantity);
-            const double to = label == "radius" ? 2.0 * range.to : range.to;
-            const double middle = range.by_ratio ? std::sqrt(range.from * to) : 0.5 * (range.from + to);
+            const ToolSizeRange& sizes = desk.model.tool_sizes;
+            const double from = label == "radius" ? sizes.from_m : range.from;
+            const double to = label == "radius" ? 2.0 * sizes.radius_to_m : range.to;
+            const double middle = range.by_ratio ? std::sqrt(from * to) : 0.5 * (from + to);
             EXPECT_NEAR(quantity.value, middle, 0.06 * middle) << label;
             continue;
         }
