@@ -180,7 +180,7 @@ struct TickRecord {
     std::uint64_t parameter_sequence = 0;
     TurnShare turn;
     // One false: nothing else was computed, the force is zero. So it is for a sample stamped ahead of time.
-    bool sample_finite = true, within_reach = true, parameters_sensible = true;
+    bool sample_finite = true, within_reach = true, parameters_sensible = true, scale_felt = true;
     MotionRecord motion;
     ContactRecord contact;
     PassivityRecord passivity;

@@ -117,9 +117,11 @@ void compute_tick(const TickResult& t, const TickState& state, const devices::De
     record.parameter_sequence = parameters.sequence;
     record.sample_finite = finite(sample.position_device_m) && unit(sample.orientation_device);
     record.parameters_sensible = parameters_are_sensible(parameters);
+    record.scale_felt = is_felt_at(parameters.workspace.object_from_device.scale);
     record.within_reach = within_reach(sample.position_device_m, device);
     const bool ahead = seconds(sample.time_ns - now_ns) > parameters.limits.max_ahead_s;
-    if (!record.sample_finite || !record.parameters_sensible || !record.within_reach || ahead) return refuse(t);
+    if (!record.sample_finite || !record.parameters_sensible || !record.scale_felt || !record.within_reach || ahead)
+        return refuse(t);
 
     // Motion of the hand.
     MotionRecord& motion = record.motion;
@@ -206,6 +208,7 @@ GateInput gate_input(const TickRecord& record, const devices::DeviceDescription&
     in.sample_finite = record.sample_finite;
     in.within_reach = record.within_reach;
     in.parameters_sensible = record.parameters_sensible;
+    in.scale_felt = record.scale_felt;
     in.in_contact = record.in_contact();
     in.contact_jumped = record.contact.jumped;
     in.surface_stale = (record.flags & kTickStaleSurface) != 0;

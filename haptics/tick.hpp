@@ -55,6 +55,10 @@ struct Tick {
 // limits above 0.
 [[nodiscard]] bool parameters_are_sensible(const TickParameters& parameters) noexcept;
 
+// Whether a scene can be felt at this scale of motions. Beyond, the lengths of device and scene differ by more than the
+// positions of a mesh, which are float, resolve.
+[[nodiscard]] constexpr bool is_felt_at(double scale) noexcept { return scale >= 1e-6 && scale <= 1e6; }
+
 // Collects the gate's inputs from a tick; all but loop_gap_s.
 [[nodiscard]] GateInput gate_input(const TickRecord& record, const devices::DeviceDescription& device) noexcept;
 

@@ -19,6 +19,14 @@ struct Seen {
 
 constexpr double kTie = 1e-6;  // of the reach
 
+// A cheap test before the exact one: the ball around the triangle's bounding box lies beyond the reach.
+bool is_beyond(const geometry::Triangle& t, const Vec3& center, double reach_m) {
+    const Vec3 lo = glm::min(glm::min(t.a, t.b), t.c), hi = glm::max(glm::max(t.a, t.b), t.c);
+    const double most = reach_m + 0.5 * glm::length(hi - lo) * (1.0 + 1e-9);
+    const Vec3 off = 0.5 * (lo + hi) - center;
+    return glm::dot(off, off) > most * most;
+}
+
 // With a step, looks at all triangles in reach, else for the nearest one alone.
 Seen look_around(const Vec3& center, double reach_m, const Vec3& step, const geometry::PosedSurface& surface,
                  ContactWork& work) {
@@ -27,6 +35,7 @@ Seen look_around(const Vec3& center, double reach_m, const Vec3& step, const geo
     geometry::Near near{.lo = center, .hi = center, .reach_m = reach_m, .by_way = true, .from = center, .to = center};
     near.looks_left = ContactWatch::kMostLooks;
     seen.complete = geometry::for_each_triangle_near(surface, near, [&](std::uint32_t id, const geometry::Triangle& t) {
+        if (is_beyond(t, center, near.reach_m)) return true;
         ++work.triangles_tested;
         const Vec3 off = center - nearest_on_triangle(center, t).point;
         const double distance_m = glm::length(off);

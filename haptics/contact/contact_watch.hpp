@@ -11,7 +11,7 @@
 //      and its centre is outside, by the nearest triangle's side.
 // A contact that is found wanting in kLooks looks in a row, one each kInterval ticks, is faded out over kFade ticks and
 // then given up: the proxy is set to the hand, and the gate gives no force, with a cause of its own. That is at most
-// kInterval kLooks + kFade = 44 ticks after the hand has come free. A look that finds the contact sound, or the hand not
+// kInterval kLooks + kFade = 56 ticks after the hand has come free. A look that finds the contact sound, or the hand not
 // free, takes the doubt back.
 // What it does not end: a contact that is sound although the hand is in free air, such as one with a wall, or the rim of
 // a hole too narrow for the ball, between proxy and hand.
@@ -36,7 +36,7 @@ struct WatchState {
 
 class ContactWatch {
 public:
-    static constexpr std::uint32_t kInterval = 8, kLooks = 3, kFade = 20;
+    static constexpr std::uint32_t kInterval = 12, kLooks = 3, kFade = 20;
     static constexpr std::uint32_t kMostLooks = 2000;
     // Of the radius. A ball on very fine triangles sinks in by up to a tenth (touching.hpp).
     static constexpr double kTouching = 1.15, kDeep = 0.2;

@@ -40,6 +40,7 @@ GateCause find_cause(const GateState& state, const GateInput& in, const GateLimi
         !not_negative(in.device_max_torque_Nm) || !(in.most_torque_Nm >= 0.0))
         return GateCause::not_finite;
     if (!in.parameters_sensible || !sensible(limits)) return GateCause::bad_parameters;
+    if (!in.scale_felt) return GateCause::bad_scale;
     if (in.sample_age_s > limits.max_sample_age_s) return GateCause::stale_sample;
     if (in.sample_age_s < -limits.max_ahead_s) return GateCause::future_sample;
     if (!in.within_reach) return GateCause::out_of_reach;
@@ -103,6 +104,7 @@ const char* text(GateCause cause) noexcept {
         case GateCause::device_fault: return "no force: the device reports a fault";
         case GateCause::not_finite: return "no force: a position or force is not a number";
         case GateCause::bad_parameters: return "no force: the haptic settings make no sense";
+        case GateCause::bad_scale: return "no force: the scale of the scene is not between 1e-6 and 1e6";
         case GateCause::stale_sample: return "no force: the device has stopped sending";
         case GateCause::future_sample: return "no force: the device's time stamps lie ahead of the clock";
         case GateCause::out_of_reach: return "no force: the device reports a position out of its reach";

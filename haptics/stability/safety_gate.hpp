@@ -32,6 +32,7 @@ enum class GateCause : std::uint8_t {
     device_fault,    // the device itself reports one; see DeviceSample::fault
     not_finite,      // a sample, a desired force or a device limit is NaN, infinite or negative
     bad_parameters,  // settings that make no sense, such as a negative stiffness
+    bad_scale,       // a scene so small or large that numbers do not resolve it at the device's motions
     stale_sample,    // the device has stopped sending
     future_sample,   // its time stamps lie ahead of the loop's clock
     out_of_reach,    // it reports a position that its arm cannot reach
@@ -72,6 +73,7 @@ struct GateInput {
     bool sample_finite = true;
     bool within_reach = true;  // the sample's position, of the device's arm
     bool parameters_sensible = true;
+    bool scale_felt = true;  // is_felt_at() of the mapping's scale (haptics/tick.hpp)
     bool in_contact = false;
     bool contact_jumped = false;  // the contact is not continuous with that of the last tick: fade in
     bool surface_stale = false;

@@ -85,6 +85,7 @@ TEST(SafetyGate, EveryCauseGivesZeroAtOnceAndItsOwnName) {
         {GateCause::bad_parameters, [](GateInput& in, GateLimits&) { in.parameters_sensible = false; }},
         {GateCause::bad_parameters, [](GateInput&, GateLimits& l) { l.max_force_N = kNan; }},
         {GateCause::bad_parameters, [](GateInput&, GateLimits& l) { l.max_slew_N_per_s = -1.0; }},
+        {GateCause::bad_scale, [](GateInput& in, GateLimits&) { in.scale_felt = false; }},
         {GateCause::stale_sample, [](GateInput& in, GateLimits&) { in.sample_age_s = 0.021; }},
         {GateCause::future_sample, [](GateInput& in, GateLimits&) { in.sample_age_s = -0.0051; }},
         {GateCause::out_of_reach, [](GateInput& in, GateLimits&) { in.within_reach = false; }},
@@ -115,7 +116,7 @@ TEST(SafetyGate, EveryCauseGivesZeroAtOnceAndItsOwnName) {
     }
     std::set<std::string> texts;
     for (const GateCause cause : seen) texts.insert(text(cause));
-    EXPECT_EQ(texts.size(), 11u);  // all but `none`, each with words of its own
+    EXPECT_EQ(texts.size(), 12u);  // all but `none`, each with words of its own
     for (const std::string& words : texts) EXPECT_EQ(words.rfind("no force: ", 0), 0u) << words;
     EXPECT_EQ(texts.count(text(static_cast<GateCause>(200))), 0u);
 }

@@ -159,6 +159,19 @@ TEST(Tick, SaysWhenThereIsNoSurfaceOrItIsOldOrTheToolLeavesIt) {
     EXPECT_EQ(t.at({0.0, 0.01, 0.0}).flags & kTickStaleSurface, 0u);  // free: its age does not matter
 }
 
+TEST(Tick, AScaleThatCannotBeFeltIsRefusedByName) {
+    const test::Surface plane = test::plane();
+    for (const double scale : {1e-9, 1e-7, 1e7}) {
+        FullTickState state;
+        TickParameters parameters = parameters_for(0.004);
+        parameters.workspace.object_from_device.scale = scale;
+        const FullTick full = full_tick(state, {.time_ns = kMs}, *plane, parameters, test::kStrongDevice, kMs, kDt);
+        EXPECT_EQ(full.record.gate.cause, GateCause::bad_scale) << scale;
+    }
+    EXPECT_TRUE(is_felt_at(1e-3) && is_felt_at(1.0) && is_felt_at(1e3));
+    EXPECT_NE(std::string(text(GateCause::bad_scale)).find("scale"), std::string::npos);
+}
+
 TEST(Tick, NonsenseInGivesZeroForceAndAFreshStart) {
     const test::Surface plane = test::plane();
     const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
