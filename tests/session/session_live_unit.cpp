@@ -4,6 +4,7 @@
 
 #include "session/drive/session.hpp"
 #include "session/live/live_session.hpp"
+#include "session/panel/panel.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {
@@ -177,6 +178,32 @@ TEST(MessageLog, ShowsRecordedEventsInPlaceOfItsOwnInAReplay) {
 TEST(LiveSession, ThatWritesNothingOrdersNeitherMeshesNorPictures) {
     EXPECT_EQ(files_asked_for(false), 4u);
     EXPECT_EQ(files_asked_for(true), 0u);
+}
+
+TEST(LiveSession, OffersToolSizesThatSuitItsWorkpiece) {
+    SculptOptions options;
+    options.workpiece = {"ball:0.01", 32, false};
+    options.engine = sculpt::EngineChoice::cpu;
+    SimulatedClock clock;
+    const auto session = LiveSession::create(options, session_wall(options.live).value(), clock).value();
+    // Where the slider is, by a panel of the same size; on a desk it is at the right of the window.
+    const ImageSize window{1280, 900}, size{static_cast<std::uint32_t>(kPanelWidth_px), window.height};
+    Panel alike = Panel::create({.size = size}).value();
+    PanelModel model;
+    model.tool = session->state().tool.shape;
+    static_cast<void>(alike.show(model, 0));
+    const auto slider = alike.place_of("radius").value();
+    const double y_px = slider.y + 0.5 * slider.height, left_px = window.width - size.width + slider.x;
+    Nanoseconds now_ns = 0;
+    const auto step = [&](const Input& input) {
+        now_ns += 16'000'000;
+        const std::vector<InputEvent> events{{now_ns, input}};
+        session->step({now_ns, now_ns, events}, {.size = window}, {}, [](const sculpt::SculptOrder&) {});
+    };
+    step(MouseMove{{left_px + 0.5 * slider.width, y_px}});
+    step(MouseClick{MouseButton::left, true, {}});
+    step(MouseMove{{left_px + slider.width + 2.0, y_px}});  // to the end
+    EXPECT_DOUBLE_EQ(descriptor_of(Quantity::radius).value(session->state()), 0.01) << "half of the longest side";
 }
 
 TEST(LivePanel, KeepsAWandsPressesOnAStandingPanelFromTheScene) {
