@@ -2,27 +2,26 @@
 // The haptic loop: the same class in simulated time and in real time.
 //
 // step() does exactly this: read the device, borrow the newest surface and parameters, tick, gate, write the device,
-// publish tool state, stroke sample and tick record. run() calls it at absolute deadlines one period apart.
-// A device of several parts that move by themselves (a glove's fingertips) is one loop with a list of parts, fixed when
-// the loop is made. One turn reads all parts, then ticks and writes one after the other. Each has channels, state,
-// parameters, gate and energy account of its own, so limits, slew and passivity hold for each. The turn's work is
-// bounded as one tick's is: the parts have one period's budget among them (TurnShare). A part for which nothing is left
-// is held over, and the next turn begins with the first such part, so that each gets its turn. A fault of one part gives that part no
-// force, and the others go on; a fault that a part reports as the whole device's (DeviceSample::fault_is_of_all) gives
-// none to any part, in the same turn. Warm-up, idling, late and skipped ticks are the turn's, and so alike for all.
-// In simulated time: advance the clock (and the device, if it does not follow the clock) by a period and call step();
-// or call run() with a SimulatedClock, which does just that.
-// Thread: one at a time calls step() or run(). Neither allocates, locks, throws or opens a file.
-// The lateness and duration of each tick are counted in histograms, which any thread may read while the loop runs.
-// Warm-up tick: a thread that has slept finds its caches cold, and a tick then takes two or three times as long. So
-// run() wakes shortly before the deadline, computes one tick without effect from the sample that it expects, and spins
-// until the deadline: the tick's data are then in the caches when the device is read, and the tick begins on time.
-// tick() is pure, so the warm-up changes nothing.
-// Idle: a loop whose force nobody feels need not tick a thousand times a second while nothing happens. Where LoopPace
-// allows it, it slows down after a second in which the hand and the parameters stayed as they were and no force was
-// given; the first change or force that it sees ends this. A loop that drives a device never idles.
-// A tick that starts late is flagged and counted; deadlines that were missed altogether are skipped and counted, so
-// that the loop never runs a burst of ticks to catch up.
+// publish tool state, stroke sample and tick record. run() calls it at absolute deadlines one period apart. A device of
+// several parts that move by themselves (a glove's fingertips) is one loop with a list of parts, fixed when the loop is
+// made. One turn reads all parts, then ticks and writes one after the other. Each has channels, state, parameters, gate
+// and energy account of its own, so limits, slew and passivity hold for each. The turn's work is bounded as one tick's
+// is: the parts have one period's budget among them (TurnShare). A part for which nothing is left is held over, and the
+// next turn begins with the first such part, so that each gets its turn. A fault of one part gives that part no force,
+// and the others go on; a fault that a part reports as the whole device's (DeviceSample::fault_is_of_all) gives none to
+// any part, in the same turn. Warm-up, idling, late and skipped ticks are the turn's, and so alike for all. In
+// simulated time: advance the clock (and the device, if it does not follow the clock) by a period and call step(); or
+// call run() with a SimulatedClock, which does just that. Thread: one at a time calls step() or run(). Neither
+// allocates, locks, throws or opens a file. The lateness and duration of each tick are counted in histograms, which any
+// thread may read while the loop runs. Warm-up tick: a thread that has slept finds its caches cold, and a tick then
+// takes two or three times as long. So run() wakes shortly before the deadline, computes one tick without effect from
+// the sample that it expects, and spins until the deadline: the tick's data are then in the caches when the device is
+// read, and the tick begins on time. tick() is pure, so the warm-up changes nothing. Idle: a loop whose force nobody
+// feels need not tick a thousand times a second while nothing happens. Where LoopPace allows it, it slows down after a
+// second in which the hand and the parameters stayed as they were and no force was given; the first change or force
+// that it sees ends this. A loop that drives a device never idles. A tick that starts late is flagged and counted;
+// deadlines that were missed altogether are skipped and counted, so that the loop never runs a burst of ticks to catch
+// up.
 #pragma once
 
 #include <array>

@@ -42,8 +42,8 @@ MotionState with_sample(MotionState state, const devices::DeviceSample& sample, 
     return state;
 }
 
-// The workspace is where a device is at its best; its arm reaches farther. Nothing on a desk reaches kBeyond farther, and
-// a device whose workspace is not known is no farther than kAnywhere from its origin.
+// The workspace is where a device is at its best; its arm reaches farther. Nothing on a desk reaches kBeyond farther,
+// and a device whose workspace is not known is no farther than kAnywhere from its origin.
 bool within_reach(const Vec3& position_device_m, const devices::DeviceDescription& device) {
     constexpr double kBeyond_m = 0.5, kAnywhere_m = 10.0;
     for (int axis = 0; axis < 3; ++axis) {

@@ -17,7 +17,7 @@ struct Seen {
     bool complete = true;
 };
 
-constexpr double kTie = 1e-6;  // of the reach
+constexpr double kWatchTie = 1e-6;  // of the reach
 
 // A cheap test before the exact one: the ball around the triangle's bounding box lies beyond the reach.
 bool is_beyond(const geometry::Triangle& t, const Vec3& center, double reach_m) {
@@ -47,10 +47,10 @@ Seen look_around(const Vec3& center, double reach_m, const Vec3& step, const geo
         double height_m = glm::dot(off, outward_normal(t));
         if (surface.two_sided(id)) height_m = std::abs(height_m);
         // Of triangles that share the nearest point the one seen most squarely tells the side.
-        const bool nearer = distance_m < seen.distance_m - kTie * reach_m;
-        if (nearer || (distance_m <= seen.distance_m + kTie * reach_m && std::abs(height_m) > std::abs(seen.height_m)))
+        const bool nearer = distance_m < seen.distance_m - kWatchTie * reach_m;
+        if (nearer || (distance_m <= seen.distance_m + kWatchTie * reach_m && std::abs(height_m) > std::abs(seen.height_m)))
             seen.distance_m = distance_m, seen.height_m = height_m;
-        if (only_nearest) near.reach_m = std::min(near.reach_m, seen.distance_m * (1.0 + kTie));
+        if (only_nearest) near.reach_m = std::min(near.reach_m, seen.distance_m * (1.0 + kWatchTie));
         return true;
     });
     work.triangles_seen += ContactWatch::kMostLooks - near.looks_left;

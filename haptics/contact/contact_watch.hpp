@@ -11,13 +11,11 @@
 //      and its centre is outside, by the nearest triangle's side.
 // A contact that is found wanting in kLooks looks in a row, one each kInterval ticks, is faded out over kFade ticks and
 // then given up: the proxy is set to the hand, and the gate gives no force, with a cause of its own. That is at most
-// kInterval kLooks + kFade = 56 ticks after the hand has come free. A look that finds the contact sound, or the hand not
-// free, takes the doubt back.
-// What it does not end: a contact that is sound although the hand is in free air, such as one with a wall, or the rim of
-// a hole too narrow for the ball, between proxy and hand.
-// Cost: a look each kInterval ticks in contact, of at most kMostLooks triangles for each query; where these do not
-// suffice, the query says nothing. Its work is counted. Frame: relative to the surface's origin, metres. No heap, lock,
-// throw.
+// kInterval kLooks + kFade = 56 ticks after the hand has come free. A look that finds the contact sound, or the hand
+// not free, takes the doubt back. What it does not end: a contact that is sound although the hand is in free air, such
+// as one with a wall, or the rim of a hole too narrow for the ball, between proxy and hand. Cost: a look each kInterval
+// ticks in contact, of at most kMostLooks triangles for each query; where these do not suffice, the query says nothing.
+// Its work is counted. Frame: relative to the surface's origin, metres. No heap, lock, throw.
 #pragma once
 
 #include <cstdint>
@@ -40,8 +38,8 @@ public:
     static constexpr std::uint32_t kMostLooks = 2000;
     // Of the radius. A ball on very fine triangles sinks in by up to a tenth (touching.hpp).
     static constexpr double kTouching = 1.15, kDeep = 0.2;
-    // The surface stands in the way where a step of kStep radii to the hand brings it nearer by this part of the step. A
-    // wall along which the ball could go does not.
+    // The surface stands in the way where a step of kStep radii to the hand brings it nearer by this part of the step.
+    // A wall along which the ball could go does not.
     static constexpr double kStep = 0.1, kInTheWay = 0.25;
 
     // A contact as the last tick has left it.
@@ -53,7 +51,8 @@ public:
     // Looks, where a look is due, and adds its work. Call it once a tick in contact, before the proxy moves.
     static void look(WatchState& state, const Contact& contact, const geometry::PosedSurface& surface,
                      ContactWork& work) noexcept;
-    // Lets a tick pass in which nothing is searched. After it a look is due: such ticks are many where they come at all.
+    // Lets a tick pass in which nothing is searched. After it a look is due: such ticks are many where they come at
+    // all.
     static void wait(WatchState& state) noexcept {
         state.ticks_to_look = 0;
         if (state.short_ticks > 0) ++state.short_ticks;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "haptics/contact/friction.hpp"
+#include "haptics/contact/setting.hpp"
 #include "haptics/contact/shading.hpp"
 #include "haptics/contact/touching.hpp"
 
@@ -33,12 +34,6 @@ constexpr double kSunk = 5e-3;
 // between them decide on inside or outside.
 constexpr double kAmongPoints = 0.9;
 
-// Depth, as a fraction of the radius, beyond which a ball that was set somewhere does not fit there: between walls that
-// are nearer than its diameter it could not even move along them. It is pushed out for so many ticks; then it follows the
-// hand.
-constexpr double kUnfit = 0.01;
-constexpr std::uint32_t kMostUnfitTicks = 16;
-
 // Range of the vote on inside or outside, as a multiple of the nearest triangle's distance; one mean edge is added.
 constexpr double kVote = 1.5;
 
@@ -55,25 +50,6 @@ bool rubs(const ProxySettings& settings) { return settings.static_friction > 0.0
 Vec3 unit_or_zero(const Vec3& v) {
     const double length2 = glm::dot(v, v);
     return length2 > 0.0 ? v / std::sqrt(length2) : Vec3(0.0);
-}
-
-// Distance from `center` to the border of the ball within which the surface is known; negative outside it.
-double known_around(const Vec3& center, const geometry::PosedSurface& posed) {
-    const geometry::LocalSurface& surface = posed.surface();
-    const Vec3 off = center - (surface.center_object - surface.origin_object);
-    return surface.radius_m - std::sqrt(glm::dot(off, off));
-}
-
-// Decides only where the ball around `center` that reaches the nearest triangle lies within the known surface;
-// elsewhere a nearer triangle may be unknown.
-bool inside_material(const Nearest& nearest, const Vec3& center, const geometry::PosedSurface& surface) {
-    return nearest.height < 0.0 && nearest.distance <= known_around(center, surface);
-}
-
-Vec3 put_outside(const Nearest& nearest, const Vec3& center, double radius) {
-    const bool on_surface = nearest.distance < kTie * radius;
-    const Vec3 way = on_surface ? nearest.normal : (nearest.point - center) / nearest.distance;
-    return nearest.point + radius * way;
 }
 
 // The next position of the ball, and the planes that bear it there.
@@ -264,7 +240,7 @@ private:
         // from the HIP, and it would fall back for ever. It slides up to the first of them instead, which then bears it
         // too.
         if (glm::length(pull - goal.step) > glm::length(pull) + deepest_of(bearing) + still_) {
-            goal.step = share_to_first_plane(slide) * slide;
+            goal.step = share_to_first(touches_.span(), slide) * slide;
             goal.left = glm::length(goal.step);
         }
         return goal;
@@ -292,18 +268,9 @@ private:
         return count;
     }
 
-    [[nodiscard]] double share_to_first_plane(const Vec3& way) const {
-        double share = 1.0;
-        for (const HalfSpace& plane : touches_.span()) {
-            const double sinking = glm::dot(plane.normal, way);
-            if (sinking < 0.0) share = std::min(share, plane.offset / sinking);
-        }
-        return std::max(share, 0.0);
-    }
-
     // Moves towards the HIP until the first plane bears the ball.
     Goal falling(const Vec3& pull) {
-        const double share = share_to_first_plane(pull);
+        const double share = share_to_first(touches_.span(), pull);
         Goal goal;
         goal.found = true;
         goal.step = share * pull;
@@ -312,43 +279,22 @@ private:
         return goal;
     }
 
-    // Among nearly parallel planes there may be no goal to be found although there is room. Then the ball goes along
-    // the plane that stands most in its way, or along the edge of this one and the next, up to the first plane.
+    // Among nearly parallel planes there may be no goal to be found although there is room.
     Goal creep() {
         const Vec3 pull = hip_ - center_;
-        Vec3 way = pull, first(0.0);
-        for (int planes = 0; planes < 3; ++planes) {
-            const double share = share_to_first_plane(way);
-            if (share * glm::length(way) > still_) {
-                Goal goal;
-                goal.found = true;
-                goal.step = std::min(share, 1.0) * way;
-                goal.left = glm::length(way);
-                goal.in_contact = planes > 0;
-                goal.is_hip = planes == 0 && share >= 1.0;
-                goal.normal = planes > 0 ? unit_or_zero(way - pull) : Vec3(0.0);
-                goal.enough = enough(goal, pull);
-                if (goal.in_contact) note_most_opposed();
-                return goal;
-            }
-            const Vec3 normal = most_opposed_to(way);
-            if (normal == Vec3(0.0)) break;
-            const Vec3 edge = unit_or_zero(glm::cross(first, normal));
-            way = planes == 0 ? way - glm::dot(way, normal) * normal : glm::dot(pull, edge) * edge;
-            if (planes == 0) first = normal;
+        const WayAlong way = way_along(touches_.span(), pull, still_);
+        Goal goal;
+        goal.found = way.found;
+        goal.step = way.step;
+        goal.left = glm::length(way.whole);
+        goal.in_contact = way.along_planes;
+        goal.is_hip = way.found && way.step == pull;
+        if (goal.in_contact) {
+            goal.normal = unit_or_zero(way.whole - pull);
+            note_most_opposed();
         }
-        return {};
-    }
-
-    // The normal of the touched plane that the ball would go into most steeply.
-    [[nodiscard]] Vec3 most_opposed_to(const Vec3& way) const {
-        Vec3 normal(0.0);
-        double most = 0.0;
-        for (const HalfSpace& plane : touches_.span()) {
-            const double sinking = glm::dot(plane.normal, way);
-            if (sinking < most) most = sinking, normal = plane.normal;
-        }
-        return normal;
+        goal.enough = enough(goal, pull);
+        return goal;
     }
 
     void shade(Goal& goal, const NearestInside& plain, const Vec3& pull, bool through_center) {
@@ -480,8 +426,8 @@ private:
         return nearest_.distance < (1.0 - kUnfit) * radius_ || nearest_.height < 0.0;
     }
 
-    // The ball has been set where it does not fit, or it is not known yet whether it does. It is no contact, and goes on
-    // from here for some ticks.
+    // The ball has been set where it does not fit, or it is not known yet whether it does. It is no contact, and goes
+    // on from here for some ticks.
     ProxyResult unfit() {
         touched_ = {};
         stay();

@@ -127,4 +127,42 @@ NearestInside nearest_inside(std::span<const HalfSpace> spaces, const Vec3& goal
     return best;
 }
 
+double share_to_first(std::span<const HalfSpace> spaces, const Vec3& way) noexcept {
+    double share = 1.0;
+    for (const HalfSpace& plane : spaces) {
+        const double sinking = glm::dot(plane.normal, way);
+        if (sinking < 0.0) share = std::min(share, plane.offset / sinking);
+    }
+    return std::max(share, 0.0);
+}
+
+WayAlong way_along(std::span<const HalfSpace> spaces, const Vec3& goal, double least) noexcept {
+    const auto most_opposed = [&](const Vec3& way) {
+        Vec3 normal(0.0);
+        double most = 0.0;
+        for (const HalfSpace& plane : spaces) {
+            const double sinking = glm::dot(plane.normal, way);
+            if (sinking < most) most = sinking, normal = plane.normal;
+        }
+        return normal;
+    };
+    Vec3 way = goal, first(0.0);
+    for (int planes = 0; planes < 3; ++planes) {
+        const double share = share_to_first(spaces, way);
+        if (share * glm::length(way) > least) return {true, planes > 0, share * way, way};
+        const Vec3 normal = most_opposed(way);
+        if (normal == Vec3(0.0)) break;
+        if (planes == 0) {
+            first = normal;
+            way -= glm::dot(way, normal) * normal;
+        } else {
+            const Vec3 edge = glm::cross(first, normal);
+            const double length2 = glm::dot(edge, edge);
+            if (!(length2 > 0.0)) break;
+            way = (glm::dot(goal, edge) / length2) * edge;
+        }
+    }
+    return {};
+}
+
 }  // namespace burin::haptics

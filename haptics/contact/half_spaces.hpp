@@ -33,4 +33,18 @@ struct NearestInside {
 [[nodiscard]] NearestInside nearest_inside(std::span<const HalfSpace> spaces, const Vec3& goal,
                                            double tolerance) noexcept;
 
+// The share of a way from the origin up to the first plane that it would cross; at most 1, at least 0.
+[[nodiscard]] double share_to_first(std::span<const HalfSpace> spaces, const Vec3& way) noexcept;
+
+// A way that crosses no plane: the goal's own, or along the plane that it crosses most steeply, or along the edge of
+// that plane and of the one that this way crosses most steeply; the first of these that is longer than `least`. Where
+// nearest_inside() finds nothing among nearly parallel planes, it still gets on.
+struct WayAlong {
+    bool found = false;
+    bool along_planes = false;
+    Vec3 step{0.0};   // up to the first plane
+    Vec3 whole{0.0};  // as if there were no further plane
+};
+[[nodiscard]] WayAlong way_along(std::span<const HalfSpace> spaces, const Vec3& goal, double least) noexcept;
+
 }  // namespace burin::haptics

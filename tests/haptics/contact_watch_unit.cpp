@@ -112,8 +112,8 @@ TEST(ContactWatch, ABallSetWhereItDoesNotFitGoesOutWithTheHand) {
             WatchedHand hand(slot(width_m));
             // In the slot, from the middle of its depth up, and not quite in its middle.
             const Vec3 from(0.2 * width_m * std::sin(start), -0.005 - 0.0005 * start, 0.01 * std::cos(2.0 * start));
-            // Along the slot, or through a block. In the widest the ball fits, to within what edges may sink in: there a
-            // block holds it.
+            // Along the slot, or through a block. In the widest the ball fits, to within what edges may sink in: there
+            // a block holds it.
             const bool along = start % 2 == 0 || width_m > 0.0039;
             const Vec3 out = along ? Vec3(from.x, 0.03, from.z) : Vec3(0.06, from.y, from.z);
             const int steps = 100 + 30 * (start % 5);

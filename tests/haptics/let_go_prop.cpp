@@ -2,12 +2,12 @@
 // Touch lets go when the hand does: no hand in free air is held by a contact that is not there.
 //
 // Hands go at up to 2 m/s through meshes that are hard to touch, press, stop, and are set inside them; the mesh under
-// them is exchanged for a thicker and a thinner one, as by undo and fill; work budgets go from 10 to 333 us, for one part
-// and for twenty. Whenever the ball at the hand is clear of the mesh and outside it for 100 ticks, then by the end of
-// these the proxy is at the hand and the force zero, unless the contact is sound: the ball at the proxy touches the mesh
-// without being deep in it, and the mesh stands in its straight way to the hand. A tree of triangles that contact does
-// not use judges all of this.
-// BURIN_SOAK_OPERATIONS: so many ticks in all. BURIN_TOUCH_MODELS: a folder of meshes to be touched too.
+// them is exchanged for a thicker and a thinner one, as by undo and fill; work budgets go from 10 to 333 us, for one
+// part and for twenty. Whenever the ball at the hand is clear of the mesh and outside it for 100 ticks, then by the end
+// of these the proxy is at the hand and the force zero, unless the contact is sound: the ball at the proxy touches the
+// mesh without being deep in it, and the mesh stands in its straight way to the hand. A tree of triangles that contact
+// does not use judges all of this. BURIN_SOAK_OPERATIONS: so many ticks in all. BURIN_TOUCH_MODELS: a folder of meshes
+// to be touched too.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -88,7 +88,8 @@ TEST(MovingBodies, OfAMotionThatNobodyAnnouncesOnlyThePartThatItAddsFadesIn) {
     EXPECT_EQ(press(0.02, false).ramping, 0) << "below half a millimetre a publication nothing fades";
 }
 
-// As a physics engine publishes it: at random intervals, with the velocity that holds then, and turning back in between.
+// As a physics engine publishes it: at random intervals, with the velocity that holds then, and turning back in
+// between.
 TEST(MovingBodies, APlateThatTurnsBackBetweenItsPublicationsIsFeltAsHardAsItIs) {
     for (const double speed : {0.1, 0.3}) {
         const Pressed felt = press(speed, true, true);
