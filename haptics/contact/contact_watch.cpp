@@ -48,7 +48,8 @@ Seen look_around(const Vec3& center, double reach_m, const Vec3& step, const geo
         if (surface.two_sided(id)) height_m = std::abs(height_m);
         // Of triangles that share the nearest point the one seen most squarely tells the side.
         const bool nearer = distance_m < seen.distance_m - kWatchTie * reach_m;
-        if (nearer || (distance_m <= seen.distance_m + kWatchTie * reach_m && std::abs(height_m) > std::abs(seen.height_m)))
+        if (nearer ||
+            (distance_m <= seen.distance_m + kWatchTie * reach_m && std::abs(height_m) > std::abs(seen.height_m)))
             seen.distance_m = distance_m, seen.height_m = height_m;
         if (only_nearest) near.reach_m = std::min(near.reach_m, seen.distance_m * (1.0 + kWatchTie));
         return true;
