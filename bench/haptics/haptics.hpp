@@ -31,6 +31,7 @@ struct HapticsOptions {
     std::uint64_t accuracy_ticks = 20'000;
     std::uint64_t contact_ticks = 1'000'000;
     std::uint64_t edits = 100;
+    std::uint64_t parts_turns = 12'000;            // of each scene and number of parts, in simulated time
     std::vector<int> solid_resolutions{256, 512};  // cells along the side of a ball of 100 mm that is carved
     bool ask_for_realtime = true;                  // real-time priority and locked memory, where the system grants them
 };
@@ -94,6 +95,16 @@ struct LostContact {
     std::uint64_t ticks = 0, inside = 0, lost = 0, felt_outside = 0;
 };
 
+// Parts of one device that share a turn's work, each a ball of 2 mm on a walk of its own.
+struct PartsShare {
+    std::string scene;
+    std::size_t triangles = 0, parts = 0;
+    std::vector<double> turn_cost_us;  // as counted, of all parts
+    // Ticks of parts: in all; in contact; held over, since no work was left in their turn; with the ball caught far from
+    // the hand; in which the watch let go. And the most turns in a row for which a part was held over.
+    std::uint64_t ticks = 0, in_contact = 0, held_over = 0, left_behind = 0, let_go = 0, longest_wait = 0;
+};
+
 struct EditCosts {
     std::size_t triangles = 0, edited_triangles = 0;
     std::vector<double> prepare_ms;  // moving the vertices, making the snapshot, publishing
@@ -128,6 +139,7 @@ struct Haptics {
     double metres_and_1024ths_differ_um = 0.0;  // coordinates times 1024: the largest
     EditCosts edits;
     std::vector<ForceJumps> jumps;
+    std::vector<PartsShare> parts;
 };
 
 using Tell = std::function<void(const std::string&)>;
@@ -140,6 +152,7 @@ using Tell = std::function<void(const std::string&)>;
 [[nodiscard]] Result<void> measure_carving_ticks(Haptics& all, const Tell& notify);
 [[nodiscard]] Result<void> measure_peer_ticks(Haptics& all, const Tell& notify);
 [[nodiscard]] Result<void> measure_accuracy(Haptics& all, const Tell& notify);
+[[nodiscard]] Result<void> measure_parts(Haptics& all, const Tell& notify);
 [[nodiscard]] Result<void> measure_edits(Haptics& all, const Tell& notify);
 
 [[nodiscard]] std::string haptics_table(const Haptics& all);

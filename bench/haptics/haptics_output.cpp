@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Writes the figures of touch as table, CSV, JSON and figure.
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -48,12 +49,49 @@ Json jump_of(const ForceJumps& j) {
             {"turn_of_surface_percent", j.turn_of_surface_percent}};
 }
 
+Json parts_of(const PartsShare& p) {
+    Json row = {{"scene", p.scene},
+                {"triangles", p.triangles},
+                {"parts", p.parts},
+                {"ticks", p.ticks},
+                {"in_contact", p.in_contact},
+                {"held_over", p.held_over},
+                {"left_behind", p.left_behind},
+                {"let_go", p.let_go},
+                {"longest_wait_turns", p.longest_wait}};
+    row.update(quantiles("turn_cost", "us", p.turn_cost_us));
+    return row;
+}
+
+std::string parts_table(const std::vector<PartsShare>& parts) {
+    if (parts.empty()) return "";
+    std::string text = formatted(
+        "parts of one device, balls of 2 mm, work of a turn as counted (us: mean, p99.9, most), and of the parts' "
+        "ticks\n"
+        "%-16s %9s %5s %8s %8s %8s %11s %9s %12s %12s %7s\n",
+        "scene", "triangles", "parts", "mean", "p99.9", "most", "in contact", "held over", "longest wait",
+        "left behind", "let go");
+    for (const PartsShare& p : parts) {
+        double sum = 0.0;
+        for (const double us : p.turn_cost_us) sum += us;
+        const double ticks = static_cast<double>(std::max<std::uint64_t>(p.ticks, 1));
+        text += formatted(
+            "%-16s %9zu %5zu %8.1f %8.1f %8.1f %10.1f%% %8.2f%% %12llu %11.2f%% %7llu\n", p.scene.c_str(), p.triangles,
+            p.parts, sum / static_cast<double>(std::max<std::size_t>(p.turn_cost_us.size(), 1)),
+            quantile(p.turn_cost_us, 0.999), most(p.turn_cost_us), 100.0 * static_cast<double>(p.in_contact) / ticks,
+            100.0 * static_cast<double>(p.held_over) / ticks, static_cast<unsigned long long>(p.longest_wait),
+            100.0 * static_cast<double>(p.left_behind) / ticks, static_cast<unsigned long long>(p.let_go));
+    }
+    return text + "\n";
+}
+
 }  // namespace
 
 std::string haptics_table(const Haptics& all) {
     std::string text = all.machine + "; real time: " + all.realtime + "\n\n" + ticks_table(all.ticks);
     for (const std::string& note : all.notes) text += note + "\n";
     text += "\n" + peers_table(all.peers);
+    text += parts_table(all.parts);
     const ProxyErrors& e = all.errors;
     text += formatted("proxy on %zu triangles at 100 mm/s (mesh within %.4f mm of the surface), mm: median, p99, max\n",
                       e.triangles, e.chord_mm);
@@ -91,6 +129,8 @@ Json haptics_json(const Haptics& all) {
     report["peers"] = Json::array();
     for (const PeerTicks& t : all.peers) report["peers"].push_back(peer_row(t));
     report["peer_ratios"] = peer_ratios(all.peers);
+    report["parts"] = Json::array();
+    for (const PartsShare& p : all.parts) report["parts"].push_back(parts_of(p));
     report["proxy_error"] = errors_of(all.errors);
     report["contact"] = Json::array();
     for (const LostContact& c : all.contact) report["contact"].push_back(contact_of(c));
