@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/worker_pool.hpp"
+#include "bench/stability/whole_ticks.hpp"
 
 namespace burin::bench {
 namespace {
@@ -263,6 +264,7 @@ Stability run_stability(bool quick) {
     Stability s;
     s.rows = std::move(plan.rows);
     add_contacts(s.rows, quick);
+    s.whole_ticks = run_whole_ticks(quick);
     s.figure7 = run_figure7(quick);
     return s;
 }

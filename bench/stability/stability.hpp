@@ -27,6 +27,7 @@ struct NamedGrip {
 // contact).
 struct Stability {
     std::vector<Json> rows;
+    std::vector<Json> whole_ticks;  // bench/stability/whole_ticks.hpp
     Figure7 figure7;
 };
 

@@ -119,6 +119,30 @@ std::string contact_table(const std::vector<Json>& rows) {
     return text;
 }
 
+std::string whole_ticks_table(const std::vector<Json>& rows) {
+    std::string text = line_of(
+        "\nA tool that a hand presses on a plate, at rest, over bursts of lost ticks (one of thirty)\n"
+        "%10s %11s %9s %14s\n",
+        "pressed N", "lost ticks", "sunk mm", "force after N");
+    for (const Json& row : rows) {
+        if (!is_of(row, "lost ticks")) continue;
+        text += line_of("%10.1f %11s %9.3f %14.3f\n", row["pressed_N"].get<double>(),
+                        text_of(row, "lost_ticks", "").c_str(), row["sunk_mm"].get<double>(),
+                        row["force_after_N"].get<double>());
+    }
+    text += line_of(
+        "\nA plate that goes to and fro by 3 mm, published at random 60 to 120 times a second\n"
+        "%10s %9s %9s %7s %22s\n",
+        "speed m/s", "felt N", "true N", "share", "steepest rise N a tick");
+    for (const Json& row : rows) {
+        if (!is_of(row, "moving plate")) continue;
+        const double felt_N = row["felt_N"].get<double>(), true_N = row["true_N"].get<double>();
+        text += line_of("%10s %9.3f %9.3f %7.2f %22.3f\n", text_of(row, "speed_m_per_s", "").c_str(), felt_N, true_N,
+                        felt_N / true_N, row["steepest_N"].get<double>());
+    }
+    return text;
+}
+
 plot::Plot plot_of(const std::vector<Json>& rows, const char* section, const char* key, const char* title,
                    const char* x_label) {
     plot::Plot plot{title, x_label, "stable up to, N/m", {}};
@@ -183,7 +207,7 @@ std::string stability_table(const Stability& stability) {
            theory_table(rows) + sweep_table(rows, "rate", "rate_Hz", "rate, Hz") +
            sweep_table(rows, "delay", "delay_ms", "delay, ms") +
            sweep_table(rows, "filter", "force_alpha", "alpha on the force") + list_table(rows) + contact_table(rows) +
-           "\n" + figure7_table(stability.figure7);
+           whole_ticks_table(stability.whole_ticks) + "\n" + figure7_table(stability.figure7);
 }
 
 std::string stability_csv(const Stability& stability) {
@@ -212,7 +236,8 @@ std::string stability_svg(const Stability& stability) {
 }
 
 Json stability_json(const Stability& stability) {
-    return {{"rows", stability.rows}, {"figure7", figure7_json(stability.figure7)}};
+    return {
+        {"rows", stability.rows}, {"whole_ticks", stability.whole_ticks}, {"figure7", figure7_json(stability.figure7)}};
 }
 
 std::string figure7_table(const Figure7& figure) {
