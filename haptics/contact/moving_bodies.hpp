@@ -15,11 +15,12 @@
 //      and slides against the body, and a body at rest with a moving hand is the same as a hand at rest with a moving
 //      body;
 //   5. damps by the velocity relative to the surface touched, tells the energy account what the body does to the hand
-//      (stability/passivity.hpp), and has the gate fade a contact in only where an unexplained motion has pushed it.
+//      (stability/passivity.hpp), and leaves out of the spring what an unexplained motion has added to it.
 //
 // The rule for ramps, in lengths at the device: in one tick an unexplained motion may lengthen the spring between HIP
-// and proxy by kJump (0.5 mm; at 600 N/m a third of a newton); more, and the contact fades in. One that takes load off
-// needs no ramp. An edit or a deformation of a mesh is unexplained as a whole; so a surface that is published at
+// and proxy by kJump (0.5 mm; at 600 N/m a third of a newton); what it adds beyond is left out of the force at first and
+// comes back over the gate's ramp for contacts (haptics/probe_contact.cpp). One that takes load off makes up for what
+// was left out, and needs no ramp. An edit or a deformation of a mesh is unexplained as a whole; so a surface that is published at
 // 100 Hz may deform at up to 50 mm/s, and faster the more often it is published. Free fall is unexplained by
 // g T^2 / 2 = 0.49 mm at 100 Hz, less if the velocity published is the mean until the next publication. A body that is
 // found farther than kElsewhere from where it was expected was set there: it neither carries nor sweeps.
