@@ -206,28 +206,6 @@ TEST(LiveSession, OffersToolSizesThatSuitItsWorkpiece) {
     EXPECT_DOUBLE_EQ(descriptor_of(Quantity::radius).value(session->state()), 0.01) << "half of the longest side";
 }
 
-TEST(LiveSession, ShowsItsWorkpiecesSizeInMillimetres) {
-    SculptOptions options;
-    options.workpiece = {"block:0.05,0.04,0.0305", 32, false};
-    options.engine = sculpt::EngineChoice::cpu;
-    SimulatedClock clock;
-    const auto session = LiveSession::create(options, session_wall(options.live).value(), clock).value();
-    session->step({16'000'000, 16'000'000, {}}, {.size = {1280, 900}}, {}, [](const sculpt::SculptOrder&) {});
-    const auto header = [](const renderer::PanelMesh& mesh) {
-        std::vector<renderer::PanelVertex> letters;
-        std::ranges::copy_if(mesh.vertices, std::back_inserter(letters),
-                             [](const renderer::PanelVertex& v) { return v.y < 40.0f; });
-        return letters;
-    };
-    Panel alike = Panel::create({.size = session->panel_on(0).value().size}).value();
-    PanelModel model;
-    model.workpiece = {"block:0.05,0.04,0.0305", "50 x 40 x 30.5 mm, 32 cells"};
-    const std::vector<renderer::PanelVertex> expected = header(alike.show(model, 0).mesh);
-    EXPECT_TRUE(header(session->panel_on(0).value().mesh) == expected);
-    model.workpiece.size = "50 x 40 x 30 mm, 32 cells";
-    EXPECT_FALSE(header(alike.show(model, 16'000'000).mesh) == expected);
-}
-
 TEST(LivePanel, KeepsAWandsPressesOnAStandingPanelFromTheScene) {
     EXPECT_NEAR(carried_m(-0.3, 1.25), 0.1, 1e-6) << "beside the panel the wand carries the scene";
     EXPECT_EQ(carried_m(1.05, 1.25), 0.0) << "on the panel it does not";

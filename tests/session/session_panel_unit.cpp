@@ -266,19 +266,6 @@ TEST(PanelCard, KeepsWhatIsBesideItsTitleOffTheTitle) {
             << i;
 }
 
-TEST(PanelHeader, KeepsALongNameOffTheFramesPerSecond) {
-    const auto at_the_right = [](const std::string& name) {
-        PanelModel model = workable_model();
-        model.workpiece.name = name;
-        PanelDesk desk(model);
-        const renderer::PanelMesh& mesh = desk.panel.show(model, desk.now_ns).mesh;
-        return std::ranges::count_if(mesh.vertices,
-                                     [](const renderer::PanelVertex& v) { return v.x > 284.0f && v.y < 30.0f; });
-    };
-    EXPECT_GT(at_the_right("ball"), 0);
-    EXPECT_EQ(at_the_right("a-scan-of-a-bracket-with-two-holes-of-eight-millimetres-mended.ply"), at_the_right("ball"));
-}
-
 TEST(PanelText, IsTypedIntoThePathAndExportedByEnter) {
     PanelDesk desk(workable_model());
     (void)desk.click("path");
