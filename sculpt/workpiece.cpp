@@ -95,7 +95,7 @@ Result<void> make_ready(geometry::TriangleMesh& mesh, const std::string& file, b
 Result<LoadedWorkpiece> from_file(const WorkpieceOptions& options, WorkerPool& pool) {
     Result<ClosedMesh> closed = load_closed_mesh(options.source, options.close_holes, options.units);
     if (!closed) return std::unexpected(closed.error());
-    LoadedWorkpiece workpiece{{}, std::move(closed->report), std::move(closed->size), closed->unit};
+    LoadedWorkpiece workpiece{{}, std::move(closed->report), std::move(closed->size), closed->unit, closed->size_m};
     Result<compute::ScanConversion> converted = compute::scan_convert(closed->mesh, options.resolution, pool);
     if (!converted) {
         Error error = converted.error();
@@ -126,7 +126,8 @@ Result<LoadedWorkpiece> from_shape(const WorkpieceOptions& options) {
     const Vec3 size_m =
         shape == "block" ? Vec3((*numbers)[0], (*numbers)[1], (*numbers)[2]) : Vec3(2.0 * (*numbers)[0]);
     const std::string size = options.source + ": " + in_millimetres(size_m);
-    return LoadedWorkpiece{std::move(*solid), {{"source", options.source}, {"size", size}}, size};
+    return LoadedWorkpiece{
+        std::move(*solid), {{"source", options.source}, {"size", size}}, size, LengthUnit::m, size_m};
 }
 
 ChosenEngine native(compute::Solid solid, WorkerPool& pool, std::string reason) {
@@ -171,7 +172,11 @@ Result<ClosedMesh> load_closed_mesh(const std::string& file, bool close_holes, s
     Result<geometry::ImportedMesh> imported = geometry::import_mesh(file, units);
     if (!imported) return std::unexpected(imported.error());
     const geometry::ImportReport& import = imported->report;
-    ClosedMesh closed{std::move(imported->mesh), {}, describe_size(file, import.size_m, import.unit), import.unit.unit};
+    ClosedMesh closed{std::move(imported->mesh),
+                      {},
+                      describe_size(file, import.size_m, import.unit),
+                      import.unit.unit,
+                      import.size_m};
     closed.report["source"] = file;
     closed.report["size"] = closed.size;
     closed.report["import"] = describe(import);

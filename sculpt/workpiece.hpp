@@ -31,6 +31,7 @@ struct LoadedWorkpiece {
     Json report;                      // the file's health, repairs, and the conversion
     std::string size = {};            // in a line, and for a file in which unit it was read
     LengthUnit unit = LengthUnit::m;  // of the file's numbers
+    Vec3 size_m{0.0};                 // from side to side
 };
 
 struct ClosedMesh {
@@ -38,6 +39,7 @@ struct ClosedMesh {
     Json report;
     std::string size = {};  // as of a LoadedWorkpiece
     LengthUnit unit = LengthUnit::m;
+    Vec3 size_m{0.0};
 };
 
 // Reads a mesh file, welds it (equal positions become one vertex) and turns it to face outwards; the report says how

@@ -27,7 +27,7 @@ struct PanelContext {
     const Room& room;
     const haptics::ToolState& tool;
     const wall::TrackerReport& tracker;  // meaningless without a tracker
-    const std::string& workpiece;        // its name
+    const PanelWorkpiece& workpiece;
     ToolSizeRange tool_sizes = {};
     std::size_t undoable = 0, redoable = 0;
     bool exporting = false;

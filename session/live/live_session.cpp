@@ -64,8 +64,9 @@ Result<void> LiveSession::load(const SculptOptions& options, const SessionWall& 
     Result<sculpt::ChosenEngine> chosen = sculpt::choose_engine(options.engine, std::move(workpiece->solid), pool_);
     if (!chosen) return std::unexpected(chosen.error());
     carving_ = std::make_unique<sculpt::Sculpture>(std::move(chosen->engine), pool_);
-    workpiece_name_ = std::filesystem::path(options.workpiece.source).filename().string() + ", " +
-                      std::to_string(options.workpiece.resolution) + " cells";
+    workpiece_ = {
+        .name = std::filesystem::path(options.workpiece.source).filename().string(),
+        .size = in_millimetres(workpiece->size_m) + ", " + std::to_string(options.workpiece.resolution) + " cells"};
     return {};
 }
 
@@ -133,7 +134,7 @@ SceneInput LiveSession::feed_panel(const FrameInput& input) {
                              .room = room_,
                              .tool = tool_,
                              .tracker = tracker_.report(),
-                             .workpiece = workpiece_name_,
+                             .workpiece = workpiece_,
                              .tool_sizes = tool_sizes_,
                              .undoable = undoable_,
                              .redoable = redoable_,

@@ -130,7 +130,7 @@ private:
     std::unique_ptr<sculpt::Sculpture> carving_;
     HapticSide haptics_;
     std::optional<sculpt::SculptService> desk_;
-    std::string workpiece_name_;
+    PanelWorkpiece workpiece_;
     LengthUnit unit_ = LengthUnit::m;   // of the workpiece's file
     sculpt::ToolOptions tool_options_;  // as the session began
     ToolSizeRange tool_sizes_;

@@ -74,9 +74,16 @@ struct ToolSizeRange {
 // Returns the range for a workpiece: from 1/400 to 1/4 of its longest side, within the bounds of the command.
 [[nodiscard]] ToolSizeRange tool_sizes_for(double longest_side_m);
 
+struct PanelWorkpiece {
+    std::string name, size;  // "cube.stl", "50 x 50 x 50 mm, 256 cells"
+
+    bool operator==(const PanelWorkpiece&) const = default;
+};
+
 struct PanelModel {
     bool visible = true, show_help = false, show_figures = false;  // Tab, F1, F2
-    std::string title = "Burin", workpiece;                        // "soccer ball, 256 cells"
+    std::string title = "Burin";
+    PanelWorkpiece workpiece;
 
     sculpt::ToolSpec tool;
     ToolSizeRange tool_sizes;

@@ -77,12 +77,14 @@ void show_header(Kit& kit, const PanelModel& model) {
     const float whole = ImGui::GetContentRegionAvail().x, height = kit.px(36.0f);
     ImGui::Dummy({whole, height});
     const float name = kit.write({at.x + kit.px(2.0f), at.y + kit.px(4.0f)}, kText, model.title, kit.type.title);
-    const float top = at.y + kit.px(11.0f);
-    if (!model.workpiece.empty()) kit.write({at.x + name + kit.px(12.0f), top}, kDim, model.workpiece, kit.type.small);
-    if (model.figures.frames_per_s > 0.0) {
-        kit.write_right(at.x + whole - kit.px(2.0f), top, kDim, written("%.0f fps", model.figures.frames_per_s),
-                        kit.type.small);
-    }
+    const float left = at.x + name + kit.px(12.0f), right = at.x + whole - kit.px(2.0f);
+    const float upper = at.y + kit.px(2.0f), lower = at.y + kit.px(18.0f);
+    const std::string fps =
+        model.figures.frames_per_s > 0.0 ? written("%.0f fps", model.figures.frames_per_s) : std::string();
+    kit.write_right(right, upper, kDim, fps, kit.type.small);
+    const float room = right - left, beside_fps = room - kit.size_of(fps, kit.type.small).x - kit.px(8.0f);
+    kit.write({left, upper}, kText, kit.shortened(model.workpiece.name, beside_fps, kit.type.small), kit.type.small);
+    kit.write({left, lower}, kDim, kit.shortened(model.workpiece.size, room, kit.type.small), kit.type.small);
     const PanelTouch& touch = model.touch;
     if (!touch.force_on) {
         kit.banner(Condition::warning, "Force is switched off",

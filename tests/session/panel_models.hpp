@@ -11,7 +11,7 @@ namespace burin::session {
 
 inline PanelModel idle_model() {
     PanelModel model;
-    model.workpiece = "soccer ball, 256 cells";
+    model.workpiece = {"soccer-ball.obj", "220.4 x 219.8 x 220.1 mm, 256 cells"};
     model.tool = {sculpt::ToolKind::ball, {0.004, 0.0, 0.0}, {}};
     model.sources = {{"Haptic device", "simulated hand, 1000 Hz", Condition::good},
                      {"Head tracker", "mouse and keys", Condition::idle}};

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// What stands beside the panel's title: the workpiece's name and size, and the frames a second.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "session/live/live_session.hpp"
+#include "tests/session/panel_models.hpp"
+
+namespace burin::session {
+namespace {
+
+// Returns the letters and areas of the header that begin to the right of a place.
+std::vector<renderer::PanelVertex> header_of(const renderer::PanelMesh& mesh, float left_px = 0.0f) {
+    std::vector<renderer::PanelVertex> header;
+    std::ranges::copy_if(mesh.vertices, std::back_inserter(header),
+                         [left_px](const renderer::PanelVertex& v) { return v.x > left_px && v.y < 40.0f; });
+    return header;
+}
+
+}  // namespace
+
+TEST(PanelHeader, KeepsALongNameOffTheFramesPerSecond) {
+    const auto at_the_right = [](const std::string& name) {
+        PanelModel model = idle_model();
+        model.workpiece.name = name;
+        Panel panel = Panel::create({.size = {340, 1600}}).value();
+        return header_of(panel.show(model, 0).mesh, 284.0f).size();
+    };
+    PanelModel no_frames = idle_model();
+    no_frames.figures.frames_per_s = 0.0;
+    Panel panel = Panel::create({.size = {340, 1600}}).value();
+    EXPECT_GT(at_the_right("ball"), header_of(panel.show(no_frames, 0).mesh, 284.0f).size());
+    EXPECT_EQ(at_the_right("a-scan-of-a-bracket-with-two-holes-of-eight-millimetres-mended.ply"), at_the_right("ball"));
+}
+
+TEST(PanelHeader, ShowsTheWorkpiecesSizeInMillimetres) {
+    SculptOptions options;
+    options.workpiece = {"block:0.05,0.04,0.0305", 32, false};
+    options.engine = sculpt::EngineChoice::cpu;
+    SimulatedClock clock;
+    const auto session = LiveSession::create(options, session_wall(options.live).value(), clock).value();
+    session->step({16'000'000, 16'000'000, {}}, {.size = {1280, 900}}, {}, [](const sculpt::SculptOrder&) {});
+    Panel alike = Panel::create({.size = session->panel_on(0).value().size}).value();
+    PanelModel model;
+    model.workpiece = {"block:0.05,0.04,0.0305", "50 x 40 x 30.5 mm, 32 cells"};
+    const std::vector<renderer::PanelVertex> expected = header_of(alike.show(model, 0).mesh);
+    EXPECT_TRUE(header_of(session->panel_on(0).value().mesh) == expected);
+    model.workpiece.size = "50 x 40 x 30 mm, 32 cells";
+    EXPECT_FALSE(header_of(alike.show(model, 16'000'000).mesh) == expected);
+}
+
+}  // namespace burin::session
