@@ -100,8 +100,8 @@ struct PartsShare {
     std::string scene;
     std::size_t triangles = 0, parts = 0;
     std::vector<double> turn_cost_us;  // as counted, of all parts
-    // Ticks of parts: in all; in contact; held over, since no work was left in their turn; with the ball caught far from
-    // the hand; in which the watch let go. And the most turns in a row for which a part was held over.
+    // Ticks of parts: in all; in contact; held over, since no work was left in their turn; with the ball caught far
+    // from the hand; in which the watch let go. And the most turns in a row for which a part was held over.
     std::uint64_t ticks = 0, in_contact = 0, held_over = 0, left_behind = 0, let_go = 0, longest_wait = 0;
 };
 

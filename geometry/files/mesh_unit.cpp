@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
 
 #include "base/text.hpp"
 #include "geometry/files/text_scanner.hpp"
@@ -57,15 +59,38 @@ std::optional<LengthUnit> unit_named(std::string_view word) {
     return found == kUnitWords.end() ? std::nullopt : std::optional(found->unit);
 }
 
+// The number among the characters between two words; 1 where there is none, 0 where it is more than a number.
+double factor_in(std::string_view between) {
+    constexpr std::string_view kDigits = "0123456789";
+    const std::size_t first = between.find_first_of(kDigits);
+    if (first == std::string_view::npos) return 1.0;
+    const std::size_t from = first > 0 && between[first - 1] == '.' ? first - 1 : first;
+    const std::size_t to = between.find_last_of(kDigits) + 1;
+    double factor = 0.0;
+    const auto read = std::from_chars(between.data() + from, between.data() + to, factor);
+    return read.ec == std::errc{} && read.ptr == between.data() + to ? factor : 0.0;
+}
+
+// "1 unit = 0.001 m" states millimetres. A length that no unit has, such as 25 mm, states none.
+std::optional<LengthUnit> times(double factor, std::optional<LengthUnit> unit) {
+    if (!unit || factor == 1.0) return unit;
+    for (const UnitWord& known : kUnitWords) {
+        const double ratio = factor * metres_in(*unit) / metres_in(known.unit);
+        if (std::abs(ratio - 1.0) < 1e-9) return known.unit;
+    }
+    return std::nullopt;
+}
+
 // Returns the unit that follows the word "units". "in" is the inch where nothing follows, and else only a word before
 // the unit: "units in mm".
 std::optional<LengthUnit> unit_after(std::string_view rest) {
+    const char* const begin = rest.data();
     std::string_view word = take_word(rest);
     if (equals_ignoring_case(word, "are") || equals_ignoring_case(word, "is")) word = take_word(rest);
     std::string_view behind = rest;
     const std::string_view next = take_word(behind);
-    if (equals_ignoring_case(word, "in") && !next.empty()) return unit_named(next);
-    return unit_named(word);
+    if (equals_ignoring_case(word, "in") && !next.empty()) word = next;
+    return times(factor_in({begin, word.data()}), unit_named(word));
 }
 
 const char* plural_of(LengthUnit unit) { return descriptor_of(unit).plural; }
@@ -116,7 +141,8 @@ std::string describe_size(const std::string& file, const Vec3& size_m, const Fil
     }
     const LengthUnit other = unit.unit == LengthUnit::m ? LengthUnit::mm : LengthUnit::m;
     return size + formatted(
-                      " (no unit is given in the file; read as %s, since its longest side is %s %g; --units %s "
+                      " (no unit that Burin knows is given in the file; read as %s, since its longest side is %s %g; "
+                      "--units %s "
                       "reads it as %s)",
                       in.c_str(), unit.unit == LengthUnit::m ? "at most" : "above", kLongestInMetres, name_of(other),
                       plural_of(other));

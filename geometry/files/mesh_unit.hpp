@@ -33,7 +33,7 @@ struct FileUnit {
                                    double longest_side);
 
 // Returns the unit that a comment or a header states, in any case: "UNITS=mm", "units mm", "File units = inches",
-// "Unit: metres". Nothing where it states none.
+// "Unit: metres", "1 unit = 0.001 m". Nothing where it states none, or a length that is none of ours.
 [[nodiscard]] std::optional<LengthUnit> unit_in_comment(std::string_view comment);
 // Returns the first unit that the comments near the beginning of a text state; a comment runs from '#' to its line's
 // end.
@@ -41,8 +41,8 @@ struct FileUnit {
 // Returns how Burin's own exports state a unit: "units mm".
 [[nodiscard]] std::string comment_of(LengthUnit unit);
 
-// Says in one line how large a file's mesh is and how that was found out: "part.stl: 50 x 50 x 50 mm (no unit is given
-// in the file; ...)".
+// Says in one line how large a file's mesh is and how that was found out: "part.stl: 50 x 50 x 50 mm (no unit that
+// Burin knows is given in the file; ...)".
 [[nodiscard]] std::string describe_size(const std::string& file, const Vec3& size_m, const FileUnit& unit);
 
 }  // namespace burin::geometry

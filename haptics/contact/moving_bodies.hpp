@@ -18,20 +18,20 @@
 //      (stability/passivity.hpp), and leaves out of the spring what an unexplained motion has added to it.
 //
 // The rule for ramps, in lengths at the device: in one tick an unexplained motion may lengthen the spring between HIP
-// and proxy by kJump (0.5 mm; at 600 N/m a third of a newton); what it adds beyond is left out of the force at first and
-// comes back over the gate's ramp for contacts (haptics/probe_contact.cpp). One that takes load off makes up for what
-// was left out, and needs no ramp. An edit or a deformation of a mesh is unexplained as a whole; so a surface that is published at
-// 100 Hz may deform at up to 50 mm/s, and faster the more often it is published. Free fall is unexplained by
-// g T^2 / 2 = 0.49 mm at 100 Hz, less if the velocity published is the mean until the next publication. A body that is
-// found farther than kElsewhere from where it was expected was set there: it neither carries nor sweeps.
+// and proxy by kJump (0.5 mm; at 600 N/m a third of a newton); what it adds beyond is left out of the force at first
+// and comes back over the gate's ramp for contacts (haptics/probe_contact.cpp). One that takes load off makes up for
+// what was left out, and needs no ramp. An edit or a deformation of a mesh is unexplained as a whole; so a surface that
+// is published at 100 Hz may deform at up to 50 mm/s, and faster the more often it is published. Free fall is
+// unexplained by g T^2 / 2 = 0.49 mm at 100 Hz, less if the velocity published is the mean until the next publication.
+// A body that is found farther than kElsewhere from where it was expected was set there: it neither carries nor sweeps.
 //
 // The hardest case is a proxy between two bodies, or a body and a wall, that close on it until it has no room. Each
 // pushes it into the other; after kRounds it stays where the last one has put it, that is at most the others' way of
 // one tick deep in them, and the planes push it out sideways where there is a way out. Where there is none, they come
 // to pass through it: it is inside one of them, is then put outside by the shortest way (god_object.hpp) and its force
-// fades in. Nothing bounds the force of such a squeeze but the spring's length and the gate.
-// The next hardest is a fast body that has stopped or bounced since it was published: until the next publication it is
-// felt up to speed times age too near, and then it is set back at once, which takes load off.
+// fades in. Nothing bounds the force of such a squeeze but the spring's length and the gate. The next hardest is a fast
+// body that has stopped or bounced since it was published: until the next publication it is felt up to speed times age
+// too near, and then it is set back at once, which takes load off.
 //
 // Sources: Ruspini, Kolarov and Khatib 1997 sweep a proxy among things that stand; CHAI3D (cAlgorithmFingerProxy with
 // its dynamic proxy) takes the proxy along with the frame of the object, from the last pose to the new one, and sweeps

@@ -52,9 +52,10 @@ TEST(Units, APartInMillimetresIsCarvedAndExportedInMillimetresWithoutAnOption) {
                                   " sculpt --workpiece part.stl --stroke s.csv --resolution 64 --export out.stl"
                                   " --export out.ply --export out.obj --report r.json");
     ASSERT_EQ(carved.status, 0) << carved.output;
-    EXPECT_TRUE(says(carved,
-                     "part.stl: 50 x 50 x 50 mm (no unit is given in the file; read as millimetres, since its "
-                     "longest side is above 5; --units m reads it as metres)"))
+    EXPECT_TRUE(
+        says(carved,
+             "part.stl: 50 x 50 x 50 mm (no unit that Burin knows is given in the file; read as millimetres, since its "
+             "longest side is above 5; --units m reads it as metres)"))
         << carved.output;
     const Json report = Json::parse(place.read("r.json"));
     EXPECT_EQ(report["tool"]["shape"], "ball:0.0025");  // 5 % of 50 mm
@@ -131,7 +132,8 @@ TEST(Units, AToolsFileIsReadByTheSameRule) {
                                    " sculpt --workpiece part.stl --tool mesh:tool.stl --stroke s.csv"
                                    " --resolution 64 --report r.json");
     ASSERT_EQ(outcome.status, 0) << outcome.output;
-    EXPECT_TRUE(says(outcome, "tool.stl: 10 x 10 x 10 mm (no unit is given in the file")) << outcome.output;
+    EXPECT_TRUE(says(outcome, "tool.stl: 10 x 10 x 10 mm (no unit that Burin knows is given in the file"))
+        << outcome.output;
     EXPECT_NEAR(Json::parse(place.read("r.json"))["carving"]["volume_removed_m3"].get<double>(), 5e-7, 1e-9);
 }
 

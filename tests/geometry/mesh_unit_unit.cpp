@@ -33,7 +33,8 @@ TEST(MeshUnit, APartInMillimetresIsNotReadAsMetres) {
     EXPECT_EQ(part.unit.source, UnitSource::guessed);
     EXPECT_EQ(part.size_m, Vec3(0.05));
     EXPECT_EQ(describe_size("cube.off", part.size_m, part.unit),
-              "cube.off: 50 x 50 x 50 mm (no unit is given in the file; read as millimetres, since its longest side is "
+              "cube.off: 50 x 50 x 50 mm (no unit that Burin knows is given in the file; read as millimetres, since "
+              "its longest side is "
               "above 5; --units m reads it as metres)");
 }
 
@@ -45,8 +46,21 @@ TEST(MeshUnit, AModelOfUpToFiveStaysInMetresAndSaysSo) {
     }
     const ImportReport model = read_cube("2");
     EXPECT_EQ(describe_size("cube.off", model.size_m, model.unit),
-              "cube.off: 2000 x 2000 x 2000 mm (no unit is given in the file; read as metres, since its longest side "
+              "cube.off: 2000 x 2000 x 2000 mm (no unit that Burin knows is given in the file; read as metres, since "
+              "its longest side "
               "is at most 5; --units mm reads it as millimetres)");
+}
+
+TEST(MeshUnit, AStatedLengthOfAUnitCountsAndOneThatIsNoUnitIsNotTakenForOne) {
+    EXPECT_EQ(read_cube("50", "scale: 1 unit = 0.001 m").size_m, Vec3(0.05));
+    EXPECT_EQ(read_cube("50", "unit = 10 mm").size_m, Vec3(0.5));
+    EXPECT_EQ(read_cube("2", "unit=25.4 mm").unit.unit, LengthUnit::inch);
+    EXPECT_EQ(read_cube("2", "1 unit = .01 m").unit.unit, LengthUnit::cm);
+    for (const char* odd : {"1 unit = 0.1 mm", "1 unit = 2 cm", "units 1/16 in", "units: microns", "units: km"}) {
+        const ImportReport report = read_cube("50", odd);
+        EXPECT_EQ(report.unit.source, UnitSource::guessed) << odd;
+        EXPECT_NE(describe_size("a", report.size_m, report.unit).find("no unit that Burin knows"), std::string::npos);
+    }
 }
 
 TEST(MeshUnit, WhatTheFileStatesBeatsAGuessAndWhatTheUserGivesBeatsBoth) {

@@ -102,7 +102,8 @@ TEST_F(Recording, OfAPartInMillimetresHoldsItsUnitAndItsTool) {
     const std::string options = "--workpiece part.obj --resolution 48 --width 960 --height 540 ";
     const auto run = place.run(sculpt_offscreen(options + "--outputs live --input script.txt --record part.log"));
     ASSERT_EQ(run.status, 0) << run.output;
-    EXPECT_NE(run.output.find("part.obj: 50 x 50 x 50 mm (no unit is given"), std::string::npos) << run.output;
+    EXPECT_NE(run.output.find("part.obj: 50 x 50 x 50 mm (no unit that Burin knows is given"), std::string::npos)
+        << run.output;
     const std::string log = place.read("part.log");
     const std::string first = log.substr(0, log.find('\n'));
     EXPECT_NE(first.find(" --units mm"), std::string::npos) << first;
