@@ -71,7 +71,10 @@ private:
 };
 
 std::optional<FrameInput> LiveFrames::next_input() {
-    if (end_.came()) return std::nullopt;
+    if (end_.came()) {
+        if (input_.next_event_ns()) static_cast<void>(look_for_signal());  // a script was not done
+        return std::nullopt;
+    }
     SessionTimes& times = session_.times();
     times.begin();
     turn_ = now();

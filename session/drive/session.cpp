@@ -16,7 +16,11 @@ namespace {
 Result<InputLog> open_log(const std::string& path) {
     Result<InputLog> log = read_input_log(path);
     if (!log) return log;
-    if (log->torn_line) std::fprintf(stderr, "burin: %s\n", log->torn_line->c_str());
+    if (log->torn_line) {
+        // A script's last command would be left undone; a session that broke off is repeated as far as it was recorded.
+        if (!log->threads) return fail(path, "the last line has no end", "end it with a line feed, or take it away");
+        std::fprintf(stderr, "burin: %s\n", log->torn_line->c_str());
+    }
     if (const auto sound = check_commands(*log, path); !sound) return std::unexpected(sound.error());
     return log;
 }
