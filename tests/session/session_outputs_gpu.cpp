@@ -115,12 +115,21 @@ TEST_F(OutputsOfASession, ARecordingThatBreaksOffEndsInFailure) {
 TEST_F(OutputsOfASession, ASignalEndsAScriptAndTellsSo) {
     // A day of a session, of which the first picture is taken; then the signal comes.
     place.write("script.txt", "burin-input 1 test\n0.1 command screenshot a.png\n90000 command quit\n");
-    const auto outcome = place.run("{ " + std::string(BURIN_COMMAND) +
-                                   " sculpt --offscreen --workpiece ball:0.1 --resolution 32 --tool ball:0.012 "
-                                   "--input script.txt & burin=$!; "
-                                   "while [ ! -e script-outputs/a.png ] && kill -0 $burin; do sleep 0.1; done; "
-                                   "kill -TERM $burin; wait $burin; }");
-    expect_said(outcome, 1, {"script.txt:2: ", "ended by a signal", "is missing"});
+    for (const std::string time : {"", "--record new.log "}) {  // simulated and real
+        const auto outcome = place.run("{ " + std::string(BURIN_COMMAND) +
+                                       " sculpt --offscreen --workpiece ball:0.1 --resolution 32 --tool ball:0.012 " +
+                                       time + "--input script.txt --outputs out" + std::to_string(time.size()) +
+                                       " & burin=$!; while [ ! -e out" + std::to_string(time.size()) +
+                                       "/a.png ] && kill -0 $burin; do sleep 0.1; done; "
+                                       "kill -TERM $burin; wait $burin; }");
+        expect_said(outcome, 1, {"script.txt:2: ", "ended by a signal", "is missing"});
+    }
+}
+
+TEST_F(OutputsOfASession, AScriptWhoseLastLineHasNoEndIsRefused) {
+    const auto outcome = play("", "0.1 command screenshot a.png\n0.2 command export a.stl");
+    expect_said(outcome, 1, {"script.txt", "the last line has no end"});
+    EXPECT_EQ(place.files(), 1u) << "the script alone";
 }
 
 TEST_F(OutputsOfASession, AProfileLeavesNone) {
