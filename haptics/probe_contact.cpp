@@ -61,12 +61,12 @@ public:
         if (!was_fitting) left_out_m_ = 0.0;
         // With a moving body relative to it, as friction asks; the body touched in the last tick.
         const ProxySettings settings = this->settings(painting);
-        ContactWork watched;
-        if (last_.constraints > 0 && was_fitting) watch(watched);
-        ProxyBudget left = less(budget, watched);
-        const CarriedProxy carried = carry(state_, bodies_, settings.contact_radius_m, kElsewhere_m * scale(), left);
+        const CarriedProxy carried = carry(state_, bodies_, settings.contact_radius_m, kElsewhere_m * scale(), budget);
         const Vec3 before = carried.state.position_object_m;
-        if (bodies_.any()) left = less(left, carried.work);
+        ProxyBudget left = bodies_.any() ? less(budget, carried.work) : budget;
+        ContactWork watched;
+        if (last_.constraints > 0 && was_fitting) watch(carried.state, watched);
+        left = less(left, watched);
         const bool caught = input_.parameters.catch_drill && last_.constraints > 0;
         const ProxyResult moved =
             caught ? as_caught(carried.state)
@@ -114,6 +114,9 @@ public:
         const Vec3 spring = at - record_.hip_object_m;
         const double depth = glm::dot(spring, last_.normal_object);
         if (!(depth > 0.0)) return;
+        // What nothing has announced since the last tick that noticed it; that tick's successor will leave it out.
+        const Vec3 unexplained = state_.carrier != 0 ? bodies_.unexplained(body, at) : Vec3(0.0);
+        if (glm::length(unexplained) > kElsewhere_m * scale()) return;
         const ProxySettings settings = this->settings(false);
         const Vec3 along = depth * last_.normal_object - spring;
         const double coefficient = state_.slipping ? settings.dynamic_friction : settings.static_friction;
@@ -122,6 +125,9 @@ public:
         if (state_.carrier != 0)
             surface_velocity_device_m_per_s_ = at_device(bodies_.velocity_of_body(state_.carrier, at));
         leave_out(0.0);
+        const double added_m =
+            glm::dot(unexplained, record_.proxy_object_m - record_.hip_object_m) / record_.penetration_m;
+        if (added_m > kJump_m * scale()) left_out_now_m_ = added_m;
     }
 
     [[nodiscard]] bool in_contact() const { return record_.constraints > 0; }
@@ -135,7 +141,8 @@ public:
 
     // What bears the force: the proxy, or the cutting point, less what is left out of the spring.
     [[nodiscard]] Vec3 less_left_out(const Vec3& bearing_object_m) const {
-        const double share = in_contact() ? 1.0 - left_out_m_ / record_.penetration_m : 1.0;
+        const double left_out_m = std::min(left_out_m_ + left_out_now_m_, record_.penetration_m);
+        const double share = in_contact() ? 1.0 - left_out_m / record_.penetration_m : 1.0;
         return record_.hip_object_m + share * (bearing_object_m - record_.hip_object_m);
     }
 
@@ -229,11 +236,11 @@ private:
         stay_with_hand();
     }
 
-    // Has the watch look at the contact of the last tick.
-    void watch(ContactWork& work) {
+    // Has the watch look at the contact of the last tick, taken along with the body that it is with.
+    void watch(const ProxyState& contact, ContactWork& work) {
         const Vec3& origin = input_.surface.origin_object;
         const double felt = felt_radius_m(radius_m(), bodies_.surface().mean_edge_m());
-        ContactWatch::look(watch_, {state_.position_object_m - origin, state_.hip_object_m - origin, felt},
+        ContactWatch::look(watch_, {contact.position_object_m - origin, contact.hip_object_m - origin, felt},
                            bodies_.surface(), work);
         if (watch_.doubtful_looks > 0 || watch_.faded_ticks > 0) step_.flags |= kTickDoubted;
     }
@@ -262,6 +269,7 @@ private:
     WatchState& watch_;
     LastContact& last_;
     double& left_out_m_;
+    double left_out_now_m_ = 0.0;  // in this tick alone
     PointRecord& record_;
     Vec3 arm_device_m_{0.0}, velocity_device_m_per_s_{0.0}, surface_velocity_device_m_per_s_{0.0};
 };

@@ -27,8 +27,9 @@ Vec3 turn_between(const Quat& from, const Quat& to) {
 // Adds new samples only; clears the windows after a gap, since older samples would overestimate the speed.
 MotionState with_sample(MotionState state, const devices::DeviceSample& sample, bool turns, double dt_s) {
     const double gap_s = seconds(sample.time_ns - state.sample_ns);
-    if (state.window.count > 0 && gap_s <= 0.0) return state;
-    if (gap_s > 1.5 * dt_s) state.window.count = state.turning.count = 0;
+    if (state.window.count > 0 && gap_s == 0.0) return state;
+    // Also after a clock that was set back.
+    if (gap_s > 1.5 * dt_s || gap_s < 0.0) state.window.count = state.turning.count = 0;
     state.window = with_position(state.window, sample.position_device_m);
     state.sample_ns = sample.time_ns;
     if (turns) {
@@ -66,12 +67,14 @@ struct TickResult {
     TickRecord& record;
 };
 
-// The tick of input that makes no sense: contact starts afresh when it is valid again, and so does the velocity, for a
-// sample is missing then (with_sample).
+// The tick of input that makes no sense. After a few of them contact starts afresh; after a single one it goes on, for a
+// ball that is pressed into a groove may not fit there when it is set anew. The velocity starts afresh in any case, for
+// a sample is missing then (with_sample).
 void refuse(const TickResult& t) {
+    constexpr std::uint32_t kMostRefused = 10;
+    if (++t.next.refused > kMostRefused) end_contact(t.next.probe);
     // The last known position of the tool.
     const Vec3 last_object_m = t.next.probe.proxies[0].position_object_m;
-    end_contact(t.next.probe);
     t.next.passivity.known = false;
     t.record.contact.point_count = 1;
     t.record.contact.points[0].hip_object_m = t.record.contact.points[0].proxy_object_m = last_object_m;
@@ -123,6 +126,7 @@ void compute_tick(const TickResult& t, const TickState& state, const devices::De
     if (!record.sample_finite || !record.parameters_sensible || !record.scale_felt || !record.within_reach || ahead)
         return refuse(t);
 
+    next.refused = 0;
     // Motion of the hand.
     MotionRecord& motion = record.motion;
     const bool turns = parameters.probe.count > 1;

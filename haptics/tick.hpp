@@ -38,6 +38,7 @@ struct TickState {
     MovingAverage force_average;
     PassivityState passivity;
     bool in_contact = false;
+    std::uint32_t refused = 0;  // ticks in a row whose input made no sense
 };
 
 struct Tick {

@@ -66,7 +66,8 @@ bool is_free(const Vec3& hand, double radius_m, const geometry::PosedSurface& su
         const Seen seen = look_around(hand, reach_m, Vec3(0.0), surface, work);
         if (seen.distance_m <= radius_m) return false;
         // What cannot be seen holds nobody.
-        if (!seen.complete || reach_m > everything) return !(seen.height_m < 0.0);
+        if (!seen.complete) return true;
+        if (reach_m > everything) return seen.height_m >= 0.0;
         if (seen.distance_m <= reach_m) return seen.height_m >= 0.0;
     }
 }
@@ -87,7 +88,7 @@ void ContactWatch::look(WatchState& state, const Contact& contact, const geometr
     const Seen seen = look_around(contact.proxy_m, kTouching * radius_m, (step_m / pull_m) * pull, surface, work);
     const bool fits = seen.distance_m >= (1.0 - kDeep) * radius_m && seen.height_m >= 0.0;
     const bool in_the_way = seen.distance_m - seen.ahead_m > kInTheWay * step_m;
-    const bool falls_behind = state.short_ticks >= kInterval;
+    const bool falls_behind = state.short_ticks >= kShort;
     const bool sound = fits && in_the_way;
     const bool doubtful = falls_behind || (seen.complete && !sound);
     if (doubtful && is_free(contact.hand_m, radius_m, surface, work))
@@ -97,7 +98,7 @@ void ContactWatch::look(WatchState& state, const Contact& contact, const geometr
 }
 
 void ContactWatch::note(WatchState& state, bool work_limited) noexcept {
-    state.short_ticks = work_limited ? std::min(state.short_ticks, kInterval) + 1 : 0;
+    state.short_ticks = work_limited ? std::min(state.short_ticks, kShort) + 1 : 0;
 }
 
 bool ContactWatch::gives_up(WatchState& state) noexcept {

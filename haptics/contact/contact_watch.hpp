@@ -6,7 +6,7 @@
 // surface itself, by queries of its own that share nothing with that search but the surface:
 //   1. At the proxy: is the surface within kTouching of the radius, would it come nearer on the way to the hand, and
 //      does the ball fit there, with nothing deeper in it than kDeep?
-//   2. Has the search run out of work in each tick of a whole interval, so that the proxy falls behind the hand?
+//   2. Has the search run out of work in kShort ticks in a row, so that the proxy falls behind the hand?
 //   3. Only where 1 or 2 speaks against the contact: is the hand free? It is where the ball at the hand touches nothing
 //      and its centre is outside, by the nearest triangle's side.
 // A contact that is found wanting in kLooks looks in a row, one each kInterval ticks, is faded out over kFade ticks and
@@ -34,7 +34,7 @@ struct WatchState {
 
 class ContactWatch {
 public:
-    static constexpr std::uint32_t kInterval = 12, kLooks = 3, kFade = 20;
+    static constexpr std::uint32_t kInterval = 12, kShort = 8, kLooks = 3, kFade = 20;
     static constexpr std::uint32_t kMostLooks = 2000;
     // Of the radius. A ball on very fine triangles sinks in by up to a tenth (touching.hpp).
     static constexpr double kTouching = 1.15, kDeep = 0.2;

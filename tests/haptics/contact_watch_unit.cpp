@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "haptics/tick.hpp"
 #include "tests/haptics/bodies.hpp"
 
@@ -139,6 +141,42 @@ TEST(ContactWatch, ABallSetInsideABlockIsPutOutAndItsForceFadesIn) {
         last_N = hand.force_N();
     }
     EXPECT_NEAR(last_N, 600.0 * 0.004, 0.1);
+}
+
+// A thin plate that goes to and fro through a hand at rest, as announced: the ball goes with it.
+TEST(ContactWatch, SaysNothingOfAThinPlateThatMoves) {
+    for (const double speed : {0.1, 0.3, 0.6}) {
+        test::Bodies bodies;
+        bodies.parameters.probe = ball_probe(0.0005);
+        bodies.surface = test::around({{test::plate(0.05, 0.0003), 0}});
+        bodies.motions = {test::along_y([speed](double t) { return 0.003 * std::sin(speed / 0.003 * t); },
+                                        [speed](double t) { return speed * std::cos(speed / 0.003 * t); })};
+        bodies.publish_every = 1;
+        int let_go = 0, contacts = 0;
+        for (int i = 0; i < 2000; ++i) {
+            const TickRecord record = bodies.tick({0.0, 0.0005 - 0.001, 0.0});
+            let_go += (record.flags & kTickLetGo) != 0;
+            contacts += record.in_contact();
+        }
+        EXPECT_GT(contacts, 500) << speed;
+        EXPECT_EQ(let_go, 0) << speed;
+    }
+}
+
+// A press on a place into which a ball could not be set anew: one sample that is not finite does not end it.
+TEST(ContactWatch, APressGoesOnAfterABadSample) {
+    const test::Surface groove = test::groove(0.004, 0.03, 12, 12, 0.0);
+    WatchedHand hand(*groove);
+    hand.parameters.probe = ball_probe(0.004);
+    hand.parameters.clearance_ratio = 0.02;
+    const Vec3 pressed(0.0, -0.0015, 0.0);
+    for (int i = 0; i < 600; ++i) hand.tick({0.0, std::max(0.006 - 1e-4 * i, pressed.y), 0.0});
+    const double before_N = hand.force_N();
+    ASSERT_GT(before_N, 0.5);
+    hand.tick(Vec3(std::numeric_limits<double>::quiet_NaN()));
+    EXPECT_EQ(hand.force_N(), 0.0);
+    for (int i = 0; i < 600; ++i) hand.tick(pressed);
+    EXPECT_NEAR(hand.force_N(), before_N, 0.05);
 }
 
 }  // namespace burin::haptics

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "haptics/tick.hpp"
+#include "tests/haptics/bodies.hpp"
 #include "tests/haptics/fingertip.hpp"
 
 namespace burin::haptics {
@@ -327,6 +328,41 @@ TEST(Parts, TogetherDoNoMoreWorkInATurnThanOneMayAlone) {
             EXPECT_TRUE(limited > 0 || held_over > 0 || count == 1) << "and what is left goes on in the next turn";
             for (std::size_t i = 0; i < count; ++i) EXPECT_LT(longest_wait[i], static_cast<int>(count)) << i;
         }
+    }
+}
+
+// A body that moves without a word is felt no harder by a part that is held over than by one that is not; one that was
+// set elsewhere holds nobody.
+TEST(Parts, OneThatIsHeldOverFeelsNoUnannouncedMotionAtOnce) {
+    for (const double jump_m : {0.001, 0.003, 0.05}) {
+        geometry::LocalSurface surface = test::around({{test::plate(0.05, 0.02), 0}});
+        TickParameters parameters = test::point_parameters();
+        parameters.passivity.control = false;
+        surface.meshes[0].motion.body = 1;
+        FullTickState state;
+        FullTick full;
+        double before_N = 0.0;
+        for (int i = 0; i < 410; ++i) {
+            const Nanoseconds now_ns = (1000 + i) * Nanoseconds{1'000'000};
+            const bool held_over = i >= 400;
+            if (i % 10 == 0) {
+                ++surface.sequence;
+                surface.meshes[0].motion.time_ns = surface.made_ns = now_ns;
+                surface.meshes[0].motion.object_from_mesh.position_m.y = held_over ? jump_m : 0.0;
+            }
+            devices::DeviceSample sample;
+            sample.time_ns = now_ns;
+            sample.position_device_m = {0.0, test::kPointBall_m - 0.0005, 0.0};
+            full = full_tick(state, sample, surface, parameters, test::kStrongDevice, now_ns, 1e-3, {0.0, held_over});
+            state = full.next;
+            if (!held_over) before_N = full.record.gate.given.force_device_N.y;
+            if (held_over && jump_m > 0.02) {
+                EXPECT_FALSE(full.record.in_contact()) << i;
+            } else if (held_over) {
+                EXPECT_LE(full.record.gate.given.force_device_N.y, before_N + 0.01) << jump_m << " tick " << i;
+            }
+        }
+        EXPECT_NEAR(before_N, 0.2, 0.01);
     }
 }
 
