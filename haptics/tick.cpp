@@ -67,9 +67,9 @@ struct TickResult {
     TickRecord& record;
 };
 
-// The tick of input that makes no sense. After a few of them contact starts afresh; after a single one it goes on, for a
-// ball that is pressed into a groove may not fit there when it is set anew. The velocity starts afresh in any case, for
-// a sample is missing then (with_sample).
+// The tick of input that makes no sense. After a few of them contact starts afresh; after a single one it goes on, for
+// a ball that is pressed into a groove may not fit there when it is set anew. The velocity starts afresh in any case,
+// for a sample is missing then (with_sample).
 void refuse(const TickResult& t) {
     constexpr std::uint32_t kMostRefused = 10;
     if (++t.next.refused > kMostRefused) end_contact(t.next.probe);

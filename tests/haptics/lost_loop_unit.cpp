@@ -159,4 +159,26 @@ TEST(LostLoop, ASampleOutOfReachOrAheadOfTheClockGivesNoForceAndNoKick) {
     }
 }
 
+// A device whose clock is set back, or that stamps one sample a little ahead, does not make the hand seem faster.
+TEST(LostLoop, AClockThatIsSetBackDoesNotMakeTheHandFaster) {
+    for (const bool back : {false, true}) {
+        Session session;
+        double fastest_m_per_s = 0.0;
+        for (int i = 0; i < 400; ++i) {
+            session.now_ns += kMs;
+            devices::DeviceSample sample;
+            sample.time_ns = session.now_ns;
+            if (back && i >= 200) sample.time_ns -= 10 * kMs;
+            if (!back && i == 200) sample.time_ns += 4 * kMs;
+            sample.position_device_m = {0.0, 0.02 - 1e-4 * i, 0.0};  // 0.1 m/s
+            const FullTick full = full_tick(session.state, sample, *session.plane, session.parameters,
+                                            test::kStrongDevice, session.now_ns, kDt);
+            session.state = full.next;
+            fastest_m_per_s = std::max(fastest_m_per_s, glm::length(full.record.motion.velocity_device_m_per_s));
+        }
+        EXPECT_GT(fastest_m_per_s, 0.08);
+        EXPECT_LT(fastest_m_per_s, 0.15) << back;
+    }
+}
+
 }  // namespace burin::haptics
