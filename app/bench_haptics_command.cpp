@@ -43,7 +43,8 @@ Result<void> run_haptics_bench(const HapticsBench& options) {
 
 BenchSubcommand add_bench_haptics(Command bench) {
     Command command = bench.subcommand(
-        "haptics", "Ticks of the haptic loop: their cost, the proxy's error, lost contact, edits, the force's jumps");
+        "haptics",
+        "Ticks of the haptic loop: their cost, parts, the proxy's error, lost contact, edits, the force's jumps");
     const auto options = std::make_shared<HapticsBench>();
     command.flag("--quick", options->quick, "Small meshes and few ticks: whether it works, in seconds");
     command.option("--ticks", options->contact_ticks, "How many ticks are looked at for lost contact (1000000)")

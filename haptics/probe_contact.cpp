@@ -15,7 +15,7 @@ namespace {
 // Where a motion that nothing has announced lengthens the spring by more than this in one tick, at the device, that
 // length is left out of the force at first and comes back over time (haptics/contact/moving_bodies.hpp).
 constexpr double kJump_m = 0.0005;
-// How fast: by exp(-kComingBack) within the gate's ramp for contacts.
+// The length left out decays exponentially: to exp(-kComingBack) of itself within the gate's ramp for contacts.
 constexpr double kComingBack = 3.0;
 // The share of the spring from which on a part left out of it is told.
 constexpr double kFelt = 0.01;
@@ -114,7 +114,8 @@ public:
         const Vec3 spring = at - record_.hip_object_m;
         const double depth = glm::dot(spring, last_.normal_object);
         if (!(depth > 0.0)) return;
-        // What nothing has announced since the last tick that noticed it; that tick's successor will leave it out.
+        // The body's unannounced motion since this part's last full tick. It is left out of this tick's force alone;
+        // the next full tick enters it into left_out_m_.
         const Vec3 unexplained = state_.carrier != 0 ? bodies_.unexplained(body, at) : Vec3(0.0);
         if (glm::length(unexplained) > kElsewhere_m * scale()) return;
         const ProxySettings settings = this->settings(false);
@@ -139,7 +140,7 @@ public:
     [[nodiscard]] const PointRecord& record() const { return record_; }
     [[nodiscard]] double squared_arm_m2() const { return glm::dot(arm_device_m_, arm_device_m_); }
 
-    // What bears the force: the proxy, or the cutting point, less what is left out of the spring.
+    // Returns the point from which the spring pulls: the bearing point, moved towards the HIP by the length left out.
     [[nodiscard]] Vec3 less_left_out(const Vec3& bearing_object_m) const {
         const double left_out_m = std::min(left_out_m_ + left_out_now_m_, record_.penetration_m);
         const double share = in_contact() ? 1.0 - left_out_m / record_.penetration_m : 1.0;
@@ -184,7 +185,7 @@ private:
         return s;
     }
 
-    // Whether the ball has been set elsewhere.
+    // Tells whether the ball was pushed out of material by more than a jump.
     [[nodiscard]] bool was_put_elsewhere(const ProxyResult& moved, const Vec3& before) const {
         return moved.pushed_out && glm::length(record_.proxy_object_m - before) > kJump_m * scale();
     }

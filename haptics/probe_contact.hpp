@@ -11,7 +11,7 @@
 
 namespace burin::haptics {
 
-// How a point touched in the last tick.
+// The contact of one probe point in the last tick.
 struct LastContact {
     Vec3 normal_object{0.0};
     std::uint32_t constraints = 0;  // 0: it did not touch

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a hand at rest feels in whole ticks, gate and all: when ticks are lost, and on a plate that moves.
+// Measures, in whole ticks with the gate, what a hand at rest feels when ticks are lost and on a plate that moves.
 //
 // Lost ticks: a simulated Omni that a hand presses on a plate, at rest; forty bursts of lost ticks, twenty ticks apart
 // (one burst of thirty). How far the tool sinks in, and what bears it two seconds later.

@@ -10,7 +10,7 @@
 namespace burin::haptics {
 namespace {
 
-// What the watch has seen around a place.
+// Distances found by one look around a place.
 struct Seen {
     double distance_m = HUGE_VAL, height_m = 0.0;  // of the nearest triangle
     double ahead_m = HUGE_VAL;                     // distance of the nearest one a step ahead
@@ -46,7 +46,7 @@ Seen look_around(const Vec3& center, double reach_m, const Vec3& step, const geo
         }
         double height_m = glm::dot(off, outward_normal(t));
         if (surface.two_sided(id)) height_m = std::abs(height_m);
-        // Of triangles that share the nearest point the one seen most squarely tells the side.
+        // An edge or corner is nearest on several triangles alike; the side is that of the one seen most squarely.
         const bool nearer = distance_m < seen.distance_m - kWatchTie * reach_m;
         if (nearer ||
             (distance_m <= seen.distance_m + kWatchTie * reach_m && std::abs(height_m) > std::abs(seen.height_m)))
@@ -65,7 +65,7 @@ bool is_free(const Vec3& hand, double radius_m, const geometry::PosedSurface& su
     for (double reach_m = radius_m;; reach_m *= 2.0) {
         const Seen seen = look_around(hand, reach_m, Vec3(0.0), surface, work);
         if (seen.distance_m <= radius_m) return false;
-        // What cannot be seen holds nobody.
+        // Where the looks did not suffice the hand counts as free, so that no unproved contact holds it.
         if (!seen.complete) return true;
         if (reach_m > everything) return seen.height_m >= 0.0;
         if (seen.distance_m <= reach_m) return seen.height_m >= 0.0;

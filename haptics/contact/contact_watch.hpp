@@ -36,7 +36,8 @@ class ContactWatch {
 public:
     static constexpr std::uint32_t kInterval = 12, kShort = 8, kLooks = 3, kFade = 20;
     static constexpr std::uint32_t kMostLooks = 2000;
-    // Of the radius. A ball on very fine triangles sinks in by up to a tenth (touching.hpp).
+    // Multiples of the radius: the farthest a touched surface may be, and the deepest it may be in the ball. A ball on
+    // very fine triangles sinks in by up to a tenth of its radius (touching.cpp).
     static constexpr double kTouching = 1.15, kDeep = 0.2;
     // The surface stands in the way where a step of kStep radii to the hand brings it nearer by this part of the step.
     // A wall along which the ball could go does not.

@@ -421,7 +421,7 @@ private:
         return result_;
     }
 
-    // Whether the ball is deep in what it touches, or its centre inside.
+    // Tells whether a surface is deeper in the ball than kUnfit allows, or the centre is inside material.
     [[nodiscard]] bool overlaps() const {
         return nearest_.distance < (1.0 - kUnfit) * radius_ || nearest_.height < 0.0;
     }

@@ -92,7 +92,7 @@ struct AccountStep {
 
 // Whether friction or damping of the device is known: else nothing can be promised.
 [[nodiscard]] bool can_promise(const devices::DeviceDescription& device) noexcept;
-// The same of its rotation: else nothing limits the torque.
+// Whether angular friction or damping is known; where neither is, the account does not limit the torque.
 [[nodiscard]] bool rotation_is_known(const devices::DeviceDescription& device) noexcept;
 // The longest time from tick to tick, lost ticks and jitter included, for which the promise is kept.
 [[nodiscard]] double longest_gap_s(const PromiseLimits& promise) noexcept;
