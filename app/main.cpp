@@ -63,9 +63,13 @@ void add_sculpt_options(Command command, session::SculptOptions& options) {
                    {{"rigid", session::HandChoice::rigid}, {"simulated", session::HandChoice::simulated}});
     command
         .option("--hardness", options.feel.hardness,
-                "With --hand simulated: soft, medium, hard, or the pressure in kPa under which a millimetre of "
-                "material a second goes away; 0 gives way, inf cannot be cut")
+                "With --hand simulated: soft, medium, hard, lime, maple, oak, mdf, beech-lvl, ptfe, or the pressure in "
+                "kPa under which a millimetre of material a second goes away; 0 gives way, inf cannot be cut")
         .show_default();
+    command.option("--yield", options.feel.yield_kPa,
+                   "With --hand simulated: the pressure in kPa below which nothing goes away; else the hardness' own");
+    command.option("--grain", options.feel.grain_mm,
+                   "With --hand simulated: hard and soft rings across x with this spacing in mm; else none");
     command.option("--stiffness", options.feel.stiffness_N_per_m,
                    "With --hand simulated: of the surface, N/m at the device; else the hardness' own");
     command.option("--friction", options.feel.friction,

@@ -129,9 +129,6 @@ Result<void> sculpt(const session::SculptOptions& options) {
     // Finds everything that can be wrong with the input before the first long step.
     Result<ChosenTool> chosen_tool = choose_tool(options, std::nullopt);
     if (!chosen_tool) return std::unexpected(chosen_tool.error());
-    if (options.hand == session::HandChoice::simulated && chosen_tool->tool.ball_radius_m() == 0.0) {
-        return fail("--hand simulated", "feels with a ball only", "use --tool ball:R, or --hand rigid");
-    }
     const Result<sculpt::Feel> feel = sculpt::parse_feel(options.feel);
     if (!feel) return std::unexpected(feel.error());
     const std::array inputs{options.workpiece.source, options.stroke};

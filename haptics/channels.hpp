@@ -19,7 +19,9 @@
 #include "geometry/contact/local_surface.hpp"
 #include "haptics/contact/contact_work.hpp"
 #include "haptics/contact/probe.hpp"
+#include "haptics/contact/tool_shape.hpp"
 #include "haptics/forces/guidance.hpp"
+#include "haptics/forces/tool_surface.hpp"
 #include "haptics/forces/touch_force.hpp"
 #include "haptics/signals/filters.hpp"
 #include "haptics/stability/passivity.hpp"
@@ -44,6 +46,8 @@ struct TickParameters {
     // Mapping from device to scene; its scale is the position gain g: motions grow by g, forces shrink by g.
     WorkspaceSettings workspace;
     Probe probe;
+    ToolShape shape;   // what touches instead of the probe's first ball, where it has pieces
+    ToolSurface tool;  // what cuts; count 0: nothing
     // The ball that touches is smaller than the ball that carves by this fraction of its radius. A ball lying in the
     // groove it has cut would otherwise be pinched by the facets, which cut the circle's corner: a facet of length s
     // stands s^2 / (8 R) proud. 0.02 leaves room for facets of 0.4 R.

@@ -26,6 +26,7 @@ struct ProbeState {
     // out of the spring after an unexplained motion, in the object frame.
     std::array<LastContact, kMostProbePoints> contacts{};
     std::array<double, kMostProbePoints> left_out_m{};
+    Quat tool_orientation_object{1.0, 0.0, 0.0, 0.0};  // of a tool's shape at its proxy
     CuttingState cutting;
     BodiesState bodies;
 };

@@ -14,13 +14,30 @@ bool sensible(const TouchMaterial& m) {
     return not_negative(m.stiffness_N_per_m) && not_negative(m.damping_Ns_per_m) && not_negative(m.static_friction) &&
            not_negative(m.dynamic_friction) && m.dynamic_friction <= m.static_friction &&
            not_negative(m.coulomb_velocity_m_per_s) && m.hardness_Ns_per_m3 >= 0.0 &&  // infinite: cannot be cut
-           not_negative(m.cutting_drag_Ns_per_m3);
+           not_negative(m.cutting_yield_Pa) && not_negative(m.grain_share) && m.grain_share <= 1.0 &&
+           not_negative(m.grain_spacing_m) && finite(m.grain_axis_object) && not_negative(m.cutting_drag_Ns_per_m3);
 }
 
 bool sensible(const Probe& probe) {
     if (probe.count < 1 || probe.count > kMostProbePoints) return false;
     for (std::uint32_t i = 0; i < probe.count; ++i)
         if (!finite(probe.points[i].offset_device_m) || !not_negative(probe.points[i].radius_m)) return false;
+    return true;
+}
+
+bool sensible(const ToolShape& shape) {
+    if (!shape.touches()) return true;
+    if (shape.piece_count > ToolShape::kMostPieces || !(shape.rounding_m > 0.0) || !(shape.size_m > 0.0) ||
+        !std::isfinite(shape.size_m) || !std::isfinite(shape.reach_m) || !finite(shape.inside_m))
+        return false;
+    std::uint32_t corners = 0;
+    for (std::uint32_t i = 0; i < shape.piece_count; ++i) {
+        const ConvexPiece& piece = shape.pieces[i];
+        if (piece.count == 0 || piece.first != corners || piece.count > ToolShape::kMostCorners - corners) return false;
+        corners += piece.count;
+    }
+    for (std::uint32_t i = 0; i < corners; ++i)
+        if (!finite(shape.corners[i])) return false;
     return true;
 }
 
@@ -44,7 +61,7 @@ bool sensible(const WeightSettings& w) {
 bool parameters_are_sensible(const TickParameters& p) noexcept {
     for (const TouchMaterial& material : p.materials)
         if (!sensible(material)) return false;
-    return settings_are_sensible(p.workspace) && sensible(p.probe) && share(p.clearance_ratio) &&
+    return settings_are_sensible(p.workspace) && sensible(p.probe) && sensible(p.shape) && share(p.clearance_ratio) &&
            share(p.signals.velocity_alpha) && share(p.signals.force_alpha) &&
            not_negative(p.coupling.stiffness_N_per_m) && not_negative(p.coupling.damping_Ns_per_m) &&
            not_negative(p.passivity.max_damping_Ns_per_m) && not_negative(p.passivity.reserve_J) &&

@@ -11,21 +11,38 @@ namespace {
 
 constexpr double kStaticOverDynamic = 1.25;
 
-// Figures of our own, chosen in simulation with a ball of 3 mm on an Omni held by a hand; no material's constants.
-// Moved along at 50 mm/s and pressed with 0.3 N the tool runs at the depth where the lift bears it
-// (haptics/forces/cutting.hpp): 1.5, 0.7 and 0.3 mm. The softer, the less stiff and the more damped, as clay is against
-// wood. Friction is at the lower end of wood on metal (0.2 to 0.6) and below, because a tool that cuts is held back by
-// the cutting. Together with the damping, the stiffness stays within what an Omni renders stably
-// (haptics/stability/rendered_wall.hpp).
+// The linear chip law of wood machining, force per width of edge = F_e + K_c h, as the pressure of a driven cutter
+// (haptics/forces/cutting.hpp): with two edges on a diameter of 6 mm that run as fast as the published tests' (20 mm,
+// two edges, 3000 rpm), and a thrust of 0.3 of the cutting force.
+constexpr double kCutterSpeed_m_per_s = 3.14, kToothSpacing_m = 9.42e-3, kThrustRatio = 0.3;
+constexpr double hardness_of(double K_c_N_per_mm2) { return kThrustRatio * K_c_N_per_mm2 / kCutterSpeed_m_per_s; }
+constexpr double yield_of(double F_e_N_per_mm) { return kThrustRatio * F_e_N_per_mm / kToothSpacing_m; }
+
+// Soft, medium and hard are figures of our own, chosen in simulation with a ball of 3 mm on an Omni held by a hand, and
+// no material's constants: none were found in print for clay, wax, plaster or bone. Moved along at 50 mm/s and pressed
+// with 0.3 N the tool runs where the lift bears it (haptics/forces/cutting.hpp). The softer, the less stiff and the
+// more damped, as clay is against wood. Friction is at the lower end of wood on metal (0.2 to 0.6) and below, because a
+// tool that cuts is held back by the cutting. Together with the damping, the stiffness stays within what an Omni
+// renders stably (haptics/stability/rendered_wall.hpp).
+// Lime, maple and oak: along the grain, straight edges, computed from the law of Curti et al. 2021, European Journal of
+// Wood and Wood Products 79:667-678; MDF, beech LVL along the grain, PTFE: Goli et al. 2018, Materials 11:2575.
 struct PresetDescriptor {
     FeelPreset preset;
     const char* name;
-    double hardness_kPa_per_mm_s, stiffness_N_per_m, damping_Ns_per_m, friction, drag_Ns_per_m3;
+    double hardness_kPa_per_mm_s, yield_kPa, stiffness_N_per_m, damping_Ns_per_m, friction, drag_Ns_per_m3;
 };
 constexpr std::array kPresets{
-    PresetDescriptor{FeelPreset::soft, "soft", 1.5, 400.0, 0.6, 0.10, 3e4},      // clay
-    PresetDescriptor{FeelPreset::medium, "medium", 4.0, 600.0, 0.5, 0.20, 1e4},  // wax, or green wood
-    PresetDescriptor{FeelPreset::hard, "hard", 12.0, 650.0, 0.3, 0.30, 0.0}};    // hard wood
+    PresetDescriptor{FeelPreset::soft, "soft", 1.5, 9.0, 400.0, 0.6, 0.10, 3e4},       // as clay
+    PresetDescriptor{FeelPreset::medium, "medium", 4.0, 24.0, 600.0, 0.5, 0.20, 1e4},  // as wax
+    PresetDescriptor{FeelPreset::hard, "hard", 12.0, 72.0, 650.0, 0.3, 0.30, 0.0},
+    PresetDescriptor{FeelPreset::lime, "lime", hardness_of(15.2), yield_of(3.22), 650.0, 0.3, 0.30, 0.0},
+    PresetDescriptor{FeelPreset::maple, "maple", hardness_of(16.2), yield_of(3.43), 650.0, 0.3, 0.30, 0.0},
+    PresetDescriptor{FeelPreset::oak, "oak", hardness_of(19.2), yield_of(4.06), 650.0, 0.3, 0.30, 0.0},
+    PresetDescriptor{FeelPreset::mdf, "mdf", hardness_of(31.44), yield_of(3.36), 650.0, 0.3, 0.30, 0.0},
+    PresetDescriptor{FeelPreset::beech_lvl, "beech-lvl", hardness_of(11.73), yield_of(3.70), 650.0, 0.3, 0.30, 0.0},
+    PresetDescriptor{FeelPreset::ptfe, "ptfe", hardness_of(20.33), yield_of(2.71), 600.0, 0.5, 0.10, 0.0}};
+// Of hardness and yield, around their means.
+constexpr double kGrainShare = 0.3;
 
 const PresetDescriptor& descriptor_of(FeelPreset preset) { return kPresets.at(static_cast<std::size_t>(preset)); }
 
@@ -51,7 +68,8 @@ Result<FeelSettings> parse_preset_or_hardness(const std::string& text) {
     }
     if (const auto hardness = parse_hardness(text)) return with_hardness({}, *hardness);
     return fail("--hardness " + text, "is neither a preset nor a number from 0 on",
-                "use soft, medium, hard, or the pressure in kPa under which a millimetre a second goes away");
+                "use soft, medium, hard, lime, maple, oak, mdf, beech-lvl, ptfe, or the pressure in kPa under which a "
+                "millimetre a second goes away");
 }
 
 }  // namespace
@@ -59,6 +77,8 @@ Result<FeelSettings> parse_preset_or_hardness(const std::string& text) {
 Result<FeelSettings> parse_feel_settings(const FeelOptions& options) {
     Result<FeelSettings> settings = parse_preset_or_hardness(options.hardness);
     if (!settings) return settings;
+    settings->yield_kPa = options.yield_kPa;
+    settings->grain_mm = options.grain_mm;
     settings->stiffness_N_per_m = options.stiffness_N_per_m;
     settings->friction = options.friction;
     if (const auto good = check_feel(*settings); !good) return std::unexpected(good.error());
@@ -67,6 +87,8 @@ Result<FeelSettings> parse_feel_settings(const FeelOptions& options) {
 
 Result<void> check_feel(const FeelSettings& settings) {
     const haptics::TouchMaterial material = touch_material(settings);
+    if (const auto good = check("--yield", 1e-3 * material.cutting_yield_Pa, 1e6); !good) return good;
+    if (const auto good = check("--grain", 1e3 * material.grain_spacing_m, 1e3); !good) return good;
     if (const auto good = check("--stiffness", material.stiffness_N_per_m, 1e5); !good) return good;
     return check("--friction", material.dynamic_friction, 2.0);
 }
@@ -82,6 +104,14 @@ haptics::TouchMaterial touch_material(const FeelSettings& settings) {
     haptics::TouchMaterial material;
     material.hardness_Ns_per_m3 =
         settings.hardness_kPa_per_mm_s.value_or(preset.hardness_kPa_per_mm_s) * kHardnessUnit_Ns_per_m3;
+    if (std::isfinite(material.hardness_Ns_per_m3)) {
+        // A hardness given as a number brings the preset's yield with it in proportion.
+        const double ratio_mm_per_s = preset.yield_kPa / preset.hardness_kPa_per_mm_s;
+        const double proportional_kPa = ratio_mm_per_s * material.hardness_Ns_per_m3 / kHardnessUnit_Ns_per_m3;
+        material.cutting_yield_Pa = 1e3 * settings.yield_kPa.value_or(proportional_kPa);
+    }
+    material.grain_spacing_m = 1e-3 * settings.grain_mm.value_or(0.0);
+    material.grain_share = material.grain_spacing_m != 0.0 ? kGrainShare : 0.0;
     material.stiffness_N_per_m = settings.stiffness_N_per_m.value_or(preset.stiffness_N_per_m);
     material.damping_Ns_per_m = preset.damping_Ns_per_m;
     material.cutting_drag_Ns_per_m3 = material.hardness_Ns_per_m3 > 0.0 ? preset.drag_Ns_per_m3 : 0.0;
@@ -114,6 +144,8 @@ Json describe_feel_settings(const Feel& feel) {
     if (!std::isfinite(m.hardness_Ns_per_m3)) hardness = "infinite";
     return {{"preset", feel.name},
             {"hardness_kPa_per_mm_s", hardness},
+            {"yield_kPa", 1e-3 * m.cutting_yield_Pa},
+            {"grain_mm", 1e3 * m.grain_spacing_m},
             {"stiffness_N_per_m", m.stiffness_N_per_m},
             {"damping_Ns_per_m", m.damping_Ns_per_m},
             {"static_friction", m.static_friction},

@@ -11,10 +11,6 @@
 namespace burin::sculpt {
 namespace {
 
-// The local surface holds the tool's own ball and what the tick looks at to see how deep it lies
-// (haptics/forces/engagement.hpp): so many radii.
-constexpr double kSurroundings = 1.6;
-
 // Finishes and writes the mesh on a worker of its own, so that carving keeps its pool.
 ExportOutcome export_surface(const compute::Surface& surface, const compute::Solid& solid,
                              const ExportSurface& wanted) {
@@ -95,7 +91,7 @@ void SculptService::drop_invalid(std::vector<compute::ToolSweep>& sweeps) {
 
 Result<void> SculptService::publish(Nanoseconds now_ns) {
     geometry::LocalSurface& surface = channels_.surface.draft();
-    const double radius_m = kSurroundings * reader_.tool().ball_radius_m() + reach_m_;
+    const double radius_m = reader_.around_m() + reach_m_;
     if (const auto done = sculpture_.local_surface(reader_.tool_position_object(), radius_m, surface); !done) {
         return done;
     }

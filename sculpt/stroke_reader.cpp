@@ -5,10 +5,16 @@
 #include <iterator>
 #include <utility>
 
+#include "sculpt/tool_mesh.hpp"
+
 namespace burin::sculpt {
 namespace {
 
 constexpr double kSweepTolerance = 0.05;  // of a cell
+// What the tick looks at around a tool (haptics/forces/tool_surface.hpp), of the tool's size.
+constexpr double kSurroundings = 1.0;
+
+double around(const Tool& tool) { return reach_of(tool.shape) + kSurroundings * size_of(tool.shape); }
 
 }  // namespace
 
@@ -27,10 +33,12 @@ StrokeReader::StrokeReader(haptics::HapticChannels& channels, const Tool& tool, 
     : channels_(channels),
       tool_(tool),
       hardness_Ns_per_m3_(hardness_Ns_per_m3),
+      around_m_(around(tool)),
       tolerance_m_(kSweepTolerance * cell_m) {}
 
 void StrokeReader::use_tool(const Tool& tool, double hardness_Ns_per_m3) {
     tool_ = tool;
+    around_m_ = around(tool);
     hardness_Ns_per_m3_ = hardness_Ns_per_m3;
     working_ = false;
 }
@@ -39,7 +47,7 @@ SweptSamples StrokeReader::read(std::uint64_t last_tick) {
     SweptSamples swept;
     std::vector<Pose> run;      // points at which the tool worked without a break
     bool continues = working_;  // the run began before this read, and its first point has been carved already
-    if (continues) run.push_back({last_point_object_});
+    if (continues) run.push_back(last_pose_object_);
     const auto end_run = [&] {
         if (run.size() >= 2 || (run.size() == 1 && !continues)) {
             std::ranges::copy(sweeps_along(run, tool_, tolerance_m_), std::back_inserter(swept.sweeps));
@@ -61,9 +69,9 @@ SweptSamples StrokeReader::read(std::uint64_t last_tick) {
             end_run();
             continue;
         }
-        last_point_object_ = *point;
+        last_pose_object_ = {*point, tool_.turns() ? sample.orientation_object : Quat{1, 0, 0, 0}};
         last_worked_ns_ = sample.time_ns;
-        if (run.empty() || run.back().position_m != last_point_object_) run.push_back({last_point_object_});
+        if (run.empty() || run.back() != last_pose_object_) run.push_back(last_pose_object_);
     }
     end_run();
     return swept;

@@ -40,6 +40,8 @@ public:
     void start_at(const Vec3& position_object) { tool_position_object_ = position_object; }
 
     [[nodiscard]] const Tool& tool() const { return tool_; }
+    // Returns the radius of a ball about the tool's place that holds the tool and what the tick looks at around it.
+    [[nodiscard]] double around_m() const { return around_m_; }
     // Returns whether the button was down in the last sample. A stroke lasts until the button comes up, even where the
     // tool loses contact on the way.
     [[nodiscard]] bool pressed() const { return pressed_; }
@@ -55,11 +57,11 @@ private:
     haptics::HapticChannels& channels_;
     Tool tool_;
     double hardness_Ns_per_m3_;
-    double tolerance_m_;
+    double around_m_, tolerance_m_;
     Vec3 tool_position_object_{0.0};
-    Vec3 last_point_object_{0.0};  // where the tool worked last
-    bool working_ = false;         // in the last sample
-    bool pressed_ = false;         // in the last sample
+    Pose last_pose_object_;  // where the tool worked last
+    bool working_ = false;   // in the last sample
+    bool pressed_ = false;   // in the last sample
     Nanoseconds last_worked_ns_ = 0;
     std::uint64_t last_tick_ = 0;
 };

@@ -5,13 +5,15 @@
 #include <cmath>
 
 #include "base/text.hpp"
+#include "compute/tools/turning_sweep.hpp"
+#include "sculpt/tool_mesh.hpp"
 #include "sculpt/workpiece.hpp"
 
 namespace burin::sculpt {
 namespace {
 
 // Bounds the poses that one sweep may replace, because the search for the next sweep looks at all of them.
-constexpr std::size_t kLongestRun = 1024;
+constexpr std::size_t kLongestRun = 1024, kLongestTurningRun = 64;
 // Radius of the tool where none is given, as a share of the workpiece's longest side.
 constexpr double kUsualRadius = 0.05;
 
@@ -30,11 +32,38 @@ Result<std::array<std::uint8_t, 3>> parse_colour(const std::string& text) {
     return colour;
 }
 
-double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-    const Vec3 ab = b - a;
-    const double length2 = glm::dot(ab, ab);
-    const double t = length2 > 0.0 ? std::clamp(glm::dot(p - a, ab) / length2, 0.0, 1.0) : 0.0;
-    return glm::length(p - (a + ab * t));
+// How far a point of the tool, at most reach_m from its origin, is off its place where the tool goes straight and turns
+// evenly from one pose to another instead of passing through this pose; at the share of the way where it is least, by
+// small angles.
+double off_the_way(const Pose& pose, const Pose& from, const Pose& to, double reach_m) {
+    const auto turn_m = [&](const Quat& a, const Quat& b) {
+        Quat q = b * glm::conjugate(a);
+        if (q.w < 0.0) q = -q;
+        return 2.0 * reach_m * Vec3(q.x, q.y, q.z);
+    };
+    const Vec3 way = to.position_m - from.position_m, done = pose.position_m - from.position_m;
+    if (from.orientation == to.orientation && from.orientation == pose.orientation) {
+        const double length2 = glm::dot(way, way);
+        const double share = length2 > 0.0 ? std::clamp(glm::dot(done, way) / length2, 0.0, 1.0) : 0.0;
+        return glm::length(pose.position_m - (from.position_m + way * share));
+    }
+    const Vec3 way_turned = turn_m(from.orientation, to.orientation);
+    const Vec3 done_turned = turn_m(from.orientation, pose.orientation);
+    const double length2 = glm::dot(way, way) + glm::dot(way_turned, way_turned);
+    const double share =
+        length2 > 0.0 ? std::clamp((glm::dot(done, way) + glm::dot(done_turned, way_turned)) / length2, 0.0, 1.0) : 0.0;
+    const Quat there = compute::turned(from.orientation, to.orientation, share);
+    return glm::length(done - way * share) + glm::length(turn_m(there, pose.orientation));
+}
+
+// Whether one sweep from the first of these poses to the last stands for all.
+bool one_sweep_replaces(std::span<const Pose> poses, const Tool& tool, double reach_m, double tolerance_m) {
+    const bool turning = tool.turns() && poses.front().orientation != poses.back().orientation;
+    if (poses.size() > (turning ? kLongestTurningRun : kLongestRun) + 1) return false;
+    const auto as_felt = [&](const Pose& pose) { return tool.turns() ? pose : Pose{pose.position_m}; };
+    return std::ranges::all_of(poses.subspan(1, poses.size() - 2), [&](const Pose& pose) {
+        return off_the_way(as_felt(pose), as_felt(poses.front()), as_felt(poses.back()), reach_m) <= tolerance_m;
+    });
 }
 
 // Returns how wide a tool is across: of a ball the diameter, of a mesh the longest side of its box.
@@ -122,26 +151,14 @@ std::optional<std::string> misfit(const ToolSettings& settings, const Tool& tool
 }
 
 std::vector<compute::ToolSweep> sweeps_along(std::span<const Pose> poses, const Tool& tool, double tolerance_m) {
-    std::vector<compute::ToolSweep> sweeps;
     if (poses.size() == 1) return {tool.sweep(poses[0], poses[0])};
-    const bool has_orientation = !std::holds_alternative<compute::BallTool>(tool.shape);
+    const double reach_m = reach_of(tool.shape);
+    std::vector<compute::ToolSweep> sweeps;
     for (std::size_t from = 0; from + 1 < poses.size();) {
         std::size_t to = from + 1;
-        const auto unturned = [&](std::size_t end) {
-            return !has_orientation || poses[end].orientation == poses[from].orientation;
-        };
-        const auto straight = [&](std::size_t end) {
-            for (std::size_t k = from + 1; k < end; ++k) {
-                const double off =
-                    distance_to_segment(poses[k].position_m, poses[from].position_m, poses[end].position_m);
-                if (off > tolerance_m) return false;
-            }
-            return true;
-        };
-        while (tolerance_m >= 0.0 && to + 1 < poses.size() && to - from < kLongestRun && unturned(to) &&
-               unturned(to + 1) && straight(to + 1)) {
+        while (tolerance_m >= 0.0 && to + 1 < poses.size() &&
+               one_sweep_replaces(poses.subspan(from, to + 2 - from), tool, reach_m, tolerance_m))
             ++to;
-        }
         sweeps.push_back(tool.sweep(poses[from], poses[to]));
         from = to;
     }

@@ -45,11 +45,13 @@ struct Tool {
     double tolerance_cells = 0.1;
     double smooth_strength = 0.5;
 
-    // Returns the radius of a ball; 0 for other tools, which are neither felt nor drawn.
+    // Returns the radius of a ball; 0 for other tools, which are not drawn.
     [[nodiscard]] double ball_radius_m() const {
         const auto* ball = std::get_if<compute::BallTool>(&shape);
         return ball != nullptr ? ball->radius_m : 0.0;
     }
+    // Tells whether its orientation matters.
+    [[nodiscard]] bool turns() const { return !std::holds_alternative<compute::BallTool>(shape); }
     [[nodiscard]] compute::ToolSweep sweep(const Pose& start_object, const Pose& end_object) const {
         return {shape, start_object, end_object, operation, material, tolerance_cells, smooth_strength};
     }
@@ -81,8 +83,8 @@ struct Tool {
                                                 double cell_m);
 
 // Returns the sweeps of a tool that was at these poses one after the other. From the first pose on, the longest run of
-// one orientation that a straight sweep replaces to within tolerance_m becomes one sweep; where the tool turns there is
-// one from pose to pose. A single pose is a stamp. A ball has no orientation. tolerance_m below zero replaces nothing.
+// which one sweep, straight and evenly turning, replaces to within tolerance_m everywhere on the tool becomes one
+// sweep. A single pose is a stamp. A ball has no orientation. tolerance_m below zero replaces nothing.
 [[nodiscard]] std::vector<compute::ToolSweep> sweeps_along(std::span<const Pose> poses_object, const Tool& tool,
                                                            double tolerance_m);
 

@@ -10,7 +10,7 @@
 
 namespace burin::plot {
 
-// ---- Line plots side by side with one legend (line_figure.cpp)
+// ---- Line plots in rows with one legend (line_figure.cpp)
 
 struct PlotPoint {
     // Above zero where the axis is logarithmic; other points, and those that are not finite, are left out.
@@ -21,6 +21,7 @@ struct PlotPoint {
 struct PlotSeries {
     std::string name;
     std::vector<PlotPoint> points;  // joined in this order
+    double width = 0.0;             // of the line, in pixels; 0: as the plot's others
 };
 
 struct Plot {
@@ -30,9 +31,11 @@ struct Plot {
     bool markers = true;  // false: only a line, for curves of many points
     // The least range that the y axis shows, so that plots side by side compare; equal values: as the series need.
     double y_lowest = 0, y_highest = 0;
+    bool same_scale = false;  // both axes, which are linear: ways in space, where a circle is to be round
 };
 
-[[nodiscard]] std::string svg_figure(const std::string& title, const std::vector<Plot>& plots);
+// Draws the plots in rows of so many; 0: in one row.
+[[nodiscard]] std::string svg_figure(const std::string& title, const std::vector<Plot>& plots, std::size_t columns = 0);
 
 // ---- Line plots over time in a grid (time_figure.cpp), for lines of some thousand points; decimate longer ones first
 

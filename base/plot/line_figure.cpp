@@ -11,7 +11,8 @@ namespace {
 
 // Lengths in pixels. A plot's frame within its cell leaves room for the labels.
 constexpr double kCellWidth = 430, kFrameLeft = 72, kFrameTop = 84, kFrameWidth = 335, kFrameHeight = 300;
-constexpr double kLegendTop = kFrameTop + kFrameHeight + 66, kLegendRow = 20, kLegendColumn = 430;
+constexpr double kRowHeight = kFrameHeight + 84;  // from one row of plots to the next
+constexpr double kLegendRow = 20, kLegendColumn = 430;
 
 bool drawable(const Plot& plot, const PlotPoint& p) {
     return (plot.x_linear || p.x > 0.0) && (plot.y_linear || p.y > 0.0) && std::isfinite(p.x) && std::isfinite(p.y);
@@ -34,6 +35,12 @@ struct Axis {
         double margin = 0.08 * (hi - lo);
         if (!linear) margin = std::max(margin, 0.5 * (1.0 - (hi - lo)));
         if (linear && !(margin > 0.0)) margin = 1.0;
+        lo -= margin;
+        hi += margin;
+    }
+    // Adds as much on both sides as makes it so long.
+    void lengthen(double length) {
+        const double margin = std::max(0.0, 0.5 * (length - (hi - lo)));
         lo -= margin;
         hi += margin;
     }
@@ -114,13 +121,15 @@ std::string line_through(const Plot& plot, const PlotSeries& series, std::size_t
                   p.label);
     }
     if (path.empty()) return "";
+    const double width = series.width > 0.0 ? series.width : plot.markers ? 1.8 : 1.0;
     return "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + colour_of(style) +
-           (plot.markers ? "\" stroke-width=\"1.8\"/>\n" : "\" stroke-width=\"1\"/>\n") + points;
+           formatted("\" stroke-width=\"%g\"/>\n", width) + points;
 }
 
-std::string plot_text(const Plot& plot, double left, const std::vector<std::string>& names) {
+std::string plot_text(const Plot& plot, double left, double top, const std::vector<std::string>& names) {
     Frame f;
     f.left = left + kFrameLeft;
+    f.top = top + kFrameTop;
     f.x.linear = plot.x_linear;
     f.y.linear = plot.y_linear;
     if (plot.y_lowest < plot.y_highest) {
@@ -136,6 +145,11 @@ std::string plot_text(const Plot& plot, double left, const std::vector<std::stri
     }
     f.x.widen();
     f.y.widen();
+    if (plot.same_scale) {
+        const double per_pixel = std::max((f.x.hi - f.x.lo) / kFrameWidth, (f.y.hi - f.y.lo) / kFrameHeight);
+        f.x.lengthen(per_pixel * kFrameWidth);
+        f.y.lengthen(per_pixel * kFrameHeight);
+    }
     const double middle = f.left + kFrameWidth / 2, half_up = f.top + kFrameHeight / 2;
     std::string text = grid_of(f);
     text += write(middle, f.top - 12, "text-anchor=\"middle\" font-size=\"13\" font-weight=\"bold\"", plot.title);
@@ -149,23 +163,27 @@ std::string plot_text(const Plot& plot, double left, const std::vector<std::stri
 
 }  // namespace
 
-std::string svg_figure(const std::string& title, const std::vector<Plot>& plots) {
+std::string svg_figure(const std::string& title, const std::vector<Plot>& plots, std::size_t columns) {
     std::vector<std::string> names;
     for (const Plot& plot : plots) {
         for (const PlotSeries& s : plot.series) {
             if (std::ranges::find(names, s.name) == names.end()) names.push_back(s.name);
         }
     }
-    const double width = kCellWidth * static_cast<double>(std::max<std::size_t>(1, plots.size()));
-    const auto columns = static_cast<std::size_t>(std::max(1.0, std::floor(width / kLegendColumn)));
-    const double height = kLegendTop + kLegendRow * static_cast<double>((names.size() + columns - 1) / columns) + 6;
+    const std::size_t across = std::max<std::size_t>(1, columns > 0 ? std::min(columns, plots.size()) : plots.size());
+    const std::size_t rows = std::max<std::size_t>(1, (plots.size() + across - 1) / across);
+    const double width = kCellWidth * static_cast<double>(across);
+    const auto legends = static_cast<std::size_t>(std::max(1.0, std::floor(width / kLegendColumn)));
+    const double legend_top = kFrameTop + kRowHeight * static_cast<double>(rows) - 18;
+    const double height = legend_top + kLegendRow * static_cast<double>((names.size() + legends - 1) / legends) + 6;
     std::string text = svg_begin(width, height, title, 30);
     for (std::size_t i = 0; i < plots.size(); ++i) {
-        text += plot_text(plots[i], kCellWidth * static_cast<double>(i), names);
+        text += plot_text(plots[i], kCellWidth * static_cast<double>(i % across),
+                          kRowHeight * static_cast<double>(i / across), names);
     }
     for (std::size_t i = 0; i < names.size(); ++i) {
-        const double x = kFrameLeft + kLegendColumn * static_cast<double>(i % columns);
-        const double y = kLegendTop + kLegendRow * static_cast<double>(i / columns);
+        const double x = kFrameLeft + kLegendColumn * static_cast<double>(i % legends);
+        const double y = legend_top + kLegendRow * static_cast<double>(i / legends);
         text += marker(i, x, y) + write(x + 12, y + 4, "font-size=\"12\"", names[i]);
     }
     return text + "</svg>\n";

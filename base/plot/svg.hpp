@@ -13,7 +13,8 @@
 namespace burin::plot {
 
 // Colours of Okabe and Ito, which people with any kind of colour vision can tell apart.
-inline constexpr std::array kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9"};
+inline constexpr std::array kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                     "#000000", "#e69f00", "#56b4e9", "#999999"};
 
 // Returns the colour of a series; they begin again after the last.
 [[nodiscard]] inline const char* colour_of(std::size_t series) { return kColours[series % kColours.size()]; }

@@ -9,6 +9,7 @@
 
 #include "bench/haptics/touch_run.hpp"
 #include "sculpt/feel_options.hpp"
+#include "sculpt/felt_tool.hpp"
 #include "sculpt/sculpt_service.hpp"
 
 namespace burin::bench {
@@ -102,7 +103,8 @@ Result<void> touch_while_carving(Haptics& all, const Carving& of) {
     if (!path) return std::unexpected(path.error());
     MonotonicClock clock;
     TickCosts& costs = costs_of(all, "carving", of);
-    const haptics::TickParameters parameters = session_parameters(haptics::ball_probe(of.tool_m), true);
+    haptics::TickParameters parameters = session_parameters(haptics::ball_probe(of.tool_m), true);
+    parameters.tool = sculpt::felt_tool(compute::BallTool{of.tool_m}).surface;
     TouchRun run(costs, clock, parameters, *path, true);
     const double reach_m = 0.012 + 2.0 * of.ball.cell_m();  // as a session: 1 m/s for 12 ms
     sculpt::SculptService service(of.ball.sculpture(), run.channels(), ball_tool(of.tool_m),

@@ -22,6 +22,7 @@
 
 #include "geometry/contact/posed_surface.hpp"
 #include "haptics/contact/contact_work.hpp"
+#include "haptics/contact/tool_shape.hpp"
 
 namespace burin::haptics {
 
@@ -47,6 +48,10 @@ public:
     struct Contact {
         Vec3 proxy_m{0.0}, hand_m{0.0};
         double radius_m = 0.0;
+        // A tool that is no ball, and how it stands at the proxy and in the hand. Its distance counts as if half its
+        // width were the radius, and where its hulls overlap something it does not.
+        const ToolShape* shape = nullptr;
+        Quat proxy_orientation{1.0, 0.0, 0.0, 0.0}, hand_orientation{1.0, 0.0, 0.0, 0.0};
     };
 
     // Looks, where a look is due, and adds its work. Call it once a tick in contact, before the proxy moves.

@@ -19,6 +19,9 @@ struct ContactWork {
     std::uint32_t fours_measured = 0;    // times that the distances of four triangles were computed
     std::uint32_t steps = 0;             // of proxies
     std::uint32_t plane_solves = 0;
+    std::uint32_t supports = 0;       // corners of a tool's piece searched for the farthest, so many times
+    std::uint32_t pieces = 0;         // of triangles, given to samples of the tool's surface
+    std::uint32_t cutting_terms = 0;  // elements of the tool's surface times iterations
 
     ContactWork& operator+=(const ContactWork& other) noexcept {
         triangles_tested += other.triangles_tested;
@@ -28,6 +31,9 @@ struct ContactWork {
         fours_measured += other.fours_measured;
         steps += other.steps;
         plane_solves += other.plane_solves;
+        supports += other.supports;
+        pieces += other.pieces;
+        cutting_terms += other.cutting_terms;
         return *this;
     }
 };
@@ -38,13 +44,15 @@ struct ContactWork {
 // theirs is the time of one alone.
 struct WorkCost {
     static constexpr double kTick_ns = 250.0, kTest_ns = 60.0, kLook_ns = 10.0, kGathered_ns = 55.0, kPoint_ns = 15.0,
-                            kFour_ns = 120.0, kStep_ns = 360.0;
+                            kFour_ns = 120.0, kStep_ns = 360.0, kPiece_ns = 20.0, kTerm_ns = 4.0, kSupport_ns = 45.0;
 };
 
 [[nodiscard]] inline double cost_ns(const ContactWork& work) noexcept {
     return WorkCost::kTick_ns + WorkCost::kTest_ns * work.triangles_tested + WorkCost::kLook_ns * work.triangles_seen +
            WorkCost::kGathered_ns * work.gathered + WorkCost::kPoint_ns * work.points +
-           WorkCost::kFour_ns * work.fours_measured + WorkCost::kStep_ns * work.steps;
+           WorkCost::kFour_ns * work.fours_measured + WorkCost::kStep_ns * work.steps +
+           WorkCost::kPiece_ns * work.pieces + WorkCost::kTerm_ns * work.cutting_terms +
+           WorkCost::kSupport_ns * work.supports;
 }
 
 // What a tick may spend on contact.

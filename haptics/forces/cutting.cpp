@@ -3,44 +3,130 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "haptics/contact/static_vector.hpp"
 
 namespace burin::haptics {
 namespace {
 
-// Bisection steps: enough for every digit of a double.
-constexpr int kHalvings = 54;
+// Of the tool's size or of one radian: so much motion asks for another look.
+constexpr double kLookAgain = 0.1;
+constexpr std::uint32_t kMostStride = 1024;
+// Least share of the half width over which a sample becomes engaged, and least cosine of a way onto a plane.
+constexpr double kLeastSpread = 0.05, kLeastApproach = 0.2;
+// The search begins with a stress that rises over this much, of the tool's size, and so without sharp corners.
+constexpr double kFirstCreep = 1e-3;
+// It ends where a step brings the function down by this share of it, or after so many steps and halvings.
+constexpr double kSettled = 1e-9;
+constexpr int kMostIterations = 15, kMostHalvings = 8;
 
-// Advance of c in one step by implicit Euler. With x_n, x_t the vector from c to the hand and K = k g^2 dt,
-//     H (A_nn s + A_nt u) = K (x_n - s)      H (A_nt s + A_tt u) = K (x_t - u), u >= 0
-// with the areas at depth d + s. The second equation gives u for any s. The residual of the first is negative where the
-// tool leaves the material and positive where it reaches the hand, so there is a root between.
-struct Advance {
-    double hardness_Ns_per_m3, pull_Ns_per_m, radius_m, depth_m, way_in_m, way_across_m;
+// One element of the tool's surface in one tick: resisted by area * stress(w), w = max(0, dot(normal, u) + ahead_m).
+struct Element {
+    Vec3 normal{0.0};
+    double area_m2 = 0.0;
+    double ahead_m = 0.0;  // what the tool's turning brings it forward, less its gap to the material
+    Vec3 arm_m{0.0};       // from the tool's origin
+};
+using Elements = StaticVector<Element, 4 * Engagement::kMost>;
 
-    struct Step {
-        double in_m = 0.0, across_m = 0.0;
-    };
-    [[nodiscard]] Step step() const {
-        double lo = -depth_m, hi = way_in_m;
-        for (int i = 0; i < kHalvings; ++i) {
-            const double s = 0.5 * (lo + hi);
-            (left_over(s) < 0.0 ? lo : hi) = s;
+// A symmetric matrix of three rows, and the solution of a linear system with it.
+struct Symmetric {
+    double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
+
+    void add(const Vec3& m, double weight) {
+        xx += weight * m.x * m.x, xy += weight * m.x * m.y, xz += weight * m.x * m.z;
+        yy += weight * m.y * m.y, yz += weight * m.y * m.z, zz += weight * m.z * m.z;
+    }
+    // By Cholesky's decomposition; the matrix is positive definite.
+    [[nodiscard]] Vec3 solved(const Vec3& b) const {
+        const double a = std::sqrt(xx), p = xy / a, q = xz / a;
+        const double d = std::sqrt(std::max(yy - p * p, 1e-300)), r = (yz - p * q) / d;
+        const double e = std::sqrt(std::max(zz - q * q - r * r, 1e-300));
+        const double y0 = b.x / a, y1 = (b.y - p * y0) / d, y2 = (b.z - q * y0 - r * y1) / e;
+        const double z = y2 / e, y = (y1 - r * z) / d;
+        return {(y0 - p * y - q * z) / a, y, z};
+    }
+};
+
+// The function whose least gives the step.
+class Resistance {
+public:
+    Resistance(const Elements& elements, std::uint32_t count, const Vec3& way_m, double pull, double yield,
+               double hardness, double creep_m)
+        : elements_(elements),
+          count_(count),
+          way_m_(way_m),
+          pull_(pull),
+          yield_(yield),
+          hardness_(hardness),
+          creep_m_(creep_m) {}
+
+    [[nodiscard]] std::uint32_t elements() const { return count_; }
+    [[nodiscard]] double stress(double w) const { return yield_ * std::min(1.0, w / creep_m_) + hardness_ * w; }
+
+    [[nodiscard]] double at(const Vec3& u) const {
+        const Vec3 left = way_m_ - u;
+        double sum = 0.5 * pull_ * glm::dot(left, left);
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            const Element& e = elements_[i];
+            const double w = glm::dot(e.normal, u) + e.ahead_m;
+            if (w <= 0.0) continue;
+            const double yielding = w < creep_m_ ? 0.5 * w * w / creep_m_ : w - 0.5 * creep_m_;
+            sum += e.area_m2 * (yield_ * yielding + 0.5 * hardness_ * w * w);
         }
-        return {lo, across(lo, engaged_areas(radius_m, depth_m + lo))};
+        return sum;
+    }
+    // Newton's way from u to the least of the quadratic function that agrees at u.
+    [[nodiscard]] Vec3 newton(const Vec3& u) const {
+        Vec3 downhill = pull_ * (way_m_ - u);
+        Symmetric curvature{.xx = pull_, .yy = pull_, .zz = pull_};
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            const Element& e = elements_[i];
+            const double w = glm::dot(e.normal, u) + e.ahead_m;
+            if (w < 0.0) continue;
+            downhill -= e.area_m2 * stress(w) * e.normal;
+            curvature.add(e.normal, e.area_m2 * (hardness_ + (w < creep_m_ ? yield_ / creep_m_ : 0.0)));
+        }
+        return curvature.solved(downhill);
     }
 
 private:
-    [[nodiscard]] double across(double s, const EngagedAreas& a) const {
-        const double driven = pull_Ns_per_m * way_across_m - hardness_Ns_per_m3 * a.lift_m2 * s;
-        const double resists = hardness_Ns_per_m3 * a.across_m2 + pull_Ns_per_m;
-        return driven > 0.0 ? std::min(way_across_m, driven / resists) : 0.0;
-    }
-    [[nodiscard]] double left_over(double s) const {
-        const EngagedAreas a = engaged_areas(radius_m, depth_m + s);
-        return hardness_Ns_per_m3 * (a.into_m2 * s + a.lift_m2 * across(s, a)) - pull_Ns_per_m * (way_in_m - s);
-    }
+    const Elements& elements_;
+    std::uint32_t count_;
+    Vec3 way_m_;
+    double pull_, yield_, hardness_, creep_m_;
 };
+
+// Newton's steps from u, each halved until it brings the function down.
+Vec3 least(const Resistance& resistance, Vec3 u, std::uint32_t& terms) {
+    double now = resistance.at(u);
+    if (const double at_rest = resistance.at(Vec3(0.0)); at_rest < now) u = Vec3(0.0), now = at_rest;
+    terms += 2 * resistance.elements();
+    for (int i = 0; i < kMostIterations; ++i) {
+        Vec3 onward = resistance.newton(u);
+        double then = resistance.at(u + onward);
+        terms += 2 * resistance.elements();
+        for (int k = 0; k < kMostHalvings && !(then < now); ++k) {
+            onward *= 0.5;
+            then = resistance.at(u + onward);
+            terms += resistance.elements();
+        }
+        if (!(then < now)) break;
+        u += onward;
+        const bool settled = now - then <= kSettled * now;
+        now = then;
+        if (settled) break;
+    }
+    return u;
+}
+
+// How much harder than its mean the material is at a place, from a wave of straight flanks.
+double grain_at(const TouchMaterial& material, const Vec3& place_object_m) {
+    if (!(material.grain_share > 0.0 && material.grain_spacing_m > 0.0)) return 1.0;
+    const double rings = glm::dot(place_object_m, material.grain_axis_object) / material.grain_spacing_m;
+    const double phase = rings - std::floor(rings);
+    return 1.0 + material.grain_share * (4.0 * std::abs(phase - 0.5) - 1.0);
+}
 
 // The cutting point at the beginning of this step.
 Vec3 carried_over(const CuttingState& state, const CuttingInput& in) {
@@ -51,80 +137,126 @@ Vec3 carried_over(const CuttingState& state, const CuttingInput& in) {
     return lag_m > most ? in.hip_object_m + lag * (most / lag_m) : state.point_object_m;
 }
 
-Vec3 into_material(const CuttingState& state, const CuttingInput& in) {
-    const bool shown = state.known.into_object != Vec3(0.0);
-    return shown ? state.known.into_object : -in.normal_object;
-}
-
-// Viscous drag over the engaged area.
-Vec3 drag(const CuttingInput& in, const TouchMaterial& material, double area_device_m2) {
-    return -material.cutting_drag_Ns_per_m3 * area_device_m2 * in.velocity_device_m_per_s;
+// What the tool may meet on a way of most_m. A sample partly within the material counts as four elements, one behind
+// the other, so that the area grows evenly as the tool sinks.
+std::uint32_t elements_of(const CuttingState& state, const CuttingInput& in, const ToolSurface& tool, const Vec3& place,
+                          double most_m, Elements& elements) {
+    std::uint32_t count = 0;
+    const Engagement& known = state.known;
+    const Vec3 shift = place - known.place_object_m;
+    for (std::uint32_t i = 0; i < known.count; ++i) {
+        const EngagedSample& s = known.samples[i];
+        const ToolSample& on_tool = tool.samples[s.sample];
+        const Vec3 arm = in.orientation_object * Vec3(on_tool.position_m);
+        const Vec3 normal = in.orientation_object * Vec3(on_tool.normal);
+        const Vec3 out(s.normal);
+        const double approach = -glm::dot(out, normal);
+        if (approach <= 0.0) continue;  // the tool has turned away
+        const double fit = static_cast<double>(s.fit);
+        const double bed_m = fit * kBed * tool.size_m - (1.0 - fit) * static_cast<double>(on_tool.raised_m);
+        const double free_m = glm::dot(out, arm + shift) - static_cast<double>(s.offset_m) - bed_m;
+        const double tilt = std::sqrt(std::max(0.0, 1.0 - approach * approach));
+        const double spread_m = static_cast<double>(on_tool.half_width_m) * (tilt + kLeastSpread);
+        const double turn_m =
+            state.engaged ? glm::dot(normal, arm - state.orientation_object * Vec3(on_tool.position_m)) : 0.0;
+        if (free_m > spread_m + most_m + std::abs(turn_m)) continue;
+        const bool all = free_m <= -spread_m;
+        const int parts = all ? 1 : 4;
+        for (int k = 0; k < parts; ++k) {
+            const double part_m = all ? 0.0 : free_m + spread_m * (0.5 * k - 0.75);
+            const double gap_m = std::max(0.0, part_m) / std::max(approach, kLeastApproach);
+            elements[count++] = {normal, static_cast<double>(s.area_m2) / parts, turn_m - gap_m, arm};
+        }
+    }
+    return count;
 }
 
 CuttingStep not_cutting(const CuttingState& state, const CuttingInput& in) {
     CuttingStep step;
     step.next = state;
     step.next.point_object_m = step.bearing_object_m = in.proxy_object_m;
+    step.next.step_object_m = Vec3(0.0);
     step.next.engaged = false;
     return step;
 }
 
 }  // namespace
 
-EngagedAreas engaged_areas(double radius_m, double depth_m) noexcept {
-    if (!(radius_m > 0.0) || !(depth_m > 0.0)) return {};
-    const double x = std::min(depth_m / radius_m, 1.0);
-    const double rim = x * (2.0 - x);  // the rim's radius over R, squared
-    const double R2 = radius_m * radius_m;
-    return {2.0 * std::numbers::pi * R2 * x * (1.0 - x + x * x / 3.0),
-            0.5 * std::numbers::pi * R2 * x * x * (1.0 - x / 3.0), 2.0 / 3.0 * R2 * rim * std::sqrt(rim)};
-}
-
-CuttingStep cut(const CuttingState& state, const CuttingInput& in, const TouchMaterial& material) noexcept {
-    const double hardness = material.hardness_Ns_per_m3;
-    if (!in.cutting || !std::isfinite(hardness)) return not_cutting(state, in);
+CuttingStep cut(const CuttingState& state, const CuttingInput& in, const ToolSurface& tool,
+                const TouchMaterial& material) noexcept {
+    if (!in.cutting || !std::isfinite(material.hardness_Ns_per_m3) || tool.count == 0) return not_cutting(state, in);
     CuttingStep step;
     step.next = state;
     step.next.engaged = true;
+    step.next.orientation_object = in.orientation_object;
     const Vec3 before = carried_over(state, in);
-    const Vec3 into = into_material(state, in);
-    const Vec3 way = in.hip_object_m - before;
-    const double way_in_m = std::max(0.0, glm::dot(way, into));  // 0: c was deeper than the hand now is
-    const Vec3 way_across = way - glm::dot(way, into) * into;
-    const double ahead_m = glm::dot(before - in.proxy_object_m, into);
-    const double depth_m = std::max(0.0, state.known.depth_m + ahead_m);
-    const double pull = in.stiffness_N_per_m * in.scale * in.scale * in.dt_s;
-
-    const double way_across_m = glm::length(way_across);
-    const Advance advance{hardness, pull, in.tool_radius_m, depth_m, way_in_m, way_across_m};
-    const Advance::Step done = hardness > 0.0 ? advance.step() : Advance::Step{way_in_m, way_across_m};
-    const Vec3 sideways = way_across_m > 0.0 ? way_across * (done.across_m / way_across_m) : Vec3(0.0);
-    const Vec3 point = in.hip_object_m - (way_in_m - done.in_m) * into - (way_across - sideways);
-
+    const Vec3 way_m = in.hip_object_m - before;
+    Elements elements;
+    const std::uint32_t count = elements_of(state, in, tool, before, glm::length(way_m), elements);
+    const double grain = grain_at(material, before);
+    const double g = in.scale;
+    const double pull = in.stiffness_N_per_m * g * g * in.dt_s;
+    const double yield = material.cutting_yield_Pa * grain * g * in.dt_s;
+    const double hardness = material.hardness_Ns_per_m3 * grain;
+    Vec3 u = state.engaged ? state.step_object_m : Vec3(0.0);
+    for (const double creep : {kFirstCreep, kCreep})
+        u = least(Resistance(elements, count, way_m, pull, yield, hardness, creep * tool.size_m), u, step.terms);
+    const Vec3 point = before + u;
     step.next.point_object_m = step.bearing_object_m = point;
-    step.engaged_depth_m = depth_m + done.in_m;
-    const EngagedAreas areas = engaged_areas(in.tool_radius_m, step.engaged_depth_m);
-    step.engaged_area_m2 = areas.into_m2 / (in.scale * in.scale);
-    step.cut_speed_m_per_s = glm::length(done.in_m * into + sideways) / (in.scale * in.dt_s);
-    step.drag_device_N = drag(in, material, step.engaged_area_m2);
+    step.next.step_object_m = u;
+    const Resistance resistance(elements, count, way_m, pull, yield, hardness, kCreep * tool.size_m);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Element& e = elements[i];
+        const double w = glm::dot(e.normal, u) + e.ahead_m;
+        if (w < 0.0) continue;
+        step.engaged_area_m2 += e.area_m2 / (g * g);
+        // Stresses come out as pressure times g dt, areas and arms in the object's frame.
+        step.torque_device_Nm -=
+            glm::cross(e.arm_m / g, (resistance.stress(w) / (g * in.dt_s) * e.area_m2 / (g * g)) * e.normal);
+    }
+    step.cut_speed_m_per_s = glm::length(u) / (g * in.dt_s);
+    step.drag_device_N = -material.cutting_drag_Ns_per_m3 * step.engaged_area_m2 * in.velocity_device_m_per_s;
     return step;
 }
 
-LookedAt look_at(const CuttingState& state, const CuttingInput& in, const geometry::LocalSurface& surface) noexcept {
-    const double moved_m = glm::length(in.proxy_object_m - state.looked_at_object_m);
-    if (state.surface_sequence == surface.sequence && moved_m <= 0.1 * in.tool_radius_m) return {state, 0};
-    // Direction in which the tool is driven sideways; its length is the sideways share of the drive.
-    const Vec3 way = in.hip_object_m - carried_over(state, in);
-    const Vec3 into = into_material(state, in);
-    const Vec3 across = way - glm::dot(way, into) * into;
-    const double way_m = glm::length(way);
-    const EngagementLook look =
-        engagement(surface, in.proxy_object_m, in.tool_radius_m, way_m > 0.0 ? across / way_m : Vec3(0.0));
-    LookedAt looked{state, look.triangles_seen};
-    looked.next.known = look.engagement;
-    looked.next.looked_at_object_m = in.proxy_object_m;
-    looked.next.surface_sequence = surface.sequence;
-    return looked;
+LookedAt look_at(const CuttingState& state, const CuttingInput& in, const ToolSurface& tool,
+                 const geometry::LocalSurface& surface, const EngagementWork& most) noexcept {
+    const Engagement& known = state.known;
+    const Quat turn = in.orientation_object * glm::conjugate(known.orientation_object);
+    const double half_angle = glm::length(Vec3(turn.x, turn.y, turn.z));
+    const bool moved = glm::length(in.proxy_object_m - known.place_object_m) > kLookAgain * tool.size_m ||
+                       half_angle > 0.5 * kLookAgain;
+    if (known.surface_sequence == surface.sequence && !moved) return {known, {}};
+    EngagementLook look = look_around(surface, tool, in.proxy_object_m, in.orientation_object, known.stride, most);
+    if (!look.complete) {
+        LookedAt as_before{known, look.work};
+        as_before.known.stride = std::min(known.stride * 2, kMostStride);
+        // Where a look has never been complete the part seen is better than nothing.
+        if (known.surface_sequence == 0) as_before.known = look.engagement;
+        return as_before;
+    }
+    if (known.stride > 1 && 3 * look.work.pieces < most.pieces) look.engagement.stride = known.stride / 2;
+    return {look.engagement, look.work};
+}
+
+std::optional<Vec3> middle_of_bearing(const Engagement& known, const CuttingInput& in,
+                                      const ToolSurface& tool) noexcept {
+    const Vec3 way = in.hip_object_m - in.proxy_object_m, shift = in.proxy_object_m - known.place_object_m;
+    Vec3 sum(0.0);
+    double weights = 0.0;
+    for (std::uint32_t i = 0; i < known.count; ++i) {
+        const EngagedSample& s = known.samples[i];
+        const Vec3 arm = in.orientation_object * Vec3(tool.samples[s.sample].position_m);
+        const Vec3 out(s.normal);
+        const double gap_m = glm::dot(out, arm + shift) - static_cast<double>(s.offset_m);
+        const double deep_m = -glm::dot(out, way) - gap_m;
+        if (!(deep_m > 0.0)) continue;
+        const double weight = deep_m * static_cast<double>(s.area_m2);
+        sum += weight * arm;
+        weights += weight;
+    }
+    if (!(weights > 0.0)) return std::nullopt;
+    return in.proxy_object_m + sum / weights;
 }
 
 }  // namespace burin::haptics

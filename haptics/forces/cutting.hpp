@@ -1,34 +1,36 @@
 // SPDX-License-Identifier: MIT
-// Cutting forces: the tool advances into the material at a rate set by force and hardness.
+// Cutting forces: any tool advances into the material where the hand presses harder than the material bears.
 //
-// The surface that the tick knows is some milliseconds old, and the proxy p rests on it. Between p and the HIP h lies
-// material that the hand presses into. The cutting point c is where the tool has cut to; it bears the tool with F = k
-// (h - c). Each element of the ball's engaged surface that moves into material is resisted along its normal m by the
-// pressure H (v . m), H the hardness and v = dc/dt. Summed over the engaged surface:
-//     F_n = H (A_nn v_n + A_nt v_t)      F_t = H (A_nt v_n + A_tt v_t)      A_ij = integral of m_i m_j
-// n the direction into the material, t across it. Pressed straight in, the tool sinks at F / (H A_nn). Moved along the
-// surface it is resisted by H A_tt v_t and lifted by H A_nt v_t, so it runs at the depth where the lift balances the
-// press: deeper with more force, softer material and less speed. The hand feels k (c - h) at 1 kHz, however seldom the
-// carved surface is published; the carving side sweeps the tool along c. When the surface with the cut arrives the
-// proxy comes down to c, and c stays.
+// The surface that the tick knows is some milliseconds old, and the tool's balls rest on it (haptics/contact/). Beyond
+// it lies material that the hand, at the HIP h, presses into. The cutting point c is where the tool has cut to; it
+// bears the tool with F = k (h - c). Each element of the tool's surface that is engaged (haptics/forces/engagement.hpp)
+// and moves into material, v_n = v . m > 0 with m its outward normal, is resisted along m by the pressure
+//     p = p0 + H v_n
+// the linear chip law: force on a cutting edge is K_c times the chip's section plus an edge force F_e that no chip is
+// too thin for. For a driven cutter of tooth spacing s, cutting speed v_c and thrust ratio r it gives H = r K_c / v_c
+// and p0 = r F_e / s (docs/decisions/023-cutting-with-any-tool.md). So a tool that is pressed lightly, F < p0 A, holds
+// still; beyond that it sinks at (F / A - p0) / H; and drawn along it runs at the depth where the lift of what lies
+// ahead bears the press, deeper with more force, softer material and less speed.
 //
-// For a ball of radius R at depth d, x = d / R <= 1 (deeper it is as at x = 1, half the ball):
-//     A_nn = 2 pi R^2 (x - x^2 + x^3 / 3)             the whole cap
-//     A_tt = pi / 2 R^2 (x^2 - x^3 / 3)               its front half
-//     A_nt = 2/3 R^2 (x (2 - x))^(3/2)                likewise
-// d is the depth that the known surface shows at the proxy (haptics/forces/engagement.hpp) plus the distance of c ahead
-// of the proxy.
+// A step is the least of a convex function of the way u that c goes in the period, and so unique, stable for any
+// hardness and any period, and never adds energy: F . u >= 0 while the tool does not turn.
+//     K / 2 |x - u|^2 + sum A (p0' w + H w^2 / 2),    w = max(0, m . u + turn - gap),  K = k g^2 dt,  p0' = p0 g dt
+// x from c to h, `turn` the element's own motion along m because the hand turns the tool, `gap` how far it is from the
+// material. Found by Newton's method. The stress below the yield rises over kCreep of the tool's size
+// a tick: three nanometres a second for a tool of 3 mm. The torque is that of the elements' stresses about the tool's
+// origin.
 //
-// Bounds: the force is never more than the uncut surface would give, |h - c| <= |h - p| + slack: where the proxy moves
-// freely, c is drawn after it. The slack is the difference in radius between the ball that cuts and the ball that
-// touches: without it each new surface would move c on by this difference, and the tool would sink without a force. c
-// is never deeper than the hand.
-// The step is implicit, so that any hardness and any period are stable: hardness 0 cuts without resistance (c = h),
-// infinite hardness does not cut (c = p). The material only absorbs energy: F . dc >= 0. Lengths at the device are
-// shorter by the gain g, areas by g^2.
+// Bounds: the force is never more than the uncut surface would give, |h - c| <= |h - p| + slack, p the tool's proxy:
+// where the proxy moves freely, c is drawn after it. The slack is the difference between the tool that cuts and the
+// balls that touch: without it each new surface would move c on by this difference, and the tool would sink without a
+// force. Hardness 0 without p0 cuts without resistance (c = h), infinite hardness does not cut (c = p). Lengths at the
+// device are shorter by the gain g, areas by g^2.
+// Grain: both figures may swell and fall with the place along an axis, as the rings of a tree do.
 // Frame: object, metres. Pure; no clock, heap, lock or throw; + - * / and sqrt only, so that every machine gives the
 // same bits.
 #pragma once
+
+#include <optional>
 
 #include "base/space.hpp"
 #include "haptics/forces/engagement.hpp"
@@ -36,22 +38,22 @@
 
 namespace burin::haptics {
 
+inline constexpr double kCreep = 1e-9;  // of the tool's size a tick
+
 struct CuttingState {
-    Vec3 point_object_m{0.0};  // c, the cutting point
-    bool engaged = false;      // false: c is the proxy
-    // Engagement at the proxy and the position at which it was computed.
+    Vec3 point_object_m{0.0};                     // c, the cutting point
+    bool engaged = false;                         // false: c is the proxy
+    Quat orientation_object{1.0, 0.0, 0.0, 0.0};  // of the last tick
+    Vec3 step_object_m{0.0};                      // of the last tick, where the search begins
     Engagement known;
-    Vec3 looked_at_object_m{0.0};
-    std::uint64_t surface_sequence = 0;
 };
 
 struct CuttingInput {
     Vec3 hip_object_m{0.0};
-    Vec3 proxy_object_m{0.0};  // on the known surface; the HIP itself in free space
-    Vec3 normal_object{0.0};   // contact normal, unit; the outward direction where the engagement shows none
+    Vec3 proxy_object_m{0.0};  // of the tool, on the known surface; the HIP itself in free space
+    Quat orientation_object{1.0, 0.0, 0.0, 0.0};
     Vec3 velocity_device_m_per_s{0.0};
     double scale = 1.0;              // object metres per device metre
-    double tool_radius_m = 0.0;      // object frame; a point has no area and cuts without resistance
     double slack_m = 0.0;            // object frame; how far the proxy may be ahead of c
     bool cutting = false;            // in contact, the button is pressed and the tool cuts
     double stiffness_N_per_m = 0.0;  // at the device, after the limiter
@@ -62,27 +64,28 @@ struct CuttingStep {
     CuttingState next;
     Vec3 bearing_object_m{0.0};      // where the spring pulls the hand: c while cutting, else the proxy
     Vec3 drag_device_N{0.0};         // viscous, against the motion
-    double engaged_depth_m = 0.0;    // object frame: d
-    double engaged_area_m2 = 0.0;    // at the device: A_nn
+    Vec3 torque_device_Nm{0.0};      // of the material on the tool, about its origin, in the object's axes
+    double engaged_area_m2 = 0.0;    // at the device: of all engaged elements that do not move out of the material
     double cut_speed_m_per_s = 0.0;  // of c, at the device
+    std::uint32_t terms = 0;         // elements times iterations: the work done
 };
-
-// Engaged areas of a ball, in any unit of length; depth >= 0.
-struct EngagedAreas {
-    double into_m2 = 0.0, across_m2 = 0.0, lift_m2 = 0.0;  // A_nn, A_tt, A_nt
-};
-[[nodiscard]] EngagedAreas engaged_areas(double radius_m, double depth_m) noexcept;
 
 // Moves the cutting point for one tick. Uses state.known as it is; look_at() refreshes it.
-[[nodiscard]] CuttingStep cut(const CuttingState& state, const CuttingInput& input,
+[[nodiscard]] CuttingStep cut(const CuttingState& state, const CuttingInput& input, const ToolSurface& tool,
                               const TouchMaterial& material) noexcept;
 
-// Recomputes the engagement when the surface is new or the proxy has moved by a tenth of the tool's radius.
+// Looks at the surface anew when it is another or the tool has moved by a tenth of its size or turned by as much, with
+// at most the work given. A look that needed more leaves what was known, and the next one is coarser.
 struct LookedAt {
-    CuttingState next;
-    std::uint32_t triangles_seen = 0;
+    Engagement known;
+    EngagementWork work;
 };
-[[nodiscard]] LookedAt look_at(const CuttingState& state, const CuttingInput& input,
-                               const geometry::LocalSurface& surface) noexcept;
+[[nodiscard]] LookedAt look_at(const CuttingState& state, const CuttingInput& input, const ToolSurface& tool,
+                               const geometry::LocalSurface& surface, const EngagementWork& most) noexcept;
+
+// Returns the middle of the pressure with which a tool that touches bears on the surface known, in the object frame:
+// each engaged element bears by how deep it would lie where the hand is. Nothing where none would.
+[[nodiscard]] std::optional<Vec3> middle_of_bearing(const Engagement& known, const CuttingInput& input,
+                                                    const ToolSurface& tool) noexcept;
 
 }  // namespace burin::haptics

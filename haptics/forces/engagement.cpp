@@ -3,162 +3,214 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "geometry/contact/lanes.hpp"
 #include "geometry/contact/local_surface_search.hpp"
 
 namespace burin::haptics {
 namespace {
 
-// Fractions of the ball's radius.
-constexpr double kReach = 1.1;
-constexpr double kSurroundings = 1.6;
-constexpr double kPiece = 1.0 / 3.0;     // longest edge of a piece
-constexpr std::uint32_t kMostCuts = 24;  // pieces along an edge; coarser than kPiece where a triangle is huge
+// Longest edge of a piece, of the tool's size, and longer by this share of its distance from the tool; the most parts
+// into which an edge is cut.
+constexpr float kPiece = 0.12f, kLonger = 0.3f;
+constexpr std::uint32_t kMostParts = 48;
+// A coarser look has longer pieces first, up to twice as long and so a quarter as many, and then fewer triangles.
+constexpr std::uint32_t kByLength = 4;
+// A piece belongs to a sample no farther to its side than this, of the sample's half width.
+constexpr float kBeside = 2.0f;
+// The surface around a sample fits it where both normals are opposite by so much, and turn alike from the sample to so
+// many of those beside it: on a plane, where a ball's alone turn, to none; at the rim of a bed to half of them.
+constexpr float kNotOpposite = 0.9f, kOpposite = 0.98f;
+constexpr float kNoneAlike = 0.15f, kEnoughAlike = 0.4f;
+// Turns by less than this, in radians, are none.
+constexpr float kFlat = 0.05f;
 
-// A sum in double of values in float.
-class Sum {
-public:
-    void add(geometry::LaneMask those, geometry::Lanes values) {
-        lanes_ += __builtin_convertvector(those != 0 ? values : geometry::Lanes{}, DoubleLanes);
+// Rows of the matrix that turns the object's axes into the tool's.
+struct Turn {
+    explicit Turn(const Quat& object_from_tool) {
+        const Quat tool_from_object = glm::conjugate(object_from_tool);
+        for (int axis = 0; axis < 3; ++axis) {
+            Vec3 unit(0.0);
+            unit[axis] = 1.0;
+            columns[axis] = Vec3f(tool_from_object * unit);
+        }
     }
-    [[nodiscard]] double all() const { return (lanes_[0] + lanes_[1]) + (lanes_[2] + lanes_[3]); }
-
-private:
-    using DoubleLanes [[gnu::vector_size(8 * geometry::kLanes)]] = double;
-    DoubleLanes lanes_{};
+    [[nodiscard]] Vec3f operator()(const Vec3f& v) const {
+        return v.x * columns[0] + v.y * columns[1] + v.z * columns[2];
+    }
+    Vec3f columns[3];
 };
 
-geometry::Lanes square_root(geometry::Lanes x) {
-    for (std::size_t k = 0; k < geometry::kLanes; ++k) x[k] = std::sqrt(x[k]);
-    return x;
-}
-
-// Accumulates the solid angle of the surface within reach of the centre. Processes four triangles at a time, relative
-// to the centre in units of the radius, in float: its rounding is 1e-7 of the radius, like that of the surface. Sums
-// are double.
-class View {
+// Sums over the pieces of each sample, in the tool's frame.
+class Pieces {
 public:
-    View(const Vec3& center, double radius_m, const Vec3& ahead)
-        : center_(center),
-          per_m_(1.0 / radius_m),
-          ahead_(geometry::in_all_lanes(Vec3f(ahead))),
-          bias_(static_cast<float>(std::sqrt(glm::dot(ahead, ahead)))) {}
+    Pieces(const ToolSurface& tool, std::uint32_t stride, float weight, std::uint32_t most)
+        : tool_(tool),
+          weight_(weight),
+          longest_m_(kPiece * std::sqrt(static_cast<float>(std::min(stride, kByLength))) *
+                     static_cast<float>(tool.size_m)),
+          left_(most),
+          most_(most) {}
 
-    // Adds a triangle; returns false when kMostEngagementPieces have been processed.
-    bool add(const geometry::Triangle& t) {
-        put(Vec3f((t.a - center_) * per_m_), a_);
-        put(Vec3f((t.b - center_) * per_m_), b_);
-        put(Vec3f((t.c - center_) * per_m_), c_);
-        return ++count_ < geometry::kLanes || look();
-    }
-    // Processes the triangles left over in the last group.
-    void end() {
-        while (count_ > 0) add({center_, center_, center_});  // degenerate triangles, which are rejected
-    }
-
-    [[nodiscard]] double solid_angle() const { return solid_angle_.all(); }
-    [[nodiscard]] Vec3 into() const {
-        const Vec3 area(area_x_.all(), area_y_.all(), area_z_.all());
-        const double l = std::sqrt(glm::dot(area, area));
-        return l > 1e-9 * kPiece * kPiece ? -area / l : Vec3(0.0);
-    }
-
-private:
-    void put(const Vec3f& p, geometry::Vec3Lanes& lanes) const {
-        lanes.x[count_] = p.x;
-        lanes.y[count_] = p.y;
-        lanes.z[count_] = p.z;
-    }
-    bool look() {
-        constexpr float kPiece2 = static_cast<float>(kPiece * kPiece);
-        const geometry::Vec3Lanes u = b_ - a_, v = c_ - a_, w = c_ - b_;
-        const geometry::Vec3Lanes area = geometry::Lanes{0.5f, 0.5f, 0.5f, 0.5f} * cross(u, v);
-        const geometry::LaneMask facing = geometry::dot(area, a_) < 0.0f;
-        const geometry::Lanes longest2 =
-            geometry::greater(geometry::greater(geometry::dot(u, u), geometry::dot(v, v)), geometry::dot(w, w));
-        const geometry::LaneMask large = facing & (longest2 > kPiece2);
-        const geometry::Lanes third = geometry::Lanes{} + 1.0f / 3.0f;
-        add_pieces(facing & ~large, third * (a_ + b_ + c_), area);
-        pieces_ += count_;
-        count_ = 0;
-        if (geometry::any(large)) {
-            for (std::size_t k = 0; k < geometry::kLanes; ++k)
-                if (large[k] != 0) cut_up(in_lane(a_, k), in_lane(u, k), in_lane(v, k), in_lane(area, k), longest2[k]);
-        }
-        return pieces_ < kMostEngagementPieces;
-    }
-    [[nodiscard]] static Vec3f in_lane(const geometry::Vec3Lanes& lanes, std::size_t k) {
-        return {lanes.x[k], lanes.y[k], lanes.z[k]};
-    }
-    // Divides a triangle into n^2 pieces: n rows in which upright and inverted triangles alternate.
-    void cut_up(const Vec3f& a, const Vec3f& u, const Vec3f& v, const Vec3f& area, float longest2) {
-        const double edges = std::ceil(std::sqrt(static_cast<double>(longest2)) / kPiece);
-        const auto n = static_cast<std::uint32_t>(std::min(edges, double{kMostCuts}));
-        const float share = 1.0f / static_cast<float>(n);
-        const geometry::Vec3Lanes piece = geometry::in_all_lanes(area * (share * share));
-        for (std::uint32_t j = 0; j < n; ++j) {
-            const std::uint32_t in_row = 2 * (n - j) - 1;
-            for (std::uint32_t first = 0; first < in_row; first += geometry::kLanes) {
-                geometry::Lanes i{}, up{};
-                geometry::LaneMask there{};
-                for (std::uint32_t k = 0; k < geometry::kLanes; ++k) {
-                    i[k] = static_cast<float>((first + k) / 2);
-                    up[k] = (first + k) % 2 == 0 ? 1.0f / 3.0f : 2.0f / 3.0f;
-                    there[k] = first + k < in_row ? -1 : 0;
-                }
-                const geometry::Lanes along_u = (i + up) * share, along_v = (static_cast<float>(j) + up) * share;
-                add_pieces(there,
-                           geometry::in_all_lanes(a) + along_u * geometry::in_all_lanes(u) +
-                               along_v * geometry::in_all_lanes(v),
-                           piece);
+    // Adds a triangle, counter-clockwise seen from outside; false when no more pieces are allowed.
+    bool add(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+        const Vec3f u = b - a, v = c - a, w = c - b;
+        const Vec3f area = 0.5f * glm::cross(u, v);
+        const float longest2 = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)});
+        const Vec3f middle = (a + b + c) / 3.0f;
+        if (longest2 <= longest_m_ * longest_m_) return add_piece(middle, area);
+        const float edge_m = std::sqrt(longest2);
+        const float piece_m = longest_m_ + kLonger * std::max(0.0f, distance_m(middle) - edge_m);
+        const auto parts =
+            static_cast<std::uint32_t>(std::min(std::ceil(edge_m / piece_m), static_cast<float>(kMostParts)));
+        const float share = 1.0f / static_cast<float>(parts);
+        const Vec3f piece = area * (share * share);
+        for (std::uint32_t j = 0; j < parts; ++j)
+            for (std::uint32_t i = 0; i + j < parts; ++i) {
+                const Vec3f corner = a + share * (static_cast<float>(i) * u + static_cast<float>(j) * v);
+                if (!add_piece(corner + (u + v) * (share / 3.0f), piece)) return false;
+                if (i + j + 1 < parts && !add_piece(corner + (u + v) * (share * 2.0f / 3.0f), piece)) return false;
             }
-        }
-        pieces_ += n * n;
+        return true;
     }
-    void add_pieces(geometry::LaneMask those, const geometry::Vec3Lanes& to, const geometry::Vec3Lanes& area) {
-        constexpr float kReach2 = static_cast<float>(kReach * kReach);
-        constexpr float kSurroundings2 = static_cast<float>(kSurroundings * kSurroundings);
-        const geometry::Lanes r2 = geometry::dot(to, to);
-        those &= (r2 <= kSurroundings2) & (r2 > 0.0f);
-        if (!geometry::any(those)) return;
-        area_x_.add(those, area.x);
-        area_y_.add(those, area.y);
-        area_z_.add(those, area.z);
-        those &= r2 <= kReach2;
-        if (!geometry::any(those)) return;
-        const geometry::Lanes weight =
-            geometry::dot(to, ahead_) > 0.0f ? geometry::Lanes{} + (1.0f + bias_) : geometry::Lanes{} + (1.0f - bias_);
-        solid_angle_.add(those, weight * -geometry::dot(area, to) / (r2 * square_root(r2)));
+    [[nodiscard]] std::uint32_t used() const { return most_ - left_; }
+
+    // The samples that something faces, relative to the tool's place, in the object's axes.
+    void collect(const Quat& object_from_tool, Engagement& engagement) const {
+        for (std::uint32_t i = 0; i < tool_.count && engagement.count < Engagement::kMost; ++i) {
+            const Sum& sum = sums_[i];
+            const float length = std::sqrt(glm::dot(sum.normal, sum.normal));
+            if (!(length > 0.0f)) continue;
+            EngagedSample& s = engagement.samples[engagement.count++];
+            s.normal = Vec3f(object_from_tool * Vec3(sum.normal / length));
+            s.offset_m = sum.offset / length;
+            s.area_m2 = std::min(tool_.samples[i].area_m2, sum.covered_m2);
+            s.fit = fit_of(i);
+            s.sample = i;
+        }
     }
 
-    Vec3 center_;
-    double per_m_;
-    geometry::Vec3Lanes ahead_;
-    float bias_;
-    Sum solid_angle_, area_x_, area_y_, area_z_;
-    geometry::Vec3Lanes a_{}, b_{}, c_{};
-    std::uint32_t count_ = 0, pieces_ = 0;
+private:
+    // About how far a place is from the tool.
+    [[nodiscard]] float distance_m(const Vec3f& place_m) const {
+        const std::uint8_t nearest = tool_.nearest(place_m);
+        if (nearest == ToolSurface::kNone) return static_cast<float>(tool_.reach_m);
+        const Vec3f way = place_m - tool_.samples[nearest].position_m;
+        return std::sqrt(glm::dot(way, way));
+    }
+    // The surface's unit normal as seen by a sample; zero where it sees none.
+    [[nodiscard]] Vec3f out_of(std::uint32_t i) const {
+        const float length = std::sqrt(glm::dot(sums_[i].normal, sums_[i].normal));
+        return length > 0.0f ? sums_[i].normal / length : Vec3f(0.0f);
+    }
+    [[nodiscard]] float fit_of(std::uint32_t own) const {
+        const ToolSample& sample = tool_.samples[own];
+        const Vec3f out = out_of(own);
+        float alike = 0.0f, count = 0.0f;
+        for (const std::uint8_t i : sample.beside) {
+            const Vec3f beside = out_of(i);
+            if (beside == Vec3f(0.0f)) continue;
+            const Vec3f turn = tool_.samples[i].normal - sample.normal;
+            const float both = glm::dot(out - beside, turn) + kFlat * kFlat;
+            alike += std::clamp(both / (glm::dot(turn, turn) + kFlat * kFlat), 0.0f, 1.0f);
+            count += 1.0f;
+        }
+        if (count == 0.0f) return 0.0f;
+        const float opposite = (-glm::dot(out, sample.normal) - kNotOpposite) / (kOpposite - kNotOpposite);
+        const float enough = (alike / count - kNoneAlike) / (kEnoughAlike - kNoneAlike);
+        return std::clamp(opposite, 0.0f, 1.0f) * std::clamp(enough, 0.0f, 1.0f);
+    }
+
+    bool add_piece(const Vec3f& place_m, const Vec3f& area_m2) {
+        if (left_ == 0) return false;
+        --left_;
+        const std::uint8_t nearest = tool_.nearest_facing(place_m, area_m2);
+        if (nearest == ToolSurface::kNone) return true;
+        const ToolSample& sample = tool_.samples[nearest];
+        const float facing = -glm::dot(area_m2, sample.normal);
+        const Vec3f way = place_m - sample.position_m;
+        const float out = glm::dot(way, sample.normal);
+        const float beside2 = glm::dot(way, way) - out * out;
+        const float most = kBeside * sample.half_width_m;
+        if (out > static_cast<float>(tool_.reach_m) || beside2 > most * most) return true;
+        Sum& sum = sums_[nearest];
+        sum.normal += weight_ * area_m2;
+        sum.offset += weight_ * glm::dot(area_m2, place_m);
+        sum.covered_m2 += weight_ * facing;
+        return true;
+    }
+
+    struct Sum {
+        Vec3f normal{0.0f};
+        float offset = 0.0f, covered_m2 = 0.0f;
+    };
+    const ToolSurface& tool_;
+    float weight_, longest_m_;
+    std::uint32_t left_, most_;
+    std::array<Sum, ToolSurface::kMost> sums_{};
 };
+
+// A box in the object's axes, relative to the tool's place, around the tool as it is turned.
+Box around(const ToolSurface& tool, const Quat& object_from_tool) {
+    Box box;
+    for (int corner = 0; corner < 8; ++corner)
+        box.include(object_from_tool * Vec3((corner & 1) != 0 ? tool.hi_m.x : tool.lo_m.x,
+                                            (corner & 2) != 0 ? tool.hi_m.y : tool.lo_m.y,
+                                            (corner & 4) != 0 ? tool.hi_m.z : tool.lo_m.z));
+    return box;
+}
 
 }  // namespace
 
-EngagementLook engagement(const geometry::LocalSurface& surface, const Vec3& center_object_m, double radius_m,
-                          const Vec3& ahead_object) noexcept {
+EngagementLook look_around(const geometry::LocalSurface& surface, const ToolSurface& tool, const Vec3& place_object_m,
+                           const Quat& orientation_object, std::uint32_t stride, const EngagementWork& most) noexcept {
     EngagementLook look;
-    if (!(radius_m > 0.0)) return look;
-    const Vec3 center = center_object_m - surface.origin_object;
-    View view(center, radius_m, ahead_object);
-    geometry::Near near{center, center, kSurroundings * radius_m};
-    geometry::for_each_triangle_near(surface, near,
-                                     [&](std::uint32_t, const geometry::Triangle& t) { return view.add(t); });
-    view.end();
-    look.triangles_seen = UINT32_MAX - near.looks_left;
-    const double depth_m =
-        kReach * radius_m * view.solid_angle() / (2.0 * std::numbers::pi) - (kReach - 1.0) * radius_m;
-    look.engagement = {std::clamp(depth_m, 0.0, 2.0 * radius_m), view.into()};
+    look.engagement.place_object_m = place_object_m;
+    look.engagement.orientation_object = orientation_object;
+    look.engagement.surface_sequence = surface.sequence;
+    look.engagement.stride = stride;
+    if (tool.count == 0) return look;
+    const Vec3 place = place_object_m - surface.origin_object;
+    const Box box = around(tool, orientation_object);
+    geometry::Near near{place + box.lo, place + box.hi, tool.reach_m};
+    near.looks_left = most.looks;
+    const Turn turned(orientation_object);
+    const std::uint32_t each = std::max(1u, stride / kByLength);
+    Pieces pieces(tool, stride, static_cast<float>(each), most.pieces);
+    std::uint32_t visited = 0;
+    look.complete = geometry::for_each_triangle_near(surface, near, [&](std::uint32_t, const geometry::Triangle& t) {
+        if (visited++ % each != 0) return true;
+        return pieces.add(turned(Vec3f(t.a - place)), turned(Vec3f(t.b - place)), turned(Vec3f(t.c - place)));
+    });
+    look.work = {most.looks - near.looks_left, pieces.used()};
+    pieces.collect(orientation_object, look.engagement);
     return look;
+}
+
+Vec3 into_material(const geometry::LocalSurface& surface, const Vec3& place_object_m, double reach_m) noexcept {
+    const Vec3 place = place_object_m - surface.origin_object;
+    Vec3 sum_m2(0.0);
+    geometry::Near near{place, place, reach_m};
+    (void)geometry::for_each_triangle_near(surface, near, [&](std::uint32_t, const geometry::Triangle& t) {
+        const Vec3 u = t.b - t.a, v = t.c - t.a;
+        const Vec3 area = 0.5 * glm::cross(u, v);
+        // A large triangle is looked at in parts, each of which counts where it is near.
+        const double longest = std::sqrt(std::max(glm::dot(u, u), glm::dot(v, v)));
+        const auto parts = static_cast<int>(std::clamp(std::ceil(3.0 * longest / reach_m), 1.0, 24.0));
+        const double share = 1.0 / parts;
+        const auto include = [&](const Vec3& middle) {
+            const Vec3 way = middle - place;
+            if (glm::dot(way, way) <= reach_m * reach_m && glm::dot(way, area) < 0.0) sum_m2 += area * (share * share);
+        };
+        for (int j = 0; j < parts; ++j)
+            for (int i = 0; i + j < parts; ++i) {
+                const Vec3 corner = t.a + share * (static_cast<double>(i) * u + static_cast<double>(j) * v);
+                include(corner + (u + v) * (share / 3.0));
+                if (i + j + 1 < parts) include(corner + (u + v) * (share * 2.0 / 3.0));
+            }
+        return true;
+    });
+    const double length = std::sqrt(glm::dot(sum_m2, sum_m2));
+    return length > 1e-9 * reach_m * reach_m ? -sum_m2 / length : Vec3(0.0);
 }
 
 }  // namespace burin::haptics

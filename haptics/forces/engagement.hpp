@@ -1,44 +1,70 @@
 // SPDX-License-Identifier: MIT
-// Engagement depth: how deep a ball lies in the material around it, read from the surface, whether in a groove, at a
-// wall or on a face.
+// Engagement: which parts of a tool's surface lie in or on the material around it, read from the known surface.
 //
-// The engaged part, seen from the ball's centre, is where a surface that faces the centre is no farther than 1.1 R. Its
-// solid angle W is summed over the triangles near. A ball at depth d in a plane sees
-//     W = 2 pi (1 - (R - d) / (1.1 R)), whether it has cut its bed already or not, so
-//     d = 1.1 D - 0.1 R,  D = R W / (2 pi)
-// and this is used for any shape: an edge gives half of what a face gives. The extra tenth allows for facets and for
-// the clearance between the ball that cuts and the ball that touches. A ball that is moved sideways meets what lies
-// ahead, so the part of the solid angle ahead then counts for both halves, since behind it lies the groove that it has
-// cut.
-// The direction into the material is the vector area of the surface that faces the ball within 1.6 R. A vector area
-// depends on a surface's border alone, so the groove, which lies wholly within, does not tilt it.
-// Frame: object, metres. Work: the triangles near, in at most kMostEngagementPieces pieces. Pure; no heap, lock, throw.
+// Data flow: the triangles near the tool, cut into pieces, go to the nearest sample of the tool's surface
+// (tool_surface.hpp) if they face it. Each sample then has an area, what the pieces cover of its own, and a plane,
+// their mean: how deep the sample lies in the material behind this plane, wherever the tool has moved since. The tool's
+// own bed, which the known surface shows some milliseconds after it was cut, fits the tool; there a sample counts as
+// engaged within kBed of the tool's size, which facets and the difference between the tool that cuts and the balls that
+// touch take up.
+// Hardest case: a tool that plunges from a free face while no new surface arrives. The planes go on beyond the pieces,
+// so that what is engaged grows with the depth as it would on the real face.
+// Frame: object, metres. Work: the triangles near and their pieces, counted; when they are more than the caller
+// affords, the pieces are longer, and then each second, fourth, ... triangle stands for all. Pure; no heap, lock,
+// throw; + - * / and sqrt only.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "base/space.hpp"
 #include "geometry/contact/local_surface.hpp"
+#include "haptics/forces/tool_surface.hpp"
 
 namespace burin::haptics {
 
+// Of the tool's size.
+inline constexpr double kBed = 0.015;
+
+struct EngagedSample {
+    Vec3f normal{0.0f};     // unit, of the surface: out of the material
+    float offset_m = 0.0f;  // dot(normal, x) on the surface, x relative to Engagement::place_object_m
+    float area_m2 = 0.0f;
+    float fit = 0.0f;  // 1: the surface around follows the tool's, as in its own bed; 0: it does not, as on a plane
+    std::uint32_t sample = 0;
+};
+
+// What lies around the tool.
 struct Engagement {
-    double depth_m = 0.0;   // d, 0 to 2 R
-    Vec3 into_object{0.0};  // unit, the direction into the material; zero: no surface near
+    static constexpr std::uint32_t kMost = 160;
+    std::uint32_t count = 0;
+    std::array<EngagedSample, kMost> samples{};
+    Vec3 place_object_m{0.0};  // where the tool was when it was looked at
+    Quat orientation_object{1.0, 0.0, 0.0, 0.0};
+    std::uint64_t surface_sequence = 0;
+    std::uint32_t stride = 1;  // how coarsely it was looked at: with about one piece in so many
+};
+
+struct EngagementWork {
+    std::uint32_t looks = 0;   // triangles and boxes checked
+    std::uint32_t pieces = 0;  // of triangles, given to a sample
 };
 
 struct EngagementLook {
     Engagement engagement;
-    std::uint32_t triangles_seen = 0;  // checked by their box or ball; a quad counts as one
+    EngagementWork work;
+    bool complete = true;  // false: there were more pieces than allowed; the next look takes twice the stride
 };
 
-// Triangles larger than a third of the radius are divided into pieces; beyond this many pieces in total the rest is
-// left out.
-inline constexpr std::uint32_t kMostEngagementPieces = 20000;
+// Looks at the surface around a tool.
+[[nodiscard]] EngagementLook look_around(const geometry::LocalSurface& surface, const ToolSurface& tool,
+                                         const Vec3& place_object_m, const Quat& orientation_object,
+                                         std::uint32_t stride, const EngagementWork& most) noexcept;
 
-// Computes the engagement of a ball. ahead_object: direction in which the ball is driven sideways, its length (at most
-// 1) the sideways share of the drive.
-[[nodiscard]] EngagementLook engagement(const geometry::LocalSurface& surface, const Vec3& center_object_m,
-                                        double radius_m, const Vec3& ahead_object = Vec3(0.0)) noexcept;
+// Returns the unit direction into the material near a place, from the vector area of the surface that faces it within
+// reach_m; zero where there is none. A vector area depends on a surface's border alone, so a groove that lies wholly
+// within does not tilt it.
+[[nodiscard]] Vec3 into_material(const geometry::LocalSurface& surface, const Vec3& place_object_m,
+                                 double reach_m) noexcept;
 
 }  // namespace burin::haptics

@@ -32,9 +32,14 @@ struct TouchMaterial {
     // Above 0: nothing sticks; friction grows linearly with the slip speed up to this speed (at the device) and is
     // dynamic_friction beyond it.
     double coulomb_velocity_m_per_s = 0.0;
-    // Cutting: material is removed at the speed F / (hardness * A), F the force and A the engaged area of the tool. 0:
-    // it is removed as fast as the hand moves, without resistance; infinite: never.
+    // Cutting: the engaged area of the tool is resisted by the pressure p0 + H v, v its speed into the material
+    // (haptics/forces/cutting.hpp). H: 0 with p0 = 0, it is removed as fast as the hand moves, without resistance;
+    // infinite: never.
     double hardness_Ns_per_m3 = 0.0;
+    double cutting_yield_Pa = 0.0;  // p0: below it nothing is removed
+    // Grain: both swell and fall by this share, at most 1, with this spacing along a unit axis of the object.
+    double grain_share = 0.0, grain_spacing_m = 0.0;
+    Vec3 grain_axis_object{1.0, 0.0, 0.0};
     // Viscous drag against the motion of a tool that is cutting, per engaged area.
     double cutting_drag_Ns_per_m3 = 0.0;
 };

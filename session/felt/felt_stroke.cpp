@@ -9,8 +9,10 @@
 #include "devices/haptic/simulated_omni.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "haptics/realtime.hpp"
+#include "sculpt/felt_tool.hpp"
 #include "sculpt/progress.hpp"
 #include "sculpt/sculpt_service.hpp"
+#include "sculpt/tool_mesh.hpp"
 #include "session/drive/driver.hpp"
 
 namespace burin::session {
@@ -21,8 +23,8 @@ namespace {
 // Rest before and after the stroke; the gate's ramp must be over by then.
 constexpr double kHandRests_s = 0.3;
 
-// Returns the unit vector into the material near a point, both in the object frame; zero where there is no material.
-using IntoMaterial = std::function<Vec3(const Vec3&)>;
+// Returns the unit vector into the material near a tool, both in the object frame; zero where there is no material.
+using IntoMaterial = std::function<Vec3(const Pose&)>;
 
 // Margin of the workspace that is kept free: the surface pushes the hand off its path.
 constexpr double kBorder_m = 0.008;
@@ -70,7 +72,8 @@ Result<devices::SimulatedHand> hand_along(const sculpt::Stroke& stroke, const Si
     script.reserve(stroke.size() + 1);
     const auto add = [&](const sculpt::StrokeRow& row, double time_s, double share) {
         Vec3 wanted = row.position_object_m;
-        if (share > 0.0) wanted += share * press_object_m * into_material(row.position_object_m);
+        if (share > 0.0)
+            wanted += share * press_object_m * into_material({row.position_object_m, row.orientation_object});
         script.push_back({time_s, device_from_object * wanted, row.orientation_object, row.button ? 1u : 0u});
     };
     add(stroke.front(), 0.0, 0.0);
@@ -86,14 +89,19 @@ Result<devices::SimulatedHand> hand_along(const sculpt::Stroke& stroke, const Si
 
 // Builds a hand that presses into the workpiece as it is before the stroke.
 Result<devices::SimulatedHand> pressing_hand(sculpt::Sculpture& carving, const sculpt::Stroke& stroke,
-                                             const sculpt::Tool& tool, const sculpt::Feel& feel,
-                                             const Similarity& object_from_device) {
-    const double radius_m = tool.ball_radius_m();
+                                             const sculpt::Tool& tool, const haptics::ToolSurface& tool_surface,
+                                             const sculpt::Feel& feel, const Similarity& object_from_device) {
+    const double around_m = sculpt::reach_of(tool.shape) + sculpt::size_of(tool.shape);
     geometry::LocalSurface surface;
     Result<void> outcome;
-    const auto into_material = [&](const Vec3& place) {
-        if (const auto done = carving.local_surface(place, 2.0 * radius_m, surface); !done) outcome = done;
-        return haptics::engagement(surface, place, radius_m).engagement.into_object;
+    // Seen from within the tool, for the tip of one lies in the surface that it touches; but not far up its shank.
+    const Vec3 middle = 0.5 * (Vec3(tool_surface.lo_m) + Vec3(tool_surface.hi_m));
+    const double up_m = glm::length(middle);
+    const Vec3 within = up_m > tool_surface.size_m ? (tool_surface.size_m / up_m) * middle : middle;
+    const auto into_material = [&](const Pose& pose) {
+        const Vec3 place = pose * within;
+        if (const auto done = carving.local_surface(place, around_m, surface); !done) outcome = done;
+        return haptics::into_material(surface, place, around_m);
     };
     Result<devices::SimulatedHand> hand = hand_along(stroke, object_from_device, feel, into_material);
     if (!outcome) return std::unexpected(outcome.error());
@@ -193,18 +201,21 @@ Result<void> feel_in_real_time(devices::SimulatedHand hand, haptics::HapticChann
 Result<FeltFigures> carve_by_feel(sculpt::Sculpture& carving, const sculpt::Stroke& stroke, const sculpt::Tool& tool,
                                   const FeltOptions& options) {
     FeltFigures figures;
+    const sculpt::FeltTool felt_tool = sculpt::felt_tool(tool.shape);
     figures.workspace_device_m = devices::OmniModel{}.workspace_m;
     figures.object_from_device = fit_into_workspace(stroke, figures.workspace_device_m);
     figures.duration_s = stroke.back().time_s - stroke.front().time_s + 2.0 * kHandRests_s;
     Result<devices::SimulatedHand> hand =
-        pressing_hand(carving, stroke, tool, options.feel, figures.object_from_device);
+        pressing_hand(carving, stroke, tool, felt_tool.surface, options.feel, figures.object_from_device);
     if (!hand) return std::unexpected(hand.error());
 
     haptics::HapticChannels channels;
     haptics::TickParameters& parameters = channels.parameters.draft();
     parameters.sequence = 1;
     parameters.workspace.object_from_device = figures.object_from_device;
-    parameters.probe = haptics::ball_probe(tool.ball_radius_m());
+    parameters.probe = felt_tool.probe;
+    parameters.shape = felt_tool.shape;
+    parameters.tool = felt_tool.surface;
     parameters.materials.fill(options.feel.material);
     parameters.action = sculpt::action_of(tool.operation);
     channels.parameters.publish();

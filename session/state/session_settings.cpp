@@ -26,6 +26,8 @@ void visit_settings(Options& o, Visit&& visit) {
     visit("--sweep-tolerance", o.tool.sweep_tolerance_cells);
     visit("--smooth-strength", o.tool.smooth_strength);
     visit("--hardness", o.feel.hardness);
+    visit("--yield", o.feel.yield_kPa);
+    visit("--grain", o.feel.grain_mm);
     visit("--stiffness", o.feel.stiffness_N_per_m);
     visit("--friction", o.feel.friction);
     visit("--undo-memory", o.undo_memory_MiB);

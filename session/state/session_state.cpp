@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "haptics/contact/probe.hpp"
+#include "sculpt/felt_tool.hpp"
 #include "session/state/staging.hpp"
 #include "wall/projection.hpp"
 #include "wall/seen_place.hpp"
@@ -178,7 +178,10 @@ haptics::TickParameters parameters_of(const SessionState& state, const Room& roo
     const Vec3 around = Vec3(2.0 * radius_m) + 0.25 * room.workpiece_object.extent();
     p.workspace.reach_object.lo -= around;
     p.workspace.reach_object.hi += around;
-    p.probe = haptics::ball_probe(radius_m);
+    const sculpt::FeltTool felt = sculpt::felt_tool(compute::BallTool{radius_m});
+    p.probe = felt.probe;
+    p.shape = felt.shape;
+    p.tool = felt.surface;
     p.action = sculpt::action_of(state.tool.operation);
     p.materials.fill(material_under_tool(state));
     p.signals.force_alpha = state.force_filter;

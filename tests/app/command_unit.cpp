@@ -103,7 +103,6 @@ TEST(Command, RefusesBadToolSizesColoursAndUses) {
     expect_refused(place, ball + "--tool mesh:missing.stl", 1, {"missing.stl"});
     expect_refused(place, ball + "--tool mesh:open.off", 1, {"open.off", "closed"});
     expect_refused(place, ball + "--tool box:1,1,1 --operation smooth", 1, {"box:1,1,1", "ball:R"});
-    expect_refused(place, ball + "--tool box:1,1,1 --hand simulated", 1, {"--hand", "ball:R"});
     expect_refused(place, ball + "--material 1,2", 1, {"--material 1,2", "3 numbers"});
     expect_refused(place, ball + "--material 1,2,256", 1, {"--material 1,2,256", "255"});
     expect_refused(place, ball + "--operation melt", 2, {"--operation"});

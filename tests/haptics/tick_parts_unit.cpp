@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "haptics/tick.hpp"
+#include "tests/haptics/cutting_ball.hpp"
 #include "tests/haptics/surfaces.hpp"
 #include "tests/support/test_units.hpp"
 
@@ -106,6 +107,7 @@ struct Pair {
     Pair() {
         for (PartTicker* t : {&without, &with}) {
             t->parameters.action = ToolAction::cut;
+            t->parameters.tool = test::ball_tool(kTipRadius_m);
             t->parameters.materials[0].hardness_Ns_per_m3 = 1e7;
             t->at({-0.001, 0.01, 0.0});
         }

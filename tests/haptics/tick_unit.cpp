@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/haptics/cutting_ball.hpp"
 #include "tests/haptics/surfaces.hpp"
 #include "tests/support/test_units.hpp"
 
@@ -225,6 +226,7 @@ TEST(Tick, ACutThatWasInterruptedBeginsAnewWhereTheToolIs) {
     const test::Surface plane = test::plane(0.05, 40);
     Ticker t{plane.get(), parameters_for(0.004)};
     t.parameters.action = ToolAction::cut;
+    t.parameters.tool = test::ball_tool(0.004);
     t.parameters.materials[0].hardness_Ns_per_m3 = 1e7;
     devices::DeviceSample pressed;
     pressed.buttons = 1;
@@ -236,7 +238,8 @@ TEST(Tick, ACutThatWasInterruptedBeginsAnewWhereTheToolIs) {
     const TickRecord out = t.at({0.02, 0.0035, 0.0}, pressed);
     ASSERT_NE(out.flags & kTickCutting, 0u);
     EXPECT_NEAR(out.contact.cut_object_m.x, 0.02, 1e-5) << "it is drawn back to where it cut before";
-    EXPECT_NEAR(out.wanted.force_device_N.x, 0.0, 1e-4);
+    // Samples of the ball are not quite symmetrical.
+    EXPECT_NEAR(out.wanted.force_device_N.x, 0.0, 0.01);
 }
 
 TEST(Tick, AContactThatIsPushedFartherThanTheHandCouldFollowIsToldAsAJumpAtAnyGain) {

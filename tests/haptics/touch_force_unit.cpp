@@ -8,6 +8,7 @@
 #include <random>
 
 #include "haptics/tick.hpp"
+#include "tests/haptics/cutting_ball.hpp"
 #include "tests/haptics/surfaces.hpp"
 #include "tests/support/test_units.hpp"
 
@@ -146,6 +147,7 @@ TEST(TouchForce, WhileItCutsTheHandFeelsLessThanTheUncutWallAndTheStrokeSaysWher
     const test::Surface plane = test::plane(0.05, 40);
     TouchTicker t{plane.get(), ball(600.0)};
     t.parameters.action = ToolAction::cut;
+    t.parameters.tool = test::ball_tool(0.004);
     t.parameters.materials[0].hardness_Ns_per_m3 = 1e7;
     t.at({0.0, 0.01, 0.0}, 1);
     TickRecord out = t.at({0.0, 0.002, 0.0}, 0);

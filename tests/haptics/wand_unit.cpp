@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "haptics/tick.hpp"
+#include "tests/haptics/cutting_ball.hpp"
 #include "tests/haptics/surfaces.hpp"
 #include "tests/support/test_units.hpp"
 
@@ -294,6 +295,7 @@ TEST(Wand, OnlyItsFirstEndCuts) {
     hand.parameters.probe.points[0].offset_device_m = {0.03, 0.0, 0.0};
     hand.parameters.probe.points[1].offset_device_m = {-0.03, 0.0, 0.0};
     hand.parameters.action = ToolAction::cut;
+    hand.parameters.tool = test::ball_tool(0.005);
     hand.parameters.materials[0].hardness_Ns_per_m3 = 1e7;
     hand.at({0.0, 0.01, 0.0});
     TickRecord out;

@@ -13,6 +13,7 @@
 #include "devices/haptic/simulated_omni.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "sculpt/feel_options.hpp"
+#include "sculpt/felt_tool.hpp"
 #include "sculpt/sculpt_service.hpp"
 #include "sculpt/workpiece.hpp"
 
@@ -41,7 +42,7 @@ struct GroovePath {
 
 // The hand goes straight down into the block in the first 0.2 s of the motion, and straight up in the last: corners, at
 // times that are multiples of 0.2 s, as all corners are.
-constexpr double kGrooveDown_s = 0.2, kGrooveUp_m = 0.002, kGrooveDepth_m = 0.004;
+constexpr double kGrooveDown_s = 0.2, kGrooveUp_m = 0.002, kGrooveDepth_m = 0.005;
 
 inline GroovePath groove_path(double duration_s, const std::function<Vec2(double)>& across) {
     GroovePath path;
@@ -158,7 +159,10 @@ inline Groove carve_groove(devices::OmniHand hand, double duration_s,
     haptics::TickParameters& parameters = channels.parameters.draft();
     parameters.sequence = 1;
     parameters.workspace.object_from_device.position_m = block_from_device();
-    parameters.probe = haptics::ball_probe(kGrooveBall_m);
+    FeltTool felt = felt_tool(tool.shape);
+    parameters.probe = felt.probe;
+    parameters.shape = felt.shape;
+    parameters.tool = felt.surface;
     parameters.materials.fill(feel.material);
     parameters.action = action_of(tool.operation);
     channels.parameters.publish();

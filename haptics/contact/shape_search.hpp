@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// Contact queries of a tool's shape: the planes between it and what it touches, and how far it may move.
+//
+// The tool's axes are the frame, with the surface's origin as theirs, so that a tool that moves without turning needs
+// no transform. What was gathered from the surface holds for every place of the tool within the slack of the gathering.
+// Metres. No heap, lock, throw; work is counted.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "haptics/contact/god_object.hpp"
+#include "haptics/contact/half_spaces.hpp"
+#include "haptics/contact/separation.hpp"
+#include "haptics/contact/static_vector.hpp"
+
+namespace burin::haptics {
+
+// Fractions of the rounding: a triangle counts as touched within kReached; an edge or corner may sink in by kEdge; a
+// sweep stops twice as deep.
+inline constexpr double kReached = 0.01, kEdge = 0.01;
+
+class ShapeSearch {
+public:
+    static constexpr std::uint32_t kMost = 1024;
+    static constexpr std::uint32_t kNoId = ProxyResult{}.active_triangle;
+
+    ShapeSearch(const ToolShape& shape, const geometry::PosedSurface& surface, const ProxyBudget& budget,
+                ContactWork& work) noexcept;
+
+    // Turns the tool and what was gathered.
+    void turn_to(const Quat& object_from_tool) noexcept;
+    [[nodiscard]] Vec3 to_tool(const Vec3& relative_m) const noexcept { return relative_m * turn_; }
+    [[nodiscard]] Vec3 from_tool(const Vec3& v) const noexcept { return turn_ * v; }
+
+    // Gathers what the tool may touch within `slack` of `at`, also while it turns by as much as moves none of it by
+    // more. With too little work left or too many triangles the slack becomes smaller, and then the surface coarser.
+    // False: not even that was possible.
+    [[nodiscard]] bool gather(const Vec3& at, double slack) noexcept;
+    [[nodiscard]] bool covers(const Vec3& at) const noexcept {
+        return slack_ > 0.0 && glm::length(at - gathered_at_) <= slack_ * (1.0 + 1e-9);
+    }
+    [[nodiscard]] double slack() const noexcept { return slack_; }
+
+    // Finds the planes of what the tool touches at a covered place. False: the work is used up.
+    [[nodiscard]] bool touch(const Vec3& at) noexcept;
+    [[nodiscard]] std::span<const HalfSpace> planes() const noexcept { return planes_.first(plane_count_); }
+    [[nodiscard]] const Vec3& touched(std::uint32_t plane) const noexcept { return touched_[plane]; }
+    // The id of the plane's triangle, or of one that has a corner at its vertex.
+    [[nodiscard]] std::uint32_t triangle(std::uint32_t plane) const noexcept;
+    [[nodiscard]] bool overlaps() const noexcept { return overlaps_; }
+    // The deepest that something is in the rounding.
+    [[nodiscard]] double sunk_m() const noexcept { return sunk_m_; }
+
+    struct Sweep {
+        double fraction = 1.0;
+        bool complete = true;
+    };
+    // How far the tool may go before it meets what touch() did not find. Both ends must be covered.
+    [[nodiscard]] Sweep sweep(const Vec3& at, const Vec3& step) noexcept;
+
+private:
+    struct Candidate {
+        geometry::Triangle triangle;  // of a vertex all corners are alike
+        Vec3 face{0.0};               // unit, outward; of a vertex that of the smooth surface, or zero
+        double height = 0.0;          // of the face's plane above the origin
+        bool is_vertex = false, two_sided = false;
+        Vec3 guess{0.0};             // a direction from it to the tool
+        bool guessed = false;        // by a plane that was found
+        double clear_until_m = 0.0;  // it is farther than the rounding until the tool has travelled so far
+    };
+    [[nodiscard]] double left_ns() const noexcept { return budget_.max_cost_ns - cost_ns(work_); }
+    [[nodiscard]] Separation from(Candidate& c, const Vec3& at, double matters_m) noexcept;
+    [[nodiscard]] double above(const Candidate& c, const Vec3& at) noexcept;
+    [[nodiscard]] HalfSpace way_out(const Candidate& c, const Vec3& at) noexcept;
+    [[nodiscard]] double surely_clear_m(Candidate& c, const Vec3& at, double reach) noexcept;
+    [[nodiscard]] bool faces(const Candidate& c, const Vec3& normal) const noexcept;
+    [[nodiscard]] double until(Candidate& c, const Vec3& at, const Vec3& step) noexcept;
+    [[nodiscard]] bool look(const Vec3& at, double slack) noexcept;
+    void add(const geometry::Triangle& object, const Vec3& normal, std::uint32_t id, bool is_vertex) noexcept;
+    void put_plane(std::uint32_t candidate, const HalfSpace& plane, const Vec3& touched) noexcept;
+
+    const ToolShape& shape_;
+    geometry::PosedSurface surface_;
+    ProxyBudget budget_;
+    ContactWork& work_;
+    glm::dmat3 turn_{1.0};  // columns: the tool's axes in the object's
+    double rounding_, slack_ = 0.0;
+    Vec3 gathered_at_{0.0}, touched_at_{0.0};
+    double travel_ = 0.0;
+    geometry::Fineness fineness_;
+    std::uint32_t count_ = 0, plane_count_ = 0;
+    bool overlaps_ = false;
+    double sunk_m_ = 0.0;
+    StaticVector<Candidate, kMost> candidates_;
+    StaticVector<geometry::Triangle, kMost> in_object_;
+    StaticVector<Vec3, kMost> faces_in_object_;
+    std::array<std::uint32_t, kMost> ids_;
+    StaticVector<HalfSpace, kMost> planes_;
+    StaticVector<Vec3, kMost> touched_;
+    std::array<std::uint32_t, kMost> owners_;
+    std::array<bool, kMost> touches_;
+};
+
+}  // namespace burin::haptics

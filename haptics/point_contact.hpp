@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// The contact of one point of the probe, or of the tool's shape, in one tick: the motion of its proxy, what of it is
+// left out of the force, the watch over it, and the work that it takes.
+// Frame: object; forces are in the device frame. Pure; no clock, heap, lock or throw.
+#pragma once
+
+#include <algorithm>
+
+#include "haptics/contact/shape_proxy.hpp"
+#include "haptics/forces/touch_force.hpp"
+#include "haptics/probe_contact.hpp"
+
+namespace burin::haptics {
+
+class PointContact {
+public:
+    // Records into `step`, which must outlive the object, as the others must. The first point touches as the tool's
+    // shape, where it has one.
+    PointContact(const ProbeInput& input, const ProbeStep& step, const MovingBodies& bodies, std::uint32_t index);
+
+    void stay_with_hand();
+    void touch(bool painting, const ProxyBudget& budget);
+    // A part that is held over touches the plane of its last contact alone, as that moves with its body, and does not
+    // look for others; in free space it waits. Its next tick goes on from where the last one has left the proxy.
+    void touch_last_plane();
+
+    [[nodiscard]] bool in_contact() const { return record_.constraints > 0; }
+    // The material touched in the last tick until this one has touched: at a border friction changes a tick late.
+    [[nodiscard]] const TouchMaterial& material() const {
+        return input_.parameters.materials[std::min<std::uint32_t>(material_, kMostMaterials - 1)];
+    }
+    [[nodiscard]] const PointRecord& record() const { return record_; }
+    // Of the lever at which its force may turn the tool.
+    [[nodiscard]] double squared_arm_m2() const;
+    // Says at which place the contact bears the tool's shape, and where the tool's origin is.
+    void bear_at(const Vec3& touched_object_m, const Vec3& tool_object_m);
+    [[nodiscard]] bool has_shape() const { return shape_ != nullptr; }
+
+    // Returns the point from which the spring pulls: the bearing point, moved towards the HIP by the length left out.
+    [[nodiscard]] Vec3 less_left_out(const Vec3& bearing_object_m) const;
+    // The force of this point on the hand.
+    [[nodiscard]] PointForce force(const CoupledWall& wall, const Vec3& bearing_object_m);
+    // Of the surface touched; zero where it rests.
+    [[nodiscard]] const Vec3& surface_velocity_device_m_per_s() const { return surface_velocity_device_m_per_s_; }
+    // Energy stored in the wall's spring at this point.
+    [[nodiscard]] double spring_energy_J(const CoupledWall& wall, const Vec3& bearing_object_m) const;
+
+private:
+    [[nodiscard]] double radius_m() const;
+    [[nodiscard]] double reach_m() const;
+    [[nodiscard]] ProxySettings settings(bool painting) const;
+    [[nodiscard]] ProxyResult moved(const ProxyState& state, const ProxySettings& settings, const ProxyBudget& budget);
+    [[nodiscard]] bool was_put_elsewhere(const ProxyResult& moved, const Vec3& before) const;
+    [[nodiscard]] double unexplained_m(const Vec3& before, const Vec3& of_bodies_m, bool published) const;
+    void leave_out(double unexplained_m);
+    bool bears(std::uint32_t constraints, const Vec3& normal_object);
+    [[nodiscard]] ProxyResult as_caught(const ProxyState& state) const;
+    void let_go();
+    void watch(const ProxyState& contact, ContactWork& work);
+    void count_work(const ContactWork& work, bool limited);
+    [[nodiscard]] double scale() const { return input_.motion.object_from_device.scale; }
+    [[nodiscard]] Vec3 at_device(const Vec3& velocity_object_m_per_s) const;
+
+    const ProbeInput& input_;
+    const ProbeStep& step_;
+    const MovingBodies& bodies_;
+    const ProbePoint& point_;
+    const ToolShape* shape_;  // null: a ball
+    ProxyState& state_;
+    std::uint8_t& material_;
+    WatchState& watch_;
+    LastContact& last_;
+    double& left_out_m_;
+    double left_out_now_m_ = 0.0;  // in this tick alone
+    PointRecord& record_;
+    Vec3 arm_device_m_{0.0}, velocity_device_m_per_s_{0.0}, surface_velocity_device_m_per_s_{0.0};
+};
+
+}  // namespace burin::haptics

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "sculpt/tool_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "compute/tools/mesh_tool.hpp"
+
+namespace burin::sculpt {
+namespace {
+
+using geometry::TriangleMesh;
+
+constexpr double kStep = 0.12;               // longest edge, of the tool's size
+constexpr double kMostTriangles = 20'000.0;  // about
+
+Outline turned_outline(const compute::BallTool& tool) {
+    Outline outline;
+    constexpr int kParts = 48;
+    for (int i = 0; i <= kParts; ++i) {
+        const double angle = std::numbers::pi * i / kParts;
+        outline.push_back({tool.radius_m * std::sin(angle), -tool.radius_m * std::cos(angle)});
+    }
+    return outline;
+}
+Outline turned_outline(const compute::CylinderTool& tool) {
+    return {{0.0, 0.0}, {tool.radius_m, 0.0}, {tool.radius_m, tool.length_m}, {0.0, tool.length_m}};
+}
+Outline turned_outline(const compute::ConeTool& tool) {
+    return {{0.0, 0.0}, {tool.tip_radius_m, 0.0}, {tool.top_radius_m, tool.length_m}, {0.0, tool.length_m}};
+}
+Outline turned_outline(const compute::BullNoseTool& tool) {
+    Outline outline{{0.0, 0.0}};
+    constexpr int kParts = 12;
+    const double corner = tool.corner_radius_m, flat = tool.radius_m - corner;
+    for (int i = 0; i <= kParts; ++i) {
+        const double angle = 0.5 * std::numbers::pi * i / kParts;
+        outline.push_back({flat + corner * std::sin(angle), corner * (1.0 - std::cos(angle))});
+    }
+    outline.push_back({tool.radius_m, tool.length_m});
+    outline.push_back({0.0, tool.length_m});
+    return outline;
+}
+
+// Divides a triangle evenly into parts no longer than step_m.
+void add_divided(TriangleMesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, double step_m) {
+    const double longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
+    const int parts = std::max(1, static_cast<int>(std::ceil(longest / step_m)));
+    const auto first = static_cast<std::uint32_t>(mesh.positions_m.size());
+    // Row j has parts + 1 - j points.
+    const auto at = [&](int i, int j) {
+        return first + static_cast<std::uint32_t>(j * (parts + 1) - j * (j - 1) / 2 + i);
+    };
+    for (int j = 0; j <= parts; ++j)
+        for (int i = 0; i + j <= parts; ++i)
+            mesh.positions_m.push_back(a + (b - a) * (double(i) / parts) + (c - a) * (double(j) / parts));
+    for (int j = 0; j < parts; ++j)
+        for (int i = 0; i + j < parts; ++i) {
+            mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i, j + 1)});
+            if (i + j + 1 < parts) mesh.triangles.push_back({at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+        }
+}
+
+void add_quad(TriangleMesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double step_m) {
+    add_divided(mesh, a, b, c, step_m);
+    add_divided(mesh, a, c, d, step_m);
+}
+
+TriangleMesh revolved(const Outline& outline, double step_m) {
+    TriangleMesh mesh;
+    constexpr int kSegments = 32;
+    const auto place = [](const OutlinePoint& p, int segment) {
+        const double angle = 2.0 * std::numbers::pi * segment / kSegments;
+        return Vec3(p.radius_m * std::cos(angle), p.height_m, p.radius_m * std::sin(angle));
+    };
+    for (std::size_t i = 0; i + 1 < outline.size(); ++i) {
+        const OutlinePoint &from = outline[i], &to = outline[i + 1];
+        for (int k = 0; k < kSegments; ++k) {
+            const Vec3 a = place(from, k), b = place(from, k + 1), c = place(to, k + 1), d = place(to, k);
+            if (from.radius_m == 0.0)
+                add_divided(mesh, a, d, c, step_m);
+            else if (to.radius_m == 0.0)
+                add_divided(mesh, a, d, b, step_m);
+            else
+                add_quad(mesh, a, d, c, b, step_m);
+        }
+    }
+    return mesh;
+}
+
+TriangleMesh box_of(const Vec3& half, double step_m) {
+    TriangleMesh mesh;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double side : {-1.0, 1.0}) {
+            Vec3 out(0.0), u(0.0), v(0.0);
+            out[axis] = side * half[axis];
+            u[(axis + 1) % 3] = half[(axis + 1) % 3];
+            v[(axis + 2) % 3] = side * half[(axis + 2) % 3];  // u x v points outward
+            add_quad(mesh, out - u - v, out + u - v, out + u + v, out - u + v, step_m);
+        }
+    return mesh;
+}
+
+Box bounds_of(const compute::ToolShape& shape) {
+    const auto around_axis = [](double radius_m, double length_m) {
+        return Box{{-radius_m, 0.0, -radius_m}, {radius_m, length_m, radius_m}};
+    };
+    struct Visitor {
+        decltype(around_axis)& turned;
+        Box operator()(const compute::BallTool& t) const { return {Vec3(-t.radius_m), Vec3(t.radius_m)}; }
+        Box operator()(const compute::CylinderTool& t) const { return turned(t.radius_m, t.length_m); }
+        Box operator()(const compute::ConeTool& t) const {
+            return turned(std::max(t.tip_radius_m, t.top_radius_m), t.length_m);
+        }
+        Box operator()(const compute::BullNoseTool& t) const { return turned(t.radius_m, t.length_m); }
+        Box operator()(const compute::BoxTool& t) const { return {-t.half_size_m, t.half_size_m}; }
+        Box operator()(const compute::MeshTool& t) const {
+            Box box;
+            for (const Vec3& p : t.mesh->positions_m) box.include(p);
+            return box;
+        }
+    };
+    return std::visit(Visitor{around_axis}, shape);
+}
+
+}  // namespace
+
+Outline outline_of(const compute::ToolShape& shape) {
+    return std::visit(
+        [](const auto& turned) {
+            using Shape = std::decay_t<decltype(turned)>;
+            if constexpr (std::is_same_v<Shape, compute::BoxTool> || std::is_same_v<Shape, compute::MeshTool>)
+                return Outline{};
+            else
+                return turned_outline(turned);
+        },
+        shape);
+}
+
+double size_of(const compute::ToolShape& shape) {
+    const Vec3 extent = bounds_of(shape).extent();
+    return 0.5 * std::min({extent.x, extent.y, extent.z});
+}
+
+double reach_of(const compute::ToolShape& shape) {
+    if (const auto* ball = std::get_if<compute::BallTool>(&shape)) return ball->radius_m;
+    if (const auto* tool = std::get_if<compute::MeshTool>(&shape)) {
+        if (tool->edges) return glm::length(tool->edges->middle_m) + tool->edges->radius_m;
+        double farthest2 = 0.0;
+        for (const Vec3& p : tool->mesh->positions_m) farthest2 = std::max(farthest2, glm::dot(p, p));
+        return std::sqrt(farthest2);
+    }
+    const Box box = bounds_of(shape);
+    return glm::length(glm::max(glm::abs(box.lo), glm::abs(box.hi)));
+}
+
+TriangleMesh mesh_of(const compute::ToolShape& shape) {
+    const Vec3 extent = bounds_of(shape).extent();
+    const double area = 2.0 * (extent.x * extent.y + extent.y * extent.z + extent.z * extent.x);
+    const double step_m = std::max(kStep * size_of(shape), std::sqrt(2.0 * area / kMostTriangles));
+    if (const auto* box = std::get_if<compute::BoxTool>(&shape)) return box_of(box->half_size_m, step_m);
+    if (const auto* tool = std::get_if<compute::MeshTool>(&shape)) {
+        TriangleMesh mesh;
+        for (const auto& [a, b, c] : tool->mesh->triangles)
+            add_divided(mesh, tool->mesh->positions_m[a], tool->mesh->positions_m[b], tool->mesh->positions_m[c],
+                        step_m);
+        return mesh;
+    }
+    return revolved(outline_of(shape), step_m);
+}
+
+}  // namespace burin::sculpt

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// A tool's shape as triangles: for what the hand feels of it, and to be drawn.
+// Frame: tool, metres (compute/tools/tool.hpp). Pure; allocates.
+#pragma once
+
+#include <vector>
+
+#include "compute/tools/tool.hpp"
+
+namespace burin::sculpt {
+
+// A point of the outline that is turned about +Y: its distance from the axis, and its height.
+struct OutlinePoint {
+    double radius_m = 0.0, height_m = 0.0;
+};
+using Outline = std::vector<OutlinePoint>;  // from the lowest point outward and up
+// Of a ball, cylinder, cone or bull-nose; empty for others.
+[[nodiscard]] Outline outline_of(const compute::ToolShape& shape);
+
+// Half of the tool's least width: the length that its details are measured against. A ball's radius.
+[[nodiscard]] double size_of(const compute::ToolShape& shape);
+
+// The radius of a ball about the tool's origin that contains it.
+[[nodiscard]] double reach_of(const compute::ToolShape& shape);
+
+// Triangles no longer than about an eighth of the tool's size, or more where there would be too many. Closed and turned
+// outward; neighbours need not share vertices.
+[[nodiscard]] geometry::TriangleMesh mesh_of(const compute::ToolShape& shape);
+
+}  // namespace burin::sculpt
