@@ -1,49 +1,49 @@
 // SPDX-License-Identifier: MIT
 #include "app/study_command.hpp"
 
-#include <cstdio>
-#include <string>
-
-#include "app/output_files.hpp"
-#include "study/analysis/analysis.hpp"
-#include "study/report/analysis_text.hpp"
-#include "study/table/trial_table.hpp"
-
 namespace burin::app {
 
 struct StudyCommand::Options {
-    std::string data;
-    std::uint64_t seed = 1;
-
-    [[nodiscard]] Result<void> analyse() const;
+    StudyAnalyseOptions analyse;
+    StudyPowerOptions power;
 };
-
-Result<void> StudyCommand::Options::analyse() const {
-    const auto parsed = study::read_trials(data);
-    if (!parsed) return std::unexpected(parsed.error());
-    for (const study::TableFault& fault : parsed->faults) std::printf("%s\n", line_of(fault, data).c_str());
-    if (const std::size_t faults = parsed->faults.size(); faults > 0) {
-        std::fflush(stdout);
-        return fail(data, std::to_string(faults) + (faults == 1 ? " fault" : " faults"), "correct them and try again");
-    }
-    std::fputs(study::analysis_text(study::analyse(parsed->table, seed)).c_str(), stdout);
-    return {};
-}
 
 StudyCommand::StudyCommand(Command app)
     : options_(std::make_unique<Options>()), command_(app.subcommand("study", "The figures of a study")) {
     command_.require_subcommand();
-    Options& o = *options_;
+    StudyAnalyseOptions& a = options_->analyse;
     analyse_ = command_.subcommand("analyse", "Correlations, comparisons and effect sizes of a table of trials");
-    analyse_.option("--data", o.data, "CSV with participant, group, trial, deviation, time_s; see docs/formats.md")
+    analyse_.option("--data", a.data, "CSV with participant, group, trial, deviation, time_s; see docs/formats.md")
         .required();
-    analyse_.option("--seed", o.seed, "Of random permutations, where there are too many to count all").show_default();
+    analyse_.option("--published", a.published, "CSV of figures that were published of these data, to be checked");
+    analyse_.option("--json", a.json, "A file for every figure; - for standard output");
+    analyse_.option("--out", a.out, "A new folder for report.html, results.json and tables as CSV");
+    analyse_.option("--seed", a.seed, "Of random permutations, where there are too many to count all").show_default();
+
+    StudyPowerOptions& p = options_->power;
+    Command power = command_.subcommand("power", "How many participants a study needs, by simulation");
+    power.option("--effect", p.effect, "Difference of the groups in standard deviations of a participant's value")
+        .within(-100.0, 100.0)
+        .required();
+    power.option("--participants", p.participants, "Of both groups together: print their power")
+        .within(std::uint64_t{2}, std::uint64_t{4000});
+    power.option("--target", p.target, "Print the fewest participants that reach this power (0.8)")
+        .within(0.01, 0.9999);
+    power.option("--alpha", p.alpha, "Significance level").within(1e-6, 0.5).show_default();
+    power.option("--studies", p.studies, "How many are simulated (10000; 1000 without an effect)")
+        .within(std::uint64_t{100}, std::uint64_t{10'000'000});
+    power.option("--seed", p.seed, "Of the simulation").show_default();
+    power.option("--threads", p.threads, "How many threads work; 0: one per core; the result is the same")
+        .within(0, 1024);
+    power.option("--json", p.json, "A file for the result; - for standard output");
 }
 
 StudyCommand::~StudyCommand() = default;
 
 bool StudyCommand::parsed() const { return command_.parsed(); }
 
-Result<void> StudyCommand::run() const { return options_->analyse(); }
+Result<void> StudyCommand::run() const {
+    return analyse_.parsed() ? study_analyse(options_->analyse) : study_power(options_->power);
+}
 
 }  // namespace burin::app

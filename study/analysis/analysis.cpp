@@ -17,6 +17,7 @@ namespace burin::study {
 namespace {
 
 struct ParticipantTrials {
+    std::string participant;
     std::string group;
     std::vector<double> times, deviations;
 };
@@ -27,7 +28,9 @@ std::vector<ParticipantTrials> by_participant(const TrialTable& table) {
     std::map<std::string, std::size_t> place;
     for (const Trial& trial : table.trials) {
         const auto [at, fresh] = place.emplace(trial.participant, participants.size());
-        if (fresh) participants.push_back({.group = trial.group, .times = {}, .deviations = {}});
+        if (fresh)
+            participants.push_back(
+                {.participant = trial.participant, .group = trial.group, .times = {}, .deviations = {}});
         participants[at->second].times.push_back(trial.time);
         participants[at->second].deviations.push_back(trial.deviation);
     }
@@ -86,15 +89,17 @@ void compare_groups(UnitAnalysis& analysis, const TrialTable& table, std::uint64
 
 std::vector<GroupSummary> empty_groups(const TrialTable& table) {
     std::vector<GroupSummary> groups;
-    for (const std::string& name : table.groups)
-        groups.push_back({.group = name, .times = {}, .deviations = {}, .deviation_with_time = {}});
+    for (const std::string& name : table.groups) groups.emplace_back().group = name;
     return groups;
 }
 
-void add_unit(std::vector<GroupSummary>& groups, const std::string& group, double time, double deviation) {
-    const auto at = std::ranges::find(groups, group, &GroupSummary::group);
-    at->times.push_back(time);
-    at->deviations.push_back(deviation);
+// The values of one unit: of a trial, or the means of a participant, whose trial has number 0.
+void add_unit(std::vector<GroupSummary>& groups, const Trial& unit) {
+    GroupSummary& group = *std::ranges::find(groups, unit.group, &GroupSummary::group);
+    group.participants.push_back(unit.participant);
+    group.trial_numbers.push_back(unit.number);
+    group.times.push_back(unit.time);
+    group.deviations.push_back(unit.deviation);
 }
 
 void warn_of_sizes(UnitAnalysis& analysis) {
@@ -109,8 +114,13 @@ void warn_of_sizes(UnitAnalysis& analysis) {
 UnitAnalysis of_participants(const TrialTable& table, const std::vector<ParticipantTrials>& participants,
                              std::uint64_t seed) {
     UnitAnalysis analysis{.unit = Unit::participant, .groups = empty_groups(table), .comparisons = {}, .warnings = {}};
-    for (const ParticipantTrials& one : participants)
-        add_unit(analysis.groups, one.group, mean(one.times), mean(one.deviations));
+    for (const ParticipantTrials& one : participants) {
+        add_unit(analysis.groups, {.participant = one.participant,
+                                   .group = one.group,
+                                   .number = 0,
+                                   .deviation = mean(one.deviations),
+                                   .time = mean(one.times)});
+    }
     compare_groups(analysis, table, seed);
     warn_of_sizes(analysis);
     const auto trials = [](const ParticipantTrials& one) { return one.times.size(); };
@@ -125,7 +135,7 @@ UnitAnalysis of_participants(const TrialTable& table, const std::vector<Particip
 
 UnitAnalysis of_trials(const TrialTable& table, std::size_t participants, std::uint64_t seed) {
     UnitAnalysis analysis{.unit = Unit::trial, .groups = empty_groups(table), .comparisons = {}, .warnings = {}};
-    for (const Trial& trial : table.trials) add_unit(analysis.groups, trial.group, trial.time, trial.deviation);
+    for (const Trial& trial : table.trials) add_unit(analysis.groups, trial);
     compare_groups(analysis, table, seed);
     warn_of_sizes(analysis);
     if (participants < table.trials.size()) {

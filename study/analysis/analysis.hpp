@@ -21,8 +21,11 @@ enum class Unit { participant, trial };
 // One group's values and whether they go together.
 struct GroupSummary {
     std::string group;
-    std::vector<double> times, deviations;  // one for each unit, in the table's order
-    Outcome deviation_with_time;            // Spearman
+    // One for each unit, in the table's order; the trial's number is 0 where the unit is the participant.
+    std::vector<std::string> participants;
+    std::vector<int> trial_numbers;
+    std::vector<double> times, deviations;
+    Outcome deviation_with_time;  // Spearman
 };
 
 // Two groups in one measure. Signs are the first group's.
