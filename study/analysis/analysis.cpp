@@ -179,6 +179,9 @@ Analysis analyse(TrialTable table, std::uint64_t seed) {
         analysis.notes.push_back(
             formatted("%zu groups are compared two by two; p is not corrected for so many comparisons.", groups));
     }
+    std::string others;
+    for (const std::string& name : analysis.table.other_columns) others += (others.empty() ? "" : ", ") + name;
+    if (!others.empty()) analysis.notes.push_back("Columns that are not analysed: " + others + ".");
     if (analysis.table.deviation_unit.empty())
         analysis.notes.emplace_back(
             "The table states no unit of deviation; name its column deviation_m or deviation_mm.");

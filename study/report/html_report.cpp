@@ -19,6 +19,7 @@ h1 { font-size: 1.5em; } h2 { font-size: 1.2em; margin-top: 2em; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-size: 0.85em; }
 th, td { border: 1px solid #999; padding: 0.25em 0.6em; text-align: left; vertical-align: top; }
+table.figures { min-width: 50em; }
 td.number { text-align: right; white-space: nowrap; }
 .warning { border-left: 0.4em solid #000; padding: 0.2em 0.8em; background: #eee; }
 .plots { display: flex; flex-wrap: wrap; gap: 1em; }
@@ -34,13 +35,13 @@ std::string element(const char* name, const std::string& text) {
 std::string cell(const std::string& text) { return "<td>" + plot::escaped(text) + "</td>"; }
 std::string number_cell(const std::string& text) { return "<td class=\"number\">" + plot::escaped(text) + "</td>"; }
 
-std::string method_of(const std::string& method, bool exact, const std::string& undefined) {
-    return method + (exact ? " (exact)" : "") + (undefined.empty() ? "" : "; undefined: " + undefined);
+std::string method_of(const std::string& method, const std::string& undefined) {
+    return method + (undefined.empty() ? "" : "; undefined: " + undefined);
 }
 
 std::string outcome_row(const std::string& what, const std::string& figure, const Outcome& o) {
     return "<tr>" + cell(what) + cell(figure) + number_cell(number_text(o.statistic)) + number_cell(p_text(o.p)) +
-           number_cell("") + cell(method_of(o.method, o.exact, o.undefined)) + "</tr>\n";
+           number_cell("") + cell(method_of(o.method, o.undefined)) + "</tr>\n";
 }
 
 std::string estimate_row(const std::string& what, const std::string& figure, const Estimate& e) {
@@ -48,11 +49,12 @@ std::string estimate_row(const std::string& what, const std::string& figure, con
                                                    : number_text(e.low) + " to " + number_text(e.high) +
                                                          formatted(" (%.4g %%)", 100.0 * e.confidence);
     return "<tr>" + cell(what) + cell(figure) + number_cell(number_text(e.value)) + number_cell("") +
-           number_cell(interval) + cell(method_of(e.method, e.exact, e.undefined)) + "</tr>\n";
+           number_cell(interval) + cell(method_of(e.method, e.undefined)) + "</tr>\n";
 }
 
 std::string figures_table(const std::string& rows) {
-    return "<div class=\"wide\"><table>\n<tr><th>of</th><th>figure</th><th>value</th><th>p</th><th>interval</th>"
+    return "<div class=\"wide\"><table "
+           "class=\"figures\">\n<tr><th>of</th><th>figure</th><th>value</th><th>p</th><th>interval</th>"
            "<th>method</th></tr>\n" +
            rows + "</table></div>\n";
 }

@@ -74,6 +74,21 @@ def correlate(pair, x, y):
         say(pair, "r_exact_p", exact((y,), lambda z: abs(stats.pearsonr(rx, stats.rankdata(z))[0]), "pairings"))
 
 
+def smoothness(pair, speeds, rate):
+    """Spectral arc length and dimensionless jerk, as their authors define them, with NumPy's transform."""
+    if len(speeds) < 3:
+        return
+    count = 2 ** (math.ceil(math.log2(len(speeds))) + 4)
+    amplitudes = abs(numpy.fft.fft(speeds, count))
+    amplitudes /= amplitudes.max()
+    below = amplitudes[numpy.arange(count) * rate / count <= 10.0]
+    high = numpy.nonzero(below >= 0.05)[0]
+    arc = below[high[0]: high[-1] + 1]
+    say(pair, "sparc", -numpy.sqrt((1 / (len(arc) - 1)) ** 2 + numpy.diff(arc) ** 2).sum())
+    jerks = numpy.diff(speeds, 2) * rate**2
+    say(pair, "jerk", -((len(speeds) / rate) ** 3) / speeds.max() ** 2 * (jerks**2).sum() / rate)
+
+
 def distributions(pair, a):
     p, one, two = abs(math.sin(a[0] + 0.1)), len(a), 2.5 * len(a)
     say(pair, "normal_quantile", stats.norm.ppf(p))
@@ -90,3 +105,5 @@ for pair in range(len(lines) // 2):
     common = min(len(a), len(b))
     correlate(pair, a[:common], b[:common])
     distributions(pair, a)
+    if abs(a).max() > 0:
+        smoothness(pair, abs(a), 50.0)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Every procedure against SciPy and R on random groups, half of them with ties. Both run as child processes at the time
-// of the test; where one is not installed, its test is skipped. Each is asked only for what it does right.
+// Every procedure, and the smoothness of a movement, against SciPy and R on random groups, half of them with ties. Both
+// run as child processes at the time of the test; where one is not installed, its test is skipped. Each is asked only
+// for what it does right.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "base/text.hpp"
+#include "study/metrics/smoothness.hpp"
 #include "study/statistics/agreement.hpp"
 #include "study/statistics/distributions.hpp"
 #include "study/statistics/effect_size.hpp"
@@ -135,6 +137,12 @@ void add_distributions(Figures& ours, const Values& a) {
     ours["t_two_sided"] = student_two_sided(a[0], 2.5 * n);
 }
 
+void add_smoothness(Figures& ours, Values speeds) {
+    for (double& speed : speeds) speed = std::abs(speed);
+    ours["sparc"] = spectral_arc_length(speeds, 50.0);
+    ours["jerk"] = dimensionless_jerk(speeds, 50.0);
+}
+
 // Compares everything that the reference says with ours, and counts how often it said each name.
 std::map<std::string, int> compare_all(const Reference& reference, const std::vector<Groups>& groups) {
     std::map<std::string, int> said;
@@ -142,6 +150,7 @@ std::map<std::string, int> compare_all(const Reference& reference, const std::ve
         Figures ours = our_figures(groups[i]);
         add_paired_figures(ours, groups[i]);
         add_distributions(ours, groups[i].a);
+        add_smoothness(ours, groups[i].a);
         for (const auto& [name, value] : reference.figures[i]) {
             ++said[name];
             const auto our = ours.find(name);

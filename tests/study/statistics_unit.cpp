@@ -10,6 +10,7 @@
 #include "study/statistics/agreement.hpp"
 #include "study/statistics/effect_size.hpp"
 #include "study/statistics/mann_whitney.hpp"
+#include "study/statistics/outcome.hpp"
 #include "study/statistics/permutation.hpp"
 #include "study/statistics/ranks.hpp"
 #include "study/statistics/spearman.hpp"
@@ -18,7 +19,6 @@ namespace burin::study {
 namespace {
 
 using Values = std::vector<double>;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Values counted_up(std::size_t n, double from = 1.0) {
@@ -56,7 +56,7 @@ TEST(Statistics, SayWhyAnEmptyGroupHasNoResult) {
 
 TEST(Statistics, SayWhyAValueThatIsNotFiniteHasNoResult) {
     const Values some{1, 2, 3};
-    for (const double bad : {kNan, kInfinity, -kInfinity}) {
+    for (const double bad : {kUndefined, kInfinity, -kInfinity}) {
         const Values with_bad{1, bad, 3};
         expect_undefined(mann_whitney(with_bad, some), "finite");
         expect_undefined(mann_whitney_normal(some, with_bad), "finite");
