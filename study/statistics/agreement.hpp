@@ -2,7 +2,7 @@
 // Agreement of each participant's repeated trials: the intraclass correlation ICC(1), of a single trial, from the
 // one-way random-effects analysis of variance (Shrout and Fleiss, "Intraclass correlations: uses in assessing rater
 // reliability", 1979, case 1), with its exact interval under normal distributions (McGraw and Wong, "Forming inferences
-// about some intraclass correlation coefficients", 1996, table 7). 1: the trials agree; 0 or below: they tell no more
+// about some intraclass correlation coefficients", 1996). 1: the trials agree; 0 or below: they tell no more
 // about each other than about anybody's. Any thread.
 #pragma once
 

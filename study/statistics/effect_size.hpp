@@ -25,7 +25,7 @@ namespace burin::study {
 // value of the first group and one of the second. Positive where the first is greater; in the values' unit.
 //
 // The interval lies between the k-th least and the k-th greatest difference, k as large as the distribution of U allows
-// (Lehmann, "Nonparametrics", 1975, section 2.6); `confidence` is what it reaches, 1 - 2 P(U <= k - 1), which is below
+// (Lehmann, "Nonparametrics", 1975); `confidence` is what it reaches, 1 - 2 P(U <= k - 1), which is below
 // the wish only where k = 1 does not reach it. Exact for values from continuous distributions up to kExactValues values
 // in all; with ties it covers at least as often. Beyond kExactValues k comes from the normal approximation.
 [[nodiscard]] Estimate hodges_lehmann(std::span<const double> first, std::span<const double> second,

@@ -5,7 +5,7 @@
 // p is two-sided: the share of all pairings of the two lists whose correlation is at least as far from 0. Up to
 // kExactPairs pairs all n! pairings are counted, by sums over subsets, ties included; up to kSampledPairs pairs a
 // seeded sample of kPairings pairings gives (1 + hits) / (1 + pairings) (Davison and Hinkley, "Bootstrap Methods and
-// their Application", 1997, section 4.3); beyond, t = r sqrt((n - 2) / (1 - r^2)) with n - 2 degrees of freedom.
+// their Application", 1997); beyond, t = r sqrt((n - 2) / (1 - r^2)) with n - 2 degrees of freedom.
 // Any thread. Cost: 12 pairs about 0.1 s and 40 MB.
 #pragma once
 
