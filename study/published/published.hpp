@@ -51,6 +51,8 @@ struct ParsedPublished {
     PublishedStudy study;
     std::vector<TableFault> faults;
 };
+// More figures or tables are a fault, behind which nothing is read.
+inline constexpr std::size_t kMostPublishedValues = 5000, kMostPublishedTables = 50;
 [[nodiscard]] ParsedPublished parse_published(std::string_view text);
 
 // Whether the table holds the trials of the study's first table: the same ones, with the values printed there.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "base/text.hpp"
@@ -85,14 +86,23 @@ const char* name_of(PublishedQuantity quantity) {
 ParsedPublished parse_published(std::string_view text) {
     ParsedPublished parsed;
     bool header_seen = false;
+    std::set<std::string> tables;
     for (std::size_t line_number = 1; !text.empty(); ++line_number) {
         const std::size_t end = std::min(text.find('\n'), text.size());
         const std::string_view line = text.substr(0, end);
         text.remove_prefix(std::min(end + 1, text.size()));
         if (line.starts_with(kTitleMark)) parsed.study.title = line.substr(kTitleMark.size());
         if (line.empty() || line.front() == '#') continue;
+        if (parsed.study.values.size() == kMostPublishedValues || tables.size() > kMostPublishedTables) {
+            parsed.faults.push_back(
+                {line_number, 1,
+                 formatted("follows more than %zu figures or %zu tables", kMostPublishedValues, kMostPublishedTables),
+                 "compare with a part of them at a time"});
+            return parsed;
+        }
         if (header_seen) {
             read_value(parsed, split_csv(line), line_number);
+            if (!parsed.study.values.empty()) tables.insert(parsed.study.values.back().table);
         } else if (line != kPublishedHeader) {
             parsed.faults.push_back({line_number, 1, "is no table of published figures",
                                      "its first line must read " + std::string(kPublishedHeader)});

@@ -13,7 +13,7 @@
 namespace burin::study {
 
 inline constexpr double kMostDeals = 1e6;
-inline constexpr std::size_t kRandomDeals = 99'999, kMostDealt = 2000;
+inline constexpr std::size_t kRandomDeals = 99'999, kMostDealt = 200;
 
 // statistic: the first group's mean less the second's. p, two-sided: the share of all ways to deal the values out to
 // the groups whose difference is at least as far from 0. Differences within 1e-12 of the largest value count as equal,

@@ -17,7 +17,7 @@
 
 namespace burin::study {
 
-inline constexpr std::size_t kExactPairs = 12, kSampledPairs = 1000, kPairings = 99'999;
+inline constexpr std::size_t kExactPairs = 12, kSampledPairs = 200, kPairings = 99'999;
 
 // statistic: r_s, -1 to 1. x and y have the same length, x[i] belongs to y[i]. Undefined below two pairs and where all
 // of x or all of y are equal.

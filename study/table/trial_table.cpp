@@ -48,6 +48,11 @@ public:
             const std::string_view line = rest.substr(0, end);
             rest.remove_prefix(std::min(end + 1, rest.size()));
             if (line.find_first_not_of(" \t") == std::string_view::npos || line.front() == '#') continue;
+            if (header_seen_ && rows_seen_ == kMostRows) {
+                complain(line_, 1, formatted("is the first of more than %zu rows", kMostRows),
+                         "write one row for each trial, not for each sample");
+                break;
+            }
             if (header_seen_) {
                 read_row(line);
             } else {

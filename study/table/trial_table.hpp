@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -47,6 +48,8 @@ struct ParsedTable {
 [[nodiscard]] ParsedTable parse_trials(std::string_view text);
 
 inline constexpr std::uint64_t kMostTableBytes = std::uint64_t{16} << 20;
+// More rows are a fault, behind which nothing is read: they are samples of a trial rather than trials.
+inline constexpr std::size_t kMostRows = 20'000;
 
 // Fails only where the file cannot be read, or is larger than kMostTableBytes.
 [[nodiscard]] Result<ParsedTable> read_trials(const std::filesystem::path& path);

@@ -122,6 +122,11 @@ TEST(Published, FaultsOfATextAreListed) {
     EXPECT_EQ(parsed.faults[0].column, 12u);
     EXPECT_TRUE(parsed.faults[1].remedy.contains("time rank of all"));
     EXPECT_EQ(parsed.study.values.size(), 1u);
+    std::string many = head, tables = head;
+    for (std::size_t i = 0; i <= kMostPublishedValues + 1; ++i) many += "4,time,a,1,1,2\n";
+    for (std::size_t i = 0; i <= kMostPublishedTables + 1; ++i) tables += std::to_string(i) + ",time,a,1,1,2\n";
+    EXPECT_EQ(parse_published(many).faults.size(), 1u);
+    EXPECT_EQ(parse_published(tables).faults.size(), 1u);
 }
 
 }  // namespace

@@ -142,8 +142,29 @@ TEST(PermutationOfMeans, SamplesDealsByItsSeedWhereThereAreTooMany) {
     const Outcome one = permutation_of_means(a, b, 7), same = permutation_of_means(a, b, 7);
     EXPECT_FALSE(one.exact);
     EXPECT_EQ(one.p, same.p);
-    const Outcome many = permutation_of_means(counted_up(1500), counted_up(1500, 4.5));
+    const Outcome many = permutation_of_means(counted_up(101), counted_up(100, 4.5));
     EXPECT_NE(many.method.find("normal"), std::string::npos) << many.method;
+    // Below that limit the sample gives what the normal distribution gives, but for the sample's error (six standard
+    // errors) and the approximation's, of the order of 1 / n.
+    const Values first = counted_up(100), second = counted_up(100, 4.5);
+    const Outcome sampled = permutation_of_means(first, second);
+    EXPECT_NE(sampled.method.find("random deals"), std::string::npos) << sampled.method;
+    double squares = 0.0;  // about the common mean, 52.25
+    for (const Values& group : {first, second}) {
+        for (const double value : group) squares += (value - 52.25) * (value - 52.25);
+    }
+    const double z = 3.5 / std::sqrt(squares / 199.0 * (1.0 / 100.0 + 1.0 / 100.0));
+    EXPECT_NEAR(sampled.p, std::erfc(z / std::sqrt(2.0)), 6.0 * std::sqrt(0.25 / 99999.0) + 0.005);
+}
+
+TEST(Spearman, UsesStudentsTInLargeTables) {
+    Values x = counted_up(kSampledPairs + 1), y = x;
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] = static_cast<double>(i * 37 % 101);
+    const Outcome outcome = spearman(x, y);
+    EXPECT_NE(outcome.method.find("Student"), std::string::npos) << outcome.method;
+    EXPECT_GT(outcome.p, 0.0);
+    EXPECT_LT(outcome.p, 1.0);
+    EXPECT_EQ(spearman(x, x).p, 0.0);
 }
 
 TEST(HodgesLehmann, TakesEveryDifferenceIntoItsIntervalWhereValuesAreFew) {

@@ -91,6 +91,10 @@ TEST(TrialTable, NamesWhatIsWrongWithTheWhole) {
     std::string many = kHeader;
     for (int i = 0; i < 100; ++i) many += std::to_string(i) + ",g" + std::to_string(i) + ",1,0.1,2\n";
     expect_fault(many, "22:4", "more than 20 groups");
+    std::string samples = kHeader;
+    for (std::size_t i = 1; i <= kMostRows; ++i) samples += "1,a," + std::to_string(i) + ",0.1,2\n";
+    EXPECT_TRUE(parse_trials(samples).faults.empty());
+    expect_fault(samples + "1,a,x,y,z\n1,a,x,y,z\n", std::to_string(kMostRows + 2) + ":1", "not for each sample");
 }
 
 TEST(TrialTable, ListsAllFaultsByLineAndColumn) {
