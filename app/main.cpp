@@ -6,6 +6,7 @@
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/profile.hpp"
+#include "app/study_command.hpp"
 #include "app/wall_commands.hpp"
 #include "compute/rays/lattice.hpp"
 #include "devices/haptic/device_registry.hpp"
@@ -203,6 +204,7 @@ int run(int argc, char** argv) {
     const BenchCommand bench(app);
     const WallCommand wall(app);
     const ProfileCommand profile(app);
+    const StudyCommand study(app);
 
     if (const auto status = line.parse(argc, argv)) return *status;
     if (version) {
@@ -214,6 +216,7 @@ int run(int argc, char** argv) {
     if (bench.parsed()) return finish(bench.run());
     if (wall.parsed()) return finish(wall.run());
     if (profile.parsed()) return finish(profile.run());
+    if (study.parsed()) return finish(study.run());
     if (convert.parsed()) return finish(app::convert(convert_options));
     if (combine.parsed()) return finish(combine_files(combine_options));
     std::fputs(line.help().c_str(), stdout);

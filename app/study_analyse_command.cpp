@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+#include <vector>
+
+#include "app/output_files.hpp"
+#include "app/study_command.hpp"
+#include "base/file_io.hpp"
+#include "study/analysis/analysis.hpp"
+#include "study/published/published.hpp"
+#include "study/report/analysis_tables.hpp"
+#include "study/report/analysis_text.hpp"
+#include "study/report/html_report.hpp"
+#include "study/report/published_text.hpp"
+#include "study/table/trial_table.hpp"
+
+namespace burin::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Prints every fault of a file; fails where there is one.
+Result<void> list_faults(const std::vector<study::TableFault>& faults, const std::string& file) {
+    if (faults.empty()) return {};
+    for (const study::TableFault& fault : faults) std::printf("%s\n", line_of(fault, file).c_str());
+    std::fflush(stdout);
+    return fail(file, std::to_string(faults.size()) + (faults.size() == 1 ? " fault" : " faults"),
+                "correct what is listed and try again");
+}
+
+Result<study::TrialTable> read_table(const std::string& file) {
+    auto parsed = study::read_trials(file);
+    if (!parsed) return std::unexpected(parsed.error());
+    if (const auto ok = list_faults(parsed->faults, file); !ok) return std::unexpected(ok.error());
+    return std::move(parsed->table);
+}
+
+// What was published of these data: by the file that the user names, else by those that Burin knows.
+Result<std::vector<study::PublishedComparison>> comparisons(const std::string& file, const study::TrialTable& table) {
+    std::vector<study::PublishedComparison> found;
+    if (!file.empty()) {
+        const auto text = read_text_file(file, study::kMostTableBytes);
+        if (!text) return std::unexpected(text.error());
+        const study::ParsedPublished parsed = study::parse_published(*text);
+        if (const auto ok = list_faults(parsed.faults, file); !ok) return std::unexpected(ok.error());
+        found.push_back(study::compare_published(parsed.study, table));
+        return found;
+    }
+    for (const std::string_view text : study::known_published_texts()) {
+        const study::ParsedPublished known = study::parse_published(text);
+        if (study::is_data_of(table, known.study)) found.push_back(study::compare_published(known.study, table));
+    }
+    return found;
+}
+
+Result<void> check_new_folder(const std::string& folder) {
+    if (folder.empty()) return {};
+    std::error_code ignored;
+    if (fs::exists(fs::symlink_status(folder, ignored)))
+        return fail(folder, "exists already", "name a folder that does not, so that nothing is overwritten");
+    return check_writable(folder);
+}
+
+// Everything goes into a folder beside the wanted one, which then takes its name.
+Result<void> write_folder(const std::string& folder, const std::vector<study::NamedText>& files) {
+    if (folder.empty()) return {};
+    fs::path part = folder;
+    part += "." + std::to_string(::getpid()) + ".part";
+    std::error_code error;
+    if (!fs::create_directory(part, error))
+        return fail(part.string(), "cannot be made: " + error.message(), "choose another place");
+    Result<void> written;
+    for (const study::NamedText& file : files) {
+        if (written) written = write_text((part / file.name).string(), file.text);
+    }
+    if (written) {
+        fs::rename(part, folder, error);
+        if (!error) return {};
+        written = fail(folder, "cannot be made: " + error.message(), "choose another place");
+    }
+    fs::remove_all(part, error);
+    return written;
+}
+
+}  // namespace
+
+Result<void> study_analyse(const StudyAnalyseOptions& options) {
+    std::string out = options.out;
+    while (out.size() > 1 && out.ends_with('/')) out.pop_back();
+    if (const auto ok = check_place(options.json); !ok) return ok;
+    if (const auto ok = check_new_folder(out); !ok) return ok;
+    auto table = read_table(options.data);
+    if (!table) return std::unexpected(table.error());
+    const auto published = comparisons(options.published, *table);
+    if (!published) return std::unexpected(published.error());
+
+    const study::Analysis analysis = study::analyse(std::move(*table), options.seed);
+    Json json = study::analysis_json(analysis);
+    for (const study::PublishedComparison& one : *published) json["published"].push_back(study::published_json(one));
+    if (options.json != kStandardOutput) {
+        std::fputs(study::analysis_text(analysis).c_str(), stdout);
+        for (const study::PublishedComparison& one : *published)
+            std::printf("\n%s", study::published_text(one).c_str());
+    }
+    if (!out.empty()) {
+        std::vector<study::NamedText> files = study::analysis_tables(analysis);
+        files.push_back({"results.json", json_text(json)});
+        files.push_back({"report.html", study::html_report(analysis, *published,
+                                                           {.data = fs::path(options.data).filename().string(),
+                                                            .program = std::string("Burin ") + BURIN_VERSION})});
+        if (const auto ok = write_folder(out, files); !ok) return ok;
+    }
+    return write_output(options.json, json_text(json));
+}
+
+}  // namespace burin::app

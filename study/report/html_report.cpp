@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "study/report/html_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/plot/svg.hpp"
+#include "study/report/analysis_text.hpp"
+#include "study/report/published_text.hpp"
+#include "study/report/strip_plot.hpp"
+
+namespace burin::study {
+namespace {
+
+constexpr const char* kStyle = R"(<style>
+body { font: 16px/1.45 "DejaVu Sans", Arial, sans-serif; max-width: 62em; margin: 1em auto; padding: 0 1em;
+  color: #111; }
+h1 { font-size: 1.5em; } h2 { font-size: 1.2em; margin-top: 2em; }
+.wide { overflow-x: auto; }
+table { border-collapse: collapse; font-size: 0.85em; }
+th, td { border: 1px solid #999; padding: 0.25em 0.6em; text-align: left; vertical-align: top; }
+table.figures { min-width: 50em; }
+td.number { text-align: right; white-space: nowrap; }
+.warning { border-left: 0.4em solid #000; padding: 0.2em 0.8em; background: #eee; }
+.plots { display: flex; flex-wrap: wrap; gap: 1em; }
+.plots svg { max-width: 100%; height: auto; flex: 1 1 300px; }
+pre { font-size: 0.8em; overflow-x: auto; background: #f4f4f4; padding: 0.8em; }
+</style>
+)";
+
+std::string element(const char* name, const std::string& text) {
+    return std::string("<") + name + ">" + plot::escaped(text) + "</" + name + ">\n";
+}
+
+std::string cell(const std::string& text) { return "<td>" + plot::escaped(text) + "</td>"; }
+std::string number_cell(const std::string& text) { return "<td class=\"number\">" + plot::escaped(text) + "</td>"; }
+
+std::string method_of(const std::string& method, const std::string& undefined) {
+    return method + (undefined.empty() ? "" : "; undefined: " + undefined);
+}
+
+std::string outcome_row(const std::string& what, const std::string& figure, const Outcome& o) {
+    return "<tr>" + cell(what) + cell(figure) + number_cell(number_text(o.statistic)) + number_cell(p_text(o.p)) +
+           number_cell("") + cell(method_of(o.method, o.undefined)) + "</tr>\n";
+}
+
+std::string estimate_row(const std::string& what, const std::string& figure, const Estimate& e) {
+    const std::string interval = std::isnan(e.low) ? ""
+                                                   : number_text(e.low) + " to " + number_text(e.high) +
+                                                         formatted(" (%.4g %%)", 100.0 * e.confidence);
+    return "<tr>" + cell(what) + cell(figure) + number_cell(number_text(e.value)) + number_cell("") +
+           number_cell(interval) + cell(method_of(e.method, e.undefined)) + "</tr>\n";
+}
+
+std::string figures_table(const std::string& rows) {
+    return "<div class=\"wide\"><table "
+           "class=\"figures\">\n<tr><th>of</th><th>figure</th><th>value</th><th>p</th><th>interval</th>"
+           "<th>method</th></tr>\n" +
+           rows + "</table></div>\n";
+}
+
+std::string comparison_rows(const Comparison& c) {
+    const std::string what =
+        c.measure + (c.unit.empty() ? "" : " in " + c.unit) + ": " + c.first + " against " + c.second;
+    return outcome_row(what, "U of " + c.first, c.mann_whitney) +
+           outcome_row(what, "U of " + c.first, c.mann_whitney_normal) +
+           outcome_row(what, "difference of means", c.difference_of_means) +
+           estimate_row(what, "rank-biserial r", c.rank_biserial) +
+           estimate_row(what, "Hodges-Lehmann shift", c.hodges_lehmann);
+}
+
+std::string label_of(const GroupSummary& group, std::size_t i) {
+    return group.participants[i] + (group.trial_numbers[i] > 0 ? formatted(", trial %d", group.trial_numbers[i]) : "");
+}
+
+std::string plot_of(const UnitAnalysis& analysis, const std::string& measure, const std::string& unit,
+                    std::vector<double> GroupSummary::* values) {
+    std::vector<Strip> strips;
+    for (const GroupSummary& group : analysis.groups) {
+        Strip strip{.name = group.group, .values = group.*values, .labels = {}};
+        for (std::size_t i = 0; i < group.participants.size(); ++i) strip.labels.push_back(label_of(group, i));
+        strips.push_back(std::move(strip));
+    }
+    return strip_plot(measure + " of each " + name_of(analysis.unit),
+                      unit.empty() ? measure : measure + " (" + unit + ")", strips);
+}
+
+std::string unit_section(const UnitAnalysis& analysis, const TrialTable& table) {
+    std::string html = element("h2", std::string("Unit of analysis: ") + name_of(analysis.unit));
+    html += element("p",
+                    analysis.unit == Unit::participant
+                        ? "Each participant counts once, with the mean of their trials. This is the analysis to report."
+                        : "Each trial counts by itself. For comparison with reports that did so.");
+    for (const std::string& warning : analysis.warnings)
+        html += "<p class=\"warning\">Warning: " + plot::escaped(warning) + "</p>\n";
+    html += "<div class=\"plots\">\n" + plot_of(analysis, "Time", table.time_unit, &GroupSummary::times) +
+            plot_of(analysis, "Deviation", table.deviation_unit, &GroupSummary::deviations) + "</div>\n";
+    std::string rows;
+    for (const GroupSummary& group : analysis.groups)
+        rows += outcome_row("deviation with time, " + group.group, "r_s", group.deviation_with_time);
+    for (const Comparison& comparison : analysis.comparisons) rows += comparison_rows(comparison);
+    return html + figures_table(rows);
+}
+
+std::string agreement_section(const Analysis& analysis) {
+    std::string rows;
+    for (const Agreement& one : analysis.agreement) rows += estimate_row(one.measure, "ICC(1)", one.intraclass);
+    return element("h2", "Agreement of a participant's trials") + figures_table(rows);
+}
+
+std::string data_section(const TrialTable& table) {
+    std::string rows;
+    for (const Trial& t : table.trials) {
+        rows += "<tr>" + cell(t.participant) + cell(t.group) + number_cell(std::to_string(t.number)) +
+                number_cell(number_text(t.deviation)) + number_cell(number_text(t.time)) + "</tr>\n";
+    }
+    const std::string unit = table.deviation_unit.empty() ? "" : " (" + table.deviation_unit + ")";
+    return element("h2", "The data") +
+           "<div class=\"wide\"><table>\n<tr><th>participant</th><th>group</th><th>trial</th><th>deviation" +
+           plot::escaped(unit) + "</th><th>time (" + plot::escaped(table.time_unit) + ")</th></tr>\n" + rows +
+           "</table></div>\n";
+}
+
+}  // namespace
+
+std::string html_report(const Analysis& analysis, const std::vector<PublishedComparison>& published,
+                        const ReportOrigin& origin) {
+    std::string html =
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+        "<title>Analysis of a study</title>\n";
+    html += std::string(kStyle) + "</head>\n<body>\n" + element("h1", "Analysis of " + origin.data);
+    html += element("p", formatted("%zu trials, %zu groups. %s, seed %llu.", analysis.table.trials.size(),
+                                   analysis.table.groups.size(), origin.program.c_str(),
+                                   static_cast<unsigned long long>(analysis.seed)));
+    for (const std::string& note : analysis.notes) html += element("p", note);
+    html += unit_section(analysis.participants, analysis.table) + unit_section(analysis.trials, analysis.table);
+    html += element("p",
+                    "Signs are the first group's: r is P(first > second) - P(first < second), a shift is first less "
+                    "second. Mann-Whitney's test is not one of means or medians.");
+    html += agreement_section(analysis);
+    for (const PublishedComparison& comparison : published)
+        html += element("h2", "Published figures beside the data") + element("pre", published_text(comparison));
+    return html + data_section(analysis.table) + "</body>\n</html>\n";
+}
+
+}  // namespace burin::study

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// An analysis as one HTML file that needs nothing else: no network, no script, plots as SVG within. Readable in grey
+// and on a narrow screen. Pure; any thread.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "study/analysis/analysis.hpp"
+#include "study/published/published.hpp"
+
+namespace burin::study {
+
+// What the report says of itself.
+struct ReportOrigin {
+    std::string data;     // the file that was analysed
+    std::string program;  // with its version
+};
+
+[[nodiscard]] std::string html_report(const Analysis& analysis, const std::vector<PublishedComparison>& published,
+                                      const ReportOrigin& origin);
+
+}  // namespace burin::study

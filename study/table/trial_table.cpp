@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+#include "study/table/trial_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "base/file_io.hpp"
+#include "base/text.hpp"
+#include "study/table/csv.hpp"
+
+namespace burin::study {
+namespace {
+
+enum class Quantity { participant, group, trial, deviation, time };
+constexpr std::size_t kQuantities = 5;
+
+struct ColumnName {
+    const char* name;
+    Quantity quantity;
+    const char* unit;
+};
+constexpr std::array kColumnNames{ColumnName{"participant", Quantity::participant, ""},
+                                  ColumnName{"user", Quantity::participant, ""},
+                                  ColumnName{"group", Quantity::group, ""},
+                                  ColumnName{"trial", Quantity::trial, ""},
+                                  ColumnName{"deviation", Quantity::deviation, ""},
+                                  ColumnName{"deviation_m", Quantity::deviation, "m"},
+                                  ColumnName{"deviation_mm", Quantity::deviation, "mm"},
+                                  ColumnName{"time_s", Quantity::time, "s"},
+                                  ColumnName{"time_min", Quantity::time, "min"}};
+
+constexpr std::array<const char*, kQuantities> kWays{"participant (or user)", "group", "trial",
+                                                     "deviation, deviation_m or deviation_mm", "time_s or time_min"};
+constexpr double kLargestNumber = 1e9;  // far from overflow in squares and sums, far above any time or distance
+constexpr int kMostTrials = 1'000'000;
+constexpr std::size_t kMostGroups = 20;  // every two are compared
+
+// Reads line by line and keeps what it has seen.
+class TrialParser {
+public:
+    void read(std::string_view text) {
+        std::string_view rest = text;
+        for (line_ = 1; !rest.empty(); ++line_) {
+            const std::size_t end = std::min(rest.find('\n'), rest.size());
+            const std::string_view line = rest.substr(0, end);
+            rest.remove_prefix(std::min(end + 1, rest.size()));
+            if (line.find_first_not_of(" \t") == std::string_view::npos || line.front() == '#') continue;
+            if (header_seen_ && rows_seen_ == kMostRows) {
+                complain(line_, 1, formatted("is the first of more than %zu rows", kMostRows),
+                         "write one row for each trial, not for each sample");
+                break;
+            }
+            if (header_seen_) {
+                read_row(line);
+            } else {
+                read_header(line);
+            }
+        }
+        if (!header_seen_) {
+            complain(1, 1, "holds no table", "write a line with the columns' names, then a line for each trial");
+        } else if (columns_known_ && rows_seen_ == 0) {
+            complain(std::max<std::size_t>(1, line_ - 1), 1, "holds no trial", "write a line for each trial");
+        }
+        std::ranges::stable_sort(parsed_.faults, {}, [](const TableFault& f) { return std::pair(f.line, f.column); });
+    }
+
+    [[nodiscard]] ParsedTable take() { return std::move(parsed_); }
+
+private:
+    void complain(std::size_t line, std::size_t column, std::string what, std::string remedy) {
+        parsed_.faults.push_back({line, column, std::move(what), std::move(remedy)});
+    }
+
+    [[nodiscard]] bool quotes_closed(const CsvLine& split) {
+        if (split.unclosed_quote == 0) return true;
+        complain(line_, split.unclosed_quote, "a double quote is never closed", "close it in the same line");
+        return false;
+    }
+
+    void read_header(std::string_view line) {
+        header_seen_ = true;
+        const CsvLine split = split_csv(line);
+        if (!quotes_closed(split)) return;
+        columns_ = split.fields.size();
+        for (std::size_t i = 0; i < columns_; ++i) name_column(split.fields[i], i);
+        columns_known_ = true;
+        for (std::size_t q = 0; q < kQuantities; ++q) {
+            if (place_[q]) continue;
+            columns_known_ = false;
+            const bool semicolons = line.contains(';') && columns_ == 1;
+            complain(line_, 1, std::string("has no column ") + kWays[q],
+                     semicolons ? "separate columns by commas, not semicolons" : "name the column in this line");
+        }
+    }
+
+    void name_column(const CsvField& field, std::size_t i) {
+        const auto known = std::ranges::find(kColumnNames, field.text, &ColumnName::name);
+        if (known == kColumnNames.end()) {
+            parsed_.table.other_columns.push_back(field.text);
+            return;
+        }
+        std::optional<std::size_t>& place = place_[static_cast<std::size_t>(known->quantity)];
+        if (place) {
+            complain(line_, field.column, "column " + field.text + " says again what a column before it says",
+                     "keep one of them, or give this one another name");
+            return;
+        }
+        place = i;
+        if (known->quantity == Quantity::time) parsed_.table.time_unit = known->unit;
+        if (known->quantity == Quantity::deviation) parsed_.table.deviation_unit = known->unit;
+    }
+
+    void read_row(std::string_view line) {
+        ++rows_seen_;
+        const CsvLine split = split_csv(line);
+        if (!quotes_closed(split) || !columns_known_) return;
+        if (split.fields.size() != columns_) {
+            const bool more = split.fields.size() > columns_;
+            const CsvField& where = more ? split.fields[columns_] : split.fields.back();
+            complain(line_, where.column,
+                     formatted("has %zu fields where the first line names %zu columns", split.fields.size(), columns_),
+                     more ? "remove what is too much, or put text that holds a comma in double quotes"
+                          : "write every field; leave none out");
+            return;
+        }
+        const std::size_t faults_before = parsed_.faults.size();
+        const Trial trial{.participant = code(split, Quantity::participant),
+                          .group = code(split, Quantity::group),
+                          .number = trial_number(split),
+                          .deviation = number(split, Quantity::deviation, false),
+                          .time = number(split, Quantity::time, true)};
+        check_against_rows_before(split, trial);
+        if (parsed_.faults.size() > faults_before) return;
+        add_group(split, trial.group);
+        parsed_.table.trials.push_back(trial);
+    }
+
+    void add_group(const CsvLine& split, const std::string& group) {
+        std::vector<std::string>& groups = parsed_.table.groups;
+        if (std::ranges::find(groups, group) != groups.end() || groups.size() > kMostGroups) return;
+        groups.push_back(group);
+        if (groups.size() <= kMostGroups) return;
+        complain(line_, field(split, Quantity::group).column,
+                 formatted("is the first of more than %zu groups", kMostGroups),
+                 "name the training in this column, not the participant");
+    }
+
+    [[nodiscard]] const CsvField& field(const CsvLine& split, Quantity quantity) const {
+        return split.fields[*place_[static_cast<std::size_t>(quantity)]];
+    }
+
+    [[nodiscard]] std::string code(const CsvLine& split, Quantity quantity) {
+        const CsvField& f = field(split, quantity);
+        const std::string what = quantity == Quantity::group ? "group" : "participant";
+        if (f.text.empty()) complain(line_, f.column, "names no " + what, "write a code");
+        if (f.text.contains('@'))
+            complain(line_, f.column, what + " '" + f.text + "' looks like a mail address",
+                     "write a code that names nobody");
+        return f.text;
+    }
+
+    [[nodiscard]] int trial_number(const CsvLine& split) {
+        const CsvField& f = field(split, Quantity::trial);
+        const std::optional<double> value = finite_number(f.text);
+        if (value && *value >= 1.0 && *value <= kMostTrials && *value == static_cast<int>(*value))
+            return static_cast<int>(*value);
+        complain(line_, f.column, "trial '" + f.text + "' is not a whole number from 1 on",
+                 "number each person's trials");
+        return 0;
+    }
+
+    [[nodiscard]] double number(const CsvLine& split, Quantity quantity, bool above_0) {
+        const CsvField& f = field(split, quantity);
+        const std::string what = quantity == Quantity::time ? "time" : "deviation";
+        const std::optional<double> value = finite_number(f.text);
+        if (!value) {
+            complain(line_, f.column, what + " '" + f.text + "' is not a finite number",
+                     f.text.contains(',') ? "write a decimal point, not a comma"
+                                          : "write a number such as 2.5; leave the row out where there is none");
+        } else if (*value < 0.0 || (above_0 && *value == 0.0)) {
+            complain(line_, f.column, what + " " + f.text + (above_0 ? " is not above 0" : " is below 0"),
+                     "correct the number");
+        } else if (*value > kLargestNumber) {
+            complain(line_, f.column, what + " " + f.text + " is absurdly large", "correct the number");
+        }
+        return value.value_or(0.0);
+    }
+
+    void check_against_rows_before(const CsvLine& split, const Trial& trial) {
+        const auto [group, fresh] = group_of_.emplace(trial.participant, std::pair(trial.group, line_));
+        if (!fresh && group->second.first != trial.group) {
+            complain(line_, field(split, Quantity::group).column,
+                     "participant " + trial.participant + " is in group " + trial.group + " here and in group " +
+                         group->second.first + formatted(" in line %zu", group->second.second),
+                     "correct the group, or give the second person a code of their own");
+        }
+        if (trial.number == 0) return;
+        const auto [row, first] = line_of_trial_.emplace(std::pair(trial.participant, trial.number), line_);
+        if (!first) {
+            complain(line_, field(split, Quantity::trial).column,
+                     "participant " + trial.participant +
+                         formatted(" has trial %d already in line %zu", trial.number, row->second),
+                     "number the trials of a participant, each once");
+        }
+    }
+
+    ParsedTable parsed_;
+    std::size_t line_ = 1, columns_ = 0, rows_seen_ = 0;
+    bool header_seen_ = false, columns_known_ = false;
+    std::array<std::optional<std::size_t>, kQuantities> place_;
+    std::map<std::string, std::pair<std::string, std::size_t>> group_of_;  // of a participant, and the first line
+    std::map<std::pair<std::string, int>, std::size_t> line_of_trial_;
+};
+
+}  // namespace
+
+std::string line_of(const TableFault& fault, const std::string& file) {
+    return Error{fault.what, formatted("%s:%zu:%zu", file.c_str(), fault.line, fault.column), fault.remedy}.line();
+}
+
+ParsedTable parse_trials(std::string_view text) {
+    TrialParser parser;
+    parser.read(text);
+    return parser.take();
+}
+
+Result<ParsedTable> read_trials(const std::filesystem::path& path) {
+    const Result<std::string> text = read_text_file(path, kMostTableBytes);
+    if (!text) return std::unexpected(text.error());
+    return parse_trials(*text);
+}
+
+}  // namespace burin::study
