@@ -167,7 +167,8 @@ std::optional<VrmlValue> VrmlFields::find(const VrmlPlaced& placed, std::string_
         const VrmlField* given = field_of(file_.fields_of(instance), instance.file, bound);
         value = given != nullptr ? VrmlValue{given, instance.file, outer} : VrmlValue{declared, prototype.file, outer};
     }
-    if (value.field == nullptr || value.field->kind == VrmlKind::broken) return std::nullopt;
+    if (value.field == nullptr || value.field->kind == VrmlKind::broken || value.field->kind == VrmlKind::nothing)
+        return std::nullopt;
     return value;
 }
 
@@ -266,7 +267,7 @@ Quat VrmlFields::rotation(const VrmlPlaced& placed, std::string_view name) {
 VrmlNumbers VrmlFields::numbers(const VrmlPlaced& placed, std::string_view name, std::size_t size) {
     const auto value = find(placed, name);
     if (!value) return {};
-    if (value->field->kind == VrmlKind::nothing) return {{}, *value};
+    if (value->field->kind == VrmlKind::empty) return {{}, *value};
     if (!spend(place(placed), value->field->count / kNumbersLikeANode)) return {{}, *value};
     const std::string expected = size == 1 ? "numbers" : "numbers in groups of " + std::to_string(size);
     if (!is_kind(*value, VrmlKind::numbers, name, expected.c_str())) return {{}, *value};
@@ -286,7 +287,7 @@ VrmlNumbers VrmlFields::numbers(const VrmlPlaced& placed, std::string_view name,
 
 std::vector<VrmlPlaced> VrmlFields::nodes(const VrmlPlaced& placed, std::string_view name) {
     const auto value = find(placed, name);
-    if (!value || value->field->kind == VrmlKind::nothing) return {};
+    if (!value || value->field->kind == VrmlKind::empty) return {};
     if (!is_kind(*value, VrmlKind::nodes, name, "nodes")) return {};
     if (!spend(place(placed), value->field->count / kLinksLikeANode)) return {};
     std::vector<VrmlPlaced> found;

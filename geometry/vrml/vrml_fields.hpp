@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads the fields of a VRML node as values of a type, through IS where the node stands in a PROTO, and collects what is
-// wrong with them. Internal to geometry/vrml/. Pure but for the lists of faults and remarks.
+// Reads the fields of a VRML node as values of a type, through IS where the node stands in a PROTO, and collects what
+// is wrong with them. Internal to geometry/vrml/. Pure but for the lists of faults and remarks.
 #pragma once
 
 #include <cstddef>
@@ -63,8 +63,9 @@ public:
 
     [[nodiscard]] bool remarked_enough() const { return remarks_.size() >= kMostVrmlFaults; }
 
-    // Counts work: a node each time that it is gone through, and long lists of fields, nodes and numbers beyond that, so
-    // that what USE and PROTO repeat cannot take for ever. Returns false, and that is a fault, beyond kMostVrmlNodes.
+    // Counts work: a node each time that it is gone through, and long lists of fields, nodes and numbers beyond that,
+    // so that what USE and PROTO repeat cannot take for ever. Returns false, and that is a fault, beyond
+    // kMostVrmlNodes.
     bool spend(VrmlPlace place, std::size_t nodes);
     [[nodiscard]] bool spent_all() const { return spent_ > kMostVrmlNodes; }
     [[nodiscard]] const std::set<VrmlFault>& faults() const { return faults_; }

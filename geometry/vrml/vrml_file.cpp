@@ -190,7 +190,7 @@ VrmlOpener vrml_files_beside(const fs::path& world) {
         const fs::path path = folder / name;
         std::error_code code;
         const fs::path root = fs::canonical(folder.empty() ? fs::path(".") : folder, code);
-        const fs::path real = fs::weakly_canonical(path, code);
+        const fs::path real = fs::weakly_canonical(root / name, code);
         if (std::ranges::mismatch(root, real).in1 != root.end()) {
             return fail(path.string(), "is a link that leads out of the world's folder",
                         "copy that file into the world's folder");

@@ -4,8 +4,8 @@
 // vrml_shapes.hpp makes triangles of the tree.
 //
 // The syntax needs no table of node types: the value of a field ends where the next word cannot belong to it. Node and
-// field names are checked later, and only of the nodes that have a shape, so that a world with nodes that Burin does not
-// know is read all the same.
+// field names are checked later, and only of the nodes that have a shape, so that a world with nodes that Burin does
+// not know is read all the same.
 //
 // Faults: reading goes on behind a fault, so that a file's faults are listed together (kMostVrmlFaults at most). Each
 // has a file, a line and a column, and a remedy.
@@ -13,9 +13,9 @@
 // Recursion: kDeepestVrmlNode levels at most. Threads: any; nothing shared. Cost: linear in the text.
 //
 // Why not Coin, the library that other programs read VRML with: Coin 4.0 crashes on a PROTO that names itself, on a USE
-// inside its own DEF, on a cyclic Inline and on 20,000 nested groups; takes for ever on 29 doubling USEs and on an index
-// of 10^8; reads wrong indices out of bounds; opens any path of the disk for an Inline; and loses a file for a single
-// node that it does not know. The tests use it as the independent reader.
+// inside its own DEF, on a cyclic Inline and on 20,000 nested groups; takes for ever on 29 doubling USEs and on an
+// index of 10^8; reads wrong indices out of bounds; opens any path of the disk for an Inline; and loses a file for a
+// single node that it does not know. The tests use it as the independent reader.
 #pragma once
 
 #include <cstddef>
@@ -57,7 +57,8 @@ struct VrmlFault {
 
 // Which arena of VrmlFile holds a field's values.
 enum class VrmlKind : std::uint8_t {
-    nothing,   // an empty list, or a field that declares no value
+    nothing,   // a field that declares no value, such as an event
+    empty,     // a list without entries
     numbers,   // VrmlFile::numbers
     booleans,  // VrmlFile::numbers, 0 or 1
     strings,   // VrmlFile::strings
@@ -139,7 +140,8 @@ struct VrmlFile {
         return std::span(links).subspan(source.first_root, source.root_count);
     }
 
-    // Returns "file:line:column". Lines end with LF, CR LF or CR; lines and columns count from 1, columns in characters.
+    // Returns "file:line:column". Lines end with LF, CR LF or CR; lines and columns count from 1, columns in
+    // characters.
     [[nodiscard]] std::string where(VrmlPlace place) const;
     [[nodiscard]] Error error_of(const VrmlFault& fault) const {
         return {fault.what, where(fault.place), fault.remedy};
@@ -152,8 +154,8 @@ struct VrmlFile {
 // and is free of "." and "//".
 using VrmlOpener = std::function<Result<std::string>(const std::string& name)>;
 
-// Returns an opener of files in the folder of a world's file and below it. A name that leads out of the folder through a
-// symbolic link is refused.
+// Returns an opener of files in the folder of a world's file and below it. A name that leads out of the folder through
+// a symbolic link is refused.
 [[nodiscard]] VrmlOpener vrml_files_beside(const std::filesystem::path& world);
 
 // Reads the text of a world. `name` stands for the file in messages. Without an opener, each Inline is a fault.

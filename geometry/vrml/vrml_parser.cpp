@@ -383,6 +383,7 @@ void VrmlParser::list(VrmlField& field) {
                                             : std::string("this does not belong into the list"),
               "a list holds numbers, TRUE and FALSE, strings or nodes, and only one kind of them");
     }
+    if (field.kind == VrmlKind::nothing) field.kind = VrmlKind::empty;
     close_links(field, nodes);
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The words of a VRML text (ISO/IEC 14772-1:1997, A.3). Returns views into the text; allocates nothing; cheap to copy,
 // so that a reader looks ahead by going on with a copy. Blank: control characters, the blank, the comma, and comments
-// from # to the line's end. A word is everything up to a blank, a quote or one of []{}, so that names which the standard
-// forbids, as some programs write them, are read too.
+// from # to the line's end. A word is everything up to a blank, a quote or one of []{}, so that names which the
+// standard forbids, as some programs write them, are read too.
 #pragma once
 
 #include <cstdint>

@@ -4,9 +4,8 @@
 //
 // Made into triangles: Box, Cone, Cylinder, Sphere, ElevationGrid, Extrusion, IndexedFaceSet. Gone through: Transform,
 // Group, Anchor, Billboard (as it stands, without turning), Collision (its children), Switch (the chosen child), LOD
-// (its first level), Inline, and instances of a PROTO (the first node of its body, with IS). All other nodes are counted
-// and skipped; what a PROTO is not known to be (EXTERNPROTO) is skipped too. Nothing moves: routes, sensors and scripts
-// have no effect.
+// (its first level), Inline, and instances of a PROTO (the first node of its body, with IS). All other nodes are
+// counted and skipped, instances of an EXTERNPROTO too. Nothing moves: routes, sensors and scripts have no effect.
 //
 // Units and frames: metres and radians, right-handed, +Y up, as VRML has them. Triangles are in the shape's own frame
 // and wind counter-clockwise seen from outside, whatever `ccw` said; `world_from_shape` may scale, shear and mirror.
@@ -56,8 +55,8 @@ struct VrmlShape {
     Mat4 world_from_shape{1.0};                  // affine; its determinant is not 0
     VrmlColour colour{204, 204, 204};            // diffuseColor; by default 0.8
     double transparency = 0.0;                   // 0 opaque, 1 invisible
-    // The numbers of a PROTO HapticMaterial in place of the shape's Material or Appearance: its fields of one number, by
-    // name ("stiffness"). What they mean is for others to say.
+    // The numbers of a PROTO HapticMaterial in place of the shape's Material or Appearance: its fields of one number,
+    // by name ("stiffness"). What they mean is for others to say.
     std::map<std::string, double> haptics;
     VrmlPlace place;  // of the Shape node; VrmlFile::where() tells line and column
 

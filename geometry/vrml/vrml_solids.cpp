@@ -21,8 +21,8 @@ std::uint32_t add_vertex(TriangleMesh& mesh, const Vec3& p) {
     return static_cast<std::uint32_t>(mesh.positions_m.size() - 1);
 }
 
-// Adds a ring about the Y axis, from +Z on counter-clockwise seen from +Y, and returns its first vertex. Quarters of the
-// turn are exact, so that the ring's bounds are those of the circle.
+// Adds a ring about the Y axis, from +Z on counter-clockwise seen from +Y, and returns its first vertex. Quarters of
+// the turn are exact, so that the ring's bounds are those of the circle.
 std::uint32_t add_ring(TriangleMesh& mesh, double radius_m, double y_m) {
     const auto first = static_cast<std::uint32_t>(mesh.positions_m.size());
     constexpr std::uint32_t kQuarter = kSlices / 4;
