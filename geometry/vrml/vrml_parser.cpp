@@ -49,7 +49,7 @@ void VrmlParser::parse() {
 }
 
 void VrmlParser::fault(std::uint32_t at, std::string what, std::string remedy) {
-    if (stopped()) return;
+    if (stopped() || torn_) return;
     file_.faults.push_back({{source_, at}, std::move(what), std::move(remedy)});
     if (file_.faults.size() < kMostVrmlFaults) return;
     file_.faults.push_back({{source_, at}, "no further faults are looked for", "repair those above first"});
@@ -75,7 +75,22 @@ void VrmlParser::statements(VrmlToken closing, std::uint32_t opened_at, std::vec
             fault(next.at, "a node is expected here", "remove what stands here, or look for a bracket too many before");
         }
         if (next.token == VrmlToken::open_brace) skip_braces();
+        skip_stray(closing);
     }
+}
+
+// Goes on to where reading makes sense again, so that one fault is told of all that stands between.
+void VrmlParser::skip_stray(VrmlToken closing) {
+    for (VrmlLexeme next = scan_.peek(); next.token != VrmlToken::end && next.token != closing; next = scan_.peek()) {
+        if (begins_statement()) return;
+        static_cast<void>(scan_.take());
+        if (next.token == VrmlToken::open_brace) skip_braces();
+    }
+}
+
+bool VrmlParser::begins_statement() const {
+    const VrmlLexeme next = scan_.peek();
+    return next.is("PROTO") || next.is("EXTERNPROTO") || next.is("ROUTE") || begins_node();
 }
 
 // Reads a statement, if one begins here.
@@ -102,15 +117,19 @@ bool VrmlParser::begins_node() const {
 }
 
 void VrmlParser::route() {
-    static_cast<void>(scan_.take());
+    const VrmlLexeme route = scan_.take();
     const VrmlLexeme from = scan_.take(), to = scan_.take(), target = scan_.take();
     const auto is_event = [](const VrmlLexeme& l) {
         return l.token == VrmlToken::word && l.text.find('.') != std::string_view::npos;
     };
     if (is_event(from) && to.is("TO") && is_event(target)) return;
     fault(from.at, "a ROUTE has another form", "write ROUTE Name.event TO Name.event");
-    scan_ = VrmlScanner(*file_.sources[source_].text, from.at);
-    if (scan_.peek().token == VrmlToken::word) static_cast<void>(scan_.take());
+    // What follows in the same line belonged to it.
+    const std::string_view text = *file_.sources[source_].text;
+    const std::size_t line_end = std::min(text.find_first_of("\r\n", route.at), text.size());
+    scan_ = VrmlScanner(text, from.at);
+    while (scan_.peek().token == VrmlToken::word && scan_.peek().at < line_end && !begins_statement())
+        static_cast<void>(scan_.take());
 }
 
 // Goes behind the bracket that closes the one just taken.
@@ -137,9 +156,7 @@ void VrmlParser::named_node(std::vector<VrmlLink>& to) {
     if (name.token != VrmlToken::word) return fault(def.at, "DEF has no name", "write DEF Name Type { ... }");
     static_cast<void>(scan_.take());
     const VrmlLexeme type = scan_.peek();
-    if (type.token == VrmlToken::word && scan_.peek_second().token == VrmlToken::open_brace) {
-        return plain_node(name, to);
-    }
+    if (begins_node() && !type.is("DEF") && !type.is("USE")) return plain_node(name, to);
     fault(name.at, "no node follows DEF " + in_quotes(name.text), "write DEF Name Type { ... }");
 }
 
@@ -281,6 +298,7 @@ void VrmlParser::interface(bool with_values, std::vector<VrmlField>& fields) {
             return fault(bracket.at, "the list of fields that begins here is not closed", kCutShort);
         } else {
             fault(next.at, "eventIn, eventOut, field or exposedField is expected here", "write one of them before it");
+            while (scan_.peek().token == VrmlToken::word && !is_access(scan_.peek())) static_cast<void>(scan_.take());
         }
     }
 }
@@ -333,7 +351,7 @@ void VrmlParser::external_prototype() {
     made.external = true;
     std::vector<VrmlField> fields;
     interface(false, fields);
-    VrmlField url{.at = name.at, .value_at = scan_.peek().at};
+    VrmlField url = field_at(name);
     value(url);
     scopes_.back().prototypes.insert_or_assign(name.text, static_cast<std::uint32_t>(file_.prototypes.size()));
     file_.prototypes.push_back(made);
@@ -377,7 +395,9 @@ void VrmlParser::list(VrmlField& field) {
             break;
         }
         static_cast<void>(scan_.take());
-        if (next.token == VrmlToken::open_brace || next.token == VrmlToken::open_bracket) skip_braces();
+        const bool is_node = next.token == VrmlToken::word && scan_.peek().token == VrmlToken::open_brace;
+        if (is_node) static_cast<void>(scan_.take());
+        if (is_node || next.token == VrmlToken::open_brace || next.token == VrmlToken::open_bracket) skip_braces();
         fault(next.at,
               next.token == VrmlToken::word ? in_quotes(next.text) + " does not belong into this list"
                                             : std::string("this does not belong into the list"),
@@ -408,7 +428,10 @@ bool VrmlParser::item(VrmlField& field, std::vector<VrmlLink>& nodes) {
         if (!fits(VrmlKind::strings)) return false;
         static_cast<void>(scan_.take());
         append(field, VrmlKind::strings, file_.strings, next.text);
-        if (next.token == VrmlToken::open_string) fault(next.at, "a quote here is not closed", kCutShort);
+        if (next.token == VrmlToken::open_string) {
+            fault(next.at, "a quote here is not closed", kCutShort);
+            torn_ = true;
+        }
     } else if (next.is("IS")) {
         if (field.kind != VrmlKind::nothing) return false;
         binding(field);

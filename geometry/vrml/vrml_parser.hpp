@@ -36,6 +36,8 @@ private:
     // Each reads one construct of the grammar, whose first token has not been taken yet.
     void statements(VrmlToken closing, std::uint32_t opened_at, std::vector<VrmlLink>& nodes);
     [[nodiscard]] bool statement(std::vector<VrmlLink>& nodes);
+    void skip_stray(VrmlToken closing);
+    [[nodiscard]] bool begins_statement() const;
     [[nodiscard]] bool begins_node() const;
     void node(std::vector<VrmlLink>& to);
     void named_node(std::vector<VrmlLink>& to);
@@ -76,6 +78,7 @@ private:
     std::vector<std::uint32_t> open_;            // the nodes around the present place
     std::vector<std::string_view> prototyping_;  // the PROTOs around the present place
     bool gave_up_ = false;
+    bool torn_ = false;  // the rest of the text stands in a quote that is not closed
 };
 
 }  // namespace burin::geometry
