@@ -78,8 +78,8 @@ public:
     }
 
     void print() const {
-        std::printf("%s: %zu shapes, %zu triangles, %s\n", path_.c_str(), world_.shapes.size(), world_.triangles,
-                    size_text(bounds_m_).c_str());
+        std::printf("%s: %zu %s, %zu triangles, %s\n", path_.c_str(), world_.shapes.size(),
+                    world_.shapes.size() == 1 ? "shape" : "shapes", world_.triangles, size_text(bounds_m_).c_str());
         std::size_t width = 0;
         for (const WorldObject& o : objects_) width = std::max(width, o.name.size());
         for (const WorldObject& o : objects_) {

@@ -16,6 +16,9 @@
 
 namespace burin::geometry {
 
+// What to do about something that is not closed.
+inline constexpr const char* kVrmlCutShort = "close it, or the file is cut short: copy or export it again";
+
 class VrmlParser {
 public:
     // The source's text must stay where it is; nodes and roots are added to `file`.
