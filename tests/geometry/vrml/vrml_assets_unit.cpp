@@ -56,7 +56,7 @@ TEST(VrmlAssets, TheCapsAreClosedAndTheTubeIsFeltFromBothSides) {
         EXPECT_EQ(health.closed, cap) << shape.name;
         EXPECT_EQ(shape.surface->two_sided, !cap) << shape.name;
         EXPECT_EQ(health.misoriented_edges, 0u) << shape.name;
-        if (cap) EXPECT_GT(health.signed_volume_m3, 0.0) << shape.name;
+        EXPECT_EQ(health.closed && health.signed_volume_m3 > 0.0, cap) << shape.name;
     }
 }
 
