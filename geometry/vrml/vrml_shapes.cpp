@@ -17,6 +17,7 @@ namespace burin::geometry {
 namespace {
 
 constexpr std::string_view kHapticMaterial = "HapticMaterial";
+constexpr std::string_view kFurtherTypes = "nodes of further types";
 constexpr std::size_t kFieldsLikeANode = 32;
 
 // A name given by DEF, at one of the places where its node is used.
@@ -152,11 +153,12 @@ private:
     }
 
     void skip(const VrmlPlaced& placed) {
-        const std::string type(fields_.type(placed));
+        const bool listed = skipped_.size() < kMostVrmlFaults || skipped_.contains(std::string(fields_.type(placed)));
+        const std::string type(listed ? fields_.type(placed) : kFurtherTypes);
         const auto [entry, is_new] = skipped_.try_emplace(type, world_.skipped.size());
         if (is_new) world_.skipped.push_back({type, 0, fields_.place(placed)});
         ++world_.skipped[entry->second].count;
-        if (!is_new || fields_.remarked_enough() || is_vrml_type(type) ||
+        if (!is_new || !listed || fields_.remarked_enough() || is_vrml_type(type) ||
             fields_.node(placed).prototype != kNoVrmlIndex)
             return;
         fields_.remark(fields_.place(placed), in_quotes(type) + " is no node of VRML 2.0",

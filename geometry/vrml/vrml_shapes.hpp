@@ -71,7 +71,7 @@ struct VrmlSkipped {
 
 struct VrmlWorld {
     std::vector<VrmlShape> shapes;     // in the order of the file
-    std::vector<VrmlSkipped> skipped;  // by type
+    std::vector<VrmlSkipped> skipped;  // by type; those beyond kMostVrmlFaults types together
     std::vector<Error> remarks;        // what was left out or may be meant otherwise, in the order of the file
     std::size_t nodes = 0;             // after expansion
     std::size_t triangles = 0;         // of all shapes

@@ -157,6 +157,14 @@ TEST(ReadVrml, ListsNoMoreFaultsThanItsBound) {
     EXPECT_GE(faults.size(), kMostVrmlFaults);
 }
 
+TEST(ReadVrml, ListsNoMoreTypesThanItsBound) {
+    std::string text;
+    for (int i = 0; i < 5'000; ++i) text += "A" + std::to_string(i) + "{}";
+    const VrmlWorld world = vrml_world(text);
+    ASSERT_EQ(world.skipped.size(), kMostVrmlFaults + 1);
+    EXPECT_EQ(world.skipped.back().count, 5'000 - kMostVrmlFaults);
+}
+
 TEST(ReadVrml, TenThousandWrongIndicesOfAListAreAFewFaults) {
     const auto faults =
         vrml_faults(kVrmlHead + "Shape { geometry IndexedFaceSet { coord Coordinate { point 0 0 0 }\ncoordIndex [ " +
