@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The subcommands of burin that are one function each, with their options; one source each. (bench_command.hpp,
-// profile.hpp and wall_commands.hpp have those of several parts.) One thread. Every Error names a file or an option and
-// the remedy; main prints it in one line.
+// profile.hpp, wall_commands.hpp and world_command.hpp have those of several parts.) One thread. Every Error names a
+// file or an option and the remedy; main prints it in one line.
 #pragma once
 
 #include <functional>

@@ -8,6 +8,7 @@
 #include "app/profile.hpp"
 #include "app/study_command.hpp"
 #include "app/wall_commands.hpp"
+#include "app/world_command.hpp"
 #include "compute/rays/lattice.hpp"
 #include "devices/haptic/device_registry.hpp"
 #include "devices/trackers/tracker.hpp"
@@ -203,6 +204,7 @@ int run(int argc, char** argv) {
 
     const BenchCommand bench(app);
     const WallCommand wall(app);
+    const WorldCommand world(app);
     const ProfileCommand profile(app);
     const StudyCommand study(app);
 
@@ -215,6 +217,11 @@ int run(int argc, char** argv) {
     if (sculpt.parsed()) return finish(app::sculpt(sculpt_options));
     if (bench.parsed()) return finish(bench.run());
     if (wall.parsed()) return finish(wall.run());
+    if (world.parsed() && !world.misuse().empty()) {
+        std::fprintf(stderr, "burin: %s; see burin world --help\n", world.misuse().c_str());
+        return 2;
+    }
+    if (world.parsed()) return finish(world.run());
     if (profile.parsed()) return finish(profile.run());
     if (study.parsed()) return finish(study.run());
     if (convert.parsed()) return finish(app::convert(convert_options));

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include "app/world_command.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "app/output_files.hpp"
+#include "base/text.hpp"
+#include "geometry/files/mesh_unit.hpp"
+#include "geometry/vrml/vrml_shapes.hpp"
+
+namespace burin::app {
+namespace {
+
+// The shapes of one name.
+struct WorldObject {
+    std::string name;
+    std::size_t shapes = 0, triangles = 0;
+    Box bounds_m;
+    geometry::VrmlColour colour{};
+    double transparency = 0.0;
+    bool two_sided = false;
+    std::map<std::string, double> haptics;
+};
+
+void include_shape(Box& bounds_m, const geometry::VrmlShape& shape) {
+    const geometry::TriangleMesh& mesh = shape.surface->mesh;
+    for (const auto& t : mesh.triangles) {
+        for (const std::uint32_t v : t)
+            bounds_m.include(Vec3(shape.world_from_shape * glm::dvec4(mesh.positions_m[v], 1.0)));
+    }
+}
+
+// Returns the named objects in the order of their first shapes; colour and material are those of these shapes.
+std::vector<WorldObject> objects_of(const geometry::VrmlWorld& world) {
+    std::vector<WorldObject> objects;
+    std::map<std::string, std::size_t> known;
+    for (const geometry::VrmlShape& shape : world.shapes) {
+        if (shape.name.empty()) continue;
+        const auto [entry, is_new] = known.try_emplace(shape.name, objects.size());
+        if (is_new) {
+            objects.push_back({.name = shape.name, .bounds_m = {}, .colour = shape.colour, .haptics = shape.haptics});
+            objects.back().transparency = shape.transparency;
+            objects.back().two_sided = shape.surface->two_sided;
+        }
+        WorldObject& object = objects[entry->second];
+        ++object.shapes;
+        object.triangles += shape.surface->mesh.triangles.size();
+        include_shape(object.bounds_m, shape);
+    }
+    return objects;
+}
+
+std::string hexadecimal(const geometry::VrmlColour& colour) {
+    return formatted("#%02x%02x%02x", colour[0], colour[1], colour[2]);
+}
+
+std::string size_text(const Box& bounds_m) {
+    return bounds_m.empty() ? "nothing to touch" : in_millimetres(bounds_m.extent());
+}
+
+Json error_json(const Error& error) { return {{"where", error.where}, {"what", error.what}, {"remedy", error.remedy}}; }
+
+Json vector_json(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
+
+// What one file holds, for the terminal and for --json.
+class WorldSummary {
+public:
+    WorldSummary(std::string path, const geometry::VrmlFile& file, const geometry::VrmlWorld& world)
+        : path_(std::move(path)), file_(file), world_(world), objects_(objects_of(world)) {
+        for (const geometry::VrmlShape& shape : world.shapes) include_shape(bounds_m_, shape);
+        unnamed_ = static_cast<std::size_t>(
+            std::ranges::count_if(world.shapes, [](const geometry::VrmlShape& s) { return s.name.empty(); }));
+    }
+
+    void print() const {
+        std::printf("%s: %zu %s, %zu triangles, %s\n", path_.c_str(), world_.shapes.size(),
+                    world_.shapes.size() == 1 ? "shape" : "shapes", world_.triangles, size_text(bounds_m_).c_str());
+        std::size_t width = 0;
+        for (const WorldObject& o : objects_) width = std::max(width, o.name.size());
+        for (const WorldObject& o : objects_) {
+            std::printf("  %-*s  %zu triangles, %s, %s", static_cast<int>(std::min<std::size_t>(width, 40)),
+                        o.name.c_str(), o.triangles, size_text(o.bounds_m).c_str(), hexadecimal(o.colour).c_str());
+            if (o.transparency > 0.0) std::printf(", transparency %g", o.transparency);
+            if (o.two_sided) std::printf(", two-sided");
+            for (const auto& [name, value] : o.haptics) std::printf(", %s %g", name.c_str(), value);
+            std::printf("\n");
+        }
+        if (unnamed_ > 0) {
+            std::printf("  %zu shapes without a name, which no command can reach: write DEF Name before them\n",
+                        unnamed_);
+        }
+        for (const geometry::VrmlSkipped& skipped : world_.skipped) {
+            std::printf("  skipped: %zu %s, the first at %s\n", skipped.count, skipped.type.c_str(),
+                        file_.where(skipped.first_place).c_str());
+        }
+        for (const Error& remark : world_.remarks) std::printf("  %s\n", remark.line().c_str());
+    }
+
+    [[nodiscard]] Json json() const {
+        Json json{{"file", path_}, {"faults", Json::array()}};
+        json["shapes"] = world_.shapes.size();
+        json["unnamed_shapes"] = unnamed_;
+        json["triangles"] = world_.triangles;
+        json["nodes"] = world_.nodes;
+        json["objects"] = Json::array();
+        for (const WorldObject& o : objects_) json["objects"].push_back(object_json(o));
+        json["skipped"] = Json::array();
+        for (const geometry::VrmlSkipped& s : world_.skipped)
+            json["skipped"].push_back({{"type", s.type}, {"count", s.count}, {"where", file_.where(s.first_place)}});
+        json["remarks"] = Json::array();
+        for (const Error& remark : world_.remarks) json["remarks"].push_back(error_json(remark));
+        return json;
+    }
+
+private:
+    static Json object_json(const WorldObject& o) {
+        Json json{{"name", o.name}, {"shapes", o.shapes}, {"triangles", o.triangles}};
+        json["lowest_m"] = vector_json(o.bounds_m.lo);
+        json["highest_m"] = vector_json(o.bounds_m.hi);
+        json["colour"] = hexadecimal(o.colour);
+        json["transparency"] = o.transparency;
+        json["two_sided"] = o.two_sided;
+        json["haptics"] = o.haptics;
+        return json;
+    }
+
+    std::string path_;
+    const geometry::VrmlFile& file_;
+    const geometry::VrmlWorld& world_;
+    std::vector<WorldObject> objects_;
+    Box bounds_m_;
+    std::size_t unnamed_ = 0;
+};
+
+struct CheckedWorld {
+    Json json;
+    std::size_t faults = 0;
+};
+
+CheckedWorld faulty(const std::string& path, std::span<const Error> faults, bool print) {
+    CheckedWorld checked{{{"file", path}, {"faults", Json::array()}}, faults.size()};
+    for (const Error& fault : faults) {
+        if (print) std::printf("%s\n", fault.line().c_str());
+        checked.json["faults"].push_back(error_json(fault));
+    }
+    return checked;
+}
+
+CheckedWorld check_world(const std::string& path, bool print) {
+    const Result<geometry::VrmlFile> file = geometry::read_vrml_file(path);
+    if (!file) return faulty(path, std::array{file.error()}, print);
+    const geometry::VrmlWorldOrFaults world = geometry::shapes_of(*file);
+    if (!world) return faulty(path, world.error(), print);
+    const WorldSummary summary(path, *file, *world);
+    if (print) summary.print();
+    return {summary.json(), 0};
+}
+
+}  // namespace
+
+struct WorldCommand::Options {
+    std::vector<std::string> files;   // to check
+    std::vector<std::string> worlds;  // to open
+    std::string json;
+
+    [[nodiscard]] Result<void> check_files() const;
+};
+
+Result<void> WorldCommand::Options::check_files() const {
+    if (const auto ok = check_outputs({}, json == kStandardOutput ? "" : json, files); !ok) return ok;
+    Json report{{"files", Json::array()}};
+    std::size_t faults = 0, faulty_files = 0;
+    for (const std::string& file : files) {
+        const CheckedWorld checked = check_world(file, json != kStandardOutput);
+        faults += checked.faults;
+        faulty_files += checked.faults > 0 ? 1 : 0;
+        report["files"].push_back(checked.json);
+    }
+    if (const auto ok = write_output(json, json_text(report)); !ok) return ok;
+    if (faults == 0) return {};
+    std::fflush(stdout);
+    return fail(faulty_files == 1 && files.size() == 1
+                    ? files[0]
+                    : std::to_string(faulty_files) + " of " + std::to_string(files.size()) + " files",
+                std::to_string(faults) + (faults == 1 ? " fault" : " faults"), "correct them and check again");
+}
+
+WorldCommand::WorldCommand(Command app)
+    : options_(std::make_unique<Options>()), command_(app.subcommand("world", "Check worlds in VRML 2.0")) {
+    Options& o = *options_;
+    command_.option("FILE", o.worlds, "A world to open; not possible yet");
+    check_ = command_.subcommand("check", "What is in each file, or all that is wrong with it; exit status 1 then");
+    check_.option("FILE", o.files, "VRML 2.0 files (.wrl), see docs/formats.md").required();
+    check_.option("--json", o.json, "A file for all figures and faults; - for standard output");
+}
+
+WorldCommand::~WorldCommand() = default;
+
+bool WorldCommand::parsed() const { return command_.parsed(); }
+
+std::string WorldCommand::misuse() const {
+    return check_.parsed() || !options_->worlds.empty() ? "" : "world needs the word check and files";
+}
+
+Result<void> WorldCommand::run() const {
+    if (check_.parsed()) return options_->check_files();
+    return fail(options_->worlds.front(), "worlds cannot be opened and touched yet, only checked",
+                "burin world check " + options_->worlds.front() + " says what is in it");
+}
+
+}  // namespace burin::app

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// burin world: worlds in VRML 2.0 (docs/formats.md).
+//   burin world check FILE... [--json OUT]     what is in each file, or all that is wrong with it; exit status 1 then
+// A world is not opened in a session yet: `burin world FILE` says so and fails.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "app/command_line.hpp"
+#include "base/error.hpp"
+
+namespace burin::app {
+
+class WorldCommand {
+public:
+    // Adds the command and its options; the command line must outlive the object.
+    explicit WorldCommand(Command app);
+    ~WorldCommand();
+    WorldCommand(const WorldCommand&) = delete;
+    WorldCommand& operator=(const WorldCommand&) = delete;
+
+    [[nodiscard]] bool parsed() const;
+    // What is wrong with the usage, if anything: exit status 2.
+    [[nodiscard]] std::string misuse() const;
+    [[nodiscard]] Result<void> run() const;
+
+private:
+    struct Options;
+    std::unique_ptr<Options> options_;
+    Command command_;
+    Command check_;
+};
+
+}  // namespace burin::app

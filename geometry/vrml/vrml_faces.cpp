@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+// IndexedFaceSet and ElevationGrid (ISO/IEC 14772-1:1997, 6.23 and 6.17).
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "geometry/mesh/polygon.hpp"
+#include "geometry/vrml/vrml_geometry.hpp"
+
+namespace burin::geometry {
+namespace {
+
+constexpr std::size_t kShownOfAList = 8;  // wrong indices of one list that are named one by one
+
+// Reads a list of indices below `count`, with -1 at the end of each face. Returns nothing where one is wrong.
+std::vector<std::int32_t> read_indices(VrmlFields& fields, const VrmlNumbers& numbers, std::size_t count,
+                                       const char* what) {
+    std::vector<std::int32_t> indices;
+    indices.reserve(numbers.values.size());
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < numbers.values.size(); ++i) {
+        const double index = numbers.values[i];
+        if (index == std::floor(index) && index >= -1.0 && index < static_cast<double>(count)) {
+            indices.push_back(static_cast<std::int32_t>(index));
+        } else if (++wrong <= kShownOfAList) {
+            const std::string number =
+                index == std::floor(index) ? std::to_string(static_cast<std::int64_t>(index)) : std::to_string(index);
+            fields.fault_at_value(numbers.value, i,
+                                  "index " + number + " names none of the " + std::to_string(count) + " " + what,
+                                  "write whole numbers from 0 on, and -1 behind each face");
+        }
+    }
+    if (wrong > kShownOfAList) {
+        fields.fault({numbers.value.file, numbers.value.field->value_at},
+                     std::to_string(wrong) + " indices of this list are wrong", "export the file again");
+    }
+    if (wrong > 0) indices.clear();
+    return indices;
+}
+
+// The colours of a face set: one for each face or each corner, by an index or by their order.
+class FaceColours {
+public:
+    FaceColours(const VrmlGeometryRequest& request, const std::vector<std::int32_t>& corners)
+        : request_(request), corners_(corners), colours_(vrml_colours(request)) {
+        VrmlFields& fields = request.fields;
+        if (colours_.empty()) return;
+        per_vertex_ = fields.flag(request.node, "colorPerVertex", true);
+        numbers_ = fields.numbers(request.node, "colorIndex");
+        indices_ = read_indices(fields, numbers_, colours_.size(), "colours");
+        if (indices_.empty() && !numbers_.values.empty()) colours_.clear();  // wrong ones
+    }
+
+    [[nodiscard]] bool any() const { return !colours_.empty(); }
+
+    // Returns the colour of the corner `at` of the list of corners, which belongs to the face number `face`.
+    VrmlColour of(std::size_t at, std::size_t face) {
+        std::size_t index = per_vertex_ ? at : face;
+        if (!numbers_.values.empty()) {
+            const std::int32_t named = index < indices_.size() ? indices_[index] : -1;
+            if (named < 0) return missing(index);
+            index = static_cast<std::size_t>(named);
+        } else if (per_vertex_) {
+            index = static_cast<std::size_t>(corners_[at]);
+        }
+        return index < colours_.size() ? colours_[index] : missing(index);
+    }
+
+private:
+    VrmlColour missing(std::size_t index) {
+        if (!std::exchange(told_, true)) {
+            request_.fields.fault(request_.fields.place(request_.node),
+                                  std::string("there is no colour for ") + (per_vertex_ ? "corner " : "face ") +
+                                      std::to_string(index) + " of this node",
+                                  "give as many colours as it has, or look at colorPerVertex");
+        }
+        return {};
+    }
+
+    const VrmlGeometryRequest& request_;
+    const std::vector<std::int32_t>& corners_;
+    std::vector<VrmlColour> colours_;
+    VrmlNumbers numbers_;
+    std::vector<std::int32_t> indices_;
+    bool per_vertex_ = true, told_ = false;
+};
+
+// Splits the faces of a list of corners, each ended by -1 or the list's end.
+class FaceSplitter {
+public:
+    FaceSplitter(VrmlSurface& surface, const std::vector<std::int32_t>& corners, FaceColours& colours)
+        : surface_(surface), corners_(corners), colours_(colours) {}
+
+    // Returns the number of faces of fewer than three corners.
+    std::size_t split_all() {
+        for (std::size_t i = 0; i <= corners_.size(); ++i) {
+            if (i < corners_.size() && corners_[i] >= 0) continue;
+            if (i > first_) split(i);
+            first_ = i + 1;
+        }
+        return without_area_;
+    }
+
+private:
+    void split(std::size_t end) {
+        const std::size_t count = end - first_;
+        if (count < 3) {
+            ++without_area_;
+        } else if (count == 3) {
+            add({0, 1, 2});
+        } else {
+            polygon_.clear();
+            for (std::size_t i = first_; i < end; ++i) polygon_.push_back(surface_.mesh.positions_m[vertex(i)]);
+            for (const auto& triangle : split_polygon(polygon_).triangles) add(triangle);
+        }
+        ++face_;
+    }
+
+    [[nodiscard]] std::uint32_t vertex(std::size_t at) const { return static_cast<std::uint32_t>(corners_[at]); }
+
+    void add(const std::array<std::uint32_t, 3>& triangle) {
+        const std::array<std::size_t, 3> at{first_ + triangle[0], first_ + triangle[1], first_ + triangle[2]};
+        surface_.mesh.triangles.push_back({vertex(at[0]), vertex(at[1]), vertex(at[2])});
+        if (!colours_.any()) return;
+        surface_.corner_colours.push_back(
+            {colours_.of(at[0], face_), colours_.of(at[1], face_), colours_.of(at[2], face_)});
+    }
+
+    VrmlSurface& surface_;
+    const std::vector<std::int32_t>& corners_;
+    FaceColours& colours_;
+    std::vector<Vec3> polygon_;
+    std::size_t first_ = 0, face_ = 0, without_area_ = 0;
+};
+
+std::vector<Vec3> points_of(const VrmlGeometryRequest& request) {
+    VrmlFields& fields = request.fields;
+    std::vector<Vec3> points;
+    for (const VrmlPlaced& given : fields.nodes(request.node, "coord")) {
+        const auto node = fields.resolved(given);
+        if (!node || fields.type(*node) != "Coordinate") {
+            fields.fault(fields.place(given), "a Coordinate is expected here", "write coord Coordinate { point [ ] }");
+            continue;
+        }
+        fields.check_names(*node);
+        const std::span<const double> numbers = fields.numbers(*node, "point", 3).values;
+        points.reserve(numbers.size() / 3);
+        for (std::size_t i = 0; i < numbers.size(); i += 3)
+            points.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+    }
+    return points;
+}
+
+// Returns a dimension of a grid, or 0 with a fault.
+double dimension(const VrmlGeometryRequest& request, const char* name) {
+    const std::int64_t value = request.fields.integer(request.node, name, 0);
+    if (value >= 0) return static_cast<double>(value);
+    request.fields.fault_at_value(*request.fields.find(request.node, name), 0, std::string("'") + name + "' is below 0",
+                                  "write the number of heights");
+    return 0.0;
+}
+
+}  // namespace
+
+VrmlSurface vrml_face_set(const VrmlGeometryRequest& request) {
+    VrmlSurface surface;
+    VrmlFields& fields = request.fields;
+    surface.mesh.positions_m = points_of(request);
+    const VrmlNumbers numbers = fields.numbers(request.node, "coordIndex");
+    if (!may_make(request, static_cast<double>(numbers.values.size()) - 2.0)) return {};
+    const std::vector<std::int32_t> corners = read_indices(fields, numbers, surface.mesh.positions_m.size(), "points");
+    FaceColours colours(request, corners);
+    const std::size_t without_area = FaceSplitter(surface, corners, colours).split_all();
+    if (without_area > 0) {
+        fields.remark(fields.place(request.node), std::to_string(without_area) + " faces have fewer than three corners",
+                      "they are left out");
+    }
+    apply_vrml_sides(request, surface);
+    return surface;
+}
+
+VrmlSurface vrml_elevation_grid(const VrmlGeometryRequest& request) {
+    VrmlSurface surface;
+    VrmlFields& fields = request.fields;
+    const double columns = dimension(request, "xDimension"), rows = dimension(request, "zDimension");
+    const double dx = fields.positive(request.node, "xSpacing", 1.0);
+    const double dz = fields.positive(request.node, "zSpacing", 1.0);
+    const VrmlNumbers heights = fields.numbers(request.node, "height");
+    if (columns * rows != static_cast<double>(heights.values.size())) {
+        fields.fault(heights.value.field == nullptr ? fields.place(request.node)
+                                                    : VrmlPlace{heights.value.file, heights.value.field->value_at},
+                     "an ElevationGrid of " + std::to_string(static_cast<std::int64_t>(columns)) + " by " +
+                         std::to_string(static_cast<std::int64_t>(rows)) + " has " +
+                         std::to_string(heights.values.size()) + " heights",
+                     "give xDimension times zDimension of them");
+        return {};
+    }
+    if (columns < 2.0 || rows < 2.0 || !may_make(request, 2.0 * (columns - 1.0) * (rows - 1.0))) return {};
+    const auto nx = static_cast<std::uint32_t>(columns), nz = static_cast<std::uint32_t>(rows);
+    std::vector<std::int32_t> corners;  // the quads' corners in VRML's own form, so that colours are found in one way
+    corners.reserve(heights.values.size() * 5);
+    for (std::uint32_t z = 0; z < nz; ++z) {
+        for (std::uint32_t x = 0; x < nx; ++x) {
+            surface.mesh.positions_m.emplace_back(dx * x, heights.values[x + std::size_t{z} * nx], dz * z);
+            if (x + 1 == nx || z + 1 == nz) continue;
+            const auto corner = static_cast<std::int32_t>(x + z * nx), below = static_cast<std::int32_t>(nx);
+            // Counter-clockwise seen from +Y.
+            corners.insert(corners.end(), {corner, corner + below, corner + below + 1, corner + 1, -1});
+        }
+    }
+    FaceColours colours(request, corners);
+    static_cast<void>(FaceSplitter(surface, corners, colours).split_all());
+    apply_vrml_sides(request, surface);
+    return surface;
+}
+
+}  // namespace burin::geometry

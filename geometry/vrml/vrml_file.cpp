@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#include "geometry/vrml/vrml_file.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "base/file_io.hpp"
+#include "geometry/files/text_scanner.hpp"
+#include "geometry/vrml/vrml_parser.hpp"
+#include "geometry/vrml/vrml_scanner.hpp"
+
+namespace burin::geometry {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kVrmlHeader = "#VRML V2.0 utf8";
+
+std::vector<std::uint32_t> line_starts_of(std::string_view text) {
+    std::vector<std::uint32_t> starts{0};
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool ends = text[i] == '\n' || (text[i] == '\r' && !(i + 1 < text.size() && text[i + 1] == '\n'));
+        if (ends) starts.push_back(static_cast<std::uint32_t>(i + 1));
+    }
+    return starts;
+}
+
+struct ForeignFormat {
+    std::string_view begins;
+    const char* what;
+    const char* remedy;
+};
+
+constexpr ForeignFormat kForeignFormats[] = {
+    {"\x1f\x8b", "is compressed with gzip", "unpack it first: gunzip < packed.wrl > world.wrl"},
+    {"#VRML V1.0", "is VRML 1.0", "convert it to VRML 2.0 (VRML97) in a modelling program"},
+    {"#X3D", "is X3D in its classic encoding", "export it as VRML 2.0 (VRML97)"},
+    {"<?xml", "is XML, as X3D is", "export it as VRML 2.0 (VRML97)"},
+    {"<X3D", "is X3D", "export it as VRML 2.0 (VRML97)"},
+    {"#Inventor", "is an Open Inventor file", "export it as VRML 2.0 (VRML97)"},
+};
+
+// Checks that the first line says VRML 2.0, and names what it is where not.
+Result<std::string_view> checked_header(std::string_view bytes, const std::string& name) {
+    const std::string place = name + ":1:1";
+    if (bytes.empty()) return fail(place, "is empty", "export it again");
+    if (bytes.starts_with(kForeignFormats[0].begins))
+        return fail(place, kForeignFormats[0].what, kForeignFormats[0].remedy);
+    const Result<std::string_view> text = utf8_text(bytes, place);
+    if (!text) return text;
+    if (text->starts_with(kVrmlHeader) &&
+        (text->size() == kVrmlHeader.size() || static_cast<unsigned char>((*text)[kVrmlHeader.size()]) <= ' ')) {
+        return text;
+    }
+    for (const ForeignFormat& known : kForeignFormats) {
+        if (text->starts_with(known.begins)) return fail(place, known.what, known.remedy);
+    }
+    return fail(place, "does not begin with '#VRML V2.0 utf8'",
+                "write this as the first line of a VRML 2.0 file; other formats are not read as a world");
+}
+
+// Returns the name of an inlined file relative to the world's folder, or what is wrong with it. `folder` is that of the
+// file that inlines it, likewise relative.
+Result<std::string> inlined_name(std::string_view raw, const fs::path& folder) {
+    constexpr const char* kRemedy = "copy that file into the world's folder and name it without a path";
+    const std::string url = unescaped_vrml(raw.substr(0, raw.find('#')));
+    if (url.empty()) return fail("", "an Inline names no file", "write its name in quotes behind url");
+    const std::size_t colon = url.find(':');
+    if (colon != std::string::npos && colon < url.find('/'))
+        return fail("", "an Inline names " + in_quotes(url) + ", which is no file of this folder", kRemedy);
+    const fs::path path = (folder / url).lexically_normal();
+    const bool leaves = url.front() == '/' || url.find('\\') != std::string::npos || path.is_absolute() ||
+                        path.empty() || *path.begin() == "..";
+    if (leaves || path.filename().empty() || url.find('\0') != std::string::npos)
+        return fail("", "an Inline leads to " + in_quotes(url) + ", outside of the world's folder", kRemedy);
+    return path.generic_string();
+}
+
+// Parses a file and all that it inlines, each only once.
+class InlineReader {
+public:
+    InlineReader(VrmlFile& file, const std::string& name, const VrmlOpener& opener)
+        : file_(file), folder_(fs::path(name).parent_path()), opener_(opener) {}
+
+    // `name` is relative to the world's folder.
+    Result<std::uint32_t> read(std::string bytes, const std::string& name) {
+        const std::string shown = (folder_ / name).string();
+        bytes_ += bytes.size();
+        if (bytes_ > kMostVrmlBytes) {
+            return fail(shown + ":1:1", "the world has more than " + std::to_string(kMostVrmlBytes) + " bytes",
+                        "reduce or split it");
+        }
+        const auto text = checked_header(bytes, shown);
+        if (!text) return std::unexpected(text.error());
+        bytes.erase(0, static_cast<std::size_t>(text->data() - bytes.data()));  // the byte-order mark
+        const auto source = static_cast<std::uint32_t>(file_.sources.size());
+        sources_.emplace(name, source);
+        VrmlSource made;
+        made.name = shown;
+        made.line_starts = line_starts_of(bytes);
+        made.text = std::make_unique<const std::string>(std::move(bytes));
+        file_.sources.push_back(std::move(made));
+        const std::size_t first_node = file_.nodes.size();
+        VrmlParser(file_, source).parse();
+        around_.push_back(name);
+        const std::size_t end = file_.nodes.size();
+        for (std::size_t n = first_node; n < end; ++n) {
+            const VrmlNode& node = file_.nodes[n];
+            if (node.prototype == kNoVrmlIndex && file_.type_of(node) == "Inline") follow(n, name);
+        }
+        around_.pop_back();
+        return source;
+    }
+
+private:
+    void follow(std::size_t node_index, const std::string& from) {
+        const VrmlNode& node = file_.nodes[node_index];
+        const auto fields = file_.fields_of(node);
+        const auto url = std::ranges::find_if(
+            fields, [&](const VrmlField& f) { return file_.text_at({node.file, f.at}, f.name_length) == "url"; });
+        // What a PROTO's instance names is not known here; vrml_shapes.hpp remarks on it.
+        if (url == fields.end() || url->kind != VrmlKind::strings) return;
+        const VrmlField field = *url;
+        std::optional<VrmlFault> first_fault;
+        for (std::uint32_t i = 0; i < field.count; ++i) {
+            const VrmlPlace place = file_.place_of_value(node.file, field, i);
+            const Result<std::uint32_t> source = opened(file_.strings[field.first + i], from);
+            if (source) {
+                file_.nodes[node_index].inlined = *source;
+                return;
+            }
+            const Error& error = source.error();
+            const std::string what = error.where.empty() ? error.what : error.where + ": " + error.what;
+            if (!first_fault) first_fault = VrmlFault{place, what, error.remedy};
+        }
+        if (first_fault && file_.faults.size() < kMostVrmlFaults) file_.faults.push_back(*first_fault);
+    }
+
+    Result<std::uint32_t> opened(std::string_view url, const std::string& from) {
+        const Result<std::string> name = inlined_name(url, fs::path(from).parent_path());
+        if (!name) return std::unexpected(name.error());
+        if (std::ranges::find(around_, *name) != around_.end()) {
+            return fail("", "an Inline leads back to " + in_quotes(*name) + ", in which it stands",
+                        "the world would have no end: remove it");
+        }
+        if (const auto known = sources_.find(*name); known != sources_.end()) return known->second;
+        if (!opener_) return fail("", "there is no folder to open " + in_quotes(*name) + " from", "save it as a file");
+        if (around_.size() == kDeepestVrmlNode || sources_.size() > kMostVrmlInlines) {
+            return fail("", "too many files are inlined",
+                        "at most " + std::to_string(kMostVrmlInlines) + " files, and " +
+                            std::to_string(kDeepestVrmlNode) + " within each other, are read");
+        }
+        Result<std::string> bytes = opener_(*name);
+        if (!bytes) return std::unexpected(bytes.error());
+        return read(std::move(*bytes), *name);
+    }
+
+    VrmlFile& file_;
+    fs::path folder_;
+    const VrmlOpener& opener_;
+    std::map<std::string, std::uint32_t> sources_;
+    std::vector<std::string> around_;  // the files from the world to the present one
+    std::size_t bytes_ = 0;
+};
+
+}  // namespace
+
+std::string VrmlFile::where(VrmlPlace place) const {
+    const VrmlSource& source = sources[place.file];
+    const auto after = std::ranges::upper_bound(source.line_starts, place.at);
+    const auto line = static_cast<std::size_t>(after - source.line_starts.begin());
+    const std::uint32_t start = source.line_starts[line - 1];
+    const std::string_view before = std::string_view(*source.text).substr(start, place.at - start);
+    // Bytes that continue a character of UTF-8 are no columns of their own.
+    const auto column =
+        1 + std::ranges::count_if(before, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+    return source.name + ":" + std::to_string(line) + ":" + std::to_string(column);
+}
+
+VrmlPlace VrmlFile::place_of_value(std::uint32_t file, const VrmlField& field, std::size_t index) const {
+    VrmlScanner scan(*sources[file].text, field.value_at);
+    if (scan.peek().token == VrmlToken::open_bracket) static_cast<void>(scan.take());
+    for (; index > 0; --index) static_cast<void>(scan.take());
+    return {file, scan.peek().at};
+}
+
+VrmlOpener vrml_files_beside(const fs::path& world) {
+    return [folder = world.parent_path()](const std::string& name) -> Result<std::string> {
+        const fs::path path = folder / name;
+        std::error_code code;
+        const fs::path root = fs::canonical(folder.empty() ? fs::path(".") : folder, code);
+        const fs::path real = fs::weakly_canonical(root / name, code);
+        if (std::ranges::mismatch(root, real).in1 != root.end()) {
+            return fail(path.string(), "is a link that leads out of the world's folder",
+                        "copy that file into the world's folder");
+        }
+        return read_text_file(path, kMostVrmlBytes);
+    };
+}
+
+Result<VrmlFile> read_vrml(std::string bytes, const std::string& name, const VrmlOpener& opener) {
+    VrmlFile file;
+    InlineReader reader(file, name, opener);
+    const auto source = reader.read(std::move(bytes), fs::path(name).filename().string());
+    if (!source) return std::unexpected(source.error());
+    return file;
+}
+
+Result<VrmlFile> read_vrml_file(const fs::path& path) {
+    Result<std::string> text = read_text_file(path, kMostVrmlBytes);
+    if (!text) return std::unexpected(text.error());
+    return read_vrml(std::move(*text), path.string(), vrml_files_beside(path));
+}
+
+std::string unescaped_vrml(std::string_view raw) {
+    std::string text;
+    for (std::size_t i = 0; i < raw.size(); ++i) {
+        if (raw[i] == '\\' && i + 1 < raw.size()) ++i;
+        text += raw[i];
+    }
+    return text;
+}
+
+}  // namespace burin::geometry

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// burin world, as a user's shell runs it.
+#include <gtest/gtest.h>
+
+#include "base/json.hpp"
+#include "tests/support/run_command.hpp"
+
+namespace burin::app {
+namespace {
+
+const std::string kWorldBurin = BURIN_COMMAND;
+const std::string kWorldHead = "#VRML V2.0 utf8\n";
+
+bool tells(const Workplace::Outcome& outcome, const std::string& text) {
+    return outcome.output.find(text) != std::string::npos;
+}
+
+}  // namespace
+
+TEST(WorldCommand, TellsWhatIsInAWorld) {
+    const Workplace place;
+    place.write("w.wrl", kWorldHead +
+                             "DEF Table Transform { translation 0 1 0 children Shape {\n"
+                             "appearance Appearance { material Material { diffuseColor 1 0 0 } }\n"
+                             "geometry Box { size 0.1 0.2 0.3 } } }\nViewpoint { }");
+    const auto outcome = place.run(kWorldBurin + " world check w.wrl --json r.json");
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_TRUE(tells(outcome, "w.wrl: 1 shape, 12 triangles, 100 x 200 x 300 mm")) << outcome.output;
+    EXPECT_TRUE(tells(outcome, "Table  12 triangles, 100 x 200 x 300 mm, #ff0000")) << outcome.output;
+    EXPECT_TRUE(tells(outcome, "skipped: 1 Viewpoint, the first at w.wrl:5:1")) << outcome.output;
+    const Json report = Json::parse(place.read("r.json"));
+    const Json& file = report["files"][0];
+    EXPECT_EQ(file["triangles"], 12);
+    EXPECT_EQ(file["objects"][0]["name"], "Table");
+    EXPECT_EQ(file["objects"][0]["lowest_m"][1], 0.9);
+    EXPECT_TRUE(file["faults"].empty());
+}
+
+TEST(WorldCommand, TellsEveryFaultOfEveryFileAndFails) {
+    const Workplace place;
+    place.write("a.wrl", kWorldHead + "Shape { geometry Sphere { radius 0 } }\nUSE Nobody");
+    place.write("b.wrl", "#VRML V1.0 ascii\n");
+    place.write("c.wrl", kWorldHead);
+    const auto outcome = place.run(kWorldBurin + " world check a.wrl b.wrl c.wrl lost.wrl --json r.json");
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_TRUE(tells(outcome, "a.wrl:2:34: 'radius' is not above zero; ")) << outcome.output;
+    EXPECT_TRUE(tells(outcome, "a.wrl:3:5: no node is named 'Nobody' before this place; ")) << outcome.output;
+    EXPECT_TRUE(tells(outcome, "b.wrl:1:1: is VRML 1.0; ")) << outcome.output;
+    EXPECT_TRUE(tells(outcome, "lost.wrl: cannot be read")) << outcome.output;
+    EXPECT_TRUE(tells(outcome, "burin: 3 of 4 files: 4 faults; correct them and check again")) << outcome.output;
+    EXPECT_EQ(Json::parse(place.read("r.json"))["files"][0]["faults"][1]["where"], "a.wrl:3:5");
+}
+
+TEST(WorldCommand, RefusesWhatItCannotDoYetAndWrongUsage) {
+    const Workplace place;
+    place.write("w.wrl", kWorldHead);
+    const auto opened = place.run(kWorldBurin + " world w.wrl");
+    EXPECT_EQ(opened.status, 1);
+    EXPECT_TRUE(tells(opened, "cannot be opened and touched yet, only checked; burin world check w.wrl"));
+    EXPECT_EQ(place.run(kWorldBurin + " world").status, 2);
+    EXPECT_EQ(place.run(kWorldBurin + " world check").status, 2);
+    EXPECT_EQ(place.run(kWorldBurin + " world check w.wrl --json w.wrl").status, 1);
+    EXPECT_EQ(place.read("w.wrl"), kWorldHead);
+}
+
+}  // namespace burin::app
