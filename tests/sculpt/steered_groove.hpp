@@ -42,7 +42,7 @@ struct GroovePath {
 
 // The hand goes straight down into the block in the first 0.2 s of the motion, and straight up in the last: corners, at
 // times that are multiples of 0.2 s, as all corners are.
-constexpr double kGrooveDown_s = 0.2, kGrooveUp_m = 0.002, kGrooveDepth_m = 0.005;
+constexpr double kGrooveDown_s = 0.2, kGrooveUp_m = 0.002, kGrooveDepth_m = 0.004;
 
 inline GroovePath groove_path(double duration_s, const std::function<Vec2(double)>& across) {
     GroovePath path;
@@ -153,7 +153,8 @@ inline Groove carve_groove(devices::OmniHand hand, double duration_s,
                                std::to_string(kGrooveBlock_m.z),
                            static_cast<int>(std::lround(kGrooveBlock_m.x / kGrooveCell_m)), false};
     Sculpture carving(compute::make_cpu_engine(std::move(load_workpiece(block, pool)->solid), pool), pool);
-    const Feel feel = *parse_feel({});
+    // Without a yield, below which a material would hide what the hand does.
+    const Feel feel = *parse_feel({.yield_kPa = 0.0});
     const Tool tool{compute::BallTool{kGrooveBall_m}};
     haptics::HapticChannels channels;
     haptics::TickParameters& parameters = channels.parameters.draft();
