@@ -48,8 +48,7 @@ public:
     struct Contact {
         Vec3 proxy_m{0.0}, hand_m{0.0};
         double radius_m = 0.0;
-        // A tool that is no ball, and how it stands at the proxy and in the hand. Its distance counts as if half its
-        // width were the radius, and where its hulls overlap something it does not.
+        // A tool that is no ball, and how it stands at the proxy and in the hand (shape_watch.hpp); null: a ball.
         const ToolShape* shape = nullptr;
         Quat proxy_orientation{1.0, 0.0, 0.0, 0.0}, hand_orientation{1.0, 0.0, 0.0, 0.0};
     };

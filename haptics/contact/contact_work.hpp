@@ -44,7 +44,7 @@ struct ContactWork {
 // theirs is the time of one alone.
 struct WorkCost {
     static constexpr double kTick_ns = 250.0, kTest_ns = 60.0, kLook_ns = 10.0, kGathered_ns = 55.0, kPoint_ns = 15.0,
-                            kFour_ns = 120.0, kStep_ns = 360.0, kPiece_ns = 20.0, kTerm_ns = 4.0, kSupport_ns = 45.0;
+                            kFour_ns = 120.0, kStep_ns = 360.0, kPiece_ns = 20.0, kTerm_ns = 4.0, kSupport_ns = 90.0;
 };
 
 [[nodiscard]] inline double cost_ns(const ContactWork& work) noexcept {

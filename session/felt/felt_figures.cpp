@@ -88,10 +88,15 @@ void FigureKeeper::note(std::map<std::string, Occurrence>& where, const std::str
 }
 
 void FigureKeeper::trace(const haptics::TickRecord& record) {
-    const TracePoint point{seconds(record.time_ns - start_ns_), record.deepest().hip_object_m,
-                           record.deepest().proxy_object_m,     record.contact.cut_object_m,
-                           record.deepest().normal_object,      record.gate.given.force_device_N,
-                           record.deepest().penetration_m,      record.flags};
+    const TracePoint point{seconds(record.time_ns - start_ns_),
+                           record.deepest().hip_object_m,
+                           record.deepest().proxy_object_m,
+                           record.contact.cut_object_m,
+                           record.deepest().normal_object,
+                           record.gate.given.force_device_N,
+                           record.contact.wrench.torque_device_Nm,
+                           record.deepest().penetration_m,
+                           record.flags};
     const bool begun = figures_.ticks_cutting > 0;
     if (figures_.closeup.size() < kCloseupTicks) {
         if (!begun && figures_.closeup.size() >= kLeadTicks) figures_.closeup.erase(figures_.closeup.begin());

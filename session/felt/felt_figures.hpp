@@ -20,6 +20,8 @@ struct TracePoint {
     Vec3 hip_object_m{0.0}, proxy_object_m{0.0}, cut_object_m{0.0};
     Vec3 normal_object{0.0};  // of the contact
     Vec3 force_device_N{0.0};
+    // Of the contact on the tool, about the place where the hand holds it, whether the device drives torques or not.
+    Vec3 torque_device_Nm{0.0};
     double penetration_m = 0.0;
     std::uint32_t flags = 0;
 };
@@ -99,7 +101,8 @@ private:
 [[nodiscard]] std::string felt_figure(const FeltFigures& felt);
 
 // Returns the trace as CSV, one point a line: time_s; HIP, proxy and cutting point in the object frame (metres); force
-// at the device (newtons); penetration (metres); in_contact and cutting (0 or 1).
+// at the device (newtons); torque of the contact (newton metres); penetration (metres); in_contact and cutting (0 or
+// 1).
 [[nodiscard]] std::string felt_table(const FeltFigures& felt);
 
 // Paths of the two files: report.json -> report-felt.svg, report-felt.csv.

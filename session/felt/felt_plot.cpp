@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "session/felt/felt_figures.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -62,6 +63,19 @@ plot::TimePlot forces(const Trace& trace) {
     return made;
 }
 
+// Of a tool that is no ball.
+plot::TimePlot torques(const std::string& title, const Trace& trace) {
+    plot::TimePlot made = plot(title, "N mm", trace);
+    for (int axis = 0; axis < 3; ++axis) {
+        made.series.push_back(series(std::string("about ") + "xyz"[axis], trace,
+                                     [axis](const TracePoint& p) { return kMillimetres * p.torque_device_Nm[axis]; }));
+    }
+    return made;
+}
+bool has_torque(const Trace& trace) {
+    return std::ranges::any_of(trace, [](const TracePoint& p) { return p.torque_device_Nm != Vec3(0.0); });
+}
+
 // Returns the unit mean normal of the contacts, perpendicular to the way from the first contact to the last.
 Vec3 mean_normal(const Trace& trace) {
     Vec3 sum(0.0);
@@ -120,23 +134,28 @@ std::string felt_figure(const FeltFigures& felt) {
     const Vec3 up = mean_normal(felt.closeup);
     plot::TimePlot near = depths(felt.closeup);
     near.title = "Close up: below the proxy";
-    return plot::time_figure("Position, proxy and force over time",
-                             {positions(felt.trace), heights(felt.closeup, up), depths(felt.trace), near,
-                              forces(felt.trace), parts_of_force(felt.closeup, felt.object_from_device, up)},
-                             2);
+    std::vector<plot::TimePlot> plots{positions(felt.trace), heights(felt.closeup, up),
+                                      depths(felt.trace),    near,
+                                      forces(felt.trace),    parts_of_force(felt.closeup, felt.object_from_device, up)};
+    if (has_torque(felt.trace)) {
+        plots.push_back(torques("Torque on the tool, device axes", felt.trace));
+        plots.push_back(torques("Close up: torque on the tool", felt.closeup));
+    }
+    return plot::time_figure("Position, proxy and force over time", plots, 2);
 }
 
 std::string felt_table(const FeltFigures& felt) {
     std::string text =
         "time_s,hip_x_m,hip_y_m,hip_z_m,proxy_x_m,proxy_y_m,proxy_z_m,cut_x_m,cut_y_m,cut_z_m,"
-        "force_x_N,force_y_N,force_z_N,penetration_m,in_contact,cutting\n";
-    std::array<char, 400> line{};
+        "force_x_N,force_y_N,force_z_N,torque_x_Nm,torque_y_Nm,torque_z_Nm,penetration_m,in_contact,cutting\n";
+    std::array<char, 480> line{};
     for (const TracePoint& p : felt.trace) {
-        const Vec3 &h = p.hip_object_m, &x = p.proxy_object_m, &c = p.cut_object_m, &f = p.force_device_N;
+        const Vec3 &h = p.hip_object_m, &x = p.proxy_object_m, &c = p.cut_object_m, &f = p.force_device_N,
+                   &t = p.torque_device_Nm;
         std::snprintf(line.data(), line.size(),
-                      "%.4f,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.6g,%.6g,%.6g,%.6g,%d,%d\n", p.time_s, h.x,
-                      h.y, h.z, x.x, x.y, x.z, c.x, c.y, c.z, f.x, f.y, f.z, p.penetration_m, in_contact(p) ? 1 : 0,
-                      cutting(p) ? 1 : 0);
+                      "%.4f,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%d,%d\n",
+                      p.time_s, h.x, h.y, h.z, x.x, x.y, x.z, c.x, c.y, c.z, f.x, f.y, f.z, t.x, t.y, t.z,
+                      p.penetration_m, in_contact(p) ? 1 : 0, cutting(p) ? 1 : 0);
         text += line.data();
     }
     return text;

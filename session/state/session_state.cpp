@@ -200,7 +200,8 @@ Result<sculpt::UseTool> tool_of(const SessionState& state) {
     if (const auto good = sculpt::check_feel(state.feel); !good) return std::unexpected(good.error());
     // Comes before the shape is made, so that no file is read: the shape of a ball comes from none.
     if (tool.shape.kind != sculpt::ToolKind::ball) {
-        return fail("tool " + sculpt::text_of(tool.shape), "cannot be felt: the hand feels with a ball", "use ball:R");
+        return fail("tool " + sculpt::text_of(tool.shape), "cannot be held in a live session, which draws balls only",
+                    "use ball:R, or carve along a stroke file with --stroke and --hand simulated");
     }
     Result<sculpt::Tool> made = sculpt::make_tool(tool);
     if (!made) return std::unexpected(made.error());

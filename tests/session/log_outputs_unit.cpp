@@ -54,7 +54,7 @@ TEST(LogCommands, AreCheckedWithFileLineAndRemedyBeforeTheSession) {
         Wrong{"export authorized_keys", "extension", ".stl"},
         Wrong{"export a.png", "extension", ".stl"},
         Wrong{"export a.off", "extension", ".stl"},
-        Wrong{"tool box:0.01,0.01,0.01", "feels with a ball", "ball:R"},
+        Wrong{"tool box:0.01,0.01,0.01", "draws balls only", "ball:R"},
         Wrong{"save-session", "cannot be saved", "export"},
     };
     for (const Wrong& wrong : wrongs) {

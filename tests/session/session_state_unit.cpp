@@ -116,7 +116,9 @@ TEST(SessionState, AMeshToolIsRefusedWithoutALookAtItsFile) {
         const auto refused = run(state, orders, "tool", {"mesh:" + std::string(file)});
         ASSERT_FALSE(refused);
         EXPECT_EQ(refused.error().line(),
-                  "tool mesh:" + std::string(file) + ": cannot be felt: the hand feels with a ball; use ball:R");
+                  "tool mesh:" + std::string(file) +
+                      ": cannot be held in a live session, which draws balls only; use ball:R, or carve along a stroke "
+                      "file with --stroke and --hand simulated");
     }
 }
 
