@@ -20,6 +20,8 @@ constexpr double kOfMotion = 1.5, kOfSize = 0.02, kLongestStep = 0.5;
 // off to the next tick.
 constexpr int kTurnHalvings = 4;
 constexpr double kTurnedInto = 0.1;
+// So deep, of the tool's width, a surface that is meshed anew may come into its hulls.
+constexpr double kMeshedAnew = 0.25;
 // A tool that was set somewhere fits where nothing is deeper in its rounding than this.
 constexpr double kFits = 0.5;
 
@@ -124,8 +126,11 @@ private:
         return 2.0 * glm::length(Vec3(change.x, change.y, change.z));
     }
 
+    // The surface has come into the hulls. By a little it may, where it is meshed anew, and the tool then stays where it
+    // is even if there is no way out at once.
     bool pushed() {
-        result_.proxy.pushed_out = was_set_ = true;
+        result_.proxy.pushed_out = true;
+        was_set_ = was_set_ || search_.sunk_m() > kMeshedAnew * shape_.size_m;
         return true;
     }
 
