@@ -282,11 +282,14 @@ TEST(Cutting, TakesEnergyAndGivesNoneBack) {
     std::uniform_real_distribution<double> any(-1.0, 1.0);
     for (int run = 0; run < 40; ++run) {
         CuttingState state;
-        Vec3 hip(0.0, kRadius_m - 1e-6, 0.0), velocity(0.0);
-        double taken_J = 0.0;
-        const TouchMaterial material = material_of(std::pow(10.0, 7.0 + 3.0 * any(random)), 1e4 * (1.0 + any(random)));
+        constexpr double kDeepAtFirst_m = 1e-6;
+        Vec3 hip(0.0, kRadius_m - kDeepAtFirst_m, 0.0), velocity(0.0);
+        double taken_J = 0.5 * kStiffness * kDeepAtFirst_m * kDeepAtFirst_m;  // the spring's at first
+        const double hardness = std::pow(10.0, 7.0 + 3.0 * any(random)), yield = 1e4 * (1.0 + any(random));
+        const TouchMaterial material = material_of(hardness, yield);
         for (int i = 0; i < 500; ++i) {
-            velocity += 0.02 * Vec3(any(random), any(random), any(random));
+            const double x = any(random), y = any(random), z = any(random);  // in this order with every compiler
+            velocity += 0.02 * Vec3(x, y, z);
             const Vec3 from = hip;
             hip += velocity * kDt;
             if (hip.y >= kRadius_m) hip.y = kRadius_m - 1e-6, velocity.y = 0.0;
