@@ -126,8 +126,8 @@ private:
         return 2.0 * glm::length(Vec3(change.x, change.y, change.z));
     }
 
-    // The surface has come into the hulls. By a little it may, where it is meshed anew, and the tool then stays where it
-    // is even if there is no way out at once.
+    // The surface has come into the hulls. By a little it may, where it is meshed anew, and the tool then stays where
+    // it is even if there is no way out at once.
     bool pushed() {
         result_.proxy.pushed_out = true;
         was_set_ = was_set_ || search_.sunk_m() > kMeshedAnew * shape_.size_m;
