@@ -38,7 +38,7 @@ Result<study::TrialTable> read_table(const std::string& file) {
     return std::move(parsed->table);
 }
 
-// What was published of these data: by the file that the user names, else by those that Burin knows.
+// Returns the printed figures to check: by the file that the user names, else by those that Burin knows.
 Result<std::vector<study::PublishedComparison>> comparisons(const std::string& file, const study::TrialTable& table) {
     std::vector<study::PublishedComparison> found;
     if (!file.empty()) {

@@ -9,8 +9,8 @@
 namespace burin::app {
 namespace {
 
-// What is simulated without an effect, where no number of participants reaches a target: a small study, a thousand
-// times.
+// The study simulated where there is no effect, so that no number of participants reaches a target: a small study, a
+// thousand times.
 constexpr unsigned kNullParticipants = 10;
 constexpr std::size_t kNullStudies = 1000, kStudies = 10'000;
 

@@ -67,7 +67,7 @@ Json error_json(const Error& error) { return {{"where", error.where}, {"what", e
 
 Json vector_json(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
-// What one file holds, for the terminal and for --json.
+// Describes the contents of one file, for the terminal and for --json.
 class WorldSummary {
 public:
     WorldSummary(std::string path, const geometry::VrmlFile& file, const geometry::VrmlWorld& world)

@@ -21,7 +21,7 @@ public:
     WorldCommand& operator=(const WorldCommand&) = delete;
 
     [[nodiscard]] bool parsed() const;
-    // What is wrong with the usage, if anything: exit status 2.
+    // Returns what is wrong with the usage, for exit status 2; empty where nothing is.
     [[nodiscard]] std::string misuse() const;
     [[nodiscard]] Result<void> run() const;
 

@@ -5,7 +5,7 @@
 // (haptics/contact/tool_shape.hpp), smaller than the tool by the clearance that a ball has too, so that it can lie in
 // the bed that it has cut. `differs_m` is how far the felt surface is from the tool's at most, measured at points all
 // over it: on faces the clearance, at edges and corners what the rounding takes. A mesh that is not convex is felt as
-// its convex hull for now, and differs by the depth of its hollows.
+// its convex hull, and differs by the depth of its hollows.
 // Frame: tool, metres. Allocates; not for the haptic thread.
 #pragma once
 

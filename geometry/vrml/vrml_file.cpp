@@ -119,7 +119,7 @@ private:
         const auto fields = file_.fields_of(node);
         const auto url = std::ranges::find_if(
             fields, [&](const VrmlField& f) { return file_.text_at({node.file, f.at}, f.name_length) == "url"; });
-        // What a PROTO's instance names is not known here; vrml_shapes.hpp remarks on it.
+        // The files that an instance of a PROTO names are not known here; vrml_shapes.hpp remarks on it.
         if (url == fields.end() || url->kind != VrmlKind::strings) return;
         const VrmlField field = *url;
         std::optional<VrmlFault> first_fault;

@@ -104,7 +104,7 @@ void VrmlParser::route() {
     };
     if (is_event(from) && to.is("TO") && is_event(target)) return;
     fault(from.at, "a ROUTE has another form", "write ROUTE Name.event TO Name.event");
-    // What follows in the same line belonged to it.
+    // Skips the rest of the line, which belonged to it.
     const std::string_view text = *file_.sources[source_].text;
     const std::size_t line_end = std::min(text.find_first_of("\r\n", route.at), text.size());
     scan_ = VrmlScanner(text, from.at);

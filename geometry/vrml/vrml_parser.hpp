@@ -16,7 +16,7 @@
 
 namespace burin::geometry {
 
-// What to do about something that is not closed.
+// Returns the remedy for a node or list that is not closed.
 inline constexpr const char* kVrmlCutShort = "close it, or the file is cut short: copy or export it again";
 
 class VrmlParser {

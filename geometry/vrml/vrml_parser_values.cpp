@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the parser reads the value of a field: it ends where the next word cannot belong to it.
+// The parser's rule for the value of a field: it ends where the next word cannot belong to it.
 #include <algorithm>
 #include <charconv>
 #include <cmath>

@@ -27,7 +27,7 @@ struct VrmlLexeme {
     std::string_view text;  // of a word or string
 
     [[nodiscard]] bool is(std::string_view word) const { return token == VrmlToken::word && text == word; }
-    // Whether it is a number or what was meant to be one: no name begins with a digit, a sign or a point.
+    // Tells whether the word is a number or was meant to be one: no name begins with a digit, a sign or a point.
     [[nodiscard]] bool numeric() const {
         if (token != VrmlToken::word) return false;
         const char c = text.front();

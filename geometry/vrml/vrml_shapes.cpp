@@ -26,7 +26,7 @@ struct DefinedName {
     std::string unique;  // empty until the first shape takes it
 };
 
-// What lies around a node.
+// The surroundings of a node.
 struct Surroundings {
     Mat4 world_from_here{1.0};
     DefinedName* name = nullptr;
@@ -268,7 +268,7 @@ private:
                 made.surface = std::make_shared<const VrmlSurface>(std::move(surface));
             }
         }
-        // What an instance changes is not made again from the cache, and stays only until the next one.
+        // Nodes changed by an instance are not taken from the cache: the changes hold only until the next instance.
         if (node.bound) return unshared_ = std::move(made);
         return surfaces_.emplace(placed.node, std::move(made)).first->second;
     }

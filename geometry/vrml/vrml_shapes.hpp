@@ -47,7 +47,7 @@ struct VrmlSurface {
 };
 
 struct VrmlShape {
-    // What a user calls the object that the shape belongs to: the DEF of the shape, or of the nearest node around it
+    // The name of the object that the shape belongs to: the DEF of the shape, or of the nearest node around it
     // that has one, or else of its geometry. DEFs inside a PROTO count only where its instance has none. Shapes of one
     // named node share its name; where the node is used again, the further ones are Name-2, Name-3... Empty: no DEF.
     std::string name;
