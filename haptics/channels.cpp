@@ -31,6 +31,8 @@ ToolState tool_of(const TickRecord& record, std::uint64_t late_ticks, std::uint6
     tool.proxy_object_m = deepest.proxy_object_m;
     tool.contact_normal_object = deepest.normal_object;
     tool.orientation_object = record.motion.orientation_object;
+    tool.tool_orientation_object = contact.tool_orientation_object;
+    tool.touched_object_m = contact.touched_object_m;
     tool.position_device_m = record.sample.position_device_m;
     tool.given = record.gate.given;
     tool.point_count = contact.point_count;

@@ -150,7 +150,9 @@ struct ContactRecord {
     std::uint32_t deepest = 0;  // index of the point deepest in contact; 0 in free space
     std::array<PointRecord, kMostProbePoints> points{};
     Vec3 cut_object_m{0.0};
-    bool jumped = false;  // not continuous with the contact of the last tick
+    Quat tool_orientation_object{1.0, 0.0, 0.0, 0.0};  // of the tool at its proxy; in free space the hand's
+    Vec3 touched_object_m{0.0};                        // where a tool with a shape is borne; zero for balls
+    bool jumped = false;                               // not continuous with the contact of the last tick
     StiffnessBound stiffness_bound = StiffnessBound::none;
     Vec3 surface_velocity_device_m_per_s{0.0};  // of what is touched; zero where it rests
     double spring_energy_J = 0.0;               // energy stored in the springs of the walls touched
@@ -204,6 +206,8 @@ struct ToolState {
     Vec3 proxy_object_m{0.0};
     Vec3 contact_normal_object{0.0};  // unit; zero in free space
     Quat orientation_object{1.0, 0.0, 0.0, 0.0};
+    Quat tool_orientation_object{1.0, 0.0, 0.0, 0.0};  // of the tool at its proxy
+    Vec3 touched_object_m{0.0};                        // where a tool with a shape is borne; zero for balls
     Vec3 position_device_m{0.0};
     devices::DeviceWrench given;
     std::uint32_t point_count = 0;

@@ -191,6 +191,7 @@ double PointContact::squared_arm_m2() const {
 
 void PointContact::bear_at(const Vec3& touched_object_m, const Vec3& tool_object_m) {
     arm_device_m_ = at_device(touched_object_m - tool_object_m);
+    step_.contact.touched_object_m = touched_object_m;
 }
 
 // Tells whether the ball was pushed out of material by more than a jump.

@@ -162,6 +162,9 @@ void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept {
             drag_device_N = cut.drag_device_N;
             bearing = contact.cut_object_m = cut.bearing_object_m;
         }
+        if (i == 0)
+            contact.tool_orientation_object =
+                point.has_shape() ? step.next.tool_orientation_object : input.motion.orientation_object;
         bearing = point.less_left_out(bearing);
         forces[i] = point.force(rendered_wall.wall, bearing);
         surface.add(point.surface_velocity_device_m_per_s(), forces[i].force_device_N);
@@ -180,6 +183,7 @@ void follow_hand(const ProbeStep& step, const ProbeInput& input) noexcept {
     const MovingBodies none;
     for (std::uint32_t i = 0; i < step.contact.point_count; ++i) PointContact(input, step, none, i).stay_with_hand();
     step.contact.cut_object_m = step.contact.points[0].hip_object_m;
+    step.contact.tool_orientation_object = input.motion.orientation_object;
 }
 
 }  // namespace burin::haptics

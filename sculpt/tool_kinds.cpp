@@ -107,7 +107,7 @@ constexpr OperationDescriptor described(compute::Operation operation) {
         case compute::Operation::fill: return {operation, "fill", "filled", {96, 158, 122}};
         case compute::Operation::paint: return {operation, "paint", "painted", {66, 104, 196}};
         // Seen only where there was no surface nearby to take the colour from.
-        case compute::Operation::smooth: return {operation, "smooth", "smoothed", {190, 190, 190}, true};
+        case compute::Operation::smooth: return {operation, "smooth", "smoothed", {190, 190, 190}};
     }
     return {};
 }
@@ -187,15 +187,20 @@ double half_width_m(const ToolSpec& tool) {
     return tool.sizes_m.at(static_cast<std::size_t>(measure - of_unit_ball.begin())) / *measure;
 }
 
+ToolSpec resized(ToolSpec tool, double half_width_m) {
+    const double now_m = sculpt::half_width_m(tool);
+    if (tool.kind == ToolKind::ball)
+        tool.sizes_m[0] = half_width_m;  // to the bit
+    else if (now_m > 0.0)
+        for (double& size_m : tool.sizes_m) size_m *= half_width_m / now_m;
+    return tool;
+}
+
 double ball_radius_m(const ToolSpec& tool) { return tool.kind == ToolKind::ball ? tool.sizes_m[0] : 0.0; }
 
 std::span<const OperationDescriptor> operations() { return kOperations; }
 const OperationDescriptor& descriptor_of(compute::Operation operation) {
     return kOperations.at(static_cast<std::size_t>(operation));
-}
-
-bool can_do(ToolKind kind, compute::Operation operation) {
-    return kind == ToolKind::ball || !descriptor_of(operation).with_balls_only;
 }
 
 std::string alternatives(std::span<const std::string> words) {

@@ -93,7 +93,10 @@ struct ToolDescriptor {
 
 // Returns about the radius of a ball as wide as the tool; 0 for one that a file describes.
 [[nodiscard]] double half_width_m(const ToolSpec& tool);
-// Returns the radius of the ball that the tool is; 0 for other tools, which are neither felt nor drawn.
+// Returns the tool with all its sizes in proportion, as wide as a ball of this radius. Not for one that a file
+// describes, which keeps its size.
+[[nodiscard]] ToolSpec resized(ToolSpec tool, double half_width_m);
+// Returns the radius of the ball that the tool is; 0 for other tools.
 [[nodiscard]] double ball_radius_m(const ToolSpec& tool);
 
 // Makes a table of what a function says of each enumerator, in their order. The function is a switch over the
@@ -115,12 +118,10 @@ struct OperationDescriptor {
     std::string_view name;               // as --operation has it
     std::string_view material;           // name of the surface that it leaves, in exported files
     std::array<std::uint8_t, 3> colour;  // of that surface unless the user chooses one; sRGB
-    bool with_balls_only = false;        // other tools cannot do it
 };
 // Lists all operations in the order of compute::Operation.
 [[nodiscard]] std::span<const OperationDescriptor> operations();
 [[nodiscard]] const OperationDescriptor& descriptor_of(compute::Operation operation);
-[[nodiscard]] bool can_do(ToolKind kind, compute::Operation operation);
 
 // Lists words as a sentence does: "cut, fill or paint".
 [[nodiscard]] std::string alternatives(std::span<const std::string> words);

@@ -15,6 +15,7 @@ using geometry::TriangleMesh;
 
 constexpr double kStep = 0.12;               // longest edge, of the tool's size
 constexpr double kMostTriangles = 20'000.0;  // about
+constexpr int kSegments = 32;
 
 Outline turned_outline(const compute::BallTool& tool) {
     Outline outline;
@@ -68,16 +69,19 @@ void add_quad(TriangleMesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, c
     add_divided(mesh, a, c, d, step_m);
 }
 
-TriangleMesh revolved(const Outline& outline, double step_m) {
+// What is drawn is welded where it closes; what is felt keeps the positions that recorded forces came from.
+enum class Seam { welded, as_felt };
+
+TriangleMesh revolved(const Outline& outline, double step_m, int segments, Seam seam) {
     TriangleMesh mesh;
-    constexpr int kSegments = 32;
-    const auto place = [](const OutlinePoint& p, int segment) {
-        const double angle = 2.0 * std::numbers::pi * segment / kSegments;
+    const auto place = [&](const OutlinePoint& p, int segment) {
+        const int at = seam == Seam::welded ? segment % segments : segment;
+        const double angle = 2.0 * std::numbers::pi * at / segments;
         return Vec3(p.radius_m * std::cos(angle), p.height_m, p.radius_m * std::sin(angle));
     };
     for (std::size_t i = 0; i + 1 < outline.size(); ++i) {
         const OutlinePoint &from = outline[i], &to = outline[i + 1];
-        for (int k = 0; k < kSegments; ++k) {
+        for (int k = 0; k < segments; ++k) {
             const Vec3 a = place(from, k), b = place(from, k + 1), c = place(to, k + 1), d = place(to, k);
             if (from.radius_m == 0.0)
                 add_divided(mesh, a, d, c, step_m);
@@ -156,6 +160,32 @@ double reach_of(const compute::ToolShape& shape) {
     return glm::length(glm::max(glm::abs(box.lo), glm::abs(box.hi)));
 }
 
+Spine spine_of(const compute::ToolShape& shape) {
+    const Box box = bounds_of(shape);
+    const Vec3 extent = box.extent();
+    if (const auto* ball = std::get_if<compute::BallTool>(&shape)) return {Vec3(0.0), Vec3(0.0), ball->radius_m};
+    double radius_m = size_of(shape);
+    if (const auto* cone = std::get_if<compute::ConeTool>(&shape))
+        radius_m = std::min(radius_m, 0.6 * std::max(cone->tip_radius_m, cone->top_radius_m));
+    int longest = 0;
+    for (int i = 1; i < 3; ++i)
+        if (extent[i] > extent[longest]) longest = i;
+    Vec3 half(0.0);
+    half[longest] = std::max(0.5 * extent[longest] - radius_m, 0.0);
+    return {box.center() - half, box.center() + half, radius_m};
+}
+
+double shaft_height_m(const compute::ToolShape& shape) {
+    return std::holds_alternative<compute::BallTool>(shape) ? 0.0 : bounds_of(shape).hi.y;
+}
+
+TriangleMesh drawing_of(const compute::ToolShape& shape) {
+    constexpr int kAround = 48;
+    if (const auto* box = std::get_if<compute::BoxTool>(&shape)) return box_of(box->half_size_m, HUGE_VAL);
+    if (const auto* tool = std::get_if<compute::MeshTool>(&shape)) return *tool->mesh;
+    return revolved(outline_of(shape), HUGE_VAL, kAround, Seam::welded);
+}
+
 TriangleMesh mesh_of(const compute::ToolShape& shape) {
     const Vec3 extent = bounds_of(shape).extent();
     const double area = 2.0 * (extent.x * extent.y + extent.y * extent.z + extent.z * extent.x);
@@ -168,7 +198,7 @@ TriangleMesh mesh_of(const compute::ToolShape& shape) {
                         step_m);
         return mesh;
     }
-    return revolved(outline_of(shape), step_m);
+    return revolved(outline_of(shape), step_m, kSegments, Seam::as_felt);
 }
 
 }  // namespace burin::sculpt

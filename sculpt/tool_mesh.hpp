@@ -23,6 +23,20 @@ using Outline = std::vector<OutlinePoint>;  // from the lowest point outward and
 // The radius of a ball about the tool's origin that contains it.
 [[nodiscard]] double reach_of(const compute::ToolShape& shape);
 
+// A line that stands for the tool where its shape need not be exact, thickened by a radius: where its shadow falls, how
+// near it is. A ball's is its middle.
+struct Spine {
+    Vec3 from_m{0.0}, to_m{0.0};
+    double radius_m = 0.0;
+};
+[[nodiscard]] Spine spine_of(const compute::ToolShape& shape);
+
+// The height, along the tool's +Y, at which its shaft begins: a ball's middle, the top of others.
+[[nodiscard]] double shaft_height_m(const compute::ToolShape& shape);
+
+// Triangles to be drawn: few, and turned outlines in 48 parts around. Of a mesh, its own.
+[[nodiscard]] geometry::TriangleMesh drawing_of(const compute::ToolShape& shape);
+
 // Triangles no longer than about an eighth of the tool's size, or more where there would be too many. Closed and turned
 // outward; neighbours need not share vertices.
 [[nodiscard]] geometry::TriangleMesh mesh_of(const compute::ToolShape& shape);

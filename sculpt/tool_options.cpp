@@ -104,16 +104,17 @@ Result<ToolSettings> parse_tool_settings(const ToolOptions& options) {
 
 Result<void> check_tool(const ToolSettings& settings) {
     const std::string where = "--tool " + text_of(settings.shape);
-    if (const auto good = check_sizes(settings.shape, where); !good) return good;
-    if (can_do(settings.shape.kind, settings.operation)) return {};
-    const std::string operation(descriptor_of(settings.operation).name);
-    return fail(where, "cannot " + operation, "use --tool ball:R with --operation " + operation);
+    return check_sizes(settings.shape, where);
 }
 
 Result<Tool> make_tool(const ToolSettings& settings) {
     Result<compute::ToolShape> shape = make_shape(settings.shape);
     if (!shape) return std::unexpected(shape.error());
-    return Tool{std::move(*shape), settings.operation, 0, settings.sweep_tolerance_cells, settings.smooth_strength};
+    return make_tool(settings, std::move(*shape));
+}
+
+Tool make_tool(const ToolSettings& settings, compute::ToolShape shape) {
+    return {std::move(shape), settings.operation, 0, settings.sweep_tolerance_cells, settings.smooth_strength};
 }
 
 Result<Tool> parse_tool(const ToolOptions& options) {

@@ -45,7 +45,7 @@ struct Tool {
     double tolerance_cells = 0.1;
     double smooth_strength = 0.5;
 
-    // Returns the radius of a ball; 0 for other tools, which are not drawn.
+    // Returns the radius of a ball; 0 for other tools.
     [[nodiscard]] double ball_radius_m() const {
         const auto* ball = std::get_if<compute::BallTool>(&shape);
         return ball != nullptr ? ball->radius_m : 0.0;
@@ -64,11 +64,13 @@ struct Tool {
 // Parses and checks all options; reads no file. Without a shape the settings have the ball of a ToolSpec, until the
 // workpiece is known (with_tool).
 [[nodiscard]] Result<ToolSettings> parse_tool_settings(const ToolOptions& options);
-// Fails on sizes that make no tool, and on an operation that the tool cannot do.
+// Fails on sizes that make no tool.
 [[nodiscard]] Result<void> check_tool(const ToolSettings& settings);
 // Makes the tool; its material is the solid's first until the caller sets it. Reads the file of a mesh, which must be
 // closed. A box is given by its three sizes.
 [[nodiscard]] Result<Tool> make_tool(const ToolSettings& settings);
+// Makes the tool from its shape, which is there already.
+[[nodiscard]] Tool make_tool(const ToolSettings& settings, compute::ToolShape shape);
 // Parses and makes the tool.
 [[nodiscard]] Result<Tool> parse_tool(const ToolOptions& options);
 // Returns the material of the surface that the tool leaves. It is named after the operation, so that cut, filled and

@@ -17,18 +17,31 @@ float hidden_share(float miss, float along, float radius) {
     return full * (1.0 - smoothstep(radius - soft, radius + soft, miss));
 }
 
+// Returns the point of the tool's spine that is nearest to a point; of a ball, its centre.
+vec3 nearest_of_tool(vec3 world) {
+    vec3 spine = frame.tool_spine.xyz;
+    float t = clamp(dot(world - frame.tool.xyz, spine) / max(dot(spine, spine), 1e-12), 0.0, 1.0);
+    return frame.tool.xyz + t * spine;
+}
+
 // A branch saves a software driver nothing, so what cannot matter is left out at compile time: BURIN_FAR_FROM_TOOL is
 // for the surface beyond the tool's ring and shadow (renderer/surface/patch_choice.cpp).
 #ifndef BURIN_FAR_FROM_TOOL
-// Returns the shadow of the tool's ball and stylus, 0 to 1.
+// Returns the shadow of the tool and its stylus, 0 to 1.
 float tool_shadow(vec3 world) {
     if (frame.tool.w <= 0.0) return 0.0;
     vec3 l = frame.light.xyz;
     float r = frame.tool.w;
+    // Seen along the light the spine is a segment; of a ball, a point.
     vec3 to_ball = frame.tool.xyz - world;
     float along = dot(to_ball, l);
+    vec3 beside = to_ball - along * l;
+    float spine_along = dot(frame.tool_spine.xyz, l);
+    vec3 spine = frame.tool_spine.xyz - spine_along * l;
+    float s = clamp(-dot(beside, spine) / max(dot(spine, spine), 1e-12), 0.0, 1.0);
+    along += s * spine_along;
     float reach = kToolShades * r;
-    float dark = hidden_share(length(to_ball - along * l), max(along, 0.0), r) * smoothstep(0.0, 0.5 * r, along);
+    float dark = hidden_share(length(beside + s * spine), max(along, 0.0), r) * smoothstep(0.0, 0.5 * r, along);
     dark *= 1.0 - smoothstep(0.6 * reach, reach, along);
     // Seen along the light the stylus is a segment.
     vec3 to_tip = frame.stylus_tip.xyz - world, to_end = frame.stylus_end.xyz - world;
@@ -55,9 +68,10 @@ float ball_cover(vec3 world, vec3 normal, vec4 ball) {
 
 // Returns the share of ambient light that reaches a point beside the tool and over the plinth.
 float openness(vec3 world, vec3 normal) {
-    float from_tool = length(frame.tool.xyz - world);
+    vec3 tool = nearest_of_tool(world);
+    float from_tool = length(tool - world);
     float near_tool = 1.0 - smoothstep(0.4 * kToolDarkens, kToolDarkens, from_tool / max(frame.tool.w, 1e-6));
-    float open = 1.0 - 0.85 * near_tool * ball_cover(world, normal, frame.tool);
+    float open = 1.0 - 0.85 * near_tool * ball_cover(world, normal, vec4(tool, frame.tool.w));
     if (frame.pedestal.w > 0.0 && world.y >= frame.pedestal.y - 0.001) {
         // The plinth's top is a disc below the point: the part of the lower hemisphere that it hides, as seen above its
         // centre.
@@ -95,7 +109,7 @@ float highlight(vec3 n, vec3 v, vec3 l, float roughness) {
 // follows the tool's size.
 vec3 ringed(vec3 albedo, vec3 world) {
     if (draw.material.z == 0.0 || frame.tool.w <= 0.0) return albedo;
-    float distance_r = length(world - frame.tool.xyz) / frame.tool.w;
+    float distance_r = length(world - nearest_of_tool(world)) / frame.tool.w;
     float gap = distance_r - 1.0;
     float near = exp(-gap * gap * 30.0) * 0.55 * (1.0 - smoothstep(1.4, kToolNears, distance_r));
     return mix(albedo, frame.tool_colour.rgb, near);

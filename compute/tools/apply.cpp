@@ -7,6 +7,7 @@
 
 #include "compute/rays/set_algebra.hpp"
 #include "compute/tools/smooth.hpp"
+#include "compute/tools/smooth_cover.hpp"
 #include "compute/tools/tool_spans.hpp"
 #include "shaders/shared/capsule.h"
 
@@ -80,18 +81,29 @@ RayBatch changed_rays(const Solid& solid, const RayBatch& covered, Operation ope
     return changed;
 }
 
-// Smooths along the sweep in steps of at most one radius, one after the other.
+// Smooths along the sweep in steps of at most one radius, one after the other; with a tool that is no ball, in each of
+// its balls (smooth_cover.hpp).
 Result<CarveStats> smooth_on_host(CarvingEngine& engine, const ToolSweep& sweep, WorkerPool& pool) {
-    const double radius_m = std::get<BallTool>(sweep.shape).radius_m;
-    const Vec3 start = sweep.start.position_m, along = sweep.end.position_m - start;
-    const double stretches = std::max(1.0, std::ceil(std::sqrt(glm::dot(along, along)) / radius_m));
+    const SmoothCover cover = smooth_cover(sweep.shape);
+    const bool turns = sweep.start.orientation != sweep.end.orientation;
+    double farthest_m = 0.0;
+    for (const Vec3& middle : cover.middles_m)
+        farthest_m = std::max(farthest_m, glm::length(sweep.end * middle - sweep.start * middle));
+    const double stretches = std::max(1.0, std::ceil(farthest_m / cover.radius_m));
+    const auto pose_at = [&](double part) {
+        const Quat orientation =
+            turns ? glm::slerp(sweep.start.orientation, sweep.end.orientation, part) : sweep.start.orientation;
+        return Pose{sweep.start.position_m + (sweep.end.position_m - sweep.start.position_m) * part, orientation};
+    };
     CarveStats stats;
     for (double i = 0.0; i < stretches; i += 1.0) {
-        const SmoothBall ball{start + along * (i / stretches), start + along * ((i + 1.0) / stretches), radius_m,
-                              sweep.smooth_strength, sweep.material};
-        const Result<CarveStats> done = engine.assign(smoothed_rays(engine.solid(), ball, pool));
-        if (!done) return done;
-        stats += *done;
+        const Pose from = pose_at(i / stretches), to = pose_at((i + 1.0) / stretches);
+        for (const Vec3& middle : cover.middles_m) {
+            const SmoothBall ball{from * middle, to * middle, cover.radius_m, sweep.smooth_strength, sweep.material};
+            const Result<CarveStats> done = engine.assign(smoothed_rays(engine.solid(), ball, pool));
+            if (!done) return done;
+            stats += *done;
+        }
     }
     stats.rays_touched = stats.rays_changed;
     return stats;
@@ -110,18 +122,15 @@ Result<CarveStats> apply_on_host(CarvingEngine& engine, const ToolSweep& sweep, 
 
 Result<void> check_tool(const Solid& solid, const ToolSweep& sweep) {
     if (sweep.operation == Operation::smooth) {
-        if (!std::holds_alternative<BallTool>(sweep.shape)) {
-            return fail("tool", "cannot smooth: only a ball has a middle to smooth from", "use --tool ball:R");
-        }
         if (!(sweep.smooth_strength >= 0.0 && sweep.smooth_strength <= 1.0)) {
             return fail("smooth strength", "is outside 0 to 1", "give a strength from 0 to 1");
         }
         if (const auto good = check_sweep(solid, sweep); !good) return good;
-        const double radius_m = std::get<BallTool>(sweep.shape).radius_m;
+        const double radius_m = smooth_cover(sweep.shape).radius_m;
         const Vec3 along = sweep.end.position_m - sweep.start.position_m;
         if (radius_m > kLargestSmoothCells * solid.lattice.spacing_m || glm::length(along) > 4096.0 * radius_m) {
             return fail("tool", "is too large, or goes too far at once, to smooth with",
-                        "choose a ball of at most 100 lattice cells, and more rows in the stroke");
+                        "choose a tool of at most 100 lattice cells, and more rows in the stroke");
         }
         return {};
     }

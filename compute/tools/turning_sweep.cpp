@@ -9,7 +9,7 @@ namespace burin::compute {
 namespace {
 
 // Lattice units, as for balls (sweep_units.cpp): farther away than this, a double does not hold thousandths of a unit.
-constexpr double kFarthest = 0x1p42;
+constexpr double kFarthestTurning = 0x1p42;
 constexpr double kLeastTolerance = 0x1p-10, kLargestTolerance = 0x1p10;  // cells
 constexpr double kMostMoves = 4096;
 
@@ -80,7 +80,7 @@ Result<void> check(const Lattice& lattice, const ToolSweep& sweep) {
             return fail("stroke", "holds a quaternion that is no orientation", "write 0,0,0,1 for no rotation");
         }
         const Vec3 units = glm::abs(lattice.units_from_object(p));
-        if (!(units.x < kFarthest && units.y < kFarthest && units.z < kFarthest)) {
+        if (!(units.x < kFarthestTurning && units.y < kFarthestTurning && units.z < kFarthestTurning)) {
             return fail("stroke", "holds a position too far from the workpiece to be told apart from its neighbours",
                         "check the stroke's units: positions are in metres");
         }

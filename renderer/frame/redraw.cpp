@@ -94,8 +94,15 @@ public:
         const SceneTool& tool = in.scene.tool;
         if (!tool.visible) return;
         const std::vector<Box> lit = lit_things(in);
-        add_where(box_around({tool.center_world, double{shared::kToolDarkens} * tool.radius_m}), lit);
+        Box darkened = box_around({tool.center_world, double{shared::kToolDarkens} * tool.radius_m});
+        const Box other_end =
+            box_around({tool.center_world + tool.spine_m, double{shared::kToolDarkens} * tool.radius_m});
+        darkened.include(other_end.lo);
+        darkened.include(other_end.hi);
+        add_where(darkened, lit);
+        add(head_of(tool));
         for (const Ball& ball : balls_of(tool)) {
+            if (ball.radius_m <= 0.0) continue;
             add(ball);
             for (const Box& slice : shadow_of(ball, tool.radius_m)) add_where(slice, lit);
         }

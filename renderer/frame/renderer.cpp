@@ -7,6 +7,7 @@
 
 #include "gpu/commands.hpp"
 #include "renderer/frame/frame_targets.hpp"
+#include "renderer/frame/mesh_store.hpp"
 #include "renderer/frame/pipelines.hpp"
 #include "renderer/frame/redraw.hpp"
 #include "renderer/frame/scene_choice.hpp"
@@ -40,6 +41,13 @@ Result<void> check_size(ImageSize size) {
     if (size.width > 0 && size.height > 0 && size.width <= kMaxSide && size.height <= kMaxSide) return {};
     return fail("picture size", std::to_string(size.width) + " x " + std::to_string(size.height) + " is not possible",
                 "choose 1 to " + std::to_string(kMaxSide) + " pixels each way");
+}
+
+// Lists the meshes that the scene shows.
+std::vector<std::shared_ptr<const DrawnMesh>> meshes_of(const Scene& scene) {
+    std::vector<std::shared_ptr<const DrawnMesh>> meshes;
+    if (scene.tool.visible && scene.tool.mesh) meshes.push_back(scene.tool.mesh);
+    return meshes;
 }
 
 VkViewport viewport_of(ImageSize size) {
@@ -107,6 +115,7 @@ private:
     Result<void> draw_glass(Recording& r);
     Result<void> use(Recording& r, PipelineKind kind);
     void draw(Recording& r, const PrimitiveRange& range, const shared::DrawConstants& constants);
+    void draw(Recording& r, const StoredMesh& mesh, const shared::DrawConstants& constants);
     void bind(Recording& r, const gpu::Buffer& vertices, const gpu::Buffer& lights, const gpu::Buffer& indices);
     void bind_primitives(Recording& r) { bind(r, primitive_vertices_, primitive_lights_, primitive_indices_); }
     void push(Recording& r, const shared::DrawConstants& constants);
@@ -124,6 +133,7 @@ private:
     DrawnPatches drawn_;
     Pipelines pipelines_;
     Primitives primitives_;
+    MeshStore meshes_;
     gpu::Buffer primitive_vertices_, primitive_lights_, primitive_indices_;
     Readback readback_;  // allocated at first use
     // Also created at first use. Indexed by views, then by whether parallax fades.
@@ -209,6 +219,8 @@ Result<RenderStats> Renderer::Implementation::record(gpu::Commands& commands, co
              .uploaded_bytes = *uploaded,
              .pipelines = pipelines_created()};
     if (!stats.parts.empty()) {
+        if (const auto put = meshes_.put(device_, commands, meshes_of(scene)); !put)
+            return std::unexpected(put.error());
         upload_uniforms(commands, wanted);
         commands.barrier();
     }
@@ -301,7 +313,12 @@ Result<void> Renderer::Implementation::draw_shapes(Recording& r) {
     if (r.shapes.solid.empty()) return {};
     if (const auto done = use(r, PipelineKind::solid); !done) return done;
     bind_primitives(r);
-    for (const Shape& shape : r.shapes.solid) draw(r, shape.range, shape.constants);
+    for (const Shape& shape : r.shapes.solid)
+        if (!shape.mesh) draw(r, shape.range, shape.constants);
+    if (std::ranges::none_of(r.shapes.solid, [](const Shape& shape) { return shape.mesh != nullptr; })) return {};
+    bind(r, meshes_.vertices(), meshes_.lights(), meshes_.indices());
+    for (const Shape& shape : r.shapes.solid)
+        if (shape.mesh) draw(r, meshes_.at(*shape.mesh), shape.constants);
     return {};
 }
 
@@ -393,6 +410,12 @@ Result<void> Renderer::Implementation::use(Recording& r, PipelineKind kind) {
 void Renderer::Implementation::draw(Recording& r, const PrimitiveRange& range, const shared::DrawConstants& constants) {
     push(r, constants);
     vk().vkCmdDrawIndexed(r.commands.raw(), range.index_count, 1, range.first_index, 0, 0);
+    ++r.draws;
+}
+
+void Renderer::Implementation::draw(Recording& r, const StoredMesh& mesh, const shared::DrawConstants& constants) {
+    push(r, constants);
+    vk().vkCmdDrawIndexed(r.commands.raw(), mesh.index_count, 1, mesh.first_index, mesh.first_vertex, 0);
     ++r.draws;
 }
 

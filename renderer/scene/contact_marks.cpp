@@ -21,9 +21,18 @@ constexpr double kClearOfBall = 1.06;
 
 bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-// Returns whether the contact is the ball's own, and not that of another part of a tool.
+// Returns the place on the tool's spine nearest to a point; a ball's centre.
+Vec3 nearest_on_spine(const SceneTool& tool, const Vec3& point) {
+    const double length2 = glm::dot(tool.spine_m, tool.spine_m);
+    if (!(length2 > 0.0)) return tool.center_world;
+    const double along = glm::dot(point - tool.center_world, tool.spine_m) / length2;
+    return tool.center_world + std::clamp(along, 0.0, 1.0) * tool.spine_m;
+}
+
+// Returns whether the contact is the ball's own, and not that of another part of a tool. The round about the spine of a
+// tool that is no ball counts as its ball.
 bool ball_touches(const SceneTool& tool, const Vec3& point) {
-    return tool.visible && glm::length(point - tool.center_world) < 1.5 * tool.radius_m;
+    return tool.visible && glm::length(point - nearest_on_spine(tool, point)) < 1.5 * tool.radius_m;
 }
 
 std::optional<ContactRing> ring_of(const SceneContact& contact, const SceneTool& tool) {
@@ -58,10 +67,10 @@ std::optional<ForceArrow> arrow_of(const SceneContact& contact, const SceneTool&
     arrow.head_m = kHead * size * unit;
     arrow.head_radius_m = kHeadRadius * size * unit;
     arrow.shaft_radius_m = kShaftRadius * size * unit;
-    const double clear_m =
-        ball_touches(tool, contact.point_world)
-            ? end_of_ball(contact.point_world, arrow.direction_world, tool.center_world, kClearOfBall * tool.radius_m)
-            : 0.0;
+    const double clear_m = ball_touches(tool, contact.point_world)
+                               ? end_of_ball(contact.point_world, arrow.direction_world,
+                                             nearest_on_spine(tool, contact.point_world), kClearOfBall * tool.radius_m)
+                               : 0.0;
     arrow.from_world = contact.point_world + clear_m * arrow.direction_world;
     return arrow;
 }

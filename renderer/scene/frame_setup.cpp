@@ -107,9 +107,15 @@ void add_bubble(Shapes& shapes, const SceneBubble& bubble, const Primitives& pri
 }
 
 void add_tool(Shapes& shapes, const SceneTool& tool, const Primitives& primitives) {
-    const Pose ball{tool.center_world, tool.stylus_world.orientation};
-    shapes.solid.push_back(
-        {primitives.balls.back(), constants_of(matrix_of(ball, Vec3(tool.radius_m)), tool.colour, 1.0, 0.28, 1.0)});
+    if (tool.mesh) {
+        shapes.solid.push_back({{0, 0, tool.mesh->bounds},
+                                constants_of(matrix(tool.world_from_mesh), tool.colour, 1.0, 0.28, 1.0),
+                                tool.mesh});
+    } else {
+        const Pose ball{tool.center_world, tool.stylus_world.orientation};
+        shapes.solid.push_back(
+            {primitives.balls.back(), constants_of(matrix_of(ball, Vec3(tool.radius_m)), tool.colour, 1.0, 0.28, 1.0)});
+    }
     const double r = stylus_radius_m(tool);
     const Mat4 shaft = matrix_of(tool.stylus_world, {r, r, stylus_length_m(tool)});
     shapes.solid.push_back({primitives.stylus, constants_of(shaft, {0.27, 0.28, 0.30}, 1.0, 0.35, 1.0)});
@@ -152,18 +158,42 @@ Ball ball_of(const SceneTool& tool) {
     if (!tool.visible) return {};
     const double half_length = 0.5 * stylus_length_m(tool);
     const Ball stylus{tool.stylus_world * Vec3{0, 0, half_length}, half_length + stylus_radius_m(tool)};
-    return around({tool.center_world, tool.radius_m}, stylus);
+    Ball all = around({tool.center_world, tool.radius_m}, stylus);
+    if (!tool.mesh) return all;
+    all = around(all, {tool.center_world + tool.spine_m, tool.radius_m});
+    return around(all, ball_around(head_of(tool)));
 }
 
-std::array<Ball, 9> balls_of(const SceneTool& tool) {
-    std::array<Ball, 9> balls;
+Box head_of(const SceneTool& tool) {
+    Box head;
+    if (!tool.visible) return head;
+    if (!tool.mesh) {
+        head.include(tool.center_world - Vec3(tool.radius_m));
+        head.include(tool.center_world + Vec3(tool.radius_m));
+        return head;
+    }
+    const Box& own = tool.mesh->bounds;
+    for (int i = 0; i < 8; ++i)
+        head.include(tool.world_from_mesh * Vec3((i & 1) != 0 ? own.hi.x : own.lo.x, (i & 2) != 0 ? own.hi.y : own.lo.y,
+                                                 (i & 4) != 0 ? own.hi.z : own.lo.z));
+    return head;
+}
+
+std::array<Ball, kSpineBalls + kStylusBalls> balls_of(const SceneTool& tool) {
+    std::array<Ball, kSpineBalls + kStylusBalls> balls;
     if (!tool.visible) return balls;
-    balls[0] = {tool.center_world, tool.radius_m};
-    const std::size_t parts = balls.size() - 1;
-    const double half_m = 0.5 * stylus_length_m(tool) / static_cast<double>(parts);
-    for (std::size_t i = 0; i < parts; ++i) {
+    const double spine_m = glm::length(tool.spine_m);
+    const auto on_spine =
+        std::clamp<std::size_t>(static_cast<std::size_t>(std::ceil(spine_m / (2.0 * tool.radius_m))), 1, kSpineBalls);
+    const double half_spine_m = 0.5 * spine_m / static_cast<double>(on_spine);
+    for (std::size_t i = 0; i < on_spine; ++i) {
+        const double along = (static_cast<double>(i) + 0.5) / static_cast<double>(on_spine);
+        balls[i] = {tool.center_world + along * tool.spine_m, half_spine_m + tool.radius_m};
+    }
+    const double half_m = 0.5 * stylus_length_m(tool) / static_cast<double>(kStylusBalls);
+    for (std::size_t i = 0; i < kStylusBalls; ++i) {
         const Vec3 middle{0.0, 0.0, half_m * static_cast<double>(2 * i + 1)};
-        balls[i + 1] = {tool.stylus_world * middle, std::hypot(half_m, stylus_radius_m(tool))};
+        balls[kSpineBalls + i] = {tool.stylus_world * middle, std::hypot(half_m, stylus_radius_m(tool))};
     }
     return balls;
 }
@@ -234,6 +264,7 @@ shared::FrameUniforms frame_uniforms(const Scene& scene, const Workpiece& workpi
     if (scene.tool.visible) {
         const Pose& stylus = scene.tool.stylus_world;
         frame.tool = vec4_of(scene.tool.center_world, scene.tool.radius_m);
+        frame.tool_spine = vec4_of(scene.tool.spine_m, 0.0);
         frame.stylus_tip = vec4_of(stylus.position_m, stylus_radius_m(scene.tool));
         frame.stylus_end = vec4_of(stylus * Vec3{0, 0, stylus_length_m(scene.tool)}, 0.0);
     }

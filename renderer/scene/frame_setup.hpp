@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "renderer/scene/primitives.hpp"
@@ -52,8 +53,12 @@ inline constexpr double kGuard = 2.0;
 [[nodiscard]] Ball ball_of(const SceneTool& tool);
 [[nodiscard]] Ball ball_of(const SceneBox& box);
 [[nodiscard]] Ball ball_of(const SceneBubble& bubble);
-// Returns a tighter cover of the tool: the tool's own ball, then balls along its stylus that together hold it.
-[[nodiscard]] std::array<Ball, 9> balls_of(const SceneTool& tool);
+// Returns what casts the tool's shadow: balls along its spine, then balls along its stylus that together hold it. Of a
+// ball the first is the tool's own, and the other three of the spine are absent.
+inline constexpr std::size_t kSpineBalls = 4, kStylusBalls = 8;
+[[nodiscard]] std::array<Ball, kSpineBalls + kStylusBalls> balls_of(const SceneTool& tool);
+// Returns the bounds of the tool without its stylus, as it is drawn; empty where it is not visible.
+[[nodiscard]] Box head_of(const SceneTool& tool);
 // Returns the unit vector towards the lamp.
 [[nodiscard]] const Vec3& direction_to_light();
 // Tangent of half the angle that the lamp subtends: 4 degrees in all, so that shadow edges are 7 mm wide at 100 mm.
@@ -62,10 +67,11 @@ inline constexpr double kLightHalfAngleTangent = 0.07;
 // Returns world_from_patch, which transforms positions of surface vertices.
 [[nodiscard]] Mat4 world_from_patch(const Scene& scene);
 
-// One draw of a range of primitives.hpp.
+// One draw: of a range of primitives.hpp, or of a mesh as a whole.
 struct Shape {
-    PrimitiveRange range;
+    PrimitiveRange range;  // of a mesh, its bounds alone
     shared::DrawConstants constants;
+    std::shared_ptr<const DrawnMesh> mesh = nullptr;
 };
 struct Shapes {
     std::vector<Shape> solid;

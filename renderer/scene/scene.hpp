@@ -4,21 +4,28 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "base/space.hpp"
 #include "renderer/panel/panel_stand.hpp"
+#include "renderer/scene/drawn_mesh.hpp"
 #include "wall/screen.hpp"
 
 namespace burin::renderer {
 
-// The carving ball and the stylus that carries it.
+// What works at the tip of the hand's tool, and the stylus that carries it: a ball, or a mesh. Where its shadow falls,
+// where it darkens what is near and where its ring of colour lies follow from its *spine*, a line that stands for the
+// tool when it is thickened by a radius. A ball's spine is its middle.
 struct SceneTool {
-    double radius_m = 0.01;
-    Vec3 center_world{0.0};
+    double radius_m = 0.01;  // of the ball, or around the spine
+    Vec3 center_world{0.0};  // of the ball, or one end of the spine
     Vec3 colour{0.85, 0.45, 0.15};
     Pose stylus_world;  // origin at the stylus's tip, its shaft along its own +Z (towards the hand)
     bool visible = false;
+    std::shared_ptr<const DrawnMesh> mesh = nullptr;  // null: a ball
+    Similarity world_from_mesh{};
+    Vec3 spine_m{0.0};  // from one end of the spine to the other, along the world's axes; zero for a ball
 
     bool operator==(const SceneTool&) const = default;
 };

@@ -45,6 +45,7 @@ public:
         const double reach_m = double{shared::kToolShades} * tool.radius_m;
         const Ball all = ball_of(tool);
         center_ = local(tool.center_world);
+        spine_ = local(tool.center_world + tool.spine_m) - center_;
         radius_m_ = double{shared::kToolNears} * tool.radius_m * scale;
         darkens_m_ = double{shared::kToolDarkens} * tool.radius_m * scale;
         from_ = local(all.center_world);
@@ -52,6 +53,7 @@ public:
         shadow_radius_m_ = (all.radius_m + kLightHalfAngleTangent * reach_m) * scale;
         const std::array balls = balls_of(tool);
         for (std::size_t i = 0; i < balls.size(); ++i) {
+            if (balls[i].radius_m <= 0.0) continue;
             // Twice the ball's radius: its points lie before and behind its middle, as seen from the lamp.
             const double edge_m = kLightHalfAngleTangent * (reach_m + 2.0 * balls[i].radius_m) + 0.02 * tool.radius_m;
             shadows_[i] = {local(balls[i].center_world), (balls[i].radius_m + edge_m) * scale};
@@ -61,15 +63,15 @@ public:
     // Returns whether the tool touches() the patch or occludes ambient light on it.
     [[nodiscard]] bool changes(const PatchShape& patch) const {
         if (!there_) return false;
-        const Vec3 nearest = glm::clamp(center_, patch.bounds.lo, patch.bounds.hi);
-        return glm::length(nearest - center_) <= darkens_m_ || touches(patch);
+        return distance_to_spine(patch) <= darkens_m_ || touches(patch);
     }
     [[nodiscard]] bool touches(const PatchShape& patch) const {
         if (!there_) return false;
-        if (glm::length(patch.center - center_) <= patch.radius_m + radius_m_) return true;
+        if (near(patch, center_, spine_, radius_m_)) return true;
         // Tests the swept bound of all shadows before each shadow by itself.
         if (!near(patch, from_, to_ - from_, shadow_radius_m_)) return false;
-        return std::ranges::any_of(shadows_, [&](const Shadow& s) { return near(patch, s.from, along_, s.radius_m); });
+        return std::ranges::any_of(
+            shadows_, [&](const Shadow& s) { return s.radius_m > 0.0 && near(patch, s.from, along_, s.radius_m); });
     }
 
 private:
@@ -78,14 +80,21 @@ private:
         double radius_m = 0.0;
     };
     static bool near(const PatchShape& patch, const Vec3& from, const Vec3& along, double radius_m) {
-        const double t = std::clamp(glm::dot(patch.center - from, along) / glm::dot(along, along), 0.0, 1.0);
+        const double t =
+            std::clamp(glm::dot(patch.center - from, along) / std::max(glm::dot(along, along), 1e-300), 0.0, 1.0);
         return glm::length(from + t * along - patch.center) <= patch.radius_m + radius_m;
+    }
+    // Returns a distance of the patch's bounds from the spine that is never too large; a ball's is exact.
+    [[nodiscard]] double distance_to_spine(const PatchShape& patch) const {
+        const Box& box = patch.bounds;
+        const Vec3 lo = glm::min(center_, center_ + spine_), hi = glm::max(center_, center_ + spine_);
+        return glm::length(glm::max(glm::max(box.lo - hi, lo - box.hi), Vec3(0.0)));
     }
 
     bool there_ = false;
-    Vec3 center_{0.0}, from_{0.0}, to_{0.0}, along_{0.0};
+    Vec3 center_{0.0}, spine_{0.0}, from_{0.0}, to_{0.0}, along_{0.0};
     double radius_m_ = 0.0, darkens_m_ = 0.0, shadow_radius_m_ = 0.0;
-    std::array<Shadow, 9> shadows_;  // of the tool's balls
+    std::array<Shadow, kSpineBalls + kStylusBalls> shadows_;  // of the tool's balls
 };
 
 ShadingRate rate_of(const PatchStore::Patch& patch, const PatchPixel& pixel, const ToolZone& zone,

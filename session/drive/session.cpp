@@ -53,8 +53,9 @@ Result<void> check(const SculptOptions& options) {
 
 // Replays a recording with its own options wherever they affect its frames.
 Result<void> run_as_recorded(const SculptOptions& given, InputLog log) {
-    const Result<RecordedOptions> recorded = options_as_recorded(log.settings, given);
+    Result<RecordedOptions> recorded = options_as_recorded(log.settings, given);
     if (!recorded) return std::unexpected(recorded.error());
+    recorded->options.live.tools_of_input = tools_in(log);
     for (const std::string& message : recorded->overruled) std::fprintf(stderr, "burin: %s\n", message.c_str());
     if (const auto ok = check(recorded->options); !ok) return ok;
     const Result<SessionWall> wall = session_wall(recorded->options.live);
@@ -79,7 +80,8 @@ bool wants_session(const SculptOptions& options) {
            (options.stroke.empty() && options.exports.empty() && options.pictures.empty() && options.report.empty());
 }
 
-Result<void> run_session(const SculptOptions& options) {
+Result<void> run_session(const SculptOptions& given) {
+    SculptOptions options = given;
     if (const auto ok = check_for_a_session(options); !ok) return ok;
     if (options.live.offscreen && options.live.input.empty()) {
         return fail("--offscreen", "needs an --input: without a window nobody can do anything",
@@ -99,6 +101,7 @@ Result<void> run_session(const SculptOptions& options) {
         const SessionOutputs outputs(options.live);
         if (const auto ready = outputs.prepare(*read, options.live.input); !ready) return ready;
         if (read->threads && options.live.record.empty()) return run_as_recorded(options, std::move(*read));
+        options.live.tools_of_input = tools_in(*read);
         log = std::move(*read);
     }
     if (const auto ok = check(options); !ok) return ok;
@@ -118,6 +121,7 @@ Result<SessionRecord> time_session(SculptOptions options, bool for_a_device) {
     if (!wall) return std::unexpected(wall.error());
     Result<InputLog> log = open_log(options.live.input);
     if (!log) return std::unexpected(log.error());
+    options.live.tools_of_input = tools_in(*log);
     RealTimeRun run{.keep_frames = true};
     if (for_a_device) run.pace = {.lead_ns = haptics::HapticLoop::kLead_ns};
     return run_in_real_time(options, *wall, InputSource::play(std::move(*log)), std::move(run));

@@ -54,6 +54,7 @@ struct Steps {
         if (action != Action::reset_view) return;
         state.head_world = settings.home_head_world;
         state.flight_m_per_s = Vec3(0.0);
+        state.target_turn_device = Quat(1.0, 0.0, 0.0, 0.0);
     }
 
     void operator()(const MouseMove& in) {
@@ -81,7 +82,9 @@ struct Steps {
 
     void drag(const Vec2& moved_px) {
         const Quat& q = view.world_from_screen;
-        if (state.drag == Gesture::pan_scene) {
+        if (state.drag == Gesture::turn_stylus || state.drag == Gesture::roll_stylus) {
+            turn_stylus(settings.turn_rad_per_px * moved_px);
+        } else if (state.drag == Gesture::pan_scene) {
             change = moved_by(change, q * Vec3(view.world_m_per_px * moved_px, 0.0));
         } else {
             const Vec2 angle = settings.turn_rad_per_px * moved_px;
@@ -89,6 +92,18 @@ struct Steps {
             change = turned_about(change, view.pivot_world, glm::angleAxis(-angle.y, q * Vec3(1.0, 0.0, 0.0)));
         }
     }
+
+    // Turns the stylus about its tip as if it were held at its far end, or about its own shaft.
+    void turn_stylus(const Vec2& by_rad) {
+        const Quat& screen = view.device_from_screen;
+        const Vec3 shaft = state.target_turn_device * settings.rest_device * Vec3(0.0, 1.0, 0.0);
+        const Quat turn = state.drag == Gesture::roll_stylus
+                              ? glm::angleAxis(by_rad.x, shaft)
+                              : glm::angleAxis(by_rad.x, screen * Vec3(0.0, 1.0, 0.0)) *
+                                    glm::angleAxis(-by_rad.y, screen * Vec3(1.0, 0.0, 0.0));
+        state.target_turn_device = glm::normalize(turn * state.target_turn_device);
+    }
+    [[nodiscard]] Quat orientation_device() const { return state.target_turn_device * settings.rest_device; }
 
     // Modifiers come with the event or as keys of their own.
     [[nodiscard]] Modifiers held_with(const Modifiers& told) const {
@@ -171,6 +186,11 @@ void fly(DeskState& state, double dt_s, const DeskSettings& settings) {
 
 }  // namespace
 
+Quat pen_at_rest() {
+    const Vec3 shaft = glm::normalize(Vec3(0.45, 0.8, 1.0)), across = glm::normalize(Vec3(1.0, 0.0, -0.45));
+    return glm::normalize(glm::quat_cast(glm::dmat3(across, shaft, glm::cross(across, shaft))));
+}
+
 DeskState desk_at_home(const DeskSettings& settings) {
     DeskState state;
     state.head_world = settings.home_head_world;
@@ -184,16 +204,18 @@ DeskStep step_desk(DeskState state, std::span<const InputEvent> events, double d
     DeskStep step;
     for (const InputEvent& event : events) {
         const Vec3 before_m = steps.state.target_device_m;
+        const Quat before_turn = steps.state.target_turn_device;
         const std::uint32_t before = steps.state.buttons;
         std::visit(steps, event.input);
         const bool moved = std::holds_alternative<MouseMove>(event.input) || steps.state.target_device_m != before_m ||
-                           steps.state.buttons != before;
+                           steps.state.target_turn_device != before_turn || steps.state.buttons != before;
         if (moved)
-            step.way.push_back({event.time_ns, steps.state.target_device_m, step.target.orientation_device,
+            step.way.push_back({event.time_ns, steps.state.target_device_m, steps.orientation_device(),
                                 steps.state.buttons | steps.clicked});
     }
     fly(steps.state, dt_s, settings);
     step.target.position_device_m = steps.state.target_device_m;
+    step.target.orientation_device = steps.orientation_device();
     step.target.buttons = steps.state.buttons | steps.clicked;
     step.head_world = steps.state.head_world;
     step.scene_change = steps.change;

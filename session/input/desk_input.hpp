@@ -5,7 +5,8 @@
 // Stylus: mouse motion moves the hand's target relatively, as it moves a pointer. Motion beyond the workspace is
 // discarded, so that the way back has no dead travel. The caller sets how far a pixel moves the target
 // (DeskView::device_m_per_px), so that the tool's picture can move as far as the pointer. Left and right button are the
-// stylus' buttons 0 and 1; a click between two frames is held for one step, so that it is not lost.
+// stylus' buttons 0 and 1; a click between two frames is held for one step, so that it is not lost. Dragged with the
+// middle button and Ctrl, the stylus turns about its tip instead.
 // Head: flies with bounded speed, with soft start and stop, within a box before the screen.
 // Scene: is turned, moved and scaled about a pivot; the caller applies scene_change from the left to world_from_scene.
 // What the panel has captured (its fields have the keyboard, or the mouse is over it) cannot be pressed here, but
@@ -26,6 +27,10 @@
 
 namespace burin::session {
 
+// Returns the orientation of a tool that is held as a pen is: its shaft, along its own +Y, leans to the right, up and
+// towards the viewer.
+[[nodiscard]] Quat pen_at_rest();
+
 // Settings of the desktop input. All lengths are positive.
 struct DeskSettings {
     Pose home_head_world{{0.0, 1.6, 2.0}, Quat{1.0, 0.0, 0.0, 0.0}};
@@ -33,7 +38,9 @@ struct DeskSettings {
     Box head_world{};
     Vec3 workspace_m{0.1626, 0.1219, 0.0711};
     double depth_per_wheel_step_m = 0.002;
-    double turn_rad_per_px = 0.005;
+    double turn_rad_per_px = 0.005;  // of the scene, and of the stylus
+    // The resting hand: a pen's shaft, +Y of the tool, leans to the right, up and to the viewer.
+    Quat rest_device = pen_at_rest();
     double scale_per_wheel_step = 1.1;
     double least_scale = 0.01, most_scale = 100.0;
     double flight_speed_m_per_s = 0.6;
@@ -56,6 +63,7 @@ struct DeskView {
 
 struct DeskState {
     Vec3 target_device_m{0.0};
+    Quat target_turn_device{1.0, 0.0, 0.0, 0.0};  // from the resting hand's orientation, applied after it
     Pose head_world;
     Vec3 flight_m_per_s{0.0};
     std::optional<Vec2> mouse_px;  // none: the next motion only sets it
@@ -71,10 +79,10 @@ struct DeskStep {
     DeskState state;
     // Where the mouse led the hand: a target for each of its events, and for each that changes buttons.
     std::vector<devices::SteeredTarget> way;
-    devices::HandTarget target;  // at the end; without a velocity; orientation as the hand rests
+    devices::HandTarget target;  // at the end; without a velocity
     Pose head_world;
     Similarity scene_change;      // world_from_scene becomes scene_change * world_from_scene
-    std::vector<Action> actions;  // in order; reset_view is among them and also resets the head here
+    std::vector<Action> actions;  // in order; reset_view is among them and also resets head and stylus' turn here
 };
 
 // Applies one step's events. dt_s: time since the step before, not negative.

@@ -65,6 +65,8 @@ constexpr std::array kMouseGestures = {
                  "Second button of the stylus: move the workspace"},
     MouseGesture{MouseUse::middle_drag, kNone, Gesture::turn_scene, "Turn the scene"},
     MouseGesture{MouseUse::middle_drag, kShift, Gesture::pan_scene, "Move the scene along the screen"},
+    MouseGesture{MouseUse::middle_drag, kCtrl, Gesture::turn_stylus, "Turn the stylus about its tip"},
+    MouseGesture{MouseUse::middle_drag, kCtrlShift, Gesture::roll_stylus, "Turn the stylus about its shaft"},
 };
 
 constexpr std::array<std::string_view, 21> kActionNames = {"undo",

@@ -25,6 +25,7 @@ enum class Flight : std::uint8_t { forwards, backwards, left, right, up, down };
 enum class Gesture : std::uint8_t {
     // clang-format off
     move_stylus, move_stylus_in_depth, carve, move_workspace, turn_scene, pan_scene, stylus_depth, scale_scene,
+    turn_stylus, roll_stylus,
     // clang-format on
 };
 

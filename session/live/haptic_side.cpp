@@ -7,12 +7,14 @@
 
 namespace burin::session {
 
-Result<void> HapticSide::open(std::string_view device, Clock& clock, const Vec3& rest_device_m) {
+Result<void> HapticSide::open(std::string_view device, Clock& clock, const Pose& rest_device) {
     devices::HandTarget rest;
-    rest.position_device_m = rest_device_m;
+    rest.position_device_m = rest_device.position_m;
+    rest.orientation_device = rest_device.orientation;
     Result<devices::SteeredHand> hand = devices::SteeredHand::create(&steering_, rest);
     if (!hand) return std::unexpected(hand.error());
-    told_.position_device_m = rest_device_m;
+    told_.position_device_m = rest_device.position_m;
+    told_.orientation_device = rest_device.orientation;
     auto opened = devices::open_haptic_device(device, {clock, std::move(*hand)});
     if (!opened) return std::unexpected(opened.error());
     device_ = std::move(*opened);

@@ -22,7 +22,7 @@ public:
 
     // Opens the device of that name (devices/haptic/device_registry.hpp), a simulated one with its hand at rest there.
     // The clock must outlive it.
-    [[nodiscard]] Result<void> open(std::string_view device, Clock& clock, const Vec3& rest_device_m);
+    [[nodiscard]] Result<void> open(std::string_view device, Clock& clock, const Pose& rest_device);
     // Publishes where the hand is to go, for the device's next ticks: through the targets of the way, each at its own
     // time, to where it is to be at time_ns if the way does not end there. All times are session time.
     void move_hand(std::span<const devices::SteeredTarget> way, Nanoseconds time_ns, const devices::HandTarget& end);

@@ -80,9 +80,13 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
     }
     const auto tool = sculpt::parse_tool_settings(tool_options_);
     if (!tool) return std::unexpected(tool.error());
+    auto meshes = std::make_shared<ToolMeshes>();
+    if (const auto read = meshes->read(tool->shape); !read) return read;
+    for (const sculpt::ToolSpec& other : options.live.tools_of_input)
+        if (const auto read = meshes->read(other); !read) return read;
     const auto feel = sculpt::parse_feel_settings(options.feel);
     if (!feel) return std::unexpected(feel.error());
-    state_ = begin_session(room_, *tool, *feel, output);
+    state_ = begin_session(room_, *tool, *feel, output, std::move(meshes));
     state_.export_unit = options.export_units.value_or(unit_);
     const Result<sculpt::UseTool> use = tool_of(state_);
     if (!use) return std::unexpected(use.error());
@@ -90,7 +94,9 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
 
     start_ns_ = clock_.now_ns();
     const Vec3 rest_device_m = state_.desk.target_device_m;
-    if (const auto opened = haptics_.open(options.live.device, clock_, rest_device_m); !opened) return opened;
+    if (const auto opened = haptics_.open(options.live.device, clock_, {rest_device_m, room_.desk.rest_device});
+        !opened)
+        return opened;
     haptics_.publish(parameters_of(state_, room_));
     // Far enough for the fastest hand to stay inside the known ball until the next update: 1 m/s for 12 ms.
     const double reach_m = 0.012 * parameters_of(state_, room_).workspace.object_from_device.scale +

@@ -196,10 +196,8 @@ void show_tool(Kit& kit, const PanelModel& model) {
         show_tool_kinds(kit, model);
         kit.gap(4.0f);
         std::vector<Item> items;
-        for (const sculpt::OperationDescriptor& operation : sculpt::operations()) {
+        for (const sculpt::OperationDescriptor& operation : sculpt::operations())
             items.push_back(item_of("operation", operation.name, capitalised(operation.name)));
-            items.back().enabled = sculpt::can_do(model.tool.kind, operation.operation);
-        }
         const auto chosen = kit.segments(items, static_cast<std::size_t>(model.operation));
         if (chosen) kit.give(SetOperation{sculpt::operations()[*chosen].operation});
         show_sizes(kit, model);

@@ -87,6 +87,14 @@ Result<SessionState> plain_state() {
     return state;
 }
 
+// Returns the tool that a command takes up.
+std::optional<sculpt::ToolSpec> tool_in(const CommandInput& input) {
+    const Result<SessionCommand> command = parse_command(input);
+    if (!command) return std::nullopt;
+    const auto* set = std::get_if<SetTool>(&*command);
+    return set != nullptr ? std::optional(set->tool) : std::nullopt;
+}
+
 Result<void> check_command(const CommandInput& input, SessionState state) {
     const Result<SessionCommand> command = parse_command(input);
     if (!command) return std::unexpected(command.error());
@@ -113,12 +121,24 @@ Result<void> check_output_name(const std::string& name, OutputKind kind) {
     return fail(where, "has no extension that Burin exports", "name it .stl, .ply or .obj");
 }
 
+std::vector<sculpt::ToolSpec> tools_in(const InputLog& log) {
+    std::vector<sculpt::ToolSpec> tools;
+    for (const InputEvent& event : log.events)
+        if (const auto* command = std::get_if<CommandInput>(&event.input))
+            if (const auto tool = tool_in(*command)) tools.push_back(*tool);
+    return tools;
+}
+
 Result<void> check_commands(const InputLog& log, const std::string& name) {
-    const Result<SessionState> state = plain_state();
+    Result<SessionState> state = plain_state();
     if (!state) return std::unexpected(state.error());
+    auto meshes = std::make_shared<ToolMeshes>();
+    state->meshes = meshes;
     for (const InputEvent& event : log.events) {
         const auto* command = std::get_if<CommandInput>(&event.input);
         if (command == nullptr) continue;
+        if (const auto tool = tool_in(*command))
+            if (const auto read = meshes->read(*tool); !read) return on_line(read.error(), name, event.line);
         if (const auto ok = check_command(*command, *state); !ok) return on_line(ok.error(), name, event.line);
     }
     return {};

@@ -28,6 +28,9 @@ enum class OutputKind : std::uint8_t { picture, mesh };
 // state could carry them out. name: the log's file name.
 [[nodiscard]] Result<void> check_commands(const InputLog& log, const std::string& name);
 
+// Returns the tools that a log's commands take up.
+[[nodiscard]] std::vector<sculpt::ToolSpec> tools_in(const InputLog& log);
+
 // Places the files that a session is asked for. What is asked for in a log's session is the log's doing, by whatever
 // way: keys, the panel and the mouse on it are events of the log.
 class SessionOutputs {

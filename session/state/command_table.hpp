@@ -52,7 +52,7 @@ struct SetColour {
 };
 // Names a number that a session keeps and a command can set.
 enum class Quantity : std::uint8_t {
-    radius,           // m; of a ball, or the first radius of another tool
+    radius,           // m; of a ball, or of one as wide as another tool
     hardness,         // N s/m^3
     friction,         // Coulomb's mu
     stiffness,        // N/m

@@ -31,7 +31,7 @@ double nine_digits(double value) {
 }
 
 void set_radius(SessionState& s, double radius_m) {
-    s.tool.shape = {sculpt::ToolKind::ball, {nine_digits(radius_m), 0.0, 0.0}, {}};
+    s.tool.shape = sculpt::resized(s.tool.shape, nine_digits(radius_m));
 }
 
 void set_hardness(SessionState& s, double hardness_Ns_per_m3) {
@@ -60,8 +60,10 @@ constexpr QuantityDescriptor described_quantity(Quantity quantity) {
     switch (quantity) {
         case Quantity::radius:
             return row(
-                quantity, {"radius", "m", "R", "The tool's radius in metres"}, {1e-6, 10.0, 0.0005, 0.05, true}, kTool,
-                [](const State& s) { return sculpt::ball_radius_m(s.tool.shape); }, set_radius);
+                quantity,
+                {"radius", "m", "R", "The tool's radius in metres; sizes of other tools than a ball go along"},
+                {1e-6, 10.0, 0.0005, 0.05, true}, kTool,
+                [](const State& s) { return sculpt::half_width_m(s.tool.shape); }, set_radius);
         case Quantity::hardness:
             return row(
                 quantity, {"hardness", "N s/m3", "H", "How hard the material is to cut, in N s/m3"},

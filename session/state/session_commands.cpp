@@ -121,6 +121,9 @@ haptics::WorkspaceTechnique next_technique(haptics::WorkspaceTechnique technique
 
 Result<void> Runner::operator()(const SetQuantity& set) {
     const QuantityDescriptor& quantity = descriptor_of(set.quantity);
+    if (set.quantity == Quantity::radius && state_.tool.shape.kind == sculpt::ToolKind::mesh) {
+        return fail("radius", "a tool that is a mesh keeps its size", "take another tool, or scale the mesh's file");
+    }
     if (quantity.concern == QuantityConcern::tool_and_touch)
         return change_tool([&](SessionState& s) { quantity.set(s, set.value); });
     quantity.set(state_, set.value);

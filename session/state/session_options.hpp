@@ -16,11 +16,12 @@
 namespace burin::session {
 
 struct LiveOptions {
-    bool live = false;       // explicitly requested; also implied when there is neither a stroke nor an output
-    std::string input;       // a log or a script that takes the user's place; empty: keyboard, mouse, trackers
-    std::string record;      // path of the input recording; empty: none
-    bool offscreen = false;  // no window; needs an input
-    std::string stereo;      // a mode's name; empty: mono in a window
+    bool live = false;  // explicitly requested; also implied when there is neither a stroke nor an output
+    std::string input;  // a log or a script that takes the user's place; empty: keyboard, mouse, trackers
+    std::vector<sculpt::ToolSpec> tools_of_input;  // that the input takes up; no option of the command line
+    std::string record;                            // path of the input recording; empty: none
+    bool offscreen = false;                        // no window; needs an input
+    std::string stereo;                            // a mode's name; empty: mono in a window
     bool swap_eyes = false;
     std::string wall;     // wall file with screens, eyes and tracker; empty: one desktop window
     std::string tracker;  // tracker address, "udp:PORT"; empty: keys fly the head

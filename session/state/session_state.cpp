@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sculpt/felt_tool.hpp"
+#include "sculpt/tool_mesh.hpp"
 #include "session/state/staging.hpp"
 #include "wall/projection.hpp"
 #include "wall/seen_place.hpp"
@@ -74,7 +74,8 @@ haptics::TouchMaterial material_under_tool(const SessionState& state) {
     return sculpt::touch_material(state.only_touch ? sculpt::with_hardness(state.feel, kCannotBeCut) : state.feel);
 }
 
-double ball_radius_m(const SessionState& state) { return sculpt::ball_radius_m(state.tool.shape); }
+// Returns the radius of a ball about as wide as the tool.
+double tool_radius_m(const SessionState& state) { return state.held->half_width_m(); }
 
 // Returns the distance from the main screen to the head; never 0, even where the head is beside or behind it.
 double head_distance_m(const SessionState& state, const wall::Screen& screen, const wall::WallSetup& setup) {
@@ -113,8 +114,9 @@ Vec3 tool_colour(const SessionState& state) {
 }  // namespace
 
 SessionState begin_session(const Room& room, const sculpt::ToolSettings& tool, const sculpt::FeelSettings& feel,
-                           const wall::OutputSettings& output) {
+                           const wall::OutputSettings& output, std::shared_ptr<const ToolMeshes> meshes) {
     SessionState state;
+    state.meshes = std::move(meshes);
     state.desk = desk_at_home(room.desk);
     state.head = follow_head({}, room.wall.setup, room.wall.setup.timing, {}, 0, state.desk.head_world);
     state.interpupillary_m = interpupillary_m(room.wall.setup.eyes);
@@ -125,9 +127,19 @@ SessionState begin_session(const Room& room, const sculpt::ToolSettings& tool, c
     // Let the hand rest in front of the workpiece.
     state.desk.target_device_m.z = 0.5 * room.workspace_device_m.z - kClearsBorder_m;
     state.tool = tool;
+    static_cast<void>(take_up(state));  // tool_of() says why it has none
     state.feel = feel;
     state.output = output;
     return state;
+}
+
+Result<void> take_up(SessionState& state) {
+    if (state.held && state.held->spec == state.tool.shape) return {};
+    const ToolMeshes none;
+    auto held = take_up(state.tool.shape, state.meshes ? *state.meshes : none);
+    if (!held) return std::unexpected(held.error());
+    state.held = std::move(*held);
+    return {};
 }
 
 SessionStep step_session(SessionState state, const Room& room, std::span<const InputEvent> events,
@@ -162,13 +174,15 @@ SessionStep step_session(SessionState state, const Room& room, std::span<const I
         if (const auto* command = std::get_if<CommandInput>(&event.input)) run(*command, event.line);
         if (std::holds_alternative<WindowClose>(event.input)) state.quit = true;
     }
+    // Once a step, however often a slider has changed the tool in it. A tool that a command accepted can be made.
+    if (const auto taken = take_up(state); !taken) step.orders.messages.push_back({taken.error().line(), 0});
     step.state = std::move(state);
     return step;
 }
 
 haptics::TickParameters parameters_of(const SessionState& state, const Room& room) {
     haptics::TickParameters p;
-    const double radius_m = ball_radius_m(state);
+    const double radius_m = tool_radius_m(state);
     p.workspace.technique = state.technique;
     Similarity world_from_device = state.world_from_device;
     world_from_device.scale *= state.workspace_gain;
@@ -178,7 +192,7 @@ haptics::TickParameters parameters_of(const SessionState& state, const Room& roo
     const Vec3 around = Vec3(2.0 * radius_m) + 0.25 * room.workpiece_object.extent();
     p.workspace.reach_object.lo -= around;
     p.workspace.reach_object.hi += around;
-    const sculpt::FeltTool felt = sculpt::felt_tool(compute::BallTool{radius_m});
+    const sculpt::FeltTool& felt = state.held->felt;
     p.probe = felt.probe;
     p.shape = felt.shape;
     p.tool = felt.surface;
@@ -198,14 +212,11 @@ Result<sculpt::UseTool> tool_of(const SessionState& state) {
     const sculpt::ToolSettings& tool = state.tool;
     if (const auto good = sculpt::check_tool(tool); !good) return std::unexpected(good.error());
     if (const auto good = sculpt::check_feel(state.feel); !good) return std::unexpected(good.error());
-    // Comes before the shape is made, so that no file is read: the shape of a ball comes from none.
-    if (tool.shape.kind != sculpt::ToolKind::ball) {
-        return fail("tool " + sculpt::text_of(tool.shape), "cannot be held in a live session, which draws balls only",
-                    "use ball:R, or carve along a stroke file with --stroke and --hand simulated");
-    }
-    Result<sculpt::Tool> made = sculpt::make_tool(tool);
-    if (!made) return std::unexpected(made.error());
-    return sculpt::UseTool{std::move(*made), sculpt::material_of(tool), material_under_tool(state).hardness_Ns_per_m3};
+    const ToolMeshes none;
+    Result<compute::ToolShape> shape = (state.meshes ? *state.meshes : none).shape_of(tool.shape);
+    if (!shape) return std::unexpected(shape.error());
+    return sculpt::UseTool{sculpt::make_tool(tool, std::move(*shape)), sculpt::material_of(tool),
+                           material_under_tool(state).hardness_Ns_per_m3};
 }
 
 std::optional<renderer::Scene> scene_of(const SessionState& state, const Room& room, std::size_t screen,
@@ -228,7 +239,8 @@ std::optional<renderer::Scene> scene_of(const SessionState& state, const Room& r
     scene.pedestal.visible = true;
     scene.pedestal.top_center_world = {middle.x, middle.y - 0.5 * size.y, middle.z};
     scene.pedestal.radius_m = 0.25 * glm::length(size);
-    Staging staging = staging_of(tool, ball_radius_m(state), room.workspace_device_m);
+    Staging staging = staging_of(tool, tool_radius_m(state), room.workspace_device_m);
+    staging.held = state.held;
     staging.contact_shown = state.force_shown;
     stage(scene, staging, state.world_from_object);
     scene.tool.colour = tool_colour(state);
@@ -244,7 +256,7 @@ wall::ComfortFinding comfort_of(const SessionState& state, const Room& room, con
     // Bounds the workpiece by a ball, since it may be turned any way.
     const std::array<wall::ContentBall, 2> balls{
         {{state.world_from_object * workpiece.center(), 0.5 * scale * longest(workpiece.extent())},
-         {state.world_from_object * tool.proxy_object_m, scale * ball_radius_m(state)}}};
+         {state.world_from_object * tool.proxy_object_m, scale * sculpt::reach_of(state.held->shape)}}};
     return wall::judge(room.wall.setup.budget, sight.screen, wall::eyes_of(sight.viewer), {balls, {}});
 }
 

@@ -4,6 +4,7 @@
 // orders. No clock, thread or window: the same events give the same states.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,6 +19,7 @@
 #include "session/input/input_event.hpp"
 #include "session/input/input_wand.hpp"
 #include "session/state/command_table.hpp"
+#include "session/state/held_tool.hpp"
 #include "session/state/session_head.hpp"
 #include "session/state/session_screens.hpp"
 #include "wall/output_settings.hpp"
@@ -31,7 +33,9 @@ struct SessionState {
     Similarity world_from_object, home_world_from_object;
     Similarity world_from_device;  // where the hand's workspace is in the world
     double interpupillary_m = 0.063;
-    sculpt::ToolSettings tool;  // a ball, since the hand feels with no other tool (tool_of)
+    sculpt::ToolSettings tool;
+    std::shared_ptr<const HeldTool> held;      // of tool.shape, after a step; null only where that cannot be made
+    std::shared_ptr<const ToolMeshes> meshes;  // that tools of files are taken from; null: there are none
     sculpt::FeelSettings feel;
     haptics::WorkspaceTechnique technique = haptics::WorkspaceTechnique::fixed;
     // Factors a of the exponentially weighted means of force (P11) and velocity; 0: off.
@@ -75,7 +79,10 @@ struct Room {
 };
 // Places the workpiece before the viewer and returns the first state.
 [[nodiscard]] SessionState begin_session(const Room& room, const sculpt::ToolSettings& tool,
-                                         const sculpt::FeelSettings& feel, const wall::OutputSettings& output);
+                                         const sculpt::FeelSettings& feel, const wall::OutputSettings& output,
+                                         std::shared_ptr<const ToolMeshes> meshes = nullptr);
+// Makes the tool of the settings ready to be held.
+[[nodiscard]] Result<void> take_up(SessionState& state);
 
 // What a step must know of the rest of the session: input that the panel captures, times, and the tool.
 struct Captured {
@@ -103,7 +110,7 @@ struct SessionStep {
 
 // Returns the parameters that the haptic thread is to use.
 [[nodiscard]] haptics::TickParameters parameters_of(const SessionState& state, const Room& room);
-// Returns the tool that the carving side is to use; the Error says what is wrong with it. Reads no file.
+// Returns the tool that the carving side is to use; the Error says what is wrong with it.
 [[nodiscard]] Result<sculpt::UseTool> tool_of(const SessionState& state);
 // Returns the scene that one screen shows; nothing where an eye is not in front of it.
 [[nodiscard]] std::optional<renderer::Scene> scene_of(const SessionState& state, const Room& room, std::size_t screen,

@@ -1,18 +1,29 @@
 // SPDX-License-Identifier: MIT
 #include "session/state/staging.hpp"
 
+#include <numbers>
+
 namespace burin::session {
 namespace {
 
+// The shaft of a tool leaves it along +Y (compute/tools/tool.hpp); a drawn stylus has it along +Z.
+const Quat kToolFromStylus = glm::angleAxis(-0.5 * std::numbers::pi, Vec3(1.0, 0.0, 0.0));
+
 void stage_tool(renderer::SceneTool& tool, const Staging& staging, const Similarity& world_from_object) {
     tool.visible = staging.tool_visible;
+    const Similarity world_from_tool =
+        world_from_object * Similarity{staging.tool_center_object, staging.tool_orientation_object, 1.0};
+    tool.center_world = world_from_tool.position_m;
     tool.radius_m = staging.tool_radius_object_m * world_from_object.scale;
-    tool.center_world = world_from_object * staging.tool_center_object;
-    tool.stylus_world.position_m = tool.center_world;
-    // Orients the stylus as a pen is held: from the right, above and in front.
-    tool.stylus_world.orientation = glm::quat_cast(glm::dmat3(
-        glm::normalize(Vec3(1.0, 0.0, -0.45)), glm::normalize(glm::cross(Vec3(0.45, 0.8, 1.0), Vec3(1.0, 0.0, -0.45))),
-        glm::normalize(Vec3(0.45, 0.8, 1.0))));
+    tool.stylus_world = {tool.center_world, world_from_tool.orientation * kToolFromStylus};
+    if (!staging.held || !staging.held->drawn) return;
+    const HeldTool& held = *staging.held;
+    tool.mesh = held.drawn;
+    tool.world_from_mesh = world_from_tool;
+    tool.center_world = world_from_tool * held.spine.from_m;
+    tool.spine_m = apply_to_vector(world_from_tool, held.spine.to_m - held.spine.from_m);
+    tool.radius_m = held.spine.radius_m * world_from_object.scale;
+    tool.stylus_world.position_m = world_from_tool * Vec3(0.0, held.shaft_height_m, 0.0);
 }
 
 // Draws ring and arrow. The arrow's length scales with the screen's height, so that a newton looks the same on a
@@ -49,6 +60,7 @@ Staging staging_of(const haptics::ToolState& tool, double tool_radius_object_m, 
     const haptics::WorkspacePicture& picture = tool.workspace;
     Staging staging;
     staging.tool_center_object = tool.proxy_object_m;
+    staging.tool_orientation_object = tool.tool_orientation_object;
     staging.tool_radius_object_m = tool_radius_object_m;
     staging.tool_visible = tool.tick > 0;
     staging.object_from_device = picture.object_from_device;
@@ -59,6 +71,8 @@ Staging staging_of(const haptics::ToolState& tool, double tool_radius_object_m, 
     staging.bubble_radius_object_m = tool.tick > 0 ? picture.bubble_radius_object_m : 0.0;
     staging.in_contact = tool.tick > 0 && (tool.flags & haptics::kTickInContact) != 0;
     staging.contact_object = tool.proxy_object_m - tool_radius_object_m * tool.contact_normal_object;
+    // A tool that is no ball says itself where it is borne.
+    if (tool.touched_object_m != Vec3(0.0)) staging.contact_object = tool.touched_object_m;
     staging.contact_normal_object = tool.contact_normal_object;
     staging.force_device_N = tool.given.force_device_N;
     return staging;

@@ -2,15 +2,20 @@
 // Overlays of a picture: the tool and the haptic workspace, converted from the tool's state to the renderer's scene.
 #pragma once
 
+#include <memory>
+
 #include "haptics/channels.hpp"
 #include "renderer/scene/scene.hpp"
+#include "session/state/held_tool.hpp"
 
 namespace burin::session {
 
 // Positions of the tool and of the haptic workspace in the object frame.
 struct Staging {
     Vec3 tool_center_object{0.0};
-    double tool_radius_object_m = 0.0;
+    Quat tool_orientation_object{1.0, 0.0, 0.0, 0.0};
+    double tool_radius_object_m = 0.0;     // of a ball, or of one about as wide as the tool
+    std::shared_ptr<const HeldTool> held;  // null: a ball
     bool tool_visible = false;
     Similarity object_from_device;
     Vec3 workspace_device_m{0.0};

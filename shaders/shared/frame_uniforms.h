@@ -16,7 +16,8 @@ struct FrameUniforms {
     vec4 light_colour;     // rgb
     vec4 sky_colour;       // rgb: ambient light from above
     vec4 ground_colour;    // rgb: ambient light from below
-    vec4 tool;             // xyz: centre, w: radius; radius 0: no tool
+    vec4 tool;             // xyz: first end of its spine (a ball's centre), w: radius around it; radius 0: no tool
+    vec4 tool_spine;       // xyz: from there to its other end; zero for a ball
     vec4 tool_colour;      // rgb
     vec4 stylus_tip;       // xyz, w: radius
     vec4 stylus_end;       // xyz
@@ -35,8 +36,8 @@ struct FrameUniforms {
 // vertices.
 const int kFadedPanelCells = 16;
 
-// Ranges of the tool's effects on its surroundings, in radii of its ball: beyond them nothing changes, so that a
-// picture in which only the tool has moved need be redrawn only within them.
+// Ranges of the tool's effects on its surroundings, from its spine and in the radius around that: beyond them nothing
+// changes, so that a picture in which only the tool has moved need be redrawn only within them.
 const float kToolNears = 1.8f;    // ring of colour
 const float kToolDarkens = 3.5f;  // ambient occlusion
 const float kToolShades = 20.0f;  // shadow, along the light
@@ -55,7 +56,7 @@ struct DrawConstants {
 BURIN_SHARED_END
 
 #ifdef __cplusplus
-static_assert(sizeof(burin::shared::FrameUniforms) == 3 * 64 + 15 * 16);
+static_assert(sizeof(burin::shared::FrameUniforms) == 3 * 64 + 16 * 16);
 static_assert(sizeof(burin::shared::DrawConstants) == 96,
               "must fit the 128 bytes of push constants that every device has");
 #endif

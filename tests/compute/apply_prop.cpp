@@ -242,7 +242,7 @@ TEST(Apply, RefusesTheWholeRunWhenOneSweepCannotBe) {
     bad[1].shape = CylinderTool{0.1, 0};
     bad[2].start.position_m.x = NAN;
     bad[3].operation = Operation::smooth;
-    bad[3].shape = BoxTool{Vec3(0.1)};
+    bad[3].shape = BoxTool{Vec3(1e3)};  // farther across than smoothing goes
     bad[4].operation = Operation::smooth;
     bad[4].shape = BallTool{0.1};
     bad[4].smooth_strength = 1.5;

@@ -114,6 +114,35 @@ TEST(Smooth, SlantingFacesDoNotDrift) {
     }
 }
 
+// A plate that lies on a rough face flattens all of it that is under the plate, and leaves what is beside it.
+TEST(Smooth, APlateSmoothsWhatIsUnderIt) {
+    Random random(11);
+    const Solid rough = rough_block(64, random);
+    const auto engine = make_cpu_engine(rough, smoothing_pool());
+    ToolSweep sweep{BoxTool{{0.2, 0.1, 0.05}}, Pose{Vec3(0.5, 0.5, 1.0)}, Pose{Vec3(0.5, 0.5, 1.0)}, Operation::smooth};
+    sweep.smooth_strength = 1.0;
+    const double before = height_rms_cells(rough, 0.1);
+    apply_to(*engine, sweep, 3);
+    EXPECT_LT(height_rms_cells(engine->solid(), 0.1), 0.5 * before);
+    const Lattice& lattice = rough.lattice;
+    int beside = 0, under = 0;
+    for (int v = 0; v < lattice.rays_v(2); ++v)
+        for (int u = 0; u < lattice.rays_u(2); ++u) {
+            const auto was = rough.sets[2].ends(u, v), is = engine->solid().sets[2].ends(u, v);
+            if (was.empty()) continue;
+            const Vec3 p = lattice.object_from_units(Vec3(u * 4096.0, v * 4096.0, depth_of(was.back())));
+            const bool changed = is.empty() || depth_of(was.back()) != depth_of(is.back());
+            if (std::abs(p.x - 0.5) > 0.27 || std::abs(p.y - 0.5) > 0.17) {
+                ASSERT_FALSE(changed) << p.x << " " << p.y;
+                ++beside;
+            } else if (std::abs(p.x - 0.5) < 0.17 && std::abs(p.y - 0.5) < 0.07) {
+                under += changed ? 1 : 0;
+            }
+        }
+    EXPECT_GT(beside, 1000);
+    EXPECT_GT(under, 150);
+}
+
 TEST(Smooth, ALargeBallDoesNotDrift) {
     const auto engine = make_cpu_engine(*make_ball(0.5, 80, {"ball", {}}), smoothing_pool());
     const Lattice lattice = engine->solid().lattice;

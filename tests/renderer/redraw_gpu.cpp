@@ -96,6 +96,14 @@ private:
         scene_.tool.center_world = somewhere();
         scene_.tool.stylus_world = {scene_.tool.center_world, turn()};
         scene_.tool.colour = {between(0, 1), between(0, 1), between(0, 1)};
+        scene_.tool.mesh = nullptr;
+        scene_.tool.spine_m = Vec3(0.0);
+        if (number(2) == 0) return;
+        // A long box along its spine, no wider than the round about it.
+        scene_.tool.mesh = mesh_;
+        const Quat turned = turn();
+        scene_.tool.world_from_mesh = {scene_.tool.center_world, turned, scene_.tool.radius_m};
+        scene_.tool.spine_m = scene_.tool.radius_m * (turned * Vec3(0.0, 4.0, 0.0));
     }
     // At the tool's ball or away from it, with any force from none to too much.
     void touch() {
@@ -131,8 +139,19 @@ private:
         for (Renderer* r : renderers_) r->surface().set_patch_light(id, lights);
     }
 
+    static std::shared_ptr<const DrawnMesh> long_box() {
+        geometry::TriangleMesh box;
+        for (int i = 0; i < 8; ++i)
+            box.positions_m.emplace_back((i & 1) != 0 ? 0.7 : -0.7, (i & 2) != 0 ? 4.7 : -0.7,
+                                         (i & 4) != 0 ? 0.7 : -0.7);
+        box.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                         {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+        return drawn_mesh(box);
+    }
+
     gpu::Device& device_;
     PanelPainter& painter_;
+    std::shared_ptr<const DrawnMesh> mesh_ = long_box();
     Scene& scene_;
     std::array<Renderer*, 2> renderers_;
     std::mt19937 random_{7};

@@ -131,10 +131,10 @@ TEST(ToolOptions, AreParsedOnceIntoNumbers) {
 }
 
 TEST(ToolOptions, ThatMakeNoToolAreRefusedWithTheRemedy) {
-    const auto smooth = parse_tool_settings({.shape = "box:1,1,1", .operation = compute::Operation::smooth});
-    ASSERT_FALSE(smooth);
-    EXPECT_EQ(smooth.error().line(), "--tool box:1,1,1: cannot smooth; use --tool ball:R with --operation smooth");
-    EXPECT_TRUE(parse_tool_settings({.shape = "ball:1", .operation = compute::Operation::smooth}));
+    const auto flat = parse_tool_settings({.shape = "box:1,0,1"});
+    ASSERT_FALSE(flat);
+    EXPECT_EQ(flat.error().line(), "--tool box:1,0,1: has no size; give sizes above zero, in metres");
+    EXPECT_TRUE(parse_tool_settings({.shape = "box:1,1,1", .operation = compute::Operation::smooth}));
     for (const char* colour : {"red", "1,2", "1,2,256", "-1,2,3", "1.5,2,3"}) {
         const auto refused = parse_tool_settings({.material = colour});
         ASSERT_FALSE(refused) << colour;

@@ -54,7 +54,8 @@ TEST(LogCommands, AreCheckedWithFileLineAndRemedyBeforeTheSession) {
         Wrong{"export authorized_keys", "extension", ".stl"},
         Wrong{"export a.png", "extension", ".stl"},
         Wrong{"export a.off", "extension", ".stl"},
-        Wrong{"tool box:0.01,0.01,0.01", "draws balls only", "ball:R"},
+        Wrong{"tool box:0.01,0,0.01", "has no size", "above zero"},
+        Wrong{"tool mesh:no/such/file.stl", "no/such/file.stl", "check the path"},
         Wrong{"save-session", "cannot be saved", "export"},
     };
     for (const Wrong& wrong : wrongs) {

@@ -271,6 +271,31 @@ TEST(DeskInput, TheMiddleButtonTurnsTheSceneAboutItsPivotAndPansWithShift) {
     EXPECT_EQ(panned.scene_change.scale, 1.0);
 }
 
+TEST(DeskInput, TheMiddleButtonAndCtrlTurnTheStylusAboutItsTipAndWithShiftAboutItsShaft) {
+    Desk desk;
+    const Vec3 shaft = desk.settings.rest_device * Vec3(0.0, 1.0, 0.0);
+    EXPECT_EQ(desk.step({}).target.orientation_device, desk.settings.rest_device);
+    desk.step({MouseMove{{0.0, 0.0}}, MouseClick{MouseButton::middle, true, {.ctrl = true}}});
+    const DeskStep turned = desk.step({MouseMove{{60.0, 0.0}}});
+    EXPECT_EQ(turned.target.position_device_m, Vec3(0.0)) << "the tip rests";
+    EXPECT_EQ(turned.scene_change, Similarity{});
+    ASSERT_EQ(turned.way.size(), 1u) << "the hand is told of it";
+    EXPECT_EQ(turned.way[0].orientation_device, turned.target.orientation_device);
+    const Vec3 now = turned.target.orientation_device * Vec3(0.0, 1.0, 0.0);
+    EXPECT_NEAR(now.y, shaft.y, 1e-12) << "to the right turns about the screen's upright";
+    EXPECT_GT(now.x, shaft.x) << "the near end goes to the right";
+    desk.step({MouseClick{MouseButton::middle, false, {}}});
+    desk.step({MouseClick{MouseButton::middle, true, {.shift = true, .ctrl = true}}});
+    const DeskStep rolled = desk.step({MouseMove{{120.0, 0.0}}});
+    EXPECT_LT(apart(rolled.target.orientation_device * Vec3(0.0, 1.0, 0.0), now), 1e-12);
+    EXPECT_GT(apart(rolled.target.orientation_device * Vec3(1.0, 0.0, 0.0),
+                    turned.target.orientation_device * Vec3(1.0, 0.0, 0.0)),
+              0.1);
+    desk.step({MouseClick{MouseButton::middle, false, {}}});
+    const DeskStep home = desk.step({KeyInput{Key::home, KeyMotion::press, {}}});
+    EXPECT_EQ(home.target.orientation_device, desk.settings.rest_device);
+}
+
 TEST(DeskInput, ADragThereAndBackChangesNothing) {
     Desk desk;
     desk.view.pivot_world = {0.2, 1.0, -0.5};

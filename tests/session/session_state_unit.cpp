@@ -2,6 +2,8 @@
 // The session's state, without any picture.
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include <cmath>
 
 #include "haptics/tick.hpp"
@@ -54,7 +56,7 @@ TEST(SessionState, AToolThatIsWrongLeavesTheOldOne) {
     for (const auto& [name, argument] : std::vector<std::pair<std::string, std::string>>{{"radius", "0"},
                                                                                          {"radius", "x"},
                                                                                          {"tool", "ball:"},
-                                                                                         {"tool", "box:0.1,0.1,0.1"},
+                                                                                         {"tool", "box:0.1,0,0.1"},
                                                                                          {"stiffness", "200000"},
                                                                                          {"colour", "red"},
                                                                                          {"hardness", "-3"},
@@ -108,18 +110,73 @@ TEST(SessionState, OnlyTouchingEndsWithTheNextTool) {
 }
 
 // A step reads no file: the same events would give another state when it has changed.
-TEST(SessionState, AMeshToolIsRefusedWithoutALookAtItsFile) {
+TEST(SessionState, AMeshToolIsTakenUpIfItWasReadBeforeAndElseRefused) {
     const Room room = test_room();
-    for (const char* file : {"assets/workpieces/soccer_ball.obj", "no/such/file.stl"}) {
+    const std::string known = testing::TempDir() + "held-tetrahedron.obj";
+    std::ofstream(known) << "v 0 0 0\nv 0.02 0 0\nv 0 0.02 0\nv 0 0 0.02\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    auto meshes = std::make_shared<ToolMeshes>();
+    ASSERT_TRUE(meshes->read({sculpt::ToolKind::mesh, {}, known}));
+    for (const std::string& file : {known, std::string("no/such/file.stl")}) {
         SessionState state = test_state(room);
-        SessionOrders orders;
-        const auto refused = run(state, orders, "tool", {"mesh:" + std::string(file)});
-        ASSERT_FALSE(refused);
-        EXPECT_EQ(refused.error().line(),
-                  "tool mesh:" + std::string(file) +
-                      ": cannot be held in a live session, which draws balls only; use ball:R, or carve along a stroke "
-                      "file with --stroke and --hand simulated");
+        state.meshes = meshes;
+        const std::vector<InputEvent> events{{0, CommandInput{"tool", {"mesh:" + file}}}};
+        const SessionStep step = step_session(state, room, events, {});
+        if (file == known) {
+            EXPECT_TRUE(step.orders.messages.empty());
+            EXPECT_EQ(step.state.held->spec.file, known);
+            EXPECT_FALSE(step.state.held->drawn->indices.empty());
+            EXPECT_TRUE(haptics::parameters_are_sensible(parameters_of(step.state, room)));
+            SessionOrders orders;
+            SessionState held = step.state;
+            EXPECT_FALSE(run(held, orders, "radius", {"0.01"})) << "its file gives its size";
+        } else {
+            ASSERT_EQ(step.orders.messages.size(), 1u);
+            EXPECT_EQ(step.orders.messages[0].text,
+                      "tool mesh:" + file +
+                          ": has not been read, and a running session reads no files; start the session with it "
+                          "(--tool), or take it up in its --input");
+            EXPECT_EQ(step.state.tool, state.tool);
+        }
     }
+}
+
+TEST(SessionState, EveryToolIsFeltAndDrawnAsItsShape) {
+    const Room room = test_room();
+    haptics::ToolState tool;
+    tool.tick = 1;
+    tool.proxy_object_m = {0.01, 0.02, 0.1};
+    tool.tool_orientation_object = glm::angleAxis(0.4, glm::normalize(Vec3(1, -2, 1)));
+    for (const char* spec :
+         {"cylinder:0.008,0.03", "cone:0.002,0.01,0.03", "bullnose:0.008,0.003,0.03", "box:0.016,0.02,0.03"}) {
+        const std::vector<InputEvent> events{{0, CommandInput{"tool", {spec}}}};
+        const SessionStep step = step_session(test_state(room), room, events, {});
+        ASSERT_TRUE(step.orders.messages.empty()) << spec;
+        ASSERT_EQ(step.orders.carving.size(), 1u);
+        const haptics::TickParameters p = parameters_of(step.state, room);
+        EXPECT_TRUE(haptics::parameters_are_sensible(p)) << spec;
+        EXPECT_TRUE(p.shape.touches()) << spec;
+        const renderer::SceneTool drawn = scene_of(step.state, room, 0, Vec3(-0.1), tool)->tool;
+        ASSERT_NE(drawn.mesh, nullptr) << spec;
+        // The drawn tool stands where and as the hand holds it, as large as the scene is.
+        const Similarity expected =
+            step.state.world_from_object * Similarity{tool.proxy_object_m, tool.tool_orientation_object, 1.0};
+        EXPECT_EQ(drawn.world_from_mesh, expected) << spec;
+        const Vec3 up = expected.orientation * Vec3(0.0, 1.0, 0.0);
+        EXPECT_LT(glm::length(drawn.stylus_world.orientation * Vec3(0.0, 0.0, 1.0) - up), 1e-12) << spec;
+        // The hand's shaft begins at the top of the tool.
+        const double top_m = glm::dot(drawn.stylus_world.position_m - expected.position_m, up) / expected.scale;
+        EXPECT_NEAR(top_m, drawn.mesh->bounds.hi.y, 1e-6) << spec;
+    }
+}
+
+TEST(SessionState, TheRadiusScalesAllSizesOfAToolThatIsNoBall) {
+    const Room room = test_room();
+    SessionState state = test_state(room);
+    SessionOrders orders;
+    ASSERT_TRUE(run(state, orders, "tool", {"bullnose:0.008,0.004,0.032"}));
+    ASSERT_TRUE(run(state, orders, "radius", {"0.004"}));
+    EXPECT_EQ(sculpt::text_of(state.tool.shape), "bullnose:0.004,0.002,0.016");
+    EXPECT_EQ(descriptor_of(Quantity::radius).value(state), 0.004);
 }
 
 // Recordings hold commands and are replayed to the bit, so what these make of a state must not change.

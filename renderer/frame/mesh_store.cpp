@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/frame/mesh_store.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "geometry/contact/surface_tile.hpp"
+
+namespace burin::renderer {
+namespace {
+
+constexpr std::uint64_t kLeastVertices = 4096;  // of a buffer
+constexpr std::uint64_t kVertexBytes = sizeof(shared::SurfaceVertex), kLightBytes = sizeof(geometry::VertexLight),
+                        kIndexBytes = sizeof(std::uint32_t);
+
+}  // namespace
+
+bool MeshStore::fits(const DrawnMesh& mesh) const {
+    return (used_vertices_ + mesh.vertices.size()) * kVertexBytes <= vertices_.size_bytes() &&
+           (used_indices_ + mesh.indices.size()) * kIndexBytes <= indices_.size_bytes();
+}
+
+Result<void> MeshStore::put(gpu::Device& device, gpu::Commands& commands,
+                            std::span<const std::shared_ptr<const DrawnMesh>> meshes) {
+    const auto is_there = [&](const auto& mesh) { return stored_.contains(mesh.get()); };
+    if (std::ranges::all_of(meshes, is_there)) return {};
+    for (const auto& mesh : meshes) {
+        if (is_there(mesh)) continue;
+        if (!fits(*mesh)) {
+            // The scene's own meshes alone are put into larger buffers; others come back when a scene shows them.
+            if (const auto done = begin_anew(device, meshes); !done) return done;
+            for (const auto& each : meshes)
+                if (!is_there(each)) append(commands, each);
+            return {};
+        }
+        append(commands, mesh);
+    }
+    return {};
+}
+
+Result<void> MeshStore::begin_anew(gpu::Device& device, std::span<const std::shared_ptr<const DrawnMesh>> meshes) {
+    std::uint64_t vertices = 0, indices = 0;
+    for (const auto& mesh : meshes) {
+        vertices += mesh->vertices.size();
+        indices += mesh->indices.size();
+    }
+    // Twice what is needed, so that a scene that gains one mesh after another is seldom put anew.
+    vertices = std::max(2 * vertices, kLeastVertices);
+    indices = std::max(2 * indices, 3 * kLeastVertices);
+    auto made_vertices = gpu::Buffer::create(device, gpu::BufferUse::vertex, vertices * kVertexBytes, "meshes");
+    if (!made_vertices) return std::unexpected(made_vertices.error());
+    auto made_lights = gpu::Buffer::create(device, gpu::BufferUse::vertex, vertices * kLightBytes, "meshes' light");
+    if (!made_lights) return std::unexpected(made_lights.error());
+    auto made_indices = gpu::Buffer::create(device, gpu::BufferUse::index, indices * kIndexBytes, "meshes' indices");
+    if (!made_indices) return std::unexpected(made_indices.error());
+    vertices_ = std::move(*made_vertices);
+    lights_ = std::move(*made_lights);
+    indices_ = std::move(*made_indices);
+    used_vertices_ = used_indices_ = 0;
+    stored_.clear();
+    return {};
+}
+
+void MeshStore::append(gpu::Commands& commands, const std::shared_ptr<const DrawnMesh>& mesh) {
+    const std::vector<geometry::VertexLight> lights(mesh->vertices.size());
+    if (!mesh->indices.empty()) {
+        commands.upload(vertices_, used_vertices_ * kVertexBytes, std::as_bytes(std::span(mesh->vertices)));
+        commands.upload(lights_, used_vertices_ * kLightBytes, std::as_bytes(std::span(lights)));
+        commands.upload(indices_, used_indices_ * kIndexBytes, std::as_bytes(std::span(mesh->indices)));
+    }
+    const StoredMesh place{static_cast<std::uint32_t>(used_indices_), static_cast<std::uint32_t>(mesh->indices.size()),
+                           static_cast<std::int32_t>(used_vertices_)};
+    stored_.emplace(mesh.get(), Kept{mesh, place});
+    used_vertices_ += mesh->vertices.size();
+    used_indices_ += mesh->indices.size();
+}
+
+}  // namespace burin::renderer

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// The meshes of the scenes that a renderer has drawn, on the device: all in one vertex and one index buffer, each put
+// there when a scene first shows it. Room for a mesh that no scene shows any more is given back when the buffers have
+// to grow. Thread: that of the renderer's Device.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "base/error.hpp"
+#include "gpu/commands.hpp"
+#include "gpu/device.hpp"
+#include "renderer/scene/drawn_mesh.hpp"
+
+namespace burin::renderer {
+
+// A mesh's place in the buffers; its indices count from its own first vertex.
+struct StoredMesh {
+    std::uint32_t first_index = 0, index_count = 0;
+    std::int32_t first_vertex = 0;
+};
+
+class MeshStore {
+public:
+    // Puts the meshes that are not there yet, by commands that come before those that draw. Fails without memory; then
+    // what was there is still there.
+    [[nodiscard]] Result<void> put(gpu::Device& device, gpu::Commands& commands,
+                                   std::span<const std::shared_ptr<const DrawnMesh>> meshes);
+    // Returns where a mesh lies that was put.
+    [[nodiscard]] const StoredMesh& at(const DrawnMesh& mesh) const { return stored_.at(&mesh).place; }
+    [[nodiscard]] std::size_t meshes() const { return stored_.size(); }
+
+    [[nodiscard]] const gpu::Buffer& vertices() const { return vertices_; }
+    [[nodiscard]] const gpu::Buffer& lights() const { return lights_; }  // full light for every vertex
+    [[nodiscard]] const gpu::Buffer& indices() const { return indices_; }
+
+private:
+    struct Kept {
+        std::shared_ptr<const DrawnMesh> mesh;  // so that no other mesh can have its address
+        StoredMesh place;
+    };
+    [[nodiscard]] bool fits(const DrawnMesh& mesh) const;
+    void append(gpu::Commands& commands, const std::shared_ptr<const DrawnMesh>& mesh);
+    [[nodiscard]] Result<void> begin_anew(gpu::Device& device,
+                                          std::span<const std::shared_ptr<const DrawnMesh>> meshes);
+
+    gpu::Buffer vertices_, lights_, indices_;
+    std::uint64_t used_vertices_ = 0, used_indices_ = 0;
+    std::unordered_map<const DrawnMesh*, Kept> stored_;
+};
+
+}  // namespace burin::renderer

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/scene/drawn_mesh.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <span>
+#include <tuple>
+
+#include "geometry/mesh/vertex_weld.hpp"
+#include "shaders/shared/octahedral.h"
+
+namespace burin::renderer {
+namespace {
+
+struct Face {
+    std::array<std::uint32_t, 3> corners{};  // welded
+    Vec3 area{0.0};                          // along the normal, as long as twice the area
+    Vec3 normal{0.0};
+    std::uint32_t colour = 0xffffffffu;
+};
+
+std::uint32_t normal_code(const Vec3& normal) {
+    constexpr double kLength = 1 << 20;
+    const Vec3 n = glm::normalize(normal) * kLength;
+    return shared::encode_normal({std::llround(n.x), std::llround(n.y), std::llround(n.z)});
+}
+
+std::uint32_t colour_code(const geometry::TriangleMesh& mesh, std::size_t triangle) {
+    if (mesh.materials.empty()) return 0xffffffffu;
+    const std::size_t index = mesh.triangle_materials.empty() ? 0 : mesh.triangle_materials[triangle];
+    const auto& c = mesh.materials.at(index).colour;
+    return 0xff000000u | std::uint32_t{c[2]} << 16 | std::uint32_t{c[1]} << 8 | c[0];
+}
+
+std::vector<Face> faces_of(const geometry::TriangleMesh& mesh, std::vector<Vec3>& places) {
+    geometry::VertexWeld weld(places);
+    std::vector<Face> faces;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const auto& [a, b, c] = mesh.triangles[i];
+        const Vec3 &p = mesh.positions_m[a], &q = mesh.positions_m[b], &r = mesh.positions_m[c];
+        Face face;
+        face.area = glm::cross(q - p, r - p);
+        const double twice_area = glm::length(face.area);
+        if (!(twice_area > 0.0)) continue;
+        face.normal = face.area / twice_area;
+        face.corners = {weld.index_of(p), weld.index_of(q), weld.index_of(r)};
+        face.colour = colour_code(mesh, i);
+        faces.push_back(face);
+    }
+    return faces;
+}
+
+// Lists the faces at each place.
+class FacesAt {
+public:
+    FacesAt(const std::vector<Face>& faces, std::size_t places) : first_(places + 1, 0), faces_(3 * faces.size()) {
+        for (const Face& face : faces)
+            for (const std::uint32_t corner : face.corners) ++first_[corner + 1];
+        for (std::size_t i = 0; i < places; ++i) first_[i + 1] += first_[i];
+        std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+        for (std::uint32_t f = 0; f < faces.size(); ++f)
+            for (const std::uint32_t corner : faces[f].corners) faces_[next[corner]++] = f;
+    }
+    [[nodiscard]] std::span<const std::uint32_t> operator[](std::uint32_t place) const {
+        return std::span(faces_).subspan(first_[place], first_[place + 1] - first_[place]);
+    }
+
+private:
+    std::vector<std::uint32_t> first_, faces_;
+};
+
+}  // namespace
+
+std::shared_ptr<const DrawnMesh> drawn_mesh(const geometry::TriangleMesh& mesh) {
+    std::vector<Vec3> places;
+    const std::vector<Face> faces = faces_of(mesh, places);
+    const FacesAt faces_at(faces, places.size());
+    auto drawn = std::make_shared<DrawnMesh>();
+    std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> known;  // place, normal, colour
+    for (const Face& face : faces) {
+        for (const std::uint32_t place : face.corners) {
+            Vec3 sum(0.0);
+            for (const std::uint32_t other : faces_at[place])
+                if (glm::dot(faces[other].normal, face.normal) >= kCreaseCosine) sum += faces[other].area;
+            const std::uint32_t code = normal_code(sum);
+            const auto [at, is_new] =
+                known.try_emplace({place, code, face.colour}, static_cast<std::uint32_t>(drawn->vertices.size()));
+            if (is_new) {
+                const Vec3& p = places[place];
+                drawn->vertices.push_back(
+                    {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z), code, face.colour});
+                drawn->bounds.include(p);
+            }
+            drawn->indices.push_back(at->second);
+        }
+    }
+    return drawn;
+}
+
+}  // namespace burin::renderer
