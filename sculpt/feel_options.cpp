@@ -26,25 +26,33 @@ constexpr double yield_of(double F_e_N_per_mm) { return kThrustRatio * F_e_N_per
 // renders stably (haptics/stability/rendered_wall.hpp).
 // Lime, maple and oak: along the grain, straight edges, computed from the law of Curti et al. 2021, European Journal of
 // Wood and Wood Products 79:667-678; MDF, beech LVL along the grain, PTFE: Goli et al. 2018, Materials 11:2575.
-struct PresetDescriptor {
+struct PresetNumbers {
     FeelPreset preset;
-    const char* name;
+    const char *name, *title;
     double hardness_kPa_per_mm_s, yield_kPa, stiffness_N_per_m, damping_Ns_per_m, friction, drag_Ns_per_m3;
 };
 constexpr std::array kPresets{
-    PresetDescriptor{FeelPreset::soft, "soft", 1.5, 9.0, 400.0, 0.6, 0.10, 3e4},       // as clay
-    PresetDescriptor{FeelPreset::medium, "medium", 4.0, 24.0, 600.0, 0.5, 0.20, 1e4},  // as wax
-    PresetDescriptor{FeelPreset::hard, "hard", 12.0, 72.0, 650.0, 0.3, 0.30, 0.0},
-    PresetDescriptor{FeelPreset::lime, "lime", hardness_of(15.2), yield_of(3.22), 650.0, 0.3, 0.30, 0.0},
-    PresetDescriptor{FeelPreset::maple, "maple", hardness_of(16.2), yield_of(3.43), 650.0, 0.3, 0.30, 0.0},
-    PresetDescriptor{FeelPreset::oak, "oak", hardness_of(19.2), yield_of(4.06), 650.0, 0.3, 0.30, 0.0},
-    PresetDescriptor{FeelPreset::mdf, "mdf", hardness_of(31.44), yield_of(3.36), 650.0, 0.3, 0.30, 0.0},
-    PresetDescriptor{FeelPreset::beech_lvl, "beech-lvl", hardness_of(11.73), yield_of(3.70), 650.0, 0.3, 0.30, 0.0},
-    PresetDescriptor{FeelPreset::ptfe, "ptfe", hardness_of(20.33), yield_of(2.71), 600.0, 0.5, 0.10, 0.0}};
+    PresetNumbers{FeelPreset::soft, "soft", "Soft, as clay", 1.5, 9.0, 400.0, 0.6, 0.10, 3e4},        // as clay
+    PresetNumbers{FeelPreset::medium, "medium", "Medium, as wax", 4.0, 24.0, 600.0, 0.5, 0.20, 1e4},  // as wax
+    PresetNumbers{FeelPreset::hard, "hard", "Hard", 12.0, 72.0, 650.0, 0.3, 0.30, 0.0},
+    PresetNumbers{FeelPreset::lime, "lime", "Lime", hardness_of(15.2), yield_of(3.22), 650.0, 0.3, 0.30, 0.0},
+    PresetNumbers{FeelPreset::maple, "maple", "Maple", hardness_of(16.2), yield_of(3.43), 650.0, 0.3, 0.30, 0.0},
+    PresetNumbers{FeelPreset::oak, "oak", "Oak", hardness_of(19.2), yield_of(4.06), 650.0, 0.3, 0.30, 0.0},
+    PresetNumbers{FeelPreset::mdf, "mdf", "MDF", hardness_of(31.44), yield_of(3.36), 650.0, 0.3, 0.30, 0.0},
+    PresetNumbers{FeelPreset::beech_lvl, "beech-lvl", "Beech LVL", hardness_of(11.73), yield_of(3.70), 650.0, 0.3, 0.30,
+                  0.0},
+    PresetNumbers{FeelPreset::ptfe, "ptfe", "PTFE", hardness_of(20.33), yield_of(2.71), 600.0, 0.5, 0.10, 0.0}};
 // Of hardness and yield, around their means.
 constexpr double kGrainShare = 0.3;
 
-const PresetDescriptor& descriptor_of(FeelPreset preset) { return kPresets.at(static_cast<std::size_t>(preset)); }
+constexpr std::array<FeelPresetDescriptor, kPresets.size()> described_presets() {
+    std::array<FeelPresetDescriptor, kPresets.size()> all;
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = {kPresets[i].preset, kPresets[i].name, kPresets[i].title};
+    return all;
+}
+constexpr std::array kFeelPresets = described_presets();
+
+const PresetNumbers& numbers_of(FeelPreset preset) { return kPresets.at(static_cast<std::size_t>(preset)); }
 
 // Parses a number from 0 on, or "inf".
 std::optional<double> parse_hardness(const std::string& text) {
@@ -63,7 +71,7 @@ Result<void> check(const char* option, double value, double most) {
 }
 
 Result<FeelSettings> parse_preset_or_hardness(const std::string& text) {
-    for (const PresetDescriptor& known : kPresets) {
+    for (const PresetNumbers& known : kPresets) {
         if (text == known.name) return FeelSettings{.preset = known.preset};
     }
     if (const auto hardness = parse_hardness(text)) return with_hardness({}, *hardness);
@@ -73,6 +81,8 @@ Result<FeelSettings> parse_preset_or_hardness(const std::string& text) {
 }
 
 }  // namespace
+
+std::span<const FeelPresetDescriptor> feel_presets() { return kFeelPresets; }
 
 Result<FeelSettings> parse_feel_settings(const FeelOptions& options) {
     Result<FeelSettings> settings = parse_preset_or_hardness(options.hardness);
@@ -93,6 +103,10 @@ Result<void> check_feel(const FeelSettings& settings) {
     return check("--friction", material.dynamic_friction, 2.0);
 }
 
+FeelSettings with_preset(const FeelSettings& settings, FeelPreset preset) {
+    return {.preset = preset, .grain_mm = settings.grain_mm};
+}
+
 FeelSettings with_hardness(FeelSettings settings, double hardness_kPa_per_mm_s) {
     settings.preset = FeelPreset::medium;
     settings.hardness_kPa_per_mm_s = hardness_kPa_per_mm_s;
@@ -100,7 +114,7 @@ FeelSettings with_hardness(FeelSettings settings, double hardness_kPa_per_mm_s) 
 }
 
 haptics::TouchMaterial touch_material(const FeelSettings& settings) {
-    const PresetDescriptor& preset = descriptor_of(settings.preset);
+    const PresetNumbers& preset = numbers_of(settings.preset);
     haptics::TouchMaterial material;
     material.hardness_Ns_per_m3 =
         settings.hardness_kPa_per_mm_s.value_or(preset.hardness_kPa_per_mm_s) * kHardnessUnit_Ns_per_m3;
@@ -125,7 +139,7 @@ Result<Feel> parse_feel(const FeelOptions& options) {
     if (!settings) return std::unexpected(settings.error());
     Feel feel;
     feel.material = touch_material(*settings);
-    feel.name = settings->hardness_kPa_per_mm_s ? "given" : descriptor_of(settings->preset).name;
+    feel.name = settings->hardness_kPa_per_mm_s ? "given" : numbers_of(settings->preset).name;
     feel.press_N = options.press_N;
     feel.grip.stiffness_N_per_m = options.grip_N_per_m;
     // Keeps the damping ratio of the default grip: damping goes with the root of the stiffness.

@@ -6,7 +6,9 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "base/error.hpp"
 #include "base/json.hpp"
@@ -29,6 +31,14 @@ struct FeelOptions {
 };
 
 enum class FeelPreset : std::uint8_t { soft, medium, hard, lime, maple, oak, mdf, beech_lvl, ptfe };
+
+struct FeelPresetDescriptor {
+    FeelPreset preset = FeelPreset::medium;
+    std::string_view name;   // as --hardness and the command `material` have it: "beech-lvl"
+    std::string_view title;  // as the panel shows it: "Beech LVL"
+};
+// Lists all presets in the order of FeelPreset.
+[[nodiscard]] std::span<const FeelPresetDescriptor> feel_presets();
 
 struct FeelSettings {
     FeelPreset preset = FeelPreset::medium;  // gives whatever is none below, and damping and drag
@@ -54,6 +64,8 @@ inline constexpr double kHardnessUnit_Ns_per_m3 = 1e6;  // 1 kPa per mm/s
 [[nodiscard]] Result<FeelSettings> parse_feel_settings(const FeelOptions& options);
 // Fails when a number is out of range.
 [[nodiscard]] Result<void> check_feel(const FeelSettings& settings);
+// Returns the settings of a material by itself: all numbers are the preset's, but for the spacing of the grain.
+[[nodiscard]] FeelSettings with_preset(const FeelSettings& settings, FeelPreset preset);
 // Returns the settings with another hardness. The medium preset then gives what no number gives.
 [[nodiscard]] FeelSettings with_hardness(FeelSettings settings, double hardness_kPa_per_mm_s);
 [[nodiscard]] haptics::TouchMaterial touch_material(const FeelSettings& settings);

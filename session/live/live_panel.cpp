@@ -55,6 +55,7 @@ PanelModel LivePanel::model_of(const PanelContext& context, const std::string& m
     m.operation = state.tool.operation;
     const geometry::Material material = sculpt::material_of(state.tool);
     for (std::size_t i = 0; i < 3; ++i) m.colour_srgb[i] = material.colour[i] / 255.0;
+    if (!state.feel.hardness_kPa_per_mm_s) m.material = state.feel.preset;
     m.hardness_Ns_per_m3 = value(Quantity::hardness);
     m.friction = value(Quantity::friction);
     m.stiffness_N_per_m = value(Quantity::stiffness);

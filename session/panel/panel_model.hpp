@@ -89,6 +89,7 @@ struct PanelModel {
     ToolSizeRange tool_sizes;
     compute::Operation operation = compute::Operation::cut;
     std::array<double, 3> colour_srgb{0.88, 0.56, 0.21};
+    std::optional<sculpt::FeelPreset> material;  // none: its hardness was given as a number
     double hardness_Ns_per_m3 = 1e6;
     double friction = 0.3;
     double stiffness_N_per_m = 600.0;

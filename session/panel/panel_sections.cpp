@@ -208,6 +208,12 @@ void show_tool(Kit& kit, const PanelModel& model) {
 void show_material(Kit& kit, const PanelModel& model) {
     if (kit.begin_card("Material")) {
         show_swatches(kit, model);
+        std::vector<Item> items;
+        for (const sculpt::FeelPresetDescriptor& preset : sculpt::feel_presets())
+            items.push_back(item_of("material", preset.name, std::string(preset.title)));
+        const std::size_t now = model.material ? static_cast<std::size_t>(*model.material) : items.size();
+        const auto chosen = kit.list("material", "Feels like", items, now);
+        if (chosen) kit.give(SetMaterial{sculpt::feel_presets()[*chosen].preset});
         kit.quantity(Quantity::hardness, "Hardness", model.hardness_Ns_per_m3, hardness_text(model.hardness_Ns_per_m3));
     }
     kit.end_card();

@@ -97,6 +97,12 @@ Parsed parse_colour(Arguments words) {
     return SetColour{{(*numbers)[0], (*numbers)[1], (*numbers)[2]}};
 }
 
+Parsed parse_material(Arguments words) {
+    const auto preset = choice_of("material", words[0], sculpt::feel_presets());
+    if (!preset) return std::unexpected(preset.error());
+    return SetMaterial{preset->preset};
+}
+
 Parsed parse_technique(Arguments words) {
     const auto technique = choice_of("technique", words[0], techniques());
     if (!technique) return std::unexpected(technique.error());
@@ -190,6 +196,8 @@ const std::vector<Entry>& entries() {
         entry_of<Quantity::radius>(),
         {{"operation", "WHAT", "What the tool does: " + alternatives(names_in(sculpt::operations()))}, parse_operation},
         {{"colour", "R,G,B", "Colour of what the tool leaves, each part from 0 to 1"}, parse_colour},
+        {{"material", "NAME", "What the workpiece feels like: " + alternatives(names_in(sculpt::feel_presets()))},
+         parse_material},
         entry_of<Quantity::hardness>(),
         entry_of<Quantity::friction>(),
         entry_of<Quantity::stiffness>(),

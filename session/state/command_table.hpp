@@ -15,6 +15,7 @@
 
 #include "base/error.hpp"
 #include "haptics/workspace/technique.hpp"
+#include "sculpt/feel_options.hpp"
 #include "sculpt/tool_kinds.hpp"
 #include "session/input/desk_input_table.hpp"
 #include "session/input/input_event.hpp"
@@ -49,6 +50,11 @@ struct SetOperation {
 struct SetColour {
     std::array<double, 3> srgb{};
     bool operator==(const SetColour&) const = default;
+};
+// Makes the workpiece feel like a material.
+struct SetMaterial {
+    sculpt::FeelPreset preset = sculpt::FeelPreset::medium;
+    bool operator==(const SetMaterial&) const = default;
 };
 // Names a number that a session keeps and a command can set.
 enum class Quantity : std::uint8_t {
@@ -108,8 +114,8 @@ struct ScreenshotTo {
 };
 
 using SessionCommand =
-    std::variant<RunAction, SetTool, SetOperation, SetColour, SetQuantity, SetTechnique, SetStereoMode, SetTestPattern,
-                 SetEyeSwap, SetForce, SetForceShown, SetCatchDrill, ExportTo, ScreenshotTo>;
+    std::variant<RunAction, SetTool, SetOperation, SetColour, SetMaterial, SetQuantity, SetTechnique, SetStereoMode,
+                 SetTestPattern, SetEyeSwap, SetForce, SetForceShown, SetCatchDrill, ExportTo, ScreenshotTo>;
 
 struct SessionState;
 

@@ -26,6 +26,9 @@ struct Printer {
     CommandInput operator()(const SetColour& c) const {
         return {"colour", {exact(c.srgb[0]) + "," + exact(c.srgb[1]) + "," + exact(c.srgb[2])}};
     }
+    CommandInput operator()(const SetMaterial& c) const {
+        return {"material", {std::string(sculpt::feel_presets()[static_cast<std::size_t>(c.preset)].name)}};
+    }
     CommandInput operator()(const SetQuantity& c) const {
         return {std::string(descriptor_of(c.quantity).name), {exact(c.value)}};
     }

@@ -26,6 +26,9 @@ public:
         for (std::size_t k = 0; k < 3; ++k) colour[k] = static_cast<std::uint8_t>(std::lround(255.0 * set.srgb[k]));
         return change_tool([&](SessionState& s) { s.tool.colour = colour; });
     }
+    Result<void> operator()(const SetMaterial& set) {
+        return change_tool([&](SessionState& s) { s.feel = sculpt::with_preset(s.feel, set.preset); });
+    }
     Result<void> operator()(const SetQuantity& set);
     Result<void> operator()(const SetTechnique& set) {
         state_.technique = set.technique;

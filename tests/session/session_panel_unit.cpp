@@ -70,6 +70,7 @@ const std::map<std::string, Commands>& fixed_commands() {
         {"colour 7", {{"colour", {"0.44,0.38,0.64"}}}},
         {"colour 8", {{"colour", {"0.36,0.38,0.4"}}}},
         {"colour", {}},  // opens
+        {"material", {}},
         {"force", {{"force", {"off"}}}},
         {"technique", {}},
         {"stereo-mode", {}},
@@ -168,6 +169,10 @@ TEST(PanelWidgets, OfferEveryEntryOfTheirLists) {
     for (const wall::StereoMode mode : wall::stereo_modes()) {
         const std::string name(file_name_of(mode));
         EXPECT_EQ(choose("stereo-mode", name), (Commands{{"stereo-mode", {name}}}));
+    }
+    for (const sculpt::FeelPresetDescriptor& preset : sculpt::feel_presets()) {
+        const std::string name(preset.name);
+        EXPECT_EQ(choose("material", name), (Commands{{"material", {name}}}));
     }
     for (const TechniqueDescriptor& technique : techniques()) {
         const std::string name(technique.name);

@@ -169,6 +169,25 @@ TEST(SessionState, EveryToolIsFeltAndDrawnAsItsShape) {
     }
 }
 
+TEST(SessionState, AMaterialByNameTakesThePlaceOfNumbers) {
+    const Room room = test_room();
+    SessionState state = test_state(room);
+    SessionOrders orders;
+    ASSERT_TRUE(run(state, orders, "hardness", {"500000"}));
+    ASSERT_TRUE(run(state, orders, "friction", {"0.05"}));
+    for (const sculpt::FeelPresetDescriptor& preset : sculpt::feel_presets()) {
+        ASSERT_TRUE(run(state, orders, "material", {std::string(preset.name)}));
+        const haptics::TouchMaterial now = parameters_of(state, room).materials[0];
+        const auto expected = sculpt::touch_material(sculpt::FeelSettings{.preset = preset.preset});
+        EXPECT_EQ(now.hardness_Ns_per_m3, expected.hardness_Ns_per_m3) << preset.name;
+        EXPECT_EQ(now.cutting_yield_Pa, expected.cutting_yield_Pa) << preset.name;
+        EXPECT_EQ(now.dynamic_friction, expected.dynamic_friction) << preset.name;
+    }
+    const auto refused = run(state, orders, "material", {"oka"});
+    ASSERT_FALSE(refused);
+    EXPECT_TRUE(refused.error().remedy.starts_with("did you mean oak?")) << refused.error().line();
+}
+
 TEST(SessionState, TheRadiusScalesAllSizesOfAToolThatIsNoBall) {
     const Room room = test_room();
     SessionState state = test_state(room);
