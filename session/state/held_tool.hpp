@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The tool in the hand of a session, made ready once when it is taken up: its shape, what the hand feels of it, and how
-// it is drawn. A step of the session makes it and reads no file: meshes are read before the session begins (ToolMeshes).
+// The tool in the hand of a session, made ready once when it is taken up: its shape, what the hand feels of it, how it
+// is drawn. A step of the session makes it and reads no file: meshes are read before the session begins (ToolMeshes).
 // Frame: tool, metres. Immutable and shared; any thread.
 #pragma once
 

@@ -8,34 +8,14 @@
 #include "session/input/desk_input.hpp"
 #include "session/input/input_keys.hpp"
 #include "session/input/input_wand.hpp"
+#include "tests/session/used_desk.hpp"
 #include "wall/seen_place.hpp"
 
 namespace burin::session {
 namespace {
 
-constexpr double kFrame_s = 1.0 / 60.0;
-
 KeyInput press(Key key, Modifiers modifiers = {}) { return {key, KeyMotion::press, modifiers}; }
 KeyInput release(Key key) { return {key, KeyMotion::release, {}}; }
-
-// A desk that is used step by step.
-class Desk {
-public:
-    DeskSettings settings;
-    DeskView view;
-    DeskState state = desk_at_home(settings);
-    Similarity world_from_scene;
-
-    DeskStep step(const std::vector<Input>& inputs = {}, double dt_s = kFrame_s) {
-        std::vector<InputEvent> events;
-        for (const Input& input : inputs) events.push_back({0, input});
-        view.scene_scale = world_from_scene.scale;
-        DeskStep done = step_desk(state, events, dt_s, view, settings);
-        state = done.state;
-        world_from_scene = done.scene_change * world_from_scene;
-        return done;
-    }
-};
 
 Vec3 random_point(std::mt19937& random, double size) {
     std::uniform_real_distribution<double> u(-size, size);
@@ -55,12 +35,10 @@ Similarity random_scene(std::mt19937& random) {
 bool identical(const Similarity& a, const Similarity& b) {
     return a.position_m == b.position_m && a.orientation == b.orientation && a.scale == b.scale;
 }
-double apart(const Vec3& a, const Vec3& b) { return glm::length(a - b); }
-
 }  // namespace
 
 TEST(DeskInput, TheMouseMovesTheStylusAlongTheScreenAndTheWheelInDepth) {
-    Desk desk;
+    UsedDesk desk;
     desk.view.device_m_per_px = 0.0005;
     EXPECT_EQ(desk.step({MouseMove{{300.0, 200.0}}}).target.position_device_m, Vec3(0.0));  // only where it is
     const DeskStep moved = desk.step({MouseMove{{310.0, 180.0}}, MouseMove{{320.0, 190.0}}});
@@ -73,7 +51,7 @@ TEST(DeskInput, TheMouseMovesTheStylusAlongTheScreenAndTheWheelInDepth) {
 }
 
 TEST(DeskInput, TheStylusStaysInItsWorkspaceAndTheWayBackHasNoDeadTravel) {
-    Desk desk;
+    UsedDesk desk;
     desk.step({MouseMove{{0.0, 0.0}}});
     EXPECT_EQ(desk.step({MouseMove{{3e4, 0.0}}}).target.position_device_m, Vec3(0.0813, 0.0, 0.0));
     const double back = desk.step({MouseMove{{3e4 - 4.0, 0.0}}}).target.position_device_m.x;
@@ -81,7 +59,7 @@ TEST(DeskInput, TheStylusStaysInItsWorkspaceAndTheWayBackHasNoDeadTravel) {
 }
 
 TEST(DeskInput, ASqueezedPictureIsFollowedAndChangingWindowsIsNoMotion) {
-    Desk desk;
+    UsedDesk desk;
     desk.view.device_m_per_px = 0.001;
     desk.view.picture_px_per_px = {2.0, 1.0};
     desk.step({MouseMove{{100.0, 100.0}}});
@@ -93,7 +71,7 @@ TEST(DeskInput, ASqueezedPictureIsFollowedAndChangingWindowsIsNoMotion) {
 }
 
 TEST(DeskInput, ATurnedWorkspaceIsSteeredAsItIsSeen) {
-    Desk desk;
+    UsedDesk desk;
     desk.view.device_from_screen =
         glm::angleAxis(std::acos(-1.0) / 2, Vec3(0.0, 1.0, 0.0));  // right is -z of the device
     desk.view.device_m_per_px = 0.001;
@@ -111,7 +89,7 @@ TEST(DeskInput, ThePictureOfTheToolMovesAsFarAsTheMouse) {
 }
 
 TEST(DeskInput, ButtonsAreTheStylussAndAQuickClickIsNotLost) {
-    Desk desk;
+    UsedDesk desk;
     EXPECT_EQ(desk.step({MouseClick{MouseButton::left, true, {}}}).target.buttons, 1u);
     EXPECT_EQ(desk.step().target.buttons, 1u);
     EXPECT_EQ(desk.step({MouseClick{MouseButton::right, true, {}}}).target.buttons, 3u);
@@ -124,7 +102,7 @@ TEST(DeskInput, ButtonsAreTheStylussAndAQuickClickIsNotLost) {
 }
 
 TEST(DeskInput, TellsTheHandOfEachEventAtItsOwnTime) {
-    Desk desk;
+    UsedDesk desk;
     const std::vector<InputEvent> events{{1, MouseMove{{0.0, 0.0}}},
                                          {2, MouseMove{{8.0, 0.0}}},
                                          {3, press(Key::w)},  // nothing to the hand
@@ -146,7 +124,7 @@ TEST(DeskInput, TellsTheHandOfEachEventAtItsOwnTime) {
 }
 
 TEST(DeskInput, LosingTheFocusReleasesEverything) {
-    Desk desk;
+    UsedDesk desk;
     desk.step({MouseMove{{0.0, 0.0}}, MouseClick{MouseButton::left, true, {}}, press(Key::w), press(Key::shift)});
     const DeskStep lost = desk.step({WindowFocus{false}});
     EXPECT_EQ(lost.target.buttons, 0u);
@@ -156,7 +134,7 @@ TEST(DeskInput, LosingTheFocusReleasesEverything) {
 }
 
 TEST(DeskInput, WhatThePanelCapturedPressesNothingButReleases) {
-    Desk desk;
+    UsedDesk desk;
     desk.step({MouseMove{{0.0, 0.0}}, MouseClick{MouseButton::left, true, {}}, press(Key::w)});
     desk.view.mouse_captured = desk.view.keyboard_captured = true;
     EXPECT_EQ(desk.step({MouseClick{MouseButton::right, true, {}}, Scroll{{0.0, 1.0}, {}}}).target.buttons, 1u);
@@ -171,7 +149,7 @@ TEST(DeskInput, EveryShortCutOfTheTableDoesWhatItSaysAndNothingElse) {
     std::set<std::pair<Key, std::string>> taken;
     for (const ShortCut& s : short_cuts()) {
         EXPECT_TRUE(taken.insert({s.key, name_of(s.modifiers)}).second) << label_of(s) << " twice";
-        Desk desk;
+        UsedDesk desk;
         EXPECT_EQ(desk.step({press(s.key, s.modifiers)}).actions, std::vector{s.action}) << label_of(s);
         const DeskStep again = desk.step({KeyInput{s.key, KeyMotion::repeat, s.modifiers}});
         EXPECT_EQ(again.actions.size(), s.repeats ? 1u : 0u) << label_of(s);
@@ -199,14 +177,14 @@ TEST(DeskInput, LabelsAreWhatPeopleReadOnKeys) {
 }
 
 TEST(DeskInput, ActionsComeInTheirOrder) {
-    Desk desk;
+    UsedDesk desk;
     const DeskStep step = desk.step({press(Key::digit_2), press(Key::z, {.ctrl = true}), press(Key::right_bracket)});
     EXPECT_EQ(step.actions, (std::vector{Action::tool_2, Action::undo, Action::larger_radius}));
 }
 
 TEST(DeskInput, HeadsFlyWhereTheirKeysSayAndGlideToRest) {
     for (const FlightKey& key : flight_keys()) {
-        Desk desk;
+        UsedDesk desk;
         const Vec3 home = desk.state.head_world.position_m;
         desk.step({press(key.key)});
         for (int i = 0; i < 120; ++i) desk.step();
@@ -226,7 +204,7 @@ TEST(DeskInput, HeadsFlyWhereTheirKeysSayAndGlideToRest) {
 }
 
 TEST(DeskInput, TwoKeysFlyNoFasterThanOneAndOpposedKeysNotAtAll) {
-    Desk desk;
+    UsedDesk desk;
     desk.step({press(Key::w), press(Key::a), press(Key::left)});
     for (int i = 0; i < 120; ++i) desk.step();
     EXPECT_NEAR(glm::length(desk.state.flight_m_per_s), desk.settings.flight_speed_m_per_s, 1e-6);
@@ -237,7 +215,7 @@ TEST(DeskInput, TwoKeysFlyNoFasterThanOneAndOpposedKeysNotAtAll) {
 }
 
 TEST(DeskInput, SavingDoesNotFlyAndTheHeadStaysInItsBox) {
-    Desk desk;
+    UsedDesk desk;
     desk.step({press(Key::s, {.ctrl = true})});
     for (int i = 0; i < 60; ++i) desk.step();
     EXPECT_EQ(desk.state.head_world.position_m, desk.settings.home_head_world.position_m);
@@ -250,64 +228,8 @@ TEST(DeskInput, SavingDoesNotFlyAndTheHeadStaysInItsBox) {
     EXPECT_EQ(home.actions, std::vector{Action::reset_view});
 }
 
-TEST(DeskInput, TheMiddleButtonTurnsTheSceneAboutItsPivotAndPansWithShift) {
-    Desk desk;
-    desk.view.pivot_world = {0.2, 1.0, -0.5};
-    desk.world_from_scene = {{0.2, 0.9, -0.4}, {1, 0, 0, 0}, 2.0};
-    const Vec3 pivot_scene = inverse(desk.world_from_scene) * desk.view.pivot_world;
-    desk.step({MouseMove{{0.0, 0.0}}, MouseClick{MouseButton::middle, true, {}}});
-    const DeskStep turned = desk.step({MouseMove{{100.0, 30.0}}});
-    EXPECT_LT(apart(desk.world_from_scene * pivot_scene, desk.view.pivot_world), 1e-12);
-    EXPECT_EQ(turned.target.position_device_m, Vec3(0.0));  // the stylus rests meanwhile
-    // To the right the near side goes to the right.
-    const Vec3 near_side = desk.view.pivot_world + Vec3(0.0, 0.0, 0.1);
-    EXPECT_GT((turned.scene_change * near_side).x, near_side.x + 0.03);
-    EXPECT_LT((turned.scene_change * near_side).y, near_side.y);  // and down goes down
-    desk.step({MouseClick{MouseButton::middle, false, {}}});
-    desk.view.world_m_per_px = 0.002;
-    desk.step({MouseClick{MouseButton::middle, true, {.shift = true}}});
-    const DeskStep panned = desk.step({MouseMove{{110.0, 25.0}}});
-    EXPECT_LT(apart(panned.scene_change.position_m, {0.02, 0.01, 0.0}), 1e-12);
-    EXPECT_EQ(panned.scene_change.scale, 1.0);
-}
-
-TEST(DeskInput, TheMiddleButtonAndCtrlTurnTheStylusAboutItsTipAndWithShiftAboutItsShaft) {
-    Desk desk;
-    const Vec3 shaft = desk.settings.rest_device * Vec3(0.0, 1.0, 0.0);
-    EXPECT_EQ(desk.step({}).target.orientation_device, desk.settings.rest_device);
-    desk.step({MouseMove{{0.0, 0.0}}, MouseClick{MouseButton::middle, true, {.ctrl = true}}});
-    const DeskStep turned = desk.step({MouseMove{{60.0, 0.0}}});
-    EXPECT_EQ(turned.target.position_device_m, Vec3(0.0)) << "the tip rests";
-    EXPECT_EQ(turned.scene_change, Similarity{});
-    ASSERT_EQ(turned.way.size(), 1u) << "the hand is told of it";
-    EXPECT_EQ(turned.way[0].orientation_device, turned.target.orientation_device);
-    const Vec3 now = turned.target.orientation_device * Vec3(0.0, 1.0, 0.0);
-    EXPECT_NEAR(now.y, shaft.y, 1e-12) << "to the right turns about the screen's upright";
-    EXPECT_GT(now.x, shaft.x) << "the near end goes to the right";
-    desk.step({MouseClick{MouseButton::middle, false, {}}});
-    desk.step({MouseClick{MouseButton::middle, true, {.shift = true, .ctrl = true}}});
-    const DeskStep rolled = desk.step({MouseMove{{120.0, 0.0}}});
-    EXPECT_LT(apart(rolled.target.orientation_device * Vec3(0.0, 1.0, 0.0), now), 1e-12);
-    EXPECT_GT(apart(rolled.target.orientation_device * Vec3(1.0, 0.0, 0.0),
-                    turned.target.orientation_device * Vec3(1.0, 0.0, 0.0)),
-              0.1);
-    desk.step({MouseClick{MouseButton::middle, false, {}}});
-    const DeskStep home = desk.step({KeyInput{Key::home, KeyMotion::press, {}}});
-    EXPECT_EQ(home.target.orientation_device, desk.settings.rest_device);
-}
-
-TEST(DeskInput, ADragThereAndBackChangesNothing) {
-    Desk desk;
-    desk.view.pivot_world = {0.2, 1.0, -0.5};
-    desk.step({MouseMove{{0.0, 0.0}}, MouseClick{MouseButton::middle, true, {}}});
-    desk.step({MouseMove{{77.0, 0.0}}});
-    desk.step({MouseMove{{0.0, 0.0}}});
-    for (const Vec3& p : {Vec3(1.0, 0.0, 0.0), Vec3(0.0, 2.0, 0.5)})
-        EXPECT_LT(apart(desk.world_from_scene * p, p), 1e-12);
-}
-
 TEST(DeskInput, CtrlAndTheWheelScaleAboutThePivotWithinLimits) {
-    Desk desk;
+    UsedDesk desk;
     desk.view.pivot_world = {0.2, 1.0, -0.5};
     desk.step({Scroll{{0.0, 2.0}, {.ctrl = true}}});
     EXPECT_NEAR(desk.world_from_scene.scale, 1.21, 1e-12);
@@ -320,7 +242,7 @@ TEST(DeskInput, CtrlAndTheWheelScaleAboutThePivotWithinLimits) {
 
 TEST(DeskInput, AStepIsAFunctionOfItsArgumentsAlone) {
     const auto used = [] {
-        Desk desk;
+        UsedDesk desk;
         for (int i = 0; i < 50; ++i)
             desk.step({MouseMove{{3.0 * i, 2.0 * i}}, press(i % 2 == 0 ? Key::w : Key::d), Scroll{{0.0, 0.1}, {}}});
         return desk.state;

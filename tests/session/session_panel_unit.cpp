@@ -161,23 +161,14 @@ TEST(PanelWidgets, GiveExactlyTheirCommandWhenClicked) {
 }
 
 TEST(PanelWidgets, OfferEveryEntryOfTheirLists) {
-    const auto choose = [](const char* list, const std::string& entry) {
+    const auto offers = [](const std::string& list, std::string_view entry) {
         PanelDesk desk(workable_model());
-        (void)desk.click(list);
-        return desk.click(std::string(list) + " " + entry);
+        (void)desk.click(list.c_str());
+        EXPECT_EQ(desk.click(list + " " + std::string(entry)), (Commands{{list, {std::string(entry)}}}));
     };
-    for (const wall::StereoMode mode : wall::stereo_modes()) {
-        const std::string name(file_name_of(mode));
-        EXPECT_EQ(choose("stereo-mode", name), (Commands{{"stereo-mode", {name}}}));
-    }
-    for (const sculpt::FeelPresetDescriptor& preset : sculpt::feel_presets()) {
-        const std::string name(preset.name);
-        EXPECT_EQ(choose("material", name), (Commands{{"material", {name}}}));
-    }
-    for (const TechniqueDescriptor& technique : techniques()) {
-        const std::string name(technique.name);
-        EXPECT_EQ(choose("technique", name), (Commands{{"technique", {name}}}));
-    }
+    for (const wall::StereoMode mode : wall::stereo_modes()) offers("stereo-mode", file_name_of(mode));
+    for (const auto& preset : sculpt::feel_presets()) offers("material", preset.name);
+    for (const TechniqueDescriptor& technique : techniques()) offers("technique", technique.name);
 }
 
 TEST(PanelWidgets, SaySizesOfEveryToolThatATakerTakes) {
