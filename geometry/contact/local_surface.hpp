@@ -18,8 +18,8 @@
 // made_ns is also the carving side's heartbeat: while the tool is in contact it must publish at least as often as
 // TickParameters::max_surface_age_s asks, even if nothing has changed.
 // A mesh may stand at a pose of its own, so that many share one snapshot. It may also move as a rigid body
-// (TouchedMesh::motion): it is published with pose, velocity and their time, and the tick touches it where it is by then
-// (haptics/contact/moving_bodies.hpp).
+// (TouchedMesh::motion): it is published with pose, velocity and their time, and the tick touches it where it is by
+// then (haptics/contact/moving_bodies.hpp).
 #pragma once
 
 #include <array>
@@ -72,8 +72,8 @@ struct LocalSurface {
     [[nodiscard]] std::uint8_t material(std::uint32_t id) const noexcept;
     // Tells whether the triangle is part of a mesh that is felt from either side.
     [[nodiscard]] bool two_sided(std::uint32_t id) const noexcept;
-    // Returns the normals at the triangle's corners; unknown for loose triangles. Those of a mesh that has a pose are in
-    // its own frame.
+    // Returns the normals at the triangle's corners; unknown for loose triangles. Those of a mesh that has a pose are
+    // in its own frame.
     [[nodiscard]] CornerNormals corner_normals(std::uint32_t id) const noexcept;
     // Returns the length scale of the surface: the smallest of the tiles' cell, the loose triangles' mean edge and the
     // meshes' mean edges; 0 when there are no triangles.

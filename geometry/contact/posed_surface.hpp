@@ -16,7 +16,8 @@ namespace burin::geometry {
 class PosedSurface {
 public:
     // How many of a surface's moving meshes, counted from the first of them, are followed between publications. Those
-    // beyond are touched where they were published, and each publication is a jump to them. Resting meshes do not count.
+    // beyond are touched where they were published, and each publication is a jump to them. Resting meshes do not
+    // count.
     static constexpr std::uint32_t kMostFollowed = 24;
 
     PosedSurface(const LocalSurface& surface) noexcept : surface_(&surface) {}
