@@ -2,10 +2,10 @@
 // How an object feels, and the table in which the surfaces of a scene look that up.
 //
 // A surface refers to its material by an index into TickParameters::materials (haptics/forces/touch_force.hpp). One
-// MaterialTable serves all parts of a scene, so that their indices agree: each object holds one entry, objects that feel
-// alike share it, and an entry keeps its index for as long as anybody holds it. So a change of one object's material
-// does not change what another's index means while surface and parameters are on their way to the tick separately.
-// Threads: one at a time.
+// MaterialTable serves all parts of a scene, so that their indices agree: each object holds one entry, objects that
+// feel alike share it, and an entry keeps its index for as long as anybody holds it. So a change of one object's
+// material does not change what another's index means while surface and parameters are on their way to the tick
+// separately. Threads: one at a time.
 #pragma once
 
 #include <array>
@@ -50,8 +50,8 @@ public:
     // The first `reserved` entries are left to others, such as the material of a carved workpiece.
     explicit MaterialTable(std::uint32_t reserved = 0);
 
-    // Returns the index of the entry for this material, which it makes or shares, and holds it once more. Fails when all
-    // entries hold other materials.
+    // Returns the index of the entry for this material, which it makes or shares, and holds it once more. Fails when
+    // all entries hold other materials.
     [[nodiscard]] Result<std::uint8_t> hold(const HapticMaterial& material);
     // Lets go of an entry once. It must be held.
     void release(std::uint8_t index);

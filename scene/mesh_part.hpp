@@ -2,13 +2,13 @@
 // The meshes of a world as a part of a scene: objects with poses, materials and motions that can be touched, moved and
 // changed while they are touched.
 //
-// Data flow: each object that is felt has a snapshot of its mesh (geometry/contact/touch_mesh.hpp) at its scale; objects
-// with one mesh and one scale share it. Where an object stands is published beside the snapshot, so that moving one costs
-// nothing. An update takes objects on paths to their poses at its time, and held ones along with their hands. A query
-// finds resting objects in a tree of boxes (scene/object_tree.hpp) and looks at each moving one; its cost does not grow
-// with the resting ones.
-// Motion as published: pose at the time of the update and the mean velocity until the next one is due, so that a body on
-// a path is then where the tick has followed it to.
+// Data flow: each object that is felt has a snapshot of its mesh (geometry/contact/touch_mesh.hpp) at its scale;
+// objects with one mesh and one scale share it. Where an object stands is published beside the snapshot, so that moving
+// one costs nothing. An update takes objects on paths to their poses at its time, and held ones along with their hands.
+// A query finds resting objects in a tree of boxes (scene/object_tree.hpp) and looks at each moving one; its cost does
+// not grow with the resting ones.
+// Motion as published: pose at the time of the update and the mean velocity until the next one is due, so that a body
+// on a path is then where the tick has followed it to.
 // Hardest case: an object that is edited while it is touched. A pose set by hand is a jump: the tick puts the tool
 // outside and fades its force in (haptics/contact/moving_bodies.hpp); a scale is a new snapshot, likewise. A material
 // changes between two ticks.

@@ -3,12 +3,12 @@
 //
 // Data flow of a publication: the hand's draft, which holds some publication of long ago, is cleared of everything ->
 // each part of the scene adds what lies near the probe -> meshes are put in order: those that move before those that
-// rest, the nearer before the farther -> those beyond what a surface can hold are left out, and the ball within which the
-// surface is known ends before the nearest of them -> sequence and time are stamped, and the haptic thread may take it.
-// The haptic side never learns what made a triangle.
-// Hardest case: more bodies move around the probe than can be followed (PosedSurface::kMostFollowed). A body that is not
-// followed would jump a hundred times a second, so it is left out; where that is too near, the tick is outside of what is
-// known and gives no force.
+// rest, the nearer before the farther -> those beyond what a surface can hold are left out, and the ball within which
+// the surface is known ends before the nearest of them -> sequence and time are stamped, and the haptic thread may take
+// it. The haptic side never learns what made a triangle.
+// Hardest case: more bodies move around the probe than can be followed (PosedSurface::kMostFollowed). A body that is
+// not followed would jump a hundred times a second, so it is left out; where that is too near, the tick is outside of
+// what is known and gives no force.
 // Threads: one at a time, that of the scene's service. Does not allocate once drafts have grown to their size.
 #pragma once
 
