@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <span>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "base/text.hpp"
 #include "geometry/files/mesh_unit.hpp"
 #include "geometry/vrml/vrml_shapes.hpp"
+#include "scene/world_file.hpp"
 
 namespace burin::app {
 namespace {
@@ -151,7 +153,81 @@ CheckedWorld faulty(const std::string& path, std::span<const Error> faults, bool
     return checked;
 }
 
+// ---- Worlds in TOML
+
+std::string hexadecimal(const scene::Colour& colour) {
+    return formatted("#%02x%02x%02x", colour[0], colour[1], colour[2]);
+}
+
+// Returns the box around an object where its own pose has it.
+Box bounds_of(const scene::SceneObject& object) {
+    Box bounds_m;
+    for (const auto& triangle : object.mesh->triangles)
+        for (const std::uint32_t v : triangle)
+            bounds_m.include(object.pose * (object.scale * object.mesh->positions_m[v]));
+    return bounds_m;
+}
+
+std::string feel_text(const scene::SceneObject& object) {
+    if (!object.felt) return "not felt";
+    const scene::HapticMaterial& m = object.material;
+    std::string text = formatted("%g N/m, %g N s/m", m.stiffness_N_per_m, m.damping_Ns_per_m);
+    if (m.static_friction > 0.0) text += formatted(", friction %g and %g", m.static_friction, m.dynamic_friction);
+    return object.both_sides ? text + ", from both sides" : text;
+}
+
+void print_world(const std::string& path, const scene::World& world) {
+    std::size_t width = 0, triangles = 0;
+    for (const scene::SceneObject& o : world.objects) {
+        width = std::max(width, o.name.size());
+        triangles += o.mesh->triangles.size();
+    }
+    std::printf("%s: %zu %s, %zu triangles%s%s\n", path.c_str(), world.objects.size(),
+                world.objects.size() == 1 ? "object" : "objects", triangles, world.name.empty() ? "" : ", ",
+                world.name.c_str());
+    for (const scene::SceneObject& o : world.objects) {
+        const auto* path_of = std::get_if<scene::PathMotion>(&o.motion);
+        std::printf("  %-*s  %zu triangles, %s, %s, %s", static_cast<int>(std::min<std::size_t>(width, 40)),
+                    o.name.c_str(), o.mesh->triangles.size(), in_millimetres(bounds_of(o).extent()).c_str(),
+                    o.seen ? hexadecimal(o.colour).c_str() : "not seen", feel_text(o).c_str());
+        if (path_of != nullptr) std::printf(", moves for %g s", path_of->keys.back().time_s);
+        std::printf("\n");
+    }
+    for (const std::string& remark : world.remarks) std::printf("  %s\n", remark.c_str());
+}
+
+Json object_json(const scene::SceneObject& o) {
+    const Box bounds_m = bounds_of(o);
+    Json json{{"name", o.name}, {"triangles", o.mesh->triangles.size()}};
+    json["lowest_m"] = vector_json(bounds_m.lo);
+    json["highest_m"] = vector_json(bounds_m.hi);
+    json["colour"] = hexadecimal(o.colour);
+    json["seen"] = o.seen;
+    json["felt"] = o.felt;
+    json["both_sides"] = o.both_sides;
+    json["stiffness_N_per_m"] = o.material.stiffness_N_per_m;
+    json["damping_Ns_per_m"] = o.material.damping_Ns_per_m;
+    json["static_friction"] = o.material.static_friction;
+    json["dynamic_friction"] = o.material.dynamic_friction;
+    const auto* path = std::get_if<scene::PathMotion>(&o.motion);
+    json["path_s"] = path != nullptr ? Json(path->keys.back().time_s) : Json();
+    return json;
+}
+
+CheckedWorld check_toml_world(const std::string& path, bool print) {
+    const scene::WorldOrProblems world = scene::read_world(path);
+    if (!world) return faulty(path, world.error(), print);
+    if (print) print_world(path, *world);
+    Json json{{"file", path}, {"faults", Json::array()}};
+    json["name"] = world->name;
+    json["objects"] = Json::array();
+    for (const scene::SceneObject& object : world->objects) json["objects"].push_back(object_json(object));
+    json["remarks"] = world->remarks;
+    return {std::move(json), 0};
+}
+
 CheckedWorld check_world(const std::string& path, bool print) {
+    if (std::filesystem::path(path).extension() == ".toml") return check_toml_world(path, print);
     const Result<geometry::VrmlFile> file = geometry::read_vrml_file(path);
     if (!file) return faulty(path, std::array{file.error()}, print);
     const geometry::VrmlWorldOrFaults world = geometry::shapes_of(*file);
@@ -191,11 +267,11 @@ Result<void> WorldCommand::Options::check_files() const {
 }
 
 WorldCommand::WorldCommand(Command app)
-    : options_(std::make_unique<Options>()), command_(app.subcommand("world", "Check worlds in VRML 2.0")) {
+    : options_(std::make_unique<Options>()), command_(app.subcommand("world", "Check worlds in TOML and VRML 2.0")) {
     Options& o = *options_;
     command_.option("FILE", o.worlds, "A world to open; not possible yet");
     check_ = command_.subcommand("check", "What is in each file, or all that is wrong with it; exit status 1 then");
-    check_.option("FILE", o.files, "VRML 2.0 files (.wrl), see docs/formats.md").required();
+    check_.option("FILE", o.files, "Worlds (.toml, or .wrl for VRML 2.0), see docs/formats.md").required();
     check_.option("--json", o.json, "A file for all figures and faults; - for standard output");
 }
 

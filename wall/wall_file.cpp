@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/file_io.hpp"
-#include "wall/toml_table.hpp"
+#include "base/toml_table.hpp"
 
 namespace burin::wall {
 namespace {
@@ -147,16 +147,11 @@ WallSetup read_setup(TableReading& reading, const toml::table& root) {
 }  // namespace
 
 Result<WallSetup> parse_wall(std::string_view text, const std::string& name) {
-    toml::table root;
-    try {
-        root = toml::parse(text, name);
-    } catch (const toml::parse_error& error) {
-        return fail(name + ":" + std::to_string(error.source().begin.line),
-                    "is not TOML: " + std::string(error.description()), "correct this line");
-    }
-    TableReading reading{name, std::nullopt};
-    WallSetup setup = read_setup(reading, root);
-    if (reading.error) return std::unexpected(*reading.error);
+    const Result<toml::table> root = parse_toml(text, name);
+    if (!root) return std::unexpected(root.error());
+    TableReading reading{name};
+    WallSetup setup = read_setup(reading, *root);
+    if (!reading.errors.empty()) return std::unexpected(reading.errors.front());
     return setup;
 }
 

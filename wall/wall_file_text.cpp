@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <sstream>
 
-#include "wall/toml_table.hpp"
+#include "base/toml_table.hpp"
 #include "wall/wall_file.hpp"
 
 namespace burin::wall {

@@ -17,8 +17,9 @@
 // leaves the ball flags that and gives no force. Triangles of a tile beyond the ball are correct all the same.
 // made_ns is also the carving side's heartbeat: while the tool is in contact it must publish at least as often as
 // TickParameters::max_surface_age_s asks, even if nothing has changed.
-// A mesh may move as a rigid body (TouchedMesh::motion): it is published with pose, velocity and their time, and the
-// tick touches it where it is by then (haptics/contact/moving_bodies.hpp).
+// A mesh may stand at a pose of its own, so that many share one snapshot. It may also move as a rigid body
+// (TouchedMesh::motion): it is published with pose, velocity and their time, and the tick touches it where it is by
+// then (haptics/contact/moving_bodies.hpp).
 #pragma once
 
 #include <array>
@@ -44,6 +45,8 @@ struct TouchedMesh {
     MeshMotion motion{};  // by default none: the snapshot's place is in the object frame
 
     [[nodiscard]] bool moves() const noexcept { return motion.body != 0; }
+    // Tells whether the mesh's frame may be another than the object frame.
+    [[nodiscard]] bool has_pose() const noexcept { return moves() || motion.object_from_mesh != Pose{}; }
 };
 
 struct LocalSurface {
@@ -69,8 +72,8 @@ struct LocalSurface {
     [[nodiscard]] std::uint8_t material(std::uint32_t id) const noexcept;
     // Tells whether the triangle is part of a mesh that is felt from either side.
     [[nodiscard]] bool two_sided(std::uint32_t id) const noexcept;
-    // Returns the normals at the triangle's corners; unknown for loose triangles. Those of a moving mesh are in its own
-    // frame.
+    // Returns the normals at the triangle's corners; unknown for loose triangles. Those of a mesh that has a pose are
+    // in its own frame.
     [[nodiscard]] CornerNormals corner_normals(std::uint32_t id) const noexcept;
     // Returns the length scale of the surface: the smallest of the tiles' cell, the loose triangles' mean edge and the
     // meshes' mean edges; 0 when there are no triangles.
@@ -117,7 +120,7 @@ inline Triangle LocalSurface::triangle(std::uint32_t id) const noexcept {
     const TouchSnapshot& snapshot = *place.mesh->snapshot;
     const Vec3 shift = snapshot.origin_object - origin_object;
     const Triangle t = snapshot.triangle(place.number);
-    if (place.mesh->moves()) {
+    if (place.mesh->has_pose()) {
         const Pose& pose = place.mesh->motion.object_from_mesh;
         const auto placed = [&](const Vec3& p) { return pose * (p + snapshot.origin_object) - origin_object; };
         return {placed(t.a), placed(t.b), placed(t.c)};

@@ -78,7 +78,7 @@ template <typename Visitor>
 bool for_each_near_of_mesh(const PosedSurface& posed, std::uint32_t index, std::uint32_t first, Near& near,
                            const Visitor& visit) {
     const TouchedMesh& mesh = posed.surface().meshes[index];
-    if (mesh.moves())
+    if (mesh.has_pose())
         return for_each_near_in_posed_mesh(*mesh.snapshot, posed.pose(index), posed.origin_object(), first, near,
                                            visit);
     return for_each_near_in_mesh(*mesh.snapshot, mesh.snapshot->origin_object - posed.origin_object(), first, near,
@@ -151,7 +151,7 @@ void for_each_triangle_around(const PosedSurface& surface, const Vec3& vertex, V
         if (triangles_of(mesh) == 0) continue;
         const Vec3 shift = mesh.snapshot->origin_object - surface.origin_object;
         const Box own = mesh.snapshot->bounds();
-        if (!mesh.moves()) {
+        if (!mesh.has_pose()) {
             include({own.lo + shift, own.hi + shift});
         } else if (posed.shows(i)) {
             // Whichever way it is turned.

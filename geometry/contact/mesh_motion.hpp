@@ -16,8 +16,8 @@
 namespace burin::geometry {
 
 struct MeshMotion {
-    // The body's name, the same in each publication; each moving mesh of a surface has its own. 0: the mesh rests,
-    // its frame is the object frame, and nothing else here is read.
+    // The body's name, the same in each publication; each moving mesh of a surface has its own. 0: the mesh rests
+    // where its pose has it, and neither velocities nor time are read.
     std::uint64_t body = 0;
     Pose object_from_mesh;
     Vec3 velocity_object_m_per_s{0.0};            // of the mesh frame's origin

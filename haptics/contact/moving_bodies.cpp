@@ -56,13 +56,14 @@ public:
         for (int round = 0; moved && round < kRounds; ++round) {
             moved = false;
             if (at != began && sweep(posed_.only_resting(), began, at)) moved = true;
-            for (std::uint32_t mesh = 0; mesh < BodiesState::kMost; ++mesh) {
-                if (!bodies_.is_known(mesh) || !is_near_expected(mesh)) continue;
-                const Vec3 from = bodies_.carried(mesh, began);
+            for (std::uint32_t body = 0; body < bodies_.count(); ++body) {
+                if (!bodies_.is_known(body) || !is_near_expected(body)) continue;
+                const Vec3 from = bodies_.carried(body, began);
+                const std::uint32_t mesh = bodies_.mesh_of(body);
                 if (from == at || !comes_near(posed_.surface().meshes[mesh], posed_.pose(mesh), {from, at}, radius_))
                     continue;
                 if (!sweep(posed_.only_mesh(mesh), from, at)) continue;
-                mover = mesh;
+                mover = body;
                 moved = true;
             }
         }
@@ -71,9 +72,9 @@ public:
     }
 
 private:
-    [[nodiscard]] bool is_near_expected(std::uint32_t mesh) const {
-        const Vec3 now = bodies_.carried(mesh, state_.position_object_m);
-        return glm::length(bodies_.unexplained(mesh, now)) <= elsewhere_;
+    [[nodiscard]] bool is_near_expected(std::uint32_t body) const {
+        const Vec3 now = bodies_.carried(body, state_.position_object_m);
+        return glm::length(bodies_.unexplained(body, now)) <= elsewhere_;
     }
 
     // Sweeps the ball to `at`, and shortens the way where it touches. Returns whether it did.
@@ -123,66 +124,82 @@ MovingBodies::MovingBodies(BodiesState& state, const geometry::LocalSurface& sur
         return;
     }
     const BodiesState before = state;
-    const double since_s = seconds(now_ns - before.time_ns);
-    state.count = count_ = static_cast<std::uint32_t>(std::min<std::size_t>(surface.meshes.size(), BodiesState::kMost));
     state.time_ns = now_ns;
-    for (std::uint32_t i = 0; i < count_; ++i) {
-        const geometry::TouchedMesh& mesh = surface.meshes[i];
-        const geometry::MeshMotion& motion = mesh.motion;
-        const bool is_there = mesh.snapshot != nullptr && mesh.moves() && geometry::is_sensible(motion);
-        Body body;
-        state.bodies[i] = is_there ? motion.body : 0;
-        if (is_there) {
-            const double followed_s = geometry::followed_s(motion, now_ns, longest_s);
-            const bool stands = std::abs(followed_s) >= longest_s;
-            state.velocities_m_per_s[i] = stands ? Vec3(0.0) : motion.velocity_object_m_per_s;
-            state.angular_velocities_rad_per_s[i] = stands ? Vec3(0.0) : motion.angular_velocity_object_rad_per_s;
-            state.object_from_mesh[i] = geometry::moved_on(motion.object_from_mesh, motion.velocity_object_m_per_s,
-                                                           motion.angular_velocity_object_rad_per_s, followed_s);
-            for (std::uint32_t k = 0; k < before.count && !body.known; ++k) {
-                if (before.bodies[k] != motion.body) continue;
-                body.known = true;
-                body.before = before.object_from_mesh[k];
-                body.expected = geometry::moved_on(body.before, before.velocities_m_per_s[k],
-                                                   before.angular_velocities_rad_per_s[k], since_s);
-            }
-        }
-        bodies_.put(i, body);
+    const auto meshes = static_cast<std::uint32_t>(surface.meshes.size());
+    for (std::uint32_t mesh = 0; mesh < meshes && count_ < BodiesState::kMost; ++mesh) {
+        const geometry::TouchedMesh& touched = surface.meshes[mesh];
+        if (touched.snapshot != nullptr && touched.moves() && geometry::is_sensible(touched.motion))
+            follow(state, before, mesh, now_ns, longest_s);
     }
+    state.count = count_;
 }
 
-std::uint32_t MovingBodies::with_name(std::uint64_t body) const noexcept {
-    for (std::uint32_t i = 0; body != 0 && i < count_; ++i)
-        if (bodies_[i].known && state_->bodies[i] == body) return i;
+// Adds the body of a mesh that moves.
+void MovingBodies::follow(BodiesState& state, const BodiesState& before, std::uint32_t mesh, Nanoseconds now_ns,
+                          double longest_s) noexcept {
+    const geometry::MeshMotion& motion = surface_->meshes[mesh].motion;
+    const std::uint32_t i = count_++;
+    const double followed_s = geometry::followed_s(motion, now_ns, longest_s);
+    const bool stands = std::abs(followed_s) >= longest_s;
+    state.bodies[i] = motion.body;
+    state.meshes[i] = mesh;
+    state.velocities_m_per_s[i] = stands ? Vec3(0.0) : motion.velocity_object_m_per_s;
+    state.angular_velocities_rad_per_s[i] = stands ? Vec3(0.0) : motion.angular_velocity_object_rad_per_s;
+    state.object_from_mesh[i] = geometry::moved_on(motion.object_from_mesh, motion.velocity_object_m_per_s,
+                                                   motion.angular_velocity_object_rad_per_s, followed_s);
+    Body body;
+    const double since_s = seconds(now_ns - before.time_ns);
+    for (std::uint32_t k = 0; k < before.count && !body.known; ++k) {
+        if (before.bodies[k] != motion.body) continue;
+        body.known = true;
+        body.before = before.object_from_mesh[k];
+        body.expected = geometry::moved_on(body.before, before.velocities_m_per_s[k],
+                                           before.angular_velocities_rad_per_s[k], since_s);
+    }
+    bodies_.put(i, body);
+}
+
+std::uint32_t MovingBodies::with_name(std::uint64_t name) const noexcept {
+    for (std::uint32_t i = 0; name != 0 && i < count_; ++i)
+        if (bodies_[i].known && state_->bodies[i] == name) return i;
+    return kNone;
+}
+
+// Returns the number of the body that the triangle is part of; kNone: of none that moves.
+std::uint32_t MovingBodies::body_of(std::uint32_t triangle) const noexcept {
+    if (!any_ || triangle >= surface_->triangles()) return kNone;
+    const std::uint32_t mesh = surface_->mesh_of(triangle);
+    for (std::uint32_t i = 0; i < count_; ++i)
+        if (state_->meshes[i] == mesh) return i;
     return kNone;
 }
 
 std::uint64_t MovingBodies::name_of(std::uint32_t triangle) const noexcept {
-    const std::uint32_t mesh = any_ && triangle < surface_->triangles() ? surface_->mesh_of(triangle) : kNone;
-    return mesh < count_ ? state_->bodies[mesh] : 0;
+    const std::uint32_t body = body_of(triangle);
+    return body != kNone ? state_->bodies[body] : 0;
 }
 
-Vec3 MovingBodies::carried(std::uint32_t mesh, const Vec3& p) const noexcept {
-    return state_->object_from_mesh[mesh] * in_frame(bodies_[mesh].before, p);
+Vec3 MovingBodies::carried(std::uint32_t body, const Vec3& p) const noexcept {
+    return state_->object_from_mesh[body] * in_frame(bodies_[body].before, p);
 }
 
-Vec3 MovingBodies::unexplained(std::uint32_t mesh, const Vec3& p) const noexcept {
-    return p - bodies_[mesh].expected * in_frame(state_->object_from_mesh[mesh], p);
+Vec3 MovingBodies::unexplained(std::uint32_t body, const Vec3& p) const noexcept {
+    return p - bodies_[body].expected * in_frame(state_->object_from_mesh[body], p);
 }
 
-Vec3 MovingBodies::velocity_at(std::uint32_t mesh, const Vec3& p) const noexcept {
-    const Vec3 arm = p - state_->object_from_mesh[mesh].position_m;
-    return state_->velocities_m_per_s[mesh] + glm::cross(state_->angular_velocities_rad_per_s[mesh], arm);
+Vec3 MovingBodies::velocity_at(std::uint32_t body, const Vec3& p) const noexcept {
+    const Vec3 arm = p - state_->object_from_mesh[body].position_m;
+    return state_->velocities_m_per_s[body] + glm::cross(state_->angular_velocities_rad_per_s[body], arm);
 }
 
 Vec3 MovingBodies::velocity(std::uint32_t triangle, const Vec3& p) const noexcept {
-    const std::uint32_t mesh = any_ && triangle < surface_->triangles() ? surface_->mesh_of(triangle) : kNone;
-    return mesh < count_ && state_->bodies[mesh] != 0 ? velocity_at(mesh, p) : Vec3(0.0);
+    const std::uint32_t body = body_of(triangle);
+    return body != kNone ? velocity_at(body, p) : Vec3(0.0);
 }
 
-Vec3 MovingBodies::velocity_of_body(std::uint64_t body, const Vec3& p) const noexcept {
-    const std::uint32_t mesh = with_name(body);
-    return mesh != kNone ? velocity_at(mesh, p) : Vec3(0.0);
+Vec3 MovingBodies::velocity_of_body(std::uint64_t name, const Vec3& p) const noexcept {
+    const std::uint32_t body = with_name(name);
+    return body != kNone ? velocity_at(body, p) : Vec3(0.0);
 }
 
 CarriedProxy carry(const ProxyState& state, const MovingBodies& bodies, double contact_radius_m, double elsewhere_m,

@@ -41,7 +41,7 @@
 // Frame: object, metres. Turning by w in a tick of T bends the way of the proxy in a body's frame, which is taken as
 // straight, by r (w T)^2 / 8: 1 um at 0.1 m and 10 rad/s. No heap, lock, throw. Cost: nothing where nothing moves; for
 // each moving body its pose, and a broad phase with a sweep where the proxy's way comes near it. At most
-// PosedSurface::kMostFollowed bodies are followed.
+// PosedSurface::kMostFollowed bodies are followed; meshes that rest do not count.
 #pragma once
 
 #include <array>
@@ -55,11 +55,12 @@ namespace burin::haptics {
 
 inline constexpr double kElsewhere_m = 0.02;  // at the device: a stop from 2 m/s within 10 ms is found out at once
 
-// Where the bodies were in the last tick, by the index of their mesh.
+// Where the bodies were in the last tick: the moving meshes, in the surface's order.
 struct BodiesState {
     static constexpr std::uint32_t kMost = geometry::PosedSurface::kMostFollowed;
 
-    std::array<std::uint64_t, kMost> bodies{};  // 0: a mesh that rests, or was not there
+    std::array<std::uint64_t, kMost> bodies{};  // their names
+    std::array<std::uint32_t, kMost> meshes{};  // their indices in the surface
     std::array<Pose, kMost> object_from_mesh{};
     std::array<Vec3, kMost> velocities_m_per_s{}, angular_velocities_rad_per_s{};
     std::uint32_t count = 0;
@@ -77,34 +78,42 @@ public:
 
     [[nodiscard]] bool any() const noexcept { return any_; }
     [[nodiscard]] geometry::PosedSurface surface() const noexcept {
-        return any_ ? geometry::PosedSurface(*surface_, {state_->object_from_mesh.data(), state_->count})
-                    : geometry::PosedSurface(*surface_);
+        return count_ > 0 ? geometry::PosedSurface(*surface_, {state_->meshes.data(), count_},
+                                                   {state_->object_from_mesh.data(), count_})
+                          : geometry::PosedSurface(*surface_);
     }
 
-    static constexpr std::uint32_t kNone = geometry::LocalSurface::kNoMesh;
-    // The mesh of a body by its name; kNone: there is none now, or there was none in the last tick.
-    [[nodiscard]] std::uint32_t with_name(std::uint64_t body) const noexcept;
-    // Whether the mesh moves and was there in the last tick.
-    [[nodiscard]] bool is_known(std::uint32_t mesh) const noexcept { return mesh < count_ && bodies_[mesh].known; }
+    // Bodies are numbered from 0 to count() - 1.
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+    [[nodiscard]] std::uint32_t count() const noexcept { return count_; }
+    // The number of a body by its name; kNone: there is none now, or there was none in the last tick.
+    [[nodiscard]] std::uint32_t with_name(std::uint64_t name) const noexcept;
+    // Whether the body was there in the last tick.
+    [[nodiscard]] bool is_known(std::uint32_t body) const noexcept { return body < count_ && bodies_[body].known; }
+    // The index of its mesh in the surface.
+    [[nodiscard]] std::uint32_t mesh_of(std::uint32_t body) const noexcept { return state_->meshes[body]; }
     // The name of the body that this triangle is part of; 0: of none that moves.
     [[nodiscard]] std::uint64_t name_of(std::uint32_t triangle) const noexcept;
 
-    // These require a mesh that is known.
-    // Where a point that is fixed to the mesh, and was at p in the last tick, is now.
-    [[nodiscard]] Vec3 carried(std::uint32_t mesh, const Vec3& p) const noexcept;
-    // How far from where the velocity would have it a point of the mesh is that is now at p.
-    [[nodiscard]] Vec3 unexplained(std::uint32_t mesh, const Vec3& p) const noexcept;
+    // These require a body that is known.
+    // Where a point that is fixed to the body, and was at p in the last tick, is now.
+    [[nodiscard]] Vec3 carried(std::uint32_t body, const Vec3& p) const noexcept;
+    // How far from where the velocity would have it a point of the body is that is now at p.
+    [[nodiscard]] Vec3 unexplained(std::uint32_t body, const Vec3& p) const noexcept;
 
     // The velocity of the surface at p, for a triangle of it; zero where it does not move.
     [[nodiscard]] Vec3 velocity(std::uint32_t triangle, const Vec3& p) const noexcept;
-    [[nodiscard]] Vec3 velocity_of_body(std::uint64_t body, const Vec3& p) const noexcept;
+    [[nodiscard]] Vec3 velocity_of_body(std::uint64_t name, const Vec3& p) const noexcept;
 
 private:
     struct Body {
         bool known = false;
         Pose before, expected;
     };
-    [[nodiscard]] Vec3 velocity_at(std::uint32_t mesh, const Vec3& p) const noexcept;
+    void follow(BodiesState& state, const BodiesState& before, std::uint32_t mesh, Nanoseconds now_ns,
+                double longest_s) noexcept;
+    [[nodiscard]] std::uint32_t body_of(std::uint32_t triangle) const noexcept;
+    [[nodiscard]] Vec3 velocity_at(std::uint32_t body, const Vec3& p) const noexcept;
 
     const BodiesState* state_ = nullptr;
     const geometry::LocalSurface* surface_ = nullptr;

@@ -44,7 +44,7 @@ struct TouchMaterial {
     double cutting_drag_Ns_per_m3 = 0.0;
 };
 
-inline constexpr std::uint32_t kMostMaterials = 8;  // in one session; a surface refers to its material by index
+inline constexpr std::uint32_t kMostMaterials = 16;  // in one session; a surface refers to its material by index
 
 struct TouchInput {
     Vec3 hip_object_m{0.0};

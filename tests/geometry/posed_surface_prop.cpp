@@ -20,7 +20,8 @@ MeshMotion any_motion(std::mt19937& random, std::uint64_t body) {
     return motion;
 }
 
-// A box that rests, and balls that have been turned and moved, one of them at another pose than the published one.
+// A box that rests, balls that have been turned and moved, one of them at another pose than the published one, and a
+// box that rests at a pose.
 struct Scene {
     explicit Scene(std::mt19937& random) {
         surface.origin_object = random_vector(random, 1.0);
@@ -34,8 +35,12 @@ struct Scene {
         }
         // The tick's pose; the published one stays behind.
         poses[2] = any_motion(random, 2).object_from_mesh;
+        surface.meshes.push_back({TouchMesh::create(cube(0.03))->snapshot(), 0, false, any_motion(random, 0)});
+        poses.push_back(surface.meshes.back().motion.object_from_mesh);
     }
-    [[nodiscard]] PosedSurface posed() const { return {surface, poses}; }
+    [[nodiscard]] PosedSurface posed() const {
+        return {surface, followed, std::span<const Pose>(poses).subspan(1, followed.size())};
+    }
     // The triangle where the mesh is, by the published surface and the two poses.
     [[nodiscard]] Triangle triangle(std::uint32_t id) const {
         Triangle t = surface.triangle(id);
@@ -49,7 +54,8 @@ struct Scene {
     }
 
     LocalSurface surface;
-    std::vector<Pose> poses;
+    std::array<std::uint32_t, 2> followed{1, 2};
+    std::vector<Pose> poses;  // of all meshes
 };
 
 bool same(const Triangle& a, const Triangle& b) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <random>
+#include <vector>
 
 #include "tests/haptics/bodies.hpp"
 
@@ -217,6 +218,38 @@ TEST(MovingBodies, WhatIsSetElsewhereOrRaisedByAnEditFadesInAndWhatRetreatsDoesN
         bodies.surface.meshes[0].snapshot = raised;
         EXPECT_EQ((bodies.tick(hand).flags & kTickRamping) != 0, rise_m > 0.0005) << rise_m;
     }
+}
+
+// Returns the forces on a hand under which a plate goes up and down, with other meshes
+// before it in the surface.
+std::vector<double> pressed_behind(const std::vector<geometry::TouchedMesh>& others) {
+    const Zigzag way{0.02, 0.0, 100};
+    test::Bodies bodies;
+    bodies.surface = test::around(others);
+    bodies.surface.meshes.push_back({test::plate(0.05, 0.01), 0});
+    bodies.motions.resize(others.size());
+    bodies.motions.push_back(
+        test::along_y([way](double t) { return way.height_m(t); }, [way](double t) { return way.speed(t); }));
+    std::vector<double> forces_N;
+    for (int i = 0; i < 800; ++i)
+        forces_N.push_back(bodies.tick({0.0, kRadius_m - 0.001, 0.0}).gate.given.force_device_N.y);
+    return forces_N;
+}
+
+TEST(MovingBodies, ABodyIsFollowedHoweverManyMeshesRestBeforeIt) {
+    const test::Snapshot far = test::plate(0.05, 0.01);
+    std::vector<geometry::TouchedMesh> resting(20, {far, 0});
+    for (geometry::TouchedMesh& mesh : resting) mesh.motion.object_from_mesh.position_m = {10.0, 0.0, 0.0};
+    EXPECT_EQ(pressed_behind(resting), pressed_behind({}));
+}
+
+TEST(MovingBodies, TwentyBodiesAreFollowedAtOnce) {
+    std::vector<geometry::TouchedMesh> moving(19, {test::plate(0.05, 0.01), 0});
+    for (std::size_t i = 0; i < moving.size(); ++i) {
+        moving[i].motion.body = 100 + i;
+        moving[i].motion.object_from_mesh.position_m = {10.0, 0.0, 0.0};
+    }
+    EXPECT_EQ(pressed_behind(moving), pressed_behind({}));
 }
 
 TEST(MovingBodies, ABodyStandsWhenItIsNoLongerPublished) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads the values of a TOML table key by key and reports keys that were never requested. The first error is kept, so
-// that reading code is a plain list of keys.
+// Reads the values of a TOML table key by key and reports keys that were never requested. Errors are collected, so that
+// reading code is a plain list of keys, and a file's mistakes are listed together. Any thread; nothing shared.
 #pragma once
 
 // This header alone includes toml++. Version 3.3 asserts conditions that a malformed file can break ("[[["), before it
@@ -15,13 +15,19 @@
 #include "base/error.hpp"
 #include "base/space.hpp"
 
-namespace burin::wall {
+namespace burin {
+
+// Parses a text. `name` stands for the file in messages.
+[[nodiscard]] Result<toml::table> parse_toml(std::string_view text, const std::string& name);
 
 // State shared by all tables of a file.
 struct TableReading {
-    std::string file;
-    std::optional<Error> error;
+    static constexpr std::size_t kMaxErrors = 200;  // further ones are dropped
 
+    std::string file;
+    std::vector<Error> errors{};  // in the order in which they were found
+
+    void add(Error error);
     void refuse(const toml::node& node, std::string what, std::string remedy);
 };
 
@@ -31,6 +37,8 @@ public:
     TableReader(TableReading& reading, const toml::table* table, std::string name);
 
     [[nodiscard]] bool has(const char* key) const;
+    // Returns the value as it stands in the file; null where there is none.
+    [[nodiscard]] const toml::node* find(const char* key) const;
     [[nodiscard]] std::optional<double> number(const char* key);
     [[nodiscard]] std::optional<bool> flag(const char* key);
     [[nodiscard]] std::optional<std::string> text(const char* key);
@@ -44,7 +52,7 @@ public:
 
     void refuse(const char* key, const std::string& what, const std::string& remedy);
     void require(const char* key, const std::string& remedy);
-    // After all keys have been read: reports the first other key as an error.
+    // After all keys have been read: reports each other key as an error.
     void refuse_unknown();
 
 private:
@@ -57,4 +65,4 @@ private:
     std::vector<std::string_view> asked_;  // keys that were requested: literals of the reading code
 };
 
-}  // namespace burin::wall
+}  // namespace burin

@@ -1,25 +1,40 @@
 // SPDX-License-Identifier: MIT
-#include "wall/toml_table.hpp"
+#include "base/toml_table.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/text.hpp"
 
-namespace burin::wall {
+namespace burin {
+
+Result<toml::table> parse_toml(std::string_view text, const std::string& name) {
+    try {
+        return toml::parse(text, name);
+    } catch (const toml::parse_error& error) {
+        return fail(name + ":" + std::to_string(error.source().begin.line),
+                    "is not TOML: " + std::string(error.description()), "correct this line");
+    }
+}
+
+void TableReading::add(Error error) {
+    if (errors.size() < kMaxErrors) errors.push_back(std::move(error));
+}
+
 void TableReading::refuse(const toml::node& node, std::string what, std::string remedy) {
-    if (error) return;
-    error = Error{std::move(what), file + ":" + std::to_string(node.source().begin.line), std::move(remedy)};
+    add({std::move(what), file + ":" + std::to_string(node.source().begin.line), std::move(remedy)});
 }
 
 TableReader::TableReader(TableReading& reading, const toml::table* table, std::string name)
     : reading_(reading), table_(table), name_(std::move(name)) {}
 
-bool TableReader::has(const char* key) const { return table_ != nullptr && table_->contains(key); }
+bool TableReader::has(const char* key) const { return find(key) != nullptr; }
+
+const toml::node* TableReader::find(const char* key) const { return table_ == nullptr ? nullptr : table_->get(key); }
 
 const toml::node* TableReader::node(const char* key) {
     asked_.emplace_back(key);
-    return table_ == nullptr ? nullptr : table_->get(key);
+    return find(key);
 }
 
 std::optional<double> TableReader::number(const char* key) {
@@ -136,7 +151,7 @@ std::vector<const toml::table*> TableReader::tables(const char* key) {
 }
 
 void TableReader::refuse(const char* key, const std::string& what, const std::string& remedy) {
-    const toml::node* n = table_ == nullptr ? nullptr : table_->get(key);
+    const toml::node* n = find(key);
     if (n != nullptr) reading_.refuse(*n, std::string(key) + " " + what, remedy);
 }
 
@@ -145,8 +160,8 @@ void TableReader::require(const char* key, const std::string& remedy) {
     const std::string what = name_ + " has no " + key;
     if (table_ != nullptr) {
         reading_.refuse(*table_, what, remedy);
-    } else if (!reading_.error) {
-        reading_.error = Error{what, reading_.file, remedy};
+    } else {
+        reading_.add({what, reading_.file, remedy});
     }
 }
 
@@ -155,14 +170,12 @@ void TableReader::refuse_unknown() {
     for (const auto& [key, node] : *table_) {
         const std::string name(key.str());
         if (std::ranges::find(asked_, name) != asked_.end()) continue;
-        if (reading_.error) return;
         const std::string nearest(asked_.empty() ? std::string_view() : nearest_name(name, asked_));
-        reading_.error =
-            Error{name_ + " has no key named " + name, reading_.file + ":" + std::to_string(key.source().begin.line),
-                  edit_distance(name, nearest) <= 2 + name.size() / 3 ? "did you mean " + nearest + "?"
-                                                                      : "its keys are " + joined(asked_)};
-        return;
+        reading_.add({name_ + " has no key named " + name,
+                      reading_.file + ":" + std::to_string(key.source().begin.line),
+                      edit_distance(name, nearest) <= 2 + name.size() / 3 ? "did you mean " + nearest + "?"
+                                                                          : "its keys are " + joined(asked_)});
     }
 }
 
-}  // namespace burin::wall
+}  // namespace burin

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// The meshes of a world as a part of a scene: objects with poses, materials and motions that can be touched, moved and
+// changed while they are touched.
+//
+// Data flow: each object that is felt has a snapshot of its mesh (geometry/contact/touch_mesh.hpp) at its scale;
+// objects with one mesh and one scale share it. Where an object stands is published beside the snapshot, so that moving
+// one costs nothing. An update takes objects on paths to their poses at its time, and held ones along with their hands.
+// A query finds resting objects in a tree of boxes (scene/object_tree.hpp) and looks at each moving one; its cost does
+// not grow with the resting ones.
+// Motion as published: pose at the time of the update and the mean velocity until the next one is due, so that a body
+// on a path is then where the tick has followed it to.
+// Hardest case: an object that is edited while it is touched. A pose set by hand is a jump: the tick puts the tool
+// outside and fades its force in (haptics/contact/moving_bodies.hpp); a scale is a new snapshot, likewise. A material
+// changes between two ticks.
+// Threads: one at a time. The snapshots are handed to the haptic thread by the publisher alone.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "scene/object_tree.hpp"
+#include "scene/scene_object.hpp"
+#include "scene/scene_part.hpp"
+
+namespace burin::scene {
+
+// Where a hand is, for what it holds.
+struct HandPose {
+    Pose scene_from_hand;
+    Vec3 velocity_m_per_s{0.0};
+    Vec3 angular_velocity_rad_per_s{0.0};
+};
+
+// What the frame has to know of an object that has changed.
+struct ObjectUpdate {
+    ObjectId id = 0;
+    Similarity scene_from_mesh;
+    bool seen = true;
+    Colour colour{};
+};
+
+class MeshPart final : public ScenePart {
+public:
+    static constexpr Nanoseconds kMoving_ns = 10'000'000, kResting_ns = 40'000'000;
+
+    // The table must outlive the part. Fails on two objects of one id or name, on values out of range, on a mesh that
+    // cannot be touched, and where the table has no room for a material.
+    [[nodiscard]] static Result<std::unique_ptr<MeshPart>> create(std::vector<SceneObject> objects,
+                                                                  MaterialTable& materials);
+    ~MeshPart() override;
+
+    // ScenePart. The first update is the time at which paths begin.
+    [[nodiscard]] Result<void> update(Nanoseconds now_ns, const UpdateSeen* recorded) override;
+    [[nodiscard]] const UpdateSeen& seen() const override { return seen_; }
+    // Leaves out what the hand itself holds.
+    [[nodiscard]] Result<void> add_near(const ProbeBall& ball, geometry::LocalSurface& draft) override;
+    [[nodiscard]] Nanoseconds period_ns() const override { return moving_.empty() ? kResting_ns : kMoving_ns; }
+    void finish() override {}
+
+    // Makes an edit, which the next update shows. One that fails changes nothing. let_go() leaves a held object fixed
+    // where it was in the last update.
+    [[nodiscard]] Result<void> edit(ObjectId id, const ObjectEdit& edit);
+    [[nodiscard]] Result<void> let_go(ObjectId id);
+    // Tells where a hand is; what it holds follows with the next update.
+    void move_hand(std::size_t hand, const HandPose& pose);
+
+    [[nodiscard]] std::size_t size() const { return objects_.size(); }
+    [[nodiscard]] bool has(ObjectId id) const { return index_of_.contains(id); }
+    // Requires an object of the part.
+    [[nodiscard]] const SceneObject& object(ObjectId id) const { return objects_[index_of_.at(id)].object; }
+    // Returns where the object was in the last update.
+    [[nodiscard]] const Pose& pose(ObjectId id) const { return objects_[index_of_.at(id)].scene_from_object; }
+    // Returns the index of the object's material in the table. It must be felt.
+    [[nodiscard]] std::uint8_t material_index(ObjectId id) const { return objects_[index_of_.at(id)].material; }
+    // Returns the objects that have changed since the last call, each once, in the order of their creation; at first
+    // all.
+    [[nodiscard]] std::vector<ObjectUpdate> take_object_updates();
+    // Returns the number of boxes and distances computed by queries since creation: a measure of their cost.
+    [[nodiscard]] std::uint64_t looks() const { return looks_; }
+
+private:
+    using Snapshot = std::shared_ptr<const geometry::TouchSnapshot>;
+
+    struct Placed {
+        SceneObject object;
+        Snapshot snapshot;          // null: not felt
+        std::uint8_t material = 0;  // index in the table; held while it is felt
+        Pose scene_from_object;
+        Velocities velocities;
+        bool changed = true;  // since take_object_updates()
+
+        [[nodiscard]] bool moves() const { return !std::holds_alternative<FixedMotion>(object.motion); }
+        [[nodiscard]] geometry::TouchedMesh touched(Nanoseconds time_ns) const;
+    };
+
+    explicit MeshPart(MaterialTable& materials) : materials_(materials) {}
+    [[nodiscard]] Result<void> add(SceneObject object);
+    [[nodiscard]] Result<void> replace(Placed& placed, SceneObject object);
+    [[nodiscard]] Result<Snapshot> snapshot_of(const SceneObject& object);
+    void place(Placed& placed);
+    void sort_by_motion();
+    void offer(const Placed& placed, const ProbeBall& ball, geometry::LocalSurface& draft);
+
+    MaterialTable& materials_;
+    std::vector<Placed> objects_;
+    std::unordered_map<ObjectId, std::uint32_t> index_of_;
+    std::vector<std::uint32_t> moving_;  // indices of those that move, felt or not
+    ObjectTree resting_;                 // those that rest and are felt
+    bool unsorted_ = true;               // moving_ and resting_ are out of date
+    std::map<std::pair<std::shared_ptr<const geometry::TriangleMesh>, double>,
+             std::weak_ptr<const geometry::TouchSnapshot>>
+        snapshots_;  // by mesh and scale
+    std::map<std::size_t, HandPose> hands_;
+    std::vector<std::uint32_t> found_;  // by a query
+    Nanoseconds start_ns_ = 0;          // of the first update
+    bool started_ = false;
+    std::uint64_t looks_ = 0;
+    UpdateSeen seen_;
+};
+
+}  // namespace burin::scene

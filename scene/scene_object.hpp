@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// An object of a scene as plain data, and pure edits of it.
+//
+// Frame: the object's own is that of its mesh. A point of the mesh is in the scene at pose * (scale * point).
+// Units: metres. Pure; any thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/space.hpp"
+#include "geometry/mesh/triangle_mesh.hpp"
+#include "scene/haptic_material.hpp"
+#include "scene/scene_motion.hpp"
+
+namespace burin::scene {
+
+// From 1, unique in a scene. Also the name of the body by which the tick knows an object that moves.
+using ObjectId = std::uint64_t;
+
+using Colour = std::array<std::uint8_t, 3>;  // sRGB
+
+struct SceneObject {
+    ObjectId id = 0;
+    std::string name;  // not empty, unique in a world
+    std::shared_ptr<const geometry::TriangleMesh> mesh;
+    Pose pose;           // scene_from_object; without the motion of a path, and not used while a hand holds it
+    double scale = 1.0;  // kMinScale to kMaxScale
+    bool seen = true, felt = true;
+    Colour colour{200, 200, 200};
+    HapticMaterial material;
+    bool both_sides = false;  // a surface without thickness, felt from the side on which the tool is
+    ObjectMotion motion;
+};
+
+inline constexpr double kMinScale = 1e-6, kMaxScale = 1e6;
+// Farther from the scene's origin than this nothing is touched: float positions would be coarser than 0.1 mm.
+inline constexpr double kMaxDistance_m = 1000.0;
+
+// Returns all that is wrong with an object's values, besides its mesh.
+[[nodiscard]] std::vector<Problem> problems(const SceneObject& object);
+
+// Sets the object's own pose. One on a path takes the path along; one that a hand holds is refused.
+struct SetPose {
+    Pose scene_from_object;
+};
+struct SetScale {
+    double scale = 1.0;
+};
+struct SetMaterial {
+    HapticMaterial material;
+};
+struct SetFelt {
+    bool felt = true;
+};
+struct SetSeen {
+    bool seen = true;
+};
+struct SetColour {
+    Colour colour{};
+};
+// Has the object move with a hand from now on.
+struct TakeHold {
+    std::size_t hand = 0;
+    Pose hand_from_object;
+};
+// Leaves the object fixed where it is.
+struct LetGo {
+    Pose scene_from_object;
+};
+using ObjectEdit = std::variant<SetPose, SetScale, SetMaterial, SetFelt, SetSeen, SetColour, TakeHold, LetGo>;
+
+// Returns the object with the edit made. Fails where that would have a problem.
+[[nodiscard]] Result<SceneObject> edited(SceneObject object, const ObjectEdit& edit);
+
+}  // namespace burin::scene

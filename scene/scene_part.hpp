@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// A part of a scene: what it owns in there is touched, seen and edited through it alone. A carved workpiece is a part,
+// the meshes of a world are one, bodies another.
+//
+// Data flow of an update: the scene's service calls update() of each part at the part's period, then has the touch
+// publisher (scene/touch_publisher.hpp) ask every part for what lies near each hand's probe. What a part draws, and the
+// orders that it carries out, are its own affair: whoever knows which part it is asks it.
+// Frame: the scene's, metres, which LocalSurface calls the object frame.
+// Threads: one at a time, the service's or, where time is simulated, the caller's.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/clock.hpp"
+#include "base/error.hpp"
+#include "geometry/contact/local_surface.hpp"
+
+namespace burin::scene {
+
+// Inputs of an update besides the orders before it; with them a recording can repeat the update.
+struct UpdateSeen {
+    Nanoseconds time_ns = 0;
+    std::uint64_t last_tick = 0;    // tick of the last stroke sample that it read; 0 for a part that reads none
+    std::size_t orders = 0;         // orders carried out just before it; counted by whoever gives them
+    bool background_ended = false;  // it was the first to find its work on another thread complete, such as an export
+    friend bool operator==(const UpdateSeen&, const UpdateSeen&) = default;
+};
+
+// The ball around a hand's probe within which the surface must be known until the next publication.
+struct ProbeBall {
+    std::size_t hand = 0;
+    Vec3 center_scene{0.0};
+    double radius_m = 0.0;  // of the probe, and how far it may move until then
+};
+
+class ScenePart {
+public:
+    ScenePart() = default;
+    virtual ~ScenePart() = default;
+    ScenePart(const ScenePart&) = delete;
+    ScenePart& operator=(const ScenePart&) = delete;
+
+    // Brings the part to the present. `recorded` limits the update to the inputs of a recorded one, at whose time it
+    // takes place. Fails when the part cannot go on; it is then as it was before the update.
+    [[nodiscard]] virtual Result<void> update(Nanoseconds now_ns, const UpdateSeen* recorded) = 0;
+    [[nodiscard]] Result<void> repeat(const UpdateSeen& recorded) { return update(recorded.time_ns, &recorded); }
+    // Returns the inputs of the last update; `orders` is 0 unless it was given.
+    [[nodiscard]] virtual const UpdateSeen& seen() const = 0;
+    // Adds what lies in the ball to a draft, which begins empty and holds the ball; other parts add to it as well. One
+    // part of a scene alone may set origin, tiles and loose triangles; the others add meshes. A part that knows its
+    // surface in a smaller ball only lowers radius_m. Sequence and time are the publisher's.
+    [[nodiscard]] virtual Result<void> add_near(const ProbeBall& ball, geometry::LocalSurface& draft) = 0;
+    // Time between updates; it may change with each.
+    [[nodiscard]] virtual Nanoseconds period_ns() const = 0;
+    // Ends all work that goes on elsewhere, and waits for it. No update follows.
+    virtual void finish() = 0;
+};
+
+}  // namespace burin::scene

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+#include "scene/world_file.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include "base/file_io.hpp"
+#include "base/text.hpp"
+#include "base/toml_table.hpp"
+#include "geometry/mesh/mesh_health.hpp"
+#include "geometry/mesh/mesh_repair.hpp"
+
+namespace burin::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A mesh as several objects may name it.
+struct WorldMesh {
+    std::shared_ptr<const geometry::TriangleMesh> mesh;  // null: could not be read
+    geometry::MeshHealth health;
+    std::optional<Error> failure;
+};
+
+// Returns why a mesh is not the surface of a solid; empty where it is.
+std::string not_solid(const geometry::MeshHealth& health) {
+    if (!health.closed) return formatted("is open: %zu edges have a triangle on one side only", health.boundary_edges);
+    if (!health.consistently_oriented)
+        return formatted("has %zu edges whose two triangles face opposite ways", health.misoriented_edges);
+    return health.inside_out() ? "is inside out: its triangles face inwards" : "";
+}
+
+std::optional<Colour> colour_in(const std::string& text) {
+    if (text.size() != 7 || text.front() != '#') return std::nullopt;
+    Colour colour{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const char *const from = text.data() + 1 + 2 * i, *const end = from + 2;
+        const auto [stopped, failed] = std::from_chars(from, end, colour[i], 16);
+        if (failed != std::errc() || stopped != end) return std::nullopt;
+    }
+    return colour;
+}
+
+// Reads one file; collects problems on the way.
+class WorldReader {
+public:
+    WorldReader(const std::string& name, const WorldMeshReader& read_mesh) : reading_{name}, read_mesh_(read_mesh) {}
+
+    WorldOrProblems read(const toml::table& root) {
+        TableReader t(reading_, &root, "the file");
+        world_.name = t.text("name").value_or("");
+        t.require("object", "write [[object]] with name and mesh for each object");
+        const std::vector<const toml::table*> tables = t.tables("object");
+        if (tables.size() > kMaxWorldObjects)
+            t.refuse("object", formatted("stands there %zu times", tables.size()),
+                     formatted("a world has at most %zu objects", kMaxWorldObjects));
+        else
+            for (const toml::table* table : tables) read_object(*table);
+        t.refuse_unknown();
+        if (!reading_.errors.empty()) return std::unexpected(std::move(reading_.errors));
+        return std::move(world_);
+    }
+
+private:
+    void read_object(const toml::table& table) {
+        TableReader t(reading_, &table, "[[object]]");
+        SceneObject object;
+        object.id = world_.objects.size() + 1;
+        t.require("name", "give each object a name of its own");
+        t.require("mesh", "name an STL, OBJ, PLY or OFF file in the world's folder");
+        object.name = t.text("name").value_or("object " + std::to_string(object.id));
+        object.pose = read_pose(t);
+        object.scale = t.number("scale").value_or(1.0);
+        object.seen = t.flag("seen").value_or(true);
+        object.felt = t.flag("felt").value_or(true);
+        object.both_sides = t.flag("both_sides").value_or(false);
+        read_colour(t, object);
+        const toml::table* const material = t.table("material");
+        TableReader m(reading_, material, "[object.material]");
+        read_material(m, object.material);
+        const std::vector<const toml::table*> poses = t.tables("path");
+        const std::optional<bool> repeats = t.flag("repeat");
+        if (!poses.empty()) object.motion = read_path(poses, repeats.value_or(true));
+        if (repeats && !t.has("path")) t.refuse("repeat", "stands where there is no path", "leave it out");
+        read_mesh(t, object);
+        t.refuse_unknown();
+        tell_problems(t, m, poses, object);
+        check_others(t, table, object);
+        world_.objects.push_back(std::move(object));
+    }
+
+    static Pose read_pose(TableReader& t) {
+        Pose pose;
+        pose.position_m = t.vector("position").value_or(Vec3(0.0));
+        pose.orientation = t.quaternion("orientation").value_or(pose.orientation);
+        return pose;
+    }
+
+    static void read_colour(TableReader& t, SceneObject& object) {
+        const auto text = t.text("colour");
+        if (!text) return;
+        if (const auto colour = colour_in(*text))
+            object.colour = *colour;
+        else
+            t.refuse("colour", "is " + *text, "write red, green and blue as \"#c08040\", say");
+    }
+
+    static void read_material(TableReader& m, HapticMaterial& material) {
+        material.stiffness_N_per_m = m.number("stiffness").value_or(material.stiffness_N_per_m);
+        material.damping_Ns_per_m = m.number("damping").value_or(material.damping_Ns_per_m);
+        const auto at_rest = m.number("static_friction"), sliding = m.number("dynamic_friction");
+        // One alone stands for both.
+        material.static_friction = at_rest.value_or(sliding.value_or(material.static_friction));
+        material.dynamic_friction = sliding.value_or(at_rest.value_or(material.dynamic_friction));
+        m.refuse_unknown();
+    }
+
+    PathMotion read_path(const std::vector<const toml::table*>& poses, bool repeats) {
+        PathMotion path;
+        path.repeats = repeats;
+        for (const toml::table* table : poses) {
+            TableReader t(reading_, table, "[[object.path]]");
+            t.require("time", "give the time in seconds at which it is there; the first at 0");
+            path.keys.push_back({t.number("time").value_or(0.0), read_pose(t)});
+            t.refuse_unknown();
+        }
+        return path;
+    }
+
+    // ---- Meshes
+
+    void read_mesh(TableReader& t, SceneObject& object) {
+        const std::optional<LengthUnit> unit = read_unit(t);
+        const auto name = t.text("mesh");
+        if (!name) return;
+        const WorldMesh& known = mesh_of(*name, unit);
+        if (known.failure) return t.refuse("mesh", known.failure->what, known.failure->remedy);
+        object.mesh = known.mesh;
+        if (!object.felt || object.both_sides) return;
+        if (const std::string why = not_solid(known.health); !why.empty())
+            t.refuse("mesh", why,
+                     "burin convert --close-holes closes and turns it; both_sides = true has it felt from "
+                     "either side, felt = false not at all");
+    }
+
+    std::optional<LengthUnit> read_unit(TableReader& t) {
+        const auto word = t.text("mesh_units");
+        if (!word) return std::nullopt;
+        const auto unit = length_unit(*word);
+        if (!unit) t.refuse("mesh_units", "is " + *word, "write m, cm, mm, in or ft, or leave it out");
+        return unit;
+    }
+
+    const WorldMesh& mesh_of(const std::string& name, std::optional<LengthUnit> unit) {
+        const auto [at, is_new] = meshes_.try_emplace({fs::path(name).lexically_normal().string(), unit});
+        WorldMesh& known = at->second;
+        if (!is_new) return known;
+        if (triangles_ >= kMaxWorldTriangles) {
+            known.failure = Error{formatted("is one too many: the others have %zu triangles", triangles_), "",
+                                  formatted("a world has at most %zu", kMaxWorldTriangles)};
+            return known;
+        }
+        Result<geometry::ImportedMesh> imported = read_mesh_(name, unit);
+        if (!imported) {
+            known.failure = Error{"cannot be used: " + imported.error().where + ": " + imported.error().what, "",
+                                  imported.error().remedy};
+            return known;
+        }
+        geometry::weld_vertices(imported->mesh);
+        triangles_ += imported->mesh.triangles.size();
+        if (imported->mesh.triangles.empty()) known.failure = Error{"has no triangles: " + name, "", "name another"};
+        known.health = geometry::examine(imported->mesh);
+        const geometry::ImportReport& report = imported->report;
+        for (const std::string& remark : report.remarks) world_.remarks.push_back(name + ": " + remark);
+        if (report.unit.source == geometry::UnitSource::guessed)
+            world_.remarks.push_back(geometry::describe_size(name, report.size_m, report.unit));
+        known.mesh = std::make_shared<const geometry::TriangleMesh>(std::move(imported->mesh));
+        return known;
+    }
+
+    // ---- Checks
+
+    // Lists what is wrong with the object's values, each at the line of its key.
+    void tell_problems(TableReader& t, TableReader& m, const std::vector<const toml::table*>& poses,
+                       const SceneObject& object) {
+        for (const Problem& problem : problems(object)) {
+            const std::string& key = problem.key;
+            if (t.has(key.c_str())) {
+                t.refuse(key.c_str(), problem.what, problem.remedy);
+            } else if (m.has(key.c_str())) {
+                m.refuse(key.c_str(), problem.what, problem.remedy);
+            } else if (std::size_t i = 0; key.starts_with("path[")) {
+                std::from_chars(key.data() + 5, key.data() + key.size(), i);
+                if (i < poses.size()) reading_.refuse(*poses[i], key + " " + problem.what, problem.remedy);
+            }
+        }
+        if (object.mesh && finite(object.pose.position_m) && object.scale > 0.0 && object.scale <= kMaxScale) {
+            const double size_m = object.scale * glm::length(geometry_size(*object.mesh));
+            if (!(size_m <= kMaxDistance_m))
+                t.refuse("mesh", formatted("is %.3g m large", size_m), "give mesh_units, or another scale");
+        }
+    }
+
+    static Vec3 geometry_size(const geometry::TriangleMesh& mesh) {
+        Box box;
+        for (const auto& triangle : mesh.triangles)
+            for (const std::uint32_t v : triangle) box.include(mesh.positions_m[v]);
+        return box.empty() ? Vec3(0.0) : box.extent();
+    }
+
+    // Compares the object with those before it.
+    void check_others(TableReader& t, const toml::table& table, const SceneObject& object) {
+        const toml::node* const name = t.find("name");
+        if (name != nullptr) {
+            const auto line = static_cast<std::uint32_t>(name->source().begin.line);
+            const auto [at, is_new] = names_.try_emplace(object.name, line);
+            if (!is_new)
+                t.refuse("name",
+                         formatted("\"%.100s\" is also that of the object in line %u", object.name.c_str(),
+                                   static_cast<unsigned>(at->second)),
+                         "give each object a name of its own");
+        }
+        if (!object.felt || !problems(object.material).empty()) return;
+        const bool is_known = std::ranges::find(materials_, object.material) != materials_.end();
+        if (is_known) return;
+        if (materials_.size() == kMaxWorldMaterials)
+            reading_.refuse(table, formatted("its material is one more than %zu different ones", kMaxWorldMaterials),
+                            "let it feel like another object");
+        else
+            materials_.push_back(object.material);
+    }
+
+    TableReading reading_;
+    const WorldMeshReader& read_mesh_;
+    World world_;
+    std::map<std::pair<std::string, std::optional<LengthUnit>>, WorldMesh> meshes_;
+    std::size_t triangles_ = 0;
+    std::map<std::string, std::uint32_t> names_;  // and their lines
+    std::vector<HapticMaterial> materials_;       // that are felt
+};
+
+}  // namespace
+
+WorldMeshReader meshes_beside(const fs::path& world) {
+    return [folder = world.parent_path()](const std::string& name,
+                                          std::optional<LengthUnit> unit) -> Result<geometry::ImportedMesh> {
+        constexpr const char* kRemedy = "copy that file into the world's folder";
+        const fs::path relative = fs::path(name).lexically_normal();
+        if (name.empty() || relative.is_absolute() || *relative.begin() == "..")
+            return fail(name.empty() ? "\"\"" : name, "is not in the world's folder", kRemedy);
+        std::error_code code;
+        const fs::path root = fs::canonical(folder.empty() ? fs::path(".") : folder, code);
+        const fs::path real = fs::weakly_canonical(root / relative, code);
+        if (std::ranges::mismatch(root, real).in1 != root.end())
+            return fail(name, "is a link that leads out of the world's folder", kRemedy);
+        return geometry::import_mesh(folder / relative, unit);
+    };
+}
+
+WorldOrProblems parse_world(std::string_view text, const std::string& name, const WorldMeshReader& read_mesh) {
+    const Result<toml::table> root = parse_toml(text, name);
+    if (!root) return std::unexpected(std::vector{root.error()});
+    return WorldReader(name, read_mesh).read(*root);
+}
+
+WorldOrProblems read_world(const fs::path& path) {
+    const Result<std::string> text = read_text_file(path, kMaxWorldBytes);
+    if (!text) return std::unexpected(std::vector{text.error()});
+    return parse_world(*text, path.string(), meshes_beside(path));
+}
+
+}  // namespace burin::scene

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+// Meshes of a world: what a hand feels of them, and what it costs.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/scene/scene_samples.hpp"
+
+namespace burin::scene {
+namespace {
+
+using test::object_at;
+using test::shared_mesh;
+using test::TouchedScene;
+
+constexpr double kHalf_m = 0.02;
+
+// Cubes of 4 cm on a grid of 6 cm, the first in the middle of all; ids from 1.
+std::vector<SceneObject> cubes(int count) {
+    const auto cube = shared_mesh(geometry::test::cube(kHalf_m));
+    std::vector<SceneObject> objects{object_at(1, cube, Vec3(0.0))};
+    for (int i = 0; objects.size() < static_cast<std::size_t>(count); ++i) {
+        const Vec3 at = 0.06 * Vec3(i % 11 - 5, i / 11 % 11 - 5, i / 121 - 5);
+        if (at != Vec3(0.0)) objects.push_back(object_at(objects.size() + 1, cube, at));
+    }
+    return objects;
+}
+
+// On the first cube's top, 1 mm deep.
+const Vec3 kOnTop(0.003, kHalf_m + TouchedScene::kRadius_m - 0.001, 0.002);
+
+TEST(MeshPart, AThousandObjectsCostATickAtMostTwiceWhatOneDoes) {
+    TouchedScene alone(cubes(1)), crowd(cubes(1000));
+    haptics::ContactWork of_one, of_all;
+    double force_one_N = 0.0, force_all_N = 0.0;
+    for (int i = 0; i < 600; ++i) {
+        const Vec3 hand = kOnTop + Vec3(0.005 * std::sin(0.01 * i), 0.0, 0.0);
+        const haptics::TickRecord one = alone.tick(hand), all = crowd.tick(hand);
+        of_one += one.contact.work, of_all += all.contact.work;
+        force_one_N = one.gate.given.force_device_N.y, force_all_N = all.gate.given.force_device_N.y;
+    }
+    EXPECT_NEAR(force_one_N, 0.001 * TouchedScene::kStiffness_N_per_m, 0.01);
+    EXPECT_EQ(force_all_N, force_one_N);
+    EXPECT_LE(haptics::cost_ns(of_all), 2.0 * haptics::cost_ns(of_one));
+    EXPECT_LE(of_all.triangles_seen, 2 * of_one.triangles_seen);
+}
+
+TEST(MeshPart, TheCostOfAQueryDoesNotGrowWithWhatRests) {
+    const auto looks = [](std::size_t far_away) {
+        std::vector<SceneObject> objects = cubes(1000);
+        for (std::size_t i = 0; i < far_away; ++i) {
+            objects.push_back(objects[i % 1000]);
+            objects.back().id = objects.size();
+            objects.back().name = "far " + std::to_string(i);
+            objects.back().pose.position_m += Vec3(2.0 + static_cast<double>(i / 1000), 0.0, 0.0);
+        }
+        TouchedScene scene(objects);
+        (void)scene.tick(kOnTop);
+        return scene.part->looks();
+    };
+    const std::uint64_t of_thousand = looks(0), of_four = looks(3000);
+    EXPECT_LT(of_thousand, 120u) << "of 1000 boxes";
+    // Two levels more, of two nodes each.
+    EXPECT_LE(of_four, of_thousand + 4) << of_thousand;
+}
+
+TEST(MeshPart, TwentyMovingAmongAThousandRestingAreAllFollowed) {
+    std::vector<SceneObject> objects = cubes(1000);
+    for (SceneObject& object : objects) object.pose.position_m.x += 5.0;
+    const auto plate = shared_mesh(geometry::test::cube(0.003));
+    for (int i = 0; i < 20; ++i) {
+        objects.push_back(object_at(objects.size() + 1, plate, {0.01 * (i % 5), 0.0, 0.01 * (i / 5)}));
+        objects.back().motion = test::up_and_down(0.02);
+    }
+    // Held over each of the twenty in turn, in the middle of its way: what is followed pushes the hand smoothly.
+    for (int i = 0; i < 20; ++i) {
+        TouchedScene scene(objects);
+        double most_N = 0.0, steepest_N = 0.0, last_N = 0.0;
+        std::size_t moving = 0;
+        const Vec3 hand(0.01 * (i % 5), 0.003 + TouchedScene::kRadius_m + 0.004, 0.01 * (i / 5));
+        for (int t = 0; t < 450; ++t) {
+            const haptics::TickRecord record = scene.tick(hand);
+            const double force_N = record.gate.given.force_device_N.y;
+            most_N = std::max(most_N, force_N);
+            if (last_N > 0.3) steepest_N = std::max(steepest_N, std::abs(force_N - last_N));
+            last_N = force_N;
+            moving = std::max(moving, static_cast<std::size_t>(std::ranges::count_if(scene.slot.newest().meshes,
+                                                                                     &geometry::TouchedMesh::moves)));
+        }
+        EXPECT_GE(moving, 8u) << "its neighbours move too";
+        EXPECT_GT(most_N, 1.5) << i;
+        // 600 N/m at 30 mm/s: 0.018 N a tick. A jump once a publication would be ten times that.
+        EXPECT_LT(steepest_N, 0.05) << i;
+    }
+}
+
+TEST(MeshPart, EachObjectFeelsAsItsMaterialSays) {
+    std::vector<SceneObject> objects = cubes(2);
+    objects[0].material.stiffness_N_per_m = 300.0;
+    objects[1].pose.position_m = {0.3, 0.0, 0.0};
+    TouchedScene scene(objects);
+    const auto pressed_N = [&](double x_m) {
+        haptics::TickRecord record;
+        for (int i = 0; i < 400; ++i) record = scene.tick(kOnTop + Vec3(x_m, 0.0, 0.0));
+        return record.gate.given.force_device_N.y;
+    };
+    EXPECT_NEAR(pressed_N(0.0), 0.3, 0.003);
+    EXPECT_NEAR(pressed_N(0.3), 0.6, 0.006);
+    ASSERT_TRUE(scene.part->edit(1, SetMaterial{{.stiffness_N_per_m = 450.0}}));
+    scene.materials.write(scene.parameters.materials);
+    EXPECT_NEAR(pressed_N(0.0), 0.45, 0.005);
+    EXPECT_NEAR(pressed_N(0.3), 0.6, 0.006) << "the other keeps its own";
+}
+
+TEST(MeshPart, EditsOfPoseScaleAndFeelingAreFeltFromTheNextUpdateOn) {
+    TouchedScene scene(cubes(1));
+    const auto pressed_N = [&](double y_m) {
+        haptics::TickRecord record;
+        scene.state = {};  // the hand has come from above
+        for (int i = 0; i < 400; ++i) record = scene.tick({0.003, y_m + TouchedScene::kRadius_m - 0.001, 0.002});
+        return record.gate.given.force_device_N.y;
+    };
+    EXPECT_NEAR(pressed_N(kHalf_m), 0.6, 0.006);
+    ASSERT_TRUE(scene.part->edit(1, SetPose{{{0.0, 0.1, 0.0}}}));
+    EXPECT_EQ(pressed_N(kHalf_m), 0.0);
+    EXPECT_NEAR(pressed_N(0.1 + kHalf_m), 0.6, 0.006);
+    ASSERT_TRUE(scene.part->edit(1, SetScale{2.0}));
+    EXPECT_NEAR(pressed_N(0.1 + 2.0 * kHalf_m), 0.6, 0.006);
+    ASSERT_TRUE(scene.part->edit(1, SetFelt{false}));
+    EXPECT_EQ(pressed_N(0.1 + 2.0 * kHalf_m), 0.0);
+    ASSERT_TRUE(scene.part->edit(1, SetFelt{true}));
+    EXPECT_NEAR(pressed_N(0.1 + 2.0 * kHalf_m), 0.6, 0.006);
+}
+
+TEST(MeshPart, ATurnedCubeIsTouchedWhereItIsTurnedTo) {
+    std::vector<SceneObject> objects = cubes(1);
+    objects[0].pose.orientation = glm::angleAxis(glm::radians(45.0), Vec3(0.0, 0.0, 1.0));
+    TouchedScene scene(objects);
+    const double top_m = std::sqrt(2.0) * kHalf_m;
+    EXPECT_FALSE(scene.tick({0.0, top_m + TouchedScene::kRadius_m + 1e-4, 0.0}).in_contact());
+    haptics::TickRecord record;
+    for (int i = 0; i < 400; ++i) record = scene.tick({0.0, top_m + TouchedScene::kRadius_m - 0.001, 0.0});
+    EXPECT_TRUE(record.in_contact());
+    // On the edge the spring stretches from the ball's middle straight up.
+    EXPECT_NEAR(record.gate.given.force_device_N.y, 0.6, 0.01);
+}
+
+TEST(MeshPart, AHandDoesNotTouchWhatItHoldsAndPushesOthersWithIt) {
+    TouchedScene scene(cubes(1));
+    HandPose hand;
+    hand.scene_from_hand.position_m = {0.5, 0.5, 0.5};
+    hand.velocity_m_per_s = {0.0, 0.1, 0.0};
+    scene.part->move_hand(0, hand);
+    ASSERT_TRUE(scene.part->edit(1, TakeHold{0, {}}));
+    (void)scene.tick({0.5, 0.5, 0.5});
+    EXPECT_TRUE(scene.slot.newest().meshes.empty()) << "the hand that holds it";
+    EXPECT_EQ(scene.part->pose(1).position_m, hand.scene_from_hand.position_m);
+    geometry::LocalSurface others;
+    ASSERT_TRUE(scene.part->add_near({1, {0.5, 0.5, 0.5}, 0.1}, others));
+    ASSERT_EQ(others.meshes.size(), 1u) << "another hand";
+    EXPECT_EQ(others.meshes[0].motion.velocity_object_m_per_s, hand.velocity_m_per_s);
+    EXPECT_FALSE(scene.part->edit(1, SetPose{}).has_value()) << "it is held";
+    ASSERT_TRUE(scene.part->let_go(1));
+    for (int i = 0; i < 10; ++i) (void)scene.tick({0.5, 0.5, 0.5});
+    EXPECT_EQ(scene.part->object(1).pose.position_m, hand.scene_from_hand.position_m);
+    ASSERT_EQ(scene.slot.newest().meshes.size(), 1u);
+    EXPECT_FALSE(scene.slot.newest().meshes[0].moves());
+}
+
+TEST(MeshPart, AnUpdateIsRepeatedToTheBit) {
+    std::vector<SceneObject> objects = cubes(1);
+    objects[0].motion = test::up_and_down(0.1);
+    MaterialTable materials;
+    auto live = MeshPart::create(objects, materials), again = MeshPart::create(objects, materials);
+    for (const Nanoseconds now_ns : {Nanoseconds{1'234'567}, Nanoseconds{11'000'001}, Nanoseconds{777'777'777}}) {
+        ASSERT_TRUE((*live)->update(now_ns, nullptr));
+        ASSERT_TRUE((*again)->repeat((*live)->seen()));
+        EXPECT_EQ((*live)->pose(1), (*again)->pose(1));
+    }
+    EXPECT_GT((*live)->pose(1).position_m.y, 0.01);
+}
+
+TEST(MeshPart, TellsTheFrameWhatHasChanged) {
+    std::vector<SceneObject> objects = cubes(3);
+    objects[2].motion = test::up_and_down(0.1);
+    TouchedScene scene(objects);
+    EXPECT_EQ(scene.part->take_object_updates().size(), 3u) << "at first all";
+    EXPECT_TRUE(scene.part->take_object_updates().empty());
+    ASSERT_TRUE(scene.part->edit(2, SetColour{{1, 2, 3}}));
+    for (int i = 0; i < 30; ++i) (void)scene.tick(kOnTop);
+    const std::vector<ObjectUpdate> updates = scene.part->take_object_updates();
+    ASSERT_EQ(updates.size(), 2u);
+    EXPECT_EQ(updates[0].id, 2u);
+    EXPECT_EQ(updates[0].colour, (Colour{1, 2, 3}));
+    EXPECT_EQ(updates[1].id, 3u);
+    EXPECT_GT(updates[1].scene_from_mesh.position_m.y, objects[2].pose.position_m.y);
+}
+
+TEST(MeshPart, EqualMeshesShareOneSnapshotAndEqualMaterialsOneEntry) {
+    TouchedScene scene(cubes(3));
+    scene.reach_m = 1.0;
+    (void)scene.tick(kOnTop);
+    const auto& meshes = scene.slot.newest().meshes;
+    ASSERT_EQ(meshes.size(), 3u);
+    EXPECT_EQ(meshes[0].snapshot, meshes[2].snapshot);
+    EXPECT_EQ(meshes[0].material, meshes[2].material);
+}
+
+TEST(MeshPart, RefusesWhatCannotBeTouchedAndAnEditThatFailsChangesNothing) {
+    MaterialTable materials(haptics::kMostMaterials - 1);
+    std::vector<SceneObject> objects = cubes(2);
+    objects[1].name = objects[0].name;
+    EXPECT_FALSE(MeshPart::create(objects, materials).has_value()) << "two of one name";
+    objects = cubes(2);
+    objects[1].id = 1;
+    EXPECT_FALSE(MeshPart::create(objects, materials).has_value()) << "two of one id";
+    objects = cubes(2);
+    objects[1].material.stiffness_N_per_m = 1.0;
+    EXPECT_FALSE(MeshPart::create(objects, materials).has_value()) << "no room for a second material";
+    objects = cubes(1);
+    objects[0].mesh = shared_mesh({});
+    EXPECT_FALSE(MeshPart::create(objects, materials).has_value()) << "no triangles";
+    auto part = MeshPart::create(cubes(2), materials);
+    ASSERT_TRUE(part.has_value()) << "what failed has let go of its material: " << part.error().line();
+    EXPECT_FALSE((*part)->edit(1, SetMaterial{{.stiffness_N_per_m = 1.0}}).has_value());
+    EXPECT_FALSE((*part)->edit(1, SetScale{-1.0}).has_value());
+    EXPECT_FALSE((*part)->edit(9, SetScale{1.0}).has_value());
+    EXPECT_EQ((*part)->object(1).material, HapticMaterial{});
+    EXPECT_EQ((*part)->object(1).scale, 1.0);
+}
+
+}  // namespace
+}  // namespace burin::scene

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+// World files as people write them, right and wrong.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "scene/world_file.hpp"
+#include "tests/geometry/touch_samples.hpp"
+#include "tests/support/run_command.hpp"
+
+namespace burin::scene {
+namespace {
+
+// Meshes by name: "cube.obj" is sound, "open.obj" lacks a triangle, "inside.obj" faces inwards.
+Result<geometry::ImportedMesh> sample_mesh(const std::string& name, std::optional<LengthUnit> unit) {
+    geometry::ImportedMesh imported;
+    imported.mesh = geometry::test::cube(unit == LengthUnit::mm ? 0.00001 : 0.01);
+    if (name == "open.obj") imported.mesh.triangles.pop_back();
+    if (name == "inside.obj")
+        for (auto& t : imported.mesh.triangles) std::swap(t[0], t[1]);
+    if (name == "huge.obj")
+        for (Vec3& p : imported.mesh.positions_m) p *= 1e6;
+    if (name == "lost.obj") return fail("lost.obj", "cannot be read", "check its name");
+    return imported;
+}
+
+WorldOrProblems parsed(const std::string& text) { return parse_world(text, "w.toml", sample_mesh); }
+
+// The problems of a text, a line each.
+std::vector<std::string> faults_of(const std::string& text) {
+    std::vector<std::string> lines;
+    const WorldOrProblems world = parsed(text);
+    if (!world)
+        for (const Error& error : world.error()) lines.push_back(error.where + ": " + error.what);
+    return lines;
+}
+using Lines = std::vector<std::string>;
+
+const std::string kCube = "[[object]]\nname = \"a\"\nmesh = \"cube.obj\"\n";
+
+TEST(WorldFile, HoldsWhatItSays) {
+    const WorldOrProblems world = parsed(R"(name = "Yard"
+[[object]]
+name = "stone"
+mesh = "cube.obj"
+mesh_units = "mm"
+position = [1, 2, 3]
+orientation = [0, 1, 0, 0]
+scale = 2
+colour = "#8a0fFF"
+seen = false
+felt = true
+both_sides = true
+material = { stiffness = 900, damping = 2, static_friction = 0.5, dynamic_friction = 0.25 }
+repeat = false
+[[object.path]]
+time = 0
+[[object.path]]
+time = 1
+position = [0, 0.5, 0]
+[[object]]
+name = "leaf"
+mesh = "cube.obj"
+[object.material]
+dynamic_friction = 0.3
+)");
+    ASSERT_TRUE(world.has_value()) << world.error().front().line();
+    EXPECT_EQ(world->name, "Yard");
+    ASSERT_EQ(world->objects.size(), 2u);
+    const SceneObject &stone = world->objects[0], &leaf = world->objects[1];
+    EXPECT_EQ(stone.id, 1u);
+    EXPECT_EQ(stone.name, "stone");
+    EXPECT_EQ(stone.mesh->positions_m[0], geometry::test::cube(0.00001).positions_m[0]);
+    EXPECT_EQ(stone.pose.position_m, Vec3(1.0, 2.0, 3.0));
+    EXPECT_EQ(stone.pose.orientation, Quat(0.0, 0.0, 1.0, 0.0));
+    EXPECT_EQ(stone.scale, 2.0);
+    EXPECT_EQ(stone.colour, (Colour{0x8a, 0x0f, 0xff}));
+    EXPECT_FALSE(stone.seen);
+    EXPECT_TRUE(stone.both_sides);
+    EXPECT_EQ(stone.material, (HapticMaterial{900.0, 2.0, 0.5, 0.25}));
+    const PathMotion path{{{0.0, {}}, {1.0, {{0.0, 0.5, 0.0}}}}, false};
+    EXPECT_EQ(std::get<PathMotion>(stone.motion), path);
+    EXPECT_EQ(leaf.id, 2u);
+    EXPECT_TRUE(leaf.seen && leaf.felt && !leaf.both_sides);
+    EXPECT_EQ(leaf.material, (HapticMaterial{.static_friction = 0.3, .dynamic_friction = 0.3}));
+    EXPECT_TRUE(std::holds_alternative<FixedMotion>(leaf.motion));
+}
+
+TEST(WorldFile, AllProblemsOfAFileAreListedAtOnce) {
+    EXPECT_EQ(faults_of(R"([[object]]
+name = "a"
+mesh = "lost.obj"
+scale = -1
+[[object]]
+name = "a"
+mesh = "open.obj"
+colour = "red"
+weight = 3
+[[object]]
+mesh = "inside.obj"
+material = { stiffness = 0, hardness = 3 }
+[[object.path]]
+time = 0
+[[object.path]]
+time = 0.1
+position = [1, 0, 0]
+[[object]]
+name = "c"
+mesh = "huge.obj"
+repeat = true
+)"),
+              (Lines{"w.toml:3: mesh cannot be used: lost.obj: cannot be read", "w.toml:4: scale is -1",
+                     "w.toml:8: colour is red", "w.toml:7: mesh is open: 3 edges have a triangle on one side only",
+                     "w.toml:9: [[object]] has no key named weight",
+                     "w.toml:6: name \"a\" is also that of the object in line 2", "w.toml:10: [[object]] has no name",
+                     "w.toml:12: [object.material] has no key named hardness",
+                     "w.toml:11: mesh is inside out: its triangles face inwards", "w.toml:12: stiffness is 0",
+                     "w.toml:15: path[1] jumps: 1 m in 0.1 s", "w.toml:21: repeat stands where there is no path",
+                     "w.toml:20: mesh is 3.46e+04 m large"}));
+}
+
+TEST(WorldFile, AnOpenMeshIsFeltFromBothSidesOrNotAtAll) {
+    for (const char* mesh : {"open.obj", "inside.obj"}) {
+        const std::string object = "[[object]]\nname = \"a\"\nmesh = \"" + std::string(mesh) + "\"\n";
+        EXPECT_EQ(faults_of(object).size(), 1u) << mesh;
+        EXPECT_EQ(faults_of(object + "both_sides = true"), Lines{}) << mesh;
+        EXPECT_EQ(faults_of(object + "felt = false"), Lines{}) << mesh;
+    }
+}
+
+TEST(WorldFile, WhatIsNoWorldIsNamed) {
+    EXPECT_EQ(faults_of("[[object"),
+              (Lines{parsed("[[object").error().front().where + ": " + parsed("[[object").error().front().what}));
+    EXPECT_EQ(faults_of(""), Lines{"w.toml:1: the file has no object"});
+    EXPECT_EQ(faults_of("object = 3"), Lines{"w.toml:1: object is not a list of tables"});
+    EXPECT_EQ(faults_of("object = []"), Lines{"w.toml:1: object is not a list of tables"});
+    EXPECT_EQ(faults_of(kCube + "position = [1, 2]\norientation = [0, 0, 0, 0]"),
+              (Lines{"w.toml:4: position is not a list of 3 numbers", "w.toml:5: orientation has no length"}));
+    EXPECT_EQ(faults_of(kCube + "position = [1, nan, 0]"), Lines{"w.toml:4: position is not a list of 3 numbers"});
+    EXPECT_EQ(faults_of(kCube + "path = []"), Lines{"w.toml:4: path is not a list of tables"});
+    EXPECT_EQ(faults_of(kCube + "mesh_units = \"miles\""), Lines{"w.toml:4: mesh_units is miles"});
+}
+
+TEST(WorldFile, OneMoreMaterialThanThereIsRoomForIsNamed) {
+    std::string text;
+    for (std::size_t i = 0; i <= kMaxWorldMaterials; ++i)
+        text += "[[object]]\nname = \"" + std::to_string(i) +
+                "\"\nmesh = \"cube.obj\"\nmaterial = { stiffness = " + std::to_string(100 + i) + " }\n";
+    EXPECT_EQ(faults_of(text).size(), 1u);
+    EXPECT_EQ(faults_of(text).front().substr(0, 10), "w.toml:" + std::to_string(4 * kMaxWorldMaterials + 1) + ":");
+}
+
+TEST(WorldFile, AThousandObjectsShareOneMesh) {
+    int reads = 0;
+    std::string text;
+    for (int i = 0; i < 1000; ++i)
+        text +=
+            "[[object]]\nname = \"" + std::to_string(i) + "\"\nmesh = \"" + (i % 2 == 0 ? "" : "./") + "cube.obj\"\n";
+    const WorldOrProblems world = parse_world(text, "w.toml", [&](const std::string& name, auto unit) {
+        ++reads;
+        return sample_mesh(name, unit);
+    });
+    ASSERT_TRUE(world.has_value());
+    EXPECT_EQ(world->objects.size(), 1000u);
+    EXPECT_EQ(world->objects[0].mesh, world->objects[999].mesh);
+    EXPECT_EQ(reads, 1);
+    std::string many;
+    for (std::size_t i = 0; i <= kMaxWorldObjects; ++i) many += "[[object]]\n";
+    EXPECT_EQ(faults_of(many).size(), 1u) << "more objects than a world holds are not read at all";
+}
+
+TEST(WorldFile, ReadsMeshesInItsFolderAndNoOthers) {
+    const Workplace place;
+    std::filesystem::create_directory(place / "yard");
+    const std::string off = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+    place.write("secret.off", off);
+    place.write("yard/tetra.off", off);
+    std::filesystem::create_symlink(place / "secret.off", place / "yard" / "link.off");
+    const auto faults = [&](const std::string& mesh) {
+        place.write("yard/w.toml", "[[object]]\nname = \"a\"\nmesh = '" + mesh + "'\n");
+        const WorldOrProblems world = read_world(place / "yard" / "w.toml");
+        return world ? std::string() : world.error().front().what;
+    };
+    EXPECT_EQ(faults("tetra.off"), "");
+    EXPECT_EQ(faults("../yard/tetra.off"), "mesh cannot be used: ../yard/tetra.off: is not in the world's folder");
+    for (const std::string& name : {std::string("../secret.off"), (place / "secret.off").string(), std::string(),
+                                    std::string("link.off"), std::string("."), std::string("lost.off")})
+        EXPECT_NE(faults(name), "") << name;
+    EXPECT_FALSE(read_world(place / "yard").has_value());
+    EXPECT_FALSE(read_world(place / "lost.toml").has_value());
+}
+
+}  // namespace
+}  // namespace burin::scene
