@@ -20,14 +20,22 @@ namespace burin::app {
 // burin sculpt: a workpiece, a tool and a stroke in; a carved mesh, pictures and a report out. Writes nothing before
 // all input has been read and all output places have been checked.
 [[nodiscard]] Result<void> sculpt(const session::SculptOptions& options);
+// Whether --record is of a stroke that a simulated hand feels, which sculpt() records, and not of a live session.
+[[nodiscard]] bool records_a_felt_stroke(const session::SculptOptions& options);
 
-// burin convert IN OUT: any mesh format in, STL, PLY or OBJ out; prints the mesh's size and health.
+// burin convert IN OUT: any mesh format in, STL, PLY or OBJ out; prints the mesh's size and health. Of a session file:
+// burin convert FILE.session [OUT] --to csv|npy (session_command.hpp).
 struct ConvertOptions {
     std::string in, out;
     std::optional<LengthUnit> units;         // of IN; none: as the file states, else guessed (mesh_unit.hpp)
     std::optional<LengthUnit> export_units;  // of OUT; none: those of IN
     bool close_holes = false;
     std::optional<double> simplify_m;  // bound on the surface's motion; none: all triangles
+    std::string to;                    // format of a session file's table; empty: IN is a mesh
+    std::string columns, part;         // of that table
+
+    [[nodiscard]] bool is_of_session() const { return !to.empty(); }
+    [[nodiscard]] bool is_misused() const { return out.empty() && to.empty(); }
 };
 [[nodiscard]] Result<void> convert(const ConvertOptions& options);
 

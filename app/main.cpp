@@ -6,6 +6,7 @@
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/profile.hpp"
+#include "app/session_command.hpp"
 #include "app/study_command.hpp"
 #include "app/wall_commands.hpp"
 #include "app/world_command.hpp"
@@ -128,7 +129,8 @@ void add_live_options(Command command, session::LiveOptions& options) {
                    "A recording, done again as it was; or a written log of a session's input, in its user's place, in "
                    "simulated time");
     command.option("--record", options.record,
-                   "A new file for all that the session depends on; with --input that log is played in real time");
+                   "A new file for all that the session depends on; with --input that log is played in real time. With "
+                   "--hand simulated and --stroke: a session file with every tick (burin session info FILE)");
     command.flag("--offscreen", options.offscreen, "With --input: no window, only screenshots");
     command.option("--stereo", options.stereo, "side-by-side, anaglyph-red-cyan, row-interlaced, ...; else mono");
     command.flag("--swap-eyes", options.swap_eyes, "For exchanged cables or glasses");
@@ -189,9 +191,16 @@ int run(int argc, char** argv) {
     add_live_options(sculpt, sculpt_options.live);
 
     ConvertOptions convert_options;
-    Command convert = app.subcommand("convert", "Convert a mesh file to STL, PLY or OBJ and print its health");
-    convert.option("IN", convert_options.in, "STL, OBJ, PLY or OFF").required();
-    convert.option("OUT", convert_options.out, ".stl, .ply or .obj").required();
+    Command convert = app.subcommand(
+        "convert",
+        "Convert a mesh file to STL, PLY or OBJ and print its health, or the ticks of a session file to a table");
+    convert.option("IN", convert_options.in, "STL, OBJ, PLY or OFF; with --to a session file").required();
+    convert.option("OUT", convert_options.out,
+                   ".stl, .ply or .obj; with --to any name, - for standard output, or none: IN with another ending");
+    convert.option("--to", convert_options.to, "csv or npy: the ticks of a session file").one_of({"csv", "npy"});
+    convert.option("--columns", convert_options.columns,
+                   "With --to: names with commas between them, a star at the end for all that begin so; else all");
+    convert.option("--part", convert_options.part, "With --to: which hand, where the recording has several");
     convert.unit("--units", convert_options.units, kUnitsHelp);
     convert.unit("--export-units", convert_options.export_units, "Unit of the numbers in OUT; else that of IN");
     convert.flag("--close-holes", convert_options.close_holes, "Fill holes and turn the triangles outwards");
@@ -206,6 +215,7 @@ int run(int argc, char** argv) {
     const WallCommand wall(app);
     const WorldCommand world(app);
     const ProfileCommand profile(app);
+    const SessionCommand recordings(app);
     const StudyCommand study(app);
 
     if (const auto status = line.parse(argc, argv)) return *status;
@@ -213,7 +223,9 @@ int run(int argc, char** argv) {
         print_version();
         return 0;
     }
-    if (sculpt.parsed() && session::wants_session(sculpt_options)) return finish(session::run_session(sculpt_options));
+    const bool felt_recording = records_a_felt_stroke(sculpt_options);
+    if (sculpt.parsed() && !felt_recording && session::wants_session(sculpt_options))
+        return finish(session::run_session(sculpt_options));
     if (sculpt.parsed()) return finish(app::sculpt(sculpt_options));
     if (bench.parsed()) return finish(bench.run());
     if (wall.parsed()) return finish(wall.run());
@@ -224,7 +236,14 @@ int run(int argc, char** argv) {
     if (world.parsed()) return finish(world.run());
     if (profile.parsed()) return finish(profile.run());
     if (study.parsed()) return finish(study.run());
-    if (convert.parsed()) return finish(app::convert(convert_options));
+    if (recordings.parsed()) return finish(recordings.run());
+    if (convert.parsed() && convert_options.is_misused()) {
+        std::fprintf(stderr, "burin: OUT is required; see burin convert --help\n");
+        return 2;
+    }
+    if (convert.parsed())
+        return finish(convert_options.is_of_session() ? convert_session(convert_options)
+                                                      : app::convert(convert_options));
     if (combine.parsed()) return finish(combine_files(combine_options));
     std::fputs(line.help().c_str(), stdout);
     return 2;

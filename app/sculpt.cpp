@@ -10,6 +10,7 @@
 #include "compute/tools/apply.hpp"
 #include "geometry/files/mesh_export.hpp"
 #include "geometry/files/mesh_import.hpp"
+#include "record/record_writer.hpp"
 #include "sculpt/finishing.hpp"
 #include "sculpt/stroke_file.hpp"
 #include "sculpt/workpiece.hpp"
@@ -123,7 +124,29 @@ Result<Json> take_back(sculpt::Sculpture& carving, std::size_t strokes) {
         {"strokes_kept", kept}, {"strokes_undone", *undone}, {"strokes_dropped", carving.history()->dropped_strokes()}};
 }
 
+// What a session file says of the program and the settings that it comes from.
+std::vector<std::pair<std::string, std::string>> facts_of(const session::SculptOptions& options, const Json& tool) {
+    return {{"program", "burin"},
+            {"version", BURIN_VERSION},
+            {"compiler", __VERSION__},
+            {"command", "sculpt --hand simulated"},
+            {"workpiece", options.workpiece.source},
+            {"resolution", std::to_string(options.workpiece.resolution)},
+            {"stroke", options.stroke},
+            {"tool", tool.dump(-1, ' ', false, Json::error_handler_t::replace)},
+            {"hardness", options.feel.hardness},
+            {"time", options.real_time ? "real" : "simulated"}};
+}
+
 }  // namespace
+
+bool records_a_felt_stroke(const session::SculptOptions& options) {
+    const session::LiveOptions& live = options.live;
+    const bool is_live =
+        live.live || live.offscreen || !live.wall.empty() || !live.input.empty() || !live.outputs.empty();
+    return !live.record.empty() && !is_live && !options.stroke.empty() &&
+           options.hand == session::HandChoice::simulated;
+}
 
 Result<void> sculpt(const session::SculptOptions& options) {
     // Finds everything that can be wrong with the input before the first long step.
@@ -134,6 +157,7 @@ Result<void> sculpt(const session::SculptOptions& options) {
     const std::array inputs{options.workpiece.source, options.stroke};
     if (const auto ok = check_outputs(options.exports, options.report, inputs); !ok) return ok;
     if (const auto ok = check_plots(options); !ok) return ok;
+    if (const auto ok = record::check_new_place(options.live.record); !ok) return ok;
     if (const auto ok = sculpt::check_simplification(options.simplify_m); !ok) return ok;
     sculpt::Stroke stroke;
     if (!options.stroke.empty()) {
@@ -182,8 +206,11 @@ Result<void> sculpt(const session::SculptOptions& options) {
         if (const auto carved = sculpt::carve_rigidly(carving, stroke, tool, options.merge_rows); !carved)
             return carved;
     } else if (!stroke.empty()) {
-        Result<session::FeltFigures> carved = session::carve_by_feel(carving, stroke, tool, {*feel, options.real_time});
+        Result<session::FeltFigures> carved = session::carve_by_feel(
+            carving, stroke, tool, {*feel, options.real_time, options.live.record, facts_of(options, *tool_report)});
         if (!carved) return std::unexpected(carved.error());
+        if (!options.live.record.empty())
+            std::printf("%s: %s ticks recorded\n", options.live.record.c_str(), std::to_string(carved->ticks).c_str());
         felt = std::move(*carved);
     }
 

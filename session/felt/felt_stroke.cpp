@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "devices/haptic/simulated_omni.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "haptics/realtime.hpp"
+#include "record/record_writer.hpp"
 #include "sculpt/felt_tool.hpp"
 #include "sculpt/progress.hpp"
 #include "sculpt/sculpt_service.hpp"
@@ -126,7 +128,15 @@ Nanoseconds last_tick_ns(double end_s, Nanoseconds period_ns) {
     return tick_ns;
 }
 
-// The frames of a felt stroke, one for each carving update: they show nothing and collect figures.
+// What is recorded of a felt stroke: where, what the hand holds, and the facts of the session.
+struct FeltRecording {
+    std::string path;  // empty: nothing
+    std::vector<std::pair<std::string, std::string>> facts;
+    haptics::Probe probe;
+};
+
+// The frames of a felt stroke, one for each carving update: they show nothing and collect figures. The ring of tick
+// records has one reader: the recorder, where there is one, which hands them on.
 class FeltFrames final : public FrameSource {
 public:
     FeltFrames(Clock& clock, const haptics::HapticLoop& loop, haptics::HapticChannels& channels, FeltFigures& figures,
@@ -139,51 +149,94 @@ public:
           keeper_(figures, figures.duration_s, seconds(loop.period_ns())),
           progress_(what) {}
 
+    enum class Pace { simulated, real };
+
+    // Begins to record, before the first tick. Simulated time is not held back by any clock, so the ring would overflow
+    // while the recorder writes: then each frame waits until it has taken all. In real time nobody waits.
+    [[nodiscard]] Result<void> record(const FeltRecording& wanted, const devices::DeviceDescription& device,
+                                      Pace pace) {
+        if (wanted.path.empty()) return {};
+        waits_for_recorder_ = pace == Pace::simulated;
+        record::WriterOptions options;
+        options.facts = wanted.facts;
+        options.on_record = [this](std::size_t, const haptics::TickRecord& tick) { keeper_.add(tick); };
+        Result<std::unique_ptr<record::RecordWriter>> made = record::RecordWriter::create(
+            wanted.path, {{device.name, device, wanted.probe, &channels_.records}}, std::move(options));
+        if (!made) return std::unexpected(made.error());
+        recorder_ = std::move(*made);
+        return {};
+    }
+
     [[nodiscard]] std::optional<Nanoseconds> next() override {
         if (clock_.now_ns() >= end_ns_) return std::nullopt;
         due_ns_ = std::max(due_ns_ + sculpt::SculptThread::kPeriod_ns, clock_.now_ns());
         return std::min(due_ns_, end_ns_);
     }
     [[nodiscard]] Result<void> make(Executor&) override {
-        keeper_.take(channels_);
+        if (const auto taken = take(); !taken) return taken;
         progress_.show(static_cast<double>(clock_.now_ns() - start_ns_) / static_cast<double>(end_ns_ - start_ns_));
         return {};
     }
-    // Takes what the last ticks have left, after they have ended.
-    void finish() {
-        keeper_.take(channels_);
+    // Takes what the last ticks have left, after they have ended, and closes the recording.
+    [[nodiscard]] Result<void> finish() {
+        Result<void> closed;
+        if (recorder_) {
+            closed = recorder_->close();
+        } else {
+            keeper_.take(channels_);
+        }
         keeper_.finish(channels_);
+        return closed;
     }
 
 private:
+    [[nodiscard]] Result<void> take() {
+        if (!recorder_) {
+            keeper_.take(channels_);
+            return {};
+        }
+        if (waits_for_recorder_) recorder_->take_now();
+        if (const auto failed = recorder_->failure()) return std::unexpected(*failed);
+        return {};
+    }
+
     Clock& clock_;
     haptics::HapticChannels& channels_;
     Nanoseconds start_ns_, end_ns_, due_ns_;
     FigureKeeper keeper_;
     sculpt::Progress progress_;
+    bool waits_for_recorder_ = false;
+    std::unique_ptr<record::RecordWriter> recorder_;  // last: its thread calls the keeper until it has ended
 };
 
+// Returns the first failure: of the stroke, else of the recording's end.
+Result<void> first_failure(Result<void> driven, Result<void> finished) { return driven ? finished : driven; }
+
 Result<void> feel_in_simulated_time(devices::SimulatedHand hand, haptics::HapticChannels& channels,
-                                    sculpt::SculptService& service, FeltFigures& figures) {
+                                    sculpt::SculptService& service, const FeltRecording& recording,
+                                    FeltFigures& figures) {
     SimulatedClock clock;
     devices::SimulatedOmni omni(std::move(hand), {}, &clock);
     haptics::HapticLoop loop(omni, clock, channels);
     if (const auto published = service.update(clock.now_ns()); !published) return published;
     FeltFrames frames(clock, loop, channels, figures, "carving by feel");
+    const auto begun = frames.record(recording, omni.description(), FeltFrames::Pace::simulated);
+    if (!begun) return begun;
     SteppedExecutor executor(clock, loop, channels, service);
     executor.measure_ticks(figures.tick_ns);
     const Result<void> driven = drive(executor, frames);
-    frames.finish();
-    return driven;
+    return first_failure(driven, frames.finish());
 }
 
 Result<void> feel_in_real_time(devices::SimulatedHand hand, haptics::HapticChannels& channels,
-                               sculpt::SculptService& service, FeltFigures& figures) {
+                               sculpt::SculptService& service, const FeltRecording& recording, FeltFigures& figures) {
     MonotonicClock clock;
     devices::SimulatedOmni omni(std::move(hand), {}, &clock);
     haptics::HapticLoop loop(omni, clock, channels);
     if (const auto published = service.update(clock.now_ns()); !published) return published;
     FeltFrames frames(clock, loop, channels, figures, "carving by feel, in real time");
+    const auto begun = frames.record(recording, omni.description(), FeltFrames::Pace::real);
+    if (!begun) return begun;
     ThreadedExecutor executor(clock, loop, channels, service);
     const haptics::RealtimeNotice notice = executor.start();
     if (!notice.text.empty()) {
@@ -191,9 +244,9 @@ Result<void> feel_in_real_time(devices::SimulatedHand hand, haptics::HapticChann
         std::fprintf(stderr, "burin: %s\n", notice.text.c_str());
     }
     const Result<void> driven = drive(executor, frames);
-    frames.finish();
+    const Result<void> finished = frames.finish();
     figures.loop = times_of(loop);
-    return driven;
+    return first_failure(driven, finished);
 }
 
 }  // namespace
@@ -209,7 +262,9 @@ Result<FeltFigures> carve_by_feel(sculpt::Sculpture& carving, const sculpt::Stro
         pressing_hand(carving, stroke, tool, felt_tool.surface, options.feel, figures.object_from_device);
     if (!hand) return std::unexpected(hand.error());
 
-    haptics::HapticChannels channels;
+    // A recorder may be busy with the disk for seconds.
+    haptics::HapticChannels channels(haptics::HapticChannels::kStrokes,
+                                     options.record.empty() ? haptics::HapticChannels::kRecords : record::kRingTicks);
     haptics::TickParameters& parameters = channels.parameters.draft();
     parameters.sequence = 1;
     parameters.workspace.object_from_device = figures.object_from_device;
@@ -225,7 +280,8 @@ Result<FeltFigures> carve_by_feel(sculpt::Sculpture& carving, const sculpt::Stro
     sculpt::SculptService service(carving, channels, tool, options.feel.material.hardness_Ns_per_m3, reach_m, {});
     service.start_at(stroke.front().position_object_m);
     const auto feel = options.real_time ? feel_in_real_time : feel_in_simulated_time;
-    if (const auto felt = feel(std::move(*hand), channels, service, figures); !felt)
+    const FeltRecording recording{options.record, options.facts, felt_tool.probe};
+    if (const auto felt = feel(std::move(*hand), channels, service, recording, figures); !felt)
         return std::unexpected(felt.error());
     figures.surfaces_published = service.published();
     figures.last_tool = channels.tool.newest();

@@ -8,6 +8,10 @@
 // bits; in real time the haptic loop has a thread of its own.
 #pragma once
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "sculpt/feel_options.hpp"
 #include "sculpt/sculpture.hpp"
 #include "sculpt/stroke_file.hpp"
@@ -19,10 +23,13 @@ namespace burin::session {
 struct FeltOptions {
     sculpt::Feel feel;
     bool real_time = false;
+    std::string record;  // a new session file (record/record_writer.hpp); empty: none
+    // Facts of the session for that file.
+    std::vector<std::pair<std::string, std::string>> facts;
 };
 
 // Carves the stroke with the simulated hand. The tool must be a ball, since a ball is what is felt. The stroke's bounds
-// are centred in the workspace; where they are larger, the motion is scaled up.
+// are centred in the workspace; where they are larger, the motion is scaled up. A recording that fails ends the stroke.
 [[nodiscard]] Result<FeltFigures> carve_by_feel(sculpt::Sculpture& carving, const sculpt::Stroke& stroke,
                                                 const sculpt::Tool& tool, const FeltOptions& options);
 

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include "app/session_command.hpp"
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+
+#include "app/output_files.hpp"
+#include "base/text.hpp"
+#include "record/compare.hpp"
+#include "record/examination.hpp"
+#include "record/export/table_export.hpp"
+
+namespace burin::app {
+namespace {
+
+std::string counted(std::uint64_t count, const char* one, const char* many) {
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+Json hand_json(const record::HandRecord& hand, const record::HandSummary& summary) {
+    Json json{{"name", hand.name}, {"ticks", summary.ticks}, {"blocks", hand.blocks.size()}};
+    json["first_tick"] = summary.first_tick;
+    json["gaps"] = Json::array();
+    for (const record::TickGap& gap : summary.gaps)
+        json["gaps"].push_back({{"until_tick", gap.after_tick}, {"missing", gap.missing}});
+    json["columns"] = Json::array();
+    for (const record::Column& column : hand.columns)
+        json["columns"].push_back({{"name", column.name},
+                                   {"unit", column.unit},
+                                   {"frame", column.frame},
+                                   {"type", std::string(record::name_of(column.type))}});
+    return json;
+}
+
+void print_hand(const record::HandRecord& hand, const record::HandSummary& summary) {
+    std::printf("%s: %s from tick %lld in %s, %s\n", hand.name.c_str(), counted(summary.ticks, "tick", "ticks").c_str(),
+                static_cast<long long>(summary.first_tick), counted(hand.blocks.size(), "block", "blocks").c_str(),
+                counted(summary.gaps.size(), "gap", "gaps").c_str());
+    for (const record::TickGap& gap : summary.gaps)
+        std::printf("  until tick %lld: %lld missing\n", static_cast<long long>(gap.after_tick),
+                    static_cast<long long>(gap.missing));
+    for (const record::Column& column : hand.columns)
+        std::printf("  %-34s %-9s %-7s %s\n", column.name.c_str(), column.unit.c_str(), column.frame.c_str(),
+                    std::string(record::name_of(column.type)).c_str());
+}
+
+Result<void> info(const std::string& path, const std::string& json_path) {
+    if (const auto ok = check_outputs({}, json_path == kStandardOutput ? "" : json_path, std::array{path}); !ok)
+        return ok;
+    Result<record::RecordReader> reader = record::RecordReader::open(path);
+    if (!reader) return std::unexpected(reader.error());
+    const auto trials = reader->trials();
+    const auto clocks = reader->clocks();
+    const auto lines = reader->lines();
+    if (!trials) return std::unexpected(trials.error());
+    if (!clocks) return std::unexpected(clocks.error());
+    if (!lines) return std::unexpected(lines.error());
+    const double moved_s = seconds(record::wall_clock_moved_ns(*clocks));
+    Json json{{"file", path}, {"closed", reader->is_closed()}};
+    json["facts"] = Json::object();
+    for (const auto& [key, value] : reader->facts()) json["facts"][key] = value;
+    json["lines"] = *lines;
+    json["trials"] = Json::array();
+    for (const record::TrialRecord& trial : *trials)
+        json["trials"].push_back({{"name", trial.name}, {"state", trial.state}});
+    json["wall_clock_moved_s"] = moved_s;
+    json["hands"] = Json::array();
+    for (const record::HandRecord& hand : reader->hands())
+        json["hands"].push_back(hand_json(hand, record::summary_of(hand)));
+    if (json_path != kStandardOutput) {
+        std::printf("%s: %s\n", path.c_str(),
+                    reader->is_closed() ? "a session" : "a session that was not closed: what was acknowledged is here");
+        for (const auto& [key, value] : reader->facts()) std::printf("  %-22s %s\n", key.c_str(), value.c_str());
+        std::printf("  %-22s %s, %s; the wall clock moved by %g s against the monotonic one\n", "lines, trials, clock",
+                    counted(*lines, "line", "lines").c_str(), counted(trials->size(), "trial", "trials").c_str(),
+                    moved_s);
+        for (const record::HandRecord& hand : reader->hands()) print_hand(hand, record::summary_of(hand));
+    }
+    return write_output(json_path, json_text(json));
+}
+
+Result<void> check(const std::string& path) {
+    Result<record::RecordReader> reader = record::RecordReader::open(path);
+    if (!reader) return std::unexpected(reader.error());
+    const Result<std::string> structure = reader->structure_fault();
+    if (!structure) return std::unexpected(structure.error());
+    std::size_t damaged = structure->empty() ? 0 : 1;
+    if (!structure->empty()) std::printf("%s: %s\n", path.c_str(), structure->c_str());
+    for (std::size_t h = 0; h < reader->hands().size(); ++h) {
+        const record::HandExamination found = record::examine(*reader, h);
+        for (const Error& error : found.damaged) std::printf("%s\n", error.line().c_str());
+        for (const record::TickGap& gap : found.gaps)
+            std::printf("%s: after tick %lld: %lld missing\n", reader->hands()[h].name.c_str(),
+                        static_cast<long long>(gap.after_tick), static_cast<long long>(gap.missing));
+        std::printf("%s: %s read, %s damaged, %s, %s that run backwards, %s that are no numbers\n",
+                    reader->hands()[h].name.c_str(), counted(found.ticks, "tick", "ticks").c_str(),
+                    counted(found.damaged.size(), "block", "blocks").c_str(),
+                    counted(found.gaps.size(), "gap", "gaps").c_str(),
+                    counted(found.backward_times, "time", "times").c_str(),
+                    counted(found.not_finite, "value", "values").c_str());
+        damaged += found.damaged.size();
+    }
+    if (!reader->is_closed())
+        std::printf("%s: was not closed; ticks of the last second may be missing\n", path.c_str());
+    if (damaged == 0) return {};
+    std::fflush(stdout);
+    return fail(path, counted(damaged, "part is", "parts are") + " damaged", "the rest can be read and converted");
+}
+
+Result<void> compare(const std::string& a, const std::string& b, const std::string& columns) {
+    Result<record::RecordReader> first = record::RecordReader::open(a), second = record::RecordReader::open(b);
+    if (!first) return std::unexpected(first.error());
+    if (!second) return std::unexpected(second.error());
+    const Result<record::Comparison> found = record::compare(*first, *second, columns);
+    if (!found) return std::unexpected(found.error());
+    if (found->difference)
+        return fail(b, "differs from " + a + " after " + counted(found->ticks, "equal tick", "equal ticks") + ": " +
+                           found->difference->line());
+    std::printf("%s, %s: equal to the bit\n", counted(found->ticks, "tick", "ticks").c_str(),
+                counted(found->columns, "column", "columns").c_str());
+    return {};
+}
+
+Result<std::size_t> find_hand(const record::RecordReader& reader, const std::string& part) {
+    std::vector<std::string_view> names;
+    for (std::size_t h = 0; h < reader.hands().size(); ++h) {
+        if (reader.hands()[h].name == part) return h;
+        names.push_back(reader.hands()[h].name);
+    }
+    if (part.empty() && names.size() == 1) return std::size_t{0};
+    return fail(reader.path(), part.empty() ? "has several hands" : "has no hand " + part,
+                "--part one of: " + joined(names));
+}
+
+}  // namespace
+
+Result<void> convert_session(const ConvertOptions& options) {
+    std::string out = options.out;
+    if (out.empty()) out = std::filesystem::path(options.in).replace_extension(options.to).string();
+    if (const auto ok = check_overwrites_none(out, std::array{options.in}); !ok) return ok;
+    Result<record::RecordReader> reader = record::RecordReader::open(options.in);
+    if (!reader) return std::unexpected(reader.error());
+    const Result<std::size_t> hand = find_hand(*reader, options.part);
+    if (!hand) return std::unexpected(hand.error());
+    const auto columns = record::choose_columns(reader->hands()[*hand].columns, options.columns);
+    if (!columns) return std::unexpected(columns.error());
+    const auto write = options.to == "csv" ? record::export_csv : record::export_npy;
+    const Result<record::ExportReport> report = write(*reader, *hand, *columns, out);
+    if (!report) return std::unexpected(report.error());
+    for (const Error& error : report->damaged) std::fprintf(stderr, "burin: %s\n", error.line().c_str());
+    if (out != kStandardOutput)
+        std::printf("%s: %s, %s\n", out.c_str(), counted(report->rows, "tick", "ticks").c_str(),
+                    counted(report->columns, "column", "columns").c_str());
+    if (report->damaged.empty()) return {};
+    return fail(options.in, counted(report->damaged.size(), "block is", "blocks are") + " damaged and left out",
+                "the rest has been written");
+}
+
+struct SessionCommand::Options {
+    std::string file, json, first, second, columns;
+};
+
+SessionCommand::SessionCommand(Command app)
+    : options_(std::make_unique<Options>()), command_(app.subcommand("session", "Session files: recorded ticks")) {
+    command_.require_subcommand();
+    Options& o = *options_;
+    info_ =
+        command_.subcommand("info", "What is in a session file: columns with units and frames, ticks, gaps, clocks");
+    info_.option("FILE", o.file, "A file that --record has written").required();
+    info_.option("--json", o.json, "A file for all of it; - for standard output");
+    check_ = command_.subcommand("check", "Read all of a session file and name what is damaged; exit status 1 then");
+    check_.option("FILE", o.file, "A file that --record has written").required();
+    Command compared =
+        command_.subcommand("compare", "The first difference of two session files; exit status 1 where there is one");
+    compared.option("A", o.first, "A file that --record has written").required();
+    compared.option("B", o.second, "Another").required();
+    compared.option("--columns", o.columns,
+                    "Names with commas between them, a star at the end for all that begin so; else all");
+}
+
+SessionCommand::~SessionCommand() = default;
+
+bool SessionCommand::parsed() const { return command_.parsed(); }
+
+Result<void> SessionCommand::run() const {
+    const Options& o = *options_;
+    if (info_.parsed()) return info(o.file, o.json);
+    if (check_.parsed()) return check(o.file);
+    return compare(o.first, o.second, o.columns);
+}
+
+}  // namespace burin::app

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Compares two recordings value by value, bit for bit, whatever blocks they lie in.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "record/record_reader.hpp"
+
+namespace burin::record {
+
+struct Difference {
+    std::string hand, column;   // column empty: one of the two has no more ticks
+    std::int64_t tick = 0;      // of the first recording; of the second where the first has no more
+    std::string first, second;  // both values, as text_of() gives them; "-" where there is none
+
+    [[nodiscard]] std::string line() const;
+};
+
+struct Comparison {
+    std::uint64_t ticks = 0;  // compared
+    std::size_t columns = 0;
+    std::optional<Difference> difference;  // the first, by tick and then by column; none: equal to the bit
+};
+
+// Compares the columns that the list names (choose_columns()) of all hands, in the order of the hands. Fails where a
+// file cannot be read, a block is damaged, or hands or columns differ. Memory: one block of each.
+[[nodiscard]] Result<Comparison> compare(RecordReader& a, RecordReader& b, std::string_view columns = {});
+
+}  // namespace burin::record

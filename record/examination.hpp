@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// What a recording holds and what is wrong with it: for `burin session info` and `check`.
+// One thread. Memory: one block.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "record/record_reader.hpp"
+
+namespace burin::record {
+
+// Ticks that are missing between two that are there: lost by the ring, by a damaged block, or by a kill.
+struct TickGap {
+    std::int64_t after_tick = 0, missing = 0;
+};
+
+// What the list of blocks says of a hand, without reading one.
+struct HandSummary {
+    std::uint64_t ticks = 0;
+    std::int64_t first_tick = 0;
+    Nanoseconds first_ns = 0, last_block_ns = 0;
+    std::vector<TickGap> gaps;  // that show between blocks; one within a block is told at the block's end
+};
+[[nodiscard]] HandSummary summary_of(const HandRecord& hand);
+
+// How far the wall clock moved against the monotonic one, in all: of a clock that is not set, some milliseconds.
+[[nodiscard]] Nanoseconds wall_clock_moved_ns(const std::vector<ClockPair>& clocks);
+
+// What reading every block found.
+struct HandExamination {
+    std::uint64_t ticks = 0;  // read
+    std::vector<Error> damaged;
+    std::vector<TickGap> gaps;
+    std::uint64_t backward_times = 0;  // ticks that are not later than the one before
+    std::uint64_t not_finite = 0;      // numbers that are none, but for the points that a tick does not have
+};
+[[nodiscard]] HandExamination examine(RecordReader& reader, std::size_t hand);
+
+}  // namespace burin::record

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+#include "record/record_reader.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <limits>
+#include <string_view>
+#include <system_error>
+
+namespace burin::record {
+namespace {
+
+// SQLite's steps for a statement: the list of kMostBlocks blocks takes some 20 a block.
+constexpr std::int64_t kMostSteps = 200'000'000;
+constexpr std::size_t kMostFacts = 10'000, kMostTextBytes = 1 << 20;
+constexpr const char* kRemedy = "name a file that --record has written";
+
+// Checks that this is a regular file and begins as SQLite's do, before SQLite sees it: its own message for a folder, a
+// pipe or a text would help nobody.
+Result<void> check_beginning(const std::string& path) {
+    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (fd < 0) return fail(path, "cannot be read: " + std::generic_category().message(errno), "check the path");
+    struct stat info{};
+    std::array<char, 16> first{};
+    const bool known = ::fstat(fd, &info) == 0;
+    const ssize_t got = known && S_ISREG(info.st_mode) ? ::read(fd, first.data(), first.size()) : 0;
+    ::close(fd);
+    if (!known || !S_ISREG(info.st_mode)) return fail(path, "is not a regular file", kRemedy);
+    if (got == 0)
+        return fail(path, "is empty: its recording ended before the first tick, or it is no session", kRemedy);
+    if (static_cast<std::size_t>(got) != first.size() || std::memcmp(first.data(), "SQLite format 3", 16) != 0)
+        return fail(path, "is not a session file", kRemedy);
+    return {};
+}
+
+std::optional<ColumnType> type_named(std::string_view name) {
+    for (const ColumnType type : {ColumnType::f64, ColumnType::i64, ColumnType::u32})
+        if (name_of(type) == name) return type;
+    return {};
+}
+
+bool fits_u32(std::int64_t value) { return value >= 0 && value <= std::numeric_limits<std::uint32_t>::max(); }
+
+}  // namespace
+
+std::uint64_t HandRecord::rows() const {
+    std::uint64_t sum = 0;
+    for (const BlockPlace& place : blocks) sum += place.header.rows;
+    return sum;
+}
+
+std::vector<ColumnType> HandRecord::types() const {
+    std::vector<ColumnType> types;
+    for (const Column& column : columns) types.push_back(column.type);
+    return types;
+}
+
+Result<RecordReader> RecordReader::open(const std::string& path) {
+    if (const auto ok = check_beginning(path); !ok) return std::unexpected(ok.error());
+    RecordReader reader;
+    reader.path_ = path;
+    Result<Database> opened = Database::open(path, Database::Use::read);
+    if (!opened) return std::unexpected(opened.error());
+    reader.database_.emplace(std::move(*opened));
+    reader.database_->limit_steps(kMostSteps);
+    for (const auto step : {&RecordReader::check_marks, &RecordReader::check_tables, &RecordReader::read_facts,
+                            &RecordReader::read_hands, &RecordReader::read_places})
+        if (const auto done = (reader.*step)(); !done) return std::unexpected(done.error());
+    return reader;
+}
+
+Result<void> RecordReader::check_marks() {
+    if (const auto set = database_->run("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0"); !set) return set;
+    const Result<std::int64_t> mark = database_->integer("PRAGMA application_id");
+    if (!mark) return std::unexpected(mark.error());
+    if (*mark != kApplicationId) return fail(path_, "is an SQLite file of another program", kRemedy);
+    const Result<std::int64_t> version = database_->integer("PRAGMA user_version");
+    if (!version) return std::unexpected(version.error());
+    if (*version > kStoreVersion)
+        return fail(path_,
+                    "has version " + std::to_string(*version) + " of the format, and this program knows up to " +
+                        std::to_string(kStoreVersion),
+                    "read it with a newer Burin; its tables can be read with any SQLite");
+    if (*version < 1) return fail(path_, "has no version of the format", kRemedy);
+    return {};
+}
+
+// A view could compute for ever, a virtual table could call other code: all must be plain tables.
+Result<void> RecordReader::check_tables() {
+    for (const char* name : {"meta", "hand", "column", "block", "line", "trial", "event", "clock", "derived"}) {
+        Result<Statement> find =
+            database_->prepare("SELECT count(*) FROM sqlite_schema WHERE name = ? AND type = 'table' AND rootpage > 0");
+        if (!find) return std::unexpected(find.error());
+        find->bind(1, std::string_view(name));
+        const Result<bool> row = find->step();
+        if (!row) return std::unexpected(row.error());
+        if (!*row || find->integer(0) != 1) return fail(path_, "has no table " + std::string(name), kRemedy);
+    }
+    return {};
+}
+
+Result<void> RecordReader::read_facts() {
+    Result<Statement> read = database_->prepare(
+        "SELECT key, value FROM meta WHERE length(key) + length(value) <= " + std::to_string(kMostTextBytes) +
+        " LIMIT " + std::to_string(kMostFacts));
+    if (!read) return std::unexpected(read.error());
+    Result<bool> row = read->step();
+    for (; row && *row; row = read->step()) facts_[read->text(0)] = read->text(1);
+    if (!row) return std::unexpected(row.error());
+    return {};
+}
+
+Result<void> RecordReader::read_hands() {
+    Result<Statement> read = database_->prepare("SELECT hand, name FROM hand ORDER BY hand");
+    if (!read) return std::unexpected(read.error());
+    Result<bool> row = read->step();
+    for (; row && *row; row = read->step()) {
+        HandRecord hand;
+        hand.number = static_cast<std::uint32_t>(read->integer(0));
+        hand.name = read->text(1);
+        if (!fits_u32(read->integer(0)) || hands_.size() >= kMostHands || hand.name.size() > 1000)
+            return fail(path_, "has hands that no recording has", kRemedy);
+        hands_.push_back(std::move(hand));
+    }
+    if (!row) return std::unexpected(row.error());
+    for (HandRecord& hand : hands_)
+        if (const auto done = read_columns(hand); !done) return done;
+    return {};
+}
+
+Result<void> RecordReader::read_columns(HandRecord& hand) {
+    Result<Statement> read =
+        database_->prepare("SELECT position, name, unit, frame, type FROM column WHERE hand = ? ORDER BY position");
+    if (!read) return std::unexpected(read.error());
+    read->bind(1, std::int64_t{hand.number});
+    Result<bool> row = read->step();
+    for (; row && *row; row = read->step()) {
+        const auto type = type_named(read->text(4));
+        Column column{read->text(1), read->text(2), read->text(3), type.value_or(ColumnType::f64)};
+        if (read->integer(0) != static_cast<std::int64_t>(hand.columns.size()) || hand.columns.size() >= kMostColumns)
+            return fail(path_, "column " + std::to_string(hand.columns.size()) + " of " + hand.name + " is missing",
+                        kRemedy);
+        if (!type || column.name.empty() || column.name.size() + column.unit.size() + column.frame.size() > 1000)
+            return fail(path_,
+                        "column " + std::to_string(hand.columns.size()) + " of " + hand.name +
+                            " has a type or a name that this program does not know",
+                        kRemedy);
+        hand.columns.push_back(std::move(column));
+    }
+    if (!row) return std::unexpected(row.error());
+    if (hand.columns.empty()) return fail(path_, "has no columns for " + hand.name, kRemedy);
+    return {};
+}
+
+Result<void> RecordReader::read_places() {
+    Result<Statement> read = database_->prepare("SELECT id, hand, tick0, rows, t0_ns FROM block ORDER BY id LIMIT " +
+                                                std::to_string(kMostBlocks + 1));
+    if (!read) return std::unexpected(read.error());
+    std::size_t blocks = 0;
+    Result<bool> row = read->step();
+    for (; row && *row; row = read->step()) {
+        if (++blocks > kMostBlocks) return fail(path_, "has more blocks than a month of ticks", kRemedy);
+        const std::int64_t number = read->integer(1), rows = read->integer(3);
+        const auto hand = std::ranges::find_if(hands_, [&](const HandRecord& h) { return h.number == number; });
+        if (hand == hands_.end())
+            return fail(path_, "has a block of hand " + std::to_string(number) + ", which it does not name", kRemedy);
+        // A number of rows that no block has stays there as one that is refused when the block is read.
+        const auto kept_rows = rows < 0 || rows > kMostBlockRows ? 0 : static_cast<std::uint32_t>(rows);
+        hand->blocks.push_back({read->integer(0), {hand->number, read->integer(2), kept_rows, read->integer(4)}});
+    }
+    if (!row) return std::unexpected(row.error());
+    return {};
+}
+
+std::string RecordReader::name_of_block(std::size_t hand, std::size_t number) const {
+    const BlockHeader& header = hands_[hand].blocks[number].header;
+    return path_ + ": block " + std::to_string(number + 1) + " of " + hands_[hand].name + ", from tick " +
+           std::to_string(header.tick0);
+}
+
+Result<Block> RecordReader::block(std::size_t hand, std::size_t number) {
+    const HandRecord& of = hands_[hand];
+    const std::string where = name_of_block(hand, number);
+    Result<Statement> read = database_->prepare("SELECT crc, data FROM block WHERE id = ?");
+    if (!read) return std::unexpected(read.error());
+    read->bind(1, of.blocks[number].id);
+    const Result<bool> row = read->step();
+    if (!row) return std::unexpected(Error{row.error().what, where, row.error().remedy});
+    if (!*row) return fail(where, "is gone", "read the file when no other program writes it");
+    if (!fits_u32(read->integer(0))) return fail(where, "its check sum is wrong", "the other blocks can still be read");
+    const std::span<const std::byte> data = read->blob(1);
+    const PackedBlock packed{of.blocks[number].header, static_cast<std::uint32_t>(read->integer(0)),
+                             std::vector<std::byte>(data.begin(), data.end())};
+    return unpack(packed, of.types(), where);
+}
+
+Result<std::vector<TrialRecord>> RecordReader::trials() {
+    Result<Statement> read =
+        database_->prepare("SELECT id, name, state, begun_ns, ended_ns FROM trial ORDER BY id LIMIT 100000");
+    if (!read) return std::unexpected(read.error());
+    std::vector<TrialRecord> trials;
+    Result<bool> row = read->step();
+    for (; row && *row; row = read->step())
+        trials.push_back({read->integer(0), read->text(1), read->text(2), read->integer(3), read->integer(4)});
+    if (!row) return std::unexpected(row.error());
+    return trials;
+}
+
+Result<std::vector<EventRecord>> RecordReader::events() {
+    Result<Statement> read = database_->prepare("SELECT time_ns, name, value FROM event ORDER BY id LIMIT 100000");
+    if (!read) return std::unexpected(read.error());
+    std::vector<EventRecord> events;
+    Result<bool> row = read->step();
+    for (; row && *row; row = read->step()) events.push_back({read->integer(0), read->text(1), read->text(2)});
+    if (!row) return std::unexpected(row.error());
+    return events;
+}
+
+Result<std::vector<ClockPair>> RecordReader::clocks() {
+    Result<Statement> read =
+        database_->prepare("SELECT mono_ns, utc_ns FROM clock ORDER BY id LIMIT " + std::to_string(kMostBlocks));
+    if (!read) return std::unexpected(read.error());
+    std::vector<ClockPair> clocks;
+    Result<bool> row = read->step();
+    for (; row && *row; row = read->step()) clocks.push_back({read->integer(0), read->integer(1)});
+    if (!row) return std::unexpected(row.error());
+    return clocks;
+}
+
+Result<std::uint64_t> RecordReader::lines() {
+    const Result<std::int64_t> count = database_->integer("SELECT count(*) FROM line");
+    if (!count) return std::unexpected(count.error());
+    return static_cast<std::uint64_t>(*count);
+}
+
+Result<void> RecordReader::each_line(const std::function<void(std::int64_t, const std::string&)>& take) {
+    Result<Statement> read = database_->prepare("SELECT time_ns, text FROM line ORDER BY id");
+    if (!read) return std::unexpected(read.error());
+    Result<bool> row = read->step();
+    for (; row && *row; row = read->step()) take(read->integer(0), read->text(1));
+    if (!row) return std::unexpected(row.error());
+    return {};
+}
+
+Result<std::string> RecordReader::structure_fault() {
+    const Result<std::string> found = database_->text("PRAGMA quick_check(1)");
+    if (!found) return std::unexpected(found.error());
+    return *found == "ok" ? std::string() : *found;
+}
+
+}  // namespace burin::record

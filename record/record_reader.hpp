@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// Reads a session file, block by block, whatever is in it.
+//
+// The file is never changed, but for a recording that was killed: SQLite brings its log (FILE-wal) in when it can.
+// Bad input: not SQLite, another program's, a newer version, a truncated or damaged file, tables that are views, huge
+// claims, columns that are missing or unknown: an Error, with the remedy. A block is checked when it is read, so the
+// others are there although one is damaged. Memory: the list of blocks (32 bytes each, at most kMostBlocks) and one
+// block (at most kMostBlockBytes and its compressed data). A statement that takes too long is interrupted.
+// Threads: one at a time.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "record/block.hpp"
+#include "record/database.hpp"
+
+namespace burin::record {
+
+inline constexpr std::size_t kMostBlocks = 4'000'000;  // a month of one hand
+inline constexpr std::size_t kMostHands = 64;
+
+struct BlockPlace {
+    std::int64_t id = 0;  // in table block
+    BlockHeader header;
+};
+
+struct HandRecord {
+    std::uint32_t number = 0;
+    std::string name;
+    std::vector<Column> columns;
+    std::vector<BlockPlace> blocks;  // in the order of their ticks
+
+    [[nodiscard]] std::uint64_t rows() const;  // as the blocks say
+    [[nodiscard]] std::vector<ColumnType> types() const;
+};
+
+struct TrialRecord {
+    std::int64_t id = 0;
+    std::string name, state;
+    std::int64_t begun_ns = 0, ended_ns = 0;  // ended 0: still open when the recording ended
+};
+
+struct EventRecord {
+    std::int64_t time_ns = 0;
+    std::string name, value;
+};
+
+struct ClockPair {
+    std::int64_t mono_ns = 0, utc_ns = 0;
+};
+
+class RecordReader {
+public:
+    [[nodiscard]] static Result<RecordReader> open(const std::string& path);
+
+    [[nodiscard]] const std::string& path() const { return path_; }
+    [[nodiscard]] const std::map<std::string, std::string>& facts() const { return facts_; }
+    [[nodiscard]] const std::vector<HandRecord>& hands() const { return hands_; }
+    // Whether the recording was closed; else it was killed, or is still going on in a copy.
+    [[nodiscard]] bool is_closed() const { return facts_.contains("end"); }
+
+    // Reads, checks and unpacks a block of hands()[hand].
+    [[nodiscard]] Result<Block> block(std::size_t hand, std::size_t number);
+    // Names a block in messages: "FILE: block 3 of omni, ticks 3001 to 4000".
+    [[nodiscard]] std::string name_of_block(std::size_t hand, std::size_t number) const;
+
+    [[nodiscard]] Result<std::vector<TrialRecord>> trials();
+    [[nodiscard]] Result<std::vector<EventRecord>> events();
+    [[nodiscard]] Result<std::vector<ClockPair>> clocks();
+    [[nodiscard]] Result<std::uint64_t> lines();  // how many there are
+    // Calls for each line in order, one in memory at a time.
+    [[nodiscard]] Result<void> each_line(const std::function<void(std::int64_t time_ns, const std::string&)>& take);
+    // Has SQLite check its own structure: empty, or what is wrong. Reads the whole file.
+    [[nodiscard]] Result<std::string> structure_fault();
+
+private:
+    [[nodiscard]] Result<void> check_marks();
+    [[nodiscard]] Result<void> check_tables();
+    [[nodiscard]] Result<void> read_facts();
+    [[nodiscard]] Result<void> read_hands();
+    [[nodiscard]] Result<void> read_columns(HandRecord& hand);
+    [[nodiscard]] Result<void> read_places();
+
+    std::string path_;
+    std::optional<Database> database_;
+    std::map<std::string, std::string> facts_;
+    std::vector<HandRecord> hands_;
+};
+
+}  // namespace burin::record

@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: MIT
+#include "record/record_store.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+
+namespace burin::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::int64_t utc_ns() {
+    timespec t{};
+    clock_gettime(CLOCK_REALTIME, &t);
+    return static_cast<std::int64_t>(t.tv_sec) * kNanosecondsPerSecond + t.tv_nsec;
+}
+
+std::unexpected<Error> cannot_make(const std::string& path, int code) {
+    const std::string why = std::generic_category().message(code);
+    switch (code) {
+        case EEXIST: return fail(path, "exists, and a recording never overwrites a file", "choose another name");
+        case ENOENT: return fail(path, "cannot be made: " + why, "create the folder first");
+        case ENOSPC:
+        case EDQUOT: return fail(path, "the disk is full", "free some space or record to another disk");
+        default: return fail(path, "cannot be made: " + why, "choose a folder that you may write to");
+    }
+}
+
+// A folder's entry is on the disk only when the folder is.
+void flush_folder_of(const std::string& path) {
+    const fs::path folder = fs::path(path).parent_path();
+    const int fd = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (fd < 0) return;  // a file system that cannot flush folders loses only that guarantee
+    static_cast<void>(::fsync(fd));
+    ::close(fd);
+}
+
+std::vector<ColumnType> types_of(const std::vector<Column>& columns) {
+    std::vector<ColumnType> types;
+    for (const Column& column : columns) types.push_back(column.type);
+    return types;
+}
+
+// Fails where a log lies there without its file.
+Result<void> check_no_log_of(const std::string& path) {
+    for (const char* ending : {"-wal", "-journal", "-shm"}) {
+        std::error_code ignored;
+        if (fs::exists(path + ending, ignored))
+            return fail(path + ending, "belongs to another recording, whose file has been taken away",
+                        "choose another name; with its own file beside it, it can still be read");
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<void> check_new_place(const std::string& path) {
+    if (path.empty()) return {};
+    struct stat there{};
+    if (::lstat(path.c_str(), &there) == 0) return cannot_make(path, EEXIST);
+    if (errno != ENOENT) return cannot_make(path, errno);
+    const fs::path folder = fs::path(path).parent_path();
+    if (::access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0) return cannot_make(path, errno);
+    return check_no_log_of(path);
+}
+
+RecordStore::RecordStore(std::string path, std::vector<RecordedHand> hands, WriterOptions options)
+    : path_(std::move(path)), options_(std::move(options)) {
+    for (RecordedHand& hand : hands) {
+        Part part;
+        part.shape = shape_of(hand.device, hand.probe);
+        part.block = Block(types_of(columns_for(part.shape)));
+        part.hand = std::move(hand);
+        parts_.push_back(std::move(part));
+    }
+}
+
+RecordStore::~RecordStore() {
+    if (place_ >= 0) ::close(place_);
+}
+
+// ---- The file
+
+Result<void> RecordStore::make() {
+    if (const auto made = make_file(); !made) return made;
+    Result<void> ready = open();
+    if (ready) ready = fill_tables();
+    if (ready) {
+        flush_folder_of(path_);
+        committed_ns_ = clock_.now_ns();
+        return {};
+    }
+    database_.reset();
+    std::error_code ignored;
+    for (const char* ending : {"", "-wal", "-journal"}) fs::remove(path_ + ending, ignored);
+    return ready;
+}
+
+Result<void> RecordStore::make_file() {
+    if (const auto ok = check_no_log_of(path_); !ok) return ok;
+    const int fd = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (fd < 0) return cannot_make(path_, errno);
+    ::close(fd);
+    place_ = ::open(path_.c_str(), O_PATH | O_CLOEXEC);
+    if (place_ < 0 || ::fstat(place_, &made_) != 0) return cannot_make(path_, errno);
+    return {};
+}
+
+Result<void> RecordStore::open() {
+    Result<Database> opened = Database::open(path_, Database::Use::write, options_.vfs);
+    if (!opened) return std::unexpected(opened.error());
+    database_.emplace(std::move(*opened));
+    // Exclusive before WAL: the connection keeps the lock and needs no memory shared with other programs.
+    if (const auto set = database_->run("PRAGMA locking_mode = EXCLUSIVE"); !set) return set;
+    const Result<std::string> mode = database_->text("PRAGMA journal_mode = WAL");
+    if (!mode) return std::unexpected(mode.error());
+    if (*mode != "wal")
+        return fail(path_, "its file system takes no write-ahead log", "record to a disk of this machine");
+    return database_->run("PRAGMA synchronous = FULL; PRAGMA application_id = " + std::to_string(kApplicationId) +
+                          "; PRAGMA user_version = " + std::to_string(kStoreVersion));
+}
+
+Result<void> RecordStore::fill_tables() {
+    if (const auto begun = database_->run("BEGIN IMMEDIATE"); !begun) return begun;
+    if (const auto made = database_->run(store_tables()); !made) return made;
+    Result<Statement> fact = database_->prepare("INSERT OR REPLACE INTO meta VALUES(?, ?)");
+    Result<Statement> hand = database_->prepare("INSERT INTO hand VALUES(?, ?)");
+    Result<Statement> column = database_->prepare("INSERT INTO column VALUES(?, ?, ?, ?, ?, ?)");
+    if (!fact || !hand || !column) return fail(path_, "its tables cannot be made", "choose another disk");
+    for (const auto& [key, value] : options_.facts) {
+        fact->bind(1, std::string_view(key));
+        fact->bind(2, std::string_view(value));
+        if (const auto done = fact->run(); !done) return done;
+    }
+    for (std::size_t h = 0; h < parts_.size(); ++h) {
+        const Part& part = parts_[h];
+        hand->bind(1, static_cast<std::int64_t>(h));
+        hand->bind(2, std::string_view(part.hand.name));
+        if (const auto done = hand->run(); !done) return done;
+        const std::vector<Column> columns = columns_for(part.shape);
+        for (std::size_t c = 0; c < columns.size(); ++c) {
+            column->bind(1, static_cast<std::int64_t>(h));
+            column->bind(2, static_cast<std::int64_t>(c));
+            column->bind(3, std::string_view(columns[c].name));
+            column->bind(4, std::string_view(columns[c].unit));
+            column->bind(5, std::string_view(columns[c].frame));
+            column->bind(6, name_of(columns[c].type));
+            if (const auto done = column->run(); !done) return done;
+        }
+    }
+    if (const auto noted = insert_clock(); !noted) return noted;
+    return database_->run("COMMIT");
+}
+
+// ---- Ticks and notes
+
+void RecordStore::add(StoreNote note) {
+    if (failure_) return;
+    note_bytes_ += note.bytes();
+    notes_.push_back(std::move(note));
+}
+
+void RecordStore::take_ticks() {
+    for (std::size_t h = 0; h < parts_.size(); ++h) {
+        Ring<haptics::TickRecord>& ring = *parts_[h].hand.ring;
+        // Only what is there now: a ring that is filled as fast as it is emptied would hold the thread for ever.
+        for (std::size_t left = ring.waiting(); left > 0; --left) {
+            take(h, *ring.oldest());
+            ring.drop();
+        }
+    }
+}
+
+void RecordStore::take(std::size_t index, const haptics::TickRecord& record) {
+    Part& part = parts_[index];
+    if (options_.on_record) options_.on_record(index, record);
+    if (failure_) {
+        ++part.lost;
+        return;
+    }
+    const bool full = part.block.rows() >= kMostBlockRows ||
+                      (part.block.rows() > 0 &&
+                       (record.time_ns - part.header.t0_ns >= options_.block_ns || record.time_ns < part.header.t0_ns));
+    if (full) seal(index);
+    if (part.block.rows() == 0)
+        part.header = {static_cast<std::uint32_t>(index), static_cast<std::int64_t>(record.tick), 0, record.time_ns};
+    part.block.add(row_of(record, part.shape));
+    part.last_tick = record.tick;
+}
+
+void RecordStore::seal(std::size_t index) {
+    Part& part = parts_[index];
+    if (part.block.rows() == 0) return;
+    Result<PackedBlock> packed = pack(part.block, part.header);
+    part.block.clear();
+    if (!packed) return give_up(packed.error());
+    part.sealed_tick = part.last_tick;
+    sealed_bytes_ += packed->data.size();
+    sealed_.push_back(std::move(*packed));
+}
+
+// ---- Transactions
+
+void RecordStore::commit_what_is_due(bool last) {
+    const Nanoseconds now_ns = clock_.now_ns();
+    const bool time_has_come = now_ns - committed_ns_ >= options_.block_ns;
+    // A disk that has just refused gets a rest before the next try; the last turn tries until patience ends.
+    if (failure_ || (!last && !time_has_come && (sealed_.empty() || refused_ns_))) return;
+    for (std::size_t h = 0; h < parts_.size(); ++h)
+        if (last || time_has_come) seal(h);
+    if (sealed_.empty() && notes_.empty()) {
+        committed_ns_ = now_ns;
+        return;
+    }
+    for (;;) {
+        const Result<void> done = commit();
+        committed_ns_ = clock_.now_ns();
+        if (done) {
+            refused_ns_.reset();
+            return;
+        }
+        if (failure_) return;
+        if (!refused_ns_) refused_ns_ = committed_ns_;
+        if (committed_ns_ - *refused_ns_ >= options_.patience_ns || waiting_bytes() > kMostWaitingBytes)
+            return give_up(done.error());
+        if (!last) return;
+        clock_.sleep_until(committed_ns_ + std::min(options_.patience_ns, options_.block_ns) / 4);
+    }
+}
+
+Result<void> RecordStore::commit() {
+    if (const auto there = check_place(); !there) return there;
+    Result<void> done = insert_all();
+    if (!done) {
+        // Some failures roll back by themselves; a rollback that fails leaves the next BEGIN to say so.
+        if (database_->in_transaction()) static_cast<void>(database_->run("ROLLBACK"));
+        return done;
+    }
+    for (Part& part : parts_) part.acknowledged = part.sealed_tick;
+    sealed_.clear();
+    notes_.clear();
+    sealed_bytes_ = note_bytes_ = 0;
+    ++transactions_;
+    return {};
+}
+
+Result<void> RecordStore::insert_all() {
+    if (const auto begun = database_->run("BEGIN IMMEDIATE"); !begun) return begun;
+    Result<Statement> insert =
+        database_->prepare("INSERT INTO block(hand, tick0, rows, t0_ns, crc, data) VALUES(?, ?, ?, ?, ?, ?)");
+    if (!insert) return std::unexpected(insert.error());
+    for (const PackedBlock& block : sealed_) {
+        insert->bind(1, std::int64_t{block.header.hand});
+        insert->bind(2, block.header.tick0);
+        insert->bind(3, std::int64_t{block.header.rows});
+        insert->bind(4, block.header.t0_ns);
+        insert->bind(5, std::int64_t{block.crc});
+        insert->bind(6, std::span<const std::byte>(block.data));
+        if (const auto done = insert->run(); !done) return done;
+    }
+    for (const StoreNote& note : notes_)
+        if (const auto done = insert_note(note); !done) return done;
+    if (const auto done = insert_clock(); !done) return done;
+    return database_->run("COMMIT");
+}
+
+Result<void> RecordStore::insert_note(const StoreNote& note) {
+    using Kind = StoreNote::Kind;
+    const char* sql =
+        note.kind == Kind::line          ? "INSERT INTO line(time_ns, text) VALUES(?1, ?2)"
+        : note.kind == Kind::event       ? "INSERT INTO event(time_ns, name, trial, value) VALUES(?1, ?2, ?3, ?4)"
+        : note.kind == Kind::trial_begin ? "INSERT INTO trial(id, name, begun_ns, state) VALUES(?3, ?2, ?1, 'open')"
+                                         : "UPDATE trial SET ended_ns = ?1, state = ?2 WHERE id = ?3";
+    Result<Statement> statement = database_->prepare(sql);
+    if (!statement) return std::unexpected(statement.error());
+    statement->bind(1, note.time_ns);
+    statement->bind(2, std::string_view(note.text));
+    if (note.kind != Kind::line && note.trial) statement->bind(3, *note.trial);
+    if (note.kind == Kind::event) statement->bind(4, std::string_view(note.value));
+    return statement->run();
+}
+
+Result<void> RecordStore::insert_clock() {
+    Result<Statement> statement = database_->prepare("INSERT INTO clock(mono_ns, utc_ns) VALUES(?, ?)");
+    if (!statement) return std::unexpected(statement.error());
+    statement->bind(1, std::int64_t{clock_.now_ns()});
+    statement->bind(2, utc_ns());
+    return statement->run();
+}
+
+// ---- What can go wrong, and the end
+
+Result<void> RecordStore::check_place() {
+    struct stat now{};
+    const bool there = ::stat(path_.c_str(), &now) == 0;
+    if (there && now.st_dev == made_.st_dev && now.st_ino == made_.st_ino) return {};
+    Error why{"the file was taken away while it was recorded", path_, "leave the file where it is until the end"};
+    if (::fstat(place_, &now) == 0 && now.st_nlink == 0) save_elsewhere(why);
+    give_up(std::move(why));
+    return std::unexpected(*failure_);
+}
+
+// A deleted file still exists for those who hold it open.
+void RecordStore::save_elsewhere(Error& why) {
+    const std::string saved = path_ + ".saved";
+    std::error_code ignored;
+    if (fs::exists(saved, ignored)) return;
+    Result<Statement> copy = database_->prepare("VACUUM INTO ?");
+    if (!copy) return;
+    copy->bind(1, std::string_view(saved));
+    if (copy->run()) why.remedy = "what had been acknowledged is in " + saved;
+}
+
+std::string RecordStore::progress() const {
+    std::string text;
+    for (const Part& part : parts_) {
+        if (!text.empty()) text += ", ";
+        text += part.hand.name + " up to tick " + std::to_string(part.acknowledged);
+    }
+    return text;
+}
+
+void RecordStore::give_up(Error why) {
+    why.what += "; kept: " + progress();
+    failure_ = std::move(why);
+    for (const PackedBlock& block : sealed_) parts_[block.header.hand].lost += block.header.rows;
+    for (Part& part : parts_) {
+        part.lost += part.block.rows();
+        part.block.clear();
+    }
+    sealed_.clear();
+    notes_.clear();
+    sealed_bytes_ = note_bytes_ = 0;
+}
+
+Result<void> RecordStore::write_facts_of_end(std::uint64_t notes_lost) {
+    Result<Statement> fact = database_->prepare("INSERT OR REPLACE INTO meta VALUES(?, ?)");
+    if (!fact) return std::unexpected(fact.error());
+    const auto put = [&](const std::string& key, const std::string& value) -> Result<void> {
+        fact->bind(1, std::string_view(key));
+        fact->bind(2, std::string_view(value));
+        return fact->run();
+    };
+    for (std::size_t h = 0; h < parts_.size(); ++h) {
+        const std::string lost = std::to_string(parts_[h].lost + parts_[h].hand.ring->refused());
+        if (const auto done = put("ticks lost, hand " + std::to_string(h), lost); !done) return done;
+    }
+    if (const auto done = put("notes lost", std::to_string(notes_lost)); !done) return done;
+    return put("end", failure_ ? failure_->line() : "regular");
+}
+
+void RecordStore::end(std::uint64_t notes_lost) {
+    Result<void> ended;
+    if (!failure_) {
+        ended = write_facts_of_end(notes_lost);
+    } else {
+        static_cast<void>(write_facts_of_end(notes_lost));  // where the disk takes it again
+    }
+    // All into the one file, and no log beside it: then it can be read where nothing can be written.
+    if (ended) ended = database_->run("PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode = DELETE");
+    if (!ended && !failure_) give_up(ended.error());
+    static_cast<void>(database_->close());
+    database_.reset();
+}
+
+}  // namespace burin::record
