@@ -155,10 +155,6 @@ CheckedWorld faulty(const std::string& path, std::span<const Error> faults, bool
 
 // ---- Worlds in TOML
 
-std::string hexadecimal(const scene::Colour& colour) {
-    return formatted("#%02x%02x%02x", colour[0], colour[1], colour[2]);
-}
-
 // Returns the box around an object where its own pose has it.
 Box bounds_of(const scene::SceneObject& object) {
     Box bounds_m;
