@@ -114,6 +114,34 @@ Result<void> MeshPart::let_go(ObjectId id) {
     return edit(id, LetGo{objects_[at->second].scene_from_object});
 }
 
+Result<void> MeshPart::take_hold(ObjectId id, std::size_t hand) {
+    const auto at = index_of_.find(id);
+    const auto where = hands_.find(hand);
+    if (at == index_of_.end()) return fail("object " + std::to_string(id), "there is none with this number");
+    if (where == hands_.end()) return fail(objects_[at->second].object.name, "nobody knows where the hand is");
+    return edit(
+        id, TakeHold{hand, composed(inverse(where->second.scene_from_hand), objects_[at->second].scene_from_object)});
+}
+
+void MeshPart::take_samples(std::size_t hand, std::span<const haptics::StrokeSample> samples) {
+    const auto known = hands_.find(hand);
+    if (samples.empty()) {  // no news: it stands still
+        if (known != hands_.end())
+            known->second.velocity_m_per_s = known->second.angular_velocity_rad_per_s = Vec3(0.0);
+        return;
+    }
+    const haptics::StrokeSample& newest = samples.back();
+    HandPose pose{.scene_from_hand = {newest.position_object_m, newest.orientation_object}, .time_ns = newest.time_ns};
+    const bool goes_on = known != hands_.end() && known->second.time_ns > 0 && newest.time_ns > known->second.time_ns;
+    if (goes_on) {
+        const Velocities v = velocities_between(known->second.scene_from_hand, pose.scene_from_hand,
+                                                seconds(newest.time_ns - known->second.time_ns));
+        pose.velocity_m_per_s = v.linear_m_per_s;
+        pose.angular_velocity_rad_per_s = v.angular_rad_per_s;
+    }
+    move_hand(hand, pose);
+}
+
 void MeshPart::move_hand(std::size_t hand, const HandPose& pose) {
     if (finite(pose.scene_from_hand.position_m) && geometry::is_unit(pose.scene_from_hand.orientation) &&
         finite(pose.velocity_m_per_s) && finite(pose.angular_velocity_rad_per_s))

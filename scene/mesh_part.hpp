@@ -31,9 +31,10 @@ namespace burin::scene {
 
 // Where a hand is, for what it holds.
 struct HandPose {
-    Pose scene_from_hand;
+    Pose scene_from_hand;  // at its HIP
     Vec3 velocity_m_per_s{0.0};
     Vec3 angular_velocity_rad_per_s{0.0};
+    Nanoseconds time_ns = 0;
 };
 
 // What the frame has to know of an object that has changed.
@@ -54,7 +55,9 @@ public:
                                                                   MaterialTable& materials);
     ~MeshPart() override;
 
-    // ScenePart. The first update is the time at which paths begin.
+    // ScenePart. The first update is the time at which paths begin. A hand's newest sample tells where it is; its
+    // velocities are the mean over the samples of an update.
+    void take_samples(std::size_t hand, std::span<const haptics::StrokeSample> samples) override;
     [[nodiscard]] Result<void> update(Nanoseconds now_ns, const UpdateSeen* recorded) override;
     [[nodiscard]] const UpdateSeen& seen() const override { return seen_; }
     // Leaves out what the hand itself holds.
@@ -62,9 +65,10 @@ public:
     [[nodiscard]] Nanoseconds period_ns() const override { return moving_.empty() ? kResting_ns : kMoving_ns; }
     void finish() override {}
 
-    // Makes an edit, which the next update shows. One that fails changes nothing. let_go() leaves a held object fixed
-    // where it was in the last update.
+    // Makes an edit, which the next update shows. One that fails changes nothing. take_hold() has an object move with a
+    // hand from where both are, let_go() leaves it fixed where it was in the last update.
     [[nodiscard]] Result<void> edit(ObjectId id, const ObjectEdit& edit);
+    [[nodiscard]] Result<void> take_hold(ObjectId id, std::size_t hand);
     [[nodiscard]] Result<void> let_go(ObjectId id);
     // Tells where a hand is; what it holds follows with the next update.
     void move_hand(std::size_t hand, const HandPose& pose);

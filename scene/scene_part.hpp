@@ -2,19 +2,22 @@
 // A part of a scene: what it owns in there is touched, seen and edited through it alone. A carved workpiece is a part,
 // the meshes of a world are one, bodies another.
 //
-// Data flow of an update: the scene's service calls update() of each part at the part's period, then has the touch
-// publisher (scene/touch_publisher.hpp) ask every part for what lies near each hand's probe. What a part draws, and the
-// orders that it carries out, are its own affair: whoever knows which part it is asks it.
+// Data flow of an update: the scene's service (scene/scene_service.hpp) hands each part the stroke samples of all
+// hands, calls its update(), and then has the touch publisher (scene/touch_publisher.hpp) ask every part for what lies
+// near each hand's probe. What a part draws, and the orders that it carries out, are its own affair: whoever knows
+// which part it is asks it.
 // Frame: the scene's, metres, which LocalSurface calls the object frame.
 // Threads: one at a time, the service's or, where time is simulated, the caller's.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "geometry/contact/local_surface.hpp"
+#include "haptics/channels.hpp"
 
 namespace burin::scene {
 
@@ -41,6 +44,9 @@ public:
     ScenePart(const ScenePart&) = delete;
     ScenePart& operator=(const ScenePart&) = delete;
 
+    // Takes what a hand has done since the last update, in order, just before the next one. A part that needs none of
+    // it leaves it.
+    virtual void take_samples(std::size_t /*hand*/, std::span<const haptics::StrokeSample> /*samples*/) {}
     // Brings the part to the present. `recorded` limits the update to the inputs of a recorded one, at whose time it
     // takes place. Fails when the part cannot go on; it is then as it was before the update.
     [[nodiscard]] virtual Result<void> update(Nanoseconds now_ns, const UpdateSeen* recorded) = 0;
@@ -51,7 +57,7 @@ public:
     // part of a scene alone may set origin, tiles and loose triangles; the others add meshes. A part that knows its
     // surface in a smaller ball only lowers radius_m. Sequence and time are the publisher's.
     [[nodiscard]] virtual Result<void> add_near(const ProbeBall& ball, geometry::LocalSurface& draft) = 0;
-    // Time between updates; it may change with each.
+    // Returns the longest time until the next update that the part allows; it may change with each.
     [[nodiscard]] virtual Nanoseconds period_ns() const = 0;
     // Ends all work that goes on elsewhere, and waits for it. No update follows.
     virtual void finish() = 0;

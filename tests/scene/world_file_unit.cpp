@@ -2,8 +2,10 @@
 // World files as people write them, right and wrong.
 #include <gtest/gtest.h>
 
-#include <map>
+#include <algorithm>
+#include <cmath>
 
+#include "scene/mesh_part.hpp"
 #include "scene/world_file.hpp"
 #include "tests/geometry/touch_samples.hpp"
 #include "tests/support/run_command.hpp"
@@ -167,6 +169,33 @@ TEST(WorldFile, AThousandObjectsShareOneMesh) {
     std::string many;
     for (std::size_t i = 0; i <= kMaxWorldObjects; ++i) many += "[[object]]\n";
     EXPECT_EQ(faults_of(many).size(), 1u) << "more objects than a world holds are not read at all";
+}
+
+TEST(WorldFile, TheGardenHasTenThingsOfDifferentFeel) {
+    const WorldOrProblems world = read_world("assets/worlds/garden.toml");
+    ASSERT_TRUE(world.has_value()) << world.error().front().line();
+    EXPECT_EQ(world->objects.size(), 10u);
+    EXPECT_TRUE(world->remarks.empty()) << world->remarks.front();
+    int moving = 0, unseen = 0;
+    for (const SceneObject& object : world->objects) {
+        moving += std::holds_alternative<PathMotion>(object.motion) ? 1 : 0;
+        unseen += object.seen ? 0 : 1;
+        EXPECT_TRUE(object.felt) << object.name;
+        const auto alike = std::ranges::count(world->objects, object.material, &SceneObject::material);
+        EXPECT_EQ(alike, 1) << object.name;
+        // The box that the file and the README speak of.
+        for (const Vec3& p : object.mesh->positions_m) {
+            const Vec3 at = object.pose * (object.scale * p);
+            EXPECT_LE(std::abs(at.x), 0.1701) << object.name;
+            EXPECT_LE(std::abs(at.z), 0.1201) << object.name;
+            EXPECT_GE(at.y, -0.0201) << object.name;
+            EXPECT_LE(at.y, 0.14) << object.name;
+        }
+    }
+    EXPECT_EQ(moving, 1);
+    EXPECT_EQ(unseen, 1);
+    MaterialTable materials(1);
+    EXPECT_TRUE(MeshPart::create(world->objects, materials).has_value());
 }
 
 TEST(WorldFile, ReadsMeshesInItsFolderAndNoOthers) {

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "scene/scene_service.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "haptics/haptic_loop.hpp"
+
+namespace burin::scene {
+namespace {
+
+std::vector<TouchPublisher::Slot*> slots_of(const std::vector<SceneHand>& hands) {
+    std::vector<TouchPublisher::Slot*> slots;
+    for (const SceneHand& hand : hands) slots.push_back(&hand.channels->surface);
+    return slots;
+}
+
+}  // namespace
+
+SceneService::SceneService(std::vector<ScenePart*> parts, std::vector<SceneHand> hands)
+    : parts_(std::move(parts)), hands_(std::move(hands)), publisher_(slots_of(hands_)) {
+    for (const SceneHand& hand : hands_) places_.push_back(hand.start_scene);
+    seen_.last_ticks.resize(hands_.size());
+    seen_.parts.resize(parts_.size());
+}
+
+Result<void> SceneService::repeat(const SceneUpdate& recorded) {
+    if (recorded.last_ticks.size() != hands_.size() || recorded.parts.size() != parts_.size())
+        return fail("the recorded update", "is of another number of hands or parts", "replay it in its own scene");
+    return update(recorded.time_ns, &recorded);
+}
+
+void SceneService::read_samples(std::size_t hand, std::uint64_t last_tick) {
+    Ring<haptics::StrokeSample>& ring = hands_[hand].channels->stroke;
+    samples_.clear();
+    while (const haptics::StrokeSample* oldest = ring.oldest()) {
+        if (oldest->tick > last_tick) break;
+        samples_.push_back(*oldest);
+        ring.drop();
+    }
+    if (samples_.empty()) return;
+    seen_.last_ticks[hand] = samples_.back().tick;
+    places_[hand] = samples_.back().proxy_object_m;
+}
+
+Result<void> SceneService::update(Nanoseconds now_ns, const SceneUpdate* recorded) {
+    const Nanoseconds since_ns = now_ns - std::exchange(seen_.time_ns, now_ns);
+    seen_.orders = recorded != nullptr ? recorded->orders : 0;
+    // While a hand stands still its loop rests and gives a tenth of the samples: twice as many mean that it moves.
+    const auto few = static_cast<std::size_t>(std::max<Nanoseconds>(2 * since_ns / haptics::HapticLoop::kRest_ns, 1));
+    hands_move_ = false;
+    for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
+        read_samples(hand, recorded != nullptr ? recorded->last_ticks[hand] : UINT64_MAX);
+        hands_move_ = hands_move_ || samples_.size() > few;
+        for (ScenePart* part : parts_) part->take_samples(hand, samples_);
+    }
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        const UpdateSeen* const part_seen = recorded != nullptr ? &recorded->parts[i] : nullptr;
+        if (const auto updated = parts_[i]->update(now_ns, part_seen); !updated) return updated;
+        seen_.parts[i] = parts_[i]->seen();
+    }
+    for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
+        const ProbeBall ball{hand, places_[hand], hands_[hand].around_m + hands_[hand].reach_m};
+        if (const auto published = publisher_.publish(ball, parts_, now_ns); !published) return published;
+    }
+    return {};
+}
+
+Nanoseconds SceneService::period_ns() const {
+    Nanoseconds period_ns = hands_move_ || parts_.empty() ? kHandsMove_ns : parts_.front()->period_ns();
+    for (const ScenePart* part : parts_) period_ns = std::min(period_ns, part->period_ns());
+    return period_ns;
+}
+
+void SceneService::finish() {
+    for (ScenePart* part : parts_) part->finish();
+}
+
+}  // namespace burin::scene

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// The service of a scene: has its parts do what the hands have done, and publishes what the hands touch.
+//
+// Data flow of an update: the stroke samples of each hand are read from its ring, of which the service is the only
+// reader -> every part takes them -> every part updates, in the order in which they were given -> the touch publisher
+// writes each hand's local surface around where its tool rests. The service knows no part by its kind: orders and what
+// the frame shows go between the frame and the part itself, on the thread of the service (scene/scene_thread.hpp).
+// Replay: an update depends on orders, time, samples and on what its parts have seen. seen() has all but the orders,
+// and repeat() does it again to the bit.
+// Frame: the scene's. Threads: one at a time, a SceneThread's or, where time is simulated, the caller's.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "haptics/channels.hpp"
+#include "scene/scene_part.hpp"
+#include "scene/touch_publisher.hpp"
+
+namespace burin::scene {
+
+// One hand's side of a scene.
+struct SceneHand {
+    haptics::HapticChannels* channels = nullptr;
+    Vec3 start_scene{0.0};  // where its tool is before the first sample
+    double around_m =
+        0.0;               // radius of a ball about its place that holds its probe and what the tick looks at around it
+    double reach_m = 0.0;  // how far it may move until the next update
+};
+
+// Inputs of an update.
+struct SceneUpdate {
+    Nanoseconds time_ns = 0;
+    std::size_t orders = 0;                 // carried out just before it; counted by whoever gives them
+    std::vector<std::uint64_t> last_ticks;  // for each hand, of the last stroke sample that was read
+    std::vector<UpdateSeen> parts;          // for each part
+    friend bool operator==(const SceneUpdate&, const SceneUpdate&) = default;
+};
+
+class SceneService {
+public:
+    // Between updates while a hand moves.
+    static constexpr Nanoseconds kHandsMove_ns = 10'000'000;
+
+    // Parts and channels must outlive the service.
+    SceneService(std::vector<ScenePart*> parts, std::vector<SceneHand> hands);
+
+    // Sets the size of a hand's probe from the next update on.
+    void use_probe(std::size_t hand, double around_m) { hands_[hand].around_m = around_m; }
+    // Does what the hands have done since the last update. Fails when a part cannot go on; nothing is published then.
+    [[nodiscard]] Result<void> update(Nanoseconds now_ns) { return update(now_ns, nullptr); }
+    // Does an update again: with the samples and at the time of the recorded one. Fails on one of other hands or parts.
+    [[nodiscard]] Result<void> repeat(const SceneUpdate& recorded);
+    // Returns the inputs of the last update; `orders` is 0 unless it was given.
+    [[nodiscard]] const SceneUpdate& seen() const { return seen_; }
+    // Returns the time until the next update: the shortest that a part asks for, and at most kHandsMove_ns while a hand
+    // moves.
+    [[nodiscard]] Nanoseconds period_ns() const;
+    // Ends the parts' work elsewhere, and waits for it. No update follows.
+    void finish();
+    // Returns where the hand's tool rested in the last sample.
+    [[nodiscard]] const Vec3& tool_scene(std::size_t hand) const { return places_[hand]; }
+    // Returns the number of local surfaces published for a hand so far.
+    [[nodiscard]] std::uint64_t published(std::size_t hand) const { return publisher_.published(hand); }
+
+private:
+    [[nodiscard]] Result<void> update(Nanoseconds now_ns, const SceneUpdate* recorded);
+    void read_samples(std::size_t hand, std::uint64_t last_tick);
+
+    std::vector<ScenePart*> parts_;
+    std::vector<SceneHand> hands_;
+    TouchPublisher publisher_;
+    std::vector<Vec3> places_;                    // of each hand's tool
+    std::vector<haptics::StrokeSample> samples_;  // of one hand in one update
+    bool hands_move_ = false;
+    SceneUpdate seen_;
+};
+
+}  // namespace burin::scene

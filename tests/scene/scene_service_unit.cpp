@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+// A scene of parts with hands: what an update reads, passes on and publishes, also on a thread and again.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <numbers>
+#include <thread>
+
+#include "scene/scene_thread.hpp"
+#include "tests/scene/scene_samples.hpp"
+
+namespace burin::scene {
+namespace {
+
+// Writes down what it is given.
+class NotedPart final : public ScenePart {
+public:
+    void take_samples(std::size_t hand, std::span<const haptics::StrokeSample> samples) override {
+        for (const haptics::StrokeSample& sample : samples) ticks.emplace_back(hand, sample.tick);
+    }
+    Result<void> update(Nanoseconds now_ns, const UpdateSeen* recorded) override {
+        ++updates;
+        if (fails) return fail("part", "cannot go on");
+        // Its background work is done whenever it looks at 20 ms; when it is replayed it looks elsewhere.
+        seen_ = recorded != nullptr ? *recorded : UpdateSeen{.time_ns = now_ns, .background_ended = now_ns == 20};
+        return {};
+    }
+    const UpdateSeen& seen() const override { return seen_; }
+    Result<void> add_near(const ProbeBall& ball, geometry::LocalSurface&) override {
+        balls.push_back(ball);
+        return {};
+    }
+    Nanoseconds period_ns() const override { return period; }
+    void finish() override { finished = true; }
+
+    std::vector<std::pair<std::size_t, std::uint64_t>> ticks;
+    std::vector<ProbeBall> balls;
+    Nanoseconds period = 40'000'000;
+    std::atomic<int> updates{0};
+    bool fails = false, finished = false;
+
+private:
+    UpdateSeen seen_;
+};
+
+haptics::StrokeSample sample_at(std::uint64_t tick, const Vec3& at_m) {
+    haptics::StrokeSample sample;
+    sample.tick = tick;
+    sample.time_ns = static_cast<Nanoseconds>(1'000'000 * tick);
+    sample.position_object_m = sample.proxy_object_m = at_m;
+    return sample;
+}
+
+struct TwoHands {
+    haptics::HapticChannels left{64, 64}, right{64, 64};
+    NotedPart first, second;
+    SceneService service{{&first, &second},
+                         {{&left, {1.0, 0.0, 0.0}, 0.01, 0.02}, {&right, {2.0, 0.0, 0.0}, 0.03, 0.04}}};
+};
+
+using Ticks = std::vector<std::pair<std::size_t, std::uint64_t>>;
+
+TEST(SceneService, EveryPartGetsEverySampleAndEachHandItsSurface) {
+    TwoHands scene;
+    for (const std::uint64_t tick : {1u, 2u}) (void)scene.left.stroke.push(sample_at(tick, {0.0, 0.5, 0.0}));
+    ASSERT_TRUE(scene.service.update(50));
+    EXPECT_EQ(scene.first.ticks, (Ticks{{0, 1}, {0, 2}}));
+    EXPECT_EQ(scene.second.ticks, scene.first.ticks);
+    ASSERT_EQ(scene.first.balls.size(), 2u);
+    EXPECT_EQ(scene.first.balls[0].center_scene, Vec3(0.0, 0.5, 0.0));
+    EXPECT_NEAR(scene.first.balls[0].radius_m, 0.03, 1e-12);
+    EXPECT_EQ(scene.first.balls[1].center_scene, Vec3(2.0, 0.0, 0.0)) << "before its first sample";
+    EXPECT_EQ(scene.right.surface.newest().sequence, 1u);
+    EXPECT_EQ(scene.right.surface.newest().made_ns, 50);
+    EXPECT_EQ(scene.service.seen().last_ticks, (std::vector<std::uint64_t>{2, 0}));
+}
+
+TEST(SceneService, AnUpdateIsRepeatedWithTheSamplesThatItHad) {
+    TwoHands live, again;
+    std::vector<SceneUpdate> recorded;
+    std::uint64_t tick = 0;
+    for (const Nanoseconds now_ns : {10, 20, 30}) {
+        for (int i = 0; i < 3; ++i) {
+            ++tick;
+            (void)live.left.stroke.push(sample_at(tick, Vec3(0.0)));
+            (void)live.right.stroke.push(sample_at(tick + 7, Vec3(0.0)));
+        }
+        ASSERT_TRUE(live.service.update(now_ns));
+        recorded.push_back(live.service.seen());
+    }
+    EXPECT_TRUE(recorded[1].parts[0].background_ended);
+    for (std::uint64_t t = 1; t <= tick; ++t) {  // all are there from the first replayed update on
+        (void)again.left.stroke.push(sample_at(t, Vec3(0.0)));
+        (void)again.right.stroke.push(sample_at(t + 7, Vec3(0.0)));
+    }
+    for (const SceneUpdate& update : recorded) {
+        ASSERT_TRUE(again.service.repeat(update));
+        EXPECT_EQ(again.service.seen(), update);
+    }
+    EXPECT_EQ(again.first.ticks, live.first.ticks);
+    EXPECT_FALSE(again.service.repeat({}).has_value()) << "of a scene without hands";
+}
+
+TEST(SceneService, TheShortestPeriodOfItsPartsCountsAndThatOfAMovingHand) {
+    TwoHands scene;
+    scene.second.period = 25'000'000;
+    ASSERT_TRUE(scene.service.update(1'000'000'000));
+    EXPECT_EQ(scene.service.period_ns(), 25'000'000);
+    for (std::uint64_t tick = 1; tick <= 25; ++tick) (void)scene.right.stroke.push(sample_at(tick, Vec3(0.0)));
+    ASSERT_TRUE(scene.service.update(1'025'000'000));
+    EXPECT_EQ(scene.service.period_ns(), SceneService::kHandsMove_ns);
+    (void)scene.right.stroke.push(sample_at(26, Vec3(0.0)));
+    ASSERT_TRUE(scene.service.update(1'035'000'000));
+    EXPECT_EQ(scene.service.period_ns(), 25'000'000) << "its loop rests";
+}
+
+TEST(SceneService, PublishesNothingWhereAPartFails) {
+    TwoHands scene;
+    scene.second.fails = true;
+    EXPECT_FALSE(scene.service.update(1).has_value());
+    EXPECT_EQ(scene.service.published(0), 0u);
+    scene.service.finish();
+    EXPECT_TRUE(scene.first.finished && scene.second.finished);
+}
+
+TEST(SceneService, AHandTakesAnObjectAlongAndPutsItDown) {
+    MaterialTable materials;
+    std::vector<SceneObject> objects{test::object_at(1, test::shared_mesh(geometry::test::cube(0.01)), {0.1, 0, 0})};
+    auto part = MeshPart::create(objects, materials);
+    haptics::HapticChannels channels(64, 64);
+    SceneService service({part->get()}, {{&channels, Vec3(0.0), 0.01, 0.5}});
+    EXPECT_FALSE((*part)->take_hold(1, 0).has_value()) << "nobody knows where the hand is";
+    (void)channels.stroke.push(sample_at(1, {0.0, 0.0, 0.0}));
+    ASSERT_TRUE(service.update(1'000'000));
+    ASSERT_TRUE((*part)->take_hold(1, 0));
+    haptics::StrokeSample turned = sample_at(101, {0.0, 0.2, 0.0});
+    turned.orientation_object = glm::angleAxis(0.5 * std::numbers::pi, Vec3(0.0, 1.0, 0.0));
+    (void)channels.stroke.push(turned);
+    ASSERT_TRUE(service.update(101'000'000));
+    EXPECT_LT(glm::length((*part)->pose(1).position_m - Vec3(0.0, 0.2, -0.1)), 1e-12) << "as a stick in the hand";
+    geometry::LocalSurface others;
+    ASSERT_TRUE((*part)->add_near({1, Vec3(0.0), 1.0}, others));
+    // 2 m/s upwards, and a quarter turn a tenth of a second, which takes it forwards at the end of a stick of 0.1 m.
+    const Vec3 velocity = others.meshes.at(0).motion.velocity_object_m_per_s;
+    EXPECT_NEAR(velocity.y, 2.0, 1e-9);
+    EXPECT_NEAR(velocity.x, -0.5 * std::numbers::pi, 1e-9);
+    ASSERT_TRUE((*part)->let_go(1));
+    (void)channels.stroke.push(sample_at(102, {0.0, 0.9, 0.0}));
+    ASSERT_TRUE(service.update(102'000'000));
+    EXPECT_LT(glm::length((*part)->pose(1).position_m - Vec3(0.0, 0.2, -0.1)), 1e-12);
+}
+
+TEST(SceneThread, CarriesOutOrdersBeforeUpdatesAndEndsWithTheLast) {
+    TwoHands scene;
+    scene.first.period = 1'000'000;
+    MonotonicClock clock;
+    std::atomic<int> calls{0};
+    SceneThread thread(scene.service, clock, [&] { ++calls; });
+    thread.start();
+    int at_update = -1;
+    thread.order([&] { at_update = scene.first.updates; });
+    while (scene.first.updates < 5) std::this_thread::yield();
+    bool last_was_carried_out = false;
+    thread.order([&] { last_was_carried_out = true; });
+    thread.stop();
+    EXPECT_GE(at_update, 0);
+    EXPECT_TRUE(last_was_carried_out);
+    EXPECT_EQ(calls, scene.first.updates);
+    const std::vector<SceneUpdate> updates = thread.take_updates();
+    EXPECT_EQ(updates.size(), static_cast<std::size_t>(scene.first.updates));
+    std::size_t orders = 0;
+    for (const SceneUpdate& update : updates) orders += update.orders;
+    EXPECT_EQ(orders, 2u);
+    EXPECT_FALSE(thread.failure().has_value());
+}
+
+TEST(SceneThread, EndsWhenAPartFails) {
+    TwoHands scene;
+    scene.first.fails = true;
+    MonotonicClock clock;
+    SceneThread thread(scene.service, clock, [] {});
+    thread.start();
+    while (!thread.failure()) std::this_thread::yield();
+    thread.stop();
+    EXPECT_EQ(scene.first.updates, 1);
+    EXPECT_TRUE(thread.take_updates().empty());
+}
+
+}  // namespace
+}  // namespace burin::scene
