@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/output_files.hpp"
+#include "app/world_explore.hpp"
 #include "base/text.hpp"
 #include "geometry/files/mesh_unit.hpp"
 #include "geometry/vrml/vrml_shapes.hpp"
@@ -236,8 +237,8 @@ CheckedWorld check_world(const std::string& path, bool print) {
 }  // namespace
 
 struct WorldCommand::Options {
-    std::vector<std::string> files;   // to check
-    std::vector<std::string> worlds;  // to open
+    std::vector<std::string> files;  // to check
+    WorldExploration exploration;
     std::string json;
 
     [[nodiscard]] Result<void> check_files() const;
@@ -263,9 +264,19 @@ Result<void> WorldCommand::Options::check_files() const {
 }
 
 WorldCommand::WorldCommand(Command app)
-    : options_(std::make_unique<Options>()), command_(app.subcommand("world", "Check worlds in TOML and VRML 2.0")) {
+    : options_(std::make_unique<Options>()),
+      command_(app.subcommand("world", "Explore a world by touch, and check worlds")) {
     Options& o = *options_;
-    command_.option("FILE", o.worlds, "A world to open; not possible yet");
+    command_.option("FILE", o.exploration.world, "A world to explore (.toml; .wrl can only be checked yet)");
+    command_.option("--stroke", o.exploration.stroke,
+                    "CSV with the columns time_s,x_m,y_m,z_m,qx,qy,qz,qw,button, along which a simulated hand goes");
+    command_.option("--radius", o.exploration.radius_m, "Radius of the ball that touches, in metres")
+        .within(1e-5, 1.0)
+        .show_default();
+    command_.option("--pictures", o.exploration.pictures,
+                    "A folder for pictures: the world, each object when it is first touched, both eyes at the end");
+    command_.option("--report", o.exploration.report,
+                    "A JSON file for what was felt of each object; plots lie beside it");
     check_ = command_.subcommand("check", "What is in each file, or all that is wrong with it; exit status 1 then");
     check_.option("FILE", o.files, "Worlds (.toml, or .wrl for VRML 2.0), see docs/formats.md").required();
     check_.option("--json", o.json, "A file for all figures and faults; - for standard output");
@@ -276,13 +287,14 @@ WorldCommand::~WorldCommand() = default;
 bool WorldCommand::parsed() const { return command_.parsed(); }
 
 std::string WorldCommand::misuse() const {
-    return check_.parsed() || !options_->worlds.empty() ? "" : "world needs the word check and files";
+    if (check_.parsed()) return "";
+    if (options_->exploration.world.empty()) return "world needs a file, or the word check and files";
+    return options_->exploration.stroke.empty() ? "world needs a --stroke: it cannot be explored live yet" : "";
 }
 
 Result<void> WorldCommand::run() const {
     if (check_.parsed()) return options_->check_files();
-    return fail(options_->worlds.front(), "worlds cannot be opened and touched yet, only checked",
-                "burin world check " + options_->worlds.front() + " says what is in it");
+    return explore_world(options_->exploration);
 }
 
 }  // namespace burin::app

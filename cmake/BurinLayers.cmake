@@ -22,10 +22,12 @@ burin_forbid(scene ${vulkan_headers})
 burin_forbid(record ${vulkan_headers})
 burin_forbid(shaders/shared ${vulkan_headers} iostream fstream)
 # Only window/ knows the window library. (session reaches windows through its headers, which show nothing of it.)
-foreach(folder base geometry devices haptics scene record wall gpu compute renderer sculpt session study bench app)
+foreach(folder base geometry devices haptics scene record wall gpu compute renderer sculpt session study
+    activities bench app)
   burin_forbid(${folder} GLFW)
 endforeach()
 # Only session/panel/ knows the panel's toolkit; the renderer paints plain triangles.
-foreach(folder base geometry devices haptics scene record wall gpu compute renderer window sculpt study bench app)
+foreach(folder base geometry devices haptics scene record wall gpu compute renderer window sculpt study
+    activities bench app)
   burin_forbid(${folder} imgui)
 endforeach()

@@ -42,6 +42,7 @@ std::vector<Box> lit_things(const Shown& in) {
         if (box->visible) things.push_back(box_around(ball_of(*box)));
     for (const Box& mark : boxes_of(contact_marks(scene)))
         if (!mark.empty()) things.push_back(mark);
+    for (const DrawnObject& object : scene.objects) things.push_back(bounds_world(object));
     if (scene.pedestal.visible) {
         const ScenePedestal& p = scene.pedestal;
         const double height_m = std::max(p.top_center_world.y, 0.001);

@@ -47,6 +47,9 @@ Result<void> check_size(ImageSize size) {
 std::vector<std::shared_ptr<const DrawnMesh>> meshes_of(const Scene& scene) {
     std::vector<std::shared_ptr<const DrawnMesh>> meshes;
     if (scene.tool.visible && scene.tool.mesh) meshes.push_back(scene.tool.mesh);
+    for (const DrawnObject& object : scene.objects) meshes.push_back(object.mesh);
+    std::ranges::sort(meshes);
+    meshes.erase(std::unique(meshes.begin(), meshes.end()), meshes.end());
     return meshes;
 }
 

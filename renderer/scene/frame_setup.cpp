@@ -148,6 +148,14 @@ void add_contact(Shapes& shapes, const Scene& scene, const Primitives& primitive
 
 }  // namespace
 
+Box placed_box(const Box& own, const Similarity& world_from_own) {
+    Box world;
+    for (int i = 0; !own.empty() && i < 8; ++i)
+        world.include(world_from_own * Vec3((i & 1) != 0 ? own.hi.x : own.lo.x, (i & 2) != 0 ? own.hi.y : own.lo.y,
+                                            (i & 4) != 0 ? own.hi.z : own.lo.z));
+    return world;
+}
+
 Vec3 linear_of(const Vec3& srgb) { return shared::linear_of(srgb); }
 
 Mat4 world_from_patch(const Scene& scene) {
@@ -172,12 +180,10 @@ Box head_of(const SceneTool& tool) {
         head.include(tool.center_world + Vec3(tool.radius_m));
         return head;
     }
-    const Box& own = tool.mesh->bounds;
-    for (int i = 0; i < 8; ++i)
-        head.include(tool.world_from_mesh * Vec3((i & 1) != 0 ? own.hi.x : own.lo.x, (i & 2) != 0 ? own.hi.y : own.lo.y,
-                                                 (i & 4) != 0 ? own.hi.z : own.lo.z));
-    return head;
+    return placed_box(tool.mesh->bounds, tool.world_from_mesh);
 }
+
+Box bounds_world(const DrawnObject& object) { return placed_box(object.mesh->bounds, object.world_from_mesh); }
 
 std::array<Ball, kSpineBalls + kStylusBalls> balls_of(const SceneTool& tool) {
     std::array<Ball, kSpineBalls + kStylusBalls> balls;
@@ -228,8 +234,16 @@ DepthRange depth_range(const Scene& scene, const Workpiece& workpiece) {
     Box panel;
     if (scene.panel)
         for (const Vec3& corner : corners_world(scene.panel->stand)) panel.include(corner);
-    for (const Ball& ball : {workpiece.enclosing, ball_of(scene.tool), ball_of(scene.box), ball_of(scene.proposed_box),
-                             ball_of(scene.bubble), ball_around(signs[0]), ball_around(signs[1]), ball_around(panel)}) {
+    Box objects;
+    for (const DrawnObject& object : scene.objects) {
+        const Box bounds = bounds_world(object);
+        if (bounds.empty()) continue;
+        objects.include(bounds.lo);
+        objects.include(bounds.hi);
+    }
+    for (const Ball& ball : {ball_around(objects), workpiece.enclosing, ball_of(scene.tool), ball_of(scene.box),
+                             ball_of(scene.proposed_box), ball_of(scene.bubble), ball_around(signs[0]),
+                             ball_around(signs[1]), ball_around(panel)}) {
         if (ball.radius_m <= 0.0) continue;
         const double center_m = eye_m - wall::distance_in_front(scene.screen, ball.center_world);
         range.near_m = std::min(range.near_m, 0.9 * (center_m - ball.radius_m));
@@ -279,6 +293,11 @@ shared::FrameUniforms frame_uniforms(const Scene& scene, const Workpiece& workpi
 Shapes shapes_of(const Scene& scene, const Primitives& primitives) {
     Shapes shapes;
     if (scene.tool.visible) add_tool(shapes, scene.tool, primitives);
+    for (const DrawnObject& object : scene.objects) {
+        shared::DrawConstants c = constants_of(matrix(object.world_from_mesh), object.colour, 1.0, 0.42, 0.9);
+        c.material.z = 1.0f;  // shows how near the tool is
+        shapes.solid.push_back({{0, 0, object.mesh->bounds}, c, object.mesh});
+    }
     add_contact(shapes, scene, primitives);
     if (scene.pedestal.visible) {
         const ScenePedestal& p = scene.pedestal;

@@ -57,6 +57,10 @@ inline constexpr double kGuard = 2.0;
 // ball the first is the tool's own, and the other three of the spine are absent.
 inline constexpr std::size_t kSpineBalls = 4, kStylusBalls = 8;
 [[nodiscard]] std::array<Ball, kSpineBalls + kStylusBalls> balls_of(const SceneTool& tool);
+// Returns the bounds of a box that is placed in the world; empty for one that is.
+[[nodiscard]] Box placed_box(const Box& own, const Similarity& world_from_own);
+// Returns the bounds of an object in the world.
+[[nodiscard]] Box bounds_world(const DrawnObject& object);
 // Returns the bounds of the tool without its stylus, as it is drawn; empty where it is not visible.
 [[nodiscard]] Box head_of(const SceneTool& tool);
 // Returns the unit vector towards the lamp.

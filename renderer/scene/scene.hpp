@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "base/space.hpp"
 #include "renderer/panel/panel_stand.hpp"
@@ -28,6 +29,15 @@ struct SceneTool {
     Vec3 spine_m{0.0};  // from one end of the spine to the other, along the world's axes; zero for a ball
 
     bool operator==(const SceneTool&) const = default;
+};
+
+// An object of a world. It receives the tool's shadow and ring as the workpiece does, and casts no shadow.
+struct DrawnObject {
+    std::shared_ptr<const DrawnMesh> mesh;  // not null
+    Similarity world_from_mesh;
+    Vec3 colour{0.78, 0.78, 0.78};
+
+    bool operator==(const DrawnObject&) const = default;
 };
 
 // The transparent haptic workspace box.
@@ -100,6 +110,7 @@ struct Scene {
     // Extent of the workpiece, for its shadow on the room's floor. Empty: the patches' bounds, and then the whole
     // picture is redrawn when these change.
     Box workpiece_object;
+    std::vector<DrawnObject> objects;
     SceneTool tool;
     SceneContact contact;
     SceneBox box;

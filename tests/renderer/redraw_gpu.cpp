@@ -60,7 +60,7 @@ public:
     }
     void make() {
         const std::uint32_t id = number(static_cast<std::uint32_t>(looks_[0].size()));
-        switch (number(16)) {
+        switch (number(17)) {
             case 0:
             case 1:
             case 2: move_tool(); break;
@@ -81,6 +81,11 @@ public:
             case 13: stand_panel(); break;
             case 14: scene_.panel.reset(); break;
             case 15: paint_panel(); break;
+            case 16:
+                if (scene_.objects.size() > 3) scene_.objects.erase(scene_.objects.begin());
+                scene_.objects.push_back(
+                    {mesh_, {somewhere(), turn(), between(0.002, 0.02)}, {between(0, 1), 0.5, 0.3}});
+                break;
             default: break;
         }
     }

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Explores a world by feel (burin world FILE --stroke): a simulated hand leads a simulated Omni along a stroke, feels
+// the world's objects through the haptic loop, and is pushed back by them. Objects on paths move meanwhile.
+//
+// Data flow: hand -> device -> haptic loop (1 kHz) -> ring of stroke samples -> the scene's service (100 Hz), which
+// takes objects along their paths and publishes what is near -> haptic loop. In simulated time, on the caller's thread:
+// every run gives the same bits.
+// Frame: the scene's, metres; forces at the device, newtons.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "devices/hand/simulated_hand.hpp"
+#include "scene/mesh_part.hpp"
+#include "sculpt/stroke_file.hpp"
+#include "session/felt/felt_figures.hpp"
+
+namespace burin::activities {
+
+struct ExploreOptions {
+    double tool_radius_m = 0.004;  // of the ball that touches
+    devices::HandGrip grip;
+};
+
+// What was felt of one object.
+struct ObjectTouch {
+    scene::ObjectId id = 0;
+    std::string name;
+    std::uint64_t updates = 0;  // of the service, at which it was the object touched
+    double first_s = 0.0;       // since the beginning
+    double force_max_N = 0.0, force_mean_N = 0.0;
+};
+
+struct WorldFigures {
+    session::FeltFigures felt;
+    std::vector<ObjectTouch> touches;  // in the order of the objects; those that were touched
+};
+
+// What is to be seen at an update of the service.
+struct WorldMoment {
+    haptics::ToolState tool;
+    // Name of an object that has been touched for the first time, some updates ago: pressed by now.
+    std::optional<std::string> newly_touched;
+};
+using OnUpdate = std::function<Result<void>(double time_s, const WorldMoment& moment)>;
+
+// Feels the objects of the part, whose materials the table holds, along a stroke of at least one row. Where the stroke
+// is larger than the workspace, the motion is scaled up. Fails when an update does, or what is called at one.
+[[nodiscard]] Result<WorldFigures> explore_by_feel(scene::MeshPart& part, std::span<const scene::ObjectId> ids,
+                                                   const scene::MaterialTable& materials, const sculpt::Stroke& stroke,
+                                                   const ExploreOptions& options, const OnUpdate& on_update);
+
+}  // namespace burin::activities

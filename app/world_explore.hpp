@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// burin world FILE --stroke STROKE: a simulated hand explores a world by touch, without window or device; what it felt of
+// each object goes to the terminal and a report, with plots, and what it looked like into pictures.
+#pragma once
+
+#include <string>
+
+#include "base/error.hpp"
+
+namespace burin::app {
+
+struct WorldExploration {
+    std::string world;        // a world.toml (docs/formats.md)
+    std::string stroke;       // a CSV file; its button has no meaning here
+    double radius_m = 0.004;  // of the ball that touches
+    std::string pictures;     // a folder; empty: none
+    std::string report;       // a JSON file; empty: none
+};
+
+// Fails with all problems of the world printed, when it has some.
+[[nodiscard]] Result<void> explore_world(const WorldExploration& options);
+
+}  // namespace burin::app
