@@ -32,6 +32,7 @@
 
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "haptics/histogram.hpp"
 #include "record/columns.hpp"
 
 namespace burin::record {
@@ -89,6 +90,8 @@ public:
     [[nodiscard]] std::uint64_t acknowledged(std::size_t hand = 0) const;
     // Returns how many transactions have been acknowledged.
     [[nodiscard]] std::uint64_t transactions() const;
+    // Returns how long transactions took, those included that the disk refused. Any thread; lives as the writer does.
+    [[nodiscard]] const haptics::Histogram& transaction_duration() const;
     // Returns why nothing is recorded any more.
     [[nodiscard]] std::optional<Error> failure() const;
     // Takes the rest of the rings and notes, brings all to the disk, and ends. Afterwards nobody writes to the file.

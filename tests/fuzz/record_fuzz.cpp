@@ -6,9 +6,9 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -89,8 +89,8 @@ void read_block(const std::uint8_t* data, std::size_t size) {
     PackedBlock block;
     block.header.rows = data[0] + 256u * data[1];
     const std::size_t columns = data[2] % 40u;
-    block.data.resize(size - 3);
-    std::memcpy(block.data.data(), data + 3, size - 3);
+    const auto* bytes = reinterpret_cast<const std::byte*>(data);
+    block.data.assign(bytes + 3, bytes + size);
     block.crc = crc_of(block.header, block.data);
     std::vector<ColumnType> types;
     for (std::size_t c = 0; c < columns; ++c) types.push_back(static_cast<ColumnType>((c * 7 + data[2]) % 3));
