@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "record/record_reader.hpp"
 
-#include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <cstring>
 #include <limits>
 #include <string_view>
 #include <system_error>
@@ -21,21 +17,14 @@ constexpr std::int64_t kMostSteps = 200'000'000;
 constexpr std::size_t kMostFacts = 10'000, kMostTextBytes = 1 << 20;
 constexpr const char* kRemedy = "name a file that --record has written";
 
-// Checks that this is a regular file and begins as SQLite's do, before SQLite sees it: its own message for a folder, a
-// pipe or a text would help nobody.
-Result<void> check_beginning(const std::string& path) {
-    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (fd < 0) return fail(path, "cannot be read: " + std::generic_category().message(errno), "check the path");
+// Checks that this is a regular file, without opening it: closing it again would drop the locks that a writer in this
+// process holds on it (POSIX locks belong to a process), and opening a pipe would wait.
+Result<void> check_kind(const std::string& path) {
     struct stat info{};
-    std::array<char, 16> first{};
-    const bool known = ::fstat(fd, &info) == 0;
-    const ssize_t got = known && S_ISREG(info.st_mode) ? ::read(fd, first.data(), first.size()) : 0;
-    ::close(fd);
-    if (!known || !S_ISREG(info.st_mode)) return fail(path, "is not a regular file", kRemedy);
-    if (got == 0)
-        return fail(path, "is empty: its recording ended before the first tick, or it is no session", kRemedy);
-    if (static_cast<std::size_t>(got) != first.size() || std::memcmp(first.data(), "SQLite format 3", 16) != 0)
-        return fail(path, "is not a session file", kRemedy);
+    if (::stat(path.c_str(), &info) != 0)
+        return fail(path, "cannot be read: " + std::generic_category().message(errno), "check the path");
+    if (!S_ISREG(info.st_mode)) return fail(path, "is not a regular file", kRemedy);
+    if (info.st_size == 0) return fail(path, "is empty: its recording ended before it began, or it is none", kRemedy);
     return {};
 }
 
@@ -62,7 +51,7 @@ std::vector<ColumnType> HandRecord::types() const {
 }
 
 Result<RecordReader> RecordReader::open(const std::string& path) {
-    if (const auto ok = check_beginning(path); !ok) return std::unexpected(ok.error());
+    if (const auto ok = check_kind(path); !ok) return std::unexpected(ok.error());
     RecordReader reader;
     reader.path_ = path;
     Result<Database> opened = Database::open(path, Database::Use::read);

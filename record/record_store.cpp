@@ -234,7 +234,9 @@ void RecordStore::commit_what_is_due(bool last) {
 
 Result<void> RecordStore::commit() {
     if (const auto there = check_place(); !there) return there;
+    const Nanoseconds begun_ns = clock_.now_ns();
     Result<void> done = insert_all();
+    transaction_duration_.add(clock_.now_ns() - begun_ns);
     if (!done) {
         // Some failures roll back by themselves; a rollback that fails leaves the next BEGIN to say so.
         if (database_->in_transaction()) static_cast<void>(database_->run("ROLLBACK"));

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "haptics/histogram.hpp"
 #include "record/block.hpp"
 #include "record/database.hpp"
 #include "record/record_writer.hpp"
@@ -47,6 +48,7 @@ public:
     [[nodiscard]] std::uint64_t acknowledged(std::size_t hand) const { return parts_[hand].acknowledged; }
     [[nodiscard]] std::uint64_t transactions() const { return transactions_; }
     [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
+    [[nodiscard]] const haptics::Histogram& transaction_duration() const { return transaction_duration_; }
 
 private:
     struct Part {
@@ -89,6 +91,7 @@ private:
     Nanoseconds committed_ns_ = 0;           // when the last transaction ended, or was tried
     std::optional<Nanoseconds> refused_ns_;  // since when the disk has refused
     std::optional<Error> failure_;
+    haptics::Histogram transaction_duration_;
     MonotonicClock clock_;
 };
 

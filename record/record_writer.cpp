@@ -89,6 +89,8 @@ std::uint64_t RecordWriter::acknowledged(std::size_t hand) const {
 
 std::uint64_t RecordWriter::transactions() const { return transactions_.load(std::memory_order_acquire); }
 
+const haptics::Histogram& RecordWriter::transaction_duration() const { return store_->transaction_duration(); }
+
 std::optional<Error> RecordWriter::failure() const {
     const std::lock_guard lock(mutex_);
     return failure_;

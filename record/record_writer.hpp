@@ -8,15 +8,15 @@
 //   both clocks, once a transaction                           |
 // Whoever else wants the records (figures, plots, monitors) gets them from the writer, by `on_record`.
 //
-// Ownership: one SQLite connection, which alone writes and checkpoints; it holds the file's lock until the end, so that
-// no other program reads or writes the file meanwhile. WAL with synchronous FULL: what is acknowledged survives a kill
-// and a power cut. close() brings everything into the one file, which then travels alone.
+// Ownership: one SQLite connection, which alone writes and checkpoints; it holds the file's lock until the end, so
+// that no other program reads or writes the file meanwhile. WAL with synchronous FULL: what is acknowledged survives a
+// kill and a power cut. close() brings everything into the one file, which then travels alone.
 // Failures: create() never touches an existing file. While the disk refuses (full, locked, unplugged) the writer keeps
 // what it has, tries again, and gives up after `patience_ns` or beyond kMostWaitingBytes: failure() then says why,
-// later ticks are counted as lost, and what was acknowledged stays. A file that is taken away is noticed before the next
-// transaction; where it was deleted, its contents are saved under a new name, which the failure tells.
-// Threads: create(), close() and the destructor on one thread; note_...(), acknowledged() and failure() on any, but the
-// haptic one; take_now() on the thread that makes the ticks, in simulated time.
+// later ticks are counted as lost, and what was acknowledged stays. A file that is taken away is noticed before the
+// next transaction; where it was deleted, its contents are saved under a new name, which the failure tells.
+// Threads: create(), close() and the destructor on one thread; note_...(), acknowledged() and failure() on any, but
+// the haptic one; take_now() on the thread that makes the ticks, in simulated time.
 #pragma once
 
 #include <atomic>
@@ -32,6 +32,7 @@
 
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "haptics/histogram.hpp"
 #include "record/columns.hpp"
 
 namespace burin::record {
@@ -89,6 +90,8 @@ public:
     [[nodiscard]] std::uint64_t acknowledged(std::size_t hand = 0) const;
     // Returns how many transactions have been acknowledged.
     [[nodiscard]] std::uint64_t transactions() const;
+    // Returns how long transactions took, those included that the disk refused. Any thread; lives as the writer does.
+    [[nodiscard]] const haptics::Histogram& transaction_duration() const;
     // Returns why nothing is recorded any more.
     [[nodiscard]] std::optional<Error> failure() const;
     // Takes the rest of the rings and notes, brings all to the disk, and ends. Afterwards nobody writes to the file.

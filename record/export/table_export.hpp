@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Writes the ticks of one hand as a table that other programs read: one file a format.
 //
-// The table is written under a temporary name and renamed at its end (new_file.hpp), so a failure leaves what was there.
-// Memory: one block, whatever the recording's length. Damaged blocks are left out and named in the report: a table with
-// ticks missing is better than none, and the caller says so.
+// The table is written under a temporary name and renamed at its end (new_file.hpp), so a failure leaves what was
+// there. Memory: one block, whatever the recording's length. Damaged blocks are left out and named in the report: a
+// table with ticks missing is better than none, and the caller says so.
 #pragma once
 
 #include <string>

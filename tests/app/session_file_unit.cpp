@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// A felt stroke is recorded, looked into, compared and converted, as a user does it; and other programs read the file.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "tests/support/run_command.hpp"
+
+namespace burin::app {
+namespace {
+
+const std::string kRecordingBurin = BURIN_COMMAND;
+// A press into a block from above, 0.9 s with the rests before and after.
+const std::string kRecordedPress = kStrokeHeader +
+                                   "0,0.01,0.0135,0.01,0,0,0,1,0\n0.1,0.01,0.011,0.01,0,0,0,1,1\n"
+                                   "0.3,0.013,0.011,0.01,0,0,0,1,1\n";
+const std::string kRecordingSculpt =
+    kRecordingBurin +
+    " sculpt --workpiece block:0.02,0.01,0.02 --resolution 48 --tool ball:0.002 --stroke "
+    "press.csv --hand simulated --report report.json";
+
+// Returns the Python example of docs/formats.md.
+std::string documented_snippet() {
+    std::ifstream document("docs/formats.md");
+    std::stringstream text;
+    text << document.rdbuf();
+    const std::string all = text.str();
+    const std::size_t section = all.find("## Session files");
+    const std::size_t begin = all.find("```python\n", section), end = all.find("```", begin + 10);
+    if (section == std::string::npos || begin == std::string::npos || end == std::string::npos) return {};
+    return all.substr(begin + 10, end - begin - 10);
+}
+
+}  // namespace
+
+TEST(SessionFile, TheSameStrokeGivesTheSameTicksAndAHarderMaterialOthers) {
+    const Workplace at;
+    at.write("press.csv", kRecordedPress);
+    for (const std::string more : {"--record a.session", "--record b.session", "--record c.session --hardness hard"}) {
+        const auto sculpted = at.run(kRecordingSculpt + " " + more);
+        ASSERT_EQ(sculpted.status, 0) << sculpted.output;
+        EXPECT_NE(sculpted.output.find(".session: 900 ticks recorded"), std::string::npos) << sculpted.output;
+    }
+    const auto same = at.run(kRecordingBurin + " session compare a.session b.session");
+    EXPECT_EQ(same.status, 0);
+    EXPECT_EQ(same.output, "900 ticks, 74 columns: equal to the bit\n");
+    const auto other = at.run(kRecordingBurin + " session compare a.session c.session");
+    EXPECT_EQ(other.status, 1);
+    EXPECT_NE(other.output.find("simulated PHANTOM Omni, tick "), std::string::npos) << other.output;
+    EXPECT_EQ(at.run(kRecordingBurin + " session compare a.session c.session --columns tick,time_ns").status, 0);
+}
+
+TEST(SessionFile, TheReportIsTheSameWithAndWithoutARecording) {
+    const Workplace at;
+    at.write("press.csv", kRecordedPress);
+    ASSERT_EQ(at.run(kRecordingSculpt).status, 0);
+    const std::string table = at.read("report-felt.csv");
+    ASSERT_EQ(at.run(kRecordingSculpt + " --record a.session").status, 0);
+    EXPECT_EQ(at.read("report-felt.csv"), table);
+}
+
+TEST(SessionFile, IsSoundAndConvertedToTables) {
+    const Workplace at;
+    at.write("press.csv", kRecordedPress);
+    ASSERT_EQ(at.run(kRecordingSculpt + " --record a.session").status, 0);
+    const auto info = at.run(kRecordingBurin + " session info a.session");
+    EXPECT_EQ(info.status, 0);
+    for (const char* words :
+         {"simulated PHANTOM Omni: 900 ticks from tick 1", "commanded_force_device_y_N", "hardness"})
+        EXPECT_NE(info.output.find(words), std::string::npos) << words;
+    const auto checked = at.run(kRecordingBurin + " session check a.session");
+    EXPECT_EQ(checked.status, 0) << checked.output;
+    EXPECT_NE(checked.output.find("900 ticks read, 0 blocks damaged, 0 gaps"), std::string::npos) << checked.output;
+    const auto table = at.run(kRecordingBurin + " convert a.session - --to csv --columns tick,buttons");
+    EXPECT_TRUE(table.output.starts_with("tick,buttons\n1,0\n2,0\n")) << table.output.substr(0, 200);
+    EXPECT_EQ(at.run(kRecordingBurin + " convert a.session --to npy").output, "a.npy: 900 ticks, 74 columns\n");
+    const auto wrong = at.run(kRecordingBurin + " convert a.session --to csv --columns tock");
+    EXPECT_EQ(wrong.status, 1);
+    EXPECT_NE(wrong.output.find("did you mean tick"), std::string::npos) << wrong.output;
+    EXPECT_EQ(at.run(kRecordingBurin + " convert a.session a.session --to csv").status, 1) << "the recording itself";
+    EXPECT_EQ(at.run(kRecordingBurin + " session check a.session").status, 0);
+    EXPECT_EQ(at.run(kRecordingBurin + " convert a.session").status, 2);
+}
+
+TEST(SessionFile, IsNeverWrittenOverAndRefusedBeforeTheWork) {
+    const Workplace at;
+    at.write("press.csv", kRecordedPress);
+    at.write("a.session", "precious");
+    const auto refused = at.run(kRecordingSculpt + " --record a.session");
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_NE(refused.output.find("never overwrites"), std::string::npos) << refused.output;
+    EXPECT_EQ(at.read("a.session"), "precious");
+    EXPECT_EQ(at.run(kRecordingSculpt + " --record no/folder.session").status, 1);
+    EXPECT_EQ(at.run(kRecordingBurin + " session info a.session").status, 1);
+    EXPECT_EQ(at.run(kRecordingBurin + " session check press.csv").status, 1);
+    EXPECT_EQ(at.files(), 2u);
+}
+
+TEST(SessionFile, ThePythonOfTheDocumentationReadsIt) {
+    const std::string snippet = documented_snippet();
+    ASSERT_FALSE(snippet.empty());
+    const Workplace at;
+    at.write("press.csv", kRecordedPress);
+    ASSERT_EQ(at.run(kRecordingSculpt + " --record a.session").status, 0);
+    if (at.run("/usr/bin/python3 -c 'import numpy, zstandard'").status != 0)
+        GTEST_SKIP() << "python3-numpy and python3-zstandard are not installed";
+    ASSERT_EQ(at.run(kRecordingBurin + " convert a.session --to npy").status, 0);
+    at.write("read.py", snippet + R"(
+a = numpy.load('a.npy')
+assert len(a.dtype.names) == len(ticks) and len(a) == 900
+for name in a.dtype.names:
+    assert a[name].tobytes() == ticks[name].tobytes(), name
+print('equal')
+)");
+    const auto outcome = at.run("/usr/bin/python3 read.py a.session");
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_TRUE(outcome.output.ends_with("equal\n")) << outcome.output;
+}
+
+}  // namespace burin::app
