@@ -2,6 +2,7 @@
 #include "study/trial/stage_step.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace burin::study {
 namespace {
@@ -14,8 +15,9 @@ public:
 
     StageStep run() {
         if (s_.phase == StagePhase::done) return made_;
+        // Passed over; the next good tick sees a gap.
+        if (!std::isfinite(tick_.time_s) || !finite(tick_.points_m[0]) || !finite(tick_.points_m[1])) return made_;
         if (s_.phase == StagePhase::begin) begin();
-        if (!finite(tick_.points_m[0]) || !finite(tick_.points_m[1])) return made_;  // the next tick sees a gap
         const double gap_s = tick_.time_s - s_.time_s;
         if (gap_s < 0.0) return made_;  // a clock that went back; the next tick forward sees a gap
         operator_acts();
