@@ -69,6 +69,7 @@ Result<void> study_run(const StudyRunOptions& options) {
     auto study = study::StudyFolder::open(options.study, study::StudyAccess::write);
     if (!study) return std::unexpected(study.error());
     warn_of_journal(*study);
+    if (const auto ok = study->begin_simulation(options.effect); !ok) return ok;
     std::printf("Simulated learners: no person, no device, no force; effect %g SD.\n", options.effect);
     if (const auto ok = enrol_learners(*study); !ok) return ok;
     study::LearnerPopulation population;

@@ -265,6 +265,23 @@ Result<void> StudyFolder::withdraw(const std::string& id, bool erase) {
     return {};
 }
 
+std::optional<double> StudyFolder::simulated_effect() const {
+    for (const JournalEntry& entry : journal_.entries) {
+        const auto effect = entry.value.find("effect");
+        if (text_in(entry.value, "event") == "simulation" && effect != entry.value.end() && effect->is_number())
+            return effect->get<double>();
+    }
+    return std::nullopt;
+}
+
+Result<void> StudyFolder::begin_simulation(double effect) {
+    const std::optional<double> before = simulated_effect();
+    if (!before) return note(Json{{"event", "simulation"}, {"effect", effect}});
+    if (*before == effect) return {};
+    return fail(path_.string(), formatted("was begun with an effect of %g SD", *before),
+                formatted("give --effect %g, or make another study", *before));
+}
+
 Result<void> StudyFolder::begin_stage(const std::string& id, const StagePlace& at) {
     return note(Json{{"event", "stage begun"},
                      {"participant", id},

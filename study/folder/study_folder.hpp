@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -83,6 +84,9 @@ public:
                                             bool simulated);
     // Excludes the participant; with erase its data files are deleted, and the journal keeps that it was here.
     [[nodiscard]] Result<void> withdraw(const std::string& id, bool erase);
+    // A study has one effect of simulated learners: the first run's. Refuses another.
+    [[nodiscard]] Result<void> begin_simulation(double effect);
+    [[nodiscard]] std::optional<double> simulated_effect() const;  // nothing before the first run
     [[nodiscard]] Result<void> begin_stage(const std::string& id, const StagePlace& at);
     // Writes what was recorded (null: nothing) to a new file and syncs it before the journal names it.
     [[nodiscard]] Result<void> end_stage(const std::string& id, const StagePlace& at, const std::string& result,

@@ -139,6 +139,15 @@ TEST(StudyCommands, GiveTheSameTrialsAfterAnInterruption) {
     EXPECT_TRUE(place.run(kBurinStudy + "status t").output.contains("1 stages were aborted"));
 }
 
+TEST(StudyCommands, RefuseToMixEffectsInOneStudy) {
+    const Workplace place;
+    ASSERT_EQ(make_study(place).status, 0);
+    ASSERT_EQ(place.run(kBurinStudy + "run s --simulated --effect 1.5").status, 0);
+    EXPECT_EQ(place.run(kBurinStudy + "run s --simulated --effect 1.5").status, 0);
+    EXPECT_EQ(place.run(kBurinStudy + "run s --simulated").status, 1);
+    EXPECT_TRUE(place.run(kBurinStudy + "report s").output.contains("effect 1.5 SD"));
+}
+
 TEST(StudyCommands, RefuseAProtocolThatWasEditedAfterwards) {
     const Workplace place;
     ASSERT_EQ(make_study(place).status, 0);
