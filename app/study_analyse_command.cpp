@@ -8,6 +8,7 @@
 
 #include "app/output_files.hpp"
 #include "app/study_command.hpp"
+#include "app/study_trials.hpp"
 #include "base/file_io.hpp"
 #include "study/analysis/analysis.hpp"
 #include "study/published/published.hpp"
@@ -87,7 +88,14 @@ Result<void> write_folder(const std::string& folder, const std::vector<study::Na
 
 }  // namespace
 
-Result<void> study_analyse(const StudyAnalyseOptions& options) {
+Result<void> study_analyse(const StudyAnalyseOptions& asked) {
+    StudyAnalyseOptions options = asked;
+    if (options.data.empty() == options.study.empty())
+        return fail("analyse", "needs a study's folder or --data, and not both", "give one of them");
+    if (!options.study.empty()) {
+        options.data = (fs::path(options.study) / "trials.csv").string();
+        if (const auto made = make_trials(options.study); !made) return std::unexpected(made.error());
+    }
     std::string out = options.out;
     while (out.size() > 1 && out.ends_with('/')) out.pop_back();
     if (const auto ok = check_place(options.json); !ok) return ok;
@@ -110,7 +118,8 @@ Result<void> study_analyse(const StudyAnalyseOptions& options) {
         files.push_back({"results.json", json_text(json)});
         files.push_back({"report.html", study::html_report(analysis, *published,
                                                            {.data = fs::path(options.data).filename().string(),
-                                                            .program = std::string("Burin ") + BURIN_VERSION})});
+                                                            .program = std::string("Burin ") + BURIN_VERSION,
+                                                            .facts = options.facts})});
         if (const auto ok = write_folder(out, files); !ok) return ok;
     }
     return write_output(options.json, json_text(json));

@@ -6,36 +6,81 @@ namespace burin::app {
 struct StudyCommand::Options {
     StudyAnalyseOptions analyse;
     StudyPowerOptions power;
+    StudyInitOptions init;
+    StudyEnrolOptions enrol;
+    StudyRunOptions run;
+    StudyWithdrawOptions withdraw;
+    std::string checked, status, reported;
 };
 
 StudyCommand::StudyCommand(Command app)
-    : options_(std::make_unique<Options>()), command_(app.subcommand("study", "The figures of a study")) {
+    : options_(std::make_unique<Options>()), command_(app.subcommand("study", "A study, from protocol to report")) {
     command_.require_subcommand();
+    add_folder();
+    add_figures();
+}
+
+void StudyCommand::add_folder() {
+    constexpr const char* kStudy = "The study's folder";
+    StudyInitOptions& i = options_->init;
+    init_ = command_.subcommand("init", "Makes a study's folder of a protocol: frozen, with its allocation");
+    init_.option("STUDY", i.study, "A new folder").required();
+    init_.option("--protocol", i.protocol, "TOML; see docs/study.md").required();
+    init_.option("--participants", i.participants, "Places of each stratum's list")
+        .within(std::uint64_t{1}, std::uint64_t{10'000})
+        .show_default();
+    init_.option("--seed", i.seed, "Of the allocation, and of simulated learners").show_default();
+    check_ = command_.subcommand("check", "Every fault of a protocol, or of a study's folder");
+    check_.option("PLACE", options_->checked, "A protocol (.toml) or a study's folder").required();
+    StudyEnrolOptions& e = options_->enrol;
+    enrol_ = command_.subcommand("enrol", "Gives a participant the next place of the allocation");
+    enrol_.option("STUDY", e.study, kStudy).required();
+    enrol_.option("ID", e.id, "A code such as p07, never a name").required();
+    enrol_.option("--codes", e.codes, "One code of each stratum, in the protocol's order");
+    StudyRunOptions& r = options_->run;
+    run_ = command_.subcommand("run", "Takes the participants through the protocol, from where the journal ends");
+    run_.option("STUDY", r.study, kStudy).required();
+    run_.flag("--simulated", r.simulated, "Simulated learners fill all places; no device, no force, no window");
+    run_.option("--effect", r.effect, "Of simulated learners: how much less the first group wanders, in SD")
+        .within(-10.0, 10.0)
+        .show_default();
+    status_ = command_.subcommand("status", "Who is in the study and how far; aborted stages; damage");
+    status_.option("STUDY", options_->status, kStudy).required();
+    StudyWithdrawOptions& w = options_->withdraw;
+    withdraw_ = command_.subcommand("withdraw", "Excludes a participant");
+    withdraw_.option("STUDY", w.study, kStudy).required();
+    withdraw_.option("ID", w.id, "The participant's code").required();
+    withdraw_.flag("--erase", w.erase, "Delete the participant's data too; the journal keeps that there was one");
+    report_ = command_.subcommand("report", "A new folder in reports/ with report.html, results.json and tables");
+    report_.option("STUDY", options_->reported, kStudy).required();
+}
+
+void StudyCommand::add_figures() {
     StudyAnalyseOptions& a = options_->analyse;
     analyse_ = command_.subcommand("analyse", "Correlations, comparisons and effect sizes of a table of trials");
-    analyse_.option("--data", a.data, "CSV with participant, group, trial, deviation, time_s; see docs/formats.md")
-        .required();
+    analyse_.option("STUDY", a.study, "The study's folder, instead of --data");
+    analyse_.option("--data", a.data, "CSV with participant, group, trial, deviation, time_s; see docs/formats.md");
     analyse_.option("--published", a.published, "CSV of figures that were published of these data, to be checked");
     analyse_.option("--json", a.json, "A file for every figure; - for standard output");
     analyse_.option("--out", a.out, "A new folder for report.html, results.json and tables as CSV");
     analyse_.option("--seed", a.seed, "Of random permutations, where there are too many to count all").show_default();
 
     StudyPowerOptions& p = options_->power;
-    Command power = command_.subcommand("power", "How many participants a study needs, by simulation");
-    power.option("--effect", p.effect, "Difference of the groups in standard deviations of a participant's value")
+    power_ = command_.subcommand("power", "How many participants a study needs, by simulation");
+    power_.option("--effect", p.effect, "Difference of the groups in standard deviations of a participant's value")
         .within(-100.0, 100.0)
         .required();
-    power.option("--participants", p.participants, "Of both groups together: print their power")
+    power_.option("--participants", p.participants, "Of both groups together: print their power")
         .within(std::uint64_t{2}, std::uint64_t{4000});
-    power.option("--target", p.target, "Print the fewest participants that reach this power (0.8)")
+    power_.option("--target", p.target, "Print the fewest participants that reach this power (0.8)")
         .within(0.01, 0.9999);
-    power.option("--alpha", p.alpha, "Significance level").within(1e-6, 0.5).show_default();
-    power.option("--studies", p.studies, "How many are simulated (10000; 1000 without an effect)")
+    power_.option("--alpha", p.alpha, "Significance level").within(1e-6, 0.5).show_default();
+    power_.option("--studies", p.studies, "How many are simulated (10000; 1000 without an effect)")
         .within(std::uint64_t{100}, std::uint64_t{10'000'000});
-    power.option("--seed", p.seed, "Of the simulation").show_default();
-    power.option("--threads", p.threads, "How many threads work; 0: one per core; the result is the same")
+    power_.option("--seed", p.seed, "Of the simulation").show_default();
+    power_.option("--threads", p.threads, "How many threads work; 0: one per core; the result is the same")
         .within(0, 1024);
-    power.option("--json", p.json, "A file for the result; - for standard output");
+    power_.option("--json", p.json, "A file for the result; - for standard output");
 }
 
 StudyCommand::~StudyCommand() = default;
@@ -43,7 +88,15 @@ StudyCommand::~StudyCommand() = default;
 bool StudyCommand::parsed() const { return command_.parsed(); }
 
 Result<void> StudyCommand::run() const {
-    return analyse_.parsed() ? study_analyse(options_->analyse) : study_power(options_->power);
+    const Options& o = *options_;
+    if (init_.parsed()) return study_init(o.init);
+    if (check_.parsed()) return study_check(o.checked);
+    if (enrol_.parsed()) return study_enrol(o.enrol);
+    if (run_.parsed()) return study_run(o.run);
+    if (status_.parsed()) return study_status(o.status);
+    if (withdraw_.parsed()) return study_withdraw(o.withdraw);
+    if (report_.parsed()) return study_report(o.reported);
+    return analyse_.parsed() ? study_analyse(o.analyse) : study_power(o.power);
 }
 
 }  // namespace burin::app

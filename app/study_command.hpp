@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: MIT
-// burin study: the figures of a study.
-//   burin study analyse --data FILE.csv [--published FILE.csv] [--json OUT] [--out FOLDER]
+// burin study: a study from its protocol to its report (docs/study.md), and the figures of one.
+//   burin study init STUDY --protocol FILE.toml --participants N [--seed S]
+//   burin study check FILE.toml | STUDY
+//   burin study enrol STUDY ID [--codes CODE...]
+//   burin study run STUDY --simulated [--effect D]
+//   burin study status STUDY
+//   burin study withdraw STUDY ID [--erase]
+//   burin study report STUDY
+//   burin study analyse STUDY | --data FILE.csv [--published FILE.csv] [--json OUT] [--out FOLDER]
 //   burin study power --effect D [--participants N | --target P] [--json OUT]
 #pragma once
 
@@ -8,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/command_line.hpp"
 #include "base/error.hpp"
@@ -28,18 +36,23 @@ public:
 private:
     struct Options;
     std::unique_ptr<Options> options_;
+    void add_figures();
+    void add_folder();
+
     Command command_;
-    Command analyse_;
+    Command analyse_, power_, init_, check_, enrol_, run_, status_, withdraw_, report_;
 };
 
 // ---- burin study analyse (study_analyse_command.cpp)
 
 struct StudyAnalyseOptions {
-    std::string data;       // CSV
+    std::string data;       // CSV; empty: of the study
+    std::string study;      // a study's folder; empty: data is given
     std::string published;  // CSV; empty: only studies that Burin knows
     std::string json;       // a file; empty: none
     std::string out;        // a folder that does not exist yet; empty: none
     std::uint64_t seed = 1;
+    std::vector<std::string> facts;  // whole sentences about the study for the report
 };
 // Lists every fault of the inputs and fails, or analyses. The folder is written whole or not at all.
 [[nodiscard]] Result<void> study_analyse(const StudyAnalyseOptions& options);
@@ -57,5 +70,43 @@ struct StudyPowerOptions {
     std::string json;      // a file; empty: none
 };
 [[nodiscard]] Result<void> study_power(const StudyPowerOptions& options);
+
+// ---- the folder of a study (study_NAME_command.cpp each)
+
+struct StudyInitOptions {
+    std::string study, protocol;
+    unsigned participants = 10;  // places in each stratum's list
+    std::uint64_t seed = 1;
+};
+// Lists every fault of the protocol and fails, or makes the folder.
+[[nodiscard]] Result<void> study_init(const StudyInitOptions& options);
+
+// A protocol, or a study's folder with its protocol, journal and data; lists every fault.
+[[nodiscard]] Result<void> study_check(const std::string& place);
+
+struct StudyEnrolOptions {
+    std::string study, id;
+    std::vector<std::string> codes;
+};
+[[nodiscard]] Result<void> study_enrol(const StudyEnrolOptions& options);
+
+struct StudyRunOptions {
+    std::string study;
+    bool simulated = false;
+    double effect = 0.0;
+};
+// Goes on where the journal ends.
+[[nodiscard]] Result<void> study_run(const StudyRunOptions& options);
+
+[[nodiscard]] Result<void> study_status(const std::string& study);
+
+struct StudyWithdrawOptions {
+    std::string study, id;
+    bool erase = false;
+};
+[[nodiscard]] Result<void> study_withdraw(const StudyWithdrawOptions& options);
+
+// Makes trials.csv anew and writes a new folder in reports/.
+[[nodiscard]] Result<void> study_report(const std::string& study);
 
 }  // namespace burin::app

@@ -3,10 +3,6 @@
 // reading code is a plain list of keys, and a file's mistakes are listed together. Any thread; nothing shared.
 #pragma once
 
-// This header alone includes toml++. Version 3.3 asserts conditions that a malformed file can break ("[[["), before it
-// reports the error itself; bad input must not stop a debug build, so its assertions are off everywhere.
-#define TOML_ASSERT(expression) static_cast<void>(0)
-#include <toml++/toml.h>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/space.hpp"
+#include "base/toml.hpp"
 
 namespace burin {
 

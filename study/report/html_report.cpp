@@ -133,6 +133,7 @@ std::string html_report(const Analysis& analysis, const std::vector<PublishedCom
     html += element("p", formatted("%zu trials, %zu groups. %s, seed %llu.", analysis.table.trials.size(),
                                    analysis.table.groups.size(), origin.program.c_str(),
                                    static_cast<unsigned long long>(analysis.seed)));
+    for (const std::string& fact : origin.facts) html += element("p", fact);
     for (const std::string& note : analysis.notes) html += element("p", note);
     html += unit_section(analysis.participants, analysis.table) + unit_section(analysis.trials, analysis.table);
     html += element("p",

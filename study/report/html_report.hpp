@@ -13,8 +13,9 @@ namespace burin::study {
 
 // What the report says of itself.
 struct ReportOrigin {
-    std::string data;     // the file that was analysed
-    std::string program;  // with its version
+    std::string data;                     // the file that was analysed
+    std::string program;                  // with its version
+    std::vector<std::string> facts = {};  // whole sentences about the study, shown first
 };
 
 [[nodiscard]] std::string html_report(const Analysis& analysis, const std::vector<PublishedComparison>& published,

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// A study's journal: lines that are only ever appended, "DIGEST JSON", DIGEST being the SHA-256 of the digest of the
+// line before (64 zeros for the first) and of the JSON as it stands. So a line that is edited, put in or taken out is
+// found; lines cut off the end are not, unless the last digest was noted elsewhere (burin study status prints it).
+//
+// A power cut leaves at most one torn line. The next line chains to the last good one, and the torn one stays.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/json.hpp"
+
+namespace burin::study {
+
+struct JournalEntry {
+    std::size_t line = 0;  // from 1
+    Json value;            // an object with "event" and "time", both texts
+};
+
+struct JournalFault {
+    std::size_t line = 0;
+    std::string what, remedy;
+};
+
+// What is good of a journal, and what is not. Pure.
+struct Journal {
+    std::vector<JournalEntry> entries;
+    std::vector<JournalFault> faults;  // damage: these lines are not used
+    std::vector<std::string> notes;    // a clock that went back
+    std::string last_digest;           // of the last good line
+    bool ends_within_line = false;
+};
+[[nodiscard]] Journal parse_journal(std::string_view text);
+[[nodiscard]] std::string journal_line(const std::string& previous_digest, const Json& value);
+
+inline constexpr std::uint64_t kMostJournalBytes = std::uint64_t{64} << 20;
+
+// Appends an entry with the present time and syncs it to the disk before it returns; the journal in memory follows.
+// The folder's lock must be held.
+[[nodiscard]] Result<void> append(const std::filesystem::path& file, Journal& journal, Json value);
+
+}  // namespace burin::study

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: MIT
+#include "study/folder/study_folder.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <span>
+#include <system_error>
+#include <utility>
+
+#include "base/file_io.hpp"
+#include "base/text.hpp"
+#include "study/assign/allocation.hpp"
+#include "study/folder/digest.hpp"
+
+namespace burin::study {
+namespace fs = std::filesystem;
+namespace {
+
+Result<void> write_whole(const fs::path& path, const std::string& text) {
+    return write_file_atomically(path, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+std::vector<AllocationPlace> list_of(const Protocol& protocol, const StudyFacts& facts, std::size_t stratum) {
+    std::vector<unsigned> ratios;
+    for (const Group& g : protocol.groups) ratios.push_back(g.ratio);
+    return allocate(ratios, protocol.blocks, facts.seed, stratum, facts.participants);
+}
+
+std::string allocation_csv(const Protocol& protocol, const StudyFacts& facts) {
+    std::string text = "stratum,position,block,group\n";
+    const auto strata = combinations(protocol.strata);
+    for (std::size_t s = 0; s < strata.size(); ++s) {
+        const auto list = list_of(protocol, facts, s);
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            text += stratum_label(strata[s]) + "," + std::to_string(i + 1) + "," + std::to_string(list[i].block) + "," +
+                    protocol.groups[list[i].group].code + "\n";
+        }
+    }
+    return text;
+}
+
+// Texts and counts of a journal's entry; empty and 0 where they are missing or of another kind.
+std::string text_in(const Json& entry, const char* key) {
+    const auto found = entry.find(key);
+    return found != entry.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+std::size_t count_in(const Json& entry, const char* key) {
+    const auto found = entry.find(key);
+    return found != entry.end() && found->is_number_unsigned() ? found->get<std::size_t>() : 0;
+}
+
+bool flag_in(const Json& entry, const char* key) {
+    const auto found = entry.find(key);
+    return found != entry.end() && found->is_boolean() && found->get<bool>();
+}
+
+Participant enrolled_by(const Json& entry) {
+    Participant p;
+    p.id = text_in(entry, "participant");
+    p.stratum = text_in(entry, "stratum");
+    p.group = text_in(entry, "group");
+    p.position = count_in(entry, "position");
+    p.simulated = flag_in(entry, "simulated");
+    return p;
+}
+
+void visit(Participant& p, const Json& entry, const std::string& event) {
+    const std::size_t day = count_in(entry, "day"), place = count_in(entry, "place");
+    if (event == "stage begun") {
+        p.visits.push_back({day, place, text_in(entry, "stage"), StageStatus::aborted, "", "", ""});
+        return;
+    }
+    const auto begun = std::ranges::find_if(p.visits.rbegin(), p.visits.rend(), [&](const StageVisit& v) {
+        return v.day == day && v.place == place && v.status == StageStatus::aborted;
+    });
+    if (begun == p.visits.rend()) return;
+    begun->status = StageStatus::ended;
+    begun->result = text_in(entry, "result");
+    begun->file = text_in(entry, "file");
+    begun->file_digest = text_in(entry, "digest");
+}
+
+bool good_id(const std::string& id) {
+    return !id.empty() && id.size() <= 32 &&
+           id.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_") ==
+               std::string::npos &&
+           id.find_first_of("0123456789") != std::string::npos;
+}
+
+// Of the codes, one for each stratum; nothing where they are not codes of the protocol.
+std::optional<std::size_t> stratum_index(const Protocol& protocol, const std::vector<std::string>& codes) {
+    const auto all = combinations(protocol.strata);
+    const auto found = std::ranges::find(all, codes);
+    if (found == all.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - all.begin());
+}
+
+std::string wanted_codes(const Protocol& protocol) {
+    if (protocol.strata.empty()) return "give no --codes: the protocol has no strata";
+    std::string text = "give --codes with";
+    for (const Stratum& s : protocol.strata) {
+        text += " one of";
+        for (const std::string& code : s.codes) text += " " + code;
+        text += " (" + s.name + ")";
+    }
+    return text;
+}
+
+}  // namespace
+
+bool Participant::has_ended(std::size_t day, std::size_t place) const {
+    return std::ranges::any_of(visits, [&](const StageVisit& v) {
+        return v.day == day && v.place == place && v.status == StageStatus::ended;
+    });
+}
+
+std::vector<Participant> participants_of(const Journal& journal) {
+    std::vector<Participant> all;
+    for (const JournalEntry& entry : journal.entries) {
+        const std::string event = text_in(entry.value, "event"), id = text_in(entry.value, "participant");
+        const auto found = std::ranges::find(all, id, &Participant::id);
+        if (event == "enrolled" && found == all.end() && good_id(id)) all.push_back(enrolled_by(entry.value));
+        if (found == all.end()) continue;
+        if (event == "withdrawn") {
+            found->withdrawn = true;
+            found->erased = found->erased || flag_in(entry.value, "erase");
+        }
+        if (event == "stage begun" || event == "stage ended") visit(*found, entry.value, event);
+    }
+    return all;
+}
+
+std::vector<StagePlace> places_of(const Protocol& protocol) {
+    std::vector<StagePlace> places;
+    for (std::size_t d = 0; d < protocol.days.size(); ++d) {
+        const Day& day = protocol.days[d];
+        for (std::size_t i = 0; i < day.stages.size(); ++i)
+            places.push_back({d + 1, i + 1, protocol.stage(day.stages[i])});
+    }
+    return places;
+}
+
+Result<void> create_study(const fs::path& folder, const std::string& protocol_text, std::uint64_t seed,
+                          std::size_t participants) {
+    std::error_code error;
+    if (fs::exists(fs::symlink_status(folder, error)))
+        return fail(folder.string(), "exists already", "name a folder that does not, so that nothing is overwritten");
+    const ParsedProtocol parsed = parse_protocol(protocol_text);
+    if (!parsed.faults.empty()) return fail("protocol", "has faults", "correct them");
+    fs::path part = folder;
+    part += "." + std::to_string(::getpid()) + ".part";
+    if (!fs::create_directories(part / "data", error))
+        return fail(part.string(), "cannot be made: " + error.message(), "choose another place");
+    const StudyFacts facts{sha256(protocol_text), seed, participants};
+    const Json json{
+        {"format", 1}, {"protocol_sha256", facts.protocol_digest}, {"seed", seed}, {"participants", participants}};
+    Result<void> ok = write_whole(part / "protocol.toml", protocol_text);
+    if (ok) ok = write_whole(part / "allocation.csv", allocation_csv(parsed.protocol, facts));
+    if (ok) ok = write_whole(part / "study.json", json_text(json));
+    if (ok) ok = write_whole(part / "lock", "");
+    Journal journal = parse_journal("");
+    if (ok) {
+        ok = append(part / "journal.jsonl", journal,
+                    Json{{"event", "study made"}, {"protocol_sha256", facts.protocol_digest}, {"seed", seed}});
+    }
+    if (ok) {
+        fs::rename(part, folder, error);
+        if (error) ok = fail(folder.string(), "cannot be made: " + error.message(), "choose another place");
+    }
+    if (!ok) fs::remove_all(part, error);
+    return ok;
+}
+
+StudyFolder::StudyFolder(StudyFolder&& other) noexcept
+    : path_(std::move(other.path_)),
+      protocol_(std::move(other.protocol_)),
+      facts_(std::move(other.facts_)),
+      journal_(std::move(other.journal_)),
+      lock_(std::exchange(other.lock_, -1)) {}
+
+StudyFolder::~StudyFolder() {
+    if (lock_ >= 0) ::close(lock_);  // gives the lock back
+}
+
+Result<StudyFolder> StudyFolder::open(const fs::path& folder, StudyAccess access) {
+    StudyFolder study;
+    study.path_ = folder;
+    const std::string name = folder.string();
+    if (access == StudyAccess::write) {
+        study.lock_ = ::open((folder / "lock").c_str(), O_RDWR | O_CLOEXEC);
+        if (study.lock_ < 0) return fail(name, "is no study", "make one with burin study init");
+        if (::flock(study.lock_, LOCK_EX | LOCK_NB) != 0)
+            return fail(name, "is in use by another burin", "wait until it has ended, or stop it");
+    }
+    const auto json_read = read_text_file(folder / "study.json", kMostProtocolBytes);
+    if (!json_read) return fail(name, "is no study: " + json_read.error().what, "make one with burin study init");
+    const Json json = Json::parse(*json_read, nullptr, false);
+    if (!json.is_object()) return fail(name + "/study.json", "is damaged", "restore it from a copy");
+    study.facts_ = {text_in(json, "protocol_sha256"), count_in(json, "seed"), count_in(json, "participants")};
+    const auto bytes = read_file(folder / "protocol.toml", kMostProtocolBytes);
+    if (!bytes) return std::unexpected(bytes.error());
+    const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    if (sha256(text) != study.facts_.protocol_digest)
+        return fail(name + "/protocol.toml", "is not the protocol that this study was made with",
+                    "restore it; for another version of the protocol make a new study");
+    ParsedProtocol parsed = parse_protocol(text);
+    if (!parsed.faults.empty())
+        return fail(line_of(parsed.faults.front(), name + "/protocol.toml"), "this Burin refuses the protocol",
+                    "use the version that the study was made with");
+    study.protocol_ = std::move(parsed.protocol);
+    const auto journal = read_file(folder / "journal.jsonl", kMostJournalBytes);
+    if (!journal) return std::unexpected(journal.error());
+    study.journal_ = parse_journal({reinterpret_cast<const char*>(journal->data()), journal->size()});
+    return study;
+}
+
+Result<void> StudyFolder::note(Json value) {
+    BURIN_CHECK(lock_ >= 0);
+    return append(path_ / "journal.jsonl", journal_, std::move(value));
+}
+
+Result<Participant> StudyFolder::enrol(const std::string& id, const std::vector<std::string>& codes, bool simulated) {
+    if (!good_id(id))
+        return fail(id.substr(0, 64), "is not a participant's code",
+                    "write up to 32 letters, digits, - and _, with a digit among them, such as p07; never a name");
+    const std::vector<Participant> all = participants();
+    if (std::ranges::find(all, id, &Participant::id) != all.end())
+        return fail(id, "is in this study already", "give a code that nobody has had");
+    const auto stratum = stratum_index(protocol_, codes);
+    if (!stratum) return fail("--codes", "do not fit the strata", wanted_codes(protocol_));
+    const std::string label = stratum_label(codes);
+    std::size_t position = 0;
+    for (const Participant& p : all) {
+        if (p.stratum == label) position = std::max(position, p.position);
+    }
+    const auto list = list_of(protocol_, facts_, *stratum);
+    if (position >= list.size())
+        return fail(path_.string(), formatted("all %zu places of stratum %s are taken", list.size(), label.c_str()),
+                    "make a study with more --participants");
+    Participant p{id,        label, protocol_.groups[list[position].group].code, codes, position + 1, false, false,
+                  simulated, {}};
+    const Json entry{{"event", "enrolled"},    {"participant", id}, {"stratum", label},
+                     {"position", p.position}, {"group", p.group},  {"consent", protocol_.consent_version},
+                     {"simulated", simulated}};
+    if (const auto ok = note(entry); !ok) return std::unexpected(ok.error());
+    return p;
+}
+
+Result<void> StudyFolder::withdraw(const std::string& id, bool erase) {
+    const std::vector<Participant> all = participants();
+    const auto found = std::ranges::find(all, id, &Participant::id);
+    if (found == all.end()) return fail(id, "is not in this study", "burin study status lists who is");
+    if (found->withdrawn && (found->erased || !erase))
+        return fail(id, "has withdrawn already", erase ? "nothing is left to erase" : "add --erase to erase its data");
+    // Told before it is done: whoever finds files of an erased participant after a power cut erases them again.
+    if (const auto ok = note(Json{{"event", "withdrawn"}, {"participant", id}, {"erase", erase}}); !ok) return ok;
+    if (!erase) return {};
+    std::error_code error;
+    fs::remove_all(path_ / "data" / id, error);
+    if (error) return fail((path_ / "data" / id).string(), "cannot be erased: " + error.message(), "delete it by hand");
+    return {};
+}
+
+std::optional<double> StudyFolder::simulated_effect() const {
+    for (const JournalEntry& entry : journal_.entries) {
+        const auto effect = entry.value.find("effect");
+        if (text_in(entry.value, "event") == "simulation" && effect != entry.value.end() && effect->is_number())
+            return effect->get<double>();
+    }
+    return std::nullopt;
+}
+
+Result<void> StudyFolder::begin_simulation(double effect) {
+    const std::optional<double> before = simulated_effect();
+    if (!before) return note(Json{{"event", "simulation"}, {"effect", effect}});
+    if (*before == effect) return {};
+    return fail(path_.string(), formatted("was begun with an effect of %g SD", *before),
+                formatted("give --effect %g, or make another study", *before));
+}
+
+Result<void> StudyFolder::begin_stage(const std::string& id, const StagePlace& at) {
+    return note(Json{{"event", "stage begun"},
+                     {"participant", id},
+                     {"day", at.day},
+                     {"place", at.place},
+                     {"stage", at.stage->name}});
+}
+
+Result<void> StudyFolder::end_stage(const std::string& id, const StagePlace& at, const std::string& result,
+                                    const Json& recorded) {
+    Json entry{{"event", "stage ended"}, {"participant", id},       {"day", at.day},
+               {"place", at.place},      {"stage", at.stage->name}, {"result", result}};
+    if (!recorded.is_null()) {
+        std::error_code error;
+        fs::create_directories(path_ / "data" / id, error);
+        const std::string text = json_text(recorded);
+        std::string file;
+        // A file that an interrupted run left is kept: the next run's has a number of its own.
+        for (std::size_t run = 1; file.empty() || fs::exists(path_ / file, error); ++run)
+            file = "data/" + id + formatted("/day%zu-%02zu-run%zu.json", at.day, at.place, run);
+        if (const auto ok = write_whole(path_ / file, text); !ok) return ok;
+        entry["file"] = file;
+        entry["digest"] = sha256(text);
+    }
+    return note(std::move(entry));
+}
+
+Result<Json> StudyFolder::recorded(const StageVisit& visit) const {
+    const fs::path file = path_ / visit.file;
+    const auto bytes = read_file(file, kMostJournalBytes);
+    if (!bytes) return std::unexpected(bytes.error());
+    const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    if (sha256(text) != visit.file_digest)
+        return fail(file.string(), "is not what the journal says was recorded", "restore it from a copy");
+    return Json::parse(text, nullptr, false);
+}
+
+}  // namespace burin::study

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+// A study's folder as its user meets it, and the journal by itself.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "base/text.hpp"
+#include "study/folder/digest.hpp"
+#include "study/folder/journal.hpp"
+#include "study/folder/study_folder.hpp"
+#include "tests/support/run_command.hpp"
+
+namespace burin::study {
+namespace {
+
+const std::string kBurinStudy = std::string(BURIN_COMMAND) + " study ";
+const std::string kProtocolFile = std::filesystem::absolute("assets/studies/kinesthetic-path/protocol.toml").string();
+
+// The thesis' study with stages short enough for a test.
+std::string short_protocol() {
+    std::ifstream in(kProtocolFile);
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    for (const char* seconds : {"ends_after_s = 60", "ends_after_s = 300", "ends_after_s = 120"}) {
+        for (std::size_t at = text.find(seconds); at != std::string::npos; at = text.find(seconds, at + 1))
+            text.replace(at, std::string(seconds).size(), "ends_after_s = 1");
+    }
+    return text;
+}
+
+Workplace::Outcome make_study(const Workplace& place, const std::string& more = "--participants 4 --seed 7") {
+    place.write("p.toml", short_protocol());
+    return place.run(kBurinStudy + "init s --protocol p.toml " + more);
+}
+
+TEST(StudyDigest, IsThatOfTheStandard) {
+    // FIPS 180-4's examples, and a message as long as the padding's seam.
+    EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+    EXPECT_EQ(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
+              "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+    EXPECT_EQ(sha256(std::string(1'000'000, 'a')), "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+}
+
+std::string three_lines() {
+    std::string text, digest(64, '0');
+    for (const char* event : {"one", "two", "three"}) {
+        const std::string line = journal_line(digest, Json{{"event", event}, {"time", "2026-11-25T10:00:00Z"}});
+        digest = line.substr(0, 64);
+        text += line;
+    }
+    return text;
+}
+
+TEST(StudyJournal, NamesAnEditedLineAndUsesTheOthers) {
+    std::string text = three_lines();
+    text.replace(text.find("two"), 3, "TWO");
+    const Journal journal = parse_journal(text);
+    ASSERT_EQ(journal.faults.size(), 1u);
+    EXPECT_EQ(journal.faults[0].line, 2u);
+    ASSERT_EQ(journal.entries.size(), 2u);
+    EXPECT_EQ(journal.entries[1].value["event"], "three");
+}
+
+TEST(StudyJournal, FindsALineThatWasTakenOutOrMoved) {
+    const std::string text = three_lines();
+    const std::size_t second = text.find('\n') + 1, third = text.find('\n', second) + 1;
+    EXPECT_EQ(parse_journal(text).faults.size(), 0u);
+    const Journal cut = parse_journal(text.substr(0, second) + text.substr(third));
+    ASSERT_EQ(cut.faults.size(), 1u);
+    EXPECT_EQ(cut.faults[0].line, 2u);
+    EXPECT_FALSE(parse_journal(text.substr(0, second) + text.substr(third) + text.substr(second, third - second))
+                     .faults.empty());
+}
+
+TEST(StudyJournal, GoesOnBehindALineThatAPowerCutTore) {
+    const Workplace place;
+    const std::string whole = three_lines();
+    for (const std::size_t missing : {1u, 5u, 60u, 100u}) {
+        place.write("journal", whole.substr(0, whole.size() - missing));
+        Journal journal = parse_journal(place.read("journal"));
+        ASSERT_TRUE(append(place / "journal", journal, Json{{"event", "four"}}));
+        ASSERT_TRUE(append(place / "journal", journal, Json{{"event", "five"}}));
+        const Journal again = parse_journal(place.read("journal"));
+        EXPECT_EQ(again.faults.size(), missing == 1u ? 0u : 1u) << missing;
+        ASSERT_GE(again.entries.size(), 4u) << missing;
+        EXPECT_EQ(again.entries.back().value["event"], "five");
+        EXPECT_TRUE(place.read("journal").starts_with(whole.substr(0, whole.size() - missing)));
+    }
+}
+
+TEST(StudyJournal, TellsOfAClockThatWentBack) {
+    std::string digest(64, '0');
+    const std::string first = journal_line(digest, Json{{"event", "a"}, {"time", "2026-11-25T10:00:00Z"}});
+    const std::string text =
+        first + journal_line(first.substr(0, 64), Json{{"event", "b"}, {"time", "2026-11-24T10:00:00Z"}});
+    const Journal journal = parse_journal(text);
+    EXPECT_EQ(journal.entries.size(), 2u);
+    ASSERT_EQ(journal.notes.size(), 1u);
+    EXPECT_TRUE(journal.notes[0].contains("line 2"));
+}
+
+TEST(StudyCommands, GoFromAProtocolToAReport) {
+    const Workplace place;
+    ASSERT_EQ(make_study(place).status, 0);
+    const auto ran = place.run(kBurinStudy + "run s --simulated");
+    ASSERT_EQ(ran.status, 0) << ran.output;
+    EXPECT_TRUE(ran.output.contains("no force")) << ran.output;
+    EXPECT_EQ(place.run(kBurinStudy + "check s").status, 0);
+    const auto analysed = place.run(kBurinStudy + "analyse s");
+    EXPECT_EQ(analysed.status, 0) << analysed.output;
+    EXPECT_TRUE(analysed.output.contains("8 trials, 2 groups")) << analysed.output;
+    const auto reported = place.run(kBurinStudy + "report s");
+    ASSERT_EQ(reported.status, 0) << reported.output;
+    ASSERT_EQ(place.run(kBurinStudy + "report s").status, 0);  // beside the first
+    const std::string html = place.read("s/reports/001/report.html");
+    for (const char* part : {"simulated learners", "SHA-256", "Group haptic: 2 allocated"})
+        EXPECT_TRUE(html.contains(part)) << part;
+    EXPECT_EQ(html, place.read("s/reports/002/report.html"));
+}
+
+TEST(StudyCommands, GiveTheSameTrialsAfterAnInterruption) {
+    const Workplace place;
+    ASSERT_EQ(make_study(place).status, 0);
+    std::filesystem::copy(place / "s", place / "t", std::filesystem::copy_options::recursive);
+    ASSERT_EQ(place.run(kBurinStudy + "run s --simulated").status, 0);
+    // A journal that ends in the middle of the second person's first trial.
+    const std::string whole = place.read("s/journal.jsonl");
+    const std::size_t second = whole.find("\"stage begun\",\"participant\":\"sim002\",\"day\":1,\"place\":6");
+    ASSERT_NE(second, std::string::npos);
+    place.write("t/journal.jsonl", whole.substr(0, whole.find('\n', second) + 1));
+    std::filesystem::copy(place / "s/data/sim001", place / "t/data/sim001");
+    const auto before = place.run(kBurinStudy + "status t");
+    EXPECT_TRUE(before.output.contains("aborted: test (day 1, stage 6)")) << before.output;
+    ASSERT_EQ(place.run(kBurinStudy + "run t --simulated").status, 0);
+    EXPECT_EQ(place.read("s/trials.csv"), place.read("t/trials.csv"));
+    EXPECT_TRUE(place.run(kBurinStudy + "status t").output.contains("1 stages were aborted"));
+}
+
+TEST(StudyCommands, RefuseToMixEffectsInOneStudy) {
+    const Workplace place;
+    ASSERT_EQ(make_study(place).status, 0);
+    ASSERT_EQ(place.run(kBurinStudy + "run s --simulated --effect 1.5").status, 0);
+    EXPECT_EQ(place.run(kBurinStudy + "run s --simulated --effect 1.5").status, 0);
+    EXPECT_EQ(place.run(kBurinStudy + "run s --simulated").status, 1);
+    EXPECT_TRUE(place.run(kBurinStudy + "report s").output.contains("effect 1.5 SD"));
+}
+
+TEST(StudyCommands, RefuseAProtocolThatWasEditedAfterwards) {
+    const Workplace place;
+    ASSERT_EQ(make_study(place).status, 0);
+    place.write("s/protocol.toml", place.read("s/protocol.toml") + "\n");
+    const auto outcome = place.run(kBurinStudy + "run s --simulated");
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_TRUE(outcome.output.contains("not the protocol that this study was made with")) << outcome.output;
+}
+
+TEST(StudyCommands, OverwriteNothing) {
+    const Workplace place;
+    ASSERT_EQ(make_study(place).status, 0);
+    const std::string journal = place.read("s/journal.jsonl");
+    const auto outcome = make_study(place, "--participants 8");
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_TRUE(outcome.output.contains("exists already"));
+    EXPECT_EQ(place.read("s/journal.jsonl"), journal);
+}
+
+TEST(StudyCommands, RefuseASecondWriter) {
+    const Workplace place;
+    ASSERT_EQ(make_study(place).status, 0);
+    const auto first = StudyFolder::open(place / "s", StudyAccess::write);
+    ASSERT_TRUE(first);
+    const auto second = place.run(kBurinStudy + "enrol s p01");
+    EXPECT_EQ(second.status, 1);
+    EXPECT_TRUE(second.output.contains("in use by another burin")) << second.output;
+    EXPECT_EQ(place.run(kBurinStudy + "status s").status, 0);
+}
+
+TEST(StudyCommands, EnrolByCodeAndNeverTwice) {
+    const Workplace place;
+    ASSERT_EQ(make_study(place).status, 0);
+    EXPECT_EQ(place.run(kBurinStudy + "enrol s p01").status, 0);
+    for (const char* id : {"p01", "Anna", "anna@example.org", "'a b 1'", "../p2", "''"})
+        EXPECT_EQ(place.run(kBurinStudy + "enrol s " + id).status, 1) << id;
+    for (const char* id : {"p02", "p03", "p04"}) EXPECT_EQ(place.run(kBurinStudy + "enrol s " + id).status, 0) << id;
+    const auto full = place.run(kBurinStudy + "enrol s p05");
+    EXPECT_TRUE(full.output.contains("places of stratum all are taken")) << full.output;
+}
+
+TEST(StudyCommands, LeaveOutAndEraseWhoWithdraws) {
+    const Workplace place;
+    ASSERT_EQ(make_study(place).status, 0);
+    ASSERT_EQ(place.run(kBurinStudy + "run s --simulated").status, 0);
+    ASSERT_EQ(place.run(kBurinStudy + "withdraw s sim002").status, 0);
+    EXPECT_TRUE(place.run(kBurinStudy + "analyse s").output.contains("6 trials"));
+    EXPECT_TRUE(std::filesystem::exists(place / "s/data/sim002"));
+    ASSERT_EQ(place.run(kBurinStudy + "withdraw s sim002 --erase").status, 0);
+    EXPECT_FALSE(std::filesystem::exists(place / "s/data/sim002"));
+    EXPECT_TRUE(place.run(kBurinStudy + "status s").output.contains("erased"));
+    EXPECT_EQ(place.run(kBurinStudy + "check s").status, 0);
+    EXPECT_EQ(place.run(kBurinStudy + "withdraw s nobody1").status, 1);
+}
+
+TEST(StudyCommands, NameDataThatWereChanged) {
+    const Workplace place;
+    ASSERT_EQ(make_study(place).status, 0);
+    ASSERT_EQ(place.run(kBurinStudy + "run s --simulated").status, 0);
+    std::string file;
+    for (const auto& entry : std::filesystem::directory_iterator(place / "s/data/sim001"))
+        file = "s/data/sim001/" + entry.path().filename().string();
+    place.write(file, place.read(file) + " ");
+    const auto outcome = place.run(kBurinStudy + "check s");
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_TRUE(outcome.output.contains("is not what the journal says")) << outcome.output;
+    EXPECT_TRUE(place.run(kBurinStudy + "analyse s").output.contains("7 trials"));
+}
+
+}  // namespace
+}  // namespace burin::study
