@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 struct WorldMesh {
     std::shared_ptr<const geometry::TriangleMesh> mesh;  // null: could not be read
     geometry::MeshHealth health;
+    double reach_m = 0.0;  // of the farthest corner of its box from its origin
     std::optional<Error> failure;
 };
 
@@ -45,6 +46,17 @@ std::optional<Colour> colour_in(const std::string& text) {
     return colour;
 }
 
+// Sorts errors of one file, whose places end with a line.
+std::vector<Error> in_order_of_lines(std::vector<Error> errors) {
+    std::ranges::stable_sort(errors, {}, [](const Error& error) {
+        const char* const end = error.where.data() + error.where.size();
+        unsigned line = 0;
+        std::from_chars(error.where.data() + error.where.rfind(':') + 1, end, line);
+        return line;
+    });
+    return errors;
+}
+
 // Reads one file; collects problems on the way.
 class WorldReader {
 public:
@@ -61,7 +73,7 @@ public:
         else
             for (const toml::table* table : tables) read_object(*table);
         t.refuse_unknown();
-        if (!reading_.errors.empty()) return std::unexpected(std::move(reading_.errors));
+        if (!reading_.errors.empty()) return std::unexpected(in_order_of_lines(std::move(reading_.errors)));
         return std::move(world_);
     }
 
@@ -140,6 +152,8 @@ private:
         const WorldMesh& known = mesh_of(*name, unit);
         if (known.failure) return t.refuse("mesh", known.failure->what, known.failure->remedy);
         object.mesh = known.mesh;
+        if (const double reach_m = object.scale * known.reach_m; object.scale <= kMaxScale && reach_m > kMaxDistance_m)
+            t.refuse("mesh", formatted("reaches %.3g m from its origin", reach_m), "give mesh_units, or another scale");
         if (!object.felt || object.both_sides) return;
         if (const std::string why = not_solid(known.health); !why.empty())
             t.refuse("mesh", why,
@@ -174,6 +188,8 @@ private:
         triangles_ += imported->mesh.triangles.size();
         if (imported->mesh.triangles.empty()) known.failure = Error{"has no triangles: " + name, "", "name another"};
         known.health = geometry::examine(imported->mesh);
+        const Box& box = known.health.bounds_m;
+        if (!box.empty()) known.reach_m = glm::length(glm::max(glm::abs(box.lo), glm::abs(box.hi)));
         const geometry::ImportReport& report = imported->report;
         for (const std::string& remark : report.remarks) world_.remarks.push_back(name + ": " + remark);
         if (report.unit.source == geometry::UnitSource::guessed)
@@ -198,18 +214,6 @@ private:
                 if (i < poses.size()) reading_.refuse(*poses[i], key + " " + problem.what, problem.remedy);
             }
         }
-        if (object.mesh && finite(object.pose.position_m) && object.scale > 0.0 && object.scale <= kMaxScale) {
-            const double size_m = object.scale * glm::length(geometry_size(*object.mesh));
-            if (!(size_m <= kMaxDistance_m))
-                t.refuse("mesh", formatted("is %.3g m large", size_m), "give mesh_units, or another scale");
-        }
-    }
-
-    static Vec3 geometry_size(const geometry::TriangleMesh& mesh) {
-        Box box;
-        for (const auto& triangle : mesh.triangles)
-            for (const std::uint32_t v : triangle) box.include(mesh.positions_m[v]);
-        return box.empty() ? Vec3(0.0) : box.extent();
     }
 
     // Compares the object with those before it.

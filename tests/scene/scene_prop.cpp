@@ -3,9 +3,14 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <optional>
 #include <set>
+#include <string>
+#include <string_view>
 
+#include "base/file_io.hpp"
 #include "geometry/mesh/triangle_tree.hpp"
+#include "scene/world_file.hpp"
 #include "tests/scene/scene_samples.hpp"
 
 namespace burin::scene {
@@ -82,6 +87,45 @@ RC_GTEST_PROP(MeshPart, OffersEveryObjectWhoseTrianglesAreNear, (std::uint32_t s
             if (object.felt && distance_m(object, center) <= radius_m - 1e-6) RC_ASSERT(is_there);
         }
     }
+}
+
+// Cuts, doubles and overwrites parts of a text.
+std::string damaged(std::string text, std::mt19937& random) {
+    const std::string_view pieces[] = {"[",    "]",   "[[object]]", "=",          "\"",   "{",        "}",
+                                       "nan",  "\n",  "-1e400",     "'''",        ",",    "0x",       "path",
+                                       "\xff", "0.5", "object",     "1979-05-27", "true", "material", "99"};
+    const auto times = 1 + random() % 4;
+    for (std::uint32_t i = 0; i < times && !text.empty(); ++i) {
+        const std::size_t at = random() % text.size(), from = random() % text.size(), length = random() % 40;
+        switch (random() % 3) {
+            case 0: text.erase(at, length); break;
+            case 1: text.insert(at, text.substr(from, length)); break;
+            default: text.insert(at, pieces[from % std::size(pieces)]);
+        }
+    }
+    return text;
+}
+
+RC_GTEST_PROP(WorldFile, ADamagedFileIsAWorldOrAListOfProblemsWithPlaces, (std::uint32_t seed)) {
+    static const std::string garden = *read_text_file("assets/worlds/garden.toml");
+    std::mt19937 random(seed);
+    const auto cube = [](const std::string&, std::optional<LengthUnit>) -> Result<geometry::ImportedMesh> {
+        return geometry::ImportedMesh{geometry::test::cube(0.01), {}};
+    };
+    const WorldOrProblems world = parse_world(damaged(garden, random), "w.toml", cube);
+    if (!world) {
+        RC_ASSERT(!world.error().empty());
+        for (const Error& error : world.error()) {
+            RC_ASSERT(error.where.starts_with("w.toml:"));
+            RC_ASSERT(!error.what.empty());
+            RC_ASSERT(!error.remedy.empty());
+        }
+        return;
+    }
+    // A world without a problem can be touched.
+    MaterialTable materials(1);
+    const auto part = MeshPart::create(world->objects, materials);
+    RC_ASSERT(part.has_value());
 }
 
 RC_GTEST_PROP(PathMotion, PassesItsKeysWithoutAStepInPlaceOrVelocity, (std::uint32_t seed)) {

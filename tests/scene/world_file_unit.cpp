@@ -112,13 +112,13 @@ mesh = "huge.obj"
 repeat = true
 )"),
               (Lines{"w.toml:3: mesh cannot be used: lost.obj: cannot be read", "w.toml:4: scale is -1",
-                     "w.toml:8: colour is red", "w.toml:7: mesh is open: 3 edges have a triangle on one side only",
-                     "w.toml:9: [[object]] has no key named weight",
-                     "w.toml:6: name \"a\" is also that of the object in line 2", "w.toml:10: [[object]] has no name",
-                     "w.toml:12: [object.material] has no key named hardness",
-                     "w.toml:11: mesh is inside out: its triangles face inwards", "w.toml:12: stiffness is 0",
-                     "w.toml:15: path[1] jumps: 1 m in 0.1 s", "w.toml:21: repeat stands where there is no path",
-                     "w.toml:20: mesh is 3.46e+04 m large"}));
+                     "w.toml:6: name \"a\" is also that of the object in line 2",
+                     "w.toml:7: mesh is open: 3 edges have a triangle on one side only", "w.toml:8: colour is red",
+                     "w.toml:9: [[object]] has no key named weight", "w.toml:10: [[object]] has no name",
+                     "w.toml:11: mesh is inside out: its triangles face inwards",
+                     "w.toml:12: [object.material] has no key named hardness", "w.toml:12: stiffness is 0",
+                     "w.toml:15: path[1] jumps: 1 m in 0.1 s", "w.toml:20: mesh reaches 1.73e+04 m from its origin",
+                     "w.toml:21: repeat stands where there is no path"}));
 }
 
 TEST(WorldFile, AnOpenMeshIsFeltFromBothSidesOrNotAtAll) {
