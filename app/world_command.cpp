@@ -267,7 +267,7 @@ WorldCommand::WorldCommand(Command app)
     : options_(std::make_unique<Options>()),
       command_(app.subcommand("world", "Explore a world by touch, and check worlds")) {
     Options& o = *options_;
-    command_.option("FILE", o.exploration.world, "A world to explore (.toml; .wrl can only be checked yet)");
+    command_.option("FILE", o.exploration.world, "A world to explore: .toml, or .wrl for VRML 2.0");
     command_.option("--stroke", o.exploration.stroke,
                     "CSV with the columns time_s,x_m,y_m,z_m,qx,qy,qz,qw,button, along which a simulated hand goes");
     command_.option("--radius", o.exploration.radius_m, "Radius of the ball that touches, in metres")

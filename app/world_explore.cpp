@@ -16,7 +16,7 @@
 #include "gpu/device.hpp"
 #include "renderer/frame/renderer.hpp"
 #include "renderer/png.hpp"
-#include "scene/world_file.hpp"
+#include "scene/vrml_world.hpp"
 #include "session/picture/pictures.hpp"
 
 namespace burin::app {
@@ -82,11 +82,7 @@ private:
 
 // Reads a world; prints its problems, when it has some, and fails.
 Result<scene::World> read_sound_world(const std::string& path) {
-    if (std::filesystem::path(path).extension() != ".toml") {
-        return fail(path, "cannot be explored yet: only worlds in TOML can",
-                    "burin world check " + path + " says what is in it");
-    }
-    scene::WorldOrProblems world = scene::read_world(path);
+    scene::WorldOrProblems world = scene::read_any_world(path);
     if (world) return std::move(*world);
     if (world.error().size() == 1) return std::unexpected(world.error().front());
     for (const Error& problem : world.error()) std::fprintf(stderr, "burin: %s\n", problem.line().c_str());

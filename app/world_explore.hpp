@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// burin world FILE --stroke STROKE: a simulated hand explores a world by touch, without window or device; what it felt of
-// each object goes to the terminal and a report, with plots, and what it looked like into pictures.
+// burin world FILE --stroke STROKE: a simulated hand explores a world by touch, without window or device; what it felt
+// of each object goes to the terminal and a report, with plots, and what it looked like into pictures.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace burin::app {
 
 struct WorldExploration {
-    std::string world;        // a world.toml (docs/formats.md)
+    std::string world;        // a world.toml or a .wrl (docs/formats.md)
     std::string stroke;       // a CSV file; its button has no meaning here
     double radius_m = 0.004;  // of the ball that touches
     std::string pictures;     // a folder; empty: none

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Makes a world's objects of a VRML file (geometry/vrml/): shapes of one name are one object, in the world's frame.
+//
+// A material is what the numbers of a PROTO HapticMaterial say by name: stiffness (N/m), damping (N s/m),
+// staticFriction, dynamicFriction; what is left out is HapticMaterial's own. Shapes without a name are called shape-1,
+// shape-2... A surface that says solid FALSE, or that is open, is felt from both sides; a remark tells of the latter.
+// Failure: all problems at once. Threads: any; nothing shared.
+#pragma once
+
+#include <filesystem>
+
+#include "geometry/vrml/vrml_shapes.hpp"
+#include "scene/world_file.hpp"
+
+namespace burin::scene {
+
+// `name` stands for the file in messages.
+[[nodiscard]] WorldOrProblems world_of(const geometry::VrmlWorld& world, const std::string& name);
+
+// Reads a world in TOML (.toml) or VRML 2.0 (.wrl).
+[[nodiscard]] WorldOrProblems read_any_world(const std::filesystem::path& path);
+
+}  // namespace burin::scene

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// A simulated hand in a small world: it feels each object as its material says.
+#include "activities/world/felt_world.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "activities/world/world_view.hpp"
+#include "tests/support/run_command.hpp"
+
+namespace burin::activities {
+namespace {
+
+std::shared_ptr<const geometry::TriangleMesh> cube(double half_m) {
+    auto mesh = std::make_shared<geometry::TriangleMesh>();
+    for (int i = 0; i < 8; ++i)
+        mesh->positions_m.emplace_back((i & 1) != 0 ? half_m : -half_m, (i & 2) != 0 ? half_m : -half_m,
+                                       (i & 4) != 0 ? half_m : -half_m);
+    mesh->triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                       {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    return mesh;
+}
+
+constexpr double kHalf_m = 0.01, kApart_m = 0.03, kDeep_m = 0.004;
+
+// Cubes in a row along x, their tops at y = 0.
+std::vector<scene::SceneObject> row_of(const std::vector<double>& stiffness_N_per_m) {
+    std::vector<scene::SceneObject> objects;
+    const auto mesh = cube(kHalf_m);
+    for (const double k : stiffness_N_per_m) {
+        scene::SceneObject object;
+        object.id = objects.size() + 1;
+        object.name = "cube " + std::to_string(object.id);
+        object.mesh = mesh;
+        object.pose.position_m = {kApart_m * static_cast<double>(objects.size()), -kHalf_m, 0.0};
+        object.material = {.stiffness_N_per_m = k, .damping_Ns_per_m = 0.3};
+        objects.push_back(std::move(object));
+    }
+    return objects;
+}
+
+// Down onto each cube's top, kDeep_m beyond touching, a rest of a second, and up again.
+sculpt::Stroke press_on_each(std::size_t cubes, double radius_m) {
+    sculpt::Stroke stroke;
+    double t = 0.0;
+    const auto go = [&](double x, double y, double seconds) {
+        t += seconds;
+        stroke.push_back({t, {x, y, 0.0}, Quat{1, 0, 0, 0}, false});
+    };
+    for (std::size_t i = 0; i < cubes; ++i) {
+        const double x = kApart_m * static_cast<double>(i);
+        go(x, 0.015, 0.5);
+        go(x, radius_m - kDeep_m, 0.5);
+        go(x, radius_m - kDeep_m, 1.0);
+        go(x, 0.015, 0.5);
+    }
+    return stroke;
+}
+
+struct Explored {
+    scene::MaterialTable materials;
+    std::unique_ptr<scene::MeshPart> part;
+    std::vector<scene::ObjectId> ids;
+    WorldFigures figures;
+    double force_at_rest_N = 0.0;
+
+    explicit Explored(std::vector<scene::SceneObject> objects) {
+        for (const auto& object : objects) ids.push_back(object.id);
+        auto made = scene::MeshPart::create(std::move(objects), materials);
+        if (made) part = std::move(*made);
+    }
+    void explore(const sculpt::Stroke& stroke, const ExploreOptions& options, const OnUpdate& on_update = {}) {
+        ASSERT_NE(part, nullptr);
+        auto done = explore_by_feel(*part, ids, materials, stroke, options, on_update);
+        ASSERT_TRUE(done) << done.error().line();
+        figures = std::move(*done);
+    }
+};
+
+}  // namespace
+
+// A resting hand and a wall are two springs in a row: force = depth k g / (k + g).
+TEST(FeltWorld, EachObjectPushesBackAsItsStiffnessSays) {
+    const ExploreOptions options;
+    const std::vector<double> stiffness{100.0, 250.0, 500.0};
+    Explored world(row_of(stiffness));
+    std::vector<double> at_rest(stiffness.size(), 0.0);
+    world.explore(press_on_each(stiffness.size(), options.tool_radius_m), options,
+                  [&](double time_s, const WorldMoment& moment) -> Result<void> {
+                      const double in_visit_s = std::fmod(time_s - 0.3, 2.5);
+                      const auto visit = static_cast<std::size_t>(std::max(time_s - 0.3, 0.0) / 2.5);
+                      if (in_visit_s > 1.4 && in_visit_s < 1.45 && visit < at_rest.size())
+                          at_rest[visit] = glm::length(moment.tool.given.force_device_N);
+                      return {};
+                  });
+    ASSERT_EQ(world.figures.touches.size(), stiffness.size());
+    const double grip = options.grip.stiffness_N_per_m;
+    const double clearance_m = haptics::TickParameters{}.clearance_ratio * options.tool_radius_m;
+    for (std::size_t i = 0; i < stiffness.size(); ++i) {
+        EXPECT_EQ(world.figures.touches[i].name, "cube " + std::to_string(i + 1));
+        const double expected_N = (kDeep_m - clearance_m) * stiffness[i] * grip / (stiffness[i] + grip);
+        EXPECT_NEAR(at_rest[i], expected_N, 0.1 * expected_N) << stiffness[i];
+    }
+}
+
+TEST(FeltWorld, WhatIsNotFeltIsPassedAndWhatIsNotSeenIsNotDrawn) {
+    std::vector<scene::SceneObject> objects = row_of({300.0, 300.0, 300.0});
+    objects[0].felt = false;
+    objects[1].seen = false;
+    Explored world(std::move(objects));
+    const WorldView view(*world.part, world.ids, 0.004);
+    EXPECT_EQ(view.wall_scene({}).objects.size(), 2u);
+    world.explore(press_on_each(3, 0.004), {});
+    ASSERT_EQ(world.figures.touches.size(), 2u);
+    EXPECT_EQ(world.figures.touches[0].name, "cube 2");
+    EXPECT_EQ(world.figures.touches[1].name, "cube 3");
+}
+
+// A cube that rises pushes a hand that rests above it.
+TEST(FeltWorld, AnObjectOnItsPathPushesTheHand) {
+    std::vector<scene::SceneObject> objects = row_of({300.0});
+    objects[0].motion = scene::PathMotion{{{0.0, {}}, {1.0, {{0.0, 0.006, 0.0}}}, {2.0, {}}}, true};
+    Explored world(std::move(objects));
+    sculpt::Stroke stroke;
+    for (const double t : {0.0, 3.7}) stroke.push_back({t, {0.0, 0.006, 0.0}, Quat{1, 0, 0, 0}, false});
+    std::vector<Vec3> drawn;
+    WorldView view(*world.part, world.ids, 0.004);
+    world.explore(stroke, {}, [&](double, const WorldMoment&) -> Result<void> {
+        view.take(world.part->take_object_updates());
+        drawn.push_back(view.wall_scene({}).objects[0].world_from_mesh.position_m);
+        return {};
+    });
+    ASSERT_EQ(world.figures.touches.size(), 1u);
+    EXPECT_GT(world.figures.touches[0].force_max_N, 0.3);
+    const auto [lowest, highest] = std::ranges::minmax(drawn, {}, &Vec3::y);
+    EXPECT_NEAR(highest.y - lowest.y, 0.006 * view.world_from_scene().scale, 1e-3) << "it is drawn where it is";
+}
+
+TEST(FeltWorld, AFailureOfAFrameEndsIt) {
+    Explored world(row_of({300.0}));
+    const auto done = explore_by_feel(*world.part, world.ids, world.materials, press_on_each(1, 0.004), {},
+                                      [](double time_s, const WorldMoment&) -> Result<void> {
+                                          if (time_s < 0.1) return {};
+                                          return fail("picture", "cannot be written", "free some space");
+                                      });
+    ASSERT_FALSE(done);
+    EXPECT_EQ(done.error().where, "picture");
+}
+
+// ---- The command
+
+TEST(ExploreCommand, TellsWhatIsWrongWithItsFiles) {
+    struct Case {
+        std::string arguments, said;
+        int status;
+    };
+    const Workplace place;
+    for (const Case& wrong : std::vector<Case>{{" world", "needs a file", 2},
+                                               {" world no-such.toml", "needs a --stroke", 2},
+                                               {" world no-such.toml --stroke no-such.csv", "no-such.csv", 1},
+                                               {" world no-such.toml --radius -1 --stroke a.csv", "--radius", 2}}) {
+        const auto outcome = place.run(BURIN_COMMAND + wrong.arguments);
+        EXPECT_EQ(outcome.status, wrong.status) << wrong.arguments << "\n" << outcome.output;
+        EXPECT_NE(outcome.output.find(wrong.said), std::string::npos) << outcome.output;
+    }
+}
+
+}  // namespace burin::activities
