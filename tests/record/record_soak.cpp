@@ -23,20 +23,17 @@ TEST(RecordSoak, NoTickIsLostHoweverOftenTheDiskStallsForTenSeconds) {
     options.vfs = test::FailingDisk::kName;
     ASSERT_TRUE(recording.begin(at / "a.session", options));
 
-    std::atomic<std::uint64_t> pushed{0};
-    std::atomic<bool> stalls{false};
+    std::atomic<std::uint64_t> pushed{0}, stalled_until{0};
     std::atomic<int> stalled{0}, flushes{0};
     disk.set_before_sync([&] {
         if (++flushes % 5 != 0) return;
         ++stalled;
-        stalls = true;
-        const std::uint64_t until = std::min(pushed + 10'000, ticks);
-        while (pushed < until) std::this_thread::yield();
-        stalls = false;
+        stalled_until = std::min(pushed + 10'000, ticks);
+        while (pushed < stalled_until) std::this_thread::yield();
     });
     for (std::uint64_t tick = 1; tick <= ticks; ++tick) {
         // Faster than a session's, the ticks wait where the disk does not.
-        while (recording.ring.waiting() > 4000 && !stalls) std::this_thread::yield();
+        while (recording.ring.waiting() > 4000 && pushed >= stalled_until) std::this_thread::yield();
         ASSERT_TRUE(recording.ring.push(test::made_tick(tick, 2))) << tick;
         pushed = tick;
     }
