@@ -160,6 +160,28 @@ TEST(RecordWriter, HandsHaveColumnsAndBlocksOfTheirOwn) {
     EXPECT_EQ(reader->block(1, 0)->at(0, 3), 8u);
 }
 
+TEST(RecordWriter, AnHourWithoutTicksAndTimesThatRunBackwardsBeginNewBlocks) {
+    const Workplace at;
+    test::Recording recording;
+    ASSERT_TRUE(recording.begin(at / "a.session"));
+    constexpr Nanoseconds kHour_ns = 3600 * kNanosecondsPerSecond;
+    for (const Nanoseconds later_ns : {Nanoseconds{0}, kHour_ns, kHour_ns / 2}) {
+        for (int i = 0; i < 100; ++i) {
+            haptics::TickRecord record = test::made_tick(++recording.last_tick, 2);
+            record.time_ns += later_ns;
+            recording.ring.push(record);
+        }
+    }
+    ASSERT_TRUE(recording.writer->close());
+    auto reader = RecordReader::open(at / "a.session");
+    ASSERT_EQ(reader->hands()[0].blocks.size(), 3u);
+    EXPECT_EQ(reader->hands()[0].blocks[1].header.t0_ns, test::made_tick(101).time_ns + kHour_ns);
+    const HandExamination found = examine(*reader, 0);
+    EXPECT_EQ(found.ticks, 300u);
+    EXPECT_TRUE(found.gaps.empty()) << "no tick was lost";
+    EXPECT_EQ(found.backward_times, 1u);
+}
+
 TEST(RecordWriter, ADiskThatStallsForSecondsLosesNothing) {
     const Workplace at;
     test::FailingDisk& disk = test::failing_disk();
