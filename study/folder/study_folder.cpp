@@ -254,12 +254,13 @@ Result<void> StudyFolder::withdraw(const std::string& id, bool erase) {
     const std::vector<Participant> all = participants();
     const auto found = std::ranges::find(all, id, &Participant::id);
     if (found == all.end()) return fail(id, "is not in this study", "burin study status lists who is");
-    if (found->withdrawn && (found->erased || !erase))
+    std::error_code error;
+    const bool files_left = fs::exists(path_ / "data" / id, error);
+    if (found->withdrawn && (!erase || (found->erased && !files_left)))
         return fail(id, "has withdrawn already", erase ? "nothing is left to erase" : "add --erase to erase its data");
-    // Told before it is done: whoever finds files of an erased participant after a power cut erases them again.
+    // Told before it is done: files that a power cut leaves are erased when it is asked for again.
     if (const auto ok = note(Json{{"event", "withdrawn"}, {"participant", id}, {"erase", erase}}); !ok) return ok;
     if (!erase) return {};
-    std::error_code error;
     fs::remove_all(path_ / "data" / id, error);
     if (error) return fail((path_ / "data" / id).string(), "cannot be erased: " + error.message(), "delete it by hand");
     return {};

@@ -110,7 +110,9 @@ TEST(StudyAnalyse, RefusesPlacesThatHoldSomethingAlready) {
     }
     EXPECT_EQ(place.read("own.csv"), kOwn);
     EXPECT_EQ(place.run(kStudy + "analyse --data missing.csv").status, 1);
-    EXPECT_EQ(place.run(kStudy + "analyse").status, 2);
+    const auto neither = place.run(kStudy + "analyse");
+    EXPECT_EQ(neither.status, 1);
+    EXPECT_TRUE(neither.output.contains("needs a study's folder or --data")) << neither.output;
 }
 
 TEST(StudyAnalyse, TakesTablesWithHardlyAnything) {

@@ -201,6 +201,11 @@ TEST(StudyCommands, LeaveOutAndEraseWhoWithdraws) {
     EXPECT_TRUE(place.run(kBurinStudy + "status s").output.contains("erased"));
     EXPECT_EQ(place.run(kBurinStudy + "check s").status, 0);
     EXPECT_EQ(place.run(kBurinStudy + "withdraw s nobody1").status, 1);
+    // Files that an interrupted erasure left are erased when it is asked for again; then nothing is left.
+    std::filesystem::create_directory(place / "s/data/sim002");
+    EXPECT_EQ(place.run(kBurinStudy + "withdraw s sim002 --erase").status, 0);
+    EXPECT_FALSE(std::filesystem::exists(place / "s/data/sim002"));
+    EXPECT_EQ(place.run(kBurinStudy + "withdraw s sim002 --erase").status, 1);
 }
 
 TEST(StudyCommands, NameDataThatWereChanged) {
