@@ -19,7 +19,8 @@ HapticMaterial material_of(const geometry::VrmlShape& shape) {
                             std::pair("staticFriction", &HapticMaterial::static_friction),
                             std::pair("dynamicFriction", &HapticMaterial::dynamic_friction)};
     for (const auto& [field, member] : fields)
-        if (const auto given = shape.haptics.find(field); given != shape.haptics.end()) material.*member = given->second;
+        if (const auto given = shape.haptics.find(field); given != shape.haptics.end())
+            material.*member = given->second;
     return material;
 }
 
