@@ -83,13 +83,17 @@ WorldOrProblems world_of(const geometry::VrmlWorld& vrml, const std::string& nam
         }
         object.mesh = std::move(mesh);
         for (const Problem& problem : problems(object))
-            found.push_back({name + ": " + object.name + ": " + problem.key, problem.what, problem.remedy});
+            found.push_back({.what = problem.what,
+                             .where = name + ": " + object.name + ": " + problem.key,
+                             .remedy = problem.remedy});
         world.objects.push_back(std::move(object));
     }
-    if (world.objects.empty()) found.push_back({name, "holds nothing to touch or see", "give it a shape"});
+    if (world.objects.empty())
+        found.push_back({.what = "holds nothing to touch or see", .where = name, .remedy = "give it a shape"});
     if (world.objects.size() > kMaxWorldObjects)
-        found.push_back({name, formatted("has %zu objects, more than %zu", world.objects.size(), kMaxWorldObjects),
-                         "give what belongs together one name (DEF)"});
+        found.push_back({.what = formatted("has %zu objects, more than %zu", world.objects.size(), kMaxWorldObjects),
+                         .where = name,
+                         .remedy = "give what belongs together one name (DEF)"});
     if (!found.empty()) return std::unexpected(std::move(found));
     return world;
 }
