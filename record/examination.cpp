@@ -42,20 +42,23 @@ public:
         if (tick_) see_tick(static_cast<std::int64_t>(block.at(*tick_, row)));
         if (!time_) return;
         const auto time_ns = static_cast<std::int64_t>(block.at(*time_, row));
-        if (last_ns_ && time_ns <= *last_ns_) ++found_.backward_times;
+        if (saw_time_ && time_ns <= last_ns_) ++found_.backward_times;
+        saw_time_ = true;
         last_ns_ = time_ns;
     }
 
 private:
     void see_tick(std::int64_t tick) {
-        const std::int64_t step = last_tick_ ? saturated_difference(tick, *last_tick_) : 1;
-        if (step != 1 && found_.gaps.size() < kMostGaps) found_.gaps.push_back({*last_tick_, step - 1});
+        const std::int64_t step = saw_tick_ ? saturated_difference(tick, last_tick_) : 1;
+        if (step != 1 && found_.gaps.size() < kMostGaps) found_.gaps.push_back({last_tick_, step - 1});
+        saw_tick_ = true;
         last_tick_ = tick;
     }
 
     static constexpr std::size_t kMostGaps = 100'000;
     std::optional<std::size_t> tick_, time_;
-    std::optional<std::int64_t> last_tick_, last_ns_;
+    bool saw_tick_ = false, saw_time_ = false;
+    std::int64_t last_tick_ = 0, last_ns_ = 0;
     HandExamination& found_;
 };
 
