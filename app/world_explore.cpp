@@ -170,8 +170,10 @@ Result<void> explore_world(const WorldExploration& options) {
         return (*pictures)->take(view.close_scene(moment.tool), "touched-" + std::to_string(pictured.size()) + "-" +
                                                                     file_word(*moment.newly_touched) + ".png");
     };
+    activities::ExploreOptions explore;
+    explore.tool_radius_m = options.radius_m;
     const Result<activities::WorldFigures> figures =
-        activities::explore_by_feel(**part, ids, materials, *stroke, {.tool_radius_m = options.radius_m}, frame);
+        activities::explore_by_feel(**part, ids, materials, *stroke, explore, frame);
     if (!figures) return std::unexpected(figures.error());
     if (*pictures) {
         const auto done = (*pictures)->take_both_eyes(view.wall_scene(figures->felt.last_tool), "stereo.png");
