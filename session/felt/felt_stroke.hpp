@@ -23,9 +23,9 @@ namespace burin::session {
 struct FeltOptions {
     sculpt::Feel feel;
     bool real_time = false;
-    std::string record;  // a new session file (record/record_writer.hpp); empty: none
+    std::string record = {};  // a new session file (record/record_writer.hpp); empty: none
     // Facts of the session for that file.
-    std::vector<std::pair<std::string, std::string>> facts;
+    std::vector<std::pair<std::string, std::string>> facts = {};
 };
 
 // Carves the stroke with the simulated hand. The tool must be a ball, since a ball is what is felt. The stroke's bounds
