@@ -254,8 +254,10 @@ TEST(BenchHaptics, RatiosToThePeerAreOfTheSameTicksAndTheWorstStandsFirst) {
 }
 
 TEST(BenchHaptics, TouchesWithTheParametersOfASession) {
-    const session::SessionState state;
-    const haptics::TickParameters bench = session_parameters({}, true), session = session::parameters_of(state, {});
+    session::SessionState state;
+    ASSERT_TRUE(session::take_up(state));
+    const session::Room room;
+    const haptics::TickParameters bench = session_parameters({}, true), session = session::parameters_of(state, room);
     EXPECT_EQ(bench.shading, session.shading);
     EXPECT_EQ(bench.clearance_ratio, session.clearance_ratio);
     EXPECT_EQ(bench.action, session.action);
