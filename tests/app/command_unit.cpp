@@ -102,7 +102,7 @@ TEST(Command, RefusesBadToolSizesColoursAndUses) {
     expect_refused(place, ball + "--tool box:0.1,0.1,1e9", 1, {"too large", "4096"});
     expect_refused(place, ball + "--tool mesh:missing.stl", 1, {"missing.stl"});
     expect_refused(place, ball + "--tool mesh:open.off", 1, {"open.off", "closed"});
-    expect_refused(place, ball + "--tool box:1,1,1 --operation smooth", 1, {"box:1,1,1", "ball:R"});
+    expect_refused(place, ball + "--tool box:9,9,9 --operation smooth", 1, {"too large", "100 lattice cells"});
     expect_refused(place, ball + "--material 1,2", 1, {"--material 1,2", "3 numbers"});
     expect_refused(place, ball + "--material 1,2,256", 1, {"--material 1,2,256", "255"});
     expect_refused(place, ball + "--operation melt", 2, {"--operation"});

@@ -80,8 +80,12 @@ TEST(WorldCommand, RefusesWhatItCannotDoYetAndWrongUsage) {
     const Workplace place;
     place.write("w.wrl", kWorldHead);
     const auto opened = place.run(kWorldBurin + " world w.wrl");
-    EXPECT_EQ(opened.status, 1);
-    EXPECT_TRUE(tells(opened, "cannot be opened and touched yet, only checked; burin world check w.wrl"));
+    EXPECT_EQ(opened.status, 2);
+    EXPECT_TRUE(tells(opened, "needs a --stroke: it cannot be explored live yet")) << opened.output;
+    place.write("s.csv", "time_s,x_m,y_m,z_m,qx,qy,qz,qw,button\n0,0,0,0,0,0,0,1,0\n");
+    const auto empty = place.run(kWorldBurin + " world w.wrl --stroke s.csv");
+    EXPECT_EQ(empty.status, 1) << "a world without a shape";
+    EXPECT_TRUE(tells(empty, "w.wrl")) << empty.output;
     EXPECT_EQ(place.run(kWorldBurin + " world").status, 2);
     EXPECT_EQ(place.run(kWorldBurin + " world check").status, 2);
     EXPECT_EQ(place.run(kWorldBurin + " world check w.wrl --json w.wrl").status, 1);
