@@ -51,8 +51,11 @@ SmoothCover smooth_cover(const ToolShape& shape) {
     if (const auto* ball = std::get_if<BallTool>(&shape)) return {{Vec3(0.0)}, ball->radius_m};
     const Body body = std::visit([](const auto& tool) { return body_of(tool); }, shape);
     const Vec3 extent = body.box.extent();
-    const double half_m = 0.5 * std::min({extent.x, extent.y, extent.z});
-    const Vec3 inner = extent - 2.0 * half_m;
+    // A mesh may be as thin as nothing.
+    const double longest_m = std::max({extent.x, extent.y, extent.z});
+    const double half_m = std::max(0.5 * std::min({extent.x, extent.y, extent.z}), 1e-3 * longest_m);
+    if (!(half_m > 0.0)) return {{body.box.center()}, 0.0};
+    const Vec3 inner = glm::max(extent - 2.0 * half_m, Vec3(0.0));
     double apart_m = kApart * half_m;
     const std::array<int, 3> n = counts(inner, apart_m);
     SmoothCover cover;

@@ -189,8 +189,8 @@ std::array<Ball, kSpineBalls + kStylusBalls> balls_of(const SceneTool& tool) {
     std::array<Ball, kSpineBalls + kStylusBalls> balls;
     if (!tool.visible) return balls;
     const double spine_m = glm::length(tool.spine_m);
-    const auto on_spine =
-        std::clamp<std::size_t>(static_cast<std::size_t>(std::ceil(spine_m / (2.0 * tool.radius_m))), 1, kSpineBalls);
+    const double widths = tool.radius_m > 0.0 ? std::ceil(spine_m / (2.0 * tool.radius_m)) : 1.0;
+    const auto on_spine = static_cast<std::size_t>(std::clamp(widths, 1.0, double{kSpineBalls}));
     const double half_spine_m = 0.5 * spine_m / static_cast<double>(on_spine);
     for (std::size_t i = 0; i < on_spine; ++i) {
         const double along = (static_cast<double>(i) + 0.5) / static_cast<double>(on_spine);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "tests/compute/effort.hpp"
 
@@ -55,6 +56,15 @@ TEST(SmoothCover, FillsToolsOfAnyProportions) {
             ASSERT_TRUE(is_covered(box, {a * x, b * radius, c * length})) << x << " " << radius << " " << length;
         }
     }
+}
+
+TEST(SmoothCover, OfAMeshWithoutThicknessEnds) {
+    auto flat = std::make_shared<geometry::TriangleMesh>();
+    flat->positions_m = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+    flat->triangles = {{0, 1, 2}, {0, 2, 1}};
+    const SmoothCover cover = smooth_cover(MeshTool{flat});
+    EXPECT_LE(cover.middles_m.size(), static_cast<std::size_t>(kMostSmoothBalls));
+    EXPECT_GT(cover.radius_m, 0.0);
 }
 
 }  // namespace burin::compute::test
