@@ -13,8 +13,10 @@
 #include "record/record_writer.hpp"
 #include "sculpt/finishing.hpp"
 #include "sculpt/stroke_file.hpp"
+#include "sculpt/tool_mesh.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/felt/felt_stroke.hpp"
+#include "session/input/desk_input.hpp"
 #include "session/picture/pictures.hpp"
 
 namespace burin::app {
@@ -25,15 +27,22 @@ namespace fs = std::filesystem;
 session::Staging staging_of(const sculpt::Stroke& stroke, const sculpt::Tool& tool,
                             const std::optional<session::FeltFigures>& felt) {
     session::Staging staging;
-    staging.tool_radius_object_m = tool.ball_radius_m();
-    staging.tool_visible = !stroke.empty() && tool.ball_radius_m() > 0.0;
-    if (!stroke.empty()) staging.tool_center_object = stroke.back().position_object_m;
+    staging.tool_radius_object_m = sculpt::size_of(tool.shape);
+    staging.tool_visible = !stroke.empty();
+    if (!stroke.empty()) {
+        staging.tool_center_object = stroke.back().position_object_m;
+        staging.tool_orientation_object = stroke.back().orientation_object;
+    }
+    if (tool.turns()) staging.held = session::take_up(sculpt::ToolSpec{}, tool.shape);
     if (felt) {
         staging.tool_center_object = felt->last_tool.proxy_object_m;
+        staging.tool_orientation_object = felt->last_tool.tool_orientation_object;
         staging.object_from_device = felt->object_from_device;
         staging.workspace_device_m = felt->workspace_device_m;
         staging.box_visible = true;
     }
+    // A ball's orientation changes nothing, so strokes leave it out: its pen is drawn as a hand at a desk holds it.
+    if (!tool.turns()) staging.tool_orientation_object = session::pen_at_rest();
     return staging;
 }
 

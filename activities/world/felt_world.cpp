@@ -11,20 +11,13 @@
 #include "geometry/mesh/triangle_tree.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "scene/scene_service.hpp"
+#include "session/felt/felt_stroke.hpp"
 
 namespace burin::activities {
 namespace {
 
-constexpr double kRests_s = 0.3;     // before and after the stroke; the gate's ramp must be over by then
-constexpr double kBorder_m = 0.008;  // of the workspace, kept free: the surface pushes the hand off its path
-constexpr double kReach_m = 0.014;   // at the device, until the next update: 1 m/s for more than a period
-
-Similarity fitted(const sculpt::Stroke& stroke, const Vec3& workspace_m) {
-    Box bounds;
-    for (const sculpt::StrokeRow& row : stroke) bounds.include(row.position_object_m);
-    const Vec3 needed = bounds.extent() / (workspace_m - Vec3(2.0 * kBorder_m));
-    return {bounds.center(), Quat{1, 0, 0, 0}, std::max({1.0, needed.x, needed.y, needed.z})};
-}
+constexpr double kRests_s = 0.3;    // before and after the stroke; the gate's ramp must be over by then
+constexpr double kReach_m = 0.014;  // at the device, until the next update: 1 m/s for more than a period
 
 Result<devices::SimulatedHand> hand_along(const sculpt::Stroke& stroke, const Similarity& scene_from_device,
                                           const devices::HandGrip& grip) {
@@ -125,7 +118,7 @@ Result<WorldFigures> explore_by_feel(scene::MeshPart& part, std::span<const scen
     WorldFigures figures;
     session::FeltFigures& felt = figures.felt;
     felt.workspace_device_m = devices::OmniModel{}.workspace_m;
-    felt.object_from_device = fitted(stroke, felt.workspace_device_m);
+    felt.object_from_device = session::fit_into_workspace(stroke, felt.workspace_device_m);
     felt.duration_s = stroke.back().time_s - stroke.front().time_s + 2.0 * kRests_s;
     Result<devices::SimulatedHand> hand = hand_along(stroke, felt.object_from_device, options.grip);
     if (!hand) return std::unexpected(hand.error());

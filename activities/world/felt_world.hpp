@@ -25,7 +25,7 @@ struct ExploreOptions {
     devices::HandGrip grip;
 };
 
-// What was felt of one object.
+// Sums up the touches of one object: when it was touched first, how long, how strongly.
 struct ObjectTouch {
     scene::ObjectId id = 0;
     std::string name;
@@ -39,7 +39,7 @@ struct WorldFigures {
     std::vector<ObjectTouch> touches;  // in the order of the objects; those that were touched
 };
 
-// What is to be seen at an update of the service.
+// The tool, and an object newly touched, at an update of the service: enough to draw a picture of it.
 struct WorldMoment {
     haptics::ToolState tool;
     // Name of an object that has been touched for the first time, some updates ago: pressed by now.

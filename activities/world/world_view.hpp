@@ -24,7 +24,7 @@ public:
     void take(std::span<const scene::ObjectUpdate> updates);
     // Returns the picture of the world with the tool as it is now, seen from the middle between the eyes, from nearby.
     [[nodiscard]] renderer::Scene close_scene(const haptics::ToolState& tool) const;
-    // The same on the wall, for a tracked viewer.
+    // Returns the world on the wall, for a tracked viewer with two eyes.
     [[nodiscard]] renderer::Scene wall_scene(const haptics::ToolState& tool) const;
 
     [[nodiscard]] const Similarity& world_from_scene() const { return world_from_scene_; }

@@ -31,7 +31,7 @@ Body body_of(const MeshTool& t) {
     return body;
 }
 
-// How many balls stand along each axis, with the distance that leaves at most kMostSmoothBalls in all.
+// Counts the balls along each axis. Widens their distance until there are at most kMostSmoothBalls in all.
 std::array<int, 3> counts(const Vec3& inner_m, double& apart_m) {
     for (;; apart_m *= 1.25) {
         std::array<int, 3> n{};

@@ -52,15 +52,6 @@ double middle_speed(const sculpt::Stroke& stroke, const std::vector<double>& spe
     return *middle;
 }
 
-// Returns object_from_device with the stroke's bounds centred in the workspace; where they are larger, the motion is
-// scaled up.
-Similarity fit_into_workspace(const sculpt::Stroke& stroke, const Vec3& workspace_m) {
-    Box bounds;
-    for (const sculpt::StrokeRow& row : stroke) bounds.include(row.position_object_m);
-    const Vec3 needed = bounds.extent() / (workspace_m - Vec3(2.0 * kBorder_m));
-    return {bounds.center(), Quat{1, 0, 0, 0}, std::max({1.0, needed.x, needed.y, needed.z})};
-}
-
 // Builds the hand's motion. While the button is pressed, the hand's target lies press_N / grip beyond the stroke, into
 // the material: held on the stroke it would press with that force. The press is proportional to the speed, up to the
 // median speed of the pressed rows, and eases where the hand rests: a tool that is pressed and not moved sinks.
@@ -250,6 +241,13 @@ Result<void> feel_in_real_time(devices::SimulatedHand hand, haptics::HapticChann
 }
 
 }  // namespace
+
+Similarity fit_into_workspace(const sculpt::Stroke& stroke, const Vec3& workspace_m) {
+    Box bounds;
+    for (const sculpt::StrokeRow& row : stroke) bounds.include(row.position_object_m);
+    const Vec3 needed = bounds.extent() / (workspace_m - Vec3(2.0 * kBorder_m));
+    return {bounds.center(), Quat{1, 0, 0, 0}, std::max({1.0, needed.x, needed.y, needed.z})};
+}
 
 Result<FeltFigures> carve_by_feel(sculpt::Sculpture& carving, const sculpt::Stroke& stroke, const sculpt::Tool& tool,
                                   const FeltOptions& options) {

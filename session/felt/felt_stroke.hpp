@@ -28,8 +28,12 @@ struct FeltOptions {
     std::vector<std::pair<std::string, std::string>> facts = {};
 };
 
-// Carves the stroke with the simulated hand. The tool must be a ball, since a ball is what is felt. The stroke's bounds
-// are centred in the workspace; where they are larger, the motion is scaled up. A recording that fails ends the stroke.
+// Returns object_from_device with the stroke's bounds centred in the workspace; where they are larger, the motion is
+// scaled up.
+[[nodiscard]] Similarity fit_into_workspace(const sculpt::Stroke& stroke, const Vec3& workspace_m);
+
+// Carves the stroke with the simulated hand, which feels any tool as its shape, in the workspace as
+// fit_into_workspace() has it. A recording that fails ends the stroke.
 [[nodiscard]] Result<FeltFigures> carve_by_feel(sculpt::Sculpture& carving, const sculpt::Stroke& stroke,
                                                 const sculpt::Tool& tool, const FeltOptions& options);
 
