@@ -43,6 +43,26 @@ Vec3 across(const Vec3& along, const Vec3& wanted) {
     return glm::normalize(found);
 }
 
+struct Section {
+    Vec3 middle{0.0}, normal{0.0};  // unit, along the tube
+};
+
+// Across each straight stretch at both its ends, and halfway between at a bend, so that the outer side of a bend is as
+// round as the tube.
+std::vector<Section> sections_along(const std::vector<Vec3>& line) {
+    constexpr double kStraight = 1.0 - 1e-6;  // cosine
+    std::vector<Section> sections;
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        const Vec3 way = glm::normalize(line[i] - line[i - 1]);
+        const bool bends = !sections.empty() && glm::dot(sections.back().normal, way) < kStraight;
+        const Vec3 both = bends ? sections.back().normal + way : Vec3(0.0);
+        if (glm::length(both) > 1e-3) sections.push_back({line[i - 1], glm::normalize(both)});
+        if (sections.empty() || bends) sections.push_back({line[i - 1], way});
+        sections.push_back({line[i], way});
+    }
+    return sections;
+}
+
 // Joins a row of points to the row before it; both are closed rings of `count`, counter-clockwise about the way from
 // one to the next.
 void join_rings(TriangleMesh& mesh, std::uint32_t count) {
@@ -52,6 +72,20 @@ void join_rings(TriangleMesh& mesh, std::uint32_t count) {
         mesh.triangles.push_back({first + i, second + i, first + next});
         mesh.triangles.push_back({first + next, second + i, second + next});
     }
+}
+
+// Where the spine bends more sharply than the tube is wide, sections cross each other on the inner side and would lie
+// within the tube. Such corners are moved out to where the tube's wall is: to its radius from the nearest place of the
+// spine, until no place is nearer.
+Vec3 out_of_tube(const StudyWorld& world, Vec3 corner) {
+    constexpr int kMostMoves = 20;
+    const double within_m = (1.0 - 1e-6) * world.tube_radius_m;
+    for (int i = 0; i < kMostMoves; ++i) {
+        const NearestOnLine nearest = nearest_on(world.spine_m, corner);
+        if (nearest.distance_m >= within_m || nearest.distance_m == 0.0) break;
+        corner = nearest.place_m + (world.tube_radius_m / nearest.distance_m) * (corner - nearest.place_m);
+    }
+    return corner;
 }
 
 CapBox cap_of(const StudyWorld& world, WorldEnd end) {
@@ -67,22 +101,15 @@ TriangleMesh tube_mesh(const StudyWorld& world) {
     const double corner_m = world.tube_radius_m * 2.0 / (1.0 + std::cos(half_side));
     TriangleMesh mesh;
     Vec3 up{0.0, 1.0, 0.0};
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        const Vec3 before = glm::normalize(line[std::max<std::size_t>(i, 1)] - line[std::max<std::size_t>(i, 1) - 1]);
-        const std::size_t next = std::min(i + 1, line.size() - 1);
-        const Vec3 after = glm::normalize(line[next] - line[next - 1]);
-        const Vec3 both = before + after;
-        const Vec3 normal = glm::length(both) > 1e-6 ? glm::normalize(both) : after;
-        up = across(normal, up);
-        const Vec3 side = glm::cross(normal, up);
+    for (const Section& section : sections_along(line)) {
+        up = across(section.normal, up);
+        const Vec3 side = glm::cross(section.normal, up);
         for (std::size_t k = 0; k < kTubeSides; ++k) {
             const double angle = 2.0 * half_side * static_cast<double>(k);
             const Vec3 out = std::cos(angle) * up + std::sin(angle) * side;
-            // Across the bend the section is longer than it is wide; at most twice, whatever the bend.
-            const double lean = glm::dot(out, after);
-            mesh.positions_m.push_back(line[i] + (corner_m / std::sqrt(std::max(1.0 - lean * lean, 0.25))) * out);
+            mesh.positions_m.push_back(out_of_tube(world, section.middle + corner_m * out));
         }
-        if (i > 0) join_rings(mesh, kTubeSides);
+        if (mesh.positions_m.size() > kTubeSides) join_rings(mesh, kTubeSides);
     }
     return mesh;
 }

@@ -4,9 +4,11 @@
 // any thread; allocates. Wall and funnels wind counter-clockwise seen from within: where they are drawn the eye looks
 // into the tube through the half that is turned away from it, and sees the wand.
 //
-// Wall: sections of kTubeSides corners at every point of the spine and between them, mitred, so that a straight stretch
-// has the tube's radius whatever the bend at its ends; corners lie outside the circle as far as the middles of the
-// sides lie inside it (0.03 mm of 45). Funnel: square, from funnel_half_width at the tube's mouth straight to
+// Wall: sections of kTubeSides corners across the spine, at each of its points as many as the bend there needs, and
+// between them; corners lie outside the circle as far as the middles of the sides lie inside it (0.03 mm of 45). Where
+// the spine bends more sharply than the tube is wide the sections cross each other on the inner side, and their inner
+// corners are moved out to the wall, so that no sheet crosses the tube; along the edge that the wall has there its
+// triangles lie up to a millimetre outside. Funnel: square, from funnel_half_width at the tube's mouth straight to
 // cap_half_width at cap_depth away from the tube. Cap: a box kDrawnCap_m thick beyond that.
 #pragma once
 

