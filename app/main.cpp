@@ -5,14 +5,13 @@
 #include "app/bench_command.hpp"
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
+#include "app/live_options.hpp"
 #include "app/profile.hpp"
 #include "app/session_command.hpp"
 #include "app/study_command.hpp"
 #include "app/wall_commands.hpp"
 #include "app/world_command.hpp"
 #include "compute/rays/lattice.hpp"
-#include "devices/haptic/device_registry.hpp"
-#include "devices/trackers/tracker.hpp"
 #include "gpu/device.hpp"
 #include "session/drive/session.hpp"
 
@@ -28,6 +27,10 @@ void add_sculpt_options(Command command, session::SculptOptions& options) {
         .option("--workpiece", options.workpiece.source,
                 "FILE (STL, OBJ, PLY, OFF), block:X,Y,Z from the origin on, or ball:R about it, in metres")
         .show_default();
+    command.option(
+        "--world", options.world,
+        "Objects that stand with the workpiece, and are touched and not carved: .toml, .wrl, STL, OBJ, PLY, OFF");
+    command.flag("--no-workpiece", options.no_workpiece, "With --world: its objects alone, as burin world opens them");
     command.unit("--units", options.workpiece.units, kUnitsHelp);
     command.unit("--export-units", options.export_units,
                  "Unit of the numbers in exported files; else that of the workpiece's file, or m");
@@ -120,36 +123,6 @@ void add_combine_options(Command command, CombineOptions& options) {
                    "Where to write the result: .stl, .ply (with colour) or .obj; may be repeated");
     command.option("--report", options.report, "A JSON file for all figures");
     command.option("--threads", options.threads, "How many threads work; 0: one per core").within(0, 1024);
-}
-
-void add_live_options(Command command, session::LiveOptions& options) {
-    command.flag("--live", options.live,
-                 "Open a window to carve in; also without this when neither a stroke nor an output is given");
-    command.option("--input", options.input,
-                   "A recording, done again as it was; or a written log of a session's input, in its user's place, in "
-                   "simulated time");
-    command.option("--record", options.record,
-                   "A new file for all that the session depends on; with --input that log is played in real time. With "
-                   "--hand simulated and --stroke: a session file with every tick (burin session info FILE)");
-    command.flag("--offscreen", options.offscreen, "With --input: no window, only screenshots");
-    command.option("--stereo", options.stereo, "side-by-side, anaglyph-red-cyan, row-interlaced, ...; else mono");
-    command.flag("--swap-eyes", options.swap_eyes, "For exchanged cables or glasses");
-    command.option("--wall", options.wall,
-                   "A wall file: its screens, each on its monitor or display, its eyes and its tracker");
-    command.option("--tracker", options.tracker, "Where head and wands are heard: " + devices::tracker_usage());
-    command.option("--device", options.device, "The force-feedback device; " + devices::haptic_usage()).show_default();
-    command.flag("--windowed", options.windowed,
-                 "With --wall: its screens in windows, fitted into --width by --height");
-    command.option("--full-screen", options.full_screen, "Fill this monitor: its name or index");
-    command.option("--width", options.width, "Of the window, in pixels").within(64, 8192).show_default();
-    command.option("--height", options.height, "Of the window, in pixels").within(64, 8192).show_default();
-    command.option("--samples", options.samples, "A pixel: 1 or 4; 0: 4, but 1 on a software device")
-        .one_of({0, 1, 4})
-        .show_default();
-    command.option("--screenshots", options.screenshots, "The folder for the session's screenshots");
-    command.option("--outputs", options.outputs,
-                   "With --input: the folder below which all its files go; else one in the working folder, named after "
-                   "the log: LOG-outputs");
 }
 
 // burin --version: prints the version and the Vulkan devices found.

@@ -25,9 +25,12 @@ SceneService::SceneService(std::vector<ScenePart*> parts, std::vector<SceneHand>
 }
 
 Result<void> SceneService::repeat(const SceneUpdate& recorded) {
-    if (recorded.last_ticks.size() != hands_.size() || recorded.parts.size() != parts_.size())
-        return fail("the recorded update", "is of another number of hands or parts", "replay it in its own scene");
-    return update(recorded.time_ns, &recorded);
+    if (recorded.last_ticks.size() > hands_.size() || recorded.parts.size() > parts_.size())
+        return fail("the recorded update", "is of more hands or parts than there are", "replay it in its own scene");
+    SceneUpdate whole = recorded;
+    whole.last_ticks.resize(hands_.size());
+    whole.parts.resize(parts_.size());
+    return update(recorded.time_ns, &whole);
 }
 
 void SceneService::read_samples(std::size_t hand, std::uint64_t last_tick) {
@@ -55,7 +58,7 @@ Result<void> SceneService::update(Nanoseconds now_ns, const SceneUpdate* recorde
         for (ScenePart* part : parts_) part->take_samples(hand, samples_);
     }
     for (std::size_t i = 0; i < parts_.size(); ++i) {
-        const UpdateSeen* const part_seen = recorded != nullptr ? &recorded->parts[i] : nullptr;
+        const PartSeen* const part_seen = recorded != nullptr ? &recorded->parts[i] : nullptr;
         if (const auto updated = parts_[i]->update(now_ns, part_seen); !updated) return updated;
         seen_.parts[i] = parts_[i]->seen();
     }
@@ -63,6 +66,7 @@ Result<void> SceneService::update(Nanoseconds now_ns, const SceneUpdate* recorde
         const ProbeBall ball{hand, places_[hand], hands_[hand].around_m + hands_[hand].reach_m};
         if (const auto published = publisher_.publish(ball, parts_, now_ns); !published) return published;
     }
+    for (ScenePart* part : parts_) part->after_publication();
     return {};
 }
 

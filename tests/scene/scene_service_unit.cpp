@@ -18,14 +18,14 @@ public:
     void take_samples(std::size_t hand, std::span<const haptics::StrokeSample> samples) override {
         for (const haptics::StrokeSample& sample : samples) ticks.emplace_back(hand, sample.tick);
     }
-    Result<void> update(Nanoseconds now_ns, const UpdateSeen* recorded) override {
+    Result<void> update(Nanoseconds now_ns, const PartSeen* recorded) override {
         ++updates;
         if (fails) return fail("part", "cannot go on");
         // Its background work is done whenever it looks at 20 ms; when it is replayed it looks elsewhere.
-        seen_ = recorded != nullptr ? *recorded : UpdateSeen{.time_ns = now_ns, .background_ended = now_ns == 20};
+        seen_ = recorded != nullptr ? *recorded : PartSeen{.background_ended = now_ns == 20};
         return {};
     }
-    const UpdateSeen& seen() const override { return seen_; }
+    const PartSeen& seen() const override { return seen_; }
     Result<void> add_near(const ProbeBall& ball, geometry::LocalSurface&) override {
         balls.push_back(ball);
         return {};
@@ -40,7 +40,7 @@ public:
     bool fails = false, finished = false;
 
 private:
-    UpdateSeen seen_;
+    PartSeen seen_;
 };
 
 haptics::StrokeSample sample_at(std::uint64_t tick, const Vec3& at_m) {
@@ -98,7 +98,9 @@ TEST(SceneService, AnUpdateIsRepeatedWithTheSamplesThatItHad) {
         EXPECT_EQ(again.service.seen(), update);
     }
     EXPECT_EQ(again.first.ticks, live.first.ticks);
-    EXPECT_FALSE(again.service.repeat({}).has_value()) << "of a scene without hands";
+    SceneUpdate more = recorded.back();
+    more.last_ticks.push_back(1);
+    EXPECT_FALSE(again.service.repeat(more).has_value()) << "of a scene with more hands";
 }
 
 TEST(SceneService, TheShortestPeriodOfItsPartsCountsAndThatOfAMovingHand) {
@@ -155,7 +157,7 @@ TEST(SceneThread, CarriesOutOrdersBeforeUpdatesAndEndsWithTheLast) {
     scene.first.period = 1'000'000;
     MonotonicClock clock;
     std::atomic<int> calls{0};
-    SceneThread thread(scene.service, clock, [&] { ++calls; });
+    SceneThread thread(scene.service, clock, [&](const SceneThread::Ended&) { ++calls; });
     thread.start();
     int at_update = -1;
     thread.order([&] { at_update = scene.first.updates; });
@@ -178,7 +180,8 @@ TEST(SceneThread, EndsWhenAPartFails) {
     TwoHands scene;
     scene.first.fails = true;
     MonotonicClock clock;
-    SceneThread thread(scene.service, clock, [] {});
+    bool told = false;
+    SceneThread thread(scene.service, clock, [&](const SceneThread::Ended& ended) { told = ended.failed; });
     thread.start();
     while (!thread.failure()) std::this_thread::yield();
     thread.stop();
