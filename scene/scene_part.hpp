@@ -53,7 +53,8 @@ public:
     // part of a scene alone may set origin, tiles and loose triangles; the others add meshes. A part that knows its
     // surface in a smaller ball only lowers radius_m. Sequence and time are the publisher's.
     [[nodiscard]] virtual Result<void> add_near(const ProbeBall& ball, geometry::LocalSurface& draft) = 0;
-    // Does what hands need not wait for, such as light: called at the end of an update, when all surfaces are published.
+    // Does what hands need not wait for, such as light: called at the end of an update, when all surfaces are
+    // published.
     virtual void after_publication() {}
     // Returns the longest time until the next update that the part allows; it may change with each.
     [[nodiscard]] virtual Nanoseconds period_ns() const = 0;

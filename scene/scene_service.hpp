@@ -3,10 +3,10 @@
 //
 // Data flow of an update: the stroke samples of each hand are read from its ring, of which the service is the only
 // reader -> every part takes them -> every part updates, in the order in which they were given -> the touch publisher
-// writes each hand's local surface around where its tool rests -> parts do what hands need not wait for. The service knows no part by its kind: orders and what
-// the frame shows go between the frame and the part itself, on the thread of the service (scene/scene_thread.hpp).
-// Replay: an update depends on orders, time, samples and on what its parts have seen. seen() has all but the orders,
-// and repeat() does it again to the bit.
+// writes each hand's local surface around where its tool rests -> parts do what hands need not wait for. The service
+// knows no part by its kind: orders and what the frame shows go between the frame and the part itself, on the thread of
+// the service (scene/scene_thread.hpp). Replay: an update depends on orders, time, samples and on what its parts have
+// seen. seen() has all but the orders, and repeat() does it again to the bit.
 // Frame: the scene's. Threads: one at a time, a SceneThread's or, where time is simulated, the caller's.
 #pragma once
 

@@ -4,8 +4,8 @@
 //
 // Data flow: orders go in as functions, which know the part that they are for; they are carried out on this thread just
 // before an update. After each update, and before it is among those that can be taken, `after_update` is called on this
-// thread: there whoever knows the parts collects what the frame shall show, and hands it on under a lock of its own. The
-// haptic threads take no part in it.
+// thread: there whoever knows the parts collects what the frame shall show, and hands it on under a lock of its own.
+// The haptic threads take no part in it.
 // Threads: order() and take_updates() are called by one thread, the frame's. Between start() and stop() nobody else may
 // call the service or its parts, which must outlive the object.
 #pragma once

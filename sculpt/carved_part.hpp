@@ -3,11 +3,11 @@
 // frame.
 //
 // Data flow of an update: stroke samples of the hand -> sweeps (StrokeReader) -> Sculpture::update. Then the touch
-// publisher asks for the surface near the tool, and after that the light of a few tiles is baked. Orders come from keys,
-// panel, script or recording. take_surface_update() gives the frame the tiles that changed since the last call, as
-// references to tiles that never change again.
-// Frame: object, metres; a workpiece stands in the scene as in its own frame. Thread: one at a time, that of the scene's
-// service. An export works on copies on a thread of its own.
+// publisher asks for the surface near the tool, and after that the light of a few tiles is baked. Orders come from
+// keys, panel, script or recording. take_surface_update() gives the frame the tiles that changed since the last call,
+// as references to tiles that never change again.
+// Frame: object, metres; a workpiece stands in the scene as in its own frame. Thread: one at a time, that of the
+// scene's service. An export works on copies on a thread of its own.
 #pragma once
 
 #include <cstddef>

@@ -8,7 +8,8 @@
 //
 // Each role has a class of its own: HapticSide, LivePanel, MessageLog, SessionOutputs, and the watches of
 // session_watch.hpp. A driver gives the session its frames (session.hpp), the Presenter draws them. What the threads of
-// a real-time session did can be recorded (drive/thread_recorder.hpp) and replayed (drive/thread_replay.hpp).
+// a real-time session did can be recorded (session/drive/thread_recorder.hpp) and replayed
+// (session/drive/thread_replay.hpp).
 #pragma once
 
 #include <functional>
@@ -34,9 +35,10 @@ namespace burin::session {
 
 class LiveSession {
 public:
-    // Loads and meshes the workpiece, and opens the world. Session time counts from the clock's present value; the clock must outlive the
-    // session. pace: how much slower than the reference core the machine is (haptics::WorkSettings); as measured where
-    // time is real (timing/machine_pace.hpp), as recorded in a replay, and 1 where results must depend on no machine.
+    // Loads and meshes the workpiece, and opens the world. Session time counts from the clock's present value; the
+    // clock must outlive the session. pace: how much slower than the reference core the machine is
+    // (haptics::WorkSettings); as measured where time is real (session/timing/machine_pace.hpp), as recorded in a
+    // replay, and 1 where results must depend on no machine.
     [[nodiscard]] static Result<std::unique_ptr<LiveSession>> create(const SculptOptions& options,
                                                                      const SessionWall& wall, Clock& clock,
                                                                      double pace = 1.0);

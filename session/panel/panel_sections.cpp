@@ -137,8 +137,8 @@ void show_swatches(Kit& kit, const std::string& name, const std::array<double, 3
         if (here && !own) canvas().AddCircle(m, r + kit.px(3.0f), kText, 32, kit.px(1.5f));
         if (own) {
             canvas().AddRectFilled({m.x - r, m.y - r}, {m.x + r, m.y + r}, packed(srgb), kit.px(4.0f));
-            canvas().AddRect({m.x - r, m.y - r}, {m.x + r, m.y + r}, ImGui::IsItemHovered() ? kText : kDim, kit.px(4.0f),
-                           0, kit.px(1.2f));
+            canvas().AddRect({m.x - r, m.y - r}, {m.x + r, m.y + r}, ImGui::IsItemHovered() ? kText : kDim,
+                             kit.px(4.0f), 0, kit.px(1.2f));
         } else {
             canvas().AddCircleFilled(m, ImGui::IsItemHovered() ? r + kit.px(1.0f) : r, packed(srgb), 32);
         }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The objects of a session's world as its frames know them: as they were read, with all that commands have changed since
-// and with where hands have left them. A value that states share and nobody changes.
+// The objects of a session's world as its frames know them: as they were read, with all that commands have changed
+// since and with where hands have left them. A value that states share and nobody changes.
 // Frame: the scene's, metres. Pure; any thread.
 #pragma once
 

@@ -159,19 +159,20 @@ TEST(WorldSession, TheSecondButtonTakesAnObjectAlong) {
         touched = touched || (s.newest_tool().flags & haptics::kTickInContact) != 0;
     };
     // Straight in from the front until something is touched.
-    // Over the rock's face, at the lower left of the picture.
-    frame({{0, MouseMove{{187.0, 260.0}}}});
+    // From the middle to before the rock's face, at the lower left of the picture.
+    frame({{0, MouseMove{{320.0, 200.0}}}});
+    for (int i = 1; i <= 20; ++i) frame({{0, MouseMove{{320.0 - 6.65 * i, 200.0 + 4.0 * i}}}});
     for (int i = 0; i < 200 && !touched; ++i) frame({{0, Scroll{{0.0, 1.0}}}});
     ASSERT_TRUE(touched) << "the hand met nothing";
     for (int i = 0; i < 10; ++i) frame({});
     frame({{0, MouseClick{MouseButton::right, true, {}}}});
-    for (int i = 0; i < 30; ++i) frame({{0, MouseMove{{187.0 + 2.0 * i, 260.0 - i}}}});
+    for (int i = 0; i < 30; ++i) frame({{0, MouseMove{{187.0 + 2.0 * i, 280.0 - i}}}});
     EXPECT_TRUE(std::holds_alternative<scene::HeldMotion>(s.objects()->object(1).motion));
     EXPECT_GT(glm::length(s.objects()->pose(1).position_m - start), 0.002);
     frame({{0, MouseClick{MouseButton::right, false, {}}}});
     frame({});
     const Vec3 left_at = s.objects()->pose(1).position_m;
-    for (int i = 0; i < 20; ++i) frame({{0, MouseMove{{245.0 - 2.0 * i, 231.0}}}});
+    for (int i = 0; i < 20; ++i) frame({{0, MouseMove{{245.0 - 2.0 * i, 251.0}}}});
     EXPECT_EQ(s.objects()->pose(1).position_m, left_at);
     EXPECT_EQ(s.state().world->find(1)->pose.position_m, left_at) << "the frame knows";
 }
