@@ -277,6 +277,8 @@ WorldCommand::WorldCommand(Command app)
                     "A folder for pictures: the world, each object when it is first touched, both eyes at the end");
     command_.option("--report", o.exploration.report,
                     "A JSON file for what was felt of each object; plots lie beside it");
+    command_.option("--record", o.exploration.record,
+                    "A new session file with every tick (burin session info FILE, burin replay FILE)");
     check_ = command_.subcommand("check", "What is in each file, or all that is wrong with it; exit status 1 then");
     check_.option("FILE", o.files, "Worlds (.toml, or .wrl for VRML 2.0), see docs/formats.md").required();
     check_.option("--json", o.json, "A file for all figures and faults; - for standard output");
