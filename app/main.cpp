@@ -7,6 +7,7 @@
 #include "app/commands.hpp"
 #include "app/live_options.hpp"
 #include "app/profile.hpp"
+#include "app/replay_command.hpp"
 #include "app/session_command.hpp"
 #include "app/study_command.hpp"
 #include "app/wall_commands.hpp"
@@ -166,14 +167,22 @@ int run(int argc, char** argv) {
     ConvertOptions convert_options;
     Command convert = app.subcommand(
         "convert",
-        "Convert a mesh file to STL, PLY or OBJ and print its health, or the ticks of a session file to a table");
+        "Convert a mesh file to STL, PLY or OBJ and print its health, or a session file to what other programs read");
     convert.option("IN", convert_options.in, "STL, OBJ, PLY or OFF; with --to a session file").required();
     convert.option("OUT", convert_options.out,
                    ".stl, .ply or .obj; with --to any name, - for standard output, or none: IN with another ending");
-    convert.option("--to", convert_options.to, "csv or npy: the ticks of a session file").one_of({"csv", "npy"});
+    convert
+        .option("--to", convert_options.to,
+                "csv, npy, hdf5, mat: the ticks of a session file as a table; bids: as a folder of motion data; log: "
+                "what was noted, as text")
+        .one_of({"csv", "npy", "hdf5", "mat", "bids", "log"});
     convert.option("--columns", convert_options.columns,
                    "With --to: names with commas between them, a star at the end for all that begin so; else all");
-    convert.option("--part", convert_options.part, "With --to: which hand, where the recording has several");
+    convert.option(
+        "--part", convert_options.part,
+        "With --to: which hand, where the recording has several, or a derived table by its name's beginning");
+    convert.option("--subject", convert_options.subject, "With --to bids: its label").show_default();
+    convert.option("--task", convert_options.task, "With --to bids: its label").show_default();
     convert.unit("--units", convert_options.units, kUnitsHelp);
     convert.unit("--export-units", convert_options.export_units, "Unit of the numbers in OUT; else that of IN");
     convert.flag("--close-holes", convert_options.close_holes, "Fill holes and turn the triangles outwards");
@@ -189,6 +198,7 @@ int run(int argc, char** argv) {
     const WorldCommand world(app);
     const ProfileCommand profile(app);
     const SessionCommand recordings(app);
+    const ReplayCommand replay(app);
     const StudyCommand study(app);
 
     if (const auto status = line.parse(argc, argv)) return *status;
@@ -210,6 +220,11 @@ int run(int argc, char** argv) {
     if (profile.parsed()) return finish(profile.run());
     if (study.parsed()) return finish(study.run());
     if (recordings.parsed()) return finish(recordings.run());
+    if (replay.parsed() && !replay.misuse().empty()) {
+        std::fprintf(stderr, "burin: %s; see burin replay --help\n", replay.misuse().c_str());
+        return 2;
+    }
+    if (replay.parsed()) return finish(replay.run());
     if (convert.parsed() && convert_options.is_misused()) {
         std::fprintf(stderr, "burin: OUT is required; see burin convert --help\n");
         return 2;

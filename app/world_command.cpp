@@ -309,7 +309,11 @@ std::string WorldCommand::misuse() const {
 
 Result<void> WorldCommand::run() const {
     if (check_.parsed()) return options_->check_files();
-    if (!options_->exploration.stroke.empty()) return explore_world(options_->exploration);
+    if (!options_->exploration.stroke.empty()) {
+        WorldExploration exploration = options_->exploration;
+        exploration.record = options_->session.live.record;
+        return explore_world(exploration);
+    }
     session::SculptOptions session = options_->session;
     session.world = options_->exploration.world;
     // A recording says itself what it was of.

@@ -268,6 +268,16 @@ Result<void> MeshPart::add_near(const ProbeBall& ball, geometry::LocalSurface& d
     return {};
 }
 
+ObjectId MeshPart::id_of(const geometry::TouchedMesh& mesh) const {
+    for (const Placed& placed : objects_) {
+        const bool is_it = mesh.moves() ? placed.object.id == mesh.motion.body
+                                        : placed.snapshot == mesh.snapshot && placed.material == mesh.material &&
+                                              placed.scene_from_object == mesh.motion.object_from_mesh;
+        if (is_it) return placed.object.id;
+    }
+    return 0;
+}
+
 std::vector<ObjectUpdate> MeshPart::take_object_updates() {
     std::vector<ObjectUpdate> updates;
     for (Placed& placed : objects_) {
