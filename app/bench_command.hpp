@@ -5,6 +5,8 @@
 //   burin bench haptics    what a tick costs, and how true the proxy is
 //   burin bench stability  how stiff a wall may be before a simulated device shakes
 //   burin bench workspace  each workspace technique across the wall, in a simulated hand
+//   burin bench record     what it costs to keep every tick
+//   burin bench study      a whole simulated study against real time
 #pragma once
 
 #include <memory>

@@ -65,6 +65,7 @@ struct BenchSubcommand {
 [[nodiscard]] BenchSubcommand add_bench_frame(Command bench);      // bench/frame/frame.hpp
 [[nodiscard]] BenchSubcommand add_bench_haptics(Command bench);    // bench/haptics/haptics.hpp
 [[nodiscard]] BenchSubcommand add_bench_record(Command bench);     // bench/recording/recording.hpp
+[[nodiscard]] BenchSubcommand add_bench_study(Command bench);      // activities/train/simulated_study.hpp
 [[nodiscard]] BenchSubcommand add_bench_stability(Command bench);  // bench/stability/stability.hpp
 [[nodiscard]] BenchSubcommand add_bench_workspace(Command bench);  // bench/workspace/workspace.hpp
 

@@ -119,7 +119,8 @@ Result<void> study_analyse(const StudyAnalyseOptions& asked) {
         files.push_back({"report.html", study::html_report(analysis, *published,
                                                            {.data = fs::path(options.data).filename().string(),
                                                             .program = std::string("Burin ") + BURIN_VERSION,
-                                                            .facts = options.facts})});
+                                                            .facts = options.facts,
+                                                            .sections = options.sections})});
         if (const auto ok = write_folder(out, files); !ok) return ok;
     }
     return write_output(options.json, json_text(json));

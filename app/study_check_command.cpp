@@ -31,12 +31,15 @@ Result<void> check_folder(const std::string& folder) {
     std::size_t faults = study->journal().faults.size(), files = 0;
     for (const study::Participant& p : study->participants()) {
         for (const study::StageVisit& visit : p.visits) {
-            if (visit.file.empty() || p.erased) continue;
-            ++files;
-            const auto record = study->recorded(visit);
-            if (record) continue;
-            ++faults;
-            std::fprintf(stderr, "%s\n", record.error().line().c_str());
+            if (p.erased || visit.status != study::StageStatus::ended) continue;
+            const auto look = [&](const auto& checked) {
+                ++files;
+                if (checked) return;
+                ++faults;
+                std::fprintf(stderr, "%s\n", checked.error().line().c_str());
+            };
+            if (!visit.file.empty()) look(study->recorded(visit));
+            if (!visit.recording.empty()) look(study->check_recording(visit));
         }
     }
     if (faults > 0)

@@ -9,6 +9,7 @@ struct StudyCommand::Options {
     StudyInitOptions init;
     StudyEnrolOptions enrol;
     StudyRunOptions run;
+    StudyReplayOptions replay;
     StudyWithdrawOptions withdraw;
     std::string checked, status, reported;
 };
@@ -40,10 +41,20 @@ void StudyCommand::add_folder() {
     StudyRunOptions& r = options_->run;
     run_ = command_.subcommand("run", "Takes the participants through the protocol, from where the journal ends");
     run_.option("STUDY", r.study, kStudy).required();
-    run_.flag("--simulated", r.simulated, "Simulated learners fill all places; no device, no force, no window");
+    run_.flag("--simulated", r.simulated, "Simulated learners with a simulated wand fill all places; no window");
+    run_.option("--threads", r.threads, "People at a time; 0: one for each core; the result is the same")
+        .within(0, 1024);
+    run_.flag("--without-motion", r.without_motion, "Keep what is measured, but not the motion; replay needs that");
+    run_.flag("--resume", r.resume, "Begin interrupted stages anew though the protocol's time for it is over");
+    run_.flag("--pictures", r.pictures, "Draw what each group saw in each stage, into the folder's pictures/");
     run_.option("--effect", r.effect, "Of simulated learners: how much less the first group wanders, in SD")
         .within(-10.0, 10.0)
         .show_default();
+    StudyReplayOptions& again = options_->replay;
+    replay_ = command_.subcommand("replay", "Recorded motion through the haptic tick again, compared to the bit");
+    replay_.option("STUDY", again.study, kStudy).required();
+    replay_.option("--participant", again.participant, "Of this participant only");
+    replay_.option("--threads", again.threads, "Recordings at a time; 0: one for each core").within(0, 1024);
     status_ = command_.subcommand("status", "Who is in the study and how far; aborted stages; damage");
     status_.option("STUDY", options_->status, kStudy).required();
     StudyWithdrawOptions& w = options_->withdraw;
@@ -93,6 +104,7 @@ Result<void> StudyCommand::run() const {
     if (check_.parsed()) return study_check(o.checked);
     if (enrol_.parsed()) return study_enrol(o.enrol);
     if (run_.parsed()) return study_run(o.run);
+    if (replay_.parsed()) return study_replay(o.replay);
     if (status_.parsed()) return study_status(o.status);
     if (withdraw_.parsed()) return study_withdraw(o.withdraw);
     if (report_.parsed()) return study_report(o.reported);

@@ -3,7 +3,8 @@
 //   burin study init STUDY --protocol FILE.toml --participants N [--seed S]
 //   burin study check FILE.toml | STUDY
 //   burin study enrol STUDY ID [--codes CODE...]
-//   burin study run STUDY --simulated [--effect D]
+//   burin study run STUDY --simulated [--effect D] [--threads N] [--without-motion | --pictures]
+//   burin study replay STUDY
 //   burin study status STUDY
 //   burin study withdraw STUDY ID [--erase]
 //   burin study report STUDY
@@ -19,6 +20,7 @@
 
 #include "app/command_line.hpp"
 #include "base/error.hpp"
+#include "study/report/html_report.hpp"
 
 namespace burin::app {
 
@@ -40,7 +42,7 @@ private:
     void add_folder();
 
     Command command_;
-    Command analyse_, power_, init_, check_, enrol_, run_, status_, withdraw_, report_;
+    Command analyse_, power_, init_, check_, enrol_, run_, replay_, status_, withdraw_, report_;
 };
 
 // ---- burin study analyse (study_analyse_command.cpp)
@@ -53,6 +55,7 @@ struct StudyAnalyseOptions {
     std::string out;        // a folder that does not exist yet; empty: none
     std::uint64_t seed = 1;
     std::vector<std::string> facts;  // whole sentences about the study for the report
+    std::vector<study::ReportSection> sections;
 };
 // Lists every fault of the inputs and fails, or analyses. The folder is written whole or not at all.
 [[nodiscard]] Result<void> study_analyse(const StudyAnalyseOptions& options);
@@ -92,11 +95,21 @@ struct StudyEnrolOptions {
 
 struct StudyRunOptions {
     std::string study;
-    bool simulated = false;
+    bool simulated = false, without_motion = false, pictures = false, resume = false;
     double effect = 0.0;
+    unsigned threads = 0;  // 0: one for each core
 };
 // Goes on where the journal ends.
 [[nodiscard]] Result<void> study_run(const StudyRunOptions& options);
+
+// Every recorded motion through the haptic tick again; fails where one does not give what was stored.
+struct StudyReplayOptions {
+    std::string study;
+    std::string participant;  // empty: all
+    unsigned threads = 0;     // 0: one for each core
+    bool quiet = false;       // prints faults alone
+};
+[[nodiscard]] Result<void> study_replay(const StudyReplayOptions& options);
 
 [[nodiscard]] Result<void> study_status(const std::string& study);
 

@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "app/study_command.hpp"
+#include "app/study_sections.hpp"
 #include "app/study_trials.hpp"
 #include "base/text.hpp"
 
@@ -24,6 +25,9 @@ Result<void> study_report(const std::string& folder) {
     options.data = (fs::path(folder) / "trials.csv").string();
     options.out = report.string();
     options.facts = made->facts;
+    const auto study = study::StudyFolder::open(folder, study::StudyAccess::read);
+    if (!study) return std::unexpected(study.error());
+    options.sections = report_sections(*study);
     for (const std::string& fact : made->facts) std::printf("%s\n", fact.c_str());
     std::printf("\n");
     if (const auto ok = study_analyse(options); !ok) return ok;

@@ -4,7 +4,7 @@
 #include "app/study_command.hpp"
 #include "app/study_trials.hpp"
 #include "base/text.hpp"
-#include "study/folder/study_folder.hpp"
+#include "study/folder/interruption.hpp"
 
 namespace burin::app {
 
@@ -27,6 +27,12 @@ Result<void> study_status(const std::string& folder) {
                     p.erased      ? "; erased"
                     : p.withdrawn ? "; withdrawn"
                                   : "");
+    }
+    for (const study::Interruption& one : study::interruptions_of(*study)) {
+        std::printf("interrupted: %s, %s (day %zu, stage %zu), known until %s, %llu ticks of its motion are kept; %s\n",
+                    one.participant.c_str(), one.visit.stage.c_str(), one.visit.day, one.visit.place,
+                    study::utc_text(one.known_utc_ns).c_str(), static_cast<unsigned long long>(one.ticks_kept),
+                    one.done_again ? "done again" : "to be done again");
     }
     std::printf("last digest of the journal: %s\n", study->journal().last_digest.c_str());
     return {};

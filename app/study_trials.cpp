@@ -61,10 +61,10 @@ std::vector<std::string> study_facts(const study::StudyFolder& study) {
     }
     std::vector<std::string> facts;
     if (simulated > 0)
-        facts.push_back(
-            formatted("%zu of %zu participants are simulated learners: no person, no device and no force; "
-                      "effect %g SD.",
-                      simulated, people.size(), study.simulated_effect().value_or(0.0)));
+        facts.push_back(formatted(
+            "%zu of %zu participants are simulated learners: no person took part, hand and wand are simulated; "
+            "effect %g SD.",
+            simulated, people.size(), study.simulated_effect().value_or(0.0)));
     facts.push_back("Protocol " + study.protocol().name + ", SHA-256 " + study.facts().protocol_digest + ", seed " +
                     std::to_string(study.facts().seed) + ".");
     facts.push_back(formatted("Participants: %zu enrolled, %zu went through all %zu stages, %zu withdrew.",

@@ -2,6 +2,7 @@
 #include "haptics/tick.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/space.hpp"
@@ -102,10 +103,21 @@ PassivityStep kept_passive(const PassivityState& state, const TickRecord& record
 
 GuidanceStep guided(const GuidanceState& state, const TickRecord& record, const TickParameters& parameters,
                     double dt_s) {
+    if (!(parameters.guidance.stiffness_N_per_m > 0.0)) return {};
     const MotionRecord& motion = record.motion;
+    std::array<GuidedPoint, kMostProbePoints> points;
+    const std::uint32_t count = record.contact.point_count;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Vec3& offset_m = parameters.probe.points[i].offset_device_m;
+        points[i] = {record.contact.points[i].hip_object_m, offset_m, record.sample.orientation_device * offset_m};
+    }
     return guide(state,
-                 {record.contact.points[0].hip_object_m, motion.velocity_device_m_per_s,
-                  motion.object_from_device.orientation, motion.object_from_device.scale, dt_s},
+                 {{points.data(), count},
+                  motion.velocity_device_m_per_s,
+                  motion.angular_velocity_device_rad_per_s,
+                  motion.object_from_device.orientation,
+                  motion.object_from_device.scale,
+                  dt_s},
                  parameters.curve, parameters.guidance);
 }
 
@@ -182,6 +194,7 @@ void compute_tick(const TickResult& t, const TickState& state, const devices::De
     next.guidance = guidance.next;
     if (guidance.next.held) record.flags |= kTickGuided;
     others.force_device_N += guidance.force_device_N + workspace.force_device_N;
+    others.torque_device_Nm += guidance.torque_device_Nm;
     record.wanted = driven_part(
         {contact.force_device_N + others.force_device_N, contact.torque_device_Nm + others.torque_device_Nm}, device);
 }

@@ -41,10 +41,13 @@ bool sensible(const ToolShape& shape) {
     return true;
 }
 
+// NaN fails this comparison.
+bool unit_turn(const Quat& q) { return std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0) <= 2e-6; }
+
 bool sensible(const GuidanceCurve& curve, const GuidanceSettings& s) {
     if (curve.count == 1 || curve.count > kMostCurvePoints) return false;
     return not_negative(s.stiffness_N_per_m) && not_negative(s.damping_Ns_per_m) && not_negative(s.max_force_N) &&
-           not_negative(s.reach_m) && std::isfinite(s.lead_speed_m_per_s);
+           not_negative(s.reach_m) && std::isfinite(s.lead_speed_m_per_s) && unit_turn(s.orientation_object);
 }
 
 bool sensible(const WorkSettings& w) {

@@ -119,27 +119,78 @@ Vec3 at_most(const Vec3& v, double most) {
     return l > most ? v * (most / l) : v;
 }
 
+// The middle of the points, and of their offsets.
+struct Middle {
+    Vec3 hip_object_m{0.0}, offset_device_m{0.0};
+};
+
+Middle middle_of(std::span<const GuidedPoint> points) {
+    if (points.size() == 1) return {points[0].hip_object_m, points[0].offset_device_m};
+    Middle middle;
+    for (const GuidedPoint& p : points) {
+        middle.hip_object_m += p.hip_object_m;
+        middle.offset_device_m += p.offset_device_m;
+    }
+    const double count = static_cast<double>(points.size());
+    return {middle.hip_object_m / count, middle.offset_device_m / count};
+}
+
+// What acts on every point alike.
+struct Pull {
+    Foot foot;
+    Middle middle;
+    double faded = 0.0, stiffness_N_per_m = 0.0, damping_Ns_per_m = 0.0, max_N = 0.0;  // of one point
+    bool turns = false;
+    Vec3 tangent_device{0.0};
+    Quat device_from_object{1.0, 0.0, 0.0, 0.0};
+};
+
+Vec3 force_on(const GuidedPoint& point, const Pull& pull, const GuidanceInput& in, const GuidanceSettings& settings) {
+    Vec3 way_object_m = pull.foot.at - pull.middle.hip_object_m;
+    if (pull.turns) {
+        const Vec3 place =
+            in.scale * (settings.orientation_object * (point.offset_device_m - pull.middle.offset_device_m));
+        way_object_m = pull.foot.at + place - point.hip_object_m;
+    }
+    const double sign = settings.repels ? -1.0 : 1.0;
+    const Vec3 spring_N =
+        at_most((sign * pull.stiffness_N_per_m / in.scale) * (pull.device_from_object * way_object_m), pull.max_N);
+    Vec3 v = in.velocity_device_m_per_s;
+    if (in.points.size() > 1) v += glm::cross(in.angular_velocity_device_rad_per_s, point.arm_device_m);
+    const Vec3 across = v - glm::dot(v, pull.tangent_device) * pull.tangent_device;
+    return at_most(pull.faded * (spring_N - pull.damping_Ns_per_m * across), pull.max_N);
+}
+
 }  // namespace
 
 GuidanceStep guide(const GuidanceState& state, const GuidanceInput& in, const GuidanceCurve& curve,
                    const GuidanceSettings& settings) noexcept {
     if (curve.count < 2 || curve.count > kMostCurvePoints || !(settings.stiffness_N_per_m > 0.0)) return {};
-    const Polyline line(curve, in.hip_object_m);
-    const Foot foot = settings.lead_speed_m_per_s != 0.0 ? leading_foot(line, state, settings, in.dt_s)
-                                                         : free_foot(line, state, settings);
+    if (in.points.empty()) return {};
+    const Middle middle = middle_of(in.points);
+    const Polyline line(curve, middle.hip_object_m);
+    const bool leads = settings.lead_speed_m_per_s != 0.0 && !settings.repels;
+    const Foot foot = leads ? leading_foot(line, state, settings, in.dt_s) : free_foot(line, state, settings);
     if (!(foot.distance_m < settings.reach_m)) return {};  // also rejects NaN
     GuidanceStep step;
     step.next = {foot.along_m, true};
     step.distance_m = foot.distance_m;
-    const Quat device_from_object = glm::conjugate(in.object_from_device_orientation);
-    const Vec3 spring_N =
-        at_most((settings.stiffness_N_per_m / in.scale) * (device_from_object * (foot.at - in.hip_object_m)),
-                settings.max_force_N);
-    const Vec3 tangent_device = device_from_object * foot.tangent;
-    const Vec3 across =
-        in.velocity_device_m_per_s - glm::dot(in.velocity_device_m_per_s, tangent_device) * tangent_device;
-    const Vec3 force_N = fade(foot.distance_m, settings.reach_m) * (spring_N - settings.damping_Ns_per_m * across);
-    step.force_device_N = at_most(force_N, settings.max_force_N);
+    const double count = static_cast<double>(in.points.size());
+    Pull pull{foot,
+              middle,
+              fade(foot.distance_m, settings.reach_m),
+              settings.stiffness_N_per_m / count,
+              settings.damping_Ns_per_m / count,
+              settings.max_force_N / count};
+    pull.turns = settings.holds_orientation && !settings.repels;
+    pull.device_from_object = glm::conjugate(in.object_from_device_orientation);
+    pull.tangent_device = pull.device_from_object * foot.tangent;
+    for (const GuidedPoint& point : in.points) {
+        const Vec3 force_N = force_on(point, pull, in, settings);
+        step.force_device_N += force_N;
+        // A free tool is not turned by what draws its middle.
+        if (pull.turns) step.torque_device_Nm += glm::cross(point.arm_device_m, force_N);
+    }
     return step;
 }
 

@@ -19,13 +19,13 @@ constexpr std::size_t kDigestLetters = 64;
 const std::string kNoDigest(kDigestLetters, '0');
 
 std::string now_utc() {
-    const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+    const auto now = std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::now());
     const std::time_t seconds = std::chrono::system_clock::to_time_t(now);
     std::tm parts{};
     ::gmtime_r(&seconds, &parts);
     std::array<char, 32> text{};
-    std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
-    return text.data();
+    std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%S", &parts);
+    return text.data() + formatted(".%03dZ", static_cast<int>(now.time_since_epoch().count() % 1000));
 }
 
 bool is_digest(std::string_view text) {

@@ -53,9 +53,20 @@ std::size_t count_in(const Json& entry, const char* key) {
     return found != entry.end() && found->is_number_unsigned() ? found->get<std::size_t>() : 0;
 }
 
+std::optional<double> number_in(const Json& entry, const char* key) {
+    const auto found = entry.find(key);
+    return found != entry.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
+}
+
 bool flag_in(const Json& entry, const char* key) {
     const auto found = entry.find(key);
     return found != entry.end() && found->is_boolean() && found->get<bool>();
+}
+
+Result<std::string> digest_of_file(const fs::path& file) {
+    const auto bytes = read_file(file, kMostRecordingBytes);
+    if (!bytes) return std::unexpected(bytes.error());
+    return sha256({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
 }
 
 Participant enrolled_by(const Json& entry) {
@@ -71,7 +82,11 @@ Participant enrolled_by(const Json& entry) {
 void visit(Participant& p, const Json& entry, const std::string& event) {
     const std::size_t day = count_in(entry, "day"), place = count_in(entry, "place");
     if (event == "stage begun") {
-        p.visits.push_back({day, place, text_in(entry, "stage"), StageStatus::aborted, "", "", ""});
+        StageVisit begun{.day = day, .place = place, .stage = text_in(entry, "stage")};
+        begun.recording = text_in(entry, "recording");
+        begun.begun_utc = text_in(entry, "time");
+        begun.clock_s = number_in(entry, "clock_s");
+        p.visits.push_back(std::move(begun));
         return;
     }
     const auto begun = std::ranges::find_if(p.visits.rbegin(), p.visits.rend(), [&](const StageVisit& v) {
@@ -82,6 +97,8 @@ void visit(Participant& p, const Json& entry, const std::string& event) {
     begun->result = text_in(entry, "result");
     begun->file = text_in(entry, "file");
     begun->file_digest = text_in(entry, "digest");
+    begun->recording_digest = text_in(entry, "recording_sha256");
+    begun->ended_clock_s = number_in(entry, "clock_s");
 }
 
 bool good_id(const std::string& id) {
@@ -283,31 +300,54 @@ Result<void> StudyFolder::begin_simulation(double effect) {
                 formatted("give --effect %g, or make another study", *before));
 }
 
-Result<void> StudyFolder::begin_stage(const std::string& id, const StagePlace& at) {
-    return note(Json{{"event", "stage begun"},
-                     {"participant", id},
-                     {"day", at.day},
-                     {"place", at.place},
-                     {"stage", at.stage->name}});
+Result<StageFiles> StudyFolder::begin_stage(const std::string& id, const StagePlace& at, bool has_motion,
+                                            std::optional<double> clock_s) {
+    std::error_code error;
+    fs::create_directories(path_ / "data" / id, error);
+    if (error) return fail((path_ / "data" / id).string(), "cannot be made: " + error.message());
+    StageFiles files;
+    std::string base;
+    // Files that an interrupted run left are kept: the next run's have a number of their own.
+    for (std::size_t run = 1;
+         base.empty() || fs::exists(path_ / (base + ".json"), error) || fs::exists(path_ / (base + ".session"), error);
+         ++run)
+        base = "data/" + id + formatted("/day%zu-%02zu-run%zu", at.day, at.place, run);
+    files.measured = base + ".json";
+    if (has_motion) files.recording = base + ".session";
+    Json entry{
+        {"event", "stage begun"}, {"participant", id}, {"day", at.day}, {"place", at.place}, {"stage", at.stage->name}};
+    if (has_motion) entry["recording"] = files.recording;
+    if (clock_s) entry["clock_s"] = *clock_s;
+    if (const auto ok = note(std::move(entry)); !ok) return std::unexpected(ok.error());
+    return files;
 }
 
 Result<void> StudyFolder::end_stage(const std::string& id, const StagePlace& at, const std::string& result,
-                                    const Json& recorded) {
+                                    const Json& recorded, const StageFiles& files, std::optional<double> clock_s) {
     Json entry{{"event", "stage ended"}, {"participant", id},       {"day", at.day},
                {"place", at.place},      {"stage", at.stage->name}, {"result", result}};
+    if (clock_s) entry["clock_s"] = *clock_s;
+    if (!files.recording.empty()) {
+        const auto digest = digest_of_file(path_ / files.recording);
+        if (!digest) return std::unexpected(digest.error());
+        entry["recording_sha256"] = *digest;
+    }
     if (!recorded.is_null()) {
-        std::error_code error;
-        fs::create_directories(path_ / "data" / id, error);
         const std::string text = json_text(recorded);
-        std::string file;
-        // A file that an interrupted run left is kept: the next run's has a number of its own.
-        for (std::size_t run = 1; file.empty() || fs::exists(path_ / file, error); ++run)
-            file = "data/" + id + formatted("/day%zu-%02zu-run%zu.json", at.day, at.place, run);
-        if (const auto ok = write_whole(path_ / file, text); !ok) return ok;
-        entry["file"] = file;
+        if (const auto ok = write_whole(path_ / files.measured, text); !ok) return ok;
+        entry["file"] = files.measured;
         entry["digest"] = sha256(text);
     }
     return note(std::move(entry));
+}
+
+Result<void> StudyFolder::check_recording(const StageVisit& visit) const {
+    const auto digest = digest_of_file(path_ / visit.recording);
+    if (!digest) return std::unexpected(digest.error());
+    if (*digest != visit.recording_digest)
+        return fail((path_ / visit.recording).string(), "is not what the journal says was recorded",
+                    "restore it from a copy");
+    return {};
 }
 
 Result<Json> StudyFolder::recorded(const StageVisit& visit) const {

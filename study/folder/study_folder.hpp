@@ -4,7 +4,8 @@
 //   study.json       digest, seed, places of each stratum's list
 //   allocation.csv   the whole list, for whoever keeps it sealed
 //   journal.jsonl    what happened, only appended to (journal.hpp)
-//   data/ID/*.json   one file for each stage that was recorded, never written twice
+//   data/ID/*.json   one file for each stage that was measured, never written twice
+//   data/ID/*.session  the motion of a stage, tick by tick (stage_recording.hpp); DAY-PLACE-runN as its .json
 //   trials.csv       derived of these: made anew by run and report
 //   lock             held by the process that writes
 // One process writes at a time; others read. One thread for each object.
@@ -28,11 +29,15 @@ enum class StageStatus { ended, aborted };
 // A stage as a participant went through it. Aborted: begun and never ended.
 struct StageVisit {
     std::size_t day = 1, place = 1;  // place in the day's list of stages; both from 1
-    std::string stage;
+    std::string stage{};
     StageStatus status = StageStatus::aborted;
-    std::string result;       // name_of(StageResult)
-    std::string file;         // within the folder; empty: none
-    std::string file_digest;  // SHA-256
+    std::string result{};       // name_of(StageResult)
+    std::string file{};         // within the folder; empty: none
+    std::string file_digest{};  // SHA-256
+    // The motion, likewise; named from the stage's beginning on, its digest known at its end.
+    std::string recording{}, recording_digest{};
+    std::string begun_utc{};                           // as the journal has it
+    std::optional<double> clock_s{}, ended_clock_s{};  // of a simulated participant's clock
 };
 
 struct Participant {
@@ -63,6 +68,14 @@ struct StudyFacts {
 [[nodiscard]] Result<void> create_study(const std::filesystem::path& folder, const std::string& protocol_text,
                                         std::uint64_t seed, std::size_t participants);
 
+// Within the study's folder.
+struct StageFiles {
+    std::string measured;
+    std::string recording;  // empty: the motion is not recorded
+};
+
+inline constexpr std::uint64_t kMostRecordingBytes = std::uint64_t{2} << 30;  // 6 hours of a wand
+
 enum class StudyAccess { read, write };
 
 class StudyFolder {
@@ -87,12 +100,19 @@ public:
     // A study has one effect of simulated learners: the first run's. Refuses another.
     [[nodiscard]] Result<void> begin_simulation(double effect);
     [[nodiscard]] std::optional<double> simulated_effect() const;  // nothing before the first run
-    [[nodiscard]] Result<void> begin_stage(const std::string& id, const StagePlace& at);
-    // Writes what was recorded (null: nothing) to a new file and syncs it before the journal names it.
+    // Names the files of the stage, of which there are none yet. `has_motion`: its motion will be recorded. `clock_s`:
+    // of a simulated participant's clock.
+    [[nodiscard]] Result<StageFiles> begin_stage(const std::string& id, const StagePlace& at, bool has_motion,
+                                                 std::optional<double> clock_s = {});
+    // Writes what was measured (null: nothing) to a new file and syncs it before the journal names it, and takes the
+    // digest of the recording, which must be closed.
     [[nodiscard]] Result<void> end_stage(const std::string& id, const StagePlace& at, const std::string& result,
-                                         const Json& recorded);
+                                         const Json& recorded, const StageFiles& files,
+                                         std::optional<double> clock_s = {});
     // Fails where the file is missing or not the one that the journal names.
     [[nodiscard]] Result<Json> recorded(const StageVisit& visit) const;
+    // Likewise of the motion, which is not read.
+    [[nodiscard]] Result<void> check_recording(const StageVisit& visit) const;
 
 private:
     StudyFolder() = default;

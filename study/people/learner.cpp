@@ -2,21 +2,22 @@
 #include "study/people/learner.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "study/metrics/path.hpp"
 
 namespace burin::study {
 namespace {
 
-constexpr double kTick_s = 1.0 / kSimulatedRate_Hz;
-constexpr double kRest_s = 0.3;           // in the start cap, before and after going back to it
+constexpr double kRest_s = 0.3;           // at an end, before going on
+constexpr double kReturn_m_per_s = 0.25;  // the mean speed of going straight back to the start
+constexpr double kLean_rad = 0.08, kLean_s = 3.1;
 constexpr double kCalmNearEnds_m = 0.03;  // the wander grows to its full size over this length
 constexpr double kStrayFactor = 1.5;      // of the distance at which an attempt is lost
-constexpr double kOperatorWaits_s = 1.0;
 constexpr std::size_t kWaves = 4;
-constexpr std::size_t kMostTicks = 4 * 3600 * 1000;
 
 // The share of the way after a share of the time, with the least jerk (Flash and Hogan, 1985).
 double least_jerk(double t) {
@@ -24,10 +25,12 @@ double least_jerk(double t) {
     return t * t * t * (10.0 + t * (-15.0 + 6.0 * t));
 }
 
+}  // namespace
+
 // One way through the tube: slow waves across it, fixed before it begins.
-class HandPath {
+class LearnerHand::Path {
 public:
-    HandPath(const StudyWorld& world, double wander_m, double pace_m_per_s, Random& random) : world_(world) {
+    Path(const StudyWorld& world, double wander_m, double pace_m_per_s, Random& random) : world_(world) {
         lengths_.push_back(0.0);
         for (std::size_t i = 1; i < world.spine_m.size(); ++i)
             lengths_.push_back(lengths_.back() + glm::distance(world.spine_m[i - 1], world.spine_m[i]));
@@ -85,55 +88,94 @@ private:
     Vec3 across_{1.0, 0.0, 0.0};
 };
 
-// Feeds ticks to the pure step and keeps what it says.
-class StageRun {
-public:
-    StageRun(const Protocol& protocol, const Stage& stage) : protocol_(protocol), setup_(setup_of(protocol, stage)) {}
-
-    void tick(const Vec3& middle_m, OperatorAct act = OperatorAct::none) {
-        const Vec3 up{0.0, protocol_.point_offset_m, 0.0};
-        const StageTick tick{static_cast<double>(made_.ticks) * kTick_s, {middle_m + up, middle_m - up}, act, false};
-        const StageStep stepped = step(setup_, made_.end, tick);
-        for (std::size_t i = 0; i < stepped.event_count; ++i) made_.events.push_back(stepped.events[i]);
-        made_.end = stepped.state;
-        ++made_.ticks;
-        const bool running = made_.end.phase == StagePhase::running;
-        if (running && !was_running_) made_.top_m.clear(), made_.bottom_m.clear();
-        was_running_ = running;
-        if (!running) return;
-        made_.top_m.push_back(tick.points_m[0]);
-        made_.bottom_m.push_back(tick.points_m[1]);
-    }
-
-    [[nodiscard]] bool done() const { return made_.end.phase == StagePhase::done || made_.ticks >= kMostTicks; }
-    [[nodiscard]] unsigned attempt() const { return made_.end.attempt; }
-    [[nodiscard]] double time_s() const { return static_cast<double>(made_.ticks) * kTick_s; }
-    [[nodiscard]] SimulatedStage take() {
-        if (made_.end.phase != StagePhase::done) tick({}, OperatorAct::stop);
-        if (made_.end.result != StageResult::valid_exit) made_.top_m.clear(), made_.bottom_m.clear();
-        return std::move(made_);
-    }
-
-private:
-    const Protocol& protocol_;
-    StageSetup setup_;
-    SimulatedStage made_;
-    bool was_running_ = false;
-};
-
-void go_through(StageRun& run, const HandPath& path, const Protocol& protocol, bool strays) {
-    const unsigned attempt = run.attempt();
-    const auto rest = static_cast<std::size_t>(kRest_s / kTick_s);
-    for (std::size_t i = 0; i < rest && !run.done(); ++i) run.tick(path.middle_m(0.0));
-    for (double t = 0.0; t <= path.duration_s() + kRest_s && !run.done(); t += kTick_s) {
-        const double share = t / path.duration_s();
-        const double off_m = strays ? kStrayFactor * protocol.validity.stray_m * least_jerk(4.0 * (share - 0.4)) : 0.0;
-        run.tick(path.middle_m(share) + off_m * Vec3(0, 1, 0));
-        if (run.attempt() != attempt) return;
-    }
+LearnerHand::LearnerHand(const Protocol& protocol, const Stage& stage, const StudyWorld& world, const Learner& learner,
+                         const LearnerPopulation& population, bool is_led, Random& random)
+    : protocol_(protocol),
+      stage_(stage),
+      world_(world),
+      random_(random),
+      stray_chance_(stage.kind == StageKind::trial ? population.stray_chance : 0.0),
+      is_led_(is_led) {
+    const double shift = stage.outcome && learner.first_group ? -population.effect * population.wander_spread : 0.0;
+    const double untrained = std::pow(1.0 - population.learns_per_min, learner.trained_min);
+    const double wander_draw = random.normal(), pace_draw = random.normal();
+    wander_m_ = untrained * std::exp(learner.log_wander + shift + population.wander_trial_spread * wander_draw);
+    pace_m_per_s_ = std::exp(learner.log_pace + population.pace_trial_spread * pace_draw);
+    lean_phase_ = 2.0 * std::numbers::pi * random.uniform();
+    draw_path();
+    from_m_ = now_m_ = path_->middle_m(0.0);
 }
 
-}  // namespace
+LearnerHand::~LearnerHand() = default;
+
+void LearnerHand::draw_path() {
+    path_ = std::make_unique<Path>(world_, wander_m_, pace_m_per_s_, random_);
+    strays_ = random_.uniform() < stray_chance_;
+}
+
+void LearnerHand::begin(Doing doing, double time_s) {
+    doing_ = doing;
+    since_s_ = time_s;
+    from_m_ = now_m_;
+}
+
+Vec3 LearnerHand::place(double time_s) const {
+    const double t = time_s - since_s_;
+    if (doing_ == Doing::rests) return from_m_;
+    if (doing_ == Doing::returns) {
+        const Vec3 to_m = path_->middle_m(0.0);
+        const double duration_s = std::max(0.5, glm::distance(from_m_, to_m) / kReturn_m_per_s);
+        return from_m_ + least_jerk(t / duration_s) * (to_m - from_m_);
+    }
+    const double share = t / path_->duration_s();
+    const double off_m = strays_ ? kStrayFactor * protocol_.validity.stray_m * least_jerk(4.0 * (share - 0.4)) : 0.0;
+    return path_->middle_m(backwards_ ? 1.0 - share : share) + off_m * Vec3(0, 1, 0);
+}
+
+bool LearnerHand::lasts(double time_s) const {
+    const double t = time_s - since_s_;
+    switch (doing_) {
+        case Doing::rests: return t < kRest_s;
+        case Doing::returns: return t < std::max(0.5, glm::distance(from_m_, path_->middle_m(0.0)) / kReturn_m_per_s);
+        case Doing::goes: return t < path_->duration_s();
+    }
+    return false;
+}
+
+HandWish LearnerHand::next(const StageState& state, double time_s) {
+    HandWish wish;
+    const bool by_operator_alone = !stage_.ends_after_s && !stage_.ends_at_exit;
+    const bool goes = stage_.kind == StageKind::trial || (stage_.kind == StageKind::free_training && !is_led_);
+    if (!goes) {
+        wish.gives_way = is_led_;
+        if (by_operator_alone && time_s >= kOperatorWaits_s) wish.act = OperatorAct::next;
+    } else if (state.attempt != attempt_) {
+        attempt_ = state.attempt;
+        draw_path();
+        begin(Doing::returns, time_s);
+    } else if (!lasts(time_s)) {
+        now_m_ = place(time_s);
+        const bool went = doing_ == Doing::goes;
+        if (doing_ == Doing::returns) {
+            begin(Doing::rests, time_s);
+        } else if (doing_ == Doing::rests) {
+            begin(Doing::goes, time_s);
+        } else if (stage_.kind == StageKind::free_training) {
+            backwards_ = !backwards_;
+            draw_path();
+            begin(Doing::rests, time_s);
+        } else if (state.phase == StagePhase::waiting) {
+            draw_path();  // the clock did not run: once more
+            begin(Doing::returns, time_s);
+        }
+        // An end by the operator alone comes after one way through.
+        if (went && by_operator_alone) wish.act = OperatorAct::next;
+    }
+    wish.middle_m = now_m_ = place(time_s);
+    const double lean = kLean_rad * std::sin(2.0 * std::numbers::pi * time_s / kLean_s + lean_phase_);
+    if (!wish.gives_way) wish.orientation = {std::cos(0.5 * lean), 0.0, 0.0, std::sin(0.5 * lean)};
+    return wish;
+}
 
 Learner draw_learner(const LearnerPopulation& population, bool first_group, Random& random) {
     Learner learner;
@@ -141,30 +183,6 @@ Learner draw_learner(const LearnerPopulation& population, bool first_group, Rand
     learner.log_pace = std::log(population.pace_m_per_s) + population.pace_spread * random.normal();
     learner.first_group = first_group;
     return learner;
-}
-
-SimulatedStage simulate_stage(const Protocol& protocol, const Stage& stage, const Learner& learner,
-                              const LearnerPopulation& population, Random& random) {
-    StageRun run(protocol, stage);
-    const StudyWorld* world = protocol.world(stage.world);
-    if (world == nullptr) {
-        while (!run.done()) run.tick({}, run.time_s() >= kOperatorWaits_s ? OperatorAct::next : OperatorAct::none);
-        return run.take();
-    }
-    const double shift = stage.outcome && learner.first_group ? -population.effect * population.wander_spread : 0.0;
-    const double untrained = std::pow(1.0 - population.learns_per_min, learner.trained_min);
-    const double wander_draw = random.normal(), pace_draw = random.normal();
-    const double wander_m =
-        untrained * std::exp(learner.log_wander + shift + population.wander_trial_spread * wander_draw);
-    const double pace = std::exp(learner.log_pace + population.pace_trial_spread * pace_draw);
-    while (!run.done()) {
-        const HandPath path(*world, wander_m, pace, random);
-        const bool strays = random.uniform() < population.stray_chance;
-        go_through(run, path, protocol, strays && stage.kind == StageKind::trial);
-        // An end by the operator alone comes after one way through.
-        if (!stage.ends_after_s && !stage.ends_at_exit && !run.done()) run.tick(path.middle_m(1.0), OperatorAct::next);
-    }
-    return run.take();
 }
 
 Learner after_stage(Learner learner, const Stage& stage) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/people/recorded_trial.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -8,6 +9,7 @@
 #include "study/metrics/path.hpp"
 #include "study/metrics/smoothness.hpp"
 #include "study/metrics/trial_metrics.hpp"
+#include "study/people/learner.hpp"
 
 namespace burin::study {
 namespace {
@@ -28,32 +30,78 @@ constexpr std::array kColumns{"deviation_mm",
                               "sparc",
                               "ldlj",
                               "effectiveness_index",
-                              "failed_attempts"};
+                              "failed_attempts",
+                              "wall_deviation_mm",
+                              "deviations_differ",
+                              "contact_s",
+                              "contacts",
+                              "force_mean_N",
+                              "force_largest_N"};
 
-double mean_outside_m(const StudyWorld& world, const std::vector<Vec3>& points_m) {
+double mean_outside_mm(const StudyWorld& world, const std::vector<Vec3>& points_m) {
     std::vector<Vec3> collisions_m;
     collisions_m.reserve(points_m.size());
     for (const Vec3& p : points_m) collisions_m.push_back(within_tube(world, p));
-    return mean_deviation_m(points_m, collisions_m);
+    return kMillimetres * mean_deviation_m(points_m, collisions_m);
+}
+
+// Mean deviations of the two points, in millimetres.
+struct Deviations {
+    std::array<double, 2> proxy_mm{}, wall_mm{};
+
+    [[nodiscard]] double differ_mm() const {
+        return std::max(std::abs(proxy_mm[0] - wall_mm[0]), std::abs(proxy_mm[1] - wall_mm[1]));
+    }
+};
+
+Deviations deviations_of(const StudyWorld& world, const ModelTouch& model) {
+    Deviations d;
+    for (std::size_t i = 0; i < 2; ++i) {
+        d.proxy_mm[i] = kMillimetres * mean_deviation_m(model.points_m[i], model.collision_points_m[i]);
+        d.wall_mm[i] = mean_outside_mm(world, model.points_m[i]);
+    }
+    return d;
+}
+
+// Both points' forces together, tick by tick.
+std::vector<Vec3> sums_of(const ModelTouch& model) {
+    std::vector<Vec3> sums;
+    for (std::size_t i = 0; i < model.forces_N[0].size(); ++i)
+        sums.push_back(model.forces_N[0][i] + model.forces_N[1][i]);
+    return sums;
+}
+
+void add_contact(Json& record, const ModelTouch& model) {
+    const ContactFigures contact = contact_figures(sums_of(model), kSimulatedRate_Hz);
+    record["contact_s"] = contact.time_s;
+    record["contacts"] = contact.episodes;
+    record["force_mean_N"] = contact.episodes > 0 ? contact.mean_force_N : 0.0;
+    record["force_largest_N"] = contact.peak_force_N;
 }
 
 }  // namespace
 
-Json trial_record(const StudyWorld& world, const SimulatedStage& stage) {
-    if (stage.end.result != StageResult::valid_exit) return {};
+Json trial_record(const StudyWorld& world, const StageState& end, std::span<const StageEvent> events,
+                  const ModelTouch& model) {
+    if (end.result != StageResult::valid_exit) return {};
     std::vector<Vec3> middle_m;
-    for (std::size_t i = 0; i < stage.top_m.size(); ++i) middle_m.push_back(0.5 * (stage.top_m[i] + stage.bottom_m[i]));
+    for (std::size_t i = 0; i < model.points_m[0].size(); ++i)
+        middle_m.push_back(0.5 * (model.points_m[0][i] + model.points_m[1][i]));
     const std::vector<Vec3> centreline_m = resampled(world.spine_m, kPlacesOfCentreline);
-    const double top_mm = kMillimetres * mean_outside_m(world, stage.top_m);
-    const double bottom_mm = kMillimetres * mean_outside_m(world, stage.bottom_m);
+    const Deviations deviation = deviations_of(world, model);
+    const double top_mm = deviation.proxy_mm[0], bottom_mm = deviation.proxy_mm[1];
     const Distances nearest = distances_to_centreline(middle_m, world.spine_m);
     const std::vector<double> speeds = speeds_m_per_s(middle_m, kSimulatedRate_Hz);
     std::size_t failed = 0;
-    for (const StageEvent& e : stage.events) failed += e.kind == StageEventKind::attempt_failed ? 1 : 0;
-    return Json{{"deviation_mm", top_mm + bottom_mm},
-                {"time_s", trial_time_s(stage.end)},
+    for (const StageEvent& e : events) failed += e.kind == StageEventKind::attempt_failed ? 1 : 0;
+    Json record{{"deviation_mm", top_mm + bottom_mm},
+                {"time_s", trial_time_s(end)},
                 {"deviation_top_mm", top_mm},
                 {"deviation_bottom_mm", bottom_mm},
+                {"wall_deviation_mm", deviation.wall_mm[0] + deviation.wall_mm[1]},
+                {"wall_deviation_top_mm", deviation.wall_mm[0]},
+                {"wall_deviation_bottom_mm", deviation.wall_mm[1]},
+                {"deviations_differ", deviation.differ_mm() > kDeviationsAgree_mm ? 1 : 0},
                 {"from_axis_mean_mm", kMillimetres * nearest.mean_m},
                 {"from_axis_most_mm", kMillimetres * nearest.largest_m},
                 {"along_axis_mean_mm", kMillimetres * arc_length_matched(middle_m, world.spine_m).mean_m},
@@ -64,11 +112,27 @@ Json trial_record(const StudyWorld& world, const SimulatedStage& stage) {
                 {"ldlj", log_dimensionless_jerk(speeds, kSimulatedRate_Hz)},
                 {"effectiveness_index", effectiveness_index(top_mm, bottom_mm)},
                 {"failed_attempts", failed}};
+    add_contact(record, model);
+    return record;
+}
+
+Json forces_record(const FeltForces& forces) {
+    return Json{{"contact_s", static_cast<double>(forces.contact_ticks) / kSimulatedRate_Hz},
+                {"contacts", forces.contacts},
+                {"force_mean_N", forces.mean_N()},
+                {"force_largest_N", forces.largest_N},
+                {"torque_largest_Nm", forces.largest_torque_Nm},
+                {"limited_s", static_cast<double>(forces.limited_ticks) / kSimulatedRate_Hz},
+                {"without_force_ticks", forces.faults},
+                {"late_ticks", forces.late_ticks},
+                {"ticks", forces.ticks}};
 }
 
 std::string trials_csv(std::span<const TrialRow> rows, bool simulated) {
-    std::string text = "# made by burin study of the folder's journal and data; deviation by distance to the wall\n";
-    if (simulated) text += "# simulated learners: no person took part, no force acted on the hand\n";
+    std::string text =
+        "# made by burin study of the folder's journal and data; deviation is to the proxy of the haptic model, "
+        "wall_deviation by distance to the wall\n";
+    if (simulated) text += "# simulated learners: no person took part; the hand and the wand are simulated\n";
     text += "participant,group,trial";
     for (const char* column : kColumns) text += std::string(",") + column;
     text += ",day,stage,stratum\n";

@@ -8,12 +8,19 @@
 #include <vector>
 
 #include "base/json.hpp"
-#include "study/people/learner.hpp"
+#include "study/felt/stage_session.hpp"
 
 namespace burin::study {
 
-// Null for what is no valid trial. Deviation is by distance to the wall; there is no force in it.
-[[nodiscard]] Json trial_record(const StudyWorld& world, const SimulatedStage& stage);
+// Of a trial as it ended and of what the haptic model makes of its motion; null for what is no valid trial. Deviation
+// (W17) is given twice: to the proxy of the model, which is the headline, and by distance to the wall; where the two
+// differ by more than kDeviationsAgree_mm in a point's mean the trial is flagged. Contact and force are the model's.
+[[nodiscard]] Json trial_record(const StudyWorld& world, const StageState& end, std::span<const StageEvent> events,
+                                const ModelTouch& model);
+inline constexpr double kDeviationsAgree_mm = 1.0;
+
+// Of any other stage in which something was felt: contact and force as they were given to the hand.
+[[nodiscard]] Json forces_record(const FeltForces& forces);
 
 struct TrialRow {
     std::string participant, group, stratum, stage;

@@ -61,6 +61,7 @@ private:
         t.number("calibration_tolerance_m", p_.calibration_tolerance_m, 1e-5, 0.1, "m");
         t.number("resume_within_min", p_.resume_within_min, 0.0, 60.0 * 24.0, "min");
         t.number("guidance_N_per_m", p_.guidance_N_per_m, 0.0, 5000.0, "N/m");
+        t.number("lead_m_per_s", p_.lead_m_per_s, 1e-3, 1.0, "m/s");
         t.number("point_offset_m", p_.point_offset_m, 1e-4, 1.0, "m");
         t.refuse_unknown();
     }
@@ -104,6 +105,8 @@ private:
         t.number("cap_half_width_m", w.cap_half_width_m, 1e-3, 1.0, "m");
         t.number("cap_depth_m", w.cap_depth_m, 1e-3, 0.2, "m");
         t.number("funnel_half_width_m", w.funnel_half_width_m, 1e-3, 1.0, "m");
+        t.number("wall_N_per_m", w.wall_N_per_m, 1.0, 5000.0, "N/m");
+        t.number("wall_Ns_per_m", w.wall_Ns_per_m, 0.0, 100.0, "Ns/m");
         unique(t, worlds_, w.name, "world");
         check_world(t, w);
         t.refuse_unknown();

@@ -36,9 +36,10 @@ struct StudyWorld {
     std::string name;
     std::vector<Vec3> spine_m;  // at least two
     double tube_radius_m = 0.0;
-    double cap_half_width_m = 0.0;     // of the square caps at both ends
-    double cap_depth_m = 0.02;         // how deep they are sensed, away from the tube
-    double funnel_half_width_m = 0.0;  // of the narrow end of the funnels; 0: no funnels
+    double cap_half_width_m = 0.0;                     // of the square caps at both ends
+    double cap_depth_m = 0.02;                         // how deep they are sensed, away from the tube
+    double funnel_half_width_m = 0.0;                  // of the narrow end of the funnels; 0: no funnels
+    double wall_N_per_m = 600.0, wall_Ns_per_m = 0.5;  // of tube and funnels, where they are felt
 };
 
 enum class StageKind { page, show_model, free_training, led_training, trial };
@@ -82,6 +83,7 @@ struct Protocol {
     double calibration_tolerance_m = 0.002;
     double resume_within_min = 10.0;
     double guidance_N_per_m = 0.0;
+    double lead_m_per_s = 0.06;    // of the point along the path that a led hand follows
     std::vector<unsigned> blocks;  // sizes of the permuted blocks; each a multiple of the sum of ratios
     std::vector<Stratum> strata;
     std::vector<Group> groups;

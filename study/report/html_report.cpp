@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/plot/svg.hpp"
 #include "study/report/analysis_text.hpp"
 #include "study/report/published_text.hpp"
 #include "study/report/strip_plot.hpp"
+#include "study/report/study_figures.hpp"
 
 namespace burin::study {
 namespace {
@@ -102,6 +104,46 @@ std::string unit_section(const UnitAnalysis& analysis, const TrialTable& table) 
     return html + figures_table(rows);
 }
 
+std::string figures_of(const std::vector<std::string>& svgs) {
+    std::string html = "<div class=\"plots\">\n";
+    for (const std::string& svg : svgs) html += svg;
+    return html + "</div>\n";
+}
+
+std::string section_of(const ReportSection& section) {
+    std::string html = element("h2", section.heading);
+    for (const std::string& sentence : section.sentences) html += element("p", sentence);
+    return section.figures.empty() ? html : html + figures_of(section.figures);
+}
+
+// All comparisons of both units, participants first.
+std::string effects_section(const Analysis& analysis) {
+    std::vector<IntervalRow> ranks;
+    std::map<std::string, std::vector<IntervalRow>> shifts;  // by measure and unit, which are of one scale
+    for (const UnitAnalysis* unit : {&analysis.participants, &analysis.trials}) {
+        for (const Comparison& c : unit->comparisons) {
+            const std::string pair = analysis.table.groups.size() > 2 ? ", " + c.first + " - " + c.second : "";
+            ranks.push_back({c.measure + pair + ", by " + name_of(unit->unit), c.rank_biserial});
+            shifts[c.measure + (c.unit.empty() ? "" : " (" + c.unit + ")")].push_back(
+                {"by " + std::string(name_of(unit->unit)) + pair, c.hodges_lehmann});
+        }
+    }
+    if (ranks.empty()) return "";
+    std::vector<std::string> figures{interval_figure("Rank-biserial correlation", "r: first group less second", ranks)};
+    for (const auto& [measure, rows] : shifts)
+        figures.push_back(interval_figure("Shift of " + measure, "Hodges-Lehmann: first group less second", rows));
+    return element("h2", "Effect sizes") + figures_of(figures);
+}
+
+std::string learning_section(const Analysis& analysis) {
+    const bool several = std::ranges::any_of(analysis.table.trials, [](const Trial& t) { return t.number > 1; });
+    if (!several) return "";
+    return element("h2", "Learning curves") +
+           figures_of(
+               {learning_figure(analysis.trials, "deviation", analysis.table.deviation_unit, &GroupSummary::deviations),
+                learning_figure(analysis.trials, "time", analysis.table.time_unit, &GroupSummary::times)});
+}
+
 std::string agreement_section(const Analysis& analysis) {
     std::string rows;
     for (const Agreement& one : analysis.agreement) rows += estimate_row(one.measure, "ICC(1)", one.intraclass);
@@ -135,11 +177,12 @@ std::string html_report(const Analysis& analysis, const std::vector<PublishedCom
                                    static_cast<unsigned long long>(analysis.seed)));
     for (const std::string& fact : origin.facts) html += element("p", fact);
     for (const std::string& note : analysis.notes) html += element("p", note);
+    for (const ReportSection& section : origin.sections) html += section_of(section);
     html += unit_section(analysis.participants, analysis.table) + unit_section(analysis.trials, analysis.table);
     html += element("p",
                     "Signs are the first group's: r is P(first > second) - P(first < second), a shift is first less "
                     "second. Mann-Whitney's test is not one of means or medians.");
-    html += agreement_section(analysis);
+    html += effects_section(analysis) + learning_section(analysis) + agreement_section(analysis);
     for (const PublishedComparison& comparison : published)
         html += element("h2", "Published figures beside the data") + element("pre", published_text(comparison));
     return html + data_section(analysis.table) + "</body>\n</html>\n";

@@ -11,11 +11,19 @@
 
 namespace burin::study {
 
+// Figures of a study beside its tables, such as its flow of participants or a sample trial.
+struct ReportSection {
+    std::string heading;
+    std::vector<std::string> sentences;
+    std::vector<std::string> figures;  // SVG
+};
+
 // What the report says of itself.
 struct ReportOrigin {
-    std::string data;                     // the file that was analysed
-    std::string program;                  // with its version
-    std::vector<std::string> facts = {};  // whole sentences about the study, shown first
+    std::string data;                          // the file that was analysed
+    std::string program;                       // with its version
+    std::vector<std::string> facts = {};       // whole sentences about the study, shown first
+    std::vector<ReportSection> sections = {};  // shown before the analysis
 };
 
 [[nodiscard]] std::string html_report(const Analysis& analysis, const std::vector<PublishedComparison>& published,

@@ -201,6 +201,26 @@ private:
 
 }  // namespace
 
+const char* name_of(OperatorAct act) {
+    switch (act) {
+        case OperatorAct::none: return "none";
+        case OperatorAct::pause: return "pause";
+        case OperatorAct::go_on: return "go on";
+        case OperatorAct::stop: return "stop";
+        case OperatorAct::next: return "next";
+        case OperatorAct::repeat: return "repeat";
+    }
+    return "unknown";
+}
+
+std::optional<OperatorAct> operator_act(std::string_view name) {
+    for (const OperatorAct act :
+         {OperatorAct::pause, OperatorAct::go_on, OperatorAct::stop, OperatorAct::next, OperatorAct::repeat}) {
+        if (name == name_of(act)) return act;
+    }
+    return std::nullopt;
+}
+
 const char* name_of(Failure failure) {
     switch (failure) {
         case Failure::none: return "none";

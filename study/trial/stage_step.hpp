@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "base/space.hpp"
 #include "study/protocol/protocol.hpp"
@@ -57,6 +58,8 @@ struct StageSetup {
 [[nodiscard]] StageSetup setup_of(const Protocol& protocol, const Stage& stage);
 
 enum class OperatorAct { none, pause, go_on, stop, next, repeat };
+[[nodiscard]] const char* name_of(OperatorAct act);
+[[nodiscard]] std::optional<OperatorAct> operator_act(std::string_view name);  // none is no act that has a name
 
 struct StageTick {
     double time_s = 0.0;  // of any clock that only goes forward

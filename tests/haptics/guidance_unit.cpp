@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -30,9 +31,12 @@ GuidanceSettings settings() {
     return s;
 }
 
+// The point stays until the next call.
 GuidanceInput at(const Vec3& hip, const Vec3& velocity = Vec3(0.0)) {
+    static std::array<GuidedPoint, 1> point;
+    point[0].hip_object_m = hip;
     GuidanceInput in;
-    in.hip_object_m = hip;
+    in.points = point;
     in.velocity_device_m_per_s = velocity;
     in.dt_s = kDt;
     return in;
@@ -157,6 +161,73 @@ TEST(Guidance, LeadsAlongAtItsSpeedWaitsForTheHandAndStaysAtTheEnd) {
     for (int i = 0; i < 6000; ++i) step = guide(step.next, at({step.next.along_m, 0, 0}), straight(), s);
     EXPECT_NEAR(step.next.along_m, 0.1, 1e-6);
     EXPECT_LT(glm::length(step.force_device_N), 1e-6);
+}
+
+// A wand whose two points lie 0.03 m off its middle along its y axis.
+struct Wand {
+    explicit Wand(const Vec3& middle, const Quat& orientation = {1, 0, 0, 0}) {
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const Vec3 offset(0.0, i == 0 ? 0.03 : -0.03, 0.0);
+            points[i] = {middle + orientation * offset, offset, orientation * offset};
+        }
+        in.points = points;
+        in.dt_s = kDt;
+    }
+    Wand(const Wand&) = delete;
+    Wand& operator=(const Wand&) = delete;
+    std::array<GuidedPoint, 2> points;
+    GuidanceInput in;
+};
+
+TEST(Guidance, DrawsTheMiddleOfAWandAndTurnsItOnlyWhereAnOrientationIsSet) {
+    const Quat leaning = glm::angleAxis(0.1, Vec3(0, 0, 1));
+    const Wand wand({0.03, 0.003, -0.004}, leaning);
+    GuidanceSettings s = settings();
+    const GuidanceStep free = guide({}, wand.in, straight(), s);
+    EXPECT_LT(glm::length(free.force_device_N - 200.0 * Vec3(0.0, -0.003, 0.004)), 1e-6);
+    EXPECT_EQ(free.torque_device_Nm, Vec3(0.0));
+    s.holds_orientation = true;
+    const GuidanceStep held = guide({}, wand.in, straight(), s);
+    EXPECT_LT(glm::length(held.force_device_N - free.force_device_N), 1e-6);  // opposite pulls at the ends cancel
+    // Each end is drawn by 100 N/m to its place: about z, 2 * 100 * 0.03^2 sin(0.1), back to upright.
+    EXPECT_NEAR(held.torque_device_Nm.z, -2.0 * 100.0 * 0.03 * 0.03 * std::sin(0.1), 1e-8);
+    EXPECT_NEAR(held.torque_device_Nm.x, 0.0, 1e-9);
+    EXPECT_NEAR(held.torque_device_Nm.y, 0.0, 1e-9);
+}
+
+TEST(Guidance, LeadsAWandInTheOrientationThatIsSetWithoutTorqueOnceItIsThere) {
+    const Quat leaning = glm::angleAxis(0.4, glm::normalize(Vec3(1, 0, 2)));
+    const Wand wand({0.05, 0.0, 0.0}, leaning);
+    GuidanceSettings s = settings();
+    s.holds_orientation = true;
+    s.orientation_object = leaning;
+    const GuidanceStep step = guide({}, wand.in, straight(), s);
+    EXPECT_LT(glm::length(step.force_device_N), 1e-6);
+    EXPECT_LT(glm::length(step.torque_device_Nm), 1e-9);
+}
+
+TEST(Guidance, BothPointsTogetherGiveAtMostTheLargestForceAndAreDampedInTurning) {
+    Wand wand({0.05, 0.012, 0.0});
+    GuidanceSettings s = settings();
+    s.holds_orientation = true;
+    EXPECT_NEAR(glm::length(guide({}, wand.in, straight(), s).force_device_N), 1.5, 1e-9);
+    s.damping_Ns_per_m = 2.0;
+    Wand turning({0.05, 0.0, 0.0});
+    turning.in.angular_velocity_device_rad_per_s = {0.5, 0.0, 0.0};  // its ends move along z, across the curve
+    const GuidanceStep step = guide({}, turning.in, straight(), s);
+    EXPECT_NEAR(step.torque_device_Nm.x, -2.0 * 1.0 * 0.03 * 0.03 * 0.5, 1e-9);
+    EXPECT_LT(glm::length(step.force_device_N), 1e-9);
+}
+
+TEST(Guidance, PushesOffTheCurveWhereErrorsAreAugmented) {
+    GuidanceSettings s = settings();
+    s.repels = true;
+    s.lead_speed_m_per_s = 0.1;
+    GuidanceStep step = guide({}, at({0.03, 0.003, -0.004}), straight(), s);
+    EXPECT_LT(glm::length(step.force_device_N - 200.0 * Vec3(0.0, 0.003, -0.004)), 1e-6);
+    for (int i = 0; i < 100; ++i) step = guide(step.next, at({0.03, 0.003, -0.004}), straight(), s);
+    EXPECT_NEAR(step.next.along_m, 0.03, 1e-8);  // leads nowhere
+    EXPECT_LE(glm::length(guide({}, at({0.03, 0.012, 0.0}), straight(), s).force_device_N), 1.5 + 1e-12);
 }
 
 TEST(Guidance, NothingIsDrawnWithoutACurveOrStiffnessOrWithinNoReach) {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "study/people/recorded_trial.hpp"
+#include "study/trial/stage_step.hpp"
 
 namespace burin::study {
 namespace {
@@ -21,20 +21,31 @@ Protocol thesis() {
     return parse_protocol(text).protocol;
 }
 
-// The mean distance of a trial from the tube's axis, of people of one group.
+// The mean distance from the tube's axis at which people of one group mean to be in a trial; no device, no force.
 std::vector<double> wanders(const Protocol& protocol, bool first, double effect, std::size_t people) {
     LearnerPopulation population;
     population.effect = effect;
     const StudyWorld& world = protocol.worlds.at(0);
+    const Stage& stage = *protocol.stage("test");
+    const StageSetup setup = setup_of(protocol, stage);
     std::vector<double> values;
     for (std::size_t i = 0; i < people; ++i) {
         Random random(17, 2 * i + (first ? 1 : 0));
         const Learner learner = draw_learner(population, first, random);
-        const SimulatedStage stage = simulate_stage(protocol, *protocol.stage("test"), learner, population, random);
-        double sum_m = 0.0;
-        for (std::size_t k = 0; k < stage.top_m.size(); k += 10)
-            sum_m += nearest_on(world.spine_m, 0.5 * (stage.top_m[k] + stage.bottom_m[k])).distance_m;
-        if (!stage.top_m.empty()) values.push_back(sum_m / static_cast<double>(stage.top_m.size()));
+        LearnerHand hand(protocol, stage, world, learner, population, false, random);
+        StageState state;
+        double sum_m = 0.0, count = 0.0;
+        for (double t = 0.0; state.phase != StagePhase::done && t < 600.0; t += 0.005) {
+            const Vec3 middle = hand.next(state, t).middle_m, up(0.0, protocol.point_offset_m, 0.0);
+            state = step(setup, state, {t, {middle + up, middle - up}, OperatorAct::none, false}).state;
+            if (state.phase != StagePhase::running) {
+                if (state.phase != StagePhase::done) sum_m = count = 0.0;
+                continue;
+            }
+            sum_m += nearest_on(world.spine_m, middle).distance_m;
+            count += 1.0;
+        }
+        if (state.result == StageResult::valid_exit) values.push_back(sum_m / count);
     }
     return values;
 }
@@ -70,40 +81,11 @@ TEST(StudyLearners, WanderLessAfterTraining) {
     EXPECT_DOUBLE_EQ(learner.trained_min, 5.0);
 }
 
-TEST(StudyLearners, EndEveryStageOfTheProtocol) {
-    const Protocol protocol = thesis();
-    Random random(3);
-    const Learner learner = draw_learner({}, true, random);
-    for (const Stage& stage : protocol.stages) {
-        const SimulatedStage went = simulate_stage(protocol, stage, learner, {}, random);
-        EXPECT_EQ(went.end.phase, StagePhase::done) << stage.name;
-        EXPECT_NE(went.end.result, StageResult::stopped) << stage.name;
-        if (stage.ends_after_s) {
-            EXPECT_NEAR(static_cast<double>(went.ticks), *stage.ends_after_s * kSimulatedRate_Hz, 2.0);
-        }
-    }
-}
-
 TEST(StudyLearners, DeviationIsTheDistanceToTheWall) {
     const StudyWorld world{"w", {{0, 0, 0}, {1, 0, 0}}, 0.045, 0.06, 0.02, 0.0};
     EXPECT_EQ(within_tube(world, {0.5, 0.03, 0.0}), Vec3(0.5, 0.03, 0.0));
     const Vec3 wall = within_tube(world, {0.5, 0.06, 0.08});
     EXPECT_NEAR(glm::distance(wall, Vec3(0.5, 0.06, 0.08)), 0.1 - 0.045, 1e-12);
-    // A trial 25 mm above the axis: the top point is 10 mm out, the bottom one within.
-    SimulatedStage stage;
-    stage.end.result = StageResult::valid_exit;
-    stage.end.clock_stopped_s = 2.0;
-    for (int i = 0; i <= 2000; ++i) {
-        const Vec3 middle{i / 2000.0, 0.025, 0.0};
-        stage.top_m.push_back(middle + Vec3(0, 0.03, 0));
-        stage.bottom_m.push_back(middle - Vec3(0, 0.03, 0));
-    }
-    const Json record = trial_record(world, stage);
-    EXPECT_NEAR(record.at("deviation_top_mm").get<double>(), 10.0, 1e-9);
-    EXPECT_NEAR(record.at("deviation_bottom_mm").get<double>(), 0.0, 1e-12);
-    EXPECT_NEAR(record.at("deviation_mm").get<double>(), 10.0, 1e-9);
-    EXPECT_NEAR(record.at("from_axis_mean_mm").get<double>(), 25.0, 1e-9);
-    EXPECT_EQ(record.at("time_s").get<double>(), 2.0);
 }
 
 }  // namespace

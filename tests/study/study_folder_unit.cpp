@@ -107,7 +107,7 @@ TEST(StudyCommands, GoFromAProtocolToAReport) {
     ASSERT_EQ(make_study(place).status, 0);
     const auto ran = place.run(kBurinStudy + "run s --simulated");
     ASSERT_EQ(ran.status, 0) << ran.output;
-    EXPECT_TRUE(ran.output.contains("no force")) << ran.output;
+    EXPECT_TRUE(ran.output.contains("hand and wand are simulated")) << ran.output;
     EXPECT_EQ(place.run(kBurinStudy + "check s").status, 0);
     const auto analysed = place.run(kBurinStudy + "analyse s");
     EXPECT_EQ(analysed.status, 0) << analysed.output;
@@ -125,7 +125,7 @@ TEST(StudyCommands, GiveTheSameTrialsAfterAnInterruption) {
     const Workplace place;
     ASSERT_EQ(make_study(place).status, 0);
     std::filesystem::copy(place / "s", place / "t", std::filesystem::copy_options::recursive);
-    ASSERT_EQ(place.run(kBurinStudy + "run s --simulated").status, 0);
+    ASSERT_EQ(place.run(kBurinStudy + "run s --simulated --threads 1").status, 0);
     // A journal that ends in the middle of the second person's first trial.
     const std::string whole = place.read("s/journal.jsonl");
     const std::size_t second = whole.find("\"stage begun\",\"participant\":\"sim002\",\"day\":1,\"place\":6");
@@ -137,6 +137,37 @@ TEST(StudyCommands, GiveTheSameTrialsAfterAnInterruption) {
     ASSERT_EQ(place.run(kBurinStudy + "run t --simulated").status, 0);
     EXPECT_EQ(place.read("s/trials.csv"), place.read("t/trials.csv"));
     EXPECT_TRUE(place.run(kBurinStudy + "status t").output.contains("1 stages were aborted"));
+}
+
+TEST(StudyCommands, ReplayWhatWasRecordedToTheBit) {
+    const Workplace place;
+    ASSERT_EQ(make_study(place, "--participants 2 --seed 3").status, 0);
+    EXPECT_EQ(place.run(kBurinStudy + "replay s").status, 1);  // nothing yet
+    ASSERT_EQ(place.run(kBurinStudy + "run s --simulated").status, 0);
+    const auto replayed = place.run(kBurinStudy + "replay s");
+    EXPECT_EQ(replayed.status, 0) << replayed.output;
+    // Two people, each: show_model, interactive and led training, two tests.
+    EXPECT_TRUE(replayed.output.contains("10 recordings")) << replayed.output;
+    EXPECT_TRUE(replayed.output.contains("All equal what was stored")) << replayed.output;
+    const auto one = place.run(kBurinStudy + "replay s --participant sim002");
+    EXPECT_TRUE(one.output.contains("5 recordings")) << one.output;
+}
+
+TEST(StudyCommands, GiveTheSameFiguresOnOneAndOnTwoThreads) {
+    const Workplace place;
+    ASSERT_EQ(make_study(place, "--participants 4 --seed 11").status, 0);
+    std::filesystem::copy(place / "s", place / "t", std::filesystem::copy_options::recursive);
+    ASSERT_EQ(place.run(kBurinStudy + "run s --simulated --threads 1").status, 0);
+    ASSERT_EQ(place.run(kBurinStudy + "run t --simulated --threads 2 --without-motion").status, 0);
+    EXPECT_EQ(place.read("s/trials.csv"), place.read("t/trials.csv"));
+    for (const char* id : {"sim001", "sim002", "sim003", "sim004"}) {
+        for (const char* stage : {"03", "04", "05", "06", "07"}) {
+            const std::string file = std::string("/data/") + id + "/day1-" + stage + "-run1.json";
+            EXPECT_FALSE(place.read("s" + file).empty()) << file;
+            EXPECT_EQ(place.read("s" + file), place.read("t" + file)) << file;
+        }
+    }
+    EXPECT_FALSE(std::filesystem::exists(place / "t/data/sim001/day1-06-run1.session"));
 }
 
 TEST(StudyCommands, RefuseToMixEffectsInOneStudy) {
@@ -212,14 +243,20 @@ TEST(StudyCommands, NameDataThatWereChanged) {
     const Workplace place;
     ASSERT_EQ(make_study(place).status, 0);
     ASSERT_EQ(place.run(kBurinStudy + "run s --simulated").status, 0);
-    std::string file;
-    for (const auto& entry : std::filesystem::directory_iterator(place / "s/data/sim001"))
-        file = "s/data/sim001/" + entry.path().filename().string();
-    place.write(file, place.read(file) + " ");
+    const std::string trial = "s/data/sim001/day1-06-run1.json", motion = "s/data/sim001/day1-07-run1.session";
+    place.write(trial, place.read(trial) + " ");
     const auto outcome = place.run(kBurinStudy + "check s");
     EXPECT_EQ(outcome.status, 1);
     EXPECT_TRUE(outcome.output.contains("is not what the journal says")) << outcome.output;
     EXPECT_TRUE(place.run(kBurinStudy + "analyse s").output.contains("7 trials"));
+    std::string bytes = place.read(motion);
+    ASSERT_GT(bytes.size(), 10'000u);
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+    place.write(motion, bytes);
+    EXPECT_TRUE(place.run(kBurinStudy + "check s").output.contains(motion)) << motion;
+    const auto replayed = place.run(kBurinStudy + "replay s");
+    EXPECT_EQ(replayed.status, 1);
+    EXPECT_TRUE(replayed.output.contains(motion)) << replayed.output;
 }
 
 }  // namespace

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// A stage that a simulated learner goes through with a simulated wand in simulated time: each tick moves the wand by a
+// period, reads it, runs the haptic tick on the study's world, writes the force back and asks the learner where its
+// hand goes next.
+//
+// Pages have no world and no wand: only their time passes. Every run of the same inputs gives the same bits, on any
+// number of threads. Pure but for `random` and `on_tick`.
+#pragma once
+
+#include <functional>
+
+#include "base/json.hpp"
+#include "study/felt/stage_session.hpp"
+#include "study/people/learner.hpp"
+
+namespace burin::activities {
+
+// All must outlive the call; the world is null for a page.
+struct StageInputs {
+    const study::Protocol& protocol;
+    const study::Stage& stage;
+    const study::Group& group;
+    const study::FeltWorld* world = nullptr;
+    const study::Learner& learner;
+    const study::LearnerPopulation& population;
+};
+
+struct SimulatedStage {
+    study::StageState end;
+    std::vector<study::StageEvent> events;
+    Json record;  // of a trial, its metrics; of another stage with a world, the forces; null: nothing
+    std::uint64_t ticks = 0;
+    double duration_s = 0.0;
+};
+
+// Called after each tick with a world, in order; `act` is what the operator did in it.
+using OnStageTick = std::function<void(const haptics::TickRecord&, study::OperatorAct act)>;
+
+[[nodiscard]] SimulatedStage simulate_stage(const StageInputs& in, study::Random& random, const OnStageTick& on_tick);
+
+}  // namespace burin::activities

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include "activities/train/simulated_study.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "activities/train/simulated_stage.hpp"
+#include "base/text.hpp"
+#include "study/assign/allocation.hpp"
+#include "study/folder/interruption.hpp"
+#include "study/folder/stage_recording.hpp"
+
+namespace burin::activities {
+namespace {
+
+// Streams of random numbers: 0 to kMostStrata are the allocation's.
+constexpr std::uint64_t kCodesStream = 1'000'000, kPeopleStream = 2'000'000, kDelaysStream = 3'000'000,
+                        kStagesStream = 10'000'000;
+constexpr std::uint64_t kStagesOfPerson = 10'000;
+// Simulated time runs far ahead of the clock on the wall: a block of ticks and a transaction of so much of it.
+constexpr Nanoseconds kBlock_ns = 8 * kNanosecondsPerSecond;
+constexpr double kSecondsAnHour = 3600.0;
+
+// Fills the places that nobody has, with codes drawn at random from strata that have room.
+Result<void> enrol_learners(study::StudyFolder& study) {
+    const auto strata = study::combinations(study.protocol().strata);
+    const std::size_t wanted = study.facts().participants;
+    for (std::size_t n = study.participants().size(); n < wanted; ++n) {
+        study::Random random(study.facts().seed, kCodesStream + n);
+        const std::size_t drawn = random.below(strata.size());
+        const std::string id = formatted("sim%03zu", n + 1);
+        if (const auto made = study.enrol(id, strata[drawn], true); !made) return std::unexpected(made.error());
+    }
+    return {};
+}
+
+using Worlds = std::map<std::string, std::unique_ptr<const study::FeltWorld>>;
+
+Result<Worlds> worlds_of(const study::Protocol& protocol) {
+    Worlds worlds;
+    for (const study::StudyWorld& world : protocol.worlds) {
+        auto felt = study::FeltWorld::create(world);
+        if (!felt) return std::unexpected(felt.error());
+        worlds[world.name] = std::move(*felt);
+    }
+    return worlds;
+}
+
+// What the threads share: the folder, one at a time, and how far all have come.
+class SharedStudy {
+public:
+    SharedStudy(study::StudyFolder& study, const Worlds& worlds, const SimulationOptions& options)
+        : study_(study), worlds_(worlds), options_(options), people_(study.participants()) {
+        population_.effect = options.effect;
+    }
+
+    // Until nobody is left, or something has failed.
+    void work() {
+        while (!has_failed()) {
+            const std::size_t i = next_.fetch_add(1);
+            if (i >= people_.size()) return;
+            if (!people_[i].simulated || people_[i].withdrawn) continue;
+            const auto went = take_through(people_[i], i);
+            const std::lock_guard lock(mutex_);
+            if (!went) {
+                if (!failure_) failure_ = went.error();
+                return;
+            }
+            all_.stages += went->stages;
+            all_.ticks += went->ticks;
+            all_.simulated_s += went->simulated_s;
+            if (went->stages > 0 && options_.tell)
+                options_.tell(
+                    formatted("%s (%s): %zu stages", people_[i].id.c_str(), people_[i].group.c_str(), went->stages));
+        }
+    }
+    [[nodiscard]] Result<SimulationFigures> result() const {
+        if (failure_) return std::unexpected(*failure_);
+        return all_;
+    }
+
+private:
+    [[nodiscard]] bool has_failed() {
+        const std::lock_guard lock(mutex_);
+        return failure_.has_value();
+    }
+
+    Result<SimulationFigures> take_through(const study::Participant& person, std::size_t index) {
+        const study::Protocol& protocol = study_.protocol();
+        study::Random of_person(study_.facts().seed, kPeopleStream + index);
+        study::Random of_delays(study_.facts().seed, kDelaysStream + index);
+        study::Learner learner =
+            study::draw_learner(population_, person.group == protocol.groups.front().code, of_person);
+        SimulationFigures went;
+        std::size_t number = 0, day = 1;
+        double clock_s = 0.0;
+        for (const study::StagePlace& at : study::places_of(protocol)) {
+            if (at.day != day) {
+                day = at.day;
+                const study::Day& next = protocol.days[day - 1];
+                const double share = of_delays.uniform();
+                const double delay_h = next.least_delay_h + share * (next.most_delay_h - next.least_delay_h);
+                if (study::day_verdict(protocol, day, delay_h) != study::DayVerdict::in_time)
+                    return fail(person.id,
+                                formatted("comes %g h after the day before, out of the protocol's bounds", delay_h));
+                clock_s += kSecondsAnHour * delay_h;
+            }
+            const std::uint64_t stream = kStagesStream + index * kStagesOfPerson + number++;
+            if (!person.has_ended(at.day, at.place)) {
+                study::Random random(study_.facts().seed, stream);
+                const auto stage = go_through(person, at, learner, random, clock_s);
+                if (!stage) return std::unexpected(stage.error());
+                ++went.stages;
+                went.ticks += stage->ticks;
+                went.simulated_s += stage->duration_s;
+                clock_s += stage->duration_s;
+            } else {
+                clock_s = std::max(clock_s, ended_at_s(person, at));
+            }
+            learner = study::after_stage(learner, *at.stage);
+        }
+        return went;
+    }
+
+    // The person's clock after a stage that an earlier run ended.
+    static double ended_at_s(const study::Participant& person, const study::StagePlace& at) {
+        for (const study::StageVisit& v : person.visits) {
+            if (v.day == at.day && v.place == at.place && v.ended_clock_s) return *v.ended_clock_s;
+        }
+        return 0.0;
+    }
+
+    Result<SimulatedStage> go_through(const study::Participant& person, const study::StagePlace& at,
+                                      const study::Learner& learner, study::Random& random, double clock_s) {
+        const study::Protocol& protocol = study_.protocol();
+        const auto world = worlds_.find(at.stage->world);
+        const auto group = std::ranges::find(protocol.groups, person.group, &study::Group::code);
+        const StageInputs in{protocol, *at.stage,  *group, world != worlds_.end() ? world->second.get() : nullptr,
+                             learner,  population_};
+        const bool has_motion = in.world != nullptr && at.stage->records && options_.records;
+        const auto files = [&] {
+            const std::lock_guard lock(mutex_);
+            return study_.begin_stage(person.id, at, has_motion, clock_s);
+        }();
+        if (!files) return std::unexpected(files.error());
+        std::unique_ptr<study::StageRecording> recording;
+        if (has_motion) {
+            const study::StageTouch touch(protocol, *at.stage, *group, *in.world);
+            auto facts = study::facts_of_stage(study_.facts().protocol_digest, *group, *at.stage, *in.world, touch);
+            facts.emplace_back("participant", person.id);
+            auto made =
+                study::StageRecording::create(study_.path() / files->recording, touch, std::move(facts), kBlock_ns);
+            if (!made) return std::unexpected(made.error());
+            recording = std::move(*made);
+        }
+        SimulatedStage stage =
+            simulate_stage(in, random, [&](const haptics::TickRecord& record, study::OperatorAct act) {
+                if (recording) recording->take(record, act);
+            });
+        if (recording) {
+            if (const auto closed = recording->close(); !closed) return std::unexpected(closed.error());
+        }
+        const std::lock_guard lock(mutex_);
+        const auto ended = study_.end_stage(person.id, at, study::name_of(stage.end.result), stage.record, *files,
+                                            clock_s + stage.duration_s);
+        if (!ended) return std::unexpected(ended.error());
+        return stage;
+    }
+
+    study::StudyFolder& study_;
+    const Worlds& worlds_;
+    const SimulationOptions& options_;
+    std::vector<study::Participant> people_;
+    study::LearnerPopulation population_;
+    std::atomic<std::size_t> next_{0};
+    std::mutex mutex_;  // guards study_ and what follows
+    SimulationFigures all_;
+    std::optional<Error> failure_;
+};
+
+}  // namespace
+
+Result<SimulationFigures> run_simulated(study::StudyFolder& study, const SimulationOptions& options) {
+    if (const auto ok = study.begin_simulation(options.effect); !ok) return std::unexpected(ok.error());
+    if (const auto ok = enrol_learners(study); !ok) return std::unexpected(ok.error());
+    const auto worlds = worlds_of(study.protocol());
+    if (!worlds) return std::unexpected(worlds.error());
+    SharedStudy shared(study, *worlds, options);
+    const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+    const unsigned wanted = options.threads > 0 ? options.threads : cores;
+    const auto threads = static_cast<unsigned>(
+        std::clamp<std::size_t>(wanted, 1, std::max<std::size_t>(study.participants().size(), 1)));
+    {
+        std::vector<std::jthread> others;
+        for (unsigned i = 1; i < threads; ++i) others.emplace_back([&] { shared.work(); });
+        shared.work();
+    }
+    return shared.result();
+}
+
+}  // namespace burin::activities

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "app/study_sections.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "base/text.hpp"
+#include "study/people/recorded_trial.hpp"
+#include "study/replay/stage_replay.hpp"
+#include "study/report/study_figures.hpp"
+#include "study/report/trial_figures.hpp"
+
+namespace burin::app {
+namespace {
+
+using study::Participant;
+using study::StageStatus;
+using study::StageVisit;
+
+constexpr std::size_t kMostSentences = 40;
+
+bool is_outcome_trial(const study::Protocol& protocol, const StageVisit& visit) {
+    const study::Stage* stage = protocol.stage(visit.stage);
+    return stage != nullptr && stage->outcome && visit.status == StageStatus::ended;
+}
+
+study::ReportSection flow_of(const study::StudyFolder& study) {
+    const std::size_t stages = study::places_of(study.protocol()).size();
+    std::vector<study::FlowOfGroup> groups;
+    for (const study::Group& group : study.protocol().groups) {
+        study::FlowOfGroup flow{.group = group.code};
+        for (const Participant& p : study.participants()) {
+            if (p.group != group.code) continue;
+            ++flow.allocated;
+            std::size_t ended = 0, valid = 0;
+            for (const StageVisit& v : p.visits) {
+                ended += v.status == StageStatus::ended ? 1 : 0;
+                valid += is_outcome_trial(study.protocol(), v) && !v.file.empty() ? 1 : 0;
+            }
+            flow.withdrew += p.withdrawn ? 1 : 0;
+            flow.unfinished += !p.withdrawn && ended < stages ? 1 : 0;
+            flow.without_valid_trial += !p.withdrawn && ended >= stages && valid == 0 ? 1 : 0;
+            flow.analysed += !p.withdrawn && valid > 0 ? 1 : 0;
+        }
+        groups.push_back(std::move(flow));
+    }
+    return {"Flow of participants", {}, {study::flow_figure(groups)}};
+}
+
+// Of one stage as it was gone through; empty: as the protocol has it.
+std::string deviation_of(const study::StudyFolder& study, const Participant& p, const StageVisit& v) {
+    const std::string which = formatted("%s, %s (day %zu, stage %zu): ", p.id.c_str(), v.stage.c_str(), v.day, v.place);
+    if (v.status == StageStatus::aborted) return which + "interrupted; what was recorded until then is kept.";
+    if (!is_outcome_trial(study.protocol(), v)) return {};
+    if (v.file.empty()) return which + "no valid exit after all attempts.";
+    const auto record = study.recorded(v);
+    if (!record) return which + "its file is missing or damaged, and is left out.";
+    const auto differ = record->find("deviations_differ");
+    if (differ == record->end() || !differ->is_number() || differ->get<double>() == 0.0) return {};
+    return which + formatted(
+                       "deviation to the proxy and to the wall differ by more than %g mm: the hand left the tube "
+                       "where the proxy could not follow.",
+                       study::kDeviationsAgree_mm);
+}
+
+study::ReportSection deviations_of(const study::StudyFolder& study) {
+    study::ReportSection section{"Deviations from the protocol", {}, {}};
+    std::size_t more = 0;
+    for (const Participant& p : study.participants()) {
+        for (const StageVisit& v : p.visits) {
+            std::string sentence = p.withdrawn ? std::string() : deviation_of(study, p, v);
+            if (sentence.empty()) continue;
+            if (section.sentences.size() < kMostSentences) {
+                section.sentences.push_back(std::move(sentence));
+            } else {
+                ++more;
+            }
+        }
+    }
+    if (more > 0) section.sentences.push_back(formatted("%zu more are not listed.", more));
+    if (section.sentences.empty()) section.sentences.emplace_back("None.");
+    return section;
+}
+
+struct SampleTrial {
+    std::string person;
+    StageVisit visit;
+    double deviation_mm = 0.0;
+};
+
+// The trial of the group whose deviation is the middle one, of those whose motion is there.
+std::optional<SampleTrial> sample_of(const study::StudyFolder& study, const std::string& group) {
+    std::vector<SampleTrial> trials;
+    for (const Participant& p : study.participants()) {
+        if (p.group != group || p.withdrawn) continue;
+        for (const StageVisit& v : p.visits) {
+            if (!is_outcome_trial(study.protocol(), v) || v.file.empty() || v.recording.empty()) continue;
+            const auto record = study.recorded(v);
+            if (record) trials.push_back({p.id, v, record->value("deviation_mm", 0.0)});
+        }
+    }
+    if (trials.empty()) return std::nullopt;
+    std::ranges::stable_sort(trials, {}, &SampleTrial::deviation_mm);
+    return trials[(trials.size() - 1) / 2];
+}
+
+study::ReportSection trial_section(const study::StudyFolder& study, const std::string& group) {
+    study::ReportSection section{"A trial of group " + group, {}, {}};
+    const auto sample = sample_of(study, group);
+    if (!sample) {
+        section.sentences.emplace_back("No motion of a valid trial was recorded.");
+        return section;
+    }
+    const study::StudyWorld* world = study.protocol().world(study.protocol().stage(sample->visit.stage)->world);
+    const auto felt = study::FeltWorld::create(*world);
+    const std::filesystem::path file = study.path() / sample->visit.recording;
+    auto replay = felt ? study::replay_stage(file, study.protocol(), study.facts().protocol_digest, **felt)
+                       : Result<study::StageReplay>(std::unexpected(felt.error()));
+    if (!replay) {
+        section.sentences.push_back(replay.error().line());
+        return section;
+    }
+    section.sentences.push_back(formatted(
+        "%s, %s on day %zu: the group's trial with the middle deviation, %.3g mm. Its motion was replayed through the "
+        "haptic model with the tube's wall at %g N/m; deviations are point less collision point, forces those that the "
+        "wall would have given each point. No force of the tube acted in the trial itself.",
+        sample->person.c_str(), sample->visit.stage.c_str(), sample->visit.day, sample->deviation_mm,
+        world->wall_N_per_m));
+    if (replay->difference)
+        section.sentences.push_back("The replay does not give what was stored: " + replay->difference->line());
+    section.figures =
+        study::trial_figures({group + ": " + sample->person, std::move(replay->model), &(*felt)->world()});
+    return section;
+}
+
+}  // namespace
+
+std::vector<study::ReportSection> report_sections(const study::StudyFolder& study) {
+    std::vector<study::ReportSection> sections{flow_of(study), deviations_of(study)};
+    for (const study::Group& group : study.protocol().groups) sections.push_back(trial_section(study, group.code));
+    return sections;
+}
+
+}  // namespace burin::app

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// A stage with a wand in hand: each sample goes through the tick and then through the stage's step, and what the
+// attempt that counts was made of is kept. Live, simulated and replayed stages are this one class, so that a recorded
+// motion gives the same ticks and the same events to the bit.
+//
+// Data flow: sample, time, operator -> StageTouch (forces, proxies) -> step() (caps, clock, failures). Where the start
+// cap is touched both proxies are set on the axis there before the next tick (W17).
+// Frame: the world's. One thread; allocates as the attempt grows.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "study/felt/stage_touch.hpp"
+#include "study/trial/stage_step.hpp"
+
+namespace burin::study {
+
+// A tick of the attempt that counts, from the start cap to the end cap.
+struct AttemptTick {
+    Nanoseconds sample_ns = 0, now_ns = 0;
+    Vec3 position_device_m{0.0};
+    Quat orientation_device{1.0, 0.0, 0.0, 0.0};
+    std::array<Vec3, 2> points_m{};  // top, bottom
+};
+
+// What the hand was given over a stage.
+struct FeltForces {
+    std::uint64_t ticks = 0, contact_ticks = 0, contacts = 0, limited_ticks = 0, faults = 0, late_ticks = 0;
+    double sum_N = 0.0, largest_N = 0.0;  // of the commanded force; the sum over the ticks in contact
+    double largest_torque_Nm = 0.0;
+    bool was_in_contact = false;
+
+    void add(const haptics::TickRecord& record);
+    [[nodiscard]] double mean_N() const;  // over the ticks in contact; 0 without any
+};
+
+class StageSession {
+public:
+    // All must outlive it.
+    StageSession(const Protocol& protocol, const Stage& stage, const Group& group, const FeltWorld& world);
+
+    // Returns the tick's record, which stays until the next.
+    const haptics::TickRecord& take(const devices::DeviceSample& sample, Nanoseconds now_ns,
+                                    OperatorAct act = OperatorAct::none);
+
+    [[nodiscard]] const StageState& state() const { return state_; }
+    [[nodiscard]] bool done() const { return state_.phase == StagePhase::done; }
+    [[nodiscard]] const std::vector<StageEvent>& events() const { return events_; }
+    // Of a trial that ended with a valid exit; else empty once the stage is done.
+    [[nodiscard]] std::span<const AttemptTick> attempt() const { return attempt_; }
+    [[nodiscard]] const FeltForces& forces() const { return forces_; }
+    [[nodiscard]] const StageTouch& touch() const { return touch_; }
+    [[nodiscard]] std::uint64_t ticks() const { return forces_.ticks; }
+    // Since the stage's first tick.
+    [[nodiscard]] double time_s() const { return time_s_; }
+
+private:
+    StageTouch touch_;
+    StageSetup setup_;
+    StageState state_;
+    std::vector<StageEvent> events_;
+    std::vector<AttemptTick> attempt_;
+    FeltForces forces_;
+    Nanoseconds begun_ns_ = 0;
+    double time_s_ = 0.0;
+    bool was_running_ = false;
+};
+
+// What the haptic model makes of an attempt's motion (W18): a tick for each, with the tube and the funnels pressing on
+// the wand, and both proxies on the axis at the start cap before the first. Forces are each point's own, before the
+// force limit; the frame of all is the world's.
+struct ModelTouch {
+    std::array<std::vector<Vec3>, 2> points_m, collision_points_m, forces_N;  // top, bottom
+};
+[[nodiscard]] ModelTouch touch_by_model(const Protocol& protocol, const Stage& stage, const FeltWorld& world,
+                                        std::span<const AttemptTick> attempt);
+
+}  // namespace burin::study

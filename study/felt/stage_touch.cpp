@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "study/felt/stage_touch.hpp"
+
+#include <algorithm>
+
+#include "study/metrics/path.hpp"
+
+namespace burin::study {
+namespace {
+
+constexpr double kTick_s = 0.001;
+constexpr double kAround_m = 0.3;  // of the world, in the wand's workspace
+constexpr double kGuidanceReach_m = 0.04;
+constexpr double kGuidanceDamping_s = 0.02;  // of its stiffness: the time in which a led hand comes to rest
+constexpr std::size_t kCurvePoints = 200;
+
+}  // namespace
+
+devices::DeviceDescription study_wand(const FeltWorld& world) {
+    devices::DeviceDescription wand;
+    wand.name = "simulated wand";
+    wand.workspace_m = world.bounds().extent() + Vec3(2.0 * kAround_m);
+    wand.resolution_m = 0.00005;
+    wand.max_force_N = 3.0;
+    wand.axis_max_force_N = {2.3, 2.1, 3.0};
+    wand.max_torque_Nm = {0.230, 0.0, 0.250};
+    wand.max_stiffness_N_per_m = 800.0;
+    wand.rate_Hz = 1000.0;
+    wand.apparent_mass_kg = 0.2;
+    wand.damping_Ns_per_m = 0.5;
+    wand.friction_N = 0.15;
+    wand.max_torsion_Nm_per_rad = 2.0;
+    wand.apparent_inertia_kgm2 = 0.0005;
+    wand.angular_damping_Nms_per_rad = 0.002;
+    wand.angular_friction_Nm = 0.002;
+    wand.orientation_step_rad = 0.0005;
+    return wand;
+}
+
+haptics::Probe wand_probe(const Protocol& protocol) {
+    haptics::Probe probe;
+    probe.count = kWandPoints;
+    probe.points[0].offset_device_m = {0.0, protocol.point_offset_m, 0.0};
+    probe.points[1].offset_device_m = {0.0, -protocol.point_offset_m, 0.0};
+    return probe;
+}
+
+StageTouch::StageTouch(const Protocol& protocol, const Stage& stage, const Group& group, const FeltWorld& world,
+                       TouchPurpose purpose)
+    : protocol_(protocol), stage_(stage), world_(world), device_(study_wand(world)) {
+    parameters_.sequence = 1;
+    parameters_.workspace.object_from_device = {world.bounds().center(), Quat(1.0, 0.0, 0.0, 0.0), 1.0};
+    parameters_.workspace.workspace_device_m = device_.workspace_m;
+    parameters_.probe = wand_probe(protocol);
+    parameters_.position_noise_m = device_.resolution_m;
+    parameters_.limits.max_force_N = protocol.force_limit_N;
+    parameters_.max_surface_age_s = 0.0;  // nothing moves: the surface is as good as new
+    set_walls(stage, group, purpose);
+    leads_ = purpose == TouchPurpose::stage && stage.kind == StageKind::led_training && group.feels_tube &&
+             protocol.guidance_N_per_m > 0.0;
+    if (leads_) set_curve();
+    begin_at_start();
+}
+
+void StageTouch::set_walls(const Stage& stage, const Group& group, TouchPurpose purpose) {
+    const StudyWorld& world = world_.world();
+    haptics::TouchMaterial wall = scene::touch_material({world.wall_N_per_m, world.wall_Ns_per_m, 0.0, 0.0});
+    parameters_.materials[kFunnelMaterial] = wall;
+    const bool felt = purpose == TouchPurpose::model || (group.feels_tube && stage.feels_world);
+    if (!felt) wall.stiffness_N_per_m = wall.damping_Ns_per_m = 0.0;
+    parameters_.materials[kTubeMaterial] = wall;
+}
+
+void StageTouch::set_curve() {
+    const std::vector<Vec3> line = resampled(world_.world().spine_m, kCurvePoints);
+    haptics::GuidanceCurve& curve = parameters_.curve;
+    for (const Vec3& p : line) curve.points_object_m[curve.count++] = Vec3f(p);
+    curve_length_m_ = path_length_m(world_.world().spine_m);
+    haptics::GuidanceSettings& guidance = parameters_.guidance;
+    guidance.reach_m = kGuidanceReach_m;
+    guidance.max_force_N = protocol_.force_limit_N;
+    guidance.holds_orientation = true;  // upright, as the wand is held
+}
+
+void StageTouch::begin_at_start() {
+    const Vec3 start = world_.world().spine_m.front();
+    haptics::ProbeState& probe = full_.next.tick.probe;
+    for (std::uint32_t i = 0; i < kWandPoints; ++i) {
+        probe.proxies[i] = {};
+        probe.proxies[i].position_object_m = probe.proxies[i].hip_object_m = start;
+        probe.proxies[i].surface_sequence = world_.surface().sequence;
+        probe.proxies[i].placed = true;
+        probe.watches[i] = {};
+        probe.contacts[i] = {};
+        probe.left_out_m[i] = 0.0;
+    }
+}
+
+// Strength and direction of the guidance from now on.
+void StageTouch::guide_on(Nanoseconds now_ns) {
+    haptics::GuidanceSettings& guidance = parameters_.guidance;
+    const haptics::GuidanceState& state = full_.next.tick.guidance;
+    bool turned = false;
+    if (state.held && (lead_sign_ > 0.0 ? state.along_m >= curve_length_m_ - 1e-3 : state.along_m <= 1e-3)) {
+        lead_sign_ = -lead_sign_;
+        turned = true;
+    }
+    if (ticks_ > 0 && now_ns < guidance_ns_ && !turned) return;
+    if (now_ns >= guidance_ns_) guidance_ns_ = now_ns + kGuidanceStep_ns;
+    const double time_s = seconds(now_ns - begun_ns_);
+    const double share = stage_.ends_after_s ? std::clamp(time_s / *stage_.ends_after_s, 0.0, 1.0) : 0.0;
+    const double strength = stage_.guidance_first + share * (stage_.guidance_last - stage_.guidance_first);
+    guidance.repels = strength < 0.0;
+    guidance.stiffness_N_per_m = std::abs(strength) * protocol_.guidance_N_per_m;
+    guidance.damping_Ns_per_m = kGuidanceDamping_s * guidance.stiffness_N_per_m;
+    guidance.lead_speed_m_per_s = lead_sign_ * protocol_.lead_m_per_s;
+    ++parameters_.sequence;
+}
+
+const haptics::TickRecord& StageTouch::tick(const devices::DeviceSample& sample, Nanoseconds now_ns) {
+    if (ticks_ == 0) begun_ns_ = guidance_ns_ = now_ns;
+    if (leads_) guide_on(now_ns);
+    full_ = haptics::full_tick(full_.next, sample, world_.surface(), parameters_, device_, now_ns, kTick_s);
+    full_.record.tick = ++ticks_;
+    return full_.record;
+}
+
+Vec3 StageTouch::place_in_world(const Vec3& position_device_m) const {
+    return parameters_.workspace.object_from_device * position_device_m;
+}
+
+Vec3 StageTouch::place_at_device(const Vec3& position_m) const {
+    return inverse(parameters_.workspace.object_from_device) * position_m;
+}
+
+std::array<Vec3, 2> StageTouch::points_m(const devices::DeviceSample& sample) const {
+    std::array<Vec3, 2> points;
+    for (std::uint32_t i = 0; i < kWandPoints; ++i)
+        points[i] = place_in_world(sample.position_device_m +
+                                   sample.orientation_device * parameters_.probe.points[i].offset_device_m);
+    return points;
+}
+
+}  // namespace burin::study

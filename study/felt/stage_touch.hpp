@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// The touch of a stage: the settings of its ticks and the ticks themselves, one after the other.
+//
+// Data flow: protocol, stage and group -> settings (which walls press, how strongly, the force limit, guidance that
+// fades and leads) -> haptics::full_tick on the world's surface. A group that does not feel the tube has a tube of zero
+// stiffness, not one that is switched off: the proxies stay within it, so that deviations are known all the same.
+// Guidance changes once each kGuidanceStep_ns and depends on the ticks before alone, so that a recorded motion gives
+// the same settings again. Where it leads, it leads to the end of the spine, then back to its start, and so on.
+// Frame: the device stands in the middle of the world, without turn and gain. Pure but for its state; one thread each.
+#pragma once
+
+#include "haptics/tick.hpp"
+#include "study/felt/felt_world.hpp"
+
+namespace burin::study {
+
+// The wand's two points: 0 is the top, 1 the bottom.
+inline constexpr std::uint32_t kWandPoints = 2;
+
+// The wand that a study is run with where no other is open: the limits of the Quanser wand as the thesis gives them
+// (forces 2.3, 2.1, 3.0 N; torques 230 and 250 N mm about x and z, yaw is passive); its workspace holds the world with
+// 0.3 m around it, so that nobody is stopped by anything but the world. Mass, friction and damping are assumptions.
+[[nodiscard]] devices::DeviceDescription study_wand(const FeltWorld& world);
+[[nodiscard]] haptics::Probe wand_probe(const Protocol& protocol);
+
+// stage: as the group feels it. model: the tube and the funnels press on everybody, and nothing leads: what the forces
+// of a recorded motion would have been (W18).
+enum class TouchPurpose { stage, model };
+
+class StageTouch {
+public:
+    static constexpr Nanoseconds kGuidanceStep_ns = 100'000'000;
+
+    // All must outlive it.
+    StageTouch(const Protocol& protocol, const Stage& stage, const Group& group, const FeltWorld& world,
+               TouchPurpose purpose = TouchPurpose::stage);
+
+    // The record stays until the next tick.
+    const haptics::TickRecord& tick(const devices::DeviceSample& sample, Nanoseconds now_ns);
+    // Sets both proxies on the axis at the start cap, from where the next tick takes them to the hand.
+    void begin_at_start();
+
+    [[nodiscard]] const haptics::TickParameters& parameters() const { return parameters_; }
+    [[nodiscard]] const devices::DeviceDescription& device() const { return device_; }
+    [[nodiscard]] Vec3 place_in_world(const Vec3& position_device_m) const;
+    [[nodiscard]] Vec3 place_at_device(const Vec3& position_m) const;
+    // The wand's points, whatever the tick makes of the sample.
+    [[nodiscard]] std::array<Vec3, 2> points_m(const devices::DeviceSample& sample) const;
+    // Whether the device leads the hand in this stage.
+    [[nodiscard]] bool leads() const { return leads_; }
+
+private:
+    void set_walls(const Stage& stage, const Group& group, TouchPurpose purpose);
+    void set_curve();
+    void guide_on(Nanoseconds now_ns);
+
+    const Protocol& protocol_;
+    const Stage& stage_;
+    const FeltWorld& world_;
+    devices::DeviceDescription device_;
+    haptics::TickParameters parameters_;
+    haptics::FullTick full_;
+    bool leads_ = false;
+    double lead_sign_ = 1.0, curve_length_m_ = 0.0;
+    std::uint64_t ticks_ = 0;
+    Nanoseconds begun_ns_ = 0, guidance_ns_ = 0;
+};
+
+}  // namespace burin::study

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "study/folder/interruption.hpp"
+
+#include <time.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "base/clock.hpp"
+#include "base/text.hpp"
+#include "record/record_reader.hpp"
+
+namespace burin::study {
+namespace {
+
+// What a recording that was cut off holds; it may hold nothing yet.
+void look_at_recording(Interruption& one, const std::filesystem::path& file) {
+    if (one.visit.recording.empty()) return;
+    std::error_code error;
+    if (!std::filesystem::exists(file, error)) return;
+    auto reader = record::RecordReader::open(file.string());
+    if (!reader || reader->hands().empty()) return;
+    one.ticks_kept = reader->hands().front().rows();
+    const auto clocks = reader->clocks();
+    if (clocks && !clocks->empty()) one.known_utc_ns = std::max(one.known_utc_ns, clocks->back().utc_ns);
+}
+
+}  // namespace
+
+std::vector<Interruption> interruptions_of(const StudyFolder& study) {
+    std::vector<Interruption> all;
+    for (const Participant& p : study.participants()) {
+        if (p.withdrawn) continue;
+        for (const StageVisit& visit : p.visits) {
+            if (visit.status != StageStatus::aborted) continue;
+            Interruption one{p.id, visit, 0, utc_of(visit.begun_utc), p.has_ended(visit.day, visit.place)};
+            look_at_recording(one, study.path() / visit.recording);
+            all.push_back(std::move(one));
+        }
+    }
+    return all;
+}
+
+Result<void> check_resumption(const StudyFolder& study, std::int64_t now_utc_ns) {
+    const std::vector<Interruption> all = interruptions_of(study);
+    for (const Interruption& one : all) {
+        const double minutes = static_cast<double>(now_utc_ns - one.known_utc_ns) * 1e-9 / 60.0;
+        // Of several interruptions of one stage only the last counts.
+        const auto later = [&](const Interruption& other) {
+            return other.participant == one.participant && other.visit.day == one.visit.day &&
+                   other.visit.place == one.visit.place && other.known_utc_ns > one.known_utc_ns;
+        };
+        if (one.done_again || minutes <= study.protocol().resume_within_min) continue;
+        if (std::ranges::any_of(all, later)) continue;
+        return fail(one.participant + ", " + one.visit.stage,
+                    formatted("was interrupted %.0f min ago, and the protocol lets a stage be taken up again within "
+                              "%g min",
+                              minutes, study.protocol().resume_within_min),
+                    "give --resume to begin the stage anew all the same, which the journal notes, or withdraw the "
+                    "participant");
+    }
+    return {};
+}
+
+std::string utc_text(std::int64_t utc_ns) {
+    const std::int64_t whole_s = utc_ns / kNanosecondsPerSecond;
+    const auto time = static_cast<time_t>(whole_s);
+    tm parts{};
+    gmtime_r(&time, &parts);
+    return formatted("%04d-%02d-%02dT%02d:%02d:%02d.%03dZ", parts.tm_year + 1900, parts.tm_mon + 1, parts.tm_mday,
+                     parts.tm_hour, parts.tm_min, parts.tm_sec,
+                     static_cast<int>((utc_ns - whole_s * kNanosecondsPerSecond) / 1'000'000));
+}
+
+std::int64_t utc_of(const std::string& text) {
+    tm parts{};
+    double second = 0.0;
+    if (text.size() > 40 || std::sscanf(text.c_str(), "%4d-%2d-%2dT%2d:%2d:%lf", &parts.tm_year, &parts.tm_mon,
+                                        &parts.tm_mday, &parts.tm_hour, &parts.tm_min, &second) != 6)
+        return 0;
+    if (!(second >= 0.0 && second < 62.0)) return 0;
+    parts.tm_year -= 1900;
+    parts.tm_mon -= 1;
+    const time_t whole = timegm(&parts);
+    return static_cast<std::int64_t>(whole) * kNanosecondsPerSecond + nanoseconds(second);
+}
+
+std::int64_t now_utc_ns() {
+    timespec t{};
+    clock_gettime(CLOCK_REALTIME, &t);
+    return static_cast<std::int64_t>(t.tv_sec) * kNanosecondsPerSecond + t.tv_nsec;
+}
+
+DayVerdict day_verdict(const Protocol& protocol, std::size_t day, double hours_since) {
+    if (day <= 1 || day > protocol.days.size()) return DayVerdict::in_time;
+    const Day& d = protocol.days[day - 1];
+    if (hours_since < d.least_delay_h) return DayVerdict::too_early;
+    return hours_since > d.most_delay_h ? DayVerdict::too_late : DayVerdict::in_time;
+}
+
+}  // namespace burin::study

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Stages that were begun and never ended, such as by a power cut: until when each is known, and whether its participant
+// may go on there by the protocol's resume_within_min. Reads the recordings; one thread.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "study/folder/study_folder.hpp"
+
+namespace burin::study {
+
+struct Interruption {
+    std::string participant;
+    StageVisit visit;
+    std::uint64_t ticks_kept = 0;   // of the motion
+    std::int64_t known_utc_ns = 0;  // of the last transaction of its recording, else of its beginning in the journal
+    bool done_again = false;        // the stage was ended by a later run
+};
+
+// In the order of participants and stages; those of withdrawn participants are left out.
+[[nodiscard]] std::vector<Interruption> interruptions_of(const StudyFolder& study);
+
+// Fails where a stage that is still to be done was interrupted longer before `now_utc_ns` than the protocol allows.
+[[nodiscard]] Result<void> check_resumption(const StudyFolder& study, std::int64_t now_utc_ns);
+
+// "2026-11-25T10:00:00.123Z" of nanoseconds since 1970, and back, also without a fraction; 0 for what is no such text.
+[[nodiscard]] std::string utc_text(std::int64_t utc_ns);
+[[nodiscard]] std::int64_t utc_of(const std::string& text);
+[[nodiscard]] std::int64_t now_utc_ns();
+
+// Whether a day may begin so many hours after the last stage of the day before.
+enum class DayVerdict { in_time, too_early, too_late };
+[[nodiscard]] DayVerdict day_verdict(const Protocol& protocol, std::size_t day, double hours_since);
+
+}  // namespace burin::study

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "study/folder/stage_recording.hpp"
+
+#include "base/text.hpp"
+
+namespace burin::study {
+namespace {
+
+// Simulated time has no clock that holds it back: the writer takes what there is after so many ticks.
+constexpr std::size_t kTakenTogether = 2048;
+
+}  // namespace
+
+StageRecording::StageRecording() : ring_(2 * kTakenTogether) {}
+StageRecording::~StageRecording() = default;
+
+Result<std::unique_ptr<StageRecording>> StageRecording::create(const std::filesystem::path& file,
+                                                               const StageTouch& touch,
+                                                               std::vector<std::pair<std::string, std::string>> facts,
+                                                               Nanoseconds block_ns) {
+    std::unique_ptr<StageRecording> made(new StageRecording());
+    record::WriterOptions options;
+    options.facts = std::move(facts);
+    options.block_ns = block_ns;
+    auto writer = record::RecordWriter::create(
+        file.string(), {{"wand", touch.device(), touch.parameters().probe, &made->ring_}}, std::move(options));
+    if (!writer) return std::unexpected(writer.error());
+    made->writer_ = std::move(*writer);
+    return made;
+}
+
+void StageRecording::take(const haptics::TickRecord& record, OperatorAct act) {
+    if (act != OperatorAct::none) writer_->note_event(record.time_ns, kOperatorEvent, name_of(act));
+    ring_.push(record);
+    if (++untaken_ < kTakenTogether) return;
+    writer_->take_now();
+    untaken_ = 0;
+}
+
+Result<void> StageRecording::close() { return writer_->close(); }
+
+std::vector<std::pair<std::string, std::string>> facts_of_stage(const std::string& protocol_digest, const Group& group,
+                                                                const Stage& stage, const FeltWorld& world,
+                                                                const StageTouch& touch) {
+    const haptics::TickParameters& p = touch.parameters();
+    return {{kProtocolFact, protocol_digest},
+            {kWorldFact, world.digest()},
+            {kGroupFact, group.code},
+            {kStageFact, stage.name},
+            {"device", touch.device().name},
+            {"tube", formatted("%.17g N/m, %.17g Ns/m", p.materials[kTubeMaterial].stiffness_N_per_m,
+                               p.materials[kTubeMaterial].damping_Ns_per_m)},
+            {"funnels", formatted("%.17g N/m, %.17g Ns/m", p.materials[kFunnelMaterial].stiffness_N_per_m,
+                                  p.materials[kFunnelMaterial].damping_Ns_per_m)},
+            {"force limit", formatted("%.17g N", p.limits.max_force_N)},
+            {"led by the device", touch.leads() ? "yes" : "no"}};
+}
+
+}  // namespace burin::study

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "study/replay/stage_replay.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <map>
+
+#include "record/columns.hpp"
+#include "record/record_reader.hpp"
+#include "study/folder/stage_recording.hpp"
+#include "study/people/recorded_trial.hpp"
+
+namespace burin::study {
+namespace {
+
+using record::Word;
+
+constexpr std::array kInputs{"time_ns",
+                             "sample_time_ns",
+                             "position_device_x_m",
+                             "position_device_y_m",
+                             "position_device_z_m",
+                             "orientation_device_qx",
+                             "orientation_device_qy",
+                             "orientation_device_qz",
+                             "orientation_device_qw",
+                             "buttons",
+                             "fault"};
+
+std::string fact_in(const record::RecordReader& reader, const char* key) {
+    const auto found = reader.facts().find(key);
+    return found != reader.facts().end() ? found->second : std::string();
+}
+
+// A tick's inputs as a block holds them.
+class Inputs {
+public:
+    // Requires all columns.
+    explicit Inputs(const std::vector<record::Column>& columns) {
+        for (std::size_t i = 0; i < kInputs.size(); ++i) {
+            const auto found = std::ranges::find(columns, kInputs[i], &record::Column::name);
+            BURIN_CHECK(found != columns.end());
+            at_[i] = static_cast<std::size_t>(found - columns.begin());
+        }
+    }
+    [[nodiscard]] Nanoseconds now_ns(const record::Block& block, std::uint32_t row) const {
+        return static_cast<Nanoseconds>(block.at(at_[0], row));
+    }
+    [[nodiscard]] devices::DeviceSample sample(const record::Block& block, std::uint32_t row) const {
+        const auto real = [&](std::size_t i) { return std::bit_cast<double>(block.at(at_[i], row)); };
+        devices::DeviceSample s;
+        s.time_ns = static_cast<Nanoseconds>(block.at(at_[1], row));
+        s.position_device_m = {real(2), real(3), real(4)};
+        s.orientation_device = {real(8), real(5), real(6), real(7)};
+        s.buttons = static_cast<std::uint32_t>(block.at(at_[9], row));
+        s.fault = static_cast<devices::DeviceFault>(block.at(at_[10], row));
+        return s;
+    }
+
+private:
+    std::array<std::size_t, kInputs.size()> at_{};
+};
+
+// What the operator did, by the time of the tick.
+Result<std::map<std::int64_t, OperatorAct>> acts_in(record::RecordReader& reader) {
+    const auto events = reader.events();
+    if (!events) return std::unexpected(events.error());
+    std::map<std::int64_t, OperatorAct> acts;
+    for (const record::EventRecord& event : *events) {
+        if (event.name != kOperatorEvent) continue;
+        const auto act = operator_act(event.value);
+        if (!act)
+            return fail(reader.path(), "has an act of the operator that nobody knows: " + event.value.substr(0, 40));
+        acts[event.time_ns] = *act;
+    }
+    return acts;
+}
+
+// Looks for the first column whose bits differ.
+std::optional<record::Difference> differs(const record::HandRecord& hand, const record::Block& block, std::uint32_t row,
+                                          const std::vector<Word>& again) {
+    for (std::size_t c = 0; c < again.size(); ++c) {
+        const Word stored = block.at(c, row);
+        if (stored == again[c]) continue;
+        const record::ColumnType type = hand.columns[c].type;
+        return record::Difference{hand.name, hand.columns[c].name, static_cast<std::int64_t>(block.at(0, row)),
+                                  record::text_of(stored, type), record::text_of(again[c], type)};
+    }
+    return std::nullopt;
+}
+
+struct Parts {
+    const Group& group;
+    const Stage& stage;
+};
+
+// The facts of the file against the study's protocol and the world as it is made today.
+Result<Parts> check(const record::RecordReader& reader, const Protocol& protocol, const std::string& protocol_digest,
+                    const FeltWorld& world) {
+    const std::string& file = reader.path();
+    if (fact_in(reader, kProtocolFact) != protocol_digest)
+        return fail(file, "was recorded with another protocol", "put it back into the study that it belongs to");
+    if (fact_in(reader, kWorldFact) != world.digest())
+        return fail(file, "was felt in a world of other triangles than this program makes",
+                    "replay it with the version that the study was run with");
+    const Stage* stage = protocol.stage(fact_in(reader, kStageFact));
+    const std::string code = fact_in(reader, kGroupFact);
+    const auto group = std::ranges::find(protocol.groups, code, &Group::code);
+    if (stage == nullptr || group == protocol.groups.end())
+        return fail(file, "names a stage or a group that the protocol has not", "restore it from a copy");
+    return Parts{*group, *stage};
+}
+
+}  // namespace
+
+Result<StageReplay> replay_stage(const std::filesystem::path& file, const Protocol& protocol,
+                                 const std::string& protocol_digest, const FeltWorld& world,
+                                 const OnReplayedTick& on_tick) {
+    auto reader = record::RecordReader::open(file.string());
+    if (!reader) return std::unexpected(reader.error());
+    const auto parts = check(*reader, protocol, protocol_digest, world);
+    if (!parts) return std::unexpected(parts.error());
+    StageSession session(protocol, parts->stage, parts->group, world);
+    const record::RowShape shape = record::shape_of(session.touch().device(), session.touch().parameters().probe);
+    if (reader->hands().size() != 1 || reader->hands().front().columns != record::columns_for(shape))
+        return fail(file.string(), "has other columns than a study's recording of this version",
+                    "replay it with the version that the study was run with");
+    const record::HandRecord& hand = reader->hands().front();
+    const auto acts = acts_in(*reader);
+    if (!acts) return std::unexpected(acts.error());
+    const Inputs inputs(hand.columns);
+    StageReplay replay;
+    replay.columns = hand.columns.size();
+    replay.closed = reader->is_closed();
+    for (std::size_t b = 0; b < hand.blocks.size(); ++b) {
+        const auto block = reader->block(0, b);
+        if (!block) return std::unexpected(block.error());
+        for (std::uint32_t row = 0; row < block->rows(); ++row) {
+            const Nanoseconds now_ns = inputs.now_ns(*block, row);
+            const auto act = acts->find(now_ns);
+            const haptics::TickRecord& tick =
+                session.take(inputs.sample(*block, row), now_ns, act != acts->end() ? act->second : OperatorAct::none);
+            ++replay.ticks;
+            if (on_tick) on_tick(session, tick);
+            if (!replay.difference) replay.difference = differs(hand, *block, row, record::row_of(tick, shape));
+        }
+    }
+    replay.end = session.state();
+    replay.events = session.events();
+    if (parts->stage.kind == StageKind::trial) {
+        replay.model = touch_by_model(protocol, parts->stage, world, session.attempt());
+        replay.record = trial_record(world.world(), session.state(), session.events(), replay.model);
+    } else {
+        replay.record = forces_record(session.forces());
+    }
+    return replay;
+}
+
+}  // namespace burin::study

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// Simulated learners with a wand in hand: every kind of stage ends, forces act as the protocol says, and the same seed
+// gives the same bits.
+#include "activities/train/simulated_stage.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "activities/train/held_wand.hpp"
+
+namespace burin::activities {
+namespace {
+
+study::Protocol thesis_study(double training_s) {
+    std::ifstream in("assets/studies/kinesthetic-path/protocol.toml");
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    study::Protocol protocol = study::parse_protocol(text).protocol;
+    for (study::Stage& stage : protocol.stages)
+        if (stage.ends_after_s) stage.ends_after_s = training_s;
+    return protocol;
+}
+
+struct Went {
+    SimulatedStage stage;
+    std::vector<Vec3> forces_N, places_m;
+    double largest_N = 0.0, largest_torque_Nm = 0.0;
+};
+
+class SimulatedStages : public testing::Test {
+protected:
+    void SetUp() override {
+        auto world = study::FeltWorld::create(protocol_.worlds.at(0));
+        ASSERT_TRUE(world);
+        world_ = std::move(*world);
+    }
+    Went go(const char* stage, std::size_t group, std::uint64_t seed = 5) {
+        study::Random random(seed);
+        const study::Stage& s = *protocol_.stage(stage);
+        Went went;
+        went.stage = simulate_stage(
+            {protocol_, s, protocol_.groups[group], s.world.empty() ? nullptr : world_.get(), learner_, population_},
+            random, [&](const haptics::TickRecord& record, study::OperatorAct) {
+                went.forces_N.push_back(record.gate.given.force_device_N);
+                went.places_m.push_back(record.contact.points[0].hip_object_m);
+                went.largest_N = std::max(went.largest_N, glm::length(went.forces_N.back()));
+                went.largest_torque_Nm =
+                    std::max(went.largest_torque_Nm, glm::length(record.gate.given.torque_device_Nm));
+            });
+        return went;
+    }
+
+    study::Protocol protocol_ = thesis_study(12.0);
+    std::unique_ptr<const study::FeltWorld> world_;
+    study::LearnerPopulation population_;
+    study::Learner learner_{std::log(0.03), std::log(0.15), false, 0.0};
+};
+
+TEST_F(SimulatedStages, EndAsTheProtocolSays) {
+    for (const study::Stage& stage : protocol_.stages) {
+        for (const std::size_t group : {0u, 1u}) {
+            const Went went = go(stage.name.c_str(), group);
+            EXPECT_EQ(went.stage.end.phase, study::StagePhase::done) << stage.name;
+            EXPECT_NE(went.stage.end.result, study::StageResult::stopped) << stage.name;
+            if (stage.ends_after_s) {
+                EXPECT_NEAR(went.stage.duration_s, *stage.ends_after_s, 0.0021) << stage.name;
+            }
+        }
+    }
+}
+
+TEST_F(SimulatedStages, PressOnWhoFeelsTheTubeAndOnNobodyElse) {
+    const Went felt = go("interactive", 0), unfelt = go("interactive", 1);
+    EXPECT_GT(felt.stage.record.at("contact_s").get<double>(), 0.5);
+    EXPECT_GT(felt.largest_N, 0.3);
+    EXPECT_LE(felt.largest_N, protocol_.force_limit_N + 1e-9);
+    EXPECT_GT(felt.largest_torque_Nm, 0.005);
+    // The funnels alone press on the visual group, and the hand hardly comes near them.
+    EXPECT_GT(unfelt.stage.record.at("contact_s").get<double>(), 0.5);
+    EXPECT_LT(unfelt.largest_N, 0.5 * felt.largest_N);
+    // The wall keeps the hand in: the top point comes less far out.
+    const auto out = [&](const Went& went) {
+        double sum_m = 0.0;
+        for (const Vec3& p : went.places_m) sum_m += glm::distance(p, study::within_tube(world_->world(), p));
+        return sum_m / static_cast<double>(went.places_m.size());
+    };
+    EXPECT_LT(out(felt), out(unfelt));
+}
+
+TEST_F(SimulatedStages, LeadAHandThatGivesWayAlongThePath) {
+    const Went led = go("led", 0), shown = go("led", 1);
+    const auto& spine = world_->world().spine_m;
+    double farthest_m = spine.front().x;
+    for (const Vec3& p : led.places_m) farthest_m = std::max(farthest_m, p.x);
+    EXPECT_GT(farthest_m, spine.back().x - 0.02);
+    double off_m = 0.0;
+    for (const Vec3& p : led.places_m)
+        off_m = std::max(off_m, study::nearest_on(spine, p - Vec3(0, protocol_.point_offset_m, 0)).distance_m);
+    EXPECT_LT(off_m, 0.03);
+    EXPECT_GT(led.largest_N, 0.2);
+    EXPECT_LE(led.largest_N, protocol_.force_limit_N + 1e-9);
+    EXPECT_EQ(shown.largest_N, 0.0);
+}
+
+TEST_F(SimulatedStages, GiveTrialsWithDeviationAndForceOfTheModelButNoneToTheHand) {
+    std::size_t valid = 0;
+    for (const std::uint64_t seed : {1u, 2u, 3u}) {
+        const Went trial = go("test", 0, seed);
+        if (trial.stage.end.result != study::StageResult::valid_exit) continue;
+        ++valid;
+        const Json& record = trial.stage.record;
+        EXPECT_NEAR(record.at("deviation_mm").get<double>(), record.at("wall_deviation_mm").get<double>(), 1.0);
+        EXPECT_GT(record.at("time_s").get<double>(), 1.0);
+        EXPECT_GT(record.at("force_largest_N").get<double>(), 0.0);
+    }
+    EXPECT_GE(valid, 2u);
+}
+
+TEST_F(SimulatedStages, GiveTheSameBitsAgainAndOthersWithAnotherSeed) {
+    const Went one = go("test", 1, 9), two = go("test", 1, 9), other = go("test", 1, 10);
+    EXPECT_EQ(one.places_m, two.places_m);
+    EXPECT_EQ(json_text(one.stage.record), json_text(two.stage.record));
+    EXPECT_NE(one.places_m, other.places_m);
+}
+
+TEST(HeldWandTest, ComesToRestWhereTheHandHoldsItAndYieldsToForceAndTorque) {
+    devices::DeviceDescription d;
+    d.workspace_m = Vec3(1.0);
+    d.max_force_N = 3.0;
+    d.max_torque_Nm = {0.2, 0.0, 0.2};
+    d.apparent_mass_kg = 0.2;
+    d.apparent_inertia_kgm2 = 0.0005;
+    HeldWand wand(d, {});
+    devices::HandTarget target;
+    target.position_device_m = {0.05, 0.0, 0.0};
+    wand.hold(target, false);
+    wand.advance(2 * kNanosecondsPerSecond);
+    EXPECT_NEAR(wand.read().position_device_m.x, 0.05, 1e-6);
+    // 2 N against 200 N/m; 0.15 Nm against 1.5 Nm/rad; no torque about the passive axis.
+    wand.write({{0.0, 2.0, 0.0}, {0.15, 5.0, 0.0}});
+    wand.advance(2 * kNanosecondsPerSecond);
+    const devices::DeviceSample pushed = wand.read();
+    EXPECT_NEAR(pushed.position_device_m.y, 0.01, 1e-6);
+    EXPECT_NEAR(2.0 * std::asin(pushed.orientation_device.x), 0.1, 1e-3);
+    EXPECT_NEAR(pushed.orientation_device.y, 0.0, 1e-9);
+    // A hand that gives way goes where it is pushed.
+    wand.hold(target, true);
+    wand.write({{0.0, 0.0, 1.0}, {}});
+    wand.advance(kNanosecondsPerSecond);
+    EXPECT_GT(wand.read().position_device_m.z, 0.05);
+    wand.write({{std::nan(""), 0.0, 0.0}, {}});
+    wand.advance(kNanosecondsPerSecond);
+    EXPECT_TRUE(finite(wand.read().position_device_m));
+}
+
+}  // namespace
+}  // namespace burin::activities
