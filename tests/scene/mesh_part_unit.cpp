@@ -255,6 +255,27 @@ TEST(MeshPart, TellsTheFrameWhatHasChanged) {
     EXPECT_GT(updates[1].scene_from_mesh.position_m.y, objects[2].pose.position_m.y);
 }
 
+// Cubes that share a mesh and a material differ by their poses, those at one pose by their meshes.
+TEST(MeshPart, AMeshOfASurfaceIsTracedToItsObject) {
+    std::vector<SceneObject> objects = cubes(4);
+    objects[2].motion = PathMotion{{{0.0, {}}, {1.0, {{0.001, 0.0, 0.0}}}, {2.0, {}}}, true};
+    objects.push_back(object_at(5, shared_mesh(geometry::test::cube(0.5 * kHalf_m)), Vec3(0.0)));
+    TouchedScene scene(objects);
+    (void)scene.tick(kOnTop);
+    geometry::LocalSurface draft;
+    ASSERT_TRUE(scene.part->add_near({0, Vec3(0.0), 1.0}, draft));
+    std::vector<ObjectId> found;
+    for (const geometry::TouchedMesh& mesh : draft.meshes) {
+        found.push_back(scene.part->id_of(mesh));
+        EXPECT_EQ(scene.part->pose(found.back()), mesh.motion.object_from_mesh);
+    }
+    std::ranges::sort(found);
+    EXPECT_EQ(found, (std::vector<ObjectId>{1, 2, 3, 4, 5}));
+    geometry::TouchedMesh other = draft.meshes.back();
+    other.motion.object_from_mesh.position_m.x += 1.0;
+    EXPECT_EQ(scene.part->id_of(other), 0u);
+}
+
 TEST(MeshPart, EqualMeshesShareOneSnapshotAndEqualMaterialsOneEntry) {
     TouchedScene scene(cubes(3));
     scene.reach_m = 1.0;
