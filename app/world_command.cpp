@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <span>
 #include <utility>
@@ -239,6 +240,17 @@ CheckedWorld check_world(const std::string& path, bool print) {
 
 }  // namespace
 
+namespace {
+
+// Returns whether a log holds what the threads of a session did, by its first line (docs/formats.md).
+bool is_recording(const std::string& log) {
+    std::ifstream file(log, std::ios::binary);
+    std::string first;
+    return static_cast<bool>(std::getline(file, first)) && first.find("burin-input 2") != std::string::npos;
+}
+
+}  // namespace
+
 struct WorldCommand::Options {
     std::vector<std::string> files;  // to check
     WorldExploration exploration;
@@ -316,8 +328,9 @@ Result<void> WorldCommand::run() const {
     }
     session::SculptOptions session = options_->session;
     session.world = options_->exploration.world;
-    // A recording says itself what it was of.
-    session.no_workpiece = !session.world.empty() && session.workpiece.source.empty();
+    // A recording says itself what it was of; a script does not.
+    const bool says_itself = session.world.empty() && is_recording(session.live.input);
+    session.no_workpiece = !says_itself && session.workpiece.source.empty();
     if (session.workpiece.source.empty()) session.workpiece.source = session::SculptOptions{}.workpiece.source;
     return session::run_session(session);
 }

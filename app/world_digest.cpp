@@ -5,7 +5,7 @@
 
 #include "base/file_io.hpp"
 #include "base/json.hpp"
-#include "study/folder/digest.hpp"
+#include "base/sha256.hpp"
 
 namespace burin::app {
 namespace {
@@ -18,7 +18,7 @@ std::string_view bytes_of(const std::vector<T>& values) {
 
 std::string mesh_digest(const geometry::TriangleMesh& mesh) {
     static_assert(sizeof(Vec3) == 3 * sizeof(double), "no gaps, whose bytes would say nothing");
-    return study::sha256(bytes_of(mesh.positions_m)) + study::sha256(bytes_of(mesh.triangles));
+    return sha256(bytes_of(mesh.positions_m)) + sha256(bytes_of(mesh.triangles));
 }
 
 Json pose_json(const Pose& pose) {
@@ -58,13 +58,13 @@ std::string world_digest(std::span<const scene::SceneObject> objects) {
             {"motion", motion_json(object.motion)}};
         all += json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
     }
-    return study::sha256(all);
+    return sha256(all);
 }
 
 Result<std::string> file_digest(const std::string& path) {
     const Result<std::vector<std::byte>> bytes = read_file(path);
     if (!bytes) return std::unexpected(bytes.error());
-    return study::sha256({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+    return sha256({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
 }
 
 }  // namespace burin::app

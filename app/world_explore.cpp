@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "activities/world/felt_world.hpp"
+#include "activities/world/world_plot.hpp"
 #include "activities/world/world_view.hpp"
 #include "app/output_files.hpp"
 #include "app/world_digest.hpp"
@@ -110,7 +111,7 @@ Result<void> write_world_report(const WorldExploration& options, const activitie
     if (options.report.empty()) return {};
     const std::string figure = session::felt_figure_path(options.report),
                       table = session::felt_table_path(options.report);
-    if (const auto written = write_text(figure, session::felt_figure(figures.felt)); !written) return written;
+    if (const auto written = write_text(figure, activities::world_figure(figures)); !written) return written;
     if (const auto written = write_text(table, session::felt_table(figures.felt)); !written) return written;
     const session::FeltFigures& felt = figures.felt;
     const Json report{

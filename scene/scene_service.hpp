@@ -75,6 +75,7 @@ private:
     std::vector<SceneHand> hands_;
     TouchPublisher publisher_;
     std::vector<Vec3> places_;                    // of each hand's tool
+    std::vector<double> sunk_m_;                  // how far each hand was beyond where its tool rested
     std::vector<haptics::StrokeSample> samples_;  // of one hand in one update
     bool hands_move_ = false;
     SceneUpdate seen_;

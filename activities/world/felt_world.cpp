@@ -48,6 +48,7 @@ public:
         const double force_N = glm::length(tool.given.force_device_N);
         touch.force_max_N = std::max(touch.force_max_N, force_N);
         touch.force_mean_N += (force_N - touch.force_mean_N) / static_cast<double>(++touch.updates);
+        touch.course.push_back({time_s, force_N, glm::length(tool.hip_object_m - tool.proxy_object_m)});
         constexpr std::uint64_t kPressed = 15;
         return touch.updates == kPressed ? std::optional(touch.name) : std::nullopt;
     }

@@ -29,6 +29,13 @@ struct ExploreOptions {
     std::vector<std::pair<std::string, std::string>> facts = {};
 };
 
+// One update at which an object was touched.
+struct TouchedPoint {
+    double time_s = 0.0;    // since the beginning
+    double force_N = 0.0;   // on the hand
+    double beyond_m = 0.0;  // of the hand from where its tool rests, in the scene
+};
+
 // Sums up the touches of one object: when it was touched first, how long, how strongly.
 struct ObjectTouch {
     scene::ObjectId id = 0;
@@ -36,6 +43,7 @@ struct ObjectTouch {
     std::uint64_t updates = 0;  // of the service, at which it was the object touched
     double first_s = 0.0;       // since the beginning
     double force_max_N = 0.0, force_mean_N = 0.0;
+    std::vector<TouchedPoint> course = {};
 };
 
 struct WorldFigures {

@@ -111,7 +111,7 @@ public:
                 return fail(path_, "update " + std::to_string(service.published(0) + 1) + " of the scene is missing",
                             "replay with --to a tick before, or a recording that was closed");
             const RecordedUpdate& update = updates_[next_++];
-            const scene::SceneUpdate seen{update.time_ns, 0, {update.last_tick}, {{.time_ns = update.time_ns}}};
+            const scene::SceneUpdate seen{update.time_ns, 0, {update.last_tick}, {}};
             if (const auto done = service.repeat(seen); !done) return done;
         }
         return {};

@@ -116,6 +116,22 @@ TEST(SceneService, TheShortestPeriodOfItsPartsCountsAndThatOfAMovingHand) {
     EXPECT_EQ(scene.service.period_ns(), 25'000'000) << "its loop rests";
 }
 
+TEST(SceneService, TheSurfaceIsKnownAroundAHandThatHasSunkDeep) {
+    TwoHands scene;
+    haptics::StrokeSample sample = sample_at(1, {1.0, 0.0, 0.0});
+    (void)scene.left.stroke.push(sample);
+    ASSERT_TRUE(scene.service.update(1));
+    EXPECT_NEAR(scene.first.balls.front().radius_m, 0.03, 1e-12) << "of the probe and its reach";
+    scene.first.balls.clear();
+    sample = sample_at(2, {1.0, 0.0, 0.0});
+    sample.position_object_m.y = -0.2;
+    (void)scene.left.stroke.push(sample);
+    ASSERT_TRUE(scene.service.update(2));
+    const ProbeBall& ball = scene.first.balls.front();
+    EXPECT_EQ(ball.center_scene, Vec3(1.0, 0.0, 0.0)) << "where the tool rests";
+    EXPECT_GE(ball.radius_m, 0.2 + 0.01);
+}
+
 TEST(SceneService, PublishesNothingWhereAPartFails) {
     TwoHands scene;
     scene.second.fails = true;

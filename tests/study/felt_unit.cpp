@@ -144,7 +144,8 @@ TEST(StudyDeviation, IsFlaggedWhereTheHandGoesAroundTheTube) {
     EXPECT_GE(record.at("deviation_mm").get<double>(), record.at("wall_deviation_mm").get<double>() - 0.4);
 }
 
-// Presses the wand's middle 20 mm off the axis halfway through the tube: what the hand is given, and whether it touches.
+// Presses the wand's middle 20 mm off the axis halfway through the tube: what the hand is given, and whether it
+// touches.
 haptics::TickRecord pressed(const Protocol& protocol, const Stage& stage, const Group& group, const FeltWorld& world,
                             double off_m = 0.02) {
     StageTouch touch(protocol, stage, group, world);
