@@ -108,8 +108,8 @@ TEST(EngagedArea, OfRandomToolsInAPlane) {
             }
         }
     }
-    // A ball is right within a tenth from a tenth of its radius on; flats and edges, on which samples are sparse, from a
-    // fifth of the size on in the median. Below, an edge that just touches counts for several times what it engages
+    // A ball is right within a tenth from a tenth of its radius on; flats and edges, on which samples are sparse, from
+    // a fifth of the size on in the median. Below, an edge that just touches counts for many times what it engages
     // (docs/decisions/024-cutting-with-any-tool.md has the table).
     for (std::size_t kind = 0; kind < kNames.size(); ++kind) {
         for (std::size_t d = 0; d < kDepths.size(); ++d) {
