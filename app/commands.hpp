@@ -24,15 +24,16 @@ namespace burin::app {
 [[nodiscard]] bool records_a_felt_stroke(const session::SculptOptions& options);
 
 // burin convert IN OUT: any mesh format in, STL, PLY or OBJ out; prints the mesh's size and health. Of a session file:
-// burin convert FILE.session [OUT] --to csv|npy (session_command.hpp).
+// burin convert FILE.session [OUT] --to csv|npy|hdf5|mat|bids|log (session_command.hpp).
 struct ConvertOptions {
     std::string in, out;
     std::optional<LengthUnit> units;         // of IN; none: as the file states, else guessed (mesh_unit.hpp)
     std::optional<LengthUnit> export_units;  // of OUT; none: those of IN
     bool close_holes = false;
-    std::optional<double> simplify_m;  // bound on the surface's motion; none: all triangles
-    std::string to;                    // format of a session file's table; empty: IN is a mesh
-    std::string columns, part;         // of that table
+    std::optional<double> simplify_m;            // bound on the surface's motion; none: all triangles
+    std::string to;                              // format of a session file's table; empty: IN is a mesh
+    std::string columns, part;                   // of that table
+    std::string subject = "01", task = "touch";  // labels of a BIDS data set
 
     [[nodiscard]] bool is_of_session() const { return !to.empty(); }
     [[nodiscard]] bool is_misused() const { return out.empty() && to.empty(); }

@@ -5,14 +5,14 @@
 #include "app/bench_command.hpp"
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
+#include "app/live_options.hpp"
 #include "app/profile.hpp"
+#include "app/replay_command.hpp"
 #include "app/session_command.hpp"
 #include "app/study_command.hpp"
 #include "app/wall_commands.hpp"
 #include "app/world_command.hpp"
 #include "compute/rays/lattice.hpp"
-#include "devices/haptic/device_registry.hpp"
-#include "devices/trackers/tracker.hpp"
 #include "gpu/device.hpp"
 #include "session/drive/session.hpp"
 
@@ -28,6 +28,10 @@ void add_sculpt_options(Command command, session::SculptOptions& options) {
         .option("--workpiece", options.workpiece.source,
                 "FILE (STL, OBJ, PLY, OFF), block:X,Y,Z from the origin on, or ball:R about it, in metres")
         .show_default();
+    command.option(
+        "--world", options.world,
+        "Objects that stand with the workpiece, and are touched and not carved: .toml, .wrl, STL, OBJ, PLY, OFF");
+    command.flag("--no-workpiece", options.no_workpiece, "With --world: its objects alone, as burin world opens them");
     command.unit("--units", options.workpiece.units, kUnitsHelp);
     command.unit("--export-units", options.export_units,
                  "Unit of the numbers in exported files; else that of the workpiece's file, or m");
@@ -122,36 +126,6 @@ void add_combine_options(Command command, CombineOptions& options) {
     command.option("--threads", options.threads, "How many threads work; 0: one per core").within(0, 1024);
 }
 
-void add_live_options(Command command, session::LiveOptions& options) {
-    command.flag("--live", options.live,
-                 "Open a window to carve in; also without this when neither a stroke nor an output is given");
-    command.option("--input", options.input,
-                   "A recording, done again as it was; or a written log of a session's input, in its user's place, in "
-                   "simulated time");
-    command.option("--record", options.record,
-                   "A new file for all that the session depends on; with --input that log is played in real time. With "
-                   "--hand simulated and --stroke: a session file with every tick (burin session info FILE)");
-    command.flag("--offscreen", options.offscreen, "With --input: no window, only screenshots");
-    command.option("--stereo", options.stereo, "side-by-side, anaglyph-red-cyan, row-interlaced, ...; else mono");
-    command.flag("--swap-eyes", options.swap_eyes, "For exchanged cables or glasses");
-    command.option("--wall", options.wall,
-                   "A wall file: its screens, each on its monitor or display, its eyes and its tracker");
-    command.option("--tracker", options.tracker, "Where head and wands are heard: " + devices::tracker_usage());
-    command.option("--device", options.device, "The force-feedback device; " + devices::haptic_usage()).show_default();
-    command.flag("--windowed", options.windowed,
-                 "With --wall: its screens in windows, fitted into --width by --height");
-    command.option("--full-screen", options.full_screen, "Fill this monitor: its name or index");
-    command.option("--width", options.width, "Of the window, in pixels").within(64, 8192).show_default();
-    command.option("--height", options.height, "Of the window, in pixels").within(64, 8192).show_default();
-    command.option("--samples", options.samples, "A pixel: 1 or 4; 0: 4, but 1 on a software device")
-        .one_of({0, 1, 4})
-        .show_default();
-    command.option("--screenshots", options.screenshots, "The folder for the session's screenshots");
-    command.option("--outputs", options.outputs,
-                   "With --input: the folder below which all its files go; else one in the working folder, named after "
-                   "the log: LOG-outputs");
-}
-
 // burin --version: prints the version and the Vulkan devices found.
 void print_version() {
     std::printf("burin %s\n", BURIN_VERSION);
@@ -193,14 +167,22 @@ int run(int argc, char** argv) {
     ConvertOptions convert_options;
     Command convert = app.subcommand(
         "convert",
-        "Convert a mesh file to STL, PLY or OBJ and print its health, or the ticks of a session file to a table");
+        "Convert a mesh file to STL, PLY or OBJ and print its health, or a session file to what other programs read");
     convert.option("IN", convert_options.in, "STL, OBJ, PLY or OFF; with --to a session file").required();
     convert.option("OUT", convert_options.out,
                    ".stl, .ply or .obj; with --to any name, - for standard output, or none: IN with another ending");
-    convert.option("--to", convert_options.to, "csv or npy: the ticks of a session file").one_of({"csv", "npy"});
+    convert
+        .option("--to", convert_options.to,
+                "csv, npy, hdf5, mat: the ticks of a session file as a table; bids: as a folder of motion data; log: "
+                "what was noted, as text")
+        .one_of({"csv", "npy", "hdf5", "mat", "bids", "log"});
     convert.option("--columns", convert_options.columns,
                    "With --to: names with commas between them, a star at the end for all that begin so; else all");
-    convert.option("--part", convert_options.part, "With --to: which hand, where the recording has several");
+    convert.option(
+        "--part", convert_options.part,
+        "With --to: which hand, where the recording has several, or a derived table by its name's beginning");
+    convert.option("--subject", convert_options.subject, "With --to bids: its label").show_default();
+    convert.option("--task", convert_options.task, "With --to bids: its label").show_default();
     convert.unit("--units", convert_options.units, kUnitsHelp);
     convert.unit("--export-units", convert_options.export_units, "Unit of the numbers in OUT; else that of IN");
     convert.flag("--close-holes", convert_options.close_holes, "Fill holes and turn the triangles outwards");
@@ -216,6 +198,7 @@ int run(int argc, char** argv) {
     const WorldCommand world(app);
     const ProfileCommand profile(app);
     const SessionCommand recordings(app);
+    const ReplayCommand replay(app);
     const StudyCommand study(app);
 
     if (const auto status = line.parse(argc, argv)) return *status;
@@ -237,6 +220,11 @@ int run(int argc, char** argv) {
     if (profile.parsed()) return finish(profile.run());
     if (study.parsed()) return finish(study.run());
     if (recordings.parsed()) return finish(recordings.run());
+    if (replay.parsed() && !replay.misuse().empty()) {
+        std::fprintf(stderr, "burin: %s; see burin replay --help\n", replay.misuse().c_str());
+        return 2;
+    }
+    if (replay.parsed()) return finish(replay.run());
     if (convert.parsed() && convert_options.is_misused()) {
         std::fprintf(stderr, "burin: OUT is required; see burin convert --help\n");
         return 2;

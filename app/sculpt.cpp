@@ -5,8 +5,10 @@
 #include <optional>
 
 #include "app/commands.hpp"
+#include "app/felt_recording.hpp"
 #include "app/output_files.hpp"
 #include "app/report.hpp"
+#include "app/world_digest.hpp"
 #include "compute/tools/apply.hpp"
 #include "geometry/files/mesh_export.hpp"
 #include "geometry/files/mesh_import.hpp"
@@ -133,18 +135,43 @@ Result<Json> take_back(sculpt::Sculpture& carving, std::size_t strokes) {
         {"strokes_kept", kept}, {"strokes_undone", *undone}, {"strokes_dropped", carving.history()->dropped_strokes()}};
 }
 
-// What a session file says of the program and the settings that it comes from.
-std::vector<std::pair<std::string, std::string>> facts_of(const session::SculptOptions& options, const Json& tool) {
-    return {{"program", "burin"},
-            {"version", BURIN_VERSION},
-            {"compiler", __VERSION__},
-            {"command", "sculpt --hand simulated"},
-            {"workpiece", options.workpiece.source},
-            {"resolution", std::to_string(options.workpiece.resolution)},
-            {"stroke", options.stroke},
-            {"tool", tool.dump(-1, ' ', false, Json::error_handler_t::replace)},
-            {"hardness", options.feel.hardness},
-            {"time", options.real_time ? "real" : "simulated"}};
+// What a session file says of the program and the settings that it comes from. Digests are of files that are read.
+std::vector<std::pair<std::string, std::string>> facts_of(const session::SculptOptions& options,
+                                                          const sculpt::ToolOptions& tool, const std::string& engine) {
+    std::vector<std::pair<std::string, std::string>> facts{{"program", "burin"},
+                                                           {"version", BURIN_VERSION},
+                                                           {"compiler", __VERSION__},
+                                                           {"command", "sculpt --hand simulated"},
+                                                           {"workpiece", options.workpiece.source},
+                                                           {"stroke", options.stroke},
+                                                           {"time", options.real_time ? "real" : "simulated"},
+                                                           {"activity", kFeltActivity},
+                                                           {"settings", felt_settings(options, tool, engine)}};
+    const std::string tool_file = tool.shape.starts_with("mesh:") ? tool.shape.substr(5) : std::string();
+    for (const auto& [fact, path] : {std::pair("workpiece sha256", options.workpiece.source),
+                                     std::pair("stroke sha256", options.stroke), std::pair("tool sha256", tool_file)}) {
+        std::error_code ignored;
+        if (!fs::is_regular_file(path, ignored)) continue;
+        if (const auto digest = file_digest(path)) facts.emplace_back(fact, *digest);
+    }
+    return facts;
+}
+
+// Gives the workpiece the material of the surface that the tool leaves. Fails where it cannot be carved with the tool.
+Result<geometry::Material> take_up(sculpt::LoadedWorkpiece& workpiece, ChosenTool& chosen) {
+    const geometry::Material material = sculpt::material_of(chosen.settings);
+    chosen.tool.material = static_cast<std::uint8_t>(workpiece.solid.materials.size());
+    workpiece.solid.materials.push_back(material);
+    if (const auto ok = compute::check_tool(workpiece.solid, chosen.tool.sweep(Pose{}, Pose{})); !ok)
+        return std::unexpected(ok.error());
+    return material;
+}
+
+// Lets the device keep the surface, where it can and nothing else needs it here.
+Result<void> mesh_where_it_is_carved(sculpt::Sculpture& carving, const sculpt::Tool& tool) {
+    if (!std::holds_alternative<compute::BallTool>(tool.shape) || tool.operation == compute::Operation::smooth)
+        return {};
+    return carving.mesh_on_device();
 }
 
 }  // namespace
@@ -183,11 +210,9 @@ Result<void> sculpt(const session::SculptOptions& options) {
     const double longest_side_m = sculpt::longest_side_m(sculpt::workpiece_bounds(workpiece->solid.lattice));
     if (options.tool.shape.empty()) chosen_tool = choose_tool(options, longest_side_m);
     if (!chosen_tool) return std::unexpected(chosen_tool.error());
-    sculpt::Tool& tool = chosen_tool->tool;
-    const geometry::Material material = sculpt::material_of(chosen_tool->settings);
-    tool.material = static_cast<std::uint8_t>(workpiece->solid.materials.size());
-    workpiece->solid.materials.push_back(material);
-    if (const auto ok = compute::check_tool(workpiece->solid, tool.sweep(Pose{}, Pose{})); !ok) return ok;
+    const Result<geometry::Material> material = take_up(*workpiece, *chosen_tool);
+    if (!material) return std::unexpected(material.error());
+    const sculpt::Tool& tool = chosen_tool->tool;
 
     std::optional<session::Pictures> pictures;
     if (!options.pictures.empty()) {
@@ -203,20 +228,20 @@ Result<void> sculpt(const session::SculptOptions& options) {
         if (const auto taken = pictures->take_before(carving); !taken) return taken;
     }
 
-    Result<Json> tool_report = introduce(*chosen_tool, material, carving, !stroke.empty());
+    Result<Json> tool_report = introduce(*chosen_tool, *material, carving, !stroke.empty());
     if (!tool_report) return std::unexpected(tool_report.error());
     std::printf("%s\n", workpiece->size.c_str());
     if (options.undo > 0) carving.keep_history(options.undo_memory_MiB << 20);
-    if (std::holds_alternative<compute::BallTool>(tool.shape) && tool.operation != compute::Operation::smooth) {
-        if (const auto ready = carving.mesh_on_device(); !ready) return ready;
-    }
+    if (const auto ready = mesh_where_it_is_carved(carving, tool); !ready) return ready;
     std::optional<session::FeltFigures> felt;
     if (!stroke.empty() && options.hand == session::HandChoice::rigid) {
         if (const auto carved = sculpt::carve_rigidly(carving, stroke, tool, options.merge_rows); !carved)
             return carved;
     } else if (!stroke.empty()) {
-        Result<session::FeltFigures> carved = session::carve_by_feel(
-            carving, stroke, tool, {*feel, options.real_time, options.live.record, facts_of(options, *tool_report)});
+        session::FeltOptions felt_options{*feel, options.real_time, options.live.record};
+        if (!options.live.record.empty())
+            felt_options.facts = facts_of(options, chosen_tool->options, carving.engine().name());
+        Result<session::FeltFigures> carved = session::carve_by_feel(carving, stroke, tool, felt_options);
         if (!carved) return std::unexpected(carved.error());
         if (!options.live.record.empty())
             std::printf("%s: %s ticks recorded\n", options.live.record.c_str(), std::to_string(carved->ticks).c_str());
@@ -270,6 +295,28 @@ Result<void> sculpt(const session::SculptOptions& options) {
         if (const auto written = write_report(options.report, report); !written) return written;
     }
     print_table(report);
+    return {};
+}
+
+Result<void> record_again(const session::SculptOptions& options) {
+    const Result<sculpt::Feel> feel = sculpt::parse_feel(options.feel);
+    if (!feel) return std::unexpected(feel.error());
+    const Result<sculpt::Stroke> stroke = sculpt::read_stroke(options.stroke);
+    if (!stroke) return std::unexpected(stroke.error());
+    WorkerPool pool(options.threads);
+    Result<sculpt::LoadedWorkpiece> workpiece = sculpt::load_workpiece(options.workpiece, pool);
+    if (!workpiece) return std::unexpected(workpiece.error());
+    Result<ChosenTool> chosen_tool = choose_tool(options, std::nullopt);
+    if (!chosen_tool) return std::unexpected(chosen_tool.error());
+    if (const auto taken = take_up(*workpiece, *chosen_tool); !taken) return std::unexpected(taken.error());
+    Result<sculpt::ChosenEngine> chosen = sculpt::choose_engine(options.engine, std::move(workpiece->solid), pool);
+    if (!chosen) return std::unexpected(chosen.error());
+    sculpt::Sculpture carving(std::move(chosen->engine), pool);
+    if (options.undo > 0) carving.keep_history(options.undo_memory_MiB << 20);
+    if (const auto ready = mesh_where_it_is_carved(carving, chosen_tool->tool); !ready) return ready;
+    const session::FeltOptions felt{*feel, false, options.live.record};
+    const auto carved = session::carve_by_feel(carving, *stroke, chosen_tool->tool, felt);
+    if (!carved) return std::unexpected(carved.error());
     return {};
 }
 

@@ -9,6 +9,7 @@
 #include "base/text.hpp"
 #include "record/compare.hpp"
 #include "record/examination.hpp"
+#include "record/export/new_file.hpp"
 #include "record/export/table_export.hpp"
 
 namespace burin::app {
@@ -24,6 +25,9 @@ Json hand_json(const record::HandRecord& hand, const record::HandSummary& summar
     json["gaps"] = Json::array();
     for (const record::TickGap& gap : summary.gaps)
         json["gaps"].push_back({{"until_tick", gap.after_tick}, {"missing", gap.missing}});
+    json["objects"] = Json::array();
+    for (const record::RecordedObject& object : hand.objects)
+        json["objects"].push_back({{"number", object.number}, {"name", object.name}});
     json["columns"] = Json::array();
     for (const record::Column& column : hand.columns)
         json["columns"].push_back({{"name", column.name},
@@ -40,6 +44,8 @@ void print_hand(const record::HandRecord& hand, const record::HandSummary& summa
     for (const record::TickGap& gap : summary.gaps)
         std::printf("  until tick %lld: %lld missing\n", static_cast<long long>(gap.after_tick),
                     static_cast<long long>(gap.missing));
+    for (const record::RecordedObject& object : hand.objects)
+        std::printf("  object %lld: %s\n", static_cast<long long>(object.number), object.name.c_str());
     for (const record::Column& column : hand.columns)
         std::printf("  %-34s %-9s %-7s %s\n", column.name.c_str(), column.unit.c_str(), column.frame.c_str(),
                     std::string(record::name_of(column.type)).c_str());
@@ -68,6 +74,11 @@ Result<void> info(const std::string& path, const std::string& json_path) {
     json["hands"] = Json::array();
     for (const record::HandRecord& hand : reader->hands())
         json["hands"].push_back(hand_json(hand, record::summary_of(hand)));
+    json["derived"] = Json::array();
+    for (const record::HandRecord& table : reader->derived()) {
+        json["derived"].push_back(hand_json(table, record::summary_of(table)));
+        json["derived"].back()["program"] = table.program;
+    }
     if (json_path != kStandardOutput) {
         std::printf("%s: %s\n", path.c_str(),
                     reader->is_closed() ? "a session" : "a session that was not closed: what was acknowledged is here");
@@ -76,6 +87,10 @@ Result<void> info(const std::string& path, const std::string& json_path) {
                     counted(*lines, "line", "lines").c_str(), counted(trials->size(), "trial", "trials").c_str(),
                     moved_s);
         for (const record::HandRecord& hand : reader->hands()) print_hand(hand, record::summary_of(hand));
+        for (const record::HandRecord& table : reader->derived()) {
+            std::printf("derived by %s: ", table.program.c_str());
+            print_hand(table, record::summary_of(table));
+        }
     }
     return write_output(json_path, json_text(json));
 }
@@ -87,14 +102,14 @@ Result<void> check(const std::string& path) {
     if (!structure) return std::unexpected(structure.error());
     std::size_t damaged = structure->empty() ? 0 : 1;
     if (!structure->empty()) std::printf("%s: %s\n", path.c_str(), structure->c_str());
-    for (std::size_t h = 0; h < reader->hands().size(); ++h) {
+    for (std::size_t h = 0; h < reader->tables(); ++h) {
         const record::HandExamination found = record::examine(*reader, h);
         for (const Error& error : found.damaged) std::printf("%s\n", error.line().c_str());
         for (const record::TickGap& gap : found.gaps)
-            std::printf("%s: after tick %lld: %lld missing\n", reader->hands()[h].name.c_str(),
+            std::printf("%s: after tick %lld: %lld missing\n", reader->table(h).name.c_str(),
                         static_cast<long long>(gap.after_tick), static_cast<long long>(gap.missing));
         std::printf("%s: %s read, %s damaged, %s, %s that run backwards, %s that are no numbers\n",
-                    reader->hands()[h].name.c_str(), counted(found.ticks, "tick", "ticks").c_str(),
+                    reader->table(h).name.c_str(), counted(found.ticks, "tick", "ticks").c_str(),
                     counted(found.damaged.size(), "block", "blocks").c_str(),
                     counted(found.gaps.size(), "gap", "gaps").c_str(),
                     counted(found.backward_times, "time", "times").c_str(),
@@ -122,34 +137,63 @@ Result<void> compare(const std::string& a, const std::string& b, const std::stri
     return {};
 }
 
-Result<std::size_t> find_hand(const record::RecordReader& reader, const std::string& part) {
+// Returns the table of this name: a hand, or a derived one by the beginning of its name.
+Result<std::size_t> find_table(const record::RecordReader& reader, const std::string& part) {
     std::vector<std::string_view> names;
-    for (std::size_t h = 0; h < reader.hands().size(); ++h) {
-        if (reader.hands()[h].name == part) return h;
-        names.push_back(reader.hands()[h].name);
+    std::vector<std::size_t> found;
+    for (std::size_t t = 0; t < reader.tables(); ++t) {
+        const record::HandRecord& table = reader.table(t);
+        if (table.name == part) return t;
+        if (!part.empty() && table.is_derived() && table.name.starts_with(part)) found.push_back(t);
+        names.push_back(table.name);
     }
-    if (part.empty() && names.size() == 1) return std::size_t{0};
-    return fail(reader.path(), part.empty() ? "has several hands" : "has no hand " + part,
-                "--part one of: " + joined(names));
+    if (part.empty() && reader.hands().size() == 1) return std::size_t{0};
+    if (found.size() == 1) return found.front();
+    const std::string what = part.empty()       ? "has several hands"
+                             : found.size() > 1 ? "has several tables that begin with " + part
+                                                : "has no hand or table " + part;
+    return fail(reader.path(), what, "--part one of: " + joined(names));
+}
+
+// The name of the output where none is given: the recording's, with another ending.
+std::string output_of(const ConvertOptions& options) {
+    if (!options.out.empty()) return options.out;
+    const std::filesystem::path in(options.in);
+    if (options.to == "bids") return std::filesystem::path(in).replace_extension().string() + "-bids";
+    return std::filesystem::path(in).replace_extension(options.to == "hdf5" ? "h5" : options.to).string();
+}
+
+Result<record::ExportReport> export_table(record::RecordReader& reader, const ConvertOptions& options,
+                                          const std::string& out) {
+    if (options.to == "log") return record::export_log(reader, out);
+    const Result<std::size_t> table = find_table(reader, options.part);
+    if (!table) return std::unexpected(table.error());
+    const auto columns = record::choose_columns(reader.table(*table).columns, options.columns);
+    if (!columns) return std::unexpected(columns.error());
+    if (options.to == "npy") return record::export_npy(reader, *table, *columns, out);
+    if (options.to == "hdf5") return record::export_hdf5(reader, *table, *columns, out);
+    if (options.to == "mat") return record::export_mat(reader, *table, *columns, out);
+    if (options.to == "bids")
+        return record::export_bids(reader, *table, *columns, out, {options.subject, options.task});
+    return record::export_csv(reader, *table, *columns, out);
 }
 
 }  // namespace
 
 Result<void> convert_session(const ConvertOptions& options) {
-    std::string out = options.out;
-    if (out.empty()) out = std::filesystem::path(options.in).replace_extension(options.to).string();
+    const std::string out = output_of(options);
     if (const auto ok = check_overwrites_none(out, std::array{options.in}); !ok) return ok;
+    if (const auto ok = record::check_no_file(out); !ok) return ok;
+    if (options.to == "log" && !(options.columns.empty() && options.part.empty()))
+        return fail("--to log", "has no columns or parts to choose", "leave --columns and --part out");
     Result<record::RecordReader> reader = record::RecordReader::open(options.in);
     if (!reader) return std::unexpected(reader.error());
-    const Result<std::size_t> hand = find_hand(*reader, options.part);
-    if (!hand) return std::unexpected(hand.error());
-    const auto columns = record::choose_columns(reader->hands()[*hand].columns, options.columns);
-    if (!columns) return std::unexpected(columns.error());
-    const auto write = options.to == "csv" ? record::export_csv : record::export_npy;
-    const Result<record::ExportReport> report = write(*reader, *hand, *columns, out);
+    const Result<record::ExportReport> report = export_table(*reader, options, out);
     if (!report) return std::unexpected(report.error());
     for (const Error& error : report->damaged) std::fprintf(stderr, "burin: %s\n", error.line().c_str());
-    if (out != kStandardOutput)
+    if (out != kStandardOutput && options.to == "log")
+        std::printf("%s: %s\n", out.c_str(), counted(report->rows, "line", "lines").c_str());
+    else if (out != kStandardOutput)
         std::printf("%s: %s, %s\n", out.c_str(), counted(report->rows, "tick", "ticks").c_str(),
                     counted(report->columns, "column", "columns").c_str());
     if (report->damaged.empty()) return {};

@@ -32,8 +32,9 @@ private:
     Command info_, check_;
 };
 
-// burin convert FILE.session [OUT] --to csv|npy [--columns LIST] [--part NAME]: the ticks of one hand as a table.
-// Damaged blocks are left out and named; then it fails, with the rest written.
+// burin convert FILE.session [OUT] --to csv|npy|hdf5|mat|bids|log [--columns LIST] [--part NAME]: the ticks of one
+// hand, or a derived table. OUT must be new. Damaged blocks are left out and named; then it fails, with the rest
+// written.
 [[nodiscard]] Result<void> convert_session(const ConvertOptions& options);
 
 }  // namespace burin::app

@@ -4,17 +4,21 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "app/live_options.hpp"
 #include "app/output_files.hpp"
 #include "app/world_explore.hpp"
 #include "base/text.hpp"
+#include "compute/rays/lattice.hpp"
 #include "geometry/files/mesh_unit.hpp"
 #include "geometry/vrml/vrml_shapes.hpp"
 #include "scene/world_file.hpp"
+#include "session/drive/session.hpp"
 
 namespace burin::app {
 namespace {
@@ -236,9 +240,21 @@ CheckedWorld check_world(const std::string& path, bool print) {
 
 }  // namespace
 
+namespace {
+
+// Returns whether a log holds what the threads of a session did, by its first line (docs/formats.md).
+bool is_recording(const std::string& log) {
+    std::ifstream file(log, std::ios::binary);
+    std::string first;
+    return static_cast<bool>(std::getline(file, first)) && first.find("burin-input 2") != std::string::npos;
+}
+
+}  // namespace
+
 struct WorldCommand::Options {
     std::vector<std::string> files;  // to check
     WorldExploration exploration;
+    session::SculptOptions session;  // live
     std::string json;
 
     [[nodiscard]] Result<void> check_files() const;
@@ -267,7 +283,16 @@ WorldCommand::WorldCommand(Command app)
     : options_(std::make_unique<Options>()),
       command_(app.subcommand("world", "Explore a world by touch, and check worlds")) {
     Options& o = *options_;
-    command_.option("FILE", o.exploration.world, "A world to explore: .toml, or .wrl for VRML 2.0");
+    o.session.workpiece.source.clear();
+    command_.option("FILE", o.exploration.world, "A world: .toml, .wrl for VRML 2.0, or a mesh (STL, OBJ, PLY, OFF)");
+    command_.option("--workpiece", o.session.workpiece.source,
+                    "A workpiece that stands in the world and is carved: FILE, block:X,Y,Z or ball:R; else none");
+    command_.option("--resolution", o.session.workpiece.resolution, "Of the workpiece: cells along its longest side")
+        .within(compute::kMinResolution, compute::kMaxResolution)
+        .show_default();
+    command_.option("--tool", o.session.tool.shape,
+                    sculpt::alternatives(sculpt::tool_synopses()) +
+                        ", in metres; else a ball whose radius is 1.5 % of the world's longest side");
     command_.option("--stroke", o.exploration.stroke,
                     "CSV with the columns time_s,x_m,y_m,z_m,qx,qy,qz,qw,button, along which a simulated hand goes");
     command_.option("--radius", o.exploration.radius_m, "Radius of the ball that touches, in metres")
@@ -277,6 +302,7 @@ WorldCommand::WorldCommand(Command app)
                     "A folder for pictures: the world, each object when it is first touched, both eyes at the end");
     command_.option("--report", o.exploration.report,
                     "A JSON file for what was felt of each object; plots lie beside it");
+    add_live_options(command_, o.session.live);
     check_ = command_.subcommand("check", "What is in each file, or all that is wrong with it; exit status 1 then");
     check_.option("FILE", o.files, "Worlds (.toml, or .wrl for VRML 2.0), see docs/formats.md").required();
     check_.option("--json", o.json, "A file for all figures and faults; - for standard output");
@@ -288,13 +314,25 @@ bool WorldCommand::parsed() const { return command_.parsed(); }
 
 std::string WorldCommand::misuse() const {
     if (check_.parsed()) return "";
-    if (options_->exploration.world.empty()) return "world needs a file, or the word check and files";
-    return options_->exploration.stroke.empty() ? "world needs a --stroke: it cannot be explored live yet" : "";
+    const bool is_done_again = !options_->session.live.input.empty();
+    if (options_->exploration.world.empty() && !is_done_again) return "world needs a file, or the word check and files";
+    return "";
 }
 
 Result<void> WorldCommand::run() const {
     if (check_.parsed()) return options_->check_files();
-    return explore_world(options_->exploration);
+    if (!options_->exploration.stroke.empty()) {
+        WorldExploration exploration = options_->exploration;
+        exploration.record = options_->session.live.record;
+        return explore_world(exploration);
+    }
+    session::SculptOptions session = options_->session;
+    session.world = options_->exploration.world;
+    // A recording says itself what it was of; a script does not.
+    const bool says_itself = session.world.empty() && is_recording(session.live.input);
+    session.no_workpiece = !says_itself && session.workpiece.source.empty();
+    if (session.workpiece.source.empty()) session.workpiece.source = session::SculptOptions{}.workpiece.source;
+    return session::run_session(session);
 }
 
 }  // namespace burin::app

@@ -10,10 +10,13 @@
 #include <utility>
 
 #include "activities/world/felt_world.hpp"
+#include "activities/world/world_plot.hpp"
 #include "activities/world/world_view.hpp"
 #include "app/output_files.hpp"
+#include "app/world_digest.hpp"
 #include "base/text.hpp"
 #include "gpu/device.hpp"
+#include "record/record_writer.hpp"
 #include "renderer/frame/renderer.hpp"
 #include "renderer/png.hpp"
 #include "scene/vrml_world.hpp"
@@ -80,15 +83,6 @@ private:
     renderer::Renderer renderer_;
 };
 
-// Reads a world; prints its problems, when it has some, and fails.
-Result<scene::World> read_sound_world(const std::string& path) {
-    scene::WorldOrProblems world = scene::read_any_world(path);
-    if (world) return std::move(*world);
-    if (world.error().size() == 1) return std::unexpected(world.error().front());
-    for (const Error& problem : world.error()) std::fprintf(stderr, "burin: %s\n", problem.line().c_str());
-    return fail(path, std::to_string(world.error().size()) + " problems", "correct them; burin world check lists them");
-}
-
 Json touches_json(const activities::WorldFigures& figures) {
     Json list = Json::array();
     for (const activities::ObjectTouch& touch : figures.touches) {
@@ -117,7 +111,7 @@ Result<void> write_world_report(const WorldExploration& options, const activitie
     if (options.report.empty()) return {};
     const std::string figure = session::felt_figure_path(options.report),
                       table = session::felt_table_path(options.report);
-    if (const auto written = write_text(figure, session::felt_figure(figures.felt)); !written) return written;
+    if (const auto written = write_text(figure, activities::world_figure(figures)); !written) return written;
     if (const auto written = write_text(table, session::felt_table(figures.felt)); !written) return written;
     const session::FeltFigures& felt = figures.felt;
     const Json report{
@@ -136,7 +130,33 @@ Result<void> write_world_report(const WorldExploration& options, const activitie
     return write_text(options.report, json_text(report));
 }
 
+// What a session file says of the program and of what was explored.
+Result<std::vector<std::pair<std::string, std::string>>> facts_of_world(const WorldExploration& options,
+                                                                        const scene::World& world) {
+    const auto world_file = file_digest(options.world), stroke_file = file_digest(options.stroke);
+    if (!world_file) return std::unexpected(world_file.error());
+    if (!stroke_file) return std::unexpected(stroke_file.error());
+    return std::vector<std::pair<std::string, std::string>>{{"program", "burin"},
+                                                            {"version", BURIN_VERSION},
+                                                            {"compiler", __VERSION__},
+                                                            {"command", "world --stroke"},
+                                                            {"world", options.world},
+                                                            {"world file sha256", *world_file},
+                                                            {kWorldDigestFact, world_digest(world.objects)},
+                                                            {"stroke", options.stroke},
+                                                            {"stroke sha256", *stroke_file},
+                                                            {"time", "simulated"}};
+}
+
 }  // namespace
+
+Result<scene::World> read_sound_world(const std::string& path) {
+    scene::WorldOrProblems world = scene::read_any_world(path);
+    if (world) return std::move(*world);
+    if (world.error().size() == 1) return std::unexpected(world.error().front());
+    for (const Error& problem : world.error()) std::fprintf(stderr, "burin: %s\n", problem.line().c_str());
+    return fail(path, std::to_string(world.error().size()) + " problems", "correct them; burin world check lists them");
+}
 
 Result<void> explore_world(const WorldExploration& options) {
     const std::array inputs{options.world, options.stroke};
@@ -145,10 +165,19 @@ Result<void> explore_world(const WorldExploration& options) {
         if (const auto ok = check_place(session::felt_figure_path(options.report)); !ok) return ok;
         if (const auto ok = check_place(session::felt_table_path(options.report)); !ok) return ok;
     }
+    if (const auto ok = record::check_new_place(options.record); !ok) return ok;
     const Result<sculpt::Stroke> stroke = sculpt::read_stroke(options.stroke);
     if (!stroke) return std::unexpected(stroke.error());
     Result<scene::World> world = read_sound_world(options.world);
     if (!world) return std::unexpected(world.error());
+    activities::ExploreOptions explore;
+    explore.tool_radius_m = options.radius_m;
+    explore.record = options.record;
+    if (!options.record.empty()) {
+        auto facts = facts_of_world(options, *world);
+        if (!facts) return std::unexpected(facts.error());
+        explore.facts = std::move(*facts);
+    }
     for (const std::string& remark : world->remarks) std::fprintf(stderr, "burin: %s\n", remark.c_str());
     std::vector<scene::ObjectId> ids;
     for (const scene::SceneObject& object : world->objects) ids.push_back(object.id);
@@ -170,8 +199,6 @@ Result<void> explore_world(const WorldExploration& options) {
         return (*pictures)->take(view.close_scene(moment.tool), "touched-" + std::to_string(pictured.size()) + "-" +
                                                                     file_word(*moment.newly_touched) + ".png");
     };
-    activities::ExploreOptions explore;
-    explore.tool_radius_m = options.radius_m;
     const Result<activities::WorldFigures> figures =
         activities::explore_by_feel(**part, ids, materials, *stroke, explore, frame);
     if (!figures) return std::unexpected(figures.error());
@@ -179,6 +206,8 @@ Result<void> explore_world(const WorldExploration& options) {
         const auto done = (*pictures)->take_both_eyes(view.wall_scene(figures->felt.last_tool), "stereo.png");
         if (!done) return done;
     }
+    if (!options.record.empty())
+        std::printf("%s: %s ticks recorded\n", options.record.c_str(), std::to_string(figures->felt.ticks).c_str());
     print_touches(*figures);
     return write_world_report(options, *figures);
 }

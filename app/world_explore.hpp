@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "scene/world_file.hpp"
 
 namespace burin::app {
 
@@ -15,9 +16,13 @@ struct WorldExploration {
     double radius_m = 0.004;  // of the ball that touches
     std::string pictures;     // a folder; empty: none
     std::string report;       // a JSON file; empty: none
+    std::string record;       // a new session file; empty: none
 };
 
 // Fails with all problems of the world printed, when it has some.
 [[nodiscard]] Result<void> explore_world(const WorldExploration& options);
+
+// Reads a world; prints its problems, when it has several, and fails.
+[[nodiscard]] Result<scene::World> read_sound_world(const std::string& path);
 
 }  // namespace burin::app

@@ -71,6 +71,20 @@ std::optional<std::string> TableReader::text_or_index(const char* key) {
     return text(key);
 }
 
+std::optional<std::vector<std::string>> TableReader::texts(const char* key) {
+    const toml::node* n = node(key);
+    if (n == nullptr) return std::nullopt;
+    std::vector<std::string> values;
+    const toml::array* const array = n->as_array();
+    if (array != nullptr)
+        for (const toml::node& element : *array)
+            if (element.is_string()) values.push_back(*element.value<std::string>());
+    if (array != nullptr && values.size() == array->size()) return values;
+    reading_.refuse(*n, std::string(key) + " is not a list of texts",
+                    "write " + std::string(key) + " = [ ... ] with each in quotes");
+    return std::nullopt;
+}
+
 std::optional<std::vector<double>> TableReader::numbers_of(const toml::node& n, const char* key, std::size_t count) {
     std::vector<double> values;
     if (const toml::array* array = n.as_array(); array != nullptr && array->size() == count) {

@@ -40,6 +40,7 @@ public:
     [[nodiscard]] std::optional<bool> flag(const char* key);
     [[nodiscard]] std::optional<std::string> text(const char* key);
     [[nodiscard]] std::optional<std::string> text_or_index(const char* key);
+    [[nodiscard]] std::optional<std::vector<std::string>> texts(const char* key);  // a list of any length
     [[nodiscard]] std::optional<std::vector<double>> numbers(const char* key, std::size_t count);
     [[nodiscard]] std::optional<Vec3> vector(const char* key);
     [[nodiscard]] std::optional<Quat> quaternion(const char* key);  // x, y, z, w; normalised

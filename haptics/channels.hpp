@@ -115,7 +115,7 @@ enum TickFlag : std::uint32_t {
     kTickCutting = 1u << 17,        // the tool is cutting into material
     kTickGuided = 1u << 18,         // the guidance force pulls the tool to its curve
     kTickLoopGap = 1u << 19,        // ticks were lost before this one
-    kTickDoubted = 1u << 20,        // the watch finds no sound contact: its force fades out (contact/contact_watch.hpp)
+    kTickDoubted = 1u << 20,        // the watch finds no sound contact: its force fades out (ContactWatch)
     kTickLetGo = 1u << 21,          // ... and the tool was set to the hand in this tick
     // a part of several for which no work was left in this turn: its contacts are held on their last planes
     kTickHeldOver = 1u << 22,

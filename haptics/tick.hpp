@@ -3,10 +3,12 @@
 //
 // Data flow, one line each, all in haptics/:
 //   device sample -> velocity (signals/) -> mapping into the scene (workspace/)
-//   for each point of the probe: the watch over its last contact (contact/contact_watch.hpp) -> proxy on the surface
-//   (contact/god_object.hpp) -> spring, damper, friction (forces/touch_force.hpp)
-//   -> the cutting point advances (forces/cutting.hpp) -> one force and torque (forces/touch_force.hpp)
-//   -> filter (signals/filters.hpp) -> passivity (stability/passivity.hpp) -> weight, guidance, workspace force
+//   for each point of the probe: the watch over its last contact (haptics/contact/contact_watch.hpp) -> proxy on the
+// surface
+//   (haptics/contact/god_object.hpp) -> spring, damper, friction (haptics/forces/touch_force.hpp)
+//   -> the cutting point advances (haptics/forces/cutting.hpp) -> one force and torque (haptics/forces/touch_force.hpp)
+//   -> filter (haptics/signals/filters.hpp) -> passivity (haptics/stability/passivity.hpp) -> weight, guidance,
+// workspace force
 //   -> the gate (stability/safety_gate.hpp): turns the desired wrench into the commanded wrench.
 // Position gain g: points are scaled by g, forces divided by g, so that stiffness and damping are felt at the device as
 // set, whatever the scale of the scene. Damping acts along the contact normal, in contact only, and never pulls

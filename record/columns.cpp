@@ -13,6 +13,9 @@
 namespace burin::record {
 namespace {
 
+constexpr std::string_view kColumnsHead = "name,unit,frame,type\n";
+constexpr std::size_t kMostListBytes = 1 << 20, kMostListed = 1024;
+
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // A column's name in pieces, put together only where names are asked for.
@@ -176,6 +179,12 @@ std::string_view name_of(ColumnType type) {
     return "";
 }
 
+std::optional<ColumnType> column_type_named(std::string_view name) {
+    for (const ColumnType type : {ColumnType::f64, ColumnType::i64, ColumnType::u32})
+        if (name_of(type) == name) return type;
+    return {};
+}
+
 RowShape shape_of(const devices::DeviceDescription& device, const haptics::Probe& probe) {
     return {std::min<std::uint32_t>(device.joints.count, devices::kMostJoints),
             std::min(probe.count, haptics::kMostProbePoints)};
@@ -230,6 +239,38 @@ Result<std::vector<std::size_t>> choose_columns(std::span<const Column> columns,
         begin = end + 1;
     }
     return chosen;
+}
+
+std::string text_of(std::span<const Column> columns) {
+    std::string text(kColumnsHead);
+    for (const Column& column : columns)
+        text += column.name + "," + column.unit + "," + column.frame + "," + std::string(name_of(column.type)) + "\n";
+    return text;
+}
+
+Result<std::vector<Column>> columns_in(std::string_view text) {
+    const auto wrong = [] { return fail("list of columns", "is none", "name a file that --record has written"); };
+    if (!text.starts_with(kColumnsHead) || text.size() > kMostListBytes) return wrong();
+    text.remove_prefix(kColumnsHead.size());
+    std::vector<Column> columns;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        std::string_view line = text.substr(0, end);
+        text.remove_prefix(std::min(end + 1, text.size()));
+        std::array<std::string, 4> fields;
+        for (std::size_t i = 0; i < fields.size(); ++i) {
+            const std::size_t comma = line.find(',');
+            if ((comma == std::string_view::npos) != (i + 1 == fields.size())) return wrong();
+            fields[i] = line.substr(0, comma);
+            line.remove_prefix(std::min(comma == std::string_view::npos ? line.size() : comma + 1, line.size()));
+        }
+        const auto type = column_type_named(fields[3]);
+        const bool is_known = std::ranges::any_of(columns, [&](const Column& c) { return c.name == fields[0]; });
+        if (!type || fields[0].empty() || is_known || columns.size() >= kMostListed) return wrong();
+        columns.push_back({fields[0], fields[1], fields[2], *type});
+    }
+    if (columns.empty()) return wrong();
+    return columns;
 }
 
 }  // namespace burin::record

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,6 +25,7 @@ enum class ColumnType : std::uint8_t { f64, i64, u32 };
 // Bytes of a value in a block.
 [[nodiscard]] constexpr std::size_t size_of(ColumnType type) { return type == ColumnType::u32 ? 4 : 8; }
 [[nodiscard]] std::string_view name_of(ColumnType type);
+[[nodiscard]] std::optional<ColumnType> column_type_named(std::string_view name);
 
 struct Column {
     std::string name;   // e.g. "hip0_object_x_m"
@@ -56,5 +58,10 @@ struct RowShape {
 // Returns the indices of the columns that a list names: names with commas between them, a star at a name's end for all
 // that begin so; empty: all columns. Fails on a name that fits none, and says which is nearest.
 [[nodiscard]] Result<std::vector<std::size_t>> choose_columns(std::span<const Column> columns, std::string_view list);
+
+// A list of columns as text: a line "name,unit,frame,type" of them, then a line a column. Reading fails on a list that
+// is none, on names that are empty or occur twice, and on commas in a name.
+[[nodiscard]] std::string text_of(std::span<const Column> columns);
+[[nodiscard]] Result<std::vector<Column>> columns_in(std::string_view text);
 
 }  // namespace burin::record

@@ -7,55 +7,27 @@
 namespace burin::record {
 namespace {
 
-// Walks through the rows of a hand.
-class RowWalk {
-public:
-    RowWalk(RecordReader& reader, std::size_t hand) : reader_(reader), hand_(hand) {}
-
-    // Goes to the next row: false at the end.
-    [[nodiscard]] Result<bool> next() {
-        if (++row_ < block_.rows()) return true;
-        if (number_ >= reader_.hands()[hand_].blocks.size()) return false;
-        Result<Block> read = reader_.block(hand_, number_++);
-        if (!read) return std::unexpected(read.error());
-        block_ = std::move(*read);
-        row_ = 0;
-        return true;
+// Goes to the next row in the range of ticks; all rows where there is no column of ticks.
+Result<bool> next_in(RowWalk& walk, std::size_t tick, std::size_t columns, const TickRange& range) {
+    for (;;) {
+        const Result<bool> more = walk.next();
+        if (!more || !*more || tick >= columns) return more;
+        const auto number = static_cast<std::int64_t>(walk.at(tick));
+        if (range.holds(number)) return true;
+        if (number > range.to) return false;
     }
-    [[nodiscard]] Word at(std::size_t column) const { return block_.at(column, static_cast<std::uint32_t>(row_)); }
-
-private:
-    RecordReader& reader_;
-    std::size_t hand_, number_ = 0;
-    Block block_;
-    std::int64_t row_ = -1;
-};
-
-std::size_t tick_column(const HandRecord& hand) {
-    for (std::size_t c = 0; c < hand.columns.size(); ++c)
-        if (hand.columns[c].name == "tick") return c;
-    return hand.columns.size();
-}
-
-// Values that look alike and differ in bits are told as bits.
-void set_values(Difference& difference, Word first, Word second, ColumnType type) {
-    difference.first = text_of(first, type);
-    difference.second = text_of(second, type);
-    if (difference.first != difference.second) return;
-    difference.first += " (bits " + std::to_string(first) + ")";
-    difference.second += " (bits " + std::to_string(second) + ")";
 }
 
 Result<void> compare_hand(RecordReader& a, RecordReader& b, std::size_t hand, const std::vector<std::size_t>& chosen,
-                          Comparison& result) {
+                          const TickRange& range, Comparison& result) {
     const HandRecord& of = a.hands()[hand];
-    const std::size_t tick = tick_column(of);
+    const std::size_t tick = find_column(of, "tick", ColumnType::i64), columns = of.columns.size();
     const auto tick_of = [&](const RowWalk& walk) {
         return tick < of.columns.size() ? static_cast<std::int64_t>(walk.at(tick)) : std::int64_t{0};
     };
     RowWalk first(a, hand), second(b, hand);
     for (;;) {
-        const Result<bool> more = first.next(), also = second.next();
+        const Result<bool> more = next_in(first, tick, columns, range), also = next_in(second, tick, columns, range);
         if (!more) return std::unexpected(more.error());
         if (!also) return std::unexpected(also.error());
         if (!*more && !*also) return {};
@@ -66,9 +38,8 @@ Result<void> compare_hand(RecordReader& a, RecordReader& b, std::size_t hand, co
         }
         for (const std::size_t column : chosen) {
             if (first.at(column) == second.at(column)) continue;
-            Difference difference{of.name, of.columns[column].name, tick_of(first), "", ""};
-            set_values(difference, first.at(column), second.at(column), of.columns[column].type);
-            result.difference = std::move(difference);
+            result.difference =
+                difference_of(of.name, of.columns[column], tick_of(first), first.at(column), second.at(column));
             return {};
         }
         ++result.ticks;
@@ -76,6 +47,14 @@ Result<void> compare_hand(RecordReader& a, RecordReader& b, std::size_t hand, co
 }
 
 }  // namespace
+
+Difference difference_of(const std::string& hand, const Column& column, std::int64_t tick, Word first, Word second) {
+    Difference difference{hand, column.name, tick, text_of(first, column.type), text_of(second, column.type)};
+    if (difference.first != difference.second) return difference;
+    difference.first += " (bits " + std::to_string(first) + ")";
+    difference.second += " (bits " + std::to_string(second) + ")";
+    return difference;
+}
 
 std::string Difference::line() const {
     if (column.empty())
@@ -85,7 +64,7 @@ std::string Difference::line() const {
            " in the second";
 }
 
-Result<Comparison> compare(RecordReader& a, RecordReader& b, std::string_view columns) {
+Result<Comparison> compare(RecordReader& a, RecordReader& b, std::string_view columns, const TickRange& range) {
     if (a.hands().size() != b.hands().size())
         return fail(b.path(),
                     "has " + std::to_string(b.hands().size()) + " hands, and " + a.path() + " has " +
@@ -99,7 +78,8 @@ Result<Comparison> compare(RecordReader& a, RecordReader& b, std::string_view co
         const auto chosen = choose_columns(a.hands()[hand].columns, columns);
         if (!chosen) return std::unexpected(chosen.error());
         result.columns += chosen->size();
-        if (const auto done = compare_hand(a, b, hand, *chosen, result); !done) return std::unexpected(done.error());
+        if (const auto done = compare_hand(a, b, hand, *chosen, range, result); !done)
+            return std::unexpected(done.error());
         if (result.difference) return result;
     }
     return result;

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "record/record_reader.hpp"
+#include "record/row_walk.hpp"
 
 namespace burin::record {
 
@@ -24,8 +24,13 @@ struct Comparison {
     std::optional<Difference> difference;  // the first, by tick and then by column; none: equal to the bit
 };
 
-// Compares the columns that the list names (choose_columns()) of all hands, in the order of the hands. Fails where a
-// file cannot be read, a block is damaged, or hands or columns differ. Memory: one block of each.
-[[nodiscard]] Result<Comparison> compare(RecordReader& a, RecordReader& b, std::string_view columns = {});
+// Names two values of a column that differ; values that look alike and differ in bits are told as bits.
+[[nodiscard]] Difference difference_of(const std::string& hand, const Column& column, std::int64_t tick, Word first,
+                                       Word second);
+
+// Compares the columns that the list names (choose_columns()) of all hands, in the order of the hands, in a range of
+// ticks. Fails where a file cannot be read, a block is damaged, or hands or columns differ. Memory: one block of each.
+[[nodiscard]] Result<Comparison> compare(RecordReader& a, RecordReader& b, std::string_view columns = {},
+                                         const TickRange& range = {});
 
 }  // namespace burin::record

@@ -100,12 +100,12 @@ Nanoseconds wall_clock_moved_ns(const std::vector<ClockPair>& clocks) {
     return saturated_difference(most, least);
 }
 
-HandExamination examine(RecordReader& reader, std::size_t hand) {
-    const HandRecord& of = reader.hands()[hand];
+HandExamination examine(RecordReader& reader, std::size_t table) {
+    const HandRecord& of = reader.table(table);
     HandExamination found;
     TickWatch watch(of, found);
     for (std::size_t number = 0; number < of.blocks.size(); ++number) {
-        const Result<Block> block = reader.block(hand, number);
+        const Result<Block> block = reader.block(table, number);
         if (!block) {
             found.damaged.push_back(block.error());
             continue;

@@ -27,7 +27,7 @@ struct HandSummary {
 // How far the wall clock moved against the monotonic one, in all: of a clock that is not set, some milliseconds.
 [[nodiscard]] Nanoseconds wall_clock_moved_ns(const std::vector<ClockPair>& clocks);
 
-// What reading every block found.
+// What reading every block of a table found.
 struct HandExamination {
     std::uint64_t ticks = 0;  // read
     std::vector<Error> damaged;
@@ -35,6 +35,6 @@ struct HandExamination {
     std::uint64_t backward_times = 0;  // ticks that are not later than the one before
     std::uint64_t not_finite = 0;      // numbers that are none, but for the points that a tick does not have
 };
-[[nodiscard]] HandExamination examine(RecordReader& reader, std::size_t hand);
+[[nodiscard]] HandExamination examine(RecordReader& reader, std::size_t table);
 
 }  // namespace burin::record

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "record/record_reader.hpp"
+#include "record/row_walk.hpp"
 
 #include <sys/stat.h>
 
@@ -28,12 +29,6 @@ Result<void> check_kind(const std::string& path) {
     return {};
 }
 
-std::optional<ColumnType> type_named(std::string_view name) {
-    for (const ColumnType type : {ColumnType::f64, ColumnType::i64, ColumnType::u32})
-        if (name_of(type) == name) return type;
-    return {};
-}
-
 bool fits_u32(std::int64_t value) { return value >= 0 && value <= std::numeric_limits<std::uint32_t>::max(); }
 
 }  // namespace
@@ -50,6 +45,12 @@ std::vector<ColumnType> HandRecord::types() const {
     return types;
 }
 
+std::size_t find_column(const HandRecord& table, std::string_view name, ColumnType type) {
+    const auto at =
+        std::ranges::find_if(table.columns, [&](const Column& c) { return c.name == name && c.type == type; });
+    return static_cast<std::size_t>(at - table.columns.begin());
+}
+
 Result<RecordReader> RecordReader::open(const std::string& path) {
     if (const auto ok = check_kind(path); !ok) return std::unexpected(ok.error());
     RecordReader reader;
@@ -58,8 +59,9 @@ Result<RecordReader> RecordReader::open(const std::string& path) {
     if (!opened) return std::unexpected(opened.error());
     reader.database_.emplace(std::move(*opened));
     reader.database_->limit_steps(kMostSteps);
-    for (const auto step : {&RecordReader::check_marks, &RecordReader::check_tables, &RecordReader::read_facts,
-                            &RecordReader::read_hands, &RecordReader::read_places})
+    for (const auto step :
+         {&RecordReader::check_marks, &RecordReader::check_tables, &RecordReader::read_facts, &RecordReader::read_hands,
+          &RecordReader::read_places, &RecordReader::read_derived, &RecordReader::read_objects})
         if (const auto done = (reader.*step)(); !done) return std::unexpected(done.error());
     return reader;
 }
@@ -81,15 +83,21 @@ Result<void> RecordReader::check_marks() {
 }
 
 // A view could compute for ever, a virtual table could call other code: all must be plain tables.
+Result<bool> RecordReader::has_table(const char* name) {
+    Result<Statement> find =
+        database_->prepare("SELECT count(*) FROM sqlite_schema WHERE name = ? AND type = 'table' AND rootpage > 0");
+    if (!find) return std::unexpected(find.error());
+    find->bind(1, std::string_view(name));
+    const Result<bool> row = find->step();
+    if (!row) return std::unexpected(row.error());
+    return *row && find->integer(0) == 1;
+}
+
 Result<void> RecordReader::check_tables() {
     for (const char* name : {"meta", "hand", "column", "block", "line", "trial", "event", "clock", "derived"}) {
-        Result<Statement> find =
-            database_->prepare("SELECT count(*) FROM sqlite_schema WHERE name = ? AND type = 'table' AND rootpage > 0");
-        if (!find) return std::unexpected(find.error());
-        find->bind(1, std::string_view(name));
-        const Result<bool> row = find->step();
-        if (!row) return std::unexpected(row.error());
-        if (!*row || find->integer(0) != 1) return fail(path_, "has no table " + std::string(name), kRemedy);
+        const Result<bool> there = has_table(name);
+        if (!there) return std::unexpected(there.error());
+        if (!*there) return fail(path_, "has no table " + std::string(name), kRemedy);
     }
     return {};
 }
@@ -130,7 +138,7 @@ Result<void> RecordReader::read_columns(HandRecord& hand) {
     read->bind(1, std::int64_t{hand.number});
     Result<bool> row = read->step();
     for (; row && *row; row = read->step()) {
-        const auto type = type_named(read->text(4));
+        const auto type = column_type_named(read->text(4));
         Column column{read->text(1), read->text(2), read->text(3), type.value_or(ColumnType::f64)};
         if (read->integer(0) != static_cast<std::int64_t>(hand.columns.size()) || hand.columns.size() >= kMostColumns)
             return fail(path_, "column " + std::to_string(hand.columns.size()) + " of " + hand.name + " is missing",
@@ -167,16 +175,67 @@ Result<void> RecordReader::read_places() {
     return {};
 }
 
-std::string RecordReader::name_of_block(std::size_t hand, std::size_t number) const {
-    const BlockHeader& header = hands_[hand].blocks[number].header;
-    return path_ + ": block " + std::to_string(number + 1) + " of " + hands_[hand].name + ", from tick " +
-           std::to_string(header.tick0);
+// A table's name and the program that made it are in its blocks; the first one lists the columns.
+Result<void> RecordReader::read_derived() {
+    Result<Statement> read = database_->prepare(
+        "SELECT id, name, program, columns, hand, tick0, rows, t0_ns FROM derived ORDER BY name, program, id LIMIT " +
+        std::to_string(kMostBlocks + 1));
+    if (!read) return std::unexpected(read.error());
+    std::size_t blocks = 0;
+    Result<bool> row = read->step();
+    for (; row && *row; row = read->step()) {
+        const std::string name = read->text(1), program = read->text(2);
+        if (derived_.empty() || derived_.back().name != name || derived_.back().program != program) {
+            Result<std::vector<Column>> columns = columns_in(read->text(3));
+            if (!columns || name.size() + program.size() > 1000 || program.empty() || derived_.size() >= kMostDerived)
+                return fail(path_, "has a derived table that this program does not know", kRemedy);
+            derived_.push_back({0, name, program, std::move(*columns), {}, {}});
+        }
+        const std::int64_t number = read->integer(4), rows = read->integer(6);
+        if (!fits_u32(number) || ++blocks > kMostBlocks)
+            return fail(path_, "has a derived table of no hand, or a month of ticks", kRemedy);
+        HandRecord& table = derived_.back();
+        table.number = static_cast<std::uint32_t>(number);
+        const auto kept_rows = rows < 0 || rows > kMostBlockRows ? 0 : static_cast<std::uint32_t>(rows);
+        table.blocks.push_back({read->integer(0), {table.number, read->integer(5), kept_rows, read->integer(7)}});
+    }
+    if (!row) return std::unexpected(row.error());
+    return {};
 }
 
-Result<Block> RecordReader::block(std::size_t hand, std::size_t number) {
-    const HandRecord& of = hands_[hand];
-    const std::string where = name_of_block(hand, number);
-    Result<Statement> read = database_->prepare("SELECT crc, data FROM block WHERE id = ?");
+// Recordings from before there were names of objects have no table of them.
+Result<void> RecordReader::read_objects() {
+    const Result<bool> there = has_table("object");
+    if (!there) return std::unexpected(there.error());
+    if (!*there) return {};
+    Result<Statement> read = database_->prepare(
+        "SELECT part, number, name FROM object WHERE length(part) + length(name) <= " + std::to_string(kMostTextBytes) +
+        " ORDER BY part, number LIMIT " + std::to_string(kMostObjects));
+    if (!read) return std::unexpected(read.error());
+    Result<bool> row = read->step();
+    for (; row && *row; row = read->step()) {
+        const std::string part = read->text(0);
+        const RecordedObject object{read->integer(1), read->text(2)};
+        for (HandRecord& hand : hands_)
+            if (part.empty()) hand.objects.push_back(object);
+        for (HandRecord& table : derived_)
+            if (table.name == part) table.objects.push_back(object);
+    }
+    if (!row) return std::unexpected(row.error());
+    return {};
+}
+
+std::string RecordReader::name_of_block(std::size_t table, std::size_t number) const {
+    const HandRecord& of = this->table(table);
+    return path_ + ": block " + std::to_string(number + 1) + " of " + of.name + ", from tick " +
+           std::to_string(of.blocks[number].header.tick0);
+}
+
+Result<Block> RecordReader::block(std::size_t table, std::size_t number) {
+    const HandRecord& of = this->table(table);
+    const std::string where = name_of_block(table, number);
+    Result<Statement> read = database_->prepare(of.is_derived() ? "SELECT crc, data FROM derived WHERE id = ?"
+                                                                : "SELECT crc, data FROM block WHERE id = ?");
     if (!read) return std::unexpected(read.error());
     read->bind(1, of.blocks[number].id);
     const Result<bool> row = read->step();

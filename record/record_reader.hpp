@@ -22,17 +22,31 @@ namespace burin::record {
 
 inline constexpr std::size_t kMostBlocks = 4'000'000;  // a month of one hand
 inline constexpr std::size_t kMostHands = 64;
+inline constexpr std::size_t kMostDerived = 1000, kMostObjects = 100'000;
 
 struct BlockPlace {
     std::int64_t id = 0;  // in table block
     BlockHeader header;
 };
 
+// An object that can be touched, by the number that a column "object..." holds.
+struct RecordedObject {
+    std::int64_t number = 0;
+    std::string name;
+
+    bool operator==(const RecordedObject&) const = default;
+};
+
+// The ticks of a hand, or a table that was derived from them (derived.hpp).
 struct HandRecord {
     std::uint32_t number = 0;
-    std::string name;
+    std::string name;     // of the device; of a derived table: of what it was computed with
+    std::string program;  // that computed a derived table; empty: recorded
     std::vector<Column> columns;
+    std::vector<RecordedObject> objects;
     std::vector<BlockPlace> blocks;  // in the order of their ticks
+
+    [[nodiscard]] bool is_derived() const { return !program.empty(); }
 
     [[nodiscard]] std::uint64_t rows() const;  // as the blocks say
     [[nodiscard]] std::vector<ColumnType> types() const;
@@ -60,13 +74,20 @@ public:
     [[nodiscard]] const std::string& path() const { return path_; }
     [[nodiscard]] const std::map<std::string, std::string>& facts() const { return facts_; }
     [[nodiscard]] const std::vector<HandRecord>& hands() const { return hands_; }
+    // Tables that were computed from the ticks later.
+    [[nodiscard]] const std::vector<HandRecord>& derived() const { return derived_; }
+    // All of them: first the hands, then what is derived. `table` is below tables().
+    [[nodiscard]] std::size_t tables() const { return hands_.size() + derived_.size(); }
+    [[nodiscard]] const HandRecord& table(std::size_t table) const {
+        return table < hands_.size() ? hands_[table] : derived_[table - hands_.size()];
+    }
     // Whether the recording was closed; else it was killed, or is still going on in a copy.
     [[nodiscard]] bool is_closed() const { return facts_.contains("end"); }
 
-    // Reads, checks and unpacks a block of hands()[hand].
-    [[nodiscard]] Result<Block> block(std::size_t hand, std::size_t number);
-    // Names a block in messages: "FILE: block 3 of omni, ticks 3001 to 4000".
-    [[nodiscard]] std::string name_of_block(std::size_t hand, std::size_t number) const;
+    // Reads, checks and unpacks a block of a table.
+    [[nodiscard]] Result<Block> block(std::size_t table, std::size_t number);
+    // Names a block in messages: "FILE: block 3 of omni, from tick 3001".
+    [[nodiscard]] std::string name_of_block(std::size_t table, std::size_t number) const;
 
     [[nodiscard]] Result<std::vector<TrialRecord>> trials();
     [[nodiscard]] Result<std::vector<EventRecord>> events();
@@ -84,11 +105,14 @@ private:
     [[nodiscard]] Result<void> read_hands();
     [[nodiscard]] Result<void> read_columns(HandRecord& hand);
     [[nodiscard]] Result<void> read_places();
+    [[nodiscard]] Result<void> read_derived();
+    [[nodiscard]] Result<void> read_objects();
+    [[nodiscard]] Result<bool> has_table(const char* name);
 
     std::string path_;
     std::optional<Database> database_;
     std::map<std::string, std::string> facts_;
-    std::vector<HandRecord> hands_;
+    std::vector<HandRecord> hands_, derived_;
 };
 
 }  // namespace burin::record

@@ -73,7 +73,9 @@ RecordStore::RecordStore(std::string path, std::vector<RecordedHand> hands, Writ
     for (RecordedHand& hand : hands) {
         Part part;
         part.shape = shape_of(hand.device, hand.probe);
-        part.block = Block(types_of(columns_for(part.shape)));
+        part.columns = columns_for(part.shape);
+        part.columns.insert(part.columns.end(), hand.more_columns.begin(), hand.more_columns.end());
+        part.block = Block(types_of(part.columns));
         part.hand = std::move(hand);
         parts_.push_back(std::move(part));
     }
@@ -128,32 +130,43 @@ Result<void> RecordStore::fill_tables() {
     if (const auto begun = database_->run("BEGIN IMMEDIATE"); !begun) return begun;
     if (const auto made = database_->run(store_tables()); !made) return made;
     Result<Statement> fact = database_->prepare("INSERT OR REPLACE INTO meta VALUES(?, ?)");
-    Result<Statement> hand = database_->prepare("INSERT INTO hand VALUES(?, ?)");
-    Result<Statement> column = database_->prepare("INSERT INTO column VALUES(?, ?, ?, ?, ?, ?)");
-    if (!fact || !hand || !column) return fail(path_, "its tables cannot be made", "choose another disk");
+    Result<Statement> object = database_->prepare("INSERT OR REPLACE INTO object VALUES('', ?, ?)");
+    if (!fact || !object) return fail(path_, "its tables cannot be made", "choose another disk");
     for (const auto& [key, value] : options_.facts) {
         fact->bind(1, std::string_view(key));
         fact->bind(2, std::string_view(value));
         if (const auto done = fact->run(); !done) return done;
     }
+    for (const auto& [number, name] : options_.objects) {
+        object->bind(1, number);
+        object->bind(2, std::string_view(name));
+        if (const auto done = object->run(); !done) return done;
+    }
+    if (const auto filled = fill_columns(); !filled) return filled;
+    if (const auto noted = insert_clock(); !noted) return noted;
+    return database_->run("COMMIT");
+}
+
+Result<void> RecordStore::fill_columns() {
+    Result<Statement> hand = database_->prepare("INSERT INTO hand VALUES(?, ?)");
+    Result<Statement> column = database_->prepare("INSERT INTO column VALUES(?, ?, ?, ?, ?, ?)");
+    if (!hand || !column) return fail(path_, "its tables cannot be made", "choose another disk");
     for (std::size_t h = 0; h < parts_.size(); ++h) {
         const Part& part = parts_[h];
         hand->bind(1, static_cast<std::int64_t>(h));
         hand->bind(2, std::string_view(part.hand.name));
         if (const auto done = hand->run(); !done) return done;
-        const std::vector<Column> columns = columns_for(part.shape);
-        for (std::size_t c = 0; c < columns.size(); ++c) {
+        for (std::size_t c = 0; c < part.columns.size(); ++c) {
             column->bind(1, static_cast<std::int64_t>(h));
             column->bind(2, static_cast<std::int64_t>(c));
-            column->bind(3, std::string_view(columns[c].name));
-            column->bind(4, std::string_view(columns[c].unit));
-            column->bind(5, std::string_view(columns[c].frame));
-            column->bind(6, name_of(columns[c].type));
+            column->bind(3, std::string_view(part.columns[c].name));
+            column->bind(4, std::string_view(part.columns[c].unit));
+            column->bind(5, std::string_view(part.columns[c].frame));
+            column->bind(6, name_of(part.columns[c].type));
             if (const auto done = column->run(); !done) return done;
         }
     }
-    if (const auto noted = insert_clock(); !noted) return noted;
-    return database_->run("COMMIT");
+    return {};
 }
 
 // ---- Ticks and notes
@@ -188,7 +201,10 @@ void RecordStore::take(std::size_t index, const haptics::TickRecord& record) {
     if (full) seal(index);
     if (part.block.rows() == 0)
         part.header = {static_cast<std::uint32_t>(index), static_cast<std::int64_t>(record.tick), 0, record.time_ns};
-    part.block.add(row_of(record, part.shape));
+    std::vector<Word> row = row_of(record, part.shape);
+    if (part.hand.more_values) part.hand.more_values(record, row);
+    row.resize(part.columns.size());
+    part.block.add(row);
     part.last_tick = record.tick;
 }
 

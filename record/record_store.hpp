@@ -54,6 +54,7 @@ private:
     struct Part {
         RecordedHand hand;
         RowShape shape;
+        std::vector<Column> columns;
         Block block;  // being filled
         BlockHeader header{};
         std::uint64_t last_tick = 0;     // in the block or sealed
@@ -65,6 +66,7 @@ private:
     [[nodiscard]] Result<void> make_file();
     [[nodiscard]] Result<void> open();
     [[nodiscard]] Result<void> fill_tables();
+    [[nodiscard]] Result<void> fill_columns();
     void take(std::size_t index, const haptics::TickRecord& record);
     void seal(std::size_t index);
     [[nodiscard]] Result<void> commit();

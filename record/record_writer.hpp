@@ -52,6 +52,10 @@ struct RecordedHand {
     devices::DeviceDescription device;
     haptics::Probe probe;  // the one with the most points that the hand will have
     Ring<haptics::TickRecord>* ring = nullptr;
+    // Columns after those of columns_for(), and the values that a tick has in them, which are appended to its row;
+    // called on the writer's thread for every tick in order. Null: there are none.
+    std::vector<Column> more_columns = {};
+    std::function<void(const haptics::TickRecord&, std::vector<Word>& row)> more_values = {};
 };
 
 using OnRecord = std::function<void(std::size_t hand, const haptics::TickRecord&)>;
@@ -61,6 +65,8 @@ struct WriterOptions {
     std::vector<std::pair<std::string, std::string>> facts;
     Nanoseconds block_ns = kNanosecondsPerSecond;  // of ticks in a block, and longest time until a transaction
     Nanoseconds patience_ns = 10 * kNanosecondsPerSecond;
+    // What can be touched, by the numbers in a column of objects (more_columns): for table object.
+    std::vector<std::pair<std::int64_t, std::string>> objects = {};
     OnRecord on_record;  // called on the writer's thread, for every tick in order; null: nobody
     std::string vfs;     // one of SQLite's file systems, for tests; empty: the usual one
 };

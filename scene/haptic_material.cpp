@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/text.hpp"
 
@@ -38,6 +39,8 @@ haptics::TouchMaterial touch_material(const HapticMaterial& material) noexcept {
     touched.damping_Ns_per_m = material.damping_Ns_per_m;
     touched.static_friction = material.static_friction;
     touched.dynamic_friction = material.dynamic_friction;
+    // Whatever tool the hand holds: an object of a scene is not cut.
+    touched.hardness_Ns_per_m3 = std::numeric_limits<double>::infinity();
     return touched;
 }
 

@@ -140,6 +140,44 @@ void MeshPart::take_samples(std::size_t hand, std::span<const haptics::StrokeSam
         pose.angular_velocity_rad_per_s = v.angular_rad_per_s;
     }
     move_hand(hand, pose);
+    if (const auto grip_of = grips_.find(hand); grip_of != grips_.end()) grip(hand, grip_of->second, samples);
+}
+
+// While the workspace moves (a phase other than editing) the same button means something else.
+void MeshPart::grip(std::size_t hand, Grip& grip, std::span<const haptics::StrokeSample> samples) {
+    ObjectId wanted = grip.held;
+    for (const haptics::StrokeSample& sample : samples) {
+        const bool down = (sample.buttons & grip.button) != 0;
+        const bool pressed = down && !std::exchange(grip.down, down);
+        if (!down) wanted = 0;
+        if (pressed && sample.phase == haptics::WorkspacePhase::editing &&
+            (sample.flags & haptics::kTickInContact) != 0)
+            wanted = nearest_felt(sample.proxy_object_m, grip.around_m);
+    }
+    if (wanted == grip.held) return;
+    if (grip.held != 0) static_cast<void>(let_go(grip.held));
+    grip.held = wanted != 0 && take_hold(wanted, hand) ? wanted : 0;
+}
+
+ObjectId MeshPart::nearest_felt(const Vec3& place_scene, double around_m) {
+    if (unsorted_) sort_by_motion();
+    found_ = moving_;
+    looks_ += resting_.for_each_near(place_scene, around_m, [&](std::uint32_t index) { found_.push_back(index); });
+    ObjectId nearest = 0;
+    double least_m = around_m;
+    for (const std::uint32_t i : found_) {
+        const Placed& placed = objects_[i];
+        if (!placed.snapshot || std::holds_alternative<HeldMotion>(placed.object.motion)) continue;
+        const geometry::TriangleMesh& mesh = *placed.object.mesh;
+        auto& tree = trees_[&mesh];
+        if (!tree) tree = std::make_unique<const geometry::TriangleTree>(mesh.positions_m, mesh.triangles);
+        const Vec3 place_mesh = (inverse(placed.scene_from_object) * place_scene) / placed.object.scale;
+        const double distance_m = placed.object.scale * tree->nearest(place_mesh, 0).distance_m;
+        if (distance_m >= least_m) continue;
+        least_m = distance_m;
+        nearest = placed.object.id;
+    }
+    return nearest;
 }
 
 void MeshPart::move_hand(std::size_t hand, const HandPose& pose) {
@@ -156,7 +194,7 @@ void MeshPart::place(Placed& placed) {
     const Pose before = placed.scene_from_object;
     placed.velocities = {};
     if (const auto* path = std::get_if<PathMotion>(&object.motion)) {
-        const double time_s = seconds(seen_.time_ns - start_ns_), period_s = seconds(kMoving_ns);
+        const double time_s = seconds(now_ns_ - start_ns_), period_s = seconds(kMoving_ns);
         placed.scene_from_object = composed(object.pose, pose_on(*path, time_s));
         placed.velocities = velocities_between(placed.scene_from_object,
                                                composed(object.pose, pose_on(*path, time_s + period_s)), period_s);
@@ -189,9 +227,9 @@ void MeshPart::sort_by_motion() {
     unsorted_ = false;
 }
 
-Result<void> MeshPart::update(Nanoseconds now_ns, const UpdateSeen* recorded) {
-    seen_ = recorded != nullptr ? *recorded : UpdateSeen{.time_ns = now_ns};
-    if (!std::exchange(started_, true)) start_ns_ = seen_.time_ns;
+Result<void> MeshPart::update(Nanoseconds now_ns, const PartSeen*) {
+    now_ns_ = now_ns;
+    if (!std::exchange(started_, true)) start_ns_ = now_ns;
     if (unsorted_) sort_by_motion();
     for (const std::uint32_t i : moving_) place(objects_[i]);
     return {};
@@ -215,7 +253,7 @@ void MeshPart::offer(const Placed& placed, const ProbeBall& ball, geometry::Loca
     const auto* held = std::get_if<HeldMotion>(&placed.object.motion);
     if (held != nullptr && held->hand == ball.hand) return;
     ++looks_;
-    geometry::TouchedMesh mesh = placed.touched(seen_.time_ns);
+    geometry::TouchedMesh mesh = placed.touched(now_ns_);
     if (distance_ahead_m(mesh, ball.center_scene) <= ball.radius_m) draft.meshes.push_back(std::move(mesh));
 }
 
@@ -230,6 +268,16 @@ Result<void> MeshPart::add_near(const ProbeBall& ball, geometry::LocalSurface& d
     return {};
 }
 
+ObjectId MeshPart::id_of(const geometry::TouchedMesh& mesh) const {
+    for (const Placed& placed : objects_) {
+        const bool is_it = mesh.moves() ? placed.object.id == mesh.motion.body
+                                        : placed.snapshot == mesh.snapshot && placed.material == mesh.material &&
+                                              placed.scene_from_object == mesh.motion.object_from_mesh;
+        if (is_it) return placed.object.id;
+    }
+    return 0;
+}
+
 std::vector<ObjectUpdate> MeshPart::take_object_updates() {
     std::vector<ObjectUpdate> updates;
     for (Placed& placed : objects_) {
@@ -238,7 +286,9 @@ std::vector<ObjectUpdate> MeshPart::take_object_updates() {
         updates.push_back({placed.object.id,
                            {pose.position_m, pose.orientation, placed.object.scale},
                            placed.object.seen,
-                           placed.object.colour});
+                           placed.object.colour,
+                           placed.object.pose,
+                           placed.object.motion});
     }
     return updates;
 }

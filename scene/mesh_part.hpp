@@ -23,6 +23,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/mesh/triangle_tree.hpp"
 #include "scene/object_tree.hpp"
 #include "scene/scene_object.hpp"
 #include "scene/scene_part.hpp"
@@ -43,6 +44,8 @@ struct ObjectUpdate {
     Similarity scene_from_mesh;
     bool seen = true;
     Colour colour{};
+    Pose pose;            // its own: on a path, without the path
+    ObjectMotion motion;  // as it is now: a hand may hold it, or have left it where it is
 };
 
 class MeshPart final : public ScenePart {
@@ -56,20 +59,23 @@ public:
     ~MeshPart() override;
 
     // ScenePart. The first update is the time at which paths begin. A hand's newest sample tells where it is; its
-    // velocities are the mean over the samples of an update.
+    // velocities are the mean over the samples of an update. Its buttons take hold (grip_with).
     void take_samples(std::size_t hand, std::span<const haptics::StrokeSample> samples) override;
-    [[nodiscard]] Result<void> update(Nanoseconds now_ns, const UpdateSeen* recorded) override;
-    [[nodiscard]] const UpdateSeen& seen() const override { return seen_; }
+    [[nodiscard]] Result<void> update(Nanoseconds now_ns, const PartSeen* recorded) override;
+    [[nodiscard]] const PartSeen& seen() const override { return seen_; }
     // Leaves out what the hand itself holds.
     [[nodiscard]] Result<void> add_near(const ProbeBall& ball, geometry::LocalSurface& draft) override;
     [[nodiscard]] Nanoseconds period_ns() const override { return moving_.empty() ? kResting_ns : kMoving_ns; }
-    void finish() override {}
 
     // Makes an edit, which the next update shows. One that fails changes nothing. take_hold() has an object move with a
     // hand from where both are, let_go() leaves it fixed where it was in the last update.
     [[nodiscard]] Result<void> edit(ObjectId id, const ObjectEdit& edit);
     [[nodiscard]] Result<void> take_hold(ObjectId id, std::size_t hand);
     [[nodiscard]] Result<void> let_go(ObjectId id);
+    // Has a hand take hold of the object that its tool touches when a button goes down, and let go with the button.
+    // button: bits of StrokeSample::buttons. around_m: how far the touched surface is from where the tool rests, at
+    // most.
+    void grip_with(std::size_t hand, std::uint32_t button, double around_m) { grips_[hand] = {button, around_m}; }
     // Tells where a hand is; what it holds follows with the next update.
     void move_hand(std::size_t hand, const HandPose& pose);
 
@@ -79,6 +85,9 @@ public:
     [[nodiscard]] const SceneObject& object(ObjectId id) const { return objects_[index_of_.at(id)].object; }
     // Returns where the object was in the last update.
     [[nodiscard]] const Pose& pose(ObjectId id) const { return objects_[index_of_.at(id)].scene_from_object; }
+    // Returns the object that was offered to a surface as this mesh; 0: none of this part's. Of objects that are alike
+    // in mesh, pose and material the first.
+    [[nodiscard]] ObjectId id_of(const geometry::TouchedMesh& mesh) const;
     // Returns the index of the object's material in the table. It must be felt.
     [[nodiscard]] std::uint8_t material_index(ObjectId id) const { return objects_[index_of_.at(id)].material; }
     // Returns the objects that have changed since the last call, each once, in the order of their creation; at first
@@ -108,6 +117,15 @@ private:
     [[nodiscard]] Result<Snapshot> snapshot_of(const SceneObject& object);
     void place(Placed& placed);
     void sort_by_motion();
+    // How a hand takes hold of objects.
+    struct Grip {
+        std::uint32_t button = 0;
+        double around_m = 0.0;
+        bool down = false;
+        ObjectId held = 0;  // 0: none
+    };
+    void grip(std::size_t hand, Grip& grip, std::span<const haptics::StrokeSample> samples);
+    [[nodiscard]] ObjectId nearest_felt(const Vec3& place_scene, double around_m);
     void offer(const Placed& placed, const ProbeBall& ball, geometry::LocalSurface& draft);
 
     MaterialTable& materials_;
@@ -120,11 +138,15 @@ private:
              std::weak_ptr<const geometry::TouchSnapshot>>
         snapshots_;  // by mesh and scale
     std::map<std::size_t, HandPose> hands_;
+    std::map<std::size_t, Grip> grips_;
+    // To find the touched object; made when a hand first takes hold near a mesh.
+    std::map<const geometry::TriangleMesh*, std::unique_ptr<const geometry::TriangleTree>> trees_;
     std::vector<std::uint32_t> found_;  // by a query
     Nanoseconds start_ns_ = 0;          // of the first update
     bool started_ = false;
     std::uint64_t looks_ = 0;
-    UpdateSeen seen_;
+    PartSeen seen_;
+    Nanoseconds now_ns_ = 0;  // of the last update
 };
 
 }  // namespace burin::scene

@@ -21,13 +21,10 @@
 
 namespace burin::scene {
 
-// Inputs of an update besides the orders before it; with them a recording can repeat the update.
-struct UpdateSeen {
-    Nanoseconds time_ns = 0;
-    std::uint64_t last_tick = 0;    // tick of the last stroke sample that it read; 0 for a part that reads none
-    std::size_t orders = 0;         // orders carried out just before it; counted by whoever gives them
+// What an update of a part depended on besides orders, samples and time; with it a recording can repeat the update.
+struct PartSeen {
     bool background_ended = false;  // it was the first to find its work on another thread complete, such as an export
-    friend bool operator==(const UpdateSeen&, const UpdateSeen&) = default;
+    friend bool operator==(const PartSeen&, const PartSeen&) = default;
 };
 
 // The ball around a hand's probe within which the surface must be known until the next publication.
@@ -47,20 +44,22 @@ public:
     // Takes what a hand has done since the last update, in order, just before the next one. A part that needs none of
     // it leaves it.
     virtual void take_samples(std::size_t /*hand*/, std::span<const haptics::StrokeSample> /*samples*/) {}
-    // Brings the part to the present. `recorded` limits the update to the inputs of a recorded one, at whose time it
-    // takes place. Fails when the part cannot go on; it is then as it was before the update.
-    [[nodiscard]] virtual Result<void> update(Nanoseconds now_ns, const UpdateSeen* recorded) = 0;
-    [[nodiscard]] Result<void> repeat(const UpdateSeen& recorded) { return update(recorded.time_ns, &recorded); }
-    // Returns the inputs of the last update; `orders` is 0 unless it was given.
-    [[nodiscard]] virtual const UpdateSeen& seen() const = 0;
+    // Brings the part to the present. `recorded`: what a recorded update saw, which this one sees again; null in a live
+    // one. Fails when the part cannot go on; it is then as it was before the update.
+    [[nodiscard]] virtual Result<void> update(Nanoseconds now_ns, const PartSeen* recorded) = 0;
+    // Returns what the last update saw.
+    [[nodiscard]] virtual const PartSeen& seen() const = 0;
     // Adds what lies in the ball to a draft, which begins empty and holds the ball; other parts add to it as well. One
     // part of a scene alone may set origin, tiles and loose triangles; the others add meshes. A part that knows its
     // surface in a smaller ball only lowers radius_m. Sequence and time are the publisher's.
     [[nodiscard]] virtual Result<void> add_near(const ProbeBall& ball, geometry::LocalSurface& draft) = 0;
+    // Does what hands need not wait for, such as light: called at the end of an update, when all surfaces are
+    // published.
+    virtual void after_publication() {}
     // Returns the longest time until the next update that the part allows; it may change with each.
     [[nodiscard]] virtual Nanoseconds period_ns() const = 0;
-    // Ends all work that goes on elsewhere, and waits for it. No update follows.
-    virtual void finish() = 0;
+    // Waits for all work that goes on elsewhere.
+    virtual void finish() {}
 };
 
 }  // namespace burin::scene

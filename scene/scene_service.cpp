@@ -20,14 +20,18 @@ std::vector<TouchPublisher::Slot*> slots_of(const std::vector<SceneHand>& hands)
 SceneService::SceneService(std::vector<ScenePart*> parts, std::vector<SceneHand> hands)
     : parts_(std::move(parts)), hands_(std::move(hands)), publisher_(slots_of(hands_)) {
     for (const SceneHand& hand : hands_) places_.push_back(hand.start_scene);
+    sunk_m_.resize(hands_.size());
     seen_.last_ticks.resize(hands_.size());
     seen_.parts.resize(parts_.size());
 }
 
 Result<void> SceneService::repeat(const SceneUpdate& recorded) {
-    if (recorded.last_ticks.size() != hands_.size() || recorded.parts.size() != parts_.size())
-        return fail("the recorded update", "is of another number of hands or parts", "replay it in its own scene");
-    return update(recorded.time_ns, &recorded);
+    if (recorded.last_ticks.size() > hands_.size() || recorded.parts.size() > parts_.size())
+        return fail("the recorded update", "is of more hands or parts than there are", "replay it in its own scene");
+    SceneUpdate whole = recorded;
+    whole.last_ticks.resize(hands_.size());
+    whole.parts.resize(parts_.size());
+    return update(recorded.time_ns, &whole);
 }
 
 void SceneService::read_samples(std::size_t hand, std::uint64_t last_tick) {
@@ -41,6 +45,7 @@ void SceneService::read_samples(std::size_t hand, std::uint64_t last_tick) {
     if (samples_.empty()) return;
     seen_.last_ticks[hand] = samples_.back().tick;
     places_[hand] = samples_.back().proxy_object_m;
+    sunk_m_[hand] = glm::length(samples_.back().position_object_m - places_[hand]);
 }
 
 Result<void> SceneService::update(Nanoseconds now_ns, const SceneUpdate* recorded) {
@@ -55,14 +60,18 @@ Result<void> SceneService::update(Nanoseconds now_ns, const SceneUpdate* recorde
         for (ScenePart* part : parts_) part->take_samples(hand, samples_);
     }
     for (std::size_t i = 0; i < parts_.size(); ++i) {
-        const UpdateSeen* const part_seen = recorded != nullptr ? &recorded->parts[i] : nullptr;
+        const PartSeen* const part_seen = recorded != nullptr ? &recorded->parts[i] : nullptr;
         if (const auto updated = parts_[i]->update(now_ns, part_seen); !updated) return updated;
         seen_.parts[i] = parts_[i]->seen();
     }
     for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
-        const ProbeBall ball{hand, places_[hand], hands_[hand].around_m + hands_[hand].reach_m};
+        const double reach_m = hands_[hand].reach_m;
+        // In something soft the hand is farther from its tool than it moves until the next update.
+        const double beyond_m = std::max(sunk_m_[hand] - 0.5 * reach_m, 0.0);
+        const ProbeBall ball{hand, places_[hand], hands_[hand].around_m + reach_m + beyond_m};
         if (const auto published = publisher_.publish(ball, parts_, now_ns); !published) return published;
     }
+    for (ScenePart* part : parts_) part->after_publication();
     return {};
 }
 

@@ -3,10 +3,10 @@
 //
 // Data flow of an update: the stroke samples of each hand are read from its ring, of which the service is the only
 // reader -> every part takes them -> every part updates, in the order in which they were given -> the touch publisher
-// writes each hand's local surface around where its tool rests. The service knows no part by its kind: orders and what
-// the frame shows go between the frame and the part itself, on the thread of the service (scene/scene_thread.hpp).
-// Replay: an update depends on orders, time, samples and on what its parts have seen. seen() has all but the orders,
-// and repeat() does it again to the bit.
+// writes each hand's local surface around where its tool rests -> parts do what hands need not wait for. The service
+// knows no part by its kind: orders and what the frame shows go between the frame and the part itself, on the thread of
+// the service (scene/scene_thread.hpp). Replay: an update depends on orders, time, samples and on what its parts have
+// seen. seen() has all but the orders, and repeat() does it again to the bit.
 // Frame: the scene's. Threads: one at a time, a SceneThread's or, where time is simulated, the caller's.
 #pragma once
 
@@ -34,7 +34,7 @@ struct SceneUpdate {
     Nanoseconds time_ns = 0;
     std::size_t orders = 0;                 // carried out just before it; counted by whoever gives them
     std::vector<std::uint64_t> last_ticks;  // for each hand, of the last stroke sample that was read
-    std::vector<UpdateSeen> parts;          // for each part
+    std::vector<PartSeen> parts;            // for each part
     friend bool operator==(const SceneUpdate&, const SceneUpdate&) = default;
 };
 
@@ -50,14 +50,17 @@ public:
     void use_probe(std::size_t hand, double around_m) { hands_[hand].around_m = around_m; }
     // Does what the hands have done since the last update. Fails when a part cannot go on; nothing is published then.
     [[nodiscard]] Result<void> update(Nanoseconds now_ns) { return update(now_ns, nullptr); }
-    // Does an update again: with the samples and at the time of the recorded one. Fails on one of other hands or parts.
+    // Sets where a hand's tool is before its first sample.
+    void start_at(std::size_t hand, const Vec3& position_scene) { places_[hand] = position_scene; }
+    // Does an update again: with the samples and at the time of the recorded one. Fails on one of more hands or parts
+    // than there are; of those that it does not name no samples are read.
     [[nodiscard]] Result<void> repeat(const SceneUpdate& recorded);
     // Returns the inputs of the last update; `orders` is 0 unless it was given.
     [[nodiscard]] const SceneUpdate& seen() const { return seen_; }
     // Returns the time until the next update: the shortest that a part asks for, and at most kHandsMove_ns while a hand
     // moves.
     [[nodiscard]] Nanoseconds period_ns() const;
-    // Ends the parts' work elsewhere, and waits for it. No update follows.
+    // Waits for the parts' work elsewhere.
     void finish();
     // Returns where the hand's tool rested in the last sample.
     [[nodiscard]] const Vec3& tool_scene(std::size_t hand) const { return places_[hand]; }
@@ -72,6 +75,7 @@ private:
     std::vector<SceneHand> hands_;
     TouchPublisher publisher_;
     std::vector<Vec3> places_;                    // of each hand's tool
+    std::vector<double> sunk_m_;                  // how far each hand was beyond where its tool rested
     std::vector<haptics::StrokeSample> samples_;  // of one hand in one update
     bool hands_move_ = false;
     SceneUpdate seen_;

@@ -7,7 +7,7 @@
 
 namespace burin::scene {
 
-SceneThread::SceneThread(SceneService& service, Clock& clock, std::function<void()> after_update)
+SceneThread::SceneThread(SceneService& service, Clock& clock, AfterUpdate after_update)
     : service_(service), clock_(clock), after_update_(std::move(after_update)) {}
 
 void SceneThread::start() {
@@ -56,7 +56,7 @@ void SceneThread::run() {
         for (const Order& order : orders) order();
         const Nanoseconds began_ns = clock_.now_ns();
         const Result<void> updated = service_.update(began_ns);
-        update_duration_.add(clock_.now_ns() - began_ns);
+        after_update_({clock_.now_ns() - began_ns, !updated});
         {
             const std::lock_guard lock(mutex_);
             if (updated) {
@@ -66,7 +66,6 @@ void SceneThread::run() {
                 failure_ = updated.error();
             }
         }
-        after_update_();
         if (last || !updated) return;
         next_ns = std::max(next_ns + service_.period_ns(), clock_.now_ns());
     }

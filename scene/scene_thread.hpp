@@ -3,8 +3,9 @@
 // of the scene ask for it.
 //
 // Data flow: orders go in as functions, which know the part that they are for; they are carried out on this thread just
-// before an update. After each update `after_update` is called on this thread: there whoever knows the parts collects
-// what the frame shall show, and hands it on under a lock of its own. The haptic threads take no part in it.
+// before an update. After each update, and before it is among those that can be taken, `after_update` is called on this
+// thread: there whoever knows the parts collects what the frame shall show, and hands it on under a lock of its own.
+// The haptic threads take no part in it.
 // Threads: order() and take_updates() are called by one thread, the frame's. Between start() and stop() nobody else may
 // call the service or its parts, which must outlive the object.
 #pragma once
@@ -17,7 +18,6 @@
 #include <vector>
 
 #include "base/clock.hpp"
-#include "haptics/histogram.hpp"
 #include "scene/scene_service.hpp"
 
 namespace burin::scene {
@@ -26,8 +26,14 @@ class SceneThread {
 public:
     using Order = std::function<void()>;
 
+    struct Ended {
+        Nanoseconds took_ns = 0;
+        bool failed = false;
+    };
+    using AfterUpdate = std::function<void(const Ended&)>;
+
     // after_update is also called after an update that failed; it must not wait for the frame.
-    SceneThread(SceneService& service, Clock& clock, std::function<void()> after_update);
+    SceneThread(SceneService& service, Clock& clock, AfterUpdate after_update);
     ~SceneThread() { stop(); }
     SceneThread(const SceneThread&) = delete;
     SceneThread& operator=(const SceneThread&) = delete;
@@ -38,8 +44,6 @@ public:
     void order(Order order);
     // Returns the inputs of all updates since the last call, for a recording.
     [[nodiscard]] std::vector<SceneUpdate> take_updates();
-    // Returns the durations of all updates. Any thread.
-    [[nodiscard]] const haptics::Histogram& update_duration() const { return update_duration_; }
     // Returns why the scene stands still; nullopt while it goes on. Each part stays as it was before its update failed.
     [[nodiscard]] std::optional<Error> failure() const;
 
@@ -53,8 +57,7 @@ private:
 
     SceneService& service_;
     Clock& clock_;
-    std::function<void()> after_update_;
-    haptics::Histogram update_duration_;
+    AfterUpdate after_update_;
     mutable std::mutex mutex_;  // guards the members below, but for thread_
     std::condition_variable woken_;
     std::vector<Order> orders_;

@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "geometry/mesh/mesh_health.hpp"
 #include "geometry/mesh/vertex_weld.hpp"
+#include "scene/mesh_world.hpp"
 
 namespace burin::scene {
 namespace {
@@ -100,6 +101,7 @@ WorldOrProblems world_of(const geometry::VrmlWorld& vrml, const std::string& nam
 
 WorldOrProblems read_any_world(const std::filesystem::path& path) {
     if (path.extension() == ".toml") return read_world(path);
+    if (is_mesh_file(path)) return read_mesh_world(path);
     const Result<geometry::VrmlFile> file = geometry::read_vrml_file(path);
     if (!file) return std::unexpected(std::vector{file.error()});
     const geometry::VrmlWorldOrFaults shapes = geometry::shapes_of(*file);

@@ -17,7 +17,7 @@ namespace burin::scene {
 // `name` stands for the file in messages.
 [[nodiscard]] WorldOrProblems world_of(const geometry::VrmlWorld& world, const std::string& name);
 
-// Reads a world in TOML (.toml) or VRML 2.0 (.wrl).
+// Reads a world in TOML (.toml), VRML 2.0 (.wrl), or a mesh as a world of one object (scene/mesh_world.hpp).
 [[nodiscard]] WorldOrProblems read_any_world(const std::filesystem::path& path);
 
 }  // namespace burin::scene

@@ -183,4 +183,6 @@ std::vector<std::uint32_t> Sculpture::take_changed_tiles() {
     return changed;
 }
 
+bool Sculpture::has_changed_tiles() const { return std::ranges::find(tile_changed_, true) != tile_changed_.end(); }
+
 }  // namespace burin::sculpt

@@ -88,6 +88,7 @@ public:
     [[nodiscard]] double first_mesh_ms() const { return first_mesh_ms_; }  // of the whole solid, on the host
     // Returns the tiles with a new mesh or new light since the last call, in increasing order.
     [[nodiscard]] std::vector<std::uint32_t> take_changed_tiles();
+    [[nodiscard]] bool has_changed_tiles() const;  // since then
 
 private:
     using HistoryStep = Result<bool> (compute::History::*)(compute::CarvingEngine&);

@@ -14,9 +14,9 @@ constexpr double kSweepTolerance = 0.05;  // of a cell
 // What the tick looks at around a tool (haptics/forces/tool_surface.hpp), of the tool's size.
 constexpr double kSurroundings = 1.0;
 
-double around(const Tool& tool) { return reach_of(tool.shape) + kSurroundings * size_of(tool.shape); }
-
 }  // namespace
+
+double around_m(const Tool& tool) { return reach_of(tool.shape) + kSurroundings * size_of(tool.shape); }
 
 haptics::ToolAction action_of(compute::Operation operation) {
     switch (operation) {
@@ -28,22 +28,26 @@ haptics::ToolAction action_of(compute::Operation operation) {
     return haptics::ToolAction::touch;
 }
 
-StrokeReader::StrokeReader(haptics::HapticChannels& channels, const Tool& tool, double hardness_Ns_per_m3,
-                           double cell_m)
-    : channels_(channels),
-      tool_(tool),
+StrokeReader::StrokeReader(const Tool& tool, double hardness_Ns_per_m3, double cell_m)
+    : tool_(tool),
       hardness_Ns_per_m3_(hardness_Ns_per_m3),
-      around_m_(around(tool)),
+      around_m_(sculpt::around_m(tool)),
       tolerance_m_(kSweepTolerance * cell_m) {}
 
 void StrokeReader::use_tool(const Tool& tool, double hardness_Ns_per_m3) {
     tool_ = tool;
-    around_m_ = around(tool);
+    around_m_ = sculpt::around_m(tool);
     hardness_Ns_per_m3_ = hardness_Ns_per_m3;
     working_ = false;
 }
 
-SweptSamples StrokeReader::read(std::uint64_t last_tick) {
+void StrokeReader::take(std::span<const haptics::StrokeSample> samples) {
+    samples_.erase(samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(read_));
+    read_ = 0;
+    samples_.insert(samples_.end(), samples.begin(), samples.end());
+}
+
+SweptSamples StrokeReader::read() {
     SweptSamples swept;
     std::vector<Pose> run;      // points at which the tool worked without a break
     bool continues = working_;  // the run began before this read, and its first point has been carved already
@@ -55,12 +59,8 @@ SweptSamples StrokeReader::read(std::uint64_t last_tick) {
         run.clear();
         continues = false;
     };
-    while (const haptics::StrokeSample* oldest = swept.stroke_ended ? nullptr : channels_.stroke.oldest()) {
-        if (oldest->tick > last_tick) break;
-        haptics::StrokeSample sample;
-        channels_.stroke.pop(sample);
-        last_tick_ = sample.tick;
-        tool_position_object_ = sample.proxy_object_m;
+    while (!swept.stroke_ended && read_ < samples_.size()) {
+        const haptics::StrokeSample& sample = samples_[read_++];
         const bool was_pressed = std::exchange(pressed_, (sample.buttons & 1u) != 0);
         swept.stroke_ended = was_pressed && !pressed_;
         const std::optional<Vec3> point = working_point(sample);

@@ -3,8 +3,8 @@
 // caps, and the wand as a thin cylinder with a red ball at its top point and a green one at its bottom point.
 //
 // The tube is green, and red while either point touches its wall; a cap is grey, and green while both points are in it.
-// In led training of a group that the device does not lead, the wand is shown moving along the path by itself, as fast as
-// a hand would be led.
+// In led training of a group that the device does not lead, the wand is shown moving along the path by itself, as fast
+// as a hand would be led.
 // Frame: the study's world, placed before the wall by WorldView. Pure; any thread.
 #pragma once
 

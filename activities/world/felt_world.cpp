@@ -7,10 +7,10 @@
 #include <optional>
 #include <utility>
 
+#include "activities/world/world_recorder.hpp"
+#include "activities/world/world_touch.hpp"
 #include "devices/haptic/simulated_omni.hpp"
-#include "geometry/mesh/triangle_tree.hpp"
 #include "haptics/haptic_loop.hpp"
-#include "scene/scene_service.hpp"
 #include "session/felt/felt_stroke.hpp"
 
 namespace burin::activities {
@@ -31,41 +31,6 @@ Result<devices::SimulatedHand> hand_along(const sculpt::Stroke& stroke, const Si
     return devices::SimulatedHand::create(std::move(script), devices::HandPath::straight, grip);
 }
 
-// Finds which object is touched: the one whose surface is nearest to where the tool rests on it.
-class TouchedObject {
-public:
-    TouchedObject(const scene::MeshPart& part, std::span<const scene::ObjectId> ids) : part_(part) {
-        for (const scene::ObjectId id : ids) {
-            const scene::SceneObject& object = part.object(id);
-            if (!object.felt) continue;
-            auto& tree = trees_[object.mesh.get()];
-            if (!tree)
-                tree = std::make_shared<geometry::TriangleTree>(object.mesh->positions_m, object.mesh->triangles);
-            objects_.emplace_back(id, tree);
-        }
-    }
-    [[nodiscard]] std::optional<scene::ObjectId> at(const Vec3& place_scene) const {
-        std::optional<scene::ObjectId> nearest;
-        double least_m = HUGE_VAL;
-        for (const auto& [id, tree] : objects_) {
-            const Pose& pose = part_.pose(id);
-            const Similarity mesh_from_scene =
-                inverse(Similarity{pose.position_m, pose.orientation, part_.object(id).scale});
-            const double distance_m =
-                tree->nearest(mesh_from_scene * place_scene, 0).distance_m / mesh_from_scene.scale;
-            if (distance_m >= least_m) continue;
-            least_m = distance_m;
-            nearest = id;
-        }
-        return nearest;
-    }
-
-private:
-    const scene::MeshPart& part_;
-    std::map<const geometry::TriangleMesh*, std::shared_ptr<const geometry::TriangleTree>> trees_;
-    std::vector<std::pair<scene::ObjectId, std::shared_ptr<const geometry::TriangleTree>>> objects_;
-};
-
 // Collects what was felt of each object.
 class Touches {
 public:
@@ -75,14 +40,15 @@ public:
     // Returns the name of an object when it has been touched at so many updates as press the tool into it.
     std::optional<std::string> add(double time_s, const haptics::ToolState& tool) {
         if ((tool.flags & haptics::kTickInContact) == 0) return std::nullopt;
-        const auto id = touched_.at(tool.proxy_object_m - radius_m_ * tool.contact_normal_object);
-        if (!id) return std::nullopt;
-        const auto [at, is_new] = found_.try_emplace(*id);
+        const auto near = touched_.at(tool.proxy_object_m - radius_m_ * tool.contact_normal_object);
+        if (!near) return std::nullopt;
+        const auto [at, is_new] = found_.try_emplace(near->id);
         ObjectTouch& touch = at->second;
-        if (is_new) touch = {*id, part_.object(*id).name, 0, time_s, 0.0, 0.0};
+        if (is_new) touch = {near->id, part_.object(near->id).name, 0, time_s, 0.0, 0.0};
         const double force_N = glm::length(tool.given.force_device_N);
         touch.force_max_N = std::max(touch.force_max_N, force_N);
         touch.force_mean_N += (force_N - touch.force_mean_N) / static_cast<double>(++touch.updates);
+        touch.course.push_back({time_s, force_N, glm::length(tool.hip_object_m - tool.proxy_object_m)});
         constexpr std::uint64_t kPressed = 15;
         return touch.updates == kPressed ? std::optional(touch.name) : std::nullopt;
     }
@@ -94,20 +60,22 @@ public:
 
 private:
     const scene::MeshPart& part_;
-    TouchedObject touched_;
+    NearestObject touched_;
     double radius_m_;
     std::map<scene::ObjectId, ObjectTouch> found_;
 };
 
-haptics::TickParameters parameters_of(const Similarity& scene_from_device, double radius_m,
-                                      const scene::MaterialTable& materials) {
-    haptics::TickParameters parameters;
-    parameters.sequence = 1;
-    parameters.workspace.object_from_device = scene_from_device;
-    parameters.probe = haptics::ball_probe(radius_m);
-    parameters.action = haptics::ToolAction::touch;
-    materials.write(parameters.materials);
-    return parameters;
+Result<std::unique_ptr<WorldRecorder>> recorder_of(const scene::MeshPart& part, std::span<const scene::ObjectId> ids,
+                                                   const devices::DeviceDescription& device,
+                                                   const WorldSettings& settings, const ExploreOptions& options) {
+    if (options.record.empty()) return std::unique_ptr<WorldRecorder>();
+    std::vector<std::pair<std::int64_t, std::string>> objects;
+    for (const scene::ObjectId id : ids) objects.emplace_back(static_cast<std::int64_t>(id), part.object(id).name);
+    WorldRecorder::Facts facts = options.facts;
+    facts.emplace_back(kActivityFact, kWorldActivity);
+    facts.emplace_back(kSettingsFact, settings_text(settings));
+    return WorldRecorder::create(options.record, device, haptics::ball_probe(settings.tool_radius_m), std::move(facts),
+                                 std::move(objects));
 }
 
 }  // namespace
@@ -123,15 +91,18 @@ Result<WorldFigures> explore_by_feel(scene::MeshPart& part, std::span<const scen
     Result<devices::SimulatedHand> hand = hand_along(stroke, felt.object_from_device, options.grip);
     if (!hand) return std::unexpected(hand.error());
 
+    WorldSettings settings;
+    settings.tool_radius_m = options.tool_radius_m;
+    settings.scene_from_device = felt.object_from_device;
+    settings.start_scene_m = stroke.front().position_object_m;
+    settings.reach_m = kReach_m * felt.object_from_device.scale;
+    WorldTouch touch(part, materials, settings);
+    haptics::HapticChannels& channels = touch.channels();
     SimulatedClock clock;
-    haptics::HapticChannels channels;
-    channels.parameters.draft() = parameters_of(felt.object_from_device, options.tool_radius_m, materials);
-    channels.parameters.publish();
     devices::SimulatedOmni omni(std::move(*hand), {}, &clock);
     haptics::HapticLoop loop(omni, clock, channels);
-    const double reach_m = kReach_m * felt.object_from_device.scale;
-    scene::SceneService service({&part},
-                                {{&channels, stroke.front().position_object_m, 2.0 * options.tool_radius_m, reach_m}});
+    Result<std::unique_ptr<WorldRecorder>> recorder = recorder_of(part, ids, omni.description(), settings, options);
+    if (!recorder) return std::unexpected(recorder.error());
     session::FigureKeeper keeper(felt, felt.duration_s, seconds(loop.period_ns()));
     Touches touches(part, ids, options.tool_radius_m);
 
@@ -139,21 +110,29 @@ Result<WorldFigures> explore_by_feel(scene::MeshPart& part, std::span<const scen
     Nanoseconds next_update_ns = start_ns;
     while (clock.now_ns() < end_ns) {
         if (clock.now_ns() >= next_update_ns) {
-            if (const auto updated = service.update(clock.now_ns()); !updated) return std::unexpected(updated.error());
+            const auto updated = touch.service().update(clock.now_ns());
+            if (!updated) return std::unexpected(updated.error());
             next_update_ns = clock.now_ns() + scene::SceneService::kHandsMove_ns;
             const double time_s = seconds(clock.now_ns() - start_ns);
             WorldMoment moment{channels.tool.newest(), std::nullopt};
             moment.newly_touched = touches.add(time_s, moment.tool);
             keeper.take(channels);
+            if (*recorder) {
+                const auto kept = (*recorder)->update(clock.now_ns(), touch.service().seen().last_ticks[0]);
+                if (!kept) return std::unexpected(kept.error());
+            }
             if (on_update)
                 if (const auto done = on_update(time_s, moment); !done) return std::unexpected(done.error());
         }
         clock.sleep_until(clock.now_ns() + loop.period_ns());
-        loop.step();
+        const haptics::TickRecord tick = loop.step();
+        if (*recorder) (*recorder)->add(tick, std::array{touch.object_of(tick, 0)});
     }
+    if (*recorder)
+        if (const auto kept = (*recorder)->finish(); !kept) return std::unexpected(kept.error());
     keeper.take(channels);
     keeper.finish(channels);
-    felt.surfaces_published = service.published(0);
+    felt.surfaces_published = touch.service().published(0);
     felt.last_tool = channels.tool.newest();
     figures.touches = touches.all();
     return figures;

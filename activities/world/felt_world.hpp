@@ -11,6 +11,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "devices/hand/simulated_hand.hpp"
@@ -23,6 +24,16 @@ namespace burin::activities {
 struct ExploreOptions {
     double tool_radius_m = 0.004;  // of the ball that touches
     devices::HandGrip grip;
+    std::string record = {};  // a new session file (activities/world/world_recorder.hpp); empty: none
+    // Facts for that file, besides the settings of the exploration.
+    std::vector<std::pair<std::string, std::string>> facts = {};
+};
+
+// One update at which an object was touched.
+struct TouchedPoint {
+    double time_s = 0.0;    // since the beginning
+    double force_N = 0.0;   // on the hand
+    double beyond_m = 0.0;  // of the hand from where its tool rests, in the scene
 };
 
 // Sums up the touches of one object: when it was touched first, how long, how strongly.
@@ -32,6 +43,7 @@ struct ObjectTouch {
     std::uint64_t updates = 0;  // of the service, at which it was the object touched
     double first_s = 0.0;       // since the beginning
     double force_max_N = 0.0, force_mean_N = 0.0;
+    std::vector<TouchedPoint> course = {};
 };
 
 struct WorldFigures {
@@ -48,7 +60,8 @@ struct WorldMoment {
 using OnUpdate = std::function<Result<void>(double time_s, const WorldMoment& moment)>;
 
 // Feels the objects of the part, whose materials the table holds, along a stroke of at least one row. Where the stroke
-// is larger than the workspace, the motion is scaled up. Fails when an update does, or what is called at one.
+// is larger than the workspace, the motion is scaled up. Fails when an update does, or what is called at one, or the
+// recording.
 [[nodiscard]] Result<WorldFigures> explore_by_feel(scene::MeshPart& part, std::span<const scene::ObjectId> ids,
                                                    const scene::MaterialTable& materials, const sculpt::Stroke& stroke,
                                                    const ExploreOptions& options, const OnUpdate& on_update);

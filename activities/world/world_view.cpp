@@ -32,7 +32,7 @@ WorldView::WorldView(const scene::MeshPart& part, std::span<const scene::ObjectI
         }
         const Pose& pose = part.pose(id);
         const Similarity scene_from_mesh{pose.position_m, pose.orientation, object.scale};
-        objects_[id] = {mesh, {id, scene_from_mesh, object.seen, object.colour}};
+        objects_[id] = {mesh, {id, scene_from_mesh, object.seen, object.colour, object.pose, object.motion}};
         const Box bounds = renderer::placed_box(mesh->bounds, scene_from_mesh);
         if (!object.seen || bounds.empty()) continue;
         bounds_scene_.include(bounds.lo);

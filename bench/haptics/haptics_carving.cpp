@@ -8,9 +8,9 @@
 #include <thread>
 
 #include "bench/haptics/touch_run.hpp"
+#include "sculpt/carved_scene.hpp"
 #include "sculpt/feel_options.hpp"
 #include "sculpt/felt_tool.hpp"
-#include "sculpt/sculpt_service.hpp"
 
 namespace burin::bench {
 namespace {
@@ -50,7 +50,7 @@ sculpt::Tool ball_tool(double radius_m) {
 // Updates a hundred times a second, concurrently with the paced ticks.
 class CarvingThread {
 public:
-    explicit CarvingThread(sculpt::SculptService& service) : thread_([this, &service] { work(service); }) {}
+    explicit CarvingThread(sculpt::CarvedScene& service) : thread_([this, &service] { work(service); }) {}
     ~CarvingThread() { static_cast<void>(stop()); }
     Result<void> stop() {
         stop_.store(true, std::memory_order_relaxed);  // relaxed: it only ends the loop; join orders the rest
@@ -59,7 +59,7 @@ public:
     }
 
 private:
-    void work(sculpt::SculptService& service) {
+    void work(sculpt::CarvedScene& service) {
         // The thread that creates this one may have a real-time priority; carving must not.
         const sched_param none{};
         pthread_setschedparam(pthread_self(), SCHED_OTHER, &none);
@@ -107,8 +107,8 @@ Result<void> touch_while_carving(Haptics& all, const Carving& of) {
     parameters.tool = sculpt::felt_tool(compute::BallTool{of.tool_m}).surface;
     TouchRun run(costs, clock, parameters, *path, true);
     const double reach_m = 0.012 + 2.0 * of.ball.cell_m();  // as a session: 1 m/s for 12 ms
-    sculpt::SculptService service(of.ball.sculpture(), run.channels(), ball_tool(of.tool_m),
-                                  parameters.materials[0].hardness_Ns_per_m3, reach_m, {});
+    sculpt::CarvedScene service(of.ball.sculpture(), run.channels(), ball_tool(of.tool_m),
+                                parameters.materials[0].hardness_Ns_per_m3, reach_m, {});
     service.start_at(path->hip_m());
     Result<void> done = service.update(clock.now_ns());
     if (of.pacing != Pacing::back_to_back) {

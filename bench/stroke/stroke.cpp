@@ -9,7 +9,7 @@
 #include "bench/measure/timing.hpp"
 #include "compute/repair/self_intersections.hpp"
 #include "renderer/scene/frame_setup.hpp"
-#include "sculpt/sculpt_service.hpp"
+#include "sculpt/carved_part.hpp"
 #include "sculpt/workpiece.hpp"
 
 namespace burin::bench {
@@ -51,8 +51,8 @@ struct Carved {
     std::size_t tiles_lit = 0;
 };
 
-// Carries out an update for each sweep, in the steps of SculptService::update. Ending a stroke and baking light do
-// nothing where there is no history and no light.
+// Carries out an update for each sweep, in the steps of CarvedPart. Ending a stroke and baking light do nothing where
+// there is no history and no light.
 Result<Carved> carve(sculpt::Sculpture& sculpture, std::span<const compute::ToolSweep> sweeps) {
     const auto published = std::make_unique<geometry::LocalSurface>();
     const auto publish = [&](const compute::ToolSweep& sweep) {
@@ -72,7 +72,7 @@ Result<Carved> carve(sculpt::Sculpture& sculpture, std::span<const compute::Tool
         if (done) done = publish(sweeps[i]);
         if (!done) return std::unexpected(done.error());
         carved.publish_ms.push_back(watch.lap_ms());
-        carved.tiles_lit += sculpture.bake_light(sweeps[i].end.position_m, sculpt::SculptService::kLitWorking);
+        carved.tiles_lit += sculpture.bake_light(sweeps[i].end.position_m, sculpt::CarvedPart::kLitWorking);
         carved.times.update_ms.push_back(carved_ms + carved.publish_ms.back() + watch.lap_ms());
         carved.times.cpu_ms.push_back(process_cpu_ms() - cpu_before_ms);
         carved.triangles_published += published->triangles();

@@ -52,8 +52,7 @@ Result<void> check(const std::vector<HandPose>& script) {
 
 Result<SimulatedHand> SimulatedHand::create(std::vector<HandPose> script, HandPath path, HandGrip grip) {
     if (auto ok = check(script); !ok) return std::unexpected(ok.error());
-    const auto sensible = [](double value) { return std::isfinite(value) && value >= 0.0; };
-    if (!sensible(grip.mass_kg) || !sensible(grip.stiffness_N_per_m) || !sensible(grip.damping_Ns_per_m))
+    if (!is_sensible(grip))
         return fail("hand grip", "mass, stiffness and damping must be finite and not negative", "correct them");
     for (HandPose& pose : script)
         pose.orientation_device = scaled(pose.orientation_device, 1.0 / std::sqrt(length2(pose.orientation_device)));

@@ -31,11 +31,25 @@ struct HandPose {
 
 enum class HandPath : std::uint8_t { straight, monotone_cubic };
 
+// In rotation likewise, for devices whose handle turns under torque (a wand, not a stylus): T = K_r turn + B_r (w
+// target
+// - w), with a fist's inertia. 2 Nm/rad is about a wrist's own stiffness: the 0.23 Nm that a wand gives turn it by 0.1
+// rad. 0.05 Nms/rad makes fist and handle settle (damping ratio 0.46).
 struct HandGrip {
     double mass_kg = 0.1;
     double stiffness_N_per_m = 200.0;
     double damping_Ns_per_m = 6.0;
+    double inertia_kgm2 = 0.001;
+    double torsion_Nm_per_rad = 2.0;
+    double angular_damping_Nms_per_rad = 0.05;
 };
+
+// Whether every number of a grip is finite and not negative.
+[[nodiscard]] inline bool is_sensible(const HandGrip& grip) noexcept {
+    return not_negative(grip.mass_kg) && not_negative(grip.stiffness_N_per_m) && not_negative(grip.damping_Ns_per_m) &&
+           not_negative(grip.inertia_kgm2) && not_negative(grip.torsion_Nm_per_rad) &&
+           not_negative(grip.angular_damping_Nms_per_rad);
+}
 
 // The desired state of the hand at one time.
 struct HandTarget {

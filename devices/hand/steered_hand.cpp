@@ -103,7 +103,7 @@ Result<SteeredHand> SteeredHand::create(HandSteering* channel, const HandTarget&
     if (!positive(limits.speed_m_per_s) || !positive(limits.acceleration_m_per_s2) || !positive(limits.lag_s))
         return fail("steered hand", "speed, acceleration and lag must be finite and positive", "correct them");
     if (limits.lag_s < kStep_s) return fail("steered hand", "its lag is shorter than its step", "use at least 50 us");
-    if (!not_negative(grip.mass_kg) || !not_negative(grip.stiffness_N_per_m) || !not_negative(grip.damping_Ns_per_m))
+    if (!is_sensible(grip))
         return fail("hand grip", "mass, stiffness and damping must be finite and not negative", "correct them");
     SteeredHand hand;
     hand.channel_ = channel;

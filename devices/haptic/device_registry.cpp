@@ -6,16 +6,32 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "devices/haptic/simulated_wand.hpp"
+#include "devices/haptic/wand_file.hpp"
 
 namespace burin::devices {
 namespace {
 
-Result<std::unique_ptr<HapticDevice>> open_simulated_omni(HapticHost host) {
+Result<std::unique_ptr<HapticDevice>> open_simulated_omni(HapticHost host, const std::string& file) {
+    if (!file.empty())
+        return fail("haptic device " + std::string(kDefaultHapticDevice), "takes no description: " + file,
+                    "write the name alone");
     return std::make_unique<SimulatedOmni>(std::move(host.hand), OmniModel{}, &host.clock);
+}
+
+Result<std::unique_ptr<HapticDevice>> open_simulated_wand(HapticHost host, const std::string& file) {
+    Result<WandDescription> wand = file.empty() ? WandDescription{} : read_wand(file);
+    if (!wand) return std::unexpected(wand.error());
+    return std::make_unique<SimulatedWand>(std::move(host.hand), std::move(*wand), &host.clock);
 }
 
 constexpr std::array kKinds{
     HapticKind{kDefaultHapticDevice, "a PHANTOM Omni in a simulated hand", open_simulated_omni},
+    HapticKind{
+        "simulated-wand",
+        "a wand that is driven in three forces and two torques, in a simulated hand; simulated-wand:FILE.toml as "
+        "FILE describes it",
+        open_simulated_wand},
 };
 
 }  // namespace
@@ -23,12 +39,14 @@ constexpr std::array kKinds{
 std::span<const HapticKind> haptic_kinds() { return kKinds; }
 
 Result<std::unique_ptr<HapticDevice>> open_haptic_device(std::string_view name, HapticHost host) {
-    const auto kind = std::ranges::find(kKinds, name, &HapticKind::name);
-    if (kind != kKinds.end()) return kind->open(std::move(host));
+    const std::string_view kind_name = name.substr(0, name.find(':'));
+    const auto kind = std::ranges::find(kKinds, kind_name, &HapticKind::name);
+    if (kind != kKinds.end())
+        return kind->open(std::move(host), std::string(name.substr(std::min(name.size(), kind_name.size() + 1))));
     std::array<std::string_view, kKinds.size()> names;
     std::ranges::transform(kKinds, names.begin(), &HapticKind::name);
     return fail("haptic device " + std::string(name), "is no device that Burin knows",
-                "did you mean " + std::string(nearest_name(name, names)) + "? There are: " + joined(names));
+                "did you mean " + std::string(nearest_name(kind_name, names)) + "? There are: " + joined(names));
 }
 
 std::string haptic_usage() {

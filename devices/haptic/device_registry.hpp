@@ -25,13 +25,15 @@ struct HapticHost {
 struct HapticKind {
     std::string_view name;   // as --device spells it
     std::string_view usage;  // what it is, for the help
-    Result<std::unique_ptr<HapticDevice>> (*open)(HapticHost host);
+    // `file` is what follows the name and a colon: a description of the device; empty: none was named.
+    Result<std::unique_ptr<HapticDevice>> (*open)(HapticHost host, const std::string& file);
 };
 [[nodiscard]] std::span<const HapticKind> haptic_kinds();
 
 inline constexpr const char* kDefaultHapticDevice = "simulated";
 
-// Opens the device of that name. An Error names the kinds that there are, or says why the device cannot be used.
+// Opens the device of that name, or of NAME:FILE. An Error names the kinds that there are, or says why the device
+// cannot be used.
 [[nodiscard]] Result<std::unique_ptr<HapticDevice>> open_haptic_device(std::string_view name, HapticHost host);
 
 // Returns all names with what they are, for the help of --device.

@@ -101,6 +101,8 @@ bool for_each_near(const PosedSurface& posed, Near& near, const Visitor& visit) 
     first += surface.loose_triangles();
     for (std::uint32_t i = 0; i < surface.meshes.size(); ++i) {
         const TouchedMesh& mesh = surface.meshes[i];
+        // The walk over the meshes is work as well: a surface may list a hundred.
+        if (!near.look()) return false;
         if (posed.shows(i) &&
             // Vertices do not say which side of a sheet they are seen from.
             (mesh.two_sided ? !for_each_near_of_mesh(posed, i, first, near, TriangleVisitor{visit.triangle})

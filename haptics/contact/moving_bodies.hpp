@@ -15,7 +15,7 @@
 //      and slides against the body, and a body at rest with a moving hand is the same as a hand at rest with a moving
 //      body;
 //   5. damps by the velocity relative to the surface touched, tells the energy account what the body does to the hand
-//      (stability/passivity.hpp), and leaves out of the spring what an unexplained motion has added to it.
+//      (haptics/stability/passivity.hpp), and leaves out of the spring what an unexplained motion has added to it.
 //
 // The rule for ramps, in lengths at the device: in one tick an unexplained motion may lengthen the spring between HIP
 // and proxy by kJump (0.5 mm; at 600 N/m a third of a newton); what it adds beyond is left out of the force at first

@@ -8,7 +8,7 @@
 //     p = p0 + H v_n
 // the linear chip law: force on a cutting edge is K_c times the chip's section plus an edge force F_e that no chip is
 // too thin for. For a driven cutter of tooth spacing s, cutting speed v_c and thrust ratio r it gives H = r K_c / v_c
-// and p0 = r F_e / s (docs/decisions/023-cutting-with-any-tool.md). So a tool that is pressed lightly, F < p0 A, holds
+// and p0 = r F_e / s (docs/decisions/024-cutting-with-any-tool.md). So a tool that is pressed lightly, F < p0 A, holds
 // still; beyond that it sinks at (F / A - p0) / H; and drawn along it runs at the depth where the lift of what lies
 // ahead bears the press, deeper with more force, softer material and less speed.
 //

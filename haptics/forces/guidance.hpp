@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Magnetic guidance: a force that draws the tool to a curve, as training asks for.
 //
-// The nearest point q of a polyline attracts the middle c of the probe's n points, d = |q - c| / g (g the gain). Where an
-// orientation R is set, each point h_i is drawn to its own place q_i = q + g R (T_i - mean T), T_i its offset at the
+// The nearest point q of a polyline attracts the middle c of the probe's n points, d = |q - c| / g (g the gain). Where
+// an orientation R is set, each point h_i is drawn to its own place q_i = q + g R (T_i - mean T), T_i its offset at the
 // device; else q_i - h_i = q - c for all. So a stylus is drawn by its tip, and a wand's two ends are led side by side:
 //     F_i = (min(k/n |q_i - h_i| / g, max/n) n_i - b/n v_across,i) * fade      n_i to the point, |F_i| at most max/n
 //     F = sum F_i                                      and where an orientation is set

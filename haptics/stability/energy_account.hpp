@@ -24,7 +24,7 @@
 // can be away from the straight line at the speed V. Both are charged. Friction is credited for the shortest way that
 // the read positions admit (a play of half a step), damping for the slowest motion that they admit.
 // A surface that moves adds the work that the acting force has done along its announced velocity, where that is above
-// zero (stability/passivity.hpp states the rule): then only the hand and announced bodies put energy in.
+// zero (haptics/stability/passivity.hpp states the rule): then only the hand and announced bodies put energy in.
 // Frame: device. Pure; no clock, heap, lock or throw; bounded loops.
 #pragma once
 

@@ -4,10 +4,10 @@
 
 namespace burin::record {
 
-Result<void> each_block(RecordReader& reader, std::size_t hand, ExportReport& report,
+Result<void> each_block(RecordReader& reader, std::size_t table, ExportReport& report,
                         const std::function<Result<void>(const Block&)>& take) {
-    for (std::size_t number = 0; number < reader.hands()[hand].blocks.size(); ++number) {
-        const Result<Block> block = reader.block(hand, number);
+    for (std::size_t number = 0; number < reader.table(table).blocks.size(); ++number) {
+        const Result<Block> block = reader.block(table, number);
         if (!block) {
             report.damaged.push_back(block.error());
             continue;
@@ -18,16 +18,16 @@ Result<void> each_block(RecordReader& reader, std::size_t hand, ExportReport& re
     return {};
 }
 
-Result<ExportReport> export_csv(RecordReader& reader, std::size_t hand, const std::vector<std::size_t>& columns,
+Result<ExportReport> export_csv(RecordReader& reader, std::size_t table, const std::vector<std::size_t>& columns,
                                 const std::string& path) {
     Result<NewFile> file = NewFile::create(path);
     if (!file) return std::unexpected(file.error());
     std::string line;
     const auto add = [&](const std::string& text) { (line += line.empty() ? "" : ",") += text; };
-    for (const std::size_t column : columns) add(reader.hands()[hand].columns[column].name);
+    for (const std::size_t column : columns) add(reader.table(table).columns[column].name);
     if (const auto done = file->write(line + "\n"); !done) return std::unexpected(done.error());
     ExportReport report{0, columns.size(), {}};
-    const auto done = each_block(reader, hand, report, [&](const Block& block) -> Result<void> {
+    const auto done = each_block(reader, table, report, [&](const Block& block) -> Result<void> {
         for (std::uint32_t row = 0; row < block.rows(); ++row) {
             line.clear();
             for (const std::size_t column : columns) add(text_of(block.at(column, row), block.type(column)));

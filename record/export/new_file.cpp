@@ -2,6 +2,7 @@
 #include "record/export/new_file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -27,6 +28,12 @@ int write_whole(int fd, std::string_view bytes) {
 }
 
 }  // namespace
+
+Result<void> check_no_file(const std::string& path) {
+    struct stat there{};
+    if (path == "-" || ::lstat(path.c_str(), &there) != 0) return {};
+    return fail(path, "exists, and is not written over", "choose another name, or take it away first");
+}
 
 Result<NewFile> NewFile::create(const std::string& path) {
     NewFile file;
@@ -74,8 +81,13 @@ Result<void> NewFile::flush() {
 
 Result<void> NewFile::write_at(std::size_t offset, std::string_view bytes) {
     if (const auto done = flush(); !done) return done;
-    if (::pwrite(fd_, bytes.data(), bytes.size(), static_cast<off_t>(offset)) != static_cast<ssize_t>(bytes.size()))
-        return failed(errno);
+    while (!bytes.empty()) {
+        const ssize_t written = ::pwrite(fd_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) return failed(errno);
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+        offset += static_cast<std::size_t>(written);
+    }
     return {};
 }
 

@@ -10,6 +10,10 @@
 
 namespace burin::record {
 
+// Fails where something has the name already: what was converted before is never written over. Nothing to check for
+// standard output.
+[[nodiscard]] Result<void> check_no_file(const std::string& path);
+
 class NewFile {
 public:
     // path "-": standard output, which nothing can take back.
@@ -19,9 +23,11 @@ public:
     NewFile& operator=(NewFile&&) = delete;
 
     [[nodiscard]] Result<void> write(std::string_view bytes);
-    // Replaces bytes that have been written; not on standard output.
+    // Writes or replaces bytes anywhere; what is left out in between reads as zero. Not on standard output.
     [[nodiscard]] Result<void> write_at(std::size_t offset, std::string_view bytes);
     [[nodiscard]] bool is_standard_output() const { return temporary_.empty(); }
+    // Returns the name under which the file is until its end, for a library that writes it by itself.
+    [[nodiscard]] const std::string& temporary() const { return temporary_; }
     [[nodiscard]] Result<void> finish();
 
 private:

@@ -34,7 +34,7 @@ struct Shown {
 [[nodiscard]] bool same_room(const Shown& shown, const Shown& wanted);
 // Returns the damaged rectangles, given that same_room() holds; some may be empty. changed: boxes around changed
 // patches and parts of patches, in the patches' frame, including patches that look different because the tool moved
-// (changed_near_tool in surface/patch_choice.hpp).
+// (changed_near_tool in renderer/surface/patch_choice.hpp).
 [[nodiscard]] std::vector<PixelRect> changed_rects(const Shown& shown, const Shown& wanted, ImageSize size,
                                                    std::span<const Box> changed);
 

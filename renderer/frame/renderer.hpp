@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The stereo renderer: both eyes of a head-tracked wall in one multiview pass, without any window system.
 //
-// Data flow: the carving side's changed tiles go into a SurfaceStore (surface/surface_store.hpp), which several screens
-// share or one has to itself; record(scene) draws both views into a picture of two layers, and redraws only what has
-// changed since the frame before: nothing at all when nothing has. The presenter samples both_eyes().
+// Data flow: the carving side's changed tiles go into a SurfaceStore (renderer/surface/surface_store.hpp), which
+// several screens share or one has to itself; record(scene) draws both views into a picture of two layers, and redraws
+// only what has changed since the frame before: nothing at all when nothing has. The presenter samples both_eyes().
 // Light: one directional light from above and slightly in front, hemispheric ambient. The workpiece's self-occlusion
 // comes with its vertices; the tool's occlusion is added in closed form, with shadows that sharpen towards contact and
 // a thin ring of the tool's colour where the surface comes near it.
 // A panel may stand in the scene (Scene::panel, show_panel).
-// What is left out, and why that does not show, is described in surface/patch_choice.hpp and redraw.hpp.
+// What is left out, and why that does not show, is described in renderer/surface/patch_choice.hpp and redraw.hpp.
 //
 // Ownership: the renderer shares the device's core; the device's
 // handle may be destroyed first. Thread: that of its Device.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Chooses what of the scene is drawn in a part of the picture: which shapes, how finely its balls are tessellated, and
-// the shader for each part of the room. (Patches of the workpiece: surface/patch_choice.hpp.)
+// the shader for each part of the room. (Patches of the workpiece: renderer/surface/patch_choice.hpp.)
 // Pure functions; any thread.
 #pragma once
 

@@ -20,12 +20,13 @@ Result<void> drive(Executor& executor, FrameSource& frames) {
 // ---- On the caller's thread
 
 SteppedExecutor::SteppedExecutor(SimulatedClock& clock, haptics::HapticLoop& loop, haptics::HapticChannels& channels,
-                                 sculpt::SculptService& service)
+                                 scene::SceneService& service, AfterUpdate after_update)
     : clock_(clock),
       loop_(loop),
       channels_(channels),
       service_(service),
-      next_update_ns_(clock.now_ns() + sculpt::SculptThread::kPeriod_ns) {}
+      after_update_(std::move(after_update)),
+      next_update_ns_(clock.now_ns() + scene::SceneService::kHandsMove_ns) {}
 
 Result<void> SteppedExecutor::advance_to(Nanoseconds until_ns) {
     while (clock_.now_ns() + loop_.period_ns() <= until_ns) {
@@ -33,7 +34,8 @@ Result<void> SteppedExecutor::advance_to(Nanoseconds until_ns) {
         tick();
         if (clock_.now_ns() < next_update_ns_) continue;
         if (const auto updated = service_.update(clock_.now_ns()); !updated) return updated;
-        next_update_ns_ += sculpt::SculptThread::kPeriod_ns;
+        collect();
+        next_update_ns_ += scene::SceneService::kHandsMove_ns;
     }
     return {};
 }
@@ -48,54 +50,65 @@ void SteppedExecutor::tick() {
     tick_durations_ns_->push_back(static_cast<std::uint32_t>(stopwatch_.now_ns() - before_ns));
 }
 
-void SteppedExecutor::order(sculpt::SculptOrder order) {
-    service_.order(order);
-    service_.finish_export();
+void SteppedExecutor::collect() {
+    if (after_update_) after_update_({});
 }
 
-Result<Executor::Taken> SteppedExecutor::take_surface_update() { return Taken{service_.take_surface_update(), {}}; }
+void SteppedExecutor::order(Order order) {
+    order();
+    service_.finish();
+}
+
+Result<Executor::Taken> SteppedExecutor::take_updates() {
+    collect();
+    return Taken{};
+}
 
 // ---- On threads
 
 ThreadedExecutor::ThreadedExecutor(Clock& clock, haptics::HapticLoop& loop, haptics::HapticChannels& channels,
-                                   sculpt::SculptService& service, const haptics::LoopPace& pace,
-                                   std::function<void()> on_update)
+                                   scene::SceneService& service, const haptics::LoopPace& pace,
+                                   AfterUpdate after_update)
     : clock_(clock), channels_(channels), touch_(loop, pace), service_(service) {
-    carving_.emplace(service, clock, std::move(on_update));
+    scene_.emplace(service, clock, std::move(after_update));
 }
 
 ThreadedExecutor::ThreadedExecutor(Clock& clock, haptics::HapticLoop& loop, haptics::HapticChannels& channels,
-                                   sculpt::SculptService& service)
+                                   scene::SceneService& service)
     : clock_(clock), channels_(channels), touch_(loop), service_(service) {}
 
 haptics::RealtimeNotice ThreadedExecutor::start() {
     haptics::RealtimeNotice notice = touch_.start();
-    if (carving_) carving_->start();
+    if (scene_) scene_->start();
     return notice;
 }
 
 Result<void> ThreadedExecutor::advance_to(Nanoseconds until_ns) {
     clock_.sleep_until(until_ns);
-    if (!carving_) return service_.update(clock_.now_ns());
-    if (const auto failed = carving_->failure()) return std::unexpected(*failed);
+    if (!scene_) return service_.update(clock_.now_ns());
+    if (const auto failed = scene_->failure()) return std::unexpected(*failed);
     return {};
 }
 
-void ThreadedExecutor::order(sculpt::SculptOrder order) {
-    if (carving_) {
-        carving_->order(std::move(order));
+void ThreadedExecutor::order(Order order) {
+    if (scene_) {
+        scene_->order(std::move(order));
     } else {
-        service_.order(order);
+        order();
     }
 }
 
-Result<Executor::Taken> ThreadedExecutor::take_surface_update() {
-    return carving_ ? carving_->take_surface_update() : Taken{service_.take_surface_update(), {}};
+Result<Executor::Taken> ThreadedExecutor::take_updates() {
+    if (!scene_) return Taken{};
+    Taken taken{scene_->take_updates()};
+    updates_ += taken.updates.size();
+    taken.collected = updates_;
+    return taken;
 }
 
 void ThreadedExecutor::stop() {
     touch_.stop();
-    if (carving_) carving_->stop();
+    if (scene_) scene_->stop();
 }
 
 }  // namespace burin::session

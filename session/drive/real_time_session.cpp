@@ -172,9 +172,9 @@ SessionRecord LiveFrames::record() const {
 }
 
 // Adds what the threads did; call it after they have ended.
-void add_threads(SessionRecord& record, LiveSession& session, const ThreadedExecutor& threads) {
+void add_threads(SessionRecord& record, LiveSession& session) {
     const haptics::HapticLoop& loop = session.loop();
-    record.carve_update = summarised(threads.update_duration());
+    record.carve_update = summarised(session.carving_duration());
     record.machine_pace = session.pace();
     record.lost_targets = session.lost_targets();
     record.ticks = loop.ticks();
@@ -216,7 +216,10 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
     }
 
     LiveFrames frames(session, *presenter, std::move(input), clock, tracker.get());
-    ThreadedExecutor threads(clock, session.loop(), session.channels(), session.desk(), run.pace, wake);
+    ThreadedExecutor threads(clock, session.loop(), session.channels(), session.scene(), run.pace,
+                             [&session, &wake](const auto& ended) {
+                                 if (session.collect(ended) || ended.failed) wake();
+                             });
     const haptics::RealtimeNotice notice = threads.start();
     if (!notice.text.empty()) session.notify_of_event(notice.text);
     frames.begin();
@@ -225,7 +228,7 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
     if (!driven) return std::unexpected(driven.error());
     if (!ended) return std::unexpected(ended.error());
     SessionRecord record = frames.record();
-    add_threads(record, session, threads);
+    add_threads(record, session);
     if (record.lost_targets > 0) {
         session.notify_of_event(std::to_string(record.lost_targets) +
                                 " places of the hand were lost: its ticks stood still for too long");

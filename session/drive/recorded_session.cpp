@@ -25,8 +25,8 @@ public:
     [[nodiscard]] Result<void> finish_as_recorded() {
         if (const auto run = replay_.run_to_end(); !run) return run;
         if (const auto done = finish(replay_); !done) return done;
-        if (log_.end_check && *log_.end_check != check_of(session_.surface()) && !departed_)
-            departed_ = Error{"the replay leaves another surface than the recording did", name_, kRemedy};
+        if (log_.end_check && *log_.end_check != check_of(session_) && !departed_)
+            departed_ = Error{"the replay leaves another scene than the recording did", name_, kRemedy};
         return {};
     }
     [[nodiscard]] const std::optional<Error>& departed() const { return departed_; }
@@ -102,8 +102,7 @@ Result<void> replay_as_recorded(const SculptOptions& options, const SessionWall&
     if (!done && !replay.log_ends()) return done;
     if (!done) std::fprintf(stderr, "burin: %s\n", done.error().line().c_str());
     // An export may be under way where the log breaks off.
-    session.desk().finish_export();
-    if (auto last = session.desk().take_surface_update()) session.take(std::move(*last));
+    session.finish_scene();
     if (frames.departed()) return std::unexpected(*frames.departed());
     return session.outcome();
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 
 #include "session/picture/pictures.hpp"
 #include "session/record/log_outputs.hpp"
@@ -48,6 +49,11 @@ Result<void> check_for_a_session(const SculptOptions& options) {
 Result<void> check(const SculptOptions& options) {
     if (const auto tool = sculpt::parse_tool(options.tool); !tool) return std::unexpected(tool.error());
     if (const auto feel = sculpt::parse_feel(options.feel); !feel) return std::unexpected(feel.error());
+    if (options.no_workpiece && options.world.empty())
+        return fail("--no-workpiece", "leaves nothing, since there is no world", "name one: burin world FILE");
+    std::error_code ignored;
+    if (!options.world.empty() && !std::filesystem::is_regular_file(options.world, ignored))
+        return fail(options.world, "is no file that can be read", "name a world: .toml, .wrl, or a mesh");
     return sculpt::check_units(options.workpiece, false);  // a session has no tool from a file
 }
 

@@ -11,17 +11,17 @@ Result<void> step_frame(LiveSession& session, Executor& executor, ThreadRecorder
                         const std::vector<wall::OutputPlace>& places) {
     const haptics::ToolState tool = executor.tool();
     session.step(input, places[session.room().wall.main], tool,
-                 [&](sculpt::SculptOrder order) { executor.order(std::move(order)); });
-    Result<Executor::Taken> taken = executor.take_surface_update();
+                 [&](Executor::Order order) { executor.order(std::move(order)); });
+    const Result<Executor::Taken> taken = executor.take_updates();
     if (!taken) return std::unexpected(taken.error());
-    if (taken->surface) session.take(std::move(*taken->surface));
+    session.take_news(taken->collected);
     recorder.frame(tool.tick, taken->updates, places);
     return {};
 }
 
 SessionFrames::SessionFrames(LiveSession& session, Presenter& presenter, InputSource input)
     : session_(session), presenter_(presenter), input_(std::move(input)), recorder_(input_, session) {
-    if (auto loaded = session.desk().take_surface_update()) session.take(std::move(*loaded));
+    session.take_loaded();
 }
 
 std::optional<Nanoseconds> SessionFrames::next() {
@@ -53,12 +53,10 @@ Result<bool> SessionFrames::draw() {
 }
 
 Result<void> SessionFrames::finish(Executor& executor) {
-    session_.desk().finish_export();
-    Result<Executor::Taken> last = executor.take_surface_update();
+    const Result<Executor::Taken> last = executor.take_updates();
     if (!last) return std::unexpected(last.error());
+    session_.finish_scene();
     recorder_.finish(last->updates);
-    sculpt::add(last->surface, session_.desk().take_surface_update());
-    if (last->surface) session_.take(std::move(*last->surface));
     return {};
 }
 
@@ -90,7 +88,8 @@ Result<void> run_in_simulated_time(const SculptOptions& options, const SessionWa
     Result<Presenter> presenter = Presenter::open(options.live, wall);
     if (!presenter) return std::unexpected(presenter.error());
     ScriptedFrames frames(session, *presenter, std::move(input));
-    SteppedExecutor executor(clock, session.loop(), session.channels(), session.desk());
+    SteppedExecutor executor(clock, session.loop(), session.channels(), session.scene(),
+                             [&](const auto& ended) { static_cast<void>(session.collect(ended)); });
     const Result<void> driven = drive(executor, frames);
     return driven ? session.outcome() : driven;
 }

@@ -16,7 +16,7 @@
 
 namespace burin::session {
 
-// Makes a frame but for its picture: steps the session with the input and hands it what the carving side has done.
+// Makes a frame but for its picture: steps the session with the input and hands it what the scene's parts report.
 // places: where the outputs of all screens are.
 [[nodiscard]] Result<void> step_frame(LiveSession& session, Executor& executor, ThreadRecorder& recorder,
                                       const FrameInput& input, const std::vector<wall::OutputPlace>& places);

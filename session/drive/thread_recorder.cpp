@@ -75,14 +75,20 @@ std::uint64_t SessionCheck::frame(std::uint64_t tick, const SessionState& state)
     return fnv.sum();
 }
 
-std::uint64_t check_of(const compute::Surface& surface) {
+std::uint64_t check_of(const LiveSession& session) {
     Fnv fnv;
-    for (std::uint32_t i = 0; i < surface.tile_count(); ++i) {
-        const auto tile = surface.shared_tile(i);
+    const compute::Surface* surface = session.surface();
+    for (std::uint32_t i = 0; surface != nullptr && i < surface->tile_count(); ++i) {
+        const auto tile = surface->shared_tile(i);
         if (!tile) continue;
         fnv.add(std::uint64_t{i});
         fnv.add_bytes(std::as_bytes(std::span(tile->vertices)));
         fnv.add_bytes(std::as_bytes(std::span(tile->indices)));
+    }
+    const scene::MeshPart* objects = session.objects();
+    for (scene::ObjectId id = 1; objects != nullptr && id <= objects->size(); ++id) {
+        fnv.add(objects->pose(id).position_m);
+        fnv.add(objects->pose(id).orientation);
     }
     return fnv.sum();
 }
@@ -108,7 +114,7 @@ void ThreadRecorder::outside() {
     for (const std::string& message : outside.heard) input_.record_threads(message_text(message));
 }
 
-void ThreadRecorder::frame(std::uint64_t tick, const std::vector<sculpt::UpdateSeen>& updates,
+void ThreadRecorder::frame(std::uint64_t tick, const std::vector<scene::SceneUpdate>& updates,
                            const std::vector<wall::OutputPlace>& places) {
     if (!input_.records()) return;
     write_ticks();  // a tick is in the ring before its tool is published
@@ -124,12 +130,12 @@ void ThreadRecorder::frame(std::uint64_t tick, const std::vector<sculpt::UpdateS
     input_.record_threads(text_of(frame));
 }
 
-void ThreadRecorder::finish(const std::vector<sculpt::UpdateSeen>& updates) {
+void ThreadRecorder::finish(const std::vector<scene::SceneUpdate>& updates) {
     outside();
     if (!recording_) return;
     write_ticks();
     write_updates(updates);
-    if (input_.records()) input_.record_threads(end_text(check_of(session_.surface())));
+    if (input_.records()) input_.record_threads(end_text(check_of(session_)));
     outside();
 }
 
@@ -138,7 +144,7 @@ void ThreadRecorder::write_ticks() {
     haptics::TickRecord record;
     while (session_.channels().records.pop(record)) {
         if (record.tick != ticks_ + ticks.size() + 1 || (record.flags & haptics::kTickSampleDropped) != 0) {
-            input_.stop_recording({"the frames or the carving stood still for so long that ticks were lost",
+            input_.stop_recording({"the frames or the scene stood still for so long that ticks were lost",
                                    "the recording ends here: it",
                                    "what is in the file is whole and can be replayed; record the rest anew"});
             return;
@@ -159,10 +165,10 @@ void ThreadRecorder::write_ticks(const std::vector<TickSeen>& ticks) {
     ticks_ += ticks.size();
 }
 
-void ThreadRecorder::write_updates(const std::vector<sculpt::UpdateSeen>& updates) {
+void ThreadRecorder::write_updates(const std::vector<scene::SceneUpdate>& updates) {
     if (updates.empty()) return;
     std::string text = "updates " + std::to_string(updates_ + 1) + " ";
-    for (const sculpt::UpdateSeen& update : updates) update_text_.write(text, update);
+    for (const scene::SceneUpdate& update : updates) update_text_.write(text, update);
     input_.record_threads(text);
     updates_ += updates.size();
 }

@@ -2,11 +2,11 @@
 // Records what the threads of a live session do into the recording of its input (thread_log.hpp). Ticks come from the
 // haptic thread's ring of records, which that thread fills as always: it knows nothing of a recording.
 //
-//   each frame: outside(), begin_frame ... step, take_surface_update, frame(), draw
+//   each frame: outside(), begin_frame ... step, take_updates, frame(), draw
 //   after the threads have ended: finish()
 //
 // Recording ends, with the reason in the InputSource, when a tick is missing: the frame's thread was stalled for longer
-// than the ring holds, or the carving side did not take a sample. One thread, the frame's.
+// than the ring holds, or the scene's service did not take a sample. One thread, the frame's.
 #pragma once
 
 #include <cstdint>
@@ -35,8 +35,9 @@ private:
     std::deque<After> ticks_;  // not seen by a frame yet, except for the first
 };
 
-// Returns the checksum of the surface, which a recording keeps at its end.
-[[nodiscard]] std::uint64_t check_of(const compute::Surface& surface);
+// Returns the checksum of what the session leaves: the carved surface, and where the world's objects are. A recording
+// keeps it at its end.
+[[nodiscard]] std::uint64_t check_of(const LiveSession& session);
 
 class ThreadRecorder {
 public:
@@ -47,14 +48,14 @@ public:
     // Records the outside messages since the previous frame. Reports, once, why the recording has ended.
     void outside();
     // Records a frame. tick: the one whose tool the frame draws. updates: those that it took.
-    void frame(std::uint64_t tick, const std::vector<sculpt::UpdateSeen>& updates,
+    void frame(std::uint64_t tick, const std::vector<scene::SceneUpdate>& updates,
                const std::vector<wall::OutputPlace>& places);
-    void finish(const std::vector<sculpt::UpdateSeen>& updates);
+    void finish(const std::vector<scene::SceneUpdate>& updates);
 
 private:
     void write_ticks();
     void write_ticks(const std::vector<TickSeen>& ticks);
-    void write_updates(const std::vector<sculpt::UpdateSeen>& updates);
+    void write_updates(const std::vector<scene::SceneUpdate>& updates);
     void write_places(const std::vector<wall::OutputPlace>& places);
 
     InputSource& input_;

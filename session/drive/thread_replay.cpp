@@ -48,13 +48,10 @@ Result<void> ThreadReplay::advance_to(Nanoseconds) {
     return {};
 }
 
-Result<Executor::Taken> ThreadReplay::take_surface_update() {
+Result<Executor::Taken> ThreadReplay::take_updates() {
     keep_parameters();
     if (const auto run = run_updates(frame_->updates); !run) return std::unexpected(run.error());
-    Taken taken;
-    for (; !surface_updates_.empty() && surface_updates_.front().first <= frame_->updates; surface_updates_.pop_front())
-        sculpt::add(taken.surface, std::move(surface_updates_.front().second));
-    return taken;
+    return Taken{{}, frame_->updates};
 }
 
 bool ThreadReplay::is_as_recorded() { return check_.frame(frame_->tick, session_.state()) == frame_->check; }
@@ -112,7 +109,7 @@ void ThreadReplay::keep_parameters() {
 // ---- Updates
 
 Result<void> ThreadReplay::run_updates(std::uint64_t last) {
-    if (last > log_.updates.count) return ends("update " + std::to_string(last) + " of the carving side");
+    if (last > log_.updates.count) return ends("update " + std::to_string(last) + " of the scene");
     while (updates_ < last) {
         if (const auto run = run_update(); !run) return run;
     }
@@ -120,22 +117,25 @@ Result<void> ThreadReplay::run_updates(std::uint64_t last) {
 }
 
 Result<void> ThreadReplay::run_update() {
-    const sculpt::UpdateSeen update = *update_lines_.next();
+    const scene::SceneUpdate update = *update_lines_.next();
     updating_ = true;
     const std::size_t line = update_lines_.line();
     const std::string what = "update " + std::to_string(updates_ + 1) + " took ";
-    if (ticking_ > 0 && update.last_tick >= ticking_)
+    // A session has one hand, so far.
+    const std::uint64_t last_tick = update.last_ticks.empty() ? 0 : update.last_ticks.front();
+    if (ticking_ > 0 && last_tick >= ticking_)
         return contradiction(line, what + "the sample of a tick that saw its surface");
-    if (const auto run = run_ticks(update.last_tick); !run) return run;
+    if (const auto run = run_ticks(last_tick); !run) return run;
     if (update.orders > orders_.size())
         return contradiction(line, what + std::to_string(update.orders) + " orders of " +
                                        std::to_string(orders_.size()) + " that there were");
     for (std::size_t i = 0; i < update.orders; ++i) {
-        session_.desk().order(orders_.front());
+        orders_.front()();
         orders_.pop_front();
     }
-    if (const auto updated = session_.desk().repeat(update); !updated) return updated;
-    surface_updates_.emplace_back(++updates_, session_.desk().take_surface_update());
+    if (const auto updated = session_.scene().repeat(update); !updated) return updated;
+    ++updates_;
+    session_.collect({});
     updating_ = false;
     keep_surface();
     return {};

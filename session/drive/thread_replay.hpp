@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Replays the threads of a recorded session on one thread: ticks and updates of the carving side run when a frame needs
+// Replays the threads of a recorded session on one thread: ticks and updates of the scene run when a frame needs
 // them, each with the inputs it saw then.
 //
 //   a frame needs the tick whose tool it drew, and after its own orders the updates it had taken;
@@ -11,8 +11,8 @@
 // A recording that was torn off lacks what its last frames need: log_ends(). One that was edited contradicts itself: an
 // Error that names the line. One thread.
 //
-//   each frame: begin_frame(), advance_to(), tool() ... step, order(), take_surface_update(), is_as_recorded()
-//   after the last frame: run_to_end(), take_surface_update()
+//   each frame: begin_frame(), advance_to(), tool() ... step, order(), take_updates(), is_as_recorded()
+//   after the last frame: run_to_end(), take_updates()
 #pragma once
 
 #include <deque>
@@ -43,9 +43,9 @@ public:
     [[nodiscard]] Result<void> advance_to(Nanoseconds until_ns) override;
     // Returns the tool as that tick left it: an update may have needed later ticks.
     [[nodiscard]] const haptics::ToolState& tool() override { return tools_.front(); }
-    void order(sculpt::SculptOrder order) override { orders_.push_back(std::move(order)); }
+    void order(Order order) override { orders_.push_back(std::move(order)); }
     // Runs the updates that the frame had taken.
-    [[nodiscard]] Result<Taken> take_surface_update() override;
+    [[nodiscard]] Result<Taken> take_updates() override;
     // Returns, after the frame's step, whether everything is as recorded.
     [[nodiscard]] bool is_as_recorded();
 
@@ -77,10 +77,8 @@ private:
     std::uint64_t ticking_ = 0;                    // the tick in progress; 0: none
     std::deque<geometry::LocalSurface> surfaces_;  // that ticks may still see, by sequence
     std::deque<haptics::TickParameters> parameters_;
-    std::deque<haptics::ToolState> tools_;    // after each tick that frames may still see
-    std::deque<sculpt::SculptOrder> orders_;  // not taken by an update yet
-    // Results of updates, each with the update's number, that no frame has taken yet.
-    std::deque<std::pair<std::uint64_t, std::optional<sculpt::SurfaceUpdate>>> surface_updates_;
+    std::deque<haptics::ToolState> tools_;  // after each tick that frames may still see
+    std::deque<Order> orders_;              // not taken by an update yet
     SessionCheck check_;
     bool log_ends_ = false;
 };

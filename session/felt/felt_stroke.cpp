@@ -11,9 +11,9 @@
 #include "haptics/haptic_loop.hpp"
 #include "haptics/realtime.hpp"
 #include "record/record_writer.hpp"
+#include "sculpt/carved_scene.hpp"
 #include "sculpt/felt_tool.hpp"
 #include "sculpt/progress.hpp"
-#include "sculpt/sculpt_service.hpp"
 #include "sculpt/tool_mesh.hpp"
 #include "session/drive/driver.hpp"
 
@@ -160,7 +160,7 @@ public:
 
     [[nodiscard]] std::optional<Nanoseconds> next() override {
         if (clock_.now_ns() >= end_ns_) return std::nullopt;
-        due_ns_ = std::max(due_ns_ + sculpt::SculptThread::kPeriod_ns, clock_.now_ns());
+        due_ns_ = std::max(due_ns_ + scene::SceneService::kHandsMove_ns, clock_.now_ns());
         return std::min(due_ns_, end_ns_);
     }
     [[nodiscard]] Result<void> make(Executor&) override {
@@ -204,31 +204,30 @@ private:
 Result<void> first_failure(Result<void> driven, Result<void> finished) { return driven ? finished : driven; }
 
 Result<void> feel_in_simulated_time(devices::SimulatedHand hand, haptics::HapticChannels& channels,
-                                    sculpt::SculptService& service, const FeltRecording& recording,
-                                    FeltFigures& figures) {
+                                    sculpt::CarvedScene& carved, const FeltRecording& recording, FeltFigures& figures) {
     SimulatedClock clock;
     devices::SimulatedOmni omni(std::move(hand), {}, &clock);
     haptics::HapticLoop loop(omni, clock, channels);
-    if (const auto published = service.update(clock.now_ns()); !published) return published;
+    if (const auto published = carved.update(clock.now_ns()); !published) return published;
     FeltFrames frames(clock, loop, channels, figures, "carving by feel");
     const auto begun = frames.record(recording, omni.description(), FeltFrames::Pace::simulated);
     if (!begun) return begun;
-    SteppedExecutor executor(clock, loop, channels, service);
+    SteppedExecutor executor(clock, loop, channels, carved.service());
     executor.measure_ticks(figures.tick_ns);
     const Result<void> driven = drive(executor, frames);
     return first_failure(driven, frames.finish());
 }
 
 Result<void> feel_in_real_time(devices::SimulatedHand hand, haptics::HapticChannels& channels,
-                               sculpt::SculptService& service, const FeltRecording& recording, FeltFigures& figures) {
+                               sculpt::CarvedScene& carved, const FeltRecording& recording, FeltFigures& figures) {
     MonotonicClock clock;
     devices::SimulatedOmni omni(std::move(hand), {}, &clock);
     haptics::HapticLoop loop(omni, clock, channels);
-    if (const auto published = service.update(clock.now_ns()); !published) return published;
+    if (const auto published = carved.update(clock.now_ns()); !published) return published;
     FeltFrames frames(clock, loop, channels, figures, "carving by feel, in real time");
     const auto begun = frames.record(recording, omni.description(), FeltFrames::Pace::real);
     if (!begun) return begun;
-    ThreadedExecutor executor(clock, loop, channels, service);
+    ThreadedExecutor executor(clock, loop, channels, carved.service());
     const haptics::RealtimeNotice notice = executor.start();
     if (!notice.text.empty()) {
         figures.notices.push_back(notice.text);
@@ -275,13 +274,13 @@ Result<FeltFigures> carve_by_feel(sculpt::Sculpture& carving, const sculpt::Stro
 
     // Far enough for the fastest hand to stay inside the known ball until the next update: 1 m/s for 12 ms.
     const double reach_m = 0.012 * figures.object_from_device.scale + 2.0 * carving.surface().lattice().spacing_m;
-    sculpt::SculptService service(carving, channels, tool, options.feel.material.hardness_Ns_per_m3, reach_m, {});
-    service.start_at(stroke.front().position_object_m);
+    sculpt::CarvedScene carved(carving, channels, tool, options.feel.material.hardness_Ns_per_m3, reach_m, {});
+    carved.start_at(stroke.front().position_object_m);
     const auto feel = options.real_time ? feel_in_real_time : feel_in_simulated_time;
     const FeltRecording recording{options.record, options.facts, felt_tool.probe};
-    if (const auto felt = feel(std::move(*hand), channels, service, recording, figures); !felt)
+    if (const auto felt = feel(std::move(*hand), channels, carved, recording, figures); !felt)
         return std::unexpected(felt.error());
-    figures.surfaces_published = service.published();
+    figures.surfaces_published = carved.published();
     figures.last_tool = channels.tool.newest();
     return figures;
 }

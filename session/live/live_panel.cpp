@@ -39,6 +39,19 @@ renderer::PanelStand stand_in(const Room& room) {
     return renderer::stand_of_width({place, turned}, width_m, kStanding_px);
 }
 
+// Describes the chosen object; the first where none is.
+void add_objects(PanelModel& m, const SessionState& state) {
+    m.carves = state.carves;
+    if (!state.world || state.world->objects.empty()) return;
+    for (const auto& object : state.world->objects) m.object_names.push_back(object->name);
+    const scene::SceneObject* chosen = state.world->find(state.selected);
+    const scene::SceneObject& object = chosen != nullptr ? *chosen : *state.world->objects.front();
+    m.object = PanelObject{object.name, "", object.material, object.scale, {}, object.seen, object.felt};
+    if (std::holds_alternative<scene::HeldMotion>(object.motion)) m.object->state = "held";
+    if (std::holds_alternative<scene::PathMotion>(object.motion)) m.object->state = "moves";
+    for (std::size_t i = 0; i < 3; ++i) m.object->colour_srgb.at(i) = object.colour.at(i) / 255.0;
+}
+
 }  // namespace
 
 PanelModel LivePanel::model_of(const PanelContext& context, const std::string& message) const {
@@ -49,6 +62,7 @@ PanelModel LivePanel::model_of(const PanelContext& context, const std::string& m
     m.show_help = state.help;
     m.show_figures = state.figures;
     m.workpiece = context.workpiece;
+    add_objects(m, state);
     const auto value = [&](Quantity quantity) { return descriptor_of(quantity).value(state); };
     m.tool = state.tool.shape;
     m.tool_sizes = context.tool_sizes;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iterator>
 
+#include "base/text.hpp"
 #include "renderer/png.hpp"
 #include "sculpt/workpiece.hpp"
 
@@ -14,10 +15,14 @@ namespace {
 
 // Ticks that the recording's ring holds: the frame's thread, which takes them, may stall for so many.
 constexpr std::size_t kTicksToRecord = 8192;
+// The stylus' second button takes hold of an object.
+constexpr std::uint32_t kGrips = 2;
 
-Room room_of(const compute::Lattice& lattice, const SessionWall& wall) {
+// The ball that explores a world where no tool is given: its radius as a share of the world's longest side.
+constexpr double kExploringBall = 0.015;
+
+Room room_of(const SessionWall& wall) {
     Room room;
-    room.workpiece_object = sculpt::workpiece_bounds(lattice);
     room.wall = wall;
     const Pose fallback = wall.setup.fallback_head_tracker;
     room.desk.home_head_world = {wall.setup.world_from_tracker * fallback.position_m,
@@ -52,21 +57,55 @@ Result<std::unique_ptr<LiveSession>> LiveSession::create(const SculptOptions& op
 }
 
 Result<void> LiveSession::load(const SculptOptions& options, const SessionWall& wall) {
+    room_ = room_of(wall);
+    if (!options.no_workpiece || options.world.empty())
+        if (const auto loaded = load_workpiece(options); !loaded) return loaded;
+    if (!options.world.empty())
+        if (const auto loaded = load_world(options); !loaded) return loaded;
+    const double longest_side_m = sculpt::longest_side_m(room_.workpiece_object);
+    tool_options_ = options.tool;
+    if (!carving_ && tool_options_.shape.empty())
+        tool_options_.shape = formatted("ball:%.2g", kExploringBall * longest_side_m);
+    tool_options_ = sculpt::with_tool(tool_options_, longest_side_m);
+    if (!options.from_before_units) tool_sizes_ = tool_sizes_for(longest_side_m);
+    warns_of_misfit_ = !options.from_before_units && carving_;
+    return {};
+}
+
+Result<void> LiveSession::load_workpiece(const SculptOptions& options) {
     Result<sculpt::LoadedWorkpiece> workpiece = sculpt::load_workpiece(options.workpiece, pool_);
     if (!workpiece) return std::unexpected(workpiece.error());
     std::fprintf(stderr, "burin: %s\n", workpiece->size.c_str());
     unit_ = workpiece->unit;
-    room_ = room_of(workpiece->solid.lattice, wall);
-    const double longest_side_m = sculpt::longest_side_m(room_.workpiece_object);
-    tool_options_ = sculpt::with_tool(options.tool, longest_side_m);
-    if (!options.from_before_units) tool_sizes_ = tool_sizes_for(longest_side_m);
-    warns_of_misfit_ = !options.from_before_units;
+    room_.workpiece_object = sculpt::workpiece_bounds(workpiece->solid.lattice);
     Result<sculpt::ChosenEngine> chosen = sculpt::choose_engine(options.engine, std::move(workpiece->solid), pool_);
     if (!chosen) return std::unexpected(chosen.error());
     carving_ = std::make_unique<sculpt::Sculpture>(std::move(chosen->engine), pool_);
     workpiece_ = {
         .name = std::filesystem::path(options.workpiece.source).filename().string(),
         .size = in_millimetres(workpiece->size_m) + ", " + std::to_string(options.workpiece.resolution) + " cells"};
+    return {};
+}
+
+Result<void> LiveSession::load_world(const SculptOptions& options) {
+    Result<scene::World> read = read_sound_world(options.world);
+    if (!read) return std::unexpected(read.error());
+    const std::size_t count = read->objects.size();
+    Result<std::unique_ptr<WorldSide>> made = WorldSide::create(std::move(*read));
+    if (!made) return std::unexpected(made.error());
+    world_ = std::move(*made);
+    const Box seen = world_->drawn().bounds_scene();
+    Box& all = room_.workpiece_object;
+    if (!seen.empty()) {
+        all.include(seen.lo);
+        all.include(seen.hi);
+    }
+    if (all.empty()) all = {Vec3(-0.05), Vec3(0.05)};  // of a world in which nothing is seen
+    room_.covers_depth = true;
+    const std::string objects = std::to_string(count) + (count == 1 ? " object" : " objects");
+    if (!carving_)
+        workpiece_ = {.name = std::filesystem::path(options.world).filename().string(),
+                      .size = in_millimetres(all.extent()) + ", " + objects};
     return {};
 }
 
@@ -88,6 +127,8 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
     if (!feel) return std::unexpected(feel.error());
     state_ = begin_session(room_, *tool, *feel, output, std::move(meshes));
     state_.export_unit = options.export_units.value_or(unit_);
+    state_.carves = carving_ != nullptr;
+    if (world_) state_.world = world_->objects();
     const Result<sculpt::UseTool> use = tool_of(state_);
     if (!use) return std::unexpected(use.error());
     warn_of_misfit(use->tool);
@@ -98,20 +139,35 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
         !opened)
         return opened;
     haptics_.publish(parameters_of(state_, room_));
+    const Vec3 tool_object = inverse(state_.world_from_object) * (state_.world_from_device * rest_device_m);
+    return make_scene(*use, tool_object, options.undo_memory_MiB << 20);
+}
+
+Result<void> LiveSession::make_scene(const sculpt::UseTool& use, const Vec3& tool_object, std::size_t undo_bytes) {
+    std::vector<scene::ScenePart*> parts;
+    if (carving_) {
+        carved_.emplace(*carving_, use.tool, use.hardness_Ns_per_m3, undo_bytes);
+        carved_->order(use);
+        parts.push_back(&*carved_);
+    }
+    const double around_m = sculpt::around_m(use.tool);
+    if (world_) {
+        world_->part().grip_with(0, kGrips, around_m);
+        parts.push_back(&world_->part());
+    }
     // Far enough for the fastest hand to stay inside the known ball until the next update: 1 m/s for 12 ms.
-    const double reach_m = 0.012 * parameters_of(state_, room_).workspace.object_from_device.scale +
-                           2.0 * carving_->surface().lattice().spacing_m;
-    desk_.emplace(*carving_, haptics_.channels(), use->tool, use->hardness_Ns_per_m3, reach_m,
-                  options.undo_memory_MiB << 20);
-    desk_->order(*use);
-    desk_->start_at(inverse(state_.world_from_object) * (state_.world_from_device * rest_device_m));
-    return desk_->update(start_ns_);
+    const double reach_m = 0.012 * parameters_of(state_, room_).workspace.object_from_device.scale + 2.0 * spacing_m();
+    scene_.emplace(std::move(parts),
+                   std::vector<scene::SceneHand>{{&haptics_.channels(), tool_object, around_m, reach_m}});
+    news_.report_of(carved_ ? &*carved_ : nullptr, world_ ? &world_->part() : nullptr,
+                    world_ ? &world_->materials() : nullptr);
+    return scene_->update(start_ns_);
 }
 
 // ---- One step
 
 void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output, const haptics::ToolState& tool,
-                       const Carve& carve) {
+                       const Give& give) {
     if (output.size.width > 0 && output.size.height > 0) output_ = output;  // keeps the last size while minimised
     fit_desk_screen(room_.wall, main_eye());
     tool_ = tool;
@@ -130,7 +186,7 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
     }
     fit_desk_screen(room_.wall, main_eye());  // a command may have changed the mode
     haptics_.move_hand(step.hand_way, input.time_ns, step.hand);
-    carry_out(std::move(step.orders), carve);
+    carry_out(std::move(step.orders), give);
     watch(input.time_ns);
 }
 
@@ -157,16 +213,34 @@ SceneInput LiveSession::feed_panel(const FrameInput& input) {
     return {{input.events.begin(), input.events.end()}, {}};
 }
 
-void LiveSession::carry_out(SessionOrders orders, const Carve& carve) {
+scene::SceneThread::Order LiveSession::carving(sculpt::SculptOrder order) {
+    return [this, order = std::move(order)] {
+        if (carved_) carved_->order(order);
+        const auto* use = std::get_if<sculpt::UseTool>(&order);
+        if (use == nullptr) return;
+        const double around_m = carved_ ? carved_->around_m() : sculpt::around_m(use->tool);
+        scene_->use_probe(0, around_m);
+        if (world_) world_->part().grip_with(0, kGrips, around_m);
+    };
+}
+
+scene::SceneThread::Order LiveSession::editing(WorldOrder order) {
+    return [this, order = std::move(order)] {
+        if (const auto done = world_->part().edit(order.object, order.edit); !done) news_.notify(done.error().line());
+    };
+}
+
+void LiveSession::carry_out(SessionOrders orders, const Give& give) {
     if (orders.parameters) haptics_.publish(parameters_of(state_, room_));
     for (sculpt::SculptOrder& order : orders.carving) {
         if (const auto* use = std::get_if<sculpt::UseTool>(&order)) warn_of_misfit(use->tool);
         auto* wanted = std::get_if<sculpt::ExportSurface>(&order);
         if (wanted != nullptr && !outputs_.write()) continue;
         if (wanted != nullptr) place(*wanted);
-        carve(std::move(order));
+        give(carving(std::move(order)));
     }
-    if (const auto lamp = lamp_.look(state_)) carve(sculpt::LightFrom{*lamp});
+    for (WorldOrder& order : orders.world) give(editing(std::move(order)));
+    if (const auto lamp = carving_ ? lamp_.look(state_) : std::nullopt) give(carving(sculpt::LightFrom{*lamp}));
     for (const Asked& message : orders.messages) {
         if (message.line == 0) {
             notify(message.text);
@@ -181,8 +255,7 @@ void LiveSession::carry_out(SessionOrders orders, const Carve& carve) {
 // Says once, until tool and workpiece suit one another again, that they do not.
 void LiveSession::warn_of_misfit(const sculpt::Tool& tool) {
     if (!warns_of_misfit_) return;
-    const auto misfit = sculpt::misfit(state_.tool, tool, sculpt::longest_side_m(room_.workpiece_object),
-                                       carving_->surface().lattice().spacing_m);
+    const auto misfit = sculpt::misfit(state_.tool, tool, sculpt::longest_side_m(room_.workpiece_object), spacing_m());
     if (misfit && !misfits_) notify(*misfit);
     misfits_ = misfit.has_value();
 }
@@ -196,6 +269,37 @@ SculptOptions LiveSession::settled(SculptOptions options) const {
 void LiveSession::watch(Nanoseconds time_ns) {
     if (const auto strain = comfort_.look(state_, room_, tool_)) notify(*strain);
     if (const auto change = tracker_.look(state_, room_, time_ns)) notify(*change);
+}
+
+void LiveSession::take_loaded() {
+    if (!carved_) return;
+    if (auto loaded = carved_->take_surface_update()) take(std::move(*loaded));
+}
+
+void LiveSession::take_news(std::uint64_t updates) {
+    SceneNews::Taken news = news_.take(updates);
+    if (news.surface) take(std::move(*news.surface));
+    for (const std::string& message : news.messages) notify(message);
+    if (!world_) return;
+    world_->drawn().take(news.objects);
+    state_.world = followed(std::move(state_.world), news.objects, news.materials ? &*news.materials : nullptr);
+    if (news.materials) haptics_.publish(parameters_of(state_, room_));
+}
+
+Vec3 LiveSession::lattice_origin_object() const {
+    return carving_ ? carving_->surface().lattice().origin_object : Vec3(0.0);
+}
+
+std::optional<renderer::Scene> LiveSession::scene_on(std::size_t screen) const {
+    std::optional<renderer::Scene> scene = scene_of(state_, room_, screen, lattice_origin_object(), tool_);
+    if (scene && world_) scene->objects = world_->drawn().in_world(state_.world_from_object);
+    return scene;
+}
+
+void LiveSession::finish_scene() {
+    scene_->finish();
+    collect({});
+    take_news(UINT64_MAX);
 }
 
 void LiveSession::take(sculpt::SurfaceUpdate news) {

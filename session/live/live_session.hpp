@@ -3,12 +3,13 @@
 //
 //   input -> step() -> state -> scene_on(), panel_on() -> picture       the frame's thread
 //                 |-> hand, parameters                 ->   the haptic loop (its own thread, or stepped)
-//                 |-> orders                           ->   the carving service (its own thread, or stepped)
-//   the carving service's surface updates -> take() -> take_surface_updates() -> tiles of the picture
+//                 |-> orders                           ->   the scene's parts (the scene's thread, or stepped)
+//   what the parts report (scene_news.hpp) -> take_news() -> take_surface_updates() -> tiles of the picture
 //
 // Each role has a class of its own: HapticSide, LivePanel, MessageLog, SessionOutputs, and the watches of
 // session_watch.hpp. A driver gives the session its frames (session.hpp), the Presenter draws them. What the threads of
-// a real-time session did can be recorded (drive/thread_recorder.hpp) and replayed (drive/thread_replay.hpp).
+// a real-time session did can be recorded (session/drive/thread_recorder.hpp) and replayed
+// (session/drive/thread_replay.hpp).
 #pragma once
 
 #include <functional>
@@ -17,11 +18,14 @@
 #include <utility>
 #include <vector>
 
-#include "sculpt/sculpt_service.hpp"
+#include "scene/scene_thread.hpp"
+#include "sculpt/carved_part.hpp"
 #include "session/live/haptic_side.hpp"
 #include "session/live/live_panel.hpp"
 #include "session/live/message_log.hpp"
+#include "session/live/scene_news.hpp"
 #include "session/live/session_watch.hpp"
+#include "session/live/world_side.hpp"
 #include "session/record/input_source.hpp"
 #include "session/record/log_outputs.hpp"
 #include "session/state/session_options.hpp"
@@ -31,31 +35,37 @@ namespace burin::session {
 
 class LiveSession {
 public:
-    // Loads and meshes the workpiece. Session time counts from the clock's present value; the clock must outlive the
-    // session. pace: how much slower than the reference core the machine is (haptics::WorkSettings); as measured where
-    // time is real (timing/machine_pace.hpp), as recorded in a replay, and 1 where results must depend on no machine.
+    // Loads and meshes the workpiece, and opens the world. Session time counts from the clock's present value; the
+    // clock must outlive the session. pace: how much slower than the reference core the machine is
+    // (haptics::WorkSettings); as measured where time is real (session/timing/machine_pace.hpp), as recorded in a
+    // replay, and 1 where results must depend on no machine.
     [[nodiscard]] static Result<std::unique_ptr<LiveSession>> create(const SculptOptions& options,
                                                                      const SessionWall& wall, Clock& clock,
                                                                      double pace = 1.0);
 
     // Applies one frame's input. `output` is the main screen's output, `tool` the tool as the frame draws it. Orders to
-    // the carving side are passed to `carve`.
-    using Carve = std::function<void(sculpt::SculptOrder)>;
+    // the scene's parts are passed to `give`.
+    using Give = std::function<void(scene::SceneThread::Order)>;
     void step(const FrameInput& input, const wall::OutputPlace& output, const haptics::ToolState& tool,
-              const Carve& carve);
+              const Give& give);
     // Returns the newest tool state that the haptic loop has published.
     [[nodiscard]] const haptics::ToolState& newest_tool() { return haptics_.newest_tool(); }
-    // Takes a surface update from the carving side.
-    void take(sculpt::SurfaceUpdate news);
+    // Collects what the scene's parts report of the update that has just ended; returns whether it is anything. The
+    // scene's thread.
+    bool collect(const scene::SceneThread::Ended& update) { return news_.collect(update); }
+    // Takes over what the parts report at the beginning, before the scene's thread starts.
+    void take_loaded();
+    // Takes over what so many of the collected updates have reported.
+    void take_news(std::uint64_t updates);
+    // Ends what the scene's parts do elsewhere, and takes over all that is left. No thread runs any more.
+    void finish_scene();
 
     // ---- What the frame draws.
     // Returns the surface updates since the last call, and the origin of their tiles' positions.
     [[nodiscard]] std::vector<sculpt::SurfaceUpdate> take_surface_updates() { return std::exchange(updates_, {}); }
-    [[nodiscard]] const Vec3& lattice_origin_object() const { return carving_->surface().lattice().origin_object; }
+    [[nodiscard]] Vec3 lattice_origin_object() const;
     // Returns the scene of a screen; nothing where it stays dark.
-    [[nodiscard]] std::optional<renderer::Scene> scene_on(std::size_t screen) const {
-        return scene_of(state_, room_, screen, lattice_origin_object(), tool_);
-    }
+    [[nodiscard]] std::optional<renderer::Scene> scene_on(std::size_t screen) const;
     // Returns the panel's picture on a screen, valid until the next step; nothing where it is not shown.
     [[nodiscard]] std::optional<PanelPicture> panel_on(std::size_t screen) const {
         return panel_.picture_on(screen, room_);
@@ -82,7 +92,9 @@ public:
     [[nodiscard]] haptics::HapticLoop& loop() { return haptics_.loop(); }
     [[nodiscard]] double pace() const { return haptics_.pace(); }
     [[nodiscard]] std::uint64_t lost_targets() const { return haptics_.lost_targets(); }
-    [[nodiscard]] sculpt::SculptService& desk() { return *desk_; }
+    [[nodiscard]] scene::SceneService& scene() { return *scene_; }
+    // Returns the durations of the scene's updates in which the carved surface changed.
+    [[nodiscard]] const haptics::Histogram& carving_duration() const { return news_.carving_duration(); }
     [[nodiscard]] SessionTimes& times() { return times_; }
     [[nodiscard]] Nanoseconds start_ns() const { return start_ns_; }
     [[nodiscard]] bool wants_full_screen_exchanged() { return std::exchange(exchange_full_screen_, false); }
@@ -107,15 +119,24 @@ public:
 
     [[nodiscard]] const devices::DeviceDescription& device() const { return haptics_.device(); }
     [[nodiscard]] haptics::HapticChannels& channels() { return haptics_.channels(); }
-    // Returns the surface as it is carved now.
-    [[nodiscard]] const compute::Surface& surface() const { return carving_->surface(); }
+    // Returns the surface as it is carved now; null without a workpiece.
+    [[nodiscard]] const compute::Surface* surface() const { return carving_ ? &carving_->surface() : nullptr; }
+    // Returns the objects of the world as they are now; null without one.
+    [[nodiscard]] const scene::MeshPart* objects() const { return world_ ? &world_->part() : nullptr; }
 
 private:
     LiveSession(Clock& clock, const SculptOptions& options, double pace);
     [[nodiscard]] Result<void> load(const SculptOptions& options, const SessionWall& wall);
+    [[nodiscard]] Result<void> load_workpiece(const SculptOptions& options);
+    [[nodiscard]] Result<void> load_world(const SculptOptions& options);
     [[nodiscard]] Result<void> take_up_tool(const SculptOptions& options);
+    [[nodiscard]] Result<void> make_scene(const sculpt::UseTool& use, const Vec3& tool_object, std::size_t undo_bytes);
     SceneInput feed_panel(const FrameInput& input);
-    void carry_out(SessionOrders orders, const Carve& carve);
+    void carry_out(SessionOrders orders, const Give& give);
+    [[nodiscard]] scene::SceneThread::Order carving(sculpt::SculptOrder order);
+    [[nodiscard]] scene::SceneThread::Order editing(WorldOrder order);
+    [[nodiscard]] double spacing_m() const { return carving_ ? carving_->surface().lattice().spacing_m : 0.0; }
+    void take(sculpt::SurfaceUpdate news);
     void place(sculpt::ExportSurface& wanted) const;
     void take(const sculpt::ExportOutcome& ended);
     // Returns the log's line, for the terminal; counts a failure there.
@@ -129,7 +150,10 @@ private:
     WorkerPool pool_;
     std::unique_ptr<sculpt::Sculpture> carving_;
     HapticSide haptics_;
-    std::optional<sculpt::SculptService> desk_;
+    std::optional<sculpt::CarvedPart> carved_;  // with carving_
+    std::unique_ptr<WorldSide> world_;          // null: none
+    std::optional<scene::SceneService> scene_;
+    SceneNews news_;
     PanelWorkpiece workpiece_;
     LengthUnit unit_ = LengthUnit::m;   // of the workpiece's file
     sculpt::ToolOptions tool_options_;  // as the session began

@@ -217,6 +217,7 @@ private:
         if (model.show_figures) panel::show_figures(kit_, model);  // first: whoever turns them on wants to see them
         panel::show_tool(kit_, model);
         panel::show_material(kit_, model);
+        panel::show_objects(kit_, model);
         panel::show_touch(kit_, model);
         panel::show_workspace(kit_, model);
         panel::show_view(kit_, model);

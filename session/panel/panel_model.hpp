@@ -80,11 +80,25 @@ struct PanelWorkpiece {
     bool operator==(const PanelWorkpiece&) const = default;
 };
 
+// The object of a world that is chosen.
+struct PanelObject {
+    std::string name, state;  // "moves", "held"
+    scene::HapticMaterial material;
+    double scale = 1.0;
+    std::array<double, 3> colour_srgb{};
+    bool seen = true, felt = true;
+
+    bool operator==(const PanelObject&) const = default;
+};
+
 struct PanelModel {
     bool visible = true, show_help = false, show_figures = false;  // Tab, F1, F2
     std::string title = "Burin";
     PanelWorkpiece workpiece;
 
+    std::vector<std::string> object_names;  // of a world
+    std::optional<PanelObject> object;      // none: there is no world
+    bool carves = true;                     // there is a workpiece
     sculpt::ToolSpec tool;
     ToolSizeRange tool_sizes;
     compute::Operation operation = compute::Operation::cut;

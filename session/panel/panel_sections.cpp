@@ -9,7 +9,7 @@ namespace burin::session::panel {
 
 namespace {
 
-ImDrawList& draw() { return *ImGui::GetWindowDrawList(); }
+ImDrawList& canvas() { return *ImGui::GetWindowDrawList(); }
 
 std::string millimetres(double length_m) {
     const double mm = 1e3 * length_m;
@@ -18,7 +18,7 @@ std::string millimetres(double length_m) {
 
 // Draws the tool from the side, its tip below.
 void draw_icon(sculpt::ToolKind kind, ImVec2 m, float r, ImU32 colour, ImU32 edge) {
-    ImDrawList& d = draw();
+    ImDrawList& d = canvas();
     switch (kind) {
         case sculpt::ToolKind::ball:
             d.AddCircleFilled(m, r, colour, 32);
@@ -118,7 +118,14 @@ ImU32 packed(const std::array<double, 3>& srgb) {
         {static_cast<float>(srgb[0]), static_cast<float>(srgb[1]), static_cast<float>(srgb[2]), 1.0f});
 }
 
-void show_swatches(Kit& kit, const PanelModel& model) {
+Item item_of(std::string_view command, std::string_view name, std::string title) {
+    return {std::string(command) + " " + std::string(name), std::move(title), true};
+}
+
+}  // namespace
+
+void show_swatches(Kit& kit, const std::string& name, const std::array<double, 3>& now_srgb,
+                   const std::function<void(const std::array<double, 3>&)>& give) {
     const ImVec2 start = ImGui::GetCursorScreenPos();
     const float height = kit.px(30.0f), each = kit.width() / (kSwatches.size() + 1), r = kit.px(9.5f);
     const auto swatch = [&](std::size_t i, const std::string& label, const std::array<double, 3>& srgb, bool own) {
@@ -126,22 +133,22 @@ void show_swatches(Kit& kit, const PanelModel& model) {
         const bool clicked = ImGui::InvisibleButton(label.c_str(), {each, height});
         kit.note(label);
         const ImVec2 m{start.x + each * (static_cast<float>(i) + 0.5f), start.y + 0.5f * height};
-        const bool here = srgb == model.colour_srgb;
-        if (here && !own) draw().AddCircle(m, r + kit.px(3.0f), kText, 32, kit.px(1.5f));
+        const bool here = srgb == now_srgb;
+        if (here && !own) canvas().AddCircle(m, r + kit.px(3.0f), kText, 32, kit.px(1.5f));
         if (own) {
-            draw().AddRectFilled({m.x - r, m.y - r}, {m.x + r, m.y + r}, packed(srgb), kit.px(4.0f));
-            draw().AddRect({m.x - r, m.y - r}, {m.x + r, m.y + r}, ImGui::IsItemHovered() ? kText : kDim, kit.px(4.0f),
-                           0, kit.px(1.2f));
+            canvas().AddRectFilled({m.x - r, m.y - r}, {m.x + r, m.y + r}, packed(srgb), kit.px(4.0f));
+            canvas().AddRect({m.x - r, m.y - r}, {m.x + r, m.y + r}, ImGui::IsItemHovered() ? kText : kDim,
+                             kit.px(4.0f), 0, kit.px(1.2f));
         } else {
-            draw().AddCircleFilled(m, ImGui::IsItemHovered() ? r + kit.px(1.0f) : r, packed(srgb), 32);
+            canvas().AddCircleFilled(m, ImGui::IsItemHovered() ? r + kit.px(1.0f) : r, packed(srgb), 32);
         }
         return clicked;
     };
     for (std::size_t i = 0; i < kSwatches.size(); ++i) {
-        if (swatch(i, "colour " + std::to_string(i + 1), kSwatches[i], false)) kit.give(SetColour{kSwatches[i]});
+        if (swatch(i, name + " " + std::to_string(i + 1), kSwatches[i], false)) give(kSwatches[i]);
     }
-    if (swatch(kSwatches.size(), "colour", model.colour_srgb, true)) {
-        ImGui::OpenPopup("colour circle");
+    if (swatch(kSwatches.size(), name, now_srgb, true)) {
+        ImGui::OpenPopup((name + " circle").c_str());
         kit.again = true;
     }
     const ImVec2 corner = ImGui::GetItemRectMax();
@@ -149,26 +156,20 @@ void show_swatches(Kit& kit, const PanelModel& model) {
     ImGui::SetNextWindowPos(
         {corner.x - wide, std::max(0.0f, std::min(corner.y + kit.px(4.0f), ImGui::GetIO().DisplaySize.y - tall))});
     ImGui::SetNextWindowSize({wide, tall});
-    if (!ImGui::BeginPopup("colour circle", ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoScrollbar)) return;
+    if (!ImGui::BeginPopup((name + " circle").c_str(), ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoScrollbar)) return;
     std::array<float, 3> parts{};
-    for (std::size_t k = 0; k < 3; ++k) parts[k] = static_cast<float>(model.colour_srgb[k]);
+    for (std::size_t k = 0; k < 3; ++k) parts[k] = static_cast<float>(now_srgb[k]);
     ImGui::SetNextItemWidth(wide - kit.px(16.0f));
     if (ImGui::ColorPicker3("##circle", parts.data(),
                             ImGuiColorEditFlags_PickerHueWheel | ImGuiColorEditFlags_NoInputs |
                                 ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoOptions |
                                 ImGuiColorEditFlags_NoAlpha)) {
-        SetColour colour;
-        for (std::size_t k = 0; k < 3; ++k) colour.srgb[k] = rounded(std::clamp(double{parts[k]}, 0.0, 1.0), 3);
-        kit.give_held(colour);
+        std::array<double, 3> srgb{};
+        for (std::size_t k = 0; k < 3; ++k) srgb.at(k) = rounded(std::clamp(double{parts[k]}, 0.0, 1.0), 3);
+        give(srgb);
     }
     ImGui::EndPopup();
 }
-
-Item item_of(std::string_view command, std::string_view name, std::string title) {
-    return {std::string(command) + " " + std::string(name), std::move(title), true};
-}
-
-}  // namespace
 
 sculpt::ToolSpec tool_like(const sculpt::ToolSpec& tool, sculpt::ToolKind kind) {
     constexpr double kUsual_m = 0.005, kMost_m = 1.0;
@@ -189,25 +190,35 @@ sculpt::ToolSpec with_size(sculpt::ToolSpec tool, std::size_t index, double size
     return tool;
 }
 
+namespace {
+
+void show_operations(Kit& kit, const PanelModel& model) {
+    std::vector<Item> items;
+    for (const sculpt::OperationDescriptor& operation : sculpt::operations())
+        items.push_back(item_of("operation", operation.name, capitalised(operation.name)));
+    const auto chosen = kit.segments(items, static_cast<std::size_t>(model.operation));
+    if (chosen) kit.give(SetOperation{sculpt::operations()[*chosen].operation});
+}
+
+}  // namespace
+
 void show_tool(Kit& kit, const PanelModel& model) {
     const std::string aside =
         model.tool.file.empty() ? std::string(sculpt::descriptor_of(model.tool.kind).name) : model.tool.file;
     if (kit.begin_card("Tool", aside)) {
         show_tool_kinds(kit, model);
         kit.gap(4.0f);
-        std::vector<Item> items;
-        for (const sculpt::OperationDescriptor& operation : sculpt::operations())
-            items.push_back(item_of("operation", operation.name, capitalised(operation.name)));
-        const auto chosen = kit.segments(items, static_cast<std::size_t>(model.operation));
-        if (chosen) kit.give(SetOperation{sculpt::operations()[*chosen].operation});
+        if (model.carves) show_operations(kit, model);
         show_sizes(kit, model);
     }
     kit.end_card();
 }
 
 void show_material(Kit& kit, const PanelModel& model) {
+    if (!model.carves) return;
     if (kit.begin_card("Material")) {
-        show_swatches(kit, model);
+        show_swatches(kit, "colour", model.colour_srgb,
+                      [&](const std::array<double, 3>& srgb) { kit.give_held(SetColour{srgb}); });
         std::vector<Item> items;
         for (const sculpt::FeelPresetDescriptor& preset : sculpt::feel_presets())
             items.push_back(item_of("material", preset.name, std::string(preset.title)));
@@ -222,9 +233,11 @@ void show_material(Kit& kit, const PanelModel& model) {
 void show_touch(Kit& kit, const PanelModel& model) {
     if (kit.begin_card("Touch")) {
         if (kit.toggle("force", "Force", model.touch.force_on)) kit.give(SetForce{!model.touch.force_on});
-        kit.quantity(Quantity::stiffness, "Stiffness", model.stiffness_N_per_m,
-                     written("%.0f N/m", model.stiffness_N_per_m));
-        kit.quantity(Quantity::friction, "Friction", model.friction, written("%.2f", model.friction));
+        if (model.carves) {  // of the workpiece
+            kit.quantity(Quantity::stiffness, "Stiffness", model.stiffness_N_per_m,
+                         written("%.0f N/m", model.stiffness_N_per_m));
+            kit.quantity(Quantity::friction, "Friction", model.friction, written("%.2f", model.friction));
+        }
         kit.quantity(Quantity::velocity_filter, "Velocity filter", model.velocity_filter,
                      filter_text(model.velocity_filter));
         kit.quantity(Quantity::force_filter, "Force filter", model.force_filter, filter_text(model.force_filter));
@@ -293,9 +306,17 @@ void show_path(Kit& kit, const PanelModel& model) {
     if (pressed || (entered && ready)) kit.give(ExportTo{memory.path});
 }
 
+// Without a workpiece there is nothing to undo or to export.
+void show_message(Kit& kit, const PanelModel& model) {
+    if (model.message.empty()) return;
+    if (kit.begin_card("Messages")) kit.paragraph(kDim, model.message);
+    kit.end_card();
+}
+
 }  // namespace
 
 void show_history(Kit& kit, const PanelModel& model) {
+    if (!model.carves) return show_message(kit, model);
     if (kit.begin_card("History and export")) {
         const float half = 0.5f * (kit.width() - kit.px(6.0f));
         const auto counted = [](const char* name, std::uint32_t count) {

@@ -2,6 +2,8 @@
 // Sections of the panel from top to bottom. Used by session/panel/panel.cpp alone.
 #pragma once
 
+#include <functional>
+
 #include "session/panel/panel_widgets.hpp"
 
 namespace burin::session::panel {
@@ -9,6 +11,7 @@ namespace burin::session::panel {
 void show_header(Kit& kit, const PanelModel& model);
 void show_tool(Kit& kit, const PanelModel& model);
 void show_material(Kit& kit, const PanelModel& model);
+void show_objects(Kit& kit, const PanelModel& model);
 void show_touch(Kit& kit, const PanelModel& model);
 void show_workspace(Kit& kit, const PanelModel& model);
 void show_view(Kit& kit, const PanelModel& model);
@@ -18,6 +21,10 @@ void show_figures(Kit& kit, const PanelModel& model);
 void show_plots(Kit& kit, const PanelModel& model);  // side by side, always visible
 void show_help(Kit& kit);
 void show_footer(Kit& kit, const PanelModel& model);
+
+// Draws colours to choose from; gives the one chosen, which may be held in the hand for a while.
+void show_swatches(Kit& kit, const std::string& label, const std::array<double, 3>& now_srgb,
+                   const std::function<void(const std::array<double, 3>&)>& give);
 
 // Returns a tool of another kind and about the same width, with sizes that the parser accepts; the same tool where the
 // panel does not offer the kind.

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "renderer/surface/surface_store.hpp"
-#include "sculpt/sculpt_service.hpp"
+#include "sculpt/carved_part.hpp"
 
 namespace burin::session {
 

@@ -3,8 +3,8 @@
 // described in docs/formats.md, "What the threads did".
 //
 //   a tick    what it read from the device, and which surface and parameters it saw
-//   an update when the carving side made it, up to which tick, how many orders it took
-//   a frame   the tick whose tool it drew, the carving updates it had taken, the sizes of its outputs, and the messages
+//   an update when the scene's service made it, up to which tick of each hand, how many orders it took
+//   a frame   the tick whose tool it drew, the scene's updates it had taken, the sizes of its outputs, and the messages
 //             from outside
 // ThreadReplay (thread_replay.hpp) repeats ticks and updates.
 //
@@ -21,7 +21,7 @@
 
 #include "base/error.hpp"
 #include "devices/haptic/haptic_device.hpp"
-#include "sculpt/sculpt_service.hpp"
+#include "scene/scene_service.hpp"
 #include "session/panel/panel_feed.hpp"
 #include "wall/output_settings.hpp"
 
@@ -42,7 +42,7 @@ struct OutputSeen {
 
 struct FrameSeen {
     std::uint64_t tick = 0;     // the newest that was finished; 0: none yet
-    std::uint64_t updates = 0;  // of the carving side, whose results it had taken
+    std::uint64_t updates = 0;  // of the scene, whose results it had taken
     std::uint64_t check = 0;    // checksum of the resulting state (SessionCheck)
     std::vector<OutputSeen> outputs;
     PanelMeasured measured;
@@ -103,12 +103,13 @@ private:
 class UpdateText {
 public:
     explicit UpdateText(const ThreadClock& clock) : start_ns_(clock.start_ns) { last_.time_ns = clock.start_ns; }
-    void write(std::string& text, const sculpt::UpdateSeen& update);
-    [[nodiscard]] std::optional<sculpt::UpdateSeen> read(std::string_view& text);
+    void write(std::string& text, const scene::SceneUpdate& update);
+    // Returns an update of as many hands and parts as the text has named so far.
+    [[nodiscard]] std::optional<scene::SceneUpdate> read(std::string_view& text);
 
 private:
     Nanoseconds start_ns_;
-    sculpt::UpdateSeen last_;
+    scene::SceneUpdate last_;
 };
 
 // Reads ticks or updates one after the other.

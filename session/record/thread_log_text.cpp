@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "sculpt/sculpt_thread.hpp"
 #include "session/input/input_event.hpp"
 #include "session/record/thread_log.hpp"
 
@@ -14,6 +13,9 @@ namespace burin::session {
 namespace {
 
 constexpr double kMostSteps = 1e9;
+// Between updates, as a part of the format: whatever the scene's period is, files stay readable.
+constexpr Nanoseconds kBetweenUpdates_ns = 10'000'000;
+constexpr std::int64_t kMostHands = 16, kMostParts = 16;
 // Largest change of a sequence, a tick's number or a position in steps.
 constexpr std::int64_t kMostChange = 1'000'000'000;
 constexpr std::array<char, 3> kSteps = {'x', 'y', 'z'}, kMetres = {'X', 'Y', 'Z'};
@@ -40,6 +42,7 @@ public:
     explicit Fields(std::string_view field) : rest_(field) {}
     [[nodiscard]] bool ok() const { return ok_; }
     [[nodiscard]] bool at_end() const { return rest_.empty(); }
+    [[nodiscard]] bool has_digit() const { return !rest_.empty() && rest_.front() >= '0' && rest_.front() <= '9'; }
     bool takes(char letter) {
         if (!ok_ || rest_.empty() || rest_.front() != letter) return false;
         rest_.remove_prefix(1);
@@ -166,24 +169,46 @@ std::optional<TickSeen> TickText::read(std::string_view& text) {
 
 // ---- Updates
 
-void UpdateText::write(std::string& text, const sculpt::UpdateSeen& update) {
-    add(text, update.time_ns - last_.time_ns - sculpt::SculptThread::kPeriod_ns);
-    if (update.last_tick != last_.last_tick) add(text, 't', update.last_tick - last_.last_tick);
+void UpdateText::write(std::string& text, const scene::SceneUpdate& update) {
+    add(text, update.time_ns - last_.time_ns - kBetweenUpdates_ns);
+    for (std::size_t hand = 0; hand < update.last_ticks.size(); ++hand) {
+        const std::uint64_t before = hand < last_.last_ticks.size() ? last_.last_ticks[hand] : 0;
+        if (update.last_ticks[hand] == before) continue;
+        if (hand > 0) add(text, 'h', hand);
+        add(text, 't', update.last_ticks[hand] - before);
+    }
     if (update.orders > 0) add(text, 'o', update.orders);
-    if (update.export_ended) text += 'e';
+    for (std::size_t part = 0; part < update.parts.size(); ++part) {
+        if (!update.parts[part].background_ended) continue;
+        text += 'e';
+        if (part > 0) add(text, part);
+    }
     text += ';';
     last_ = update;
 }
 
-std::optional<sculpt::UpdateSeen> UpdateText::read(std::string_view& text) {
+std::optional<scene::SceneUpdate> UpdateText::read(std::string_view& text) {
     const auto field = take_field(text);
     if (!field) return std::nullopt;
     Fields fields(*field);
-    sculpt::UpdateSeen update{last_.time_ns, last_.last_tick, 0, false};
-    update.time_ns += sculpt::SculptThread::kPeriod_ns + fields.change(-kLongestSession_ns, kLongestSession_ns);
-    if (fields.takes('t')) update.last_tick += static_cast<std::uint64_t>(fields.change(1, kMostChange));
+    scene::SceneUpdate update{last_.time_ns, 0, last_.last_ticks, {}};
+    update.time_ns += kBetweenUpdates_ns + fields.change(-kLongestSession_ns, kLongestSession_ns);
+    for (std::size_t hand = 0; fields.ok();) {
+        const bool names_hand = fields.takes('h');
+        if (names_hand) hand = static_cast<std::size_t>(fields.change(1, kMostHands - 1));
+        if (!fields.takes('t')) {
+            fields.require(!names_hand);
+            break;
+        }
+        if (hand >= update.last_ticks.size()) update.last_ticks.resize(hand + 1);
+        update.last_ticks[hand] += static_cast<std::uint64_t>(fields.change(1, kMostChange));
+    }
     if (fields.takes('o')) update.orders = static_cast<std::size_t>(fields.change(1, kMostChange));
-    update.export_ended = fields.takes('e');
+    while (fields.takes('e')) {
+        const auto part = fields.has_digit() ? static_cast<std::size_t>(fields.change(1, kMostParts - 1)) : 0;
+        if (part >= update.parts.size()) update.parts.resize(part + 1);
+        update.parts[part].background_ended = true;
+    }
     fields.require(fields.at_end() && in_session(update.time_ns, start_ns_) && update.time_ns >= last_.time_ns);
     if (!fields.ok()) return std::nullopt;
     last_ = update;

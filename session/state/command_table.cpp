@@ -172,6 +172,36 @@ Parsed parse_screenshot(Arguments words) {
     return ScreenshotTo{std::move(*path)};
 }
 
+Result<scene::PropertyValue> parse_value(const scene::PropertyDescriptor& property, const std::string& word,
+                                         const std::string& where) {
+    scene::PropertyValue value{};
+    if (property.numbers == 0) {
+        const auto on = of_command(parse_switch("object", word), where.substr(8));
+        if (!on) return std::unexpected(on.error());
+        value[0] = *on ? 1.0 : 0.0;
+        return value;
+    }
+    const auto numbers = sculpt::parse_numbers(word, property.numbers, where);
+    if (!numbers) {
+        const std::string unit = property.unit.empty() ? "" : ", in " + std::string(property.unit);
+        return fail(where, "is not " + std::string(property.argument),
+                    "write " + std::string(property.argument) + unit);
+    }
+    std::ranges::copy(*numbers, value.begin());
+    return value;
+}
+
+Parsed parse_object(Arguments words) {
+    const auto property = choice_of("object " + words[0], words[1], scene::object_properties());
+    if (!property) return std::unexpected(property.error());
+    const std::string where = "command object " + words[0] + " " + words[1] + " " + words[2];
+    const auto value = parse_value(*property, words[2], where);
+    if (!value) return std::unexpected(value.error());
+    return EditObject{words[0], property->property, *value};
+}
+
+Parsed parse_select(Arguments words) { return SelectObject{words[0]}; }
+
 template <Quantity quantity>
 Parsed parse_number_of(Arguments words) {
     return parse_quantity(descriptor_of(quantity), words[0]);
@@ -210,6 +240,10 @@ const std::vector<Entry>& entries() {
         {{"swap-eyes", "[on|off]", "Exchange the eyes; the other way round without argument"}, parse_eye_swap},
         {{"test-pattern", "NAME", "Show none, eye_order, ghosting or geometry"}, parse_pattern},
         entry_of<Quantity::eye_distance>(),
+        {{"object", "NAME WHAT VALUE",
+          "Change an object of the world: " + alternatives(names_in(scene::object_properties()))},
+         parse_object},
+        {{"select", "NAME", "Show an object of the world on the panel"}, parse_select},
         {{"show-force", "on|off", "Whether an arrow shows the force"}, parse_force_shown},
         {{"catch-drill", "on|off", "Hold the tool where it is, to see the watch let the hand go"}, parse_catch_drill},
         {{"export", "FILE", "Write the mesh to a file"}, parse_export},
@@ -263,8 +297,11 @@ Result<SessionCommand> parse_command(const CommandInput& input) {
     const auto entry = std::ranges::find_if(entries(), [&](const Entry& e) { return e.spec.name == input.name; });
     if (entry == entries().end()) return parse_action(input);
     const bool optional = entry->spec.arguments.starts_with('[');
-    if (input.arguments.size() > 1 || (input.arguments.empty() && !optional)) {
-        return fail("command " + input.name, input.arguments.empty() ? "lacks its argument" : "takes one argument",
+    const auto wanted = static_cast<std::size_t>(1 + std::ranges::count(entry->spec.arguments, ' '));
+    const std::size_t given = input.arguments.size();
+    if (given > wanted || (given < wanted && !optional)) {
+        const std::string count = wanted == 1 ? "takes one argument" : "takes " + std::to_string(wanted) + " arguments";
+        return fail("command " + input.name, given == 0 ? "lacks its argument" : count,
                     "write " + input.name + " " + std::string(entry->spec.arguments));
     }
     return entry->parse(input.arguments);

@@ -19,6 +19,7 @@
 #include "sculpt/tool_kinds.hpp"
 #include "session/input/desk_input_table.hpp"
 #include "session/input/input_event.hpp"
+#include "session/state/world_objects.hpp"
 #include "wall/stereo_mode.hpp"
 
 namespace burin::session {
@@ -113,9 +114,15 @@ struct ScreenshotTo {
     bool operator==(const ScreenshotTo&) const = default;
 };
 
-using SessionCommand =
-    std::variant<RunAction, SetTool, SetOperation, SetColour, SetMaterial, SetQuantity, SetTechnique, SetStereoMode,
-                 SetTestPattern, SetEyeSwap, SetForce, SetForceShown, SetCatchDrill, ExportTo, ScreenshotTo>;
+// Chooses the object that the panel shows.
+struct SelectObject {
+    std::string object;
+    bool operator==(const SelectObject&) const = default;
+};
+
+using SessionCommand = std::variant<RunAction, SetTool, SetOperation, SetColour, SetMaterial, SetQuantity, SetTechnique,
+                                    SetStereoMode, SetTestPattern, SetEyeSwap, SetForce, SetForceShown, SetCatchDrill,
+                                    ExportTo, ScreenshotTo, EditObject, SelectObject>;
 
 struct SessionState;
 
@@ -142,7 +149,7 @@ struct QuantityDescriptor {
 
 struct CommandSpec {
     std::string_view name;
-    std::string_view arguments;  // "R" or "on|off"; empty: none; [ ]: optional
+    std::string_view arguments;  // "R", "on|off" or "NAME WHAT VALUE"; empty: none; [ ]: optional
     std::string help;            // one line
 };
 // Lists the commands in the order in which help shows them.

@@ -46,6 +46,13 @@ struct Printer {
     CommandInput operator()(const ExportTo& c) const { return {"export", {c.path}}; }
     CommandInput operator()(const ScreenshotTo& c) const { return {"screenshot", {c.path}}; }
     CommandInput operator()(const SetForceShown& c) const { return {"show-force", {on_off(c.on)}}; }
+    CommandInput operator()(const SelectObject& c) const { return {"select", {c.object}}; }
+    CommandInput operator()(const EditObject& c) const {
+        const scene::PropertyDescriptor& property = scene::descriptor_of(c.property);
+        std::string value = property.numbers == 0 ? on_off(c.value[0] != 0.0) : exact(c.value[0]);
+        for (std::size_t i = 1; i < property.numbers; ++i) value += "," + exact(c.value.at(i));
+        return {"object", {c.object, std::string(property.name), value}};
+    }
     CommandInput operator()(const SetCatchDrill& c) const { return {"catch-drill", {on_off(c.on)}}; }
 };
 

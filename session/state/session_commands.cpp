@@ -62,6 +62,21 @@ public:
         state_.export_path = wanted.path;
         return export_to(wanted.path);
     }
+    Result<void> operator()(const SelectObject& wanted) {
+        const WorldObjects none;
+        const Result<scene::ObjectId> id = object_named(state_.world ? *state_.world : none, wanted.object);
+        if (!id) return std::unexpected(id.error());
+        state_.selected = *id;
+        return {};
+    }
+    Result<void> operator()(const EditObject& wanted) {
+        const WorldObjects none;
+        Result<EditedWorld> edited = session::edited(state_.world ? *state_.world : none, wanted);
+        if (!edited) return std::unexpected(edited.error());
+        state_.world = std::move(edited->world);
+        orders_.world.push_back(std::move(edited->order));
+        return {};
+    }
     Result<void> operator()(const ScreenshotTo& wanted) {
         orders_.screenshots.push_back({wanted.path, orders_.line});
         return {};
@@ -92,6 +107,8 @@ private:
         return {};
     }
     Result<void> order(sculpt::SculptOrder order) {
+        if (!state_.carves)
+            return fail("the world", "holds no workpiece that could be carved", "open it with a --workpiece");
         orders_.carving.push_back(std::move(order));
         return {};
     }

@@ -39,6 +39,8 @@ enum class HandChoice { rigid, simulated };
 
 struct SculptOptions {
     sculpt::WorkpieceOptions workpiece;
+    std::string world;          // a file of objects that are touched besides the workpiece, or without one; empty: none
+    bool no_workpiece = false;  // with a world
     sculpt::ToolOptions tool;
     std::string stroke;      // a CSV file; empty: nothing is carved
     bool merge_rows = true;  // with a rigid hand: merge nearly straight runs of rows into one sweep

@@ -15,6 +15,8 @@ constexpr const char* kCommand = "burin sculpt";
 
 template <typename Options, typename Visit>
 void visit_settings(Options& o, Visit&& visit) {
+    visit("--world", o.world);
+    visit("--no-workpiece", o.no_workpiece);
     visit("--workpiece", o.workpiece.source);
     visit("--units", o.workpiece.units);
     visit("--export-units", o.export_units);

@@ -17,6 +17,8 @@ namespace {
 // Size of the workpiece's longest side as a share of the screen's height; it stands with its front about in the
 // screen's own plane, where eyes rest best.
 constexpr double kHeightOnScreen = 0.52;
+// The same of a world, which is wide rather than high.
+constexpr double kWorldOnScreen = 0.8;
 // Distance of its center behind the screen, as a share of its own longest side.
 constexpr double kBehindScreen = 0.4;
 // Height of its center above the screen's lower edge, as a share of the screen's height.
@@ -34,10 +36,11 @@ Similarity place_workpiece(const Room& room) {
     const Vec3 out = glm::normalize(glm::cross(across, upright));
     const double height_m = glm::length(upright), size_m = longest(room.workpiece_object.extent());
     Similarity world_from_object;
-    world_from_object.scale = kHeightOnScreen * height_m / size_m;
+    const double share = room.covers_depth ? kWorldOnScreen : kHeightOnScreen;
+    world_from_object.scale = share * height_m / size_m;
     world_from_object.orientation = world_from_screen(s);
     const Vec3 place = s.lower_left_world + 0.5 * across + kAboveLowerEdge * upright -
-                       kBehindScreen * kHeightOnScreen * height_m * out;
+                       kBehindScreen * share * height_m * out;
     const Vec3 middle = room.workpiece_object.center();
     world_from_object.position_m = place - world_from_object.scale * (world_from_object.orientation * middle);
     return world_from_object;
@@ -47,9 +50,10 @@ Similarity place_workpiece(const Room& room) {
 Similarity place_workspace(const Room& room, const Similarity& world_from_object) {
     const Vec3 size = room.workpiece_object.extent() * world_from_object.scale;
     const Vec3 needed = kWorkspaceCovers * size / room.workspace_device_m;
-    Vec3 front = room.workpiece_object.center();
-    front.z = room.workpiece_object.hi.z;
-    return {world_from_object * front, world_from_object.orientation, std::max(needed.x, needed.y)};
+    Vec3 place = room.workpiece_object.center();
+    if (room.covers_depth) return {world_from_object * place, world_from_object.orientation, longest(needed)};
+    place.z = room.workpiece_object.hi.z;
+    return {world_from_object * place, world_from_object.orientation, std::max(needed.x, needed.y)};
 }
 
 // Before a wall, moves the workpiece back or forth as far as its viewer's eyes require at the start.
@@ -71,7 +75,8 @@ void move_into_comfort(SessionState& state, const Room& room) {
 // Returns the feel of the workpiece; with infinite hardness when it can only be touched.
 haptics::TouchMaterial material_under_tool(const SessionState& state) {
     constexpr double kCannotBeCut = std::numeric_limits<double>::infinity();
-    return sculpt::touch_material(state.only_touch ? sculpt::with_hardness(state.feel, kCannotBeCut) : state.feel);
+    return sculpt::touch_material(state.only_touch || !state.carves ? sculpt::with_hardness(state.feel, kCannotBeCut)
+                                                                    : state.feel);
 }
 
 // Returns the radius of a ball about as wide as the tool.
@@ -196,8 +201,9 @@ haptics::TickParameters parameters_of(const SessionState& state, const Room& roo
     p.probe = felt.probe;
     p.shape = felt.shape;
     p.tool = felt.surface;
-    p.action = sculpt::action_of(state.tool.operation);
+    p.action = state.carves ? sculpt::action_of(state.tool.operation) : haptics::ToolAction::touch;
     p.materials.fill(material_under_tool(state));
+    if (state.world) state.world->materials.write(p.materials);
     p.signals.force_alpha = state.force_filter;
     if (state.velocity_filter > 0.0) {
         p.signals.velocity = haptics::VelocityMethod::moving_average;

@@ -12,8 +12,8 @@
 
 #include "haptics/channels.hpp"
 #include "renderer/scene/scene.hpp"
+#include "sculpt/carved_part.hpp"
 #include "sculpt/feel_options.hpp"
-#include "sculpt/sculpt_service.hpp"
 #include "sculpt/tool_options.hpp"
 #include "session/input/desk_input.hpp"
 #include "session/input/input_event.hpp"
@@ -22,6 +22,7 @@
 #include "session/state/held_tool.hpp"
 #include "session/state/session_head.hpp"
 #include "session/state/session_screens.hpp"
+#include "session/state/world_objects.hpp"
 #include "wall/output_settings.hpp"
 
 namespace burin::session {
@@ -43,9 +44,12 @@ struct SessionState {
     double workspace_gain = 1.0;  // multiplies the workspace's gain at home
     bool force_on = true;
     bool catch_drill = false;
-    bool force_shown = false;     // as an arrow
-    bool only_touch = false;      // the tool feels the surface but leaves it unchanged
-    wall::OutputSettings output;  // of the main screen (output_on(), session_screens.hpp)
+    bool force_shown = false;                   // as an arrow
+    bool carves = true;                         // there is a workpiece
+    bool only_touch = false;                    // the tool feels the surface but leaves it unchanged
+    std::shared_ptr<const WorldObjects> world;  // null: none
+    scene::ObjectId selected = 0;               // on the panel; 0: the first
+    wall::OutputSettings output;                // of the main screen (output_on(), session_screens.hpp)
     bool panel = true, help = false, figures = false;
     std::string export_path = "part.stl";
     LengthUnit export_unit = LengthUnit::m;
@@ -62,6 +66,7 @@ struct Asked {
 struct SessionOrders {
     std::size_t line = 0;  // of the log, for commands that are run now
     std::vector<sculpt::SculptOrder> carving;
+    std::vector<WorldOrder> world;
     bool parameters = false;         // the haptic thread's parameters have changed
     std::vector<Asked> screenshots;  // names
     bool full_screen = false;        // toggle between window and full screen
@@ -70,7 +75,8 @@ struct SessionOrders {
 
 // Positions at the start: the workpiece before the viewer, the hand's workspace over its front.
 struct Room {
-    Box workpiece_object;
+    Box workpiece_object;       // of all that stands before the viewer
+    bool covers_depth = false;  // the workspace reaches all of it, not its front alone
     SessionWall wall;
     Vec3 workspace_device_m{0.1626, 0.1219, 0.0711};
     DeskSettings desk;

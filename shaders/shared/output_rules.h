@@ -118,7 +118,7 @@ BURIN_FN real between_pixels(real place, int size) {
 // Returns the weight of the first (0) or the second (1) of two neighbouring pixels, `behind` the first one's middle.
 BURIN_FN real weight_between(real behind, int which) { return which == 0 ? real(1.0) - behind : behind; }
 
-// Returns the share of its light that a picture gives near one of its edges (wall/warp.hpp).
+// Returns the share of its light that a picture gives near one of its edges (EdgeFade in wall/output_settings.hpp).
 BURIN_FN real share_near_edge(real distance_to_edge, real width, real curve) {
     if (width <= real(0.0) || distance_to_edge >= width) return real(1.0);
     real t = max(real(0.0), distance_to_edge / width);

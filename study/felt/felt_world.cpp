@@ -3,8 +3,8 @@
 
 #include <utility>
 
+#include "base/sha256.hpp"
 #include "study/felt/tube_mesh.hpp"
-#include "study/folder/digest.hpp"
 
 namespace burin::study {
 namespace {

@@ -9,8 +9,8 @@
 #include <chrono>
 #include <cstring>
 
+#include "base/sha256.hpp"
 #include "base/text.hpp"
-#include "study/folder/digest.hpp"
 
 namespace burin::study {
 namespace {

@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "base/file_io.hpp"
+#include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "study/assign/allocation.hpp"
-#include "study/folder/digest.hpp"
 
 namespace burin::study {
 namespace fs = std::filesystem;

@@ -3,9 +3,10 @@
 // groups differ by `effect` alone, which is 0 by default, so that an analysis can be checked to find what was put in.
 //
 // A learner's hand means to go along the tube's axis with the speed profile of least jerk, and wanders off it by a few
-// slow waves. Where it really goes is a matter of the grip and of the forces on it (activities/train/). It goes forth and
-// back through the tube in training, once through it in a trial, and straight back to the start after a failed attempt;
-// a hand that is led gives way. What is felt changes nothing of what is learned. Metres and seconds; pure; any thread.
+// slow waves. Where it really goes is a matter of the grip and of the forces on it (activities/train/). It goes forth
+// and back through the tube in training, once through it in a trial, and straight back to the start after a failed
+// attempt; a hand that is led gives way. What is felt changes nothing of what is learned. Metres and seconds; pure; any
+// thread.
 #pragma once
 
 #include <memory>

@@ -161,7 +161,7 @@ TEST(ExploreCommand, TellsWhatIsWrongWithItsFiles) {
     };
     const Workplace place;
     for (const Case& wrong : std::vector<Case>{{" world", "needs a file", 2},
-                                               {" world no-such.toml", "needs a --stroke", 2},
+                                               {" world no-such.toml", "no-such.toml", 1},
                                                {" world no-such.toml --stroke no-such.csv", "no-such.csv", 1},
                                                {" world no-such.toml --radius -1 --stroke a.csv", "--radius", 2}}) {
         const auto outcome = place.run(BURIN_COMMAND + wrong.arguments);

@@ -2,6 +2,7 @@
 // A felt stroke is recorded, looked into, compared and converted, as a user does it; and other programs read the file.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -20,16 +21,16 @@ const std::string kRecordingSculpt =
     " sculpt --workpiece block:0.02,0.01,0.02 --resolution 48 --tool ball:0.002 --stroke "
     "press.csv --hand simulated --report report.json";
 
-// Returns the Python example of docs/formats.md.
-std::string documented_snippet() {
+// Returns an example of docs/formats.md in a language: "python" or "r".
+std::string documented_snippet(const std::string& language) {
     std::ifstream document("docs/formats.md");
     std::stringstream text;
     text << document.rdbuf();
-    const std::string all = text.str();
+    const std::string all = text.str(), fence = "```" + language + "\n";
     const std::size_t section = all.find("## Session files");
-    const std::size_t begin = all.find("```python\n", section), end = all.find("```", begin + 10);
+    const std::size_t begin = all.find(fence, section), end = all.find("```", begin + fence.size());
     if (section == std::string::npos || begin == std::string::npos || end == std::string::npos) return {};
-    return all.substr(begin + 10, end - begin - 10);
+    return all.substr(begin + fence.size(), end - begin - fence.size());
 }
 
 }  // namespace
@@ -81,6 +82,39 @@ TEST(SessionFile, IsSoundAndConvertedToTables) {
     EXPECT_EQ(at.run(kRecordingBurin + " convert a.session a.session --to csv").status, 1) << "the recording itself";
     EXPECT_EQ(at.run(kRecordingBurin + " session check a.session").status, 0);
     EXPECT_EQ(at.run(kRecordingBurin + " convert a.session").status, 2);
+    const auto again = at.run(kRecordingBurin + " convert a.session --to npy");
+    EXPECT_EQ(again.status, 1);
+    EXPECT_NE(again.output.find("a.npy: exists, and is not written over"), std::string::npos) << again.output;
+}
+
+TEST(SessionFile, IsConvertedToWhatOtherProgramsRead) {
+    const Workplace at;
+    at.write("press.csv", kRecordedPress);
+    ASSERT_EQ(at.run(kRecordingSculpt + " --record a.session").status, 0);
+    const std::string convert = kRecordingBurin + " convert a.session";
+    EXPECT_EQ(at.run(convert + " --to hdf5").output, "a.h5: 900 ticks, 74 columns\n");
+    EXPECT_EQ(at.run(convert + " --to mat --columns tick,time_ns").output, "a.mat: 900 ticks, 2 columns\n");
+    EXPECT_EQ(at.run(convert + " out --to bids --subject p7 --task press").output, "out: 900 ticks, 74 columns\n");
+    EXPECT_TRUE(std::filesystem::exists(at / "out/sub-p7/motion/sub-p7_task-press_tracksys-hand_motion.tsv"));
+    EXPECT_NE(at.run(convert + " - --to log").output.find("# hand simulated PHANTOM Omni: 900 ticks of 74 columns"),
+              std::string::npos);
+    struct Case {
+        std::string arguments, said;
+    };
+    for (const Case& wrong : std::vector<Case>{{" --to hdf5", "a.h5: exists, and is not written over"},
+                                               {" out --to bids", "out: exists, and is not written over"},
+                                               {" no/folder --to bids", "no/folder"},
+                                               {" - --to mat", "standard output"},
+                                               {" b.log --to log --columns tick", "has no columns"},
+                                               {" c.h5 --to hdf5 --columns tock", "did you mean tick"},
+                                               {" c --to bids --subject p_7", "is no label of BIDS"}}) {
+        const auto outcome = at.run(convert + wrong.arguments);
+        EXPECT_EQ(outcome.status, 1) << wrong.arguments;
+        EXPECT_NE(outcome.output.find(wrong.said), std::string::npos) << outcome.output;
+    }
+    EXPECT_EQ(at.run(convert + " --to tsv").status, 2);
+    EXPECT_EQ(at.files(), 8u)
+        << "the stroke, a report with its plots, the recording, three tables: nothing that failed";
 }
 
 TEST(SessionFile, IsNeverWrittenOverAndRefusedBeforeTheWork) {
@@ -98,7 +132,7 @@ TEST(SessionFile, IsNeverWrittenOverAndRefusedBeforeTheWork) {
 }
 
 TEST(SessionFile, ThePythonOfTheDocumentationReadsIt) {
-    const std::string snippet = documented_snippet();
+    const std::string snippet = documented_snippet("python");
     ASSERT_FALSE(snippet.empty());
     const Workplace at;
     at.write("press.csv", kRecordedPress);
@@ -116,6 +150,35 @@ print('equal')
     const auto outcome = at.run("/usr/bin/python3 read.py a.session");
     EXPECT_EQ(outcome.status, 0) << outcome.output;
     EXPECT_TRUE(outcome.output.ends_with("equal\n")) << outcome.output;
+    if (at.run("/usr/bin/python3 -c 'import matplotlib'").status != 0)
+        GTEST_SKIP() << "python3-matplotlib is not installed: the picture was not drawn";
+    EXPECT_EQ(at.run("/usr/bin/python3 read.py a.session force.png").status, 0);
+    EXPECT_TRUE(at.read("force.png").starts_with("\x89PNG"));
+}
+
+// R finds every value of the text.
+TEST(SessionFile, TheROfTheDocumentationReadsItAndPlots) {
+    const std::string snippet = documented_snippet("r");
+    ASSERT_FALSE(snippet.empty());
+    const Workplace at;
+    at.write("press.csv", kRecordedPress);
+    ASSERT_EQ(at.run(kRecordingSculpt + " --record a.session").status, 0);
+    if (at.run("Rscript -e 'library(RSQLite)' && zstd --version").status != 0)
+        GTEST_SKIP() << "r-base-core, r-cran-rsqlite or zstd is not installed";
+    ASSERT_EQ(at.run(kRecordingBurin + " convert a.session --to csv").status, 0);
+    at.write("plot.R", snippet + R"(
+table <- read.csv("a.csv")
+stopifnot(nrow(table) == nrow(ticks), identical(names(table), names(ticks)))
+for (name in names(table)) {
+  a <- as.numeric(table[[name]]); b <- as.numeric(ticks[[name]])
+  stopifnot(identical(is.nan(a), is.nan(b)), all(a == b | is.nan(a)))
+}
+cat("equal\n")
+)");
+    const auto outcome = at.run("Rscript plot.R a.session force.pdf");
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_TRUE(outcome.output.ends_with("equal\n")) << outcome.output;
+    EXPECT_TRUE(at.read("force.pdf").starts_with("%PDF"));
 }
 
 }  // namespace burin::app

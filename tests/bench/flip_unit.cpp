@@ -54,7 +54,7 @@ Colour half_white(unsigned x, unsigned) { return x < 48 ? Colour{0, 0, 0} : Colo
 
 }  // namespace
 
-// The values are those that the authors' program of version 1.6.0.1 (NVlabs/flip, src/cpp/FLIP.h, processor path) gives
+// The values are those that the authors' program of version 1.6.0.1 (NVlabs/flip, FLIP.h, processor path) gives
 // for these very bytes. It works in float with rounded matrices, hence the tolerance.
 TEST(Flip, AgreesWithItsAuthorsProgram) {
     struct Known {

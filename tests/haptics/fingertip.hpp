@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A fingertip of several points, each a small ball that moves by itself, on a sphere: the scene of the tests of parts
-// and of the plot in the documents (tests/tools/fingertip_forces.cpp).
+// of a device.
 #pragma once
 
 #include <cmath>

@@ -58,6 +58,7 @@ std::vector<Figure> house_figures(const std::filesystem::path& root) {
     figures.push_back(counted("cycles between rooms", room_cycles(root)));
     figures.push_back(counted(formatted("lines of more than %d columns", kMostColumns), long_lines(root).places));
     figures.push_back(counted("paths in documents that do not exist", missing_document_paths(root).places));
+    figures.push_back(counted("paths in comments that do not exist", missing_comment_paths(root).places));
     figures.push_back(places_touched(root, "tracker", "devices/trackers/udp_tracker", "open_udp_tracker", 3.0));
     figures.push_back(
         places_touched(root, "haptic device", "devices/haptic/simulated_omni", "open_simulated_omni", 3.0));

@@ -184,13 +184,20 @@ Findings long_lines(const std::filesystem::path& root) {
     return found;
 }
 
+namespace {
+
+std::vector<std::string> top_folders_of(std::span<const std::string> files) {
+    std::set<std::string> tops;
+    for (const std::string& path : files)
+        if (path.contains('/')) tops.insert(path.substr(0, path.find('/')));
+    return {tops.begin(), tops.end()};
+}
+
+}  // namespace
+
 Findings missing_document_paths(const std::filesystem::path& root) {
     const std::vector<std::string> files = repository_files(root);
-    std::set<std::string> tops;
-    for (const std::string& path : files) {
-        if (path.contains('/')) tops.insert(path.substr(0, path.find('/')));
-    }
-    const std::vector<std::string> top_folders(tops.begin(), tops.end());
+    const std::vector<std::string> top_folders = top_folders_of(files);
     Findings found;
     for (const std::string& path : files) {
         if (!path.ends_with(".md")) continue;
@@ -199,6 +206,30 @@ Findings missing_document_paths(const std::filesystem::path& root) {
             ++found.looked_at;
             if (!std::filesystem::exists(root / named.path))
                 found.places.push_back(path + ":" + std::to_string(named.line) + ": names " + named.path);
+        }
+    }
+    return found;
+}
+
+Findings missing_comment_paths(const std::filesystem::path& root) {
+    const std::vector<std::string> files = repository_files(root);
+    const std::vector<std::string> top_folders = top_folders_of(files);
+    Findings found;
+    for (const std::string& path : files) {
+        if (!is_source(path) || path.starts_with("tests/house/")) continue;
+        std::istringstream lines(read_text(root / path));
+        std::string line;
+        for (int number = 1; std::getline(lines, line); ++number) {
+            const std::size_t comment = line.find("//");
+            if (comment == std::string::npos) continue;
+            std::istringstream words(line.substr(comment));
+            for (std::string word; words >> word;) {
+                const std::string named = without_punctuation(word);
+                if (!is_path_of_the_tree(named, top_folders) || !std::filesystem::path(named).has_extension()) continue;
+                ++found.looked_at;
+                if (!std::filesystem::exists(root / named))
+                    found.places.push_back(path + ":" + std::to_string(number) + ": names " + named);
+            }
         }
     }
     return found;

@@ -59,5 +59,7 @@ struct Findings {
 
 // Finds the paths that documents name and that do not exist: "docs/formats.md:12: names wall/gone.hpp".
 [[nodiscard]] Findings missing_document_paths(const std::filesystem::path& root);
+// Finds the files that comments of sources name and that do not exist. The tests of these rules invent names.
+[[nodiscard]] Findings missing_comment_paths(const std::filesystem::path& root);
 
 }  // namespace burin::house

@@ -57,6 +57,12 @@ TEST(Words, EveryPathThatADocumentNamesExists) {
     EXPECT_GE(found.looked_at, 100u) << "hardly any path was found in the documents";
 }
 
+TEST(Words, EveryFileThatACommentNamesExists) {
+    const Findings found = missing_comment_paths(BURIN_SOURCE_FOLDER);
+    for (const std::string& place : found.places) ADD_FAILURE() << place << ", which does not exist";
+    EXPECT_GE(found.looked_at, 100u) << "hardly any path was found in comments";
+}
+
 TEST(Words, HaveCleanLineEnds) {
     expect_everywhere([](const std::string& path) { return !keeps_its_own_line_ends(path); }, complaint_on_whitespace);
 }

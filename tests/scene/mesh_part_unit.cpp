@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tests/scene/scene_samples.hpp"
@@ -168,6 +169,63 @@ TEST(MeshPart, AHandDoesNotTouchWhatItHoldsAndPushesOthersWithIt) {
     EXPECT_FALSE(scene.slot.newest().meshes[0].moves());
 }
 
+namespace {
+
+// A hand whose tool rests on the first cube's top, with its second button up or down.
+haptics::StrokeSample gripping_sample(std::uint64_t tick, const Vec3& at_m, bool down) {
+    haptics::StrokeSample sample;
+    sample.tick = tick;
+    sample.time_ns = static_cast<Nanoseconds>(tick) * 1'000'000;
+    sample.position_object_m = sample.proxy_object_m = at_m;
+    sample.buttons = down ? 2u : 0u;
+    sample.flags = haptics::kTickInContact;
+    return sample;
+}
+
+}  // namespace
+
+TEST(MeshPart, AButtonTakesHoldOfWhatIsTouchedAndLetsGoOfIt) {
+    MaterialTable materials;
+    auto part = *MeshPart::create(cubes(20), materials);
+    part->grip_with(0, 2u, 0.008);
+    std::uint64_t tick = 0;
+    const auto update = [&](const Vec3& at_m, bool down) {
+        const std::array samples{gripping_sample(++tick, at_m, down)};
+        part->take_samples(0, samples);
+        ASSERT_TRUE(part->update(static_cast<Nanoseconds>(tick) * 1'000'000, nullptr));
+    };
+    const Vec3 on_top(0.0, kHalf_m + 0.004, 0.0);
+    update(on_top, false);
+    update(on_top, true);
+    update(on_top + Vec3(0.3, 0.1, 0.0), true);
+    EXPECT_LT(glm::length(part->pose(1).position_m - Vec3(0.3, 0.1, 0.0)), 1e-12) << "it goes along";
+    for (ObjectId id = 2; id <= 20; ++id) EXPECT_TRUE(std::holds_alternative<FixedMotion>(part->object(id).motion));
+    update(on_top + Vec3(0.3, 0.2, 0.0), false);
+    const Pose left = part->pose(1);
+    update(on_top, false);
+    EXPECT_EQ(part->pose(1), left) << "it stays where the hand has left it";
+    EXPECT_TRUE(std::holds_alternative<FixedMotion>(part->object(1).motion));
+}
+
+TEST(MeshPart, NothingIsTakenInTheAirOrWhileTheWorkspaceMoves) {
+    MaterialTable materials;
+    auto part = *MeshPart::create(cubes(2), materials);
+    part->grip_with(0, 2u, 0.008);
+    haptics::StrokeSample up = gripping_sample(1, {0.0, kHalf_m + 0.004, 0.0}, false);
+    haptics::StrokeSample in_the_air = gripping_sample(2, up.proxy_object_m, true);
+    in_the_air.flags = 0;
+    haptics::StrokeSample paused = gripping_sample(2, up.proxy_object_m, true);
+    paused.phase = haptics::WorkspacePhase::paused;
+    const haptics::StrokeSample far_away = gripping_sample(2, {0.0, kHalf_m + 0.03, 0.0}, true);
+    for (const haptics::StrokeSample& pressed : {in_the_air, paused, far_away}) {
+        const std::array samples{up, pressed};
+        part->take_samples(0, samples);
+        for (const ObjectId id : {1u, 2u}) EXPECT_FALSE(std::holds_alternative<HeldMotion>(part->object(id).motion));
+        const std::array released{up};
+        part->take_samples(0, released);
+    }
+}
+
 TEST(MeshPart, AnUpdateIsRepeatedToTheBit) {
     std::vector<SceneObject> objects = cubes(1);
     objects[0].motion = test::up_and_down(0.1);
@@ -175,7 +233,7 @@ TEST(MeshPart, AnUpdateIsRepeatedToTheBit) {
     auto live = MeshPart::create(objects, materials), again = MeshPart::create(objects, materials);
     for (const Nanoseconds now_ns : {Nanoseconds{1'234'567}, Nanoseconds{11'000'001}, Nanoseconds{777'777'777}}) {
         ASSERT_TRUE((*live)->update(now_ns, nullptr));
-        ASSERT_TRUE((*again)->repeat((*live)->seen()));
+        ASSERT_TRUE((*again)->update(now_ns, &(*live)->seen()));
         EXPECT_EQ((*live)->pose(1), (*again)->pose(1));
     }
     EXPECT_GT((*live)->pose(1).position_m.y, 0.01);
@@ -195,6 +253,27 @@ TEST(MeshPart, TellsTheFrameWhatHasChanged) {
     EXPECT_EQ(updates[0].colour, (Colour{1, 2, 3}));
     EXPECT_EQ(updates[1].id, 3u);
     EXPECT_GT(updates[1].scene_from_mesh.position_m.y, objects[2].pose.position_m.y);
+}
+
+// Cubes that share a mesh and a material differ by their poses, those at one pose by their meshes.
+TEST(MeshPart, AMeshOfASurfaceIsTracedToItsObject) {
+    std::vector<SceneObject> objects = cubes(4);
+    objects[2].motion = PathMotion{{{0.0, {}}, {1.0, {{0.001, 0.0, 0.0}}}, {2.0, {}}}, true};
+    objects.push_back(object_at(5, shared_mesh(geometry::test::cube(0.5 * kHalf_m)), Vec3(0.0)));
+    TouchedScene scene(objects);
+    (void)scene.tick(kOnTop);
+    geometry::LocalSurface draft;
+    ASSERT_TRUE(scene.part->add_near({0, Vec3(0.0), 1.0}, draft));
+    std::vector<ObjectId> found;
+    for (const geometry::TouchedMesh& mesh : draft.meshes) {
+        found.push_back(scene.part->id_of(mesh));
+        EXPECT_EQ(scene.part->pose(found.back()), mesh.motion.object_from_mesh);
+    }
+    std::ranges::sort(found);
+    EXPECT_EQ(found, (std::vector<ObjectId>{1, 2, 3, 4, 5}));
+    geometry::TouchedMesh other = draft.meshes.back();
+    other.motion.object_from_mesh.position_m.x += 1.0;
+    EXPECT_EQ(scene.part->id_of(other), 0u);
 }
 
 TEST(MeshPart, EqualMeshesShareOneSnapshotAndEqualMaterialsOneEntry) {

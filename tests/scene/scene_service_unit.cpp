@@ -18,14 +18,14 @@ public:
     void take_samples(std::size_t hand, std::span<const haptics::StrokeSample> samples) override {
         for (const haptics::StrokeSample& sample : samples) ticks.emplace_back(hand, sample.tick);
     }
-    Result<void> update(Nanoseconds now_ns, const UpdateSeen* recorded) override {
+    Result<void> update(Nanoseconds now_ns, const PartSeen* recorded) override {
         ++updates;
         if (fails) return fail("part", "cannot go on");
         // Its background work is done whenever it looks at 20 ms; when it is replayed it looks elsewhere.
-        seen_ = recorded != nullptr ? *recorded : UpdateSeen{.time_ns = now_ns, .background_ended = now_ns == 20};
+        seen_ = recorded != nullptr ? *recorded : PartSeen{.background_ended = now_ns == 20};
         return {};
     }
-    const UpdateSeen& seen() const override { return seen_; }
+    const PartSeen& seen() const override { return seen_; }
     Result<void> add_near(const ProbeBall& ball, geometry::LocalSurface&) override {
         balls.push_back(ball);
         return {};
@@ -40,7 +40,7 @@ public:
     bool fails = false, finished = false;
 
 private:
-    UpdateSeen seen_;
+    PartSeen seen_;
 };
 
 haptics::StrokeSample sample_at(std::uint64_t tick, const Vec3& at_m) {
@@ -98,7 +98,9 @@ TEST(SceneService, AnUpdateIsRepeatedWithTheSamplesThatItHad) {
         EXPECT_EQ(again.service.seen(), update);
     }
     EXPECT_EQ(again.first.ticks, live.first.ticks);
-    EXPECT_FALSE(again.service.repeat({}).has_value()) << "of a scene without hands";
+    SceneUpdate more = recorded.back();
+    more.last_ticks.push_back(1);
+    EXPECT_FALSE(again.service.repeat(more).has_value()) << "of a scene with more hands";
 }
 
 TEST(SceneService, TheShortestPeriodOfItsPartsCountsAndThatOfAMovingHand) {
@@ -112,6 +114,22 @@ TEST(SceneService, TheShortestPeriodOfItsPartsCountsAndThatOfAMovingHand) {
     (void)scene.right.stroke.push(sample_at(26, Vec3(0.0)));
     ASSERT_TRUE(scene.service.update(1'035'000'000));
     EXPECT_EQ(scene.service.period_ns(), 25'000'000) << "its loop rests";
+}
+
+TEST(SceneService, TheSurfaceIsKnownAroundAHandThatHasSunkDeep) {
+    TwoHands scene;
+    haptics::StrokeSample sample = sample_at(1, {1.0, 0.0, 0.0});
+    (void)scene.left.stroke.push(sample);
+    ASSERT_TRUE(scene.service.update(1));
+    EXPECT_NEAR(scene.first.balls.front().radius_m, 0.03, 1e-12) << "of the probe and its reach";
+    scene.first.balls.clear();
+    sample = sample_at(2, {1.0, 0.0, 0.0});
+    sample.position_object_m.y = -0.2;
+    (void)scene.left.stroke.push(sample);
+    ASSERT_TRUE(scene.service.update(2));
+    const ProbeBall& ball = scene.first.balls.front();
+    EXPECT_EQ(ball.center_scene, Vec3(1.0, 0.0, 0.0)) << "where the tool rests";
+    EXPECT_GE(ball.radius_m, 0.2 + 0.01);
 }
 
 TEST(SceneService, PublishesNothingWhereAPartFails) {
@@ -155,7 +173,7 @@ TEST(SceneThread, CarriesOutOrdersBeforeUpdatesAndEndsWithTheLast) {
     scene.first.period = 1'000'000;
     MonotonicClock clock;
     std::atomic<int> calls{0};
-    SceneThread thread(scene.service, clock, [&] { ++calls; });
+    SceneThread thread(scene.service, clock, [&](const SceneThread::Ended&) { ++calls; });
     thread.start();
     int at_update = -1;
     thread.order([&] { at_update = scene.first.updates; });
@@ -178,7 +196,8 @@ TEST(SceneThread, EndsWhenAPartFails) {
     TwoHands scene;
     scene.first.fails = true;
     MonotonicClock clock;
-    SceneThread thread(scene.service, clock, [] {});
+    bool told = false;
+    SceneThread thread(scene.service, clock, [&](const SceneThread::Ended& ended) { told = ended.failed; });
     thread.start();
     while (!thread.failure()) std::this_thread::yield();
     thread.stop();

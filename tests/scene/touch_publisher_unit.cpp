@@ -11,8 +11,8 @@ namespace {
 // Adds what it is told to.
 class ToldPart final : public ScenePart {
 public:
-    Result<void> update(Nanoseconds, const UpdateSeen*) override { return {}; }
-    const UpdateSeen& seen() const override { return seen_; }
+    Result<void> update(Nanoseconds, const PartSeen*) override { return {}; }
+    const PartSeen& seen() const override { return seen_; }
     Result<void> add_near(const ProbeBall&, geometry::LocalSurface& draft) override {
         was_empty = was_empty && draft.meshes.empty() && draft.tiles.places.empty() && draft.tiles.triangles == 0 &&
                     !draft.loose && draft.sequence == 0;
@@ -33,7 +33,7 @@ public:
     bool fails = false, was_empty = true;
 
 private:
-    UpdateSeen seen_;
+    PartSeen seen_;
 };
 
 std::shared_ptr<const geometry::TouchSnapshot> cube_snapshot() {

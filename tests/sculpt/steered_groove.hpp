@@ -12,9 +12,9 @@
 
 #include "devices/haptic/simulated_omni.hpp"
 #include "haptics/haptic_loop.hpp"
+#include "sculpt/carved_scene.hpp"
 #include "sculpt/feel_options.hpp"
 #include "sculpt/felt_tool.hpp"
-#include "sculpt/sculpt_service.hpp"
 #include "sculpt/workpiece.hpp"
 
 namespace burin::sculpt {
@@ -170,7 +170,7 @@ inline Groove carve_groove(devices::OmniHand hand, double duration_s,
     SimulatedClock clock;
     devices::SimulatedOmni omni(std::move(hand), {}, &clock);
     haptics::HapticLoop loop(omni, clock, channels);
-    SculptService service(carving, channels, tool, feel.material.hardness_Ns_per_m3, 0.012 + 2.0 * kGrooveCell_m, {});
+    CarvedScene service(carving, channels, tool, feel.material.hardness_Ns_per_m3, 0.012 + 2.0 * kGrooveCell_m, {});
     service.start_at(block_from_device() + omni.true_position_device_m());
     static_cast<void>(service.update(0));
     haptics::TickRecord record;

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <span>
+#include <vector>
 
-#include "sculpt/sculpt_service.hpp"
+#include "sculpt/carved_scene.hpp"
 #include "sculpt/workpiece.hpp"
 
 namespace burin::sculpt {
@@ -16,33 +18,34 @@ std::unique_ptr<compute::CarvingEngine> ball_engine(WorkerPool& pool) {
     return std::move(choose_engine(EngineChoice::cpu, *compute::make_ball(0.1, 32, {"skin"}), pool)->engine);
 }
 
-// Pushes a sample of material without hardness, which gives way where the hand is.
-void push_sample(haptics::HapticChannels& channels, std::uint64_t tick, const Vec3& place, bool pressed) {
+// A sample of material without hardness, which gives way where the hand is.
+haptics::StrokeSample sample_of(std::uint64_t tick, const Vec3& place, bool pressed) {
     haptics::StrokeSample sample;
     sample.tick = tick;
     sample.time_ns = static_cast<Nanoseconds>(tick) * 1'000'000;
     sample.position_object_m = sample.cut_object_m = sample.proxy_object_m = place;
     sample.buttons = pressed ? 1u : 0u;
-    ASSERT_TRUE(channels.stroke.push(sample));
+    return sample;
+}
+
+void push_sample(haptics::HapticChannels& channels, std::uint64_t tick, const Vec3& place, bool pressed) {
+    ASSERT_TRUE(channels.stroke.push(sample_of(tick, place, pressed)));
 }
 
 }  // namespace
 
 TEST(StrokeReader, StopsAtEachReleaseOfTheButton) {
-    haptics::HapticChannels channels;
-    StrokeReader reader(channels, kBall, 0.0, 0.005);
-    push_sample(channels, 1, {0.0, 0.0, 0.1}, true);
-    push_sample(channels, 2, {0.01, 0.0, 0.1}, true);
-    push_sample(channels, 3, {0.01, 0.0, 0.2}, false);
-    push_sample(channels, 4, {0.05, 0.0, 0.1}, true);
-    const SweptSamples first = reader.read(UINT64_MAX);
+    StrokeReader reader(kBall, 0.0, 0.005);
+    const std::vector samples{sample_of(1, {0.0, 0.0, 0.1}, true), sample_of(2, {0.01, 0.0, 0.1}, true),
+                              sample_of(3, {0.01, 0.0, 0.2}, false), sample_of(4, {0.05, 0.0, 0.1}, true)};
+    reader.take(samples);
+    const SweptSamples first = reader.read();
     EXPECT_TRUE(first.stroke_ended);
     ASSERT_EQ(first.sweeps.size(), 1u);
     EXPECT_EQ(first.sweeps[0].start.position_m, Vec3(0.0, 0.0, 0.1));
     EXPECT_EQ(first.sweeps[0].end.position_m, Vec3(0.01, 0.0, 0.1));
-    EXPECT_EQ(reader.last_tick(), 3u);
     EXPECT_FALSE(reader.pressed());
-    const SweptSamples second = reader.read(UINT64_MAX);
+    const SweptSamples second = reader.read();
     EXPECT_FALSE(second.stroke_ended);
     ASSERT_EQ(second.sweeps.size(), 1u);
     EXPECT_EQ(second.sweeps[0].start.position_m, Vec3(0.05, 0.0, 0.1));
@@ -50,22 +53,26 @@ TEST(StrokeReader, StopsAtEachReleaseOfTheButton) {
     EXPECT_EQ(reader.last_worked_ns(), 4'000'000);
 }
 
-TEST(StrokeReader, LeavesSamplesOfLaterTicksInTheRing) {
-    haptics::HapticChannels channels;
-    StrokeReader reader(channels, kBall, 0.0, 0.005);
-    for (std::uint64_t tick = 1; tick <= 4; ++tick) push_sample(channels, tick, {0.01 * double(tick), 0.0, 0.1}, true);
-    const SweptSamples first = reader.read(2);
+TEST(StrokeReader, GoesOnBehindWhatItHasRead) {
+    StrokeReader reader(kBall, 0.0, 0.005);
+    std::vector<haptics::StrokeSample> samples;
+    for (std::uint64_t tick = 1; tick <= 4; ++tick)
+        samples.push_back(sample_of(tick, {0.01 * static_cast<double>(tick), 0.0, 0.1}, true));
+    const std::span all(samples);
+    reader.take(all.first(2));
+    const SweptSamples first = reader.read();
     ASSERT_FALSE(first.sweeps.empty());
     EXPECT_EQ(first.sweeps.back().end.position_m, Vec3(0.02, 0.0, 0.1));
-    EXPECT_EQ(reader.last_tick(), 2u);
-    const SweptSamples rest = reader.read(UINT64_MAX);
+    reader.take(all.subspan(2, 1));
+    reader.take(all.subspan(3));
+    const SweptSamples rest = reader.read();
     ASSERT_FALSE(rest.sweeps.empty());
     EXPECT_EQ(rest.sweeps.front().start.position_m, Vec3(0.02, 0.0, 0.1)) << "goes on from where it was";
     EXPECT_EQ(rest.sweeps.back().end.position_m, Vec3(0.04, 0.0, 0.1));
-    EXPECT_TRUE(reader.read(UINT64_MAX).sweeps.empty());
+    EXPECT_TRUE(reader.read().sweeps.empty());
 }
 
-TEST(SculptService, WithoutUndoMemoryLeavesTheHistoryAndItsNoticesToTheirOwner) {
+TEST(CarvedPart, WithoutUndoMemoryLeavesTheHistoryAndItsNoticesToTheirOwner) {
     WorkerPool pool(1);
     Sculpture sculpture(ball_engine(pool), pool);
     haptics::HapticChannels channels;
@@ -77,7 +84,7 @@ TEST(SculptService, WithoutUndoMemoryLeavesTheHistoryAndItsNoticesToTheirOwner) 
         }
     };
     sculpture.keep_history(1);  // room for one stroke: the first of two is dropped with a notice
-    SculptService service(sculpture, channels, kBall, 0.0, 0.02, std::nullopt);
+    CarvedScene service(sculpture, channels, kBall, 0.0, 0.02, std::nullopt);
     two_strokes(-0.03);
     ASSERT_TRUE(service.update(0));
     const auto update = service.take_surface_update();
@@ -88,17 +95,17 @@ TEST(SculptService, WithoutUndoMemoryLeavesTheHistoryAndItsNoticesToTheirOwner) 
     EXPECT_EQ(sculpture.history()->dropped_strokes(), 1u);
     EXPECT_FALSE(sculpture.history()->take_notices().empty());
 
-    SculptService keeper(sculpture, channels, kBall, 0.0, 0.02, 1);
+    CarvedScene keeper(sculpture, channels, kBall, 0.0, 0.02, 1);
     two_strokes(0.03);
     ASSERT_TRUE(keeper.update(0));
     EXPECT_FALSE(keeper.take_surface_update()->messages.empty());
 }
 
-TEST(SculptService, CarvesWithoutAnyHistory) {
+TEST(CarvedPart, CarvesWithoutAnyHistory) {
     WorkerPool pool(1);
     Sculpture sculpture(ball_engine(pool), pool);
     haptics::HapticChannels channels;
-    SculptService service(sculpture, channels, kBall, 0.0, 0.02, std::nullopt);
+    CarvedScene service(sculpture, channels, kBall, 0.0, 0.02, std::nullopt);
     push_sample(channels, 1, {0.0, 0.0, 0.1}, true);
     ASSERT_TRUE(service.update(0));
     EXPECT_EQ(sculpture.history(), nullptr);

@@ -63,12 +63,12 @@ TEST(ToolKinds, EachIsReadAsItIsWrittenAndAsHelpWritesIt) {
     }
 }
 
-// The README names each kind as help does; nothing else would remind of it.
-TEST(ToolKinds, AreAllInTheReadme) {
-    std::ostringstream readme;
-    readme << std::ifstream("README.md").rdbuf();
+// The page on tools names each kind as help does; nothing else would remind of it.
+TEST(ToolKinds, AreAllOnTheirPage) {
+    std::ostringstream page;
+    page << std::ifstream("docs/tools.md").rdbuf();
     for (const std::string& synopsis : tool_synopses())
-        EXPECT_TRUE(readme.str().contains(synopsis)) << synopsis << " is missing under Tools";
+        EXPECT_TRUE(page.str().contains(synopsis)) << synopsis << " is missing";
 }
 
 TEST(ToolKinds, PutEachSizeWhereItBelongs) {

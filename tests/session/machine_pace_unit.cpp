@@ -36,7 +36,8 @@ TEST(MachinePace, IsOneForAScriptAndThatOfTheSessionInAllItsParameters) {
         EXPECT_EQ(s.channels().parameters.newest().work.pace, pace);
         // Another feel: the next set has it as well.
         const std::vector<InputEvent> events{{1'000'000, CommandInput{"friction", {"0.4"}}}};
-        s.step({2'000'000, 2'000'000, events}, {.size = {640, 360}}, s.newest_tool(), [](sculpt::SculptOrder) {});
+        s.step({2'000'000, 2'000'000, events}, {.size = {640, 360}}, s.newest_tool(),
+               [](const scene::SceneThread::Order&) {});
         EXPECT_EQ(s.channels().parameters.newest().sequence, 2u);
         EXPECT_EQ(s.channels().parameters.newest().work.pace, pace);
     }

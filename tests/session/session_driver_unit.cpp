@@ -7,6 +7,7 @@
 #include <string>
 
 #include "devices/haptic/simulated_omni.hpp"
+#include "sculpt/carved_scene.hpp"
 #include "sculpt/workpiece.hpp"
 #include "tests/support/test_units.hpp"
 
@@ -24,8 +25,8 @@ public:
         return {};
     }
     [[nodiscard]] const haptics::ToolState& tool() override { return tool_; }
-    void order(sculpt::SculptOrder) override {}
-    [[nodiscard]] Result<Taken> take_surface_update() override { return Taken{}; }
+    void order(Order) override {}
+    [[nodiscard]] Result<Taken> take_updates() override { return Taken{}; }
     void stop() override { notes_.emplace_back("stop"); }
 
 private:
@@ -81,8 +82,8 @@ struct Parts {
         {},
         &clock};
     haptics::HapticLoop loop{omni, clock, channels};
-    sculpt::SculptService service{carving, channels, sculpt::Tool{compute::BallTool{0.005}}, 1e6, 0.01, {}};
-    SteppedExecutor executor{clock, loop, channels, service};
+    sculpt::CarvedScene carved{carving, channels, sculpt::Tool{compute::BallTool{0.005}}, 1e6, 0.01, {}};
+    SteppedExecutor executor{clock, loop, channels, carved.service()};
 };
 
 }  // namespace
@@ -118,14 +119,14 @@ TEST(SteppedExecutor, TicksEachPeriodAndCarvesAfterEveryTenthTick) {
     Parts parts;
     ASSERT_TRUE(parts.executor.advance_to(9 * kMs));
     EXPECT_EQ(parts.ticks(), 9u);
-    EXPECT_EQ(parts.service.seen().last_tick, 0u) << "an update came before its time";
+    EXPECT_EQ(parts.carved.service().seen().last_ticks[0], 0u) << "an update came before its time";
     ASSERT_TRUE(parts.executor.advance_to(10 * kMs));
-    EXPECT_EQ(parts.service.seen().last_tick, 10u) << "the update of 10 ms has the sample of that tick";
-    EXPECT_EQ(parts.service.published(), 1u);
+    EXPECT_EQ(parts.carved.service().seen().last_ticks[0], 10u) << "the update of 10 ms has the sample of that tick";
+    EXPECT_EQ(parts.carved.published(), 1u);
     ASSERT_TRUE(parts.executor.advance_to(95 * kMs));
     EXPECT_EQ(parts.ticks(), 95u);
-    EXPECT_EQ(parts.service.published(), 9u);
-    EXPECT_EQ(parts.service.seen().last_tick, 90u);
+    EXPECT_EQ(parts.carved.published(), 9u);
+    EXPECT_EQ(parts.carved.service().seen().last_ticks[0], 90u);
 }
 
 TEST(SteppedExecutor, DoesNothingOfATimeThatHasPassedAndNoPartOfATick) {
@@ -139,7 +140,7 @@ TEST(SteppedExecutor, DoesNothingOfATimeThatHasPassedAndNoPartOfATick) {
     ASSERT_TRUE(parts.executor.advance_to(start_ns + 3 * kMs));
     EXPECT_EQ(parts.ticks(), 3u) << "half a tick was lost";
     ASSERT_TRUE(parts.executor.advance_to(start_ns + 10 * kMs));
-    EXPECT_EQ(parts.service.published(), 1u) << "updates count from the executor's start";
+    EXPECT_EQ(parts.carved.published(), 1u) << "updates count from the executor's start";
 }
 
 TEST(SteppedExecutor, MeasuresEachTick) {

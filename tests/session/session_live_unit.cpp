@@ -35,7 +35,7 @@ double carried_m(double x_world, double y_world) {
     const SessionWall wall = session_wall(options.live).value();
     const auto session = LiveSession::create(options, wall, clock).value();
     const auto step = [&](Nanoseconds time_ns, const std::vector<InputEvent>& events) {
-        session->step({time_ns, time_ns, events}, {.size = {1440, 1080}}, {}, [](sculpt::SculptOrder) {});
+        session->step({time_ns, time_ns, events}, {.size = {1440, 1080}}, {}, [](const scene::SceneThread::Order&) {});
     };
     const auto wand = [&](double y) { return WandInput{0, {{x_world, y, 1.0}, Quat{1, 0, 0, 0}}, true}; };
     step(10'000'000, {{10'000'000, wand(y_world)}});
@@ -61,8 +61,12 @@ std::size_t files_asked_for(bool writes_nothing) {
                                          {0, CommandInput{"export-mesh", {}}},
                                          {0, CommandInput{"screenshot", {"a.png"}}},
                                          {0, CommandInput{"take-screenshot", {}}}};
-    session->step({10'000'000, 10'000'000, events}, {.size = {640, 360}}, {}, [&](const sculpt::SculptOrder& order) {
-        meshes += std::holds_alternative<sculpt::ExportSurface>(order) ? 1 : 0;
+    session->step({10'000'000, 10'000'000, events}, {.size = {640, 360}}, {}, [&](const auto& order) {
+        order();
+        session->finish_scene();
+        // The second export takes the place of the first, whose name it has.
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(place / "."))
+            if (entry.path().extension() == ".stl") meshes += std::filesystem::remove(entry.path()) ? 1 : 0;
     });
     return meshes + session->take_screenshots().size();
 }
@@ -198,7 +202,7 @@ TEST(LiveSession, OffersToolSizesThatSuitItsWorkpiece) {
     const auto step = [&](const Input& input) {
         now_ns += 16'000'000;
         const std::vector<InputEvent> events{{now_ns, input}};
-        session->step({now_ns, now_ns, events}, {.size = window}, {}, [](const sculpt::SculptOrder&) {});
+        session->step({now_ns, now_ns, events}, {.size = window}, {}, [](const scene::SceneThread::Order&) {});
     };
     step(MouseMove{{left_px + 0.5 * slider.width, y_px}});
     step(MouseClick{MouseButton::left, true, {}});

@@ -63,14 +63,14 @@ public:
         auto script = parse_input_log(kScript, "script");
         if (!created || !writer || !script) throw std::runtime_error("the session does not open");
         session = std::move(*created);
-        untouched_ = check_of(session->surface());
+        untouched_ = check_of(*session);
         input.emplace(InputSource::play(std::move(*script), std::move(*writer)));
         recorder.emplace(*input, *session);
     }
     Live finish(Executor& executor) {
-        recorder->finish(executor.take_surface_update()->updates);
-        return {place_.read("live.log"), untouched_, check_of(session->surface()),
-                session->newest_tool().given.force_device_N, session->loop().ticks()};
+        recorder->finish(executor.take_updates()->updates);
+        return {place_.read("live.log"), untouched_, check_of(*session), session->newest_tool().given.force_device_N,
+                session->loop().ticks()};
     }
 
     std::unique_ptr<LiveSession> session;
@@ -114,7 +114,8 @@ Live live(const Workplace& place) {
     RecordedSession recorded(place, clock);
     LiveSession& s = *recorded.session;
     UndrawnFrames frames(recorded, clock, 5'000'000);
-    ThreadedExecutor threads(clock, s.loop(), s.channels(), s.desk(), {}, [] {});
+    ThreadedExecutor threads(clock, s.loop(), s.channels(), s.scene(), {},
+                             [&](const auto& ended) { static_cast<void>(s.collect(ended)); });
     static_cast<void>(threads.start());
     EXPECT_TRUE(drive(threads, frames));
     return recorded.finish(threads);
@@ -134,17 +135,19 @@ public:
         return {};
     }
     [[nodiscard]] const haptics::ToolState& tool() override { return tool_; }
-    void order(sculpt::SculptOrder order) override {
-        session_.desk().order(order);
+    void order(Order order) override {
+        order();
         ++orders_;
     }
-    [[nodiscard]] Result<Taken> take_surface_update() override {
+    [[nodiscard]] Result<Taken> take_updates() override {
         tick(1);
         before_update_ = session_.newest_tool();
         tick(4);
-        const sculpt::UpdateSeen update{clock_.now_ns(), session_.loop().ticks() - 3, std::exchange(orders_, 0), false};
-        if (const auto done = session_.desk().repeat(update); !done) return std::unexpected(done.error());
-        return Taken{session_.desk().take_surface_update(), {update}};
+        const scene::SceneUpdate update{
+            clock_.now_ns(), std::exchange(orders_, 0), {session_.loop().ticks() - 3}, {scene::PartSeen{}}};
+        if (const auto done = session_.scene().repeat(update); !done) return std::unexpected(done.error());
+        static_cast<void>(session_.collect({}));
+        return Taken{{update}};
     }
 
 private:
@@ -233,7 +236,7 @@ Again again(const std::string& text) {
         result.log_ends = replay.log_ends();
         return result;
     }
-    result.surface = check_of(s.surface());
+    result.surface = check_of(s);
     result.force_N = s.newest_tool().given.force_device_N;
     result.ticks = s.loop().ticks();
     result.pace = s.channels().parameters.newest().work.pace;
@@ -368,7 +371,7 @@ TEST(ThreadRecorder, EndsTheRecordingWhenTicksWereLost) {
     const auto frame = [&] {
         const auto begun = input.begin_frame(clock.now_ns(), clock.now_ns());
         const haptics::ToolState tool = s.newest_tool();
-        s.step(*begun, {.size = kSize}, tool, [](sculpt::SculptOrder) {});
+        s.step(*begun, {.size = kSize}, tool, [](Executor::Order) {});
         recorder.frame(tool.tick, {}, {{.size = kSize}});
     };
     const auto tick = [&](int times) {
@@ -407,7 +410,7 @@ TEST(ThreadRecorder, WritesTheModeThatAScreenWentBackTo) {
         clock.sleep_until(clock.now_ns() + 5'000'000);
         const Nanoseconds now_ns = clock.now_ns() - s.start_ns();
         const auto begun = recorded.input->begin_frame(now_ns, now_ns);
-        s.step(*begun, {.size = kSize}, s.newest_tool(), [](sculpt::SculptOrder) {});
+        s.step(*begun, {.size = kSize}, s.newest_tool(), [](Executor::Order) {});
         recorded.recorder->frame(s.newest_tool().tick, {}, {{.size = kSize}});
     };
     frame();

@@ -78,6 +78,27 @@ TEST(ThreadLog, TicksReadBackToTheSameBits) {
     EXPECT_TRUE(rest.empty());
 }
 
+TEST(ThreadLog, UpdatesReadBackWithEveryHandAndPart) {
+    const ThreadClock clock{5'000'000'000, 1'000'000, 0.0};
+    std::vector<scene::SceneUpdate> updates{
+        {clock.start_ns + 10'000'000, 0, {12, 0, 7}, {{false}, {true}, {false}}},
+        {clock.start_ns + 21'000'000, 3, {12, 30, 19}, {{true}, {false}, {true}}},
+        {clock.start_ns + 21'000'000, 0, {40, 30, 19}, {{false}, {false}, {false}}},
+    };
+    UpdateText writer(clock), reader(clock);
+    std::string text;
+    for (const scene::SceneUpdate& update : updates) writer.write(text, update);
+    std::string_view rest = text;
+    for (const scene::SceneUpdate& update : updates) {
+        auto read = reader.read(rest);
+        ASSERT_TRUE(read) << text;
+        read->last_ticks.resize(3);  // what has not been named yet is none
+        read->parts.resize(3);
+        EXPECT_EQ(*read, update) << text;
+    }
+    EXPECT_TRUE(rest.empty());
+}
+
 TEST(ThreadLog, AQuietTickTakesFewBytes) {
     const ThreadClock clock{0, 1'000'000, 0.000055};
     TickText text(clock);
@@ -101,6 +122,7 @@ TEST(ThreadLog, NamesLineAndRemedyOfWhatItDoesNotUnderstand) {
     };
     EXPECT_EQ(complaint("0.1 ticks 1 5;"), "none");
     EXPECT_EQ(complaint("0.1 updates 1 5t1o2e;-7;"), "none");
+    EXPECT_EQ(complaint("0.1 updates 1 5t1h2t4o2ee3;-7h2t1;"), "none");
     EXPECT_EQ(complaint("0.1 saw 0 0 12"), "none");
     EXPECT_EQ(complaint("0.1 output 0 64 64 -1 3"), "none");
     EXPECT_EQ(complaint("0.1 said \"a word\""), "none");
@@ -118,6 +140,9 @@ TEST(ThreadLog, NamesLineAndRemedyOfWhatItDoesNotUnderstand) {
                                   "updates 1 5o0;",
                                   "updates 2 5;",
                                   "updates 1 5et1;",
+                                  "updates 1 5h99t1;",
+                                  "updates 1 5h1;",
+                                  "updates 1 5e99;",
                                   "saw 1 2",
                                   "saw 1 2 3 restless",
                                   "saw -1 2 3",

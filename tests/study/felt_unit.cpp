@@ -160,7 +160,8 @@ TEST(StudyDeviation, IsFlaggedWhereTheHandGoesAroundTheTube) {
     EXPECT_FALSE(flagged.contains("force_mean_N"));
 }
 
-// Presses the wand's middle 20 mm off the axis halfway through the tube: what the hand is given, and whether it touches.
+// Presses the wand's middle 20 mm off the axis halfway through the tube: what the hand is given, and whether it
+// touches.
 haptics::TickRecord pressed(const Protocol& protocol, const Stage& stage, const Group& group, const FeltWorld& world,
                             double off_m = 0.02) {
     StageTouch touch(protocol, stage, group, world);

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <string>
 
+#include "base/sha256.hpp"
 #include "base/text.hpp"
-#include "study/folder/digest.hpp"
 #include "study/folder/journal.hpp"
 #include "study/folder/study_folder.hpp"
 #include "tests/support/run_command.hpp"

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The carving side of a session: carves what the hand does, carries out orders, and reports changes to the frame.
+// A carved workpiece as a part of a scene: carves what a hand does, carries out orders, and reports changes to the
+// frame.
 //
-// Data flow of an update: stroke samples from the haptic thread -> sweeps (StrokeReader) -> Sculpture::update -> the
-// local surface around the tool, published to the haptic thread -> light of a few tiles. Orders come from keys, panel,
-// script or recording. take_surface_update() gives the frame the tiles that changed since the last call, as references
-// to tiles that never change again.
-// Frame: object, metres. Thread: one at a time, a SculptThread's or, where time is simulated, the caller's. An export
-// works on copies on a thread of its own.
+// Data flow of an update: stroke samples of the hand -> sweeps (StrokeReader) -> Sculpture::update. Then the touch
+// publisher asks for the surface near the tool, and after that the light of a few tiles is baked. Orders come from
+// keys, panel, script or recording. take_surface_update() gives the frame the tiles that changed since the last call,
+// as references to tiles that never change again.
+// Frame: object, metres; a workpiece stands in the scene as in its own frame. Thread: one at a time, that of the
+// scene's service. An export works on copies on a thread of its own.
 #pragma once
 
 #include <cstddef>
@@ -17,6 +18,7 @@
 #include <variant>
 #include <vector>
 
+#include "scene/scene_part.hpp"
 #include "sculpt/finishing.hpp"
 #include "sculpt/sculpture.hpp"
 #include "sculpt/stroke_reader.hpp"
@@ -67,45 +69,38 @@ struct SurfaceUpdate {
     std::vector<ExportOutcome> exports;  // that have ended, for the user as well
 };
 
-// Inputs of an update besides the orders before it; with them a recording can repeat the update.
-struct UpdateSeen {
-    Nanoseconds time_ns = 0;
-    std::uint64_t last_tick = 0;  // tick of the last stroke sample that it read
-    std::size_t orders = 0;       // orders carried out just before it; counted by whoever gives them
-    bool export_ended = false;    // it was the first to find the export complete
-    friend bool operator==(const UpdateSeen&, const UpdateSeen&) = default;
-};
-
-class SculptService {
+class CarvedPart final : public scene::ScenePart {
 public:
     // Tiles baked in one update: few while the tool works, more while it rests.
     static constexpr std::size_t kLitWorking = 4, kLitResting = 16;
+    // Between updates while something changes, and at rest.
+    static constexpr Nanoseconds kBusy_ns = 10'000'000, kResting_ns = 40'000'000;
 
-    // sculpture and channels must outlive the service. `reach_m` is how far the tool may move until the next update.
-    // With `undo_bytes` the service has the sculpture keep a history within that much memory, and passes its notices
-    // on; without, a history that the sculpture keeps remains the caller's affair.
-    SculptService(Sculpture& sculpture, haptics::HapticChannels& channels, const Tool& tool, double hardness_Ns_per_m3,
-                  double reach_m, std::optional<std::size_t> undo_bytes);
-    ~SculptService();
+    // sculpture must outlive the part. `hand` is the one that carves. With `undo_bytes` the part has the sculpture keep
+    // a history within that much memory, and passes its notices on; without, a history that the sculpture keeps remains
+    // the caller's affair.
+    CarvedPart(Sculpture& sculpture, const Tool& tool, double hardness_Ns_per_m3, std::optional<std::size_t> undo_bytes,
+               std::size_t hand = 0);
+    ~CarvedPart() override;
 
-    // Sets where the tool is before the first sample.
-    void start_at(const Vec3& position_object) { reader_.start_at(position_object); }
     // Carries out an order. One that fails leaves the solid as it was and a message in the next surface update.
     void order(const SculptOrder& order);
-    // Carves what the hand has done since the last update, and publishes the surface around the tool. Each release of
-    // the button ends a stroke, which is what one undo takes back. Fails when the engine does; the solid is then as it
-    // was before the update. `recorded` limits the update to the samples that a recorded one read, and has it wait for
-    // an export that the recorded one found complete.
-    [[nodiscard]] Result<void> update(Nanoseconds now_ns, const UpdateSeen* recorded = nullptr);
-    [[nodiscard]] Result<void> repeat(const UpdateSeen& recorded) { return update(recorded.time_ns, &recorded); }
-    // Returns the inputs of the last update; `orders` is 0 unless it was given.
-    [[nodiscard]] const UpdateSeen& seen() const { return seen_; }
+    // Returns the radius of a ball about the tool's place that holds the tool and what the tick looks at around it.
+    [[nodiscard]] double around_m() const { return reader_.around_m(); }
+
+    // ScenePart. Each release of the button ends a stroke, which is what one undo takes back. Fails when the engine
+    // does. A repeated update waits for an export that the recorded one found complete. finish() waits for the export
+    // under way, if any.
+    void take_samples(std::size_t hand, std::span<const haptics::StrokeSample> samples) override;
+    [[nodiscard]] Result<void> update(Nanoseconds now_ns, const scene::PartSeen* recorded) override;
+    [[nodiscard]] const scene::PartSeen& seen() const override { return seen_; }
+    [[nodiscard]] Result<void> add_near(const scene::ProbeBall& ball, geometry::LocalSurface& draft) override;
+    void after_publication() override;
+    [[nodiscard]] Nanoseconds period_ns() const override { return busy_ ? kBusy_ns : kResting_ns; }
+    void finish() override;
+
     // Returns nullopt when nothing has changed.
     [[nodiscard]] std::optional<SurfaceUpdate> take_surface_update();
-    // Waits for the export under way, if any.
-    void finish_export();
-    // Returns the number of local surfaces published so far.
-    [[nodiscard]] std::uint64_t published() const { return sequence_; }
 
 private:
     void carry_out(const UseTool& use);
@@ -116,22 +111,27 @@ private:
     void drop_invalid(std::vector<compute::ToolSweep>& sweeps);
     void notify(std::string message);
     [[nodiscard]] bool export_is_done() const;
-    [[nodiscard]] Result<void> publish(Nanoseconds now_ns);
+    [[nodiscard]] bool has_news() const;
 
     Sculpture& sculpture_;
-    haptics::HapticChannels& channels_;
     StrokeReader reader_;
-    double reach_m_;
     bool keeps_history_;
-    std::uint64_t sequence_ = 0;  // of the last local surface
+    std::size_t hand_;
+    Vec3 tool_object_{0.0};       // as of the last publication
     bool stroke_open_ = false;    // the button was down at the end of the last update
     bool status_changed_ = true;  // something other than tiles and messages has to be reported
+    bool busy_ = true;            // there was something to report after the last update
     std::future<ExportOutcome> export_;
     std::optional<Error> refused_;  // why the tool that was asked for last cannot carve; nothing does until another
     bool said_why_ = false;         // this stroke's user has been told why nothing is carved
     std::vector<std::string> messages_;
     std::vector<ExportOutcome> exports_;  // that have ended and nobody knows of
-    UpdateSeen seen_;
+    scene::PartSeen seen_;
 };
+
+// Merges a later surface update into one that nobody has taken yet.
+void merge(SurfaceUpdate& into, SurfaceUpdate later);
+// Merges a later surface update, if there is one, into one that may not exist yet.
+void add(std::optional<SurfaceUpdate>& to, std::optional<SurfaceUpdate> later);
 
 }  // namespace burin::sculpt

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "study/folder/digest.hpp"
+#include "base/sha256.hpp"
 
 #include <array>
 #include <bit>
 #include <cstdint>
 
-namespace burin::study {
+namespace burin {
 namespace {
 
 // The fractional parts of the cube roots of the first 64 primes (FIPS 180-4, 4.2.2).
@@ -67,4 +67,4 @@ std::string sha256(std::string_view bytes) {
     return hex;
 }
 
-}  // namespace burin::study
+}  // namespace burin

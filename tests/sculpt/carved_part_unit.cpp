@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <mutex>
+#include <thread>
 
 #include "haptics/tick.hpp"
-#include "sculpt/sculpt_thread.hpp"
+#include "scene/scene_thread.hpp"
+#include "sculpt/carved_scene.hpp"
 #include "sculpt/workpiece.hpp"
 #include "tests/support/run_command.hpp"
 
@@ -18,7 +21,7 @@ struct Bench {
     WorkerPool pool{1};
     Sculpture carving;
     haptics::HapticChannels channels;
-    SculptService desk;
+    CarvedScene desk;
 
     explicit Bench(const Vec3& place = Vec3(0.0))
         : carving(engine(pool, place), pool), desk(carving, channels, tool(), 0.0, 0.02, 1 << 24) {
@@ -48,7 +51,7 @@ struct Bench {
 
 }  // namespace
 
-TEST(SculptService, OnePressIsOneUndoAlsoWhereTheToolLosesTouch) {
+TEST(CarvedPart, OnePressIsOneUndoAlsoWhereTheToolLosesTouch) {
     Bench bench;
     ASSERT_TRUE(bench.desk.update(0));
     static_cast<void>(bench.desk.take_surface_update());
@@ -64,7 +67,7 @@ TEST(SculptService, OnePressIsOneUndoAlsoWhereTheToolLosesTouch) {
     EXPECT_EQ(news->undoable, 1u);
 }
 
-TEST(SculptService, OneStrokeIsOneUndoAndNewsTellOnlyWhatChanged) {
+TEST(CarvedPart, OneStrokeIsOneUndoAndNewsTellOnlyWhatChanged) {
     Bench bench;
     ASSERT_TRUE(bench.desk.update(0));
     const auto first = bench.desk.take_surface_update();
@@ -90,25 +93,31 @@ TEST(SculptService, OneStrokeIsOneUndoAndNewsTellOnlyWhatChanged) {
 
 // Orders come while strokes are carved on another thread; what is left is what the same orders leave one after the
 // other.
-TEST(SculptThread, CarvesAndTakesOrdersBesideTheFrame) {
+TEST(CarvedPart, CarvesAndTakesOrdersBesideTheFrame) {
     MonotonicClock clock;
     Bench bench;
-    SculptThread thread(bench.desk, clock, [] {});
+    std::mutex mutex;
+    std::optional<SurfaceUpdate> seen;
+    scene::SceneThread thread(bench.desk.service(), clock, [&](const scene::SceneThread::Ended&) {
+        const std::lock_guard lock(mutex);
+        add(seen, bench.desk.take_surface_update());
+    });
     bench.stroke();
     thread.start();
-    std::optional<SurfaceUpdate> seen;
-    const auto gather_until = [&](auto&& enough) {
-        for (int i = 0; i < 3000 && !(seen && enough(*seen)); ++i) {  // a guard against hanging, not a measure
-            add(seen, thread.take_surface_update().surface);
+    const auto wait_until = [&](auto&& enough) {
+        for (int i = 0; i < 3000; ++i) {  // a guard against hanging, not a measure
+            {
+                const std::lock_guard lock(mutex);
+                if (seen && enough(*seen)) return true;
+            }
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
+        return false;
     };
-    gather_until([](const SurfaceUpdate& n) { return n.undoable == 1; });
-    ASSERT_TRUE(seen && seen->undoable == 1);
-    thread.order(UndoStroke{});
-    gather_until([](const SurfaceUpdate& n) { return n.redoable == 1; });
-    ASSERT_EQ(seen->redoable, 1u);
-    thread.order(RedoStroke{});
+    ASSERT_TRUE(wait_until([](const SurfaceUpdate& n) { return n.undoable == 1; }));
+    thread.order([&] { bench.desk.order(UndoStroke{}); });
+    ASSERT_TRUE(wait_until([](const SurfaceUpdate& n) { return n.redoable == 1; }));
+    thread.order([&] { bench.desk.order(RedoStroke{}); });
     thread.stop();  // carries out what was ordered
     EXPECT_FALSE(thread.failure());
     EXPECT_EQ(bench.carving.history()->undoable(), 1u);
@@ -146,7 +155,7 @@ void expect_each_is_undone_alone(Bench& bench, const std::vector<double>& stroke
 }
 }  // namespace
 
-TEST(SculptService, EachReleaseOfTheButtonEndsAStrokeThatIsUndoneAlone) {
+TEST(CarvedPart, EachReleaseOfTheButtonEndsAStrokeThatIsUndoneAlone) {
     const std::vector<double> strokes{-0.05, 0.0, 0.05};
     Bench bench;
     for (const double x : strokes) {  // as in a session: pressed over several updates, released in a later one
@@ -160,7 +169,7 @@ TEST(SculptService, EachReleaseOfTheButtonEndsAStrokeThatIsUndoneAlone) {
     expect_each_is_undone_alone(bench, strokes);
 }
 
-TEST(SculptService, QuickClicksAreStrokesOfTheirOwnAlsoWithinOneUpdate) {
+TEST(CarvedPart, QuickClicksAreStrokesOfTheirOwnAlsoWithinOneUpdate) {
     const std::vector<double> strokes{-0.05, 0.0, 0.05};
     Bench bench;
     press_at(bench, strokes[0]);  // pressed and released between two updates
@@ -176,7 +185,7 @@ TEST(SculptService, QuickClicksAreStrokesOfTheirOwnAlsoWithinOneUpdate) {
 }
 
 // What a file holds can be had back: an undo after it takes away only what was carved since.
-TEST(SculptService, AnExportInMidStrokeEndsTheStroke) {
+TEST(CarvedPart, AnExportInMidStrokeEndsTheStroke) {
     const Workplace place;
     Bench bench;
     press_at(bench, -0.05);
@@ -261,7 +270,7 @@ bool said(Bench& bench, const std::string& part) {
 
 }  // namespace
 
-TEST(SculptService, AStrokeOverSeveralUpdatesCarvesWhatItDoesInOne) {
+TEST(CarvedPart, AStrokeOverSeveralUpdatesCarvesWhatItDoesInOne) {
     Bench whole, parts;
     for (int i = 0; i < 12; ++i) {  // 15 mm a sample: what lies between two of them is swept
         const Vec3 at(0.015 * i - 0.08, 0.0, 0.08);
@@ -278,7 +287,7 @@ TEST(SculptService, AStrokeOverSeveralUpdatesCarvesWhatItDoesInOne) {
     EXPECT_NEAR(removed_m3(parts) / removed_m3(whole), 1.0, 1e-4);
 }
 
-TEST(SculptService, NothingIsCarvedWhileTheWorkspaceMoves) {
+TEST(CarvedPart, NothingIsCarvedWhileTheWorkspaceMoves) {
     Bench bench;
     for (const haptics::WorkspacePhase phase :
          {haptics::WorkspacePhase::paused, haptics::WorkspacePhase::dragging, haptics::WorkspacePhase::jumping,
@@ -289,7 +298,7 @@ TEST(SculptService, NothingIsCarvedWhileTheWorkspaceMoves) {
     EXPECT_GT(changed_rays(bench), 0u);
 }
 
-TEST(SculptService, FillingWorksWhereTheToolRestsAndPaintingOnlyWhereItTouches) {
+TEST(CarvedPart, FillingWorksWhereTheToolRestsAndPaintingOnlyWhereItTouches) {
     {
         Bench bench;  // the hand is deep inside, where there is nothing to fill
         bench.desk.order(UseTool{tool_for(compute::Operation::fill), {"skin"}, 0.0});
@@ -304,7 +313,7 @@ TEST(SculptService, FillingWorksWhereTheToolRestsAndPaintingOnlyWhereItTouches) 
     EXPECT_GT(changed_rays(bench), 0u);
 }
 
-TEST(SculptService, AToolThatCannotSmoothCarvesNothingSaysWhyAndLeavesTheRestAlone) {
+TEST(CarvedPart, AToolThatCannotSmoothCarvesNothingSaysWhyAndLeavesTheRestAlone) {
     Bench bench;
     // More than a hundred cells of 6.25 mm.
     Tool smooth = tool_for(compute::Operation::smooth);
@@ -321,7 +330,7 @@ TEST(SculptService, AToolThatCannotSmoothCarvesNothingSaysWhyAndLeavesTheRestAlo
     EXPECT_GT(changed_rays(bench), 0u);
 }
 
-TEST(SculptService, ASampleThatCannotBeCarvedIsLeftOutAndSaidOnceAStroke) {
+TEST(CarvedPart, ASampleThatCannotBeCarvedIsLeftOutAndSaidOnceAStroke) {
     Bench bench;
     bench.sample({0.0, 0.0, 0.1}, true);
     for (int i = 0; i < 3; ++i) bench.sample({1e9, 0.0, 0.1}, true);
@@ -332,7 +341,7 @@ TEST(SculptService, ASampleThatCannotBeCarvedIsLeftOutAndSaidOnceAStroke) {
     EXPECT_FALSE(said(bench, "too far")) << "once a stroke";
 }
 
-TEST(SculptService, ExportsAFarWorkpieceOnlyWhereNumbersSuffice) {
+TEST(CarvedPart, ExportsAFarWorkpieceOnlyWhereNumbersSuffice) {
     const Workplace place;
     Bench bench{Vec3(1e6, 0.0, 0.0)};
     bench.desk.order(ExportSurface{(place / "far.stl").string()});
@@ -345,7 +354,7 @@ TEST(SculptService, ExportsAFarWorkpieceOnlyWhereNumbersSuffice) {
     EXPECT_EQ(place.files(), 1u);
 }
 
-TEST(SculptService, AnotherToolBeginsWhereItIsAndNotWhereTheOldOneWas) {
+TEST(CarvedPart, AnotherToolBeginsWhereItIsAndNotWhereTheOldOneWas) {
     const auto carved = [](bool begins_apart) {
         Bench bench;
         bench.sample({-0.08, 0.0, 0.08}, true);
@@ -362,7 +371,7 @@ TEST(SculptService, AnotherToolBeginsWhereItIsAndNotWhereTheOldOneWas) {
     EXPECT_TRUE(carved(false).same_content(carved(true))) << "nothing between the two was swept";
 }
 
-TEST(SculptService, EachUpdateHandsTouchASurfaceOfItsOwnNumberAndTime) {
+TEST(CarvedPart, EachUpdateHandsTouchASurfaceOfItsOwnNumberAndTime) {
     Bench bench;
     for (std::uint64_t i = 1; i <= 3; ++i) {
         ASSERT_TRUE(bench.desk.update(static_cast<Nanoseconds>(i) * 10'000'000));

@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-namespace burin::study {
+namespace burin {
 
 // 64 hexadecimal digits, small letters.
 [[nodiscard]] std::string sha256(std::string_view bytes);
 
-}  // namespace burin::study
+}  // namespace burin

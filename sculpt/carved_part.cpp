@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "sculpt/sculpt_service.hpp"
+#include "sculpt/carved_part.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <iterator>
 #include <utility>
 
 #include "compute/tools/apply.hpp"
@@ -37,26 +39,29 @@ ExportOutcome export_surface(const compute::Surface& surface, const compute::Sol
 
 }  // namespace
 
-SculptService::SculptService(Sculpture& sculpture, haptics::HapticChannels& channels, const Tool& tool,
-                             double hardness_Ns_per_m3, double reach_m, std::optional<std::size_t> undo_bytes)
+CarvedPart::CarvedPart(Sculpture& sculpture, const Tool& tool, double hardness_Ns_per_m3,
+                       std::optional<std::size_t> undo_bytes, std::size_t hand)
     : sculpture_(sculpture),
-      channels_(channels),
-      reader_(channels, tool, hardness_Ns_per_m3, sculpture.surface().lattice().spacing_m),
-      reach_m_(reach_m),
-      keeps_history_(undo_bytes.has_value()) {
+      reader_(tool, hardness_Ns_per_m3, sculpture.surface().lattice().spacing_m),
+      keeps_history_(undo_bytes.has_value()),
+      hand_(hand) {
     if (undo_bytes) sculpture_.keep_history(*undo_bytes);
 }
 
-SculptService::~SculptService() { finish_export(); }
+CarvedPart::~CarvedPart() { CarvedPart::finish(); }
 
 // ---- Updates
 
-Result<void> SculptService::update(Nanoseconds now_ns, const UpdateSeen* recorded) {
-    seen_ = recorded != nullptr ? *recorded : UpdateSeen{.time_ns = now_ns, .export_ended = export_is_done()};
-    if (seen_.export_ended) finish_export();
+void CarvedPart::take_samples(std::size_t hand, std::span<const haptics::StrokeSample> samples) {
+    if (hand == hand_) reader_.take(samples);
+}
+
+Result<void> CarvedPart::update(Nanoseconds, const scene::PartSeen* recorded) {
+    seen_ = recorded != nullptr ? *recorded : scene::PartSeen{export_is_done()};
+    if (seen_.background_ended) finish();
     SweptSamples swept;
     do {
-        swept = reader_.read(recorded != nullptr ? recorded->last_tick : UINT64_MAX);
+        swept = reader_.read();
         drop_invalid(swept.sweeps);
         if (!swept.sweeps.empty()) {
             if (const auto updated = sculpture_.update(swept.sweeps); !updated) return updated;
@@ -66,20 +71,27 @@ Result<void> SculptService::update(Nanoseconds now_ns, const UpdateSeen* recorde
             said_why_ = false;
         }
     } while (swept.stroke_ended);
-    seen_.last_tick = reader_.last_tick();
-    if (const auto published = publish(now_ns); !published) return published;
+    return {};
+}
+
+Result<void> CarvedPart::add_near(const scene::ProbeBall& ball, geometry::LocalSurface& draft) {
+    if (ball.hand == hand_) tool_object_ = ball.center_scene;
+    return sculpture_.local_surface(ball.center_scene, ball.radius_m, draft);
+}
+
+void CarvedPart::after_publication() {
     if (stroke_open_ && !reader_.pressed()) status_changed_ = true;
     stroke_open_ = reader_.pressed();
-    sculpture_.bake_light(reader_.tool_position_object(), stroke_open_ ? kLitWorking : kLitResting);
+    sculpture_.bake_light(tool_object_, stroke_open_ ? kLitWorking : kLitResting);
     if (keeps_history_) {
         for (const std::string& notice : sculpture_.history()->take_notices()) notify(notice);
     }
-    return {};
+    busy_ = has_news();
 }
 
 // Drops sweeps that cannot be carved, such as smoothing too far at once, and says why once a stroke: a session that
 // ended for one of them would lose all others.
-void SculptService::drop_invalid(std::vector<compute::ToolSweep>& sweeps) {
+void CarvedPart::drop_invalid(std::vector<compute::ToolSweep>& sweeps) {
     const compute::Solid& solid = sculpture_.engine().solid();
     std::erase_if(sweeps, [&](const compute::ToolSweep& sweep) {
         std::optional<Error> why = refused_;
@@ -89,19 +101,11 @@ void SculptService::drop_invalid(std::vector<compute::ToolSweep>& sweeps) {
     });
 }
 
-Result<void> SculptService::publish(Nanoseconds now_ns) {
-    geometry::LocalSurface& surface = channels_.surface.draft();
-    const double radius_m = reader_.around_m() + reach_m_;
-    if (const auto done = sculpture_.local_surface(reader_.tool_position_object(), radius_m, surface); !done) {
-        return done;
-    }
-    surface.sequence = ++sequence_;
-    surface.made_ns = now_ns;
-    channels_.surface.publish();
-    return {};
+bool CarvedPart::has_news() const {
+    return sculpture_.has_changed_tiles() || !messages_.empty() || !exports_.empty() || status_changed_;
 }
 
-std::optional<SurfaceUpdate> SculptService::take_surface_update() {
+std::optional<SurfaceUpdate> CarvedPart::take_surface_update() {
     SurfaceUpdate update;
     const compute::SurfaceLight* light = sculpture_.light();
     for (const std::uint32_t tile : sculpture_.take_changed_tiles()) {
@@ -124,12 +128,12 @@ std::optional<SurfaceUpdate> SculptService::take_surface_update() {
 
 // ---- Orders
 
-void SculptService::order(const SculptOrder& order) {
+void CarvedPart::order(const SculptOrder& order) {
     std::visit([this](const auto& one) { carry_out(one); }, order);
     status_changed_ = true;
 }
 
-void SculptService::carry_out(const UseTool& use) {
+void CarvedPart::carry_out(const UseTool& use) {
     const Result<std::uint8_t> material = sculpture_.add_material(use.material);
     if (!material) return notify(material.error().line());
     Tool tool = use.tool;
@@ -142,21 +146,21 @@ void SculptService::carry_out(const UseTool& use) {
     reader_.use_tool(tool, use.hardness_Ns_per_m3);
 }
 
-void SculptService::carry_out(const UndoStroke&) {
+void CarvedPart::carry_out(const UndoStroke&) {
     sculpture_.end_stroke();
     const Result<std::size_t> undone = sculpture_.undo(1);
     if (!undone) return notify(undone.error().line());
     if (*undone == 0) notify("there is no stroke to undo");
 }
 
-void SculptService::carry_out(const RedoStroke&) {
+void CarvedPart::carry_out(const RedoStroke&) {
     const Result<std::size_t> redone = sculpture_.redo(1);
     if (!redone) return notify(redone.error().line());
     if (*redone == 0) notify("there is no stroke to redo");
 }
 
 // Copies the surface and the rays: tiles are shared, so the rays are the only large part of the copy.
-void SculptService::carry_out(const ExportSurface& wanted) {
+void CarvedPart::carry_out(const ExportSurface& wanted) {
     const auto refuse = [&](const Error& why) { exports_.push_back({why.line(), wanted.path, wanted.asked_by}); };
     if (export_.valid()) return refuse({"an export is under way", "", "wait for it to end"});
     if (const auto ok = check_precision(wanted.path, sculpture_.surface().lattice()); !ok) return refuse(ok.error());
@@ -166,20 +170,48 @@ void SculptService::carry_out(const ExportSurface& wanted) {
                                               wanted] { return export_surface(surface, solid, wanted); });
 }
 
-void SculptService::carry_out(const LightFrom& from) {
+void CarvedPart::carry_out(const LightFrom& from) {
     if (const auto kept = sculpture_.keep_light(from.lamp_object); !kept) notify(kept.error().line());
 }
 
-void SculptService::notify(std::string message) { messages_.push_back(std::move(message)); }
+void CarvedPart::notify(std::string message) { messages_.push_back(std::move(message)); }
 
-bool SculptService::export_is_done() const {
+bool CarvedPart::export_is_done() const {
     return export_.valid() && export_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
-void SculptService::finish_export() {
+void CarvedPart::finish() {
     if (!export_.valid()) return;
     exports_.push_back(export_.get());
     status_changed_ = true;
+}
+
+// ---- Merging what has not been taken
+
+void add(std::optional<SurfaceUpdate>& to, std::optional<SurfaceUpdate> later) {
+    if (to && later) {
+        merge(*to, std::move(*later));
+    } else if (later) {
+        to = std::move(later);
+    }
+}
+
+void merge(SurfaceUpdate& into, SurfaceUpdate later) {
+    for (TileUpdate& tile : later.tiles) {
+        const auto known = std::ranges::find(into.tiles, tile.tile, &TileUpdate::tile);
+        if (known == into.tiles.end()) {
+            into.tiles.push_back(std::move(tile));
+        } else {
+            *known = std::move(tile);
+        }
+    }
+    into.inner_boxes_object = std::move(later.inner_boxes_object);
+    into.cut_ns = std::max(into.cut_ns, later.cut_ns);
+    into.undoable = later.undoable;
+    into.redoable = later.redoable;
+    into.exporting = later.exporting;
+    std::ranges::move(later.messages, std::back_inserter(into.messages));
+    std::ranges::move(later.exports, std::back_inserter(into.exports));
 }
 
 }  // namespace burin::sculpt

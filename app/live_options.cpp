@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "app/live_options.hpp"
+
+#include "devices/haptic/device_registry.hpp"
+#include "devices/trackers/tracker.hpp"
+
+namespace burin::app {
+
+void add_live_options(Command command, session::LiveOptions& options) {
+    command.flag("--live", options.live,
+                 "Open a window to carve in; also without this when neither a stroke nor an output is given");
+    command.option("--input", options.input,
+                   "A recording, done again as it was; or a written log of a session's input, in its user's place, in "
+                   "simulated time");
+    command.option("--record", options.record,
+                   "A new file for all that the session depends on; with --input that log is played in real time. With "
+                   "--hand simulated and --stroke: a session file with every tick (burin session info FILE)");
+    command.flag("--offscreen", options.offscreen, "With --input: no window, only screenshots");
+    command.option("--stereo", options.stereo, "side-by-side, anaglyph-red-cyan, row-interlaced, ...; else mono");
+    command.flag("--swap-eyes", options.swap_eyes, "For exchanged cables or glasses");
+    command.option("--wall", options.wall,
+                   "A wall file: its screens, each on its monitor or display, its eyes and its tracker");
+    command.option("--tracker", options.tracker, "Where head and wands are heard: " + devices::tracker_usage());
+    command.option("--device", options.device, "The force-feedback device; " + devices::haptic_usage()).show_default();
+    command.flag("--windowed", options.windowed,
+                 "With --wall: its screens in windows, fitted into --width by --height");
+    command.option("--full-screen", options.full_screen, "Fill this monitor: its name or index");
+    command.option("--width", options.width, "Of the window, in pixels").within(64, 8192).show_default();
+    command.option("--height", options.height, "Of the window, in pixels").within(64, 8192).show_default();
+    command.option("--samples", options.samples, "A pixel: 1 or 4; 0: 4, but 1 on a software device")
+        .one_of({0, 1, 4})
+        .show_default();
+    command.option("--screenshots", options.screenshots, "The folder for the session's screenshots");
+    command.option("--outputs", options.outputs,
+                   "With --input: the folder below which all its files go; else one in the working folder, named after "
+                   "the log: LOG-outputs");
+}
+
+}  // namespace burin::app

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// What a recorded tick was computed from, read back from its columns: the device's sample, the mapping into the scene,
+// times and sequence numbers. With the surface of that number it gives the same tick (haptics/haptic_loop.hpp,
+// repeat()). Pure; any thread.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "record/row_walk.hpp"
+
+namespace burin::record {
+
+struct RecordedTick {
+    std::int64_t tick = 0;
+    Nanoseconds time_ns = 0, lateness_ns = 0;
+    devices::DeviceSample sample;
+    Similarity object_from_device;
+    std::uint64_t surface_sequence = 0;
+    std::uint64_t parameter_sequence = 0;
+};
+
+// Finds the columns of a hand once, and reads ticks by them.
+class MotionColumns {
+public:
+    // Fails on a table that lacks one of them.
+    [[nodiscard]] static Result<MotionColumns> find(const RecordReader& reader, std::size_t hand);
+    // Requires the block to be of that hand.
+    [[nodiscard]] RecordedTick at(const Block& block, std::uint32_t row) const;
+
+private:
+    std::vector<std::size_t> integers_, doubles_, bits_, joints_;  // columns by type, in the order in which at() reads
+};
+
+}  // namespace burin::record

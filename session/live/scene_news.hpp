@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// What the parts of a scene report to the frames. Collected on the scene's thread after each of its updates, taken on
+// the frame's; each report keeps the number of its update, so that a frame that has taken so many updates, live or in a
+// replay, sees the results of these and of no other. Neither thread waits for the other's work.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "haptics/histogram.hpp"
+#include "scene/mesh_part.hpp"
+#include "scene/scene_thread.hpp"
+#include "sculpt/carved_part.hpp"
+
+namespace burin::session {
+
+class SceneNews {
+public:
+    // Sets whose reports are collected, before the first update; they must outlive this. Null: the scene has no such
+    // part.
+    void report_of(sculpt::CarvedPart* carved, scene::MeshPart* meshes, const scene::MaterialTable* materials) {
+        carved_ = carved;
+        meshes_ = meshes;
+        materials_ = materials;
+    }
+    // Keeps a message for the user with the next report. The scene's thread.
+    void notify(std::string message) { messages_.push_back(std::move(message)); }
+
+    // Collects what the update that has just ended has to report; returns whether it is anything. The scene's thread.
+    bool collect(const scene::SceneThread::Ended& update);
+    // Returns what the first `updates` of all collected updates have reported since the last call. The frame's thread.
+    struct Taken {
+        std::optional<sculpt::SurfaceUpdate> surface;
+        std::vector<scene::ObjectUpdate> objects;       // the newest last
+        std::optional<scene::MaterialTable> materials;  // if it has changed
+        std::vector<std::string> messages;
+    };
+    [[nodiscard]] Taken take(std::uint64_t updates);
+    // Returns the durations of the updates in which the carved surface changed. Any thread.
+    [[nodiscard]] const haptics::Histogram& carving_duration() const { return carving_duration_; }
+
+private:
+    struct Report {
+        std::uint64_t update = 0;  // counted from 1
+        Taken news;
+    };
+    sculpt::CarvedPart* carved_ = nullptr;
+    scene::MeshPart* meshes_ = nullptr;
+    const scene::MaterialTable* materials_ = nullptr;
+    std::uint64_t materials_version_ = 0;  // as reported last
+    std::vector<std::string> messages_;
+    haptics::Histogram carving_duration_;
+    std::mutex mutex_;  // guards the members below
+    std::uint64_t updates_ = 0;
+    std::deque<Report> reports_;
+};
+
+}  // namespace burin::session

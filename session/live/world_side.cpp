@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include "session/live/world_side.hpp"
+
+#include <cstdio>
+#include <utility>
+
+#include "scene/vrml_world.hpp"
+
+namespace burin::session {
+
+Result<scene::World> read_sound_world(const std::string& path) {
+    scene::WorldOrProblems world = scene::read_any_world(path);
+    if (world) {
+        for (const std::string& remark : world->remarks) std::fprintf(stderr, "burin: %s\n", remark.c_str());
+        return std::move(*world);
+    }
+    if (world.error().size() == 1) return std::unexpected(world.error().front());
+    for (const Error& problem : world.error()) std::fprintf(stderr, "burin: %s\n", problem.line().c_str());
+    return fail(path, std::to_string(world.error().size()) + " problems", "correct them; burin world check lists them");
+}
+
+Result<std::unique_ptr<WorldSide>> WorldSide::create(scene::World world) {
+    std::unique_ptr<WorldSide> side(new WorldSide(world));
+    auto objects = std::make_shared<WorldObjects>();
+    objects->name = std::move(world.name);
+    for (const scene::SceneObject& object : world.objects)
+        objects->objects.push_back(std::make_shared<const scene::SceneObject>(object));
+    Result<std::unique_ptr<scene::MeshPart>> part = scene::MeshPart::create(std::move(world.objects), side->materials_);
+    if (!part) return std::unexpected(part.error());
+    side->part_ = std::move(*part);
+    objects->materials = side->materials_;
+    side->objects_ = std::move(objects);
+    return side;
+}
+
+}  // namespace burin::session

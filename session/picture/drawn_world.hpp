@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The objects of a world as pictures show them: a mesh for each, where it is, and its colour. Objects with one mesh
+// share what is drawn of it.
+// Frame: the scene's, metres. One thread, that of the frames.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "renderer/scene/scene.hpp"
+#include "scene/mesh_part.hpp"
+
+namespace burin::session {
+
+class DrawnWorld {
+public:
+    // The objects as they are at the beginning.
+    explicit DrawnWorld(std::span<const scene::SceneObject> objects);
+
+    // Takes over what has changed.
+    void take(std::span<const scene::ObjectUpdate> updates);
+    // Returns the objects that are seen, where the scene is in the world.
+    [[nodiscard]] std::vector<renderer::DrawnObject> in_world(const Similarity& world_from_scene) const;
+    // Returns the bounds of all that was seen at the beginning, in the scene; empty where nothing was.
+    [[nodiscard]] const Box& bounds_scene() const { return bounds_scene_; }
+
+private:
+    struct Seen {
+        std::shared_ptr<const renderer::DrawnMesh> mesh;
+        Similarity scene_from_mesh;
+        bool seen = true;
+        Vec3 colour{};
+    };
+    std::map<scene::ObjectId, Seen> objects_;
+    Box bounds_scene_;
+};
+
+}  // namespace burin::session

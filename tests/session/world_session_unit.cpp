@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+// A live session of a world: what commands change of its objects, and what is refused.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "session/drive/session_frames.hpp"
+#include "session/live/live_session.hpp"
+#include "session/state/session_settings.hpp"
+#include "tests/support/run_command.hpp"
+
+namespace burin::session {
+namespace {
+
+const std::string kTetrahedron = "OFF\n4 4 0\n0 0 0\n0.1 0 0\n0 0.1 0\n0 0 0.1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+
+std::string object_text(const std::string& name, const std::string& more) {
+    return "[[object]]\nname = \"" + name + "\"\nmesh = \"t.off\"\nmesh_units = \"m\"\n" + more + "\n";
+}
+
+// A world of a rock and a bird that flies up and down, with or without a ball that can be carved.
+class OpenWorld {
+public:
+    explicit OpenWorld(bool with_workpiece = false) {
+        place_.write("t.off", kTetrahedron);
+        place_.write("w.toml", object_text("rock", "material = { stiffness = 900 }") +
+                                   object_text("bird",
+                                               "position = [0.2, 0.1, 0.0]\nmaterial = { stiffness = 200 }\n"
+                                               "[[object.path]]\ntime = 0.0\n[[object.path]]\ntime = 1.0\n"
+                                               "position = [0.0, 0.05, 0.0]\n[[object.path]]\ntime = 2.0"));
+        options.world = (place_ / "w.toml").string();
+        options.no_workpiece = !with_workpiece;
+        options.workpiece = {"ball:0.03", 32, false};
+        options.engine = sculpt::EngineChoice::cpu;
+        auto made = LiveSession::create(options, session_wall(options.live).value(), clock);
+        if (!made) throw std::runtime_error(made.error().line());
+        session = std::move(*made);
+        session->take_loaded();
+    }
+    // A frame with these commands; then the scene has updated and the frame knows of it.
+    void frame(const std::vector<CommandInput>& commands) {
+        clock.sleep_until(clock.now_ns() + 10'000'000);
+        std::vector<InputEvent> events;
+        for (const CommandInput& command : commands) events.push_back({clock.now_ns(), command});
+        session->step({clock.now_ns(), clock.now_ns(), events}, {.size = {640, 360}}, session->newest_tool(),
+                      [](const scene::SceneThread::Order& order) { order(); });
+        ASSERT_TRUE(session->scene().update(clock.now_ns()));
+        static_cast<void>(session->collect({}));
+        session->take_news(Executor::kAllCollected);
+    }
+    [[nodiscard]] std::vector<double> stiffnesses() {
+        std::vector<double> found;
+        for (const auto& material : session->channels().parameters.newest().materials)
+            found.push_back(material.stiffness_N_per_m);
+        return found;
+    }
+    [[nodiscard]] bool feels(double stiffness_N_per_m) {
+        const std::vector<double> all = stiffnesses();
+        return std::ranges::find(all, stiffness_N_per_m) != all.end();
+    }
+
+    SculptOptions options;
+    SimulatedClock clock;
+    std::unique_ptr<LiveSession> session;
+
+private:
+    Workplace place_;
+};
+
+std::string told_by(OpenWorld& world, const std::vector<CommandInput>& commands) {
+    testing::internal::CaptureStderr();
+    world.frame(commands);
+    return testing::internal::GetCapturedStderr();
+}
+
+}  // namespace
+
+TEST(WorldSession, ItsMaterialsAreThoseOfTheTick) {
+    OpenWorld world;
+    EXPECT_TRUE(world.feels(900.0) && world.feels(200.0));
+    EXPECT_EQ(world.session->channels().parameters.newest().action, haptics::ToolAction::touch);
+    world.frame({{"object", {"rock", "stiffness", "333"}}});
+    EXPECT_TRUE(world.feels(333.0) && world.feels(200.0));
+    EXPECT_FALSE(world.feels(900.0)) << "nothing feels like it any more";
+    EXPECT_EQ(world.session->state().world->find(1)->material.stiffness_N_per_m, 333.0);
+}
+
+TEST(WorldSession, CommandsMoveAndHideObjects) {
+    OpenWorld world;
+    world.frame({{"object", {"rock", "position", "0.3,0,0"}}, {"object", {"bird", "seen", "off"}}});
+    EXPECT_EQ(world.session->objects()->pose(1).position_m, Vec3(0.3, 0.0, 0.0));
+    const auto scene = world.session->scene_on(0);
+    ASSERT_TRUE(scene);
+    EXPECT_EQ(scene->objects.size(), 1u) << "the bird is not seen";
+    world.frame({{"object", {"rock", "colour", "1,0,0"}}});
+    EXPECT_EQ(world.session->scene_on(0)->objects.at(0).colour, Vec3(1.0, 0.0, 0.0));
+}
+
+TEST(WorldSession, WhatMovesIsDrawnWhereItIs) {
+    OpenWorld world;
+    world.frame({});
+    const Vec3 before = world.session->scene_on(0)->objects.at(1).world_from_mesh.position_m;
+    for (int i = 0; i < 50; ++i) world.frame({});
+    const double rise = glm::length(world.session->scene_on(0)->objects.at(1).world_from_mesh.position_m - before) /
+                        world.session->state().world_from_object.scale;
+    EXPECT_GT(rise, 0.01);
+    EXPECT_LT(rise, 0.05);
+}
+
+TEST(WorldSession, RefusesWhatItDoesNotKnowAndWhatNeedsAWorkpiece) {
+    OpenWorld world;
+    EXPECT_TRUE(told_by(world, {{"object", {"rok", "stiffness", "3"}}}).contains("did you mean rock"));
+    EXPECT_TRUE(told_by(world, {{"object", {"rock", "stiffness", "-3"}}}).contains("stiffness"));
+    EXPECT_TRUE(told_by(world, {{"undo", {}}}).contains("--workpiece"));
+    EXPECT_TRUE(world.feels(900.0)) << "nothing has changed";
+}
+
+TEST(WorldSession, RefusesMoreMaterialsThanThereIsRoomFor) {
+    const scene::HapticMaterial usual;
+    WorldObjects many;
+    for (std::size_t i = 0; i <= scene::kMaxWorldMaterials; ++i) {
+        scene::SceneObject object;
+        object.id = i + 1;
+        object.name = "o" + std::to_string(i);
+        object.material.stiffness_N_per_m = 100.0 + static_cast<double>(std::min(i, scene::kMaxWorldMaterials - 1));
+        many.objects.push_back(std::make_shared<const scene::SceneObject>(object));
+    }
+    const auto one_more = edited(many, {"o15", scene::ObjectProperty::stiffness, {50.0}});
+    ASSERT_FALSE(one_more);
+    EXPECT_TRUE(one_more.error().line().contains("room for 15 materials")) << one_more.error().line();
+    EXPECT_TRUE(edited(many, {"o15", scene::ObjectProperty::stiffness, {100.0}})) << "like another";
+}
+
+TEST(WorldSession, AWorkpieceIsCarvedAmongObjects) {
+    OpenWorld world(true);
+    EXPECT_EQ(world.session->channels().parameters.newest().action, haptics::ToolAction::cut);
+    EXPECT_NE(world.session->surface(), nullptr);
+    world.frame({});
+    const geometry::LocalSurface& touched = world.session->channels().surface.newest();
+    EXPECT_GE(touched.tiles.triangles + touched.meshes.size(), 1u);
+    EXPECT_TRUE(told_by(world, {{"undo", {}}}).contains("no stroke to undo"));
+}
+
+// The hand goes into the rock's slanted face, takes hold, and goes aside: in simulated time, through the device.
+TEST(WorldSession, TheSecondButtonTakesAnObjectAlong) {
+    OpenWorld world;
+    LiveSession& s = *world.session;
+    SteppedExecutor executor(world.clock, s.loop(), s.channels(), s.scene(),
+                             [&](const auto& ended) { static_cast<void>(s.collect(ended)); });
+    const Vec3 start = s.objects()->pose(1).position_m;
+    bool touched = false;
+    const auto frame = [&](std::vector<InputEvent> events) {
+        const Nanoseconds now_ns = world.clock.now_ns() + 16'000'000;
+        ASSERT_TRUE(executor.advance_to(now_ns));
+        for (InputEvent& event : events) event.time_ns = now_ns;
+        s.step({now_ns, now_ns, events}, {.size = {640, 400}}, s.newest_tool(),
+               [&](scene::SceneThread::Order order) { executor.order(std::move(order)); });
+        s.take_news(executor.take_updates()->collected);
+        touched = touched || (s.newest_tool().flags & haptics::kTickInContact) != 0;
+    };
+    // Straight in from the front until something is touched.
+    // From the middle to before the rock's face, at the lower left of the picture.
+    frame({{0, MouseMove{{320.0, 200.0}}}});
+    for (int i = 1; i <= 20; ++i) frame({{0, MouseMove{{320.0 - 6.65 * i, 200.0 + 4.0 * i}}}});
+    for (int i = 0; i < 200 && !touched; ++i) frame({{0, Scroll{{0.0, 1.0}}}});
+    ASSERT_TRUE(touched) << "the hand met nothing";
+    for (int i = 0; i < 10; ++i) frame({});
+    frame({{0, MouseClick{MouseButton::right, true, {}}}});
+    for (int i = 0; i < 30; ++i) frame({{0, MouseMove{{187.0 + 2.0 * i, 280.0 - i}}}});
+    EXPECT_TRUE(std::holds_alternative<scene::HeldMotion>(s.objects()->object(1).motion));
+    EXPECT_GT(glm::length(s.objects()->pose(1).position_m - start), 0.002);
+    frame({{0, MouseClick{MouseButton::right, false, {}}}});
+    frame({});
+    const Vec3 left_at = s.objects()->pose(1).position_m;
+    for (int i = 0; i < 20; ++i) frame({{0, MouseMove{{245.0 - 2.0 * i, 251.0}}}});
+    EXPECT_EQ(s.objects()->pose(1).position_m, left_at);
+    EXPECT_EQ(s.state().world->find(1)->pose.position_m, left_at) << "the frame knows";
+}
+
+TEST(SessionSettings, NameTheWorldOfARecording) {
+    const OpenWorld world;
+    const std::string line = settings_line(world.options);
+    EXPECT_TRUE(line.contains("--world ")) << line;
+    EXPECT_TRUE(line.contains("--no-workpiece")) << line;
+    const auto again = options_as_recorded(line, {});
+    ASSERT_TRUE(again) << again.error().line();
+    EXPECT_EQ(again->options.world, world.options.world);
+    EXPECT_TRUE(again->options.no_workpiece);
+}
+
+}  // namespace burin::session
