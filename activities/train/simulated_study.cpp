@@ -21,8 +21,8 @@ namespace {
 constexpr std::uint64_t kCodesStream = 1'000'000, kPeopleStream = 2'000'000, kDelaysStream = 3'000'000,
                         kStagesStream = 10'000'000;
 constexpr std::uint64_t kStagesOfPerson = 10'000;
-// Simulated time runs far ahead of the clock on the wall: a block of ticks and a transaction of so much of it.
-constexpr Nanoseconds kBlock_ns = 8 * kNanosecondsPerSecond;
+// A block of ticks and a transaction: of so much simulated time, and no longer apart than that by the clock on the wall.
+constexpr Nanoseconds kBlock_ns = kNanosecondsPerSecond;
 constexpr double kSecondsAnHour = 3600.0;
 
 // Fills the places that nobody has, with codes drawn at random from strata that have room.

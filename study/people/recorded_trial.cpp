@@ -31,7 +31,7 @@ constexpr std::array kColumns{"deviation_mm",
                               "ldlj",
                               "effectiveness_index",
                               "failed_attempts",
-                              "wall_deviation_mm",
+                              "proxy_deviation_mm",
                               "deviations_differ",
                               "contact_s",
                               "contacts",
@@ -89,7 +89,8 @@ Json trial_record(const StudyWorld& world, const StageState& end, std::span<cons
         middle_m.push_back(0.5 * (model.points_m[0][i] + model.points_m[1][i]));
     const std::vector<Vec3> centreline_m = resampled(world.spine_m, kPlacesOfCentreline);
     const Deviations deviation = deviations_of(world, model);
-    const double top_mm = deviation.proxy_mm[0], bottom_mm = deviation.proxy_mm[1];
+    const double top_mm = deviation.wall_mm[0], bottom_mm = deviation.wall_mm[1];
+    const bool differ = deviation.differ_mm() > kDeviationsAgree_mm;
     const Distances nearest = distances_to_centreline(middle_m, world.spine_m);
     const std::vector<double> speeds = speeds_m_per_s(middle_m, kSimulatedRate_Hz);
     std::size_t failed = 0;
@@ -98,10 +99,10 @@ Json trial_record(const StudyWorld& world, const StageState& end, std::span<cons
                 {"time_s", trial_time_s(end)},
                 {"deviation_top_mm", top_mm},
                 {"deviation_bottom_mm", bottom_mm},
-                {"wall_deviation_mm", deviation.wall_mm[0] + deviation.wall_mm[1]},
-                {"wall_deviation_top_mm", deviation.wall_mm[0]},
-                {"wall_deviation_bottom_mm", deviation.wall_mm[1]},
-                {"deviations_differ", deviation.differ_mm() > kDeviationsAgree_mm ? 1 : 0},
+                {"proxy_deviation_mm", deviation.proxy_mm[0] + deviation.proxy_mm[1]},
+                {"proxy_deviation_top_mm", deviation.proxy_mm[0]},
+                {"proxy_deviation_bottom_mm", deviation.proxy_mm[1]},
+                {"deviations_differ", differ ? 1 : 0},
                 {"from_axis_mean_mm", kMillimetres * nearest.mean_m},
                 {"from_axis_most_mm", kMillimetres * nearest.largest_m},
                 {"along_axis_mean_mm", kMillimetres * arc_length_matched(middle_m, world.spine_m).mean_m},
@@ -112,7 +113,8 @@ Json trial_record(const StudyWorld& world, const StageState& end, std::span<cons
                 {"ldlj", log_dimensionless_jerk(speeds, kSimulatedRate_Hz)},
                 {"effectiveness_index", effectiveness_index(top_mm, bottom_mm)},
                 {"failed_attempts", failed}};
-    add_contact(record, model);
+    // The forces of a proxy that hangs where the hand is not say nothing of the wall.
+    if (!differ) add_contact(record, model);
     return record;
 }
 
@@ -130,8 +132,8 @@ Json forces_record(const FeltForces& forces) {
 
 std::string trials_csv(std::span<const TrialRow> rows, bool simulated) {
     std::string text =
-        "# made by burin study of the folder's journal and data; deviation is to the proxy of the haptic model, "
-        "wall_deviation by distance to the wall\n";
+        "# made by burin study of the folder's journal and data; deviation is by distance to the tube's wall, "
+        "proxy_deviation to the proxy of the haptic model\n";
     if (simulated) text += "# simulated learners: no person took part; the hand and the wand are simulated\n";
     text += "participant,group,trial";
     for (const char* column : kColumns) text += std::string(",") + column;

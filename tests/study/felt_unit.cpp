@@ -106,8 +106,8 @@ TEST(StudyDeviation, ToTheProxyAndToTheWallAgreeWithinAFifthOfAMillimetre) {
         const auto motion = motion_beside(protocol, **world, up_m, side_m);
         const ModelTouch model = touch_by_model(protocol, *protocol.stage("test"), **world, motion);
         const Json record = trial_record((*world)->world(), end, {}, model);
-        const double by_proxy = record.at("deviation_mm").get<double>();
-        const double by_wall = record.at("wall_deviation_mm").get<double>();
+        const double by_proxy = record.at("proxy_deviation_mm").get<double>();
+        const double by_wall = record.at("deviation_mm").get<double>();
         EXPECT_NEAR(by_proxy, by_wall, 0.4) << up_m;  // the sum of two points' means
         EXPECT_EQ(record.at("deviations_differ").get<int>(), 0);
         if (up_m > 0.0) {
@@ -140,8 +140,24 @@ TEST(StudyDeviation, IsFlaggedWhereTheHandGoesAroundTheTube) {
     StageState end;
     end.result = StageResult::valid_exit;
     const Json record = trial_record(tube, end, {}, touch_by_model(protocol, *protocol.stage("test"), **world, motion));
-    EXPECT_GT(record.at("wall_deviation_mm").get<double>(), 50.0);
-    EXPECT_GE(record.at("deviation_mm").get<double>(), record.at("wall_deviation_mm").get<double>() - 0.4);
+    EXPECT_GT(record.at("deviation_mm").get<double>(), 50.0);
+    EXPECT_GT(record.at("proxy_deviation_mm").get<double>(), 50.0);
+    // Then out of the wall and back into the tube beyond the bend: the proxy stays behind, and the trial is flagged.
+    std::vector<AttemptTick> around;
+    for (std::size_t i = 0; i < 3000; ++i) {
+        const double t = static_cast<double>(i) / 3000.0;
+        const Vec3 from = beside(tube, 0.15, 0.0, 0.0), to = beside(tube, 0.85, 0.0, 0.0);
+        const double share = std::clamp(2.0 * t - 0.25, 0.0, 1.0);
+        const Vec3 middle = t < 0.125 ? beside(tube, 1.2 * t, 0.0, 0.0) : from + share * (to - from);
+        const devices::DeviceSample sample = sample_at(touch, middle, i);
+        around.push_back({sample.time_ns, sample.time_ns, sample.position_device_m, sample.orientation_device,
+                          touch.points_m(sample)});
+    }
+    const Json flagged =
+        trial_record(tube, end, {}, touch_by_model(protocol, *protocol.stage("test"), **world, around));
+    EXPECT_EQ(flagged.at("deviations_differ").get<int>(), 1);
+    EXPECT_GT(flagged.at("proxy_deviation_mm").get<double>(), flagged.at("deviation_mm").get<double>() + 10.0);
+    EXPECT_FALSE(flagged.contains("force_mean_N"));
 }
 
 // Presses the wand's middle 20 mm off the axis halfway through the tube: what the hand is given, and whether it
