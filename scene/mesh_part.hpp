@@ -79,8 +79,8 @@ public:
     [[nodiscard]] const SceneObject& object(ObjectId id) const { return objects_[index_of_.at(id)].object; }
     // Returns where the object was in the last update.
     [[nodiscard]] const Pose& pose(ObjectId id) const { return objects_[index_of_.at(id)].scene_from_object; }
-    // Returns the object that was offered to a surface as this mesh; 0: none of this part's. Of objects that are alike in
-    // mesh, pose and material the first.
+    // Returns the object that was offered to a surface as this mesh; 0: none of this part's. Of objects that are alike
+    // in mesh, pose and material the first.
     [[nodiscard]] ObjectId id_of(const geometry::TouchedMesh& mesh) const;
     // Returns the index of the object's material in the table. It must be felt.
     [[nodiscard]] std::uint8_t material_index(ObjectId id) const { return objects_[index_of_.at(id)].material; }
