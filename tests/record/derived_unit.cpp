@@ -86,6 +86,19 @@ TEST(DerivedTable, OneThatExistsIsNotReplacedAndAnotherComesBesideIt) {
     EXPECT_EQ(reader->derived()[1].rows(), 7u);
 }
 
+TEST(DerivedTable, ARecordingFromBeforeThereWereNamesOfObjectsIsReadAndTakesOne) {
+    const Workplace at;
+    recorded_for_deriving(at / "a", 10);
+    auto database = Database::open(at / "a", Database::Use::write);
+    ASSERT_TRUE(database->run("DROP TABLE object"));
+    ASSERT_TRUE(database->close());
+    const auto before = RecordReader::open(at / "a");
+    ASSERT_TRUE(before) << before.error().line();
+    EXPECT_TRUE(before->hands()[0].objects.empty());
+    ASSERT_TRUE(add_squares(at / "a", 5));
+    EXPECT_EQ(RecordReader::open(at / "a")->derived()[0].objects, squares().objects);
+}
+
 TEST(DerivedTable, IsRefusedWhereTheFileIsDamagedOrNone) {
     const Workplace at;
     EXPECT_FALSE(add_squares(at / "none", 5));
