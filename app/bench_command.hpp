@@ -5,6 +5,7 @@
 //   burin bench haptics    what a tick costs, and how true the proxy is
 //   burin bench stability  how stiff a wall may be before a simulated device shakes
 //   burin bench workspace  each workspace technique across the wall, in a simulated hand
+//   burin bench world      from a VRML world's text to its triangles, beside Coin
 #pragma once
 
 #include <memory>

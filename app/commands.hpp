@@ -66,5 +66,6 @@ struct BenchSubcommand {
 [[nodiscard]] BenchSubcommand add_bench_record(Command bench);     // bench/recording/recording.hpp
 [[nodiscard]] BenchSubcommand add_bench_stability(Command bench);  // bench/stability/stability.hpp
 [[nodiscard]] BenchSubcommand add_bench_workspace(Command bench);  // bench/workspace/workspace.hpp
+[[nodiscard]] BenchSubcommand add_bench_world(Command bench);      // bench/world/world_bench.hpp
 
 }  // namespace burin::app

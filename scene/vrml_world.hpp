@@ -17,7 +17,7 @@ namespace burin::scene {
 // `name` stands for the file in messages.
 [[nodiscard]] WorldOrProblems world_of(const geometry::VrmlWorld& world, const std::string& name);
 
-// Reads a world in TOML (.toml) or VRML 2.0 (.wrl).
+// Reads a world in TOML (.toml), or in VRML 2.0 (.wrl) with the settings beside it (scene/world_settings.hpp).
 [[nodiscard]] WorldOrProblems read_any_world(const std::filesystem::path& path);
 
 }  // namespace burin::scene
