@@ -5,6 +5,7 @@
 #include "app/bench_command.hpp"
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
+#include "app/demo_command.hpp"
 #include "app/profile.hpp"
 #include "app/session_command.hpp"
 #include "app/study_command.hpp"
@@ -214,6 +215,7 @@ int run(int argc, char** argv) {
     const BenchCommand bench(app);
     const WallCommand wall(app);
     const WorldCommand world(app);
+    const DemoCommand demo(app);
     const ProfileCommand profile(app);
     const SessionCommand recordings(app);
     const StudyCommand study(app);
@@ -234,6 +236,7 @@ int run(int argc, char** argv) {
         return 2;
     }
     if (world.parsed()) return finish(world.run());
+    if (demo.parsed()) return finish(demo.run());
     if (profile.parsed()) return finish(profile.run());
     if (study.parsed()) return finish(study.run());
     if (recordings.parsed()) return finish(recordings.run());

@@ -11,10 +11,13 @@
 
 #include "app/output_files.hpp"
 #include "app/world_explore.hpp"
+#include "app/world_wand.hpp"
 #include "base/text.hpp"
 #include "geometry/files/mesh_unit.hpp"
 #include "geometry/vrml/vrml_shapes.hpp"
+#include "scene/vrml_world.hpp"
 #include "scene/world_file.hpp"
+#include "scene/world_settings.hpp"
 
 namespace burin::app {
 namespace {
@@ -211,6 +214,14 @@ Json object_json(const scene::SceneObject& o) {
     return json;
 }
 
+// Prints what the settings beside a world in VRML have made of its objects.
+void print_settings(const std::string& path, const scene::World& world) {
+    std::printf("  with %s:\n", scene::settings_of(path).string().c_str());
+    for (const scene::SceneObject& o : world.objects)
+        std::printf("  %s: %s, %s\n", o.name.c_str(), o.seen ? hexadecimal(o.colour).c_str() : "not seen",
+                    feel_text(o).c_str());
+}
+
 CheckedWorld check_toml_world(const std::string& path, bool print) {
     const scene::WorldOrProblems world = scene::read_world(path);
     if (!world) return faulty(path, world.error(), print);
@@ -231,7 +242,16 @@ CheckedWorld check_world(const std::string& path, bool print) {
     if (!world) return faulty(path, world.error(), print);
     const WorldSummary summary(path, *file, *world);
     if (print) summary.print();
-    return {summary.json(), 0};
+    CheckedWorld checked{summary.json(), 0};
+    if (std::error_code ignored; !std::filesystem::exists(scene::settings_of(path), ignored)) return checked;
+    const scene::WorldOrProblems with_settings = scene::read_any_world(path);
+    if (!with_settings) return faulty(path, with_settings.error(), print);
+    if (print) print_settings(path, *with_settings);
+    checked.json["settings"] = scene::settings_of(path).string();
+    checked.json["felt_objects"] = Json::array();
+    for (const scene::SceneObject& object : with_settings->objects)
+        checked.json["felt_objects"].push_back(object_json(object));
+    return checked;
 }
 
 }  // namespace
@@ -273,6 +293,14 @@ WorldCommand::WorldCommand(Command app)
     command_.option("--radius", o.exploration.radius_m, "Radius of the ball that touches, in metres")
         .within(1e-5, 1.0)
         .show_default();
+    command_
+        .option("--device", o.exploration.device,
+                "simulated: a stylus; simulated-wand, or simulated-wand:FILE.toml: a wand (docs/devices.md)")
+        .show_default();
+    command_
+        .option("--points", o.exploration.points,
+                "With a wand: which of its points touch, names with commas between them, centre, or how many")
+        .show_default();
     command_.option("--pictures", o.exploration.pictures,
                     "A folder for pictures: the world, each object when it is first touched, both eyes at the end");
     command_.option("--report", o.exploration.report,
@@ -288,12 +316,15 @@ bool WorldCommand::parsed() const { return command_.parsed(); }
 
 std::string WorldCommand::misuse() const {
     if (check_.parsed()) return "";
+    if (options_->exploration.device != "simulated" && !is_wand(options_->exploration.device))
+        return "world explores with --device simulated or simulated-wand, not " + options_->exploration.device;
     if (options_->exploration.world.empty()) return "world needs a file, or the word check and files";
     return options_->exploration.stroke.empty() ? "world needs a --stroke: it cannot be explored live yet" : "";
 }
 
 Result<void> WorldCommand::run() const {
     if (check_.parsed()) return options_->check_files();
+    if (is_wand(options_->exploration.device)) return explore_world_with_wand(options_->exploration);
     return explore_world(options_->exploration);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // burin world: worlds of objects that are touched (docs/formats.md).
 //   burin world FILE --stroke STROKE           explores a world.toml by a simulated hand (app/world_explore.hpp)
+//   burin world FILE --stroke STROKE --device simulated-wand    the same with a wand (app/world_wand.hpp)
 //   burin world check FILE... [--json OUT]     what is in each file, or all that is wrong with it; exit status 1 then
 // A world is not opened in a live session yet.
 #pragma once
