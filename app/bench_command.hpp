@@ -7,6 +7,7 @@
 //   burin bench workspace  each workspace technique across the wall, in a simulated hand
 //   burin bench record     what it costs to keep every tick
 //   burin bench study      a whole simulated study against real time
+//   burin bench world      from a VRML world's text to its triangles, beside Coin
 #pragma once
 
 #include <memory>

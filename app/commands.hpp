@@ -68,5 +68,6 @@ struct BenchSubcommand {
 [[nodiscard]] BenchSubcommand add_bench_study(Command bench);      // activities/train/simulated_study.hpp
 [[nodiscard]] BenchSubcommand add_bench_stability(Command bench);  // bench/stability/stability.hpp
 [[nodiscard]] BenchSubcommand add_bench_workspace(Command bench);  // bench/workspace/workspace.hpp
+[[nodiscard]] BenchSubcommand add_bench_world(Command bench);      // bench/world/world_bench.hpp
 
 }  // namespace burin::app

@@ -5,6 +5,7 @@
 #include "app/bench_command.hpp"
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
+#include "app/demo_command.hpp"
 #include "app/live_options.hpp"
 #include "app/profile.hpp"
 #include "app/replay_command.hpp"
@@ -196,6 +197,7 @@ int run(int argc, char** argv) {
     const BenchCommand bench(app);
     const WallCommand wall(app);
     const WorldCommand world(app);
+    const DemoCommand demo(app);
     const ProfileCommand profile(app);
     const SessionCommand recordings(app);
     const ReplayCommand replay(app);
@@ -217,6 +219,7 @@ int run(int argc, char** argv) {
         return 2;
     }
     if (world.parsed()) return finish(world.run());
+    if (demo.parsed()) return finish(demo.run());
     if (profile.parsed()) return finish(profile.run());
     if (study.parsed()) return finish(study.run());
     if (recordings.parsed()) return finish(recordings.run());

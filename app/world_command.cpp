@@ -13,11 +13,15 @@
 #include "app/live_options.hpp"
 #include "app/output_files.hpp"
 #include "app/world_explore.hpp"
+#include "app/world_wand.hpp"
 #include "base/text.hpp"
 #include "compute/rays/lattice.hpp"
+#include "devices/haptic/device_registry.hpp"
 #include "geometry/files/mesh_unit.hpp"
 #include "geometry/vrml/vrml_shapes.hpp"
+#include "scene/vrml_world.hpp"
 #include "scene/world_file.hpp"
+#include "scene/world_settings.hpp"
 #include "session/drive/session.hpp"
 
 namespace burin::app {
@@ -215,6 +219,14 @@ Json object_json(const scene::SceneObject& o) {
     return json;
 }
 
+// Prints what the settings beside a world in VRML have made of its objects.
+void print_settings(const std::string& path, const scene::World& world) {
+    std::printf("  with %s:\n", scene::settings_of(path).string().c_str());
+    for (const scene::SceneObject& o : world.objects)
+        std::printf("  %s: %s, %s\n", o.name.c_str(), o.seen ? hexadecimal(o.colour).c_str() : "not seen",
+                    feel_text(o).c_str());
+}
+
 CheckedWorld check_toml_world(const std::string& path, bool print) {
     const scene::WorldOrProblems world = scene::read_world(path);
     if (!world) return faulty(path, world.error(), print);
@@ -235,7 +247,16 @@ CheckedWorld check_world(const std::string& path, bool print) {
     if (!world) return faulty(path, world.error(), print);
     const WorldSummary summary(path, *file, *world);
     if (print) summary.print();
-    return {summary.json(), 0};
+    CheckedWorld checked{summary.json(), 0};
+    if (std::error_code ignored; !std::filesystem::exists(scene::settings_of(path), ignored)) return checked;
+    const scene::WorldOrProblems with_settings = scene::read_any_world(path);
+    if (!with_settings) return faulty(path, with_settings.error(), print);
+    if (print) print_settings(path, *with_settings);
+    checked.json["settings"] = scene::settings_of(path).string();
+    checked.json["felt_objects"] = Json::array();
+    for (const scene::SceneObject& object : with_settings->objects)
+        checked.json["felt_objects"].push_back(object_json(object));
+    return checked;
 }
 
 }  // namespace
@@ -298,6 +319,10 @@ WorldCommand::WorldCommand(Command app)
     command_.option("--radius", o.exploration.radius_m, "Radius of the ball that touches, in metres")
         .within(1e-5, 1.0)
         .show_default();
+    command_
+        .option("--points", o.exploration.points,
+                "With a wand: which of its points touch, names with commas between them, centre, or how many")
+        .show_default();
     command_.option("--pictures", o.exploration.pictures,
                     "A folder for pictures: the world, each object when it is first touched, both eyes at the end");
     command_.option("--report", o.exploration.report,
@@ -314,8 +339,12 @@ bool WorldCommand::parsed() const { return command_.parsed(); }
 
 std::string WorldCommand::misuse() const {
     if (check_.parsed()) return "";
-    const bool is_done_again = !options_->session.live.input.empty();
-    if (options_->exploration.world.empty() && !is_done_again) return "world needs a file, or the word check and files";
+    const session::LiveOptions& live = options_->session.live;
+    if (options_->exploration.world.empty() && live.input.empty())
+        return "world needs a file, or the word check and files";
+    if (!options_->exploration.stroke.empty() && live.device != devices::kDefaultHapticDevice && !is_wand(live.device))
+        return "world explores with --device " + std::string(devices::kDefaultHapticDevice) +
+               " or simulated-wand, not " + live.device;
     return "";
 }
 
@@ -324,6 +353,8 @@ Result<void> WorldCommand::run() const {
     if (!options_->exploration.stroke.empty()) {
         WorldExploration exploration = options_->exploration;
         exploration.record = options_->session.live.record;
+        exploration.device = options_->session.live.device;
+        if (is_wand(exploration.device)) return explore_world_with_wand(exploration);
         return explore_world(exploration);
     }
     session::SculptOptions session = options_->session;

@@ -5,10 +5,12 @@
 #include <map>
 #include <utility>
 
+#include "base/file_io.hpp"
 #include "base/text.hpp"
 #include "geometry/mesh/mesh_health.hpp"
 #include "geometry/mesh/vertex_weld.hpp"
 #include "scene/mesh_world.hpp"
+#include "scene/world_settings.hpp"
 
 namespace burin::scene {
 namespace {
@@ -106,7 +108,16 @@ WorldOrProblems read_any_world(const std::filesystem::path& path) {
     if (!file) return std::unexpected(std::vector{file.error()});
     const geometry::VrmlWorldOrFaults shapes = geometry::shapes_of(*file);
     if (!shapes) return std::unexpected(shapes.error());
-    return world_of(*shapes, path.string());
+    WorldOrProblems world = world_of(*shapes, path.string());
+    if (!world) return world;
+    const std::filesystem::path settings = settings_of(path);
+    std::error_code ignored;
+    if (!std::filesystem::exists(settings, ignored)) return world;
+    const Result<std::string> text = read_text_file(settings, kMaxWorldBytes);
+    if (!text) return std::unexpected(std::vector{text.error()});
+    if (std::vector<Error> problems = apply_settings(*world, *text, settings.string()); !problems.empty())
+        return std::unexpected(std::move(problems));
+    return world;
 }
 
 }  // namespace burin::scene

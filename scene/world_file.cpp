@@ -2,7 +2,6 @@
 #include "scene/world_file.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <memory>
 #include <optional>
@@ -13,6 +12,7 @@
 #include "base/toml_table.hpp"
 #include "geometry/mesh/mesh_health.hpp"
 #include "geometry/mesh/mesh_repair.hpp"
+#include "scene/object_keys.hpp"
 
 namespace burin::scene {
 namespace {
@@ -33,28 +33,6 @@ std::string not_solid(const geometry::MeshHealth& health) {
     if (!health.consistently_oriented)
         return formatted("has %zu edges whose two triangles face opposite ways", health.misoriented_edges);
     return health.inside_out() ? "is inside out: its triangles face inwards" : "";
-}
-
-std::optional<Colour> colour_in(const std::string& text) {
-    if (text.size() != 7 || text.front() != '#') return std::nullopt;
-    Colour colour{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const char *const from = text.data() + 1 + 2 * i, *const end = from + 2;
-        const auto [stopped, failed] = std::from_chars(from, end, colour[i], 16);
-        if (failed != std::errc() || stopped != end) return std::nullopt;
-    }
-    return colour;
-}
-
-// Sorts errors of one file, whose places end with a line.
-std::vector<Error> in_order_of_lines(std::vector<Error> errors) {
-    std::ranges::stable_sort(errors, {}, [](const Error& error) {
-        const char* const end = error.where.data() + error.where.size();
-        unsigned line = 0;
-        std::from_chars(error.where.data() + error.where.rfind(':') + 1, end, line);
-        return line;
-    });
-    return errors;
 }
 
 // Reads one file; collects problems on the way.
@@ -79,68 +57,19 @@ public:
 
 private:
     void read_object(const toml::table& table) {
-        TableReader t(reading_, &table, "[[object]]");
+        ObjectKeys keys(reading_, table);
+        TableReader& t = keys.table();
         SceneObject object;
         object.id = world_.objects.size() + 1;
         t.require("name", "give each object a name of its own");
         t.require("mesh", "name an STL, OBJ, PLY or OFF file in the world's folder");
         object.name = t.text("name").value_or("object " + std::to_string(object.id));
-        object.pose = read_pose(t);
-        object.scale = t.number("scale").value_or(1.0);
-        object.seen = t.flag("seen").value_or(true);
-        object.felt = t.flag("felt").value_or(true);
-        object.both_sides = t.flag("both_sides").value_or(false);
-        read_colour(t, object);
-        const toml::table* const material = t.table("material");
-        TableReader m(reading_, material, "[object.material]");
-        read_material(m, object.material);
-        const std::vector<const toml::table*> poses = t.tables("path");
-        const std::optional<bool> repeats = t.flag("repeat");
-        if (!poses.empty()) object.motion = read_path(poses, repeats.value_or(true));
-        if (repeats && !t.has("path")) t.refuse("repeat", "stands where there is no path", "leave it out");
+        keys.read(object);
         read_mesh(t, object);
         t.refuse_unknown();
-        tell_problems(t, m, poses, object);
+        keys.tell_problems(object);
         check_others(t, table, object);
         world_.objects.push_back(std::move(object));
-    }
-
-    static Pose read_pose(TableReader& t) {
-        Pose pose;
-        pose.position_m = t.vector("position").value_or(Vec3(0.0));
-        pose.orientation = t.quaternion("orientation").value_or(pose.orientation);
-        return pose;
-    }
-
-    static void read_colour(TableReader& t, SceneObject& object) {
-        const auto text = t.text("colour");
-        if (!text) return;
-        if (const auto colour = colour_in(*text))
-            object.colour = *colour;
-        else
-            t.refuse("colour", "is " + *text, "write red, green and blue as \"#c08040\", say");
-    }
-
-    static void read_material(TableReader& m, HapticMaterial& material) {
-        material.stiffness_N_per_m = m.number("stiffness").value_or(material.stiffness_N_per_m);
-        material.damping_Ns_per_m = m.number("damping").value_or(material.damping_Ns_per_m);
-        const auto at_rest = m.number("static_friction"), sliding = m.number("dynamic_friction");
-        // One alone stands for both.
-        material.static_friction = at_rest.value_or(sliding.value_or(material.static_friction));
-        material.dynamic_friction = sliding.value_or(at_rest.value_or(material.dynamic_friction));
-        m.refuse_unknown();
-    }
-
-    PathMotion read_path(const std::vector<const toml::table*>& poses, bool repeats) {
-        PathMotion path;
-        path.repeats = repeats;
-        for (const toml::table* table : poses) {
-            TableReader t(reading_, table, "[[object.path]]");
-            t.require("time", "give the time in seconds at which it is there; the first at 0");
-            path.keys.push_back({t.number("time").value_or(0.0), read_pose(t)});
-            t.refuse_unknown();
-        }
-        return path;
     }
 
     // ---- Meshes
@@ -199,22 +128,6 @@ private:
     }
 
     // ---- Checks
-
-    // Lists what is wrong with the object's values, each at the line of its key.
-    void tell_problems(TableReader& t, TableReader& m, const std::vector<const toml::table*>& poses,
-                       const SceneObject& object) {
-        for (const Problem& problem : problems(object)) {
-            const std::string& key = problem.key;
-            if (t.has(key.c_str())) {
-                t.refuse(key.c_str(), problem.what, problem.remedy);
-            } else if (m.has(key.c_str())) {
-                m.refuse(key.c_str(), problem.what, problem.remedy);
-            } else if (std::size_t i = 0; key.starts_with("path[")) {
-                std::from_chars(key.data() + 5, key.data() + key.size(), i);
-                if (i < poses.size()) reading_.refuse(*poses[i], key + " " + problem.what, problem.remedy);
-            }
-        }
-    }
 
     // Compares the object with those before it.
     void check_others(TableReader& t, const toml::table& table, const SceneObject& object) {

@@ -7,6 +7,7 @@
 
 #include "base/file_io.hpp"
 #include "geometry/files/text_scanner.hpp"
+#include "geometry/vrml/vrml_inlines.hpp"
 #include "geometry/vrml/vrml_parser.hpp"
 #include "geometry/vrml/vrml_scanner.hpp"
 
@@ -64,7 +65,7 @@ Result<std::string_view> checked_header(std::string_view bytes, const std::strin
 // file that inlines it, likewise relative.
 Result<std::string> inlined_name(std::string_view raw, const fs::path& folder) {
     constexpr const char* kRemedy = "copy that file into the world's folder and name it without a path";
-    const std::string url = unescaped_vrml(raw.substr(0, raw.find('#')));
+    const std::string url = percent_decoded(unescaped_vrml(raw.substr(0, raw.find('#'))));
     if (url.empty()) return fail("", "an Inline names no file", "write its name in quotes behind url");
     const std::size_t colon = url.find(':');
     if (colon != std::string::npos && colon < url.find('/'))
@@ -101,14 +102,18 @@ public:
         made.line_starts = line_starts_of(bytes);
         made.text = std::make_unique<const std::string>(std::move(bytes));
         file_.sources.push_back(std::move(made));
-        const std::size_t first_node = file_.nodes.size();
+        VrmlFilePart part;
+        part.first_node = static_cast<std::uint32_t>(file_.nodes.size());
+        part.first_prototype = static_cast<std::uint32_t>(file_.prototypes.size());
         VrmlParser(file_, source).parse();
+        part.end_node = static_cast<std::uint32_t>(file_.nodes.size());
+        part.end_prototype = static_cast<std::uint32_t>(file_.prototypes.size());
         around_.push_back(name);
-        const std::size_t end = file_.nodes.size();
-        for (std::size_t n = first_node; n < end; ++n) {
+        for (std::uint32_t n = part.first_node; n < part.end_node; ++n) {
             const VrmlNode& node = file_.nodes[n];
             if (node.prototype == kNoVrmlIndex && file_.type_of(node) == "Inline") follow(n, name);
         }
+        for (const std::uint32_t field : bound_inline_urls(file_, part)) follow_bound(field, source, name);
         around_.pop_back();
         return source;
     }
@@ -119,22 +124,36 @@ private:
         const auto fields = file_.fields_of(node);
         const auto url = std::ranges::find_if(
             fields, [&](const VrmlField& f) { return file_.text_at({node.file, f.at}, f.name_length) == "url"; });
-        // The files that an instance of a PROTO names are not known here; vrml_shapes.hpp remarks on it.
+        // Those that an instance of a PROTO names are followed apart from their Inlines (follow_bound).
         if (url == fields.end() || url->kind != VrmlKind::strings) return;
-        const VrmlField field = *url;
-        std::optional<VrmlFault> first_fault;
+        const Opened first = first_of(*url, node.file, from);
+        file_.nodes[node_index].inlined = first.source;
+        if (first.fault && file_.faults.size() < kMostVrmlFaults) file_.faults.push_back(*first.fault);
+    }
+
+    // What cannot be opened is no fault yet: a PROTO's default may be one that no instance uses.
+    void follow_bound(std::uint32_t field, std::uint32_t in_file, const std::string& from) {
+        const Opened first = first_of(file_.fields[field], in_file, from);
+        if (first.source == kNoVrmlIndex && !first.fault) return;
+        file_.bound_inlines.push_back({field, first.source, first.fault.value_or(VrmlFault{})});
+    }
+
+    struct Opened {
+        std::uint32_t source = kNoVrmlIndex;
+        std::optional<VrmlFault> fault = std::nullopt;  // of the first name, where none can be opened
+    };
+    // Opens the first file of a list of names that can be opened. The field is copied: reading a file adds fields.
+    Opened first_of(const VrmlField field, std::uint32_t in_file, const std::string& from) {
+        Opened first;
         for (std::uint32_t i = 0; i < field.count; ++i) {
-            const VrmlPlace place = file_.place_of_value(node.file, field, i);
+            const VrmlPlace place = file_.place_of_value(in_file, field, i);
             const Result<std::uint32_t> source = opened(file_.strings[field.first + i], from);
-            if (source) {
-                file_.nodes[node_index].inlined = *source;
-                return;
-            }
+            if (source) return {*source, std::nullopt};
             const Error& error = source.error();
             const std::string what = error.where.empty() ? error.what : error.where + ": " + error.what;
-            if (!first_fault) first_fault = VrmlFault{place, what, error.remedy};
+            if (!first.fault) first.fault = VrmlFault{place, what, error.remedy};
         }
-        if (first_fault && file_.faults.size() < kMostVrmlFaults) file_.faults.push_back(*first_fault);
+        return first;
     }
 
     Result<std::uint32_t> opened(std::string_view url, const std::string& from) {
@@ -165,6 +184,12 @@ private:
 };
 
 }  // namespace
+
+const VrmlBoundInline* VrmlFile::bound_inline(const VrmlField& field) const {
+    const auto index = static_cast<std::uint32_t>(&field - fields.data());
+    const auto found = std::ranges::lower_bound(bound_inlines, index, {}, &VrmlBoundInline::field);
+    return found != bound_inlines.end() && found->field == index ? &*found : nullptr;
+}
 
 std::string VrmlFile::where(VrmlPlace place) const {
     const VrmlSource& source = sources[place.file];
@@ -204,6 +229,7 @@ Result<VrmlFile> read_vrml(std::string bytes, const std::string& name, const Vrm
     InlineReader reader(file, name, opener);
     const auto source = reader.read(std::move(bytes), fs::path(name).filename().string());
     if (!source) return std::unexpected(source.error());
+    std::ranges::sort(file.bound_inlines, {}, &VrmlBoundInline::field);
     return file;
 }
 

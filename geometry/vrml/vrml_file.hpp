@@ -92,6 +92,13 @@ struct VrmlNode {
     bool bound = false;                              // depends on the PROTO that it stands in (IS)
 };
 
+// The file that a list of names opens where an Inline in a PROTO takes it for its url.
+struct VrmlBoundInline {
+    std::uint32_t field = 0;              // the list, in VrmlFile::fields
+    std::uint32_t source = kNoVrmlIndex;  // index into VrmlFile::sources; none: it cannot be opened
+    VrmlFault fault;                      // why not
+};
+
 // A PROTO or EXTERNPROTO.
 struct VrmlPrototype {
     std::uint32_t file = 0;
@@ -116,7 +123,8 @@ struct VrmlFile {
     std::vector<double> numbers;
     std::vector<std::string_view> strings;  // of the texts, without quotes; string_of() removes the backslashes
     std::vector<VrmlPrototype> prototypes;
-    std::vector<VrmlFault> faults;  // of the syntax, in the order in which they were found
+    std::vector<VrmlBoundInline> bound_inlines;  // by field
+    std::vector<VrmlFault> faults;               // of the syntax, in the order in which they were found
 
     [[nodiscard]] std::string_view text_at(VrmlPlace place, std::uint32_t length) const {
         return std::string_view(*sources[place.file].text).substr(place.at, length);
@@ -139,6 +147,9 @@ struct VrmlFile {
     [[nodiscard]] std::span<const VrmlLink> roots_of(const VrmlSource& source) const {
         return std::span(links).subspan(source.first_root, source.root_count);
     }
+
+    // Returns what a list of names opens for an Inline; null where no Inline can take it.
+    [[nodiscard]] const VrmlBoundInline* bound_inline(const VrmlField& field) const;
 
     // Returns "file:line:column". Lines end with LF, CR LF or CR; lines and columns count from 1, columns in
     // characters.

@@ -148,6 +148,11 @@ private:
         const VrmlFile& file = fields_.file();
         const VrmlNode& node = fields_.node(placed);
         if (node.inlined != kNoVrmlIndex) return visit_all(file.roots_of(file.sources[node.inlined]), around);
+        const auto url = fields_.find(placed, "url");
+        const VrmlBoundInline* const bound = url ? file.bound_inline(*url->field) : nullptr;
+        if (bound != nullptr && bound->source != kNoVrmlIndex)
+            return visit_all(file.roots_of(file.sources[bound->source]), around);
+        if (bound != nullptr) return fields_.fault(bound->fault.place, bound->fault.what, bound->fault.remedy);
         skip(placed);
         fields_.remark(fields_.place(placed), "an Inline names no file here", "write its name in quotes behind url");
     }

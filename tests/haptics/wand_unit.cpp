@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "devices/haptic/wand_description.hpp"
 #include "haptics/tick.hpp"
 #include "tests/haptics/cutting_ball.hpp"
 #include "tests/haptics/surfaces.hpp"
@@ -134,6 +135,12 @@ TEST(Wand, TheTickHasTheCheckValuesOfTheRequirements) {
     const Vec3 torque = glm::cross(R * kTop, out.contact.points[0].force_device_N) +
                         glm::cross(R * kBottom, out.contact.points[1].force_device_N);
     expect_near(out.wanted.torque_device_Nm, torque, 1e-15);
+    // The Quanser wand drives x and z of it.
+    const devices::WandDescription quanser;
+    hand.device = devices::device_of(quanser);
+    out = hand.at(position, R);
+    expect_near(out.wanted.force_device_N, {0.3, -0.1, -1.4}, 1e-7);
+    expect_near(out.wanted.torque_device_Nm, {-0.03338649, 0.0, -0.00837842}, 1e-8);
 }
 
 TEST(Wand, OnACubeTopAloneTurnsOneWayBottomAloneTheOtherAndBothCancel) {

@@ -60,11 +60,11 @@ TEST(VrmlAssets, TheCapsAreClosedAndTheTubeIsFeltFromBothSides) {
     }
 }
 
-TEST(VrmlAssets, TheCubeIsABoxOfATenthOfAMetre) {
+TEST(VrmlAssets, TheCubeIsABoxOfAFifthOfAMetre) {
     const VrmlWorld world = asset_world("wand-cube.wrl");
     ASSERT_EQ(world.shapes.size(), 1u);
     EXPECT_EQ(world.shapes[0].name, "Cube");
-    EXPECT_NEAR(examine(mesh_in_world(world.shapes[0])).signed_volume_m3, 1e-3, 1e-15);
+    EXPECT_NEAR(examine(mesh_in_world(world.shapes[0])).signed_volume_m3, 8e-3, 1e-15);
 }
 
 }  // namespace burin::geometry::test

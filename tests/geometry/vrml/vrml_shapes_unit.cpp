@@ -199,4 +199,68 @@ TEST(VrmlShapes, InlinedFilesStandInTheirPlace) {
     EXPECT_EQ(world.shapes[0].surface, world.shapes[1].surface);
 }
 
+// ---- Inlines through PROTOs
+
+const std::map<std::string, std::string> kInlined{{"foot.wrl", kVrmlHead + "DEF Foot Shape { geometry Box { } }"},
+                                                  {"left hand.wrl", kVrmlHead + "DEF Hand Shape { geometry Box { } }"}};
+
+TEST(VrmlShapes, AnInstanceNamesTheFileThatItsPrototypeInlines) {
+    const VrmlWorld world = vrml_world(
+        "PROTO Part [ field MFString file \"foot.wrl\" field SFVec3f at 0 0 0 ] {\n"
+        "  Transform { translation IS at children Inline { url IS file } } }\n"
+        "Part { } Part { file [ \"lost.wrl\", \"left%20hand.wrl\" ] at 1 2 3 }",
+        kInlined);
+    EXPECT_EQ(names_of(world), (Names{"Foot", "Hand"}));
+    EXPECT_EQ(origin_of(world.shapes[1]), Vec3(1, 2, 3));
+    EXPECT_TRUE(world.remarks.empty());
+}
+
+TEST(VrmlShapes, ANameOfAnInlineGoesThroughAnyNumberOfPrototypes) {
+    const VrmlWorld world = vrml_world(
+        "PROTO Inner [ field MFString deep \"lost.wrl\" ] { Group { children Inline { url IS deep } } }\n"
+        "PROTO Outer [ field MFString file [ ] ] { Group { children Inner { deep IS file } } }\n"
+        "Outer { file \"foot.wrl\" } Outer { file \"left hand.wrl\" }",
+        kInlined);
+    EXPECT_EQ(names_of(world), (Names{"Foot", "Hand"}));
+}
+
+TEST(VrmlShapes, OnlyAnInlineThatIsShownHasToNameAFile) {
+    const std::string prototype = "PROTO Part [ field MFString file \"lost.wrl\" ] { Inline { url IS file } }\n";
+    const VrmlOpener opener = [](const std::string& name) -> Result<std::string> {
+        if (name != "foot.wrl") return fail(name, "does not exist", "check the path");
+        return kInlined.at(name);
+    };
+    EXPECT_TRUE(vrml_faults(kVrmlHead + prototype + "Part { file \"foot.wrl\" }", opener).empty());
+    const auto faults = vrml_faults(kVrmlHead + prototype + "Part { }", opener);
+    ASSERT_EQ(faults.size(), 1u);
+    EXPECT_EQ(faults[0], "test.wrl:2:35: lost.wrl: does not exist; check the path");
+}
+
+TEST(VrmlShapes, ACycleThroughAPrototypesFileIsAFault) {
+    const std::string again = "PROTO P [ field MFString f [ ] ] { Inline { url IS f } }\n";
+    const VrmlOpener opener = [&](const std::string&) -> Result<std::string> {
+        return kVrmlHead + again + "P { f \"test.wrl\" }";
+    };
+    const auto faults = vrml_faults(kVrmlHead + again + "P { f \"other.wrl\" }", opener);
+    ASSERT_EQ(faults.size(), 1u);
+    EXPECT_TRUE(faults[0].starts_with("other.wrl:3:7: an Inline leads back to 'test.wrl'")) << faults[0];
+}
+
+TEST(VrmlShapes, CodedLettersOfAUrlLeadNoFartherThanPlainOnes) {
+    std::vector<std::string> opened;
+    const VrmlOpener opener = [&](const std::string& name) -> Result<std::string> {
+        opened.push_back(name);
+        return kVrmlHead;
+    };
+    const auto faults_for = [&](const std::string& url) {
+        return vrml_faults(kVrmlHead + "Inline { url \"" + url + "\" }", opener).size();
+    };
+    EXPECT_EQ(faults_for("a%20b.wrl") + faults_for("50%.wrl") + faults_for("%zz.wrl") + faults_for("%c3%a4.wrl"), 0u);
+    EXPECT_EQ(opened, (std::vector<std::string>{"a b.wrl", "50%.wrl", "%zz.wrl", "\u00e4.wrl"}));
+    opened.clear();
+    for (const char* url : {"%2e%2e/a.wrl", "%2fetc%2fpasswd", "http%3a//a.b/c.wrl", "a%00.wrl", "%2E%2E%2Fa.wrl"})
+        EXPECT_EQ(faults_for(url), 1u) << url;
+    EXPECT_TRUE(opened.empty());
+}
+
 }  // namespace burin::geometry::test

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "activities/wand/felt_wand.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "geometry/mesh/triangle_tree.hpp"
+#include "session/felt/felt_stroke.hpp"
+
+namespace burin::activities {
+namespace {
+
+constexpr double kWandRests_s = 0.3;           // before and after the stroke; the gate's ramp must be over by then
+constexpr std::uint64_t kPressedUpdates = 15;  // until a touch counts as a press
+
+// Finds which object lies nearest to a place.
+class NearestObject {
+public:
+    NearestObject(const scene::MeshPart& part, const std::vector<scene::ObjectId>& ids) : part_(part) {
+        std::map<const geometry::TriangleMesh*, std::shared_ptr<const geometry::TriangleTree>> trees;
+        for (const scene::ObjectId id : ids) {
+            const scene::SceneObject& object = part.object(id);
+            if (!object.felt) continue;
+            auto& tree = trees[object.mesh.get()];
+            if (!tree)
+                tree = std::make_shared<geometry::TriangleTree>(object.mesh->positions_m, object.mesh->triangles);
+            felt_.emplace_back(id, tree);
+        }
+    }
+    // Returns 0 where no object is felt.
+    [[nodiscard]] scene::ObjectId at(const Vec3& place_scene) const {
+        scene::ObjectId nearest = 0;
+        double least_m = HUGE_VAL;
+        for (const auto& [id, tree] : felt_) {
+            const Pose& pose = part_.pose(id);
+            const Similarity mesh_from_scene =
+                inverse(Similarity{pose.position_m, pose.orientation, part_.object(id).scale});
+            const double distance_m =
+                tree->nearest(mesh_from_scene * place_scene, 0).distance_m / mesh_from_scene.scale;
+            if (distance_m >= least_m) continue;
+            least_m = distance_m;
+            nearest = id;
+        }
+        return nearest;
+    }
+
+private:
+    const scene::MeshPart& part_;
+    std::vector<std::pair<scene::ObjectId, std::shared_ptr<const geometry::TriangleTree>>> felt_;
+};
+
+WandFelt felt_in(double time_s, const haptics::TickRecord& tick, const NearestObject& nearest, double radius_m) {
+    const Quat& turn = tick.motion.object_from_device.orientation;
+    WandFelt felt;
+    felt.time_s = time_s;
+    felt.scene_from_tool = {tick.motion.object_from_device * tick.sample.position_device_m,
+                            tick.motion.orientation_object};
+    for (std::uint32_t i = 0; i < tick.contact.point_count; ++i) {
+        const haptics::PointRecord& p = tick.contact.points[i];
+        PointFelt point{p.hip_object_m, p.proxy_object_m, turn * p.force_device_N, 0};
+        if (p.constraints > 0) point.object = nearest.at(p.proxy_object_m - radius_m * p.normal_object);
+        felt.points.push_back(point);
+    }
+    felt.force_N = turn * tick.contact.wrench.force_device_N;
+    felt.torque_Nm = turn * tick.contact.wrench.torque_device_Nm;
+    felt.given_force_N = turn * tick.gate.given.force_device_N;
+    felt.given_torque_Nm = turn * tick.gate.given.torque_device_Nm;
+    return felt;
+}
+
+// Collects what each point has felt of each object.
+class PointTouches {
+public:
+    PointTouches(const scene::MeshPart& part, const std::vector<devices::WandPoint>& points)
+        : part_(part), points_(points) {}
+
+    // Returns the name of an object that is pressed for the first time.
+    std::optional<std::string> add(const WandFelt& felt) {
+        std::optional<std::string> pressed;
+        for (std::size_t i = 0; i < felt.points.size(); ++i) {
+            const PointFelt& point = felt.points[i];
+            if (point.object == 0) continue;
+            const auto [at, is_new] = found_.try_emplace({point.object, i});
+            PointTouch& touch = at->second;
+            if (is_new)
+                touch = {point.object, part_.object(point.object).name, points_[i].name, 0, felt.time_s, 0.0, 0.0};
+            const double force_N = glm::length(point.force_N);
+            touch.force_max_N = std::max(touch.force_max_N, force_N);
+            touch.force_mean_N += (force_N - touch.force_mean_N) / static_cast<double>(++touch.updates);
+            if (touch.updates == kPressedUpdates && pictured_.emplace(point.object, true).second)
+                pressed = touch.object_name;
+        }
+        return pressed;
+    }
+    [[nodiscard]] std::vector<PointTouch> all() const {
+        std::vector<PointTouch> list;
+        for (const auto& [key, touch] : found_) list.push_back(touch);
+        return list;
+    }
+
+private:
+    const scene::MeshPart& part_;
+    const std::vector<devices::WandPoint>& points_;
+    std::map<std::pair<scene::ObjectId, std::size_t>, PointTouch> found_;
+    std::map<scene::ObjectId, bool> pictured_;
+};
+
+std::vector<devices::HandPose> script_of(const sculpt::Stroke& stroke) {
+    std::vector<devices::HandPose> script;
+    const auto add = [&](const sculpt::StrokeRow& row, double time_s) {
+        script.push_back({time_s, row.position_object_m, row.orientation_object, row.button ? 1u : 0u});
+    };
+    add(stroke.front(), 0.0);
+    for (const sculpt::StrokeRow& row : stroke) add(row, row.time_s - stroke.front().time_s + kWandRests_s);
+    add(stroke.back(), script.back().time_s + kWandRests_s);
+    return script;
+}
+
+bool fits(const sculpt::Stroke& stroke, const Similarity& scene_from_device, const Vec3& workspace_m) {
+    const Similarity device_from_scene = inverse(scene_from_device);
+    return std::ranges::all_of(stroke, [&](const sculpt::StrokeRow& row) {
+        const Vec3 at = glm::abs(device_from_scene * row.position_object_m);
+        return at.x <= 0.5 * workspace_m.x && at.y <= 0.5 * workspace_m.y && at.z <= 0.5 * workspace_m.z;
+    });
+}
+
+}  // namespace
+
+AxisAngle axis_angle(const Quat& unit) noexcept {
+    const Quat q = unit.w < 0.0 ? -unit : unit;
+    const Vec3 v(q.x, q.y, q.z);
+    const double sine = glm::length(v);
+    if (!(sine > 0.0)) return {};
+    return {v / sine, 2.0 * std::atan2(sine, q.w)};
+}
+
+Result<WandExploredWorld> explore_with_wand(scene::MeshPart& part, const std::vector<scene::ObjectId>& ids,
+                                            const scene::MaterialTable& materials, const sculpt::Stroke& stroke,
+                                            const WandOptions& options, const OnWandMoment& on_moment) {
+    WandExploredWorld explored;
+    WandOptions placed = options;
+    const Vec3 workspace_m = devices::device_of(options.wand).workspace_m;
+    placed.scene_from_device = devices::scene_from_device(options.wand);
+    explored.fitted = !fits(stroke, placed.scene_from_device, workspace_m);
+    if (explored.fitted) placed.scene_from_device = session::fit_into_workspace(stroke, workspace_m);
+    explored.scene_from_device = placed.scene_from_device;
+
+    const NearestObject nearest(part, ids);
+    PointTouches touches(part, options.points);
+    const auto at_tick = [&](double, const haptics::TickRecord& tick) {
+        explored.force_max_N = std::max(explored.force_max_N, glm::length(tick.gate.given.force_device_N));
+        explored.torque_max_Nm = std::max(explored.torque_max_Nm, glm::length(tick.gate.given.torque_device_Nm));
+        if (tick.in_contact()) ++explored.ticks_in_contact;
+        if (tick.gate.cause != haptics::GateCause::none) ++explored.ticks_faulted;
+    };
+    const auto at_update = [&](double time_s, const haptics::TickRecord& last) -> Result<void> {
+        WandMoment moment{time_s, nullptr, std::nullopt};
+        if (last.tick > 0) {
+            explored.trace.push_back(felt_in(time_s, last, nearest, placed.radius_m));
+            moment.felt = &explored.trace.back();
+            moment.newly_touched = touches.add(explored.trace.back());
+        }
+        return on_moment ? on_moment(moment) : Result<void>{};
+    };
+    Result<WandRun> run = run_wand(part, materials, script_in_device(script_of(stroke), placed.scene_from_device),
+                                   placed, at_tick, at_update);
+    if (!run) return std::unexpected(run.error());
+    explored.run = *run;
+    explored.touches = touches.all();
+    return explored;
+}
+
+}  // namespace burin::activities

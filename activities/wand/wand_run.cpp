@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "activities/wand/wand_run.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+#include "base/text.hpp"
+#include "haptics/haptic_loop.hpp"
+#include "scene/scene_service.hpp"
+
+namespace burin::activities {
+namespace {
+
+// How far an end may move until the next update, at the device: 1 m/s and 6 rad/s for more than a period.
+constexpr double kWandReach_m = 0.02;
+
+haptics::TickParameters wand_parameters(const WandOptions& options, const devices::DeviceDescription& device,
+                                        const scene::MaterialTable& materials) {
+    haptics::TickParameters parameters;
+    parameters.sequence = 1;
+    parameters.workspace.object_from_device = options.scene_from_device;
+    parameters.workspace.workspace_device_m = device.workspace_m;
+    parameters.probe.count = static_cast<std::uint32_t>(options.points.size());
+    for (std::size_t i = 0; i < options.points.size(); ++i)
+        parameters.probe.points[i] = {devices::offset_device_m(options.wand, options.points[i]), options.radius_m};
+    parameters.clearance_ratio = 0.0;  // nothing is carved
+    parameters.action = haptics::ToolAction::touch;
+    parameters.position_noise_m = device.resolution_m;
+    parameters.limits.max_force_N = device.max_force_N;
+    materials.write(parameters.materials);
+    return parameters;
+}
+
+// Returns the hand's side of the scene: the ball around where the first point rests that holds all others.
+scene::SceneHand hand_in_scene(const WandOptions& options, const devices::HandPose& start,
+                               haptics::HapticChannels& channels) {
+    const Vec3 first_m = devices::offset_device_m(options.wand, options.points.front());
+    double farthest_m = 0.0;
+    for (const devices::WandPoint& point : options.points)
+        farthest_m = std::max(farthest_m, glm::length(devices::offset_device_m(options.wand, point) - first_m));
+    const double scale = options.scene_from_device.scale;
+    return {&channels, options.scene_from_device * (start.position_device_m + start.orientation_device * first_m),
+            scale * farthest_m + 2.0 * options.radius_m, scale * kWandReach_m};
+}
+
+// Returns so many points evenly from one to another; one alone is in the middle.
+std::vector<devices::WandPoint> points_between(const Vec3& from_m, const Vec3& to_m, std::size_t count) {
+    std::vector<devices::WandPoint> points;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double t = count > 1 ? static_cast<double>(i) / static_cast<double>(count - 1) : 0.5;
+        points.push_back({"point " + std::to_string(i + 1), from_m + t * (to_m - from_m)});
+    }
+    return points;
+}
+
+}  // namespace
+
+Result<std::vector<devices::WandPoint>> points_named(const devices::WandDescription& wand, const std::string& text) {
+    constexpr const char* kWhere = "--points";
+    std::size_t count = 0;
+    const char* const end = text.data() + text.size();
+    if (const auto [stopped, failed] = std::from_chars(text.data(), end, count);
+        failed == std::errc() && stopped == end) {
+        if (count < 1 || count > haptics::kMostProbePoints)
+            return fail(kWhere, "is " + text, formatted("write a number from 1 to %u", haptics::kMostProbePoints));
+        if (wand.points.empty()) return fail(kWhere, "the wand's description names no points", "give it [[point]]");
+        return points_between(wand.points.front().offset_m, wand.points.back().offset_m, count);
+    }
+    std::vector<std::string_view> known{"centre"};
+    for (const devices::WandPoint& point : wand.points) known.push_back(point.name);
+    std::vector<devices::WandPoint> points;
+    for (std::size_t at = 0; at <= text.size();) {
+        const std::size_t comma = std::min(text.find(',', at), text.size());
+        const std::string name = text.substr(at, comma - at);
+        at = comma + 1;
+        const auto found = std::ranges::find(wand.points, name, &devices::WandPoint::name);
+        if (found == wand.points.end() && name != "centre")
+            return fail(kWhere, "the wand has no point named " + name,
+                        "did you mean " + std::string(nearest_name(name, known)) + "? There are: " + joined(known) +
+                            ", or a number of points");
+        points.push_back(found == wand.points.end() ? devices::WandPoint{"centre", Vec3(0.0)} : *found);
+    }
+    if (points.size() > haptics::kMostProbePoints)
+        return fail(kWhere, formatted("names %zu points", points.size()),
+                    formatted("name at most %u", haptics::kMostProbePoints));
+    return points;
+}
+
+std::vector<devices::HandPose> script_in_device(std::vector<devices::HandPose> script,
+                                                const Similarity& scene_from_device) {
+    const Similarity device_from_scene = inverse(scene_from_device);
+    for (devices::HandPose& pose : script) {
+        pose.position_device_m = device_from_scene * pose.position_device_m;
+        // The handle's axes are the device's where it is not turned, so the turn is taken into these.
+        pose.orientation_device =
+            device_from_scene.orientation * pose.orientation_device * scene_from_device.orientation;
+    }
+    return script;
+}
+
+Result<WandRun> run_wand(scene::MeshPart& part, const scene::MaterialTable& materials,
+                         std::vector<devices::HandPose> script, const WandOptions& options, const OnWandTick& on_tick,
+                         const OnWandUpdate& on_update) {
+    Result<devices::SimulatedHand> hand =
+        devices::SimulatedHand::create(std::move(script), devices::HandPath::straight, options.grip);
+    if (!hand) return std::unexpected(hand.error());
+    const double end_s = hand->end_s();
+    const devices::HandTarget start = hand->target(0.0);
+
+    SimulatedClock clock;
+    haptics::HapticChannels channels;
+    devices::SimulatedWand wand(std::move(*hand), options.wand, &clock);
+    channels.parameters.draft() = wand_parameters(options, wand.description(), materials);
+    channels.parameters.publish();
+    haptics::HapticLoop loop(wand, clock, channels);
+    scene::SceneService service(
+        {&part}, {hand_in_scene(options, {0.0, start.position_device_m, start.orientation_device, 0}, channels)});
+
+    WandRun run;
+    run.period_s = seconds(loop.period_ns());
+    const Nanoseconds start_ns = clock.now_ns(), end_ns = start_ns + nanoseconds(end_s);
+    Nanoseconds next_update_ns = start_ns;
+    haptics::TickRecord last, drained;
+    while (clock.now_ns() < end_ns) {
+        if (clock.now_ns() >= next_update_ns) {
+            if (const auto updated = service.update(clock.now_ns()); !updated) return std::unexpected(updated.error());
+            next_update_ns = clock.now_ns() + scene::SceneService::kHandsMove_ns;
+            if (on_update)
+                if (const auto done = on_update(seconds(clock.now_ns() - start_ns), last); !done)
+                    return std::unexpected(done.error());
+        }
+        clock.sleep_until(clock.now_ns() + loop.period_ns());
+        last = loop.step();
+        while (channels.records.pop(drained)) {
+        }
+        if (on_tick) on_tick(seconds(clock.now_ns() - start_ns), last);
+    }
+    run.ticks = loop.ticks();
+    run.surfaces_published = service.published(0);
+    run.trips = wand.trips();
+    run.saturation = wand.saturation();
+    return run;
+}
+
+}  // namespace burin::activities

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "app/demo_command.hpp"
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "activities/wand/cube_test.hpp"
+#include "activities/wand/wand_view.hpp"
+#include "app/output_files.hpp"
+#include "app/picture_folder.hpp"
+#include "devices/haptic/wand_file.hpp"
+#include "scene/vrml_world.hpp"
+#include "session/picture/pictures.hpp"
+
+namespace burin::app {
+namespace {
+
+// The cases of which there is a picture, and its name.
+constexpr std::array kPictured{
+    std::pair(activities::CubeCase::top, "top.png"), std::pair(activities::CubeCase::bottom, "bottom.png"),
+    std::pair(activities::CubeCase::both, "both.png"), std::pair(activities::CubeCase::against, "single-point.png")};
+
+struct CubeWorld {
+    std::vector<scene::ObjectId> ids;
+    scene::MaterialTable materials;
+    std::unique_ptr<scene::MeshPart> part;
+    Box cube_scene_m;  // of the object to be pressed
+};
+
+// Reads a world; its first object that is felt is the one that is pressed.
+Result<void> open_cube(CubeWorld& to, const std::string& path) {
+    scene::WorldOrProblems world = scene::read_any_world(path);
+    if (!world) return std::unexpected(world.error().front());
+    for (const scene::SceneObject& object : world->objects) {
+        to.ids.push_back(object.id);
+        if (!object.felt || !to.cube_scene_m.empty()) continue;
+        for (const Vec3& p : object.mesh->positions_m) to.cube_scene_m.include(object.pose * (object.scale * p));
+    }
+    if (to.cube_scene_m.empty()) return fail(path, "has nothing to touch", "name a world with a cube");
+    auto part = scene::MeshPart::create(std::move(world->objects), to.materials);
+    if (!part) return std::unexpected(part.error());
+    to.part = std::move(*part);
+    return {};
+}
+
+activities::WandPose pose_in_case(const activities::CubeMeasure& measure) {
+    const activities::CubeTick& tick = measure.mean;
+    activities::WandPose pose;
+    pose.scene_from_tool = tick.scene_from_handle;
+    pose.force_N = tick.given_force_N;
+    pose.points_scene = {tick.top_scene_m, tick.bottom_scene_m};
+    return pose;
+}
+
+Result<void> draw_cases(const std::filesystem::path& folder, const CubeWorld& world, const activities::CubeTest& test,
+                        const devices::WandDescription& wand, double radius_m) {
+    Result<PictureFolder> pictures = PictureFolder::create(folder.string(), "--out");
+    if (!pictures) return std::unexpected(pictures.error());
+    const activities::WorldView view(*world.part, world.ids, radius_m);
+    const activities::WandView avatar(wand, wand.gain, radius_m);
+    activities::WandCamera camera;
+    // From the side on which the wand is, so that the face that is pressed is seen along.
+    camera.towards_eye = {-1.0, 0.45, -0.65};
+    camera.middle_scene = {world.cube_scene_m.center().x, world.cube_scene_m.center().y,
+                           0.5 * (world.cube_scene_m.center().z + test.face_m)};
+    camera.half_height_m = world.cube_scene_m.extent().y;
+    for (const auto& [which, name] : kPictured) {
+        const activities::WandPose pose = pose_in_case(test.measures[static_cast<std::size_t>(which)]);
+        if (const auto taken = pictures->take(avatar.close_scene(view, pose, camera), name); !taken) return taken;
+    }
+    return {};
+}
+
+void print_findings(const activities::CubeTest& test) {
+    for (const activities::CubeFinding& finding : test.findings) {
+        std::printf("%-5s %s: %s\n      found: %s\n", finding.holds ? "yes" : "WRONG", activities::text(finding.which),
+                    finding.expected.c_str(), finding.found.c_str());
+    }
+    const devices::WandSaturation& s = test.two_points_run.saturation;
+    std::printf(
+        "ticks at a limit: force %llu %llu %llu, torque %llu %llu %llu of %llu; the amplifiers tripped %llu times\n",
+        static_cast<unsigned long long>(s.force[0]), static_cast<unsigned long long>(s.force[1]),
+        static_cast<unsigned long long>(s.force[2]), static_cast<unsigned long long>(s.torque[0]),
+        static_cast<unsigned long long>(s.torque[1]), static_cast<unsigned long long>(s.torque[2]),
+        static_cast<unsigned long long>(test.two_points_run.ticks),
+        static_cast<unsigned long long>(test.two_points_run.trips + test.one_point_run.trips));
+}
+
+Json vector_of(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
+
+Json cube_report(const activities::CubeTest& test, const std::string& world) {
+    Json report{{"burin", BURIN_VERSION}, {"world", world}, {"as_expected", test.holds()}};
+    report["cases"] = Json::array();
+    for (const activities::CubeMeasure& m : test.measures)
+        report["cases"].push_back({{"case", activities::text(m.which)},
+                                   {"from_s", m.from_s},
+                                   {"to_s", m.to_s},
+                                   {"ticks", m.ticks},
+                                   {"force_N", vector_of(m.mean.given_force_N)},
+                                   {"torque_Nm", vector_of(m.mean.given_torque_Nm)},
+                                   {"top_end_inside_m", m.sunk_top_m}});
+    report["findings"] = Json::array();
+    for (const activities::CubeFinding& f : test.findings)
+        report["findings"].push_back(
+            {{"case", activities::text(f.which)}, {"expected", f.expected}, {"found", f.found}, {"holds", f.holds}});
+    return report;
+}
+
+Result<void> write_figures(const std::filesystem::path& folder, const activities::CubeTest& test,
+                           const std::string& world) {
+    for (const auto& [name, content] : {std::pair("figure-15.svg", activities::figure_control(test)),
+                                        std::pair("figure-23.svg", activities::figure_forces(test)),
+                                        std::pair("figure-24.svg", activities::figure_torques(test)),
+                                        std::pair("figure-25.svg", activities::figure_sums(test)),
+                                        std::pair("ticks.csv", activities::cube_table(test)),
+                                        std::pair("report.json", json_text(cube_report(test, world)))}) {
+        const std::string path = (folder / name).string();
+        if (const auto written = write_text(path, content); !written) return written;
+        std::printf("wrote %s\n", path.c_str());
+    }
+    return {};
+}
+
+}  // namespace
+
+struct DemoCommand::Options {
+    std::string out, world = "assets/worlds/wand-cube.wrl", wand;
+    double radius_m = 0.004;
+    bool no_pictures = false;
+};
+
+DemoCommand::DemoCommand(Command app)
+    : options_(std::make_unique<Options>()), command_(app.subcommand("demo", "Runs that show what a device does")) {
+    command_.require_subcommand();
+    Command wand = command_.subcommand(
+        "wand", "Press a wand's ends against a cube: forces, torques and their signs, with pictures and plots");
+    Options& o = *options_;
+    wand.option("--out", o.out, "A folder for pictures, figures, table and report").required();
+    wand.option("--world", o.world, "A world whose first object that is felt is the cube").show_default();
+    wand.option("--wand", o.wand, "A wand's description (TOML); else the Quanser wand's");
+    wand.option("--radius", o.radius_m, "Radius of the balls that touch, in metres").within(1e-4, 0.02).show_default();
+    wand.flag("--no-pictures", o.no_pictures, "Leave out the pictures, which need a Vulkan device");
+}
+
+DemoCommand::~DemoCommand() = default;
+
+bool DemoCommand::parsed() const { return command_.parsed(); }
+
+Result<void> DemoCommand::run() const {
+    const Options& o = *options_;
+    const Result<devices::WandDescription> wand =
+        o.wand.empty() ? devices::WandDescription{} : devices::read_wand(o.wand);
+    if (!wand) return std::unexpected(wand.error());
+    CubeWorld world;
+    if (const auto opened = open_cube(world, o.world); !opened) return opened;
+    if (const auto made = session::make_picture_folder(o.out, "--out"); !made) return made;
+    const Result<activities::CubeTest> test =
+        activities::run_cube_test(*world.part, world.materials, world.cube_scene_m, *wand, o.radius_m);
+    if (!test) return std::unexpected(test.error());
+    if (const auto written = write_figures(o.out, *test, o.world); !written) return written;
+    if (!o.no_pictures)
+        if (const auto drawn = draw_cases(o.out, world, *test, *wand, o.radius_m); !drawn) return drawn;
+    print_findings(*test);
+    if (test->holds()) return {};
+    std::fflush(stdout);
+    return fail(o.out, "not all forces and torques are as expected", "see the lines that say WRONG");
+}
+
+}  // namespace burin::app

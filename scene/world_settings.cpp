@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "scene/world_settings.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "base/text.hpp"
+#include "scene/object_keys.hpp"
+
+namespace burin::scene {
+namespace {
+
+// Returns the names of all objects; at most so many that a message stays readable.
+std::string some_names(const World& world) {
+    constexpr std::size_t kMost = 12;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(world.objects.size(), kMost); ++i)
+        text += (i > 0 ? ", " : "") + world.objects[i].name;
+    return world.objects.size() > kMost ? text + ", ..." : text;
+}
+
+SceneObject* object_named(World& world, TableReader& t, const std::string& name) {
+    const auto found = std::ranges::find(world.objects, name, &SceneObject::name);
+    if (found != world.objects.end()) return &*found;
+    if (world.objects.empty()) return nullptr;
+    std::vector<std::string_view> names;
+    for (const SceneObject& object : world.objects) names.push_back(object.name);
+    t.refuse("name", "is " + name + ", which the world does not have",
+             "did you mean " + std::string(nearest_name(name, names)) + "? It has: " + some_names(world));
+    return nullptr;
+}
+
+}  // namespace
+
+std::filesystem::path settings_of(const std::filesystem::path& world) {
+    return std::filesystem::path(world).replace_extension(".toml");
+}
+
+std::vector<Error> apply_settings(World& world, std::string_view text, const std::string& name) {
+    const Result<toml::table> root = parse_toml(text, name);
+    if (!root) return {root.error()};
+    TableReading reading{name};
+    TableReader file(reading, &*root, "the file");
+    if (const auto title = file.text("name")) world.name = *title;
+    std::map<std::string, std::uint32_t> lines;  // of the names so far
+    for (const toml::table* table : file.tables("object")) {
+        ObjectKeys keys(reading, *table);
+        TableReader& t = keys.table();
+        t.require("name", "name an object of the world; burin world check lists them");
+        const std::string object_name = t.text("name").value_or("");
+        SceneObject unknown;
+        SceneObject* known = t.has("name") ? object_named(world, t, object_name) : nullptr;
+        // The keys of an object that is not there are checked as well.
+        SceneObject& object = known != nullptr ? *known : unknown;
+        keys.read(object);
+        for (const char* const key : {"mesh", "mesh_units"})
+            if (t.text(key)) t.refuse(key, "has no place here, since the shape is the world's", "leave it out");
+        t.refuse_unknown();
+        if (known == nullptr) continue;
+        keys.tell_problems(object);
+        const auto line = static_cast<std::uint32_t>(t.find("name")->source().begin.line);
+        const auto [at, is_new] = lines.try_emplace(object_name, line);
+        if (!is_new)
+            t.refuse("name",
+                     "is " + object_name + formatted(" again, after line %u", static_cast<unsigned>(at->second)),
+                     "write all of an object into one table");
+    }
+    file.refuse_unknown();
+    return in_order_of_lines(std::move(reading.errors));
+}
+
+}  // namespace burin::scene
