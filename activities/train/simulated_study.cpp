@@ -21,7 +21,7 @@ namespace {
 constexpr std::uint64_t kCodesStream = 1'000'000, kPeopleStream = 2'000'000, kDelaysStream = 3'000'000,
                         kStagesStream = 10'000'000;
 constexpr std::uint64_t kStagesOfPerson = 10'000;
-// A block of ticks and a transaction: of so much simulated time, and no longer apart than that by the clock on the wall.
+// A block of ticks and a transaction: of so much simulated time, and no longer apart by the clock on the wall.
 constexpr Nanoseconds kBlock_ns = kNanosecondsPerSecond;
 constexpr double kSecondsAnHour = 3600.0;
 

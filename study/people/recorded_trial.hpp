@@ -13,10 +13,10 @@
 namespace burin::study {
 
 // Of a trial as it ended and of what the haptic model makes of its motion; null for what is no valid trial. Deviation
-// (W17) is given twice: by distance to the wall, which is the headline, and to the proxy of the model. The two agree but
-// where the hand leaves the tube and comes back elsewhere: the proxy hangs where it cannot follow. A trial in which they
-// differ by more than kDeviationsAgree_mm in a point's mean is flagged. Contact and force are the model's; a flagged trial
-// has none.
+// (W17) is given twice: by distance to the wall, which is the headline, and to the proxy of the model. The two agree
+// but where the hand leaves the tube and comes back elsewhere: the proxy hangs where it cannot follow. A trial in which
+// they differ by more than kDeviationsAgree_mm in a point's mean is flagged. Contact and force are the model's; a
+// flagged trial has none.
 [[nodiscard]] Json trial_record(const StudyWorld& world, const StageState& end, std::span<const StageEvent> events,
                                 const ModelTouch& model);
 inline constexpr double kDeviationsAgree_mm = 1.0;
