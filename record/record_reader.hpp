@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Reads a session file, block by block, whatever is in it.
 //
-// The file is never changed, but for a recording that was killed: SQLite brings its log (FILE-wal) in when it can.
+// The file is never changed, but where a program was killed: SQLite brings the log of a recording (FILE-wal) in when it
+// can, and takes a derived table that was half there (FILE-journal) back.
 // Bad input: not SQLite, another program's, a newer version, a truncated or damaged file, tables that are views, huge
 // claims, columns that are missing or unknown: an Error, with the remedy. A block is checked when it is read, so the
 // others are there although one is damaged. Memory: the list of blocks (32 bytes each, at most kMostBlocks) and one

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "record/compare.hpp"
 #include "record/export/table_export.hpp"
 #include "record/motion.hpp"
@@ -97,6 +99,25 @@ TEST(DerivedTable, ARecordingFromBeforeThereWereNamesOfObjectsIsReadAndTakesOne)
     EXPECT_TRUE(before->hands()[0].objects.empty());
     ASSERT_TRUE(add_squares(at / "a", 5));
     EXPECT_EQ(RecordReader::open(at / "a")->derived()[0].objects, squares().objects);
+}
+
+// A file and its journal as a kill leaves them, while pages of the transaction are in the file already.
+TEST(DerivedTable, OneThatAKillInterruptedIsTakenBackByTheNextReader) {
+    const Workplace at;
+    recorded_for_deriving(at / "a", 2500);
+    auto database = Database::open(at / "a", Database::Use::write);
+    ASSERT_TRUE(database->run("PRAGMA cache_size = 2; BEGIN IMMEDIATE"));
+    for (int i = 0; i < 50; ++i)
+        ASSERT_TRUE(
+            database->run("INSERT INTO derived(name, program, columns, hand, tick0, rows, t0_ns, crc, data) "
+                          "VALUES('x', 'y', '', 0, 1, 1, 1, 1, zeroblob(100000))"));
+    std::filesystem::copy_file(at / "a", at / "b");
+    std::filesystem::copy_file(at / "a-journal", at / "b-journal");
+    const auto reader = RecordReader::open(at / "b");
+    ASSERT_TRUE(reader) << reader.error().line();
+    EXPECT_TRUE(reader->derived().empty());
+    EXPECT_EQ(*test::sound_ticks(at / "b"), 2500u);
+    EXPECT_FALSE(std::filesystem::exists(at / "b-journal"));
 }
 
 TEST(DerivedTable, IsRefusedWhereTheFileIsDamagedOrNone) {
