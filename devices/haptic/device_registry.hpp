@@ -32,7 +32,8 @@ struct HapticKind {
 
 inline constexpr const char* kDefaultHapticDevice = "simulated";
 
-// Opens the device of that name, or of NAME:FILE. An Error names the kinds that there are, or says why the device cannot be used.
+// Opens the device of that name, or of NAME:FILE. An Error names the kinds that there are, or says why the device
+// cannot be used.
 [[nodiscard]] Result<std::unique_ptr<HapticDevice>> open_haptic_device(std::string_view name, HapticHost host);
 
 // Returns all names with what they are, for the help of --device.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A simulated wand: a handle that is held in its middle by a scripted or a steered hand, moves and turns in six degrees,
-// and is driven in three forces and in some torques.
+// A simulated wand: a handle that is held in its middle by a scripted or a steered hand, moves and turns in six
+// degrees, and is driven in three forces and in some torques.
 //
 // Model, in the device frame: translation as the simulated Omni's (devices/haptic/simulated_omni.hpp), and rotation
 // alike, with the inertia of arm and hand the same about every axis:

@@ -69,8 +69,8 @@ WandOptions options_with(const std::string& points) {
 TEST(FeltWand, EachPointFeelsTheObjectThatItTouches) {
     Plates world;
     ASSERT_NE(world.part, nullptr);
-    // Rolled by 1.3, the top end is 77 mm to the left and 21 mm above the middle, the bottom end to the right and below:
-    // they meet the plates, one of which is 40 mm lower, within 3 mm of each other.
+    // Rolled by 1.3, the top end is 77 mm to the left and 21 mm above the middle, the bottom end to the right and
+    // below: they meet the plates, one of which is 40 mm lower, within 3 mm of each other.
     const WandOptions options = options_with("top,bottom");
     const auto explored =
         explore_with_wand(*world.part, world.ids, world.materials, lowered(0.18, 0.128, 1.3), options, {});
