@@ -20,11 +20,11 @@ constexpr std::uint64_t kLookEvery = 20;  // ticks
 
 // Of a stage: the moments in it, thinned.
 struct StageMoments {
-    std::vector<activities::WandMoment> all;
+    std::vector<activities::StageMoment> all;
     std::vector<bool> running;  // the attempt's clock ran
 
     // The middle one of those that tell most: within an attempt, and where the wall is touched.
-    [[nodiscard]] const activities::WandMoment* chosen() const {
+    [[nodiscard]] const activities::StageMoment* chosen() const {
         for (const bool touching : {true, false}) {
             for (const bool attempt : {true, false}) {
                 std::vector<std::size_t> fit;
@@ -89,7 +89,7 @@ Result<void> draw_stages(const study::StudyFolder& study) {
             }
             const auto moments = moments_of(study, *visit, *felt);
             if (!moments) return std::unexpected(moments.error());
-            const activities::WandMoment* moment = moments->chosen();
+            const activities::StageMoment* moment = moments->chosen();
             if (moment == nullptr) continue;
             activities::StageView view(*felt, study.protocol(), *at.stage, group);
             const auto image = renderer->render(view.scene(*moment));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// burin world FILE --stroke STROKE --device simulated-wand[:DESCRIPTION]: a simulated hand explores a world with a wand;
-// what each of its points felt of each object goes to the terminal and a report, with a table and plots, and what it
-// looked like into pictures.
+// burin world FILE --stroke STROKE --device simulated-wand[:DESCRIPTION]: a simulated hand explores a world with a
+// wand; what each of its points felt of each object goes to the terminal and a report, with a table and plots, and what
+// it looked like into pictures.
 #pragma once
 
 #include "app/world_explore.hpp"

@@ -17,8 +17,8 @@ namespace burin::scene {
 // `name` stands for the file in messages.
 [[nodiscard]] WorldOrProblems world_of(const geometry::VrmlWorld& world, const std::string& name);
 
-// Reads a world in TOML (.toml), in VRML 2.0 (.wrl) with the settings beside it (scene/world_settings.hpp), or a mesh as
-// a world of one object (scene/mesh_world.hpp).
+// Reads a world in TOML (.toml), in VRML 2.0 (.wrl) with the settings beside it (scene/world_settings.hpp), or a mesh
+// as a world of one object (scene/mesh_world.hpp).
 [[nodiscard]] WorldOrProblems read_any_world(const std::filesystem::path& path);
 
 }  // namespace burin::scene

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The settings that belong to a world in VRML: NAME.toml beside NAME.wrl. A table [[object]] with the name that the world
-// gives an object changes how it is seen, felt, placed and moved; it has the keys of a world in TOML but for the mesh
-// (docs/formats.md). So a world that somebody else has drawn gets its feel without a change to its file.
-// Poses and scale are relative to where the world has the object: its mesh stands there already.
-// Failure: all problems at once, each with line and remedy; a name that the world does not have, with its nearest.
-// Threads: any; nothing shared.
+// The settings that belong to a world in VRML: NAME.toml beside NAME.wrl. A table [[object]] with the name that the
+// world gives an object changes how it is seen, felt, placed and moved; it has the keys of a world in TOML but for the
+// mesh (docs/formats.md). So a world that somebody else has drawn gets its feel without a change to its file. Poses and
+// scale are relative to where the world has the object: its mesh stands there already. Failure: all problems at once,
+// each with line and remedy; a name that the world does not have, with its nearest. Threads: any; nothing shared.
 #pragma once
 
 #include <filesystem>

@@ -59,16 +59,16 @@ Vec3 place_on_path(const std::vector<Vec3>& spine_m, double way_m) {
     return spine_m.back();
 }
 
-bool is_in(const study::CapBox& cap, const WandMoment& moment) {
+bool is_in(const study::CapBox& cap, const StageMoment& moment) {
     return study::inside(cap, moment.points_m[0], moment.points_m[0]) &&
            study::inside(cap, moment.points_m[1], moment.points_m[1]);
 }
 
 }  // namespace
 
-WandMoment moment_of(const study::FeltWorld& world, const study::StageSession& session,
+StageMoment moment_of(const study::FeltWorld& world, const study::StageSession& session,
                      const haptics::TickRecord& record) {
-    WandMoment moment;
+    StageMoment moment;
     moment.points_m = session.touch().points_m(record.sample);
     moment.orientation = record.sample.orientation_device;
     moment.time_s = session.time_s();
@@ -101,7 +101,7 @@ void StageView::show(scene::ObjectId id, bool seen, scene::Colour colour) {
     view_.take(update);
 }
 
-renderer::Scene StageView::scene(WandMoment moment) {
+renderer::Scene StageView::scene(StageMoment moment) {
     if (shows_path_) {
         const Vec3 place = place_on_path(world_.world().spine_m, lead_m_per_s_ * moment.time_s);
         const Vec3 up{0.0, point_offset_m_, 0.0};
@@ -120,7 +120,7 @@ renderer::Scene StageView::scene(WandMoment moment) {
     return scene;
 }
 
-void StageView::add_wand(renderer::Scene& scene, const WandMoment& moment) const {
+void StageView::add_wand(renderer::Scene& scene, const StageMoment& moment) const {
     const Similarity& to_world = view_.world_from_scene();
     const Vec3 middle = 0.5 * (moment.points_m[0] + moment.points_m[1]);
     scene.objects.push_back({rod_, to_world * Similarity{middle, moment.orientation, 1.0}, kRodGrey});

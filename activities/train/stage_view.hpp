@@ -15,13 +15,13 @@
 
 namespace burin::activities {
 
-struct WandMoment {
+struct StageMoment {
     std::array<Vec3, 2> points_m{};  // top, bottom
     Quat orientation{1.0, 0.0, 0.0, 0.0};
     bool touches_wall = false, start_touched = false, end_touched = false;
     double time_s = 0.0;  // since the stage's beginning
 };
-[[nodiscard]] WandMoment moment_of(const study::FeltWorld& world, const study::StageSession& session,
+[[nodiscard]] StageMoment moment_of(const study::FeltWorld& world, const study::StageSession& session,
                                    const haptics::TickRecord& record);
 
 class StageView {
@@ -30,10 +30,10 @@ public:
     StageView(const study::FeltWorld& world, const study::Protocol& protocol, const study::Stage& stage,
               const study::Group& group);
 
-    [[nodiscard]] renderer::Scene scene(WandMoment moment);
+    [[nodiscard]] renderer::Scene scene(StageMoment moment);
 
 private:
-    void add_wand(renderer::Scene& scene, const WandMoment& moment) const;
+    void add_wand(renderer::Scene& scene, const StageMoment& moment) const;
     void show(scene::ObjectId id, bool seen, scene::Colour colour);
 
     const study::FeltWorld& world_;

@@ -59,9 +59,9 @@ struct CubeTest {
     [[nodiscard]] bool holds() const;
 };
 
-// Runs the test on the box around a felt object that is a cube with its face square to z. Fails where the cube is not so
-// high that both ends of the wand fit on its face, or so high that one alone cannot, and where the places are outside of
-// the wand's workspace.
+// Runs the test on the box around a felt object that is a cube with its face square to z. Fails where the cube is not
+// so high that both ends of the wand fit on its face, or so high that one alone cannot, and where the places are
+// outside of the wand's workspace.
 [[nodiscard]] Result<CubeTest> run_cube_test(scene::MeshPart& part, const scene::MaterialTable& materials,
                                              const Box& cube_scene_m, const devices::WandDescription& wand,
                                              double radius_m);

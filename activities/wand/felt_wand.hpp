@@ -2,11 +2,10 @@
 // Explores a world with a wand (burin world FILE --device simulated-wand): a simulated hand leads the wand along a
 // stroke, positions and turns, and each of its points feels the world's objects.
 //
-// What is kept is what a study of such a wand records (W16 of the requirements): the handle's place and its turn as axis
-// and angle; for each point its place, where its proxy rests, which object it touches, the force there and its deviation
-// from the proxy; the sums; and the clock. In the scene's axes, at every update of the scene; every tick goes into the
-// sums.
-// Frame: the scene's, metres. Thread: the caller's; time is simulated.
+// What is kept is what a study of such a wand records (W16 of the requirements): the handle's place and its turn as
+// axis and angle; for each point its place, where its proxy rests, which object it touches, the force there and its
+// deviation from the proxy; the sums; and the clock. In the scene's axes, at every update of the scene; every tick goes
+// into the sums. Frame: the scene's, metres. Thread: the caller's; time is simulated.
 #pragma once
 
 #include <array>
@@ -61,8 +60,8 @@ struct WandMoment {
 using OnWandMoment = std::function<Result<void>(const WandMoment&)>;
 
 // Leads the wand along a stroke of at least one row. Where the stroke leaves the workspace it is centred in it, and the
-// motion scaled up where it is larger. Only options.scene_from_device is not read. Fails when an update does, or what is
-// called at one.
+// motion scaled up where it is larger. Only options.scene_from_device is not read. Fails when an update does, or what
+// is called at one.
 [[nodiscard]] Result<WandExploredWorld> explore_with_wand(scene::MeshPart& part,
                                                           const std::vector<scene::ObjectId>& ids,
                                                           const scene::MaterialTable& materials,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A simulated hand leads a simulated wand through a scene of meshes, which both ends, or any points of it, touch.
 //
-// Data flow: hand -> wand -> haptic loop (at the wand's rate) -> ring of stroke samples -> the scene's service (100 Hz),
-// which takes objects along their paths and publishes what is near -> haptic loop. In simulated time, on the caller's
-// thread: every run gives the same bits.
-// Frames: the script's is the device's; figures are in the scene's axes where a name says so.
+// Data flow: hand -> wand -> haptic loop (at the wand's rate) -> ring of stroke samples -> the scene's service (100
+// Hz), which takes objects along their paths and publishes what is near -> haptic loop. In simulated time, on the
+// caller's thread: every run gives the same bits. Frames: the script's is the device's; figures are in the scene's axes
+// where a name says so.
 #pragma once
 
 #include <cstdint>

@@ -3,9 +3,9 @@
 //
 // The world is made here, or is a file: a thousand named nodes of 487 triangles each, in groups that are moved and
 // turned, as exporters write them. The text is in memory; reading a disk is not measured. Coin reads the same file in a
-// program of its own (bench/peers/coin_reader.cpp) right after each of ours, so that both meet the same machine: foreign
-// files crash it, and burin does not depend on it.
-// Times are CPU times of one thread: other work on the machine does not count.
+// program of its own (bench/peers/coin_reader.cpp) right after each of ours, so that both meet the same machine:
+// foreign files crash it, and burin does not depend on it. Times are CPU times of one thread: other work on the machine
+// does not count.
 #pragma once
 
 #include <cstddef>

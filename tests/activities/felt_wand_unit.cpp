@@ -43,7 +43,7 @@ struct Plates {
 
     Plates() {
         auto made = scene::MeshPart::create(
-            {plate(1, "left", {-0.12, 0.15, 0.0}), plate(2, "right", {0.12, 0.12, 0.0})}, materials);
+            {plate(1, "left", {-0.12, 0.16, 0.0}), plate(2, "right", {0.12, 0.12, 0.0})}, materials);
         if (made) part = std::move(*made);
     }
 };
@@ -69,8 +69,8 @@ WandOptions options_with(const std::string& points) {
 TEST(FeltWand, EachPointFeelsTheObjectThatItTouches) {
     Plates world;
     ASSERT_NE(world.part, nullptr);
-    // Rolled by 1.3, the top end is 77 mm to the left and 21 mm above the middle, the bottom end to the right and below:
-    // they meet the plates, one of which is 30 mm lower, within 13 mm of each other.
+    // Rolled by 1.3, the top end is 77 mm to the left and 21 mm above the middle, the bottom end to the right and
+    // below: they meet the plates, one of which is 40 mm lower, within 3 mm of each other.
     const WandOptions options = options_with("top,bottom");
     const auto explored =
         explore_with_wand(*world.part, world.ids, world.materials, lowered(0.18, 0.128, 1.3), options, {});

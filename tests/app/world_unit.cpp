@@ -76,12 +76,16 @@ TEST(WorldCommand, TellsWhatIsInAWorldInToml) {
     EXPECT_TRUE(tells(bad, "burin: 1 of 2 files: 2 faults; correct them and check again")) << bad.output;
 }
 
-TEST(WorldCommand, RefusesWhatItCannotDoYetAndWrongUsage) {
+TEST(WorldCommand, RefusesEmptyWorldsAndWrongUsage) {
     const Workplace place;
     place.write("w.wrl", kWorldHead);
-    const auto opened = place.run(kWorldBurin + " world w.wrl");
-    EXPECT_EQ(opened.status, 2);
-    EXPECT_TRUE(tells(opened, "needs a --stroke: it cannot be explored live yet")) << opened.output;
+    place.write("in.txt", "burin-input 1 nothing\n0.1 command quit\n");
+    const auto opened = place.run(kWorldBurin + " world w.wrl --input in.txt --offscreen");
+    EXPECT_EQ(opened.status, 1) << "a world without a shape";
+    EXPECT_TRUE(tells(opened, "w.wrl")) << opened.output;
+    const auto of_none = place.run(kWorldBurin + " world --input in.txt --offscreen");
+    EXPECT_EQ(of_none.status, 1) << "a script does not say of which world it is";
+    EXPECT_TRUE(tells(of_none, "there is no world; name one")) << of_none.output;
     place.write("s.csv", "time_s,x_m,y_m,z_m,qx,qy,qz,qw,button\n0,0,0,0,0,0,0,1,0\n");
     const auto empty = place.run(kWorldBurin + " world w.wrl --stroke s.csv");
     EXPECT_EQ(empty.status, 1) << "a world without a shape";

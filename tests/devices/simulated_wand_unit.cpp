@@ -165,8 +165,7 @@ TEST(SimulatedWand, ReadsInStepsOfItsEncoders) {
         wand.advance(kMs);
         const DeviceSample sample = wand.read();
         const Pose& truth = wand.true_pose_device();
-        EXPECT_LE(between(sample.orientation_device, truth.orientation),
-                  0.9 * arm.orientation_step_rad);
+        EXPECT_LE(between(sample.orientation_device, truth.orientation), 0.9 * arm.orientation_step_rad);
         for (int axis = 0; axis < 3; ++axis)
             EXPECT_LE(std::abs(sample.position_device_m[axis] - truth.position_m[axis]), 0.500001 * arm.resolution_m);
         EXPECT_NEAR(glm::length(sample.orientation_device), 1.0, 1e-12);

@@ -233,7 +233,7 @@ TEST(VrmlShapes, OnlyAnInlineThatIsShownHasToNameAFile) {
     EXPECT_TRUE(vrml_faults(kVrmlHead + prototype + "Part { file \"foot.wrl\" }", opener).empty());
     const auto faults = vrml_faults(kVrmlHead + prototype + "Part { }", opener);
     ASSERT_EQ(faults.size(), 1u);
-    EXPECT_EQ(faults[0], "test.wrl:2:35: lost.wrl: does not exist; check the path");
+    EXPECT_EQ(faults[0], "test.wrl:2:34: lost.wrl: does not exist; check the path");
 }
 
 TEST(VrmlShapes, ACycleThroughAPrototypesFileIsAFault) {
