@@ -32,14 +32,8 @@ struct HandPose {
 enum class HandPath : std::uint8_t { straight, monotone_cubic };
 
 // In rotation likewise, for devices whose handle turns under torque (a wand, not a stylus): T = K_r turn + B_r (w
-<<<<<<< HEAD
-// target
-// - w), with a fist's inertia. 2 Nm/rad is about a wrist's own stiffness: the 0.23 Nm that a wand gives turn it by 0.1
-// rad. 0.05 Nms/rad makes fist and handle settle (damping ratio 0.46).
-=======
 // target - w), with a fist's inertia. 2 Nm/rad is about a wrist's own stiffness: the 0.23 Nm that a wand gives turn it
 // by 0.1 rad. 0.05 Nms/rad makes fist and handle settle (damping ratio 0.46).
->>>>>>> wand3
 struct HandGrip {
     double mass_kg = 0.1;
     double stiffness_N_per_m = 200.0;
