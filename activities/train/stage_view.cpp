@@ -59,6 +59,17 @@ Vec3 place_on_path(const std::vector<Vec3>& spine_m, double way_m) {
     return spine_m.back();
 }
 
+// From as far as shows the whole world, and a wand that is held above it.
+void stand_back(renderer::Scene& scene) {
+    constexpr double kFarther = 1.45;
+    wall::Screen& screen = scene.screen;
+    const Vec3 middle = 0.5 * (screen.lower_right_world + screen.upper_left_world);
+    for (Vec3* corner : {&screen.lower_left_world, &screen.lower_right_world, &screen.upper_left_world})
+        *corner = middle + kFarther * (*corner - middle);
+    Vec3& head = scene.viewer.head_world.position_m;
+    head = middle + kFarther * (head - middle);
+}
+
 bool is_in(const study::CapBox& cap, const WandMoment& moment) {
     return study::inside(cap, moment.points_m[0], moment.points_m[0]) &&
            study::inside(cap, moment.points_m[1], moment.points_m[1]);
@@ -109,13 +120,16 @@ renderer::Scene StageView::scene(WandMoment moment) {
     }
     for (const scene::ObjectId id : world_.objects()) {
         switch (id) {
-            case study::kTubeObject: show(id, sees_tube_, moment.touches_wall ? kTubeTouched : kTubeFree); break;
+            case study::kTubeObject: show(id, false, kTubeFree); break;
+            case study::kSeenTubeObject: show(id, sees_tube_, moment.touches_wall ? kTubeTouched : kTubeFree); break;
             case study::kStartCapObject: show(id, true, moment.start_touched ? kCapTouched : kCapFree); break;
             case study::kEndCapObject: show(id, true, moment.end_touched ? kCapTouched : kCapFree); break;
             default: show(id, true, kFunnel); break;
         }
     }
     renderer::Scene scene = view_.close_scene({});
+    scene.pedestal.visible = false;
+    stand_back(scene);
     if (sees_wand_) add_wand(scene, moment);
     return scene;
 }
