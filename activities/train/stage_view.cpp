@@ -59,6 +59,17 @@ Vec3 place_on_path(const std::vector<Vec3>& spine_m, double way_m) {
     return spine_m.back();
 }
 
+// From as far as shows the whole world, and a wand that is held above it.
+void stand_back(renderer::Scene& scene) {
+    constexpr double kFarther = 1.45;
+    wall::Screen& screen = scene.screen;
+    const Vec3 middle = 0.5 * (screen.lower_right_world + screen.upper_left_world);
+    for (Vec3* corner : {&screen.lower_left_world, &screen.lower_right_world, &screen.upper_left_world})
+        *corner = middle + kFarther * (*corner - middle);
+    Vec3& head = scene.viewer.head_world.position_m;
+    head = middle + kFarther * (head - middle);
+}
+
 bool is_in(const study::CapBox& cap, const StageMoment& moment) {
     return study::inside(cap, moment.points_m[0], moment.points_m[0]) &&
            study::inside(cap, moment.points_m[1], moment.points_m[1]);
@@ -67,7 +78,7 @@ bool is_in(const study::CapBox& cap, const StageMoment& moment) {
 }  // namespace
 
 StageMoment moment_of(const study::FeltWorld& world, const study::StageSession& session,
-                     const haptics::TickRecord& record) {
+                      const haptics::TickRecord& record) {
     StageMoment moment;
     moment.points_m = session.touch().points_m(record.sample);
     moment.orientation = record.sample.orientation_device;
@@ -97,7 +108,8 @@ StageView::StageView(const study::FeltWorld& world, const study::Protocol& proto
 
 void StageView::show(scene::ObjectId id, bool seen, scene::Colour colour) {
     const Pose& pose = world_.part().pose(id);
-    const std::array update{scene::ObjectUpdate{id, {pose.position_m, pose.orientation, 1.0}, seen, colour}};
+    const std::array update{
+        scene::ObjectUpdate{id, {pose.position_m, pose.orientation, 1.0}, seen, colour, pose, scene::FixedMotion{}}};
     view_.take(update);
 }
 
@@ -109,13 +121,16 @@ renderer::Scene StageView::scene(StageMoment moment) {
     }
     for (const scene::ObjectId id : world_.objects()) {
         switch (id) {
-            case study::kTubeObject: show(id, sees_tube_, moment.touches_wall ? kTubeTouched : kTubeFree); break;
+            case study::kTubeObject: show(id, false, kTubeFree); break;
+            case study::kSeenTubeObject: show(id, sees_tube_, moment.touches_wall ? kTubeTouched : kTubeFree); break;
             case study::kStartCapObject: show(id, true, moment.start_touched ? kCapTouched : kCapFree); break;
             case study::kEndCapObject: show(id, true, moment.end_touched ? kCapTouched : kCapFree); break;
             default: show(id, true, kFunnel); break;
         }
     }
     renderer::Scene scene = view_.close_scene({});
+    scene.pedestal.visible = false;
+    stand_back(scene);
     if (sees_wand_) add_wand(scene, moment);
     return scene;
 }

@@ -57,6 +57,8 @@ Result<std::unique_ptr<const FeltWorld>> FeltWorld::create(const StudyWorld& wor
     }
     objects.push_back(object_of(kStartCapObject, "start cap", cap_mesh(world, WorldEnd::start), false, kCapGrey));
     objects.push_back(object_of(kEndCapObject, "end cap", cap_mesh(world, WorldEnd::end), false, kCapGrey));
+    objects.front().seen = false;
+    objects.push_back(object_of(kSeenTubeObject, "seen tube", drawn_tube_mesh(world), false, kTubeGreen));
     made->digest_ = digest_of(world, objects);
     for (const scene::SceneObject& object : objects) {
         made->objects_.push_back(object.id);

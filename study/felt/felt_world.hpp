@@ -19,9 +19,9 @@ namespace burin::study {
 
 // Indices into TickParameters::materials.
 inline constexpr std::uint8_t kTubeMaterial = 0, kFunnelMaterial = 1;
-// Numbers of the objects.
+// Numbers of the objects. The tube that is felt is not the one that is seen (tube_mesh.hpp).
 inline constexpr scene::ObjectId kTubeObject = 1, kStartFunnelObject = 2, kEndFunnelObject = 3, kStartCapObject = 4,
-                                 kEndCapObject = 5;
+                                 kEndCapObject = 5, kSeenTubeObject = 6;
 
 class FeltWorld {
 public:

@@ -63,6 +63,17 @@ std::vector<Section> sections_along(const std::vector<Vec3>& line) {
     return sections;
 }
 
+// Corners around a section, counter-clockwise about its normal; `up` is unit and across it.
+std::vector<Vec3> ring_around(const Section& section, const Vec3& up, double radius_m) {
+    const Vec3 side = glm::cross(section.normal, up);
+    std::vector<Vec3> ring;
+    for (std::size_t k = 0; k < kTubeSides; ++k) {
+        const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(kTubeSides);
+        ring.push_back(section.middle + radius_m * (std::cos(angle) * up + std::sin(angle) * side));
+    }
+    return ring;
+}
+
 // Joins a row of points to the row before it; both are closed rings of `count`, counter-clockwise about the way from
 // one to the next.
 void join_rings(TriangleMesh& mesh, std::uint32_t count) {
@@ -103,13 +114,23 @@ TriangleMesh tube_mesh(const StudyWorld& world) {
     Vec3 up{0.0, 1.0, 0.0};
     for (const Section& section : sections_along(line)) {
         up = across(section.normal, up);
-        const Vec3 side = glm::cross(section.normal, up);
-        for (std::size_t k = 0; k < kTubeSides; ++k) {
-            const double angle = 2.0 * half_side * static_cast<double>(k);
-            const Vec3 out = std::cos(angle) * up + std::sin(angle) * side;
-            mesh.positions_m.push_back(out_of_tube(world, section.middle + corner_m * out));
-        }
+        for (const Vec3& corner : ring_around(section, up, corner_m))
+            mesh.positions_m.push_back(out_of_tube(world, corner));
         if (mesh.positions_m.size() > kTubeSides) join_rings(mesh, kTubeSides);
+    }
+    return mesh;
+}
+
+TriangleMesh drawn_tube_mesh(const StudyWorld& world) {
+    BURIN_CHECK(world.spine_m.size() >= 2);
+    TriangleMesh mesh;
+    Vec3 up{0.0, 1.0, 0.0};
+    for (std::size_t i = 0; i < world.spine_m.size(); ++i) {
+        const std::size_t from = i > 0 ? i - 1 : 0, to = std::min(i + 1, world.spine_m.size() - 1);
+        const Section section{world.spine_m[i], glm::normalize(world.spine_m[to] - world.spine_m[from])};
+        up = across(section.normal, up);
+        for (const Vec3& corner : ring_around(section, up, world.tube_radius_m)) mesh.positions_m.push_back(corner);
+        if (i > 0) join_rings(mesh, kTubeSides);
     }
     return mesh;
 }

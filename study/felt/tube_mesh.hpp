@@ -23,6 +23,8 @@ inline constexpr double kDrawnCap_m = 0.002;
 enum class WorldEnd { start, end };
 
 [[nodiscard]] geometry::TriangleMesh tube_mesh(const StudyWorld& world);
+// To be seen alone: a section at each point of the spine, and nothing mended.
+[[nodiscard]] geometry::TriangleMesh drawn_tube_mesh(const StudyWorld& world);
 // Empty where the world has no funnels.
 [[nodiscard]] geometry::TriangleMesh funnel_mesh(const StudyWorld& world, WorldEnd end);
 [[nodiscard]] geometry::TriangleMesh cap_mesh(const StudyWorld& world, WorldEnd end);
