@@ -15,26 +15,27 @@ constexpr std::uint64_t kVertexBytes = sizeof(shared::SurfaceVertex), kLightByte
 
 }  // namespace
 
-bool MeshStore::fits(const DrawnMesh& mesh) const {
-    return (used_vertices_ + mesh.vertices.size()) * kVertexBytes <= vertices_.size_bytes() &&
-           (used_indices_ + mesh.indices.size()) * kIndexBytes <= indices_.size_bytes();
+// Whether all that are not there yet fit beside the others.
+bool MeshStore::fit(std::span<const std::shared_ptr<const DrawnMesh>> meshes) const {
+    std::uint64_t vertices = used_vertices_, indices = used_indices_;
+    for (const auto& mesh : meshes) {
+        if (stored_.contains(mesh.get())) continue;
+        vertices += mesh->vertices.size();
+        indices += mesh->indices.size();
+    }
+    return vertices * kVertexBytes <= vertices_.size_bytes() && indices * kIndexBytes <= indices_.size_bytes();
 }
 
 Result<void> MeshStore::put(gpu::Device& device, gpu::Commands& commands,
                             std::span<const std::shared_ptr<const DrawnMesh>> meshes) {
     const auto is_there = [&](const auto& mesh) { return stored_.contains(mesh.get()); };
     if (std::ranges::all_of(meshes, is_there)) return {};
-    for (const auto& mesh : meshes) {
-        if (is_there(mesh)) continue;
-        if (!fits(*mesh)) {
-            // The scene's own meshes alone are put into larger buffers; others come back when a scene shows them.
-            if (const auto done = begin_anew(device, meshes); !done) return done;
-            for (const auto& each : meshes)
-                if (!is_there(each)) append(commands, each);
-            return {};
-        }
-        append(commands, mesh);
-    }
+    // The scene's own meshes alone are put into larger buffers; others come back when a scene shows them. Decided before
+    // anything is recorded: commands must not fill a buffer that is given up before they are submitted.
+    if (!fit(meshes))
+        if (const auto done = begin_anew(device, meshes); !done) return done;
+    for (const auto& mesh : meshes)
+        if (!is_there(mesh)) append(commands, mesh);
     return {};
 }
 

@@ -41,7 +41,7 @@ private:
         std::shared_ptr<const DrawnMesh> mesh;  // so that no other mesh can have its address
         StoredMesh place;
     };
-    [[nodiscard]] bool fits(const DrawnMesh& mesh) const;
+    [[nodiscard]] bool fit(std::span<const std::shared_ptr<const DrawnMesh>> meshes) const;
     void append(gpu::Commands& commands, const std::shared_ptr<const DrawnMesh>& mesh);
     [[nodiscard]] Result<void> begin_anew(gpu::Device& device,
                                           std::span<const std::shared_ptr<const DrawnMesh>> meshes);
