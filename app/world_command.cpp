@@ -362,7 +362,8 @@ Result<void> WorldCommand::run() const {
     // A recording says itself what it was of; a script does not.
     const bool says_itself = session.world.empty() && is_recording(session.live.input);
     session.no_workpiece = !says_itself && session.workpiece.source.empty();
-    if (session.workpiece.source.empty()) session.workpiece.source = session::SculptOptions{}.workpiece.source;
+    const sculpt::WorkpieceOptions usual;
+    if (session.workpiece.source.empty()) session.workpiece.source = usual.source;
     return session::run_session(session);
 }
 
