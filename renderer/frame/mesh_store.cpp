@@ -30,8 +30,8 @@ Result<void> MeshStore::put(gpu::Device& device, gpu::Commands& commands,
                             std::span<const std::shared_ptr<const DrawnMesh>> meshes) {
     const auto is_there = [&](const auto& mesh) { return stored_.contains(mesh.get()); };
     if (std::ranges::all_of(meshes, is_there)) return {};
-    // The scene's own meshes alone are put into larger buffers; others come back when a scene shows them. Decided before
-    // anything is recorded: commands must not fill a buffer that is given up before they are submitted.
+    // The scene's own meshes alone are put into larger buffers; others come back when a scene shows them. Decided
+    // before anything is recorded: commands must not fill a buffer that is given up before they are submitted.
     if (!fit(meshes))
         if (const auto done = begin_anew(device, meshes); !done) return done;
     for (const auto& mesh : meshes)

@@ -62,8 +62,9 @@ TEST(WandLimits, AMillionRandomTicksNeverExceedThem) {
     }
     EXPECT_GT(saturated, 100'000u) << "the limits were never met";
     const devices::WandSaturation& counted = wand.saturation();
-    EXPECT_GT(counted.force[0] + counted.force[1] + counted.force[2], 10'000u);
-    EXPECT_GT(counted.torque[0] + counted.torque[2], 10'000u);
+    // The gate's slew limit lets few of these jumps come as far as the device's own limits.
+    EXPECT_GT(counted.force[0] + counted.force[1] + counted.force[2], 100u) << "no limit of force was met";
+    EXPECT_GT(counted.torque[0] + counted.torque[2], 100u) << "no limit of torque was met";
     EXPECT_EQ(counted.torque[1], 0u);
 }
 

@@ -119,9 +119,16 @@ TEST(EngagedArea, OfRandomToolsInAPlane) {
             const std::string what = formatted("%s at %g of its size: %+.2f %+.2f %+.2f", kNames.at(kind),
                                                kDepths.at(d), least, middle, most);
             if (std::getenv("BURIN_PRINT_AREAS") != nullptr) std::printf("%s\n", what.c_str());
-            if (kind == 0 && kDepths.at(d) >= 0.1) EXPECT_LT(std::max(-least, most), 0.1) << what;
-            if (kDepths.at(d) >= 0.2) EXPECT_LT(std::abs(middle), 0.2) << what;
-            if (kDepths.at(d) >= 0.5) EXPECT_LT(std::max(-least, most), 0.3) << what;
+            const double depth = kDepths.at(d), worst = std::max(-least, most);
+            if (kind == 0 && depth >= 0.1) {
+                EXPECT_LT(worst, 0.1) << what;
+            }
+            if (depth >= 0.2) {
+                EXPECT_LT(std::abs(middle), 0.2) << what;
+            }
+            if (depth >= 0.5) {
+                EXPECT_LT(worst, 0.3) << what;
+            }
         }
     }
 }

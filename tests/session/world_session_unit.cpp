@@ -162,7 +162,7 @@ TEST(WorldSession, TheSecondButtonTakesAnObjectAlong) {
     // From the middle to before the rock's face, at the lower left of the picture.
     frame({{0, MouseMove{{320.0, 200.0}}}});
     for (int i = 1; i <= 20; ++i) frame({{0, MouseMove{{320.0 - 6.65 * i, 200.0 + 4.0 * i}}}});
-    for (int i = 0; i < 200 && !touched; ++i) frame({{0, Scroll{{0.0, 1.0}}}});
+    for (int i = 0; i < 200 && !touched; ++i) frame({{0, Scroll{{0.0, 1.0}, {}}}});
     ASSERT_TRUE(touched) << "the hand met nothing";
     for (int i = 0; i < 10; ++i) frame({});
     frame({{0, MouseClick{MouseButton::right, true, {}}}});
@@ -182,7 +182,8 @@ TEST(SessionSettings, NameTheWorldOfARecording) {
     const std::string line = settings_line(world.options);
     EXPECT_TRUE(line.contains("--world ")) << line;
     EXPECT_TRUE(line.contains("--no-workpiece")) << line;
-    const auto again = options_as_recorded(line, {});
+    const SculptOptions none;
+    const auto again = options_as_recorded(line, none);
     ASSERT_TRUE(again) << again.error().line();
     EXPECT_EQ(again->options.world, world.options.world);
     EXPECT_TRUE(again->options.no_workpiece);
