@@ -123,7 +123,7 @@ TEST(EngagedArea, OfRandomToolsInAPlane) {
             if (kind == 0 && depth >= 0.1) {
                 EXPECT_LT(worst, 0.1) << what;
             }
-            if (depth >= 0.2) {
+            if (depth >= 0.2 && all.size() >= 12) {  // a median of few says nothing
                 EXPECT_LT(std::abs(middle), 0.2) << what;
             }
             if (depth >= 0.5) {
