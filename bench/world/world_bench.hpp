@@ -26,17 +26,18 @@ struct WorldBenchTask {
     unsigned runs = 9;
 };
 
+struct CoinFigures {
+    std::string version;
+    std::size_t triangles = 0;
+    std::vector<double> total_s;  // of each run
+};
+
 struct WorldBenchFigures {
     std::string world;
     std::size_t bytes = 0, nodes = 0, names = 0, triangles = 0;
     unsigned runs = 0;
     std::vector<double> read_s, shapes_s, total_s;  // of each run: to the syntax tree, from there to triangles, both
-    struct Coin {
-        std::string version;
-        std::size_t triangles = 0;
-        std::vector<double> total_s;
-    };
-    std::optional<Coin> coin;
+    std::optional<CoinFigures> coin;
     std::string without_coin;  // why there is none
 };
 
