@@ -8,13 +8,13 @@ namespace burin::app {
 
 void add_live_options(Command command, session::LiveOptions& options) {
     command.flag("--live", options.live,
-                 "Open a window to carve in; also without this when neither a stroke nor an output is given");
+                 "Open a window; also without this when neither a stroke nor an output is given");
     command.option("--input", options.input,
                    "A recording, done again as it was; or a written log of a session's input, in its user's place, in "
                    "simulated time");
     command.option("--record", options.record,
                    "A new file for all that the session depends on; with --input that log is played in real time. With "
-                   "--hand simulated and --stroke: a session file with every tick (burin session info FILE)");
+                   "a --stroke that a simulated hand feels: a session file with every tick (burin session info FILE)");
     command.flag("--offscreen", options.offscreen, "With --input: no window, only screenshots");
     command.option("--stereo", options.stereo, "side-by-side, anaglyph-red-cyan, row-interlaced, ...; else mono");
     command.flag("--swap-eyes", options.swap_eyes, "For exchanged cables or glasses");

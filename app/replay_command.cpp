@@ -16,6 +16,7 @@
 #include "app/world_explore.hpp"
 #include "base/text.hpp"
 #include "record/derived.hpp"
+#include "session/live/world_side.hpp"
 
 namespace burin::app {
 
@@ -66,7 +67,7 @@ struct OpenedWorld {
 };
 
 Result<std::unique_ptr<OpenedWorld>> open_world(const std::string& path, const MaterialOverride& materials) {
-    Result<scene::World> world = read_sound_world(path);
+    Result<scene::World> world = session::read_sound_world(path);
     if (!world) return std::unexpected(world.error());
     auto opened = std::make_unique<OpenedWorld>();
     for (scene::SceneObject& object : world->objects) {

@@ -18,7 +18,7 @@ namespace {
 constexpr ImageSize kStagePicture{1280, 800};
 constexpr std::uint64_t kLookEvery = 20;  // ticks
 
-// Of a stage: the moments in it, thinned.
+// Moments of one stage, fewer the longer it lasts.
 struct StageMoments {
     std::vector<activities::StageMoment> all;
     std::vector<bool> running;  // the attempt's clock ran

@@ -19,7 +19,7 @@
 #include "record/record_writer.hpp"
 #include "renderer/frame/renderer.hpp"
 #include "renderer/png.hpp"
-#include "scene/vrml_world.hpp"
+#include "session/live/world_side.hpp"
 #include "session/picture/pictures.hpp"
 
 namespace burin::app {
@@ -150,14 +150,6 @@ Result<std::vector<std::pair<std::string, std::string>>> facts_of_world(const Wo
 
 }  // namespace
 
-Result<scene::World> read_sound_world(const std::string& path) {
-    scene::WorldOrProblems world = scene::read_any_world(path);
-    if (world) return std::move(*world);
-    if (world.error().size() == 1) return std::unexpected(world.error().front());
-    for (const Error& problem : world.error()) std::fprintf(stderr, "burin: %s\n", problem.line().c_str());
-    return fail(path, std::to_string(world.error().size()) + " problems", "correct them; burin world check lists them");
-}
-
 Result<void> explore_world(const WorldExploration& options) {
     const std::array inputs{options.world, options.stroke};
     if (const auto ok = check_outputs({}, options.report, inputs); !ok) return ok;
@@ -168,7 +160,7 @@ Result<void> explore_world(const WorldExploration& options) {
     if (const auto ok = record::check_new_place(options.record); !ok) return ok;
     const Result<sculpt::Stroke> stroke = sculpt::read_stroke(options.stroke);
     if (!stroke) return std::unexpected(stroke.error());
-    Result<scene::World> world = read_sound_world(options.world);
+    Result<scene::World> world = session::read_sound_world(options.world);
     if (!world) return std::unexpected(world.error());
     activities::ExploreOptions explore;
     explore.tool_radius_m = options.radius_m;
@@ -178,7 +170,6 @@ Result<void> explore_world(const WorldExploration& options) {
         if (!facts) return std::unexpected(facts.error());
         explore.facts = std::move(*facts);
     }
-    for (const std::string& remark : world->remarks) std::fprintf(stderr, "burin: %s\n", remark.c_str());
     std::vector<scene::ObjectId> ids;
     for (const scene::SceneObject& object : world->objects) ids.push_back(object.id);
     scene::MaterialTable materials;

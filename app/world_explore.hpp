@@ -24,7 +24,4 @@ struct WorldExploration {
 // Fails with all problems of the world printed, when it has some.
 [[nodiscard]] Result<void> explore_world(const WorldExploration& options);
 
-// Reads a world; prints its problems, when it has several, and fails.
-[[nodiscard]] Result<scene::World> read_sound_world(const std::string& path);
-
 }  // namespace burin::app

@@ -50,7 +50,7 @@ Result<Worlds> worlds_of(const study::Protocol& protocol) {
     return worlds;
 }
 
-// What the threads share: the folder, one at a time, and how far all have come.
+// Shares the folder among the threads, one of which writes at a time, and counts how far all of them have come.
 class SharedStudy {
 public:
     SharedStudy(study::StudyFolder& study, const Worlds& worlds, const SimulationOptions& options)

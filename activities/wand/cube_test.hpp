@@ -16,7 +16,8 @@
 
 namespace burin::activities {
 
-// What is done, in this order; the last two with the middle alone.
+// Cases of the test in their order: an end alone, both ends, and then the wand's middle alone, beside and against the
+// cube.
 enum class CubeCase : std::uint8_t { top, bottom, both, beside, against };
 inline constexpr std::size_t kCubeCases = 5;
 [[nodiscard]] const char* text(CubeCase which) noexcept;

@@ -7,7 +7,7 @@
 #include <memory>
 #include <utility>
 
-#include "geometry/mesh/triangle_tree.hpp"
+#include "activities/world/world_touch.hpp"
 #include "session/felt/felt_stroke.hpp"
 
 namespace burin::activities {
@@ -15,42 +15,6 @@ namespace {
 
 constexpr double kWandRests_s = 0.3;           // before and after the stroke; the gate's ramp must be over by then
 constexpr std::uint64_t kPressedUpdates = 15;  // until a touch counts as a press
-
-// Finds which object lies nearest to a place.
-class NearestObject {
-public:
-    NearestObject(const scene::MeshPart& part, const std::vector<scene::ObjectId>& ids) : part_(part) {
-        std::map<const geometry::TriangleMesh*, std::shared_ptr<const geometry::TriangleTree>> trees;
-        for (const scene::ObjectId id : ids) {
-            const scene::SceneObject& object = part.object(id);
-            if (!object.felt) continue;
-            auto& tree = trees[object.mesh.get()];
-            if (!tree)
-                tree = std::make_shared<geometry::TriangleTree>(object.mesh->positions_m, object.mesh->triangles);
-            felt_.emplace_back(id, tree);
-        }
-    }
-    // Returns 0 where no object is felt.
-    [[nodiscard]] scene::ObjectId at(const Vec3& place_scene) const {
-        scene::ObjectId nearest = 0;
-        double least_m = HUGE_VAL;
-        for (const auto& [id, tree] : felt_) {
-            const Pose& pose = part_.pose(id);
-            const Similarity mesh_from_scene =
-                inverse(Similarity{pose.position_m, pose.orientation, part_.object(id).scale});
-            const double distance_m =
-                tree->nearest(mesh_from_scene * place_scene, 0).distance_m / mesh_from_scene.scale;
-            if (distance_m >= least_m) continue;
-            least_m = distance_m;
-            nearest = id;
-        }
-        return nearest;
-    }
-
-private:
-    const scene::MeshPart& part_;
-    std::vector<std::pair<scene::ObjectId, std::shared_ptr<const geometry::TriangleTree>>> felt_;
-};
 
 WandFelt felt_in(double time_s, const haptics::TickRecord& tick, const NearestObject& nearest, double radius_m) {
     const Quat& turn = tick.motion.object_from_device.orientation;
@@ -61,7 +25,10 @@ WandFelt felt_in(double time_s, const haptics::TickRecord& tick, const NearestOb
     for (std::uint32_t i = 0; i < tick.contact.point_count; ++i) {
         const haptics::PointRecord& p = tick.contact.points[i];
         PointFelt point{p.hip_object_m, p.proxy_object_m, turn * p.force_device_N, 0};
-        if (p.constraints > 0) point.object = nearest.at(p.proxy_object_m - radius_m * p.normal_object);
+        if (p.constraints > 0) {
+            const auto near = nearest.at(p.proxy_object_m - radius_m * p.normal_object);
+            point.object = near ? near->id : 0;
+        }
         felt.points.push_back(point);
     }
     felt.force_N = turn * tick.contact.wrench.force_device_N;

@@ -51,7 +51,7 @@ struct WandExploredWorld {
     std::vector<PointTouch> touches;  // by object, then by point
 };
 
-// What has just been touched for so long that it is pressed; enough for a picture.
+// Moment at an update of the scene, for pictures: with an object that has now been touched long enough to be pressed.
 struct WandMoment {
     double time_s = 0.0;
     const WandFelt* felt = nullptr;

@@ -15,37 +15,19 @@ const Vec3 kPlace_world{0.0, 1.15, -0.5}, kHead_world{0.0, 1.75, 2.0};
 
 double longest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
 
-Vec3 srgb_of(const scene::Colour& c) { return Vec3(c[0], c[1], c[2]) / 255.0; }
+session::DrawnWorld drawn_world_of(const scene::MeshPart& part, std::span<const scene::ObjectId> ids) {
+    std::vector<scene::SceneObject> objects;
+    for (const scene::ObjectId id : ids) objects.push_back(part.object(id));
+    return session::DrawnWorld(objects);
+}
 
 }  // namespace
 
 WorldView::WorldView(const scene::MeshPart& part, std::span<const scene::ObjectId> ids, double tool_radius_m)
-    : tool_radius_m_(tool_radius_m) {
-    std::map<const geometry::TriangleMesh*, std::shared_ptr<const renderer::DrawnMesh>> drawn;
-    for (const scene::ObjectId id : ids) {
-        const scene::SceneObject& object = part.object(id);
-        auto& mesh = drawn[object.mesh.get()];
-        if (!mesh) {
-            // The object's colour counts, whatever materials its file has.
-            geometry::TriangleMesh plain{object.mesh->positions_m, object.mesh->triangles, {}, {}, {}};
-            mesh = renderer::drawn_mesh(plain);
-        }
-        const Pose& pose = part.pose(id);
-        const Similarity scene_from_mesh{pose.position_m, pose.orientation, object.scale};
-        objects_[id] = {mesh, {id, scene_from_mesh, object.seen, object.colour, object.pose, object.motion}};
-        const Box bounds = renderer::placed_box(mesh->bounds, scene_from_mesh);
-        if (!object.seen || bounds.empty()) continue;
-        bounds_scene_.include(bounds.lo);
-        bounds_scene_.include(bounds.hi);
-    }
+    : drawn_(drawn_world_of(part, ids)), bounds_scene_(drawn_.bounds_scene()), tool_radius_m_(tool_radius_m) {
     if (bounds_scene_.empty()) bounds_scene_ = {Vec3(-0.05), Vec3(0.05)};
     world_from_scene_.scale = kLongestOnWall_m / longest(bounds_scene_.extent());
     world_from_scene_.position_m = kPlace_world - world_from_scene_.scale * bounds_scene_.center();
-}
-
-void WorldView::take(std::span<const scene::ObjectUpdate> updates) {
-    for (const scene::ObjectUpdate& update : updates)
-        if (const auto at = objects_.find(update.id); at != objects_.end()) at->second.now = update;
 }
 
 renderer::Scene WorldView::wall_scene(const haptics::ToolState& tool) const {
@@ -53,10 +35,7 @@ renderer::Scene WorldView::wall_scene(const haptics::ToolState& tool) const {
     scene.viewer.head_world.position_m = kHead_world;
     scene.world_from_object = world_from_scene_;
     scene.workpiece_object = bounds_scene_;
-    for (const auto& [id, seen] : objects_) {
-        if (!seen.now.seen) continue;
-        scene.objects.push_back({seen.mesh, world_from_scene_ * seen.now.scene_from_mesh, srgb_of(seen.now.colour)});
-    }
+    scene.objects = drawn_.in_world(world_from_scene_);
     session::Staging staging = session::staging_of(tool, tool_radius_m_, Vec3(0.0));
     staging.box_visible = false;
     staging.contact_shown = true;

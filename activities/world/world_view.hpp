@@ -4,14 +4,13 @@
 // Pure; any thread.
 #pragma once
 
-#include <map>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "haptics/channels.hpp"
 #include "renderer/scene/scene.hpp"
 #include "scene/mesh_part.hpp"
+#include "session/picture/drawn_world.hpp"
 
 namespace burin::activities {
 
@@ -21,7 +20,7 @@ public:
     WorldView(const scene::MeshPart& part, std::span<const scene::ObjectId> ids, double tool_radius_m);
 
     // Takes over what has changed.
-    void take(std::span<const scene::ObjectUpdate> updates);
+    void take(std::span<const scene::ObjectUpdate> updates) { drawn_.take(updates); }
     // Returns the picture of the world with the tool as it is now, seen from the middle between the eyes, from nearby.
     [[nodiscard]] renderer::Scene close_scene(const haptics::ToolState& tool) const;
     // Returns the world on the wall, for a tracked viewer with two eyes.
@@ -32,11 +31,7 @@ public:
     [[nodiscard]] const Box& bounds_scene() const { return bounds_scene_; }
 
 private:
-    struct Seen {
-        std::shared_ptr<const renderer::DrawnMesh> mesh;
-        scene::ObjectUpdate now;
-    };
-    std::map<scene::ObjectId, Seen> objects_;
+    session::DrawnWorld drawn_;
     Box bounds_scene_;
     Similarity world_from_scene_;
     double tool_radius_m_;
