@@ -55,6 +55,16 @@ struct CombineOptions {
 };
 [[nodiscard]] Result<void> combine_files(const CombineOptions& options);
 
+// burin seek: the objects of a world are sought by touch, against the clock (activities/seek/seek.hpp).
+struct SeekSession {
+    session::SculptOptions session;
+    unsigned targets = 0;
+    std::uint64_t seed = 1;
+    std::string report;  // a JSON file; empty: none
+};
+void add_seek_options(Command command, SeekSession& seek);
+[[nodiscard]] Result<void> seek(const SeekSession& options);
+
 // A subcommand of burin bench with options of its own; BenchCommand runs the one that was parsed.
 struct BenchSubcommand {
     Command command;

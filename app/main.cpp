@@ -194,6 +194,10 @@ int run(int argc, char** argv) {
     Command combine = app.subcommand("combine", "Unite, subtract or intersect two closed meshes");
     add_combine_options(combine, combine_options);
 
+    SeekSession seek_options;
+    Command seek = app.subcommand("seek", "Touch the objects of a world as they are named, against the clock");
+    add_seek_options(seek, seek_options);
+
     const BenchCommand bench(app);
     const WallCommand wall(app);
     const WorldCommand world(app);
@@ -219,6 +223,7 @@ int run(int argc, char** argv) {
         return 2;
     }
     if (world.parsed()) return finish(world.run());
+    if (seek.parsed()) return finish(app::seek(seek_options));
     if (demo.parsed()) return finish(demo.run());
     if (profile.parsed()) return finish(profile.run());
     if (study.parsed()) return finish(study.run());

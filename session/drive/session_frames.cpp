@@ -90,8 +90,9 @@ Result<void> run_in_simulated_time(const SculptOptions& options, const SessionWa
     ScriptedFrames frames(session, *presenter, std::move(input));
     SteppedExecutor executor(clock, session.loop(), session.channels(), session.scene(),
                              [&](const auto& ended) { static_cast<void>(session.collect(ended)); });
-    const Result<void> driven = drive(executor, frames);
-    return driven ? session.outcome() : driven;
+    if (const auto driven = drive(executor, frames); !driven) return driven;
+    session.finish_scene();
+    return session.outcome();
 }
 
 }  // namespace burin::session

@@ -87,6 +87,7 @@ PanelModel LivePanel::model_of(const PanelContext& context, const std::string& m
     m.redo_count = static_cast<std::uint32_t>(context.redoable);
     m.export_path = state.export_path;
     m.exporting = context.exporting;
+    m.activity = context.activity;
     m.message = message;
     m.touch.force_on = state.force_on;
     m.touch.in_contact = (tool_state.flags & haptics::kTickInContact) != 0;

@@ -31,6 +31,7 @@ struct PanelContext {
     ToolSizeRange tool_sizes = {};
     std::size_t undoable = 0, redoable = 0;
     bool exporting = false;
+    std::optional<ActivityPanel> activity = {};
     const SessionTimes& times;
     const haptics::Histogram& tick_duration;
     wall::OutputSettings shown;  // how the main screen is shown

@@ -45,6 +45,7 @@ LiveSession::LiveSession(Clock& clock, const SculptOptions& options, double pace
     : clock_(clock),
       pool_(options.threads),
       haptics_(options.live.record.empty() ? haptics::HapticChannels::kRecords : kTicksToRecord, pace),
+      activity_(options.activity),
       outputs_(options.live),
       log_name_(options.live.input) {}
 
@@ -138,7 +139,7 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
     if (const auto opened = haptics_.open(options.live.device, clock_, {rest_device_m, room_.desk.rest_device});
         !opened)
         return opened;
-    haptics_.publish(parameters_of(state_, room_));
+    publish_parameters();
     const Vec3 tool_object = inverse(state_.world_from_object) * (state_.world_from_device * rest_device_m);
     return make_scene(*use, tool_object, options.undo_memory_MiB << 20);
 }
@@ -155,12 +156,13 @@ Result<void> LiveSession::make_scene(const sculpt::UseTool& use, const Vec3& too
         world_->part().grip_with(0, kGrips, around_m);
         parts.push_back(&world_->part());
     }
+    if (activity_.tap() != nullptr) parts.push_back(activity_.tap());
     // Far enough for the fastest hand to stay inside the known ball until the next update: 1 m/s for 12 ms.
     const double reach_m = 0.012 * parameters_of(state_, room_).workspace.object_from_device.scale + 2.0 * spacing_m();
     scene_.emplace(std::move(parts),
                    std::vector<scene::SceneHand>{{&haptics_.channels(), tool_object, around_m, reach_m}});
     news_.report_of(carved_ ? &*carved_ : nullptr, world_ ? &world_->part() : nullptr,
-                    world_ ? &world_->materials() : nullptr);
+                    world_ ? &world_->materials() : nullptr, activity_.tap());
     return scene_->update(start_ns_);
 }
 
@@ -184,6 +186,8 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
         if (const auto done = run_command(state_, step.orders, action); !done)
             step.orders.messages.push_back({done.error().line()});
     }
+    activity_.step(state_, step.orders, input.time_ns, tool_);
+    news_.frames_for_ticks(activity_.is_running());
     fit_desk_screen(room_.wall, main_eye());  // a command may have changed the mode
     haptics_.move_hand(step.hand_way, input.time_ns, step.hand);
     carry_out(std::move(step.orders), give);
@@ -201,6 +205,7 @@ SceneInput LiveSession::feed_panel(const FrameInput& input) {
                              .undoable = undoable_,
                              .redoable = redoable_,
                              .exporting = exporting_,
+                             .activity = activity_.panel(),
                              .times = times_,
                              .tick_duration = haptics_.loop().duration(),
                              .shown = output_on(room_.wall.main),
@@ -230,8 +235,14 @@ scene::SceneThread::Order LiveSession::editing(WorldOrder order) {
     };
 }
 
+void LiveSession::publish_parameters() {
+    haptics::TickParameters parameters = parameters_of(state_, room_);
+    activity_.adjust(parameters);
+    haptics_.publish(std::move(parameters));
+}
+
 void LiveSession::carry_out(SessionOrders orders, const Give& give) {
-    if (orders.parameters) haptics_.publish(parameters_of(state_, room_));
+    if (orders.parameters) publish_parameters();
     for (sculpt::SculptOrder& order : orders.carving) {
         if (const auto* use = std::get_if<sculpt::UseTool>(&order)) warn_of_misfit(use->tool);
         auto* wanted = std::get_if<sculpt::ExportSurface>(&order);
@@ -280,10 +291,11 @@ void LiveSession::take_news(std::uint64_t updates) {
     SceneNews::Taken news = news_.take(updates);
     if (news.surface) take(std::move(*news.surface));
     for (const std::string& message : news.messages) notify(message);
+    activity_.take(std::move(news.ticks));
     if (!world_) return;
     world_->drawn().take(news.objects);
     state_.world = followed(std::move(state_.world), news.objects, news.materials ? &*news.materials : nullptr);
-    if (news.materials) haptics_.publish(parameters_of(state_, room_));
+    if (news.materials) publish_parameters();
 }
 
 Vec3 LiveSession::lattice_origin_object() const {
@@ -293,6 +305,7 @@ Vec3 LiveSession::lattice_origin_object() const {
 std::optional<renderer::Scene> LiveSession::scene_on(std::size_t screen) const {
     std::optional<renderer::Scene> scene = scene_of(state_, room_, screen, lattice_origin_object(), tool_);
     if (scene && world_) scene->objects = world_->drawn().in_world(state_.world_from_object);
+    if (scene) activity_.stage(*scene, screen);
     return scene;
 }
 
@@ -300,6 +313,11 @@ void LiveSession::finish_scene() {
     scene_->finish();
     collect({});
     take_news(UINT64_MAX);
+    // What the activity orders now has nobody to carry it out, but for its words.
+    SessionOrders orders;
+    activity_.step(state_, orders, last_step_ns_, tool_);
+    for (const Asked& message : orders.messages) notify(message.text);
+    if (const auto done = activity_.finish(); !done) notify_of_loss(done.error().line());
 }
 
 void LiveSession::take(sculpt::SurfaceUpdate news) {

@@ -20,6 +20,7 @@
 
 #include "scene/scene_thread.hpp"
 #include "sculpt/carved_part.hpp"
+#include "session/live/activity_side.hpp"
 #include "session/live/haptic_side.hpp"
 #include "session/live/live_panel.hpp"
 #include "session/live/message_log.hpp"
@@ -57,7 +58,8 @@ public:
     void take_loaded();
     // Takes over what so many of the collected updates have reported.
     void take_news(std::uint64_t updates);
-    // Ends what the scene's parts do elsewhere, and takes over all that is left. No thread runs any more.
+    // Ends what the scene's parts do elsewhere, takes over all that is left, and has the activity end. No thread runs
+    // any more.
     void finish_scene();
 
     // ---- What the frame draws.
@@ -133,6 +135,7 @@ private:
     [[nodiscard]] Result<void> make_scene(const sculpt::UseTool& use, const Vec3& tool_object, std::size_t undo_bytes);
     SceneInput feed_panel(const FrameInput& input);
     void carry_out(SessionOrders orders, const Give& give);
+    void publish_parameters();
     [[nodiscard]] scene::SceneThread::Order carving(sculpt::SculptOrder order);
     [[nodiscard]] scene::SceneThread::Order editing(WorldOrder order);
     [[nodiscard]] double spacing_m() const { return carving_ ? carving_->surface().lattice().spacing_m : 0.0; }
@@ -154,6 +157,7 @@ private:
     std::unique_ptr<WorldSide> world_;          // null: none
     std::optional<scene::SceneService> scene_;
     SceneNews news_;
+    ActivitySide activity_;
     PanelWorkpiece workpiece_;
     LengthUnit unit_ = LengthUnit::m;   // of the workpiece's file
     sculpt::ToolOptions tool_options_;  // as the session began

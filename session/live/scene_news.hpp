@@ -4,6 +4,7 @@
 // replay, sees the results of these and of no other. Neither thread waits for the other's work.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <mutex>
@@ -16,6 +17,7 @@
 #include "scene/mesh_part.hpp"
 #include "scene/scene_thread.hpp"
 #include "sculpt/carved_part.hpp"
+#include "session/live/sample_tap.hpp"
 
 namespace burin::session {
 
@@ -23,15 +25,20 @@ class SceneNews {
 public:
     // Sets whose reports are collected, before the first update; they must outlive this. Null: the scene has no such
     // part.
-    void report_of(sculpt::CarvedPart* carved, scene::MeshPart* meshes, const scene::MaterialTable* materials) {
+    void report_of(sculpt::CarvedPart* carved, scene::MeshPart* meshes, const scene::MaterialTable* materials,
+                   SampleTap* tap) {
         carved_ = carved;
         meshes_ = meshes;
         materials_ = materials;
+        tap_ = tap;
     }
+    // Sets whether ticks alone are worth a frame. Any thread.
+    void frames_for_ticks(bool wanted) { frames_for_ticks_.store(wanted, std::memory_order_relaxed); }
     // Keeps a message for the user with the next report. The scene's thread.
     void notify(std::string message) { messages_.push_back(std::move(message)); }
 
-    // Collects what the update that has just ended has to report; returns whether it is anything. The scene's thread.
+    // Collects what the update that has just ended has to report; returns whether a frame has to take it soon. The
+    // scene's thread.
     bool collect(const scene::SceneThread::Ended& update);
     // Returns what the first `updates` of all collected updates have reported since the last call. The frame's thread.
     struct Taken {
@@ -39,6 +46,7 @@ public:
         std::vector<scene::ObjectUpdate> objects;       // the newest last
         std::optional<scene::MaterialTable> materials;  // if it has changed
         std::vector<std::string> messages;
+        std::vector<haptics::StrokeSample> ticks;  // for the activity, in order
     };
     [[nodiscard]] Taken take(std::uint64_t updates);
     // Returns the durations of the updates in which the carved surface changed. Any thread.
@@ -52,6 +60,8 @@ private:
     sculpt::CarvedPart* carved_ = nullptr;
     scene::MeshPart* meshes_ = nullptr;
     const scene::MaterialTable* materials_ = nullptr;
+    SampleTap* tap_ = nullptr;
+    std::atomic<bool> frames_for_ticks_ = false;
     std::uint64_t materials_version_ = 0;  // as reported last
     std::vector<std::string> messages_;
     haptics::Histogram carving_duration_;

@@ -215,6 +215,7 @@ private:
             return;
         }
         if (model.show_figures) panel::show_figures(kit_, model);  // first: whoever turns them on wants to see them
+        panel::show_activity(kit_, model);
         panel::show_tool(kit_, model);
         panel::show_material(kit_, model);
         panel::show_objects(kit_, model);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "haptics/stability/safety_gate.hpp"
+#include "session/state/activity.hpp"
 #include "session/state/command_table.hpp"
 
 namespace burin::session {
@@ -96,6 +97,7 @@ struct PanelModel {
     std::string title = "Burin";
     PanelWorkpiece workpiece;
 
+    std::optional<ActivityPanel> activity;  // none: the session has no activity
     std::vector<std::string> object_names;  // of a world
     std::optional<PanelObject> object;      // none: there is no world
     bool carves = true;                     // there is a workpiece

@@ -9,6 +9,7 @@
 namespace burin::session::panel {
 
 void show_header(Kit& kit, const PanelModel& model);
+void show_activity(Kit& kit, const PanelModel& model);
 void show_tool(Kit& kit, const PanelModel& model);
 void show_material(Kit& kit, const PanelModel& model);
 void show_objects(Kit& kit, const PanelModel& model);

@@ -200,6 +200,8 @@ Parsed parse_object(Arguments words) {
     return EditObject{words[0], property->property, *value};
 }
 
+Parsed parse_act(Arguments words) { return DoAct{{words.begin(), words.end()}}; }
+
 Parsed parse_select(Arguments words) { return SelectObject{words[0]}; }
 
 template <Quantity quantity>
@@ -244,6 +246,7 @@ const std::vector<Entry>& entries() {
           "Change an object of the world: " + alternatives(names_in(scene::object_properties()))},
          parse_object},
         {{"select", "NAME", "Show an object of the world on the panel"}, parse_select},
+        {{"do", "ACT...", "Tell the activity something, as the buttons of its section do"}, parse_act},
         {{"show-force", "on|off", "Whether an arrow shows the force"}, parse_force_shown},
         {{"catch-drill", "on|off", "Hold the tool where it is, to see the watch let the hand go"}, parse_catch_drill},
         {{"export", "FILE", "Write the mesh to a file"}, parse_export},
@@ -299,7 +302,8 @@ Result<SessionCommand> parse_command(const CommandInput& input) {
     const bool optional = entry->spec.arguments.starts_with('[');
     const auto wanted = static_cast<std::size_t>(1 + std::ranges::count(entry->spec.arguments, ' '));
     const std::size_t given = input.arguments.size();
-    if (given > wanted || (given < wanted && !optional)) {
+    const bool more = entry->spec.arguments.ends_with("...");
+    if ((given > wanted && !more) || (given < wanted && !optional)) {
         const std::string count = wanted == 1 ? "takes one argument" : "takes " + std::to_string(wanted) + " arguments";
         return fail("command " + input.name, given == 0 ? "lacks its argument" : count,
                     "write " + input.name + " " + std::string(entry->spec.arguments));

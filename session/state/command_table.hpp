@@ -120,9 +120,15 @@ struct SelectObject {
     bool operator==(const SelectObject&) const = default;
 };
 
+// Tells the activity something: one of its acts, and its arguments (session/state/activity.hpp).
+struct DoAct {
+    std::vector<std::string> words;
+    bool operator==(const DoAct&) const = default;
+};
+
 using SessionCommand = std::variant<RunAction, SetTool, SetOperation, SetColour, SetMaterial, SetQuantity, SetTechnique,
                                     SetStereoMode, SetTestPattern, SetEyeSwap, SetForce, SetForceShown, SetCatchDrill,
-                                    ExportTo, ScreenshotTo, EditObject, SelectObject>;
+                                    ExportTo, ScreenshotTo, EditObject, SelectObject, DoAct>;
 
 struct SessionState;
 
@@ -149,7 +155,7 @@ struct QuantityDescriptor {
 
 struct CommandSpec {
     std::string_view name;
-    std::string_view arguments;  // "R", "on|off" or "NAME WHAT VALUE"; empty: none; [ ]: optional
+    std::string_view arguments;  // "R", "on|off" or "NAME WHAT VALUE"; empty: none; [ ]: optional; ... at the end: more
     std::string help;            // one line
 };
 // Lists the commands in the order in which help shows them.

@@ -46,6 +46,7 @@ struct Printer {
     CommandInput operator()(const ExportTo& c) const { return {"export", {c.path}}; }
     CommandInput operator()(const ScreenshotTo& c) const { return {"screenshot", {c.path}}; }
     CommandInput operator()(const SetForceShown& c) const { return {"show-force", {on_off(c.on)}}; }
+    CommandInput operator()(const DoAct& c) const { return {"do", c.words}; }
     CommandInput operator()(const SelectObject& c) const { return {"select", {c.object}}; }
     CommandInput operator()(const EditObject& c) const {
         const scene::PropertyDescriptor& property = scene::descriptor_of(c.property);

@@ -77,6 +77,10 @@ public:
         orders_.world.push_back(std::move(edited->order));
         return {};
     }
+    Result<void> operator()(const DoAct& wanted) {
+        orders_.acts.push_back({wanted.words, orders_.line});
+        return {};
+    }
     Result<void> operator()(const ScreenshotTo& wanted) {
         orders_.screenshots.push_back({wanted.path, orders_.line});
         return {};
@@ -185,7 +189,11 @@ Result<void> Runner::operator()(const RunAction& run) {
 Result<void> run_command(SessionState& state, SessionOrders& orders, const CommandInput& command) {
     const Result<SessionCommand> parsed = parse_command(command);
     if (!parsed) return std::unexpected(parsed.error());
-    return std::visit(Runner(state, orders), *parsed);
+    return run_command(state, orders, *parsed);
+}
+
+Result<void> run_command(SessionState& state, SessionOrders& orders, const SessionCommand& command) {
+    return std::visit(Runner(state, orders), command);
 }
 
 }  // namespace burin::session

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +36,8 @@ struct LiveOptions {
     bool writes_nothing = false;  // files that are asked for are left out
 };
 
+class Activity;  // session/state/activity.hpp
+
 enum class HandChoice { rigid, simulated };
 
 struct SculptOptions {
@@ -59,6 +62,7 @@ struct SculptOptions {
     // A recording from before sessions knew of units: the panel's ranges suit no workpiece in particular, and nothing
     // is said of sizes that do not fit. No option of the command line.
     bool from_before_units = false;
+    std::shared_ptr<Activity> activity;  // null: none; no option of the command line
     LiveOptions live;
 };
 

@@ -7,11 +7,13 @@
 #include <optional>
 
 #include "session/input/input_words.hpp"
+#include "session/state/activity.hpp"
 
 namespace burin::session {
 namespace {
 
 constexpr const char* kCommand = "burin sculpt";
+constexpr const char* kActivity = "--activity";  // behind it Activity::settings(); no option of the command line
 
 template <typename Options, typename Visit>
 void visit_settings(Options& o, Visit&& visit) {
@@ -121,6 +123,19 @@ std::string shown(const std::string& name, const OptionWords& words) {
     return found->second.empty() ? name : name + " " + as_word(found->second);
 }
 
+// Takes the activity out of the words, and checks that it is the given one: the log does not hold what it does.
+Result<void> check_activity(OptionWords& words, const Activity* given) {
+    const auto recorded = words.extract(kActivity);
+    const std::string then = recorded ? recorded.mapped() : "", now = given != nullptr ? given->settings() : "";
+    if (then == now) return {};
+    const auto named = [](const std::string& settings) {
+        return settings.empty() ? "no activity" : "the activity " + as_word(settings);
+    };
+    return fail("the recording", "is of " + named(then) + ", and this session has " + named(now),
+                then.empty() ? "replay it with burin sculpt or burin world"
+                             : "replay it with the command that recorded it: burin " + then);
+}
+
 // Completes the options of a recording that names no unit. Every recording has named one since there are units; before,
 // files were read in metres, and a session without a --tool had a ball of 10 mm.
 void as_before_units(SculptOptions& options) {
@@ -140,6 +155,7 @@ std::string settings_line(const SculptOptions& options) {
         line += std::string(" ") + name;
         if (!behind->empty()) line += " " + as_word(*behind);
     });
+    if (options.activity) line += std::string(" ") + kActivity + " " + as_word(options.activity->settings());
     return line;
 }
 
@@ -151,6 +167,7 @@ Result<RecordedOptions> options_as_recorded(const std::string& line, const Sculp
     }
     Result<OptionWords> words = words_on(line);
     if (!words) return std::unexpected(words.error());
+    if (const auto same = check_activity(*words, given.activity.get()); !same) return std::unexpected(same.error());
     const SculptOptions defaults;
     const OptionWords given_words = words_behind(given), left_out = words_behind(defaults);
     std::string wrong;

@@ -62,11 +62,18 @@ struct Asked {
     std::size_t line = 0;  // of the log that asked; 0: none
 };
 
+// What the activity is told by a command.
+struct AskedAct {
+    std::vector<std::string> words;
+    std::size_t line = 0;  // of the log that asked; 0: none
+};
+
 // Orders that a step gives to the other parts of the session.
 struct SessionOrders {
     std::size_t line = 0;  // of the log, for commands that are run now
     std::vector<sculpt::SculptOrder> carving;
     std::vector<WorldOrder> world;
+    std::vector<AskedAct> acts;
     bool parameters = false;         // the haptic thread's parameters have changed
     std::vector<Asked> screenshots;  // names
     bool full_screen = false;        // toggle between window and full screen
@@ -113,6 +120,7 @@ struct SessionStep {
 
 // Runs a command by its name (command_table.hpp). On an Error, which says what would be right, nothing has changed.
 [[nodiscard]] Result<void> run_command(SessionState& state, SessionOrders& orders, const CommandInput& command);
+[[nodiscard]] Result<void> run_command(SessionState& state, SessionOrders& orders, const SessionCommand& command);
 
 // Returns the parameters that the haptic thread is to use.
 [[nodiscard]] haptics::TickParameters parameters_of(const SessionState& state, const Room& room);

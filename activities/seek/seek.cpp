@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "activities/seek/seek.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <random>
+#include <utility>
+
+#include "base/text.hpp"
+
+namespace burin::activities {
+namespace {
+
+using scene::ObjectProperty;
+
+constexpr scene::PropertyValue kGlow{1.0, 0.62, 0.1};
+
+constexpr std::array kSeekActs{
+    session::Act{"start", "", "Begin, or begin anew"},
+    session::Act{"skip", "", "Give this object up, and go on to the next"},
+};
+
+// Draws an order of the names, the same for the same seed wherever it is drawn.
+std::vector<std::string> in_drawn_order(std::vector<std::string> names, std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    for (std::size_t i = names.size(); i > 1; --i) std::swap(names[i - 1], names[random() % i]);
+    return names;
+}
+
+}  // namespace
+
+std::string Seek::settings() const {
+    return formatted("seek --targets %u --seed %llu", options_.targets, static_cast<unsigned long long>(options_.seed));
+}
+
+std::span<const session::Act> Seek::acts() const { return kSeekActs; }
+
+Result<void> Seek::act(std::span<const std::string> words, session::ActivityOrders& orders) {
+    if (words[0] == "start") {
+        if (phase_ == Phase::seeking) end_glow(orders);
+        phase_ = Phase::starting;  // step() knows which objects there are
+        return {};
+    }
+    if (phase_ != Phase::seeking) return fail("command do skip", "nothing is sought", "do start first");
+    now_.skipped = true;
+    end_glow(orders);
+    found_.push_back(std::exchange(now_, {}));
+    take_next(orders);
+    return {};
+}
+
+void Seek::step(const session::ActivityView& view, session::ActivityOrders& orders) {
+    if (view.world == nullptr) return;
+    if (phase_ == Phase::starting) begin(*view.world, orders);
+    for (const haptics::StrokeSample& tick : view.ticks) {
+        if (phase_ == Phase::seeking) go_on_by(tick, *view.world, orders);
+        last_ns_ = tick.time_ns;
+        last_place_scene_ = tick.proxy_object_m;
+    }
+    if (phase_ == Phase::seeking && !its_colour_) let_glow(*view.world, orders);
+}
+
+void Seek::begin(const session::WorldObjects& world, session::ActivityOrders& orders) {
+    std::vector<std::string> names;
+    for (const auto& object : world.objects)
+        if (object->seen && object->felt) names.push_back(object->name);
+    targets_ = in_drawn_order(std::move(names), options_.seed);
+    if (options_.targets > 0 && options_.targets < targets_.size()) targets_.resize(options_.targets);
+    found_.clear();
+    in_touch_with_.clear();
+    phase_ = Phase::seeking;
+    take_next(orders);
+}
+
+// Names the next target; the one before has been put among those found.
+void Seek::take_next(session::ActivityOrders& orders) {
+    its_colour_.reset();
+    since_ns_.reset();
+    now_ = {};
+    if (found_.size() < targets_.size()) {
+        now_.object = targets_[found_.size()];
+        return;
+    }
+    phase_ = Phase::over;
+    double time_s = 0.0;
+    for (const Sought& one : found_) time_s += one.time_s;
+    orders.messages.push_back(formatted("%zu objects sought in %.1f s", found_.size(), time_s));
+}
+
+void Seek::go_on_by(const haptics::StrokeSample& tick, const session::WorldObjects& world,
+                    session::ActivityOrders& orders) {
+    if (!since_ns_) {
+        since_ns_ = last_ns_ > 0 ? last_ns_ : tick.time_ns;
+        if (last_ns_ == 0) last_place_scene_ = tick.proxy_object_m;
+    }
+    now_.time_s = seconds(tick.time_ns - *since_ns_);
+    now_.path_m += glm::length(tick.proxy_object_m - last_place_scene_);
+    if ((tick.flags & haptics::kTickInContact) == 0) {
+        in_touch_with_.clear();
+        return;
+    }
+    // A search costs a look at every object: ten ticks are soon enough where a touch goes on.
+    if (!in_touch_with_.empty() && tick.tick % 10 != 0) return;
+    const scene::SceneObject* object = touched(world, tick.proxy_object_m);
+    if (object == nullptr || object->name == in_touch_with_) return;
+    in_touch_with_ = object->name;
+    if (object->name != now_.object) {
+        ++now_.others;
+        return;
+    }
+    end_glow(orders);
+    orders.messages.push_back(formatted("found %s in %.1f s", now_.object.c_str(), now_.time_s));
+    found_.push_back(now_);
+    take_next(orders);
+}
+
+void Seek::let_glow(const session::WorldObjects& world, session::ActivityOrders& orders) {
+    const auto id = object_named(world, now_.object);
+    if (!id) return;
+    its_colour_ = scene::value_of(*world.find(*id), ObjectProperty::colour);
+    orders.edits.push_back({now_.object, ObjectProperty::colour, kGlow});
+}
+
+void Seek::end_glow(session::ActivityOrders& orders) {
+    if (its_colour_) orders.edits.push_back({now_.object, ObjectProperty::colour, *its_colour_});
+    its_colour_.reset();
+}
+
+// Returns the felt object whose surface is nearest to the place.
+const scene::SceneObject* Seek::touched(const session::WorldObjects& world, const Vec3& place_scene) {
+    const scene::SceneObject* nearest = nullptr;
+    double least_m = std::numeric_limits<double>::infinity();
+    for (const auto& object : world.objects) {
+        if (!object->felt) continue;
+        auto& tree = trees_[object->mesh.get()];
+        if (!tree) tree = std::make_unique<geometry::TriangleTree>(object->mesh->positions_m, object->mesh->triangles);
+        const Vec3 place_object = inverse(object->pose) * place_scene / object->scale;
+        const double distance_m = object->scale * tree->nearest(place_object, 0).distance_m;
+        if (distance_m >= least_m) continue;
+        least_m = distance_m;
+        nearest = object.get();
+    }
+    return nearest;
+}
+
+session::ActivityPanel Seek::panel() const {
+    session::ActivityPanel panel{.title = "Seek", .aside = "", .page = "", .rows = {}, .buttons = {}};
+    switch (phase_) {
+        case Phase::waiting: panel.page = "Press Start. Then touch each object that is named and glows."; break;
+        case Phase::starting:
+        case Phase::seeking: panel.page = "Touch: " + now_.object; break;
+        case Phase::over: panel.page = "That was all. Press Start to seek them again."; break;
+    }
+    if (!targets_.empty()) panel.aside = formatted("%zu of %zu", found_.size(), targets_.size());
+    if (phase_ == Phase::seeking) panel.rows.push_back({"Time", formatted("%.0f s", now_.time_s)});
+    if (!found_.empty()) {
+        const Sought& last = found_.back();
+        panel.rows.push_back({last.object, last.skipped ? "given up" : formatted("%.1f s", last.time_s)});
+    }
+    panel.buttons = {{"Start", {"start"}}, {"Skip", {"skip"}, phase_ == Phase::seeking}};
+    return panel;
+}
+
+Json Seek::report() const {
+    Json json{{"activity", settings()}, {"sought", Json::array()}};
+    for (const Sought& one : found_)
+        json["sought"].push_back({{"object", one.object},
+                                  {"found", !one.skipped},
+                                  {"time_s", one.time_s},
+                                  {"path_m", one.path_m},
+                                  {"other_objects_touched", one.others}});
+    return json;
+}
+
+}  // namespace burin::activities

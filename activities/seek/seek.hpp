@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Seeking: the person touches the objects of a world one after the other, as soon as each is named, and the times are
+// taken. The smallest activity that is of use; docs/first-activity.md walks through it.
+//
+//   waiting -> "start" -> one target after the other, in an order drawn from the seed -> over
+// A target glows while it is sought. It is found by the first tick in which the tool is in contact and the surface
+// nearest to where it rests is the target's; touches of other objects on the way are counted. Time and path are those
+// of the ticks, from the tick that found the target before, or that came first after the start.
+// Frame: the scene's, metres. One thread, the frame's.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/json.hpp"
+#include "geometry/mesh/triangle_tree.hpp"
+#include "session/state/activity.hpp"
+
+namespace burin::activities {
+
+struct SeekOptions {
+    unsigned targets = 0;  // how many objects are sought; 0: each that is seen and felt, once
+    std::uint64_t seed = 1;
+};
+
+struct Sought {
+    std::string object;
+    bool skipped = false;
+    double time_s = 0.0, path_m = 0.0;  // until it was found or skipped
+    unsigned others = 0;                // touches of other objects meanwhile
+};
+
+class Seek final : public session::Activity {
+public:
+    explicit Seek(const SeekOptions& options) : options_(options) {}
+
+    [[nodiscard]] std::string settings() const override;
+    [[nodiscard]] std::span<const session::Act> acts() const override;
+    [[nodiscard]] Result<void> act(std::span<const std::string> words, session::ActivityOrders& orders) override;
+    void step(const session::ActivityView& view, session::ActivityOrders& orders) override;
+    [[nodiscard]] bool is_running() const override { return phase_ == Phase::seeking; }
+    [[nodiscard]] session::ActivityPanel panel() const override;
+
+    [[nodiscard]] const std::vector<Sought>& found() const { return found_; }
+    // Returns all that was measured, for a report.
+    [[nodiscard]] Json report() const;
+
+private:
+    enum class Phase : std::uint8_t { waiting, starting, seeking, over };
+
+    void begin(const session::WorldObjects& world, session::ActivityOrders& orders);
+    void go_on_by(const haptics::StrokeSample& tick, const session::WorldObjects& world,
+                  session::ActivityOrders& orders);
+    void take_next(session::ActivityOrders& orders);
+    void let_glow(const session::WorldObjects& world, session::ActivityOrders& orders);
+    void end_glow(session::ActivityOrders& orders);
+    [[nodiscard]] const scene::SceneObject* touched(const session::WorldObjects& world, const Vec3& place_scene);
+
+    SeekOptions options_;
+    Phase phase_ = Phase::waiting;
+    std::vector<std::string> targets_;
+    std::vector<Sought> found_;
+    Sought now_;                                      // the present target
+    std::optional<scene::PropertyValue> its_colour_;  // before it glowed; none: it does not yet
+    std::optional<Nanoseconds> since_ns_;             // when it was named; none: no tick has come since
+    Nanoseconds last_ns_ = 0;                         // of the last tick
+    Vec3 last_place_scene_{0.0};
+    std::string in_touch_with_;  // empty: nothing
+    std::map<const geometry::TriangleMesh*, std::unique_ptr<geometry::TriangleTree>> trees_;
+};
+
+}  // namespace burin::activities

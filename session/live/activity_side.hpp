@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// The activity of a live session, if it has one: what its commands tell it, the ticks that it goes on by, and what it
+// orders, which is done as if a user had asked for it.
+// Threads: the tap is the scene's (session/live/sample_tap.hpp), all else the frame's.
+#pragma once
+
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "session/live/sample_tap.hpp"
+#include "session/state/activity.hpp"
+#include "session/state/session_state.hpp"
+
+namespace burin::session {
+
+class ActivitySide {
+public:
+    // Null: the session has no activity, and nothing here does anything.
+    explicit ActivitySide(std::shared_ptr<Activity> activity) : activity_(std::move(activity)) {
+        if (activity_) tap_.emplace(0);
+    }
+
+    // Returns the part of the scene by which the hand's ticks come; null without an activity.
+    [[nodiscard]] SampleTap* tap() { return tap_ ? &*tap_ : nullptr; }
+    // Takes ticks that the scene has read, for the next step.
+    void take(std::vector<haptics::StrokeSample> ticks) {
+        ticks_.insert(ticks_.end(), std::make_move_iterator(ticks.begin()), std::make_move_iterator(ticks.end()));
+    }
+    // Tells the activity what the step's commands ask of it, and has it go on; changes the state and adds to the orders
+    // as it wants.
+    void step(SessionState& state, SessionOrders& orders, Nanoseconds time_ns, const haptics::ToolState& tool);
+    [[nodiscard]] bool is_running() const { return activity_ && activity_->is_running(); }
+    void adjust(haptics::TickParameters& parameters) const {
+        if (activity_) activity_->adjust(parameters);
+    }
+    void stage(renderer::Scene& scene, std::size_t screen) const {
+        if (activity_) activity_->stage(scene, screen);
+    }
+    // Returns its section of the panel; none without an activity.
+    [[nodiscard]] std::optional<ActivityPanel> panel() const {
+        return activity_ ? std::optional(activity_->panel()) : std::nullopt;
+    }
+    [[nodiscard]] Result<void> finish() { return activity_ ? activity_->finish() : Result<void>{}; }
+
+private:
+    void carry_out(const ActivityOrders& wanted, SessionState& state, SessionOrders& orders) const;
+
+    std::shared_ptr<Activity> activity_;
+    std::optional<SampleTap> tap_;
+    std::vector<haptics::StrokeSample> ticks_;  // since the last step
+};
+
+}  // namespace burin::session

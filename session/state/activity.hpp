@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// An activity: what a person is there for, beyond what hands and scene do of themselves. A training trial is one, a
+// search against the clock another. Whatever starts a session may give it one; the session knows no more of it than
+// this, and docs/first-activity.md shows how one is written.
+//
+//   every tick of the hand, in order -> step() -> edits of objects, messages, the end
+//   `do WORDS` of a script, a button of its panel -> act() -> the same orders
+//   adjust(): what the tick does besides; stage(): what the picture shows besides; panel(): what its section says
+//
+// It must depend on nothing but what it is given here: then a recording, which keeps its name and settings() and no
+// more of it, is done again to the bit.
+// Frame: the scene's. Thread: the frame's.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "haptics/channels.hpp"
+#include "renderer/scene/scene.hpp"
+#include "session/state/world_objects.hpp"
+
+namespace burin::session {
+
+// Something that can be done in the activity: `do NAME ARGUMENTS`.
+struct Act {
+    std::string_view name;       // "next"
+    std::string_view arguments;  // in help; empty: none
+    std::string_view help;       // one line
+};
+
+// What an activity may look at in a step.
+struct ActivityView {
+    Nanoseconds time_ns = 0;  // of the frame, since the session's start
+    // Every tick since the step before, in order; a tick whose sample was lost is missing from the numbers. Their times
+    // are of the loop's clock.
+    std::span<const haptics::StrokeSample> ticks;
+    const haptics::ToolState& tool;  // as the frame draws it
+    const WorldObjects* world;       // as of the last update of the scene; null: there is none
+};
+
+// What it wants done; filled in order.
+struct ActivityOrders {
+    std::vector<EditObject> edits;
+    std::vector<std::string> messages;     // for the user, on panel and terminal
+    std::vector<std::string> screenshots;  // names
+    bool parameters = false;               // adjust() has changed
+    bool quit = false;
+};
+
+// Its section of the panel, from top to bottom.
+struct ActivityPanel {
+    struct Row {
+        std::string name, value;
+        bool operator==(const Row&) const = default;
+    };
+    struct Button {
+        std::string title;
+        std::vector<std::string> act;  // the words behind `do`
+        bool enabled = true;
+        bool operator==(const Button&) const = default;
+    };
+    std::string title, aside;  // the aside stands right of the title, in a word or two
+    std::string page;          // a paragraph for the person; empty: none
+    std::vector<Row> rows;
+    std::vector<Button> buttons;  // side by side
+    bool operator==(const ActivityPanel&) const = default;
+};
+
+class Activity {
+public:
+    Activity() = default;
+    virtual ~Activity() = default;
+    Activity(const Activity&) = delete;
+    Activity& operator=(const Activity&) = delete;
+
+    // Returns its name, the command's that starts it, and all that its course depends on besides what it is given here;
+    // on one line, at most a few hundred characters.
+    [[nodiscard]] virtual std::string settings() const = 0;
+    [[nodiscard]] virtual std::span<const Act> acts() const { return {}; }
+    // Carries out one of its acts: words[0] is one of acts(). The Error says what would be right; nothing has changed
+    // then.
+    [[nodiscard]] virtual Result<void> act(std::span<const std::string> words, ActivityOrders& orders) = 0;
+    // Goes on by the ticks since the last step. Called once a frame, and once after the last tick.
+    virtual void step(const ActivityView& view, ActivityOrders& orders) = 0;
+    // Returns whether frames are to be made although neither hand nor user stirs, since a clock runs.
+    [[nodiscard]] virtual bool is_running() const { return false; }
+    // Changes the parameters of the next ticks, such as guidance, once all else is in them.
+    virtual void adjust(haptics::TickParameters& /*parameters*/) const {}
+    // Changes what a screen shows.
+    virtual void stage(renderer::Scene& /*scene*/, std::size_t /*screen*/) const {}
+    [[nodiscard]] virtual ActivityPanel panel() const = 0;
+    // Called when the session has ended and no tick comes any more: writes what it leaves.
+    [[nodiscard]] virtual Result<void> finish() { return {}; }
+};
+
+// Checks that the words are an act of the activity, with the nearest name in the Error; null: there is none, and every
+// act fails.
+[[nodiscard]] Result<void> check_act(const Activity* activity, std::span<const std::string> words);
+
+}  // namespace burin::session
