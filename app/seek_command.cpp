@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // burin seek WORLD: the objects of a world are touched as they are named, in a live session (activities/seek).
+#include <array>
+
 #include "activities/seek/seek.hpp"
 #include "app/commands.hpp"
 #include "app/live_options.hpp"
@@ -19,17 +21,18 @@ void add_seek_options(Command command, SeekSession& seek) {
 }
 
 Result<void> seek(const SeekSession& options) {
-    if (const auto ok =
-            check_outputs({}, options.report == kStandardOutput ? "" : options.report, {options.session.world});
-        !ok)
-        return ok;
+    const std::array inputs{options.session.world};
+    const std::string report = options.report == kStandardOutput ? "" : options.report;
+    if (const auto ok = check_outputs({}, report, inputs); !ok) return ok;
     const auto activity =
         std::make_shared<activities::Seek>(activities::SeekOptions{.targets = options.targets, .seed = options.seed});
     session::SculptOptions session = options.session;
     session.no_workpiece = true;
     session.activity = activity;
-    if (const auto done = session::run_session(session); !done) return done;
-    return write_output(options.report, json_text(activity->report()));
+    const Result<void> done = session::run_session(session);
+    // What the person has done is kept, even where the session missed something else.
+    const Result<void> written = write_output(options.report, json_text(activity->report()));
+    return done ? written : done;
 }
 
 }  // namespace burin::app

@@ -135,7 +135,8 @@ const scene::SceneObject* Seek::touched(const session::WorldObjects& world, cons
         if (!object->felt) continue;
         auto& tree = trees_[object->mesh.get()];
         if (!tree) tree = std::make_unique<geometry::TriangleTree>(object->mesh->positions_m, object->mesh->triangles);
-        const Vec3 place_object = inverse(object->pose) * place_scene / object->scale;
+        const Vec3 place_object =
+            glm::inverse(object->pose.orientation) * (place_scene - object->pose.position_m) / object->scale;
         const double distance_m = object->scale * tree->nearest(place_object, 0).distance_m;
         if (distance_m >= least_m) continue;
         least_m = distance_m;

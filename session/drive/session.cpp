@@ -14,7 +14,7 @@ namespace burin::session {
 namespace {
 
 // Reads a log, all of whose commands make sense.
-Result<InputLog> open_log(const std::string& path) {
+Result<InputLog> open_log(const std::string& path, const Activity* activity = nullptr) {
     Result<InputLog> log = read_input_log(path);
     if (!log) return log;
     if (log->torn_line) {
@@ -22,7 +22,7 @@ Result<InputLog> open_log(const std::string& path) {
         if (!log->threads) return fail(path, "the last line has no end", "end it with a line feed, or take it away");
         std::fprintf(stderr, "burin: %s\n", log->torn_line->c_str());
     }
-    if (const auto sound = check_commands(*log, path); !sound) return std::unexpected(sound.error());
+    if (const auto sound = check_commands(*log, path, activity); !sound) return std::unexpected(sound.error());
     return log;
 }
 
@@ -102,7 +102,7 @@ Result<void> run_session(const SculptOptions& given) {
     }
     std::optional<InputLog> log;
     if (!options.live.input.empty()) {
-        Result<InputLog> read = open_log(options.live.input);
+        Result<InputLog> read = open_log(options.live.input, options.activity.get());
         if (!read) return std::unexpected(read.error());
         const SessionOutputs outputs(options.live);
         if (const auto ready = outputs.prepare(*read, options.live.input); !ready) return ready;

@@ -95,7 +95,7 @@ std::optional<sculpt::ToolSpec> tool_in(const CommandInput& input) {
     return set != nullptr ? std::optional(set->tool) : std::nullopt;
 }
 
-Result<void> check_command(const CommandInput& input, SessionState state) {
+Result<void> check_command(const CommandInput& input, SessionState state, const Activity* activity) {
     const Result<SessionCommand> command = parse_command(input);
     if (!command) return std::unexpected(command.error());
     if (const auto file = file_of(*command)) {
@@ -103,6 +103,7 @@ Result<void> check_command(const CommandInput& input, SessionState state) {
     }
     if (std::holds_alternative<EditObject>(*command) || std::holds_alternative<SelectObject>(*command))
         return {};  // which objects there are is not known yet
+    if (const auto* act = std::get_if<DoAct>(&*command)) return check_act(activity, act->words);
     SessionOrders ignored;
     return run_command(state, ignored, input);
 }
@@ -131,7 +132,7 @@ std::vector<sculpt::ToolSpec> tools_in(const InputLog& log) {
     return tools;
 }
 
-Result<void> check_commands(const InputLog& log, const std::string& name) {
+Result<void> check_commands(const InputLog& log, const std::string& name, const Activity* activity) {
     Result<SessionState> state = plain_state();
     if (!state) return std::unexpected(state.error());
     auto meshes = std::make_shared<ToolMeshes>();
@@ -141,7 +142,8 @@ Result<void> check_commands(const InputLog& log, const std::string& name) {
         if (command == nullptr) continue;
         if (const auto tool = tool_in(*command))
             if (const auto read = meshes->read(*tool); !read) return on_line(read.error(), name, event.line);
-        if (const auto ok = check_command(*command, *state); !ok) return on_line(ok.error(), name, event.line);
+        if (const auto ok = check_command(*command, *state, activity); !ok)
+            return on_line(ok.error(), name, event.line);
     }
     return {};
 }

@@ -15,6 +15,7 @@
 
 #include "base/error.hpp"
 #include "session/record/input_log.hpp"
+#include "session/state/activity.hpp"
 #include "session/state/session_options.hpp"
 
 namespace burin::session {
@@ -25,8 +26,9 @@ enum class OutputKind : std::uint8_t { picture, mesh };
 [[nodiscard]] Result<void> check_output_name(const std::string& name, OutputKind kind);
 
 // Checks all commands of a log: that they are known, that their arguments make sense, and that a session of whatever
-// state could carry them out. name: the log's file name.
-[[nodiscard]] Result<void> check_commands(const InputLog& log, const std::string& name);
+// state could carry them out; of the activity, null for none, that it has such acts. name: the log's file name.
+[[nodiscard]] Result<void> check_commands(const InputLog& log, const std::string& name,
+                                          const Activity* activity = nullptr);
 
 // Returns the tools that a log's commands take up.
 [[nodiscard]] std::vector<sculpt::ToolSpec> tools_in(const InputLog& log);
