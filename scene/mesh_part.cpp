@@ -288,7 +288,8 @@ std::vector<ObjectUpdate> MeshPart::take_object_updates() {
                            placed.object.seen,
                            placed.object.colour,
                            placed.object.pose,
-                           placed.object.motion});
+                           placed.object.motion,
+                           placed.object.opacity});
     }
     return updates;
 }

@@ -46,6 +46,7 @@ struct ObjectUpdate {
     Colour colour{};
     Pose pose;            // its own: on a path, without the path
     ObjectMotion motion;  // as it is now: a hand may hold it, or have left it where it is
+    double opacity = 1.0;
 };
 
 class MeshPart final : public ScenePart {

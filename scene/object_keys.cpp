@@ -39,6 +39,7 @@ void ObjectKeys::read(SceneObject& object) {
     object.seen = table_.flag("seen").value_or(object.seen);
     object.felt = table_.flag("felt").value_or(object.felt);
     object.both_sides = table_.flag("both_sides").value_or(object.both_sides);
+    object.opacity = table_.number("opacity").value_or(object.opacity);
     read_colour(object);
     read_material(object.material);
     path_ = table_.tables("path");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads an object's values from a TOML table: pose, scale, colour, seen, felt, material, path (docs/formats.md). A
+// Reads an object's values from a TOML table: pose, scale, colour, opacity, seen, felt, material, path
+// (docs/formats.md). A
 // world in TOML and the settings beside a world in VRML have the same keys. What a table leaves out stays as the object
 // has it. Threads: any; nothing shared.
 #pragma once

@@ -7,7 +7,7 @@
 namespace burin::scene {
 namespace {
 
-constexpr std::array<PropertyDescriptor, 11> kProperties{{
+constexpr std::array<PropertyDescriptor, 12> kProperties{{
     {ObjectProperty::stiffness, "stiffness", "K", "N/m", 1},
     {ObjectProperty::damping, "damping", "B", "N s/m", 1},
     {ObjectProperty::friction, "friction", "MU", "", 1},
@@ -17,6 +17,7 @@ constexpr std::array<PropertyDescriptor, 11> kProperties{{
     {ObjectProperty::orientation, "orientation", "AX,AY,AZ,ANGLE", "rad", 4},
     {ObjectProperty::scale, "scale", "FACTOR", "", 1},
     {ObjectProperty::colour, "colour", "R,G,B", "", 3},
+    {ObjectProperty::opacity, "opacity", "A", "", 1},
     {ObjectProperty::seen, "seen", "on|off", "", 0},
     {ObjectProperty::felt, "felt", "on|off", "", 0},
 }};
@@ -62,6 +63,7 @@ PropertyValue value_of(const SceneObject& object, ObjectProperty property) {
         case ObjectProperty::scale: return {object.scale};
         case ObjectProperty::colour:
             return {object.colour[0] / 255.0, object.colour[1] / 255.0, object.colour[2] / 255.0};
+        case ObjectProperty::opacity: return {object.opacity};
         case ObjectProperty::seen: return {object.seen ? 1.0 : 0.0};
         case ObjectProperty::felt: return {object.felt ? 1.0 : 0.0};
     }
@@ -81,6 +83,7 @@ ObjectEdit edit_of(const SceneObject& object, ObjectProperty property, const Pro
         case ObjectProperty::orientation: pose.orientation = turn_of(value); return SetPose{pose};
         case ObjectProperty::scale: return SetScale{value[0]};
         case ObjectProperty::colour: return SetColour{{byte_of(value[0]), byte_of(value[1]), byte_of(value[2])}};
+        case ObjectProperty::opacity: return SetOpacity{value[0]};
         case ObjectProperty::seen: return SetSeen{value[0] != 0.0};
         case ObjectProperty::felt: return SetFelt{value[0] != 0.0};
     }

@@ -23,6 +23,7 @@ enum class ObjectProperty : std::uint8_t {
     orientation,
     scale,
     colour,
+    opacity,
     seen,
     felt,
 };
@@ -37,7 +38,8 @@ struct PropertyDescriptor {
 [[nodiscard]] const PropertyDescriptor& descriptor_of(ObjectProperty property);
 
 // As many numbers as the property has; of a switch the first, 0 or 1. A position in metres; an orientation as an axis,
-// which need not be a unit vector, and the angle about it in radians; a colour as sRGB from 0 to 1.
+// which need not be a unit vector, and the angle about it in radians; a colour as sRGB from 0 to 1, an opacity from 0
+// to 1.
 using PropertyValue = std::array<double, 4>;
 
 [[nodiscard]] PropertyValue value_of(const SceneObject& object, ObjectProperty property);

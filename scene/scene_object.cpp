@@ -29,6 +29,7 @@ struct Editor {
     std::string operator()(const SetFelt& e) const { return object.felt = e.felt, ""; }
     std::string operator()(const SetSeen& e) const { return object.seen = e.seen, ""; }
     std::string operator()(const SetColour& e) const { return object.colour = e.colour, ""; }
+    std::string operator()(const SetOpacity& e) const { return object.opacity = e.opacity, ""; }
     std::string operator()(const TakeHold& e) const {
         object.motion = HeldMotion{e.hand, e.hand_from_object};
         return "";
@@ -51,6 +52,8 @@ std::vector<Problem> problems(const SceneObject& object) {
         found.push_back({"orientation", "is not a unit quaternion", "write [0, 0, 0, 1] (x, y, z, w) for no rotation"});
     if (!(object.scale >= kMinScale && object.scale <= kMaxScale))
         found.push_back({"scale", formatted("is %g", object.scale), "give a factor from 1e-6 to 1e6"});
+    if (!(object.opacity >= 0.0 && object.opacity <= 1.0))
+        found.push_back({"opacity", formatted("is %g", object.opacity), "give a share from 0 to 1"});
     append(found, problems(object.material));
     if (const auto* path = std::get_if<PathMotion>(&object.motion)) append(found, problems(*path));
     if (const auto* held = std::get_if<HeldMotion>(&object.motion))

@@ -33,6 +33,7 @@ struct SceneObject {
     double scale = 1.0;  // kMinScale to kMaxScale
     bool seen = true, felt = true;
     Colour colour{200, 200, 200};
+    double opacity = 1.0;  // 0: clear as air, and yet seen at grazing angles; 1: hides what is behind
     HapticMaterial material;
     bool both_sides = false;  // a surface without thickness, felt from the side on which the tool is
     ObjectMotion motion;
@@ -65,6 +66,9 @@ struct SetColour {
     Colour colour{};
 };
 // Has the object move with a hand from now on.
+struct SetOpacity {
+    double opacity = 1.0;
+};
 struct TakeHold {
     std::size_t hand = 0;
     Pose hand_from_object;
@@ -73,7 +77,8 @@ struct TakeHold {
 struct LetGo {
     Pose scene_from_object;
 };
-using ObjectEdit = std::variant<SetPose, SetScale, SetMaterial, SetFelt, SetSeen, SetColour, TakeHold, LetGo>;
+using ObjectEdit =
+    std::variant<SetPose, SetScale, SetMaterial, SetFelt, SetSeen, SetColour, SetOpacity, TakeHold, LetGo>;
 
 // Returns the object with the edit made. Fails where that would have a problem.
 [[nodiscard]] Result<SceneObject> edited(SceneObject object, const ObjectEdit& edit);

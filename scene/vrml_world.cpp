@@ -71,6 +71,7 @@ WorldOrProblems world_of(const geometry::VrmlWorld& vrml, const std::string& nam
         object.name = gathered.name;
         object.colour = first.colour;
         object.seen = first.transparency < 1.0;
+        object.opacity = object.seen ? 1.0 - first.transparency : 1.0;
         object.material = material_of(first);
         auto mesh = std::make_shared<geometry::TriangleMesh>();
         geometry::VertexWeld weld(mesh->positions_m);

@@ -3,7 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/frame.glsl"
 // The faces of the haptic workspace's boxes: a clear tint, denser at grazing angles and towards the edges. The same
-// shader draws the workspace's bubble, which has no edges: there their strength, material.x, is 0. Premultiplied.
+// shader draws the workspace's bubble, which has no edges: there their strength, material.x, is 0. Objects through which
+// one sees are shaded, material.y is 1: darker where they turn from the light, with a highlight. Premultiplied.
 
 layout(location = 0) in vec3 in_world;
 layout(location = 1) in vec3 in_normal;
@@ -14,11 +15,20 @@ layout(location = 0) out vec4 out_colour;
 
 void main() {
     vec3 v = normalize(frame.eye_world[gl_ViewIndex].xyz - in_world);
-    float grazing = 1.0 - abs(dot(normalize(in_normal), v));
+    vec3 n = normalize(in_normal);
+    n = dot(n, v) < 0.0 ? -n : n;  // a face is seen from either side
+    float grazing = 1.0 - dot(n, v);
     // The face's own coordinate is +-0.5; of the other two, the one nearer to 0.5 gives the distance to an edge.
     vec3 a = abs(in_local);
     float edge = max(min(a.x, a.y), max(min(a.x, a.z), min(a.y, a.z)));
     float alpha = draw.tint.a * (0.5 + 0.7 * grazing + draw.material.x * smoothstep(0.36, 0.5, edge));
-    alpha = min(alpha, 0.6);
-    out_colour = vec4(in_colour * alpha, alpha);
+    if (draw.material.y == 0.0) {
+        alpha = min(alpha, 0.6);
+        out_colour = vec4(in_colour * alpha, alpha);
+        return;
+    }
+    alpha = min(draw.tint.a * (0.75 + 0.5 * grazing), 1.0);
+    float lit = 0.55 + 0.55 * max(dot(n, frame.light.xyz), 0.0);
+    float shine = 0.25 * pow(max(dot(n, normalize(v + frame.light.xyz)), 0.0), 40.0);
+    out_colour = vec4(in_colour * lit * alpha + shine, alpha);
 }

@@ -108,8 +108,8 @@ StageView::StageView(const study::FeltWorld& world, const study::Protocol& proto
 
 void StageView::show(scene::ObjectId id, bool seen, scene::Colour colour) {
     const Pose& pose = world_.part().pose(id);
-    const std::array update{
-        scene::ObjectUpdate{id, {pose.position_m, pose.orientation, 1.0}, seen, colour, pose, scene::FixedMotion{}}};
+    const std::array update{scene::ObjectUpdate{
+        id, {pose.position_m, pose.orientation, 1.0}, seen, colour, pose, scene::FixedMotion{}, 1.0}};
     view_.take(update);
 }
 

@@ -116,6 +116,8 @@ private:
     Result<void> draw_panel(Recording& r);
     Result<void> make_ready(StandingPanel& panel, bool fades);
     Result<void> draw_glass(Recording& r);
+    void draw_primitives(Recording& r, std::span<const Shape> shapes);
+    void draw_meshes(Recording& r, std::span<const Shape> shapes);
     Result<void> use(Recording& r, PipelineKind kind);
     void draw(Recording& r, const PrimitiveRange& range, const shared::DrawConstants& constants);
     void draw(Recording& r, const StoredMesh& mesh, const shared::DrawConstants& constants);
@@ -315,14 +317,22 @@ void Renderer::Implementation::begin_pass(Recording& r) {
 Result<void> Renderer::Implementation::draw_shapes(Recording& r) {
     if (r.shapes.solid.empty()) return {};
     if (const auto done = use(r, PipelineKind::solid); !done) return done;
-    bind_primitives(r);
-    for (const Shape& shape : r.shapes.solid)
-        if (!shape.mesh) draw(r, shape.range, shape.constants);
-    if (std::ranges::none_of(r.shapes.solid, [](const Shape& shape) { return shape.mesh != nullptr; })) return {};
-    bind(r, meshes_.vertices(), meshes_.lights(), meshes_.indices());
-    for (const Shape& shape : r.shapes.solid)
-        if (shape.mesh) draw(r, meshes_.at(*shape.mesh), shape.constants);
+    draw_primitives(r, r.shapes.solid);
+    draw_meshes(r, r.shapes.solid);
     return {};
+}
+
+void Renderer::Implementation::draw_primitives(Recording& r, std::span<const Shape> shapes) {
+    bind_primitives(r);
+    for (const Shape& shape : shapes)
+        if (!shape.mesh) draw(r, shape.range, shape.constants);
+}
+
+void Renderer::Implementation::draw_meshes(Recording& r, std::span<const Shape> shapes) {
+    if (std::ranges::none_of(shapes, [](const Shape& shape) { return shape.mesh != nullptr; })) return;
+    bind(r, meshes_.vertices(), meshes_.lights(), meshes_.indices());
+    for (const Shape& shape : shapes)
+        if (shape.mesh) draw(r, meshes_.at(*shape.mesh), shape.constants);
 }
 
 Result<void> Renderer::Implementation::draw_surface(Recording& r) {
@@ -395,10 +405,10 @@ Result<void> Renderer::Implementation::make_ready(StandingPanel& panel, bool fad
 
 Result<void> Renderer::Implementation::draw_glass(Recording& r) {
     if (r.shapes.glass.empty()) return {};
-    bind_primitives(r);
     for (const PipelineKind faces : {PipelineKind::glass_back, PipelineKind::glass_front}) {
         if (const auto done = use(r, faces); !done) return done;
-        for (const Shape& shape : r.shapes.glass) draw(r, shape.range, shape.constants);
+        draw_meshes(r, r.shapes.glass);  // they stand within the boxes
+        draw_primitives(r, r.shapes.glass);
     }
     return {};
 }

@@ -106,6 +106,21 @@ void add_bubble(Shapes& shapes, const SceneBubble& bubble, const Primitives& pri
         {primitives.balls.back(), constants_of(matrix_of(pose, Vec3(bubble.radius_m)), bubble.colour, 0.16, 0, 0)});
 }
 
+// Adds the objects through which one sees, the farthest first.
+void add_clear_objects(Shapes& shapes, const Scene& scene) {
+    constexpr double kNoEdges = 0.0, kShaded = 1.0;  // shaders/glass.frag
+    const Vec3 eye = middle_of(wall::eyes_of(scene.viewer));
+    std::vector<std::pair<double, const DrawnObject*>> clear;
+    for (const DrawnObject& object : scene.objects)
+        if (object.opacity < 1.0) clear.emplace_back(-glm::length(bounds_world(object).center() - eye), &object);
+    std::ranges::stable_sort(clear, {}, &std::pair<double, const DrawnObject*>::first);
+    for (const auto& [distance, object] : clear)
+        shapes.glass.push_back(
+            {{0, 0, object->mesh->bounds},
+             constants_of(matrix(object->world_from_mesh), object->colour, object->opacity, kNoEdges, kShaded),
+             object->mesh});
+}
+
 void add_tool(Shapes& shapes, const SceneTool& tool, const Primitives& primitives) {
     if (tool.mesh) {
         shapes.solid.push_back({{0, 0, tool.mesh->bounds},
@@ -294,10 +309,12 @@ Shapes shapes_of(const Scene& scene, const Primitives& primitives) {
     Shapes shapes;
     if (scene.tool.visible) add_tool(shapes, scene.tool, primitives);
     for (const DrawnObject& object : scene.objects) {
+        if (object.opacity < 1.0) continue;
         shared::DrawConstants c = constants_of(matrix(object.world_from_mesh), object.colour, 1.0, 0.42, 0.9);
         c.material.z = 1.0f;  // shows how near the tool is
         shapes.solid.push_back({{0, 0, object.mesh->bounds}, c, object.mesh});
     }
+    add_clear_objects(shapes, scene);
     add_contact(shapes, scene, primitives);
     if (scene.pedestal.visible) {
         const ScenePedestal& p = scene.pedestal;

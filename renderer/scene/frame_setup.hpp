@@ -79,7 +79,8 @@ struct Shape {
 };
 struct Shapes {
     std::vector<Shape> solid;
-    std::vector<Shape> glass;  // the faces of the workspace boxes, and the bubble
+    // Objects through which one sees, the farthest first; then the faces of the workspace boxes, and the bubble.
+    std::vector<Shape> glass;
 };
 [[nodiscard]] Shapes shapes_of(const Scene& scene, const Primitives& primitives);
 

@@ -36,6 +36,7 @@ struct DrawnObject {
     std::shared_ptr<const DrawnMesh> mesh;  // not null
     Similarity world_from_mesh;
     Vec3 colour{0.78, 0.78, 0.78};
+    double opacity = 1.0;  // below 1 it is drawn as glass, over all that is opaque, the farthest such object first
 
     bool operator==(const DrawnObject&) const = default;
 };

@@ -26,7 +26,7 @@ DrawnWorld::DrawnWorld(std::span<const scene::SceneObject> objects) {
         }
         const Pose pose = pose_at_the_beginning(object);
         const Similarity scene_from_mesh{pose.position_m, pose.orientation, object.scale};
-        objects_[object.id] = {mesh, scene_from_mesh, object.seen, srgb_of(object.colour)};
+        objects_[object.id] = {mesh, scene_from_mesh, object.seen, srgb_of(object.colour), object.opacity};
         const Box bounds = renderer::placed_box(mesh->bounds, scene_from_mesh);
         if (!object.seen || bounds.empty()) continue;
         bounds_scene_.include(bounds.lo);
@@ -38,14 +38,15 @@ void DrawnWorld::take(std::span<const scene::ObjectUpdate> updates) {
     for (const scene::ObjectUpdate& update : updates) {
         const auto at = objects_.find(update.id);
         if (at == objects_.end()) continue;
-        at->second = {at->second.mesh, update.scene_from_mesh, update.seen, srgb_of(update.colour)};
+        at->second = {at->second.mesh, update.scene_from_mesh, update.seen, srgb_of(update.colour), update.opacity};
     }
 }
 
 std::vector<renderer::DrawnObject> DrawnWorld::in_world(const Similarity& world_from_scene) const {
     std::vector<renderer::DrawnObject> list;
     for (const auto& [id, object] : objects_)
-        if (object.seen) list.push_back({object.mesh, world_from_scene * object.scene_from_mesh, object.colour});
+        if (object.seen)
+            list.push_back({object.mesh, world_from_scene * object.scene_from_mesh, object.colour, object.opacity});
     return list;
 }
 

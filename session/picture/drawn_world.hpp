@@ -32,6 +32,7 @@ private:
         Similarity scene_from_mesh;
         bool seen = true;
         Vec3 colour{};
+        double opacity = 1.0;
     };
     std::map<scene::ObjectId, Seen> objects_;
     Box bounds_scene_;

@@ -39,4 +39,32 @@ TEST_F(Objects, AFewThatFitAndOneThatDoesNotComeTogether) {
     EXPECT_TRUE(show({large, small, first}) == all) << "whatever their order in the buffers";
 }
 
+// A red strip behind one of blue glass: both colours are in the picture where they cross, the glass alone hides nothing,
+// and it makes no difference which of them comes first in the scene.
+TEST_F(Objects, BehindClearOnesOthersAreSeen) {
+    const auto strips = strip(1, 0.1);
+    const auto show = [&](double opacity, bool clear_first) {
+        Scene scene = bare_scene();
+        const DrawnObject red{strips, {{0.0, 0.0, -0.03}, {1, 0, 0, 0}, 1.0}, {0.9, 0.1, 0.1}};
+        const DrawnObject blue{strips, {{0.0, 0.0, 0.03}, {1, 0, 0, 0}, 1.0}, {0.1, 0.1, 0.9}, opacity};
+        if (opacity > 0.0 && clear_first) scene.objects = {blue, red};
+        if (opacity > 0.0 && !clear_first) scene.objects = {red, blue};
+        if (opacity == 0.0) scene.objects = {red};
+        return render(scene).left;
+    };
+    const Image hidden = show(1.0, true), through = show(0.4, true), bare = show(0.0, true);
+    EXPECT_TRUE(show(0.4, false).rgba == through.rgba);
+    std::size_t mixed = 0, red = 0;
+    for (std::size_t i = 0; i < bare.rgba.size(); i += 4) {
+        const bool is_red = bare.rgba[i] > bare.rgba[i + 2] + 40;
+        red += is_red ? 1 : 0;
+        mixed += is_red && through.rgba[i] < bare.rgba[i] && through.rgba[i] > hidden.rgba[i] + 10 &&
+                         through.rgba[i + 2] > bare.rgba[i + 2]
+                     ? 1
+                     : 0;
+    }
+    ASSERT_GT(red, 100u);
+    EXPECT_GT(mixed, red / 2);
+}
+
 }  // namespace burin::renderer
