@@ -46,18 +46,19 @@ SculptOptions short_options(const std::string& record) {
     return options;
 }
 
-// A session that is recorded into a file.
+// A session that is recorded into a file: of a script, or of a user who does nothing.
 struct Recorded {
-    Recorded(const std::string& path, Clock& clock) {
+    enum class Of { script, nobody };
+    Recorded(const std::string& path, Clock& clock, Of of) {
         const SculptOptions options = short_options(path);
         auto created = LiveSession::create(options, *session_wall(options.live), clock);
         if (!created) throw std::runtime_error(created.error().line());
         session = std::move(*created);
         auto writer = create_recording(options, {{"program", "a test"}}, *session);
         if (!writer) throw std::runtime_error(writer.error().line());
-        begin(std::move(*writer));
+        begin(std::move(*writer), of);
     }
-    // Into a file of a disk that fails.
+    // Of nobody, into a file of a disk that fails.
     Recorded(const std::string& path, Clock& clock, const std::string& vfs) {
         const SculptOptions options = short_options(path);
         session = std::move(*LiveSession::create(options, *session_wall(options.live), clock));
@@ -66,10 +67,12 @@ struct Recorded {
         of.vfs = vfs;
         auto recording = SessionRecording::create(path, std::move(of));
         if (!recording) throw std::runtime_error(recording.error().line());
-        begin(InputLogWriter::into(std::move(*recording)));
+        begin(InputLogWriter::into(std::move(*recording)), Of::nobody);
     }
-    void begin(InputLogWriter writer) {
-        input.emplace(InputSource::play(*parse_input_log(kShortScript, "script"), std::move(writer)));
+    void begin(InputLogWriter writer, Of of) {
+        input.emplace(of == Of::nobody
+                          ? InputSource::live(std::move(writer))
+                          : InputSource::play(*parse_input_log(kShortScript, "script"), std::move(writer)));
         recorder.emplace(*input, *session);
     }
 
@@ -105,7 +108,7 @@ private:
 // Records it with its threads, in real time. Returns how many ticks it had.
 std::uint64_t record_live(const std::string& path) {
     MonotonicClock clock;
-    Recorded recorded(path, clock);
+    Recorded recorded(path, clock, Recorded::Of::script);
     LiveSession& s = *recorded.session;
     ShortFrames frames(recorded, clock);
     ThreadedExecutor threads(clock, s.loop(), s.channels(), s.scene(), {},
@@ -247,7 +250,7 @@ TEST(SessionRecording, LosesNothingWhereTheFramesStandStill) {
     const Workplace place;
     const std::string path = (place / "a.session").string();
     SimulatedClock clock;
-    Recorded recorded(path, clock);
+    Recorded recorded(path, clock, Recorded::Of::nobody);
     tick(*recorded.session, clock, 10);
     one_frame(recorded, clock);
     // More ticks than a ring holds, without a frame: the writer takes them. Simulated time is not held back by a clock.
