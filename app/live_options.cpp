@@ -13,8 +13,9 @@ void add_live_options(Command command, session::LiveOptions& options) {
                    "A recording, done again as it was; or a written log of a session's input, in its user's place, in "
                    "simulated time");
     command.option("--record", options.record,
-                   "A new file for all that the session depends on; with --input that log is played in real time. With "
-                   "a --stroke that a simulated hand feels: a session file with every tick (burin session info FILE)");
+                   "A new file for all that the session depends on; with --input that log is played in real time. "
+                   "FILE.session keeps every tick as well (burin session info FILE), any other name is a log as text. "
+                   "With a --stroke that a simulated hand feels: a session file, whatever its name");
     command.flag("--offscreen", options.offscreen, "With --input: no window, only screenshots");
     command.option("--stereo", options.stereo, "side-by-side, anaglyph-red-cyan, row-interlaced, ...; else mono");
     command.flag("--swap-eyes", options.swap_eyes, "For exchanged cables or glasses");

@@ -7,6 +7,7 @@
 #include "app/commands.hpp"
 #include "app/demo_command.hpp"
 #include "app/live_options.hpp"
+#include "app/live_replay.hpp"
 #include "app/profile.hpp"
 #include "app/replay_command.hpp"
 #include "app/session_command.hpp"
@@ -214,7 +215,7 @@ int run(int argc, char** argv) {
     }
     const bool felt_recording = records_a_felt_stroke(sculpt_options);
     if (sculpt.parsed() && !felt_recording && session::wants_session(sculpt_options))
-        return finish(session::run_session(sculpt_options));
+        return finish(run_recorded_session(sculpt_options, "sculpt"));
     if (sculpt.parsed()) return finish(app::sculpt(sculpt_options));
     if (bench.parsed()) return finish(bench.run());
     if (wall.parsed()) return finish(wall.run());

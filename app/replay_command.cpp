@@ -11,12 +11,14 @@
 
 #include "activities/world/world_replay.hpp"
 #include "app/felt_recording.hpp"
+#include "app/live_replay.hpp"
 #include "app/output_files.hpp"
 #include "app/world_digest.hpp"
 #include "app/world_explore.hpp"
 #include "base/text.hpp"
 #include "record/derived.hpp"
 #include "session/live/world_side.hpp"
+#include "session/record/session_recording.hpp"
 
 namespace burin::app {
 
@@ -214,6 +216,7 @@ Json through_json(const activities::ThroughFigures& f) {
 
 struct ReplayCommand::Options {
     std::string file, through, world, stroke, workpiece, json;
+    std::vector<std::string> sets;
     std::optional<double> radius_m;
     MaterialOverride materials;
     std::uint64_t from = 0, to = 0;  // 0: all
@@ -225,6 +228,7 @@ struct ReplayCommand::Options {
         return range;
     }
     [[nodiscard]] Result<void> replay() const;
+    [[nodiscard]] Result<void> replay_session(record::RecordReader& reader) const;
     [[nodiscard]] Result<void> feel_through() const;
     [[nodiscard]] Result<double> tool_radius_m(const record::RecordReader& reader) const;
 };
@@ -233,9 +237,13 @@ Result<void> ReplayCommand::Options::replay() const {
     Result<record::RecordReader> reader = record::RecordReader::open(file);
     if (!reader) return std::unexpected(reader.error());
     const std::string activity = fact_of(*reader, activities::kActivityFact);
+    if (activity == session::kLiveActivity) return replay_session(*reader);
+    if (!sets.empty())
+        return fail("--set", "changes settings of a live session, and " + file + " is of another kind",
+                    "leave it out, or feel the motion --through another world");
     if (activity != activities::kWorldActivity && activity != kFeltActivity)
         return fail(file, "does not hold what a replay needs",
-                    "replay what burin world --record, or burin sculpt --hand simulated --record, has written; other "
+                    "replay what burin world --record or burin sculpt --record has written; other "
                     "motions can be felt --through a world");
     if (const auto ok = check_build(*reader); !ok) return ok;
     const auto begun = std::chrono::steady_clock::now();
@@ -244,6 +252,24 @@ Result<void> ReplayCommand::Options::replay() const {
                                                  : replay_felt(*reader, {stroke, workpiece}, range());
     if (!found) return std::unexpected(found.error());
     return tell(*reader, *found, std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(), json);
+}
+
+// Does a live session again.
+Result<void> ReplayCommand::Options::replay_session(record::RecordReader& reader) const {
+    if (!stroke.empty())
+        return fail("--stroke", "belongs to a felt stroke, and this is a live session", "leave it out");
+    if (const auto ok = check_build(reader); !ok) return ok;
+    const auto begun = std::chrono::steady_clock::now();
+    const Result<LiveReplayed> found = replay_live(reader, {world, workpiece, sets}, range());
+    if (!found) return std::unexpected(found.error());
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
+    if (!found->comparison.difference && found->unrecorded > 0)
+        std::fprintf(stderr, "burin: %s: %llu ticks of its log have no columns: they were lost\n", file.c_str(),
+                     static_cast<unsigned long long>(found->unrecorded));
+    if (!found->comparison.difference && found->left > 0)
+        std::fprintf(stderr, "burin: %s: its log ends before the last %llu ticks, which are not compared\n",
+                     file.c_str(), static_cast<unsigned long long>(found->left));
+    return tell(reader, found->comparison, took.count(), json);
 }
 
 Result<double> ReplayCommand::Options::tool_radius_m(const record::RecordReader& reader) const {
@@ -310,7 +336,11 @@ ReplayCommand::ReplayCommand(Command app)
     command_.option("--to", o.to, "The last tick");
     command_.option("--world", o.world, "Where the recorded world's file is now");
     command_.option("--stroke", o.stroke, "Where the stroke's file of a felt stroke is now");
-    command_.option("--workpiece", o.workpiece, "Where the workpiece's file of a felt stroke is now");
+    command_.option("--workpiece", o.workpiece, "Where the workpiece's file is now");
+    command_.option(
+        "--set", o.sets,
+        "Of a live session: a setting that is changed, OPTION=VALUE, such as friction=0.3; may be repeated. "
+        "The first difference then tells what that changes");
     command_.option("--through", o.through,
                     "A world (.toml, .wrl) in which the recorded motion is felt: adds a table of proxies, forces and "
                     "deviations to FILE");
@@ -330,7 +360,7 @@ std::string ReplayCommand::misuse() const {
     const Options& o = *options_;
     if (o.through.empty() && (o.radius_m || o.materials.is_any()))
         return "--radius and materials need --through a world: a replay is with the recorded ones";
-    if (!o.through.empty() && !(o.world.empty() && o.stroke.empty() && o.workpiece.empty()))
+    if (!o.through.empty() && !(o.world.empty() && o.stroke.empty() && o.workpiece.empty() && o.sets.empty()))
         return "--through needs no file of the recorded session";
     if (o.from > 0 && o.to > 0 && o.from > o.to) return "--from is behind --to";
     constexpr auto kMostTick = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/live_options.hpp"
+#include "app/live_replay.hpp"
 #include "app/output_files.hpp"
 #include "app/world_explore.hpp"
 #include "app/world_wand.hpp"
@@ -23,6 +24,7 @@
 #include "scene/world_file.hpp"
 #include "scene/world_settings.hpp"
 #include "session/drive/session.hpp"
+#include "session/record/session_log.hpp"
 
 namespace burin::app {
 namespace {
@@ -263,8 +265,10 @@ CheckedWorld check_world(const std::string& path, bool print) {
 
 namespace {
 
-// Returns whether a log holds what the threads of a session did, by its first line (docs/formats.md).
+// Returns whether a log holds what the threads of a session did: a session file, or by its first line
+// (docs/formats.md).
 bool is_recording(const std::string& log) {
+    if (session::is_database(log)) return true;
     std::ifstream file(log, std::ios::binary);
     std::string first;
     return static_cast<bool>(std::getline(file, first)) && first.find("burin-input 2") != std::string::npos;
@@ -364,7 +368,7 @@ Result<void> WorldCommand::run() const {
     session.no_workpiece = !says_itself && session.workpiece.source.empty();
     const sculpt::WorkpieceOptions usual;
     if (session.workpiece.source.empty()) session.workpiece.source = usual.source;
-    return session::run_session(session);
+    return run_recorded_session(session, "world");
 }
 
 }  // namespace burin::app

@@ -45,9 +45,27 @@ std::string log_head(const RecordReader& reader) {
     return head;
 }
 
+// Writes an input log as it was: its first line, and then its lines as they are.
+Result<ExportReport> export_input_log(RecordReader& reader, const std::string& header, const std::string& path) {
+    Result<NewFile> file = NewFile::create(path);
+    if (!file) return std::unexpected(file.error());
+    Result<void> written = file->write(in_a_line(header) + "\n");
+    ExportReport report{.rows = 1, .columns = 0, .damaged = {}};
+    const auto read = reader.each_line([&](std::int64_t, const std::string& text) {
+        if (written) written = file->write(in_a_line(text) + "\n");
+        ++report.rows;
+    });
+    if (!read) return std::unexpected(read.error());
+    if (!written) return std::unexpected(written.error());
+    if (const auto ended = file->finish(); !ended) return std::unexpected(ended.error());
+    return report;
+}
+
 }  // namespace
 
 Result<ExportReport> export_log(RecordReader& reader, const std::string& path) {
+    if (const auto header = reader.facts().find(kLogHeaderFact); header != reader.facts().end())
+        return export_input_log(reader, header->second, path);
     const Result<std::vector<LogEntry>> others = events_and_trials(reader);
     if (!others) return std::unexpected(others.error());
     Result<NewFile> file = NewFile::create(path);

@@ -15,6 +15,9 @@
 
 namespace burin::record {
 
+// The fact in table meta that holds the first line of an input log whose other lines are those of table line.
+inline constexpr const char* kLogHeaderFact = "log header";
+
 struct ExportReport {
     std::uint64_t rows = 0;
     std::size_t columns = 0;
@@ -57,8 +60,9 @@ struct BidsLabels {
                                                const std::vector<std::size_t>& columns, const std::string& path,
                                                const BidsLabels& labels = {});
 
-// The log as text: facts and columns as comments, then lines, events and trials by time, one a line: time_ns, kind,
-// text. log.cpp
+// The log as text. Of a live session the input log as a text recording has it, line by line, which can be replayed
+// (kLogHeaderFact). Else what was noted: facts and columns as comments, then lines, events and trials by time, one a
+// line: time_ns, kind, text. log.cpp
 [[nodiscard]] Result<ExportReport> export_log(RecordReader& reader, const std::string& path);
 
 // Goes through the blocks of a table, and leaves out and reports those that are damaged; ends at the first failure of

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
 #include "devices/trackers/tracker.hpp"
 #include "session/drive/end_signals.hpp"
+#include "session/drive/recording_start.hpp"
 #include "session/drive/session.hpp"
 #include "session/drive/session_frames.hpp"
 #include "session/input/event_times.hpp"
 #include "session/input/input_line.hpp"
 #include "session/present/display_watch.hpp"
-#include "session/state/session_settings.hpp"
 #include "session/timing/machine_pace.hpp"
 
 namespace burin::session {
@@ -185,13 +186,21 @@ void add_threads(SessionRecord& record, LiveSession& session) {
 }
 
 // Begins the recording that the options ask for.
-Result<void> begin_recording(InputSource& input, const SculptOptions& options, const LiveSession& session) {
+Result<void> begin_recording(InputSource& input, const SculptOptions& options, const SessionFacts& facts,
+                             LiveSession& session) {
     if (options.live.record.empty() || input.records()) return {};
-    Result<InputLogWriter> writer =
-        InputLogWriter::create(options.live.record, settings_line(session.settled(options)));
+    Result<InputLogWriter> writer = create_recording(options, facts, session);
     if (!writer) return std::unexpected(writer.error());
     input.record_to(std::move(*writer));
     return {};
+}
+
+// Says what a session file holds now.
+void tell_of(const SessionRecording& recording) {
+    const SessionRecording::Progress done = recording.progress();
+    std::printf("%s: %s ticks recorded, acknowledged up to tick %s, %s lost\n", recording.path().c_str(),
+                std::to_string(done.recorded).c_str(), std::to_string(done.acknowledged).c_str(),
+                std::to_string(done.lost).c_str());
 }
 
 }  // namespace
@@ -206,7 +215,9 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
     auto opened = LiveSession::create(options, wall, clock, machine_pace);
     if (!opened) return std::unexpected(opened.error());
     LiveSession& session = **opened;
-    if (const auto begun = begin_recording(input, options, session); !begun) return std::unexpected(begun.error());
+    if (const auto begun = begin_recording(input, options, run.facts, session); !begun)
+        return std::unexpected(begun.error());
+    const std::shared_ptr<SessionRecording> recording = input.recording();
     if (run.keep_frames) session.times().keep_frames();
     std::unique_ptr<devices::Tracker> tracker;
     if (!options.live.tracker.empty()) {
@@ -225,6 +236,7 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
     frames.begin();
     const Result<void> driven = drive(threads, frames);
     const Result<void> ended = frames.finish(threads);  // also after an error: it completes the recording
+    if (recording) tell_of(*recording);
     if (!driven) return std::unexpected(driven.error());
     if (!ended) return std::unexpected(ended.error());
     SessionRecord record = frames.record();

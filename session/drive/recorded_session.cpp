@@ -16,8 +16,8 @@ class RecordedFrames final : public SessionFrames {
 public:
     // All must outlive it. name: the log's file name.
     RecordedFrames(LiveSession& session, Presenter& presenter, InputSource input, const ThreadLog& log,
-                   const std::string& name, ThreadReplay& replay)
-        : SessionFrames(session, presenter, std::move(input)), log_(log), name_(name), replay_(replay) {
+                   const std::string& name, ThreadReplay& replay, bool draws)
+        : SessionFrames(session, presenter, std::move(input)), log_(log), name_(name), replay_(replay), draws_(draws) {
         session.replay_events(log.messages_before);
     }
 
@@ -51,9 +51,12 @@ private:
     }
 
     // Draws also what nobody sees: what a frame redraws depends on the previous one.
-    [[nodiscard]] bool wants_picture() override { return true; }
+    [[nodiscard]] bool wants_picture() override { return draws_; }
 
-    void finished(const FrameInput&, bool) override { session_.replay_events(log_.frames[next_ - 1].messages); }
+    void finished(const FrameInput&, bool) override {
+        session_.replay_events(log_.frames[next_ - 1].messages);
+        if (!draws_) static_cast<void>(session_.take_surface_updates());  // else the picture has taken them
+    }
 
     void note_departure(std::size_t line) {
         if (departed_) return;
@@ -64,6 +67,7 @@ private:
     const ThreadLog& log_;
     std::string name_;
     ThreadReplay& replay_;
+    bool draws_;
     std::size_t next_ = 0;  // index of the next frame
     std::optional<Error> departed_;
 };
@@ -83,7 +87,8 @@ Result<void> check_screens(const Presenter& presenter, const ThreadLog& log, con
 
 }  // namespace
 
-Result<void> replay_as_recorded(const SculptOptions& options, const SessionWall& wall, InputLog log) {
+Result<void> replay_as_recorded(const SculptOptions& options, const SessionWall& wall, InputLog log,
+                                const ReplayManner& manner) {
     const ThreadLog threads = std::move(*log.threads);
     const std::string& name = options.live.input;
     InputSource input = InputSource::replay(std::move(log));
@@ -96,7 +101,8 @@ Result<void> replay_as_recorded(const SculptOptions& options, const SessionWall&
     if (const auto fits = check_screens(*presenter, threads, name); !fits) return fits;
 
     ThreadReplay replay(session, threads, name);
-    RecordedFrames frames(session, *presenter, std::move(input), threads, name, replay);
+    replay.judge_ticks(manner.witness);
+    RecordedFrames frames(session, *presenter, std::move(input), threads, name, replay, manner.draws);
     Result<void> done = drive(replay, frames);
     if (done && !frames.cut_short()) done = frames.finish_as_recorded();
     if (!done && !replay.log_ends()) return done;

@@ -8,14 +8,21 @@
 
 #include "session/picture/pictures.hpp"
 #include "session/record/log_outputs.hpp"
+#include "session/record/session_log.hpp"
 #include "session/state/session_settings.hpp"
 
 namespace burin::session {
 namespace {
 
+Result<InputLog> log_of_session(const std::string& path) {
+    Result<record::RecordReader> reader = record::RecordReader::open(path);
+    if (!reader) return std::unexpected(reader.error());
+    return read_session_log(*reader);
+}
+
 // Reads a log, all of whose commands make sense.
 Result<InputLog> open_log(const std::string& path, const Activity* activity = nullptr) {
-    Result<InputLog> log = read_input_log(path);
+    Result<InputLog> log = is_database(path) ? log_of_session(path) : read_input_log(path);
     if (!log) return log;
     if (log->torn_line) {
         // A script's last command would be left undone; a session that broke off is repeated as far as it was recorded.
@@ -57,18 +64,6 @@ Result<void> check(const SculptOptions& options) {
     return sculpt::check_units(options.workpiece, false);  // a session has no tool from a file
 }
 
-// Replays a recording with its own options wherever they affect its frames.
-Result<void> run_as_recorded(const SculptOptions& given, InputLog log) {
-    Result<RecordedOptions> recorded = options_as_recorded(log.settings, given);
-    if (!recorded) return std::unexpected(recorded.error());
-    recorded->options.live.tools_of_input = tools_in(log);
-    for (const std::string& message : recorded->overruled) std::fprintf(stderr, "burin: %s\n", message.c_str());
-    if (const auto ok = check(recorded->options); !ok) return ok;
-    const Result<SessionWall> wall = session_wall(recorded->options.live);
-    if (!wall) return std::unexpected(wall.error());
-    return replay_as_recorded(recorded->options, *wall, std::move(log));
-}
-
 Result<void> check_somebody_leads(const LiveOptions& live, const SessionWall& wall) {
     const bool has_window = std::ranges::any_of(wall.screens, [](const SessionScreen& s) { return !s.direct; });
     if (has_window || !live.tracker.empty() || !live.input.empty()) return {};
@@ -86,7 +81,19 @@ bool wants_session(const SculptOptions& options) {
            (options.stroke.empty() && options.exports.empty() && options.pictures.empty() && options.report.empty());
 }
 
-Result<void> run_session(const SculptOptions& given) {
+Result<void> run_as_recorded(const SculptOptions& given, InputLog log, const ReplayManner& manner) {
+    Result<RecordedOptions> recorded = options_as_recorded(log.settings, given);
+    if (!recorded) return std::unexpected(recorded.error());
+    if (!log.device.empty()) recorded->options.live.device = log.device;
+    recorded->options.live.tools_of_input = tools_in(log);
+    for (const std::string& message : recorded->overruled) std::fprintf(stderr, "burin: %s\n", message.c_str());
+    if (const auto ok = check(recorded->options); !ok) return ok;
+    const Result<SessionWall> wall = session_wall(recorded->options.live);
+    if (!wall) return std::unexpected(wall.error());
+    return replay_as_recorded(recorded->options, *wall, std::move(log), manner);
+}
+
+Result<void> run_session(const SculptOptions& given, const SessionFacts& facts) {
     SculptOptions options = given;
     if (const auto ok = check_for_a_session(options); !ok) return ok;
     if (options.live.offscreen && options.live.input.empty()) {
@@ -106,7 +113,7 @@ Result<void> run_session(const SculptOptions& given) {
         if (!read) return std::unexpected(read.error());
         const SessionOutputs outputs(options.live);
         if (const auto ready = outputs.prepare(*read, options.live.input); !ready) return ready;
-        if (read->threads && options.live.record.empty()) return run_as_recorded(options, std::move(*read));
+        if (read->threads && options.live.record.empty()) return run_as_recorded(options, std::move(*read), {});
         options.live.tools_of_input = tools_in(*read);
         log = std::move(*read);
     }
@@ -116,7 +123,8 @@ Result<void> run_session(const SculptOptions& given) {
     if (const auto ok = check_somebody_leads(options.live, *wall); !ok) return ok;
     if (log && options.live.record.empty())
         return run_in_simulated_time(options, *wall, InputSource::replay(std::move(*log)));
-    const auto run = run_in_real_time(options, *wall, log ? InputSource::play(std::move(*log)) : InputSource::live());
+    const auto run = run_in_real_time(options, *wall, log ? InputSource::play(std::move(*log)) : InputSource::live(),
+                                      {.facts = facts});
     return run ? Result<void>{} : std::unexpected(run.error());
 }
 

@@ -6,6 +6,8 @@
 #pragma once
 
 #include "haptics/haptic_loop.hpp"
+#include "session/drive/recording_start.hpp"
+#include "session/drive/tick_witness.hpp"
 #include "session/present/direct_output.hpp"
 #include "session/record/input_source.hpp"
 #include "session/state/session_options.hpp"
@@ -21,7 +23,17 @@ namespace burin::session {
 // and its files go below one folder (session/record/log_outputs.hpp); the session fails at its end where one of them is
 // missing. Without a log, or where one is to be recorded (live.record), time
 // is real.
-[[nodiscard]] Result<void> run_session(const SculptOptions& options);
+// facts: for a session file, into which it may be recorded.
+[[nodiscard]] Result<void> run_session(const SculptOptions& options, const SessionFacts& facts = {});
+
+// How a recording is replayed.
+struct ReplayManner {
+    bool draws = true;               // its frames' pictures; their screenshots, too
+    TickWitness* witness = nullptr;  // judges every tick; null: only the frames' checksums are compared
+};
+// Replays a recording with its own options wherever they affect its frames; `given` says how it is shown. The log has
+// threads, and all its commands make sense (check_commands()).
+[[nodiscard]] Result<void> run_as_recorded(const SculptOptions& given, InputLog log, const ReplayManner& manner);
 
 // Runs the session of an input log in real time, with the threads and the loop of a live one, and returns what all of
 // it took; with a window, or without one (options.live.offscreen). Files that the log asks for are not written.
@@ -38,6 +50,7 @@ struct RealTimeRun {
     std::optional<double>
         machine_pace{};  // haptics::WorkSettings::pace; none: it is measured before the session begins
     DirectDriver driver = direct_driver();
+    SessionFacts facts{};  // of a session file
 };
 // Runs in real time: haptics and carving have threads of their own, and a frame is drawn when something has changed, as
 // late as the display allows. Input comes from a user, or from a log in the user's place. Where options.live.record
@@ -53,7 +66,9 @@ struct RealTimeRun {
 
 // Replays a session that was recorded in real time (the log has threads): every frame with what the threads had done by
 // then, on one thread and as fast as the machine can. Fails at the end, after the last frame, when a result differs
-// from the recording: with another program, other options, or an edited log. (recorded_session.cpp)
-[[nodiscard]] Result<void> replay_as_recorded(const SculptOptions& options, const SessionWall& wall, InputLog log);
+// from the recording: with another program, other options, or an edited log; at once where the witness does.
+// (recorded_session.cpp)
+[[nodiscard]] Result<void> replay_as_recorded(const SculptOptions& options, const SessionWall& wall, InputLog log,
+                                              const ReplayManner& manner = {});
 
 }  // namespace burin::session

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Records what the threads of a live session do into the recording of its input (thread_log.hpp). Ticks come from the
-// haptic thread's ring of records, which that thread fills as always: it knows nothing of a recording.
+// haptic thread's ring of records, which that thread fills as always: it knows nothing of a recording. Into a text file
+// this class writes them; a session file's writer reads the ring itself (session/record/session_recording.hpp).
 //
 //   each frame: outside(), begin_frame ... step, take_updates, frame(), draw
 //   after the threads have ended: finish()
@@ -10,34 +11,20 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
+#include <memory>
 
 #include "session/live/live_session.hpp"
 #include "session/record/input_source.hpp"
+#include "session/record/session_check.hpp"
 #include "session/record/thread_log.hpp"
 
 namespace burin::session {
 
-// Checksum of what a session did, so that a replay can tell whether it does the same: FNV-1a over the bits of what
-// ticks felt and gave, and of where frames have things. No protection against intent.
-class SessionCheck {
-public:
-    void tick(const haptics::TickRecord& record);
-    // Returns the checksum of a frame that draws the tool of this tick and has taken its surface updates. Earlier ticks
-    // are not asked for again.
-    [[nodiscard]] std::uint64_t frame(std::uint64_t tick, const SessionState& state);
-
-private:
-    struct After {
-        std::uint64_t tick = 0, check = 0;
-    };
-    std::uint64_t check_ = 0;
-    std::deque<After> ticks_;  // not seen by a frame yet, except for the first
-};
-
 // Returns the checksum of what the session leaves: the carved surface, and where the world's objects are. A recording
 // keeps it at its end.
 [[nodiscard]] std::uint64_t check_of(const LiveSession& session);
+
+[[nodiscard]] ThreadClock clock_of(LiveSession& session);
 
 class ThreadRecorder {
 public:
@@ -50,6 +37,7 @@ public:
     // Records a frame. tick: the one whose tool the frame draws. updates: those that it took.
     void frame(std::uint64_t tick, const std::vector<scene::SceneUpdate>& updates,
                const std::vector<wall::OutputPlace>& places);
+    // Ends the recording, and closes a session file.
     void finish(const std::vector<scene::SceneUpdate>& updates);
 
 private:
@@ -66,6 +54,7 @@ private:
     std::uint64_t ticks_ = 0, updates_ = 0;  // written so far
     std::vector<wall::OutputPlace> places_;
     SessionCheck check_;
+    std::shared_ptr<SessionRecording> file_;  // null: a text file, or nothing
     bool recording_;
 };
 

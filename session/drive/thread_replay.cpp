@@ -54,7 +54,7 @@ Result<Executor::Taken> ThreadReplay::take_updates() {
     return Taken{{}, frame_->updates};
 }
 
-bool ThreadReplay::is_as_recorded() { return check_.frame(frame_->tick, session_.state()) == frame_->check; }
+bool ThreadReplay::is_as_recorded() { return check_.frame(frame_->tick, words_of(session_.state())) == frame_->check; }
 
 Result<void> ThreadReplay::run_to_end() {
     begin_frame(end_);
@@ -74,7 +74,7 @@ Result<void> ThreadReplay::run_ticks(std::uint64_t last) {
 }
 
 Result<void> ThreadReplay::run_tick() {
-    const TickSeen tick = *tick_lines_.next();  // the count was checked
+    TickSeen tick = *tick_lines_.next();  // the count was checked
     const std::size_t line = tick_lines_.line();
     const std::string what = "tick " + std::to_string(ticks_ + 1) + " saw ";
     ticking_ = ticks_ + 1;
@@ -94,11 +94,17 @@ Result<void> ThreadReplay::run_tick() {
             line, what + "parameters " + std::to_string(tick.parameter_sequence) + ", which no frame has set by then");
     haptics::HapticLoop& loop = session_.loop();
     // The log holds only whether a tick was late, not by how much; a tick counts as late from half a period on.
-    check_.tick(loop.repeat(tick.sample, *surface, *parameters, tick.time_ns, tick.late ? loop.period_ns() : 0));
+    Nanoseconds lateness_ns = tick.late ? loop.period_ns() : 0;
+    if (const auto known = witness_ != nullptr ? witness_->known(ticks_ + 1) : std::nullopt) {
+        tick.sample.joints = known->joints;
+        lateness_ns = known->lateness_ns;
+    }
+    const haptics::TickRecord again = loop.repeat(tick.sample, *surface, *parameters, tick.time_ns, lateness_ns);
+    check_.tick(again);
     tools_.push_back(session_.newest_tool());
     ++ticks_;
     ticking_ = 0;
-    return {};
+    return witness_ != nullptr ? witness_->take(again) : Result<void>{};
 }
 
 void ThreadReplay::keep_parameters() {

@@ -20,6 +20,7 @@
 
 #include "session/drive/driver.hpp"
 #include "session/drive/thread_recorder.hpp"
+#include "session/drive/tick_witness.hpp"
 #include "session/live/live_session.hpp"
 #include "session/record/thread_log.hpp"
 
@@ -37,6 +38,8 @@ public:
     // name: the log's file name. session and log must outlive it.
     ThreadReplay(LiveSession& session, const ThreadLog& log, const std::string& name);
 
+    // Has the ticks judged; null: by the frames' checksums alone.
+    void judge_ticks(TickWitness* witness) { witness_ = witness; }
     // Says which frame of the log is the present one.
     void begin_frame(const FrameSeen& frame) { frame_ = &frame; }
     // Runs the ticks up to that whose tool the frame drew, whatever the time.
@@ -80,6 +83,7 @@ private:
     std::deque<haptics::ToolState> tools_;  // after each tick that frames may still see
     std::deque<Order> orders_;              // not taken by an update yet
     SessionCheck check_;
+    TickWitness* witness_ = nullptr;
     bool log_ends_ = false;
 };
 

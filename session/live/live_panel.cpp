@@ -105,7 +105,8 @@ void LivePanel::feed_times(const FrameInput& input, const PanelContext& context)
     const bool stirring = !input.events.empty() || (tool.flags & haptics::kTickInContact) != 0 ||
                           tool.workspace.phase != haptics::WorkspacePhase::editing;
     feed_.feed({input.time_ns, glm::length(tool.given.force_device_N), tool.late_ticks, tool.dropped_samples, stirring,
-                context.times, context.tick_duration, drawn_, context.eye(), recorded_ ? &*recorded_ : nullptr});
+                context.times, context.tick_duration, drawn_, context.eye(), context.acknowledged,
+                context.recording_ended, recorded_ ? &*recorded_ : nullptr});
 }
 
 Result<SceneInput> LivePanel::feed(const FrameInput& input, const PanelContext& context, MessageLog& log) {

@@ -36,6 +36,9 @@ struct PanelContext {
     const haptics::Histogram& tick_duration;
     wall::OutputSettings shown;  // how the main screen is shown
     wall::OutputPlace output;    // of the main screen
+    // PanelFacts
+    std::optional<std::uint64_t> acknowledged = std::nullopt;
+    bool recording_ended = false;
     [[nodiscard]] ImageSize eye() const { return wall::eye_size(shown.mode, output.size); }
 };
 

@@ -9,17 +9,24 @@
 #include "base/text.hpp"
 #include "renderer/png.hpp"
 #include "sculpt/workpiece.hpp"
+#include "session/record/session_recording.hpp"
 
 namespace burin::session {
 namespace {
 
-// Ticks that the recording's ring holds: the frame's thread, which takes them, may stall for so many.
-constexpr std::size_t kTicksToRecord = 8192;
+// Ticks that the recording's ring holds. A text log's is read by the frame's thread, which may stall for so many; a
+// session file's by its writer, which waits for the disk.
+constexpr std::size_t kTicksToLog = 8192;
 // The stylus' second button takes hold of an object.
 constexpr std::uint32_t kGrips = 2;
 
 // The ball that explores a world where no tool is given: its radius as a share of the world's longest side.
 constexpr double kExploringBall = 0.015;
+
+std::size_t ring_for(const std::string& recording) {
+    if (recording.empty()) return haptics::HapticChannels::kRecords;
+    return is_session_file(recording) ? record::kRingTicks : kTicksToLog;
+}
 
 Room room_of(const SessionWall& wall) {
     Room room;
@@ -44,7 +51,7 @@ std::string where_it_lies(const std::string& message, const std::string& path, b
 LiveSession::LiveSession(Clock& clock, const SculptOptions& options, double pace)
     : clock_(clock),
       pool_(options.threads),
-      haptics_(options.live.record.empty() ? haptics::HapticChannels::kRecords : kTicksToRecord, pace),
+      haptics_(ring_for(options.live.record), pace),
       activity_(options.activity),
       outputs_(options.live),
       log_name_(options.live.input) {}
@@ -209,7 +216,9 @@ SceneInput LiveSession::feed_panel(const FrameInput& input) {
                              .times = times_,
                              .tick_duration = haptics_.loop().duration(),
                              .shown = output_on(room_.wall.main),
-                             .output = output_},
+                             .output = output_,
+                             .acknowledged = acknowledged_,
+                             .recording_ended = recording_ended_},
                             log_);
     for (const std::string& line : times_.take_new_warnings()) std::fprintf(stderr, "burin: %s\n", line.c_str());
     if (left) return std::move(*left);

@@ -109,6 +109,11 @@ public:
     // Returns whether all that a log asked for was done, once the session is over.
     [[nodiscard]] Result<void> outcome() const;
     void replay_events(std::span<const std::string> recorded) { log_.replay_events(recorded); }
+    // Tells the panel the last tick that a session file has on the disk, and whether its recording goes on.
+    void note_acknowledged(std::uint64_t tick, bool goes_on) {
+        acknowledged_ = tick;
+        recording_ended_ = !goes_on;
+    }
     // See LivePanel.
     [[nodiscard]] const PanelMeasured& measured() const { return panel_.measured(); }
     void measure_again(const PanelMeasured& recorded) { panel_.measure_again(recorded); }
@@ -184,6 +189,8 @@ private:
     LampWatch lamp_;
     bool exchange_full_screen_ = false;
     std::optional<wall::StereoMode> refused_;  // for the recorder
+    std::optional<std::uint64_t> acknowledged_;
+    bool recording_ended_ = false;
 };
 
 }  // namespace burin::session

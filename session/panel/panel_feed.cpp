@@ -88,8 +88,14 @@ void PanelFeed::renew_numbers(const PanelFacts& facts) {
     late_ticks_ = facts.late_ticks;
     dropped_samples_ = facts.dropped_samples;
     if (facts.times.running()) measured_.numbers = new_numbers(facts, since_s);
-    if (facts.recorded != nullptr) measured_.numbers = facts.recorded->numbers;
+    measured_.acknowledged = facts.acknowledged;
+    if (facts.recorded != nullptr) {
+        measured_.numbers = facts.recorded->numbers;
+        measured_.acknowledged = facts.recorded->acknowledged;
+    }
     if (measured_.numbers) numbers_ = measured_.numbers;
+    if (measured_.acknowledged) acknowledged_ = measured_.acknowledged;
+    recording_ended_ = facts.recording_ended;
 }
 
 PanelNumbers PanelFeed::new_numbers(const PanelFacts& facts, double since_s) {
@@ -122,6 +128,11 @@ void PanelFeed::show_on(PanelModel& model) const {
     model.touch.force_N = force_now_N_;
     model.touch.late_ticks = late_ticks_;
     model.touch.dropped_samples = dropped_samples_;
+    if (acknowledged_) {
+        const std::string upto = "on the disk up to tick " + std::to_string(*acknowledged_);
+        model.sources.push_back({"Recording", recording_ended_ ? "has ended, " + upto : upto,
+                                 recording_ended_ ? Condition::fault : Condition::good});
+    }
     if (!numbers_) return;
     model.figures = numbers_->figures;
     model.savings = numbers_->savings;

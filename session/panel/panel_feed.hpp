@@ -26,6 +26,7 @@ struct PanelNumbers {
 struct PanelMeasured {
     std::optional<PanelPlotted> plotted;
     std::optional<PanelNumbers> numbers;
+    std::optional<std::uint64_t> acknowledged;  // PanelFacts::acknowledged, where the numbers were renewed
 };
 
 // Inputs of one step.
@@ -38,6 +39,10 @@ struct PanelFacts {
     const haptics::Histogram& tick_duration;
     const renderer::RenderStats& drawn;  // of the previous frame
     ImageSize eye;
+    // The last tick of the session file that is on the disk; none: no such file is recorded. Whether its recording has
+    // ended before the session.
+    std::optional<std::uint64_t> acknowledged = std::nullopt;
+    bool recording_ended = false;
     // Recorded times to show; null: the session's own.
     const PanelMeasured* recorded = nullptr;
 };
@@ -70,6 +75,8 @@ private:
     std::uint64_t late_ticks_ = 0, dropped_samples_ = 0;
     renderer::RenderStats drawn_;  // of the last frame that drew anything
     std::optional<PanelNumbers> numbers_;
+    std::optional<std::uint64_t> acknowledged_;
+    bool recording_ended_ = false;
     PanelMeasured measured_;
 };
 

@@ -13,6 +13,7 @@
 #include "base/file_io.hpp"
 #include "session/input/input_line.hpp"
 #include "session/input/input_words.hpp"
+#include "session/record/session_recording.hpp"
 
 namespace burin::session {
 namespace {
@@ -141,10 +142,17 @@ Result<InputLog> read_input_log(const std::filesystem::path& path) {
     return parse_input_log(*text, path.string());
 }
 
-Result<InputLogWriter> InputLogWriter::create(const std::filesystem::path& path, const std::string& settings) {
-    const std::string name = path.string();
+Result<std::string> input_log_header(const std::string& settings, const std::string& name) {
     if (!is_settings_line(settings))
         return fail(name, "the session's settings do not fit on one line of a log", "shorten them");
+    const std::string header = std::string(kMagic) + " " + std::to_string(kInputLogVersion);
+    return settings.empty() ? header : header + " " + settings;
+}
+
+Result<InputLogWriter> InputLogWriter::create(const std::filesystem::path& path, const std::string& settings) {
+    const std::string name = path.string();
+    Result<std::string> header = input_log_header(settings, name);
+    if (!header) return std::unexpected(header.error());
     const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666);
     if (file < 0) {
         const std::string remedy =
@@ -154,19 +162,26 @@ Result<InputLogWriter> InputLogWriter::create(const std::filesystem::path& path,
     InputLogWriter writer;
     writer.name_ = name;
     writer.file_ = file;
-    std::string header = std::string(kMagic) + " " + std::to_string(kInputLogVersion);
-    if (!settings.empty()) header += " " + settings;
-    if (auto ok = writer.write_line(std::move(header)); !ok) return std::unexpected(ok.error());
+    if (auto ok = writer.write_line(std::move(*header)); !ok) return std::unexpected(ok.error());
+    return writer;
+}
+
+InputLogWriter InputLogWriter::into(std::shared_ptr<SessionRecording> recording) {
+    InputLogWriter writer;
+    writer.name_ = recording->path();
+    writer.recording_ = std::move(recording);
     return writer;
 }
 
 InputLogWriter::InputLogWriter(InputLogWriter&& other) noexcept
-    : name_(std::move(other.name_)),
+    : recording_(std::move(other.recording_)),
+      name_(std::move(other.name_)),
       file_(std::exchange(other.file_, -1)),
       last_ns_(other.last_ns_),
       broken_(other.broken_) {}
 
 InputLogWriter& InputLogWriter::operator=(InputLogWriter&& other) noexcept {
+    std::swap(recording_, other.recording_);
     std::swap(name_, other.name_);
     std::swap(file_, other.file_);
     last_ns_ = other.last_ns_;
@@ -193,6 +208,12 @@ Result<void> InputLogWriter::append_threads(Nanoseconds time_ns, const std::stri
     return write_line(text_of_time(time_ns) + " " + text);
 }
 
+Result<void> InputLogWriter::append_frame(Nanoseconds time_ns, const FrameSeen& frame, const StateWords& state) {
+    BURIN_CHECK(recording_ != nullptr);
+    if (const auto come = come_to(time_ns); !come) return come;
+    return recording_->frame(time_ns, frame, state);
+}
+
 Result<void> InputLogWriter::come_to(Nanoseconds time_ns) {
     if (time_ns < last_ns_) return fail(name_, "an event is before the one before it", "record events in their order");
     last_ns_ = time_ns;
@@ -200,6 +221,7 @@ Result<void> InputLogWriter::come_to(Nanoseconds time_ns) {
 }
 
 Result<void> InputLogWriter::write_line(std::string line) {
+    if (recording_) return recording_->line(last_ns_, std::move(line));
     line += '\n';
     for (std::string_view rest = line; !rest.empty();) {
         const ssize_t written = ::write(file_, rest.data(), rest.size());

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,6 +19,7 @@
 
 #include "base/error.hpp"
 #include "session/input/input_event.hpp"
+#include "session/record/session_check.hpp"
 #include "session/record/thread_log.hpp"
 
 namespace burin::session {
@@ -29,6 +31,7 @@ inline constexpr std::size_t kMostSettingsBytes = 16384;
 struct InputLog {
     std::string settings;  // what the session was started with, on one line
     std::vector<InputEvent> events;
+    std::string device;                    // of a session file: the force-feedback device; empty: not said
     std::optional<ThreadLog> threads;      // of a live session; none: simulated time
     std::optional<std::string> torn_line;  // message about a last line without an end
 };
@@ -36,13 +39,21 @@ struct InputLog {
 [[nodiscard]] Result<InputLog> read_input_log(const std::filesystem::path& path);
 [[nodiscard]] Result<InputLog> parse_input_log(std::string_view text, const std::string& name);
 
-// Writes a log. Each event is in the operating system's hands when append() returns: a crash of the program loses none
-// of them and tears at most the line being written. A power failure may lose more.
+// Returns the first line of a log; name: the file's. Fails on settings that are not one line of valid UTF-8, without
+// control characters or blanks at its ends, of at most kMostSettingsBytes.
+[[nodiscard]] Result<std::string> input_log_header(const std::string& settings, const std::string& name);
+
+class SessionRecording;
+
+// Writes a log, into a text file or into a session file. In a text file each event is in the operating system's hands
+// when append() returns: a crash of the program loses none of them and tears at most the line being written. A power
+// failure may lose more. A session file keeps what it has acknowledged (session/record/session_recording.hpp).
 class InputLogWriter {
 public:
-    // Creates a new file; refuses to touch an existing one. settings: one line of valid UTF-8, without control
-    // characters or blanks at its ends, at most kMostSettingsBytes.
+    // Creates a new text file; refuses to touch an existing one.
     [[nodiscard]] static Result<InputLogWriter> create(const std::filesystem::path& path, const std::string& settings);
+    // Writes into a session file, which has its header already.
+    [[nodiscard]] static InputLogWriter into(std::shared_ptr<SessionRecording> recording);
 
     InputLogWriter(InputLogWriter&& other) noexcept;
     InputLogWriter& operator=(InputLogWriter&& other) noexcept;
@@ -54,12 +65,17 @@ public:
     // Appends a line of what the threads did (session/record/thread_log.hpp), given without its time. Refuses as
     // append() does.
     [[nodiscard]] Result<void> append_threads(Nanoseconds time_ns, const std::string& text);
+    // Appends the line of a frame to a session file, which sums up its checksum itself.
+    [[nodiscard]] Result<void> append_frame(Nanoseconds time_ns, const FrameSeen& frame, const StateWords& state);
+    // The session file; null where a text file is written.
+    [[nodiscard]] const std::shared_ptr<SessionRecording>& recording() const { return recording_; }
 
 private:
     InputLogWriter() = default;
     [[nodiscard]] Result<void> come_to(Nanoseconds time_ns);
     [[nodiscard]] Result<void> write_line(std::string line);
 
+    std::shared_ptr<SessionRecording> recording_;  // null: a text file
     std::string name_;
     int file_ = -1;
     Nanoseconds last_ns_ = 0;

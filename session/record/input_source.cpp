@@ -74,6 +74,11 @@ void InputSource::record_threads(const std::string& text) {
     if (auto ok = recorder_->append_threads(last_ns_, text); !ok) stop_recording(ok.error());
 }
 
+void InputSource::record_frame(const FrameSeen& frame, const StateWords& state) {
+    if (!recorder_) return;
+    if (auto ok = recorder_->append_frame(last_ns_, frame, state); !ok) stop_recording(ok.error());
+}
+
 void InputSource::stop_recording(Error why) {
     recording_error_ = std::move(why);
     recorder_.reset();

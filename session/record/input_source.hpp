@@ -60,6 +60,12 @@ public:
     // reason.
     [[nodiscard]] bool records() const { return recorder_.has_value(); }
     void record_threads(const std::string& text);
+    // Records what a frame saw into a session file.
+    void record_frame(const FrameSeen& frame, const StateWords& state);
+    // The session file that is recorded; null: none, or a text file.
+    [[nodiscard]] std::shared_ptr<SessionRecording> recording() const {
+        return recorder_ ? recorder_->recording() : nullptr;
+    }
     void stop_recording(Error why);
 
     // Returns, for live input, whether events are waiting for a frame.

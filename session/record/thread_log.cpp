@@ -25,6 +25,7 @@ constexpr std::array kKinds = {
     Kind{"output", "SCREEN WIDTH_PX HEIGHT_PX X_PX Y_PX"},
     Kind{"plotted", "TICK_US FRAME_MS FRAME_LIMIT_MS"},
     Kind{"figures", "FIGURES OF THE PANEL, AND ITS WARNINGS"},
+    Kind{"kept", "TICK"},
     Kind{"saw", "TICK UPDATES CHECK"},
     Kind{"refused", "STEREO_MODE"},
     Kind{"said", "\"MESSAGE\""},
@@ -116,6 +117,7 @@ std::string text_of(const FrameSeen& frame) {
     return "saw " + text(frame.tick) + " " + text(frame.updates) + " " + text(frame.check);
 }
 
+std::string kept_text(std::uint64_t acknowledged) { return "kept " + text(acknowledged); }
 std::string refused_text(wall::StereoMode mode) { return "refused " + std::string(file_name_of(mode)); }
 std::string message_text(const std::string& message) { return "said " + burin::session::quoted(message); }
 std::string end_text(std::uint64_t check) { return "end " + text(check); }
@@ -143,7 +145,7 @@ Result<void> ThreadLogReader::take(const std::vector<std::string>& words, std::s
     if (kind == "output") right = take_output(words);
     if (kind == "plotted") right = take_plotted(words);
     if (kind == "figures") right = take_figures(words);
-    if (kind == "refused" || kind == "said" || kind == "end") right = take_rest(words);
+    if (kind == "refused" || kind == "said" || kind == "end" || kind == "kept") right = take_rest(words);
     if (!right) return wrong("an argument is missing, not understood, or at odds with the lines before");
     return {};
 }
@@ -229,6 +231,10 @@ bool ThreadLogReader::take_rest(const std::vector<std::string>& words) {
     if (words[0] == "said") {
         (before ? log_->messages_before : log_->frames.back().messages).push_back(words[1]);
         return true;
+    }
+    if (words[0] == "kept") {
+        frame_.measured.acknowledged = number<std::uint64_t>(words[1]);
+        return frame_.measured.acknowledged.has_value();
     }
     if (words[0] == "end") {
         log_->end_check = number<std::uint64_t>(words[1]);

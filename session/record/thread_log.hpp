@@ -143,6 +143,7 @@ inline constexpr std::size_t kMostTicksALine = 500;
 [[nodiscard]] std::string text_of(const PanelNumbers& numbers);
 // Formats a frame without outputs, measured times, refused mode and messages, which have lines of their own.
 [[nodiscard]] std::string text_of(const FrameSeen& frame);
+[[nodiscard]] std::string kept_text(std::uint64_t acknowledged);
 [[nodiscard]] std::string refused_text(wall::StereoMode mode);
 [[nodiscard]] std::string message_text(const std::string& message);
 [[nodiscard]] std::string end_text(std::uint64_t check);

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "app/live_replay.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+
+#include "app/world_digest.hpp"
+#include "record/record_writer.hpp"
+#include "session/drive/session.hpp"
+#include "session/drive/tick_comparison.hpp"
+#include "session/input/input_words.hpp"
+#include "session/live/world_side.hpp"
+#include "session/record/log_outputs.hpp"
+#include "session/record/session_log.hpp"
+#include "session/record/session_recording.hpp"
+#include "session/state/session_settings.hpp"
+
+namespace burin::app {
+namespace {
+
+constexpr const char* kWorkpieceDigestFact = "workpiece sha256";
+constexpr const char* kToolDigestFact = "tool sha256";
+
+std::string tool_file_of(const session::SculptOptions& options) {
+    const std::string& shape = options.tool.shape;
+    return shape.starts_with("mesh:") ? shape.substr(5) : std::string();
+}
+
+// Returns the digest of a file; nothing where there is none.
+std::optional<std::string> digest_of(const std::string& path) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) return {};
+    const Result<std::string> digest = file_digest(path);
+    return digest ? std::optional(*digest) : std::nullopt;
+}
+
+std::optional<std::string> digest_of_world(const std::string& path) {
+    if (path.empty()) return {};
+    const Result<scene::World> world = session::read_sound_world(path);
+    return world ? std::optional(world_digest(world->objects)) : std::nullopt;
+}
+
+void warn_of_another(const record::RecordReader& reader, const char* fact, const std::string& what,
+                     const std::optional<std::string>& now) {
+    const auto recorded = reader.facts().find(fact);
+    if (recorded == reader.facts().end() || !now || *now == recorded->second) return;
+    std::fprintf(stderr, "burin: %s: is another one than was recorded: SHA-256 %s, recorded: %s\n", what.c_str(),
+                 now->c_str(), recorded->second.c_str());
+}
+
+// Returns the settings with one of them changed, "OPTION=VALUE"; a value of nothing leaves an option out, and is a
+// flag's where it was not there.
+Result<std::string> with_setting(const std::string& settings, const std::string& change) {
+    const std::size_t equals = change.find('=');
+    if (equals == std::string::npos || equals == 0)
+        return fail("--set " + change, "changes nothing", "write OPTION=VALUE, such as friction=0.3");
+    const std::string name = "--" + change.substr(0, equals), value = change.substr(equals + 1);
+    const Result<std::vector<std::string>> words = session::words_of(settings, "the recording's settings");
+    if (!words) return std::unexpected(words.error());
+    std::string changed;
+    for (auto word = words->begin(); word != words->end(); ++word) {
+        const auto next = std::next(word);
+        const bool has_value = next != words->end() && !next->starts_with("--");
+        if (*word == name) {
+            if (has_value) ++word;
+            continue;
+        }
+        changed += (changed.empty() ? "" : " ") + (word->starts_with("--") ? *word : session::as_word(*word));
+    }
+    return changed + " " + name + (value.empty() ? "" : " " + session::as_word(value));
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> facts_of_live(const session::SculptOptions& options,
+                                                               const std::string& command) {
+    std::vector<std::pair<std::string, std::string>> facts{{"program", "burin"},
+                                                           {"version", BURIN_VERSION},
+                                                           {"compiler", __VERSION__},
+                                                           {"command", command},
+                                                           {"time", "real"}};
+    if (!options.world.empty()) facts.emplace_back("world", options.world);
+    if (!options.no_workpiece) facts.emplace_back("workpiece", options.workpiece.source);
+    const auto add = [&](const char* fact, const std::optional<std::string>& digest) {
+        if (digest) facts.emplace_back(fact, *digest);
+    };
+    add(kWorldDigestFact, digest_of_world(options.world));
+    if (!options.no_workpiece) add(kWorkpieceDigestFact, digest_of(options.workpiece.source));
+    add(kToolDigestFact, digest_of(tool_file_of(options)));
+    return facts;
+}
+
+Result<void> run_recorded_session(const session::SculptOptions& options, const std::string& command) {
+    if (!session::is_session_file(options.live.record)) return session::run_session(options);
+    if (const auto ok = record::check_new_place(options.live.record); !ok) return ok;
+    return session::run_session(options, facts_of_live(options, command));
+}
+
+Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay& how, const record::TickRange& range) {
+    Result<session::InputLog> log = session::read_session_log(reader);
+    if (!log) return std::unexpected(log.error());
+    if (log->torn_line || !log->threads)
+        return fail(reader.path(), "its log holds no ticks", "it was killed before its first transaction");
+    std::vector<std::string> changes = how.sets;
+    if (!how.world.empty()) changes.push_back("world=" + how.world);
+    if (!how.workpiece.empty()) changes.push_back("workpiece=" + how.workpiece);
+    for (const std::string& change : changes) {
+        Result<std::string> changed = with_setting(log->settings, change);
+        if (!changed) return std::unexpected(changed.error());
+        log->settings = std::move(*changed);
+    }
+    session::SculptOptions options;
+    options.live.input = reader.path();
+    options.live.offscreen = true;
+    options.live.writes_nothing = true;
+    const auto recorded = session::options_as_recorded(log->settings, options);
+    if (!recorded) return std::unexpected(recorded.error());
+    const session::SculptOptions& own = recorded->options;
+    warn_of_another(reader, kWorldDigestFact, own.world, digest_of_world(own.world));
+    warn_of_another(reader, kWorkpieceDigestFact, own.workpiece.source, digest_of(own.workpiece.source));
+    warn_of_another(reader, kToolDigestFact, own.tool.shape, digest_of(tool_file_of(own)));
+    if (const auto sound = session::check_commands(*log, reader.path()); !sound) return std::unexpected(sound.error());
+
+    Result<session::TickComparison> judge = session::TickComparison::create(reader, range);
+    if (!judge) return std::unexpected(judge.error());
+    const std::uint64_t ticks = log->threads->ticks.count, rows = reader.hands().front().rows();
+    session::ReplayManner manner;
+    manner.draws = false;
+    manner.witness = &*judge;
+    const Result<void> done = session::run_as_recorded(options, std::move(*log), manner);
+    LiveReplayed replayed{judge->found(), judge->unrecorded(), 0};
+    if (!done && !replayed.comparison.difference) return std::unexpected(done.error());
+    const std::uint64_t logged_rows = ticks - std::min(ticks, replayed.unrecorded);
+    replayed.left = rows - std::min(rows, logged_rows);
+    return replayed;
+}
+
+}  // namespace burin::app

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "session/drive/recording_start.hpp"
+
+#include "session/drive/thread_recorder.hpp"
+#include "session/state/session_settings.hpp"
+
+namespace burin::session {
+namespace {
+
+std::vector<std::pair<std::int64_t, std::string>> touchable_in(const LiveSession& session) {
+    std::vector<std::pair<std::int64_t, std::string>> objects;
+    const scene::MeshPart* part = session.objects();
+    for (scene::ObjectId id = 1; part != nullptr && id <= part->size(); ++id)
+        objects.emplace_back(static_cast<std::int64_t>(id), part->object(id).name);
+    if (session.surface() != nullptr) objects.emplace_back(std::int64_t{kWorkpieceObject}, "workpiece");
+    return objects;
+}
+
+}  // namespace
+
+Result<InputLogWriter> create_recording(const SculptOptions& options, const SessionFacts& facts, LiveSession& session) {
+    const std::string settings = settings_line(session.settled(options));
+    if (!is_session_file(options.live.record)) return InputLogWriter::create(options.live.record, settings);
+    RecordingOf of;
+    of.device = session.device();
+    of.probe = session.channels().parameters.newest().probe;
+    of.ring = &session.channels().records;
+    of.clock = clock_of(session);
+    of.settings = settings;
+    of.facts = facts;
+    of.facts.emplace_back(kDeviceFact, options.live.device);
+    of.objects = touchable_in(session);
+    Result<std::shared_ptr<SessionRecording>> recording = SessionRecording::create(options.live.record, std::move(of));
+    if (!recording) return std::unexpected(recording.error());
+    return InputLogWriter::into(std::move(*recording));
+}
+
+}  // namespace burin::session

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// Makes the file into which a session is recorded: a session file with every tick, or an input log as text.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "session/live/live_session.hpp"
+#include "session/record/session_recording.hpp"
+
+namespace burin::session {
+
+// Facts of a session file, which the session does not know itself: of the program and of the files that were read.
+using SessionFacts = std::vector<std::pair<std::string, std::string>>;
+
+// Makes the file that options.live.record names, of a session whose threads have not started. Fails where there is one.
+// A session file reads the session's ring of tick records from now on; the session must outlive it.
+[[nodiscard]] Result<InputLogWriter> create_recording(const SculptOptions& options, const SessionFacts& facts,
+                                                      LiveSession& session);
+
+}  // namespace burin::session

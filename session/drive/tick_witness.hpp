@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Whoever knows the ticks of a recorded session and judges those of its replay.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "base/error.hpp"
+#include "haptics/channels.hpp"
+
+namespace burin::session {
+
+class TickWitness {
+public:
+    // What the log's line of a tick leaves out.
+    struct Known {
+        decltype(devices::DeviceSample::joints) joints{};
+        Nanoseconds lateness_ns = 0;
+    };
+    virtual ~TickWitness() = default;
+    // Returns what is known of a tick; nothing where it was not recorded. Ticks are asked for in their order.
+    [[nodiscard]] virtual std::optional<Known> known(std::uint64_t tick) = 0;
+    // Takes the tick as it was computed again. A failure ends the replay.
+    [[nodiscard]] virtual Result<void> take(const haptics::TickRecord& again) = 0;
+};
+
+}  // namespace burin::session

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// Records a live session into a session file (record/record_writer.hpp): every tick with all its columns, and beside
+// them the input log, line by line as a text log has it (docs/formats.md, "The input log").
+//
+//   haptic thread -> ring of tick records -> the writer's thread, the ring's only reader
+//     -> columns; and the log's lines of ticks, the frames' checksums
+//   frame's thread -> lines, frames -> wait here for the ticks that a frame has seen -> the same transactions
+//
+// The frame's thread waits for no disk and reads no ring: one that stands still loses nothing. The log ends where it
+// could not be replayed beyond: where a tick is missing, because the disk stood still for longer than the ring holds,
+// or where the scene did not take a tick's sample. Columns go on all the same; what is lost is counted in the file.
+//
+// Threads: line(), frame(), take_ticks(), close() are the frame's thread's, progress() any one's but the haptic one's.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "record/record_writer.hpp"
+#include "session/record/session_check.hpp"
+#include "session/record/thread_log.hpp"
+
+namespace burin::session {
+
+// The facts of a session file by which a live session is known, and the first line of its log.
+inline constexpr const char* kActivityFact = "activity";
+inline constexpr const char* kLiveActivity = "session";
+inline constexpr const char* kDeviceFact = "device";
+
+// Number of the carved workpiece in the columns of touched objects; the objects of a world count from 1; 0: nothing.
+inline constexpr std::uint32_t kWorkpieceObject = 0xffffffffu;
+
+// Returns whether a recording of this name is a session file: it ends in .session. Any other name is a text log's.
+[[nodiscard]] bool is_session_file(const std::string& path);
+
+// What a recording is of. The ring must outlive the recording.
+struct RecordingOf {
+    devices::DeviceDescription device;
+    haptics::Probe probe;  // with as many points as any that the session will have
+    Ring<haptics::TickRecord>* ring = nullptr;
+    ThreadClock clock;
+    std::string settings;  // of the session (settings_line())
+    std::vector<std::pair<std::string, std::string>> facts = {};
+    std::vector<std::pair<std::int64_t, std::string>> objects = {};
+    std::string vfs = {};  // WriterOptions::vfs
+};
+
+class SessionRecording {
+public:
+    // Makes the file; fails where there is one. Before the haptic thread starts.
+    [[nodiscard]] static Result<std::shared_ptr<SessionRecording>> create(const std::string& path, RecordingOf session);
+    SessionRecording(const SessionRecording&) = delete;
+    SessionRecording& operator=(const SessionRecording&) = delete;
+
+    // Takes a line of the log, with its time in it as well. Fails when nothing is recorded any more.
+    [[nodiscard]] Result<void> line(Nanoseconds time_ns, std::string line);
+    // Takes a frame, whose line follows when its tick has been recorded; its checksum is computed then.
+    [[nodiscard]] Result<void> frame(Nanoseconds time_ns, const FrameSeen& seen, const StateWords& state);
+    // Returns when all ticks that the ring holds are recorded: at the end, when no tick follows.
+    void take_ticks();
+    // Brings everything to the disk. Fails with why something is missing.
+    [[nodiscard]] Result<void> close();
+
+    struct Progress {
+        std::uint64_t recorded = 0;      // ticks
+        std::uint64_t acknowledged = 0;  // the last tick that is on the disk
+        std::uint64_t lost = 0;          // ticks, to a full ring
+    };
+    [[nodiscard]] Progress progress() const;
+    [[nodiscard]] const std::string& path() const { return path_; }
+
+private:
+    struct Waiting {
+        Nanoseconds time_ns = 0;
+        std::string line;        // of a frame: none yet
+        std::uint64_t tick = 0;  // that it waits for; 0: none
+        FrameSeen frame;
+        StateWords state{};
+    };
+    SessionRecording(std::string path, RecordingOf session);
+    void take(const haptics::TickRecord& tick);
+    [[nodiscard]] Result<void> add(Waiting waiting);
+    void pass_on();
+    void write_ticks();
+    void note(Nanoseconds time_ns, std::string line);
+    void end_log(Error why);
+
+    std::string path_;
+    RecordingOf session_;
+    mutable std::mutex mutex_;  // guards what follows
+    std::deque<Waiting> waiting_;
+    TickText tick_text_;
+    std::string ticks_text_;                       // ticks that have no line yet
+    std::uint64_t ticks_ = 0, written_ticks_ = 0;  // taken; of these, in lines
+    std::uint64_t recorded_ = 0;                   // whether or not the log has ended
+    Nanoseconds last_ns_ = 0;                      // of the last line
+    SessionCheck check_;
+    std::optional<Error> log_ended_;
+    std::unique_ptr<record::RecordWriter> writer_;  // last: its thread calls take() until it has ended
+};
+
+}  // namespace burin::session

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: MIT
+// A live session recorded into a session file: its columns and its log, and both done again.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <thread>
+
+#include "record/export/table_export.hpp"
+#include "session/drive/recording_start.hpp"
+#include "session/drive/session_frames.hpp"
+#include "session/drive/thread_replay.hpp"
+#include "session/drive/tick_comparison.hpp"
+#include "session/record/session_log.hpp"
+#include "session/state/session_settings.hpp"
+#include "tests/record/failing_disk.hpp"
+#include "tests/support/run_command.hpp"
+
+namespace burin::session {
+namespace {
+
+constexpr ImageSize kShownSize{640, 360};
+
+// Into the ball's front and along it, and an undo.
+const std::string kShortScript = R"(burin-input 1 test
+0.02 mouse 320 180
+0.05 scroll 0 15
+0.1 button press left
+0.12 scroll 0 10
+0.2 mouse 330 184
+0.3 mouse 350 190
+0.4 button release left
+0.42 command undo
+0.5 close
+)";
+
+SculptOptions short_options(const std::string& record) {
+    SculptOptions options;
+    options.workpiece.resolution = 32;
+    options.tool.shape = "ball:0.012";
+    options.engine = sculpt::EngineChoice::cpu;
+    options.threads = 1;
+    options.live.record = record;
+    return options;
+}
+
+// A session that is recorded into a file: of a script, or of a user who does nothing.
+struct Recorded {
+    enum class Of { script, nobody };
+    Recorded(const std::string& path, Clock& clock, Of of) {
+        const SculptOptions options = short_options(path);
+        auto created = LiveSession::create(options, *session_wall(options.live), clock);
+        if (!created) throw std::runtime_error(created.error().line());
+        session = std::move(*created);
+        auto writer = create_recording(options, {{"program", "a test"}}, *session);
+        if (!writer) throw std::runtime_error(writer.error().line());
+        begin(std::move(*writer), of);
+    }
+    // Of nobody, into a file of a disk that fails.
+    Recorded(const std::string& path, Clock& clock, const std::string& vfs) {
+        const SculptOptions options = short_options(path);
+        session = std::move(*LiveSession::create(options, *session_wall(options.live), clock));
+        RecordingOf of{session->device(), session->channels().parameters.newest().probe, &session->channels().records,
+                       clock_of(*session), settings_line(options)};
+        of.vfs = vfs;
+        auto recording = SessionRecording::create(path, std::move(of));
+        if (!recording) throw std::runtime_error(recording.error().line());
+        begin(InputLogWriter::into(std::move(*recording)), Of::nobody);
+    }
+    void begin(InputLogWriter writer, Of of) {
+        input.emplace(of == Of::nobody
+                          ? InputSource::live(std::move(writer))
+                          : InputSource::play(*parse_input_log(kShortScript, "script"), std::move(writer)));
+        recorder.emplace(*input, *session);
+    }
+
+    std::unique_ptr<LiveSession> session;
+    std::optional<InputSource> input;
+    std::optional<ThreadRecorder> recorder;
+};
+
+// Its frames, one every 5 ms.
+class ShortFrames final : public FrameSource {
+public:
+    ShortFrames(Recorded& of, Clock& clock) : of_(of), clock_(clock) {}
+    [[nodiscard]] std::optional<Nanoseconds> next() override {
+        if (of_.session->state().quit) return std::nullopt;
+        clock_.sleep_until(clock_.now_ns() + 5'000'000);
+        of_.recorder->outside();
+        const Nanoseconds now_ns = clock_.now_ns() - of_.session->start_ns();
+        const auto input = of_.input->begin_frame(now_ns, now_ns + 10'000'000);
+        if (!input) return std::nullopt;
+        frame_ = *input;
+        return clock_.now_ns();
+    }
+    [[nodiscard]] Result<void> make(Executor& executor) override {
+        return step_frame(*of_.session, executor, *of_.recorder, frame_, {{.size = kShownSize}});
+    }
+
+private:
+    Recorded& of_;
+    Clock& clock_;
+    FrameInput frame_;
+};
+
+// Records it with its threads, in real time. Returns how many ticks it had.
+std::uint64_t record_live(const std::string& path) {
+    MonotonicClock clock;
+    Recorded recorded(path, clock, Recorded::Of::script);
+    LiveSession& s = *recorded.session;
+    ShortFrames frames(recorded, clock);
+    ThreadedExecutor threads(clock, s.loop(), s.channels(), s.scene(), {},
+                             [&](const auto& ended) { static_cast<void>(s.collect(ended)); });
+    static_cast<void>(threads.start());
+    EXPECT_TRUE(drive(threads, frames));
+    recorded.recorder->finish(threads.take_updates()->updates);
+    EXPECT_TRUE(s.outcome());
+    return s.loop().ticks();
+}
+
+class ShortFramesAgain final : public FrameSource {
+public:
+    ShortFramesAgain(LiveSession& session, InputSource input, const ThreadLog& log, ThreadReplay& replay)
+        : session_(session), input_(std::move(input)), log_(log), replay_(replay) {}
+    [[nodiscard]] std::optional<Nanoseconds> next() override {
+        if (next_ == log_.frames.size()) return std::nullopt;
+        frame_ = input_.begin_frame(0, 0).value();
+        replay_.begin_frame(log_.frames[next_++]);
+        return frame_.time_ns;
+    }
+    [[nodiscard]] Result<void> make(Executor& executor) override {
+        if (const auto done = step_frame(session_, executor, recorder_, frame_, {{.size = kShownSize}}); !done)
+            return done;
+        departed_ += replay_.is_as_recorded() ? 0u : 1u;
+        return {};
+    }
+    [[nodiscard]] std::size_t departed() const { return departed_; }
+
+private:
+    LiveSession& session_;
+    InputSource input_;
+    const ThreadLog& log_;
+    ThreadReplay& replay_;
+    std::size_t next_ = 0, departed_ = 0;
+    ThreadRecorder recorder_{input_, session_};
+    FrameInput frame_;
+};
+
+struct Judged {
+    Result<void> done;
+    std::size_t departed = 0;  // frames
+    record::Comparison found;
+    std::uint64_t unrecorded = 0;
+};
+
+// Does a log again, and compares its ticks with those of a file.
+Judged judged(InputLog log, const std::string& path, const SculptOptions& options) {
+    const ThreadLog threads = *log.threads;
+    auto reader = record::RecordReader::open(path);
+    auto judge = TickComparison::create(*reader, {});
+    SimulatedClock clock;
+    auto session = open_as_recorded(options, *session_wall(options.live), threads, path, clock);
+    ThreadReplay replay(**session, threads, path);
+    replay.judge_ticks(&*judge);
+    ShortFramesAgain frames(**session, InputSource::replay(std::move(log)), threads, replay);
+    Judged result;
+    result.done = drive(replay, frames);
+    if (result.done) result.done = replay.run_to_end();
+    result.departed = frames.departed();
+    result.found = judge->found();
+    result.unrecorded = judge->unrecorded();
+    return result;
+}
+
+Result<InputLog> log_in(const std::string& path) {
+    auto reader = record::RecordReader::open(path);
+    if (!reader) return std::unexpected(reader.error());
+    return read_session_log(*reader);
+}
+
+void tick(LiveSession& session, SimulatedClock& clock, int times) {
+    for (int i = 0; i < times; ++i) {
+        clock.sleep_until(clock.now_ns() + 1'000'000);
+        session.loop().step();
+        // Updates that no log has: for ticks that are not done again. Without them samples would be dropped.
+        if (i % 1000 != 999) continue;
+        EXPECT_TRUE(session.scene().update(clock.now_ns()));
+    }
+}
+
+void one_frame(Recorded& of, SimulatedClock& clock) {
+    const auto begun = of.input->begin_frame(clock.now_ns(), clock.now_ns());
+    const haptics::ToolState tool = of.session->newest_tool();
+    of.session->step(*begun, {.size = kShownSize}, tool, [](Executor::Order) {});
+    of.recorder->frame(tool.tick, {}, {{.size = kShownSize}});
+}
+
+std::string told_by(Recorded& of) {
+    testing::internal::CaptureStderr();
+    of.recorder->finish({});
+    return testing::internal::GetCapturedStderr();
+}
+
+}  // namespace
+
+TEST(SessionRecording, OfALiveSessionIsDoneAgainToTheBitInEveryColumn) {
+    const Workplace place;
+    const std::string path = (place / "a.session").string();
+    const std::uint64_t ticks = record_live(path);
+    ASSERT_GT(ticks, 200u);
+
+    auto log = log_in(path);
+    ASSERT_TRUE(log) << log.error().line();
+    EXPECT_EQ(log->threads->ticks.count, ticks);
+    EXPECT_TRUE(log->threads->end_check);
+    EXPECT_EQ(log->device, short_options("").live.device);
+    const Judged is = judged(*log, path, short_options(""));
+    ASSERT_TRUE(is.done) << is.done.error().line();
+    EXPECT_EQ(is.found.ticks, ticks);
+    EXPECT_GT(is.found.columns, 60u);
+    EXPECT_EQ(is.departed, 0u);
+    EXPECT_EQ(is.unrecorded, 0u);
+
+    // The log as text is the same log, and leads to the same ticks.
+    auto reader = record::RecordReader::open(path);
+    ASSERT_TRUE(record::export_log(*reader, (place / "a.log").string()));
+    auto text = read_input_log(place / "a.log");
+    ASSERT_TRUE(text) << text.error().line();
+    EXPECT_EQ(text->settings, log->settings);
+    EXPECT_EQ(text->events.size(), log->events.size());
+    EXPECT_EQ(text->threads->frames.size(), log->threads->frames.size());
+    const Judged by_text = judged(std::move(*text), path, short_options(""));
+    ASSERT_TRUE(by_text.done) << by_text.done.error().line();
+    EXPECT_EQ(by_text.found.ticks, ticks);
+
+    // Another feel tells where it first differs.
+    SculptOptions other = short_options("");
+    other.tool.shape = "ball:0.0121";
+    const Judged changed = judged(std::move(*log), path, other);
+    ASSERT_FALSE(changed.done);
+    ASSERT_TRUE(changed.found.difference);
+    EXPECT_FALSE(changed.found.difference->column.empty());
+    EXPECT_NE(changed.found.difference->first, changed.found.difference->second);
+    EXPECT_EQ(static_cast<std::uint64_t>(changed.found.difference->tick), changed.found.ticks + 1);
+}
+
+TEST(SessionRecording, LosesNothingWhereTheFramesStandStill) {
+    const Workplace place;
+    const std::string path = (place / "a.session").string();
+    SimulatedClock clock;
+    Recorded recorded(path, clock, Recorded::Of::nobody);
+    tick(*recorded.session, clock, 10);
+    one_frame(recorded, clock);
+    // More ticks than a ring holds, without a frame: the writer takes them. Simulated time is not held back by a clock.
+    for (int i = 0; i < 4; ++i) {
+        tick(*recorded.session, clock, 5000);
+        recorded.input->recording()->take_ticks();
+    }
+    one_frame(recorded, clock);
+    EXPECT_FALSE(recorded.input->recording_error());
+    recorded.recorder->finish({});
+    const auto log = log_in(path);
+    ASSERT_TRUE(log) << log.error().line();
+    EXPECT_EQ(log->threads->frames.size(), 2u);
+    EXPECT_EQ(log->threads->ticks.count, 20'010u);
+    auto reader = record::RecordReader::open(path);
+    EXPECT_EQ(reader->hands().front().rows(), 20'010u);
+    EXPECT_EQ(reader->facts().at("ticks lost, hand 0"), "0");
+}
+
+TEST(SessionRecording, EndsItsLogAndCountsWhatIsLostWhereTheDiskStandsStillForTooLong) {
+    const Workplace place;
+    const std::string path = (place / "a.session").string();
+    record::test::FailingDisk& disk = record::test::failing_disk();
+    disk.reset();
+    SimulatedClock clock;
+    Recorded recorded(path, clock, record::test::FailingDisk::kName);
+    tick(*recorded.session, clock, 10);
+    one_frame(recorded, clock);
+    recorded.input->recording()->take_ticks();
+    std::atomic<bool> stands_still{true};
+    std::atomic<int> flushes{0};
+    disk.set_before_sync([&] {
+        ++flushes;
+        while (stands_still) std::this_thread::yield();
+    });
+    tick(*recorded.session, clock, 2000);  // a block or two are full: a transaction begins
+    while (flushes == 0) std::this_thread::yield();
+    tick(*recorded.session, clock, 20'000);
+    stands_still = false;
+    one_frame(recorded, clock);
+    recorded.input->recording()->take_ticks();
+    tick(*recorded.session, clock, 10);
+    recorded.input->recording()->take_ticks();
+    one_frame(recorded, clock);
+    ASSERT_TRUE(recorded.input->recording_error());
+    EXPECT_NE(recorded.input->recording_error()->line().find("ticks were lost after tick"), std::string::npos);
+    EXPECT_NE(told_by(recorded).find("ticks were lost"), std::string::npos);
+    EXPECT_FALSE(recorded.session->outcome());
+    disk.reset();
+
+    auto reader = record::RecordReader::open(path);
+    ASSERT_TRUE(reader) << reader.error().line();
+    const std::uint64_t lost = recorded.session->channels().records.refused();
+    EXPECT_GT(lost, 0u);
+    EXPECT_EQ(reader->facts().at("ticks lost, hand 0"), std::to_string(lost));
+    EXPECT_EQ(reader->hands().front().rows(), 22'020u - lost);
+    EXPECT_EQ(reader->events()->front().name, "log ended");
+    // What comes before can be done again.
+    const auto log = read_session_log(*reader);
+    ASSERT_TRUE(log) << log.error().line();
+    EXPECT_LT(log->threads->ticks.count, 22'020u - lost);
+}
+
+TEST(SessionRecording, NamesADiskThatFailsAndTheSessionGoesOn) {
+    const Workplace place;
+    record::test::FailingDisk& disk = record::test::failing_disk();
+    disk.reset();
+    SimulatedClock clock;
+    Recorded recorded((place / "a.session").string(), clock, record::test::FailingDisk::kName);
+    disk.does_not_sync = true;
+    tick(*recorded.session, clock, 3000);
+    one_frame(recorded, clock);
+    // The file is taken away: that is no matter of patience.
+    std::filesystem::remove(place / "a.session");
+    const std::string told = told_by(recorded);
+    EXPECT_NE(told.find("taken away"), std::string::npos) << told;
+    EXPECT_FALSE(recorded.session->outcome());
+    disk.reset();
+}
+
+TEST(SessionRecording, LeavesAnExistingFileAlone) {
+    const Workplace place;
+    place.write("a.session", "mine");
+    SimulatedClock clock;
+    const SculptOptions options = short_options((place / "a.session").string());
+    auto session = LiveSession::create(options, *session_wall(options.live), clock);
+    ASSERT_TRUE(session);
+    const auto writer = create_recording(options, {}, **session);
+    ASSERT_FALSE(writer);
+    EXPECT_NE(writer.error().line().find("never overwrites"), std::string::npos) << writer.error().line();
+    EXPECT_EQ(place.read("a.session"), "mine");
+    EXPECT_FALSE(log_in((place / "a.session").string()));
+}
+
+}  // namespace burin::session
