@@ -202,6 +202,12 @@ Parsed parse_object(Arguments words) {
 
 Parsed parse_select(Arguments words) { return SelectObject{words[0]}; }
 
+Parsed parse_calibrate(Arguments words) {
+    if (words.empty()) return CalibrateWand{};
+    if (words[0] == "reset") return CalibrateWand{.reset = true};
+    return no_argument("calibrate", words[0], "write calibrate, or calibrate reset");
+}
+
 template <Quantity quantity>
 Parsed parse_number_of(Arguments words) {
     return parse_quantity(descriptor_of(quantity), words[0]);
@@ -245,6 +251,8 @@ const std::vector<Entry>& entries() {
          parse_object},
         {{"select", "NAME", "Show an object of the world on the panel"}, parse_select},
         {{"show-force", "on|off", "Whether an arrow shows the force"}, parse_force_shown},
+        {{"calibrate", "[reset]", "Take the wand, now in its jig, for being where that is; or take that back"},
+         parse_calibrate},
         {{"catch-drill", "on|off", "Hold the tool where it is, to see the watch let the hand go"}, parse_catch_drill},
         {{"export", "FILE", "Write the mesh to a file"}, parse_export},
         {{"screenshot", "FILE", "Write a picture of the screen to a file"}, parse_screenshot},

@@ -120,9 +120,15 @@ struct SelectObject {
     bool operator==(const SelectObject&) const = default;
 };
 
+// Takes the wand for being in its jig, or takes that back.
+struct CalibrateWand {
+    bool reset = false;
+    bool operator==(const CalibrateWand&) const = default;
+};
+
 using SessionCommand = std::variant<RunAction, SetTool, SetOperation, SetColour, SetMaterial, SetQuantity, SetTechnique,
                                     SetStereoMode, SetTestPattern, SetEyeSwap, SetForce, SetForceShown, SetCatchDrill,
-                                    ExportTo, ScreenshotTo, EditObject, SelectObject>;
+                                    ExportTo, ScreenshotTo, EditObject, SelectObject, CalibrateWand>;
 
 struct SessionState;
 
