@@ -34,6 +34,8 @@ void add_sculpt_options(Command command, session::SculptOptions& options) {
         "--world", options.world,
         "Objects that stand with the workpiece, and are touched and not carved: .toml, .wrl, STL, OBJ, PLY, OFF");
     command.flag("--no-workpiece", options.no_workpiece, "With --world: its objects alone, as burin world opens them");
+    command.option("--points", options.points,
+                   "With a wand: which of its points touch, each with the tool's ball; else the tool is in its middle");
     command.unit("--units", options.workpiece.units, kUnitsHelp);
     command.unit("--export-units", options.export_units,
                  "Unit of the numbers in exported files; else that of the workpiece's file, or m");

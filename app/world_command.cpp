@@ -18,6 +18,7 @@
 #include "base/text.hpp"
 #include "compute/rays/lattice.hpp"
 #include "devices/haptic/device_registry.hpp"
+#include "devices/haptic/wand_choice.hpp"
 #include "geometry/files/mesh_unit.hpp"
 #include "geometry/vrml/vrml_shapes.hpp"
 #include "scene/vrml_world.hpp"
@@ -323,10 +324,11 @@ WorldCommand::WorldCommand(Command app)
     command_.option("--radius", o.exploration.radius_m, "Radius of the ball that touches, in metres")
         .within(1e-5, 1.0)
         .show_default();
-    command_
-        .option("--points", o.exploration.points,
-                "With a wand: which of its points touch, names with commas between them, centre, or how many")
-        .show_default();
+    command_.option(
+        "--points", o.exploration.points,
+        std::string("With a wand: which of its points touch, names with commas between them, centre, or how "
+                    "many; else ") +
+            devices::kUsualPoints);
     command_.option("--pictures", o.exploration.pictures,
                     "A folder for pictures: the world, each object when it is first touched, both eyes at the end");
     command_.option("--report", o.exploration.report,
@@ -346,7 +348,10 @@ std::string WorldCommand::misuse() const {
     const session::LiveOptions& live = options_->session.live;
     if (options_->exploration.world.empty() && live.input.empty())
         return "world needs a file, or the word check and files";
-    if (!options_->exploration.stroke.empty() && live.device != devices::kDefaultHapticDevice && !is_wand(live.device))
+    if (!options_->exploration.points.empty() && !devices::is_wand(live.device))
+        return "--points belongs to a wand: give --device " + std::string(devices::kSimulatedWand);
+    if (!options_->exploration.stroke.empty() && live.device != devices::kDefaultHapticDevice &&
+        !devices::is_wand(live.device))
         return "world explores with --device " + std::string(devices::kDefaultHapticDevice) +
                " or simulated-wand, not " + live.device;
     return "";
@@ -358,11 +363,16 @@ Result<void> WorldCommand::run() const {
         WorldExploration exploration = options_->exploration;
         exploration.record = options_->session.live.record;
         exploration.device = options_->session.live.device;
-        if (is_wand(exploration.device)) return explore_world_with_wand(exploration);
+        if (devices::is_wand(exploration.device)) return explore_world_with_wand(exploration);
         return explore_world(exploration);
     }
     session::SculptOptions session = options_->session;
     session.world = options_->exploration.world;
+    if (devices::is_wand(session.live.device)) {
+        const std::string& points = options_->exploration.points;
+        session.points = points.empty() ? devices::kUsualPoints : points;
+        if (session.tool.shape.empty()) session.tool.shape = formatted("ball:%g", options_->exploration.radius_m);
+    }
     // A recording says itself what it was of; a script does not.
     const bool says_itself = session.world.empty() && is_recording(session.live.input);
     session.no_workpiece = !says_itself && session.workpiece.source.empty();

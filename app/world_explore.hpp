@@ -11,14 +11,14 @@
 namespace burin::app {
 
 struct WorldExploration {
-    std::string world;                  // a world.toml or a .wrl (docs/formats.md)
-    std::string stroke;                 // a CSV file; its button has no meaning here
-    double radius_m = 0.004;            // of the ball that touches
-    std::string pictures;               // a folder; empty: none
-    std::string report;                 // a JSON file; empty: none
-    std::string record;                 // a new session file; empty: none
-    std::string device = "simulated";   // or a wand (app/world_wand.hpp)
-    std::string points = "top,bottom";  // of a wand, that touch
+    std::string world;                 // a world.toml or a .wrl (docs/formats.md)
+    std::string stroke;                // a CSV file; its button has no meaning here
+    double radius_m = 0.004;           // of the ball that touches
+    std::string pictures;              // a folder; empty: none
+    std::string report;                // a JSON file; empty: none
+    std::string record;                // a new session file; empty: none
+    std::string device = "simulated";  // or a wand (app/world_wand.hpp)
+    std::string points;                // of a wand, that touch; empty: devices::kUsualPoints
 };
 
 // Fails with all problems of the world printed, when it has some.

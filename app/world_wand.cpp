@@ -14,14 +14,13 @@
 #include "app/output_files.hpp"
 #include "app/picture_folder.hpp"
 #include "base/text.hpp"
-#include "devices/haptic/wand_file.hpp"
+#include "devices/haptic/wand_choice.hpp"
 #include "scene/vrml_world.hpp"
 #include "session/felt/felt_figures.hpp"
 
 namespace burin::app {
 namespace {
 
-constexpr std::string_view kWandDevice = "simulated-wand";
 constexpr std::size_t kMostWandPictures = 24;
 
 Result<scene::World> world_to_explore(const std::string& path) {
@@ -30,11 +29,6 @@ Result<scene::World> world_to_explore(const std::string& path) {
     if (world.error().size() == 1) return std::unexpected(world.error().front());
     for (const Error& problem : world.error()) std::fprintf(stderr, "burin: %s\n", problem.line().c_str());
     return fail(path, std::to_string(world.error().size()) + " problems", "correct them; burin world check lists them");
-}
-
-Result<devices::WandDescription> wand_of(const std::string& device) {
-    if (device.size() <= kWandDevice.size() + 1) return devices::WandDescription{};
-    return devices::read_wand(device.substr(kWandDevice.size() + 1));
 }
 
 // A name that is safe in a file's name: letters, digits, dashes.
@@ -161,19 +155,16 @@ Result<void> write_wand_report(const WorldExploration& options, const devices::W
 
 }  // namespace
 
-bool is_wand(const std::string& device) {
-    return device == kWandDevice || device.starts_with(std::string(kWandDevice) + ":");
-}
-
 Result<void> explore_world_with_wand(const WorldExploration& options) {
     const std::array inputs{options.world, options.stroke};
     if (const auto ok = check_outputs({}, options.report, inputs); !ok) return ok;
-    const Result<devices::WandDescription> wand = wand_of(options.device);
+    const Result<devices::WandDescription> wand = devices::wand_named(options.device);
     if (!wand) return std::unexpected(wand.error());
     activities::WandOptions feel;
     feel.wand = *wand;
     feel.radius_m = options.radius_m;
-    Result<std::vector<devices::WandPoint>> points = activities::points_named(*wand, options.points);
+    Result<std::vector<devices::WandPoint>> points =
+        devices::points_named(*wand, options.points.empty() ? devices::kUsualPoints : options.points);
     if (!points) return std::unexpected(points.error());
     feel.points = std::move(*points);
     const Result<sculpt::Stroke> stroke = sculpt::read_stroke(options.stroke);

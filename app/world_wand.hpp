@@ -8,9 +8,6 @@
 
 namespace burin::app {
 
-// Whether a device's name asks for a wand.
-[[nodiscard]] bool is_wand(const std::string& device);
-
 // Fails with all problems of the world printed, when it has some.
 [[nodiscard]] Result<void> explore_world_with_wand(const WorldExploration& options);
 

@@ -13,6 +13,8 @@ namespace burin::sculpt {
 namespace {
 
 constexpr std::string_view kHeader = "time_s,x_m,y_m,z_m,qx,qy,qz,qw,button";
+// The same with turns as axis and angle, as tables of a wand have them.
+constexpr std::string_view kAxisHeader = "time_s,x_m,y_m,z_m,axis_x,axis_y,axis_z,angle_rad,button";
 constexpr std::size_t kColumns = 9;
 constexpr double kLargest_m = 1e9;  // the limit for meshes, far from overflow
 
@@ -44,7 +46,26 @@ std::optional<std::array<double, kColumns>> numbers(std::string_view line) {
     return values;
 }
 
-Result<StrokeRow> make_row(const std::array<double, kColumns>& n, const std::string& where, const Stroke& before) {
+// Returns the turn about an axis of any length (Rodrigues), as a quaternion; none without a length, but for no turn.
+std::optional<Quat> turn_about(const Vec3& axis, double angle_rad) {
+    const double length = glm::length(axis);
+    if (angle_rad == 0.0) return Quat(1.0, 0.0, 0.0, 0.0);
+    if (!(length > 1e-9)) return std::nullopt;
+    return glm::angleAxis(angle_rad, axis / length);
+}
+
+Result<Quat> turn_in(const std::array<double, kColumns>& n, bool as_axis, const std::string& where) {
+    if (as_axis) {
+        if (const auto turn = turn_about({n[4], n[5], n[6]}, n[7])) return glm::normalize(*turn);
+        return fail(where, "its axis has no length, but its angle is not 0", "write 1,0,0,0 for no rotation");
+    }
+    const Quat q(n[7], n[4], n[5], n[6]);
+    if (!(glm::length(q) > 1e-9)) return fail(where, "its quaternion has no length", "write 0,0,0,1 for no rotation");
+    return glm::normalize(q);
+}
+
+Result<StrokeRow> make_row(const std::array<double, kColumns>& n, bool as_axis, const std::string& where,
+                           const Stroke& before) {
     for (const double value : n) {
         if (!std::isfinite(value) || std::abs(value) > kLargest_m) {
             return fail(where, "holds a number that is not finite or is absurdly large", "correct the number");
@@ -53,17 +74,17 @@ Result<StrokeRow> make_row(const std::array<double, kColumns>& n, const std::str
     if (!before.empty() && n[0] <= before.back().time_s) {
         return fail(where, "its time does not come after the row before", "sort the rows by time_s, each time once");
     }
-    const Quat q(n[7], n[4], n[5], n[6]);
-    if (!(glm::length(q) > 1e-9)) return fail(where, "its quaternion has no length", "write 0,0,0,1 for no rotation");
+    const Result<Quat> turn = turn_in(n, as_axis, where);
+    if (!turn) return std::unexpected(turn.error());
     if (n[8] != 0.0 && n[8] != 1.0) return fail(where, "its button is neither 0 nor 1", "write 0 or 1");
-    return StrokeRow{n[0], {n[1], n[2], n[3]}, glm::normalize(q), n[8] == 1.0};
+    return StrokeRow{n[0], {n[1], n[2], n[3]}, *turn, n[8] == 1.0};
 }
 
 }  // namespace
 
 Result<Stroke> parse_stroke(std::string_view text, const std::string& name) {
     Stroke stroke;
-    bool header_seen = false;
+    bool header_seen = false, as_axis = false;
     for (std::size_t line_number = 1; !text.empty(); ++line_number) {
         const std::size_t end = text.find('\n');
         const std::string_view line = trimmed(text.substr(0, end));
@@ -71,16 +92,20 @@ Result<Stroke> parse_stroke(std::string_view text, const std::string& name) {
         if (line.empty() || line.front() == '#') continue;
         const std::string where = name + ":" + std::to_string(line_number);
         if (!header_seen) {
-            if (without_blanks(line) != kHeader) {
-                return fail(where, "is not a stroke file", "its first line must read " + std::string(kHeader));
-            }
+            const std::string header = without_blanks(line);
+            as_axis = header == kAxisHeader;
+            if (!as_axis && header != kHeader)
+                return fail(where, "is not a stroke file",
+                            "its first line must read " + std::string(kHeader) + ", or with a turn as axis and angle " +
+                                std::string(kAxisHeader));
             header_seen = true;
             continue;
         }
         const auto values = numbers(line);
         if (!values)
-            return fail(where, "does not hold nine numbers separated by commas", "write " + std::string(kHeader));
-        Result<StrokeRow> row = make_row(*values, where, stroke);
+            return fail(where, "does not hold nine numbers separated by commas",
+                        "write " + std::string(as_axis ? kAxisHeader : kHeader));
+        Result<StrokeRow> row = make_row(*values, as_axis, where, stroke);
         if (!row) return std::unexpected(row.error());
         stroke.push_back(*row);
     }

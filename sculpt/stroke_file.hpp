@@ -2,9 +2,9 @@
 // A stroke, which is the motion of a tool over time, as a CSV file, and carving along it with a rigid hand.
 //
 // Columns, named in the first line in this order: time_s, x_m, y_m, z_m, qx, qy, qz, qw, button. Positions are in the
-// object frame, metres; the quaternion turns tool into object (x, y, z, w; any length but zero); button is 1 while the
-// tool works and 0 while it only moves. Times rise from row to row. Lines that start with # and empty lines are
-// skipped.
+// object frame, metres; the quaternion turns tool into object (x, y, z, w; any length but zero). In its place axis_x,
+// axis_y, axis_z, angle_rad are an axis of any length and an angle (Rodrigues). button is 1 while the tool works and 0
+// while it only moves. Times rise from row to row. Lines that start with # and empty lines are skipped.
 #pragma once
 
 #include <filesystem>

@@ -2,10 +2,8 @@
 #include "activities/wand/wand_run.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <utility>
 
-#include "base/text.hpp"
 #include "haptics/haptic_loop.hpp"
 #include "scene/scene_service.hpp"
 
@@ -44,48 +42,7 @@ scene::SceneHand hand_in_scene(const WandOptions& options, const devices::HandPo
             scale * farthest_m + 2.0 * options.radius_m, scale * kWandReach_m};
 }
 
-// Returns so many points evenly from one to another; one alone is in the middle.
-std::vector<devices::WandPoint> points_between(const Vec3& from_m, const Vec3& to_m, std::size_t count) {
-    std::vector<devices::WandPoint> points;
-    for (std::size_t i = 0; i < count; ++i) {
-        const double t = count > 1 ? static_cast<double>(i) / static_cast<double>(count - 1) : 0.5;
-        points.push_back({"point " + std::to_string(i + 1), from_m + t * (to_m - from_m)});
-    }
-    return points;
-}
-
 }  // namespace
-
-Result<std::vector<devices::WandPoint>> points_named(const devices::WandDescription& wand, const std::string& text) {
-    constexpr const char* kWhere = "--points";
-    std::size_t count = 0;
-    const char* const end = text.data() + text.size();
-    if (const auto [stopped, failed] = std::from_chars(text.data(), end, count);
-        failed == std::errc() && stopped == end) {
-        if (count < 1 || count > haptics::kMostProbePoints)
-            return fail(kWhere, "is " + text, formatted("write a number from 1 to %u", haptics::kMostProbePoints));
-        if (wand.points.empty()) return fail(kWhere, "the wand's description names no points", "give it [[point]]");
-        return points_between(wand.points.front().offset_m, wand.points.back().offset_m, count);
-    }
-    std::vector<std::string_view> known{"centre"};
-    for (const devices::WandPoint& point : wand.points) known.push_back(point.name);
-    std::vector<devices::WandPoint> points;
-    for (std::size_t at = 0; at <= text.size();) {
-        const std::size_t comma = std::min(text.find(',', at), text.size());
-        const std::string name = text.substr(at, comma - at);
-        at = comma + 1;
-        const auto found = std::ranges::find(wand.points, name, &devices::WandPoint::name);
-        if (found == wand.points.end() && name != "centre")
-            return fail(kWhere, "the wand has no point named " + name,
-                        "did you mean " + std::string(nearest_name(name, known)) + "? There are: " + joined(known) +
-                            ", or a number of points");
-        points.push_back(found == wand.points.end() ? devices::WandPoint{"centre", Vec3(0.0)} : *found);
-    }
-    if (points.size() > haptics::kMostProbePoints)
-        return fail(kWhere, formatted("names %zu points", points.size()),
-                    formatted("name at most %u", haptics::kMostProbePoints));
-    return points;
-}
 
 std::vector<devices::HandPose> script_in_device(std::vector<devices::HandPose> script,
                                                 const Similarity& scene_from_device) {

@@ -25,11 +25,6 @@ struct WandOptions {
     devices::HandGrip grip;
 };
 
-// Returns the points that a text names: names of the description's with commas between them, "centre" for the handle's
-// origin, or a number of points evenly from the first to the last of the description's. Fails with the nearest name.
-[[nodiscard]] Result<std::vector<devices::WandPoint>> points_named(const devices::WandDescription& wand,
-                                                                   const std::string& text);
-
 // Takes a script from the scene into the device's frame.
 [[nodiscard]] std::vector<devices::HandPose> script_in_device(std::vector<devices::HandPose> script,
                                                               const Similarity& scene_from_device);

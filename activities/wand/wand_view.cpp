@@ -3,38 +3,22 @@
 
 #include <algorithm>
 
-#include "sculpt/tool_mesh.hpp"
-
 namespace burin::activities {
 namespace {
 
-constexpr double kRodRadius = 0.02;       // as a share of the handle's length
 constexpr double kPictureHeight_m = 1.2;  // in the world: what the picture shows is scaled to it
 const Vec3 kMiddle_world{0.0, 1.3, -0.5};
-const Vec3 kRod{0.75, 0.76, 0.80}, kTopBall{0.86, 0.12, 0.10}, kBottomBall{0.10, 0.68, 0.22},
-    kOtherBall{0.20, 0.40, 0.85};
 
 }  // namespace
 
 WandView::WandView(const devices::WandDescription& wand, double scale, double radius_m)
-    : tool_from_handle_(wand.device_tool_from_handle), scale_(scale), half_length_m_(0.5 * wand.handle_m) {
-    rod_ = renderer::drawn_mesh(sculpt::drawing_of(compute::CylinderTool{kRodRadius * wand.handle_m, wand.handle_m}));
-    ball_ = renderer::drawn_mesh(sculpt::drawing_of(compute::BallTool{radius_m}));
-}
+    : drawn_(wand), scale_(scale), radius_m_(radius_m) {}
 
 void WandView::add_to(renderer::Scene& scene, const WandPose& pose, const Similarity& world_from_scene) const {
-    // A cylinder stands on its origin.
-    const Similarity scene_from_handle =
-        Similarity{pose.scene_from_tool.position_m, pose.scene_from_tool.orientation, scale_} *
-        Similarity{tool_from_handle_.position_m, tool_from_handle_.orientation, 1.0};
-    scene.objects.push_back(
-        {rod_, world_from_scene * scene_from_handle * Similarity{{0.0, -half_length_m_, 0.0}, {1, 0, 0, 0}, 1.0},
-         kRod});
-    for (std::size_t i = 0; i < pose.points_scene.size(); ++i) {
-        const bool is_last = i + 1 == pose.points_scene.size();
-        const Vec3& colour = i == 0 ? kTopBall : (is_last ? kBottomBall : kOtherBall);
-        scene.objects.push_back({ball_, world_from_scene * Similarity{pose.points_scene[i]}, colour});
-    }
+    const Similarity scene_from_tool{pose.scene_from_tool.position_m, pose.scene_from_tool.orientation, scale_};
+    session::DrawnWand::Place place{world_from_scene * scene_from_tool, {}, world_from_scene.scale * radius_m_};
+    for (const Vec3& point_scene : pose.points_scene) place.points_world.push_back(world_from_scene * point_scene);
+    drawn_.add_to(scene.objects, place);
     scene.contact.visible = pose.force_N != Vec3(0.0);
     scene.contact.point_world = world_from_scene * pose.scene_from_tool.position_m;
     scene.contact.normal_world = Vec3(0.0);

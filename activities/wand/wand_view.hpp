@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Draws a wand in a world: a thin cylinder that follows the handle, with a red ball at its first point and a green one
-// at its last, blue ones between; seen from nearby. Frames: as activities/world/world_view.hpp. Pure; any thread.
+// Draws a wand in a world (session/state/held_wand.hpp has what is drawn of it), seen from nearby. Frames: as
+// activities/world/world_view.hpp. Pure; any thread.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "activities/world/world_view.hpp"
-#include "devices/haptic/wand_description.hpp"
+#include "session/state/held_wand.hpp"
 
 namespace burin::activities {
 
@@ -36,10 +35,9 @@ public:
                                               const WandCamera& camera) const;
 
 private:
-    std::shared_ptr<const renderer::DrawnMesh> rod_, ball_;
-    Pose tool_from_handle_;
+    session::DrawnWand drawn_;
     double scale_;
-    double half_length_m_;
+    double radius_m_;
 };
 
 }  // namespace burin::activities

@@ -5,7 +5,8 @@ import math
 import pathlib
 
 RADIUS = 0.045  # of the tube, metres
-FUNNEL = 0.068  # widest radius of a funnel
+FUNNEL, FUNNEL_ENDS = 0.068, 0.03  # widest radius of a funnel, and how far beyond the middle line's end it is
+STRAIGHT = 0.0075  # the tube goes on straight by so much, so that its last ring stands square to the funnel
 SECTION = 32  # sides of the tube
 POINTS = 49  # of the tube's spine
 
@@ -35,9 +36,15 @@ def numbers(points):
     return ",\n      ".join(" ".join(f"{x:.6f}".replace("-0.000000", "0.000000") for x in p) for p in points)
 
 
-def part(name, colour, spine, scales, caps, solid):
+def corner_of_the_tube():
+    """The angle about the world's x, from +y, at which the tube's rings have a corner: that of its bend's normal."""
+    return math.atan2(RISE, FRONT - BACK)
+
+
+def part(name, colour, spine, scales, caps, solid, turn=0.0):
     section = [
-        (math.cos(2 * math.pi * i / SECTION), -math.sin(2 * math.pi * i / SECTION)) for i in range(SECTION)
+        (math.cos(turn + 2 * math.pi * i / SECTION), -math.sin(turn + 2 * math.pi * i / SECTION))
+        for i in range(SECTION)
     ]
     section.append(section[0])
     return f"""
@@ -81,13 +88,18 @@ PROTO HapticMaterial [
 
 def main():
     tube = [middle(-1 + 2 * i / (POINTS - 1)) for i in range(POINTS)]
-    text = HEAD + part("Tube", "0.75 0.75 0.8", tube, [RADIUS] * POINTS, "FALSE", "FALSE")
+    tube = [along(-1, -STRAIGHT), *tube, along(1, STRAIGHT)]
+    text = HEAD + part("Tube", "0.75 0.75 0.8", tube, [RADIUS] * len(tube), "FALSE", "FALSE")
     for name, end, colour in (("Start", -1.0, "0.2 0.7 0.3"), ("End", 1.0, "0.8 0.3 0.2")):
         sign = end
-        steps = [0.03 * i / 6 for i in range(7)]
-        radii = [RADIUS + (FUNNEL - RADIUS) * (s / 0.03) ** 2 for s in steps]
-        text += part(name + "Funnel", colour, [along(end, sign * s) for s in steps], radii, "FALSE", "FALSE")
-        text += part(name + "Cap", colour, [along(end, sign * s) for s in (0.03, 0.032)], [FUNNEL] * 2, "TRUE", "TRUE")
+        length = FUNNEL_ENDS - STRAIGHT
+        steps = [STRAIGHT + length * i / 6 for i in range(7)]
+        radii = [RADIUS + (FUNNEL - RADIUS) * ((s - STRAIGHT) / length) ** 2 for s in steps]
+        # A straight spine turns its section by other rules than a bent one; the corners have to meet all the same.
+        turn = sign * corner_of_the_tube()
+        text += part(name + "Funnel", colour, [along(end, sign * s) for s in steps], radii, "FALSE", "FALSE", turn)
+        cap = [along(end, sign * s) for s in (FUNNEL_ENDS, FUNNEL_ENDS + 0.002)]
+        text += part(name + "Cap", colour, cap, [FUNNEL] * 2, "TRUE", "TRUE", turn)
     pathlib.Path(__file__).with_name("tube.wrl").write_text(text)
 
 

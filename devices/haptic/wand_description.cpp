@@ -66,14 +66,19 @@ DeviceDescription device_of(const WandDescription& wand) noexcept {
     return device;
 }
 
-CalibrationError calibration_error(const WandDescription& wand, const Pose& device_from_handle) noexcept {
+Pose jig_pose_device(const WandDescription& wand) noexcept {
     const Pose to_device = device_from_maker(wand);
     const Pose& jig = wand.calibration.maker_from_handle;
-    CalibrationError error;
-    error.distance_m = glm::length(device_from_handle.position_m - to_device * jig.position_m);
     // The handle's axes are the device's where it is not turned, so the jig's turn is taken into these.
-    const Quat turned = to_device.orientation * jig.orientation * glm::conjugate(to_device.orientation);
-    const Quat between = glm::conjugate(turned) * device_from_handle.orientation;
+    return {to_device * jig.position_m,
+            to_device.orientation * jig.orientation * glm::conjugate(to_device.orientation)};
+}
+
+CalibrationError calibration_error(const WandDescription& wand, const Pose& device_from_handle) noexcept {
+    const Pose jig = jig_pose_device(wand);
+    CalibrationError error;
+    error.distance_m = glm::length(device_from_handle.position_m - jig.position_m);
+    const Quat between = glm::conjugate(jig.orientation) * device_from_handle.orientation;
     error.angle_rad = 2.0 * std::atan2(glm::length(Vec3(between.x, between.y, between.z)), std::abs(between.w));
     error.within_tolerance =
         error.distance_m <= wand.calibration.tolerance_m && error.angle_rad <= wand.calibration.tolerance_rad;

@@ -100,6 +100,9 @@ inline constexpr std::size_t kMostWandPoints = 20;
 // Returns the wand as the tick sees it. `name` is the description's text, which must outlive the result.
 [[nodiscard]] DeviceDescription device_of(const WandDescription& wand) noexcept;
 
+// Returns the handle's pose in the jig, in the device's frame and in axes that are the device's where it is not turned.
+[[nodiscard]] Pose jig_pose_device(const WandDescription& wand) noexcept;
+
 // How far a pose that the encoders give in the jig is from the jig's.
 struct CalibrationError {
     double distance_m = 0.0, angle_rad = 0.0;

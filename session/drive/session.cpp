@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "devices/haptic/wand_choice.hpp"
 #include "session/picture/pictures.hpp"
 #include "session/record/log_outputs.hpp"
 #include "session/record/session_log.hpp"
@@ -61,6 +62,9 @@ Result<void> check(const SculptOptions& options) {
     std::error_code ignored;
     if (!options.world.empty() && !std::filesystem::is_regular_file(options.world, ignored))
         return fail(options.world, "is no file that can be read", "name a world: .toml, .wrl, or a mesh");
+    if (!options.points.empty() && !devices::is_wand(options.live.device))
+        return fail("--points", "belongs to a wand, and the device is " + options.live.device,
+                    "give --device " + std::string(devices::kSimulatedWand) + ", or leave --points out");
     return sculpt::check_units(options.workpiece, false);  // a session has no tool from a file
 }
 

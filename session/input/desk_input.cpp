@@ -93,12 +93,13 @@ struct Steps {
         }
     }
 
-    // Turns the stylus about its tip as if it were held at its far end, or about its own shaft.
+    // Turns the stylus about its tip as if it were held at its far end, or about its own shaft; a wand to the side.
     void turn_stylus(const Vec2& by_rad) {
         const Quat& screen = view.device_from_screen;
         const Vec3 shaft = state.target_turn_device * settings.rest_device * Vec3(0.0, 1.0, 0.0);
+        const Vec3 roll_axis = settings.leans_sideways ? screen * Vec3(0.0, 0.0, -1.0) : shaft;
         const Quat turn = state.drag == Gesture::roll_stylus
-                              ? glm::angleAxis(by_rad.x, shaft)
+                              ? glm::angleAxis(by_rad.x, roll_axis)
                               : glm::angleAxis(by_rad.x, screen * Vec3(0.0, 1.0, 0.0)) *
                                     glm::angleAxis(-by_rad.y, screen * Vec3(1.0, 0.0, 0.0));
         state.target_turn_device = glm::normalize(turn * state.target_turn_device);

@@ -41,6 +41,9 @@ struct DeskSettings {
     double turn_rad_per_px = 0.005;  // of the scene, and of the stylus
     // The resting hand: a pen's shaft, +Y of the tool, leans to the right, up and to the viewer.
     Quat rest_device = pen_at_rest();
+    // Ctrl and Shift lean the handle to the side, about the screen's normal, and do not turn it about its shaft: of a
+    // wand that shows nothing and moves no end.
+    bool leans_sideways = false;
     double scale_per_wheel_step = 1.1;
     double least_scale = 0.01, most_scale = 100.0;
     double flight_speed_m_per_s = 0.6;

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "base/text.hpp"
+#include "devices/haptic/wand_choice.hpp"
 #include "renderer/png.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/record/session_recording.hpp"
@@ -38,6 +39,17 @@ Room room_of(const SessionWall& wall) {
     return room;
 }
 
+// Has the desk steer a wand: upright where it rests, over a workspace of its own size.
+void use_wand(Room& room, const devices::WandDescription& wand) {
+    constexpr double kDepthPerWheelStep = 0.025;  // of the workspace's longest side, about as a stylus'
+    room.workspace_device_m = devices::device_of(wand).workspace_m;
+    room.desk.workspace_m = room.workspace_device_m;
+    room.desk.depth_per_wheel_step_m =
+        kDepthPerWheelStep * sculpt::longest_side_m({Vec3(0.0), room.workspace_device_m});
+    room.desk.rest_device = {1.0, 0.0, 0.0, 0.0};
+    room.desk.leans_sideways = true;
+}
+
 // Says on the terminal where a file lies, if the message does not, and that another one was there.
 std::string where_it_lies(const std::string& message, const std::string& path, bool replaced) {
     const std::string place = message.ends_with(" " + path) ? "" : path;
@@ -66,6 +78,8 @@ Result<std::unique_ptr<LiveSession>> LiveSession::create(const SculptOptions& op
 
 Result<void> LiveSession::load(const SculptOptions& options, const SessionWall& wall) {
     room_ = room_of(wall);
+    if (devices::is_wand(options.live.device))
+        if (const auto held = hold_wand(options); !held) return held;
     if (!options.no_workpiece || options.world.empty())
         if (const auto loaded = load_workpiece(options); !loaded) return loaded;
     if (!options.world.empty())
@@ -77,6 +91,17 @@ Result<void> LiveSession::load(const SculptOptions& options, const SessionWall& 
     tool_options_ = sculpt::with_tool(tool_options_, longest_side_m);
     if (!options.from_before_units) tool_sizes_ = tool_sizes_for(longest_side_m);
     warns_of_misfit_ = !options.from_before_units && carving_;
+    return {};
+}
+
+Result<void> LiveSession::hold_wand(const SculptOptions& options) {
+    Result<devices::WandDescription> wand = devices::wand_named(options.live.device);
+    if (!wand) return std::unexpected(wand.error());
+    use_wand(room_, *wand);
+    if (options.points.empty()) return {};
+    Result<std::vector<devices::WandPoint>> points = devices::points_named(*wand, options.points);
+    if (!points) return std::unexpected(points.error());
+    wand_ = std::make_shared<const HeldWand>(std::move(*wand), std::move(*points));
     return {};
 }
 
@@ -133,7 +158,7 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
         if (const auto read = meshes->read(other); !read) return read;
     const auto feel = sculpt::parse_feel_settings(options.feel);
     if (!feel) return std::unexpected(feel.error());
-    state_ = begin_session(room_, *tool, *feel, output, std::move(meshes));
+    state_ = begin_session(room_, *tool, *feel, output, std::move(meshes), wand_);
     state_.export_unit = options.export_units.value_or(unit_);
     state_.carves = carving_ != nullptr;
     if (world_) state_.world = world_->objects();
@@ -147,7 +172,9 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
         !opened)
         return opened;
     publish_parameters();
-    const Vec3 tool_object = inverse(state_.world_from_object) * (state_.world_from_device * rest_device_m);
+    const Vec3 first_device_m =
+        wand_ ? wand_->first_point_device({rest_device_m, room_.desk.rest_device}) : rest_device_m;
+    const Vec3 tool_object = inverse(state_.world_from_object) * (state_.world_from_device * first_device_m);
     return make_scene(*use, tool_object, options.undo_memory_MiB << 20);
 }
 
@@ -158,16 +185,19 @@ Result<void> LiveSession::make_scene(const sculpt::UseTool& use, const Vec3& too
         carved_->order(use);
         parts.push_back(&*carved_);
     }
-    const double around_m = sculpt::around_m(use.tool);
+    tool_around_m_ = sculpt::around_m(use.tool);
     if (world_) {
-        world_->part().grip_with(0, kGrips, around_m);
+        world_->part().grip_with(0, kGrips, tool_around_m_);
         parts.push_back(&world_->part());
     }
     if (activity_.tap() != nullptr) parts.push_back(activity_.tap());
-    // Far enough for the fastest hand to stay inside the known ball until the next update: 1 m/s for 12 ms.
-    const double reach_m = 0.012 * parameters_of(state_, room_).workspace.object_from_device.scale + 2.0 * spacing_m();
-    scene_.emplace(std::move(parts),
-                   std::vector<scene::SceneHand>{{&haptics_.channels(), tool_object, around_m, reach_m}});
+    // Far enough for the fastest hand to stay inside the known ball until the next update: 1 m/s for 12 ms; the ends of
+    // a wand are swung as well, at 6 rad/s.
+    const double scale = parameters_of(state_, room_).workspace.object_from_device.scale;
+    const double reach_m = (wand_ ? 0.02 : 0.012) * scale + 2.0 * spacing_m();
+    spread_m_ = wand_spread_m();
+    scene_.emplace(std::move(parts), std::vector<scene::SceneHand>{
+                                         {&haptics_.channels(), tool_object, tool_around_m_ + spread_m_, reach_m}});
     news_.report_of(carved_ ? &*carved_ : nullptr, world_ ? &world_->part() : nullptr,
                     world_ ? &world_->materials() : nullptr, activity_.tap());
     return scene_->update(start_ns_);
@@ -228,14 +258,27 @@ SceneInput LiveSession::feed_panel(const FrameInput& input) {
 }
 
 scene::SceneThread::Order LiveSession::carving(sculpt::SculptOrder order) {
-    return [this, order = std::move(order)] {
+    return [this, order = std::move(order), spread_m = spread_m_] {
         if (carved_) carved_->order(order);
         const auto* use = std::get_if<sculpt::UseTool>(&order);
         if (use == nullptr) return;
-        const double around_m = carved_ ? carved_->around_m() : sculpt::around_m(use->tool);
-        scene_->use_probe(0, around_m);
-        if (world_) world_->part().grip_with(0, kGrips, around_m);
+        tool_around_m_ = carved_ ? carved_->around_m() : sculpt::around_m(use->tool);
+        scene_->use_probe(0, tool_around_m_ + spread_m);
+        if (world_) world_->part().grip_with(0, kGrips, tool_around_m_);
     };
+}
+
+// How far a wand's points are from the first of them, in the scene as large as it is shown now.
+double LiveSession::wand_spread_m() const {
+    return wand_ ? wand_->spread_m() * parameters_of(state_, room_).workspace.object_from_device.scale : 0.0;
+}
+
+// The scene has been scaled, or the motion: what is known around the first point has to reach the others.
+void LiveSession::follow_spread(const Give& give) {
+    const double spread_m = wand_spread_m();
+    if (spread_m == spread_m_) return;
+    spread_m_ = spread_m;
+    give([this, spread_m] { scene_->use_probe(0, tool_around_m_ + spread_m); });
 }
 
 scene::SceneThread::Order LiveSession::editing(WorldOrder order) {
@@ -252,6 +295,7 @@ void LiveSession::publish_parameters() {
 
 void LiveSession::carry_out(SessionOrders orders, const Give& give) {
     if (orders.parameters) publish_parameters();
+    if (orders.parameters && wand_) follow_spread(give);
     for (sculpt::SculptOrder& order : orders.carving) {
         if (const auto* use = std::get_if<sculpt::UseTool>(&order)) warn_of_misfit(use->tool);
         auto* wanted = std::get_if<sculpt::ExportSurface>(&order);
@@ -313,7 +357,8 @@ Vec3 LiveSession::lattice_origin_object() const {
 
 std::optional<renderer::Scene> LiveSession::scene_on(std::size_t screen) const {
     std::optional<renderer::Scene> scene = scene_of(state_, room_, screen, lattice_origin_object(), tool_);
-    if (scene && world_) scene->objects = world_->drawn().in_world(state_.world_from_object);
+    if (scene && world_)
+        std::ranges::move(world_->drawn().in_world(state_.world_from_object), std::back_inserter(scene->objects));
     if (scene) activity_.stage(*scene, screen);
     return scene;
 }

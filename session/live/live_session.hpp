@@ -134,6 +134,7 @@ public:
 private:
     LiveSession(Clock& clock, const SculptOptions& options, double pace);
     [[nodiscard]] Result<void> load(const SculptOptions& options, const SessionWall& wall);
+    [[nodiscard]] Result<void> hold_wand(const SculptOptions& options);
     [[nodiscard]] Result<void> load_workpiece(const SculptOptions& options);
     [[nodiscard]] Result<void> load_world(const SculptOptions& options);
     [[nodiscard]] Result<void> take_up_tool(const SculptOptions& options);
@@ -143,6 +144,8 @@ private:
     void publish_parameters();
     [[nodiscard]] scene::SceneThread::Order carving(sculpt::SculptOrder order);
     [[nodiscard]] scene::SceneThread::Order editing(WorldOrder order);
+    [[nodiscard]] double wand_spread_m() const;
+    void follow_spread(const Give& give);
     [[nodiscard]] double spacing_m() const { return carving_ ? carving_->surface().lattice().spacing_m : 0.0; }
     void take(sculpt::SurfaceUpdate news);
     void place(sculpt::ExportSurface& wanted) const;
@@ -169,6 +172,9 @@ private:
     ToolSizeRange tool_sizes_;
     bool warns_of_misfit_ = true, misfits_ = false;
     Room room_;
+    std::shared_ptr<const HeldWand> wand_;  // null: a stylus, or a wand that holds a tool
+    double spread_m_ = 0.0;                 // of its points, as the scene's thread has been told
+    double tool_around_m_ = 0.0;            // of the tool at each; the scene's thread's
     SessionState state_;
     haptics::ToolState tool_;
     Nanoseconds last_step_ns_ = 0;

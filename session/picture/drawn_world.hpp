@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The objects of a world as pictures show them: a mesh for each, where it is, and its colour. Objects with one mesh
-// share what is drawn of it.
+// share what is drawn of it; sheets are seen from both sides.
 // Frame: the scene's, metres. One thread, that of the frames.
 #pragma once
 

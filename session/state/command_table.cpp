@@ -204,6 +204,12 @@ Parsed parse_act(Arguments words) { return DoAct{{words.begin(), words.end()}}; 
 
 Parsed parse_select(Arguments words) { return SelectObject{words[0]}; }
 
+Parsed parse_calibrate(Arguments words) {
+    if (words.empty()) return CalibrateWand{};
+    if (words[0] == "reset") return CalibrateWand{.reset = true};
+    return no_argument("calibrate", words[0], "write calibrate, or calibrate reset");
+}
+
 template <Quantity quantity>
 Parsed parse_number_of(Arguments words) {
     return parse_quantity(descriptor_of(quantity), words[0]);
@@ -248,6 +254,8 @@ const std::vector<Entry>& entries() {
         {{"select", "NAME", "Show an object of the world on the panel"}, parse_select},
         {{"do", "ACT...", "Tell the activity something, as the buttons of its section do"}, parse_act},
         {{"show-force", "on|off", "Whether an arrow shows the force"}, parse_force_shown},
+        {{"calibrate", "[reset]", "Take the wand, now in its jig, for being where that is; or take that back"},
+         parse_calibrate},
         {{"catch-drill", "on|off", "Hold the tool where it is, to see the watch let the hand go"}, parse_catch_drill},
         {{"export", "FILE", "Write the mesh to a file"}, parse_export},
         {{"screenshot", "FILE", "Write a picture of the screen to a file"}, parse_screenshot},

@@ -125,10 +125,15 @@ struct DoAct {
     std::vector<std::string> words;
     bool operator==(const DoAct&) const = default;
 };
+// Takes the wand for being in its jig, or takes that back.
+struct CalibrateWand {
+    bool reset = false;
+    bool operator==(const CalibrateWand&) const = default;
+};
 
 using SessionCommand = std::variant<RunAction, SetTool, SetOperation, SetColour, SetMaterial, SetQuantity, SetTechnique,
                                     SetStereoMode, SetTestPattern, SetEyeSwap, SetForce, SetForceShown, SetCatchDrill,
-                                    ExportTo, ScreenshotTo, EditObject, SelectObject, DoAct>;
+                                    ExportTo, ScreenshotTo, EditObject, SelectObject, DoAct, CalibrateWand>;
 
 struct SessionState;
 

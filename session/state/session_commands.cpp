@@ -69,6 +69,7 @@ public:
         state_.selected = *id;
         return {};
     }
+    Result<void> operator()(const CalibrateWand& wanted);
     Result<void> operator()(const EditObject& wanted) {
         const WorldObjects none;
         Result<EditedWorld> edited = session::edited(state_.world ? *state_.world : none, wanted);
@@ -141,6 +142,17 @@ wall::StereoMode next_mode(wall::StereoMode mode) {
 
 haptics::WorkspaceTechnique next_technique(haptics::WorkspaceTechnique technique) {
     return techniques()[(static_cast<std::size_t>(technique) + 1) % techniques().size()].technique;
+}
+
+Result<void> Runner::operator()(const CalibrateWand& wanted) {
+    if (!state_.wand)
+        return fail("calibrate", "there is no wand", "open the session with --device simulated-wand and --points");
+    Result<WandCalibrated> done =
+        wanted.reset ? WandCalibrated{} : calibrated(state_.wand->wand, state_.wand_reads_device);
+    if (!done) return std::unexpected(done.error());
+    state_.device_from_read = done->device_from_read;
+    if (!done->message.empty()) orders_.messages.push_back({done->message, 0});
+    return update_touch();
 }
 
 Result<void> Runner::operator()(const SetQuantity& set) {

@@ -44,6 +44,7 @@ struct SculptOptions {
     sculpt::WorkpieceOptions workpiece;
     std::string world;          // a file of objects that are touched besides the workpiece, or without one; empty: none
     bool no_workpiece = false;  // with a world
+    std::string points;         // of a wand, that touch (devices::points_named); empty: the tool is held in its middle
     sculpt::ToolOptions tool;
     std::string stroke;      // a CSV file; empty: nothing is carved
     bool merge_rows = true;  // with a rigid hand: merge nearly straight runs of rows into one sweep

@@ -19,6 +19,7 @@ template <typename Options, typename Visit>
 void visit_settings(Options& o, Visit&& visit) {
     visit("--world", o.world);
     visit("--no-workpiece", o.no_workpiece);
+    visit("--points", o.points);
     visit("--workpiece", o.workpiece.source);
     visit("--units", o.workpiece.units);
     visit("--export-units", o.export_units);
@@ -35,6 +36,7 @@ void visit_settings(Options& o, Visit&& visit) {
     visit("--stiffness", o.feel.stiffness_N_per_m);
     visit("--friction", o.feel.friction);
     visit("--undo-memory", o.undo_memory_MiB);
+    visit("--device", o.live.device);
     visit("--wall", o.live.wall);
     visit("--stereo", o.live.stereo);
     visit("--swap-eyes", o.live.swap_eyes);
@@ -90,13 +92,18 @@ bool read(const std::string& text, std::optional<T>& value) {
     return read(text, value.emplace());
 }
 
+// The usual device is written by no recording: those from before there were others do not name it either.
+bool is_usual(const std::string& option, const std::string& value) {
+    return option == "--device" && value == devices::kDefaultHapticDevice;
+}
+
 using OptionWords = std::map<std::string, std::string>;
 
 // Returns the values of all options that are present, by option.
 OptionWords words_behind(const SculptOptions& options) {
     OptionWords words;
     visit_settings(options, [&](const char* name, const auto& value) {
-        if (const auto behind = text(value)) words.emplace(name, *behind);
+        if (const auto behind = text(value); behind && !is_usual(name, *behind)) words.emplace(name, *behind);
     });
     return words;
 }
@@ -151,7 +158,7 @@ std::string settings_line(const SculptOptions& options) {
     std::string line = kCommand;
     visit_settings(options, [&](const char* name, const auto& value) {
         const auto behind = text(value);
-        if (!behind) return;
+        if (!behind || is_usual(name, *behind)) return;
         line += std::string(" ") + name;
         if (!behind->empty()) line += " " + as_word(*behind);
     });
@@ -183,6 +190,7 @@ Result<RecordedOptions> options_as_recorded(const std::string& line, const Sculp
     if (!wrong.empty())
         return fail("the recording's first line", wrong + " is no option that a session knows",
                     "replay it with the program that recorded it");
+    if (recorded.options.live.device.empty()) recorded.options.live.device = devices::kDefaultHapticDevice;
     as_before_units(recorded.options);
     return recorded;
 }

@@ -39,15 +39,16 @@ Similarity place_workpiece(const Room& room) {
     const double share = room.covers_depth ? kWorldOnScreen : kHeightOnScreen;
     world_from_object.scale = share * height_m / size_m;
     world_from_object.orientation = world_from_screen(s);
-    const Vec3 place = s.lower_left_world + 0.5 * across + kAboveLowerEdge * upright -
-                       kBehindScreen * share * height_m * out;
+    const Vec3 place =
+        s.lower_left_world + 0.5 * across + kAboveLowerEdge * upright - kBehindScreen * share * height_m * out;
     const Vec3 middle = room.workpiece_object.center();
     world_from_object.position_m = place - world_from_object.scale * (world_from_object.orientation * middle);
     return world_from_object;
 }
 
 // Places the hand's workspace with its center at the workpiece's front, large enough to cover its width and height.
-Similarity place_workspace(const Room& room, const Similarity& world_from_object) {
+Similarity place_workspace(const Room& room, const Similarity& world_from_object, const HeldWand* held) {
+    if (held != nullptr) return world_from_object * object_from_device(*held, room.workpiece_object);
     const Vec3 size = room.workpiece_object.extent() * world_from_object.scale;
     const Vec3 needed = kWorkspaceCovers * size / room.workspace_device_m;
     Vec3 place = room.workpiece_object.center();
@@ -56,16 +57,22 @@ Similarity place_workspace(const Room& room, const Similarity& world_from_object
     return {world_from_object * place, world_from_object.orientation, std::max(needed.x, needed.y)};
 }
 
+// Returns where the hand rests: this far before the workspace's front.
+Vec3 resting_hand_device(const Room& room, const HeldWand* held, double before_front_m) {
+    const Vec3 front = held != nullptr ? held->front_device() : Vec3(0.0, 0.0, 1.0);
+    return (0.5 * glm::dot(glm::abs(front), room.workspace_device_m) - before_front_m) * front;
+}
+
 // Before a wall, moves the workpiece back or forth as far as its viewer's eyes require at the start.
 void move_into_comfort(SessionState& state, const Room& room) {
     if (room.wall.desk) return;
     const View sight = view_of(room.wall.setup, room.wall.main, state.head, state.interpupillary_m);
     if (!sight.visible) return;
     const double radius_m = 0.5 * state.world_from_object.scale * longest(room.workpiece_object.extent());
-    const Similarity world_from_device = place_workspace(room, state.world_from_object);
+    const Similarity world_from_device = place_workspace(room, state.world_from_object, state.wand.get());
     const std::array<wall::ContentBall, 2> content{
         {{state.world_from_object * room.workpiece_object.center(), radius_m},
-         {world_from_device * Vec3(0.0, 0.0, 0.5 * room.workspace_device_m.z), 0.2 * radius_m}}};  // the tool at rest
+         {world_from_device * resting_hand_device(room, state.wand.get(), 0.0), 0.2 * radius_m}}};  // the tool at rest
     const wall::ComfortFinding finding =
         wall::judge(room.wall.setup.budget, sight.screen, wall::eyes_of(sight.viewer), {content, {}});
     if (!finding.move_m) return;
@@ -99,11 +106,19 @@ DeskView view_of(const SessionState& state, const Room& room, const SessionView&
     view.world_m_per_px = screen_m_per_px;
     view.picture_px_per_px = picture_px_per_px(output_on(room.wall, room.wall.main, state.output).mode);
     view.world_from_screen = world_from_screen(screen);
+    // A wand's axes need not be the screen's.
+    if (state.wand) view.device_from_screen = state.wand->device_from_scene_turn() * view.device_from_screen;
     view.pivot_world = state.world_from_object * room.workpiece_object.center();
     view.scene_scale = state.world_from_object.scale / state.home_world_from_object.scale;
     view.mouse_captured = seen.captured.mouse;
     view.keyboard_captured = seen.captured.keyboard;
     return view;
+}
+
+// Returns the pose that the device read in the tick of a tool.
+Pose read_pose(const haptics::ToolState& tool) {
+    return {tool.position_device_m,
+            glm::conjugate(tool.workspace.object_from_device.orientation) * tool.orientation_object};
 }
 
 // Keeps a large box around the whole workpiece from dimming it.
@@ -119,8 +134,10 @@ Vec3 tool_colour(const SessionState& state) {
 }  // namespace
 
 SessionState begin_session(const Room& room, const sculpt::ToolSettings& tool, const sculpt::FeelSettings& feel,
-                           const wall::OutputSettings& output, std::shared_ptr<const ToolMeshes> meshes) {
+                           const wall::OutputSettings& output, std::shared_ptr<const ToolMeshes> meshes,
+                           std::shared_ptr<const HeldWand> wand) {
     SessionState state;
+    state.wand = std::move(wand);
     state.meshes = std::move(meshes);
     state.desk = desk_at_home(room.desk);
     state.head = follow_head({}, room.wall.setup, room.wall.setup.timing, {}, 0, state.desk.head_world);
@@ -128,9 +145,9 @@ SessionState begin_session(const Room& room, const sculpt::ToolSettings& tool, c
     state.world_from_object = place_workpiece(room);
     move_into_comfort(state, room);
     state.home_world_from_object = state.world_from_object;
-    state.world_from_device = place_workspace(room, state.world_from_object);
+    state.world_from_device = place_workspace(room, state.world_from_object, state.wand.get());
     // Let the hand rest in front of the workpiece.
-    state.desk.target_device_m.z = 0.5 * room.workspace_device_m.z - kClearsBorder_m;
+    state.desk.target_device_m = resting_hand_device(room, state.wand.get(), kClearsBorder_m);
     state.tool = tool;
     static_cast<void>(take_up(state));  // tool_of() says why it has none
     state.feel = feel;
@@ -150,6 +167,7 @@ Result<void> take_up(SessionState& state) {
 SessionStep step_session(SessionState state, const Room& room, std::span<const InputEvent> events,
                          const SessionView& view) {
     SessionStep step;
+    if (state.wand) state.wand_reads_device = read_pose(view.tool);
     DeskStep desk = step_desk(state.desk, events, view.dt_s, view_of(state, room, view), room.desk);
     state.desk = desk.state;
     const wall::StereoMode mode = output_on(room.wall, room.wall.main, state.output).mode;
@@ -192,6 +210,10 @@ haptics::TickParameters parameters_of(const SessionState& state, const Room& roo
     Similarity world_from_device = state.world_from_device;
     world_from_device.scale *= state.workspace_gain;
     p.workspace.object_from_device = inverse(state.world_from_object) * world_from_device;
+    if (state.wand) {
+        const Pose& read = state.device_from_read;
+        p.workspace.object_from_device = p.workspace.object_from_device * Similarity{read.position_m, read.orientation};
+    }
     p.workspace.workspace_device_m = room.workspace_device_m;
     p.workspace.reach_object = room.workpiece_object;
     const Vec3 around = Vec3(2.0 * radius_m) + 0.25 * room.workpiece_object.extent();
@@ -204,6 +226,8 @@ haptics::TickParameters parameters_of(const SessionState& state, const Room& roo
     p.action = state.carves ? sculpt::action_of(state.tool.operation) : haptics::ToolAction::touch;
     p.materials.fill(material_under_tool(state));
     if (state.world) state.world->materials.write(p.materials);
+    if (state.wand) state.wand->write(p, radius_m);
+    if (state.wand && !state.carves) p.clearance_ratio = 0.0;  // no groove has to be clear of the ball that cut it
     p.signals.force_alpha = state.force_filter;
     if (state.velocity_filter > 0.0) {
         p.signals.velocity = haptics::VelocityMethod::moving_average;
@@ -218,6 +242,9 @@ Result<sculpt::UseTool> tool_of(const SessionState& state) {
     const sculpt::ToolSettings& tool = state.tool;
     if (const auto good = sculpt::check_tool(tool); !good) return std::unexpected(good.error());
     if (const auto good = sculpt::check_feel(state.feel); !good) return std::unexpected(good.error());
+    if (state.wand && tool.shape.kind != sculpt::ToolKind::ball)
+        return fail("tool " + sculpt::text_of(tool.shape), "is no ball, and balls are at the points of a wand",
+                    "take a ball, tool ball:R; or leave --points out, and the wand holds the tool in its middle");
     const ToolMeshes none;
     Result<compute::ToolShape> shape = (state.meshes ? *state.meshes : none).shape_of(tool.shape);
     if (!shape) return std::unexpected(shape.error());
@@ -248,7 +275,9 @@ std::optional<renderer::Scene> scene_of(const SessionState& state, const Room& r
     Staging staging = staging_of(tool, tool_radius_m(state), room.workspace_device_m);
     staging.held = state.held;
     staging.contact_shown = state.force_shown;
+    staging.tool_visible = staging.tool_visible && !state.wand;
     stage(scene, staging, state.world_from_object);
+    if (state.wand) add_wand(scene, *state.wand, tool, tool_radius_m(state), state.world_from_object);
     scene.tool.colour = tool_colour(state);
     if (scene.box.face_opacity > kBoxOpacity) scene.box.face_opacity = kBoxOpacity;
     return scene;

@@ -20,6 +20,7 @@
 #include "session/input/input_wand.hpp"
 #include "session/state/command_table.hpp"
 #include "session/state/held_tool.hpp"
+#include "session/state/held_wand.hpp"
 #include "session/state/session_head.hpp"
 #include "session/state/session_screens.hpp"
 #include "session/state/world_objects.hpp"
@@ -36,6 +37,8 @@ struct SessionState {
     double interpupillary_m = 0.063;
     sculpt::ToolSettings tool;
     std::shared_ptr<const HeldTool> held;      // of tool.shape, after a step; null only where that cannot be made
+    std::shared_ptr<const HeldWand> wand;      // whose points touch, each as the tool's ball; null: the tool alone
+    Pose wand_reads_device, device_from_read;  // where the wand read to be last; its calibration
     std::shared_ptr<const ToolMeshes> meshes;  // that tools of files are taken from; null: there are none
     sculpt::FeelSettings feel;
     haptics::WorkspaceTechnique technique = haptics::WorkspaceTechnique::fixed;
@@ -93,7 +96,8 @@ struct Room {
 // Places the workpiece before the viewer and returns the first state.
 [[nodiscard]] SessionState begin_session(const Room& room, const sculpt::ToolSettings& tool,
                                          const sculpt::FeelSettings& feel, const wall::OutputSettings& output,
-                                         std::shared_ptr<const ToolMeshes> meshes = nullptr);
+                                         std::shared_ptr<const ToolMeshes> meshes = nullptr,
+                                         std::shared_ptr<const HeldWand> wand = nullptr);
 // Makes the tool of the settings ready to be held.
 [[nodiscard]] Result<void> take_up(SessionState& state);
 

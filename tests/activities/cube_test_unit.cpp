@@ -9,6 +9,7 @@
 
 #include "activities/wand/wand_view.hpp"
 #include "base/json.hpp"
+#include "devices/haptic/wand_choice.hpp"
 #include "scene/vrml_world.hpp"
 #include "tests/support/run_command.hpp"
 

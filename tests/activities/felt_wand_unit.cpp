@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "base/json.hpp"
+#include "devices/haptic/wand_choice.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::activities {

@@ -30,6 +30,18 @@ TEST(StrokeFile, ReadsRowsCommentsBlanksAndCarriageReturns) {
     EXPECT_TRUE((*stroke)[1].button);
 }
 
+TEST(StrokeFile, ReadsTurnsAsAxisAndAngle) {
+    const std::string header = "time_s,x_m,y_m,z_m,axis_x,axis_y,axis_z,angle_rad,button\n";
+    const auto stroke = parse_stroke(header + "0,1,2,3,0,0,5,1.5707963267948966,1\n1,1,2,3,0,0,0,0,0\n", "s.csv");
+    ASSERT_TRUE(stroke) << stroke.error().line();
+    const Vec3 turned = (*stroke)[0].orientation_object * Vec3(1.0, 0.0, 0.0);
+    EXPECT_LT(glm::length(turned - Vec3(0.0, 1.0, 0.0)), 1e-15) << "a quarter turn about z takes x to y";
+    EXPECT_TRUE((*stroke)[0].button);
+    EXPECT_EQ((*stroke)[1].orientation_object, Quat(1.0, 0.0, 0.0, 0.0)) << "no angle needs no axis";
+    EXPECT_NE(complaint(header + "0,0,0,0,0,0,0,1,0\n").find("s.csv:2: its axis has no length"), std::string::npos);
+    EXPECT_NE(complaint(header + "0,0,0\n").find("angle_rad"), std::string::npos) << "its own columns are named";
+}
+
 TEST(StrokeFile, NamesTheLineOfEveryKindOfMistake) {
     EXPECT_NE(complaint("").find("s.csv"), std::string::npos);
     EXPECT_NE(complaint("x,y\n").find("s.csv:1"), std::string::npos);

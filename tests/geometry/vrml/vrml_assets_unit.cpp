@@ -48,6 +48,20 @@ TEST(VrmlAssets, TheTubeHasItsPartsRadiusAndBox) {
     }
 }
 
+// A wand that slides from a funnel into the tube meets neither a gap nor a step.
+TEST(VrmlAssets, TheTubesEndRingsMeetItsFunnelsCornerByCorner) {
+    const VrmlWorld world = asset_world("tube.wrl");
+    ASSERT_EQ(world.shapes.size(), 5u);
+    const std::vector<Vec3> tube = mesh_in_world(world.shapes[0]).positions_m;
+    for (const std::size_t funnel : {1u, 3u}) {
+        const std::vector<Vec3> corners = mesh_in_world(world.shapes[funnel]).positions_m;
+        std::size_t met = 0;
+        for (const Vec3& corner : corners)
+            met += std::ranges::any_of(tube, [&](const Vec3& p) { return glm::length(p - corner) < 3e-6; }) ? 1u : 0u;
+        EXPECT_EQ(met, 32u) << world.shapes[funnel].name;
+    }
+}
+
 TEST(VrmlAssets, TheCapsAreClosedAndTheTubeIsFeltFromBothSides) {
     const VrmlWorld world = asset_world("tube.wrl");
     for (const VrmlShape& shape : world.shapes) {

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "devices/haptic/wand_choice.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include "base/text.hpp"
+#include "devices/haptic/wand_file.hpp"
+
+namespace burin::devices {
+namespace {
+
+// Returns so many points evenly from one to another; one alone is in the middle.
+std::vector<WandPoint> points_between(const Vec3& from_m, const Vec3& to_m, std::size_t count) {
+    std::vector<WandPoint> points;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double t = count > 1 ? static_cast<double>(i) / static_cast<double>(count - 1) : 0.5;
+        points.push_back({"point " + std::to_string(i + 1), from_m + t * (to_m - from_m)});
+    }
+    return points;
+}
+
+}  // namespace
+
+bool is_wand(std::string_view device) noexcept { return device.substr(0, device.find(':')) == kSimulatedWand; }
+
+Result<WandDescription> wand_named(std::string_view device) {
+    const std::size_t colon = device.find(':');
+    if (colon == std::string_view::npos || colon + 1 == device.size()) return WandDescription{};
+    return read_wand(device.substr(colon + 1));
+}
+
+Result<std::vector<WandPoint>> points_named(const WandDescription& wand, const std::string& text) {
+    constexpr const char* kWhere = "--points";
+    std::size_t count = 0;
+    const char* const end = text.data() + text.size();
+    if (const auto [stopped, failed] = std::from_chars(text.data(), end, count);
+        failed == std::errc() && stopped == end) {
+        if (count < 1 || count > kMostWandPoints)
+            return fail(kWhere, "is " + text, formatted("write a number from 1 to %zu", kMostWandPoints));
+        if (wand.points.empty()) return fail(kWhere, "the wand's description names no points", "give it [[point]]");
+        return points_between(wand.points.front().offset_m, wand.points.back().offset_m, count);
+    }
+    std::vector<std::string_view> known{"centre"};
+    for (const WandPoint& point : wand.points) known.push_back(point.name);
+    std::vector<WandPoint> points;
+    for (std::size_t at = 0; at <= text.size();) {
+        const std::size_t comma = std::min(text.find(',', at), text.size());
+        const std::string name = text.substr(at, comma - at);
+        at = comma + 1;
+        const auto found = std::ranges::find(wand.points, name, &WandPoint::name);
+        if (found == wand.points.end() && name != "centre")
+            return fail(kWhere, "the wand has no point named " + name,
+                        "did you mean " + std::string(nearest_name(name, known)) + "? There are: " + joined(known) +
+                            ", or a number of points");
+        points.push_back(found == wand.points.end() ? WandPoint{"centre", Vec3(0.0)} : *found);
+    }
+    if (points.size() > kMostWandPoints)
+        return fail(kWhere, formatted("names %zu points", points.size()),
+                    formatted("name at most %zu", kMostWandPoints));
+    return points;
+}
+
+}  // namespace burin::devices
