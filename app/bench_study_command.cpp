@@ -49,7 +49,7 @@ std::uintmax_t bytes_in(const fs::path& folder) {
 Result<Json> whole_study(const StudyBench& options, const std::string& protocol, bool records) {
     const fs::path folder =
         fs::path(options.folder) / formatted("bench-study-%d-%d", static_cast<int>(::getpid()), records ? 1 : 0);
-    if (const auto made = study::create_study(folder, protocol, options.seed, options.participants); !made)
+    if (const auto made = study::create_study(folder, protocol, {options.seed, options.participants, {}}); !made)
         return std::unexpected(made.error());
     Result<Json> figures = [&]() -> Result<Json> {
         auto study = study::StudyFolder::open(folder, study::StudyAccess::write);
@@ -94,7 +94,7 @@ Result<Json> ticks_alone(const study::Protocol& protocol, std::uint64_t seed) {
         const study::LearnerPopulation population;
         const study::Learner learner = study::draw_learner(population, false, random);
         const Stopwatch run;
-        const activities::SimulatedStage went = activities::simulate_stage(
+        const activities::EndedStage went = activities::simulate_stage(
             {protocol, stage, protocol.groups.front(), felt->get(), learner, population}, random, {});
         const double took_s = run.seconds();
         rows.push_back({{"stage", stage.name},

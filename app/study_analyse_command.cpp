@@ -120,7 +120,8 @@ Result<void> study_analyse(const StudyAnalyseOptions& asked) {
                                                            {.data = fs::path(options.data).filename().string(),
                                                             .program = std::string("Burin ") + BURIN_VERSION,
                                                             .facts = options.facts,
-                                                            .sections = options.sections})});
+                                                            .sections = options.sections,
+                                                            .title = options.title})});
         if (const auto ok = write_folder(out, files); !ok) return ok;
     }
     return write_output(options.json, json_text(json));

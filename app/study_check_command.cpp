@@ -29,6 +29,10 @@ Result<void> check_folder(const std::string& folder) {
     if (!study) return std::unexpected(study.error());
     warn_of_journal(*study);
     std::size_t faults = study->journal().faults.size(), files = 0;
+    if (const auto ok = study->check_allocation(); !ok) {
+        ++faults;
+        std::fprintf(stderr, "%s\n", ok.error().line().c_str());
+    }
     for (const study::Participant& p : study->participants()) {
         for (const study::StageVisit& visit : p.visits) {
             if (p.erased || visit.status != study::StageStatus::ended) continue;

@@ -25,23 +25,30 @@ void StudyCommand::add_folder() {
     constexpr const char* kStudy = "The study's folder";
     StudyInitOptions& i = options_->init;
     init_ = command_.subcommand("init", "Makes a study's folder of a protocol: frozen, with its allocation");
-    init_.option("STUDY", i.study, "A new folder").required();
-    init_.option("--protocol", i.protocol, "TOML; see docs/study.md").required();
+    init_.option("PLACES", i.places, "PROTOCOL STUDY: a TOML file (docs/study.md) or kinesthetic-path; a new folder")
+        .required();
+    init_.option("--protocol", i.protocol, "The protocol, where only STUDY is named before");
     init_.option("--participants", i.participants, "Places of each stratum's list")
         .within(std::uint64_t{1}, std::uint64_t{10'000})
         .show_default();
-    init_.option("--seed", i.seed, "Of the allocation, and of simulated learners").show_default();
+    init_.option("--seed", i.seed, "Of the allocation and of simulated learners; with people leave it out");
+    init_.option("--key", i.key, "A new file for the key of the sealed allocation, to be kept by who does not enrol");
     check_ = command_.subcommand("check", "Every fault of a protocol, or of a study's folder");
     check_.option("PLACE", options_->checked, "A protocol (.toml) or a study's folder").required();
     StudyEnrolOptions& e = options_->enrol;
     enrol_ = command_.subcommand("enrol", "Gives a participant the next place of the allocation");
     enrol_.option("STUDY", e.study, kStudy).required();
     enrol_.option("ID", e.id, "A code such as p07, never a name").required();
+    enrol_.option("--key", e.key, "The allocation's key, where it is not in the folder");
     enrol_.option("--codes", e.codes, "One code of each stratum, in the protocol's order");
     StudyRunOptions& r = options_->run;
     run_ = command_.subcommand("run", "Takes the participants through the protocol, from where the journal ends");
     run_.option("STUDY", r.study, kStudy).required();
     run_.flag("--simulated", r.simulated, "Simulated learners with a simulated wand fill all places; no window");
+    run_.option("--participant", r.participant,
+                "Takes one participant, who is enrolled, through the next day's stages");
+    run_.option("--input", r.input, "A script of the operator and of the hand, in simulated time; see docs/study.md");
+    run_.option("--key", r.key, "The allocation's key, where it is not in the folder");
     run_.option("--threads", r.threads, "People at a time; 0: one for each core; the result is the same")
         .within(0, 1024);
     run_.flag("--without-motion", r.without_motion, "Keep what is measured, but not the motion; replay needs that");

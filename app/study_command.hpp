@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // burin study: a study from its protocol to its report (docs/study.md), and the figures of one.
-//   burin study init STUDY --protocol FILE.toml --participants N [--seed S]
+//   burin study init PROTOCOL STUDY --participants N [--seed S] [--key FILE]
 //   burin study check FILE.toml | STUDY
-//   burin study enrol STUDY ID [--codes CODE...]
+//   burin study enrol STUDY ID [--codes CODE...] [--key FILE]
 //   burin study run STUDY --simulated [--effect D] [--threads N] [--without-motion | --pictures]
+//   burin study run STUDY --participant ID --input SCRIPT [--resume] [--without-motion | --pictures]
 //   burin study replay STUDY
 //   burin study status STUDY
 //   burin study withdraw STUDY ID [--erase]
@@ -55,6 +56,7 @@ struct StudyAnalyseOptions {
     std::string out;        // a folder that does not exist yet; empty: none
     std::uint64_t seed = 1;
     std::vector<std::string> facts;  // whole sentences about the study for the report
+    std::string title;               // of the study; empty: the file's name
     std::vector<study::ReportSection> sections;
 };
 // Lists every fault of the inputs and fails, or analyses. The folder is written whole or not at all.
@@ -77,9 +79,11 @@ struct StudyPowerOptions {
 // ---- the folder of a study (study_NAME_command.cpp each)
 
 struct StudyInitOptions {
-    std::string study, protocol;
-    unsigned participants = 10;  // places in each stratum's list
-    std::uint64_t seed = 1;
+    std::vector<std::string> places;  // PROTOCOL STUDY, or STUDY with `protocol`
+    std::string protocol;
+    unsigned participants = 10;    // places in each stratum's list
+    std::optional<unsigned> seed;  // nothing: drawn
+    std::string key;               // a new file; empty: into the folder
 };
 // Lists every fault of the protocol and fails, or makes the folder.
 [[nodiscard]] Result<void> study_init(const StudyInitOptions& options);
@@ -88,13 +92,14 @@ struct StudyInitOptions {
 [[nodiscard]] Result<void> study_check(const std::string& place);
 
 struct StudyEnrolOptions {
-    std::string study, id;
+    std::string study, id, key;
     std::vector<std::string> codes;
 };
 [[nodiscard]] Result<void> study_enrol(const StudyEnrolOptions& options);
 
 struct StudyRunOptions {
-    std::string study;
+    std::string study, key;
+    std::string participant, input;  // one participant by a script; empty: simulated learners
     bool simulated = false, without_motion = false, pictures = false, resume = false;
     double effect = 0.0;
     unsigned threads = 0;  // 0: one for each core

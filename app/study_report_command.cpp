@@ -28,6 +28,7 @@ Result<void> study_report(const std::string& folder) {
     const auto study = study::StudyFolder::open(folder, study::StudyAccess::read);
     if (!study) return std::unexpected(study.error());
     options.sections = report_sections(*study);
+    options.title = study->protocol().title.empty() ? study->protocol().name : study->protocol().title;
     for (const std::string& fact : made->facts) std::printf("%s\n", fact.c_str());
     std::printf("\n");
     if (const auto ok = study_analyse(options); !ok) return ok;

@@ -2,26 +2,36 @@
 #include <chrono>
 #include <cstdio>
 
+#include "activities/train/scripted_visit.hpp"
 #include "activities/train/simulated_study.hpp"
 #include "app/study_command.hpp"
 #include "app/study_pictures.hpp"
 #include "app/study_trials.hpp"
+#include "base/file_io.hpp"
 #include "study/folder/interruption.hpp"
 
 namespace burin::app {
+namespace {
 
-Result<void> study_run(const StudyRunOptions& options) {
-    if (!options.simulated)
-        return fail("burin study run", "takes only simulated learners through a study so far", "add --simulated");
+constexpr std::uint64_t kMostScriptBytes = std::uint64_t{16} << 20;
+
+Result<void> check_usage(const StudyRunOptions& options) {
+    constexpr const char* kRun = "burin study run";
+    if (options.simulated == !options.participant.empty())
+        return fail(kRun, "takes simulated learners, or one participant, through a study",
+                    "add --simulated, or --participant ID");
     if (options.pictures && options.without_motion)
-        return fail("burin study run", "--pictures are drawn from the motion that --without-motion leaves out",
+        return fail(kRun, "--pictures are drawn from the motion that --without-motion leaves out",
                     "give one of the two");
-    auto study = study::StudyFolder::open(options.study, study::StudyAccess::write);
-    if (!study) return std::unexpected(study.error());
-    warn_of_journal(*study);
-    if (!options.resume) {
-        if (const auto ok = study::check_resumption(*study, study::now_utc_ns()); !ok) return ok;
-    }
+    if (!options.participant.empty() && options.input.empty())
+        return fail(kRun, "takes a participant through a study only by a script so far, in simulated time",
+                    "add --input SCRIPT; docs/study.md says what stands in it");
+    if (options.simulated && !options.input.empty())
+        return fail(kRun, "simulated learners need no script", "give --participant ID with --input");
+    return {};
+}
+
+Result<void> take_learners(study::StudyFolder& study, const StudyRunOptions& options) {
     std::printf("Simulated learners: no person and no device; hand and wand are simulated; effect %g SD.\n",
                 options.effect);
     activities::SimulationOptions simulation;
@@ -33,7 +43,7 @@ Result<void> study_run(const StudyRunOptions& options) {
         std::fflush(stdout);
     };
     const auto begun = std::chrono::steady_clock::now();
-    const auto went = activities::run_simulated(*study, simulation);
+    const auto went = activities::run_simulated(study, simulation);
     if (!went) return std::unexpected(went.error());
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
     const auto made = make_trials(options.study);
@@ -41,6 +51,66 @@ Result<void> study_run(const StudyRunOptions& options) {
     std::printf("%zu stages, %.0f s of simulated time in %.1f s, %.0f times real time; %s/trials.csv: %zu trials\n",
                 went->stages, went->simulated_s, took.count(), went->simulated_s / took.count(), options.study.c_str(),
                 made->trials);
+    return {};
+}
+
+// Prints a line of the operator's panel whenever another stage or phase begins.
+class OperatorLog {
+public:
+    void at(double time_s, const activities::TrainingShown& shown) {
+        for (const activities::RunEvent& event : shown.events)
+            std::printf("%9.3f s  %s: %s\n", time_s, event.name.c_str(), event.value.c_str());
+        std::string now;
+        for (const activities::PanelRow& row : shown.rows)
+            if (row.name == "stage" || row.name == "now") now += (now.empty() ? "" : "; ") + row.value;
+        if (now == last_) return;
+        last_ = now;
+        std::printf("%9.3f s  %s\n", time_s, now.c_str());
+    }
+
+private:
+    std::string last_;
+};
+
+Result<void> take_participant(study::StudyFolder& study, const StudyRunOptions& options) {
+    const auto text = read_text_file(options.input, kMostScriptBytes);
+    if (!text) return std::unexpected(text.error());
+    const auto script = activities::parse_visit_script(*text, options.input);
+    if (!script) return std::unexpected(script.error());
+    std::printf("%s by a script, in simulated time: hand and wand are simulated.\n", options.participant.c_str());
+    activities::VisitOptions visit;
+    visit.records = !options.without_motion;
+    visit.any_delay = options.resume;
+    OperatorLog log;
+    visit.on_frame = [&](double time_s, const activities::TrainingShown& shown,
+                         const activities::TrainingRun&) -> Result<void> {
+        log.at(time_s, shown);
+        return {};
+    };
+    const auto went = activities::run_scripted_visit(study, options.participant, *script, visit);
+    if (!went) return std::unexpected(went.error());
+    std::printf("%zu stages ended in %.1f s of simulated time, %llu ticks; %zu of the day are left%s\n", went->stages,
+                went->simulated_s, static_cast<unsigned long long>(went->ticks), went->left,
+                went->interrupted ? "; the script ended within a stage, which is to be done again" : "");
+    // Without a valid trial yet there is no table.
+    if (const auto made = make_trials(options.study))
+        std::printf("%s/trials.csv: %zu trials\n", options.study.c_str(), made->trials);
+    return {};
+}
+
+}  // namespace
+
+Result<void> study_run(const StudyRunOptions& options) {
+    if (const auto ok = check_usage(options); !ok) return ok;
+    auto study = study::StudyFolder::open(options.study, study::StudyAccess::write);
+    if (!study) return std::unexpected(study.error());
+    warn_of_journal(*study);
+    study->use_key(options.key);
+    if (!options.resume) {
+        if (const auto ok = study::check_resumption(*study, study::now_utc_ns()); !ok) return ok;
+    }
+    const auto went = options.simulated ? take_learners(*study, options) : take_participant(*study, options);
+    if (!went) return went;
     return options.pictures ? draw_stages(*study) : Result<void>();
 }
 

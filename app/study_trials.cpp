@@ -45,7 +45,7 @@ std::vector<study::TrialRow> rows_of(const study::StudyFolder& study) {
 std::vector<std::string> study_facts(const study::StudyFolder& study) {
     const std::vector<Participant> people = study.participants();
     const std::size_t stages = study::places_of(study.protocol()).size();
-    std::size_t finished = 0, withdrawn = 0, simulated = 0, aborted = 0, invalid = 0;
+    std::size_t finished = 0, withdrawn = 0, simulated = 0, aborted = 0, invalid = 0, scripted = 0;
     for (const Participant& p : people) {
         std::size_t ended = 0;
         for (const StageVisit& v : p.visits) {
@@ -58,6 +58,7 @@ std::vector<std::string> study_facts(const study::StudyFolder& study) {
         finished += !p.withdrawn && ended >= stages ? 1 : 0;
         withdrawn += p.withdrawn ? 1 : 0;
         simulated += p.simulated ? 1 : 0;
+        scripted += p.device == study::StudyFolder::kScriptedDevice ? 1 : 0;
     }
     std::vector<std::string> facts;
     if (simulated > 0)
@@ -65,8 +66,15 @@ std::vector<std::string> study_facts(const study::StudyFolder& study) {
             "%zu of %zu participants are simulated learners: no person took part, hand and wand are simulated; "
             "effect %g SD.",
             simulated, people.size(), study.simulated_effect().value_or(0.0)));
-    facts.push_back("Protocol " + study.protocol().name + ", SHA-256 " + study.facts().protocol_digest + ", seed " +
-                    std::to_string(study.facts().seed) + ".");
+    if (scripted > 0)
+        facts.push_back(
+            formatted("%zu of %zu participants went through by a script: no person took part, the hand is "
+                      "scripted and the wand simulated.",
+                      scripted, people.size()));
+    facts.push_back("Protocol " + study.protocol().name + ", SHA-256 " + study.facts().protocol_digest + ", " +
+                    (study.facts().seed_given ? "allocation by seed " + std::to_string(study.facts().seed)
+                                              : "allocation drawn by the system's randomness") +
+                    ", sealed.");
     facts.push_back(formatted("Participants: %zu enrolled, %zu went through all %zu stages, %zu withdrew.",
                               people.size(), finished, stages, withdrawn));
     for (const study::Group& g : study.protocol().groups) {
@@ -96,7 +104,9 @@ Result<TrialsMade> make_trials(const std::string& folder) {
     warn_of_journal(*study);
     const std::vector<study::TrialRow> rows = rows_of(*study);
     if (rows.empty()) return fail(folder, "has no valid outcome trial yet", "run it first: burin study run");
-    const bool simulated = std::ranges::any_of(study->participants(), &Participant::simulated);
+    const bool simulated = std::ranges::any_of(study->participants(), [](const Participant& p) {
+        return p.simulated || p.device == study::StudyFolder::kScriptedDevice;
+    });
     const std::string path = (study->path() / "trials.csv").string();
     if (const auto ok = write_text(path, study::trials_csv(rows, simulated)); !ok) return std::unexpected(ok.error());
     return TrialsMade{rows.size(), study_facts(*study)};

@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-#include "activities/train/held_wand.hpp"
-#include "study/people/recorded_trial.hpp"
+#include "devices/haptic/simulated_wand.hpp"
 
 namespace burin::activities {
 namespace {
@@ -13,11 +12,12 @@ using study::OperatorAct;
 
 constexpr Nanoseconds kPeriod_ns = 1'000'000;
 constexpr double kLongestStage_s = 4.0 * 3600.0;  // then the operator stops it
+constexpr double kLimpDamping = 0.5;              // of the grip's, in a hand that gives way
 
 // Only the time of a page passes: a tick a second, and one at its end.
-SimulatedStage page(const StageInputs& in) {
+EndedStage page(const StageInputs& in) {
     const study::StageSetup setup = study::setup_of(in.protocol, in.stage);
-    SimulatedStage made;
+    EndedStage made;
     double time_s = 0.0;
     while (made.end.phase != study::StagePhase::done) {
         const bool ends = !in.stage.ends_after_s && time_s >= study::kOperatorWaits_s;
@@ -33,45 +33,55 @@ SimulatedStage page(const StageInputs& in) {
     return made;
 }
 
-devices::HandTarget target_of(const study::StageTouch& touch, const study::HandWish& wish, const Vec3& velocity) {
-    devices::HandTarget target;
-    target.position_device_m = touch.place_at_device(wish.middle_m);
-    target.velocity_device_m_per_s = velocity;
-    target.orientation_device = wish.orientation;
-    return target;
+devices::HandGrip limp_grip() {
+    devices::HandGrip grip;
+    grip.stiffness_N_per_m = grip.torsion_Nm_per_rad = 0.0;
+    grip.damping_Ns_per_m *= kLimpDamping;
+    grip.angular_damping_Nms_per_rad *= kLimpDamping;
+    return grip;
+}
+
+// From a place in the world to where the hand means to be a period later.
+devices::HandDirection direction_of(const study::StageTouch& touch, const Vec3& from_m, const study::HandWish& wish,
+                                    double since_s) {
+    devices::HandDirection direction;
+    direction.since_s = since_s;
+    const Vec3 from_device_m = touch.place_at_device(from_m);
+    direction.target.position_device_m = from_device_m;
+    direction.target.orientation_device = wish.orientation;
+    if (wish.gives_way)
+        direction.grip = limp_grip();
+    else
+        direction.target.velocity_device_m_per_s =
+            (touch.place_at_device(wish.middle_m) - from_device_m) / seconds(kPeriod_ns);
+    return direction;
 }
 
 }  // namespace
 
-SimulatedStage simulate_stage(const StageInputs& in, study::Random& random, const OnStageTick& on_tick) {
+EndedStage simulate_stage(const StageInputs& in, study::Random& random, const OnStageTick& on_tick) {
     if (in.world == nullptr) return page(in);
     study::StageSession session(in.protocol, in.stage, in.group, *in.world);
     study::LearnerHand hand(in.protocol, in.stage, in.world->world(), in.learner, in.population,
                             session.touch().leads(), random);
     study::HandWish wish = hand.next(session.state(), 0.0);
-    HeldWand wand(session.touch().device(), target_of(session.touch(), wish, Vec3(0.0)));
+    devices::HandDirection direction = direction_of(session.touch(), wish.middle_m, wish, 0.0);
+    SimulatedClock clock;
+    clock.sleep_until(kNanosecondsPerSecond);  // a loop's clock is never 0
+    devices::SimulatedWand wand(devices::DirectedHand(direction), session.touch().wand(), &clock);
     while (!session.done()) {
         const devices::DeviceSample sample = wand.read();
         const OperatorAct act = session.time_s() > kLongestStage_s ? OperatorAct::stop : wish.act;
-        const haptics::TickRecord& record = session.take(sample, sample.time_ns, act);
+        const haptics::TickRecord& record = session.take(sample, clock.now_ns(), act);
         wand.write(record.gate.given);
         if (on_tick) on_tick(record, act);
-        // From where the hand meant to be to where it means to be, over the next period.
+        if (wand.tripped()) wand.enable_amplifiers();  // the operator sees to it at once; the attempt is lost
         const Vec3 from_m = wish.middle_m;
         wish = hand.next(session.state(), session.time_s() + seconds(kPeriod_ns));
-        study::HandWish begins = wish;
-        begins.middle_m = from_m;
-        wand.hold(target_of(session.touch(), begins, (wish.middle_m - from_m) / seconds(kPeriod_ns)), wish.gives_way);
-        wand.advance(kPeriod_ns);
+        direction = direction_of(session.touch(), from_m, wish, seconds(wand.time_ns()));
+        clock.sleep_until(clock.now_ns() + kPeriod_ns);
     }
-    SimulatedStage made{session.state(), session.events(), {}, session.ticks(), session.time_s()};
-    if (in.stage.kind == study::StageKind::trial) {
-        made.record = study::trial_record(in.world->world(), session.state(), session.events(),
-                                          study::touch_by_model(in.protocol, in.stage, *in.world, session.attempt()));
-    } else {
-        made.record = study::forces_record(session.forces());
-    }
-    return made;
+    return ended_stage(in.protocol, in.stage, *in.world, session);
 }
 
 }  // namespace burin::activities

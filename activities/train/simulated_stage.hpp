@@ -9,8 +9,7 @@
 
 #include <functional>
 
-#include "base/json.hpp"
-#include "study/felt/stage_session.hpp"
+#include "activities/train/ended_stage.hpp"
 #include "study/people/learner.hpp"
 
 namespace burin::activities {
@@ -25,17 +24,9 @@ struct StageInputs {
     const study::LearnerPopulation& population;
 };
 
-struct SimulatedStage {
-    study::StageState end;
-    std::vector<study::StageEvent> events;
-    Json record;  // of a trial, its metrics; of another stage with a world, the forces; null: nothing
-    std::uint64_t ticks = 0;
-    double duration_s = 0.0;
-};
-
 // Called after each tick with a world, in order; `act` is what the operator did in it.
 using OnStageTick = std::function<void(const haptics::TickRecord&, study::OperatorAct act)>;
 
-[[nodiscard]] SimulatedStage simulate_stage(const StageInputs& in, study::Random& random, const OnStageTick& on_tick);
+[[nodiscard]] EndedStage simulate_stage(const StageInputs& in, study::Random& random, const OnStageTick& on_tick);
 
 }  // namespace burin::activities

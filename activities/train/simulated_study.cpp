@@ -38,22 +38,10 @@ Result<void> enrol_learners(study::StudyFolder& study) {
     return {};
 }
 
-using Worlds = std::map<std::string, std::unique_ptr<const study::FeltWorld>>;
-
-Result<Worlds> worlds_of(const study::Protocol& protocol) {
-    Worlds worlds;
-    for (const study::StudyWorld& world : protocol.worlds) {
-        auto felt = study::FeltWorld::create(world);
-        if (!felt) return std::unexpected(felt.error());
-        worlds[world.name] = std::move(*felt);
-    }
-    return worlds;
-}
-
 // Shares the folder among the threads, one of which writes at a time, and counts how far all of them have come.
 class SharedStudy {
 public:
-    SharedStudy(study::StudyFolder& study, const Worlds& worlds, const SimulationOptions& options)
+    SharedStudy(study::StudyFolder& study, const FeltWorlds& worlds, const SimulationOptions& options)
         : study_(study), worlds_(worlds), options_(options), people_(study.participants()) {
         population_.effect = options.effect;
     }
@@ -134,8 +122,8 @@ private:
         return 0.0;
     }
 
-    Result<SimulatedStage> go_through(const study::Participant& person, const study::StagePlace& at,
-                                      const study::Learner& learner, study::Random& random, double clock_s) {
+    Result<EndedStage> go_through(const study::Participant& person, const study::StagePlace& at,
+                                  const study::Learner& learner, study::Random& random, double clock_s) {
         const study::Protocol& protocol = study_.protocol();
         const auto world = worlds_.find(at.stage->world);
         const auto group = std::ranges::find(protocol.groups, person.group, &study::Group::code);
@@ -157,10 +145,9 @@ private:
             if (!made) return std::unexpected(made.error());
             recording = std::move(*made);
         }
-        SimulatedStage stage =
-            simulate_stage(in, random, [&](const haptics::TickRecord& record, study::OperatorAct act) {
-                if (recording) recording->take(record, act);
-            });
+        EndedStage stage = simulate_stage(in, random, [&](const haptics::TickRecord& record, study::OperatorAct act) {
+            if (recording) recording->take(record, act);
+        });
         if (recording) {
             if (const auto closed = recording->close(); !closed) return std::unexpected(closed.error());
         }
@@ -172,7 +159,7 @@ private:
     }
 
     study::StudyFolder& study_;
-    const Worlds& worlds_;
+    const FeltWorlds& worlds_;
     const SimulationOptions& options_;
     std::vector<study::Participant> people_;
     study::LearnerPopulation population_;
@@ -187,7 +174,7 @@ private:
 Result<SimulationFigures> run_simulated(study::StudyFolder& study, const SimulationOptions& options) {
     if (const auto ok = study.begin_simulation(options.effect); !ok) return std::unexpected(ok.error());
     if (const auto ok = enrol_learners(study); !ok) return std::unexpected(ok.error());
-    const auto worlds = worlds_of(study.protocol());
+    const auto worlds = felt_worlds(study.protocol());
     if (!worlds) return std::unexpected(worlds.error());
     SharedStudy shared(study, *worlds, options);
     const unsigned cores = std::max(1u, std::thread::hardware_concurrency());

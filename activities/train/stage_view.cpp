@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "activities/train/stage_view.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -10,9 +11,7 @@
 namespace burin::activities {
 namespace {
 
-constexpr double kBall_m = 0.006, kRod_m = 0.0022, kHandle_m = 0.159;
-constexpr scene::Colour kTubeFree{70, 170, 90}, kTubeTouched{205, 60, 50}, kFunnel{150, 160, 190},
-    kCapFree{128, 128, 128}, kCapTouched{60, 180, 80};
+constexpr double kBall_m = 0.006, kRod_m = 0.0022;
 const Vec3 kRed{0.80, 0.12, 0.10}, kGreen{0.10, 0.60, 0.18}, kRodGrey{0.25, 0.25, 0.28};
 constexpr std::uint32_t kRound = 24;
 
@@ -70,48 +69,20 @@ void stand_back(renderer::Scene& scene) {
     head = middle + kFarther * (head - middle);
 }
 
-bool is_in(const study::CapBox& cap, const StageMoment& moment) {
-    return study::inside(cap, moment.points_m[0], moment.points_m[0]) &&
-           study::inside(cap, moment.points_m[1], moment.points_m[1]);
-}
-
 }  // namespace
-
-StageMoment moment_of(const study::FeltWorld& world, const study::StageSession& session,
-                      const haptics::TickRecord& record) {
-    StageMoment moment;
-    moment.points_m = session.touch().points_m(record.sample);
-    moment.orientation = record.sample.orientation_device;
-    moment.time_s = session.time_s();
-    for (std::uint32_t i = 0; i < record.contact.point_count; ++i) {
-        const std::uint32_t triangle = record.contact.points[i].active_triangle;
-        moment.touches_wall = moment.touches_wall || (triangle != haptics::kNoTriangle &&
-                                                      world.surface().material(triangle) == study::kTubeMaterial);
-    }
-    moment.start_touched = is_in(study::start_cap(world.world()), moment);
-    moment.end_touched = is_in(study::end_cap(world.world()), moment);
-    return moment;
-}
 
 StageView::StageView(const study::FeltWorld& world, const study::Protocol& protocol, const study::Stage& stage,
                      const study::Group& group)
     : world_(world),
-      sees_tube_(stage.sees_world && group.sees_tube && stage.kind != study::StageKind::show_model),
-      sees_wand_(stage.sees_wand),
+      stage_(stage),
+      group_(group),
       shows_path_(stage.kind == study::StageKind::led_training && !group.feels_tube),
       lead_m_per_s_(protocol.lead_m_per_s),
       point_offset_m_(protocol.point_offset_m),
       view_(world.part(), world.objects(), kBall_m),
       ball_(ball_mesh()),
       rod_(turned(
-          {{0.0, -0.5 * kHandle_m}, {kRod_m, -0.5 * kHandle_m}, {kRod_m, 0.5 * kHandle_m}, {0.0, 0.5 * kHandle_m}})) {}
-
-void StageView::show(scene::ObjectId id, bool seen, scene::Colour colour) {
-    const Pose& pose = world_.part().pose(id);
-    const std::array update{scene::ObjectUpdate{
-        id, {pose.position_m, pose.orientation, 1.0}, seen, colour, pose, scene::FixedMotion{}, 1.0}};
-    view_.take(update);
-}
+          {{0.0, -point_offset_m_}, {kRod_m, -point_offset_m_}, {kRod_m, point_offset_m_}, {0.0, point_offset_m_}})) {}
 
 renderer::Scene StageView::scene(StageMoment moment) {
     if (shows_path_) {
@@ -119,19 +90,21 @@ renderer::Scene StageView::scene(StageMoment moment) {
         const Vec3 up{0.0, point_offset_m_, 0.0};
         moment = {{place + up, place - up}, {1.0, 0.0, 0.0, 0.0}, false, false, false, moment.time_s};
     }
-    for (const scene::ObjectId id : world_.objects()) {
-        switch (id) {
-            case study::kTubeObject: show(id, false, kTubeFree); break;
-            case study::kSeenTubeObject: show(id, sees_tube_, moment.touches_wall ? kTubeTouched : kTubeFree); break;
-            case study::kStartCapObject: show(id, true, moment.start_touched ? kCapTouched : kCapFree); break;
-            case study::kEndCapObject: show(id, true, moment.end_touched ? kCapTouched : kCapFree); break;
-            default: show(id, true, kFunnel); break;
-        }
+    for (const ShownObject& one : shown_objects(world_, stage_, group_, moment)) {
+        const Pose& pose = world_.part().pose(one.id);
+        const std::array update{scene::ObjectUpdate{one.id,
+                                                    {pose.position_m, pose.orientation, 1.0},
+                                                    one.seen,
+                                                    one.colour,
+                                                    pose,
+                                                    scene::FixedMotion{},
+                                                    one.opacity}};
+        view_.take(update);
     }
     renderer::Scene scene = view_.close_scene({});
     scene.pedestal.visible = false;
     stand_back(scene);
-    if (sees_wand_) add_wand(scene, moment);
+    if (stage_.sees_wand) add_wand(scene, moment);
     return scene;
 }
 

@@ -49,14 +49,16 @@ SimulatedOmni::SimulatedOmni(OmniHand hand, const OmniModel& model, Clock* clock
     last_sample_ = honest_sample();
 }
 
-// Uses get_if instead of visit, which could throw. A variant of two types whose moves do not throw always holds one.
+// Uses get_if instead of visit, which could throw. A variant of types whose moves do not throw always holds one.
 HandTarget SimulatedOmni::hand_target(double time_s) noexcept {
     if (const auto* scripted = std::get_if<SimulatedHand>(&hand_)) return scripted->target(time_s);
+    if (const auto* directed = std::get_if<DirectedHand>(&hand_)) return directed->target(time_s);
     return std::get_if<SteeredHand>(&hand_)->target(time_s);
 }
 
 const HandGrip& SimulatedOmni::grip() const noexcept {
     if (const auto* scripted = std::get_if<SimulatedHand>(&hand_)) return scripted->grip();
+    if (const auto* directed = std::get_if<DirectedHand>(&hand_)) return directed->grip();
     return std::get_if<SteeredHand>(&hand_)->grip();
 }
 

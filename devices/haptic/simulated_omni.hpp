@@ -17,6 +17,7 @@
 #include <array>
 #include <variant>
 
+#include "devices/hand/directed_hand.hpp"
 #include "devices/hand/simulated_hand.hpp"
 #include "devices/hand/steered_hand.hpp"
 #include "devices/haptic/haptic_device.hpp"
@@ -44,7 +45,7 @@ enum class InjectedFault : std::uint8_t {
 };
 
 // The hand that holds the stylus.
-using OmniHand = std::variant<SimulatedHand, SteeredHand>;
+using OmniHand = std::variant<SimulatedHand, SteeredHand, DirectedHand>;
 
 class SimulatedOmni final : public HapticDevice {
 public:

@@ -78,14 +78,16 @@ SimulatedWand::SimulatedWand(OmniHand hand, WandDescription wand, Clock* clock)
     last_sample_.orientation_device = pose_.orientation;
 }
 
-// A variant of two types whose moves do not throw always holds one; visit could throw.
+// A variant of types whose moves do not throw always holds one; visit could throw.
 HandTarget SimulatedWand::hand_target(double time_s) noexcept {
     if (const auto* scripted = std::get_if<SimulatedHand>(&hand_)) return scripted->target(time_s);
+    if (const auto* directed = std::get_if<DirectedHand>(&hand_)) return directed->target(time_s);
     return std::get_if<SteeredHand>(&hand_)->target(time_s);
 }
 
 const HandGrip& SimulatedWand::grip() const noexcept {
     if (const auto* scripted = std::get_if<SimulatedHand>(&hand_)) return scripted->grip();
+    if (const auto* directed = std::get_if<DirectedHand>(&hand_)) return directed->grip();
     return std::get_if<SteeredHand>(&hand_)->grip();
 }
 

@@ -29,9 +29,21 @@ StageSession::StageSession(const Protocol& protocol, const Stage& stage, const G
 
 const haptics::TickRecord& StageSession::take(const devices::DeviceSample& sample, Nanoseconds now_ns,
                                               OperatorAct act) {
+    const haptics::TickRecord& record = touch_.tick(sample, now_ns);
+    if (step_on(record, sample, now_ns, act)) touch_.begin_at_start();
+    return record;
+}
+
+void StageSession::follow(const haptics::TickRecord& record, OperatorAct act) {
+    touch_.follow(record);
+    step_on(record, record.sample, record.time_ns, act);
+}
+
+// Returns whether the start cap was touched.
+bool StageSession::step_on(const haptics::TickRecord& record, const devices::DeviceSample& sample, Nanoseconds now_ns,
+                           OperatorAct act) {
     if (forces_.ticks == 0) begun_ns_ = now_ns;
     time_s_ = seconds(now_ns - begun_ns_);
-    const haptics::TickRecord& record = touch_.tick(sample, now_ns);
     forces_.add(record);
     const StageTick tick{time_s_, touch_.points_m(sample), act, sample.fault != devices::DeviceFault::none};
     const StageStep stepped = step(setup_, state_, tick);
@@ -41,7 +53,6 @@ const haptics::TickRecord& StageSession::take(const devices::DeviceSample& sampl
         events_.push_back(stepped.events[i]);
         at_start = at_start || stepped.events[i].kind == StageEventKind::start_touched;
     }
-    if (at_start) touch_.begin_at_start();
     const bool running = state_.phase == StagePhase::running;
     if (running && !was_running_) attempt_.clear();
     was_running_ = running;
@@ -49,7 +60,7 @@ const haptics::TickRecord& StageSession::take(const devices::DeviceSample& sampl
         attempt_.push_back(
             {sample.time_ns, now_ns, sample.position_device_m, sample.orientation_device, tick.points_m});
     if (done() && state_.result != StageResult::valid_exit) attempt_.clear();
-    return record;
+    return at_start;
 }
 
 ModelTouch touch_by_model(const Protocol& protocol, const Stage& stage, const FeltWorld& world,

@@ -40,9 +40,12 @@ public:
     // All must outlive it.
     StageSession(const Protocol& protocol, const Stage& stage, const Group& group, const FeltWorld& world);
 
-    // Returns the tick's record, which stays until the next.
+    // Runs the tick. Returns its record, which stays until the next.
     const haptics::TickRecord& take(const devices::DeviceSample& sample, Nanoseconds now_ns,
                                     OperatorAct act = OperatorAct::none);
+    // Takes a tick that a loop of its own has run, with touch().parameters() as they were when the loop took them over.
+    // The stage, its events and its attempt are as if take() had been given the sample; forces are the record's.
+    void follow(const haptics::TickRecord& record, OperatorAct act = OperatorAct::none);
 
     [[nodiscard]] const StageState& state() const { return state_; }
     [[nodiscard]] bool done() const { return state_.phase == StagePhase::done; }
@@ -56,6 +59,9 @@ public:
     [[nodiscard]] double time_s() const { return time_s_; }
 
 private:
+    bool step_on(const haptics::TickRecord& record, const devices::DeviceSample& sample, Nanoseconds now_ns,
+                 OperatorAct act);
+
     StageTouch touch_;
     StageSetup setup_;
     StageState state_;

@@ -4,54 +4,55 @@
 #include <algorithm>
 
 #include "study/metrics/path.hpp"
+#include "study/trial/stage_step.hpp"
 
 namespace burin::study {
 namespace {
 
 constexpr double kTick_s = 0.001;
-constexpr double kAround_m = 0.3;  // of the world, in the wand's workspace
 constexpr double kGuidanceReach_m = 0.04;
 constexpr double kGuidanceDamping_s = 0.02;  // of its stiffness: the time in which a led hand comes to rest
 constexpr std::size_t kCurvePoints = 200;
+constexpr double kAtEnd_m = 1e-3, kHandAtEnd_m = 0.012;  // of the attracting point, and of a hand that lags behind it
 
 }  // namespace
 
-devices::DeviceDescription study_wand(const FeltWorld& world) {
-    devices::DeviceDescription wand;
-    wand.name = "simulated wand";
-    wand.workspace_m = world.bounds().extent() + Vec3(2.0 * kAround_m);
-    wand.resolution_m = 0.00005;
-    wand.max_force_N = 3.0;
-    wand.axis_max_force_N = {2.3, 2.1, 3.0};
-    wand.max_torque_Nm = {0.230, 0.0, 0.250};
-    wand.max_stiffness_N_per_m = 800.0;
-    wand.rate_Hz = 1000.0;
-    wand.apparent_mass_kg = 0.2;
-    wand.damping_Ns_per_m = 0.5;
-    wand.friction_N = 0.15;
-    wand.max_torsion_Nm_per_rad = 2.0;
-    wand.apparent_inertia_kgm2 = 0.0005;
-    wand.angular_damping_Nms_per_rad = 0.002;
-    wand.angular_friction_Nm = 0.002;
-    wand.orientation_step_rad = 0.0005;
+devices::WandDescription study_wand(const Protocol& protocol) {
+    devices::WandDescription wand;
+    wand.points = {{"top", {0.0, protocol.point_offset_m, 0.0}}, {"bottom", {0.0, -protocol.point_offset_m, 0.0}}};
     return wand;
 }
 
-haptics::Probe wand_probe(const Protocol& protocol) {
+haptics::Probe wand_probe(const devices::WandDescription& wand) {
     haptics::Probe probe;
-    probe.count = kWandPoints;
-    probe.points[0].offset_device_m = {0.0, protocol.point_offset_m, 0.0};
-    probe.points[1].offset_device_m = {0.0, -protocol.point_offset_m, 0.0};
+    probe.count = 0;
+    for (const devices::WandPoint& point : wand.points)
+        probe.points[probe.count++].offset_device_m = devices::offset_device_m(wand, point);
     return probe;
+}
+
+Similarity world_from_wand(const devices::WandDescription& wand, const Box& world) {
+    Similarity placed = devices::scene_from_device(wand);
+    const Similarity device_from_world = inverse(placed);
+    const Vec3 half = 0.5 * devices::device_of(wand).workspace_m;
+    bool reached = true;
+    for (const Vec3& corner : {world.lo, world.hi})
+        reached = reached && glm::all(glm::lessThanEqual(glm::abs(device_from_world * corner), half));
+    if (!reached) placed.position_m = world.center();
+    return placed;
 }
 
 StageTouch::StageTouch(const Protocol& protocol, const Stage& stage, const Group& group, const FeltWorld& world,
                        TouchPurpose purpose)
-    : protocol_(protocol), stage_(stage), world_(world), device_(study_wand(world)) {
+    : protocol_(protocol),
+      stage_(stage),
+      world_(world),
+      wand_(study_wand(protocol)),
+      device_(devices::device_of(wand_)) {
     parameters_.sequence = 1;
-    parameters_.workspace.object_from_device = {world.bounds().center(), Quat(1.0, 0.0, 0.0, 0.0), 1.0};
+    parameters_.workspace.object_from_device = world_from_wand(wand_, world.bounds());
     parameters_.workspace.workspace_device_m = device_.workspace_m;
-    parameters_.probe = wand_probe(protocol);
+    parameters_.probe = wand_probe(wand_);
     parameters_.position_noise_m = device_.resolution_m;
     parameters_.limits.max_force_N = protocol.force_limit_N;
     parameters_.max_surface_age_s = 0.0;  // nothing moves: the surface is as good as new
@@ -97,11 +98,11 @@ void StageTouch::begin_at_start() {
 }
 
 // Strength and direction of the guidance from now on.
-void StageTouch::guide_on(Nanoseconds now_ns) {
+void StageTouch::guide_on(Nanoseconds now_ns, const haptics::GuidanceState& state, double near_end_m) {
     haptics::GuidanceSettings& guidance = parameters_.guidance;
-    const haptics::GuidanceState& state = full_.next.tick.guidance;
     bool turned = false;
-    if (state.held && (lead_sign_ > 0.0 ? state.along_m >= curve_length_m_ - 1e-3 : state.along_m <= 1e-3)) {
+    if (state.held &&
+        (lead_sign_ > 0.0 ? state.along_m >= curve_length_m_ - near_end_m : state.along_m <= near_end_m)) {
         lead_sign_ = -lead_sign_;
         turned = true;
     }
@@ -119,10 +120,17 @@ void StageTouch::guide_on(Nanoseconds now_ns) {
 
 const haptics::TickRecord& StageTouch::tick(const devices::DeviceSample& sample, Nanoseconds now_ns) {
     if (ticks_ == 0) begun_ns_ = guidance_ns_ = now_ns;
-    if (leads_) guide_on(now_ns);
+    if (leads_) guide_on(now_ns, full_.next.tick.guidance, kAtEnd_m);
     full_ = haptics::full_tick(full_.next, sample, world_.surface(), parameters_, device_, now_ns, kTick_s);
     full_.record.tick = ++ticks_;
     return full_.record;
+}
+
+void StageTouch::follow(const haptics::TickRecord& record) {
+    if (ticks_++ == 0) begun_ns_ = guidance_ns_ = record.time_ns;
+    if (!leads_) return;
+    const Vec3 middle = place_in_world(record.sample.position_device_m);
+    guide_on(record.time_ns, {nearest_on(world_.world().spine_m, middle).along_m, true}, kHandAtEnd_m);
 }
 
 Vec3 StageTouch::place_in_world(const Vec3& position_device_m) const {

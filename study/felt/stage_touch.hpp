@@ -6,9 +6,12 @@
 // stiffness, not one that is switched off: the proxies stay within it, so that deviations are known all the same.
 // Guidance changes once each kGuidanceStep_ns and depends on the ticks before alone, so that a recorded motion gives
 // the same settings again. Where it leads, it leads to the end of the spine, then back to its start, and so on.
-// Frame: the device stands in the middle of the world, without turn and gain. Pure but for its state; one thread each.
+// Frame: a world that lies within the wand's workspace is given in the maker's frame, as any scene of the wand
+// (devices/haptic/wand_description.hpp); another is centred in it, as far as it reaches. Pure but for its state; one
+// thread each.
 #pragma once
 
+#include "devices/haptic/wand_description.hpp"
 #include "haptics/tick.hpp"
 #include "study/felt/felt_world.hpp"
 
@@ -17,11 +20,12 @@ namespace burin::study {
 // The wand's two points: 0 is the top, 1 the bottom.
 inline constexpr std::uint32_t kWandPoints = 2;
 
-// The wand that a study is run with where no other is open: the limits of the Quanser wand as the thesis gives them
-// (forces 2.3, 2.1, 3.0 N; torques 230 and 250 N mm about x and z, yaw is passive); its workspace holds the world with
-// 0.3 m around it, so that nobody is stopped by anything but the world. Mass, friction and damping are assumptions.
-[[nodiscard]] devices::DeviceDescription study_wand(const FeltWorld& world);
-[[nodiscard]] haptics::Probe wand_probe(const Protocol& protocol);
+// The wand that a study is run with: the thesis' device, whose two points lie where the protocol says. The force limit
+// of the protocol is the ticks', not the device's.
+[[nodiscard]] devices::WandDescription study_wand(const Protocol& protocol);
+[[nodiscard]] haptics::Probe wand_probe(const devices::WandDescription& wand);
+// Where the device stands in the world.
+[[nodiscard]] Similarity world_from_wand(const devices::WandDescription& wand, const Box& world);
 
 // stage: as the group feels it. model: the tube and the funnels press on everybody, and nothing leads: what the forces
 // of a recorded motion would have been (W18).
@@ -34,13 +38,19 @@ public:
     // All must outlive it.
     StageTouch(const Protocol& protocol, const Stage& stage, const Group& group, const FeltWorld& world,
                TouchPurpose purpose = TouchPurpose::stage);
+    StageTouch(const StageTouch&) = delete;
+    StageTouch& operator=(const StageTouch&) = delete;
 
     // The record stays until the next tick.
     const haptics::TickRecord& tick(const devices::DeviceSample& sample, Nanoseconds now_ns);
+    // For a tick that a loop of its own has run with these parameters: guidance goes on as after a tick of this. Where the
+    // attracting point is it takes from where the wand's middle is along the path.
+    void follow(const haptics::TickRecord& record);
     // Sets both proxies on the axis at the start cap, from where the next tick takes them to the hand.
     void begin_at_start();
 
     [[nodiscard]] const haptics::TickParameters& parameters() const { return parameters_; }
+    [[nodiscard]] const devices::WandDescription& wand() const { return wand_; }
     [[nodiscard]] const devices::DeviceDescription& device() const { return device_; }
     [[nodiscard]] Vec3 place_in_world(const Vec3& position_device_m) const;
     [[nodiscard]] Vec3 place_at_device(const Vec3& position_m) const;
@@ -52,12 +62,13 @@ public:
 private:
     void set_walls(const Stage& stage, const Group& group, TouchPurpose purpose);
     void set_curve();
-    void guide_on(Nanoseconds now_ns);
+    void guide_on(Nanoseconds now_ns, const haptics::GuidanceState& state, double near_end_m);
 
     const Protocol& protocol_;
     const Stage& stage_;
     const FeltWorld& world_;
-    devices::DeviceDescription device_;
+    devices::WandDescription wand_;
+    devices::DeviceDescription device_;  // of wand_
     haptics::TickParameters parameters_;
     haptics::FullTick full_;
     bool leads_ = false;

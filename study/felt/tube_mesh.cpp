@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "study/trial/stage_step.hpp"
 
@@ -13,7 +14,8 @@ namespace {
 using geometry::TriangleMesh;
 
 constexpr double kMostSections = 1000.0;
-constexpr std::uint32_t kFunnelParts = 8;  // of each side, and along it half as many
+constexpr double kHoop_m = 0.003, kHoopsApart = 0.8;  // width of a hoop; their distance, in radii of the tube
+constexpr std::uint32_t kFunnelParts = 8;             // of each side, and along it half as many
 
 // The spine with points added, so that no triangle is much longer than wide.
 std::vector<Vec3> with_points_between(const StudyWorld& world) {
@@ -99,6 +101,18 @@ Vec3 out_of_tube(const StudyWorld& world, Vec3 corner) {
     return corner;
 }
 
+// A hoop around a section, seen from both sides: a hair within the wall, so that it shows on it.
+void add_hoop(TriangleMesh& mesh, const Section& section, const Vec3& up, double radius_m) {
+    constexpr double kWithin = 0.99;
+    const Vec3 to_edge = 0.5 * kHoop_m * section.normal;
+    const Section near{section.middle - to_edge, section.normal}, far{section.middle + to_edge, section.normal};
+    for (const auto& [first, second] : {std::pair{near, far}, std::pair{far, near}}) {
+        for (const Section& edge : {first, second})
+            for (const Vec3& corner : ring_around(edge, up, kWithin * radius_m)) mesh.positions_m.push_back(corner);
+        join_rings(mesh, kTubeSides);
+    }
+}
+
 CapBox cap_of(const StudyWorld& world, WorldEnd end) {
     return end == WorldEnd::start ? start_cap(world) : end_cap(world);
 }
@@ -131,6 +145,17 @@ TriangleMesh drawn_tube_mesh(const StudyWorld& world) {
         up = across(section.normal, up);
         for (const Vec3& corner : ring_around(section, up, world.tube_radius_m)) mesh.positions_m.push_back(corner);
         if (i > 0) join_rings(mesh, kTubeSides);
+    }
+    double since_hoop_m = 0.0;
+    const std::vector<Vec3> line = with_points_between(world);
+    up = {0.0, 1.0, 0.0};
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        const Section section{line[i], glm::normalize(line[i] - line[i - 1])};
+        up = across(section.normal, up);
+        since_hoop_m += glm::distance(line[i - 1], line[i]);
+        if (since_hoop_m < kHoopsApart * world.tube_radius_m) continue;
+        since_hoop_m = 0.0;
+        add_hoop(mesh, section, up, world.tube_radius_m);
     }
     return mesh;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The surfaces of a study's world as triangles: the tube's wall, the funnels at its ends, and the caps that close the
 // funnels. Wall and funnels are sheets without thickness, to be felt from both sides. Frame: the world's, metres. Pure;
-// any thread; allocates. Wall and funnels wind counter-clockwise seen from within: where they are drawn the eye looks
-// into the tube through the half that is turned away from it, and sees the wand.
+// any thread; allocates. Wall and funnels wind counter-clockwise seen from within: where they are drawn they are open
+// towards the eye, which looks at the inside of their far half.
 //
 // Wall: sections of kTubeSides corners across the spine, at each of its points as many as the bend there needs, and
 // between them; corners lie outside the circle as far as the middles of the sides lie inside it (0.03 mm of 45). Where
@@ -23,7 +23,8 @@ inline constexpr double kDrawnCap_m = 0.002;
 enum class WorldEnd { start, end };
 
 [[nodiscard]] geometry::TriangleMesh tube_mesh(const StudyWorld& world);
-// To be seen alone: a section at each point of the spine, and nothing mended.
+// To be seen alone: a section at each point of the spine, and nothing mended; and hoops around it, seen from all sides.
+// A wand in the tube stands before the far half and behind the near half's hoops, one out of it before them.
 [[nodiscard]] geometry::TriangleMesh drawn_tube_mesh(const StudyWorld& world);
 // Empty where the world has no funnels.
 [[nodiscard]] geometry::TriangleMesh funnel_mesh(const StudyWorld& world, WorldEnd end);

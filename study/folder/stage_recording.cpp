@@ -37,6 +37,10 @@ void StageRecording::take(const haptics::TickRecord& record, OperatorAct act) {
     untaken_ = 0;
 }
 
+void StageRecording::note(Nanoseconds time_ns, const std::string& name, const std::string& value) {
+    writer_->note_event(time_ns, name, value);
+}
+
 Result<void> StageRecording::close() { return writer_->close(); }
 
 std::vector<std::pair<std::string, std::string>> facts_of_stage(const std::string& protocol_digest, const Group& group,

@@ -34,6 +34,8 @@ public:
     StageRecording& operator=(const StageRecording&) = delete;
 
     void take(const haptics::TickRecord& record, OperatorAct act);
+    // Of what the operator wrote and what became of the stage; times as the ticks'.
+    void note(Nanoseconds time_ns, const std::string& name, const std::string& value);
     // All is on the disk when it returns. Fails with why not.
     [[nodiscard]] Result<void> close();
 

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <random>
 #include <span>
 #include <system_error>
 #include <utility>
@@ -13,7 +14,7 @@
 #include "base/file_io.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
-#include "study/assign/allocation.hpp"
+#include "study/assign/sealed_list.hpp"
 
 namespace burin::study {
 namespace fs = std::filesystem;
@@ -23,23 +24,38 @@ Result<void> write_whole(const fs::path& path, const std::string& text) {
     return write_file_atomically(path, std::as_bytes(std::span(text.data(), text.size())));
 }
 
-std::vector<AllocationPlace> list_of(const Protocol& protocol, const StudyFacts& facts, std::size_t stratum) {
+constexpr std::uint64_t kMostSealedBytes = std::uint64_t{256} << 20, kMostKeyBytes = 1024;
+constexpr const char* kSealedFile = "allocation.sealed";
+
+std::vector<std::vector<AllocationPlace>> lists_of(const Protocol& protocol, std::uint64_t seed,
+                                                   std::size_t participants) {
     std::vector<unsigned> ratios;
     for (const Group& g : protocol.groups) ratios.push_back(g.ratio);
-    return allocate(ratios, protocol.blocks, facts.seed, stratum, facts.participants);
+    std::vector<std::vector<AllocationPlace>> lists;
+    const std::size_t strata = combinations(protocol.strata).size();
+    for (std::size_t s = 0; s < strata; ++s) lists.push_back(allocate(ratios, protocol.blocks, seed, s, participants));
+    return lists;
 }
 
-std::string allocation_csv(const Protocol& protocol, const StudyFacts& facts) {
-    std::string text = "stratum,position,block,group\n";
-    const auto strata = combinations(protocol.strata);
-    for (std::size_t s = 0; s < strata.size(); ++s) {
-        const auto list = list_of(protocol, facts, s);
-        for (std::size_t i = 0; i < list.size(); ++i) {
-            text += stratum_label(strata[s]) + "," + std::to_string(i + 1) + "," + std::to_string(list[i].block) + "," +
-                    protocol.groups[list[i].group].code + "\n";
-        }
-    }
-    return text;
+// From the system; whole 32 bits each.
+std::uint64_t drawn_by_the_system() {
+    std::random_device device;
+    return (std::uint64_t{device()} << 32) | std::uint64_t{device()};
+}
+
+// Whoever reads the key reads the list: for its owner alone.
+Result<void> write_key(const fs::path& file, const std::string& key) {
+    if (const auto ok = write_whole(file, key + "\n"); !ok) return ok;
+    std::error_code ignored;
+    fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write, ignored);
+    return {};
+}
+
+Result<std::string> read_key(const fs::path& file) {
+    auto key = read_text_file(file, kMostKeyBytes);
+    if (!key) return std::unexpected(key.error());
+    while (!key->empty() && (key->back() == '\n' || key->back() == ' ')) key->pop_back();
+    return key;
 }
 
 // Texts and counts of a journal's entry; empty and 0 where they are missing or of another kind.
@@ -95,6 +111,7 @@ void visit(Participant& p, const Json& entry, const std::string& event) {
     if (begun == p.visits.rend()) return;
     begun->status = StageStatus::ended;
     begun->result = text_in(entry, "result");
+    begun->ended_utc = text_in(entry, "time");
     begun->file = text_in(entry, "file");
     begun->file_digest = text_in(entry, "digest");
     begun->recording_digest = text_in(entry, "recording_sha256");
@@ -108,12 +125,10 @@ bool good_id(const std::string& id) {
            id.find_first_of("0123456789") != std::string::npos;
 }
 
-// Of the codes, one for each stratum; nothing where they are not codes of the protocol.
-std::optional<std::size_t> stratum_index(const Protocol& protocol, const std::vector<std::string>& codes) {
+// One for each stratum.
+bool are_codes_of(const Protocol& protocol, const std::vector<std::string>& codes) {
     const auto all = combinations(protocol.strata);
-    const auto found = std::ranges::find(all, codes);
-    if (found == all.end()) return std::nullopt;
-    return static_cast<std::size_t>(found - all.begin());
+    return std::ranges::find(all, codes) != all.end();
 }
 
 std::string wanted_codes(const Protocol& protocol) {
@@ -146,6 +161,7 @@ std::vector<Participant> participants_of(const Journal& journal) {
             found->withdrawn = true;
             found->erased = found->erased || flag_in(entry.value, "erase");
         }
+        if (event == "visit") found->device = text_in(entry.value, "device");
         if (event == "stage begun" || event == "stage ended") visit(*found, entry.value, event);
     }
     return all;
@@ -161,29 +177,47 @@ std::vector<StagePlace> places_of(const Protocol& protocol) {
     return places;
 }
 
-Result<void> create_study(const fs::path& folder, const std::string& protocol_text, std::uint64_t seed,
-                          std::size_t participants) {
+Result<void> create_study(const fs::path& folder, const std::string& protocol_text, const StudyMaking& making) {
     std::error_code error;
     if (fs::exists(fs::symlink_status(folder, error)))
         return fail(folder.string(), "exists already", "name a folder that does not, so that nothing is overwritten");
+    if (!making.key.empty() && fs::exists(fs::symlink_status(making.key, error)))
+        return fail(making.key.string(), "exists already", "name a file that does not, for the key");
     const ParsedProtocol parsed = parse_protocol(protocol_text);
     if (!parsed.faults.empty()) return fail("protocol", "has faults", "correct them");
     fs::path part = folder;
     part += "." + std::to_string(::getpid()) + ".part";
     if (!fs::create_directories(part / "data", error))
         return fail(part.string(), "cannot be made: " + error.message(), "choose another place");
-    const StudyFacts facts{sha256(protocol_text), seed, participants};
-    const Json json{
-        {"format", 1}, {"protocol_sha256", facts.protocol_digest}, {"seed", seed}, {"participants", participants}};
+    // A seed that was drawn for the list is kept nowhere; learners have another.
+    const std::uint64_t list_seed = making.seed ? *making.seed : drawn_by_the_system();
+    const std::string key = sha256(formatted("%016llx%016llx%016llx%016llx", drawn_by_the_system(),
+                                             drawn_by_the_system(), drawn_by_the_system(), drawn_by_the_system()));
+    const std::string sealed =
+        seal_allocation(parsed.protocol, lists_of(parsed.protocol, list_seed, making.participants), key);
+    const StudyFacts facts{sha256(protocol_text), sha256(sealed),
+                           making.seed ? *making.seed : drawn_by_the_system() % 1'000'000'000, making.seed.has_value(),
+                           making.participants};
+    const Json json{{"format", 2},
+                    {"protocol_sha256", facts.protocol_digest},
+                    {"allocation_sha256", facts.allocation_digest},
+                    {"seed", facts.seed},
+                    {"seed_given", facts.seed_given},
+                    {"participants", facts.participants}};
     Result<void> ok = write_whole(part / "protocol.toml", protocol_text);
-    if (ok) ok = write_whole(part / "allocation.csv", allocation_csv(parsed.protocol, facts));
+    if (ok) ok = write_whole(part / kSealedFile, sealed);
     if (ok) ok = write_whole(part / "study.json", json_text(json));
     if (ok) ok = write_whole(part / "lock", "");
     Journal journal = parse_journal("");
     if (ok) {
         ok = append(part / "journal.jsonl", journal,
-                    Json{{"event", "study made"}, {"protocol_sha256", facts.protocol_digest}, {"seed", seed}});
+                    Json{{"event", "study made"},
+                         {"protocol_sha256", facts.protocol_digest},
+                         {"allocation_sha256", facts.allocation_digest},
+                         {"seed", facts.seed},
+                         {"seed_given", facts.seed_given}});
     }
+    if (ok) ok = write_key(making.key.empty() ? part / "allocation.key" : making.key, key);
     if (ok) {
         fs::rename(part, folder, error);
         if (error) ok = fail(folder.string(), "cannot be made: " + error.message(), "choose another place");
@@ -194,9 +228,11 @@ Result<void> create_study(const fs::path& folder, const std::string& protocol_te
 
 StudyFolder::StudyFolder(StudyFolder&& other) noexcept
     : path_(std::move(other.path_)),
+      key_(std::move(other.key_)),
       protocol_(std::move(other.protocol_)),
       facts_(std::move(other.facts_)),
       journal_(std::move(other.journal_)),
+      sealed_(std::move(other.sealed_)),
       lock_(std::exchange(other.lock_, -1)) {}
 
 StudyFolder::~StudyFolder() {
@@ -217,7 +253,11 @@ Result<StudyFolder> StudyFolder::open(const fs::path& folder, StudyAccess access
     if (!json_read) return fail(name, "is no study: " + json_read.error().what, "make one with burin study init");
     const Json json = Json::parse(*json_read, nullptr, false);
     if (!json.is_object()) return fail(name + "/study.json", "is damaged", "restore it from a copy");
-    study.facts_ = {text_in(json, "protocol_sha256"), count_in(json, "seed"), count_in(json, "participants")};
+    if (count_in(json, "format") != 2)
+        return fail(name + "/study.json", "is of another version of Burin",
+                    "go on with the version that made the study");
+    study.facts_ = {text_in(json, "protocol_sha256"), text_in(json, "allocation_sha256"), count_in(json, "seed"),
+                    flag_in(json, "seed_given"), count_in(json, "participants")};
     const auto bytes = read_file(folder / "protocol.toml", kMostProtocolBytes);
     if (!bytes) return std::unexpected(bytes.error());
     const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
@@ -240,6 +280,35 @@ Result<void> StudyFolder::note(Json value) {
     return append(path_ / "journal.jsonl", journal_, std::move(value));
 }
 
+Result<std::string> StudyFolder::sealed_list() const {
+    auto sealed = read_text_file(path_ / kSealedFile, kMostSealedBytes);
+    if (!sealed) return sealed;
+    if (sha256(*sealed) != facts_.allocation_digest)
+        return fail((path_ / kSealedFile).string(), "is not the list that this study was made with",
+                    "restore it from a copy");
+    return sealed;
+}
+
+Result<void> StudyFolder::check_allocation() const {
+    const auto sealed = sealed_list();
+    if (!sealed) return std::unexpected(sealed.error());
+    for (const JournalEntry& entry : journal_.entries) {
+        if (text_in(entry.value, "event") == "study made" &&
+            text_in(entry.value, "allocation_sha256") != facts_.allocation_digest)
+            return fail((path_ / kSealedFile).string(), "is not the list that the journal names",
+                        "restore study.json and allocation.sealed from a copy");
+    }
+    const auto key = read_key(key_file());
+    if (!key) return {};  // it is kept elsewhere
+    for (const Participant& p : participants()) {
+        const auto place = open_place(*sealed, protocol_, *key, p.stratum, p.position);
+        if (!place) return std::unexpected(place.error());
+        if (protocol_.groups[place->group].code != p.group)
+            return fail(p.id, "is not in the group of its place in the list", "see who changed the journal");
+    }
+    return {};
+}
+
 Result<Participant> StudyFolder::enrol(const std::string& id, const std::vector<std::string>& codes, bool simulated) {
     if (!good_id(id))
         return fail(id.substr(0, 64), "is not a participant's code",
@@ -247,19 +316,26 @@ Result<Participant> StudyFolder::enrol(const std::string& id, const std::vector<
     const std::vector<Participant> all = participants();
     if (std::ranges::find(all, id, &Participant::id) != all.end())
         return fail(id, "is in this study already", "give a code that nobody has had");
-    const auto stratum = stratum_index(protocol_, codes);
-    if (!stratum) return fail("--codes", "do not fit the strata", wanted_codes(protocol_));
+    if (!are_codes_of(protocol_, codes)) return fail("--codes", "do not fit the strata", wanted_codes(protocol_));
     const std::string label = stratum_label(codes);
     std::size_t position = 0;
     for (const Participant& p : all) {
         if (p.stratum == label) position = std::max(position, p.position);
     }
-    const auto list = list_of(protocol_, facts_, *stratum);
-    if (position >= list.size())
-        return fail(path_.string(), formatted("all %zu places of stratum %s are taken", list.size(), label.c_str()),
-                    "make a study with more --participants");
-    Participant p{id,        label, protocol_.groups[list[position].group].code, codes, position + 1, false, false,
-                  simulated, {}};
+    if (sealed_.empty()) {
+        auto sealed = sealed_list();
+        if (!sealed) return std::unexpected(sealed.error());
+        sealed_ = std::move(*sealed);
+    }
+    const auto key = read_key(key_file());
+    if (!key)
+        return fail(key_file().string(), "the key of the allocation cannot be read: " + key.error().what,
+                    "name it with --key, or have whoever keeps it enrol");
+    const auto place = open_place(sealed_, protocol_, *key, label, position + 1);
+    if (!place) return fail(path_.string(), place.error().what, place.error().remedy);
+    Participant p{.id = id, .stratum = label, .group = protocol_.groups[place->group].code, .codes = codes};
+    p.position = position + 1;
+    p.simulated = simulated;
     const Json entry{{"event", "enrolled"},    {"participant", id}, {"stratum", label},
                      {"position", p.position}, {"group", p.group},  {"consent", protocol_.consent_version},
                      {"simulated", simulated}};
@@ -298,6 +374,14 @@ Result<void> StudyFolder::begin_simulation(double effect) {
     if (*before == effect) return {};
     return fail(path_.string(), formatted("was begun with an effect of %g SD", *before),
                 formatted("give --effect %g, or make another study", *before));
+}
+
+Result<void> StudyFolder::note_of(const std::string& id, const std::string& text) {
+    return note(Json{{"event", "note"}, {"participant", id}, {"text", text}});
+}
+
+Result<void> StudyFolder::begin_visit(const std::string& id, const std::string& device) {
+    return note(Json{{"event", "visit"}, {"participant", id}, {"device", device}});
 }
 
 Result<StageFiles> StudyFolder::begin_stage(const std::string& id, const StagePlace& at, bool has_motion,

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A study on the disk:
 //   protocol.toml    as it was at the start; study.json holds its digest, and a protocol edited later is refused
-//   study.json       digest, seed, places of each stratum's list
-//   allocation.csv   the whole list, for whoever keeps it sealed
+//   study.json       digests, seed, places of each stratum's list
+//   allocation.sealed  the whole list, each place sealed by itself (study/assign/sealed_list.hpp)
+//   allocation.key   opens it, unless it is kept elsewhere
 //   journal.jsonl    what happened, only appended to (journal.hpp)
 //   data/ID/*.json   one file for each stage that was measured, never written twice
 //   data/ID/*.session  the motion of a stage, tick by tick (stage_recording.hpp); DAY-PLACE-runN as its .json
@@ -36,7 +37,7 @@ struct StageVisit {
     std::string file_digest{};  // SHA-256
     // The motion, likewise; named from the stage's beginning on, its digest known at its end.
     std::string recording{}, recording_digest{};
-    std::string begun_utc{};                           // as the journal has it
+    std::string begun_utc{}, ended_utc{};              // as the journal has them
     std::optional<double> clock_s{}, ended_clock_s{};  // of a simulated participant's clock
 };
 
@@ -45,7 +46,8 @@ struct Participant {
     std::vector<std::string> codes;
     std::size_t position = 0;  // in the stratum's list, from 1
     bool withdrawn = false, erased = false, simulated = false;
-    std::vector<StageVisit> visits;
+    std::string device{};  // of the last visit with an operator; empty: none
+    std::vector<StageVisit> visits{};
 
     [[nodiscard]] bool has_ended(std::size_t day, std::size_t place) const;
 };
@@ -59,14 +61,20 @@ struct StagePlace {
 [[nodiscard]] std::vector<StagePlace> places_of(const Protocol& protocol);
 
 struct StudyFacts {
-    std::string protocol_digest;
-    std::uint64_t seed = 1;
+    std::string protocol_digest, allocation_digest;
+    std::uint64_t seed = 1;  // of simulated learners, and of the allocation where it was given
+    bool seed_given = false;
     std::size_t participants = 0;
 };
 
+struct StudyMaking {
+    std::optional<std::uint64_t> seed;  // nothing: the allocation is drawn from the system's randomness
+    std::size_t participants = 10;      // places of each stratum's list
+    std::filesystem::path key;          // where the key goes, a new file; empty: into the folder
+};
 // Makes a new folder; fails where anything has its name. Whole or not at all.
 [[nodiscard]] Result<void> create_study(const std::filesystem::path& folder, const std::string& protocol_text,
-                                        std::uint64_t seed, std::size_t participants);
+                                        const StudyMaking& making);
 
 // Within the study's folder.
 struct StageFiles {
@@ -92,7 +100,13 @@ public:
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     [[nodiscard]] std::vector<Participant> participants() const { return participants_of(journal_); }
 
-    // Needs access to write. Gives the next place of the stratum's list; refuses an id that was used before.
+    // Where the allocation's key is, if it is not in the folder.
+    void use_key(const std::filesystem::path& file) { key_ = file; }
+    // That the sealed list is the one that the journal names, and, where the key is there, that it opens and that
+    // everybody is in the group of their place.
+    [[nodiscard]] Result<void> check_allocation() const;
+
+    // Needs access to write. Opens the next place of the stratum's list; refuses an id that was used before.
     [[nodiscard]] Result<Participant> enrol(const std::string& id, const std::vector<std::string>& codes,
                                             bool simulated);
     // Excludes the participant; with erase its data files are deleted, and the journal keeps that it was here.
@@ -100,6 +114,12 @@ public:
     // A study has one effect of simulated learners: the first run's. Refuses another.
     [[nodiscard]] Result<void> begin_simulation(double effect);
     [[nodiscard]] std::optional<double> simulated_effect() const;  // nothing before the first run
+    // What an operator wrote about a participant; it must name nobody.
+    [[nodiscard]] Result<void> note_of(const std::string& id, const std::string& text);
+    // That the hand is scripted and the device simulated, so that nobody takes it for a person's visit.
+    static constexpr const char* kScriptedDevice = "simulated wand, scripted hand";
+    // A participant comes for some stages, with this device: before the first of them.
+    [[nodiscard]] Result<void> begin_visit(const std::string& id, const std::string& device);
     // Names the files of the stage, of which there are none yet. `has_motion`: its motion will be recorded. `clock_s`:
     // of a simulated participant's clock.
     [[nodiscard]] Result<StageFiles> begin_stage(const std::string& id, const StagePlace& at, bool has_motion,
@@ -117,11 +137,15 @@ public:
 private:
     StudyFolder() = default;
     [[nodiscard]] Result<void> note(Json value);
+    [[nodiscard]] Result<std::string> sealed_list() const;
+    [[nodiscard]] std::filesystem::path key_file() const { return key_.empty() ? path_ / kKeyFile : key_; }
 
-    std::filesystem::path path_;
+    static constexpr const char* kKeyFile = "allocation.key";
+    std::filesystem::path path_, key_;
     Protocol protocol_;
     StudyFacts facts_;
     Journal journal_;
+    std::string sealed_;  // the sealed list, once somebody was enrolled
     int lock_ = -1;
 };
 

@@ -51,6 +51,11 @@ public:
     }
 
     [[nodiscard]] double duration_s() const { return duration_s_; }
+    // Up or down: away from where the path bulges, since a device reaches little farther than the path.
+    [[nodiscard]] Vec3 strays_m() const {
+        const double ends_m = 0.5 * (world_.spine_m.front().y + world_.spine_m.back().y);
+        return {0.0, on_axis(0.5 * lengths_.back()).y > ends_m ? -1.0 : 1.0, 0.0};
+    }
 
     // At a share of the duration; below 0 and above 1 the hand rests at an end.
     [[nodiscard]] Vec3 middle_m(double share) const {
@@ -129,7 +134,7 @@ Vec3 LearnerHand::place(double time_s) const {
     }
     const double share = t / path_->duration_s();
     const double off_m = strays_ ? kStrayFactor * protocol_.validity.stray_m * least_jerk(4.0 * (share - 0.4)) : 0.0;
-    return path_->middle_m(backwards_ ? 1.0 - share : share) + off_m * Vec3(0, 1, 0);
+    return path_->middle_m(backwards_ ? 1.0 - share : share) + off_m * path_->strays_m();
 }
 
 bool LearnerHand::lasts(double time_s) const {

@@ -113,6 +113,9 @@ struct ParsedProtocol {
 };
 [[nodiscard]] ParsedProtocol parse_protocol(std::string_view text);
 
+// The text of a protocol that comes with the program (assets/studies/NAME/protocol.toml).
+[[nodiscard]] std::optional<std::string_view> known_protocol(std::string_view name);
+
 inline constexpr std::uint64_t kMostProtocolBytes = std::uint64_t{1} << 20;
 // More force than this no device of Burin displays.
 inline constexpr double kDeviceForce_N = 3.3;

@@ -26,6 +26,7 @@ td.number { text-align: right; white-space: nowrap; }
 .warning { border-left: 0.4em solid #000; padding: 0.2em 0.8em; background: #eee; }
 .plots { display: flex; flex-wrap: wrap; gap: 1em; }
 .plots svg { max-width: 100%; height: auto; flex: 1 1 300px; }
+.wide svg { width: 100%; min-width: 40em; height: auto; display: block; }
 pre { font-size: 0.8em; overflow-x: auto; background: #f4f4f4; padding: 0.8em; }
 </style>
 )";
@@ -110,6 +111,13 @@ std::string figures_of(const std::vector<std::string>& svgs) {
     return html + "</div>\n";
 }
 
+// Of figures with long rows, which are scrolled where the screen is narrower than they can be read.
+std::string wide_figures_of(const std::vector<std::string>& svgs) {
+    std::string html;
+    for (const std::string& svg : svgs) html += "<div class=\"wide\">\n" + svg + "</div>\n";
+    return html;
+}
+
 std::string section_of(const ReportSection& section) {
     std::string html = element("h2", section.heading);
     for (const std::string& sentence : section.sentences) html += element("p", sentence);
@@ -132,7 +140,7 @@ std::string effects_section(const Analysis& analysis) {
     std::vector<std::string> figures{interval_figure("Rank-biserial correlation", "r: first group less second", ranks)};
     for (const auto& [measure, rows] : shifts)
         figures.push_back(interval_figure("Shift of " + measure, "Hodges-Lehmann: first group less second", rows));
-    return element("h2", "Effect sizes") + figures_of(figures);
+    return element("h2", "Effect sizes") + wide_figures_of(figures);
 }
 
 std::string learning_section(const Analysis& analysis) {
@@ -171,7 +179,8 @@ std::string html_report(const Analysis& analysis, const std::vector<PublishedCom
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
         "<title>Analysis of a study</title>\n";
-    html += std::string(kStyle) + "</head>\n<body>\n" + element("h1", "Analysis of " + origin.data);
+    html += std::string(kStyle) + "</head>\n<body>\n" +
+            element("h1", origin.title.empty() ? "Analysis of " + origin.data : origin.title);
     html += element("p", formatted("%zu trials, %zu groups. %s, seed %llu.", analysis.table.trials.size(),
                                    analysis.table.groups.size(), origin.program.c_str(),
                                    static_cast<unsigned long long>(analysis.seed)));

@@ -24,6 +24,7 @@ struct ReportOrigin {
     std::string program;                       // with its version
     std::vector<std::string> facts = {};       // whole sentences about the study, shown first
     std::vector<ReportSection> sections = {};  // shown before the analysis
+    std::string title = {};                    // of the study; empty: the file's name
 };
 
 [[nodiscard]] std::string html_report(const Analysis& analysis, const std::vector<PublishedComparison>& published,

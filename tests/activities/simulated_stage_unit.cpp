@@ -10,8 +10,6 @@
 #include <fstream>
 #include <iterator>
 
-#include "activities/train/held_wand.hpp"
-
 namespace burin::activities {
 namespace {
 
@@ -25,9 +23,10 @@ study::Protocol thesis_study(double training_s) {
 }
 
 struct Went {
-    SimulatedStage stage;
+    EndedStage stage;
     std::vector<Vec3> forces_N, places_m;
     double largest_N = 0.0, largest_torque_Nm = 0.0;
+    std::uint64_t faults = 0;
 };
 
 class SimulatedStages : public testing::Test {
@@ -46,6 +45,7 @@ protected:
             random, [&](const haptics::TickRecord& record, study::OperatorAct) {
                 went.forces_N.push_back(record.gate.given.force_device_N);
                 went.places_m.push_back(record.contact.points[0].hip_object_m);
+                went.faults += record.sample.fault != devices::DeviceFault::none ? 1 : 0;
                 went.largest_N = std::max(went.largest_N, glm::length(went.forces_N.back()));
                 went.largest_torque_Nm =
                     std::max(went.largest_torque_Nm, glm::length(record.gate.given.torque_device_Nm));
@@ -128,34 +128,20 @@ TEST_F(SimulatedStages, GiveTheSameBitsAgainAndOthersWithAnotherSeed) {
     EXPECT_NE(one.places_m, other.places_m);
 }
 
-TEST(HeldWandTest, ComesToRestWhereTheHandHoldsItAndYieldsToForceAndTorque) {
-    devices::DeviceDescription d;
-    d.workspace_m = Vec3(1.0);
-    d.max_force_N = 3.0;
-    d.max_torque_Nm = {0.2, 0.0, 0.2};
-    d.apparent_mass_kg = 0.2;
-    d.apparent_inertia_kgm2 = 0.0005;
-    HeldWand wand(d, {});
-    devices::HandTarget target;
-    target.position_device_m = {0.05, 0.0, 0.0};
-    wand.hold(target, false);
-    wand.advance(2 * kNanosecondsPerSecond);
-    EXPECT_NEAR(wand.read().position_device_m.x, 0.05, 1e-6);
-    // 2 N against 200 N/m; 0.15 Nm against 1.5 Nm/rad; no torque about the passive axis.
-    wand.write({{0.0, 2.0, 0.0}, {0.15, 5.0, 0.0}});
-    wand.advance(2 * kNanosecondsPerSecond);
-    const devices::DeviceSample pushed = wand.read();
-    EXPECT_NEAR(pushed.position_device_m.y, 0.01, 1e-6);
-    EXPECT_NEAR(2.0 * std::asin(pushed.orientation_device.x), 0.1, 1e-3);
-    EXPECT_NEAR(pushed.orientation_device.y, 0.0, 1e-9);
-    // A hand that gives way goes where it is pushed.
-    wand.hold(target, true);
-    wand.write({{0.0, 0.0, 1.0}, {}});
-    wand.advance(kNanosecondsPerSecond);
-    EXPECT_GT(wand.read().position_device_m.z, 0.05);
-    wand.write({{std::nan(""), 0.0, 0.0}, {}});
-    wand.advance(kNanosecondsPerSecond);
-    EXPECT_TRUE(finite(wand.read().position_device_m));
+TEST_F(SimulatedStages, ReachNoFartherThanTheWandAndNeverTripIt) {
+    const devices::WandDescription wand = study::study_wand(protocol_);
+    const devices::DeviceDescription device = devices::device_of(wand);
+    const Similarity world_from_device = study::world_from_wand(wand, world_->bounds());
+    // The thesis' tube is given in the maker's frame.
+    EXPECT_EQ(world_from_device.position_m, wand.workspace_maker_m.center());
+    const Vec3 half = 0.5 * device.workspace_m + Vec3(protocol_.point_offset_m + device.resolution_m);
+    population_.stray_chance = 1.0;
+    const Went astray = go("test", 1);
+    EXPECT_EQ(astray.stage.end.result, study::StageResult::no_attempt_left);
+    EXPECT_EQ(astray.stage.end.last_failure, study::Failure::strayed);
+    for (const Vec3& p : astray.places_m)
+        ASSERT_TRUE(glm::all(glm::lessThanEqual(glm::abs(inverse(world_from_device) * p), half)));
+    EXPECT_EQ(go("interactive", 0).faults, 0u);
 }
 
 }  // namespace

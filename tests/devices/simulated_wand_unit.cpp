@@ -216,4 +216,26 @@ TEST(SimulatedWand, IsInTheRegistryAlsoWithADescription) {
     EXPECT_FALSE(open_haptic_device("simulated:w.toml", host())) << "the Omni has no description";
 }
 
+TEST(SimulatedWand, FollowsADirectedHandAndIsPushedAwayFromOneThatGivesWay) {
+    HandDirection direction;
+    direction.target.position_device_m = {0.05, 0.0, 0.0};
+    SimulatedWand wand((DirectedHand(direction)));
+    EXPECT_EQ(wand.read().position_device_m, direction.target.position_device_m);
+    // Goes on with the target's velocity, from when the direction says.
+    direction.since_s = 0.0;
+    direction.target.velocity_device_m_per_s = {0.1, 0.0, 0.0};
+    wand.advance(1000 * kMs);
+    EXPECT_NEAR(wand.true_velocity_device_m_per_s().x, 0.1, 1e-3);
+    EXPECT_GT(wand.true_pose_device().position_m.x, 0.14);
+    // A hand that gives way goes where it is pushed: F = (B + b) v + friction.
+    direction.target.velocity_device_m_per_s = Vec3(0.0);
+    direction.grip = kNoHand;
+    direction.grip.mass_kg = 0.1;
+    direction.grip.damping_Ns_per_m = 6.0;
+    wand.write({{0.0, 0.0, 1.0}, {}});
+    wand.advance(1000 * kMs);
+    const WandArm arm;
+    EXPECT_NEAR(wand.true_velocity_device_m_per_s().z, (1.0 - arm.friction_N) / (6.0 + arm.damping_Ns_per_m), 1e-3);
+}
+
 }  // namespace burin::devices

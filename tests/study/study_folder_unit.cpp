@@ -220,6 +220,83 @@ TEST(StudyCommands, EnrolByCodeAndNeverTwice) {
     EXPECT_TRUE(full.output.contains("places of stratum all are taken")) << full.output;
 }
 
+TEST(StudyCommands, HideTheGroupOfAPlaceUntilSomebodyTakesIt) {
+    const Workplace place;
+    place.write("p.toml", short_protocol());
+    ASSERT_EQ(place.run(kBurinStudy + "init p.toml s --participants 4 --key list.key").status, 0);
+    EXPECT_EQ(place.run(kBurinStudy + "init p.toml t --participants 4 --key list.key").status, 1);  // it exists
+    for (const auto& entry : std::filesystem::directory_iterator(place / "s")) {
+        if (!entry.is_regular_file() || entry.path().filename() == "protocol.toml") continue;
+        const std::string text = place.read("s/" + entry.path().filename().string());
+        EXPECT_FALSE(text.contains("haptic") || text.contains("visual")) << entry.path();
+    }
+    const auto without = place.run(kBurinStudy + "enrol s p01");
+    EXPECT_EQ(without.status, 1);
+    EXPECT_TRUE(without.output.contains("--key")) << without.output;
+    const auto enrolled = place.run(kBurinStudy + "enrol s p01 --key list.key");
+    ASSERT_EQ(enrolled.status, 0) << enrolled.output;
+    EXPECT_EQ(place.run(kBurinStudy + "check s").status, 0);
+    place.write("s/allocation.sealed", place.read("s/allocation.sealed") + "all 5 00 00\n");
+    EXPECT_EQ(place.run(kBurinStudy + "check s").status, 1);
+    EXPECT_EQ(place.run(kBurinStudy + "enrol s p02 --key list.key").status, 1);
+}
+
+TEST(StudyCommands, MakeTheStudyOfTheThesisByItsName) {
+    const Workplace place;
+    const auto made = place.run(kBurinStudy + "init kinesthetic-path out --participants 10 --seed 7");
+    ASSERT_EQ(made.status, 0) << made.output;
+    EXPECT_TRUE(made.output.contains("protocol kinesthetic-path")) << made.output;
+    EXPECT_EQ(place.run(kBurinStudy + "check out").status, 0);
+    EXPECT_EQ(place.run(kBurinStudy + "init out2").status, 1);
+    EXPECT_EQ(place.run(kBurinStudy + "init no-such-protocol out2").status, 1);
+    EXPECT_FALSE(std::filesystem::exists(place / "out2"));
+}
+
+// The hand waits in the start cap, goes through the tube in three seconds and rests in the end cap.
+std::string through_the_tube(double from_s) {
+    const Protocol protocol = parse_protocol(short_protocol()).protocol;
+    const std::vector<Vec3>& spine = protocol.worlds.at(0).spine_m;
+    std::vector<Vec3> places{spine.front() + Vec3(-0.01, 0, 0), spine.front() + Vec3(-0.01, 0, 0)};
+    places.insert(places.end(), spine.begin(), spine.end());
+    places.push_back(spine.back() + Vec3(0.01, 0, 0));
+    std::string text;
+    for (std::size_t i = 0; i < places.size(); ++i)
+        text += formatted("%.3f hand %.6f %.6f %.6f\n", from_s + static_cast<double>(i) * 0.06 + (i > 0 ? 0.5 : 0.0),
+                          places[i].x, places[i].y, places[i].z);
+    return text;
+}
+
+TEST(StudyCommands, TakeAParticipantThroughByAScriptAndGoOnAfterAnInterruption) {
+    const Workplace place;
+    ASSERT_EQ(make_study(place, "--participants 2").status, 0);
+    ASSERT_EQ(place.run(kBurinStudy + "enrol s p01").status, 0);
+    const std::string run = kBurinStudy + "run s --participant p01 --input ";
+    const std::string head = "burin-study-input 1\n0 hand -0.175 0.165 0.11\n";
+    // Two pages, the model, two trainings and a trial; then the second trial is interrupted.
+    place.write("one.txt", head + "0.1 start\n1.5 start\n1.6 note sits down\n2 next\n2.5 start\n4 start\n5.5 start\n" +
+                               "7 start\n" + through_the_tube(7.0) + "12 start\n12.5 hand 0 0.2 0.1\n");
+    const auto first = place.run(run + "one.txt");
+    ASSERT_EQ(first.status, 0) << first.output;
+    EXPECT_TRUE(first.output.contains("6 stages ended")) << first.output;
+    EXPECT_TRUE(first.output.contains("ended within a stage")) << first.output;
+    EXPECT_TRUE(place.run(kBurinStudy + "status s").output.contains("aborted: test (day 1, stage 7)"));
+    EXPECT_TRUE(place.read("s/journal.jsonl").contains("sits down"));
+    place.write("two.txt", head + "0.1 start\n" + through_the_tube(0.2));
+    const auto second = place.run(run + "two.txt");
+    ASSERT_EQ(second.status, 0) << second.output;
+    EXPECT_TRUE(second.output.contains("trials.csv: 2 trials")) << second.output;
+    const auto replayed = place.run(kBurinStudy + "replay s");
+    EXPECT_EQ(replayed.status, 0) << replayed.output;
+    EXPECT_TRUE(place.run(kBurinStudy + "status s").output.contains("by a script"));
+    // Learners fill the other place, and the analysis counts both alike.
+    ASSERT_EQ(place.run(kBurinStudy + "run s --simulated --without-motion").status, 0);
+    EXPECT_TRUE(place.run(kBurinStudy + "analyse s").output.contains("4 trials, 2 groups"));
+    EXPECT_EQ(place.run(run + "two.txt").status, 1);  // all is done
+    EXPECT_EQ(place.run(kBurinStudy + "run s --participant sim002 --input two.txt").status, 1);
+    EXPECT_EQ(place.run(kBurinStudy + "run s --participant p09 --input two.txt").status, 1);
+    EXPECT_EQ(place.run(kBurinStudy + "run s --participant p01").status, 1);
+}
+
 TEST(StudyCommands, LeaveOutAndEraseWhoWithdraws) {
     const Workplace place;
     ASSERT_EQ(make_study(place).status, 0);

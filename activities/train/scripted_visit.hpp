@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// A participant's visit in simulated time, without a person and a window: a script says what the operator says and where
+// the hand means to be. It goes through the same stages, rules, ticks and files as a live one (training_run.hpp), so
+// that a study's whole thread can be tried and tested.
+//
+// The script, a line each, '#' begins a remark; times in seconds, rising:
+//   burin-study-input 1
+//   TIME start | next | pause | go on | stop | repeat | note TEXT
+//   TIME hand X Y Z [QX QY QZ QW]     the wand's middle, metres, in the maker's frame (study/felt/stage_touch.hpp)
+// The hand moves straight and evenly between its places. After the last line the visit ends; a stage that is under way
+// then is interrupted, as by a power cut, and is to be done again. One thread.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "activities/train/training_run.hpp"
+#include "devices/hand/simulated_hand.hpp"
+
+namespace burin::activities {
+
+struct VisitScript {
+    struct Said {
+        double time_s = 0.0;
+        OperatorCommand command;
+    };
+    std::vector<Said> said;
+    std::vector<devices::HandPose> hand;  // in the wand's scene frame; at least one
+    double end_s = 0.0;
+};
+// Fails at the first line that is none, with its number and what may stand there.
+[[nodiscard]] Result<VisitScript> parse_visit_script(const std::string& text, const std::string& name);
+
+struct VisitOptions {
+    bool records = true;     // the motion of stages that the protocol has recorded
+    bool any_delay = false;  // whatever the protocol says of the time since the day before
+    std::function<Result<void>(double time_s, const TrainingShown& shown, const TrainingRun& run)> on_frame;
+};
+
+struct VisitFigures {
+    std::size_t stages = 0;  // ended
+    std::uint64_t ticks = 0;
+    double simulated_s = 0.0;
+    bool interrupted = false;  // within a stage
+    std::size_t left = 0;      // stages of the day that are still to be done
+};
+
+// The stages of the first day that the participant has not ended. Fails where there is none left, where somebody else
+// must not go through them, and where the day comes too early or too late by the protocol.
+[[nodiscard]] Result<std::vector<study::StagePlace>> places_left(const study::StudyFolder& study,
+                                                                 const std::string& participant, bool any_delay,
+                                                                 std::int64_t now_utc_ns);
+
+// The folder must be open for writing.
+[[nodiscard]] Result<VisitFigures> run_scripted_visit(study::StudyFolder& study, const std::string& participant,
+                                                      const VisitScript& script, const VisitOptions& options);
+
+}  // namespace burin::activities

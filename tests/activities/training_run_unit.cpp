@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// A participant with an operator: what each says and does takes the stages on, and what is shown follows.
+#include "activities/train/training_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "activities/train/scripted_visit.hpp"
+
+namespace burin::activities {
+namespace {
+
+constexpr Nanoseconds kMs_ns = 1'000'000;
+
+std::string brief_protocol() {
+    std::ifstream in("assets/studies/kinesthetic-path/protocol.toml");
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    for (const char* seconds : {"ends_after_s = 60", "ends_after_s = 300", "ends_after_s = 120"}) {
+        for (std::size_t at = text.find(seconds); at != std::string::npos; at = text.find(seconds, at + 1))
+            text.replace(at, std::string(seconds).size(), "ends_after_s = 1");
+    }
+    return text;
+}
+
+class TrainingRuns : public testing::Test {
+protected:
+    void SetUp() override {
+        auto worlds = felt_worlds(protocol_);
+        ASSERT_TRUE(worlds);
+        worlds_ = std::move(*worlds);
+        run_.emplace(protocol_, protocol_.groups[0], worlds_, study::places_of(protocol_));
+    }
+    void say(const char* text) { run_->command(*operator_command(text), now_ns_); }
+    TrainingShown frame() { return run_->frame(now_ns_); }
+    // So many ticks with the wand's middle at a place of the world.
+    void hold(const Vec3& middle_m, std::size_t ticks) {
+        for (std::size_t i = 0; i < ticks && run_->phase() == TrainingRun::Phase::in_stage; ++i) {
+            now_ns_ += kMs_ns;
+            devices::DeviceSample sample;
+            sample.time_ns = now_ns_;
+            if (run_->session() != nullptr)
+                sample.position_device_m = run_->session()->touch().place_at_device(middle_m);
+            run_->tick(sample, now_ns_);
+        }
+    }
+    void go_through(std::size_t ticks) {
+        const auto& spine = worlds_.at("tube")->world().spine_m;
+        const Vec3 before = spine.front() + 1.5 * (spine.front() - spine[1]);
+        const Vec3 behind = spine.back() + 1.5 * (spine.back() - spine[spine.size() - 2]);
+        hold(before, 50);
+        for (std::size_t i = 0; i < ticks; ++i) {
+            const double at =
+                static_cast<double>(i) / static_cast<double>(ticks) * static_cast<double>(spine.size() - 1);
+            const auto k = static_cast<std::size_t>(at);
+            hold(spine[k] + (at - static_cast<double>(k)) * (spine[std::min(k + 1, spine.size() - 1)] - spine[k]), 1);
+        }
+        hold(behind, 50);
+    }
+    // Goes on to a stage of the list, by the operator.
+    void skip_to(const char* stage) {
+        while (run_->place()->stage->name != stage) {
+            say("start");
+            say("stop");
+            hold(Vec3(0.0), 3);
+            now_ns_ += kMs_ns;
+            static_cast<void>(frame());
+            ASSERT_EQ(run_->phase(), TrainingRun::Phase::ended);
+            static_cast<void>(run_->take_end());
+        }
+    }
+
+    study::Protocol protocol_ = study::parse_protocol(brief_protocol()).protocol;
+    FeltWorlds worlds_;
+    std::optional<TrainingRun> run_;
+    Nanoseconds now_ns_ = kNanosecondsPerSecond;
+};
+
+std::string row(const TrainingShown& shown, const char* name) {
+    const auto found = std::ranges::find(shown.rows, name, &PanelRow::name);
+    return found != shown.rows.end() ? found->value : std::string();
+}
+
+TEST_F(TrainingRuns, WaitForTheOperatorAndShowPagesForTheirTime) {
+    EXPECT_EQ(run_->phase(), TrainingRun::Phase::between);
+    EXPECT_TRUE(frame().page.empty());
+    say("next");  // nothing is under way
+    EXPECT_EQ(run_->phase(), TrainingRun::Phase::between);
+    say("start");
+    EXPECT_TRUE(frame().page.contains("You may stop at any time"));
+    now_ns_ += 900 * kMs_ns;
+    EXPECT_EQ(row(frame(), "time"), "0.9 s");
+    now_ns_ += 200 * kMs_ns;
+    static_cast<void>(frame());
+    ASSERT_EQ(run_->phase(), TrainingRun::Phase::ended);
+    EXPECT_EQ(run_->take_end().end.result, study::StageResult::time_over);
+    // A page that the operator ends.
+    say("start");
+    now_ns_ += 5000 * kMs_ns;
+    static_cast<void>(frame());
+    EXPECT_EQ(run_->phase(), TrainingRun::Phase::in_stage);
+    say("note looks away");
+    say("next");
+    const TrainingShown shown = frame();
+    EXPECT_TRUE(std::ranges::any_of(shown.events, [](const RunEvent& e) { return e.value == "looks away"; }));
+    ASSERT_EQ(run_->phase(), TrainingRun::Phase::ended);
+    EXPECT_EQ(run_->take_end().end.result, study::StageResult::by_operator);
+    EXPECT_STREQ(run_->place()->stage->name.c_str(), "model");
+}
+
+TEST_F(TrainingRuns, TakeATrialFromTheStartCapToTheEndCap) {
+    skip_to("test");
+    say("start");
+    const auto& spine = worlds_.at("tube")->world().spine_m;
+    hold(spine.front() + 1.5 * (spine.front() - spine[1]), 50);
+    const TrainingShown armed = frame();
+    EXPECT_EQ(row(armed, "now"), "in the start cap");
+    EXPECT_EQ(row(armed, "caps"), "in the start cap");
+    ASSERT_TRUE(armed.moment);
+    EXPECT_TRUE(armed.moment->start_touched);
+    const auto tube = std::ranges::find(armed.objects, study::kSeenTubeObject, &ShownObject::id);
+    ASSERT_NE(tube, armed.objects.end());
+    EXPECT_FALSE(tube->seen);
+    go_through(2000);
+    ASSERT_EQ(run_->phase(), TrainingRun::Phase::ended);
+    const EndedStage ended = run_->take_end();
+    EXPECT_EQ(ended.end.result, study::StageResult::valid_exit);
+    EXPECT_NEAR(ended.record.at("time_s").get<double>(), 2.0, 0.1);
+}
+
+TEST_F(TrainingRuns, LoseAnAttemptWhenTheOperatorPausesAndUseUpNone) {
+    skip_to("test");
+    say("start");
+    const auto& spine = worlds_.at("tube")->world().spine_m;
+    hold(spine.front() + 1.5 * (spine.front() - spine[1]), 50);
+    hold(spine[3], 50);
+    EXPECT_EQ(row(frame(), "now"), "clock runs");
+    say("pause");
+    hold(spine[3], 2);
+    EXPECT_EQ(row(frame(), "now"), "paused");
+    say("go on");
+    hold(spine[3], 2);
+    EXPECT_EQ(row(frame(), "attempt"), "1 of 5");
+    go_through(2000);
+    EXPECT_EQ(run_->take_end().end.result, study::StageResult::valid_exit);
+}
+
+TEST_F(TrainingRuns, GiveTheSameStageWhenALoopOfItsOwnRanTheTicks) {
+    skip_to("test");
+    TrainingRun other(protocol_, protocol_.groups[0], worlds_, {*run_->place()});
+    say("start");
+    other.command({OperatorSays::start, {}}, now_ns_);
+    const auto& spine = worlds_.at("tube")->world().spine_m;
+    for (std::size_t i = 0; run_->phase() == TrainingRun::Phase::in_stage && i < 4000; ++i) {
+        const double at =
+            std::clamp(static_cast<double>(i) / 60.0 - 3.0, -1.5, static_cast<double>(spine.size()) + 0.5);
+        const auto k = std::min(static_cast<std::size_t>(std::max(at, 0.0)), spine.size() - 2);
+        now_ns_ += kMs_ns;
+        devices::DeviceSample sample;
+        sample.time_ns = now_ns_;
+        sample.position_device_m = run_->session()->touch().place_at_device(spine[k] + (at - static_cast<double>(k)) *
+                                                                                           (spine[k + 1] - spine[k]));
+        const TrainingRun::Ticked ticked = run_->tick(sample, now_ns_);
+        ASSERT_NE(ticked.record, nullptr);
+        other.follow(*ticked.record);
+    }
+    ASSERT_EQ(run_->phase(), TrainingRun::Phase::ended);
+    ASSERT_EQ(other.phase(), TrainingRun::Phase::ended);
+    EXPECT_EQ(json_text(run_->take_end().record), json_text(other.take_end().record));
+}
+
+TEST(OperatorCommands, AreKnownByTheirWords) {
+    EXPECT_EQ(operator_command("go on")->says, OperatorSays::go_on);
+    EXPECT_EQ(operator_command("note a pause for water")->text, "a pause for water");
+    EXPECT_FALSE(operator_command("note"));
+    EXPECT_FALSE(operator_command("begin"));
+}
+
+TEST(VisitScripts, NameTheLineThatIsNone) {
+    const auto fails = [](const std::string& text, const char* what) {
+        const auto parsed = parse_visit_script(text, "s.txt");
+        ASSERT_FALSE(parsed) << text;
+        EXPECT_TRUE(parsed.error().line().contains(what)) << parsed.error().line();
+    };
+    const std::string head = "burin-study-input 1\n";
+    fails("0 start\n", "s.txt:1");
+    fails(head + "0 hand 0 0 0\n1 dance\n", "s.txt:3");
+    fails(head + "2 start\n1 next\n", "s.txt:3");
+    fails(head + "0 hand 0 0\n", "s.txt:2");
+    fails(head + "0 hand 0 0 nan\n", "s.txt:2");
+    fails(head + "0 start\n", "no hand");
+    const auto good =
+        parse_visit_script(head + "# a remark\n0 hand 0 0.2 0\n0.5 start # now\n\n2 hand 0 0.2 0.1\n", "s");
+    ASSERT_TRUE(good);
+    EXPECT_EQ(good->said.size(), 1u);
+    EXPECT_EQ(good->hand.size(), 2u);
+    EXPECT_EQ(good->end_s, 2.0);
+}
+
+}  // namespace
+}  // namespace burin::activities
