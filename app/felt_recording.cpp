@@ -89,7 +89,7 @@ private:
 
 // Checks that a file is the one that was recorded. No digest was recorded of what is no file.
 Result<void> check_same_file(const record::RecordReader& reader, const char* fact, const std::string& path,
-                        const std::string& option) {
+                             const std::string& option) {
     const auto recorded = reader.facts().find(fact);
     if (recorded == reader.facts().end()) return {};
     const Result<std::string> now = file_digest(path);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "activities/seek/seek.hpp"
 #include "app/world_digest.hpp"
 #include "record/record_writer.hpp"
 #include "session/drive/session.hpp"
@@ -72,6 +73,16 @@ Result<std::string> with_setting(const std::string& settings, const std::string&
     return changed + " " + name + (value.empty() ? "" : " " + session::as_word(value));
 }
 
+// Makes the activity of a recorded session anew; null where it had none.
+Result<std::shared_ptr<session::Activity>> activity_as_recorded(const std::string& settings_line) {
+    const Result<std::string> settings = session::activity_on(settings_line);
+    if (!settings) return std::unexpected(settings.error());
+    if (settings->empty()) return nullptr;
+    const Result<activities::SeekOptions> seek = activities::seek_options_of(*settings);
+    if (!seek) return std::unexpected(seek.error());
+    return std::make_shared<activities::Seek>(*seek);
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> facts_of_live(const session::SculptOptions& options,
@@ -115,13 +126,17 @@ Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay&
     options.live.input = reader.path();
     options.live.offscreen = true;
     options.live.writes_nothing = true;
+    auto activity = activity_as_recorded(log->settings);
+    if (!activity) return std::unexpected(activity.error());
+    options.activity = std::move(*activity);
     const auto recorded = session::options_as_recorded(log->settings, options);
     if (!recorded) return std::unexpected(recorded.error());
     const session::SculptOptions& own = recorded->options;
     warn_of_another(reader, kWorldDigestFact, own.world, digest_of_world(own.world));
     warn_of_another(reader, kWorkpieceDigestFact, own.workpiece.source, digest_of(own.workpiece.source));
     warn_of_another(reader, kToolDigestFact, own.tool.shape, digest_of(tool_file_of(own)));
-    if (const auto sound = session::check_commands(*log, reader.path()); !sound) return std::unexpected(sound.error());
+    if (const auto sound = session::check_commands(*log, reader.path(), options.activity.get()); !sound)
+        return std::unexpected(sound.error());
 
     Result<session::TickComparison> judge = session::TickComparison::create(reader, range);
     if (!judge) return std::unexpected(judge.error());

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <limits>
 #include <random>
 #include <utility>
@@ -29,6 +30,16 @@ std::vector<std::string> in_drawn_order(std::vector<std::string> names, std::uin
 }
 
 }  // namespace
+
+Result<SeekOptions> seek_options_of(const std::string& settings) {
+    SeekOptions options;
+    unsigned long long seed = 0;
+    if (std::sscanf(settings.c_str(), "seek --targets %u --seed %llu", &options.targets, &seed) == 2) {
+        options.seed = seed;
+        if (Seek(options).settings() == settings) return options;
+    }
+    return fail(settings, "are no settings of burin seek", "replay it with the program that recorded it");
+}
 
 std::string Seek::settings() const {
     return formatted("seek --targets %u --seed %llu", options_.targets, static_cast<unsigned long long>(options_.seed));

@@ -27,6 +27,9 @@ struct SeekOptions {
     std::uint64_t seed = 1;
 };
 
+// Reads what Seek::settings() has written. Fails on anything else.
+[[nodiscard]] Result<SeekOptions> seek_options_of(const std::string& settings);
+
 struct Sought {
     std::string object;
     bool skipped = false;

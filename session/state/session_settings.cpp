@@ -166,6 +166,14 @@ std::string settings_line(const SculptOptions& options) {
     return line;
 }
 
+Result<std::string> activity_on(const std::string& line) {
+    if (!line.starts_with(std::string(kCommand) + " --")) return "";
+    Result<OptionWords> words = words_on(line);
+    if (!words) return std::unexpected(words.error());
+    const auto found = words->find(kActivity);
+    return found == words->end() ? "" : found->second;
+}
+
 Result<RecordedOptions> options_as_recorded(const std::string& line, const SculptOptions& given) {
     RecordedOptions recorded{given, {}};
     if (!line.starts_with(std::string(kCommand) + " --")) {  // recorded without options

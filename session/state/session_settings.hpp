@@ -13,9 +13,12 @@
 namespace burin::session {
 
 [[nodiscard]] std::string settings_line(const SculptOptions& options);
+// Returns the settings of the activity of a recording's line (Activity::settings()); empty where it had none.
+[[nodiscard]] Result<std::string> activity_on(const std::string& line);
 
 // Reads the options of a recording's line; options that such lines never hold keep their given values. A recording
-// without a unit is read in metres, as it was made. The Error names an option that is unknown or wrong.
+// without a unit is read in metres, as it was made. The Error names an option that is unknown or wrong, or says that
+// the recording is of another activity than the given one.
 struct RecordedOptions {
     SculptOptions options;
     std::vector<std::string> overruled;  // a message for each given option that the recording contradicts
