@@ -32,6 +32,7 @@ struct HapticsOptions {
     std::uint64_t contact_ticks = 1'000'000;
     std::uint64_t edits = 100;
     std::uint64_t parts_turns = 12'000;            // of each scene and number of parts, in simulated time
+    std::uint64_t wand_ticks = 10'000;             // through the tube, with each choice of ends; in simulated time
     std::vector<int> solid_resolutions{256, 512};  // cells along the side of a ball of 100 mm that is carved
     bool ask_for_realtime = true;                  // real-time priority and locked memory, where the system grants them
 };
@@ -105,6 +106,13 @@ struct PartsShare {
     std::uint64_t ticks = 0, in_contact = 0, held_over = 0, left_behind = 0, let_go = 0, longest_wait = 0;
 };
 
+// A wand in a tube: the work of a tick as counted, with both ends, or with one alone.
+struct WandWork {
+    std::string points;  // "both", "top", "bottom"
+    std::uint64_t in_contact = 0;
+    std::vector<double> cost_us;  // of each tick
+};
+
 struct EditCosts {
     std::size_t triangles = 0, edited_triangles = 0;
     std::vector<double> prepare_ms;  // moving the vertices, making the snapshot, publishing
@@ -140,6 +148,7 @@ struct Haptics {
     EditCosts edits;
     std::vector<ForceJumps> jumps;
     std::vector<PartsShare> parts;
+    std::vector<WandWork> wand;  // both ends first, then each; empty where the tube is not here
 };
 
 using Tell = std::function<void(const std::string&)>;
@@ -153,6 +162,7 @@ using Tell = std::function<void(const std::string&)>;
 [[nodiscard]] Result<void> measure_peer_ticks(Haptics& all, const Tell& notify);
 [[nodiscard]] Result<void> measure_accuracy(Haptics& all, const Tell& notify);
 [[nodiscard]] Result<void> measure_parts(Haptics& all, const Tell& notify);
+[[nodiscard]] Result<void> measure_wand(Haptics& all, const Tell& notify);
 [[nodiscard]] Result<void> measure_edits(Haptics& all, const Tell& notify);
 
 [[nodiscard]] std::string haptics_table(const Haptics& all);

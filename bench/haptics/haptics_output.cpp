@@ -63,6 +63,35 @@ Json parts_of(const PartsShare& p) {
     return row;
 }
 
+// Returns how many times the work of one end, the mean of both alone, both together take.
+double ends_ratio(const std::vector<WandWork>& wand, double share) {
+    if (wand.size() != 3) return 0.0;
+    const double one = 0.5 * (quantile(wand[1].cost_us, share) + quantile(wand[2].cost_us, share));
+    return one > 0.0 ? quantile(wand[0].cost_us, share) / one : 0.0;
+}
+
+Json wand_of(const std::vector<WandWork>& wand) {
+    Json rows = Json::array();
+    for (const WandWork& w : wand) {
+        Json row = {{"points", w.points}, {"ticks", w.cost_us.size()}, {"in_contact", w.in_contact}};
+        row.update(quantiles("tick_cost", "us", w.cost_us));
+        rows.push_back(row);
+    }
+    return {{"ends", rows}, {"both_to_one_p50", ends_ratio(wand, 0.5)}, {"both_to_one_p999", ends_ratio(wand, 0.999)}};
+}
+
+std::string wand_table(const std::vector<WandWork>& wand) {
+    if (wand.empty()) return "";
+    std::string text = "a wand in a tube, work of a tick as counted (us: p50, p99.9, most)\n";
+    for (const WandWork& w : wand)
+        text += formatted("  %-8s %7.2f %7.2f %7.2f, in contact in %.0f %% of %zu ticks\n", w.points.c_str(),
+                          median(w.cost_us), quantile(w.cost_us, 0.999), most(w.cost_us),
+                          100.0 * static_cast<double>(w.in_contact) / static_cast<double>(w.cost_us.size()),
+                          w.cost_us.size());
+    return text + formatted("  both take %.2f times one at p50, %.2f at p99.9; at most 2.2 is asked for\n\n",
+                            ends_ratio(wand, 0.5), ends_ratio(wand, 0.999));
+}
+
 std::string parts_table(const std::vector<PartsShare>& parts) {
     if (parts.empty()) return "";
     std::string text = formatted(
@@ -92,6 +121,7 @@ std::string haptics_table(const Haptics& all) {
     for (const std::string& note : all.notes) text += note + "\n";
     text += "\n" + peers_table(all.peers);
     text += parts_table(all.parts);
+    text += wand_table(all.wand);
     const ProxyErrors& e = all.errors;
     text += formatted("proxy on %zu triangles at 100 mm/s (mesh within %.4f mm of the surface), mm: median, p99, max\n",
                       e.triangles, e.chord_mm);
@@ -131,6 +161,7 @@ Json haptics_json(const Haptics& all) {
     report["peer_ratios"] = peer_ratios(all.peers);
     report["parts"] = Json::array();
     for (const PartsShare& p : all.parts) report["parts"].push_back(parts_of(p));
+    report["wand"] = wand_of(all.wand);
     report["proxy_error"] = errors_of(all.errors);
     report["contact"] = Json::array();
     for (const LostContact& c : all.contact) report["contact"].push_back(contact_of(c));

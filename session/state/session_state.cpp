@@ -19,6 +19,8 @@ namespace {
 constexpr double kHeightOnScreen = 0.52;
 // The same of a world, which is wide rather than high.
 constexpr double kWorldOnScreen = 0.8;
+// Size of a wand's workspace that is shown as large as a world of that size.
+constexpr double kOfWorkspace = 0.8;
 // Distance of its center behind the screen, as a share of its own longest side.
 constexpr double kBehindScreen = 0.4;
 // Height of its center above the screen's lower edge, as a share of the screen's height.
@@ -30,11 +32,20 @@ constexpr double kClearsBorder_m = 0.0005;
 
 double longest(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
 
-Similarity place_workpiece(const Room& room) {
+// Returns the size that is to fill its share of the screen. With a wand it is at least a share of the workspace: in a
+// small world the resting wand would be right before the viewer's nose.
+double size_before_viewer_m(const Room& room, const HeldWand* held) {
+    const double size_m = longest(room.workpiece_object.extent());
+    if (held == nullptr) return size_m;
+    const double scale = object_from_device(*held, room.workpiece_object).scale;
+    return std::max(size_m, kOfWorkspace * scale * longest(room.workspace_device_m));
+}
+
+Similarity place_workpiece(const Room& room, const HeldWand* held) {
     const wall::Screen s = room.screen();
     const Vec3 across = s.lower_right_world - s.lower_left_world, upright = s.upper_left_world - s.lower_left_world;
     const Vec3 out = glm::normalize(glm::cross(across, upright));
-    const double height_m = glm::length(upright), size_m = longest(room.workpiece_object.extent());
+    const double height_m = glm::length(upright), size_m = size_before_viewer_m(room, held);
     Similarity world_from_object;
     const double share = room.covers_depth ? kWorldOnScreen : kHeightOnScreen;
     world_from_object.scale = share * height_m / size_m;
@@ -142,7 +153,7 @@ SessionState begin_session(const Room& room, const sculpt::ToolSettings& tool, c
     state.desk = desk_at_home(room.desk);
     state.head = follow_head({}, room.wall.setup, room.wall.setup.timing, {}, 0, state.desk.head_world);
     state.interpupillary_m = interpupillary_m(room.wall.setup.eyes);
-    state.world_from_object = place_workpiece(room);
+    state.world_from_object = place_workpiece(room, state.wand.get());
     move_into_comfort(state, room);
     state.home_world_from_object = state.world_from_object;
     state.world_from_device = place_workspace(room, state.world_from_object, state.wand.get());

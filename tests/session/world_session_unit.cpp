@@ -96,6 +96,25 @@ TEST(WorldSession, CommandsMoveAndHideObjects) {
     EXPECT_EQ(world.session->scene_on(0)->objects.at(0).colour, Vec3(1.0, 0.0, 0.0));
 }
 
+// Who looks into a tube through its end sees its wall from within.
+TEST(WorldSession, SheetsAreSeenFromBothSides) {
+    scene::SceneObject solid;
+    solid.id = 1;
+    solid.mesh = std::make_shared<const geometry::TriangleMesh>(
+        geometry::TriangleMesh{{Vec3(0.0), {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}}, {{0, 1, 2}}, {}, {}, {}});
+    scene::SceneObject sheet = solid;
+    sheet.id = 2;
+    sheet.both_sides = true;
+    const auto drawn = DrawnWorld(std::vector{solid, sheet}).in_world({});
+    ASSERT_EQ(drawn.size(), 2u);
+    EXPECT_EQ(drawn[0].mesh->indices.size(), 3u);
+    ASSERT_EQ(drawn[1].mesh->indices.size(), 6u);
+    const auto normal_of = [&](std::size_t corner) {
+        return drawn[1].mesh->vertices[drawn[1].mesh->indices[corner]].normal;
+    };
+    EXPECT_NE(normal_of(0), normal_of(3)) << "each side is lit as what it is";
+}
+
 TEST(WorldSession, WhatMovesIsDrawnWhereItIs) {
     OpenWorld world;
     world.frame({});
