@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/study_command.hpp"
 
+#include "app/live_options.hpp"
+
 namespace burin::app {
 
 struct StudyCommand::Options {
@@ -47,7 +49,7 @@ void StudyCommand::add_folder() {
     run_.flag("--simulated", r.simulated, "Simulated learners with a simulated wand fill all places; no window");
     run_.option("--participant", r.participant,
                 "Takes one participant, who is enrolled, through the next day's stages");
-    run_.option("--input", r.input, "A script of the operator and of the hand, in simulated time; see docs/study.md");
+    add_live_options(run_, r.live);  // its --input may also be a script of simulated time
     run_.option("--key", r.key, "The allocation's key, where it is not in the folder");
     run_.option("--threads", r.threads, "People at a time; 0: one for each core; the result is the same")
         .within(0, 1024);

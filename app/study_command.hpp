@@ -4,7 +4,7 @@
 //   burin study check FILE.toml | STUDY
 //   burin study enrol STUDY ID [--codes CODE...] [--key FILE]
 //   burin study run STUDY --simulated [--effect D] [--threads N] [--without-motion | --pictures]
-//   burin study run STUDY --participant ID --input SCRIPT [--resume] [--without-motion | --pictures]
+//   burin study run STUDY --participant ID [--input SCRIPT] [--resume] [--without-motion | --pictures]
 //   burin study replay STUDY
 //   burin study status STUDY
 //   burin study withdraw STUDY ID [--erase]
@@ -21,6 +21,7 @@
 
 #include "app/command_line.hpp"
 #include "base/error.hpp"
+#include "session/state/session_options.hpp"
 #include "study/report/html_report.hpp"
 
 namespace burin::app {
@@ -99,7 +100,8 @@ struct StudyEnrolOptions {
 
 struct StudyRunOptions {
     std::string study, key;
-    std::string participant, input;  // one participant by a script; empty: simulated learners
+    std::string participant;    // one participant; empty: simulated learners
+    session::LiveOptions live;  // its input: of a live session, or a script of simulated time
     bool simulated = false, without_motion = false, pictures = false, resume = false;
     double effect = 0.0;
     unsigned threads = 0;  // 0: one for each core

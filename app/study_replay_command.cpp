@@ -117,7 +117,8 @@ Result<void> study_replay(const StudyReplayOptions& options) {
         for (const study::StageVisit& visit : person.visits) {
             if (visit.recording.empty()) continue;
             std::error_code error;
-            const bool gone = !std::filesystem::exists(study->path() / visit.recording, error);
+            const std::filesystem::path file = study->path() / visit.recording;
+            const bool gone = !std::filesystem::exists(file, error) || std::filesystem::file_size(file, error) == 0;
             // Killed before the first transaction: there is nothing yet.
             if (gone && (person.erased || visit.status == study::StageStatus::aborted)) {
                 ++erased;

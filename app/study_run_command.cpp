@@ -5,6 +5,7 @@
 #include "activities/train/scripted_visit.hpp"
 #include "activities/train/simulated_study.hpp"
 #include "app/study_command.hpp"
+#include "app/study_live.hpp"
 #include "app/study_pictures.hpp"
 #include "app/study_trials.hpp"
 #include "base/file_io.hpp"
@@ -23,10 +24,7 @@ Result<void> check_usage(const StudyRunOptions& options) {
     if (options.pictures && options.without_motion)
         return fail(kRun, "--pictures are drawn from the motion that --without-motion leaves out",
                     "give one of the two");
-    if (!options.participant.empty() && options.input.empty())
-        return fail(kRun, "takes a participant through a study only by a script so far, in simulated time",
-                    "add --input SCRIPT; docs/study.md says what stands in it");
-    if (options.simulated && !options.input.empty())
+    if (options.simulated && !options.live.input.empty())
         return fail(kRun, "simulated learners need no script", "give --participant ID with --input");
     return {};
 }
@@ -73,9 +71,9 @@ private:
 };
 
 Result<void> take_participant(study::StudyFolder& study, const StudyRunOptions& options) {
-    const auto text = read_text_file(options.input, kMostScriptBytes);
+    const auto text = read_text_file(options.live.input, kMostScriptBytes);
     if (!text) return std::unexpected(text.error());
-    const auto script = activities::parse_visit_script(*text, options.input);
+    const auto script = activities::parse_visit_script(*text, options.live.input);
     if (!script) return std::unexpected(script.error());
     std::printf("%s by a script, in simulated time: hand and wand are simulated.\n", options.participant.c_str());
     activities::VisitOptions visit;
@@ -109,7 +107,10 @@ Result<void> study_run(const StudyRunOptions& options) {
     if (!options.resume) {
         if (const auto ok = study::check_resumption(*study, study::now_utc_ns()); !ok) return ok;
     }
-    const auto went = options.simulated ? take_learners(*study, options) : take_participant(*study, options);
+    const bool is_live = options.live.input.empty() || is_session_log(options.live.input);
+    const auto went = options.simulated ? take_learners(*study, options)
+                      : is_live         ? run_live_visit(*study, options)
+                                        : take_participant(*study, options);
     if (!went) return went;
     return options.pictures ? draw_stages(*study) : Result<void>();
 }

@@ -58,7 +58,7 @@ std::vector<std::string> study_facts(const study::StudyFolder& study) {
         finished += !p.withdrawn && ended >= stages ? 1 : 0;
         withdrawn += p.withdrawn ? 1 : 0;
         simulated += p.simulated ? 1 : 0;
-        scripted += p.device == study::StudyFolder::kScriptedDevice ? 1 : 0;
+        scripted += p.device.starts_with("simulated") ? 1 : 0;
     }
     std::vector<std::string> facts;
     if (simulated > 0)
@@ -67,10 +67,9 @@ std::vector<std::string> study_facts(const study::StudyFolder& study) {
             "effect %g SD.",
             simulated, people.size(), study.simulated_effect().value_or(0.0)));
     if (scripted > 0)
-        facts.push_back(
-            formatted("%zu of %zu participants went through by a script: no person took part, the hand is "
-                      "scripted and the wand simulated.",
-                      scripted, people.size()));
+        facts.push_back(formatted(
+            "%zu of %zu participants went through with a simulated device, whose hand is a script or a mouse.",
+            scripted, people.size()));
     facts.push_back("Protocol " + study.protocol().name + ", SHA-256 " + study.facts().protocol_digest + ", " +
                     (study.facts().seed_given ? "allocation by seed " + std::to_string(study.facts().seed)
                                               : "allocation drawn by the system's randomness") +
@@ -104,9 +103,8 @@ Result<TrialsMade> make_trials(const std::string& folder) {
     warn_of_journal(*study);
     const std::vector<study::TrialRow> rows = rows_of(*study);
     if (rows.empty()) return fail(folder, "has no valid outcome trial yet", "run it first: burin study run");
-    const bool simulated = std::ranges::any_of(study->participants(), [](const Participant& p) {
-        return p.simulated || p.device == study::StudyFolder::kScriptedDevice;
-    });
+    const bool simulated = std::ranges::any_of(
+        study->participants(), [](const Participant& p) { return p.simulated || p.device.starts_with("simulated"); });
     const std::string path = (study->path() / "trials.csv").string();
     if (const auto ok = write_text(path, study::trials_csv(rows, simulated)); !ok) return std::unexpected(ok.error());
     return TrialsMade{rows.size(), study_facts(*study)};

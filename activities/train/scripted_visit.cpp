@@ -4,74 +4,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "activities/train/stage_on_disk.hpp"
 #include "base/text.hpp"
 #include "devices/haptic/simulated_wand.hpp"
 #include "study/folder/interruption.hpp"
-#include "study/folder/stage_recording.hpp"
 
 namespace burin::activities {
 namespace {
 
-constexpr Nanoseconds kVisitTick_ns = 1'000'000, kVisitBlock_ns = kNanosecondsPerSecond;
+constexpr Nanoseconds kVisitTick_ns = 1'000'000;
 constexpr std::int64_t kFramesASecond = 60;
-
-// The files of the stage that is under way.
-class StageOnDisk {
-public:
-    StageOnDisk(study::StudyFolder& study, const study::Participant& person, const study::Group& group, bool records)
-        : study_(study), person_(person), group_(group), records_(records) {}
-
-    Result<void> begin(const TrainingRun& run) {
-        at_ = *run.place();
-        const study::StageSession* session = run.session();
-        const bool has_motion = session != nullptr && at_.stage->records && records_;
-        auto files = study_.begin_stage(person_.id, at_, has_motion);
-        if (!files) return std::unexpected(files.error());
-        files_ = std::move(*files);
-        recording_.reset();
-        if (!has_motion) return {};
-        auto facts =
-            study::facts_of_stage(study_.facts().protocol_digest, group_, *at_.stage, *run.world(), session->touch());
-        facts.emplace_back("participant", person_.id);
-        facts.emplace_back("hand", "scripted");
-        auto made = study::StageRecording::create(study_.path() / files_.recording, session->touch(), std::move(facts),
-                                                  kVisitBlock_ns);
-        if (!made) return std::unexpected(made.error());
-        recording_ = std::move(*made);
-        return {};
-    }
-    void take(const TrainingRun::Ticked& ticked) {
-        if (recording_ && ticked.record != nullptr) recording_->take(*ticked.record, ticked.act);
-    }
-    Result<void> take(const std::vector<RunEvent>& events) {
-        for (const RunEvent& event : events) {
-            if (recording_) recording_->note(event.time_ns, event.name, event.value);
-            if (event.name != "note") continue;
-            if (const auto ok = study_.note_of(person_.id, event.value); !ok) return ok;
-        }
-        return {};
-    }
-    Result<void> end(const EndedStage& ended) {
-        if (const auto ok = close(); !ok) return ok;
-        return study_.end_stage(person_.id, at_, study::name_of(ended.end.result), ended.record, files_);
-    }
-    // What is recorded stays, of a stage without an end too.
-    Result<void> close() {
-        if (!recording_) return {};
-        const auto closed = recording_->close();
-        recording_.reset();
-        return closed;
-    }
-
-private:
-    study::StudyFolder& study_;
-    const study::Participant& person_;
-    const study::Group& group_;
-    bool records_;
-    study::StagePlace at_;
-    study::StageFiles files_;
-    std::unique_ptr<study::StageRecording> recording_;
-};
 
 // From the script's frame into the device's.
 std::vector<devices::HandPose> at_device(std::vector<devices::HandPose> hand, const devices::WandDescription& wand) {
@@ -148,39 +90,6 @@ private:
 
 }  // namespace
 
-Result<std::vector<study::StagePlace>> places_left(const study::StudyFolder& study, const std::string& participant,
-                                                   bool any_delay, std::int64_t now_utc_ns) {
-    const std::vector<study::Participant> people = study.participants();
-    const auto person = std::ranges::find(people, participant, &study::Participant::id);
-    if (person == people.end())
-        return fail(participant, "is not in this study", "enrol them first: burin study enrol STUDY " + participant);
-    if (person->withdrawn) return fail(participant, "has withdrawn", "nobody goes on for them");
-    if (person->simulated)
-        return fail(participant, "is a simulated learner", "take it through with burin study run STUDY --simulated");
-    std::vector<study::StagePlace> places;
-    std::int64_t day_before_ns = 0;
-    for (const study::StagePlace& at : study::places_of(study.protocol())) {
-        if (!places.empty() && at.day != places.front().day) break;
-        if (!person->has_ended(at.day, at.place)) {
-            places.push_back(at);
-            continue;
-        }
-        for (const study::StageVisit& v : person->visits)
-            if (v.day == at.day && v.place == at.place && v.status == study::StageStatus::ended)
-                day_before_ns = std::max(day_before_ns, study::utc_of(v.ended_utc));
-    }
-    if (places.empty()) return fail(participant, "has gone through all stages", "burin study analyse STUDY");
-    const bool new_day = places.front().place == 1 && places.front().day > 1;
-    const double hours = static_cast<double>(now_utc_ns - day_before_ns) * 1e-9 / 3600.0;
-    const study::DayVerdict verdict = study::day_verdict(study.protocol(), places.front().day, hours);
-    if (new_day && !any_delay && verdict != study::DayVerdict::in_time)
-        return fail(participant,
-                    formatted("comes %.1f h after the day before, too %s by the protocol", hours,
-                              verdict == study::DayVerdict::too_early ? "early" : "late"),
-                    "give --resume to begin the day all the same, or come at another time");
-    return places;
-}
-
 Result<VisitFigures> run_scripted_visit(study::StudyFolder& study, const std::string& participant,
                                         const VisitScript& script, const VisitOptions& options) {
     auto places = places_left(study, participant, options.any_delay, study::now_utc_ns());
@@ -199,7 +108,8 @@ Result<VisitFigures> run_scripted_visit(study::StudyFolder& study, const std::st
     if (const auto ok = study.begin_visit(participant, study::StudyFolder::kScriptedDevice); !ok)
         return std::unexpected(ok.error());
     TrainingRun run(study.protocol(), *group, *worlds, std::move(*places));
-    StageOnDisk disk(study, person, *group, options.records);
+    StageOnDisk disk(study, participant, *group,
+                     options.records ? StageOnDisk::Motion::ticks : StageOnDisk::Motion::none);
     auto figures = ScriptedVisit(run, disk, script, options, std::move(*hand), wand).go();
     if (figures) figures->left = wanted - figures->stages;
     return figures;

@@ -47,12 +47,6 @@ struct VisitFigures {
     std::size_t left = 0;      // stages of the day that are still to be done
 };
 
-// The stages of the first day that the participant has not ended. Fails where there is none left, where somebody else
-// must not go through them, and where the day comes too early or too late by the protocol.
-[[nodiscard]] Result<std::vector<study::StagePlace>> places_left(const study::StudyFolder& study,
-                                                                 const std::string& participant, bool any_delay,
-                                                                 std::int64_t now_utc_ns);
-
 // The folder must be open for writing.
 [[nodiscard]] Result<VisitFigures> run_scripted_visit(study::StudyFolder& study, const std::string& participant,
                                                       const VisitScript& script, const VisitOptions& options);

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "activities/train/stage_on_disk.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/text.hpp"
+#include "study/folder/interruption.hpp"
+
+namespace burin::activities {
+namespace {
+
+constexpr Nanoseconds kVisitBlock_ns = kNanosecondsPerSecond;
+
+}  // namespace
+
+Result<std::vector<study::StagePlace>> places_left(const study::StudyFolder& study, const std::string& participant,
+                                                   bool any_delay, std::int64_t now_utc_ns) {
+    const std::vector<study::Participant> people = study.participants();
+    const auto person = std::ranges::find(people, participant, &study::Participant::id);
+    if (person == people.end())
+        return fail(participant, "is not in this study", "enrol them first: burin study enrol STUDY " + participant);
+    if (person->withdrawn) return fail(participant, "has withdrawn", "nobody goes on for them");
+    if (person->simulated)
+        return fail(participant, "is a simulated learner", "take it through with burin study run STUDY --simulated");
+    std::vector<study::StagePlace> places;
+    std::int64_t day_before_ns = 0;
+    for (const study::StagePlace& at : study::places_of(study.protocol())) {
+        if (!places.empty() && at.day != places.front().day) break;
+        if (!person->has_ended(at.day, at.place)) {
+            places.push_back(at);
+            continue;
+        }
+        for (const study::StageVisit& v : person->visits)
+            if (v.day == at.day && v.place == at.place && v.status == study::StageStatus::ended)
+                day_before_ns = std::max(day_before_ns, study::utc_of(v.ended_utc));
+    }
+    if (places.empty()) return fail(participant, "has gone through all stages", "burin study analyse STUDY");
+    const bool new_day = places.front().place == 1 && places.front().day > 1;
+    const double hours = static_cast<double>(now_utc_ns - day_before_ns) * 1e-9 / 3600.0;
+    const study::DayVerdict verdict = study::day_verdict(study.protocol(), places.front().day, hours);
+    if (new_day && !any_delay && verdict != study::DayVerdict::in_time)
+        return fail(participant,
+                    formatted("comes %.1f h after the day before, too %s by the protocol", hours,
+                              verdict == study::DayVerdict::too_early ? "early" : "late"),
+                    "give --resume to begin the day all the same, or come at another time");
+    return places;
+}
+
+Result<void> StageOnDisk::begin(const TrainingRun& run) {
+    at_ = *run.place();
+    const study::StageSession* session = run.session();
+    const bool has_motion = session != nullptr && at_.stage->records && motion_ == Motion::ticks;
+    auto files = study_.begin_stage(participant_, at_, has_motion);
+    if (!files) return std::unexpected(files.error());
+    files_ = std::move(*files);
+    recording_.reset();
+    if (!has_motion) return {};
+    auto facts =
+        study::facts_of_stage(study_.facts().protocol_digest, group_, *at_.stage, *run.world(), session->touch());
+    facts.emplace_back("participant", participant_);
+    facts.emplace_back("hand", "scripted");
+    auto made = study::StageRecording::create(study_.path() / files_.recording, session->touch(), std::move(facts),
+                                              kVisitBlock_ns);
+    if (!made) return std::unexpected(made.error());
+    recording_ = std::move(*made);
+    return {};
+}
+
+void StageOnDisk::take(const TrainingRun::Ticked& ticked) {
+    if (recording_ && ticked.record != nullptr) recording_->take(*ticked.record, ticked.act);
+}
+
+Result<void> StageOnDisk::take(const std::vector<RunEvent>& events) {
+    for (const RunEvent& event : events) {
+        if (recording_) recording_->note(event.time_ns, event.name, event.value);
+        if (event.name != "note") continue;
+        if (const auto ok = study_.note_of(participant_, event.value); !ok) return ok;
+    }
+    return {};
+}
+
+Result<void> StageOnDisk::end(const EndedStage& ended) {
+    if (const auto ok = close(); !ok) return ok;
+    return study_.end_stage(participant_, at_, study::name_of(ended.end.result), ended.record, files_);
+}
+
+Result<void> StageOnDisk::close() {
+    if (!recording_) return {};
+    const auto closed = recording_->close();
+    recording_.reset();
+    return closed;
+}
+
+}  // namespace burin::activities

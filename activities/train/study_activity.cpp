@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "activities/train/study_activity.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace burin::activities {
+namespace {
+
+using scene::ObjectProperty;
+
+// A wall of so little presses on nobody, and its contact is known all the same.
+constexpr double kUnfelt_N_per_m = 1e-6;
+
+constexpr std::array kStudyActs{
+    session::Act{"start", "", "Begin the next stage"},
+    session::Act{"next", "", "End the stage, where the protocol has the operator end it"},
+    session::Act{"pause", "", "Hold the stage; an attempt under way is lost and not counted"},
+    session::Act{"go-on", "", "Go on after a pause"},
+    session::Act{"repeat", "", "Give the attempt up, and have it done again"},
+    session::Act{"stop", "", "End the stage and the visit"},
+    session::Act{"note", "TEXT", "Write to the journal; it must name nobody"},
+};
+
+std::string joined_words(std::span<const std::string> words) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+    return text;
+}
+
+// A tick as far as a stage needs it.
+haptics::TickRecord record_of(const haptics::StrokeSample& tick, const study::StageTouch& touch, double offset_m) {
+    const Quat turn = tick.orientation_object;
+    const Similarity& world_from_device = touch.parameters().workspace.object_from_device;
+    haptics::TickRecord record;
+    record.tick = tick.tick;
+    record.time_ns = tick.time_ns;
+    record.sample.time_ns = tick.time_ns;
+    record.sample.position_device_m = touch.place_at_device(tick.position_object_m - turn * Vec3(0.0, offset_m, 0.0));
+    record.sample.orientation_device = glm::conjugate(world_from_device.orientation) * turn;
+    record.gate.given.force_device_N = glm::conjugate(world_from_device.orientation) * tick.force_object_N;
+    record.gate.saturated = (tick.flags & haptics::kTickForceSaturated) != 0;
+    record.flags = tick.flags;
+    return record;
+}
+
+}  // namespace
+
+StudyActivity::StudyActivity(const study::Protocol& protocol, const study::Group& group, const FeltWorlds& worlds,
+                             std::vector<study::StagePlace> places, std::string settings, double point_offset_m,
+                             StageKeeper keeper)
+    : protocol_(protocol),
+      group_(group),
+      settings_(std::move(settings)),
+      point_offset_m_(point_offset_m),
+      keeper_(std::move(keeper)),
+      run_(protocol, group, worlds, std::move(places)) {}
+
+std::span<const session::Act> StudyActivity::acts() const { return kStudyActs; }
+
+void StudyActivity::tell(const Result<void>& done, session::ActivityOrders& orders) {
+    if (!done) orders.messages.push_back("NOT KEPT: " + done.error().line());
+}
+
+Result<void> StudyActivity::act(std::span<const std::string> words, session::ActivityOrders& orders) {
+    const std::string text = words[0] == "go-on" ? "go on" : joined_words(words);
+    const Result<OperatorCommand> command = operator_command(text);
+    if (!command) return std::unexpected(command.error());
+    const TrainingRun::Phase phase = run_.phase();
+    const bool is_note = command->says == OperatorSays::note;
+    if (command->says == OperatorSays::start && phase != TrainingRun::Phase::between)
+        return fail("do start", phase == TrainingRun::Phase::finished ? "all stages are done" : "a stage is under way",
+                    "end it first, with do next or do stop");
+    if (command->says == OperatorSays::start && now_ns_ == 0)
+        return fail("do start", "no tick has come from the device yet", "wait a moment, or see to the device");
+    if (command->says != OperatorSays::start && !is_note && phase != TrainingRun::Phase::in_stage)
+        return fail("do " + words[0], "no stage is under way", "do start begins one");
+    run_.command(*command, now_ns_);
+    if (command->says == OperatorSays::start) {
+        if (keeper_.begun) tell(keeper_.begun(run_), orders);
+        orders.parameters = true;
+    }
+    return {};
+}
+
+void StudyActivity::step(const session::ActivityView& view, session::ActivityOrders& orders) {
+    for (const haptics::StrokeSample& tick : view.ticks) follow(tick, orders);
+    if (run_.phase() == TrainingRun::Phase::in_stage && run_.session() != nullptr && run_.session()->touch().leads())
+        orders.parameters = true;  // guidance fades and turns
+    show(orders);
+    // A page that has ended by its time.
+    if (run_.phase() == TrainingRun::Phase::ended) end_stage(orders);
+}
+
+void StudyActivity::follow(const haptics::StrokeSample& tick, session::ActivityOrders& orders) {
+    now_ns_ = tick.time_ns;
+    if (run_.session() == nullptr || run_.phase() != TrainingRun::Phase::in_stage) return;
+    run_.follow(record_of(tick, run_.session()->touch(), point_offset_m_));
+    if (run_.phase() != TrainingRun::Phase::ended) return;
+    show(orders);
+    end_stage(orders);
+}
+
+void StudyActivity::show(session::ActivityOrders& orders) {
+    shown_ = run_.frame(now_ns_);
+    if (keeper_.events && !shown_.events.empty()) tell(keeper_.events(shown_.events), orders);
+    const study::FeltWorld* world = run_.world();
+    if (world == nullptr) return;
+    for (const ShownObject& one : shown_.objects) {
+        const auto before = as_shown_.find(one.id);
+        if (before != as_shown_.end() && before->second == one) continue;
+        const std::string& name = world->part().object(one.id).name;
+        orders.edits.push_back({name, ObjectProperty::seen, {one.seen ? 1.0 : 0.0}});
+        orders.edits.push_back(
+            {name, ObjectProperty::colour, {one.colour[0] / 255.0, one.colour[1] / 255.0, one.colour[2] / 255.0}});
+        as_shown_[one.id] = one;
+    }
+    const study::Stage& stage = *run_.place()->stage;
+    const bool pressed = group_.feels_tube && stage.feels_world;
+    if (pressed == tube_pressed_) return;
+    tube_pressed_ = pressed;
+    const study::StudyWorld& tube = world->world();
+    const std::string& name = world->part().object(study::kTubeObject).name;
+    orders.edits.push_back({name, ObjectProperty::stiffness, {pressed ? tube.wall_N_per_m : kUnfelt_N_per_m}});
+    orders.edits.push_back({name, ObjectProperty::damping, {pressed ? tube.wall_Ns_per_m : 0.0}});
+}
+
+void StudyActivity::end_stage(session::ActivityOrders& orders) {
+    const std::string name = run_.place()->stage->name;
+    const EndedStage ended = run_.take_end();
+    ++ended_;
+    if (keeper_.ended) tell(keeper_.ended(ended), orders);
+    orders.messages.push_back(name + ": " + study::name_of(ended.end.result));
+    orders.parameters = true;
+    orders.quit = run_.stopped() || run_.phase() == TrainingRun::Phase::finished;
+    shown_ = run_.frame(now_ns_);
+}
+
+void StudyActivity::adjust(haptics::TickParameters& parameters) const {
+    parameters.limits.max_force_N = std::min(parameters.limits.max_force_N, protocol_.force_limit_N);
+    const study::StageSession* session = run_.session();
+    if (session == nullptr || run_.phase() != TrainingRun::Phase::in_stage || !session->touch().leads()) return;
+    parameters.curve = session->touch().parameters().curve;
+    parameters.guidance = session->touch().parameters().guidance;
+}
+
+session::ActivityPanel StudyActivity::panel() const {
+    session::ActivityPanel panel{
+        .title = "Study", .aside = group_.code, .page = shown_.page, .rows = {}, .buttons = {}};
+    for (const PanelRow& row : shown_.rows) panel.rows.push_back({row.name, row.value});
+    const bool in_stage = run_.phase() == TrainingRun::Phase::in_stage;
+    panel.buttons = {{"Start", {"start"}, run_.phase() == TrainingRun::Phase::between},
+                     {"Next", {"next"}, in_stage},
+                     {"Pause", {"pause"}, in_stage},
+                     {"Go on", {"go-on"}, in_stage},
+                     {"Repeat", {"repeat"}, in_stage},
+                     {"Stop", {"stop"}, in_stage}};
+    return panel;
+}
+
+Result<void> StudyActivity::finish() { return keeper_.closed ? keeper_.closed() : Result<void>{}; }
+
+}  // namespace burin::activities

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// A participant's visit in a live session: the stages of training_run.hpp as the session's activity. The operator's
+// words are its acts (`do start`), the page and the operator's rows its section of the panel.
+//
+// Data flow: ticks of the session's own loop -> TrainingRun::follow -> what is seen and felt of the world's objects as
+// edits, guidance and force limit as tick parameters, and each stage's beginning, notes and end to whoever keeps them.
+// The session's world must be the study's (study/felt/felt_world.hpp), under the same names and in the same frame.
+// Frame: the scene's, which is the study world's. Thread: the frame's.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "activities/train/training_run.hpp"
+#include "session/state/activity.hpp"
+
+namespace burin::activities {
+
+// What keeps the stages; null functions: nobody. A failure is shown as a message, and the visit goes on.
+struct StageKeeper {
+    std::function<Result<void>(const TrainingRun&)> begun;
+    std::function<Result<void>(const std::vector<RunEvent>&)> events;
+    std::function<Result<void>(const EndedStage&)> ended;
+    std::function<Result<void>()> closed;  // the session has ended; a stage may be under way
+};
+
+class StudyActivity final : public session::Activity {
+public:
+    // Protocol, group and worlds must outlive it. `point_offset_m`: how far above the wand's middle, along its axis, the
+    // point is whose path the session's ticks tell; 0 for a stylus that stands in for a wand.
+    StudyActivity(const study::Protocol& protocol, const study::Group& group, const FeltWorlds& worlds,
+                  std::vector<study::StagePlace> places, std::string settings, double point_offset_m,
+                  StageKeeper keeper);
+
+    [[nodiscard]] std::string settings() const override { return settings_; }
+    [[nodiscard]] std::span<const session::Act> acts() const override;
+    [[nodiscard]] Result<void> act(std::span<const std::string> words, session::ActivityOrders& orders) override;
+    void step(const session::ActivityView& view, session::ActivityOrders& orders) override;
+    [[nodiscard]] bool is_running() const override { return run_.phase() == TrainingRun::Phase::in_stage; }
+    void adjust(haptics::TickParameters& parameters) const override;
+    [[nodiscard]] session::ActivityPanel panel() const override;
+    [[nodiscard]] Result<void> finish() override;
+
+    [[nodiscard]] const TrainingRun& run() const { return run_; }
+    [[nodiscard]] std::size_t stages_ended() const { return ended_; }
+
+private:
+    void follow(const haptics::StrokeSample& tick, session::ActivityOrders& orders);
+    void show(session::ActivityOrders& orders);
+    void end_stage(session::ActivityOrders& orders);
+    void tell(const Result<void>& done, session::ActivityOrders& orders);
+
+    const study::Protocol& protocol_;
+    const study::Group& group_;
+    std::string settings_;
+    double point_offset_m_;
+    StageKeeper keeper_;
+    TrainingRun run_;
+    TrainingShown shown_;
+    std::map<scene::ObjectId, ShownObject> as_shown_;
+    bool tube_pressed_ = true;  // the session's tube has its stiffness
+    Nanoseconds now_ns_ = 0;    // of the last tick
+    std::size_t ended_ = 0;
+};
+
+}  // namespace burin::activities

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "app/study_live.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "activities/train/stage_on_disk.hpp"
+#include "activities/train/study_activity.hpp"
+#include "app/output_files.hpp"
+#include "app/study_trials.hpp"
+#include "base/text.hpp"
+#include "session/drive/session.hpp"
+#include "study/folder/interruption.hpp"
+
+namespace burin::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string obj_text(const geometry::TriangleMesh& mesh) {
+    std::string text = "# unit: metre\n";
+    for (const Vec3& p : mesh.positions_m) text += formatted("v %.9g %.9g %.9g\n", p.x, p.y, p.z);
+    for (const auto& t : mesh.triangles) text += formatted("f %u %u %u\n", t[0] + 1, t[1] + 1, t[2] + 1);
+    return text;
+}
+
+// The world as a session reads it (docs/formats.md), with the names and numbers of study/felt/felt_world.hpp.
+Result<std::string> write_world(const study::FeltWorld& world, const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) return fail(folder.string(), "cannot be made: " + error.message(), "see to its permissions");
+    std::string text = "name = \"" + world.world().name + "\"\n";
+    for (const scene::ObjectId id : world.objects()) {
+        const scene::SceneObject& object = world.part().object(id);
+        const std::string mesh = formatted("object-%u.obj", static_cast<unsigned>(id));
+        if (const auto ok = write_text((folder / mesh).string(), obj_text(*object.mesh)); !ok)
+            return std::unexpected(ok.error());
+        text += "\n[[object]]\nname = \"" + object.name + "\"\nmesh = \"" + mesh + "\"\nmesh_units = \"m\"\n";
+        text += formatted("colour = \"#%02x%02x%02x\"\nseen = %s\nfelt = %s\n", object.colour[0], object.colour[1],
+                          object.colour[2], object.seen ? "true" : "false", object.felt ? "true" : "false");
+        if (object.felt)
+            text += formatted("both_sides = true\n[object.material]\nstiffness = %.9g\ndamping = %.9g\n",
+                              world.world().wall_N_per_m, world.world().wall_Ns_per_m);
+    }
+    const std::string file = (folder / "world.toml").string();
+    if (const auto ok = write_text(file, text); !ok) return std::unexpected(ok.error());
+    return file;
+}
+
+// The world of all stages that have one.
+Result<std::string> world_of(const std::vector<study::StagePlace>& places, const study::Protocol& protocol) {
+    std::string name;
+    for (const study::StagePlace& at : places) {
+        if (at.stage->world.empty() || at.stage->world == name) continue;
+        if (!name.empty())
+            return fail(at.stage->name, "is in another world than the stage before",
+                        "a live session has one world: give the days' stages one, or run by a script");
+        name = at.stage->world;
+    }
+    return name.empty() ? protocol.worlds.front().name : name;
+}
+
+}  // namespace
+
+bool is_session_log(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::string first;
+    return static_cast<bool>(std::getline(in, first)) && first.starts_with("burin-input ");
+}
+
+Result<void> run_live_visit(study::StudyFolder& study, const StudyRunOptions& options) {
+    auto places = activities::places_left(study, options.participant, options.resume, study::now_utc_ns());
+    if (!places) return std::unexpected(places.error());
+    const std::size_t wanted = places->size();
+    const auto people = study.participants();
+    const auto person = std::ranges::find(people, options.participant, &study::Participant::id);
+    const auto group = std::ranges::find(study.protocol().groups, person->group, &study::Group::code);
+    if (group == study.protocol().groups.end())
+        return fail(options.participant, "is in a group that the protocol has not", "restore the journal from a copy");
+    const auto worlds = activities::felt_worlds(study.protocol());
+    if (!worlds) return std::unexpected(worlds.error());
+    const auto world = world_of(*places, study.protocol());
+    if (!world) return std::unexpected(world.error());
+    const auto file = write_world(*worlds->at(*world), study.path() / "worlds" / *world);
+    if (!file) return std::unexpected(file.error());
+
+    session::SculptOptions session;
+    session.world = *file;
+    session.no_workpiece = true;
+    session.tool.shape = "ball:0.004";
+    session.live = options.live;
+    const bool is_wand = session.live.device.starts_with("simulated-wand");
+    if (const auto ok = study.begin_visit(options.participant, session.live.device); !ok) return ok;
+    activities::StageOnDisk disk(study, options.participant, *group, activities::StageOnDisk::Motion::none);
+    const activities::StageKeeper keeper{
+        [&](const activities::TrainingRun& run) { return disk.begin(run); },
+        [&](const std::vector<activities::RunEvent>& events) { return disk.take(events); },
+        [&](const activities::EndedStage& ended) { return disk.end(ended); }, [&] { return disk.close(); }};
+    const std::string settings =
+        formatted("study run %s group %s day %zu stage %zu", study.facts().protocol_digest.substr(0, 12).c_str(),
+                  group->code.c_str(), places->front().day, places->front().place);
+    const auto activity =
+        std::make_shared<activities::StudyActivity>(study.protocol(), *group, *worlds, std::move(*places), settings,
+                                                    is_wand ? study.protocol().point_offset_m : 0.0, keeper);
+    session.activity = activity;
+    const Result<void> done = session::run_session(session);
+    std::printf("%zu stages ended; %zu of the day are left\n", activity->stages_ended(),
+                wanted - activity->stages_ended());
+    if (const auto made = make_trials(options.study))
+        std::printf("%s/trials.csv: %zu trials\n", options.study.c_str(), made->trials);
+    return done;
+}
+
+}  // namespace burin::app

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// A study's stages as the activity of a live session, fed with ticks by hand.
+#include "activities/train/study_activity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+namespace burin::activities {
+namespace {
+
+using scene::ObjectProperty;
+
+class StudyActivities : public testing::Test {
+protected:
+    void SetUp() override {
+        std::ifstream in("assets/studies/kinesthetic-path/protocol.toml");
+        const std::string text{std::istreambuf_iterator<char>(in), {}};
+        protocol_ = study::parse_protocol(text).protocol;
+        auto worlds = felt_worlds(protocol_);
+        ASSERT_TRUE(worlds);
+        worlds_ = std::move(*worlds);
+    }
+    // The stages of that name, for a group.
+    void begin(const char* stage, std::size_t group) {
+        std::vector<study::StagePlace> places;
+        for (const study::StagePlace& at : study::places_of(protocol_))
+            if (at.stage->name == stage) places.push_back(at);
+        const auto ok = [] { return Result<void>{}; };
+        StageKeeper keeper{[&, ok](const TrainingRun&) { return ++begun_, ok(); },
+                           [&, ok](const std::vector<RunEvent>& events) {
+                               events_.insert(events_.end(), events.begin(), events.end());
+                               return ok();
+                           },
+                           [&](const EndedStage& ended) {
+                               ended_.push_back(ended);
+                               return Result<void>(fail("disk", "is full"));
+                           },
+                           {}};
+        activity_.emplace(protocol_, protocol_.groups[group], worlds_, std::move(places), "study", 0.03,
+                          std::move(keeper));
+    }
+    Result<void> act(std::vector<std::string> words) {
+        orders_ = {};
+        return activity_->act(words, orders_);
+    }
+    // A frame with ticks in which the wand's middle is at these places.
+    void frame(const std::vector<Vec3>& middles_m) {
+        std::vector<haptics::StrokeSample> ticks;
+        for (const Vec3& middle : middles_m) {
+            haptics::StrokeSample tick;
+            tick.tick = ++tick_;
+            tick.time_ns = static_cast<Nanoseconds>(1000 + tick_) * 1'000'000;
+            tick.position_object_m = middle + Vec3(0.0, 0.03, 0.0);
+            ticks.push_back(tick);
+        }
+        orders_ = {};
+        const haptics::ToolState tool;
+        activity_->step({.time_ns = 0, .ticks = ticks, .tool = tool, .world = nullptr}, orders_);
+    }
+    [[nodiscard]] const session::EditObject* edit(const char* object, ObjectProperty property) const {
+        const auto found = std::ranges::find_if(orders_.edits, [&](const session::EditObject& one) {
+            return one.object == object && one.property == property;
+        });
+        return found != orders_.edits.end() ? &*found : nullptr;
+    }
+
+    study::Protocol protocol_;
+    FeltWorlds worlds_;
+    std::optional<StudyActivity> activity_;
+    session::ActivityOrders orders_;
+    std::vector<EndedStage> ended_;
+    std::vector<RunEvent> events_;
+    std::size_t begun_ = 0;
+    std::uint64_t tick_ = 0;
+};
+
+TEST_F(StudyActivities, TakeATrialThroughAndSayWhereItWasNotKept) {
+    begin("test", 1);
+    const auto& spine = worlds_.at("tube")->world().spine_m;
+    EXPECT_FALSE(act({"next"}));
+    EXPECT_FALSE(act({"start"}));  // no tick has come
+    frame({spine.front()});
+    ASSERT_TRUE(act({"start"}));
+    EXPECT_FALSE(act({"start"}));
+    EXPECT_EQ(begun_, 1u);
+    frame(std::vector<Vec3>(50, spine.front() + 1.5 * (spine.front() - spine[1])));
+    ASSERT_NE(edit("start cap", ObjectProperty::colour), nullptr);
+    EXPECT_GT(edit("start cap", ObjectProperty::colour)->value[1], 0.6);  // green
+    ASSERT_NE(edit("seen tube", ObjectProperty::seen), nullptr);
+    EXPECT_EQ(edit("seen tube", ObjectProperty::seen)->value[0], 0.0);
+    ASSERT_NE(edit("tube", ObjectProperty::stiffness), nullptr);
+    EXPECT_LT(edit("tube", ObjectProperty::stiffness)->value[0], 1e-3);
+    ASSERT_TRUE(act({"note", "holds", "her", "breath"}));
+    for (std::size_t i = 0; i + 1 < spine.size(); ++i) {
+        std::vector<Vec3> places;
+        for (int k = 0; k < 40; ++k) places.push_back(spine[i] + (k / 40.0) * (spine[i + 1] - spine[i]));
+        frame(places);
+    }
+    EXPECT_TRUE(orders_.edits.empty());  // nothing looks other than in the frame before
+    frame(std::vector<Vec3>(20, spine.back() + 1.5 * (spine.back() - spine[spine.size() - 2])));
+    ASSERT_EQ(ended_.size(), 1u);
+    EXPECT_EQ(ended_[0].end.result, study::StageResult::valid_exit);
+    EXPECT_NEAR(ended_[0].record.at("time_s").get<double>(), 1.92, 0.1);
+    ASSERT_FALSE(orders_.messages.empty());
+    EXPECT_TRUE(orders_.messages[0].contains("NOT KEPT")) << orders_.messages[0];
+    EXPECT_FALSE(orders_.quit);  // the second trial is still to come
+    EXPECT_TRUE(std::ranges::any_of(events_, [](const RunEvent& e) { return e.value == "holds her breath"; }));
+    ASSERT_TRUE(act({"start"}));
+    ASSERT_TRUE(act({"stop"}));
+    frame(std::vector<Vec3>(2, spine.front()));
+    EXPECT_TRUE(orders_.quit);
+}
+
+TEST_F(StudyActivities, LimitTheForceAndLeadWhoIsLed) {
+    begin("led", 0);
+    haptics::TickParameters parameters;
+    parameters.limits.max_force_N = 3.0;
+    activity_->adjust(parameters);
+    EXPECT_EQ(parameters.limits.max_force_N, protocol_.force_limit_N);
+    EXPECT_EQ(parameters.curve.count, 0u);
+    const auto& spine = worlds_.at("tube")->world().spine_m;
+    frame({spine.front()});
+    ASSERT_TRUE(act({"start"}));
+    frame(std::vector<Vec3>(20, spine.front()));
+    EXPECT_TRUE(orders_.parameters);
+    activity_->adjust(parameters);
+    EXPECT_GT(parameters.curve.count, 10u);
+    EXPECT_GT(parameters.guidance.stiffness_N_per_m, 0.0);
+    EXPECT_GT(parameters.guidance.lead_speed_m_per_s, 0.0);
+    frame(std::vector<Vec3>(200, spine.back()));  // and back again
+    activity_->adjust(parameters);
+    EXPECT_LT(parameters.guidance.lead_speed_m_per_s, 0.0);
+    const session::ActivityPanel panel = activity_->panel();
+    EXPECT_EQ(panel.aside, "haptic");
+    EXPECT_TRUE(std::ranges::any_of(panel.rows, [](const auto& row) { return row.name == "force"; }));
+}
+
+}  // namespace
+}  // namespace burin::activities
