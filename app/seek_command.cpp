@@ -5,8 +5,8 @@
 #include "activities/seek/seek.hpp"
 #include "app/commands.hpp"
 #include "app/live_options.hpp"
+#include "app/live_replay.hpp"
 #include "app/output_files.hpp"
-#include "session/drive/session.hpp"
 
 namespace burin::app {
 
@@ -29,7 +29,7 @@ Result<void> seek(const SeekSession& options) {
     session::SculptOptions session = options.session;
     session.no_workpiece = true;
     session.activity = activity;
-    const Result<void> done = session::run_session(session);
+    const Result<void> done = run_recorded_session(session, "seek");
     // What the person has done is kept, even where the session missed something else.
     const Result<void> written = write_output(options.report, json_text(activity->report()));
     return done ? written : done;
