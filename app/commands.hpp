@@ -32,7 +32,7 @@ struct ConvertOptions {
     bool close_holes = false;
     std::optional<double> simplify_m;            // bound on the surface's motion; none: all triangles
     std::string to;                              // format of a session file's table; empty: IN is a mesh
-    std::string columns, part;                   // of that table
+    std::string columns, part, trials;           // of that table
     std::string subject = "01", task = "touch";  // labels of a BIDS data set
 
     [[nodiscard]] bool is_of_session() const { return !to.empty(); }

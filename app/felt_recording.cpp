@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "app/felt_recording.hpp"
 
-#include <stdlib.h>
-
 #include <filesystem>
 #include <utility>
 
+#include "app/temporary_folder.hpp"
 #include "app/world_digest.hpp"
 #include "base/json.hpp"
 
@@ -62,29 +61,6 @@ private:
     }
     const Json& json_;
     std::string missing_;
-};
-
-// A folder of its own that goes away with what is in it.
-class TemporaryFolder {
-public:
-    static Result<TemporaryFolder> create() {
-        std::error_code ignored;
-        std::string pattern = (fs::temp_directory_path(ignored) / "burin-replay-XXXXXX").string();
-        if (::mkdtemp(pattern.data()) == nullptr)
-            return fail(pattern, "cannot be made", "let TMPDIR name a folder that you may write to");
-        return TemporaryFolder(pattern);
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        if (!path_.empty()) fs::remove_all(path_, ignored);
-    }
-    TemporaryFolder(TemporaryFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
-    TemporaryFolder& operator=(TemporaryFolder&&) = delete;
-    [[nodiscard]] std::string operator/(const char* name) const { return path_ + "/" + name; }
-
-private:
-    explicit TemporaryFolder(std::string path) : path_(std::move(path)) {}
-    std::string path_;
 };
 
 // Checks that a file is the one that was recorded. No digest was recorded of what is no file.

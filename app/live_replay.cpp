@@ -13,6 +13,7 @@
 #include "session/drive/tick_comparison.hpp"
 #include "session/input/input_words.hpp"
 #include "session/live/world_side.hpp"
+#include "session/picture/pictures.hpp"
 #include "session/record/log_outputs.hpp"
 #include "session/record/session_log.hpp"
 #include "session/record/session_recording.hpp"
@@ -125,10 +126,15 @@ Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay&
     session::SculptOptions options;
     options.live.input = reader.path();
     options.live.offscreen = true;
-    options.live.writes_nothing = true;
     auto activity = activity_as_recorded(log->settings);
     if (!activity) return std::unexpected(activity.error());
     options.activity = std::move(*activity);
+    options.live.refuses_exports = true;
+    options.live.screenshots = how.pictures;
+    if (!how.pictures.empty()) {
+        if (const auto made = session::make_picture_folder(how.pictures, "--pictures"); !made)
+            return std::unexpected(made.error());
+    }
     const auto recorded = session::options_as_recorded(log->settings, options);
     if (!recorded) return std::unexpected(recorded.error());
     const session::SculptOptions& own = recorded->options;
@@ -142,7 +148,9 @@ Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay&
     if (!judge) return std::unexpected(judge.error());
     const std::uint64_t ticks = log->threads->ticks.count, rows = reader.hands().front().rows();
     session::ReplayManner manner;
-    manner.draws = false;
+    manner.draws = !how.pictures.empty();
+    manner.only_compares = true;
+    manner.picture_every_ns = nanoseconds(how.every_s);
     manner.witness = &*judge;
     const Result<void> done = session::run_as_recorded(options, std::move(*log), manner);
     LiveReplayed replayed{judge->found(), judge->unrecorded(), 0};

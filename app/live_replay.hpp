@@ -17,14 +17,16 @@ namespace burin::app {
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> facts_of_live(const session::SculptOptions& options,
                                                                              const std::string& command);
 
-// Runs a session (session/drive/session.hpp). Where a session file is recorded, checks its place first, and gives it its
-// facts.
+// Runs a session (session/drive/session.hpp). Where a session file is recorded, checks its place first, and gives it
+// its facts.
 [[nodiscard]] Result<void> run_recorded_session(const session::SculptOptions& options, const std::string& command);
 
 // How a live session is done again.
 struct LiveReplay {
     std::string world, workpiece;   // where the files are now; empty: where they were
     std::vector<std::string> sets;  // "OPTION=VALUE": settings that are changed
+    std::string pictures = {};      // a folder for pictures of its frames; empty: none are drawn
+    double every_s = 1.0;           // of them
 };
 struct LiveReplayed {
     record::Comparison comparison;

@@ -185,6 +185,9 @@ int run(int argc, char** argv) {
     convert.option(
         "--part", convert_options.part,
         "With --to: which hand, where the recording has several, or a derived table by its name's beginning");
+    convert.option("--trials", convert_options.trials,
+                   "With --to: the ticks of these trials alone: numbers or names with commas between them, a star at "
+                   "the end for all that begin so");
     convert.option("--subject", convert_options.subject, "With --to bids: its label").show_default();
     convert.option("--task", convert_options.task, "With --to bids: its label").show_default();
     convert.unit("--units", convert_options.units, kUnitsHelp);

@@ -15,6 +15,7 @@
 #include "app/output_files.hpp"
 #include "app/world_digest.hpp"
 #include "app/world_explore.hpp"
+#include "app/world_wand.hpp"
 #include "base/text.hpp"
 #include "record/derived.hpp"
 #include "session/live/world_side.hpp"
@@ -217,6 +218,8 @@ Json through_json(const activities::ThroughFigures& f) {
 struct ReplayCommand::Options {
     std::string file, through, world, stroke, workpiece, json;
     std::vector<std::string> sets;
+    std::string pictures;
+    double every_s = 1.0;
     std::optional<double> radius_m;
     MaterialOverride materials;
     std::uint64_t from = 0, to = 0;  // 0: all
@@ -238,18 +241,19 @@ Result<void> ReplayCommand::Options::replay() const {
     if (!reader) return std::unexpected(reader.error());
     const std::string activity = fact_of(*reader, activities::kActivityFact);
     if (activity == session::kLiveActivity) return replay_session(*reader);
-    if (!sets.empty())
-        return fail("--set", "changes settings of a live session, and " + file + " is of another kind",
-                    "leave it out, or feel the motion --through another world");
-    if (activity != activities::kWorldActivity && activity != kFeltActivity)
+    if (!sets.empty() || !pictures.empty())
+        return fail(sets.empty() ? "--pictures" : "--set", "is for live sessions, and " + file + " is of another kind",
+                    "leave it out");
+    if (activity != activities::kWorldActivity && activity != kFeltActivity && activity != kWandActivity)
         return fail(file, "does not hold what a replay needs",
                     "replay what burin world --record or burin sculpt --record has written; other "
                     "motions can be felt --through a world");
     if (const auto ok = check_build(*reader); !ok) return ok;
     const auto begun = std::chrono::steady_clock::now();
-    const Result<record::Comparison> found = activity == activities::kWorldActivity
-                                                 ? replay_world(*reader, world, range())
-                                                 : replay_felt(*reader, {stroke, workpiece}, range());
+    const Result<record::Comparison> found =
+        activity == activities::kWorldActivity ? replay_world(*reader, world, range())
+        : activity == kWandActivity            ? replay_wand(*reader, world, stroke, range())
+                                               : replay_felt(*reader, {stroke, workpiece}, range());
     if (!found) return std::unexpected(found.error());
     return tell(*reader, *found, std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(), json);
 }
@@ -260,7 +264,7 @@ Result<void> ReplayCommand::Options::replay_session(record::RecordReader& reader
         return fail("--stroke", "belongs to a felt stroke, and this is a live session", "leave it out");
     if (const auto ok = check_build(reader); !ok) return ok;
     const auto begun = std::chrono::steady_clock::now();
-    const Result<LiveReplayed> found = replay_live(reader, {world, workpiece, sets}, range());
+    const Result<LiveReplayed> found = replay_live(reader, {world, workpiece, sets, pictures, every_s}, range());
     if (!found) return std::unexpected(found.error());
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
     if (!found->comparison.difference && found->unrecorded > 0)
@@ -335,12 +339,16 @@ ReplayCommand::ReplayCommand(Command app)
     command_.option("--from", o.from, "The first tick that is compared; with --through the first that is felt");
     command_.option("--to", o.to, "The last tick");
     command_.option("--world", o.world, "Where the recorded world's file is now");
-    command_.option("--stroke", o.stroke, "Where the stroke's file of a felt stroke is now");
+    command_.option("--stroke", o.stroke, "Where the stroke's file is now");
     command_.option("--workpiece", o.workpiece, "Where the workpiece's file is now");
     command_.option(
         "--set", o.sets,
         "Of a live session: a setting that is changed, OPTION=VALUE, such as friction=0.3; may be repeated. "
         "The first difference then tells what that changes");
+    command_.option("--pictures", o.pictures, "Of a live session: a folder for pictures of it, named by their seconds");
+    command_.option("--every", o.every_s, "With --pictures: seconds of the session from one to the next")
+        .within(0.001, 1e6)
+        .show_default();
     command_.option("--through", o.through,
                     "A world (.toml, .wrl) in which the recorded motion is felt: adds a table of proxies, forces and "
                     "deviations to FILE");
@@ -360,7 +368,8 @@ std::string ReplayCommand::misuse() const {
     const Options& o = *options_;
     if (o.through.empty() && (o.radius_m || o.materials.is_any()))
         return "--radius and materials need --through a world: a replay is with the recorded ones";
-    if (!o.through.empty() && !(o.world.empty() && o.stroke.empty() && o.workpiece.empty() && o.sets.empty()))
+    if (!o.through.empty() &&
+        !(o.world.empty() && o.stroke.empty() && o.workpiece.empty() && o.sets.empty() && o.pictures.empty()))
         return "--through needs no file of the recorded session";
     if (o.from > 0 && o.to > 0 && o.from > o.to) return "--from is behind --to";
     constexpr auto kMostTick = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());

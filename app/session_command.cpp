@@ -170,12 +170,15 @@ Result<record::ExportReport> export_table(record::RecordReader& reader, const Co
     if (!table) return std::unexpected(table.error());
     const auto columns = record::choose_columns(reader.table(*table).columns, options.columns);
     if (!columns) return std::unexpected(columns.error());
-    if (options.to == "npy") return record::export_npy(reader, *table, *columns, out);
-    if (options.to == "hdf5") return record::export_hdf5(reader, *table, *columns, out);
-    if (options.to == "mat") return record::export_mat(reader, *table, *columns, out);
+    Result<record::TickTimes> times;
+    if (!options.trials.empty()) times = record::times_of_trials(reader, options.trials);
+    if (!times) return std::unexpected(times.error());
+    if (options.to == "npy") return record::export_npy(reader, *table, *columns, out, *times);
+    if (options.to == "hdf5") return record::export_hdf5(reader, *table, *columns, out, *times);
+    if (options.to == "mat") return record::export_mat(reader, *table, *columns, out, *times);
     if (options.to == "bids")
-        return record::export_bids(reader, *table, *columns, out, {options.subject, options.task});
-    return record::export_csv(reader, *table, *columns, out);
+        return record::export_bids(reader, *table, *columns, out, {options.subject, options.task}, *times);
+    return record::export_csv(reader, *table, *columns, out, *times);
 }
 
 }  // namespace
@@ -184,8 +187,9 @@ Result<void> convert_session(const ConvertOptions& options) {
     const std::string out = output_of(options);
     if (const auto ok = check_overwrites_none(out, std::array{options.in}); !ok) return ok;
     if (const auto ok = record::check_no_file(out); !ok) return ok;
-    if (options.to == "log" && !(options.columns.empty() && options.part.empty()))
-        return fail("--to log", "has no columns or parts to choose", "leave --columns and --part out");
+    if (options.to == "log" && !(options.columns.empty() && options.part.empty() && options.trials.empty()))
+        return fail("--to log", "has no columns, parts or trials to choose",
+                    "leave --columns, --part and --trials out");
     Result<record::RecordReader> reader = record::RecordReader::open(options.in);
     if (!reader) return std::unexpected(reader.error());
     const Result<record::ExportReport> report = export_table(*reader, options, out);

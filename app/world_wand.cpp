@@ -13,8 +13,11 @@
 #include "activities/wand/wand_view.hpp"
 #include "app/output_files.hpp"
 #include "app/picture_folder.hpp"
+#include "app/temporary_folder.hpp"
+#include "app/world_digest.hpp"
 #include "base/text.hpp"
 #include "devices/haptic/wand_choice.hpp"
+#include "record/record_writer.hpp"
 #include "scene/vrml_world.hpp"
 #include "session/felt/felt_figures.hpp"
 
@@ -155,34 +158,138 @@ Result<void> write_wand_report(const WorldExploration& options, const devices::W
 
 }  // namespace
 
-Result<void> explore_world_with_wand(const WorldExploration& options) {
-    const std::array inputs{options.world, options.stroke};
-    if (const auto ok = check_outputs({}, options.report, inputs); !ok) return ok;
+namespace {
+
+// All that a stroke with a wand is felt with.
+struct WandWorld {
+    activities::WandOptions feel;
+    sculpt::Stroke stroke;
+    std::vector<scene::ObjectId> ids;
+    scene::MaterialTable materials;
+    std::unique_ptr<scene::MeshPart> part;
+    std::string digest;
+};
+
+Result<std::unique_ptr<WandWorld>> open_wand_world(const WorldExploration& options) {
+    auto opened = std::make_unique<WandWorld>();
     const Result<devices::WandDescription> wand = devices::wand_named(options.device);
     if (!wand) return std::unexpected(wand.error());
-    activities::WandOptions feel;
-    feel.wand = *wand;
-    feel.radius_m = options.radius_m;
+    opened->feel.wand = *wand;
+    opened->feel.radius_m = options.radius_m;
     Result<std::vector<devices::WandPoint>> points =
         devices::points_named(*wand, options.points.empty() ? devices::kUsualPoints : options.points);
     if (!points) return std::unexpected(points.error());
-    feel.points = std::move(*points);
-    const Result<sculpt::Stroke> stroke = sculpt::read_stroke(options.stroke);
+    opened->feel.points = std::move(*points);
+    Result<sculpt::Stroke> stroke = sculpt::read_stroke(options.stroke);
     if (!stroke) return std::unexpected(stroke.error());
+    opened->stroke = std::move(*stroke);
     Result<scene::World> world = world_to_explore(options.world);
     if (!world) return std::unexpected(world.error());
     for (const std::string& remark : world->remarks) std::fprintf(stderr, "burin: %s\n", remark.c_str());
-    std::vector<scene::ObjectId> ids;
-    for (const scene::SceneObject& object : world->objects) ids.push_back(object.id);
-    scene::MaterialTable materials;
-    Result<std::unique_ptr<scene::MeshPart>> part = scene::MeshPart::create(std::move(world->objects), materials);
+    for (const scene::SceneObject& object : world->objects) opened->ids.push_back(object.id);
+    opened->digest = world_digest(world->objects);
+    Result<std::unique_ptr<scene::MeshPart>> part =
+        scene::MeshPart::create(std::move(world->objects), opened->materials);
     if (!part) return std::unexpected(part.error());
+    opened->part = std::move(*part);
+    return opened;
+}
 
-    WandPictures pictures(**part, ids, options, *wand);
-    if (const auto opened = pictures.open(options.pictures); !opened) return opened;
+std::string wand_file_of(const std::string& device) {
+    const std::size_t behind = std::string_view(devices::kSimulatedWand).size() + 1;
+    return device.size() > behind ? device.substr(behind) : std::string();
+}
+
+std::vector<std::pair<std::string, std::string>> facts_of_wand(const WorldExploration& options,
+                                                               const WandWorld& opened) {
+    const Json settings{{"world", options.world},
+                        {"stroke", options.stroke},
+                        {"device", options.device},
+                        {"points", options.points},
+                        {"radius_m", options.radius_m}};
+    std::vector<std::pair<std::string, std::string>> facts{
+        {"program", "burin"},
+        {"version", BURIN_VERSION},
+        {"compiler", __VERSION__},
+        {"command", "world --stroke --device"},
+        {"time", "simulated"},
+        {"world", options.world},
+        {"stroke", options.stroke},
+        {"device", options.device},
+        {"activity", kWandActivity},
+        {"settings", settings.dump(-1, ' ', false, Json::error_handler_t::replace)},
+        {kWorldDigestFact, opened.digest}};
+    for (const auto& [fact, path] :
+         {std::pair("stroke sha256", options.stroke), std::pair("wand sha256", wand_file_of(options.device))})
+        if (const auto digest = path.empty() ? Result<std::string>("") : file_digest(path); digest && !digest->empty())
+            facts.emplace_back(fact, *digest);
+    return facts;
+}
+
+void warn_where_another(const record::RecordReader& reader, const std::string& what, const std::string& now,
+                        const char* fact) {
+    const auto recorded = reader.facts().find(fact);
+    if (recorded == reader.facts().end() || recorded->second == now) return;
+    std::fprintf(stderr, "burin: %s: is another one than was recorded: SHA-256 %s, recorded: %s\n", what.c_str(),
+                 now.c_str(), recorded->second.c_str());
+}
+
+}  // namespace
+
+Result<record::Comparison> replay_wand(record::RecordReader& reader, const std::string& world,
+                                       const std::string& stroke, const record::TickRange& range) {
+    const auto settings = reader.facts().find("settings");
+    const Json json = settings == reader.facts().end() ? Json() : Json::parse(settings->second, nullptr, false);
+    WorldExploration options;
+    const auto text = [&](const char* key, std::string& to) {
+        if (!json.is_object() || !json.contains(key) || !json[key].is_string()) return false;
+        to = json[key].get<std::string>();
+        return true;
+    };
+    const bool sound = text("world", options.world) && text("stroke", options.stroke) &&
+                       text("device", options.device) && text("points", options.points) && json.contains("radius_m") &&
+                       json["radius_m"].is_number();
+    if (!sound || !devices::is_wand(options.device))
+        return fail(reader.path(), "has no sound settings of a stroke with a wand",
+                    "replay what burin world --stroke --device simulated-wand --record has written");
+    options.radius_m = json["radius_m"].get<double>();
+    if (!(options.radius_m >= 1e-5 && options.radius_m <= 1.0))
+        return fail(reader.path(), "has a radius out of range", "it was changed");
+    if (!world.empty()) options.world = world;
+    if (!stroke.empty()) options.stroke = stroke;
+    Result<std::unique_ptr<WandWorld>> opened = open_wand_world(options);
+    if (!opened) return std::unexpected(opened.error());
+    WandWorld& again = **opened;
+    warn_where_another(reader, options.world, again.digest, kWorldDigestFact);
+    if (const auto now = file_digest(options.stroke)) warn_where_another(reader, options.stroke, *now, "stroke sha256");
+    if (const std::string file = wand_file_of(options.device); !file.empty())
+        if (const auto now = file_digest(file)) warn_where_another(reader, file, *now, "wand sha256");
+    const Result<TemporaryFolder> folder = TemporaryFolder::create();
+    if (!folder) return std::unexpected(folder.error());
+    again.feel.record = *folder / "again.session";
+    const auto explored =
+        activities::explore_with_wand(*again.part, again.ids, again.materials, again.stroke, again.feel, {});
+    if (!explored) return std::unexpected(explored.error());
+    Result<record::RecordReader> other = record::RecordReader::open(again.feel.record);
+    if (!other) return std::unexpected(other.error());
+    return record::compare(reader, *other, {}, range);
+}
+
+Result<void> explore_world_with_wand(const WorldExploration& options) {
+    const std::array inputs{options.world, options.stroke};
+    if (const auto ok = check_outputs({}, options.report, inputs); !ok) return ok;
+    if (const auto ok = record::check_new_place(options.record); !ok) return ok;
+    Result<std::unique_ptr<WandWorld>> opened = open_wand_world(options);
+    if (!opened) return std::unexpected(opened.error());
+    WandWorld& w = **opened;
+    w.feel.record = options.record;
+    if (!options.record.empty()) w.feel.facts = facts_of_wand(options, w);
+
+    WandPictures pictures(*w.part, w.ids, options, w.feel.wand);
+    if (const auto ready = pictures.open(options.pictures); !ready) return ready;
     const Result<activities::WandExploredWorld> explored = activities::explore_with_wand(
-        **part, ids, materials, *stroke, feel, [&](const activities::WandMoment& moment) -> Result<void> {
-            pictures.take_updates((*part)->take_object_updates());
+        *w.part, w.ids, w.materials, w.stroke, w.feel, [&](const activities::WandMoment& moment) -> Result<void> {
+            pictures.take_updates(w.part->take_object_updates());
             return pictures.at(moment);
         });
     if (!explored) return std::unexpected(explored.error());
@@ -191,7 +298,9 @@ Result<void> explore_world_with_wand(const WorldExploration& options) {
                      options.stroke.c_str(), explored->scene_from_device.scale);
     if (const auto done = pictures.finish(); !done) return done;
     print_point_touches(*explored);
-    return write_wand_report(options, *wand, feel.points, **part, *explored);
+    if (!options.record.empty())
+        std::printf("%s: %s ticks recorded\n", options.record.c_str(), std::to_string(explored->run.ticks).c_str());
+    return write_wand_report(options, w.feel.wand, w.feel.points, *w.part, *explored);
 }
 
 }  // namespace burin::app

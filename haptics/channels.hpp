@@ -133,6 +133,7 @@ struct PointRecord {
     // index in the surface used, of the triangle that bears most of the contact
     std::uint32_t active_triangle = kNoTriangle;
     std::uint32_t constraints = 0;  // number of planes that bear the proxy, 0 to 3
+    std::uint32_t object = 0;       // that active_triangle is part of (LocalSurface::object); 0: none, or not numbered
 };
 
 // The motion of the tool: the device's, mapped into the scene.

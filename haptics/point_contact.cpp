@@ -90,6 +90,7 @@ void PointContact::touch(bool painting, const ProxyBudget& budget) {
     last_ = {moved.normal_object, moved.constraints};
     if (moved.sticking) step_.flags |= kTickSticking;
     record_.active_triangle = moved.active_triangle;
+    if (moved.active_triangle != kNoTriangle) record_.object = input_.surface.object(moved.active_triangle);
     if (state_.carrier != 0)
         surface_velocity_device_m_per_s_ = at_device(bodies_.velocity(moved.active_triangle, record_.proxy_object_m));
     if (!was_fitting || was_put_elsewhere(moved, before))

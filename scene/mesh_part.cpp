@@ -240,6 +240,7 @@ Result<void> MeshPart::update(Nanoseconds now_ns, const PartSeen*) {
 geometry::TouchedMesh MeshPart::Placed::touched(Nanoseconds time_ns) const {
     geometry::TouchedMesh mesh{snapshot, material, object.both_sides};
     mesh.motion.object_from_mesh = scene_from_object;
+    mesh.object = static_cast<std::uint32_t>(object.id);
     if (!moves()) return mesh;
     mesh.motion.body = object.id;
     mesh.motion.velocity_object_m_per_s = velocities.linear_m_per_s;

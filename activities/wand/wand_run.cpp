@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "haptics/haptic_loop.hpp"
+#include "record/record_writer.hpp"
 #include "scene/scene_service.hpp"
+#include "session/record/session_recording.hpp"
 
 namespace burin::activities {
 namespace {
@@ -42,6 +44,27 @@ scene::SceneHand hand_in_scene(const WandOptions& options, const devices::HandPo
             scale * farthest_m + 2.0 * options.radius_m, scale * kWandReach_m};
 }
 
+// Begins to record every tick; null where none is recorded. The recorder is the ring's only reader.
+Result<std::unique_ptr<record::RecordWriter>> record_wand(const WandOptions& options, const scene::MeshPart& part,
+                                                          const devices::DeviceDescription& device,
+                                                          const haptics::Probe& probe,
+                                                          haptics::HapticChannels& channels) {
+    if (options.record.empty()) return nullptr;
+    const record::RowShape shape = record::shape_of(device, probe);
+    record::RecordedHand hand{device.name, device, probe, &channels.records};
+    hand.more_columns = session::touched_columns(shape);
+    hand.more_values = [shape](const haptics::TickRecord& tick, std::vector<record::Word>& row) {
+        session::append_touched(tick, shape, row);
+    };
+    record::WriterOptions writer;
+    writer.facts = options.facts;
+    for (scene::ObjectId id = 1; id <= part.size(); ++id)
+        if (part.has(id)) writer.objects.emplace_back(static_cast<std::int64_t>(id), part.object(id).name);
+    std::vector<record::RecordedHand> hands;
+    hands.push_back(std::move(hand));
+    return record::RecordWriter::create(options.record, std::move(hands), std::move(writer));
+}
+
 }  // namespace
 
 std::vector<devices::HandPose> script_in_device(std::vector<devices::HandPose> script,
@@ -66,10 +89,14 @@ Result<WandRun> run_wand(scene::MeshPart& part, const scene::MaterialTable& mate
     const devices::HandTarget start = hand->target(0.0);
 
     SimulatedClock clock;
-    haptics::HapticChannels channels;
+    haptics::HapticChannels channels(haptics::HapticChannels::kStrokes,
+                                     options.record.empty() ? haptics::HapticChannels::kRecords : record::kRingTicks);
     devices::SimulatedWand wand(std::move(*hand), options.wand, &clock);
-    channels.parameters.draft() = wand_parameters(options, wand.description(), materials);
+    const haptics::TickParameters parameters = wand_parameters(options, wand.description(), materials);
+    channels.parameters.draft() = parameters;
     channels.parameters.publish();
+    const auto recorder = record_wand(options, part, wand.description(), parameters.probe, channels);
+    if (!recorder) return std::unexpected(recorder.error());
     haptics::HapticLoop loop(wand, clock, channels);
     scene::SceneService service(
         {&part}, {hand_in_scene(options, {0.0, start.position_device_m, start.orientation_device, 0}, channels)});
@@ -82,6 +109,11 @@ Result<WandRun> run_wand(scene::MeshPart& part, const scene::MaterialTable& mate
     while (clock.now_ns() < end_ns) {
         if (clock.now_ns() >= next_update_ns) {
             if (const auto updated = service.update(clock.now_ns()); !updated) return std::unexpected(updated.error());
+            if (*recorder) {
+                // Simulated time is not held back by any clock: the ring would overflow.
+                (*recorder)->take_now();
+                if (const auto failed = (*recorder)->failure()) return std::unexpected(*failed);
+            }
             next_update_ns = clock.now_ns() + scene::SceneService::kHandsMove_ns;
             if (on_update)
                 if (const auto done = on_update(seconds(clock.now_ns() - start_ns), last); !done)
@@ -89,10 +121,12 @@ Result<WandRun> run_wand(scene::MeshPart& part, const scene::MaterialTable& mate
         }
         clock.sleep_until(clock.now_ns() + loop.period_ns());
         last = loop.step();
-        while (channels.records.pop(drained)) {
+        while (!*recorder && channels.records.pop(drained)) {
         }
         if (on_tick) on_tick(seconds(clock.now_ns() - start_ns), last);
     }
+    if (*recorder)
+        if (const auto closed = (*recorder)->close(); !closed) return std::unexpected(closed.error());
     run.ticks = loop.ticks();
     run.surfaces_published = service.published(0);
     run.trips = wand.trips();

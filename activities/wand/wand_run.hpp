@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "devices/haptic/simulated_wand.hpp"
@@ -23,6 +24,8 @@ struct WandOptions {
     double radius_m = 0.004;                 // of the ball at each, in the scene
     Similarity scene_from_device;
     devices::HandGrip grip;
+    std::string record = {};                                      // a new session file for every tick; empty: none
+    std::vector<std::pair<std::string, std::string>> facts = {};  // for it
 };
 
 // Takes a script from the scene into the device's frame.
@@ -39,8 +42,8 @@ struct WandRun {
     devices::WandSaturation saturation;
 };
 
-// Leads the wand along the script, to its last pose. Fails on a script that is none, and when an update or what is
-// called at one does.
+// Leads the wand along the script, to its last pose. Fails on a script that is none, and when an update, what is called
+// at one, or the recording does.
 [[nodiscard]] Result<WandRun> run_wand(scene::MeshPart& part, const scene::MaterialTable& materials,
                                        std::vector<devices::HandPose> script, const WandOptions& options,
                                        const OnWandTick& on_tick, const OnWandUpdate& on_update);

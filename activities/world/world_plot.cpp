@@ -12,7 +12,7 @@
 namespace burin::activities {
 namespace {
 
-constexpr std::size_t kMostLines = 10;
+constexpr std::size_t kMostLines = 7;  // as many as have a colour of their own and stand side by side in a legend
 // An object that was not touched for so long has a gap in its line.
 constexpr double kBreak_s = 0.025;
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
@@ -47,11 +47,12 @@ std::string world_figure(const WorldFigures& figures) {
         }
     }
     std::ranges::stable_sort(objects, std::greater(), [](const ObjectTouch* touch) { return touch->updates; });
-    if (objects.size() > kMostLines) objects.resize(kMostLines);
+    const bool all = objects.size() <= kMostLines;
+    if (!all) objects.resize(kMostLines);
     std::ranges::stable_sort(objects, {}, [](const ObjectTouch* touch) { return touch->first_s; });
     const std::vector<double> times_s(instants_s.begin(), instants_s.end());
     return plot::time_figure(
-        "What was felt of each object",
+        all ? "What was felt of each object" : "What was felt of the objects touched longest",
         {plot_of("Force on the hand", "N", times_s, objects, [](const TouchedPoint& p) { return p.force_N; }),
          plot_of("Hand beyond where its tool rests", "mm", times_s, objects,
                  [](const TouchedPoint& p) { return 1e3 * p.beyond_m; })},

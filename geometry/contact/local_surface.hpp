@@ -42,7 +42,8 @@ struct TouchedMesh {
     std::uint8_t material = 0;  // which of the session's materials (haptics/forces/touch_force.hpp)
     // A surface without thickness, felt from either side: the side on which the tool is. Else only the outer side is.
     bool two_sided = false;
-    MeshMotion motion{};  // by default none: the snapshot's place is in the object frame
+    MeshMotion motion{};       // by default none: the snapshot's place is in the object frame
+    std::uint32_t object = 0;  // number of the scene's object, for records of what was touched; 0: none
 
     [[nodiscard]] bool moves() const noexcept { return motion.body != 0; }
     // Tells whether the mesh's frame may be another than the object frame.
@@ -70,6 +71,9 @@ struct LocalSurface {
     [[nodiscard]] Triangle triangle(std::uint32_t id) const noexcept;
     // Returns the triangle's material; 0 for tiles and loose triangles.
     [[nodiscard]] std::uint8_t material(std::uint32_t id) const noexcept;
+    // Returns the number of the object that the triangle is part of; kUnnumbered for tiles and loose triangles.
+    static constexpr std::uint32_t kUnnumbered = 0xffffffffu;
+    [[nodiscard]] std::uint32_t object(std::uint32_t id) const noexcept;
     // Tells whether the triangle is part of a mesh that is felt from either side.
     [[nodiscard]] bool two_sided(std::uint32_t id) const noexcept;
     // Returns the normals at the triangle's corners; unknown for loose triangles. Those of a mesh that has a pose are
@@ -131,6 +135,11 @@ inline Triangle LocalSurface::triangle(std::uint32_t id) const noexcept {
 inline std::uint8_t LocalSurface::material(std::uint32_t id) const noexcept {
     const Place place = in_meshes(id);
     return place.mesh == nullptr ? std::uint8_t{0} : place.mesh->material;
+}
+
+inline std::uint32_t LocalSurface::object(std::uint32_t id) const noexcept {
+    const Place place = in_meshes(id);
+    return place.mesh == nullptr ? kUnnumbered : place.mesh->object;
 }
 
 inline bool LocalSurface::two_sided(std::uint32_t id) const noexcept {

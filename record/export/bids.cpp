@@ -177,11 +177,11 @@ struct BidsSpan {
 };
 
 Result<void> write_motion(RecordReader& reader, std::size_t table, const std::vector<std::size_t>& columns,
-                          const std::string& path, BidsSpan& span, ExportReport& report) {
+                          const std::string& path, const TickTimes& times, BidsSpan& span, ExportReport& report) {
     Result<NewFile> file = NewFile::create(path);
     if (!file) return std::unexpected(file.error());
     std::string line;
-    const auto done = each_block(reader, table, report, [&](const Block& block) -> Result<void> {
+    const auto done = each_block(reader, table, times, report, [&](const Block& block) -> Result<void> {
         for (std::uint32_t row = 0; row < block.rows(); ++row) {
             span.see(block, row);
             std::int64_t since_ns = 0;
@@ -265,7 +265,7 @@ Result<void> check_labels(const BidsLabels& labels) {
 }
 
 Result<ExportReport> export_bids(RecordReader& reader, std::size_t table, const std::vector<std::size_t>& columns,
-                                 const std::string& path, const BidsLabels& labels) {
+                                 const std::string& path, const BidsLabels& labels, const TickTimes& times) {
     if (const auto ok = check_labels(labels); !ok) return std::unexpected(ok.error());
     if (path == "-") return fail("bids", "cannot go to standard output: it is a folder", "name a folder");
     Result<NewFolder> folder = NewFolder::create(path);
@@ -282,7 +282,7 @@ Result<ExportReport> export_bids(RecordReader& reader, std::size_t table, const 
 
     BidsSpan span(of);
     ExportReport report{0, columns.size(), {}};
-    const auto moved = write_motion(reader, table, columns, begin + "motion.tsv", span, report);
+    const auto moved = write_motion(reader, table, columns, begin + "motion.tsv", times, span, report);
     if (!moved) return std::unexpected(moved.error());
     const Result<std::string> events = trials_table(reader, span.first_ns);
     if (!events) return std::unexpected(events.error());

@@ -4,22 +4,8 @@
 
 namespace burin::record {
 
-Result<void> each_block(RecordReader& reader, std::size_t table, ExportReport& report,
-                        const std::function<Result<void>(const Block&)>& take) {
-    for (std::size_t number = 0; number < reader.table(table).blocks.size(); ++number) {
-        const Result<Block> block = reader.block(table, number);
-        if (!block) {
-            report.damaged.push_back(block.error());
-            continue;
-        }
-        if (const auto taken = take(*block); !taken) return taken;
-        report.rows += block->rows();
-    }
-    return {};
-}
-
 Result<ExportReport> export_csv(RecordReader& reader, std::size_t table, const std::vector<std::size_t>& columns,
-                                const std::string& path) {
+                                const std::string& path, const TickTimes& times) {
     Result<NewFile> file = NewFile::create(path);
     if (!file) return std::unexpected(file.error());
     std::string line;
@@ -27,7 +13,7 @@ Result<ExportReport> export_csv(RecordReader& reader, std::size_t table, const s
     for (const std::size_t column : columns) add(reader.table(table).columns[column].name);
     if (const auto done = file->write(line + "\n"); !done) return std::unexpected(done.error());
     ExportReport report{0, columns.size(), {}};
-    const auto done = each_block(reader, table, report, [&](const Block& block) -> Result<void> {
+    const auto done = each_block(reader, table, times, report, [&](const Block& block) -> Result<void> {
         for (std::uint32_t row = 0; row < block.rows(); ++row) {
             line.clear();
             for (const std::size_t column : columns) add(text_of(block.at(column, row), block.type(column)));

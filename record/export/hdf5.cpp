@@ -139,7 +139,7 @@ bool put_h5_facts(hid_t file, const RecordReader& reader, std::size_t table) {
 }  // namespace
 
 Result<ExportReport> export_hdf5(RecordReader& reader, std::size_t table, const std::vector<std::size_t>& columns,
-                                 const std::string& path) {
+                                 const std::string& path, const TickTimes& times) {
     Result<NewFile> file = NewFile::create(path);
     if (!file) return std::unexpected(file.error());
     if (file->is_standard_output()) return fail("hdf5", "cannot go to standard output", "name a file");
@@ -158,7 +158,7 @@ Result<ExportReport> export_hdf5(RecordReader& reader, std::size_t table, const 
     }
     if (!put_h5_facts(h5.id(), reader, table)) return failed();
     ExportReport report{0, columns.size(), {}};
-    const auto done = each_block(reader, table, report, [&](const Block& block) -> Result<void> {
+    const auto done = each_block(reader, table, times, report, [&](const Block& block) -> Result<void> {
         for (std::size_t i = 0; i < columns.size(); ++i)
             if (!written[i].append(block, columns[i])) return failed();
         return {};

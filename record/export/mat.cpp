@@ -140,9 +140,9 @@ struct MatVariable {
 };
 
 // Counts the rows that can be read, since each vector's length stands before it.
-Result<std::uint64_t> readable_rows(RecordReader& reader, std::size_t table) {
+Result<std::uint64_t> readable_rows(RecordReader& reader, std::size_t table, const TickTimes& times) {
     ExportReport first{};
-    const auto read = each_block(reader, table, first, [](const Block&) { return Result<void>(); });
+    const auto read = each_block(reader, table, times, first, [](const Block&) { return Result<void>(); });
     if (!read) return std::unexpected(read.error());
     return first.rows;
 }
@@ -150,11 +150,11 @@ Result<std::uint64_t> readable_rows(RecordReader& reader, std::size_t table) {
 }  // namespace
 
 Result<ExportReport> export_mat(RecordReader& reader, std::size_t table, const std::vector<std::size_t>& columns,
-                                const std::string& path) {
+                                const std::string& path, const TickTimes& times) {
     Result<NewFile> file = NewFile::create(path);
     if (!file) return std::unexpected(file.error());
     if (file->is_standard_output()) return fail("mat", "cannot go to standard output", "name a file");
-    const Result<std::uint64_t> rows = readable_rows(reader, table);
+    const Result<std::uint64_t> rows = readable_rows(reader, table, times);
     if (!rows) return std::unexpected(rows.error());
     if (*rows > kMostMatBytes / 8)
         return fail(path, std::to_string(*rows) + " ticks make variables above 2 GiB, which MATLAB does not read",
@@ -178,7 +178,7 @@ Result<ExportReport> export_mat(RecordReader& reader, std::size_t table, const s
         at = end;
     }
     ExportReport report{0, columns.size(), {}};
-    const auto done = each_block(reader, table, report, [&](const Block& block) -> Result<void> {
+    const auto done = each_block(reader, table, times, report, [&](const Block& block) -> Result<void> {
         if (report.rows + block.rows() > *rows)
             return fail(path, "the recording has grown meanwhile", "convert it again");
         for (MatVariable& variable : variables) {

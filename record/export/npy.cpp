@@ -50,7 +50,7 @@ std::string numpy_header(const HandRecord& hand, const std::vector<std::size_t>&
 }  // namespace
 
 Result<ExportReport> export_npy(RecordReader& reader, std::size_t table, const std::vector<std::size_t>& columns,
-                                const std::string& path) {
+                                const std::string& path, const TickTimes& times) {
     const HandRecord& of = reader.table(table);
     Result<NewFile> file = NewFile::create(path);
     if (!file) return std::unexpected(file.error());
@@ -58,7 +58,7 @@ Result<ExportReport> export_npy(RecordReader& reader, std::size_t table, const s
     if (const auto done = file->write(numpy_header(of, columns, 0)); !done) return std::unexpected(done.error());
     ExportReport report{0, columns.size(), {}};
     std::string record;
-    const auto done = each_block(reader, table, report, [&](const Block& block) -> Result<void> {
+    const auto done = each_block(reader, table, times, report, [&](const Block& block) -> Result<void> {
         for (std::uint32_t row = 0; row < block.rows(); ++row) {
             record.clear();
             for (const std::size_t column : columns) {

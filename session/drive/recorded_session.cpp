@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <cstdio>
 
+#include "base/text.hpp"
 #include "session/drive/session.hpp"
 #include "session/drive/session_frames.hpp"
 #include "session/drive/thread_replay.hpp"
@@ -16,8 +17,12 @@ class RecordedFrames final : public SessionFrames {
 public:
     // All must outlive it. name: the log's file name.
     RecordedFrames(LiveSession& session, Presenter& presenter, InputSource input, const ThreadLog& log,
-                   const std::string& name, ThreadReplay& replay, bool draws)
-        : SessionFrames(session, presenter, std::move(input)), log_(log), name_(name), replay_(replay), draws_(draws) {
+                   const std::string& name, ThreadReplay& replay, const ReplayManner& manner)
+        : SessionFrames(session, presenter, std::move(input)),
+          log_(log),
+          name_(name),
+          replay_(replay),
+          manner_(manner) {
         session.replay_events(log.messages_before);
     }
 
@@ -40,6 +45,7 @@ private:
         for (const OutputSeen& output : seen.outputs) presenter_.put(output.screen, output.place);
         session_.measure_again(seen.measured);
         replay_.begin_frame(seen);
+        time_ns_ = input->time_ns;
         return input;
     }
 
@@ -48,14 +54,17 @@ private:
         if (!replay_.is_as_recorded()) note_departure(seen.line);
         if (seen.refused) session_.go_back_to(*seen.refused);
         if (presenter_.shows()) static_cast<void>(presenter_.inputs(0.0));  // ignored: the recording decides
+        if (manner_.picture_every_ns <= 0 || time_ns_ < next_picture_ns_) return;
+        session_.ask_for_picture(formatted("%08.3f.png", seconds(time_ns_)));
+        next_picture_ns_ = (time_ns_ / manner_.picture_every_ns + 1) * manner_.picture_every_ns;
     }
 
     // Draws also what nobody sees: what a frame redraws depends on the previous one.
-    [[nodiscard]] bool wants_picture() override { return draws_; }
+    [[nodiscard]] bool wants_picture() override { return manner_.draws; }
 
     void finished(const FrameInput&, bool) override {
         session_.replay_events(log_.frames[next_ - 1].messages);
-        if (!draws_) static_cast<void>(session_.take_surface_updates());  // else the picture has taken them
+        if (!manner_.draws) static_cast<void>(session_.take_surface_updates());  // else the picture has taken them
     }
 
     void note_departure(std::size_t line) {
@@ -67,8 +76,9 @@ private:
     const ThreadLog& log_;
     std::string name_;
     ThreadReplay& replay_;
-    bool draws_;
-    std::size_t next_ = 0;  // index of the next frame
+    ReplayManner manner_;
+    Nanoseconds time_ns_ = 0, next_picture_ns_ = 0;  // of the present frame
+    std::size_t next_ = 0;                           // index of the next frame
     std::optional<Error> departed_;
 };
 
@@ -102,7 +112,7 @@ Result<void> replay_as_recorded(const SculptOptions& options, const SessionWall&
 
     ThreadReplay replay(session, threads, name);
     replay.judge_ticks(manner.witness);
-    RecordedFrames frames(session, *presenter, std::move(input), threads, name, replay, manner.draws);
+    RecordedFrames frames(session, *presenter, std::move(input), threads, name, replay, manner);
     Result<void> done = drive(replay, frames);
     if (done && !frames.cut_short()) done = frames.finish_as_recorded();
     if (!done && !replay.log_ends()) return done;
@@ -110,7 +120,7 @@ Result<void> replay_as_recorded(const SculptOptions& options, const SessionWall&
     // An export may be under way where the log breaks off.
     session.finish_scene();
     if (frames.departed()) return std::unexpected(*frames.departed());
-    return session.outcome();
+    return manner.only_compares ? Result<void>{} : session.outcome();
 }
 
 }  // namespace burin::session

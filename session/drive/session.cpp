@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "devices/haptic/wand_choice.hpp"
+#include "session/drive/tick_comparison.hpp"
 #include "session/picture/pictures.hpp"
 #include "session/record/log_outputs.hpp"
 #include "session/record/session_log.hpp"
@@ -75,6 +76,20 @@ Result<void> check_somebody_leads(const LiveOptions& live, const SessionWall& wa
                 "give a --tracker whose wand works the panel, or an --input; or try the wall with --windowed");
 }
 
+// Does a session file again, and compares every tick on the way.
+Result<void> run_compared(const SculptOptions& options, InputLog log) {
+    Result<record::RecordReader> reader = record::RecordReader::open(options.live.input);
+    if (!reader) return std::unexpected(reader.error());
+    Result<TickComparison> judge = TickComparison::create(*reader, {}, TickComparison::AtDifference::goes_on);
+    if (!judge) return std::unexpected(judge.error());
+    if (const auto done = run_as_recorded(options, std::move(log), {.witness = &*judge}); !done) return done;
+    const record::Comparison& found = judge->found();
+    if (found.difference) return fail(options.live.input, "differs: " + found.difference->line());
+    std::printf("%s: %s ticks, %zu columns: equal to the bit\n", options.live.input.c_str(),
+                std::to_string(found.ticks).c_str(), found.columns);
+    return {};
+}
+
 }  // namespace
 
 bool wants_session(const SculptOptions& options) {
@@ -117,7 +132,10 @@ Result<void> run_session(const SculptOptions& given, const SessionFacts& facts) 
         if (!read) return std::unexpected(read.error());
         const SessionOutputs outputs(options.live);
         if (const auto ready = outputs.prepare(*read, options.live.input); !ready) return ready;
-        if (read->threads && options.live.record.empty()) return run_as_recorded(options, std::move(*read), {});
+        if (read->threads && options.live.record.empty()) {
+            return is_database(options.live.input) ? run_compared(options, std::move(*read))
+                                                   : run_as_recorded(options, std::move(*read), {});
+        }
         options.live.tools_of_input = tools_in(*read);
         log = std::move(*read);
     }

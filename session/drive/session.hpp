@@ -30,6 +30,9 @@ namespace burin::session {
 struct ReplayManner {
     bool draws = true;               // its frames' pictures; their screenshots, too
     TickWitness* witness = nullptr;  // judges every tick; null: only the frames' checksums are compared
+    // What the log asked for and did not get then either is no failure of the replay.
+    bool only_compares = false;
+    Nanoseconds picture_every_ns = 0;  // with draws: of session time, as SECONDS.png; 0: none
 };
 // Replays a recording with its own options wherever they affect its frames; `given` says how it is shown. The log has
 // threads, and all its commands make sense (check_commands()).

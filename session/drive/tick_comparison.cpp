@@ -2,7 +2,10 @@
 #include "session/drive/tick_comparison.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <string_view>
+
+#include "session/record/session_recording.hpp"
 
 namespace burin::session {
 namespace {
@@ -20,17 +23,22 @@ std::uint32_t counted(const std::vector<record::Column>& columns, std::string_vi
 
 }  // namespace
 
-Result<TickComparison> TickComparison::create(record::RecordReader& reader, const record::TickRange& range) {
+Result<TickComparison> TickComparison::create(record::RecordReader& reader, const record::TickRange& range,
+                                              AtDifference then) {
     if (reader.hands().empty()) return fail(reader.path(), "holds no hand's ticks", "name a recorded session");
     const std::vector<record::Column>& columns = reader.table(0).columns;
     const record::RowShape shape{counted(columns, "joint", ""), counted(columns, "hip", "_object_x_m")};
-    if (columns != record::columns_for(shape))
+    std::vector<record::Column> expected = record::columns_for(shape);
+    std::ranges::copy(touched_columns(shape), std::back_inserter(expected));
+    if (columns != expected)
         return fail(reader.path(), "has other columns than this program's recordings",
                     "replay it with the program that recorded it; its data can be read and converted");
     Result<record::MotionColumns> motion = record::MotionColumns::find(reader, 0);
     if (!motion) return std::unexpected(motion.error());
     const std::size_t tick = record::find_column(reader.table(0), "tick", record::ColumnType::i64);
-    return TickComparison(reader, range, shape, std::move(*motion), tick);
+    TickComparison comparison(reader, range, shape, std::move(*motion), tick);
+    comparison.then_ = then;
+    return comparison;
 }
 
 Result<bool> TickComparison::go_to(std::uint64_t tick) {
@@ -52,6 +60,7 @@ std::optional<TickWitness::Known> TickComparison::known(std::uint64_t tick) {
 }
 
 Result<void> TickComparison::take(const haptics::TickRecord& again) {
+    if (found_.difference) return {};
     const Result<bool> is_there = go_to(again.tick);
     if (!is_there) return std::unexpected(is_there.error());
     if (!range_.holds(static_cast<std::int64_t>(again.tick))) return {};
@@ -59,13 +68,14 @@ Result<void> TickComparison::take(const haptics::TickRecord& again) {
         ++unrecorded_;
         return {};
     }
-    const std::vector<record::Word> row = record::row_of(again, shape_);
+    const std::vector<record::Word> row = session_row(again, shape_);
     for (std::size_t c = 0; c < row.size(); ++c) {
         const record::Word was = walk_.at(c);
         if (was == row[c]) continue;
         const record::HandRecord& hand = reader_->table(0);
         found_.difference =
             record::difference_of(hand.name, hand.columns[c], static_cast<std::int64_t>(again.tick), was, row[c]);
+        if (then_ == AtDifference::goes_on) return {};
         return fail(reader_->path(), "differs: " + found_.difference->line());
     }
     ++found_.ticks;

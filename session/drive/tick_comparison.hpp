@@ -10,13 +10,16 @@ namespace burin::session {
 
 class TickComparison final : public TickWitness {
 public:
+    // What follows on the first difference: the replay ends there, or goes on.
+    enum class AtDifference { ends, goes_on };
     // Fails on a file whose columns are not those of this program's recordings. The reader must outlive it.
-    [[nodiscard]] static Result<TickComparison> create(record::RecordReader& reader, const record::TickRange& range);
+    [[nodiscard]] static Result<TickComparison> create(record::RecordReader& reader, const record::TickRange& range,
+                                                       AtDifference then = AtDifference::ends);
 
     [[nodiscard]] std::optional<Known> known(std::uint64_t tick) override;
     [[nodiscard]] Result<void> take(const haptics::TickRecord& again) override;
 
-    // What was compared so far; a difference has ended the replay.
+    // What was compared so far, up to the first difference.
     [[nodiscard]] const record::Comparison& found() const { return found_; }
     // Ticks that were computed again and are not in the file: lost, or not acknowledged before a kill.
     [[nodiscard]] std::uint64_t unrecorded() const { return unrecorded_; }
@@ -44,6 +47,7 @@ private:
     bool begun_ = false, over_ = false;
     std::uint64_t unrecorded_ = 0;
     record::Comparison found_;
+    AtDifference then_ = AtDifference::ends;
 };
 
 }  // namespace burin::session

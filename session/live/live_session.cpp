@@ -400,6 +400,8 @@ void LiveSession::place(sculpt::ExportSurface& wanted) const {
 void LiveSession::take(const sculpt::ExportOutcome& ended) {
     if (ended.written) {
         log_.notify(ended.message, {{}, where_it_lies(ended.message, ended.path, ended.replaced)});
+    } else if (outputs_.refuse_meshes()) {
+        log_.notify(ended.message);
     } else {
         log_.notify(ended.message, {failed_on(ended.asked_by), {}});
     }

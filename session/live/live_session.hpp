@@ -83,6 +83,8 @@ public:
     // Screenshots that were asked for since the last call, by their names.
     [[nodiscard]] bool wants_screenshots() const { return !screenshots_.empty(); }
     [[nodiscard]] std::vector<Asked> take_screenshots() { return std::exchange(screenshots_, {}); }
+    // Has the next picture written under this name, as a command would.
+    void ask_for_picture(const std::string& name) { screenshots_.push_back({name}); }
     // Writes a screenshot to the place of its name, and tells of it.
     void keep_screenshot(const Asked& wanted, const Result<Image>& image);
 

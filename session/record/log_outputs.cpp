@@ -151,7 +151,7 @@ Result<void> check_commands(const InputLog& log, const std::string& name, const 
 
 // ---- Places
 
-SessionOutputs::SessionOutputs(const LiveOptions& live) {
+SessionOutputs::SessionOutputs(const LiveOptions& live) : refuses_meshes_(live.refuses_exports) {
     if (live.writes_nothing) {
         rule_ = Rule::nothing;
     } else if (!live.input.empty()) {
@@ -194,6 +194,9 @@ Result<void> SessionOutputs::prepare(const InputLog& log, const std::string& nam
 }
 
 Result<fs::path> SessionOutputs::place_of(const std::string& name, OutputKind kind) const {
+    if (kind == OutputKind::mesh && refuses_meshes_)
+        return fail(as_word(name), "is not exported by a replay that compares",
+                    "replay it by --input to have it written");
     const Folder& folder = kind == OutputKind::picture ? pictures_ : meshes_;
     if (rule_ != Rule::in_folder) return folder.path / name;
     if (const auto ok = check_output_name(name, kind); !ok) return std::unexpected(ok.error());

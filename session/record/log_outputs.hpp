@@ -41,6 +41,8 @@ public:
 
     // Returns whether files are written at all.
     [[nodiscard]] bool write() const { return rule_ != Rule::nothing; }
+    // Returns whether meshes are refused, whatever they are called (LiveOptions::refuses_exports).
+    [[nodiscard]] bool refuse_meshes() const { return refuses_meshes_; }
     // Makes the folders that the log's commands need, and checks that files can be written there.
     [[nodiscard]] Result<void> prepare(const InputLog& log, const std::string& name) const;
     // Returns where a file of this name goes. Makes the folders on its way.
@@ -62,6 +64,7 @@ private:
 
     Rule rule_ = Rule::anywhere;
     Folder pictures_, meshes_;
+    bool refuses_meshes_ = false;
 };
 
 }  // namespace burin::session

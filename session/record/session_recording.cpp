@@ -11,12 +11,35 @@ namespace burin::session {
 
 bool is_session_file(const std::string& path) { return std::filesystem::path(path).extension() == ".session"; }
 
+void append_touched(const haptics::TickRecord& tick, const record::RowShape& shape, std::vector<record::Word>& row) {
+    for (std::uint32_t i = 0; i < shape.points; ++i)
+        row.push_back(i < tick.contact.point_count ? tick.contact.points[i].object : 0u);
+}
+
+std::vector<record::Column> touched_columns(const record::RowShape& shape) {
+    std::vector<record::Column> columns;
+    for (std::uint32_t i = 0; i < shape.points; ++i)
+        columns.push_back({"object" + std::to_string(i), "", "", record::ColumnType::u32});
+    return columns;
+}
+
+std::vector<record::Word> session_row(const haptics::TickRecord& tick, const record::RowShape& shape) {
+    std::vector<record::Word> row = record::row_of(tick, shape);
+    append_touched(tick, shape, row);
+    return row;
+}
+
 Result<std::shared_ptr<SessionRecording>> SessionRecording::create(const std::string& path, RecordingOf session) {
     const Result<std::string> header = input_log_header(session.settings, path);
     if (!header) return std::unexpected(header.error());
     std::shared_ptr<SessionRecording> made(new SessionRecording(path, std::move(session)));
     const RecordingOf& own = made->session_;
     record::RecordedHand hand{own.device.name, own.device, own.probe, own.ring};
+    const record::RowShape shape = record::shape_of(own.device, own.probe);
+    hand.more_columns = touched_columns(shape);
+    hand.more_values = [shape](const haptics::TickRecord& tick, std::vector<record::Word>& row) {
+        append_touched(tick, shape, row);
+    };
     record::WriterOptions options;
     options.facts = own.facts;
     options.facts.emplace_back(kActivityFact, kLiveActivity);

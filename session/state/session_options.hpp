@@ -34,6 +34,8 @@ struct LiveOptions {
     std::string screenshots;      // folder for screenshots with a relative name; empty: the working directory
     std::string outputs;          // folder for all files of an input; empty: one named after the input
     bool writes_nothing = false;  // files that are asked for are left out
+    // Exports are ordered as ever and refused, so that a session that is done again takes the same course.
+    bool refuses_exports = false;
 };
 
 class Activity;  // session/state/activity.hpp

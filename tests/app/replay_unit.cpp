@@ -260,6 +260,30 @@ TEST(ThroughAWorld, TellsWhereTheProxyBeginsAndWhatIsMissing) {
     EXPECT_EQ(at.run(kReplayBurin + " replay a.session --through w.toml --world w.toml").status, 2);
 }
 
+TEST(ReplayOfAWandStroke, IsEqualToTheBitInAllPointsAndTellsTheFirstDifference) {
+    const Workplace at;
+    write_small_world(at);
+    const auto recorded = at.run(kReplayBurin +
+                                 " world w.toml --stroke s.csv --device simulated-wand --radius 0.003 "
+                                 "--points top,bottom --record a.session");
+    ASSERT_EQ(recorded.status, 0) << recorded.output;
+    EXPECT_TRUE(says(recorded, "ticks recorded")) << recorded.output;
+    const auto info = at.run(kReplayBurin + " session info a.session");
+    for (const char* words : {"object 1: floor", "object1", "hip1_object_x_m", "wand stroke"})
+        EXPECT_TRUE(says(info, words)) << words << info.output;
+    const auto again = at.run(kReplayBurin + " replay a.session");
+    EXPECT_EQ(again.status, 0) << again.output;
+    EXPECT_TRUE(says(again, "equal to the bit")) << again.output;
+    at.write("w.toml", cube_world("stiffness = 310, static_friction = 0.3"));
+    const auto changed = at.run(kReplayBurin + " replay a.session");
+    EXPECT_EQ(changed.status, 1);
+    EXPECT_TRUE(says(changed, "is another one than was recorded")) << changed.output;
+    EXPECT_TRUE(says(changed, "equal ticks: tick ")) << changed.output;
+    const auto twice = at.run(kReplayBurin + " world w.toml --stroke s.csv --device simulated-wand --record a.session");
+    EXPECT_EQ(twice.status, 1);
+    EXPECT_TRUE(says(twice, "never overwrites")) << twice.output;
+}
+
 TEST(ReplayOfAFeltStroke, IsEqualToTheBitAndTellsTheFirstDifference) {
     const Workplace at;
     write_small_world(at);

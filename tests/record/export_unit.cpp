@@ -47,6 +47,49 @@ bool has_modules(const Workplace& at, const std::string& modules) {
 
 }  // namespace
 
+TEST(ExportTrials, HoldTheTicksOfTheirTimesAloneInEveryFormat) {
+    const Workplace at;
+    recorded_for_export(at / "a");  // a tick each millisecond from 5.001 s; the trial lasts from 5.2 to 6 s
+    auto reader = RecordReader::open(at / "a");
+    const auto all = *choose_columns(reader->hands()[0].columns, "tick");
+    for (const char* list : {"first", "1", "fir*"}) {
+        const auto times = times_of_trials(*reader, list);
+        ASSERT_TRUE(times) << times.error().line();
+        const auto report = export_csv(*reader, 0, all, at / (std::string(list) + ".csv"), *times);
+        ASSERT_TRUE(report) << report.error().line();
+        EXPECT_EQ(report->rows, 801u) << list;
+    }
+    const std::string text = at.read("first.csv");
+    EXPECT_TRUE(text.starts_with("tick\n200\n201\n")) << text.substr(0, 40);
+    EXPECT_TRUE(text.ends_with("\n999\n1000\n"));
+    const auto times = *times_of_trials(*reader, "1");
+    EXPECT_EQ(export_npy(*reader, 0, all, at / "t.npy", times)->rows, 801u);
+    EXPECT_EQ(export_hdf5(*reader, 0, all, at / "t.h5", times)->rows, 801u);
+    EXPECT_EQ(export_mat(*reader, 0, all, at / "t.mat", times)->rows, 801u);
+    EXPECT_EQ(export_bids(*reader, 0, all, at / "bids", {}, times)->rows, 801u);
+    const auto none = times_of_trials(*reader, "1,second");
+    ASSERT_FALSE(none);
+    EXPECT_NE(none.error().line().find("it has: 1 first"), std::string::npos) << none.error().line();
+}
+
+TEST(ExportInputLog, IsTheLogAsItWas) {
+    const Workplace at;
+    {
+        test::Recording recording(64);
+        WriterOptions options;
+        options.facts = {{kLogHeaderFact, "burin-input 2 some settings"}};
+        ASSERT_TRUE(recording.begin(at / "a", options));
+        recording.writer->note_line(1, "0.1 mouse 3 4");
+        recording.writer->note_event(2, "an event", "that no log has");
+        recording.writer->note_line(3, "0.2 frame");
+        ASSERT_TRUE(recording.writer->close());
+    }
+    auto reader = RecordReader::open(at / "a");
+    const auto report = export_log(*reader, at / "a.log");
+    ASSERT_TRUE(report) << report.error().line();
+    EXPECT_EQ(at.read("a.log"), "burin-input 2 some settings\n0.1 mouse 3 4\n0.2 frame\n");
+}
+
 TEST(ExportHdf5, H5pyFindsEveryValueUnitAndName) {
     const Workplace at;
     recorded_for_export(at / "a");
