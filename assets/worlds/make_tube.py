@@ -32,8 +32,14 @@ def along(t, distance):
     return tuple(p + distance * d for p, d in zip(middle(t), direction(t)))
 
 
+def number(x):
+    """Nanometres: an extrusion takes the turn of its first ring from small differences along the spine."""
+    text = f"{x:.9f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text
+
+
 def numbers(points):
-    return ",\n      ".join(" ".join(f"{x:.6f}".replace("-0.000000", "0.000000") for x in p) for p in points)
+    return ",\n      ".join(" ".join(number(x) for x in p) for p in points)
 
 
 def corner_of_the_tube():

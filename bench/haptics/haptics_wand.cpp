@@ -106,7 +106,7 @@ Result<void> measure_wand(Haptics& all, const Tell& notify) {
                             " is not here: run in the repository's folder to touch it with a wand");
         return {};
     }
-    notify("measuring: a wand in the tube");
+    notify("a wand in the tube");
     Result<geometry::TriangleMesh> mesh = tube_wall();
     if (!mesh) return std::unexpected(mesh.error());
     const Result<sculpt::Stroke> stroke = sculpt::read_stroke(kThroughTube);

@@ -10,8 +10,8 @@ namespace {
 
 Vec3 srgb_of(const scene::Colour& c) { return Vec3(c[0], c[1], c[2]) / 255.0; }
 
-// The object's colour counts, whatever materials its file has. What is felt from both sides is a sheet, and is seen from
-// both: each of its triangles is there the other way round as well.
+// The object's colour counts, whatever materials its file has. What is felt from both sides is a sheet, and is seen
+// from both: each of its triangles is there the other way round as well.
 geometry::TriangleMesh plain_mesh(const scene::SceneObject& object) {
     geometry::TriangleMesh plain{object.mesh->positions_m, object.mesh->triangles, {}, {}, {}};
     if (!object.both_sides) return plain;

@@ -10,9 +10,10 @@
 #include <set>
 
 #include "base/json.hpp"
-#include "bench/measure/bumpy_sphere.hpp"
+#include "base/statistics.hpp"
 #include "bench/haptics/hand_path.hpp"
 #include "bench/haptics/haptics_rows.hpp"
+#include "bench/measure/bumpy_sphere.hpp"
 #include "bench/peers/proxy_peer.hpp"
 #include "session/state/session_state.hpp"
 #include "tests/support/run_command.hpp"
@@ -108,6 +109,23 @@ TEST(BenchHaptics, AProxyStaysOnTheSurfaceAndLosesNoContactInMetresOrMillimetres
     ASSERT_EQ(all.jumps.size(), 2u);
     EXPECT_TRUE(all.jumps[0].shading);
     EXPECT_LT(all.jumps[0].largest_percent, all.jumps[1].largest_percent);
+}
+
+// By counts, which are the same on every machine.
+TEST(BenchHaptics, BothEndsOfAWandInATubeTakeAtMostTwiceTheWorkOfOne) {
+    Haptics all = small();
+    ASSERT_TRUE(measure_wand(all, kSilent));
+    ASSERT_EQ(all.wand.size(), 3u);
+    for (const WandWork& ends : all.wand) {
+        EXPECT_EQ(ends.cost_us.size(), all.options.wand_ticks) << ends.points;
+        EXPECT_GT(ends.in_contact, all.options.wand_ticks / 20) << ends.points;
+    }
+    EXPECT_GT(all.wand[0].in_contact, std::max(all.wand[1].in_contact, all.wand[2].in_contact));
+    for (const double share : {0.5, 0.999}) {
+        const double one = 0.5 * (quantile(all.wand[1].cost_us, share) + quantile(all.wand[2].cost_us, share));
+        EXPECT_GT(one, 0.0);
+        EXPECT_LE(quantile(all.wand[0].cost_us, share), 2.2 * one) << share;
+    }
 }
 
 TEST(BenchHaptics, EveryEditIsUsedAndFeltAtTheNextTick) {
