@@ -11,6 +11,7 @@
 #include "app/output_files.hpp"
 #include "app/study_trials.hpp"
 #include "base/text.hpp"
+#include "devices/haptic/wand_choice.hpp"
 #include "session/drive/session.hpp"
 #include "study/folder/interruption.hpp"
 
@@ -45,6 +46,17 @@ Result<std::string> write_world(const study::FeltWorld& world, const fs::path& f
                               world.world().wall_N_per_m, world.world().wall_Ns_per_m);
     }
     const std::string file = (folder / "world.toml").string();
+    if (const auto ok = write_text(file, text); !ok) return std::unexpected(ok.error());
+    return file;
+}
+
+// The wand with its points where the protocol has them.
+Result<std::string> write_wand(const study::Protocol& protocol, const fs::path& folder) {
+    std::string text = "name = \"simulated wand\"\n";
+    for (const devices::WandPoint& point : study::study_wand(protocol).points)
+        text += formatted("\n[[point]]\nname = \"%s\"\noffset = [%.9g, %.9g, %.9g]\n", point.name.c_str(),
+                          point.offset_m.x, point.offset_m.y, point.offset_m.z);
+    const std::string file = (folder / "wand.toml").string();
     if (const auto ok = write_text(file, text); !ok) return std::unexpected(ok.error());
     return file;
 }
@@ -89,13 +101,23 @@ Result<void> run_live_visit(study::StudyFolder& study, const StudyRunOptions& op
     session::SculptOptions session;
     session.world = *file;
     session.no_workpiece = true;
-    session.tool.shape = "ball:0.004";
+    session.tool.shape = "ball:0.001";  // a point, as far as a session's tool can be one
     session.live = options.live;
-    const bool is_wand = session.live.device.starts_with("simulated-wand");
-    if (const auto ok = study.begin_visit(options.participant, session.live.device); !ok) return ok;
-    activities::StageOnDisk disk(study, options.participant, *group, activities::StageOnDisk::Motion::none);
+    if (session.live.device == devices::kDefaultHapticDevice || session.live.device == devices::kSimulatedWand) {
+        const auto wand = write_wand(study.protocol(), study.path() / "worlds" / *world);
+        if (!wand) return std::unexpected(wand.error());
+        session.live.device = std::string(devices::kSimulatedWand) + ":" + *wand;
+    }
+    const bool is_wand = devices::is_wand(session.live.device);
+    if (is_wand) session.points = devices::kUsualPoints;
+    if (const auto ok = study.begin_visit(options.participant, is_wand ? "simulated wand" : session.live.device); !ok)
+        return ok;
+    activities::StageOnDisk disk(study, options.participant, *group,
+                                 options.without_motion ? activities::StageOnDisk::Motion::none
+                                                        : activities::StageOnDisk::Motion::session_ticks);
     const activities::StageKeeper keeper{
         [&](const activities::TrainingRun& run) { return disk.begin(run); },
+        [&](const activities::TrainingRun::Ticked& ticked) { disk.take(ticked); },
         [&](const std::vector<activities::RunEvent>& events) { return disk.take(events); },
         [&](const activities::EndedStage& ended) { return disk.end(ended); }, [&] { return disk.close(); }};
     const std::string settings =

@@ -50,7 +50,7 @@ Result<std::vector<study::StagePlace>> places_left(const study::StudyFolder& stu
 Result<void> StageOnDisk::begin(const TrainingRun& run) {
     at_ = *run.place();
     const study::StageSession* session = run.session();
-    const bool has_motion = session != nullptr && at_.stage->records && motion_ == Motion::ticks;
+    const bool has_motion = session != nullptr && at_.stage->records && motion_ != Motion::none;
     auto files = study_.begin_stage(participant_, at_, has_motion);
     if (!files) return std::unexpected(files.error());
     files_ = std::move(*files);
@@ -59,7 +59,10 @@ Result<void> StageOnDisk::begin(const TrainingRun& run) {
     auto facts =
         study::facts_of_stage(study_.facts().protocol_digest, group_, *at_.stage, *run.world(), session->touch());
     facts.emplace_back("participant", participant_);
-    facts.emplace_back("hand", "scripted");
+    if (motion_ == Motion::session_ticks)
+        facts.emplace_back(study::kTicksFact, study::kTicksOfSession);
+    else
+        facts.emplace_back("hand", "scripted");
     auto made = study::StageRecording::create(study_.path() / files_.recording, session->touch(), std::move(facts),
                                               kVisitBlock_ns);
     if (!made) return std::unexpected(made.error());

@@ -20,8 +20,8 @@ namespace burin::activities {
 
 class StageOnDisk {
 public:
-    // Whether the motion is recorded tick by tick, where the protocol has it recorded.
-    enum class Motion { none, ticks };
+    // Whether the motion is recorded tick by tick, where the protocol has it recorded, and whose ticks they are.
+    enum class Motion { none, ticks, session_ticks };
 
     // Study and group must outlive it.
     StageOnDisk(study::StudyFolder& study, std::string participant, const study::Group& group, Motion motion)

@@ -96,7 +96,9 @@ void StudyActivity::step(const session::ActivityView& view, session::ActivityOrd
 void StudyActivity::follow(const haptics::StrokeSample& tick, session::ActivityOrders& orders) {
     now_ns_ = tick.time_ns;
     if (run_.session() == nullptr || run_.phase() != TrainingRun::Phase::in_stage) return;
-    run_.follow(record_of(tick, run_.session()->touch(), point_offset_m_));
+    const haptics::TickRecord record = record_of(tick, run_.session()->touch(), point_offset_m_);
+    const study::OperatorAct act = run_.follow(record);
+    if (keeper_.tick) keeper_.tick({&record, act});
     if (run_.phase() != TrainingRun::Phase::ended) return;
     show(orders);
     end_stage(orders);
@@ -114,6 +116,7 @@ void StudyActivity::show(session::ActivityOrders& orders) {
         orders.edits.push_back({name, ObjectProperty::seen, {one.seen ? 1.0 : 0.0}});
         orders.edits.push_back(
             {name, ObjectProperty::colour, {one.colour[0] / 255.0, one.colour[1] / 255.0, one.colour[2] / 255.0}});
+        orders.edits.push_back({name, ObjectProperty::opacity, {one.opacity}});
         as_shown_[one.id] = one;
     }
     const study::Stage& stage = *run_.place()->stage;

@@ -22,6 +22,7 @@ namespace burin::activities {
 // What keeps the stages; null functions: nobody. A failure is shown as a message, and the visit goes on.
 struct StageKeeper {
     std::function<Result<void>(const TrainingRun&)> begun;
+    std::function<void(const TrainingRun::Ticked&)> tick;
     std::function<Result<void>(const std::vector<RunEvent>&)> events;
     std::function<Result<void>(const EndedStage&)> ended;
     std::function<Result<void>()> closed;  // the session has ended; a stage may be under way

@@ -41,7 +41,7 @@ TimeAxis values_of(const TimePlot& plot) {
 
 std::string label(double value, double step) {
     const int digits = static_cast<int>(std::clamp(std::ceil(-std::log10(step) - 1e-9), 0.0, 6.0));
-    return formatted("%.*f", digits, value == 0.0 ? 0.0 : value);
+    return formatted("%.*f", digits, std::abs(value) < 1e-6 * step ? 0.0 : value);
 }
 
 std::string time_grid(const TimeFrame& f) {
@@ -80,6 +80,7 @@ std::string legend(const TimePlot& plot, const TimeFrame& f) {
     std::string text;
     double x = f.left;
     for (std::size_t i = 0; i < plot.series.size(); ++i) {
+        if (plot.series[i].name.empty()) continue;  // the title says what it is
         text +=
             formatted("<path d=\"M%.1f %.1f h16\" stroke=\"%s\" stroke-width=\"2.5\"/>\n", x, f.top - 10, colour_of(i));
         text += write(x + 20, f.top - 6, "", plot.series[i].name);

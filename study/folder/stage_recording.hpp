@@ -22,6 +22,9 @@ inline constexpr const char* kOperatorEvent = "operator";
 // Facts of a session file that replay needs; all are texts.
 inline constexpr const char *kProtocolFact = "study protocol", *kWorldFact = "study world", *kGroupFact = "study group",
                             *kStageFact = "study stage";
+// Of a live stage: its ticks were a session's, whose surface and parameters are not a stage's. Pose, force on the hand,
+// flags and times are in its file, and no contact.
+inline constexpr const char *kTicksFact = "ticks", *kTicksOfSession = "of a session's own loop";
 
 class StageRecording {
 public:

@@ -90,6 +90,13 @@ std::optional<record::Difference> differs(const record::HandRecord& hand, const 
     return std::nullopt;
 }
 
+haptics::TickRecord followed_tick(const devices::DeviceSample& sample, Nanoseconds now_ns) {
+    haptics::TickRecord record;
+    record.time_ns = now_ns;
+    record.sample = sample;
+    return record;
+}
+
 struct Parts {
     const Group& group;
     const Stage& stage;
@@ -133,17 +140,25 @@ Result<StageReplay> replay_stage(const std::filesystem::path& file, const Protoc
     StageReplay replay;
     replay.columns = hand.columns.size();
     replay.closed = reader->is_closed();
+    replay.of_session = fact_in(*reader, kTicksFact) == kTicksOfSession;
+    haptics::TickRecord followed;
     for (std::size_t b = 0; b < hand.blocks.size(); ++b) {
         const auto block = reader->block(0, b);
         if (!block) return std::unexpected(block.error());
         for (std::uint32_t row = 0; row < block->rows(); ++row) {
             const Nanoseconds now_ns = inputs.now_ns(*block, row);
             const auto act = acts->find(now_ns);
-            const haptics::TickRecord& tick =
-                session.take(inputs.sample(*block, row), now_ns, act != acts->end() ? act->second : OperatorAct::none);
+            const OperatorAct done = act != acts->end() ? act->second : OperatorAct::none;
+            const devices::DeviceSample sample = inputs.sample(*block, row);
+            if (replay.of_session) {
+                followed = followed_tick(sample, now_ns);
+                session.follow(followed, done);
+            }
+            const haptics::TickRecord& tick = replay.of_session ? followed : session.take(sample, now_ns, done);
             ++replay.ticks;
             if (on_tick) on_tick(session, tick);
-            if (!replay.difference) replay.difference = differs(hand, *block, row, record::row_of(tick, shape));
+            if (!replay.of_session && !replay.difference)
+                replay.difference = differs(hand, *block, row, record::row_of(tick, shape));
         }
     }
     replay.end = session.state();

@@ -30,6 +30,7 @@ protected:
             if (at.stage->name == stage) places.push_back(at);
         const auto ok = [] { return Result<void>{}; };
         StageKeeper keeper{[&, ok](const TrainingRun&) { return ++begun_, ok(); },
+                           {},
                            [&, ok](const std::vector<RunEvent>& events) {
                                events_.insert(events_.end(), events.begin(), events.end());
                                return ok();
