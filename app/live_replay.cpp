@@ -8,6 +8,7 @@
 
 #include "activities/seek/seek.hpp"
 #include "app/world_digest.hpp"
+#include "record/export/table_export.hpp"
 #include "record/record_writer.hpp"
 #include "session/drive/session.hpp"
 #include "session/drive/tick_comparison.hpp"
@@ -108,6 +109,18 @@ Result<void> run_recorded_session(const session::SculptOptions& options, const s
     if (!session::is_session_file(options.live.record)) return session::run_session(options);
     if (const auto ok = record::check_new_place(options.live.record); !ok) return ok;
     return session::run_session(options, facts_of_live(options, command));
+}
+
+std::optional<double> live_ball_radius_m(const record::RecordReader& reader) {
+    const auto header = reader.facts().find(record::kLogHeaderFact);
+    if (header == reader.facts().end()) return {};
+    const std::size_t settings = header->second.find("burin sculpt");
+    const auto options =
+        session::options_as_recorded(settings == std::string::npos ? "" : header->second.substr(settings), {});
+    if (!options) return {};
+    const auto tool = sculpt::parse_tool_spec(options->options.tool.shape, "--tool");
+    if (!tool || tool->kind != sculpt::ToolKind::ball) return {};
+    return tool->sizes_m[0];
 }
 
 Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay& how, const record::TickRange& range) {

@@ -3,6 +3,7 @@
 // a text log is, and every column of every tick is compared on the way.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,9 @@ namespace burin::app {
 // Runs a session (session/drive/session.hpp). Where a session file is recorded, checks its place first, and gives it
 // its facts.
 [[nodiscard]] Result<void> run_recorded_session(const session::SculptOptions& options, const std::string& command);
+
+// Returns the radius of the ball with which a live session's recording began; nothing where its tool was another.
+[[nodiscard]] std::optional<double> live_ball_radius_m(const record::RecordReader& reader);
 
 // How a live session is done again.
 struct LiveReplay {

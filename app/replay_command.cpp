@@ -285,7 +285,9 @@ Result<double> ReplayCommand::Options::tool_radius_m(const record::RecordReader&
         if (!own) return std::unexpected(own.error());
         return own->tool_radius_m;
     }
-    const std::optional<double> ball_m = activity == kFeltActivity ? felt_ball_radius_m(settings) : std::nullopt;
+    const std::optional<double> ball_m = activity == kFeltActivity            ? felt_ball_radius_m(settings)
+                                         : activity == session::kLiveActivity ? live_ball_radius_m(reader)
+                                                                              : std::nullopt;
     if (ball_m) return *ball_m;
     return fail(reader.path(), "does not say how large the ball was that touched", "give it by --radius METRES");
 }
