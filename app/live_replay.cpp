@@ -159,7 +159,6 @@ Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay&
 
     Result<session::TickComparison> judge = session::TickComparison::create(reader, range);
     if (!judge) return std::unexpected(judge.error());
-    const std::uint64_t ticks = log->threads->ticks.count, rows = reader.hands().front().rows();
     session::ReplayManner manner;
     manner.draws = !how.pictures.empty();
     manner.only_compares = true;
@@ -168,8 +167,8 @@ Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay&
     const Result<void> done = session::run_as_recorded(options, std::move(*log), manner);
     LiveReplayed replayed{judge->found(), judge->unrecorded(), 0};
     if (!done && !replayed.comparison.difference) return std::unexpected(done.error());
-    const std::uint64_t logged_rows = ticks - std::min(ticks, replayed.unrecorded);
-    replayed.left = rows - std::min(rows, logged_rows);
+    const std::uint64_t rows = reader.hands().front().rows();
+    replayed.left = rows - std::min(rows, judge->repeated());
     return replayed;
 }
 

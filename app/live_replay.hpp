@@ -35,7 +35,7 @@ struct LiveReplay {
 struct LiveReplayed {
     record::Comparison comparison;
     std::uint64_t unrecorded = 0;  // ticks that the log has and the columns have not
-    std::uint64_t left = 0;        // ticks that the columns have after the end of the log
+    std::uint64_t left = 0;        // ticks that the columns have after what the log can repeat
 };
 // Does it again and compares the ticks in the range. Where a file is another one than was recorded, says so on standard
 // error and goes on: then the first difference tells what that has changed. Fails where the log does not lead to its

@@ -63,6 +63,7 @@ Result<void> TickComparison::take(const haptics::TickRecord& again) {
     if (found_.difference) return {};
     const Result<bool> is_there = go_to(again.tick);
     if (!is_there) return std::unexpected(is_there.error());
+    if (*is_there) ++repeated_;
     if (!range_.holds(static_cast<std::int64_t>(again.tick))) return {};
     if (!*is_there) {
         ++unrecorded_;

@@ -23,6 +23,8 @@ public:
     [[nodiscard]] const record::Comparison& found() const { return found_; }
     // Ticks that were computed again and are not in the file: lost, or not acknowledged before a kill.
     [[nodiscard]] std::uint64_t unrecorded() const { return unrecorded_; }
+    // Ticks of the file that were computed again, whether or not they were in the range.
+    [[nodiscard]] std::uint64_t repeated() const { return repeated_; }
 
 private:
     TickComparison(record::RecordReader& reader, const record::TickRange& range, const record::RowShape& shape,
@@ -45,7 +47,7 @@ private:
     record::RowWalk walk_;
     std::size_t tick_column_;
     bool begun_ = false, over_ = false;
-    std::uint64_t unrecorded_ = 0;
+    std::uint64_t unrecorded_ = 0, repeated_ = 0;
     record::Comparison found_;
     AtDifference then_ = AtDifference::ends;
 };

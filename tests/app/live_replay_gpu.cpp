@@ -47,8 +47,9 @@ TEST(LiveRecording, IsDoneAgainDrawnAndGivenBackAsText) {
     EXPECT_TRUE(tells(again, "equal to the bit")) << again.output;
     std::size_t pictures = 0;
     for (const auto& file : std::filesystem::directory_iterator(at / "seen"))
-        pictures += file.path().filename().string().starts_with("0000.") ? 1u : 0u;
-    EXPECT_EQ(pictures, 2u);
+        pictures += file.path().filename().string().starts_with("000") ? 1u : 0u;
+    EXPECT_GE(pictures, 1u) << "the first frame's, and more where frames come as often";
+    EXPECT_TRUE(std::filesystem::exists(at / "seen/carved.png"));
     EXPECT_FALSE(std::filesystem::exists(at / "seen/part.stl"));
 
     const auto other = at.run(kLiveBurin + " replay a.session --set tool=ball:0.0121");

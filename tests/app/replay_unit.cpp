@@ -265,7 +265,7 @@ TEST(ReplayOfAWandStroke, IsEqualToTheBitInAllPointsAndTellsTheFirstDifference) 
     write_small_world(at);
     const auto recorded = at.run(kReplayBurin +
                                  " world w.toml --stroke s.csv --device simulated-wand --radius 0.003 "
-                                 "--points top,bottom --record a.session");
+                                 "--points centre,bottom --record a.session");
     ASSERT_EQ(recorded.status, 0) << recorded.output;
     EXPECT_TRUE(says(recorded, "ticks recorded")) << recorded.output;
     const auto info = at.run(kReplayBurin + " session info a.session");
