@@ -40,7 +40,8 @@ Result<std::string> write_world(const study::FeltWorld& world, const fs::path& f
             return std::unexpected(ok.error());
         text += "\n[[object]]\nname = \"" + object.name + "\"\nmesh = \"" + mesh + "\"\nmesh_units = \"m\"\n";
         text += formatted("colour = \"#%02x%02x%02x\"\nseen = %s\nfelt = %s\n", object.colour[0], object.colour[1],
-                          object.colour[2], object.seen ? "true" : "false", object.felt ? "true" : "false");
+                          object.colour[2], object.seen && id != study::kSeenTubeObject ? "true" : "false",
+                          object.felt ? "true" : "false");
         if (object.felt)
             text += formatted("both_sides = true\n[object.material]\nstiffness = %.9g\ndamping = %.9g\n",
                               world.world().wall_N_per_m, world.world().wall_Ns_per_m);

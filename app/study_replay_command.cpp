@@ -47,6 +47,7 @@ public:
     [[nodiscard]] std::uint64_t ticks() const { return ticks_; }
     [[nodiscard]] std::size_t interrupted() const { return interrupted_; }
     [[nodiscard]] std::size_t columns() const { return columns_; }
+    [[nodiscard]] std::size_t of_session() const { return of_session_; }
 
 private:
     // Empty where all is as it was stored.
@@ -74,6 +75,7 @@ private:
         if (name_of(replay->end.result) != visit.result)
             return formatted("%s: ends with \"%s\", the journal says \"%s\"", file.c_str(), name_of(replay->end.result),
                              visit.result.c_str());
+        if (replay->of_session) ++of_session_;
         if (replay->of_session && stage->kind != study::StageKind::trial) return {};
         return measured_differs(visit, replay->record);
     }
@@ -90,7 +92,7 @@ private:
     const study::StudyFolder& study_;
     const std::vector<Recording> recordings_;
     std::map<std::string, std::unique_ptr<const study::FeltWorld>> worlds_;
-    std::atomic<std::size_t> next_{0};
+    std::atomic<std::size_t> next_{0}, of_session_{0};
     std::mutex mutex_;  // guards what follows
     std::size_t faults_ = 0, interrupted_ = 0, columns_ = 0;
     std::uint64_t ticks_ = 0;
@@ -100,6 +102,9 @@ void tell_replays(const Replays& replays, std::size_t count, std::size_t without
     std::printf("%zu recordings, %llu ticks of %zu columns through the haptic tick again", count,
                 static_cast<unsigned long long>(replays.ticks()), replays.columns());
     if (replays.interrupted() > 0) std::printf("; %zu of them end where they were interrupted", replays.interrupted());
+    if (replays.of_session() > 0)
+        std::printf("; %zu of them are of a live session: their stages and trials were computed again, not their ticks",
+                    replays.of_session());
     if (without > 0) std::printf("; %zu were erased or never begun", without);
     std::printf("\n");
 }

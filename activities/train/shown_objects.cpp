@@ -27,6 +27,13 @@ StageMoment moment_of(const study::FeltWorld& world, const study::StageSession& 
         moment.touches_wall = moment.touches_wall || (triangle != haptics::kNoTriangle &&
                                                       world.surface().material(triangle) == study::kTubeMaterial);
     }
+    // Ticks of a session's loop tell no triangle of this world.
+    if (record.contact.point_count == 0) {
+        const study::StudyWorld& tube = world.world();
+        for (const Vec3& p : moment.points_m)
+            moment.touches_wall =
+                moment.touches_wall || study::nearest_on(tube.spine_m, p).distance_m >= tube.tube_radius_m;
+    }
     moment.start_touched = is_in(study::start_cap(world.world()), moment);
     moment.end_touched = is_in(study::end_cap(world.world()), moment);
     return moment;

@@ -35,16 +35,6 @@ std::shared_ptr<const renderer::DrawnMesh> turned(const std::vector<Vec2>& radiu
     return renderer::drawn_mesh(mesh);
 }
 
-std::shared_ptr<const renderer::DrawnMesh> ball_mesh() {
-    std::vector<Vec2> rings;
-    constexpr int kRings = 12;
-    for (int i = 0; i <= kRings; ++i) {
-        const double angle = std::numbers::pi * (static_cast<double>(i) / kRings - 0.5);
-        rings.emplace_back(kBall_m * std::cos(angle), kBall_m * std::sin(angle));
-    }
-    return turned(rings);
-}
-
 // The place after so much way along the spine, to its end, back to its start, and so on.
 Vec3 place_on_path(const std::vector<Vec3>& spine_m, double way_m) {
     const double length_m = study::path_length_m(spine_m);
@@ -71,6 +61,16 @@ void stand_back(renderer::Scene& scene) {
 
 }  // namespace
 
+std::shared_ptr<const renderer::DrawnMesh> point_ball() {
+    std::vector<Vec2> rings;
+    constexpr int kRings = 12;
+    for (int i = 0; i <= kRings; ++i) {
+        const double angle = std::numbers::pi * (static_cast<double>(i) / kRings - 0.5);
+        rings.emplace_back(kBall_m * std::cos(angle), kBall_m * std::sin(angle));
+    }
+    return turned(rings);
+}
+
 StageView::StageView(const study::FeltWorld& world, const study::Protocol& protocol, const study::Stage& stage,
                      const study::Group& group)
     : world_(world),
@@ -80,7 +80,7 @@ StageView::StageView(const study::FeltWorld& world, const study::Protocol& proto
       lead_m_per_s_(protocol.lead_m_per_s),
       point_offset_m_(protocol.point_offset_m),
       view_(world.part(), world.objects(), kBall_m),
-      ball_(ball_mesh()),
+      ball_(point_ball()),
       rod_(turned(
           {{0.0, -point_offset_m_}, {kRod_m, -point_offset_m_}, {kRod_m, point_offset_m_}, {0.0, point_offset_m_}})) {}
 

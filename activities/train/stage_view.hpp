@@ -14,6 +14,9 @@
 
 namespace burin::activities {
 
+// A ball about the origin, as the wand's points are drawn.
+[[nodiscard]] std::shared_ptr<const renderer::DrawnMesh> point_ball();
+
 class StageView {
 public:
     // All must outlive it.

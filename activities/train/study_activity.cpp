@@ -5,6 +5,8 @@
 #include <array>
 #include <utility>
 
+#include "activities/train/stage_view.hpp"
+
 namespace burin::activities {
 namespace {
 
@@ -52,6 +54,7 @@ StudyActivity::StudyActivity(const study::Protocol& protocol, const study::Group
                              StageKeeper keeper)
     : protocol_(protocol),
       group_(group),
+      worlds_(worlds),
       settings_(std::move(settings)),
       point_offset_m_(point_offset_m),
       keeper_(std::move(keeper)),
@@ -108,17 +111,16 @@ void StudyActivity::show(session::ActivityOrders& orders) {
     shown_ = run_.frame(now_ns_);
     if (keeper_.events && !shown_.events.empty()) tell(keeper_.events(shown_.events), orders);
     const study::FeltWorld* world = run_.world();
-    if (world == nullptr) return;
-    for (const ShownObject& one : shown_.objects) {
-        const auto before = as_shown_.find(one.id);
-        if (before != as_shown_.end() && before->second == one) continue;
-        const std::string& name = world->part().object(one.id).name;
-        orders.edits.push_back({name, ObjectProperty::seen, {one.seen ? 1.0 : 0.0}});
-        orders.edits.push_back(
-            {name, ObjectProperty::colour, {one.colour[0] / 255.0, one.colour[1] / 255.0, one.colour[2] / 255.0}});
-        orders.edits.push_back({name, ObjectProperty::opacity, {one.opacity}});
-        as_shown_[one.id] = one;
+    if (world == nullptr || shown_.objects.empty()) {
+        // Pages and the time between stages show nothing of any world: who learns by touch must not see the tube.
+        for (const auto& [name, other] : worlds_) {
+            std::vector<ShownObject> hidden = shown_objects(*other, study::Stage{}, group_, {});
+            for (ShownObject& one : hidden) one.seen = false;
+            show(hidden, *other, orders);
+        }
+        return;
     }
+    show(shown_.objects, *world, orders);
     const study::Stage& stage = *run_.place()->stage;
     const bool pressed = group_.feels_tube && stage.feels_world;
     if (pressed == tube_pressed_) return;
@@ -129,6 +131,33 @@ void StudyActivity::show(session::ActivityOrders& orders) {
     orders.edits.push_back({name, ObjectProperty::damping, {pressed ? tube.wall_Ns_per_m : 0.0}});
 }
 
+void StudyActivity::show(const std::vector<ShownObject>& objects, const study::FeltWorld& world,
+                         session::ActivityOrders& orders) {
+    for (const ShownObject& one : objects) {
+        const auto before = as_shown_.find(one.id);
+        if (before != as_shown_.end() && before->second == one) continue;
+        const std::string& name = world.part().object(one.id).name;
+        orders.edits.push_back({name, ObjectProperty::seen, {one.seen ? 1.0 : 0.0}});
+        orders.edits.push_back(
+            {name, ObjectProperty::colour, {one.colour[0] / 255.0, one.colour[1] / 255.0, one.colour[2] / 255.0}});
+        orders.edits.push_back({name, ObjectProperty::opacity, {one.opacity}});
+        as_shown_[one.id] = one;
+    }
+}
+
+void StudyActivity::stage(renderer::Scene& scene, std::size_t /*screen*/) const {
+    if (!shown_.wand_seen || !shown_.moment) {
+        scene.tool.visible = false;
+        return;
+    }
+    constexpr std::array kColours{Vec3(0.80, 0.12, 0.10), Vec3(0.10, 0.60, 0.18)};
+    static const auto kBall = point_ball();
+    for (std::size_t i = 0; i < kColours.size(); ++i) {
+        const Similarity placed{shown_.moment->points_m[i], shown_.moment->orientation, 1.0};
+        scene.objects.push_back({kBall, scene.world_from_object * placed, kColours[i]});
+    }
+}
+
 void StudyActivity::end_stage(session::ActivityOrders& orders) {
     const std::string name = run_.place()->stage->name;
     const EndedStage ended = run_.take_end();
@@ -137,7 +166,7 @@ void StudyActivity::end_stage(session::ActivityOrders& orders) {
     orders.messages.push_back(name + ": " + study::name_of(ended.end.result));
     orders.parameters = true;
     orders.quit = run_.stopped() || run_.phase() == TrainingRun::Phase::finished;
-    shown_ = run_.frame(now_ns_);
+    show(orders);
 }
 
 void StudyActivity::adjust(haptics::TickParameters& parameters) const {

@@ -42,6 +42,8 @@ public:
     void step(const session::ActivityView& view, session::ActivityOrders& orders) override;
     [[nodiscard]] bool is_running() const override { return run_.phase() == TrainingRun::Phase::in_stage; }
     void adjust(haptics::TickParameters& parameters) const override;
+    // The wand's two points, top red and bottom green, over what the session draws of it; no wand where none is seen.
+    void stage(renderer::Scene& scene, std::size_t screen) const override;
     [[nodiscard]] session::ActivityPanel panel() const override;
     [[nodiscard]] Result<void> finish() override;
 
@@ -51,11 +53,13 @@ public:
 private:
     void follow(const haptics::StrokeSample& tick, session::ActivityOrders& orders);
     void show(session::ActivityOrders& orders);
+    void show(const std::vector<ShownObject>& objects, const study::FeltWorld& world, session::ActivityOrders& orders);
     void end_stage(session::ActivityOrders& orders);
     void tell(const Result<void>& done, session::ActivityOrders& orders);
 
     const study::Protocol& protocol_;
     const study::Group& group_;
+    const FeltWorlds& worlds_;
     std::string settings_;
     double point_offset_m_;
     StageKeeper keeper_;

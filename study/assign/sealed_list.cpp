@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kSealedBytes = 64;
 constexpr std::string_view kHexDigits = "0123456789abcdef";
 
-std::string place_of(const std::string& key, const std::string& stratum, std::size_t position) {
+std::string key_of_place(const std::string& key, const std::string& stratum, std::size_t position) {
     return key + "\n" + stratum + "\n" + std::to_string(position) + "\n";
 }
 
@@ -74,7 +74,7 @@ std::string seal_allocation(const Protocol& protocol, const std::vector<std::vec
             const AllocationPlace& at = lists[s][i];
             std::string plain = std::to_string(at.block) + " " + protocol.groups[at.group].code;
             plain.resize(kSealedBytes, ' ');
-            const std::string place = place_of(key, label, i + 1);
+            const std::string place = key_of_place(key, label, i + 1);
             text += label + " " + std::to_string(i + 1) + " " + to_hex(ciphered(plain, place)) + " " +
                     sha256(place + plain) + "\n";
         }
@@ -101,7 +101,7 @@ Result<AllocationPlace> open_place(std::string_view sealed, const Protocol& prot
                     "make a study with more --participants");
     }
     const std::size_t space = std::min(line.find(' '), line.size() - 1);
-    const std::string place = place_of(key, stratum, position);
+    const std::string place = key_of_place(key, stratum, position);
     const std::string plain = ciphered(from_hex(line.substr(0, space)), place);
     if (sha256(place + plain) != line.substr(space + 1))
         return fail("the allocation", formatted("place %zu of stratum %s does not open", position, stratum.c_str()),

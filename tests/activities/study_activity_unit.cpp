@@ -84,14 +84,18 @@ TEST_F(StudyActivities, TakeATrialThroughAndSayWhereItWasNotKept) {
     EXPECT_FALSE(act({"next"}));
     EXPECT_FALSE(act({"start"}));  // no tick has come
     frame({spine.front()});
+    for (const char* object : {"seen tube", "start funnel", "end cap"}) {
+        ASSERT_NE(edit(object, ObjectProperty::seen), nullptr) << object;
+        EXPECT_EQ(edit(object, ObjectProperty::seen)->value[0], 0.0) << object;
+    }
     ASSERT_TRUE(act({"start"}));
     EXPECT_FALSE(act({"start"}));
     EXPECT_EQ(begun_, 1u);
     frame(std::vector<Vec3>(50, spine.front() + 1.5 * (spine.front() - spine[1])));
     ASSERT_NE(edit("start cap", ObjectProperty::colour), nullptr);
     EXPECT_GT(edit("start cap", ObjectProperty::colour)->value[1], 0.6);  // green
-    ASSERT_NE(edit("seen tube", ObjectProperty::seen), nullptr);
-    EXPECT_EQ(edit("seen tube", ObjectProperty::seen)->value[0], 0.0);
+    EXPECT_EQ(edit("seen tube", ObjectProperty::seen), nullptr);          // it stays hidden
+    EXPECT_EQ(edit("start cap", ObjectProperty::seen)->value[0], 1.0);
     ASSERT_NE(edit("tube", ObjectProperty::stiffness), nullptr);
     EXPECT_LT(edit("tube", ObjectProperty::stiffness)->value[0], 1e-3);
     ASSERT_TRUE(act({"note", "holds", "her", "breath"}));
@@ -113,6 +117,23 @@ TEST_F(StudyActivities, TakeATrialThroughAndSayWhereItWasNotKept) {
     ASSERT_TRUE(act({"stop"}));
     frame(std::vector<Vec3>(2, spine.front()));
     EXPECT_TRUE(orders_.quit);
+}
+
+TEST_F(StudyActivities, ShowTheTubeToWhoSeesItAndItsTouchInRed) {
+    const auto& spine = worlds_.at("tube")->world().spine_m;
+    begin("interactive", 1);
+    frame({spine[10]});
+    ASSERT_TRUE(act({"start"}));
+    frame({spine[10]});
+    ASSERT_NE(edit("seen tube", ObjectProperty::seen), nullptr);
+    EXPECT_EQ(edit("seen tube", ObjectProperty::seen)->value[0], 1.0);
+    EXPECT_LT(edit("seen tube", ObjectProperty::opacity)->value[0], 1.0);
+    frame({spine[10] + Vec3(0.0, 0.02, 0.0)});
+    ASSERT_NE(edit("seen tube", ObjectProperty::colour), nullptr);
+    EXPECT_GT(edit("seen tube", ObjectProperty::colour)->value[0], 0.7);
+    renderer::Scene scene;
+    activity_->stage(scene, 0);
+    EXPECT_EQ(scene.objects.size(), 2u);
 }
 
 TEST_F(StudyActivities, LimitTheForceAndLeadWhoIsLed) {
