@@ -115,8 +115,9 @@ std::optional<double> live_ball_radius_m(const record::RecordReader& reader) {
     const auto header = reader.facts().find(record::kLogHeaderFact);
     if (header == reader.facts().end()) return {};
     const std::size_t settings = header->second.find("burin sculpt");
+    const session::SculptOptions none;
     const auto options =
-        session::options_as_recorded(settings == std::string::npos ? "" : header->second.substr(settings), {});
+        session::options_as_recorded(settings == std::string::npos ? "" : header->second.substr(settings), none);
     if (!options) return {};
     const auto tool = sculpt::parse_tool_spec(options->options.tool.shape, "--tool");
     if (!tool || tool->kind != sculpt::ToolKind::ball) return {};
