@@ -255,7 +255,7 @@ Result<sculpt::UseTool> tool_of(const SessionState& state) {
     if (const auto good = sculpt::check_feel(state.feel); !good) return std::unexpected(good.error());
     if (state.wand && tool.shape.kind != sculpt::ToolKind::ball)
         return fail("tool " + sculpt::text_of(tool.shape), "is no ball, and balls are at the points of a wand",
-                    "take a ball, tool ball:R; or leave --points out, and the wand holds the tool in its middle");
+                    "take a ball, such as ball:0.004");
     const ToolMeshes none;
     Result<compute::ToolShape> shape = (state.meshes ? *state.meshes : none).shape_of(tool.shape);
     if (!shape) return std::unexpected(shape.error());
