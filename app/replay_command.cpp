@@ -271,9 +271,8 @@ Result<void> ReplayCommand::Options::replay_session(record::RecordReader& reader
         std::fprintf(stderr, "burin: %s: %llu ticks of its log have no columns: they were lost\n", file.c_str(),
                      static_cast<unsigned long long>(found->unrecorded));
     if (!found->comparison.difference && found->left > 0)
-        std::fprintf(stderr,
-                     "burin: %s: its log was torn off: the last %llu ticks have no frames and are not compared\n",
-                     file.c_str(), static_cast<unsigned long long>(found->left));
+        std::fprintf(stderr, "burin: %s: its log was torn off: the last %llu ticks are not compared\n", file.c_str(),
+                     static_cast<unsigned long long>(found->left));
     return tell(reader, found->comparison, took.count(), json);
 }
 

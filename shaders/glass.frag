@@ -3,8 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/frame.glsl"
 // The faces of the haptic workspace's boxes: a clear tint, denser at grazing angles and towards the edges. The same
-// shader draws the workspace's bubble, which has no edges: there their strength, material.x, is 0. Objects through which
-// one sees are shaded, material.y is 1: darker where they turn from the light, with a highlight. Premultiplied.
+// shader draws the workspace's bubble, which has no edges: there their strength, material.x, is 0. Objects through
+// which one sees are shaded, material.y is 1: darker where they turn from the light, with a highlight. Premultiplied.
 
 layout(location = 0) in vec3 in_world;
 layout(location = 1) in vec3 in_normal;

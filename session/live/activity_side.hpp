@@ -43,7 +43,11 @@ public:
     [[nodiscard]] std::optional<ActivityPanel> panel() const {
         return activity_ ? std::optional(activity_->panel()) : std::nullopt;
     }
-    [[nodiscard]] Result<void> finish() { return activity_ ? activity_->finish() : Result<void>{}; }
+    // Ends the activity; it is not told of anything afterwards. Does nothing when called again.
+    [[nodiscard]] Result<void> finish() {
+        const auto ended = std::exchange(activity_, nullptr);
+        return ended ? ended->finish() : Result<void>{};
+    }
 
 private:
     void carry_out(const ActivityOrders& wanted, SessionState& state, SessionOrders& orders) const;

@@ -113,7 +113,7 @@ struct ParsedProtocol {
 };
 [[nodiscard]] ParsedProtocol parse_protocol(std::string_view text);
 
-// The text of a protocol that comes with the program (assets/studies/NAME/protocol.toml).
+// The text of a protocol that comes with the program (`protocol.toml` in its folder of assets/studies).
 [[nodiscard]] std::optional<std::string_view> known_protocol(std::string_view name);
 
 inline constexpr std::uint64_t kMostProtocolBytes = std::uint64_t{1} << 20;

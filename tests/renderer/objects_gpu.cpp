@@ -39,8 +39,8 @@ TEST_F(Objects, AFewThatFitAndOneThatDoesNotComeTogether) {
     EXPECT_TRUE(show({large, small, first}) == all) << "whatever their order in the buffers";
 }
 
-// A red strip behind one of blue glass: both colours are in the picture where they cross, the glass alone hides nothing,
-// and it makes no difference which of them comes first in the scene.
+// A red strip behind one of blue glass: both colours are in the picture where they cross, the glass alone hides
+// nothing, and it makes no difference which of them comes first in the scene.
 TEST_F(Objects, BehindClearOnesOthersAreSeen) {
     const auto strips = strip(1, 0.1);
     const auto show = [&](double opacity, bool clear_first) {
