@@ -9,6 +9,7 @@
 #include "app/study_command.hpp"
 #include "app/study_trials.hpp"
 #include "base/text.hpp"
+#include "record/record_reader.hpp"
 #include "study/folder/study_folder.hpp"
 #include "study/replay/stage_replay.hpp"
 
@@ -105,7 +106,7 @@ void tell_replays(const Replays& replays, std::size_t count, std::size_t without
     if (replays.of_session() > 0)
         std::printf("; %zu of them are of a live session: their stages and trials were computed again, not their ticks",
                     replays.of_session());
-    if (without > 0) std::printf("; %zu were erased or never begun", without);
+    if (without > 0) std::printf("; %zu were erased or hold nothing yet", without);
     std::printf("\n");
 }
 
@@ -124,9 +125,11 @@ Result<void> study_replay(const StudyReplayOptions& options) {
             if (visit.recording.empty()) continue;
             std::error_code error;
             const std::filesystem::path file = study->path() / visit.recording;
-            const bool gone = !std::filesystem::exists(file, error) || std::filesystem::file_size(file, error) == 0;
-            // Killed before the first transaction: there is nothing yet.
-            if (gone && (person.erased || visit.status == study::StageStatus::aborted)) {
+            const bool gone = !std::filesystem::exists(file, error);
+            const bool aborted = visit.status == study::StageStatus::aborted;
+            // Killed before the first transaction: there is nothing yet, or the beginning of a file.
+            const bool holds_nothing = gone || (aborted && !record::RecordReader::open(file.string()));
+            if (holds_nothing && (person.erased || aborted)) {
                 ++erased;
                 continue;
             }

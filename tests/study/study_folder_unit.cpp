@@ -136,6 +136,11 @@ TEST(StudyCommands, GiveTheSameTrialsAfterAnInterruption) {
     EXPECT_TRUE(before.output.contains("aborted: test (day 1, stage 6)")) << before.output;
     // Killed before the first transaction: a recording without anything in it, which replay passes over.
     std::filesystem::create_directories(place / "t/data/sim002");
+    for (const char* ended : {"03", "04", "05"})
+        for (const char* kind : {".json", ".session"}) {
+            const std::string file = std::string("data/sim002/day1-") + ended + "-run1" + kind;
+            std::filesystem::copy(place / ("s/" + file), place / ("t/" + file));
+        }
     place.write("t/data/sim002/day1-06-run1.session", "");
     ASSERT_EQ(place.run(kBurinStudy + "run t --simulated").status, 0);
     EXPECT_EQ(place.read("s/trials.csv"), place.read("t/trials.csv"));
