@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A participant's visit in simulated time, without a person and a window: a script says what the operator says and where
-// the hand means to be. It goes through the same stages, rules, ticks and files as a live one (training_run.hpp), so
-// that a study's whole thread can be tried and tested.
+// A participant's visit in simulated time, without a person and a window: a script says what the operator says and
+// where the hand means to be. It goes through the same stages, rules, ticks and files as a live one
+// (training_run.hpp), so that a study's whole thread can be tried and tested.
 //
 // The script, a line each, '#' begins a remark; times in seconds, rising:
 //   burin-study-input 1

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a participant sees of a stage, as the renderer's scene: the tube as far as the group sees it, the funnels, the
-// caps, and the wand as a thin cylinder from its top point, a red ball, to its bottom point, a green one. The handle that
-// the hand holds is longer than the tube is wide and is not drawn: what is seen is what is measured.
+// caps, and the wand as a thin cylinder from its top point, a red ball, to its bottom point, a green one. The handle
+// that the hand holds is longer than the tube is wide and is not drawn: what is seen is what is measured.
 //
 // The tube is open towards the eye, with hoops around it (study/felt/tube_mesh.hpp).
 // In led training of a group that the device does not lead, the wand is shown moving along the path by itself, as fast

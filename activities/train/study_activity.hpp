@@ -30,8 +30,8 @@ struct StageKeeper {
 
 class StudyActivity final : public session::Activity {
 public:
-    // Protocol, group and worlds must outlive it. `point_offset_m`: how far above the wand's middle, along its axis, the
-    // point is whose path the session's ticks tell; 0 for a stylus that stands in for a wand.
+    // Protocol, group and worlds must outlive it. `point_offset_m`: how far above the wand's middle, along its axis,
+    // the point is whose path the session's ticks tell; 0 for a stylus that stands in for a wand.
     StudyActivity(const study::Protocol& protocol, const study::Group& group, const FeltWorlds& worlds,
                   std::vector<study::StagePlace> places, std::string settings, double point_offset_m,
                   StageKeeper keeper);

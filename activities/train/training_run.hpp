@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A participant's stages one after the other, with an operator: what a live session asks at each frame, and what it then
-// shows. The operator begins each stage; between stages nothing is recorded.
+// A participant's stages one after the other, with an operator: what a live session asks at each frame, and what it
+// then shows. The operator begins each stage; between stages nothing is recorded.
 //
 //   between --start--> in a stage --its end, or next, stop--> ended --take_end()--> between, or finished
 //
