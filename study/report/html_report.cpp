@@ -24,10 +24,10 @@ th, td { border: 1px solid #999; padding: 0.25em 0.6em; text-align: left; vertic
 table.figures { min-width: 50em; }
 td.number { text-align: right; white-space: nowrap; }
 .warning { border-left: 0.4em solid #000; padding: 0.2em 0.8em; background: #eee; }
-.plots { display: flex; flex-wrap: wrap; gap: 1em; }
-.plots svg { max-width: 100%; height: auto; flex: 1 1 20em; }
-.plots svg:not(:only-child) { max-width: calc(50% - 0.5em); }
-@media (max-width: 45em) { .plots svg:not(:only-child) { max-width: 100%; } }
+.plots { display: grid; grid-template-columns: 1fr 1fr; gap: 1em; align-items: start; }
+.plots svg { width: 100%; height: auto; }
+.plots svg:only-child { grid-column: 1 / -1; }
+@media (max-width: 45em) { .plots { grid-template-columns: 1fr; } }
 .wide svg { width: 100%; min-width: 40em; height: auto; display: block; }
 pre { font-size: 0.8em; overflow-x: auto; background: #f4f4f4; padding: 0.8em; }
 </style>
