@@ -79,12 +79,19 @@ Result<void> StudyActivity::act(std::span<const std::string> words, session::Act
         return fail("do start", "no tick has come from the device yet", "wait a moment, or see to the device");
     if (command->says != OperatorSays::start && !is_note && phase != TrainingRun::Phase::in_stage)
         return fail("do " + words[0], "no stage is under way", "do start begins one");
+    if (command->says == OperatorSays::next && !ends_by_operator())
+        return fail("do next", "this stage ends by itself, as the protocol has it",
+                    "wait, or break it off with do stop");
     run_.command(*command, now_ns_);
     if (command->says == OperatorSays::start) {
         if (keeper_.begun) tell(keeper_.begun(run_), orders);
         orders.parameters = true;
     }
     return {};
+}
+
+bool StudyActivity::ends_by_operator() const {
+    return run_.place() != nullptr && run_.place()->stage->ends_by_operator;
 }
 
 void StudyActivity::step(const session::ActivityView& view, session::ActivityOrders& orders) {
@@ -183,7 +190,7 @@ session::ActivityPanel StudyActivity::panel() const {
     for (const PanelRow& row : shown_.rows) panel.rows.push_back({row.name, row.value});
     const bool in_stage = run_.phase() == TrainingRun::Phase::in_stage;
     panel.buttons = {{"Start", {"start"}, run_.phase() == TrainingRun::Phase::between},
-                     {"Next", {"next"}, in_stage},
+                     {"Next", {"next"}, in_stage && ends_by_operator()},
                      {"Pause", {"pause"}, in_stage},
                      {"Go on", {"go-on"}, in_stage},
                      {"Repeat", {"repeat"}, in_stage},

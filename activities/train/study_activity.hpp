@@ -51,6 +51,7 @@ public:
     [[nodiscard]] std::size_t stages_ended() const { return ended_; }
 
 private:
+    [[nodiscard]] bool ends_by_operator() const;
     void follow(const haptics::StrokeSample& tick, session::ActivityOrders& orders);
     void show(session::ActivityOrders& orders);
     void show(const std::vector<ShownObject>& objects, const study::FeltWorld& world, session::ActivityOrders& orders);
