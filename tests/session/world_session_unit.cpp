@@ -135,7 +135,6 @@ TEST(WorldSession, RefusesWhatItDoesNotKnowAndWhatNeedsAWorkpiece) {
 }
 
 TEST(WorldSession, RefusesMoreMaterialsThanThereIsRoomFor) {
-    const scene::HapticMaterial usual;
     WorldObjects many;
     for (std::size_t i = 0; i <= scene::kMaxWorldMaterials; ++i) {
         scene::SceneObject object;
