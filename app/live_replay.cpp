@@ -80,6 +80,9 @@ Result<std::shared_ptr<session::Activity>> activity_as_recorded(const std::strin
     const Result<std::string> settings = session::activity_on(settings_line);
     if (!settings) return std::unexpected(settings.error());
     if (settings->empty()) return nullptr;
+    if (settings->starts_with("study "))
+        return fail("the recording", "is of a participant in a study, whose stages are not in it",
+                    "replay them with burin study replay");
     const Result<activities::SeekOptions> seek = activities::seek_options_of(*settings);
     if (!seek) return std::unexpected(seek.error());
     return std::make_shared<activities::Seek>(*seek);
@@ -115,9 +118,12 @@ std::optional<double> live_ball_radius_m(const record::RecordReader& reader) {
     const auto header = reader.facts().find(record::kLogHeaderFact);
     if (header == reader.facts().end()) return {};
     const std::size_t settings = header->second.find("burin sculpt");
-    const session::SculptOptions none;
-    const auto options =
-        session::options_as_recorded(settings == std::string::npos ? "" : header->second.substr(settings), none);
+    const std::string line = settings == std::string::npos ? "" : header->second.substr(settings);
+    session::SculptOptions given;
+    auto activity = activity_as_recorded(line);
+    if (!activity) return {};
+    given.activity = std::move(*activity);
+    const auto options = session::options_as_recorded(line, given);
     if (!options) return {};
     const auto tool = sculpt::parse_tool_spec(options->options.tool.shape, "--tool");
     if (!tool || tool->kind != sculpt::ToolKind::ball) return {};

@@ -20,8 +20,10 @@ Result<void> check_place(const std::string& path) {
 Result<void> check_overwrites_none(const std::string& output, std::span<const std::string> inputs) {
     std::error_code ignored;
     for (const std::string& input : inputs) {
-        if (!fs::equivalent(output, input, ignored)) continue;
-        return fail(output, "is an input of this command, which it would overwrite", "choose another place");
+        const bool same_name =
+            !input.empty() && fs::weakly_canonical(output, ignored) == fs::weakly_canonical(input, ignored);
+        if (!same_name && !fs::equivalent(output, input, ignored)) continue;
+        return fail(output, "is another file of this command, which it would overwrite", "choose another place");
     }
     return {};
 }

@@ -21,7 +21,7 @@ void add_seek_options(Command command, SeekSession& seek) {
 }
 
 Result<void> seek(const SeekSession& options) {
-    const std::array inputs{options.session.world};
+    const std::array inputs{options.session.world, options.session.live.input, options.session.live.record};
     const std::string report = options.report == kStandardOutput ? "" : options.report;
     if (const auto ok = check_outputs({}, report, inputs); !ok) return ok;
     const auto activity =
@@ -30,7 +30,9 @@ Result<void> seek(const SeekSession& options) {
     session.no_workpiece = true;
     session.activity = activity;
     const Result<void> done = run_recorded_session(session, "seek");
-    // What the person has done is kept, even where the session missed something else.
+    // What the person has done is kept, even where the session missed something else; one that never began leaves an
+    // older report alone.
+    if (!done && activity->found().empty()) return done;
     const Result<void> written = write_output(options.report, json_text(activity->report()));
     return done ? written : done;
 }

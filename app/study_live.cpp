@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/study_live.hpp"
+#include "app/live_replay.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -128,7 +129,7 @@ Result<void> run_live_visit(study::StudyFolder& study, const StudyRunOptions& op
         std::make_shared<activities::StudyActivity>(study.protocol(), *group, *worlds, std::move(*places), settings,
                                                     is_wand ? study.protocol().point_offset_m : 0.0, keeper);
     session.activity = activity;
-    const Result<void> done = session::run_session(session);
+    const Result<void> done = run_recorded_session(session, "study run");
     std::printf("%zu stages ended; %zu of the day are left\n", activity->stages_ended(),
                 wanted - activity->stages_ended());
     if (const auto made = make_trials(options.study))

@@ -44,7 +44,7 @@ std::string world_digest(std::span<const scene::SceneObject> objects) {
         std::string& mesh = meshes[object.mesh.get()];
         if (mesh.empty() && object.mesh) mesh = mesh_digest(*object.mesh);
         const scene::HapticMaterial& m = object.material;
-        const Json json{
+        Json json{
             {"id", object.id},
             {"name", object.name},
             {"mesh", mesh},
@@ -56,6 +56,7 @@ std::string world_digest(std::span<const scene::SceneObject> objects) {
             {"material", Json::array({m.stiffness_N_per_m, m.damping_Ns_per_m, m.static_friction, m.dynamic_friction})},
             {"both_sides", object.both_sides},
             {"motion", motion_json(object.motion)}};
+        if (object.opacity != 1.0) json["opacity"] = object.opacity;  // recordings from before there was any stay equal
         all += json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
     }
     return sha256(all);

@@ -151,7 +151,7 @@ Result<std::vector<std::pair<std::string, std::string>>> facts_of_world(const Wo
 }  // namespace
 
 Result<void> explore_world(const WorldExploration& options) {
-    const std::array inputs{options.world, options.stroke};
+    const std::array inputs{options.world, options.stroke, options.record};
     if (const auto ok = check_outputs({}, options.report, inputs); !ok) return ok;
     if (!options.report.empty()) {
         if (const auto ok = check_place(session::felt_figure_path(options.report)); !ok) return ok;

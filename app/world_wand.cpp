@@ -276,7 +276,7 @@ Result<record::Comparison> replay_wand(record::RecordReader& reader, const std::
 }
 
 Result<void> explore_world_with_wand(const WorldExploration& options) {
-    const std::array inputs{options.world, options.stroke};
+    const std::array inputs{options.world, options.stroke, options.record};
     if (const auto ok = check_outputs({}, options.report, inputs); !ok) return ok;
     if (const auto ok = record::check_new_place(options.record); !ok) return ok;
     Result<std::unique_ptr<WandWorld>> opened = open_wand_world(options);

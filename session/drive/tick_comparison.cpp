@@ -42,11 +42,15 @@ Result<TickComparison> TickComparison::create(record::RecordReader& reader, cons
 }
 
 Result<bool> TickComparison::go_to(std::uint64_t tick) {
+    if (damaged_) return std::unexpected(*damaged_);
     const auto wanted = static_cast<std::int64_t>(tick);
     while (!over_ && (!begun_ || static_cast<std::int64_t>(walk_.at(tick_column_)) < wanted)) {
         begun_ = true;
         const Result<bool> more = walk_.next();
-        if (!more) return more;
+        if (!more) {
+            damaged_ = more.error();
+            return more;
+        }
         over_ = !*more;
     }
     return !over_ && static_cast<std::int64_t>(walk_.at(tick_column_)) == wanted;

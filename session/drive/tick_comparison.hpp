@@ -47,6 +47,7 @@ private:
     record::RowWalk walk_;
     std::size_t tick_column_;
     bool begun_ = false, over_ = false;
+    std::optional<Error> damaged_;  // a block that cannot be read: there is no row to look at from then on
     std::uint64_t unrecorded_ = 0, repeated_ = 0;
     record::Comparison found_;
     AtDifference then_ = AtDifference::ends;

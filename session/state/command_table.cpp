@@ -188,6 +188,11 @@ Result<scene::PropertyValue> parse_value(const scene::PropertyDescriptor& proper
                     "write " + std::string(property.argument) + unit);
     }
     std::ranges::copy(*numbers, value.begin());
+    const auto is_part = [](double part) { return part >= 0.0 && part <= 1.0; };
+    if (property.property == scene::ObjectProperty::colour && !std::ranges::all_of(*numbers, is_part))
+        return fail(where, "is out of bounds", "write R,G,B from 0 to 1, such as 0.8,0.2,0.1");
+    if (property.property == scene::ObjectProperty::orientation && !(Vec3(value[0], value[1], value[2]) != Vec3(0.0)))
+        return fail(where, "has an axis without length", "write an axis and an angle in radians, such as 0,1,0,1.57");
     return value;
 }
 

@@ -277,7 +277,12 @@ Result<StudyFolder> StudyFolder::open(const fs::path& folder, StudyAccess access
 
 Result<void> StudyFolder::note(Json value) {
     BURIN_CHECK(lock_ >= 0);
-    return append(path_ / "journal.jsonl", journal_, std::move(value));
+    const std::string name = (path_ / "journal.jsonl").string();
+    // Without its beginning nobody knows who was enrolled: a place would be given twice.
+    if (journal_.entries.empty() || journal_.entries.front().value["event"] != "study made")
+        return fail(name, "has lost its beginning, which says how the study was made",
+                    "restore the journal from a copy; nothing is written until then");
+    return append(name, journal_, std::move(value));
 }
 
 Result<std::string> StudyFolder::sealed_list() const {
