@@ -278,7 +278,7 @@ std::string through_the_tube(double from_s) {
 
 TEST(StudyCommands, TakeAParticipantThroughByAScriptAndGoOnAfterAnInterruption) {
     const Workplace place;
-    ASSERT_EQ(make_study(place, "--participants 2").status, 0);
+    ASSERT_EQ(make_study(place, "--participants 2 --seed 3").status, 0);
     ASSERT_EQ(place.run(kBurinStudy + "enrol s p01").status, 0);
     const std::string run = kBurinStudy + "run s --participant p01 --input ";
     const std::string head = "burin-study-input 1\n0 hand -0.175 0.165 0.11\n";
