@@ -7,7 +7,8 @@
 # build/rooms/NAME/ that include the sources of a room, and the sources after ALONE, which have compile options of their
 # own. The texts name sources from the repository's root, so that they are the same in every clone, as ccache asks.
 set(BURIN_ROOM_BUILDS ON CACHE STRING "Compile the sources of a room as one: ON, OFF, or TESTS: of tests alone")
-if(BURIN_ROOM_BUILDS AND NOT BURIN_ROOM_BUILDS STREQUAL "TESTS" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+if(BURIN_ROOM_BUILDS AND NOT BURIN_ROOM_BUILDS STREQUAL "TESTS"
+   AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # It sees through std::variant's moves in so long a text, and then takes them for reads of other alternatives. Preset
   # ci keeps the warning.
   target_compile_options(burin_options INTERFACE -Wno-maybe-uninitialized)

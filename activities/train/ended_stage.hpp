@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a stage leaves when it has ended, simulated or live; and the worlds of a protocol. Pure; any thread.
+// Collects what an ended stage leaves, simulated or live; opens the worlds of a protocol. Pure; any thread.
 #pragma once
 
 #include <map>
@@ -19,7 +19,7 @@ struct EndedStage {
     std::uint64_t ticks = 0;
     double duration_s = 0.0;
 };
-// Of a stage with a world, as study/replay/ makes it of a recorded motion.
+// Makes the end of a stage with a world, the same as study/replay/ makes of its recorded motion.
 [[nodiscard]] EndedStage ended_stage(const study::Protocol& protocol, const study::Stage& stage,
                                      const study::FeltWorld& world, const study::StageSession& session);
 

@@ -26,7 +26,7 @@ std::vector<devices::HandPose> at_device(std::vector<devices::HandPose> hand, co
     return hand;
 }
 
-// What happens in simulated time, tick by tick.
+// Runs the visit in simulated time, tick by tick.
 class ScriptedVisit {
 public:
     ScriptedVisit(TrainingRun& run, StageOnDisk& disk, const VisitScript& script, const VisitOptions& options,

@@ -19,7 +19,7 @@ struct StageMoment {
 [[nodiscard]] StageMoment moment_of(const study::FeltWorld& world, const study::StageSession& session,
                                     const haptics::TickRecord& record);
 
-// Of an object of study/felt/felt_world.hpp.
+// Says how an object of study/felt/felt_world.hpp looks.
 struct ShownObject {
     scene::ObjectId id = 0;
     bool seen = false;
@@ -29,7 +29,7 @@ struct ShownObject {
     bool operator==(const ShownObject&) const = default;
 };
 
-// Whether the group sees the tube in the stage; by default nobody does in a trial.
+// Returns whether the group sees the tube in the stage; by default nobody does in a trial.
 [[nodiscard]] bool sees_tube(const study::Stage& stage, const study::Group& group);
 
 // The tube is green, and red while either point touches its wall; the wand is seen in it, as in the funnels. A cap is

@@ -32,7 +32,7 @@ public:
     void take(const TrainingRun::Ticked& ticked);
     [[nodiscard]] Result<void> take(const std::vector<RunEvent>& events);
     [[nodiscard]] Result<void> end(const EndedStage& ended);
-    // What is recorded stays, of a stage without an end too.
+    // Keeps what is recorded, also of a stage that did not come to its end.
     [[nodiscard]] Result<void> close();
 
 private:

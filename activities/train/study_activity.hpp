@@ -19,7 +19,7 @@
 
 namespace burin::activities {
 
-// What keeps the stages; null functions: nobody. A failure is shown as a message, and the visit goes on.
+// Functions that keep the stages; null ones keep nothing. A failure is shown as a message, and the visit goes on.
 struct StageKeeper {
     std::function<Result<void>(const TrainingRun&)> begun;
     std::function<void(const TrainingRun::Ticked&)> tick;

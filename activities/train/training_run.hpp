@@ -58,7 +58,7 @@ class TrainingRun {
 public:
     enum class Phase { between, in_stage, ended, finished };
 
-    // What is still to be done, in order. Protocol, group and worlds must outlive it.
+    // `places`: the stages still to be done, in order. Protocol, group and worlds must outlive it.
     TrainingRun(const study::Protocol& protocol, const study::Group& group, const FeltWorlds& worlds,
                 std::vector<study::StagePlace> places);
 
@@ -66,7 +66,7 @@ public:
     // The stage under way or just ended, else the next; null when finished.
     [[nodiscard]] const study::StagePlace* place() const;
     [[nodiscard]] const study::FeltWorld* world() const { return world_; }
-    // Of a stage with a world that is under way or just ended.
+    // Returns the session of a stage with a world that is under way or just ended; null where there is none.
     [[nodiscard]] const study::StageSession* session() const { return session_ ? &*session_ : nullptr; }
 
     void command(const OperatorCommand& command, Nanoseconds now_ns);
