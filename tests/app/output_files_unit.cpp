@@ -61,8 +61,8 @@ TEST(OutputFiles, OverwriteNeitherAnInputNorEachOther) {
         return checked ? "" : checked.error().line();
     };
     EXPECT_EQ(refused({(place / "a.stl").string()}, (place / "r.json").string()), "");
-    EXPECT_TRUE(refused({(place / "./in.stl").string()}, "").contains("is an input"));
-    EXPECT_TRUE(refused({}, (place / "in.csv").string()).contains("is an input"));
+    EXPECT_TRUE(refused({(place / "./in.stl").string()}, "").contains("is another file of this command"));
+    EXPECT_TRUE(refused({}, (place / "in.csv").string()).contains("is another file of this command"));
     EXPECT_TRUE(refused({(place / "a.stl").string(), (place / "./a.stl").string()}, "").contains("two outputs"));
 }
 
