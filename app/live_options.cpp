@@ -25,6 +25,9 @@ void add_live_options(Command command, session::LiveOptions& options) {
     command.option("--device", options.device, "The force-feedback device; " + devices::haptic_usage()).show_default();
     command.flag("--windowed", options.windowed,
                  "With --wall: its screens in windows, fitted into --width by --height");
+    command.flag("--panel-window", options.panel_window,
+                 "The panel in a window of its own, for an operator; the pictures show no more of it than the page for "
+                 "the person who stands before them");
     command.option("--full-screen", options.full_screen, "Fill this monitor: its name or index");
     command.option("--width", options.width, "Of the window, in pixels").within(64, 8192).show_default();
     command.option("--height", options.height, "Of the window, in pixels").within(64, 8192).show_default();

@@ -105,6 +105,7 @@ Result<void> run_live_visit(study::StudyFolder& study, const StudyRunOptions& op
     session.no_workpiece = true;
     session.tool.shape = "ball:0.001";  // a point, as far as a session's tool can be one
     session.live = options.live;
+    session.live.panel_window = true;  // the operator's; the participant sees the page alone
     if (session.live.device == devices::kDefaultHapticDevice || session.live.device == devices::kSimulatedWand) {
         const auto wand = write_wand(study.protocol(), study.path() / "worlds" / *world);
         if (!wand) return std::unexpected(wand.error());

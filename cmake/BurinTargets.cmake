@@ -24,7 +24,7 @@ endfunction()
 #            [ONE_THREAD])
 # One program for each folder and kind, of the files *_KIND.cpp in the folder and its rooms that no program before has
 # taken, or of SOURCES alone; the ctest name is FOLDER.KIND and the label is KIND. RUNS_BURIN: it starts the program
-# (BURIN_COMMAND) on files of assets/ (BURIN_WALLS, BURIN_SESSIONS) and judges meshes by MESH_AUDIT. Each writes
+# on files of assets/ and judges meshes by mesh_audit (tests/support/places.hpp). Each writes
 # test-reports/FOLDER.KIND.xml in the build directory, which scripts/test reads for its counts and the reasons of skips.
 # ONE_THREAD: what it tests starts no thread, or none but the pool of workers, which another test of the folder has;
 # under the thread sanitizer it is neither built nor run, since there is nothing to find.
@@ -62,9 +62,6 @@ function(burin_test)
   endforeach()
   if(ARG_RUNS_BURIN)
     add_dependencies(${target} burin mesh_audit)
-    target_compile_definitions(${target} PRIVATE BURIN_COMMAND="$<TARGET_FILE:burin>"
-      MESH_AUDIT="$<TARGET_FILE:mesh_audit>"
-      BURIN_SESSIONS="${CMAKE_SOURCE_DIR}/assets/sessions" BURIN_WALLS="${CMAKE_SOURCE_DIR}/assets/walls")
   endif()
   burin_test_needs(${ARG_FOLDER}.${ARG_KIND} ${target})
   add_test(NAME ${ARG_FOLDER}.${ARG_KIND}

@@ -10,8 +10,10 @@ namespace burin::session {
 Result<void> step_frame(LiveSession& session, Executor& executor, ThreadRecorder& recorder, const FrameInput& input,
                         const std::vector<wall::OutputPlace>& places) {
     const haptics::ToolState tool = executor.tool();
-    session.step(input, places[session.room().wall.main], tool,
-                 [&](Executor::Order order) { executor.order(std::move(order)); });
+    const SessionWall& wall = session.room().wall;
+    session.step(
+        input, places[wall.main], tool, [&](Executor::Order order) { executor.order(std::move(order)); },
+        wall.has_panel_window() ? places.back().size : ImageSize{});
     const Result<Executor::Taken> taken = executor.take_updates();
     if (!taken) return std::unexpected(taken.error());
     session.take_news(taken->collected);

@@ -30,13 +30,13 @@ PanelSource tracker_source(const wall::TrackerReport& report) {
 }
 
 // Places the panel at the right of the screen that the viewer faces, turned towards the viewer.
-renderer::PanelStand stand_in(const Room& room) {
+renderer::PanelStand stand_in(const Room& room, ImageSize size) {
     const wall::Screen s = room.screen();
     const Vec3 across = s.lower_right_world - s.lower_left_world, upright = s.upper_left_world - s.lower_left_world;
     const double width_m = std::min(kStandingWidth * glm::length(upright), kOfScreensWidth * glm::length(across));
     const Vec3 place = s.lower_right_world - (0.6 * width_m) * glm::normalize(across) + 0.55 * upright;
     const Quat turned = world_from_screen(s) * glm::angleAxis(-kStandingTurn_rad, Vec3(0.0, 1.0, 0.0));
-    return renderer::stand_of_width({place, turned}, width_m, kStanding_px);
+    return renderer::stand_of_width({place, turned}, width_m, size);
 }
 
 // Describes the chosen object; the first where none is.
@@ -109,50 +109,102 @@ void LivePanel::feed_times(const FrameInput& input, const PanelContext& context)
                 context.recording_ended, recorded_ ? &*recorded_ : nullptr});
 }
 
-Result<SceneInput> LivePanel::feed(const FrameInput& input, const PanelContext& context, MessageLog& log) {
-    actions_.clear();
-    layout_ = nullptr;
-    feed_times(input, context);
-    const ImageSize eye = context.eye();
-    OnPicture on = mouse_on_picture(pointer_, input.events, context.shown, context.output);
-    const PanelPointer pointer = std::exchange(pointer_, {.mouse_px = on.pointer.mouse_px});
-    const bool stands = !context.room.wall.desk;
-    SceneInput left{{input.events.begin(), input.events.end()}, {}};
-    const auto width = static_cast<std::uint32_t>(kPanelWidth_px);
-    // A window too narrow for both shows the scene alone.
-    if (!context.state.panel || eye.height == 0 || (!stands && eye.width < 2 * width)) return left;
-    const ImageSize size = stands ? kStanding_px : ImageSize{width, eye.height};
-    if (!panel_) {
+Result<void> LivePanel::open(std::optional<Panel>& panel, ImageSize size, MessageLog& log) const {
+    if (!panel) {
         auto made = Panel::create({.size = size});
         if (!made) return std::unexpected(made.error());
-        panel_.emplace(std::move(*made));
-        if (!panel_->notice().empty()) log.notify(panel_->notice());
+        panel.emplace(std::move(*made));
+        if (!panel->notice().empty()) log.notify(panel->notice());
     }
-    panel_->resize(size);
-    if (stands) {
-        const SessionWall& wall = context.room.wall;
-        const View view = view_of(wall.setup, wall.main, context.state.head, context.state.interpupillary_m);
-        const MouseView mouse{view.screen, wall::eyes_of(view.viewer), context.shown, context.output};
-        Pointed pointed = point_at_panel(pointer, input.events, stand_in(context.room), size, mouse);
-        pointer_ = pointed.pointer;
-        panel_->feed(pointed.panel);
-        left.events = std::move(pointed.rest);
+    panel->resize(size);
+    return {};
+}
+
+Result<SceneInput> LivePanel::feed(const FrameInput& input, const PanelContext& context, MessageLog& log) {
+    actions_.clear();
+    layout_ = page_layout_ = nullptr;
+    feed_times(input, context);
+    const ImageSize eye = context.eye();
+    const bool stands = !context.room.wall.desk, in_window = context.room.wall.has_panel_window();
+    const auto width = static_cast<std::uint32_t>(kPanelWidth_px);
+    // A window too narrow for both shows the scene alone.
+    const bool has_place = in_window ? !is_empty(context.panel_output)
+                                     : context.state.panel && eye.height > 0 && (stands || eye.width >= 2 * width);
+    SceneInput left{{input.events.begin(), input.events.end()}, {}};
+    if (has_place) {
+        const ImageSize size = in_window ? ImageSize{width, context.panel_output.height}
+                               : stands  ? kStanding_px
+                                         : ImageSize{width, eye.height};
+        if (const auto opened = open(panel_, size, log); !opened) return std::unexpected(opened.error());
+        left = in_window ? feed_in_window(input, context.panel_output) : feed_over_picture(input, context, size);
+        PanelModel model = model_of(context, log.newest());
+        model.visible = true;
+        model.may_be_hidden = !in_window;
+        layout_ = &panel_->show(model, input.time_ns);
+        actions_ = layout_->actions;
+        left.captured = {layout_->wants_mouse && !in_window, layout_->wants_keyboard};
     } else {
-        pointer_ = on.pointer;
-        // At the right of an eye's picture, in its pixels.
-        panel_->feed(on.events, {{static_cast<double>(eye.width) - size.width, 0.0}, {1.0, 1.0}});
+        const OnPicture on = mouse_on_picture(pointer_, input.events, context.shown, context.output);
+        pointer_ = {.mouse_px = on.pointer.mouse_px};
     }
-    layout_ = &panel_->show(model_of(context, log.newest()), input.time_ns);
-    actions_ = layout_->actions;
-    left.captured = {layout_->wants_mouse, layout_->wants_keyboard};
+    if (!in_window) return left;
+    if (const auto page = lay_out_page(context, input.time_ns, log); !page) return std::unexpected(page.error());
     return left;
 }
 
+// Returns what the panel leaves to the scene.
+SceneInput LivePanel::feed_over_picture(const FrameInput& input, const PanelContext& context, ImageSize size) {
+    SceneInput left{{input.events.begin(), input.events.end()}, {}};
+    const SessionWall& wall = context.room.wall;
+    if (wall.desk) {
+        OnPicture on = mouse_on_picture(pointer_, input.events, context.shown, context.output);
+        pointer_ = on.pointer;
+        // At the right of an eye's picture, in its pixels.
+        panel_->feed(on.events, {{static_cast<double>(context.eye().width) - size.width, 0.0}, {1.0, 1.0}});
+        return left;
+    }
+    const View view = view_of(wall.setup, wall.main, context.state.head, context.state.interpupillary_m);
+    const MouseView mouse{view.screen, wall::eyes_of(view.viewer), context.shown, context.output};
+    Pointed pointed = point_at_panel(pointer_, input.events, stand_in(context.room, size), size, mouse);
+    pointer_ = pointed.pointer;
+    panel_->feed(pointed.panel);
+    left.events = std::move(pointed.rest);
+    return left;
+}
+
+// At the right of the window, where that is wider.
+SceneInput LivePanel::feed_in_window(const FrameInput& input, ImageSize window) {
+    InWindows to = divide_by_window(mouse_on_window_, input.events);
+    panel_->feed(to.panel, {{static_cast<double>(window.width) - kPanelWidth_px, 0.0}, {1.0, 1.0}});
+    return {std::move(to.rest), {}};
+}
+
+// The activity's page for the person before the pictures, as high as its text.
+Result<void> LivePanel::lay_out_page(const PanelContext& context, Nanoseconds time_ns, MessageLog& log) {
+    if (!context.activity || context.activity->page.empty()) return {};
+    PanelModel model;
+    model.page_alone = true;
+    model.activity = ActivityPanel{};
+    model.activity->page = context.activity->page;
+    const auto width = static_cast<std::uint32_t>(kPanelWidth_px);
+    if (const auto opened = open(page_, page_ ? page_->size() : ImageSize{width, width}, log); !opened) return opened;
+    page_layout_ = &page_->show(model, time_ns);
+    if (page_->page_height() == page_->size().height) return {};
+    page_->resize({width, page_->page_height()});
+    page_layout_ = &page_->show(model, time_ns);
+    return {};
+}
+
 std::optional<PanelPicture> LivePanel::picture_on(std::size_t screen, const Room& room) const {
-    const bool stands = !room.wall.desk;
-    if (layout_ == nullptr || (!stands && screen != room.wall.main)) return std::nullopt;
-    return PanelPicture{layout_->mesh, panel_->atlas(), panel_->size(),
-                        stands ? std::optional(stand_in(room)) : std::nullopt};
+    const SessionWall& wall = room.wall;
+    const bool in_own_window = wall.is_panel(screen);
+    const bool is_page = wall.has_panel_window() && !in_own_window;
+    const PanelFrame* const layout = is_page ? page_layout_ : layout_;
+    const bool stands = !wall.desk && !in_own_window;
+    if (layout == nullptr || (wall.desk && !in_own_window && screen != wall.main)) return std::nullopt;
+    const Panel& panel = is_page ? *page_ : *panel_;
+    return PanelPicture{layout->mesh, panel.atlas(), panel.size(),
+                        stands ? std::optional(stand_in(room, panel.size())) : std::nullopt};
 }
 
 }  // namespace burin::session

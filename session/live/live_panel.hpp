@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Hosts the panel in a live session: gives it its share of the input, lays it out with the session's state and measured
 // times, and has its picture ready for the screens. Over a desktop window's picture it lies at the right; before a wall
-// it stands in the scene.
+// it stands in the scene. Or it fills a window of its own: then the pictures have the activity's page in its place, and
+// nothing where there is none.
 // Thread: the frame's.
 #pragma once
 
@@ -36,6 +37,7 @@ struct PanelContext {
     const haptics::Histogram& tick_duration;
     wall::OutputSettings shown;  // how the main screen is shown
     wall::OutputPlace output;    // of the main screen
+    ImageSize panel_output;      // of the panel's own window; empty: it has none
     // PanelFacts
     std::optional<std::uint64_t> acknowledged = std::nullopt;
     bool recording_ended = false;
@@ -68,10 +70,17 @@ public:
 
 private:
     void feed_times(const FrameInput& input, const PanelContext& context);
+    [[nodiscard]] Result<void> open(std::optional<Panel>& panel, ImageSize size, MessageLog& log) const;
+    [[nodiscard]] SceneInput feed_over_picture(const FrameInput& input, const PanelContext& context, ImageSize size);
+    [[nodiscard]] SceneInput feed_in_window(const FrameInput& input, ImageSize window);
+    [[nodiscard]] Result<void> lay_out_page(const PanelContext& context, Nanoseconds time_ns, MessageLog& log);
     [[nodiscard]] PanelModel model_of(const PanelContext& context, const std::string& message) const;
 
     std::optional<Panel> panel_;          // created when it is first shown
     const PanelFrame* layout_ = nullptr;  // of the last step; null while the panel is hidden
+    std::optional<Panel> page_;           // beside a panel in its own window
+    const PanelFrame* page_layout_ = nullptr;
+    bool mouse_on_window_ = false;  // the panel's own
     std::vector<CommandInput> actions_;
     PanelPointer pointer_;
     PanelFeed feed_;

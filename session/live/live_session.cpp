@@ -206,8 +206,10 @@ Result<void> LiveSession::make_scene(const sculpt::UseTool& use, const Vec3& too
 // ---- One step
 
 void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output, const haptics::ToolState& tool,
-                       const Give& give) {
-    if (output.size.width > 0 && output.size.height > 0) output_ = output;  // keeps the last size while minimised
+                       const Give& give, ImageSize panel_output) {
+    // Each keeps its last size while it is minimised.
+    if (!is_empty(output.size)) output_ = output;
+    if (!is_empty(panel_output)) panel_output_ = panel_output;
     fit_desk_screen(room_.wall, main_eye());
     tool_ = tool;
     times_.sampled(start_ns_ + head_sampled_ns(input), tool_.time_ns);
@@ -247,6 +249,7 @@ SceneInput LiveSession::feed_panel(const FrameInput& input) {
                              .tick_duration = haptics_.loop().duration(),
                              .shown = output_on(room_.wall.main),
                              .output = output_,
+                             .panel_output = panel_output_,
                              .acknowledged = acknowledged_,
                              .recording_ended = recording_ended_},
                             log_);
@@ -356,6 +359,7 @@ Vec3 LiveSession::lattice_origin_object() const {
 }
 
 std::optional<renderer::Scene> LiveSession::scene_on(std::size_t screen) const {
+    if (room_.wall.is_panel(screen)) return std::nullopt;
     std::optional<renderer::Scene> scene = scene_of(state_, room_, screen, lattice_origin_object(), tool_);
     if (scene && world_)
         std::ranges::move(world_->drawn().in_world(state_.world_from_object), std::back_inserter(scene->objects));

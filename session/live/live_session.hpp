@@ -45,10 +45,10 @@ public:
                                                                      double pace = 1.0);
 
     // Applies one frame's input. `output` is the main screen's output, `tool` the tool as the frame draws it. Orders to
-    // the scene's parts are passed to `give`.
+    // the scene's parts are passed to `give`. panel_output: size of the panel's own window; empty: there is none.
     using Give = std::function<void(scene::SceneThread::Order)>;
     void step(const FrameInput& input, const wall::OutputPlace& output, const haptics::ToolState& tool,
-              const Give& give);
+              const Give& give, ImageSize panel_output = {});
     // Returns the newest tool state that the haptic loop has published.
     [[nodiscard]] const haptics::ToolState& newest_tool() { return haptics_.newest_tool(); }
     // Collects what the scene's parts report of the update that has just ended; returns whether it is anything. The
@@ -181,6 +181,7 @@ private:
     haptics::ToolState tool_;
     Nanoseconds last_step_ns_ = 0;
     wall::OutputPlace output_;                    // of the main screen
+    ImageSize panel_output_;                      // of the panel's window; empty: there is none
     std::vector<sculpt::SurfaceUpdate> updates_;  // not drawn yet
     std::size_t undoable_ = 0, redoable_ = 0;     // as of the last update
     bool exporting_ = false;

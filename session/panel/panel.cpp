@@ -129,6 +129,7 @@ public:
     std::optional<Vec2> wand_px_;
     bool laid_out_before_ = false;
     int resting_ = 0;
+    float page_height_ = 0.0f;
     std::uint64_t laid_out_ = 0, spared_ = 0;
 
 private:
@@ -148,7 +149,11 @@ private:
             kit_.places.clear();
             kit_.actions.clear();
             kit_.again = false;
-            show_column(model);
+            if (model.page_alone) {
+                show_page(model);
+            } else {
+                show_column(model);
+            }
             ImGui::PopFont();
             ImGui::Render();
             ++laid_out_;
@@ -172,12 +177,12 @@ private:
         return {};
     }
 
-    void show_column(const PanelModel& model) {
+    // Begins a window that fills the panel.
+    void begin_ground(float margin, float above) {
         const ImVec2 screen = ImGui::GetIO().DisplaySize;
-        const float margin = kit_.px(12.0f);
         ImGui::SetNextWindowPos({0.0f, 0.0f});
         ImGui::SetNextWindowSize(screen);
-        ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {margin, kit_.px(8.0f)});
+        ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {margin, above});
         ImGui::Begin("panel", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
         ImGui::PopStyleVar();
         ImDrawList& ground = *ImGui::GetWindowDrawList();
@@ -186,6 +191,20 @@ private:
         ground.PopClipRect();
         kit_.visible_lo = {0.0f, 0.0f};
         kit_.visible_hi = screen;
+    }
+
+    void show_page(const PanelModel& model) {
+        const float margin = kit_.px(16.0f);
+        begin_ground(margin, margin);
+        if (model.activity) kit_.paragraph(panel::kText, model.activity->page, kit_.type.text);
+        page_height_ = ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y + margin;
+        ImGui::End();
+    }
+
+    void show_column(const PanelModel& model) {
+        const ImVec2 screen = ImGui::GetIO().DisplaySize;
+        const float margin = kit_.px(12.0f);
+        begin_ground(margin, kit_.px(8.0f));
         panel::show_header(kit_, model);
         const float footer = kit_.px(26.0f + 56.0f + 8.0f + 14.0f);
         const ImVec2 top = ImGui::GetCursorScreenPos();
@@ -250,6 +269,9 @@ void Panel::resize(ImageSize size) {
     implementation_->resting_ = kSettling;
 }
 ImageSize Panel::size() const { return implementation_->size_; }
+std::uint32_t Panel::page_height() const {
+    return static_cast<std::uint32_t>(std::ceil(std::max(implementation_->page_height_, 1.0f)));
+}
 const renderer::PanelAtlas& Panel::atlas() const { return implementation_->atlas_; }
 const std::string& Panel::notice() const { return implementation_->kit_.type.notice; }
 std::uint64_t Panel::laid_out() const { return implementation_->laid_out_; }

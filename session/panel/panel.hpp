@@ -17,6 +17,7 @@
 // font's and writes none.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -68,6 +69,8 @@ public:
 
     void resize(ImageSize size);
     [[nodiscard]] ImageSize size() const;
+    // Returns the height that the last page_alone took.
+    [[nodiscard]] std::uint32_t page_height() const;
     [[nodiscard]] const renderer::PanelAtlas& atlas() const;
     // Notice for the user about the font; empty: none.
     [[nodiscard]] const std::string& notice() const;

@@ -94,6 +94,8 @@ struct PanelObject {
 
 struct PanelModel {
     bool visible = true, show_help = false, show_figures = false;  // Tab, F1, F2
+    bool may_be_hidden = true;
+    bool page_alone = false;  // of the activity, for the person who is not to see the rest
     std::string title = "Burin";
     PanelWorkpiece workpiece;
 

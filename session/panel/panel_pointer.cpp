@@ -2,6 +2,7 @@
 #include "session/panel/panel_pointer.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace burin::session {
 namespace {
@@ -111,6 +112,29 @@ Pointed point_at_panel(PanelPointer pointer, std::span<const InputEvent> events,
     for (const InputEvent& event : events)
         if (!pointing.take(event)) pointing.pointed.rest.push_back(event);
     return std::move(pointing.pointed);
+}
+
+InWindows divide_by_window(bool& mouse_on_panel, std::span<const InputEvent> events) {
+    InWindows to;
+    for (const InputEvent& event : events) {
+        if (const auto* move = std::get_if<MouseMove>(&event.input)) {
+            const bool was_on = std::exchange(mouse_on_panel, move->position_px.x >= 0.75 * kPanelWindow_px);
+            if (!mouse_on_panel) {
+                to.rest.push_back(event);
+                if (was_on) to.panel.push_back({event.time_ns, MouseMove{kBeside_px}});
+                continue;
+            }
+            to.panel.push_back({event.time_ns, MouseMove{move->position_px - Vec2(kPanelWindow_px, 0.0)}});
+            continue;
+        }
+        const bool is_mouse =
+            std::holds_alternative<MouseClick>(event.input) || std::holds_alternative<Scroll>(event.input);
+        const bool is_key =
+            std::holds_alternative<KeyInput>(event.input) || std::holds_alternative<TextInput>(event.input);
+        if (is_key || (is_mouse && mouse_on_panel)) to.panel.push_back(event);
+        if (is_key || !is_mouse || !mouse_on_panel) to.rest.push_back(event);
+    }
+    return to;
 }
 
 OnPicture mouse_on_picture(PanelPointer pointer, std::span<const InputEvent> events, const wall::OutputSettings& output,

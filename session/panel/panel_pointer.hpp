@@ -45,4 +45,15 @@ struct OnPicture {
 [[nodiscard]] OnPicture mouse_on_picture(PanelPointer pointer, std::span<const InputEvent> events,
                                          const wall::OutputSettings& output, const wall::OutputPlace& place);
 
+// A panel in a window of its own: the mouse's positions there lie this far to the right of those in the main screen's,
+// beyond the right eye's window.
+inline constexpr double kPanelWindow_px = 131072.0;
+
+// Divides the events between that window and the scene: the mouse is where it was last moved, and what its buttons
+// began in one of them ends there. Keys and text are for both.
+struct InWindows {
+    std::vector<InputEvent> panel, rest;  // the panel's in pixels of its window
+};
+[[nodiscard]] InWindows divide_by_window(bool& mouse_on_panel, std::span<const InputEvent> events);
+
 }  // namespace burin::session

@@ -96,7 +96,9 @@ Result<void> Presenter::open_outputs() {
             screens_[i].output = std::make_unique<DirectOutput>(*screen.direct, driver_);
             continue;
         }
-        const std::string title = screen.name.empty() ? "Burin" : "Burin, screen " + screen.name;
+        const std::string title = screen.name.empty()  ? "Burin"
+                                  : wall_->is_panel(i) ? "Burin, panel"
+                                                       : "Burin, screen " + screen.name;
         std::optional<window::Window::Position> place;
         if (screens_.size() > 1 && screen.monitor.empty()) place = beside.next(screen.size);
         auto window = SessionWindow::open(title, screen.monitor, screen.size, place);
@@ -225,8 +227,13 @@ std::vector<Input> Presenter::inputs(double wait_s) {
     };
     const ScreenStage& main = screens_[wall_->main];
     add(main.window, true);
-    for (const ScreenStage& screen : screens_) {
-        if (&screen == &main) continue;
+    for (std::size_t i = 0; i < screens_.size(); ++i) {
+        const ScreenStage& screen = screens_[i];
+        if (i == wall_->main) continue;
+        if (wall_->is_panel(i)) {
+            for (Input& input : panels_inputs(screen, std::exchange(wait_s, 0.0))) inputs.push_back(std::move(input));
+            continue;
+        }
         add(screen.window, false);
         add(screen.right_window.get(), false);
     }
@@ -240,6 +247,18 @@ void Presenter::wake() {
     } else if (shows()) {
         window::wake();
     }
+}
+
+// Positions in the panel's window lie to the right of all others.
+std::vector<Input> Presenter::panels_inputs(const ScreenStage& screen, double wait_s) {
+    if (screen.window == nullptr) return {};
+    std::vector<Input> inputs = screen.window->inputs(wait_s);
+    for (Input& input : inputs)
+        if (auto* move = std::get_if<MouseMove>(&input)) move->position_px.x += kPanelWindow_px;
+    std::erase_if(inputs, [](const Input& input) {
+        return std::holds_alternative<WindowResize>(input) || std::holds_alternative<WindowFocus>(input);
+    });
+    return inputs;
 }
 
 // Scales the mouse's positions as if both windows had the same size.

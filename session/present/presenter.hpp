@@ -55,8 +55,8 @@ public:
 
     // Returns what happened in the windows, waiting for at most so long (0: not at all) or until wake(). The mouse
     // counts in the main screen alone; in the window of its right eye positions lie kRightWindow_px (seen_place.hpp)
-    // further to the right. Closing any window asks the session to end, since none of a wall's windows can be reopened
-    // alone. Displays driven directly give no input.
+    // further to the right, in the panel's window kPanelWindow_px (panel_pointer.hpp). Closing any window asks the
+    // session to end, since none of a wall's windows can be reopened alone. Displays driven directly give no input.
     [[nodiscard]] std::vector<Input> inputs(double wait_s);
     void wake();  // any thread
 
@@ -107,6 +107,7 @@ private:
         return {screen.output.get(), screen.right_window.get()};
     }
     [[nodiscard]] static std::vector<Input> right_eyes_inputs(const ScreenStage& screen);
+    [[nodiscard]] static std::vector<Input> panels_inputs(const ScreenStage& screen, double wait_s);
     // ---- presenter_drawing.cpp
     [[nodiscard]] Result<void> fit_modes(LiveSession& session);
     // Opens and closes what the mode needs: a second window, images of two layers. An Error leaves the screen in a

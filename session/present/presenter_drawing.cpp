@@ -224,7 +224,8 @@ void Presenter::photograph(std::size_t i, LiveSession& session, const std::vecto
     const std::string& name = wall_->screens[i].name;
     const auto keep = [&](const Result<Image>& image) {
         for (const Asked& one : wanted)
-            session.keep_screenshot({screens_.size() > 1 ? named_after(one.text, name) : one.text, one.line}, image);
+            session.keep_screenshot(
+                {name.empty() || screens_.size() == 1 ? one.text : named_after(one.text, name), one.line}, image);
     };
     if (is_empty(place.size)) return keep(fail("screen " + name, "is minimised: no picture was taken", "show it"));
     if (wall::shows_one_eye_at_a_time(settings.mode) && needs_of(settings.mode).both_eyes) {

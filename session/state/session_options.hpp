@@ -29,6 +29,8 @@ struct LiveOptions {
     std::string device = devices::kDefaultHapticDevice;  // name of a force-feedback device
     bool windowed = false;    // the wall's screens as desktop windows, fitted into width x height
     std::string full_screen;  // a monitor's name or index; empty: a window
+    // The panel has a window of its own and is on no picture; these show the activity's page alone.
+    bool panel_window = false;
     int width = 1280, height = 720;
     std::uint32_t samples = 0;    // per pixel, 1 or 4; 0: 4 on hardware, 1 on a software device
     std::string screenshots;      // folder for screenshots with a relative name; empty: the working directory

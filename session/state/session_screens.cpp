@@ -17,6 +17,8 @@ namespace {
 // Height of the wall that a desktop window stands for; its width follows the window's shape.
 constexpr double kDeskHeight_m = 2.286;
 
+constexpr ImageSize kPanelWindow_px{340, 900};
+
 ImageSize asked_size(const LiveOptions& options) {
     return {static_cast<std::uint32_t>(options.width), static_cast<std::uint32_t>(options.height)};
 }
@@ -105,10 +107,7 @@ std::size_t faced_screen(const wall::WallSetup& setup) {
     return best;
 }
 
-}  // namespace
-
-Result<SessionWall> session_wall(const LiveOptions& options) {
-    if (options.wall.empty()) return desk_wall(options);
+Result<SessionWall> wall_of_file(const LiveOptions& options) {
     SessionWall wall;
     wall.desk = false;
     auto setup = wall::read_wall(options.wall);
@@ -129,6 +128,15 @@ Result<SessionWall> session_wall(const LiveOptions& options) {
     return wall;
 }
 
+}  // namespace
+
+Result<SessionWall> session_wall(const LiveOptions& options) {
+    Result<SessionWall> wall = options.wall.empty() ? desk_wall(options) : wall_of_file(options);
+    if (!wall || !options.panel_window) return wall;
+    wall->screens.push_back({.name = "panel", .monitor = {}, .direct = {}, .size = kPanelWindow_px, .shown = {}});
+    return wall;
+}
+
 void fit_desk_screen(SessionWall& wall, ImageSize eye) {
     if (!wall.desk || eye.width == 0 || eye.height == 0) return;
     const wall::Screen screen = wall::screen_of(wall::Wall{kDeskHeight_m * eye.width / eye.height, kDeskHeight_m});
@@ -139,6 +147,7 @@ void fit_desk_screen(SessionWall& wall, ImageSize eye) {
 }
 
 wall::OutputSettings output_on(const SessionWall& wall, std::size_t screen, const wall::OutputSettings& told) {
+    if (wall.is_panel(screen)) return {};
     const wall::OutputSettings& main = wall.screens[wall.main].shown;
     wall::OutputSettings output = told;
     const wall::OutputSettings& own = wall.screens[screen].shown;

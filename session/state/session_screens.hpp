@@ -24,9 +24,13 @@ struct SessionScreen {
 
 struct SessionWall {
     wall::WallSetup setup;
-    std::vector<SessionScreen> screens;  // one for each of the setup's screens, in the same order
-    std::size_t main = 0;                // faced by the viewer at first; has mouse and workpiece
-    bool desk = true;                    // one screen that follows its window's shape; no wall file
+    // One for each of the setup's screens, in the same order; behind them one that shows the panel alone, if any does.
+    std::vector<SessionScreen> screens;
+    std::size_t main = 0;  // faced by the viewer at first; has mouse and workpiece
+    bool desk = true;      // one screen that follows its window's shape; no wall file
+
+    [[nodiscard]] bool is_panel(std::size_t screen) const { return screen >= setup.screens.size(); }
+    [[nodiscard]] bool has_panel_window() const { return screens.size() > setup.screens.size(); }
 };
 
 // Builds the wall that the options ask for. Errors: those of the wall file; a screen whose mode is unknown or
@@ -37,7 +41,7 @@ struct SessionWall {
 void fit_desk_screen(SessionWall& wall, ImageSize eye);
 
 // Returns how a screen is shown, given the settings that the session has changed since: a mode other than the one in
-// the main screen's file applies to all screens.
+// the main screen's file applies to all screens. The panel's is shown as it is.
 [[nodiscard]] wall::OutputSettings output_on(const SessionWall& wall, std::size_t screen,
                                              const wall::OutputSettings& told);
 

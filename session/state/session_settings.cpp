@@ -42,6 +42,7 @@ void visit_settings(Options& o, Visit&& visit) {
     visit("--swap-eyes", o.live.swap_eyes);
     visit("--width", o.live.width);
     visit("--height", o.live.height);
+    visit("--panel-window", o.live.panel_window);
     visit("--samples", o.live.samples);
 }
 

@@ -273,7 +273,7 @@ std::optional<renderer::Scene> scene_of(const SessionState& state, const Room& r
     const bool one_eye = wall::needs_of(output_on(room.wall, screen, state.output).mode).one_eye_point;
     if (one_eye) scene.viewer.interpupillary_m = 0.0;
     // Adjoining screens have no edge that could violate the window, and a fade would break the picture apart there.
-    if (!one_eye && room.wall.screens.size() == 1) scene.edge_fade = 1.0;
+    if (!one_eye && room.wall.setup.screens.size() == 1) scene.edge_fade = 1.0;
     scene.world_from_object = state.world_from_object;
     scene.lattice_origin_object = lattice_origin_object;
     scene.workpiece_object = room.workpiece_object;

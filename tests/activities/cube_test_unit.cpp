@@ -11,6 +11,7 @@
 #include "base/json.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "scene/vrml_world.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::activities {
@@ -202,7 +203,7 @@ TEST(DemoWandCommand, WritesFiguresTableAndReportAndPrintsTheSigns) {
     const Workplace place;
     const std::string world = std::filesystem::absolute("assets/worlds/wand-cube.wrl").string();
     const auto outcome =
-        place.run(std::string(BURIN_COMMAND) + " demo wand --out w --no-pictures --world '" + world + "'");
+        place.run(std::string(kBurinCommand) + " demo wand --out w --no-pictures --world '" + world + "'");
     EXPECT_EQ(outcome.status, 0) << outcome.output;
     EXPECT_NE(outcome.output.find("top end alone: negative torque about x"), std::string::npos) << outcome.output;
     EXPECT_EQ(outcome.output.find("WRONG"), std::string::npos) << outcome.output;
@@ -211,8 +212,8 @@ TEST(DemoWandCommand, WritesFiguresTableAndReportAndPrintsTheSigns) {
     EXPECT_LT(report["cases"][0]["torque_Nm"][0].get<double>(), -0.01);
     for (const char* name : {"figure-15.svg", "figure-23.svg", "figure-24.svg", "figure-25.svg"})
         EXPECT_TRUE(place.read(std::string("w/") + name).starts_with("<svg")) << name;
-    EXPECT_EQ(place.run(std::string(BURIN_COMMAND) + " demo wand").status, 2);
-    EXPECT_EQ(place.run(std::string(BURIN_COMMAND) + " demo wand --out w --world nothing.wrl").status, 1);
+    EXPECT_EQ(place.run(std::string(kBurinCommand) + " demo wand").status, 2);
+    EXPECT_EQ(place.run(std::string(kBurinCommand) + " demo wand --out w --world nothing.wrl").status, 1);
 }
 
 // A cube that pulls nothing back: the demo has to say so, and fail.
@@ -223,7 +224,7 @@ TEST(DemoWandCommand, FailsWhereTheForcesAreWrong) {
         "#VRML V2.0 utf8\nPROTO HapticMaterial [ field SFFloat stiffness 1 ] { Material { } }\n"
         "Transform { translation 0 0.2 0 children DEF Cube Shape {\n"
         "appearance Appearance { material HapticMaterial { stiffness 1 } } geometry Box { size .2 .2 .2 } } }\n");
-    const auto outcome = place.run(std::string(BURIN_COMMAND) + " demo wand --out w --no-pictures --world soft.wrl");
+    const auto outcome = place.run(std::string(kBurinCommand) + " demo wand --out w --no-pictures --world soft.wrl");
     EXPECT_EQ(outcome.status, 1) << outcome.output;
     EXPECT_NE(outcome.output.find("WRONG"), std::string::npos) << outcome.output;
 }

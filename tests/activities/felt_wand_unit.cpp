@@ -12,6 +12,7 @@
 
 #include "base/json.hpp"
 #include "devices/haptic/wand_choice.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::activities {
@@ -153,7 +154,7 @@ TEST(FeltWand, TheTableHasALineAnUpdateAndAColumnEach) {
 TEST(ExploreWithWandCommand, TellsWhatEachEndFeltInTheTube) {
     const Workplace place;
     const std::string assets = std::filesystem::absolute("assets").string();
-    const auto outcome = place.run(std::string(BURIN_COMMAND) + " world '" + assets + "/worlds/tube.wrl' --stroke '" +
+    const auto outcome = place.run(std::string(kBurinCommand) + " world '" + assets + "/worlds/tube.wrl' --stroke '" +
                                    assets + "/strokes/tube.csv' --device 'simulated-wand:" + assets +
                                    "/devices/short-wand.toml' --report r.json");
     EXPECT_EQ(outcome.status, 0) << outcome.output;
@@ -170,7 +171,7 @@ TEST(ExploreWithWandCommand, TellsWhatEachEndFeltInTheTube) {
 
 TEST(ExploreWithWandCommand, RefusesWhatItDoesNotKnow) {
     const Workplace place;
-    const std::string world = std::string(BURIN_COMMAND) + " world w.wrl --stroke s.csv --device ";
+    const std::string world = std::string(kBurinCommand) + " world w.wrl --stroke s.csv --device ";
     const auto unknown = place.run(world + "simulated-wandd");
     EXPECT_EQ(unknown.status, 2) << unknown.output;
     const auto missing = place.run(world + "simulated-wand:none.toml");

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "activities/world/world_view.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::activities {
@@ -164,7 +165,7 @@ TEST(ExploreCommand, TellsWhatIsWrongWithItsFiles) {
                                                {" world no-such.toml", "no-such.toml", 1},
                                                {" world no-such.toml --stroke no-such.csv", "no-such.csv", 1},
                                                {" world no-such.toml --radius -1 --stroke a.csv", "--radius", 2}}) {
-        const auto outcome = place.run(BURIN_COMMAND + wrong.arguments);
+        const auto outcome = place.run(kBurinCommand + wrong.arguments);
         EXPECT_EQ(outcome.status, wrong.status) << wrong.arguments << "\n" << outcome.output;
         EXPECT_NE(outcome.output.find(wrong.said), std::string::npos) << outcome.output;
     }

@@ -6,12 +6,13 @@
 
 #include "base/json.hpp"
 #include "sculpt/tool_kinds.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::app {
 namespace {
 
-const std::string kBurin = BURIN_COMMAND;
+const std::string kBurin = kBurinCommand;
 
 // A tetrahedron with corners at the origin and one metre along each axis; `faces` of its four.
 std::string tetrahedron_off(int faces) {
@@ -126,7 +127,7 @@ TEST(Command, EveryToolCutsFillsAndPaintsAndTheJudgeFindsNothing) {
                                            operation + " --material 10,250,20 --stroke s.csv --resolution 32" +
                                            " --sweep-tolerance 0.5 --export out.ply --report r.json");
             ASSERT_EQ(outcome.status, 0) << tool << ' ' << operation << '\n' << outcome.output;
-            const auto audit = place.run(std::string(MESH_AUDIT) + " out.ply");
+            const auto audit = place.run(std::string(kMeshAudit) + " out.ply");
             EXPECT_EQ(audit.status, 0) << tool << ' ' << operation << '\n' << audit.output;
             const auto report = Json::parse(place.read("r.json"));
             const auto removed_m3 = report["carving"]["volume_removed_m3"].get<double>();
@@ -167,7 +168,7 @@ TEST(Command, CombinesTwoMeshesAndTheJudgeFindsNothing) {
         const auto outcome = place.run(kBurin + " combine t.off b.obj --operation " + operation +
                                        " --resolution 64 --export out.ply --report r.json");
         ASSERT_EQ(outcome.status, 0) << outcome.output;
-        EXPECT_EQ(place.run(std::string(MESH_AUDIT) + " out.ply").status, 0);
+        EXPECT_EQ(place.run(std::string(kMeshAudit) + " out.ply").status, 0);
         const auto volume_m3 = Json::parse(place.read("r.json"))["mesh"]["volume_m3"].get<double>();
         // The tetrahedron holds 1/6, the block 1/8; beyond the slanting
         // face x + y + z = 1 lies a corner of the block with 1/48.
@@ -205,7 +206,7 @@ TEST(Command, ClosesHolesOnRequestAndTheJudgeFindsNothing) {
                                        "--resolution 48 --export " +
                                        name + " --report r.json");
         ASSERT_EQ(outcome.status, 0) << outcome.output;
-        const auto audit = place.run(std::string(MESH_AUDIT) + " " + name);
+        const auto audit = place.run(std::string(kMeshAudit) + " " + name);
         EXPECT_EQ(audit.status, 0) << audit.output;
     }
     const std::string report = place.read("r.json");
@@ -221,7 +222,7 @@ TEST(Command, AWorkpieceFarFromItsOriginIsExportedOnlyWhereNumbersSuffice) {
     expect_refused(place, "sculpt --workpiece far.off --resolution 48 --export out.stl", 1, {"out.stl", ".obj"});
     const auto outcome = place.run(kBurin + " sculpt --workpiece far.off --resolution 48 --export out.obj");
     EXPECT_EQ(outcome.status, 0) << outcome.output;
-    EXPECT_EQ(place.run(std::string(MESH_AUDIT) + " out.obj").status, 0);
+    EXPECT_EQ(place.run(std::string(kMeshAudit) + " out.obj").status, 0);
     place.write("tiny.off",
                 "OFF\n4 4 0\n100000 0 0\n100000.001 0 0\n100000 1 0\n100000 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
     const auto converted = place.run(kBurin + " convert tiny.off tiny.stl");
@@ -249,7 +250,7 @@ TEST(Command, CarvesInRealTimeToo) {
                                    " sculpt --workpiece ball:0.05 --tool ball:0.004 --stroke s.csv --resolution 48 "
                                    "--hand simulated --real-time --export out.stl --report r.json");
     ASSERT_EQ(outcome.status, 0) << outcome.output;
-    EXPECT_EQ(place.run(std::string(MESH_AUDIT) + " out.stl").status, 0);
+    EXPECT_EQ(place.run(std::string(kMeshAudit) + " out.stl").status, 0);
     EXPECT_NE(place.read("r.json").find("\"ticks\""), std::string::npos);
 }
 
@@ -259,7 +260,7 @@ TEST(Command, ConvertsBetweenFormatsAndTellsHealth) {
     const auto outcome = place.run(kBurin + " convert t.off t.ply");
     EXPECT_EQ(outcome.status, 0) << outcome.output;
     EXPECT_NE(outcome.output.find("4 triangles"), std::string::npos) << outcome.output;
-    EXPECT_EQ(place.run(std::string(MESH_AUDIT) + " t.ply").status, 0);
+    EXPECT_EQ(place.run(std::string(kMeshAudit) + " t.ply").status, 0);
     expect_refused(place, "convert missing.off t.stl", 1, {"missing.off"});
     expect_refused(place, "convert t.off ./t.off", 1, {"t.off", "overwrite"});
 }

@@ -5,12 +5,13 @@
 #include <filesystem>
 
 #include "gpu/device.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::app {
 namespace {
 
-const std::string kLiveBurin = BURIN_COMMAND;
+const std::string kLiveBurin = kBurinCommand;
 
 bool tells(const Workplace::Outcome& outcome, const std::string& text) {
     return outcome.output.find(text) != std::string::npos;

@@ -3,12 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "gpu/device.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::app {
 namespace {
 
-const std::string kBurin = BURIN_COMMAND;
+const std::string kBurin = kBurinCommand;
 
 // Width and height from a PNG's header; zeros when it is none.
 std::pair<unsigned, unsigned> png_size(const std::string& bytes) {

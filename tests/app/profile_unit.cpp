@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::app {
@@ -122,14 +123,14 @@ TEST(ProfileReport, ComparesTheDriversThreads) {
 
 TEST(ProfileCommand, NamesTheInputThatIsNotThere) {
     const Workplace place;
-    const auto outcome = place.run(std::string(BURIN_COMMAND) + " profile");
+    const auto outcome = place.run(std::string(kBurinCommand) + " profile");
     EXPECT_EQ(outcome.status, 1);
     EXPECT_NE(outcome.output.find("first-carve.txt"), std::string::npos) << outcome.output;
-    const auto wrong = place.run(std::string(BURIN_COMMAND) + " profile --width 3");
+    const auto wrong = place.run(std::string(kBurinCommand) + " profile --width 3");
     EXPECT_EQ(wrong.status, 2);
     EXPECT_NE(wrong.output.find("burin profile --help"), std::string::npos) << wrong.output;
     for (const std::string threads : {"-1", "0,,1", "1,", "33", "two"}) {
-        const auto refused = place.run(std::string(BURIN_COMMAND) + " profile --driver-threads=" + threads);
+        const auto refused = place.run(std::string(kBurinCommand) + " profile --driver-threads=" + threads);
         EXPECT_EQ(refused.status, 1) << threads;
         EXPECT_NE(refused.output.find("0,1,2"), std::string::npos) << refused.output;
     }

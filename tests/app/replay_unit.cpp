@@ -8,12 +8,13 @@
 #include "base/json.hpp"
 #include "record/derived.hpp"
 #include "record/row_walk.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::app {
 namespace {
 
-const std::string kReplayBurin = BURIN_COMMAND;
+const std::string kReplayBurin = kBurinCommand;
 
 bool says(const Workplace::Outcome& outcome, const std::string& text) {
     return outcome.output.find(text) != std::string::npos;

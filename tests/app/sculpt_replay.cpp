@@ -5,12 +5,13 @@
 #include <cmath>
 
 #include "base/json.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::app {
 namespace {
 
-const std::string kBurin = BURIN_COMMAND;
+const std::string kBurin = kBurinCommand;
 
 // A wave across the top of a ball of 5 cm, pressed in by 2 mm, with the tool lifted at both ends.
 std::string wave() {

@@ -6,12 +6,13 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::app {
 namespace {
 
-const std::string kRecordingBurin = BURIN_COMMAND;
+const std::string kRecordingBurin = kBurinCommand;
 // A press into a block from above, 0.9 s with the rests before and after.
 const std::string kRecordedPress = kStrokeHeader +
                                    "0,0.01,0.0135,0.01,0,0,0,1,0\n0.1,0.01,0.011,0.01,0,0,0,1,1\n"

@@ -5,12 +5,13 @@
 #include <array>
 
 #include "base/json.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::app {
 namespace {
 
-const std::string kUnitsBurin = BURIN_COMMAND;
+const std::string kUnitsBurin = kBurinCommand;
 
 // A cube from the origin on, ASCII STL without a word about units.
 std::string cube_stl(double side, const std::string& name = "part") {

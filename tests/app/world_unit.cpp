@@ -3,12 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "base/json.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::app {
 namespace {
 
-const std::string kWorldBurin = BURIN_COMMAND;
+const std::string kWorldBurin = kBurinCommand;
 const std::string kWorldHead = "#VRML V2.0 utf8\n";
 
 bool tells(const Workplace::Outcome& outcome, const std::string& text) {

@@ -7,12 +7,13 @@
 
 #include "base/json.hpp"
 #include "bench/peers/peers.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::bench {
 namespace {
 
-const std::string kBurin = BURIN_COMMAND;
+const std::string kBurin = kBurinCommand;
 
 void expect_refused(const Workplace& place, const std::string& arguments, int status,
                     const std::vector<std::string>& parts) {

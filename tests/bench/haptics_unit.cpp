@@ -16,6 +16,7 @@
 #include "bench/measure/bumpy_sphere.hpp"
 #include "bench/peers/proxy_peer.hpp"
 #include "session/state/session_state.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::bench {
@@ -295,7 +296,7 @@ TEST(BenchHaptics, TouchesWithTheParametersOfASession) {
 
 TEST(BenchHaptics, ReportsAsJson) {
     const Workplace place;
-    const auto outcome = place.run(std::string(BURIN_COMMAND) +
+    const auto outcome = place.run(std::string(kBurinCommand) +
                                    " bench haptics --quick --paced-ticks 2 --ticks 500 --json out.json --csv out.csv");
     ASSERT_EQ(outcome.status, 0) << outcome.output;
     EXPECT_TRUE(place.read("out.csv").starts_with("# "));

@@ -9,12 +9,13 @@
 #include "base/json.hpp"
 #include "base/plot/figures.hpp"
 #include "bench/stability/stability.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::bench {
 namespace {
 
-const std::string kStabilityBurin = BURIN_COMMAND;
+const std::string kStabilityBurin = kBurinCommand;
 
 StabilityCase alone(double damping, double rate_Hz) {
     StabilityCase c;

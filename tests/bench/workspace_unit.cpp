@@ -9,6 +9,7 @@
 
 #include "base/json.hpp"
 #include "base/plot/figures.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::bench {
@@ -208,7 +209,7 @@ TEST(WorkspaceBench, SaysItAllAsTableCsvJsonAndFigure) {
 }
 
 TEST(WorkspaceBench, IsASubcommandThatRefusesWhatItCannotDo) {
-    const std::string bench = std::string(BURIN_COMMAND) + " bench workspace ";
+    const std::string bench = std::string(kBurinCommand) + " bench workspace ";
     const Workplace place;
     EXPECT_EQ(place.run(bench + "--targets 0").status, 2);
     const auto refused = place.run(bench + "--targets 1 --svg missing/figure.svg");

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::bench {
@@ -43,7 +44,7 @@ TEST(WorldBench, TellsWhyThereIsNoTimeOfCoin) {
 }
 
 TEST(WorldBench, CoinCountsTheSameTriangles) {
-    const std::string burin = BURIN_COMMAND;
+    const std::string burin = kBurinCommand;
     const Workplace place;
     const auto outcome = place.run(burin + " bench world --objects 5 --triangles 33 --runs 1 --json r.json");
     EXPECT_EQ(outcome.status, 0) << outcome.output;

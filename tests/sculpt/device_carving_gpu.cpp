@@ -6,6 +6,7 @@
 
 #include "base/json.hpp"
 #include "gpu/device.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::sculpt {
@@ -35,7 +36,7 @@ TEST(DeviceCarving, GivesTheSamePartAndCountsTheSameRaysWhetherTheHandIsRigidOrF
     place.write("s.csv", scratches());
     for (const std::string hand : {"rigid", "simulated"}) {
         for (const std::string engine : {"cpu", "vulkan"}) {
-            const auto outcome = place.run(std::string(BURIN_COMMAND) +
+            const auto outcome = place.run(std::string(kBurinCommand) +
                                            " sculpt --workpiece ball:0.05 --tool ball:0.004 --stroke s.csv " +
                                            "--resolution 64 --hand " + hand + " --engine " + engine + " --export " +
                                            engine + ".ply --report " + engine + ".json");

@@ -35,14 +35,18 @@ public:
     void adjust(haptics::TickParameters& parameters) const override { parameters.enabled = !calm; }
     void stage(renderer::Scene& scene, std::size_t) const override { scene.tool.colour = Vec3(0.0, 0.0, 1.0); }
     [[nodiscard]] ActivityPanel panel() const override {
-        return {
-            .title = "Watching", .aside = "", .page = "", .rows = {{"Ticks", "many"}}, .buttons = {{"Calm", {"calm"}}}};
+        return {.title = "Watching",
+                .aside = "",
+                .page = page,
+                .rows = {{"Ticks", "many"}},
+                .buttons = {{"Calm", {"calm"}}}};
     }
     [[nodiscard]] Result<void> finish() override {
         finished = true;
         return {};
     }
 
+    std::string page;
     std::vector<std::uint64_t> ticks;
     std::size_t objects = 0;
     bool calm = false, finished = false;
@@ -51,7 +55,9 @@ public:
 const std::string kPyramid = "OFF\n4 4 0\n0 0 0\n0.1 0 0\n0 0.1 0\n0 0 0.1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
 
 struct WatchedSession {
-    explicit WatchedSession(std::shared_ptr<Watching> watching) : activity(std::move(watching)) {
+    explicit WatchedSession(std::shared_ptr<Watching> watching, bool panel_window = false)
+        : activity(std::move(watching)) {
+        options.live.panel_window = panel_window;
         place.write("t.off", kPyramid);
         options.world = (place / "t.off").string();
         options.no_workpiece = true;
@@ -70,7 +76,8 @@ struct WatchedSession {
         std::vector<InputEvent> events;
         for (const CommandInput& command : commands) events.push_back({until_ns, command});
         session->step({until_ns, until_ns, events}, {.size = {640, 360}}, session->newest_tool(),
-                      [&](Executor::Order order) { executor->order(std::move(order)); });
+                      [&](Executor::Order order) { executor->order(std::move(order)); },
+                      options.live.panel_window ? ImageSize{340, 700} : ImageSize{});
         const Result<Executor::Taken> taken = executor->take_updates();
         EXPECT_TRUE(taken);
         if (taken) session->take_news(taken->collected);
@@ -112,6 +119,26 @@ TEST(SessionActivity, ItsActsChangeObjectsTicksAndPictures) {
     EXPECT_FALSE(watched.session->state().quit);
     watched.frame({{"do", {"leave"}}});
     EXPECT_TRUE(watched.session->state().quit);
+}
+
+// Where the panel has a window of its own, the person before the picture sees the activity's page and no more of it.
+TEST(SessionActivity, ItsPageIsOnThePictureWhereThePanelIsNot) {
+    const auto watching = std::make_shared<Watching>();
+    WatchedSession watched(watching, true);
+    watched.frame({});
+    EXPECT_FALSE(watched.session->panel_on(0)) << "no page";
+    watching->page = "Touch the red pyramid.";
+    watched.frame({});
+    ASSERT_TRUE(watched.session->panel_on(0));
+    const ImageSize low = watched.session->panel_on(0)->size;
+    EXPECT_EQ(low.width, 340u);
+    EXPECT_LT(low.height, 80u) << "as high as its one line";
+    for (int i = 0; i < 5; ++i) watching->page += " Then go round it once and come back to where you began.";
+    watched.frame({});
+    ASSERT_TRUE(watched.session->panel_on(0));
+    EXPECT_GT(watched.session->panel_on(0)->size.height, 2 * low.height) << "as high as its lines";
+    EXPECT_LT(watched.session->panel_on(0)->size.height, 340u);
+    EXPECT_EQ(watched.session->panel_on(1)->size.height, 700u) << "the operator's";
 }
 
 TEST(SessionActivity, WhatItCannotDoIsToldByName) {

@@ -26,6 +26,7 @@
 #include "session/present/session_waker.hpp"
 #include "tests/session/fake_display.hpp"
 #include "tests/session/played_session.hpp"
+#include "tests/support/places.hpp"
 #include "tests/window/xvfb.hpp"
 #include "wall/wall_file.hpp"
 #include "window/window.hpp"
@@ -77,7 +78,7 @@ protected:
 
     // The power wall, small, and driven directly.
     LiveOptions wall(DisplayStereo stereo, bool offscreen) {
-        wall::WallSetup setup = *wall::read_wall(std::string(BURIN_WALLS) + "/powerwall.toml");
+        wall::WallSetup setup = *wall::read_wall(std::string(kWallsFolder) + "/powerwall.toml");
         setup.screens[0].pixels = {240, 180};
         setup.screens[0].output = "projector";
         setup.screens[0].direct = stereo;
@@ -250,7 +251,7 @@ TEST_F(DirectSession, RefusesAWindowForTheRightEyeAndGoesOn) {
 }
 
 TEST_F(DirectSession, StandsBesideWindows) {
-    wall::WallSetup setup = *wall::read_wall(std::string(BURIN_WALLS) + "/cave.toml");
+    wall::WallSetup setup = *wall::read_wall(std::string(kWallsFolder) + "/cave.toml");
     std::erase_if(setup.screens, [](const wall::WallScreen& s) { return s.name != "front" && s.name != "floor"; });
     ASSERT_EQ(setup.screens.size(), 2u);
     for (wall::WallScreen& screen : setup.screens) {
@@ -340,7 +341,7 @@ TEST_F(DirectSession, ByTheCommandNamesTheScreenAndTheWaysOut) {
     if (gpu::list_displays(*device)) GTEST_SKIP() << "this machine has a display that would be taken";
     static_cast<void>(wall(DisplayStereo::hdmi_3d, false));
     place.write("script.txt", "burin-input 1 test\n0.1 command screenshot a.png\n0.2 command quit\n");
-    const std::string burin = std::string("env -u DISPLAY BURIN_VULKAN_VALIDATION=1 ") + BURIN_COMMAND +
+    const std::string burin = std::string("env -u DISPLAY BURIN_VULKAN_VALIDATION=1 ") + kBurinCommand +
                               " sculpt --workpiece ball:0.1 --resolution 16 --tool ball:0.01 --wall wall.toml ";
     const auto shown = place.run(burin + "--input script.txt");
     EXPECT_EQ(shown.status, 1) << shown.output;

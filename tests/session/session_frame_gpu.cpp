@@ -6,6 +6,7 @@
 
 #include "gpu/core.hpp"
 #include "tests/session/played_session.hpp"
+#include "tests/support/places.hpp"
 #include "tests/window/xvfb.hpp"
 
 namespace burin::session {
@@ -20,7 +21,7 @@ protected:
     Cost play_cave(const std::string& folder, bool offscreen) {
         LiveOptions cave;
         cave.offscreen = offscreen;
-        cave.wall = std::string(BURIN_WALLS) + "/cave.toml";
+        cave.wall = std::string(kWallsFolder) + "/cave.toml";
         cave.stereo = "side_by_side_half";
         cave.windowed = true;
         cave.width = 120;

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "gpu/device.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/window/xvfb.hpp"
 
@@ -51,7 +52,7 @@ const std::string kScript = R"(burin-input 1 test
 )";
 
 std::string sculpt(const std::string& more) {
-    return std::string("BURIN_VULKAN_VALIDATION=1 ") + BURIN_COMMAND +
+    return std::string("BURIN_VULKAN_VALIDATION=1 ") + kBurinCommand +
            " sculpt --workpiece ball:0.1 --resolution 32 --tool ball:0.012 --width 320 --height 180 " + more;
 }
 
@@ -129,7 +130,8 @@ const std::string kCaveScript = R"(burin-input 1 test
 )";
 
 TEST_F(Session, ShowsEachScreenOfAWallToATrackedHead) {
-    const std::string wall = std::string("--wall ") + BURIN_WALLS + "/cave.toml --windowed --stereo side_by_side_half ";
+    const std::string wall =
+        std::string("--wall ") + kWallsFolder + "/cave.toml --windowed --stereo side_by_side_half ";
     const auto outcome = play("a", wall + "--offscreen", kCaveScript);
     for (const char* said : {"head tracker: no sample", "the tracker sees the head again", "m/s"})
         EXPECT_NE(outcome.output.find(said), std::string::npos) << said << " in " << outcome.output;

@@ -5,6 +5,7 @@
 #include "session/drive/session.hpp"
 #include "session/live/live_session.hpp"
 #include "session/panel/panel.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {
@@ -12,7 +13,7 @@ namespace {
 
 Room room_before(const std::string& wall) {
     LiveOptions options;
-    options.wall = std::string(BURIN_WALLS) + "/" + wall;
+    options.wall = std::string(kWallsFolder) + "/" + wall;
     Room room;
     room.workpiece_object = {Vec3(-0.1), Vec3(0.1)};
     room.wall = session_wall(options).value();
@@ -30,7 +31,7 @@ double carried_m(double x_world, double y_world) {
     SculptOptions options;
     options.workpiece = {"ball:0.1", 32, false};
     options.engine = sculpt::EngineChoice::cpu;
-    options.live.wall = std::string(BURIN_WALLS) + "/powerwall.toml";
+    options.live.wall = std::string(kWallsFolder) + "/powerwall.toml";
     SimulatedClock clock;
     const SessionWall wall = session_wall(options.live).value();
     const auto session = LiveSession::create(options, wall, clock).value();
@@ -208,6 +209,49 @@ TEST(LiveSession, OffersToolSizesThatSuitItsWorkpiece) {
     step(MouseClick{MouseButton::left, true, {}});
     step(MouseMove{{left_px + slider.width + 2.0, y_px}});  // to the end
     EXPECT_DOUBLE_EQ(descriptor_of(Quantity::radius).value(session->state()), 0.01) << "half of the longest side";
+}
+
+// The mouse in the panel's own window works the panel and not the scene, and the other way round; the picture has none.
+TEST(LivePanel, IsWorkedInItsOwnWindowAlone) {
+    SculptOptions options;
+    options.workpiece = {"ball:0.02", 16, false};
+    options.tool.shape = "ball:0.001";
+    options.engine = sculpt::EngineChoice::cpu;
+    options.live.panel_window = true;
+    SimulatedClock clock;
+    const auto session = LiveSession::create(options, session_wall(options.live).value(), clock).value();
+    const ImageSize window{1280, 900}, size{static_cast<std::uint32_t>(kPanelWidth_px), 700}, own{400, 700};
+    Panel alike = Panel::create({.size = size}).value();
+    PanelModel model;
+    model.tool = session->state().tool.shape;
+    static_cast<void>(alike.show(model, 0));
+    const auto slider = alike.place_of("radius").value();
+    Nanoseconds now_ns = 0;
+    const auto step = [&](const Input& input) {
+        now_ns += 16'000'000;
+        const std::vector<InputEvent> events{{now_ns, input}};
+        session->step({now_ns, now_ns, events}, {.size = window}, {}, [](const scene::SceneThread::Order&) {}, own);
+    };
+    const auto drag = [&](double left_px) {
+        const double y_px = slider.y + 0.5 * slider.height;
+        step(MouseMove{{left_px + slider.x + 0.5 * slider.width, y_px}});
+        step(MouseClick{MouseButton::left, true, {}});
+        step(MouseMove{{left_px + slider.x + slider.width + 2.0, y_px}});  // to the end
+        step(MouseClick{MouseButton::left, false, {}});
+    };
+    const auto radius_m = [&] { return descriptor_of(Quantity::radius).value(session->state()); };
+    drag(window.width - kPanelWidth_px);
+    EXPECT_DOUBLE_EQ(radius_m(), 0.001) << "where it would be over the picture there is none";
+    const Vec3 hand_device_m = session->state().desk.target_device_m;
+    drag(kPanelWindow_px + own.width - kPanelWidth_px);
+    EXPECT_DOUBLE_EQ(radius_m(), 0.02) << "half of the longest side";
+    EXPECT_EQ(session->state().desk.target_device_m, hand_device_m) << "no motion of the hand";
+    EXPECT_FALSE(session->panel_on(0)) << "the picture shows the scene alone";
+    ASSERT_TRUE(session->panel_on(1));
+    EXPECT_EQ(session->panel_on(1)->size, size);
+    EXPECT_FALSE(session->scene_on(1)) << "and its window the panel alone";
+    step(KeyInput{Key::tab, KeyMotion::press, {}});
+    EXPECT_TRUE(session->panel_on(1)) << "there it cannot be hidden";
 }
 
 TEST(LivePanel, KeepsAWandsPressesOnAStandingPanelFromTheScene) {

@@ -7,6 +7,7 @@
 
 #include "gpu/core.hpp"
 #include "tests/session/played_session.hpp"
+#include "tests/support/places.hpp"
 #include "tests/window/xvfb.hpp"
 
 namespace burin::session {
@@ -24,7 +25,7 @@ LiveOptions desk(bool offscreen) {
 
 LiveOptions cave(bool offscreen) {
     LiveOptions live = desk(offscreen);
-    live.wall = std::string(BURIN_WALLS) + "/cave.toml";
+    live.wall = std::string(kWallsFolder) + "/cave.toml";
     live.stereo = "side_by_side_half";
     live.windowed = true;
     live.width = 240;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gpu/device.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {
@@ -21,7 +22,7 @@ protected:
     // Runs a log of these lines. shell: what comes before the command.
     Workplace::Outcome run(const std::string& command, const std::string& lines, const std::string& shell = "") {
         place.write("script.txt", "burin-input 1 test\n" + lines);
-        return place.run(shell + std::string(BURIN_COMMAND) + " " + command +
+        return place.run(shell + std::string(kBurinCommand) + " " + command +
                          " --workpiece ball:0.1 --resolution 32 --tool ball:0.012 --width 320 --height 180 "
                          "--input script.txt");
     }
@@ -116,7 +117,7 @@ TEST_F(OutputsOfASession, ASignalEndsAScriptAndTellsSo) {
     // A day of a session, of which the first picture is taken; then the signal comes.
     place.write("script.txt", "burin-input 1 test\n0.1 command screenshot a.png\n90000 command quit\n");
     for (const std::string time : {"", "--record new.log "}) {  // simulated and real
-        const auto outcome = place.run("{ " + std::string(BURIN_COMMAND) +
+        const auto outcome = place.run("{ " + std::string(kBurinCommand) +
                                        " sculpt --offscreen --workpiece ball:0.1 --resolution 32 --tool ball:0.012 " +
                                        time + "--input script.txt --outputs out" + std::to_string(time.size()) +
                                        " & burin=$!; while [ ! -e out" + std::to_string(time.size()) +

@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "gpu/device.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {
@@ -38,7 +39,7 @@ const std::string kRecordedScript = R"(burin-input 1 test
 const std::string kPictures[] = {"before.png", "carving.png", "carved.png", "undone.png", "anaglyph.png", "late.png"};
 
 std::string sculpt_offscreen(const std::string& more) {
-    return std::string(BURIN_COMMAND) + " sculpt --offscreen " + more;
+    return std::string(kBurinCommand) + " sculpt --offscreen " + more;
 }
 
 // Where the lines of the frame end that took this picture.

@@ -11,6 +11,7 @@
 #include "gpu/device.hpp"
 #include "renderer/png.hpp"
 #include "tests/renderer/output/output_pictures.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {
@@ -76,9 +77,9 @@ TEST(SessionScreenshots, LookAsTheyDidWhenSomebodyLooked) {
     if (const auto devices = gpu::list_devices(); !devices)
         GTEST_SKIP() << "no Vulkan device: " << devices.error().line();
     const Workplace place;
-    const auto outcome = place.run(std::string("BURIN_VULKAN_VALIDATION=1 ") + BURIN_COMMAND +
+    const auto outcome = place.run(std::string("BURIN_VULKAN_VALIDATION=1 ") + kBurinCommand +
                                    " sculpt --workpiece ball:0.1 --tool ball:0.01 --offscreen --outputs . --input " +
-                                   BURIN_SESSIONS + "/first-carve.txt");
+                                   kSessionsFolder + "/first-carve.txt");
     ASSERT_EQ(outcome.status, 0) << outcome.output;
     EXPECT_EQ(outcome.output.find("Vulkan validation"), std::string::npos) << outcome.output;
     std::vector<Image> steps;

@@ -6,13 +6,14 @@
 
 #include "session/picture/presented_parts.hpp"
 #include "session/state/session_state.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 #include "wall/wall_file.hpp"
 
 namespace burin::session {
 namespace {
 
-std::string wall_file(const std::string& name) { return std::string(BURIN_WALLS) + "/" + name; }
+std::string wall_file(const std::string& name) { return std::string(kWallsFolder) + "/" + name; }
 
 SessionWall wall_of(const std::string& name, const LiveOptions& more = {}) {
     LiveOptions options = more;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "gpu/device.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {
@@ -44,7 +45,7 @@ TEST(RecordedWand, IsDoneAgainToTheBitEditsIncluded) {
                 "[[point]]\nname = \"up\"\noffset = [0, 0.07, 0]\n[[point]]\nname = \"low\"\n"
                 "offset = [0, -0.08, 0]\n");
     place.write("use.txt", kWandUse);
-    const std::string burin = BURIN_COMMAND;
+    const std::string burin = kBurinCommand;
     const auto live = place.run(burin +
                                 " world block.wrl --device simulated-wand:wand.toml --points up,low --offscreen "
                                 "--width 320 --height 200 --input use.txt --record live.log --outputs live");

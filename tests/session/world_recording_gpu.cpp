@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "gpu/device.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::session {
@@ -70,7 +71,7 @@ TEST(RecordedWorld, IsDoneAgainToTheBit) {
     place.write("box.off", kBox);
     place.write("boxes.toml", kBoxes);
     place.write("use.txt", kUse);
-    const std::string burin = BURIN_COMMAND;
+    const std::string burin = kBurinCommand;
     const auto live = place.run(burin +
                                 " world boxes.toml --workpiece ball:0.04 --resolution 48 --tool ball:0.006 --offscreen "
                                 "--width 640 --height 400 --input use.txt --record live.log --outputs live");

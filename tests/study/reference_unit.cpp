@@ -21,6 +21,7 @@
 #include "study/statistics/permutation.hpp"
 #include "study/statistics/ranks.hpp"
 #include "study/statistics/spearman.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/property_cases.hpp"
 #include "tests/support/run_command.hpp"
 
@@ -166,7 +167,7 @@ std::map<std::string, int> compare_all(const Reference& reference, const std::ve
     return said;
 }
 
-std::string script(const std::string& name) { return std::string(BURIN_STUDY_TESTS) + "/" + name; }
+std::string script(const std::string& name) { return std::string(kStudyTests) + "/" + name; }
 
 TEST(Reference, OfSciPyIsMet) {
     const std::vector<Groups> groups = random_groups();

@@ -7,12 +7,13 @@
 #include <string>
 
 #include "base/json.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin {
 namespace {
 
-const std::string kStudy = std::string(BURIN_COMMAND) + " study ";
+const std::string kStudy = std::string(kBurinCommand) + " study ";
 const std::string kTable4 = std::filesystem::absolute("assets/studies/kinesthetic-path/thesis-table4.csv").string();
 const std::string kOwn =
     "participant,group,trial,deviation_mm,time_s\n"

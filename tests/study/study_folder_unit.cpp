@@ -11,12 +11,13 @@
 #include "base/text.hpp"
 #include "study/folder/journal.hpp"
 #include "study/folder/study_folder.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::study {
 namespace {
 
-const std::string kBurinStudy = std::string(BURIN_COMMAND) + " study ";
+const std::string kBurinStudy = std::string(kBurinCommand) + " study ";
 const std::string kProtocolFile = std::filesystem::absolute("assets/studies/kinesthetic-path/protocol.toml").string();
 
 // The thesis' study with stages short enough for a test.

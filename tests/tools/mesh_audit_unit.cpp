@@ -18,6 +18,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/places.hpp"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -193,7 +195,7 @@ protected:
     }
 
     [[nodiscard]] Run audit(const std::string& name, const std::string& content) const {
-        return run(std::string("'") + BURIN_MESH_AUDIT + "' --json '" + written(name, content) + "'");
+        return run(std::string("'") + burin::kMeshAudit + "' --json '" + written(name, content) + "'");
     }
 
     // Each named figure has the given value, and the exit status is as said.
@@ -363,8 +365,8 @@ TEST_F(MeshAudit, RefusesWhatItCannotReadWithStatusTwoAndOneLine) {
         EXPECT_EQ(std::ranges::count(result.output, '\n'), 1) << result.output;
         EXPECT_TRUE(result.output.contains(name)) << result.output;
     }
-    EXPECT_EQ(run(std::string("'") + BURIN_MESH_AUDIT + "' '" + folder_.string() + "'").status, 2);
-    EXPECT_EQ(run(std::string("'") + BURIN_MESH_AUDIT + "'").status, 2);
+    EXPECT_EQ(run(std::string("'") + burin::kMeshAudit + "' '" + folder_.string() + "'").status, 2);
+    EXPECT_EQ(run(std::string("'") + burin::kMeshAudit + "'").status, 2);
 }
 
 // The number behind a label in admesh's report, e.g. "Number of parts : 2"; -1 when it is not there.

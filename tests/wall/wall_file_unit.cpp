@@ -8,14 +8,15 @@
 
 #include "app/wall_commands.hpp"
 #include "base/json.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 #include "wall/wall_file.hpp"
 
 namespace burin::wall {
 namespace {
 
-const std::string kBurin = BURIN_COMMAND;
-const std::filesystem::path kWalls = BURIN_WALLS;
+const std::string kBurin = kBurinCommand;
+const std::filesystem::path kWalls = kWallsFolder;
 
 const std::string kSmall =
     "units = \"cm\"\n"               // 1
