@@ -186,7 +186,7 @@ void StudyActivity::adjust(haptics::TickParameters& parameters) const {
 
 session::ActivityPanel StudyActivity::panel() const {
     session::ActivityPanel panel{
-        .title = "Study", .aside = group_.code, .page = shown_.page, .rows = {}, .buttons = {}};
+        .title = "Study", .aside = group_.code, .page = shown_.page, .rows = {}, .buttons = {}, .governs = true};
     for (const PanelRow& row : shown_.rows) panel.rows.push_back({row.name, row.value});
     const bool in_stage = run_.phase() == TrainingRun::Phase::in_stage;
     panel.buttons = {{"Start", {"start"}, run_.phase() == TrainingRun::Phase::between},

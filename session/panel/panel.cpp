@@ -235,11 +235,14 @@ private:
         }
         if (model.show_figures) panel::show_figures(kit_, model);  // first: whoever turns them on wants to see them
         panel::show_activity(kit_, model);
-        panel::show_tool(kit_, model);
-        panel::show_material(kit_, model);
-        panel::show_objects(kit_, model);
+        const bool governed = model.activity && model.activity->governs;
+        if (!governed) {
+            panel::show_tool(kit_, model);
+            panel::show_material(kit_, model);
+            panel::show_objects(kit_, model);
+        }
         panel::show_touch(kit_, model);
-        panel::show_workspace(kit_, model);
+        if (!governed) panel::show_workspace(kit_, model);
         panel::show_view(kit_, model);
         panel::show_history(kit_, model);
         panel::show_state(kit_, model);

@@ -65,6 +65,8 @@ struct ActivityPanel {
     std::string page;          // a paragraph for the person; empty: none
     std::vector<Row> rows;
     std::vector<Button> buttons;  // side by side
+    // The panel offers neither tool nor objects nor workspace besides: what these are is the activity's alone.
+    bool governs = false;
     bool operator==(const ActivityPanel&) const = default;
 };
 

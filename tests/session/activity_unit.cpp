@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "session/drive/session_frames.hpp"
 #include "session/live/live_session.hpp"
 #include "session/state/session_settings.hpp"
@@ -75,9 +77,10 @@ struct WatchedSession {
         EXPECT_TRUE(executor->advance_to(until_ns));
         std::vector<InputEvent> events;
         for (const CommandInput& command : commands) events.push_back({until_ns, command});
-        session->step({until_ns, until_ns, events}, {.size = {640, 360}}, session->newest_tool(),
-                      [&](Executor::Order order) { executor->order(std::move(order)); },
-                      options.live.panel_window ? ImageSize{340, 700} : ImageSize{});
+        session->step(
+            {until_ns, until_ns, events}, {.size = {640, 360}}, session->newest_tool(),
+            [&](Executor::Order order) { executor->order(std::move(order)); },
+            options.live.panel_window ? ImageSize{340, 700} : ImageSize{});
         const Result<Executor::Taken> taken = executor->take_updates();
         EXPECT_TRUE(taken);
         if (taken) session->take_news(taken->collected);
@@ -139,6 +142,24 @@ TEST(SessionActivity, ItsPageIsOnThePictureWhereThePanelIsNot) {
     EXPECT_GT(watched.session->panel_on(0)->size.height, 2 * low.height) << "as high as its lines";
     EXPECT_LT(watched.session->panel_on(0)->size.height, 340u);
     EXPECT_EQ(watched.session->panel_on(1)->size.height, 700u) << "the operator's";
+}
+
+TEST(SessionActivity, ThatGovernsLeavesThePanelNeitherToolNorObjects) {
+    PanelModel model;
+    model.object = PanelObject{};
+    model.object_names = {"stone"};
+    model.activity = ActivityPanel{.title = "Study", .aside = "", .page = "", .rows = {}, .buttons = {}};
+    Panel panel = Panel::create({.size = {340, 2000}}).value();
+    const auto offers = [&](const std::string& label) {
+        static_cast<void>(panel.show(model, 0));
+        const std::vector<std::string> labels = panel.labels();
+        return std::ranges::find(labels, label) != labels.end();
+    };
+    for (const char* section : {"Tool", "Material", "Objects", "Workspace", "Touch", "View", "Study"})
+        EXPECT_TRUE(offers(section)) << section;
+    model.activity->governs = true;
+    for (const char* section : {"Tool", "Material", "Objects", "Workspace"}) EXPECT_FALSE(offers(section)) << section;
+    for (const char* section : {"Touch", "View", "Study"}) EXPECT_TRUE(offers(section)) << section;
 }
 
 TEST(SessionActivity, WhatItCannotDoIsToldByName) {
