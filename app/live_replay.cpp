@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 
 #include "activities/seek/seek.hpp"
+#include "app/recorded_device.hpp"
 #include "app/world_digest.hpp"
-#include "record/export/table_export.hpp"
 #include "record/record_writer.hpp"
 #include "session/drive/session.hpp"
 #include "session/drive/tick_comparison.hpp"
@@ -75,6 +76,14 @@ Result<std::string> with_setting(const std::string& settings, const std::string&
     return changed + " " + name + (value.empty() ? "" : " " + session::as_word(value));
 }
 
+// Checks that the wand is the recorded one; of one that was chosen anew, says what it is not and lets it be.
+Result<void> check_wand(const record::RecordReader& reader, const std::string& recorded, const std::string& now) {
+    if (now == recorded)
+        return check_wand_file(reader, now, "say where it is now by --set device=simulated-wand:FILE, or put it back");
+    warn_of_another(reader, kWandDigestFact, now, digest_of(wand_file_of(now)));
+    return {};
+}
+
 // Makes the activity of a recorded session anew; null where it had none.
 Result<std::shared_ptr<session::Activity>> activity_as_recorded(const std::string& settings_line) {
     const Result<std::string> settings = session::activity_on(settings_line);
@@ -105,6 +114,7 @@ std::vector<std::pair<std::string, std::string>> facts_of_live(const session::Sc
     add(kWorldDigestFact, digest_of_world(options.world));
     if (!options.no_workpiece) add(kWorkpieceDigestFact, digest_of(options.workpiece.source));
     add(kToolDigestFact, digest_of(tool_file_of(options)));
+    std::ranges::move(facts_of_wand_file(options.live.device), std::back_inserter(facts));
     return facts;
 }
 
@@ -115,17 +125,9 @@ Result<void> run_recorded_session(const session::SculptOptions& options, const s
 }
 
 std::optional<double> live_ball_radius_m(const record::RecordReader& reader) {
-    const auto header = reader.facts().find(record::kLogHeaderFact);
-    if (header == reader.facts().end()) return {};
-    const std::size_t settings = header->second.find("burin sculpt");
-    const std::string line = settings == std::string::npos ? "" : header->second.substr(settings);
-    session::SculptOptions given;
-    auto activity = activity_as_recorded(line);
-    if (!activity) return {};
-    given.activity = std::move(*activity);
-    const auto options = session::options_as_recorded(line, given);
-    if (!options) return {};
-    const auto tool = sculpt::parse_tool_spec(options->options.tool.shape, "--tool");
+    const Result<std::string> shape = session::option_on(live_settings_of(reader), "--tool");
+    if (!shape) return {};
+    const auto tool = sculpt::parse_tool_spec(*shape, "--tool");
     if (!tool || tool->kind != sculpt::ToolKind::ball) return {};
     return tool->sizes_m[0];
 }
@@ -135,6 +137,8 @@ Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay&
     if (!log) return std::unexpected(log.error());
     if (log->torn_line || !log->threads)
         return fail(reader.path(), "its log holds no ticks", "it was killed before its first transaction");
+    const Result<std::string> first_device = session::option_on(log->settings, "--device");
+    if (!first_device) return std::unexpected(first_device.error());
     std::vector<std::string> changes = how.sets;
     if (!how.world.empty()) changes.push_back("world=" + how.world);
     if (!how.workpiece.empty()) changes.push_back("workpiece=" + how.workpiece);
@@ -161,6 +165,8 @@ Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay&
     warn_of_another(reader, kWorldDigestFact, own.world, digest_of_world(own.world));
     warn_of_another(reader, kWorkpieceDigestFact, own.workpiece.source, digest_of(own.workpiece.source));
     warn_of_another(reader, kToolDigestFact, own.tool.shape, digest_of(tool_file_of(own)));
+    if (const auto same = check_wand(reader, *first_device, own.live.device); !same)
+        return std::unexpected(same.error());
     if (const auto sound = session::check_commands(*log, reader.path(), options.activity.get()); !sound)
         return std::unexpected(sound.error());
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/session_command.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -35,6 +36,12 @@ Json hand_json(const record::HandRecord& hand, const record::HandSummary& summar
                                    {"frame", column.frame},
                                    {"type", std::string(record::name_of(column.type))}});
     return json;
+}
+
+// A fact of several lines, such as a wand's description, is counted: --json has it whole.
+std::string shown_fact(const std::string& value) {
+    const auto lines = static_cast<std::uint64_t>(std::ranges::count(value, '\n'));
+    return lines > 0 ? counted(lines, "line", "lines") + " of text" : value;
 }
 
 void print_hand(const record::HandRecord& hand, const record::HandSummary& summary) {
@@ -82,7 +89,8 @@ Result<void> info(const std::string& path, const std::string& json_path) {
     if (json_path != kStandardOutput) {
         std::printf("%s: %s\n", path.c_str(),
                     reader->is_closed() ? "a session" : "a session that was not closed: what was acknowledged is here");
-        for (const auto& [key, value] : reader->facts()) std::printf("  %-22s %s\n", key.c_str(), value.c_str());
+        for (const auto& [key, value] : reader->facts())
+            std::printf("  %-22s %s\n", key.c_str(), shown_fact(value).c_str());
         std::printf("  %-22s %s, %s; the wall clock moved by %g s against the monotonic one\n", "lines, trials, clock",
                     counted(*lines, "line", "lines").c_str(), counted(trials->size(), "trial", "trials").c_str(),
                     moved_s);

@@ -167,13 +167,15 @@ std::string settings_line(const SculptOptions& options) {
     return line;
 }
 
-Result<std::string> activity_on(const std::string& line) {
+Result<std::string> option_on(const std::string& line, const std::string& option) {
     if (!line.starts_with(std::string(kCommand) + " --")) return "";
     Result<OptionWords> words = words_on(line);
     if (!words) return std::unexpected(words.error());
-    const auto found = words->find(kActivity);
+    const auto found = words->find(option);
     return found == words->end() ? "" : found->second;
 }
+
+Result<std::string> activity_on(const std::string& line) { return option_on(line, kActivity); }
 
 Result<RecordedOptions> options_as_recorded(const std::string& line, const SculptOptions& given) {
     RecordedOptions recorded{given, {}};
