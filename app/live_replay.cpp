@@ -76,11 +76,40 @@ Result<std::string> with_setting(const std::string& settings, const std::string&
     return changed + " " + name + (value.empty() ? "" : " " + session::as_word(value));
 }
 
-// Checks that the wand is the recorded one; of one that was chosen anew, says what it is not and lets it be.
-Result<void> check_wand(const record::RecordReader& reader, const std::string& recorded, const std::string& now) {
-    if (now == recorded)
-        return check_wand_file(reader, now, "say where it is now by --set device=simulated-wand:FILE, or put it back");
-    warn_of_another(reader, kWandDigestFact, now, digest_of(wand_file_of(now)));
+// Likewise, and refuses what the option does not take on the command line either.
+Result<std::string> with_checked_setting(const std::string& settings, const std::string& change,
+                                         const session::SculptOptions& given) {
+    Result<std::string> changed = with_setting(settings, change);
+    if (!changed) return changed;
+    if (const auto known = session::options_as_recorded(*changed, given); !known)
+        return fail("--set " + change, known.error().what, "change an option of the session to a value that it takes");
+    return changed;
+}
+
+// Returns the settings with all changes, also of where files are now.
+Result<std::string> with_changes(std::string settings, const LiveReplay& how, const session::SculptOptions& given) {
+    std::vector<std::string> changes = how.sets;
+    if (!how.world.empty()) changes.push_back("world=" + how.world);
+    if (!how.workpiece.empty()) changes.push_back("workpiece=" + how.workpiece);
+    for (const std::string& change : changes) {
+        Result<std::string> changed = with_checked_setting(settings, change, given);
+        if (!changed) return changed;
+        settings = std::move(*changed);
+    }
+    return settings;
+}
+
+// Tells which files are others than were recorded. The wand must be the recorded one, but where it was chosen anew.
+Result<void> check_files(const record::RecordReader& reader, const session::SculptOptions& own,
+                         const std::string& first_device) {
+    warn_of_another(reader, kWorldDigestFact, own.world, digest_of_world(own.world));
+    warn_of_another(reader, kWorkpieceDigestFact, own.workpiece.source, digest_of(own.workpiece.source));
+    warn_of_another(reader, kToolDigestFact, own.tool.shape, digest_of(tool_file_of(own)));
+    const std::string& device = own.live.device;
+    if (device == first_device)
+        return check_wand_file(reader, device,
+                               "say where it is now by --set device=simulated-wand:FILE, or put it back");
+    warn_of_another(reader, kWandDigestFact, device, digest_of(wand_file_of(device)));
     return {};
 }
 
@@ -137,22 +166,17 @@ Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay&
     if (!log) return std::unexpected(log.error());
     if (log->torn_line || !log->threads)
         return fail(reader.path(), "its log holds no ticks", "it was killed before its first transaction");
-    const Result<std::string> first_device = session::option_on(log->settings, "--device");
-    if (!first_device) return std::unexpected(first_device.error());
-    std::vector<std::string> changes = how.sets;
-    if (!how.world.empty()) changes.push_back("world=" + how.world);
-    if (!how.workpiece.empty()) changes.push_back("workpiece=" + how.workpiece);
-    for (const std::string& change : changes) {
-        Result<std::string> changed = with_setting(log->settings, change);
-        if (!changed) return std::unexpected(changed.error());
-        log->settings = std::move(*changed);
-    }
     session::SculptOptions options;
     options.live.input = reader.path();
     options.live.offscreen = true;
     auto activity = activity_as_recorded(log->settings);
     if (!activity) return std::unexpected(activity.error());
     options.activity = std::move(*activity);
+    const auto first = session::options_as_recorded(log->settings, options);
+    if (!first) return std::unexpected(first.error());
+    Result<std::string> changed = with_changes(log->settings, how, options);
+    if (!changed) return std::unexpected(changed.error());
+    log->settings = std::move(*changed);
     options.live.refuses_exports = true;
     options.live.screenshots = how.pictures;
     if (!how.pictures.empty()) {
@@ -161,12 +185,9 @@ Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay&
     }
     const auto recorded = session::options_as_recorded(log->settings, options);
     if (!recorded) return std::unexpected(recorded.error());
-    const session::SculptOptions& own = recorded->options;
-    warn_of_another(reader, kWorldDigestFact, own.world, digest_of_world(own.world));
-    warn_of_another(reader, kWorkpieceDigestFact, own.workpiece.source, digest_of(own.workpiece.source));
-    warn_of_another(reader, kToolDigestFact, own.tool.shape, digest_of(tool_file_of(own)));
-    if (const auto same = check_wand(reader, *first_device, own.live.device); !same)
-        return std::unexpected(same.error());
+    const std::string &device = first->options.live.device, &now = recorded->options.live.device;
+    if (const auto same = check_files(reader, recorded->options, device); !same) return std::unexpected(same.error());
+    if (now != device) log->device.clear();  // chosen anew
     if (const auto sound = session::check_commands(*log, reader.path(), options.activity.get()); !sound)
         return std::unexpected(sound.error());
 

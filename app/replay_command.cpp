@@ -17,6 +17,7 @@
 #include "app/world_digest.hpp"
 #include "app/world_explore.hpp"
 #include "app/world_wand.hpp"
+#include "record/examination.hpp"
 #include "session/record/session_recording.hpp"
 
 namespace burin::app {
@@ -69,6 +70,9 @@ Result<void> tell(const record::RecordReader& reader, const record::Comparison& 
         return fail(reader.path(), "differs after " + std::to_string(found.ticks) + " equal ticks: " + where +
                                        ": recorded " + d.first + ", again " + d.second);
     }
+    if (found.ticks == 0)
+        return fail(reader.path(), "no tick in this range was compared: they are missing, or its log ends before them",
+                    "burin session check names what is missing");
     if (json_path != kStandardOutput)
         std::printf("%s: %s ticks, %zu columns: equal to the bit\n", reader.path().c_str(),
                     std::to_string(found.ticks).c_str(), found.columns);
@@ -84,12 +88,12 @@ struct ReplayCommand::Options {
     double every_s = 1.0;
     std::optional<double> radius_m;
     MaterialOverride materials;
-    std::uint64_t from = 0, to = 0;  // 0: all
+    std::optional<std::uint64_t> from, to;  // ticks; none: all
 
     [[nodiscard]] record::TickRange range() const {
         record::TickRange range;
-        if (from > 0) range.from = static_cast<std::int64_t>(from);
-        if (to > 0) range.to = static_cast<std::int64_t>(to);
+        if (from) range.from = static_cast<std::int64_t>(*from);
+        if (to) range.to = static_cast<std::int64_t>(*to);
         return range;
     }
     [[nodiscard]] Result<void> replay() const;
@@ -99,6 +103,7 @@ struct ReplayCommand::Options {
 Result<void> ReplayCommand::Options::replay() const {
     Result<record::RecordReader> reader = record::RecordReader::open(file);
     if (!reader) return std::unexpected(reader.error());
+    if (const auto some = record::check_ticks(*reader, range()); !some) return some;
     const std::string activity = fact_of(*reader, activities::kActivityFact);
     if (activity == session::kLiveActivity) return replay_session(*reader);
     if (!sets.empty() || !pictures.empty())
@@ -142,7 +147,7 @@ ReplayCommand::ReplayCommand(Command app)
     Options& o = *options_;
     command_.option("FILE", o.file, "A session file, which --record has written").required();
     command_.option("--from", o.from, "The first tick that is compared; with --through the first that is felt");
-    command_.option("--to", o.to, "The last tick");
+    command_.option("--to", o.to, "The last tick; they are counted from 1");
     command_.option("--world", o.world, "Where the recorded world's file is now");
     command_.option("--stroke", o.stroke, "Where the stroke's file is now");
     command_.option("--workpiece", o.workpiece, "Where the workpiece's file is now");
@@ -176,17 +181,17 @@ std::string ReplayCommand::misuse() const {
     if (!o.through.empty() &&
         !(o.world.empty() && o.stroke.empty() && o.workpiece.empty() && o.sets.empty() && o.pictures.empty()))
         return "--through needs no file of the recorded session";
-    if (o.from > 0 && o.to > 0 && o.from > o.to) return "--from is behind --to";
+    if (o.from && o.to && *o.from > *o.to) return "--from is behind --to";
     constexpr auto kMostTick = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-    if (o.from > kMostTick || o.to > kMostTick) return "no tick has so large a number";
+    if (o.from.value_or(0) > kMostTick || o.to.value_or(0) > kMostTick) return "no tick has so large a number";
     if (o.radius_m && !(*o.radius_m >= 1e-5 && *o.radius_m <= 1.0)) return "--radius is from 1e-5 to 1";
     return "";
 }
 
 Result<void> ReplayCommand::run() const {
     const Options& o = *options_;
-    if (const auto ok = check_outputs({}, o.json == kStandardOutput ? "" : o.json, std::array{o.file, o.through}); !ok)
-        return ok;
+    const std::array inputs{o.file, o.through, o.world, o.stroke, o.workpiece};
+    if (const auto ok = check_outputs({}, o.json == kStandardOutput ? "" : o.json, inputs); !ok) return ok;
     return o.through.empty() ? o.replay()
                              : replay_through({o.file, o.through, o.radius_m, o.materials, o.range(), o.json});
 }

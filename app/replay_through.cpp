@@ -16,6 +16,7 @@
 #include "app/world_wand.hpp"
 #include "base/text.hpp"
 #include "record/derived.hpp"
+#include "record/examination.hpp"
 #include "session/live/world_side.hpp"
 #include "session/record/session_recording.hpp"
 
@@ -211,6 +212,7 @@ Result<std::unique_ptr<OpenedWorld>> open_world(const std::string& path, const M
 Result<void> replay_through(const ThroughOptions& options) {
     Result<record::RecordReader> reader = record::RecordReader::open(options.file);
     if (!reader) return std::unexpected(reader.error());
+    if (const auto some = record::check_ticks(*reader, options.range); !some) return some;
     const Result<activities::ThroughProbe> probe = probe_of(*reader, options.radius_m);
     if (!probe) return std::unexpected(probe.error());
     Result<std::unique_ptr<OpenedWorld>> world = open_world(options.world, options.materials);

@@ -142,6 +142,57 @@ TEST(ReplayOfAWorld, IsRefusedWhereItCannotBeExactOrMakesNoSense) {
     EXPECT_TRUE(says_so(another, "is another world than the one that was recorded")) << another.output;
 }
 
+// "0 ticks: equal to the bit" looks like success.
+TEST(ReplayOfAWorld, OfNoTickAtAllIsAnErrorAndNoEquality) {
+    const Workplace at;
+    write_small_world(at);
+    ASSERT_EQ(record_small_world(at, kReplayBurin).status, 0);
+    for (const std::string range : {" --to 0", " --from 2401", " --from 90000 --to 90001"})
+        for (const std::string how : {"", " --through w.toml"}) {
+            const auto outcome = at.run(kReplayBurin + " replay a.session" + how + range);
+            EXPECT_EQ(outcome.status, 1) << how << range;
+            EXPECT_TRUE(says_so(outcome, "has no ticks in this range: its first is 1, its last 2400"))
+                << outcome.output;
+        }
+    EXPECT_EQ(at.run(kReplayBurin + " replay a.session --from 0 --to 1").output,
+              "a.session: 1 ticks, 75 columns: equal to the bit\n");
+    EXPECT_EQ(at.run(kReplayBurin + " replay a.session --from 2400 --to 9999").output,
+              "a.session: 1 ticks, 75 columns: equal to the bit\n");
+    change(at, copied(at, "gap.session"), "DELETE FROM block WHERE id = 2");
+    EXPECT_EQ(at.run(kReplayBurin + " replay gap.session --from 1001 --to 1002").status, 1) << "they are missing";
+
+    change(at, copied(at, "none.session"), "DELETE FROM block");
+    copied(at, "kept.session");
+    std::filesystem::copy_file(at / "none.session", at / "also.session");
+    for (const std::string command : {" replay none.session", " replay none.session --through w.toml",
+                                      " session check none.session", " session compare none.session also.session"}) {
+        const auto outcome = at.run(kReplayBurin + command);
+        EXPECT_EQ(outcome.status, 1) << command;
+        EXPECT_TRUE(says_so(outcome, "none.session: holds no ticks") ||
+                    says_so(outcome, "also.session: holds no ticks"))
+            << outcome.output;
+    }
+    EXPECT_EQ(at.run(kReplayBurin + " session check kept.session").status, 0);
+}
+
+TEST(ReplayOfAWorld, WritesNothingOverTheRecordingOrAFileThatItNames) {
+    const Workplace at;
+    write_small_world(at);
+    ASSERT_EQ(record_small_world(at, kReplayBurin).status, 0);
+    const std::string world = at.read("w.toml");
+    std::filesystem::create_directory(at / "sub");
+    for (const std::string command :
+         {" replay a.session --json ", " replay a.session --through w.toml --json ", " session info a.session --json "})
+        for (const std::string file : {"w.toml", "sub/../w.toml", "s.csv", "a.session", "a.session-wal"}) {
+            const auto outcome = at.run(kReplayBurin + command + file);
+            EXPECT_EQ(outcome.status, 1) << command << file;
+            EXPECT_TRUE(says_so(outcome, "overwrite") || says_so(outcome, "is a file of the recording a.session"))
+                << outcome.output;
+        }
+    EXPECT_EQ(at.read("w.toml"), world);
+    EXPECT_EQ(at.run(kReplayBurin + " replay a.session --json r.json").status, 0);
+}
+
 TEST(ReplayOfAWandStroke, IsEqualToTheBitInAllPointsAndTellsTheFirstDifference) {
     const Workplace at;
     write_small_world(at);
@@ -199,6 +250,7 @@ TEST(ReplayOfAFeltStroke, IsEqualToTheBitAndTellsTheFirstDifference) {
     const auto same = at.run(kReplayBurin + " replay a.session");
     EXPECT_EQ(same.status, 0) << same.output;
     EXPECT_TRUE(says_so(same, "a.session: 900 ticks, 74 columns: equal to the bit")) << same.output;
+    EXPECT_TRUE(says_so(at.run(kReplayBurin + " replay a.session --json press.csv"), "is a file of the recording"));
     change(at, copied(at, "b.session"), "UPDATE meta SET value = replace(value, '\"medium\"', '\"soft\"')");
     const auto other = at.run(kReplayBurin + " replay b.session");
     EXPECT_EQ(other.status, 1);
