@@ -43,12 +43,16 @@ Result<DeviceWords> device_words_of(const record::RecordReader& reader) {
 Result<devices::WandDescription> recorded_wand(const record::RecordReader& reader, const std::string& device) {
     const std::string file = wand_file_of(device);
     if (file.empty()) return devices::wand_named(device);
+    const std::string digest = fact_of(reader, kWandDigestFact);
     if (const std::string text = fact_of(reader, kWandTextFact); !text.empty()) {
+        if (sha256(text) != digest)
+            return fail(reader.path(), "holds another description of its wand, " + file + ", than its digest says",
+                        "read it from an unchanged copy of the recording");
         devices::WandOrProblems wand = devices::parse_wand(text, reader.path() + ": " + kWandTextFact);
         if (!wand) return std::unexpected(wand.error().front());
         return std::move(*wand);
     }
-    if (fact_of(reader, kWandDigestFact).empty())
+    if (digest.empty())
         return fail(reader.path(), "does not hold the description of its wand, " + file,
                     "record the motion again: recordings of this version hold it");
     if (const auto same = check_wand_file(reader, device, kPutBack); !same) return std::unexpected(same.error());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // burin replay FILE --through WORLD: the recorded motion is felt in a world with the device that it was recorded with,
-// and becomes a derived table of FILE (docs/formats.md, "Replaying"). Computed again, it is compared with the table that
-// is there. One thread.
+// and becomes a derived table of FILE (docs/formats.md, "Replaying"). Computed again, it is compared with the table
+// that is there. One thread.
 #pragma once
 
 #include <memory>

@@ -75,7 +75,7 @@ std::uint64_t not_finite_in(const Block& block, const HandRecord& hand) {
 }  // namespace
 
 Result<void> check_ticks(RecordReader& reader, const TickRange& range) {
-    if (reader.hands().empty() || reader.hands()[0].rows() == 0)
+    if (reader.hands().empty() || reader.hands()[0].blocks.empty())
         return fail(reader.path(), "holds no ticks", "it ended before its first transaction, or its blocks are gone");
     const HandRecord& hand = reader.hands()[0];
     const std::int64_t first = hand.blocks.front().header.tick0;

@@ -24,8 +24,8 @@ struct HandSummary {
 };
 [[nodiscard]] HandSummary summary_of(const HandRecord& hand);
 
-// Checks that the first hand has ticks, and that some may be in the range: a comparison of none would look like success.
-// Fails with those that there are. Reads the last block alone; gaps are not looked at.
+// Checks that the first hand has ticks, and that some may be in the range: a comparison of none would look like
+// success. Fails with those that there are. Reads the last block alone; gaps are not looked at.
 [[nodiscard]] Result<void> check_ticks(RecordReader& reader, const TickRange& range = {});
 
 // How far the wall clock moved against the monotonic one, in all: of a clock that is not set, some milliseconds.

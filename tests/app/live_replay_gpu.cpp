@@ -65,7 +65,7 @@ TEST(LiveRecording, IsDoneAgainDrawnAndGivenBackAsText) {
              {"samples=3", "--samples 3 is not one of 0, 1, 4"},
              {"undo-memory=-1", "--undo-memory -1 is no value of that option"},
              {"smooth-strength=nan", "--smooth-strength nan is not from 0 to 1"},
-             {"friction=9", "--friction: is out of range: give a number from 0 to 2"},
+             {"friction=9", "--friction: is out of range; give a number from 0 to 2"},
              {"friction=nan", "--friction: is out of range"},
              {"tool=ball:-1", "ball:-1"},
              {"hardness=stone", "--hardness stone"}}) {

@@ -160,6 +160,8 @@ TEST(ThroughAWorld, KnowsTheWandFromTheRecording) {
     copied(at, "digest.session");
     copied(at, "nothing.session");
     copied(at, "points.session");
+    copied(at, "changed.session");
+    change(at, "changed.session", "UPDATE meta SET value = value || '#' WHERE key = 'wand description'");
     change(at, "digest.session", "DELETE FROM meta WHERE key = 'wand description'");
     change(at, "nothing.session", "DELETE FROM meta WHERE key LIKE 'wand %'");
     change(at, "points.session", "UPDATE meta SET value = replace(value, 'centre,low', 'low') WHERE key = 'settings'");
@@ -170,6 +172,7 @@ TEST(ThroughAWorld, KnowsTheWandFromTheRecording) {
     for (const auto& [file, said] : std::vector<std::pair<std::string, std::string>>{
              {"digest.session", "wand.toml: is another wand than the one that was recorded"},
              {"nothing.session", "does not hold the description of its wand, wand.toml"},
+             {"changed.session", "holds another description of its wand, wand.toml, than its digest says"},
              {"points.session", "has more points than it names"}}) {
         const auto outcome = at.run(kThroughBurin + " replay " + file + through);
         EXPECT_EQ(outcome.status, 1) << file;
