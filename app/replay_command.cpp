@@ -92,7 +92,7 @@ struct ReplayCommand::Options {
 
     [[nodiscard]] record::TickRange range() const {
         record::TickRange range;
-        if (from) range.from = static_cast<std::int64_t>(*from);
+        if (from.value_or(0) > 0) range.from = static_cast<std::int64_t>(*from);
         if (to) range.to = static_cast<std::int64_t>(*to);
         return range;
     }
