@@ -30,7 +30,8 @@ BenchSubcommand add_bench_record(Command bench) {
     const auto options = std::make_shared<RecordBench>();
     std::error_code ignored;
     options->task.folder = std::filesystem::temp_directory_path(ignored).string();
-    command.option("FILE", options->task.session, "A session file, whose ticks are packed again").required();
+    command.option("FILE", options->task.session,
+                   "A session file, whose ticks are packed again; else sizes and blocks are not measured");
     command.option("--seconds", options->task.seconds, "How long ticks are recorded, for each of two rings")
         .within(1, 3600)
         .show_default();

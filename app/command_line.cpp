@@ -95,6 +95,10 @@ CommandOption Command::option(const std::string& name, std::optional<unsigned>& 
     return unsigned_only(app_->add_option(name, to, help));
 }
 
+CommandOption Command::option(const std::string& name, std::optional<std::uint64_t>& to, const std::string& help) {
+    return unsigned_only(app_->add_option(name, to, help));
+}
+
 CommandOption Command::option(const std::string& name, std::optional<double>& to, const std::string& help) {
     return CommandOption(app_->add_option(name, to, help));
 }

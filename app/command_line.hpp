@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/length_unit.hpp"
+#include "session/state/option_bounds.hpp"
 
 namespace CLI {
 class App;
@@ -34,6 +35,10 @@ public:
     CommandOption within(int least, int most);
     CommandOption within(std::uint64_t least, std::uint64_t most);
     CommandOption within(double least, double most);
+    template <typename T>
+    CommandOption within(const session::Bounds<T>& bounds) {
+        return within(bounds.least, bounds.most);
+    }
     CommandOption one_of(std::initializer_list<const char*> words);
     CommandOption one_of(std::initializer_list<int> numbers);
 
@@ -58,6 +63,7 @@ public:
     CommandOption option(const std::string& name, std::uint64_t& to, const std::string& help);
     CommandOption option(const std::string& name, double& to, const std::string& help);
     CommandOption option(const std::string& name, std::optional<unsigned>& to, const std::string& help);
+    CommandOption option(const std::string& name, std::optional<std::uint64_t>& to, const std::string& help);
     CommandOption option(const std::string& name, std::optional<double>& to, const std::string& help);
     // Adds a flag, which sets its variable to true; "!--no-name" sets it to false.
     CommandOption flag(const std::string& name, bool& to, const std::string& help);

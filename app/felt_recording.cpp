@@ -7,6 +7,7 @@
 #include "app/temporary_folder.hpp"
 #include "app/world_digest.hpp"
 #include "base/json.hpp"
+#include "session/state/option_bounds.hpp"
 
 namespace burin::app {
 namespace {
@@ -42,6 +43,10 @@ public:
             to = value->get<T>();
         else
             note(key);
+    }
+    template <typename T, typename B>
+    void number(const char* part, const char* key, T& to, const session::Bounds<B>& bounds) {
+        number(part, key, to, static_cast<double>(bounds.least), static_cast<double>(bounds.most));
     }
     void maybe(const char* part, const char* key, std::optional<double>& to) {
         if (const Json* value = at(part, key); value != nullptr && value->is_null()) return;
@@ -116,14 +121,14 @@ Result<session::SculptOptions> read_felt_settings(const std::string& text, const
     std::string units, operation, engine;
     bool undo = false;
     reader.text("workpiece", "source", o.workpiece.source);
-    reader.number("workpiece", "resolution", o.workpiece.resolution, compute::kMinResolution, compute::kMaxResolution);
+    reader.number("workpiece", "resolution", o.workpiece.resolution, session::kResolutionBounds);
     reader.flag("workpiece", "close_holes", o.workpiece.close_holes);
     reader.text("workpiece", "units", units);
     reader.text("tool", "shape", o.tool.shape);
     reader.text("tool", "operation", operation);
     reader.text("tool", "material", o.tool.material);
-    reader.number("tool", "sweep_tolerance_cells", o.tool.sweep_tolerance_cells, 0.001, 1000.0);
-    reader.number("tool", "smooth_strength", o.tool.smooth_strength, 0.0, 1.0);
+    reader.number("tool", "sweep_tolerance_cells", o.tool.sweep_tolerance_cells, session::kSweepToleranceBounds);
+    reader.number("tool", "smooth_strength", o.tool.smooth_strength, session::kSmoothStrengthBounds);
     reader.text("feel", "hardness", o.feel.hardness);
     reader.maybe("feel", "yield_kPa", o.feel.yield_kPa);
     reader.maybe("feel", "grain_mm", o.feel.grain_mm);

@@ -29,10 +29,12 @@ void add_live_options(Command command, session::LiveOptions& options) {
                  "The panel in a window of its own, for an operator; the pictures show no more of it than the page for "
                  "the person who stands before them");
     command.option("--full-screen", options.full_screen, "Fill this monitor: its name or index");
-    command.option("--width", options.width, "Of the window, in pixels").within(64, 8192).show_default();
-    command.option("--height", options.height, "Of the window, in pixels").within(64, 8192).show_default();
+    command.option("--width", options.width, "Of the window, in pixels").within(session::kPictureBounds).show_default();
+    command.option("--height", options.height, "Of the window, in pixels")
+        .within(session::kPictureBounds)
+        .show_default();
     command.option("--samples", options.samples, "A pixel: 1 or 4; 0: 4, but 1 on a software device")
-        .one_of({0, 1, 4})
+        .one_of(session::kSampleCounts)
         .show_default();
     command.option("--screenshots", options.screenshots, "The folder for the session's screenshots");
     command.option("--outputs", options.outputs,

@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 
 #include "activities/seek/seek.hpp"
+#include "app/recorded_device.hpp"
 #include "app/world_digest.hpp"
-#include "record/export/table_export.hpp"
 #include "record/record_writer.hpp"
 #include "session/drive/session.hpp"
 #include "session/drive/tick_comparison.hpp"
@@ -75,6 +76,43 @@ Result<std::string> with_setting(const std::string& settings, const std::string&
     return changed + " " + name + (value.empty() ? "" : " " + session::as_word(value));
 }
 
+// Likewise, and refuses what the option does not take on the command line either.
+Result<std::string> with_checked_setting(const std::string& settings, const std::string& change,
+                                         const session::SculptOptions& given) {
+    Result<std::string> changed = with_setting(settings, change);
+    if (!changed) return changed;
+    if (const auto known = session::options_as_recorded(*changed, given); !known)
+        return fail("--set " + change, known.error().what, "change an option of the session to a value that it takes");
+    return changed;
+}
+
+// Returns the settings with all changes, also of where files are now.
+Result<std::string> with_changes(std::string settings, const LiveReplay& how, const session::SculptOptions& given) {
+    std::vector<std::string> changes = how.sets;
+    if (!how.world.empty()) changes.push_back("world=" + how.world);
+    if (!how.workpiece.empty()) changes.push_back("workpiece=" + how.workpiece);
+    for (const std::string& change : changes) {
+        Result<std::string> changed = with_checked_setting(settings, change, given);
+        if (!changed) return changed;
+        settings = std::move(*changed);
+    }
+    return settings;
+}
+
+// Tells which files are others than were recorded. The wand must be the recorded one, but where it was chosen anew.
+Result<void> check_files(const record::RecordReader& reader, const session::SculptOptions& own,
+                         const std::string& first_device) {
+    warn_of_another(reader, kWorldDigestFact, own.world, digest_of_world(own.world));
+    warn_of_another(reader, kWorkpieceDigestFact, own.workpiece.source, digest_of(own.workpiece.source));
+    warn_of_another(reader, kToolDigestFact, own.tool.shape, digest_of(tool_file_of(own)));
+    const std::string& device = own.live.device;
+    if (device == first_device)
+        return check_wand_file(reader, device,
+                               "say where it is now by --set device=simulated-wand:FILE, or put it back");
+    warn_of_another(reader, kWandDigestFact, device, digest_of(wand_file_of(device)));
+    return {};
+}
+
 // Makes the activity of a recorded session anew; null where it had none.
 Result<std::shared_ptr<session::Activity>> activity_as_recorded(const std::string& settings_line) {
     const Result<std::string> settings = session::activity_on(settings_line);
@@ -105,6 +143,7 @@ std::vector<std::pair<std::string, std::string>> facts_of_live(const session::Sc
     add(kWorldDigestFact, digest_of_world(options.world));
     if (!options.no_workpiece) add(kWorkpieceDigestFact, digest_of(options.workpiece.source));
     add(kToolDigestFact, digest_of(tool_file_of(options)));
+    std::ranges::move(facts_of_wand_file(options.live.device), std::back_inserter(facts));
     return facts;
 }
 
@@ -115,17 +154,9 @@ Result<void> run_recorded_session(const session::SculptOptions& options, const s
 }
 
 std::optional<double> live_ball_radius_m(const record::RecordReader& reader) {
-    const auto header = reader.facts().find(record::kLogHeaderFact);
-    if (header == reader.facts().end()) return {};
-    const std::size_t settings = header->second.find("burin sculpt");
-    const std::string line = settings == std::string::npos ? "" : header->second.substr(settings);
-    session::SculptOptions given;
-    auto activity = activity_as_recorded(line);
-    if (!activity) return {};
-    given.activity = std::move(*activity);
-    const auto options = session::options_as_recorded(line, given);
-    if (!options) return {};
-    const auto tool = sculpt::parse_tool_spec(options->options.tool.shape, "--tool");
+    const Result<std::string> shape = session::option_on(live_settings_of(reader), "--tool");
+    if (!shape) return {};
+    const auto tool = sculpt::parse_tool_spec(*shape, "--tool");
     if (!tool || tool->kind != sculpt::ToolKind::ball) return {};
     return tool->sizes_m[0];
 }
@@ -135,20 +166,17 @@ Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay&
     if (!log) return std::unexpected(log.error());
     if (log->torn_line || !log->threads)
         return fail(reader.path(), "its log holds no ticks", "it was killed before its first transaction");
-    std::vector<std::string> changes = how.sets;
-    if (!how.world.empty()) changes.push_back("world=" + how.world);
-    if (!how.workpiece.empty()) changes.push_back("workpiece=" + how.workpiece);
-    for (const std::string& change : changes) {
-        Result<std::string> changed = with_setting(log->settings, change);
-        if (!changed) return std::unexpected(changed.error());
-        log->settings = std::move(*changed);
-    }
     session::SculptOptions options;
     options.live.input = reader.path();
     options.live.offscreen = true;
     auto activity = activity_as_recorded(log->settings);
     if (!activity) return std::unexpected(activity.error());
     options.activity = std::move(*activity);
+    const auto first = session::options_as_recorded(log->settings, options);
+    if (!first) return std::unexpected(first.error());
+    Result<std::string> changed = with_changes(log->settings, how, options);
+    if (!changed) return std::unexpected(changed.error());
+    log->settings = std::move(*changed);
     options.live.refuses_exports = true;
     options.live.screenshots = how.pictures;
     if (!how.pictures.empty()) {
@@ -157,10 +185,9 @@ Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay&
     }
     const auto recorded = session::options_as_recorded(log->settings, options);
     if (!recorded) return std::unexpected(recorded.error());
-    const session::SculptOptions& own = recorded->options;
-    warn_of_another(reader, kWorldDigestFact, own.world, digest_of_world(own.world));
-    warn_of_another(reader, kWorkpieceDigestFact, own.workpiece.source, digest_of(own.workpiece.source));
-    warn_of_another(reader, kToolDigestFact, own.tool.shape, digest_of(tool_file_of(own)));
+    const std::string &device = first->options.live.device, &now = recorded->options.live.device;
+    if (const auto same = check_files(reader, recorded->options, device); !same) return std::unexpected(same.error());
+    if (now != device) log->device.clear();  // chosen anew
     if (const auto sound = session::check_commands(*log, reader.path(), options.activity.get()); !sound)
         return std::unexpected(sound.error());
 

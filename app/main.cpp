@@ -52,18 +52,18 @@ void add_sculpt_options(Command command, session::SculptOptions& options) {
     command
         .option("--sweep-tolerance", options.tool.sweep_tolerance_cells,
                 "Largest error of a swept surface that has no closed form, in lattice cells")
-        .within(0.001, 1000.0)
+        .within(session::kSweepToleranceBounds)
         .show_default();
     command
         .option("--smooth-strength", options.tool.smooth_strength,
                 "With --operation smooth: 0 does nothing, 1 all at once")
-        .within(0.0, 1.0)
+        .within(session::kSmoothStrengthBounds)
         .show_default();
     command.flag("!--no-merge", options.merge_rows,
                  "One update for each row of the stroke, instead of one for a straight run of rows");
     command.option("--stroke", options.stroke, "CSV with the columns time_s,x_m,y_m,z_m,qx,qy,qz,qw,button");
     command.option("--resolution", options.workpiece.resolution, "Lattice cells along the longest side")
-        .within(compute::kMinResolution, compute::kMaxResolution)
+        .within(session::kResolutionBounds)
         .show_default();
     command.choice("--engine", options.engine, "auto, cpu or vulkan",
                    {{"auto", sculpt::EngineChoice::automatic},
@@ -104,7 +104,7 @@ void add_sculpt_options(Command command, session::SculptOptions& options) {
     command.option("--undo", options.undo, "Take back the last so many strokes, each from press to release")
         .show_default();
     command.option("--undo-memory", options.undo_memory_MiB, "MiB for strokes that can be taken back")
-        .within(1, 1 << 20)
+        .within(session::kUndoMemoryBounds)
         .show_default();
     command.option("--threads", options.threads, "How many threads carve; 0: one per core").within(0, 1024);
 }

@@ -6,11 +6,23 @@
 #include <set>
 #include <vector>
 
+#include "app/recorded_files.hpp"
 #include "base/file_io.hpp"
 #include "geometry/files/mesh_export.hpp"
 
 namespace burin::app {
 namespace fs = std::filesystem;
+namespace {
+
+// Returns whether both are one file, by whatever path; a file that is still to be made counts as well.
+bool is_same_place(const std::string& output, const std::string& input) {
+    std::error_code ignored;
+    const bool same_name =
+        !input.empty() && fs::weakly_canonical(output, ignored) == fs::weakly_canonical(input, ignored);
+    return same_name || fs::equivalent(output, input, ignored);
+}
+
+}  // namespace
 
 Result<void> check_place(const std::string& path) {
     if (path.empty() || path == kStandardOutput) return {};
@@ -18,13 +30,16 @@ Result<void> check_place(const std::string& path) {
 }
 
 Result<void> check_overwrites_none(const std::string& output, std::span<const std::string> inputs) {
-    std::error_code ignored;
-    for (const std::string& input : inputs) {
-        const bool same_name =
-            !input.empty() && fs::weakly_canonical(output, ignored) == fs::weakly_canonical(input, ignored);
-        if (!same_name && !fs::equivalent(output, input, ignored)) continue;
-        return fail(output, "is another file of this command, which it would overwrite", "choose another place");
-    }
+    constexpr const char* kRemedy = "choose another place";
+    for (const std::string& input : inputs)
+        if (is_same_place(output, input))
+            return fail(output, "is another file of this command, which it would overwrite", kRemedy);
+    for (const std::string& input : inputs)
+        for (const std::string& named : files_named_by(input))
+            if (is_same_place(output, named))
+                return fail(output,
+                            "is a file of the recording " + input + ", which could not be done again without it",
+                            kRemedy);
     return {};
 }
 

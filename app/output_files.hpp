@@ -22,6 +22,7 @@ inline constexpr const char* kStandardOutput = "-";
 [[nodiscard]] Result<void> check_outputs(std::span<const std::string> exports, const std::string& report,
                                          std::span<const std::string> inputs = {});
 // Checks whether an output is not one of the inputs, by whatever path; a file that is still to be made counts as well.
+// Nor may it be a file that an input names which is a recording (app/recorded_files.hpp).
 [[nodiscard]] Result<void> check_overwrites_none(const std::string& output, std::span<const std::string> inputs);
 
 // Writes a file, or to standard output; nothing where the path is empty.

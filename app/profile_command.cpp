@@ -79,10 +79,14 @@ ProfileCommand::ProfileCommand(Command app)
     command_.option("--stereo", s.live.stereo, "side-by-side, anaglyph-red-cyan, ...; else mono");
     command_.option("--wall", s.live.wall, "A wall file: all its screens");
     command_.flag("--windowed", s.live.windowed, "With --wall and --window: its screens in windows on the desktop");
-    command_.option("--width", s.live.width, "Of the picture, in pixels").within(64, 8192).show_default();
-    command_.option("--height", s.live.height, "Of the picture, in pixels").within(64, 8192).show_default();
+    command_.option("--width", s.live.width, "Of the picture, in pixels")
+        .within(session::kPictureBounds)
+        .show_default();
+    command_.option("--height", s.live.height, "Of the picture, in pixels")
+        .within(session::kPictureBounds)
+        .show_default();
     command_.option("--samples", s.live.samples, "A pixel: 1 or 4; 0: 4, but 1 on a software device")
-        .one_of({0, 1, 4})
+        .one_of(session::kSampleCounts)
         .show_default();
     command_.option("--threads", s.threads, "How many threads carve; 0: one per core").within(0, 1024);
     command_.option("--driver-threads", o.driver_threads,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/session_command.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -35,6 +36,12 @@ Json hand_json(const record::HandRecord& hand, const record::HandSummary& summar
                                    {"frame", column.frame},
                                    {"type", std::string(record::name_of(column.type))}});
     return json;
+}
+
+// A fact of several lines, such as a wand's description, is counted: --json has it whole.
+std::string shown_fact(const std::string& value) {
+    const auto lines = static_cast<std::uint64_t>(std::ranges::count(value, '\n'));
+    return lines > 0 ? counted(lines, "line", "lines") + " of text" : value;
 }
 
 void print_hand(const record::HandRecord& hand, const record::HandSummary& summary) {
@@ -82,7 +89,8 @@ Result<void> info(const std::string& path, const std::string& json_path) {
     if (json_path != kStandardOutput) {
         std::printf("%s: %s\n", path.c_str(),
                     reader->is_closed() ? "a session" : "a session that was not closed: what was acknowledged is here");
-        for (const auto& [key, value] : reader->facts()) std::printf("  %-22s %s\n", key.c_str(), value.c_str());
+        for (const auto& [key, value] : reader->facts())
+            std::printf("  %-22s %s\n", key.c_str(), shown_fact(value).c_str());
         std::printf("  %-22s %s, %s; the wall clock moved by %g s against the monotonic one\n", "lines, trials, clock",
                     counted(*lines, "line", "lines").c_str(), counted(trials->size(), "trial", "trials").c_str(),
                     moved_s);
@@ -101,6 +109,7 @@ Result<void> check(const std::string& path) {
     const Result<std::string> structure = reader->structure_fault();
     if (!structure) return std::unexpected(structure.error());
     std::size_t damaged = structure->empty() ? 0 : 1;
+    std::vector<std::string_view> empty;  // tables without ticks
     if (!structure->empty()) std::printf("%s: %s\n", path.c_str(), structure->c_str());
     for (std::size_t h = 0; h < reader->tables(); ++h) {
         const record::HandExamination found = record::examine(*reader, h);
@@ -115,11 +124,15 @@ Result<void> check(const std::string& path) {
                     counted(found.backward_times, "time", "times").c_str(),
                     counted(found.not_finite, "value", "values").c_str());
         damaged += found.damaged.size();
+        if (found.ticks == 0 && found.damaged.empty()) empty.push_back(reader->table(h).name);
     }
     if (!reader->is_closed())
         std::printf("%s: was not closed; ticks of the last second may be missing\n", path.c_str());
-    if (damaged == 0) return {};
+    if (damaged == 0 && empty.empty() && !reader->hands().empty()) return {};
     std::fflush(stdout);
+    if (damaged == 0)
+        return fail(path, "holds no ticks" + (empty.empty() ? std::string() : " of " + joined(empty)),
+                    "nothing was recorded, it was killed within its first second, or its blocks are gone");
     return fail(path, counted(damaged, "part is", "parts are") + " damaged", "the rest can be read and converted");
 }
 
@@ -129,6 +142,8 @@ Result<void> compare(const std::string& a, const std::string& b, const std::stri
     if (!second) return std::unexpected(second.error());
     const Result<record::Comparison> found = record::compare(*first, *second, columns);
     if (!found) return std::unexpected(found.error());
+    if (found->ticks == 0 && !found->difference)
+        return fail(b, "holds no ticks, nor does " + a, "compare recordings of something");
     if (found->difference)
         return fail(b, "differs from " + a + " after " + counted(found->ticks, "equal tick", "equal ticks") + ": " +
                            found->difference->line());

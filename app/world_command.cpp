@@ -314,7 +314,7 @@ WorldCommand::WorldCommand(Command app)
     command_.option("--workpiece", o.session.workpiece.source,
                     "A workpiece that stands in the world and is carved: FILE, block:X,Y,Z or ball:R; else none");
     command_.option("--resolution", o.session.workpiece.resolution, "Of the workpiece: cells along its longest side")
-        .within(compute::kMinResolution, compute::kMaxResolution)
+        .within(session::kResolutionBounds)
         .show_default();
     command_.option("--tool", o.session.tool.shape,
                     sculpt::alternatives(sculpt::tool_synopses()) +

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "activities/wand/wand_view.hpp"
 #include "app/output_files.hpp"
 #include "app/picture_folder.hpp"
+#include "app/recorded_device.hpp"
 #include "app/temporary_folder.hpp"
 #include "app/world_digest.hpp"
 #include "base/text.hpp"
@@ -195,11 +197,6 @@ Result<std::unique_ptr<WandWorld>> open_wand_world(const WorldExploration& optio
     return opened;
 }
 
-std::string wand_file_of(const std::string& device) {
-    const std::size_t behind = std::string_view(devices::kSimulatedWand).size() + 1;
-    return device.size() > behind ? device.substr(behind) : std::string();
-}
-
 std::vector<std::pair<std::string, std::string>> facts_of_wand(const WorldExploration& options,
                                                                const WandWorld& opened) {
     const Json settings{{"world", options.world},
@@ -219,10 +216,8 @@ std::vector<std::pair<std::string, std::string>> facts_of_wand(const WorldExplor
         {"activity", kWandActivity},
         {"settings", settings.dump(-1, ' ', false, Json::error_handler_t::replace)},
         {kWorldDigestFact, opened.digest}};
-    for (const auto& [fact, path] :
-         {std::pair("stroke sha256", options.stroke), std::pair("wand sha256", wand_file_of(options.device))})
-        if (const auto digest = path.empty() ? Result<std::string>("") : file_digest(path); digest && !digest->empty())
-            facts.emplace_back(fact, *digest);
+    if (const auto digest = file_digest(options.stroke)) facts.emplace_back("stroke sha256", *digest);
+    std::ranges::move(facts_of_wand_file(options.device), std::back_inserter(facts));
     return facts;
 }
 
@@ -236,8 +231,7 @@ void warn_where_another(const record::RecordReader& reader, const std::string& w
 
 }  // namespace
 
-Result<record::Comparison> replay_wand(record::RecordReader& reader, const std::string& world,
-                                       const std::string& stroke, const record::TickRange& range) {
+Result<WorldExploration> recorded_wand_stroke(const record::RecordReader& reader) {
     const auto settings = reader.facts().find("settings");
     const Json json = settings == reader.facts().end() ? Json() : Json::parse(settings->second, nullptr, false);
     WorldExploration options;
@@ -255,15 +249,23 @@ Result<record::Comparison> replay_wand(record::RecordReader& reader, const std::
     options.radius_m = json["radius_m"].get<double>();
     if (!(options.radius_m >= 1e-5 && options.radius_m <= 1.0))
         return fail(reader.path(), "has a radius out of range", "it was changed");
+    return options;
+}
+
+Result<record::Comparison> replay_wand(record::RecordReader& reader, const std::string& world,
+                                       const std::string& stroke, const record::TickRange& range) {
+    Result<WorldExploration> recorded = recorded_wand_stroke(reader);
+    if (!recorded) return std::unexpected(recorded.error());
+    WorldExploration& options = *recorded;
     if (!world.empty()) options.world = world;
     if (!stroke.empty()) options.stroke = stroke;
+    const auto same = check_wand_file(reader, options.device, "put the file back, unchanged, where it was");
+    if (!same) return std::unexpected(same.error());
     Result<std::unique_ptr<WandWorld>> opened = open_wand_world(options);
     if (!opened) return std::unexpected(opened.error());
     WandWorld& again = **opened;
     warn_where_another(reader, options.world, again.digest, kWorldDigestFact);
     if (const auto now = file_digest(options.stroke)) warn_where_another(reader, options.stroke, *now, "stroke sha256");
-    if (const std::string file = wand_file_of(options.device); !file.empty())
-        if (const auto now = file_digest(file)) warn_where_another(reader, file, *now, "wand sha256");
     const Result<TemporaryFolder> folder = TemporaryFolder::create();
     if (!folder) return std::unexpected(folder.error());
     again.feel.record = *folder / "again.session";

@@ -74,6 +74,23 @@ std::uint64_t not_finite_in(const Block& block, const HandRecord& hand) {
 
 }  // namespace
 
+Result<void> check_ticks(RecordReader& reader, const TickRange& range) {
+    if (reader.hands().empty() || reader.hands()[0].blocks.empty())
+        return fail(reader.path(), "holds no ticks", "it ended before its first transaction, or its blocks are gone");
+    const HandRecord& hand = reader.hands()[0];
+    const std::int64_t first = hand.blocks.front().header.tick0;
+    std::int64_t last = std::numeric_limits<std::int64_t>::max();  // as long as it is not known
+    const std::size_t tick = find_column(hand, "tick", ColumnType::i64);
+    const Result<Block> block = reader.block(0, hand.blocks.size() - 1);
+    const bool is_known = block && block->rows() > 0 && tick < hand.columns.size();
+    if (is_known) last = static_cast<std::int64_t>(block->at(tick, block->rows() - 1));
+    if (range.to >= first && range.from <= last) return {};
+    return fail(reader.path(),
+                "has no ticks in this range: its first is " + std::to_string(first) +
+                    (is_known ? ", its last " + std::to_string(last) : std::string()),
+                "choose --from and --to among them");
+}
+
 HandSummary summary_of(const HandRecord& hand) {
     HandSummary summary;
     summary.ticks = hand.rows();

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "record/record_reader.hpp"
+#include "record/row_walk.hpp"
 
 namespace burin::record {
 
@@ -17,12 +17,16 @@ struct TickGap {
 
 // What the list of blocks says of a hand, without reading one.
 struct HandSummary {
-    std::uint64_t ticks = 0;
+    std::uint64_t ticks = 0;      // none: nothing was recorded, or its blocks are gone
     std::int64_t first_tick = 0;
     Nanoseconds first_ns = 0, last_block_ns = 0;
     std::vector<TickGap> gaps;  // that show between blocks; one within a block is told at the block's end
 };
 [[nodiscard]] HandSummary summary_of(const HandRecord& hand);
+
+// Checks that the first hand has ticks, and that some may be in the range: a comparison of none would look like
+// success. Fails with those that there are. Reads the last block alone; gaps are not looked at.
+[[nodiscard]] Result<void> check_ticks(RecordReader& reader, const TickRange& range = {});
 
 // How far the wall clock moved against the monotonic one, in all: of a clock that is not set, some milliseconds.
 [[nodiscard]] Nanoseconds wall_clock_moved_ns(const std::vector<ClockPair>& clocks);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The touching of a world by one hand, whatever moves it: channels with the tick's parameters, the scene's service, and
-// which object a tick touches. One thread. Frame: the scene's.
+// which object each point of a tick touches. One thread. Frame: the scene's.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,12 @@ namespace burin::activities {
 
 class WorldTouch {
 public:
-    // Part and materials must outlive it. Publishes the parameters of the settings.
-    WorldTouch(scene::MeshPart& part, const scene::MaterialTable& materials, const WorldSettings& settings);
+    // Part and materials must outlive it. Publishes the parameters of the settings, whose start is the first point's.
+    WorldTouch(scene::MeshPart& part, const scene::MaterialTable& materials, const WorldSettings& settings,
+               const haptics::Probe& probe);
+    // With a ball of the settings' radius where the device is.
+    WorldTouch(scene::MeshPart& part, const scene::MaterialTable& materials, const WorldSettings& settings)
+        : WorldTouch(part, materials, settings, haptics::ball_probe(settings.tool_radius_m)) {}
     WorldTouch(const WorldTouch&) = delete;
     WorldTouch& operator=(const WorldTouch&) = delete;
 
@@ -40,6 +44,8 @@ private:
 
     const scene::MeshPart& part_;
     WorldSettings settings_;
+    haptics::Probe probe_;
+    double spread_m_ = 0.0;  // from the first point to the farthest, at the device
     std::array<haptics::TouchMaterial, haptics::kMostMaterials> materials_{};
     haptics::HapticChannels channels_;
     scene::SceneService service_;

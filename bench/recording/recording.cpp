@@ -104,7 +104,8 @@ Result<RecordFigures::Paced> push_at_pace(const RecordTask& task, std::size_t ri
 
 Result<RecordFigures> measure_recording(const RecordTask& task) {
     RecordFigures figures;
-    if (const auto done = measure_blocks(task.session, figures); !done) return std::unexpected(done.error());
+    if (!task.session.empty())
+        if (const auto done = measure_blocks(task.session, figures); !done) return std::unexpected(done.error());
     measure_rows(figures);
     for (const std::size_t ring_ticks : {std::size_t{1024}, record::kRingTicks}) {
         const auto paced = push_at_pace(task, ring_ticks);
@@ -114,13 +115,21 @@ Result<RecordFigures> measure_recording(const RecordTask& task) {
     return figures;
 }
 
-std::string recording_table(const RecordFigures& f) {
+namespace {
+
+std::string block_table(const RecordFigures& f) {
     std::string text = formatted("%llu ticks, %zu columns, %zu bytes a tick\n",
                                  static_cast<unsigned long long>(f.ticks), f.columns, f.row_bytes);
     text += formatted("  a second: %.1f kB, packed %.1f kB (%.0f %%)\n", 1e-3 * f.raw_bytes_per_s,
                       1e-3 * f.packed_bytes_per_s, 100.0 * f.packed_bytes_per_s / f.raw_bytes_per_s);
-    text += formatted("  a block: packed in %.2f ms (median), %.2f ms (largest), unpacked in %.2f ms\n", f.pack_ms,
-                      f.pack_worst_ms, f.unpack_ms);
+    return text + formatted("  a block: packed in %.2f ms (median), %.2f ms (largest), unpacked in %.2f ms\n",
+                            f.pack_ms, f.pack_worst_ms, f.unpack_ms);
+}
+
+}  // namespace
+
+std::string recording_table(const RecordFigures& f) {
+    std::string text = f.ticks > 0 ? block_table(f) : "sizes and blocks: not measured, name a session file\n";
     text += formatted("  a row is made in %.2f us\n", f.row_us);
     for (const RecordFigures::Paced& p : f.paced) {
         text += formatted("  ring of %zu: push %.2f us (median), %.2f us (p99); %llu of %llu ticks lost\n",
@@ -133,11 +142,14 @@ std::string recording_table(const RecordFigures& f) {
 }
 
 Json recording_json(const RecordFigures& f) {
-    Json json{{"machine", machine()}, {"ticks", f.ticks}, {"columns", f.columns}, {"row_bytes", f.row_bytes}};
-    json["raw_bytes_per_s"] = f.raw_bytes_per_s;
-    json["packed_bytes_per_s"] = f.packed_bytes_per_s;
-    json["pack_ms"] = {{"median", f.pack_ms}, {"largest", f.pack_worst_ms}};
-    json["unpack_ms"] = {{"median", f.unpack_ms}};
+    Json json{{"machine", machine()}};
+    if (f.ticks > 0) {
+        json.update({{"ticks", f.ticks}, {"columns", f.columns}, {"row_bytes", f.row_bytes}});
+        json["raw_bytes_per_s"] = f.raw_bytes_per_s;
+        json["packed_bytes_per_s"] = f.packed_bytes_per_s;
+        json["pack_ms"] = {{"median", f.pack_ms}, {"largest", f.pack_worst_ms}};
+        json["unpack_ms"] = {{"median", f.unpack_ms}};
+    }
     json["row_us"] = {{"median", f.row_us}};
     json["paced"] = Json::array();
     for (const RecordFigures::Paced& p : f.paced)

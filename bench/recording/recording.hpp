@@ -16,14 +16,14 @@
 namespace burin::bench {
 
 struct RecordTask {
-    std::string session;    // a session file
+    std::string session;    // a session file; empty: sizes and blocks are not measured
     std::string folder;     // where a file is recorded, and removed again
     unsigned seconds = 10;  // for each ring
 };
 
 struct RecordFigures {
     std::size_t columns = 0, row_bytes = 0;
-    std::uint64_t ticks = 0;
+    std::uint64_t ticks = 0;                                     // of the session file; 0: there was none
     double raw_bytes_per_s = 0.0, packed_bytes_per_s = 0.0;      // at 1 kHz
     double pack_ms = 0.0, pack_worst_ms = 0.0, unpack_ms = 0.0;  // median, largest, median of a block
     double row_us = 0.0;                                         // to make a row of a record, median

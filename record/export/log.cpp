@@ -13,11 +13,6 @@ struct LogEntry {
 };
 
 // A text in one line.
-std::string in_a_line(std::string text) {
-    std::ranges::replace_if(text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
-    return text;
-}
-
 Result<std::vector<LogEntry>> events_and_trials(RecordReader& reader) {
     const auto events = reader.events();
     const auto trials = reader.trials();
@@ -62,6 +57,11 @@ Result<ExportReport> export_input_log(RecordReader& reader, const std::string& h
 }
 
 }  // namespace
+
+std::string in_a_line(std::string text) {
+    std::ranges::replace_if(text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    return text;
+}
 
 Result<ExportReport> export_log(RecordReader& reader, const std::string& path) {
     if (const auto header = reader.facts().find(kLogHeaderFact); header != reader.facts().end())

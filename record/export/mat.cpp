@@ -127,7 +127,7 @@ std::string mat_texts(const RecordReader& reader, std::size_t table, const std::
         described +=
             column.name + "\t" + column.unit + "\t" + column.frame + "\t" + std::string(name_of(column.type)) + "\n";
     }
-    for (const auto& [key, value] : reader.facts()) facts += key + "\t" + value + "\n";
+    for (const auto& [key, value] : reader.facts()) facts += key + "\t" + in_a_line(value) + "\n";
     for (const RecordedObject& object : reader.table(table).objects)
         objects += std::to_string(object.number) + "\t" + object.name + "\n";
     return text_variable("burin_columns", described) + text_variable("burin_meta", facts) +

@@ -83,6 +83,9 @@ struct BidsLabels {
 // line: time_ns, kind, text. log.cpp
 [[nodiscard]] Result<ExportReport> export_log(RecordReader& reader, const std::string& path);
 
+// Returns the text with a space for each end of a line, for formats with a fact a line. log.cpp
+[[nodiscard]] std::string in_a_line(std::string text);
+
 // Goes through the blocks of a table, with those of their rows alone that the times hold, and leaves out and reports
 // blocks that are damaged; ends at the first failure of `take`.
 [[nodiscard]] Result<void> each_block(RecordReader& reader, std::size_t table, const TickTimes& times,

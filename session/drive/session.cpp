@@ -85,6 +85,9 @@ Result<void> run_compared(const SculptOptions& options, InputLog log) {
     if (const auto done = run_as_recorded(options, std::move(log), {.witness = &*judge}); !done) return done;
     const record::Comparison& found = judge->found();
     if (found.difference) return fail(options.live.input, "differs: " + found.difference->line());
+    if (found.ticks == 0)
+        return fail(options.live.input, "none of its ticks was compared: its log ends before them, or they are missing",
+                    "burin session check names what is missing");
     std::printf("%s: %s ticks, %zu columns: equal to the bit\n", options.live.input.c_str(),
                 std::to_string(found.ticks).c_str(), found.columns);
     return {};

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <string_view>
 
+#include "record/examination.hpp"
 #include "session/record/session_recording.hpp"
 
 namespace burin::session {
@@ -26,6 +27,7 @@ std::uint32_t counted(const std::vector<record::Column>& columns, std::string_vi
 Result<TickComparison> TickComparison::create(record::RecordReader& reader, const record::TickRange& range,
                                               AtDifference then) {
     if (reader.hands().empty()) return fail(reader.path(), "holds no hand's ticks", "name a recorded session");
+    if (const auto some = record::check_ticks(reader); !some) return std::unexpected(some.error());
     const std::vector<record::Column>& columns = reader.table(0).columns;
     const record::RowShape shape{counted(columns, "joint", ""), counted(columns, "hip", "_object_x_m")};
     std::vector<record::Column> expected = record::columns_for(shape);

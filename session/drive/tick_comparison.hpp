@@ -12,7 +12,8 @@ class TickComparison final : public TickWitness {
 public:
     // What follows on the first difference: the replay ends there, or goes on.
     enum class AtDifference { ends, goes_on };
-    // Fails on a file whose columns are not those of this program's recordings. The reader must outlive it.
+    // Fails on a file without ticks, or whose columns are not those of this program's recordings. The reader must
+    // outlive it.
     [[nodiscard]] static Result<TickComparison> create(record::RecordReader& reader, const record::TickRange& range,
                                                        AtDifference then = AtDifference::ends);
 

@@ -8,6 +8,7 @@
 
 #include "session/input/input_words.hpp"
 #include "session/state/activity.hpp"
+#include "session/state/option_bounds.hpp"
 
 namespace burin::session {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 constexpr const char* kCommand = "burin sculpt";
 constexpr const char* kActivity = "--activity";  // behind it Activity::settings(); no option of the command line
 
+// All options by name; behind a number its bounds.
 template <typename Options, typename Visit>
 void visit_settings(Options& o, Visit&& visit) {
     visit("--world", o.world);
@@ -24,26 +26,26 @@ void visit_settings(Options& o, Visit&& visit) {
     visit("--units", o.workpiece.units);
     visit("--export-units", o.export_units);
     visit("--close-holes", o.workpiece.close_holes);
-    visit("--resolution", o.workpiece.resolution);
+    visit("--resolution", o.workpiece.resolution, kResolutionBounds);
     visit("--tool", o.tool.shape);
     visit("--operation", o.tool.operation);
     visit("--material", o.tool.material);
-    visit("--sweep-tolerance", o.tool.sweep_tolerance_cells);
-    visit("--smooth-strength", o.tool.smooth_strength);
+    visit("--sweep-tolerance", o.tool.sweep_tolerance_cells, kSweepToleranceBounds);
+    visit("--smooth-strength", o.tool.smooth_strength, kSmoothStrengthBounds);
     visit("--hardness", o.feel.hardness);
     visit("--yield", o.feel.yield_kPa);
     visit("--grain", o.feel.grain_mm);
     visit("--stiffness", o.feel.stiffness_N_per_m);
     visit("--friction", o.feel.friction);
-    visit("--undo-memory", o.undo_memory_MiB);
+    visit("--undo-memory", o.undo_memory_MiB, kUndoMemoryBounds);
     visit("--device", o.live.device);
     visit("--wall", o.live.wall);
     visit("--stereo", o.live.stereo);
     visit("--swap-eyes", o.live.swap_eyes);
-    visit("--width", o.live.width);
-    visit("--height", o.live.height);
+    visit("--width", o.live.width, kPictureBounds);
+    visit("--height", o.live.height, kPictureBounds);
     visit("--panel-window", o.live.panel_window);
-    visit("--samples", o.live.samples);
+    visit("--samples", o.live.samples, kSampleCounts);
 }
 
 // ---- Text of an option's value; none: the option is absent. A flag that is present has an empty text.
@@ -70,7 +72,7 @@ bool read(const std::string& text, std::string& value) {
     value = text;
     return true;
 }
-bool read(const std::string&, bool& on) { return on = true; }
+bool read(const std::string& text, bool& on) { return on = text.empty(); }
 bool read(const std::string& text, compute::Operation& value) {
     for (const sculpt::OperationDescriptor& known : sculpt::operations()) {
         value = known.operation;
@@ -93,6 +95,28 @@ bool read(const std::string& text, std::optional<T>& value) {
     return read(text, value.emplace());
 }
 
+// ---- What is beyond a number's bounds: in words what it should be; empty: it is within them.
+
+template <typename T>
+std::string beyond(const T&) {
+    return {};
+}
+template <typename T, typename B>
+std::string beyond(const T& value, const Bounds<B>& bounds) {
+    const double number = static_cast<double>(value);
+    if (number >= static_cast<double>(bounds.least) && number <= static_cast<double>(bounds.most)) return {};
+    return "from " + *text(bounds.least) + " to " + *text(bounds.most);
+}
+template <typename T>
+std::string beyond(const T& value, const std::initializer_list<int>& known) {
+    std::string all;
+    for (const int number : known) {
+        if (value == static_cast<T>(number)) return {};
+        all += (all.empty() ? "" : ", ") + std::to_string(number);
+    }
+    return "one of " + all;
+}
+
 // The usual device is written by no recording: those from before there were others do not name it either.
 bool is_usual(const std::string& option, const std::string& value) {
     return option == "--device" && value == devices::kDefaultHapticDevice;
@@ -103,7 +127,7 @@ using OptionWords = std::map<std::string, std::string>;
 // Returns the values of all options that are present, by option.
 OptionWords words_behind(const SculptOptions& options) {
     OptionWords words;
-    visit_settings(options, [&](const char* name, const auto& value) {
+    visit_settings(options, [&](const char* name, const auto& value, const auto&...) {
         if (const auto behind = text(value); behind && !is_usual(name, *behind)) words.emplace(name, *behind);
     });
     return words;
@@ -157,7 +181,7 @@ void as_before_units(SculptOptions& options) {
 
 std::string settings_line(const SculptOptions& options) {
     std::string line = kCommand;
-    visit_settings(options, [&](const char* name, const auto& value) {
+    visit_settings(options, [&](const char* name, const auto& value, const auto&...) {
         const auto behind = text(value);
         if (!behind || is_usual(name, *behind)) return;
         line += std::string(" ") + name;
@@ -167,13 +191,15 @@ std::string settings_line(const SculptOptions& options) {
     return line;
 }
 
-Result<std::string> activity_on(const std::string& line) {
+Result<std::string> option_on(const std::string& line, const std::string& option) {
     if (!line.starts_with(std::string(kCommand) + " --")) return "";
     Result<OptionWords> words = words_on(line);
     if (!words) return std::unexpected(words.error());
-    const auto found = words->find(kActivity);
+    const auto found = words->find(option);
     return found == words->end() ? "" : found->second;
 }
+
+Result<std::string> activity_on(const std::string& line) { return option_on(line, kActivity); }
 
 Result<RecordedOptions> options_as_recorded(const std::string& line, const SculptOptions& given) {
     RecordedOptions recorded{given, {}};
@@ -187,18 +213,21 @@ Result<RecordedOptions> options_as_recorded(const std::string& line, const Sculp
     const SculptOptions defaults;
     const OptionWords given_words = words_behind(given), left_out = words_behind(defaults);
     std::string wrong;
-    visit_settings(recorded.options, [&]<typename T>(const std::string& name, T& value) {
+    visit_settings(recorded.options, [&]<typename T>(const std::string& name, T& value, const auto&... bounds) {
         const std::string now = shown(name, given_words), then = shown(name, *words);
         if (now != then && now != shown(name, left_out))
             recorded.overruled.push_back("it was recorded with " + then + ", which is done again; " + now +
                                          " does not count");
         value = T{};
-        if (const auto found = words->extract(name); found && !read(found.mapped(), value)) wrong = then;
+        const auto found = words->extract(name);
+        if (!found || !wrong.empty()) return;
+        if (!read(found.mapped(), value))
+            wrong = then + " is no value of that option";
+        else if (const std::string wanted = beyond(value, bounds...); !wanted.empty())
+            wrong = then + " is not " + wanted;
     });
-    if (!words->empty()) wrong = words->begin()->first;
-    if (!wrong.empty())
-        return fail("the recording's first line", wrong + " is no option that a session knows",
-                    "replay it with the program that recorded it");
+    if (!words->empty()) wrong = words->begin()->first + " is no option that a session knows";
+    if (!wrong.empty()) return fail("the recording's first line", wrong, "replay it with the program that recorded it");
     if (recorded.options.live.device.empty()) recorded.options.live.device = devices::kDefaultHapticDevice;
     as_before_units(recorded.options);
     return recorded;

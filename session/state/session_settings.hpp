@@ -13,6 +13,8 @@
 namespace burin::session {
 
 [[nodiscard]] std::string settings_line(const SculptOptions& options);
+// Returns what stands behind an option ("--device") of a recording's line; empty where it is not there, or is a flag.
+[[nodiscard]] Result<std::string> option_on(const std::string& line, const std::string& option);
 // Returns the settings of the activity of a recording's line (Activity::settings()); empty where it had none.
 [[nodiscard]] Result<std::string> activity_on(const std::string& line);
 

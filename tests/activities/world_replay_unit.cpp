@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 
+#include "activities/world/felt_through.hpp"
 #include "activities/world/felt_world.hpp"
 #include "tests/support/run_command.hpp"
 
@@ -170,7 +172,7 @@ TEST(FeltThrough, AMotionThatBeginsLaterBeginsWithAProxyOfItsOwn) {
         CubeWorld world;
         auto reader = record::RecordReader::open(at / "a");
         std::vector<std::vector<record::Word>> rows;
-        const auto figures = feel_through(*reader, *world.part, world.ids, world.materials, radius_m, range,
+        const auto figures = feel_through(*reader, *world.part, world.ids, world.materials, {{}, radius_m}, range,
                                           [&](const record::RecordedTick&, const std::vector<record::Word>& row) {
                                               rows.push_back(row);
                                               return Result<void>();
@@ -180,9 +182,11 @@ TEST(FeltThrough, AMotionThatBeginsLaterBeginsWithAProxyOfItsOwn) {
     };
     const auto [all, all_rows] = felt({}, 0.004);
     EXPECT_EQ(all.ticks, 3400u);
-    EXPECT_EQ(all.proxy_deviation_max_m, 0.0);
+    ASSERT_EQ(all.points.size(), 1u);
+    EXPECT_EQ(all.points[0].proxy_deviation_max_m, 0.0);
     EXPECT_EQ(all.force_deviation_max_N, 0.0);
-    EXPECT_EQ(all.first_contact, "cube 1");
+    EXPECT_EQ(all.points[0].first_contact, "cube 1");
+    EXPECT_EQ(all.points[0].ticks_in_contact, all.ticks_in_contact);
     EXPECT_EQ(all_rows.front().size(), through_columns().size());
     EXPECT_EQ(felt({}, 0.004).second, all_rows) << "twice gives the same bits";
     const auto [late, late_rows] = felt({2000, 2500}, 0.004);
@@ -193,12 +197,49 @@ TEST(FeltThrough, AMotionThatBeginsLaterBeginsWithAProxyOfItsOwn) {
     EXPECT_LT(small.force_max_N, all.force_max_N);
 }
 
+// Programs of others read these by name.
+TEST(FeltThrough, ATableOfOnePointKeepsItsColumnsAndAWandHasThemForEachPoint) {
+    const auto names = [](const RecordedDevice& device) {
+        std::vector<std::string> names;
+        for (const record::Column& column : through_columns(device)) names.push_back(column.name);
+        return names;
+    };
+    const std::vector<std::string> omni{"tick",
+                                        "time_ns",
+                                        "proxy0_object_x_m",
+                                        "proxy0_object_y_m",
+                                        "proxy0_object_z_m",
+                                        "force0_device_x_N",
+                                        "force0_device_y_N",
+                                        "force0_device_z_N",
+                                        "penetration0_m",
+                                        "triangle0",
+                                        "object0",
+                                        "desired_force_device_x_N",
+                                        "desired_force_device_y_N",
+                                        "desired_force_device_z_N",
+                                        "commanded_force_device_x_N",
+                                        "commanded_force_device_y_N",
+                                        "commanded_force_device_z_N",
+                                        "flags",
+                                        "cause",
+                                        "proxy0_deviation_m",
+                                        "commanded_force_deviation_N"};
+    EXPECT_EQ(names({}), omni);
+    const devices::WandDescription wand;
+    const std::vector<std::string> two = names({wand, wand.points});
+    EXPECT_EQ(two.size(), omni.size() + 9 + 1 + 6 + 1) << "a point, its deviation, torques, their deviation";
+    for (const char* name : {"proxy1_object_z_m", "force1_device_x_N", "object1", "proxy1_deviation_m",
+                             "desired_torque_device_z_Nm", "commanded_torque_deviation_Nm"})
+        EXPECT_TRUE(std::ranges::find(two, name) != two.end()) << name;
+}
+
 TEST(FeltThrough, EndsWhereARowIsNotTaken) {
     const Workplace at;
     record_cubes(at / "a");
     CubeWorld world;
     auto reader = record::RecordReader::open(at / "a");
-    const auto figures = feel_through(*reader, *world.part, world.ids, world.materials, 0.004, {},
+    const auto figures = feel_through(*reader, *world.part, world.ids, world.materials, {}, {},
                                       [](const record::RecordedTick& tick, const auto&) -> Result<void> {
                                           if (tick.tick < 100) return {};
                                           return fail("disk", "is full");

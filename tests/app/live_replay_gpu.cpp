@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "base/json.hpp"
 #include "gpu/device.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
@@ -57,6 +58,23 @@ TEST(LiveRecording, IsDoneAgainDrawnAndGivenBackAsText) {
     EXPECT_EQ(other.status, 1);
     EXPECT_TRUE(tells(other, "equal ticks: tick ")) << other.output;
     EXPECT_TRUE(tells(at.run(kLiveBurin + " replay a.session --set tol=1"), "no option")) << "a setting that is none";
+    // What no command line takes, no replay takes either.
+    for (const auto& [set, said] : std::vector<std::pair<std::string, std::string>>{
+             {"width=9", "--set width=9: --width 9 is not from 64 to 8192"},
+             {"resolution=4096", "--resolution 4096 is not from 16 to 2048"},
+             {"samples=3", "--samples 3 is not one of 0, 1, 4"},
+             {"undo-memory=-1", "--undo-memory -1 is no value of that option"},
+             {"smooth-strength=nan", "--smooth-strength nan is not from 0 to 1"},
+             {"friction=9", "--friction: is out of range; give a number from 0 to 2"},
+             {"friction=nan", "--friction: is out of range"},
+             {"tool=ball:-1", "ball:-1"},
+             {"hardness=stone", "--hardness stone"}}) {
+        const auto refused = at.run(kLiveBurin + " replay a.session --set " + set);
+        EXPECT_EQ(refused.status, 1) << set;
+        EXPECT_TRUE(tells(refused, said)) << refused.output;
+        EXPECT_FALSE(tells(refused, "equal")) << refused.output;
+    }
+    EXPECT_TRUE(tells(at.run(kLiveBurin + " replay a.session --to 0"), "has no ticks in this range"));
 
     ASSERT_EQ(at.run(kLiveBurin + " convert a.session --to log a.log").status, 0);
     const auto by_text = at.run(kLiveBurin + " sculpt --input a.log --offscreen --outputs text");
@@ -66,6 +84,55 @@ TEST(LiveRecording, IsDoneAgainDrawnAndGivenBackAsText) {
     EXPECT_TRUE(tells(by_file, "equal to the bit")) << by_file.output;
     EXPECT_EQ(at.read("text/carved.png"), at.read("file/carved.png"));
     EXPECT_EQ(at.read("text/part.stl"), at.read("file/part.stl"));
+}
+
+// A wand's two points, led by a script, then felt in a world from which its recording knows nothing.
+TEST(LiveRecording, OfAWandIsFeltThroughAnotherWorldInBothPoints) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace at;
+    at.write("block.wrl",
+             "#VRML V2.0 utf8\nTransform { translation 0 0.13 0.05 children DEF Block Shape {\n"
+             "  geometry Box { size 0.1 0.1 0.1 } } }\n");
+    at.write("other.wrl",
+             "#VRML V2.0 utf8\nTransform { translation 0 0.13 0.04 children DEF Other Shape {\n"
+             "  geometry Box { size 0.12 0.1 0.1 } } }\n");
+    at.write("wand.toml",
+             "[[point]]\nname = \"up\"\noffset = [0, 0.07, 0]\n[[point]]\nname = \"low\"\n"
+             "offset = [0, -0.08, 0]\n");
+    at.write("use.txt",
+             "burin-input 1 test\n0.05 mouse 160 100\n0.1 scroll 0 6\n0.2 scroll 0 6\n0.6 mouse 180 100\n1.0 close\n");
+    const auto recorded = at.run(kLiveBurin +
+                                 " world block.wrl --device simulated-wand:wand.toml --points up,low --offscreen "
+                                 "--width 320 --height 200 --input use.txt --record a.session --outputs out");
+    ASSERT_EQ(recorded.status, 0) << recorded.output;
+    EXPECT_EQ(at.run(kLiveBurin + " replay a.session").status, 0);
+
+    std::filesystem::rename(at / "wand.toml", at / "moved.toml");
+    const auto felt = at.run(kLiveBurin + " replay a.session --through other.wrl --json r.json");
+    ASSERT_EQ(felt.status, 0) << felt.output;
+    EXPECT_TRUE(tells(felt, "38 columns: a new derived table")) << felt.output;
+    EXPECT_TRUE(tells(felt, "the proxy of up begins at the hand") && tells(felt, "the proxy of low begins at the hand"))
+        << felt.output;
+    const Json figures = Json::parse(at.read("r.json"))["figures"];
+    EXPECT_EQ(figures["points"][1]["first_contact"], "Other") << felt.output;
+    EXPECT_GT(figures["torque_max_Nm"].get<double>(), 0.0) << "the lower point is pushed, not the middle";
+    const std::string bits = at.read("a.session");
+    const auto twice = at.run(kLiveBurin + " replay a.session --through other.wrl");
+    EXPECT_TRUE(tells(twice, "equal to the bit with the derived table that is there")) << twice.output;
+    EXPECT_EQ(at.read("a.session"), bits);
+
+    const auto none = at.run(kLiveBurin + " replay a.session");
+    EXPECT_EQ(none.status, 1);
+    EXPECT_TRUE(tells(none, "wand.toml: is the description of the recording's wand, and is not there")) << none.output;
+    const auto moved = at.run(kLiveBurin + " replay a.session --set device=simulated-wand:moved.toml");
+    EXPECT_EQ(moved.status, 0) << moved.output;
+    EXPECT_TRUE(tells(moved, "equal to the bit")) << moved.output;
+    at.write("wand.toml",
+             "[[point]]\nname = \"up\"\noffset = [0, 0.07, 0]\n[[point]]\nname = \"low\"\n"
+             "offset = [0, -0.07, 0]\n");
+    const auto another = at.run(kLiveBurin + " replay a.session");
+    EXPECT_EQ(another.status, 1);
+    EXPECT_TRUE(tells(another, "wand.toml: is another wand than the one that was recorded")) << another.output;
 }
 
 }  // namespace burin::app

@@ -66,4 +66,23 @@ TEST(OutputFiles, OverwriteNeitherAnInputNorEachOther) {
     EXPECT_TRUE(refused({(place / "a.stl").string(), (place / "./a.stl").string()}, "").contains("two outputs"));
 }
 
+// A log names what it was recorded with in its first line.
+TEST(OutputFiles, OverwriteNoFileThatARecordingNames) {
+    const Workplace place;
+    const auto path = [&](const std::string& name) { return (place / name).string(); };
+    place.write("a.log", "burin-input 2 burin sculpt --workpiece " + path("part.stl") + " --world " + path("w.toml") +
+                             " --tool mesh:" + path("tip.stl") + " --device simulated-wand:" + path("wand.toml") +
+                             " --wall " + path("wall.toml") + "\n0.1 mouse 1 2\n");
+    place.write("script.txt", "burin-input 1 somebody's --world " + path("w.toml") + "\n");
+    const auto refused = [&](const std::string& input, const std::string& output) {
+        const auto checked = check_overwrites_none(output, std::array{path(input)});
+        return checked ? "" : checked.error().line();
+    };
+    for (const std::string name : {"part.stl", "w.toml", "tip.stl", "wand.toml", "wall.toml"})
+        EXPECT_TRUE(refused("a.log", path(name)).contains("is a file of the recording")) << name;
+    EXPECT_EQ(refused("a.log", path("r.json")), "");
+    EXPECT_EQ(refused("script.txt", path("w.toml")), "") << "it is no recording";
+    EXPECT_EQ(refused("none.log", path("w.toml")), "");
+}
+
 }  // namespace burin::app

@@ -42,6 +42,18 @@ TEST(BenchCommand, WritesJsonToStandardOutputAndTheCarvedMesh) {
     EXPECT_TRUE(place.read("part.ply").starts_with("ply\n"));
 }
 
+TEST(BenchCommand, RecordsTicksWithoutASessionFileToPackAgain) {
+    const Workplace place;
+    const auto outcome = place.run(kBurin + " bench record --seconds 1 --folder . --json -");
+    ASSERT_EQ(outcome.status, 0) << outcome.output;
+    const auto report = Json::parse(outcome.output);
+    ASSERT_EQ(report["paced"].size(), 2u);
+    EXPECT_EQ(report["paced"][0]["pushed"], 1000);
+    EXPECT_EQ(report["paced"][0]["lost"], 0);
+    EXPECT_FALSE(report.contains("packed_bytes_per_s")) << "how well ticks are packed depends on what the hand did";
+    EXPECT_EQ(place.files(), 0u);
+}
+
 TEST(BenchCommand, PrintsATableOfSweptCuts) {
     const Workplace place;
     const auto outcome = place.run(kBurin + " bench stroke --resolution 24 --updates 5 --tool capsule --json out.json");

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// burin replay FILE --through WORLD: the recorded motion is felt in a world with the device that it was recorded with,
+// and becomes a derived table of FILE (docs/formats.md, "Replaying"). Computed again, it is compared with the table
+// that is there. One thread.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "record/record_reader.hpp"
+#include "record/row_walk.hpp"
+#include "scene/mesh_part.hpp"
+
+namespace burin::app {
+
+// Values that all objects of a world get instead of their own.
+struct MaterialOverride {
+    std::optional<double> stiffness_N_per_m, damping_Ns_per_m, static_friction, dynamic_friction;
+
+    void apply(scene::HapticMaterial& material) const {
+        material.stiffness_N_per_m = stiffness_N_per_m.value_or(material.stiffness_N_per_m);
+        material.damping_Ns_per_m = damping_Ns_per_m.value_or(material.damping_Ns_per_m);
+        material.static_friction = static_friction.value_or(material.static_friction);
+        material.dynamic_friction = dynamic_friction.value_or(material.dynamic_friction);
+    }
+    [[nodiscard]] bool is_any() const {
+        return stiffness_N_per_m || damping_Ns_per_m || static_friction || dynamic_friction;
+    }
+};
+
+// A world that can be touched.
+struct OpenedWorld {
+    scene::MaterialTable materials;
+    std::unique_ptr<scene::MeshPart> part;
+    std::vector<scene::ObjectId> ids;
+    std::vector<record::RecordedObject> objects;
+    std::string digest;
+};
+[[nodiscard]] Result<std::unique_ptr<OpenedWorld>> open_world(const std::string& path,
+                                                              const MaterialOverride& materials);
+
+struct ThroughOptions {
+    std::string file, world;
+    std::optional<double> radius_m;  // of the balls that touch; none: as recorded
+    MaterialOverride materials;
+    record::TickRange range;
+    std::string json;  // a file for the figures, "-" for standard output; empty: none
+};
+[[nodiscard]] Result<void> replay_through(const ThroughOptions& options);
+
+}  // namespace burin::app
