@@ -2,6 +2,7 @@
 #include "app/world_command.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -25,6 +26,7 @@
 #include "scene/world_file.hpp"
 #include "scene/world_settings.hpp"
 #include "session/drive/session.hpp"
+#include "session/record/input_files.hpp"
 #include "session/record/session_log.hpp"
 
 namespace burin::app {
@@ -287,7 +289,9 @@ struct WorldCommand::Options {
 };
 
 Result<void> WorldCommand::Options::check_files() const {
-    if (const auto ok = check_outputs({}, json == kStandardOutput ? "" : json, files); !ok) return ok;
+    session::InputFiles inputs;
+    for (const std::string& file : files) inputs.world(file);
+    if (const auto ok = check_places(std::array{json}, inputs.list()); !ok) return ok;
     Json report{{"files", Json::array()}};
     std::size_t faults = 0, faulty_files = 0;
     for (const std::string& file : files) {

@@ -10,6 +10,7 @@
 #include "devices/haptic/wand_choice.hpp"
 #include "renderer/png.hpp"
 #include "sculpt/workpiece.hpp"
+#include "session/record/input_files.hpp"
 #include "session/record/session_recording.hpp"
 
 namespace burin::session {
@@ -65,7 +66,7 @@ LiveSession::LiveSession(Clock& clock, const SculptOptions& options, double pace
       pool_(options.threads),
       haptics_(ring_for(options.live.record), pace),
       activity_(options.activity),
-      outputs_(options.live),
+      outputs_(options.live, inputs_of(options).list()),
       log_name_(options.live.input) {}
 
 Result<std::unique_ptr<LiveSession>> LiveSession::create(const SculptOptions& options, const SessionWall& wall,

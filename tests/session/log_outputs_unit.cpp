@@ -124,6 +124,16 @@ TEST(SessionOutputs, LieBesideWhereTheProgramRunsUnlessAFolderIsNamed) {
 TEST(SessionOutputs, OfAUserLieWhereTheUserSays) {
     LiveOptions live;
     live.screenshots = "shots";
+TEST(SessionOutputs, OfAUserTakeNoInputsPlace) {
+    const Workplace place;
+    place.write("part.stl", "x");
+    const SessionOutputs outputs(LiveOptions{}, {(place / "part.stl").string()});
+    const auto refused = outputs.place_of((place / "./part.stl").string(), OutputKind::mesh);
+    ASSERT_FALSE(refused);
+    EXPECT_TRUE(refused.error().line().contains("is a file that this session reads")) << refused.error().line();
+    EXPECT_TRUE(outputs.place_of((place / "other.stl").string(), OutputKind::mesh));
+}
+
     const SessionOutputs outputs(live);
     EXPECT_EQ(outputs.place_of("/elsewhere/a.png", OutputKind::picture).value(), "/elsewhere/a.png");
     EXPECT_EQ(outputs.place_of("a.png", OutputKind::picture).value(), "shots/a.png");
