@@ -350,8 +350,16 @@ bool WorldCommand::parsed() const { return command_.parsed(); }
 std::string WorldCommand::misuse() const {
     if (check_.parsed()) return "";
     const session::LiveOptions& live = options_->session.live;
-    if (options_->exploration.world.empty() && live.input.empty())
-        return "world needs a file, or the word check and files";
+    const WorldExploration& exploration = options_->exploration;
+    if (exploration.world.empty() && live.input.empty()) return "world needs a file, or the word check and files";
+    const bool along_a_stroke = !exploration.stroke.empty();
+    if (along_a_stroke && !options_->session.workpiece.source.empty())
+        return "--workpiece belongs to a session, and along a --stroke nothing is carved";
+    if (along_a_stroke && !options_->session.tool.shape.empty())
+        return "--tool belongs to a session: along a --stroke a ball touches, of --radius";
+    if (along_a_stroke && !live.input.empty()) return "--input leads a session and --stroke a simulated hand: give one";
+    if (!along_a_stroke && !(exploration.report.empty() && exploration.pictures.empty()))
+        return std::string(exploration.report.empty() ? "--pictures" : "--report") + " belongs to a --stroke";
     if (!options_->exploration.points.empty() && !devices::is_wand(live.device))
         return "--points belongs to a wand: give --device " + std::string(devices::kSimulatedWand);
     if (!options_->exploration.stroke.empty() && live.device != devices::kDefaultHapticDevice &&
