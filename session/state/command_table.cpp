@@ -141,6 +141,12 @@ Parsed parse_force(Arguments words) {
     return SetForce{*on};
 }
 
+Parsed parse_amplifiers(Arguments words) {
+    const auto on = parse_switch("amplifiers", words[0]);
+    if (!on) return std::unexpected(on.error());
+    return SetAmplifiers{*on};
+}
+
 Parsed parse_force_shown(Arguments words) {
     const auto on = parse_switch("show-force", words[0]);
     if (!on) return std::unexpected(on.error());
@@ -248,6 +254,8 @@ const std::vector<Entry>& entries() {
         entry_of<Quantity::velocity_filter>(),
         entry_of<Quantity::force_filter>(),
         {{"technique", "NAME", "How the workspace moves: " + alternatives(names_in(techniques()))}, parse_technique},
+        {{"amplifiers", "on|off", "Enable the device's amplifiers again after a trip, or switch them off"},
+         parse_amplifiers},
         entry_of<Quantity::scale>(),
         {{"stereo-mode", "NAME", "How the two eyes' pictures are shown, such as anaglyph_red_cyan"}, parse_mode},
         {{"swap-eyes", "[on|off]", "Exchange the eyes; the other way round without argument"}, parse_eye_swap},
