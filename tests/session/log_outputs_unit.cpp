@@ -54,6 +54,9 @@ TEST(LogCommands, AreCheckedWithFileLineAndRemedyBeforeTheSession) {
         Wrong{"export authorized_keys", "extension", ".stl"},
         Wrong{"export a.png", "extension", ".stl"},
         Wrong{"export a.off", "extension", ".stl"},
+        Wrong{"object a opacity 1.5", "out of bounds", "from 0, clear as glass, to 1"},
+        Wrong{"object a opacity nan", "is not a number", "from 0, clear as glass, to 1"},
+        Wrong{"amplifiers", "lacks its argument", "amplifiers on|off"},
         Wrong{"tool box:0.01,0,0.01", "has no size", "above zero"},
         Wrong{"tool mesh:no/such/file.stl", "no/such/file.stl", "check the path"},
         Wrong{"save-session", "cannot be saved", "export"},
@@ -121,9 +124,6 @@ TEST(SessionOutputs, LieBesideWhereTheProgramRunsUnlessAFolderIsNamed) {
     fs::current_path(before);
 }
 
-TEST(SessionOutputs, OfAUserLieWhereTheUserSays) {
-    LiveOptions live;
-    live.screenshots = "shots";
 TEST(SessionOutputs, OfAUserTakeNoInputsPlace) {
     const Workplace place;
     place.write("part.stl", "x");
@@ -134,6 +134,9 @@ TEST(SessionOutputs, OfAUserTakeNoInputsPlace) {
     EXPECT_TRUE(outputs.place_of((place / "other.stl").string(), OutputKind::mesh));
 }
 
+TEST(SessionOutputs, OfAUserLieWhereTheUserSays) {
+    LiveOptions live;
+    live.screenshots = "shots";
     const SessionOutputs outputs(live);
     EXPECT_EQ(outputs.place_of("/elsewhere/a.png", OutputKind::picture).value(), "/elsewhere/a.png");
     EXPECT_EQ(outputs.place_of("a.png", OutputKind::picture).value(), "shots/a.png");
