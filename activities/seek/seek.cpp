@@ -90,6 +90,10 @@ void Seek::begin(const session::WorldObjects& world, session::ActivityOrders& or
     std::vector<std::string> names;
     for (const auto& object : world.objects)
         if (object->seen && object->felt) names.push_back(object->name);
+    if (names.empty()) orders.messages.emplace_back("nothing can be sought: no object is both seen and felt");
+    if (!names.empty() && names.size() < options_.targets)
+        orders.messages.push_back(formatted("%zu objects can be sought, not %u: each that is seen and felt, once",
+                                            names.size(), options_.targets));
     targets_ = in_drawn_order(std::move(names), options_.seed);
     if (options_.targets > 0 && options_.targets < targets_.size()) targets_.resize(options_.targets);
     ++searches_;

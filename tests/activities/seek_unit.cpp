@@ -175,6 +175,20 @@ TEST(Seeking, ASecondSearchKeepsWhatTheFirstFound) {
     EXPECT_EQ(searches, (std::vector<std::size_t>{1, 1, 2, 2}));
 }
 
+TEST(Seeking, TellsWhereThereIsLessToSeekThanWasAskedFor) {
+    Seeker person({.targets = 5, .seed = 1});
+    person.act("start");
+    person.stay(Vec3(0.0, 0.0, 0.3), 1, false);
+    ASSERT_EQ(person.messages.size(), 1u);
+    EXPECT_TRUE(person.messages[0].contains("3 objects can be sought, not 5")) << person.messages[0];
+    Seeker alone({});
+    alone.world = row_of(1);  // which is not felt
+    alone.act("start");
+    alone.stay(Vec3(0.0, 0.0, 0.3), 1, false);
+    ASSERT_FALSE(alone.messages.empty());
+    EXPECT_TRUE(alone.messages[0].contains("no object is both seen and felt")) << alone.messages[0];
+}
+
 // They were ignored: what else was meant by "start 2" was not done, and nobody was told.
 TEST(Seeking, WordsBehindAnActAreRefused) {
     Seeker person({});
