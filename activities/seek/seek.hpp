@@ -3,8 +3,8 @@
 // taken. The smallest activity that is of use; docs/first-activity.md walks through it.
 //
 //   waiting -> "start" -> one target after the other, in an order drawn from the seed -> over -> "start" ...
-// Each start begins a search of its own, numbered from 1, in the same order; what earlier ones measured is kept. One that
-// is under way is broken off then, and its target counts as given up.
+// Each start begins a search of its own, numbered from 1, in the same order; what earlier ones measured is kept. One
+// that is under way is broken off then, and its target counts as given up.
 // A target glows while it is sought. It is found by the first tick in which the tool is in contact and the surface
 // nearest to where it rests is the target's; touches of other objects on the way are counted. Time and path are those
 // of the ticks, from the tick that found the target before, or that came first after the start.

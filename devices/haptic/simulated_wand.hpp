@@ -12,8 +12,8 @@
 //
 // Amplifiers: they give what is written, until a force or torque along any axis exceeds its limit, or is not a number.
 // Then they trip: nothing acts, every sample reports a fault, and what is written has no effect, until
-// switch_amplifiers(true) after a wrench within the limits. So a driver that keeps the limits never meets them; ticks in
-// which an axis was at its limit are counted for each axis. Torque about an axis without a motor has no effect.
+// switch_amplifiers(true) after a wrench within the limits. So a driver that keeps the limits never meets them; ticks
+// in which an axis was at its limit are counted for each axis. Torque about an axis without a motor has no effect.
 //
 // Time as SimulatedOmni: the caller moves it with advance(), or a clock is given and read() catches up with it.
 // Threads: one for all, but switch_amplifiers() and tripped(), which any thread may call. After construction nothing

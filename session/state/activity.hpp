@@ -95,8 +95,8 @@ public:
     [[nodiscard]] virtual Result<void> finish() { return {}; }
 };
 
-// Checks that the words are an act of the activity with its arguments, and the nearest name in the Error; null: there is
-// none, and every act fails.
+// Checks that the words are an act of the activity with its arguments, with the nearest name in the Error; null: there
+// is none, and every act fails.
 [[nodiscard]] Result<void> check_act(const Activity* activity, std::span<const std::string> words);
 
 }  // namespace burin::session
