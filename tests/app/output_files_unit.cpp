@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "session/record/input_files.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::app {
@@ -78,7 +79,7 @@ TEST(OutputFiles, AreTheSameByWhateverNameBeforeTheyAreThere) {
 
 namespace {
 
-const std::string kBurinThatWrites = BURIN_COMMAND;
+const std::string kBurinThatWrites = kBurinCommand;
 const std::string kTetrahedron = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
 const std::string kBoxShape = "Shape { geometry Box { size 0.1 0.1 0.1 } }\n";
 

@@ -71,7 +71,7 @@ TEST(RecordedWand, WhoseAmplifiersWereOffIsDoneAgainToTheBit) {
                 "burin-input 1 test\n0.05 mouse 160 100\n0.1 scroll 0 6\n0.2 scroll 0 6\n0.5 command amplifiers off\n"
                 "0.7 command screenshot off.png\n0.8 command amplifiers on\n1.2 command screenshot on.png\n"
                 "1.3 command quit\n");
-    const std::string burin = BURIN_COMMAND;
+    const std::string burin = kBurinCommand;
     const auto live = place.run(burin +
                                 " world block.wrl --device simulated-wand --offscreen --width 320 --height 200 "
                                 "--input use.txt --record live.session --outputs live");
