@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench_command.hpp"
 
+#include <array>
 #include <cstdio>
 #include <filesystem>
 
@@ -11,6 +12,7 @@
 #include "compute/rays/lattice.hpp"
 #include "geometry/files/mesh_export.hpp"
 #include "sculpt/workpiece.hpp"
+#include "session/record/input_files.hpp"
 
 namespace burin::app {
 namespace {
@@ -41,9 +43,9 @@ private:
 };
 
 Result<void> BenchCommand::Options::check_stroke() const {
-    for (const std::string& path : {json, exported}) {
-        if (const auto ok = check_place(path); !ok) return ok;
-    }
+    session::InputFiles inputs;
+    for (const std::string& scene : scenes) inputs.tool(scene);  // mesh:FILE, as tools are written
+    if (const auto ok = check_places(std::array{json, exported}, inputs.list()); !ok) return ok;
     if (!exported.empty()) {
         const auto format = geometry::mesh_format_of(exported);
         if (!format || *format == geometry::MeshFormat::off) {
@@ -143,9 +145,7 @@ Result<void> BenchCommand::Options::run_stroke() const {
 }
 
 Result<void> BenchCommand::Options::run_pareto() const {
-    for (const std::string& path : {csv, svg, pareto_json}) {
-        if (const auto ok = check_place(path); !ok) return ok;
-    }
+    if (const auto ok = check_places(std::array{csv, svg, pareto_json}); !ok) return ok;
     const auto compared = bench::run_pareto(
         pareto, [](const std::string& line) { std::fprintf(stderr, "measured: %s\n", line.c_str()); });
     if (!compared) return std::unexpected(compared.error());

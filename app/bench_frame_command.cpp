@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <array>
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
@@ -35,9 +36,7 @@ bench::FrameOptions frame_options(const FrameBench& options) {
 }
 
 Result<void> check(const FrameBench& options) {
-    for (const std::string& path : {options.json, options.csv, options.ratios}) {
-        if (const auto ok = check_place(path); !ok) return ok;
-    }
+    if (const auto ok = check_places(std::array{options.json, options.csv, options.ratios}); !ok) return ok;
     if (!options.pictures.empty() && !std::filesystem::is_directory(options.pictures)) {
         return fail(options.pictures, "is not a folder", "make it first");
     }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <array>
 #include <cstdio>
 #include <memory>
 
@@ -24,9 +25,7 @@ bench::HapticsOptions haptics_options(const HapticsBench& options) {
 }
 
 Result<void> run_haptics_bench(const HapticsBench& options) {
-    for (const std::string& path : {options.csv, options.svg, options.json}) {
-        if (const auto ok = check_place(path); !ok) return ok;
-    }
+    if (const auto ok = check_places(std::array{options.csv, options.svg, options.json}); !ok) return ok;
     const auto all = bench::run_haptics(haptics_options(options), [](const std::string& part) {
         std::fprintf(stderr, "measuring: %s\n", part.c_str());
     });

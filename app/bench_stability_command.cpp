@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <array>
 #include <cstdio>
 #include <memory>
 
@@ -15,9 +16,8 @@ struct StabilityBench {
 };
 
 Result<void> run_stability_bench(const StabilityBench& options) {
-    for (const std::string& path : {options.csv, options.svg, options.figure7_svg, options.json}) {
-        if (const auto ok = check_place(path); !ok) return ok;
-    }
+    if (const auto ok = check_places(std::array{options.csv, options.svg, options.figure7_svg, options.json}); !ok)
+        return ok;
     const bench::Stability stability = bench::run_stability(options.quick);
     if (options.json != kStandardOutput && options.csv != kStandardOutput && options.svg != kStandardOutput &&
         options.figure7_svg != kStandardOutput) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -144,7 +145,7 @@ void print_study_bench(const Json& json) {
 }
 
 Result<void> run_study_bench(const StudyBench& options) {
-    if (const auto ok = check_place(options.json); !ok) return ok;
+    if (const auto ok = check_places(std::array{options.json}, std::array{options.protocol}); !ok) return ok;
     const auto text = read_text_file(options.protocol, study::kMostProtocolBytes);
     if (!text) return std::unexpected(text.error());
     const study::ParsedProtocol parsed = study::parse_protocol(*text);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <array>
 #include <cstdio>
 #include <memory>
 
@@ -15,9 +16,7 @@ struct WorkspaceBench {
 };
 
 Result<void> run_workspace_bench(const WorkspaceBench& options) {
-    for (const std::string& path : {options.csv, options.svg, options.json}) {
-        if (const auto ok = check_place(path); !ok) return ok;
-    }
+    if (const auto ok = check_places(std::array{options.csv, options.svg, options.json}); !ok) return ok;
     std::vector<bench::WorkspaceFigures> figures;
     for (const bench::Approach& approach : bench::all_approaches()) {
         std::fprintf(stderr, "reaching: %s\n", approach.name.c_str());

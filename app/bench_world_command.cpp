@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -6,6 +7,7 @@
 #include "app/commands.hpp"
 #include "app/output_files.hpp"
 #include "bench/world/world_bench.hpp"
+#include "session/record/input_files.hpp"
 
 namespace burin::app {
 namespace {
@@ -17,7 +19,9 @@ struct WorldBench {
 };
 
 Result<void> run_world_bench(const WorldBench& options) {
-    if (const auto ok = check_place(options.json); !ok) return ok;
+    if (const auto ok = check_places(std::array{options.json}, session::InputFiles().world(options.task.world).list());
+        !ok)
+        return ok;
     bench::WorldBenchTask task = options.task;
     if (!options.without_coin) task.coin = bench::coin_reader_beside_burin();
     const Result<bench::WorldBenchFigures> figures = bench::measure_world(task);

@@ -12,6 +12,7 @@
 #include "geometry/files/mesh_export.hpp"
 #include "sculpt/finishing.hpp"
 #include "sculpt/workpiece.hpp"
+#include "session/record/input_files.hpp"
 
 namespace burin::app {
 namespace {
@@ -58,8 +59,9 @@ void print(const Json& report) {
 }  // namespace
 
 Result<void> combine_files(const CombineOptions& options) {
-    const std::array inputs{options.a, options.b};
-    if (const auto ok = check_outputs(options.exports, options.report, inputs); !ok) return ok;
+    session::InputFiles inputs;
+    inputs.mesh(options.a).mesh(options.b);
+    if (const auto ok = check_outputs(options.exports, options.report, inputs.list()); !ok) return ok;
     Result<sculpt::ClosedMesh> a = sculpt::load_closed_mesh(options.a, options.close_holes, options.units);
     if (!a) return std::unexpected(a.error());
     Result<sculpt::ClosedMesh> b = sculpt::load_closed_mesh(options.b, options.close_holes, options.units);

@@ -31,7 +31,8 @@ public:
 
     CommandOption required();
     CommandOption show_default();  // shows the present value of the variable in the help
-    // Restrict the value; anything else is wrong usage. Both ends of a range belong to it.
+    // Restrict the value; anything else is wrong usage. Both ends of a range belong to it. Of options that take a
+    // number only.
     CommandOption within(int least, int most);
     CommandOption within(std::uint64_t least, std::uint64_t most);
     CommandOption within(double least, double most);
@@ -56,6 +57,7 @@ public:
 
     // Add an option: "--name" takes a value, "NAME" is the value at that place. Where the option is not given, an
     // optional stays empty and any other variable as it is; a vector takes all values, also of a repeated option.
+    // Numbers are decimal, without zeros before them and within what the variable holds; anything else is wrong usage.
     CommandOption option(const std::string& name, std::string& to, const std::string& help);
     CommandOption option(const std::string& name, std::vector<std::string>& to, const std::string& help);
     CommandOption option(const std::string& name, int& to, const std::string& help);

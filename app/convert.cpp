@@ -10,6 +10,7 @@
 #include "geometry/mesh/mesh_health.hpp"
 #include "geometry/mesh/mesh_repair.hpp"
 #include "sculpt/finishing.hpp"
+#include "session/record/input_files.hpp"
 
 namespace burin::app {
 
@@ -43,9 +44,9 @@ Result<void> check_precision(const geometry::TriangleMesh& mesh, const std::stri
 
 Result<void> convert(const ConvertOptions& options) {
     if (const auto ok = sculpt::check_simplification(options.simplify_m); !ok) return ok;
-    const std::array inputs{options.in}, outputs{options.out};
+    const std::vector<std::string> inputs = session::InputFiles().mesh(options.in).list();
     if (const auto ok = check_overwrites_none(options.out, inputs); !ok) return ok;
-    if (const auto ok = check_outputs(outputs, ""); !ok) return ok;
+    if (const auto ok = check_outputs(std::array{options.out}, "", inputs); !ok) return ok;
     Result<geometry::ImportedMesh> imported = geometry::import_mesh(options.in, options.units);
     if (!imported) return std::unexpected(imported.error());
     geometry::TriangleMesh& mesh = imported->mesh;

@@ -1,45 +1,66 @@
 // SPDX-License-Identifier: MIT
 #include "app/output_files.hpp"
 
+#include <array>
 #include <cstdio>
 #include <filesystem>
-#include <set>
 #include <vector>
 
 #include "app/recorded_files.hpp"
 #include "base/file_io.hpp"
 #include "geometry/files/mesh_export.hpp"
+#include "session/felt/felt_figures.hpp"
+#include "session/record/input_files.hpp"
 
 namespace burin::app {
 namespace fs = std::filesystem;
-namespace {
-
-// Returns whether both are one file, by whatever path; a file that is still to be made counts as well.
-bool is_same_place(const std::string& output, const std::string& input) {
-    std::error_code ignored;
-    const bool same_name =
-        !input.empty() && fs::weakly_canonical(output, ignored) == fs::weakly_canonical(input, ignored);
-    return same_name || fs::equivalent(output, input, ignored);
-}
-
-}  // namespace
 
 Result<void> check_place(const std::string& path) {
     if (path.empty() || path == kStandardOutput) return {};
     return check_writable(path);
 }
 
+namespace {
+
+// A report that is written as a file, since others lie beside it or a table goes to standard output: "-" would become
+// the name of one.
+Result<void> check_is_a_file(const std::string& report) {
+    if (report != kStandardOutput) return {};
+    return fail("--report -", "cannot go to standard output, where a table goes", "name a file");
+}
+
+}  // namespace
+
 Result<void> check_overwrites_none(const std::string& output, std::span<const std::string> inputs) {
-    constexpr const char* kRemedy = "choose another place";
-    for (const std::string& input : inputs)
-        if (is_same_place(output, input))
-            return fail(output, "is another file of this command, which it would overwrite", kRemedy);
+    for (const std::string& input : inputs) {
+        if (!session::is_same_file(output, input)) continue;
+        const bool is_named_so = fs::path(output).lexically_normal() == fs::path(input).lexically_normal();
+        return fail(output,
+                    "is a file that this command reads, and would be overwritten" +
+                        (is_named_so ? std::string() : ": " + input),
+                    "choose another place");
+    }
     for (const std::string& input : inputs)
         for (const std::string& named : files_named_by(input))
-            if (is_same_place(output, named))
+            if (session::is_same_file(output, named))
                 return fail(output,
                             "is a file of the recording " + input + ", which could not be done again without it",
-                            kRemedy);
+                            "choose another place");
+    return {};
+}
+
+Result<void> check_places(std::span<const std::string> outputs, std::span<const std::string> inputs) {
+    std::vector<std::string> before;
+    for (const std::string& path : outputs) {
+        if (path.empty() || path == kStandardOutput) continue;
+        if (const auto ok = check_place(path); !ok) return ok;
+        if (const auto ok = check_overwrites_none(path, inputs); !ok) return ok;
+        for (const std::string& other : before)
+            if (session::is_same_file(path, other))
+                return fail(path, "is named for two outputs, of which one would overwrite the other",
+                            "give each its own");
+        before.push_back(path);
+    }
     return {};
 }
 
@@ -48,20 +69,21 @@ Result<void> check_outputs(std::span<const std::string> exports, const std::stri
     for (const std::string& path : exports) {
         const auto format = geometry::mesh_format_of(path);
         if (!format || *format == geometry::MeshFormat::off) {
-            return fail(path, "has no extension that Burin exports", "name it .stl, .ply or .obj");
+            return fail(path.empty() ? "\"\"" : path, "has no extension that Burin exports",
+                        "name it .stl, .ply or .obj");
         }
-        if (const auto ok = check_place(path); !ok) return ok;
     }
-    if (const auto ok = check_place(report); !ok) return ok;
+    if (const auto ok = check_is_a_file(report); !ok) return ok;
     std::vector<std::string> outputs(exports.begin(), exports.end());
-    if (!report.empty()) outputs.push_back(report);
-    std::set<fs::path> places;
-    for (const std::string& path : outputs) {
-        if (const auto ok = check_overwrites_none(path, inputs); !ok) return ok;
-        if (!places.insert(fs::weakly_canonical(path)).second)
-            return fail(path, "is named for two outputs, of which one would overwrite the other", "give each its own");
-    }
-    return {};
+    outputs.push_back(report);
+    return check_places(outputs, inputs);
+}
+
+Result<void> check_felt_report(const std::string& report, std::span<const std::string> inputs) {
+    if (report.empty()) return {};
+    if (const auto ok = check_is_a_file(report); !ok) return ok;
+    return check_places(std::array{report, session::felt_figure_path(report), session::felt_table_path(report)},
+                        inputs);
 }
 
 Result<void> write_output(const std::string& path, const std::string& text) {

@@ -17,12 +17,17 @@ inline constexpr const char* kStandardOutput = "-";
 // is wanted.
 [[nodiscard]] Result<void> check_place(const std::string& path);
 
-// Checks whether meshes of a known format and a report (empty: none) can be written there, each to a place of its own
-// and none over one of the inputs.
+// Checks whether all these files can be written, each to a place of its own and none over one of the inputs
+// (session/record/input_files.hpp), by whatever path; a file that is still to be made counts as well. Standard output
+// and empty paths need no check.
+[[nodiscard]] Result<void> check_places(std::span<const std::string> outputs, std::span<const std::string> inputs = {});
+// Checks meshes of a known format and a report likewise.
 [[nodiscard]] Result<void> check_outputs(std::span<const std::string> exports, const std::string& report,
                                          std::span<const std::string> inputs = {});
-// Checks whether an output is not one of the inputs, by whatever path; a file that is still to be made counts as well.
-// Nor may it be a file that an input names which is a recording (app/recorded_files.hpp).
+// Checks likewise a report of what was felt, with the plot and the table beside it; empty: none.
+[[nodiscard]] Result<void> check_felt_report(const std::string& report, std::span<const std::string> inputs);
+// Checks whether an output is not one of the inputs, nor a file that an input names which is a recording
+// (app/recorded_files.hpp).
 [[nodiscard]] Result<void> check_overwrites_none(const std::string& output, std::span<const std::string> inputs);
 
 // Writes a file, or to standard output; nothing where the path is empty.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <array>
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
@@ -7,6 +8,7 @@
 #include "app/profile.hpp"
 #include "compute/rays/lattice.hpp"
 #include "session/drive/session.hpp"
+#include "session/record/input_files.hpp"
 
 namespace burin::app {
 
@@ -100,7 +102,7 @@ bool ProfileCommand::parsed() const { return command_.parsed(); }
 
 Result<void> ProfileCommand::run() const {
     const Options& o = *options_;
-    if (const auto ok = check_place(o.json); !ok) return ok;
+    if (const auto ok = check_places(std::array{o.json}, session::inputs_of(o.sculpt).list()); !ok) return ok;
     session::SculptOptions options = o.sculpt;
     options.live.offscreen = !o.window;
     const auto choices = parse_driver_threads(o.driver_threads);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -20,6 +19,7 @@
 #include "session/felt/felt_stroke.hpp"
 #include "session/input/desk_input.hpp"
 #include "session/picture/pictures.hpp"
+#include "session/record/input_files.hpp"
 
 namespace burin::app {
 namespace {
@@ -57,11 +57,23 @@ Result<void> write_plots(const std::string& report_path, const session::FeltFigu
     return {};
 }
 
-// Checks the plots' places, where a report is wanted of a stroke that is felt.
-Result<void> check_plots(const session::SculptOptions& options) {
-    if (options.report.empty() || options.stroke.empty() || options.hand != session::HandChoice::simulated) return {};
-    if (const auto ok = check_place(session::felt_figure_path(options.report)); !ok) return ok;
-    return check_place(session::felt_table_path(options.report));
+// Checks all places of outputs; the plots' too, where a report is wanted of a stroke that is felt.
+Result<void> check_all_outputs(const session::SculptOptions& options) {
+    const std::vector<std::string> inputs = session::inputs_of(options).list();
+    if (const auto ok = check_outputs(options.exports, options.report, inputs); !ok) return ok;
+    if (options.stroke.empty() || options.hand != session::HandChoice::simulated) return {};
+    return check_felt_report(options.report, inputs);
+}
+
+// Refuses what only a session does: it would be left undone without a word.
+Result<void> check_for_a_stroke(const session::SculptOptions& options) {
+    constexpr const char* kRemedy = "leave it out, or lead a session with --live or --input";
+    if (!options.world.empty()) return fail("--world", "belongs to a session and not to carving by itself", kRemedy);
+    if (options.no_workpiece) return fail("--no-workpiece", "leaves nothing to carve", kRemedy);
+    if (!options.points.empty()) return fail("--points", "belongs to a session with a wand", kRemedy);
+    if (options.live.device != devices::kDefaultHapticDevice)
+        return fail("--device " + options.live.device, "belongs to a session and not to carving by itself", kRemedy);
+    return {};
 }
 
 void say_that_nothing_was_touched(const sculpt::Sculpture& carving) {
@@ -186,13 +198,12 @@ bool records_a_felt_stroke(const session::SculptOptions& options) {
 
 Result<void> sculpt(const session::SculptOptions& options) {
     // Finds everything that can be wrong with the input before the first long step.
+    if (const auto ok = check_for_a_stroke(options); !ok) return ok;
     Result<ChosenTool> chosen_tool = choose_tool(options, std::nullopt);
     if (!chosen_tool) return std::unexpected(chosen_tool.error());
     const Result<sculpt::Feel> feel = sculpt::parse_feel(options.feel);
     if (!feel) return std::unexpected(feel.error());
-    const std::array inputs{options.workpiece.source, options.stroke};
-    if (const auto ok = check_outputs(options.exports, options.report, inputs); !ok) return ok;
-    if (const auto ok = check_plots(options); !ok) return ok;
+    if (const auto ok = check_all_outputs(options); !ok) return ok;
     if (const auto ok = record::check_new_place(options.live.record); !ok) return ok;
     if (const auto ok = sculpt::check_simplification(options.simplify_m); !ok) return ok;
     sculpt::Stroke stroke;

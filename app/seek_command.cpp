@@ -7,6 +7,7 @@
 #include "app/live_options.hpp"
 #include "app/live_replay.hpp"
 #include "app/output_files.hpp"
+#include "session/record/input_files.hpp"
 
 namespace burin::app {
 
@@ -21,13 +22,11 @@ void add_seek_options(Command command, SeekSession& seek) {
 }
 
 Result<void> seek(const SeekSession& options) {
-    const std::array inputs{options.session.world, options.session.live.input, options.session.live.record};
-    const std::string report = options.report == kStandardOutput ? "" : options.report;
-    if (const auto ok = check_outputs({}, report, inputs); !ok) return ok;
-    const auto activity =
-        std::make_shared<activities::Seek>(activities::SeekOptions{.targets = options.targets, .seed = options.seed});
     session::SculptOptions session = options.session;
     session.no_workpiece = true;
+    if (const auto ok = check_places(std::array{options.report}, session::inputs_of(session).list()); !ok) return ok;
+    const auto activity =
+        std::make_shared<activities::Seek>(activities::SeekOptions{.targets = options.targets, .seed = options.seed});
     session.activity = activity;
     const Result<void> done = run_recorded_session(session, "seek");
     // What the person has done is kept, even where the session missed something else; one that never began leaves an

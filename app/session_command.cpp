@@ -59,8 +59,7 @@ void print_hand(const record::HandRecord& hand, const record::HandSummary& summa
 }
 
 Result<void> info(const std::string& path, const std::string& json_path) {
-    if (const auto ok = check_outputs({}, json_path == kStandardOutput ? "" : json_path, std::array{path}); !ok)
-        return ok;
+    if (const auto ok = check_places(std::array{json_path}, std::array{path}); !ok) return ok;
     Result<record::RecordReader> reader = record::RecordReader::open(path);
     if (!reader) return std::unexpected(reader.error());
     const auto trials = reader->trials();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
@@ -11,6 +13,7 @@
 #include "app/study_trials.hpp"
 #include "base/file_io.hpp"
 #include "study/analysis/analysis.hpp"
+#include "study/folder/study_folder.hpp"
 #include "study/published/published.hpp"
 #include "study/report/analysis_tables.hpp"
 #include "study/report/analysis_text.hpp"
@@ -57,6 +60,24 @@ Result<std::vector<study::PublishedComparison>> comparisons(const std::string& f
     return found;
 }
 
+// Returns whether a file is one that a study consists of, whether it is there yet or not.
+bool is_of_study(const fs::path& file, const std::string& study) {
+    std::error_code failed;
+    const fs::path folder = fs::weakly_canonical(fs::absolute(study), failed),
+                   name = fs::weakly_canonical(fs::absolute(file), failed).lexically_relative(folder);
+    if (failed || name.empty()) return false;
+    if (*name.begin() == "data") return true;
+    return std::ranges::find(study::kFilesOfStudy, name.string()) != study::kFilesOfStudy.end();
+}
+
+Result<void> check_json(const StudyAnalyseOptions& options) {
+    if (const auto ok = check_places(std::array{options.json}, std::array{options.data, options.published}); !ok)
+        return ok;
+    if (options.study.empty() || options.json.empty() || options.json == kStandardOutput) return {};
+    if (!is_of_study(options.json, options.study)) return {};
+    return fail(options.json, "is a file of the study, and would be overwritten", "choose another place");
+}
+
 Result<void> check_new_folder(const std::string& folder) {
     if (folder.empty()) return {};
     std::error_code ignored;
@@ -94,11 +115,12 @@ Result<void> study_analyse(const StudyAnalyseOptions& asked) {
         return fail("analyse", "needs a study's folder or --data, and not both", "give one of them");
     if (!options.study.empty()) {
         options.data = (fs::path(options.study) / "trials.csv").string();
-        if (const auto made = make_trials(options.study); !made) return std::unexpected(made.error());
     }
+    if (const auto ok = check_json(options); !ok) return ok;
+    if (!options.study.empty())
+        if (const auto made = make_trials(options.study); !made) return std::unexpected(made.error());
     std::string out = options.out;
     while (out.size() > 1 && out.ends_with('/')) out.pop_back();
-    if (const auto ok = check_place(options.json); !ok) return ok;
     if (const auto ok = check_new_folder(out); !ok) return ok;
     auto table = read_table(options.data);
     if (!table) return std::unexpected(table.error());

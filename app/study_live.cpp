@@ -79,6 +79,8 @@ Result<std::string> world_of(const std::vector<study::StagePlace>& places, const
 }  // namespace
 
 bool is_session_log(const std::string& file) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(file, ignored)) return false;  // a pipe would be waited for
     std::ifstream in(file, std::ios::binary);
     std::string first;
     return static_cast<bool>(std::getline(in, first)) && first.starts_with("burin-input ");

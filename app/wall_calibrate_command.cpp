@@ -172,10 +172,10 @@ std::vector<wall::CalibrationSample> guided_samples(std::istream& in, std::ostre
 }
 
 Result<void> calibrate_wall(const WallCalibrationOptions& options) {
-    for (const std::string& place : {options.out, options.json}) {
-        if (const auto ok = check_place(place); !ok) return ok;
-        if (const auto ok = check_overwrites_none(place, std::array{options.samples}); !ok) return ok;
-    }
+    const std::array outputs{options.out, options.json};
+    if (const auto ok = check_places(outputs, std::array{options.samples}); !ok) return ok;
+    // The new wall file may take the old one's place; the residuals may not.
+    if (const auto ok = check_overwrites_none(options.json, std::array{options.wall}); !ok) return ok;
     auto setup = wall::read_wall(options.wall);
     if (!setup) return std::unexpected(setup.error());
     const auto index = find_screen(*setup, options);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <string>
 #include <utility>
@@ -22,9 +23,7 @@ struct WallCommand::Options {
 };
 
 Result<void> WallCommand::Options::show() const {
-    for (const std::string& path : {svg, json}) {
-        if (const auto ok = check_place(path); !ok) return ok;
-    }
+    if (const auto ok = check_places(std::array{svg, json}, std::array{file}); !ok) return ok;
     const auto setup = wall::read_wall(file);
     if (!setup) return std::unexpected(setup.error());
     const auto figures = wall::wall_figures(*setup);

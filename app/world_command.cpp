@@ -2,6 +2,7 @@
 #include "app/world_command.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -25,6 +26,7 @@
 #include "scene/world_file.hpp"
 #include "scene/world_settings.hpp"
 #include "session/drive/session.hpp"
+#include "session/record/input_files.hpp"
 #include "session/record/session_log.hpp"
 
 namespace burin::app {
@@ -167,6 +169,11 @@ CheckedWorld faulty(const std::string& path, std::span<const Error> faults, bool
 
 // ---- Worlds in TOML
 
+std::string look_text(const scene::SceneObject& object) {
+    if (!object.seen) return "not seen";
+    return hexadecimal(object.colour) + (object.opacity < 1.0 ? formatted(", opacity %.9g", object.opacity) : "");
+}
+
 // Returns the box around an object where its own pose has it.
 Box bounds_of(const scene::SceneObject& object) {
     Box bounds_m;
@@ -197,7 +204,7 @@ void print_world(const std::string& path, const scene::World& world) {
         const auto* path_of = std::get_if<scene::PathMotion>(&o.motion);
         std::printf("  %-*s  %zu triangles, %s, %s, %s", static_cast<int>(std::min<std::size_t>(width, 40)),
                     o.name.c_str(), o.mesh->triangles.size(), in_millimetres(bounds_of(o).extent()).c_str(),
-                    o.seen ? hexadecimal(o.colour).c_str() : "not seen", feel_text(o).c_str());
+                    look_text(o).c_str(), feel_text(o).c_str());
         if (path_of != nullptr) std::printf(", moves for %g s", path_of->keys.back().time_s);
         std::printf("\n");
     }
@@ -210,6 +217,7 @@ Json object_json(const scene::SceneObject& o) {
     json["lowest_m"] = vector_json(bounds_m.lo);
     json["highest_m"] = vector_json(bounds_m.hi);
     json["colour"] = hexadecimal(o.colour);
+    json["opacity"] = o.opacity;
     json["seen"] = o.seen;
     json["felt"] = o.felt;
     json["both_sides"] = o.both_sides;
@@ -226,8 +234,7 @@ Json object_json(const scene::SceneObject& o) {
 void print_settings(const std::string& path, const scene::World& world) {
     std::printf("  with %s:\n", scene::settings_of(path).string().c_str());
     for (const scene::SceneObject& o : world.objects)
-        std::printf("  %s: %s, %s\n", o.name.c_str(), o.seen ? hexadecimal(o.colour).c_str() : "not seen",
-                    feel_text(o).c_str());
+        std::printf("  %s: %s, %s\n", o.name.c_str(), look_text(o).c_str(), feel_text(o).c_str());
 }
 
 CheckedWorld check_toml_world(const std::string& path, bool print) {
@@ -251,7 +258,7 @@ CheckedWorld check_world(const std::string& path, bool print) {
     const WorldSummary summary(path, *file, *world);
     if (print) summary.print();
     CheckedWorld checked{summary.json(), 0};
-    if (std::error_code ignored; !std::filesystem::exists(scene::settings_of(path), ignored)) return checked;
+    if (!scene::has_settings(path)) return checked;
     const scene::WorldOrProblems with_settings = scene::read_any_world(path);
     if (!with_settings) return faulty(path, with_settings.error(), print);
     if (print) print_settings(path, *with_settings);
@@ -269,6 +276,8 @@ namespace {
 // Returns whether a log holds what the threads of a session did: a session file, or by its first line
 // (docs/formats.md).
 bool is_recording(const std::string& log) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(log, ignored)) return false;  // a pipe would be waited for
     if (session::is_database(log)) return true;
     std::ifstream file(log, std::ios::binary);
     std::string first;
@@ -287,7 +296,9 @@ struct WorldCommand::Options {
 };
 
 Result<void> WorldCommand::Options::check_files() const {
-    if (const auto ok = check_outputs({}, json == kStandardOutput ? "" : json, files); !ok) return ok;
+    session::InputFiles inputs;
+    for (const std::string& file : files) inputs.world(file);
+    if (const auto ok = check_places(std::array{json}, inputs.list()); !ok) return ok;
     Json report{{"files", Json::array()}};
     std::size_t faults = 0, faulty_files = 0;
     for (const std::string& file : files) {
@@ -346,8 +357,16 @@ bool WorldCommand::parsed() const { return command_.parsed(); }
 std::string WorldCommand::misuse() const {
     if (check_.parsed()) return "";
     const session::LiveOptions& live = options_->session.live;
-    if (options_->exploration.world.empty() && live.input.empty())
-        return "world needs a file, or the word check and files";
+    const WorldExploration& exploration = options_->exploration;
+    if (exploration.world.empty() && live.input.empty()) return "world needs a file, or the word check and files";
+    const bool along_a_stroke = !exploration.stroke.empty();
+    if (along_a_stroke && !options_->session.workpiece.source.empty())
+        return "--workpiece belongs to a session, and along a --stroke nothing is carved";
+    if (along_a_stroke && !options_->session.tool.shape.empty())
+        return "--tool belongs to a session: along a --stroke a ball touches, of --radius";
+    if (along_a_stroke && !live.input.empty()) return "--input leads a session and --stroke a simulated hand: give one";
+    if (!along_a_stroke && !(exploration.report.empty() && exploration.pictures.empty()))
+        return std::string(exploration.report.empty() ? "--pictures" : "--report") + " belongs to a --stroke";
     if (!options_->exploration.points.empty() && !devices::is_wand(live.device))
         return "--points belongs to a wand: give --device " + std::string(devices::kSimulatedWand);
     if (!options_->exploration.stroke.empty() && live.device != devices::kDefaultHapticDevice &&

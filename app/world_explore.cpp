@@ -2,7 +2,6 @@
 #include "app/world_explore.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -21,6 +20,7 @@
 #include "renderer/png.hpp"
 #include "session/live/world_side.hpp"
 #include "session/picture/pictures.hpp"
+#include "session/record/input_files.hpp"
 
 namespace burin::app {
 namespace {
@@ -151,12 +151,9 @@ Result<std::vector<std::pair<std::string, std::string>>> facts_of_world(const Wo
 }  // namespace
 
 Result<void> explore_world(const WorldExploration& options) {
-    const std::array inputs{options.world, options.stroke, options.record};
-    if (const auto ok = check_outputs({}, options.report, inputs); !ok) return ok;
-    if (!options.report.empty()) {
-        if (const auto ok = check_place(session::felt_figure_path(options.report)); !ok) return ok;
-        if (const auto ok = check_place(session::felt_table_path(options.report)); !ok) return ok;
-    }
+    session::InputFiles inputs;
+    inputs.world(options.world).file(options.stroke).file(options.record);
+    if (const auto ok = check_felt_report(options.report, inputs.list()); !ok) return ok;
     if (const auto ok = record::check_new_place(options.record); !ok) return ok;
     const Result<sculpt::Stroke> stroke = sculpt::read_stroke(options.stroke);
     if (!stroke) return std::unexpected(stroke.error());

@@ -22,6 +22,7 @@
 #include "record/record_writer.hpp"
 #include "scene/vrml_world.hpp"
 #include "session/felt/felt_figures.hpp"
+#include "session/record/input_files.hpp"
 
 namespace burin::app {
 namespace {
@@ -278,8 +279,9 @@ Result<record::Comparison> replay_wand(record::RecordReader& reader, const std::
 }
 
 Result<void> explore_world_with_wand(const WorldExploration& options) {
-    const std::array inputs{options.world, options.stroke, options.record};
-    if (const auto ok = check_outputs({}, options.report, inputs); !ok) return ok;
+    session::InputFiles inputs;
+    inputs.world(options.world).file(options.stroke).file(options.record).device(options.device);
+    if (const auto ok = check_felt_report(options.report, inputs.list()); !ok) return ok;
     if (const auto ok = record::check_new_place(options.record); !ok) return ok;
     Result<std::unique_ptr<WandWorld>> opened = open_wand_world(options);
     if (!opened) return std::unexpected(opened.error());

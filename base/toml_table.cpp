@@ -42,7 +42,7 @@ std::optional<double> TableReader::number(const char* key) {
     if (n == nullptr) return std::nullopt;
     const auto value = n->value<double>();
     if (!n->is_number() || !value || !std::isfinite(*value)) {
-        reading_.refuse(*n, std::string(key) + " is not a number", "write " + std::string(key) + " = 1.5, say");
+        reading_.refuse(*n, std::string(key) + " is not a number", "write " + std::string(key) + " = 0.5, say");
         return std::nullopt;
     }
     return value;

@@ -6,13 +6,14 @@
 #include <limits>
 
 #include "base/text.hpp"
+#include "scene/value_text.hpp"
 
 namespace burin::scene {
 namespace {
 
 void check_range(std::vector<Problem>& found, const char* key, double value, double most) {
     if (std::isfinite(value) && value >= 0.0 && value <= most) return;
-    found.push_back({key, formatted("is %g", value), formatted("give a number from 0 to %g", most)});
+    found.push_back({key, "is " + number_text(value), "give a number from 0 to " + number_text(most)});
 }
 
 }  // namespace

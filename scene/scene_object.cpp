@@ -3,11 +3,13 @@
 
 #include <cmath>
 
-#include "base/text.hpp"
 #include "geometry/contact/mesh_motion.hpp"
+#include "scene/value_text.hpp"
 
 namespace burin::scene {
 namespace {
+
+constexpr std::size_t kLongestName = 200;  // bytes: as wide as a large terminal
 
 bool is_near_enough(const Vec3& position_m) { return finite(position_m) && glm::length(position_m) <= kMaxDistance_m; }
 
@@ -45,15 +47,22 @@ struct Editor {
 
 std::vector<Problem> problems(const SceneObject& object) {
     std::vector<Problem> found;
-    if (object.name.empty()) found.push_back({"name", "is empty", "give each object a name of its own"});
+    if (object.name.find_first_not_of(' ') == std::string::npos)
+        found.push_back({"name", "is empty", "give each object a name of its own"});
+    if (has_control_characters(object.name))
+        found.push_back({"name", "holds control characters", "write a name on one line"});
+    if (object.name.size() > kLongestName)
+        found.push_back({"name", "has " + std::to_string(object.name.size()) + " bytes",
+                         "write at most " + std::to_string(kLongestName)});
     if (!is_near_enough(object.pose.position_m))
         found.push_back({"position", "is farther than 1000 m from the origin", "give metres"});
     if (!geometry::is_unit(object.pose.orientation))
         found.push_back({"orientation", "is not a unit quaternion", "write [0, 0, 0, 1] (x, y, z, w) for no rotation"});
     if (!(object.scale >= kMinScale && object.scale <= kMaxScale))
-        found.push_back({"scale", formatted("is %g", object.scale), "give a factor from 1e-6 to 1e6"});
+        found.push_back({"scale", "is " + number_text(object.scale), "give a factor from 1e-6 to 1e6"});
     if (!(object.opacity >= 0.0 && object.opacity <= 1.0))
-        found.push_back({"opacity", formatted("is %g", object.opacity), "give a share from 0 to 1"});
+        found.push_back({"opacity", "is " + number_text(object.opacity),
+                         "give a number from 0, clear as glass, to 1, which hides what is behind"});
     append(found, problems(object.material));
     if (const auto* path = std::get_if<PathMotion>(&object.motion)) append(found, problems(*path));
     if (const auto* held = std::get_if<HeldMotion>(&object.motion))

@@ -111,9 +111,8 @@ WorldOrProblems read_any_world(const std::filesystem::path& path) {
     if (!shapes) return std::unexpected(shapes.error());
     WorldOrProblems world = world_of(*shapes, path.string());
     if (!world) return world;
+    if (!has_settings(path)) return world;
     const std::filesystem::path settings = settings_of(path);
-    std::error_code ignored;
-    if (!std::filesystem::exists(settings, ignored)) return world;
     const Result<std::string> text = read_text_file(settings, kMaxWorldBytes);
     if (!text) return std::unexpected(std::vector{text.error()});
     if (std::vector<Error> problems = apply_settings(*world, *text, settings.string()); !problems.empty())

@@ -13,6 +13,7 @@
 #include "geometry/mesh/mesh_health.hpp"
 #include "geometry/mesh/mesh_repair.hpp"
 #include "scene/object_keys.hpp"
+#include "scene/value_text.hpp"
 
 namespace burin::scene {
 namespace {
@@ -43,6 +44,7 @@ public:
     WorldOrProblems read(const toml::table& root) {
         TableReader t(reading_, &root, "the file");
         world_.name = t.text("name").value_or("");
+        if (has_control_characters(world_.name)) t.refuse("name", "holds control characters", "write it on one line");
         t.require("object", "write [[object]] with name and mesh for each object");
         const std::vector<const toml::table*> tables = t.tables("object");
         if (tables.size() > kMaxWorldObjects)

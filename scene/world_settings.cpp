@@ -6,6 +6,7 @@
 
 #include "base/text.hpp"
 #include "scene/object_keys.hpp"
+#include "scene/value_text.hpp"
 
 namespace burin::scene {
 namespace {
@@ -36,12 +37,18 @@ std::filesystem::path settings_of(const std::filesystem::path& world) {
     return std::filesystem::path(world).replace_extension(".toml");
 }
 
+bool has_settings(const std::filesystem::path& world) {
+    std::error_code ignored;
+    return std::filesystem::exists(std::filesystem::symlink_status(settings_of(world), ignored));
+}
+
 std::vector<Error> apply_settings(World& world, std::string_view text, const std::string& name) {
     const Result<toml::table> root = parse_toml(text, name);
     if (!root) return {root.error()};
     TableReading reading{name};
     TableReader file(reading, &*root, "the file");
     if (const auto title = file.text("name")) world.name = *title;
+    if (has_control_characters(world.name)) file.refuse("name", "holds control characters", "write it on one line");
     std::map<std::string, std::uint32_t> lines;  // of the names so far
     for (const toml::table* table : file.tables("object")) {
         ObjectKeys keys(reading, *table);

@@ -17,6 +17,8 @@ namespace burin::scene {
 
 // Returns where the settings of a world lie, whether there are some or not.
 [[nodiscard]] std::filesystem::path settings_of(const std::filesystem::path& world);
+// Returns whether there are some; a link that leads nowhere counts, so that they are not left out without a word.
+[[nodiscard]] bool has_settings(const std::filesystem::path& world);
 
 // Changes a world's objects as a text says. `name` stands for the file in messages. Returns all problems; the world is
 // then not to be used.

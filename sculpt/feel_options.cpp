@@ -63,6 +63,9 @@ std::optional<double> parse_hardness(const std::string& text) {
     return value;
 }
 
+// Finer rings no device resolves; far finer ones no number counts.
+constexpr double kFinestGrain_mm = 0.01;
+
 Result<void> check(const char* option, double value, double most) {
     if (value >= 0.0 && value <= most) return {};
     std::array<char, 80> remedy{};
@@ -99,6 +102,8 @@ Result<void> check_feel(const FeelSettings& settings) {
     const haptics::TouchMaterial material = touch_material(settings);
     if (const auto good = check("--yield", 1e-3 * material.cutting_yield_Pa, 1e6); !good) return good;
     if (const auto good = check("--grain", 1e3 * material.grain_spacing_m, 1e3); !good) return good;
+    if (material.grain_spacing_m > 0.0 && 1e3 * material.grain_spacing_m < kFinestGrain_mm)
+        return fail("--grain", "is out of range", "give 0 for none, or a spacing from 0.01 mm on");
     if (const auto good = check("--stiffness", material.stiffness_N_per_m, 1e5); !good) return good;
     return check("--friction", material.dynamic_friction, 2.0);
 }

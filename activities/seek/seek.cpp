@@ -18,7 +18,7 @@ using scene::ObjectProperty;
 constexpr scene::PropertyValue kGlow{1.0, 0.62, 0.1};
 
 constexpr std::array kSeekActs{
-    session::Act{"start", "", "Begin, or begin anew"},
+    session::Act{"start", "", "Begin a search; one under way is broken off, and what it found is kept"},
     session::Act{"skip", "", "Give this object up, and go on to the next"},
 };
 
@@ -49,16 +49,30 @@ std::span<const session::Act> Seek::acts() const { return kSeekActs; }
 
 Result<void> Seek::act(std::span<const std::string> words, session::ActivityOrders& orders) {
     if (words[0] == "start") {
-        if (phase_ == Phase::seeking) end_glow(orders);
+        if (phase_ == Phase::seeking) break_off(orders);
         phase_ = Phase::starting;  // step() knows which objects there are
         return {};
     }
     if (phase_ != Phase::seeking) return fail("command do skip", "nothing is sought", "do start first");
+    give_up(orders);
+    take_next(orders);
+    return {};
+}
+
+void Seek::give_up(session::ActivityOrders& orders) {
     now_.skipped = true;
     end_glow(orders);
     found_.push_back(std::exchange(now_, {}));
-    take_next(orders);
-    return {};
+}
+
+void Seek::break_off(session::ActivityOrders& orders) {
+    give_up(orders);
+    orders.messages.push_back(formatted("search %zu broken off at object %zu of %zu; what it found is kept", searches_,
+                                        sought_now(), targets_.size()));
+}
+
+std::size_t Seek::sought_now() const {
+    return static_cast<std::size_t>(std::ranges::count(found_, searches_, &Sought::search));
 }
 
 void Seek::step(const session::ActivityView& view, session::ActivityOrders& orders) {
@@ -76,9 +90,13 @@ void Seek::begin(const session::WorldObjects& world, session::ActivityOrders& or
     std::vector<std::string> names;
     for (const auto& object : world.objects)
         if (object->seen && object->felt) names.push_back(object->name);
+    if (names.empty()) orders.messages.emplace_back("nothing can be sought: no object is both seen and felt");
+    if (!names.empty() && names.size() < options_.targets)
+        orders.messages.push_back(formatted("%zu objects can be sought, not %u: each that is seen and felt, once",
+                                            names.size(), options_.targets));
     targets_ = in_drawn_order(std::move(names), options_.seed);
     if (options_.targets > 0 && options_.targets < targets_.size()) targets_.resize(options_.targets);
-    found_.clear();
+    ++searches_;
     in_touch_with_.clear();
     phase_ = Phase::seeking;
     take_next(orders);
@@ -89,14 +107,17 @@ void Seek::take_next(session::ActivityOrders& orders) {
     its_colour_.reset();
     since_ns_.reset();
     now_ = {};
-    if (found_.size() < targets_.size()) {
-        now_.object = targets_[found_.size()];
+    now_.search = searches_;
+    const std::size_t sought = sought_now();
+    if (sought < targets_.size()) {
+        now_.object = targets_[sought];
         return;
     }
     phase_ = Phase::over;
+    ended_.push_back(searches_);
     double time_s = 0.0;
-    for (const Sought& one : found_) time_s += one.time_s;
-    orders.messages.push_back(formatted("%zu objects sought in %.1f s", found_.size(), time_s));
+    for (const Sought& one : found_) time_s += one.search == searches_ ? one.time_s : 0.0;
+    orders.messages.push_back(formatted("%zu objects sought in %.1f s", sought, time_s));
 }
 
 void Seek::go_on_by(const haptics::StrokeSample& tick, const session::WorldObjects& world,
@@ -162,9 +183,9 @@ session::ActivityPanel Seek::panel() const {
         case Phase::waiting: panel.page = "Press Start. Then touch each object that is named and glows."; break;
         case Phase::starting:
         case Phase::seeking: panel.page = "Touch: " + now_.object; break;
-        case Phase::over: panel.page = "That was all. Press Start to seek them again."; break;
+        case Phase::over: panel.page = "That was all, and is kept. Press Start to seek them again."; break;
     }
-    if (!targets_.empty()) panel.aside = formatted("%zu of %zu", found_.size(), targets_.size());
+    if (!targets_.empty()) panel.aside = formatted("%zu of %zu", sought_now(), targets_.size());
     if (phase_ == Phase::seeking) panel.rows.push_back({"Time", formatted("%.0f s", now_.time_s)});
     if (!found_.empty()) {
         const Sought& last = found_.back();
@@ -175,9 +196,13 @@ session::ActivityPanel Seek::panel() const {
 }
 
 Json Seek::report() const {
-    Json json{{"activity", settings()}, {"sought", Json::array()}};
+    Json json{{"activity", settings()}, {"searches", Json::array()}, {"sought", Json::array()}};
+    for (std::size_t search = 1; search <= searches_; ++search)
+        json["searches"].push_back(
+            {{"search", search}, {"complete", std::ranges::find(ended_, search) != ended_.end()}});
     for (const Sought& one : found_)
-        json["sought"].push_back({{"object", one.object},
+        json["sought"].push_back({{"search", one.search},
+                                  {"object", one.object},
                                   {"found", !one.skipped},
                                   {"time_s", one.time_s},
                                   {"path_m", one.path_m},

@@ -2,7 +2,9 @@
 // Seeking: the person touches the objects of a world one after the other, as soon as each is named, and the times are
 // taken. The smallest activity that is of use; docs/first-activity.md walks through it.
 //
-//   waiting -> "start" -> one target after the other, in an order drawn from the seed -> over
+//   waiting -> "start" -> one target after the other, in an order drawn from the seed -> over -> "start" ...
+// Each start begins a search of its own, numbered from 1, in the same order; what earlier ones measured is kept. One
+// that is under way is broken off then, and its target counts as given up.
 // A target glows while it is sought. It is found by the first tick in which the tool is in contact and the surface
 // nearest to where it rests is the target's; touches of other objects on the way are counted. Time and path are those
 // of the ticks, from the tick that found the target before, or that came first after the start.
@@ -31,8 +33,9 @@ struct SeekOptions {
 [[nodiscard]] Result<SeekOptions> seek_options_of(const std::string& settings);
 
 struct Sought {
+    std::size_t search = 0;  // 1: the first
     std::string object;
-    bool skipped = false;
+    bool skipped = false;               // or broken off
     double time_s = 0.0, path_m = 0.0;  // until it was found or skipped
     unsigned others = 0;                // touches of other objects meanwhile
 };
@@ -48,6 +51,7 @@ public:
     [[nodiscard]] bool is_running() const override { return phase_ == Phase::seeking; }
     [[nodiscard]] session::ActivityPanel panel() const override;
 
+    // Returns the targets of all searches, in the order in which they were found or given up.
     [[nodiscard]] const std::vector<Sought>& found() const { return found_; }
     // Returns all that was measured, for a report.
     [[nodiscard]] Json report() const;
@@ -58,15 +62,20 @@ private:
     void begin(const session::WorldObjects& world, session::ActivityOrders& orders);
     void go_on_by(const haptics::StrokeSample& tick, const session::WorldObjects& world,
                   session::ActivityOrders& orders);
+    void give_up(session::ActivityOrders& orders);
+    void break_off(session::ActivityOrders& orders);
     void take_next(session::ActivityOrders& orders);
     void let_glow(const session::WorldObjects& world, session::ActivityOrders& orders);
     void end_glow(session::ActivityOrders& orders);
+    [[nodiscard]] std::size_t sought_now() const;  // targets of the present search that are done with
     [[nodiscard]] const scene::SceneObject* touched(const session::WorldObjects& world, const Vec3& place_scene);
 
     SeekOptions options_;
     Phase phase_ = Phase::waiting;
+    std::size_t searches_ = 0;  // begun
     std::vector<std::string> targets_;
-    std::vector<Sought> found_;
+    std::vector<Sought> found_;                       // of all searches
+    std::vector<std::size_t> ended_;                  // the searches in which every target was found or skipped
     Sought now_;                                      // the present target
     std::optional<scene::PropertyValue> its_colour_;  // before it glowed; none: it does not yet
     std::optional<Nanoseconds> since_ns_;             // when it was named; none: no tick has come since

@@ -75,7 +75,8 @@ EndedStage simulate_stage(const StageInputs& in, study::Random& random, const On
         const haptics::TickRecord& record = session.take(sample, clock.now_ns(), act);
         wand.write(record.gate.given);
         if (on_tick) on_tick(record, act);
-        if (wand.tripped()) wand.enable_amplifiers();  // the operator sees to it at once; the attempt is lost
+        // The operator sees to it at once; the attempt is lost.
+        if (wand.tripped()) static_cast<void>(wand.switch_amplifiers(true));
         const Vec3 from_m = wish.middle_m;
         wish = hand.next(session.state(), session.time_s() + seconds(kPeriod_ns));
         direction = direction_of(session.touch(), from_m, wish, seconds(wand.time_ns()));

@@ -22,7 +22,7 @@ constexpr std::array kStudyActs{
     session::Act{"go-on", "", "Go on after a pause"},
     session::Act{"repeat", "", "Give the attempt up, and have it done again"},
     session::Act{"stop", "", "End the stage and the visit"},
-    session::Act{"note", "TEXT", "Write to the journal; it must name nobody"},
+    session::Act{"note", "TEXT...", "Write to the journal; it must name nobody"},
 };
 
 std::string joined_words(std::span<const std::string> words) {

@@ -43,16 +43,18 @@ Vec3 braked(const Vec3& v, double brake) {
     return speed <= brake ? Vec3(0.0) : v * (1.0 - brake / speed);
 }
 
-// Counts the axes on which a wrench is at its limit. Returns whether one is beyond it, or is not a number.
-bool count_saturation(const Vec3& given, const Vec3& most, std::array<std::uint64_t, 3>& saturated) {
-    bool exceeded = false;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (most[axis] == 0.0) continue;
-        const double size = std::abs(given[axis]);
-        if (size >= most[axis] * SimulatedWand::kAtLimit) ++saturated[static_cast<std::size_t>(axis)];
-        if (!(size <= most[axis])) exceeded = true;
-    }
-    return exceeded;
+// Counts the axes on which a wrench is at its limit.
+void count_saturation(const Vec3& given, const Vec3& most, std::array<std::uint64_t, 3>& saturated) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (most[axis] != 0.0 && std::abs(given[axis]) >= most[axis] * SimulatedWand::kAtLimit)
+            ++saturated[static_cast<std::size_t>(axis)];
+}
+
+// Returns whether a wrench is beyond its limit on an axis, or is not a number.
+bool exceeds(const Vec3& given, const Vec3& most) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (most[axis] != 0.0 && !(std::abs(given[axis]) <= most[axis])) return true;
+    return false;
 }
 
 }  // namespace
@@ -174,6 +176,8 @@ DeviceSample SimulatedWand::read() noexcept {
         clock_start_ns_ += lost_ns;
         advance(behind_ns - lost_ns);
     }
+    const bool off = untold_.exchange(false, std::memory_order_relaxed) || tripped();
+    if (off) let_motors_rest();
     update_acting_wrench();
     if (is_lost_) {
         last_sample_.fault = DeviceFault::disconnected;
@@ -185,27 +189,38 @@ DeviceSample SimulatedWand::read() noexcept {
         sample.position_device_m[axis] = on_grid(pose_.position_m[axis], wand_.arm.resolution_m);
     sample.orientation_device = on_grid(pose_.orientation, wand_.arm.orientation_step_rad);
     sample.buttons = hand_target(seconds(time_ns_)).buttons;
-    if (tripped()) sample.fault = DeviceFault::other;
+    if (off) sample.fault = DeviceFault::other;
     last_sample_ = sample;
     return sample;
 }
 
 void SimulatedWand::write(const DeviceWrench& wrench) noexcept {
-    if (is_lost_ || tripped()) return;
+    if (is_lost_) return;
     DeviceWrench driven = wrench;
     for (int axis = 0; axis < 3; ++axis)
         if (description_.max_torque_Nm[axis] == 0.0) driven.torque_device_Nm[axis] = 0.0;
-    const bool force_exceeded =
-        count_saturation(driven.force_device_N, description_.axis_max_force_N, saturation_.force);
-    const bool torque_exceeded =
-        count_saturation(driven.torque_device_Nm, description_.max_torque_Nm, saturation_.torque);
-    if (force_exceeded || torque_exceeded) {
+    const bool exceeded = exceeds(driven.force_device_N, description_.axis_max_force_N) ||
+                          exceeds(driven.torque_device_Nm, description_.max_torque_Nm);
+    exceeding_.store(exceeded, std::memory_order_relaxed);
+    if (tripped()) return;
+    count_saturation(driven.force_device_N, description_.axis_max_force_N, saturation_.force);
+    count_saturation(driven.torque_device_Nm, description_.max_torque_Nm, saturation_.torque);
+    if (exceeded) {
         tripped_.store(true, std::memory_order_relaxed);
+        untold_.store(true, std::memory_order_relaxed);
         ++trips_;
         return let_motors_rest();
     }
     newest_ = (newest_ + 1) % kCommands;
     commands_[newest_] = {driven, time_ns_};
+}
+
+AmplifierAnswer SimulatedWand::switch_amplifiers(bool on) noexcept {
+    if (on && (exceeding_.load(std::memory_order_relaxed) || is_lost_.load(std::memory_order_relaxed)))
+        return AmplifierAnswer::cause_remains;
+    tripped_.store(!on, std::memory_order_relaxed);
+    if (!on) untold_.store(true, std::memory_order_relaxed);
+    return AmplifierAnswer::done;
 }
 
 }  // namespace burin::devices

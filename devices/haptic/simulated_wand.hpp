@@ -12,11 +12,11 @@
 //
 // Amplifiers: they give what is written, until a force or torque along any axis exceeds its limit, or is not a number.
 // Then they trip: nothing acts, every sample reports a fault, and what is written has no effect, until
-// enable_amplifiers(). So a driver that keeps the limits never meets them; ticks in which an axis was at its limit are
-// counted for each axis. Torque about an axis without a motor has no effect.
+// switch_amplifiers(true) after a wrench within the limits. So a driver that keeps the limits never meets them; ticks
+// in which an axis was at its limit are counted for each axis. Torque about an axis without a motor has no effect.
 //
 // Time as SimulatedOmni: the caller moves it with advance(), or a clock is given and read() catches up with it.
-// Threads: one for all, but enable_amplifiers() and tripped(), which any thread may call. After construction nothing
+// Threads: one for all, but switch_amplifiers() and tripped(), which any thread may call. After construction nothing
 // allocates, locks or throws.
 #pragma once
 
@@ -25,6 +25,7 @@
 #include <cstdint>
 #include <variant>
 
+#include "devices/haptic/amplifiers.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 #include "devices/haptic/wand_description.hpp"
 
@@ -35,7 +36,7 @@ struct WandSaturation {
     std::array<std::uint64_t, 3> force{}, torque{};
 };
 
-class SimulatedWand final : public HapticDevice {
+class SimulatedWand final : public HapticDevice, public Amplifiers {
 public:
     static constexpr Nanoseconds kStep_ns = 50'000;
     static constexpr Nanoseconds kMostCatchUp_ns = 100'000'000;
@@ -56,9 +57,9 @@ public:
     // read().
     void advance(Nanoseconds dt_ns) noexcept;
 
+    // Whether the amplifiers are off, by a trip or by hand.
     [[nodiscard]] bool tripped() const noexcept { return tripped_.load(std::memory_order_relaxed); }
-    // What an operator does after a trip; the motors begin with what is written next.
-    void enable_amplifiers() noexcept { tripped_.store(false, std::memory_order_relaxed); }
+    [[nodiscard]] AmplifierAnswer switch_amplifiers(bool on) noexcept override;
     [[nodiscard]] std::uint64_t trips() const noexcept { return trips_; }
     [[nodiscard]] const WandSaturation& saturation() const noexcept { return saturation_; }
     void lose_connection(bool is_lost) noexcept { is_lost_ = is_lost; }  // for tests and drills
@@ -106,10 +107,13 @@ private:
     std::array<Command, kCommands> commands_{};    // a ring buffer: the last ones may still be on their way
     std::uint32_t newest_ = 0;
     DeviceWrench acting_;  // on the motors now
+    // Flags of their own, that say nothing of other memory: relaxed order is enough for all of them.
     std::atomic<bool> tripped_ = false;
+    std::atomic<bool> untold_ = false;     // they were off, and no sample has said so yet
+    std::atomic<bool> exceeding_ = false;  // what was written last, since they are off, is beyond a limit
+    std::atomic<bool> is_lost_ = false;
     std::uint64_t trips_ = 0;
     WandSaturation saturation_;
-    bool is_lost_ = false;
     DeviceSample last_sample_;
 };
 

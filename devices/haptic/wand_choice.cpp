@@ -33,10 +33,9 @@ Result<WandDescription> wand_named(std::string_view device) {
 Result<std::vector<WandPoint>> points_named(const WandDescription& wand, const std::string& text) {
     constexpr const char* kWhere = "--points";
     std::size_t count = 0;
-    const char* const end = text.data() + text.size();
-    if (const auto [stopped, failed] = std::from_chars(text.data(), end, count);
-        failed == std::errc() && stopped == end) {
-        if (count < 1 || count > kMostWandPoints)
+    if (!text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; })) {
+        const auto read = std::from_chars(text.data(), text.data() + text.size(), count);
+        if (read.ec != std::errc() || text.front() == '0' || count > kMostWandPoints)
             return fail(kWhere, "is " + text, formatted("write a number from 1 to %zu", kMostWandPoints));
         if (wand.points.empty()) return fail(kWhere, "the wand's description names no points", "give it [[point]]");
         return points_between(wand.points.front().offset_m, wand.points.back().offset_m, count);
@@ -53,6 +52,9 @@ Result<std::vector<WandPoint>> points_named(const WandDescription& wand, const s
             return fail(kWhere, "the wand has no point named " + name,
                         "did you mean " + std::string(nearest_name(name, known)) + "? There are: " + joined(known) +
                             ", or a number of points");
+        if (std::ranges::find(points, name, &WandPoint::name) != points.end())
+            return fail(kWhere, "names " + name + " twice",
+                        "name each point once: two in one place press twice as hard");
         points.push_back(found == wand.points.end() ? WandPoint{"centre", Vec3(0.0)} : *found);
     }
     if (points.size() > kMostWandPoints)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string_view>
 
 #include "base/file_io.hpp"
 #include "base/text.hpp"
@@ -53,6 +54,19 @@ std::optional<int> axis_named(std::string_view name) {
     return std::nullopt;
 }
 
+// Returns why --points could not name a point so; empty where it can.
+std::string not_a_point_name(std::string_view name) {
+    const auto is_blank = [](char c) { return c == ' ' || static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+    if (std::ranges::all_of(name, is_blank)) return "nothing stands there";
+    if (is_blank(name.front()) || is_blank(name.back())) return "blanks stand around it";
+    if (std::ranges::any_of(name, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }))
+        return "it holds control characters";
+    if (std::ranges::all_of(name, is_digit)) return "a number says how many points touch";
+    if (name == "centre") return "that is the handle's origin";
+    return name.contains(',') ? "a comma separates names" : "";
+}
+
 // Reads one file; collects problems on the way.
 class WandReader {
 public:
@@ -66,7 +80,8 @@ public:
         read_frame(t.table("frame"));
         read_limits(t.table("force"), t.table("torque"));
         read_handle(t.table("handle"));
-        if (t.has("point")) read_points(t.tables("point"));
+        const std::vector<const toml::table*> points = t.tables("point");
+        if (t.has("point")) read_points(points);
         read_calibration(t.table("calibration"));
         read_arm(t.table("arm"));
         t.refuse_unknown();
@@ -137,18 +152,22 @@ private:
         wand_.max_force_maker_N = bounded(f, "limit", Vec3(1e-3), Vec3(kMostForce_N), wand_.max_force_maker_N);
         f.refuse_unknown();
         TableReader t(reading_, torque, "[torque]");
+        const std::optional<std::vector<std::string>> driven = t.texts("driven");
+        // Asked for also where it is not there, so that it is among the keys that a mistyped one may have meant.
+        std::optional<std::vector<double>> limits;
+        if (driven || !t.has("limit")) limits = t.numbers("limit", driven ? driven->size() : 0);
         if (t.has("driven") || t.has("limit")) {
             constexpr const char* kRemedy = "write driven = [\"x\", \"z\"] and limit = [0.23, 0.25], say";
             t.require("driven", kRemedy);
             t.require("limit", kRemedy);
-            if (const auto driven = t.texts("driven"); driven && t.has("limit")) read_torques(t, *driven);
+            if (driven && t.has("limit")) read_torques(t, *driven, limits);
             if (!t.has("driven")) return;
         }
         t.refuse_unknown();
     }
 
-    void read_torques(TableReader& t, const std::vector<std::string>& words) {
-        const auto limits = t.numbers("limit", words.size());
+    void read_torques(TableReader& t, const std::vector<std::string>& words,
+                      const std::optional<std::vector<double>>& limits) {
         Vec3 most(0.0);
         for (std::size_t i = 0; i < words.size(); ++i) {
             const std::optional<int> axis = axis_named(words[i]);
@@ -179,11 +198,13 @@ private:
             t.require("name", "give each point a name, such as \"top\"");
             t.require("offset", "say where it is on the handle: [0, 0.08, 0]");
             WandPoint point;
-            point.name = t.text("name").value_or("");
+            const std::optional<std::string> name = t.text("name");
+            point.name = name.value_or("");
             point.offset_m = bounded(t, "offset", Vec3(-kMostLength_m), Vec3(kMostLength_m), Vec3(0.0));
-            if (point.name == "centre" || point.name.find(',') != std::string::npos)
-                t.refuse("name", "is " + point.name, "\"centre\" is the handle's origin; a comma separates names");
-            if (t.has("name") && !names.insert(point.name).second)
+            if (name)
+                if (const std::string why = not_a_point_name(point.name); !why.empty())
+                    t.refuse("name", "is \"" + point.name + "\": " + why, "name it by a word, such as \"top\"");
+            if (name && !names.insert(point.name).second)
                 t.refuse("name", "\"" + point.name + "\" is another point's too", "give each a name of its own");
             t.refuse_unknown();
             wand_.points.push_back(std::move(point));

@@ -39,6 +39,7 @@ std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& path) {
 Result<ImportedMesh> import_mesh(const std::filesystem::path& path, std::optional<LengthUnit> given_unit) {
     const std::string name = path.string();
     const auto format = mesh_format_of(path);
+    if (name.empty()) return fail("\"\"", "names no file", "name one, or leave the option out");
     if (!format) {
         // Reports a folder or a missing file rather than a wrong extension.
         std::error_code ignored;

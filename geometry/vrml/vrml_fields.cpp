@@ -236,7 +236,8 @@ double VrmlFields::positive(const VrmlPlaced& placed, std::string_view name, dou
 double VrmlFields::from_0_to_1(const VrmlPlaced& placed, std::string_view name, double otherwise) {
     const double value = number(placed, name, otherwise);
     if (value >= 0.0 && value <= 1.0) return value;
-    fault_at_value(*find(placed, name), 0, in_quotes(name) + " is not from 0 to 1", "write a number from 0 to 1");
+    fault_at_value(*find(placed, name), 0, in_quotes(name) + formatted(" is %.9g, not from 0 to 1", value),
+                   "write a number from 0 to 1");
     return otherwise;
 }
 

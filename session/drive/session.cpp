@@ -9,6 +9,7 @@
 #include "devices/haptic/wand_choice.hpp"
 #include "session/drive/tick_comparison.hpp"
 #include "session/picture/pictures.hpp"
+#include "session/record/input_files.hpp"
 #include "session/record/log_outputs.hpp"
 #include "session/record/session_log.hpp"
 #include "session/state/session_settings.hpp"
@@ -133,7 +134,7 @@ Result<void> run_session(const SculptOptions& given, const SessionFacts& facts) 
     if (!options.live.input.empty()) {
         Result<InputLog> read = open_log(options.live.input, options.activity.get());
         if (!read) return std::unexpected(read.error());
-        const SessionOutputs outputs(options.live);
+        const SessionOutputs outputs(options.live, inputs_of(options).list());
         if (const auto ready = outputs.prepare(*read, options.live.input); !ready) return ready;
         if (read->threads && options.live.record.empty()) {
             return is_database(options.live.input) ? run_compared(options, std::move(*read))

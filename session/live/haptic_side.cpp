@@ -18,6 +18,7 @@ Result<void> HapticSide::open(std::string_view device, Clock& clock, const Pose&
     auto opened = devices::open_haptic_device(device, {clock, std::move(*hand)});
     if (!opened) return std::unexpected(opened.error());
     device_ = std::move(*opened);
+    amplifiers_ = dynamic_cast<devices::Amplifiers*>(device_.get());
     loop_.emplace(*device_, clock, channels_);
     return {};
 }

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "devices/hand/steered_hand.hpp"
+#include "devices/haptic/amplifiers.hpp"
 #include "devices/haptic/haptic_device.hpp"
 #include "haptics/haptic_loop.hpp"
 
@@ -30,6 +31,10 @@ public:
     [[nodiscard]] std::uint64_t lost_targets() const { return steering_.lost(); }
     // Publishes other parameters of the ticks; numbers them, and gives them the machine's pace.
     void publish(haptics::TickParameters parameters);
+    // Switches the device's amplifiers; nothing where it has none that can be switched from here.
+    [[nodiscard]] std::optional<devices::AmplifierAnswer> switch_amplifiers(bool on) {
+        return amplifiers_ ? std::optional(amplifiers_->switch_amplifiers(on)) : std::nullopt;
+    }
     // Returns the newest tool state that the loop has published.
     [[nodiscard]] const haptics::ToolState& newest_tool() { return channels_.tool.newest(); }
 
@@ -43,6 +48,7 @@ private:
     double pace_;
     devices::HandSteering steering_;
     std::unique_ptr<devices::HapticDevice> device_;
+    devices::Amplifiers* amplifiers_ = nullptr;  // of the device; null: none
     std::optional<haptics::HapticLoop> loop_;
     devices::SteeredTarget told_;  // the last target published
     std::uint64_t parameter_sequence_ = 0;

@@ -10,6 +10,7 @@
 #include "devices/haptic/wand_choice.hpp"
 #include "renderer/png.hpp"
 #include "sculpt/workpiece.hpp"
+#include "session/record/input_files.hpp"
 #include "session/record/session_recording.hpp"
 
 namespace burin::session {
@@ -65,7 +66,7 @@ LiveSession::LiveSession(Clock& clock, const SculptOptions& options, double pace
       pool_(options.threads),
       haptics_(ring_for(options.live.record), pace),
       activity_(options.activity),
-      outputs_(options.live),
+      outputs_(options.live, inputs_of(options).list()),
       log_name_(options.live.input) {}
 
 Result<std::unique_ptr<LiveSession>> LiveSession::create(const SculptOptions& options, const SessionWall& wall,
@@ -296,7 +297,20 @@ void LiveSession::publish_parameters() {
     haptics_.publish(std::move(parameters));
 }
 
+// What the device answers comes from outside the session: a replay has it from the recording, and the ticks with it.
+void LiveSession::switch_amplifiers(const AskedAmplifiers& asked) {
+    if (log_.follows_recording()) return;
+    const std::optional<devices::AmplifierAnswer> answer = haptics_.switch_amplifiers(asked.on);
+    if (answer == devices::AmplifierAnswer::done)
+        return log_.notify_of_event(asked.on ? "the amplifiers are on; the force comes back from zero"
+                                             : "the amplifiers are off: no force until they are enabled again");
+    const std::string why = answer ? "they stay off, since what tripped them is not over; see to the device first"
+                                   : "those of " + std::string(device().name) + " cannot be switched from here";
+    log_.notify_of_event("amplifiers: " + why, {failed_on(asked.line), {}});
+}
+
 void LiveSession::carry_out(SessionOrders orders, const Give& give) {
+    for (const AskedAmplifiers& asked : orders.amplifiers) switch_amplifiers(asked);
     if (orders.parameters) publish_parameters();
     if (orders.parameters && wand_) follow_spread(give);
     for (sculpt::SculptOrder& order : orders.carving) {

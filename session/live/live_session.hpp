@@ -144,6 +144,7 @@ private:
     SceneInput feed_panel(const FrameInput& input);
     void carry_out(SessionOrders orders, const Give& give);
     void publish_parameters();
+    void switch_amplifiers(const AskedAmplifiers& asked);
     [[nodiscard]] scene::SceneThread::Order carving(sculpt::SculptOrder order);
     [[nodiscard]] scene::SceneThread::Order editing(WorldOrder order);
     [[nodiscard]] double wand_spread_m() const;

@@ -34,6 +34,8 @@ public:
         follows_recording_ = true;
         if (!recorded.empty()) newest_ = recorded.back();
     }
+    // Returns whether messages from outside are a recording's.
+    [[nodiscard]] bool follows_recording() const { return follows_recording_; }
     // Returns the messages from outside since the last call, for the recorder.
     [[nodiscard]] std::vector<std::string> take_events() { return std::exchange(events_, {}); }
     [[nodiscard]] const std::string& newest() const { return newest_; }

@@ -91,6 +91,10 @@ void show_header(Kit& kit, const PanelModel& model) {
                    "The device is held at zero; switch it on under Touch.");
     } else if (touch.cause != haptics::GateCause::none && touch.cause != haptics::GateCause::caught) {
         kit.banner(Condition::fault, "No force", sentence(text(touch.cause)));
+        // Whether they can be is the device's to say.
+        if (touch.cause == haptics::GateCause::device_fault &&
+            kit.button("amplifiers", "Enable the amplifiers", ImGui::GetContentRegionAvail().x))
+            kit.give(SetAmplifiers{true});
     } else if (touch.was_let_go) {
         kit.banner(Condition::warning, "The tool has been let go",
                    "It was caught on the surface while the hand was free. The force has faded out and comes back.");

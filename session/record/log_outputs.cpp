@@ -10,6 +10,7 @@
 #include "base/file_io.hpp"
 #include "geometry/files/mesh_import.hpp"
 #include "session/input/input_words.hpp"
+#include "session/record/input_files.hpp"
 #include "session/state/session_state.hpp"
 
 namespace burin::session {
@@ -151,7 +152,8 @@ Result<void> check_commands(const InputLog& log, const std::string& name, const 
 
 // ---- Places
 
-SessionOutputs::SessionOutputs(const LiveOptions& live) : refuses_meshes_(live.refuses_exports) {
+SessionOutputs::SessionOutputs(const LiveOptions& live, std::vector<std::string> inputs)
+    : refuses_meshes_(live.refuses_exports), inputs_(std::move(inputs)) {
     if (live.writes_nothing) {
         rule_ = Rule::nothing;
     } else if (!live.input.empty()) {
@@ -197,6 +199,16 @@ Result<fs::path> SessionOutputs::place_of(const std::string& name, OutputKind ki
     if (kind == OutputKind::mesh && refuses_meshes_)
         return fail(as_word(name), "is not exported by a replay that compares",
                     "replay it by --input to have it written");
+    Result<fs::path> place = place_in_folder(name, kind);
+    if (!place) return place;
+    for (const std::string& input : inputs_)
+        if (is_same_file(*place, input))
+            return fail(as_word(name), "is a file that this session reads, and would be overwritten",
+                        "choose another name");
+    return place;
+}
+
+Result<fs::path> SessionOutputs::place_in_folder(const std::string& name, OutputKind kind) const {
     const Folder& folder = kind == OutputKind::picture ? pictures_ : meshes_;
     if (rule_ != Rule::in_folder) return folder.path / name;
     if (const auto ok = check_output_name(name, kind); !ok) return std::unexpected(ok.error());

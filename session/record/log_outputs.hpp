@@ -5,13 +5,15 @@
 //   names     relative, without "..", with the extension of a picture or of a mesh: check_output_name()
 //   commands  all that a log holds are checked before its session begins: check_commands()
 //   places    no symbolic link leads out of the folder; looked at right before a file is written: SessionOutputs
+//   inputs    nobody's file takes the place of one that the session reads: SessionOutputs
 //
-// A user at keys and panel writes wherever the system lets them: names are taken as they are. Failure: an Error that
-// names the file and the remedy; check_commands() names the log's line as well. One thread.
+// Else a user at keys and panel writes wherever the system lets them: names are taken as they are. Failure: an Error
+// that names the file and the remedy; check_commands() names the log's line as well. One thread.
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "base/error.hpp"
 #include "session/record/input_log.hpp"
@@ -37,7 +39,8 @@ enum class OutputKind : std::uint8_t { picture, mesh };
 // way: keys, the panel and the mouse on it are events of the log.
 class SessionOutputs {
 public:
-    explicit SessionOutputs(const LiveOptions& live);
+    // inputs: files of the session, none of which is overwritten (session/record/input_files.hpp).
+    explicit SessionOutputs(const LiveOptions& live, std::vector<std::string> inputs = {});
 
     // Returns whether files are written at all.
     [[nodiscard]] bool write() const { return rule_ != Rule::nothing; }
@@ -45,7 +48,7 @@ public:
     [[nodiscard]] bool refuse_meshes() const { return refuses_meshes_; }
     // Makes the folders that the log's commands need, and checks that files can be written there.
     [[nodiscard]] Result<void> prepare(const InputLog& log, const std::string& name) const;
-    // Returns where a file of this name goes. Makes the folders on its way.
+    // Returns where a file of this name goes. Makes the folders on its way. Fails where an input is there.
     [[nodiscard]] Result<std::filesystem::path> place_of(const std::string& name, OutputKind kind) const;
     // Returns what a message calls the file: a log's by its name, so that pictures of the panel do not depend on the
     // folder.
@@ -61,10 +64,12 @@ private:
         bool may_be_link = false;  // the user has named it, and so knows where it leads
     };
     [[nodiscard]] static Result<void> make(const Folder& folder);
+    [[nodiscard]] Result<std::filesystem::path> place_in_folder(const std::string& name, OutputKind kind) const;
 
     Rule rule_ = Rule::anywhere;
     Folder pictures_, meshes_;
     bool refuses_meshes_ = false;
+    std::vector<std::string> inputs_;
 };
 
 }  // namespace burin::session

@@ -2,6 +2,7 @@
 #include "session/record/session_log.hpp"
 
 #include <array>
+#include <filesystem>
 #include <fstream>
 #include <string_view>
 
@@ -13,6 +14,8 @@ namespace burin::session {
 bool is_database(const std::string& path) {
     constexpr std::string_view kBegins = "SQLite format 3";
     std::array<char, kBegins.size()> begins{};
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) return false;  // a pipe would be waited for
     std::ifstream file(path, std::ios::binary);
     file.read(begins.data(), begins.size());
     return file && std::string_view(begins.data(), begins.size()) == kBegins;

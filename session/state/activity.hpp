@@ -26,7 +26,7 @@ namespace burin::session {
 // Something that can be done in the activity: `do NAME ARGUMENTS`.
 struct Act {
     std::string_view name;       // "next"
-    std::string_view arguments;  // in help; empty: none
+    std::string_view arguments;  // "NAME"; empty: none; [ ]: optional; ... at the end: more
     std::string_view help;       // one line
 };
 
@@ -97,8 +97,8 @@ public:
     [[nodiscard]] virtual Result<void> finish() { return {}; }
 };
 
-// Checks that the words are an act of the activity, with the nearest name in the Error; null: there is none, and every
-// act fails.
+// Checks that the words are an act of the activity with its arguments, with the nearest name in the Error; null: there
+// is none, and every act fails.
 [[nodiscard]] Result<void> check_act(const Activity* activity, std::span<const std::string> words);
 
 }  // namespace burin::session

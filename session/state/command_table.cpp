@@ -141,6 +141,12 @@ Parsed parse_force(Arguments words) {
     return SetForce{*on};
 }
 
+Parsed parse_amplifiers(Arguments words) {
+    const auto on = parse_switch("amplifiers", words[0]);
+    if (!on) return std::unexpected(on.error());
+    return SetAmplifiers{*on};
+}
+
 Parsed parse_force_shown(Arguments words) {
     const auto on = parse_switch("show-force", words[0]);
     if (!on) return std::unexpected(on.error());
@@ -181,16 +187,19 @@ Result<scene::PropertyValue> parse_value(const scene::PropertyDescriptor& proper
         value[0] = *on ? 1.0 : 0.0;
         return value;
     }
+    constexpr const char* kOpacityRemedy = "write a number from 0, clear as glass, to 1, which hides what is behind";
+    const bool is_opacity = property.property == scene::ObjectProperty::opacity;
     const auto numbers = sculpt::parse_numbers(word, property.numbers, where);
     if (!numbers) {
         const std::string unit = property.unit.empty() ? "" : ", in " + std::string(property.unit);
-        return fail(where, "is not " + std::string(property.argument),
-                    "write " + std::string(property.argument) + unit);
+        return fail(where, property.numbers == 1 ? "is not a number" : "is not " + std::string(property.argument),
+                    is_opacity ? kOpacityRemedy : "write " + std::string(property.argument) + unit);
     }
     std::ranges::copy(*numbers, value.begin());
     const auto is_part = [](double part) { return part >= 0.0 && part <= 1.0; };
     if (property.property == scene::ObjectProperty::colour && !std::ranges::all_of(*numbers, is_part))
         return fail(where, "is out of bounds", "write R,G,B from 0 to 1, such as 0.8,0.2,0.1");
+    if (is_opacity && !is_part(value[0])) return fail(where, "is out of bounds", kOpacityRemedy);
     if (property.property == scene::ObjectProperty::orientation && !(Vec3(value[0], value[1], value[2]) != Vec3(0.0)))
         return fail(where, "has an axis without length", "write an axis and an angle in radians, such as 0,1,0,1.57");
     return value;
@@ -245,6 +254,8 @@ const std::vector<Entry>& entries() {
         entry_of<Quantity::friction>(),
         entry_of<Quantity::stiffness>(),
         {{"force", "on|off", "Whether the device gives force"}, parse_force},
+        {{"amplifiers", "on|off", "Enable the device's amplifiers again after a trip, or switch them off"},
+         parse_amplifiers},
         entry_of<Quantity::velocity_filter>(),
         entry_of<Quantity::force_filter>(),
         {{"technique", "NAME", "How the workspace moves: " + alternatives(names_in(techniques()))}, parse_technique},

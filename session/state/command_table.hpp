@@ -94,6 +94,11 @@ struct SetForce {
     bool on = true;
     bool operator==(const SetForce&) const = default;
 };
+// Switches the amplifiers of the device's motors: on again after they have tripped, or off at once.
+struct SetAmplifiers {
+    bool on = true;
+    bool operator==(const SetAmplifiers&) const = default;
+};
 // Shows or hides the arrow at the tool that stands for the force.
 struct SetForceShown {
     bool on = false;
@@ -131,9 +136,10 @@ struct CalibrateWand {
     bool operator==(const CalibrateWand&) const = default;
 };
 
-using SessionCommand = std::variant<RunAction, SetTool, SetOperation, SetColour, SetMaterial, SetQuantity, SetTechnique,
-                                    SetStereoMode, SetTestPattern, SetEyeSwap, SetForce, SetForceShown, SetCatchDrill,
-                                    ExportTo, ScreenshotTo, EditObject, SelectObject, DoAct, CalibrateWand>;
+using SessionCommand =
+    std::variant<RunAction, SetTool, SetOperation, SetColour, SetMaterial, SetQuantity, SetTechnique, SetStereoMode,
+                 SetTestPattern, SetEyeSwap, SetForce, SetForceShown, SetCatchDrill, ExportTo, ScreenshotTo, EditObject,
+                 SelectObject, DoAct, CalibrateWand, SetAmplifiers>;
 
 struct SessionState;
 

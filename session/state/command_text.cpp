@@ -43,6 +43,7 @@ struct Printer {
     }
     CommandInput operator()(const SetEyeSwap& c) const { return {"swap-eyes", {on_off(c.on)}}; }
     CommandInput operator()(const SetForce& c) const { return {"force", {on_off(c.on)}}; }
+    CommandInput operator()(const SetAmplifiers& c) const { return {"amplifiers", {on_off(c.on)}}; }
     CommandInput operator()(const ExportTo& c) const { return {"export", {c.path}}; }
     CommandInput operator()(const ScreenshotTo& c) const { return {"screenshot", {c.path}}; }
     CommandInput operator()(const SetForceShown& c) const { return {"show-force", {on_off(c.on)}}; }

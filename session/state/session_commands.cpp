@@ -50,6 +50,11 @@ public:
         state_.force_on = set.on;
         return update_touch();
     }
+    // Only the device knows whether they can be switched.
+    Result<void> operator()(const SetAmplifiers& set) {
+        orders_.amplifiers.push_back({set.on, orders_.line});
+        return {};
+    }
     Result<void> operator()(const SetForceShown& set) {
         state_.force_shown = set.on;
         return {};

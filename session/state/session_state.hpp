@@ -71,12 +71,19 @@ struct AskedAct {
     std::size_t line = 0;  // of the log that asked; 0: none
 };
 
+// How the device's amplifiers are to be switched.
+struct AskedAmplifiers {
+    bool on = true;
+    std::size_t line = 0;  // of the log that asked; 0: none
+};
+
 // Orders that a step gives to the other parts of the session.
 struct SessionOrders {
     std::size_t line = 0;  // of the log, for commands that are run now
     std::vector<sculpt::SculptOrder> carving;
     std::vector<WorldOrder> world;
     std::vector<AskedAct> acts;
+    std::vector<AskedAmplifiers> amplifiers;
     bool parameters = false;         // the haptic thread's parameters have changed
     std::vector<Asked> screenshots;  // names
     bool full_screen = false;        // toggle between window and full screen

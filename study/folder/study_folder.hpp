@@ -12,10 +12,12 @@
 // One process writes at a time; others read. One thread for each object.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/error.hpp"
@@ -24,6 +26,10 @@
 #include "study/protocol/protocol.hpp"
 
 namespace burin::study {
+
+// The names in a study's folder that are the study's own, beside those below data/.
+inline constexpr std::array<std::string_view, 7> kFilesOfStudy{
+    "protocol.toml", "study.json", "allocation.sealed", "allocation.key", "journal.jsonl", "trials.csv", "lock"};
 
 enum class StageStatus { ended, aborted };
 

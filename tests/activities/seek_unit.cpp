@@ -6,6 +6,8 @@
 
 #include <set>
 
+#include "session/input/input_words.hpp"
+
 namespace burin::activities {
 namespace {
 
@@ -39,9 +41,9 @@ class Seeker {
 public:
     explicit Seeker(const SeekOptions& options) : seek(options) {}
 
-    void act(const std::string& word) {
+    void act(const std::string& line) {
         session::ActivityOrders orders;
-        const std::vector<std::string> words{word};
+        const std::vector<std::string> words = session::words_of(line, "act").value();
         outcome = session::check_act(&seek, words);
         if (outcome) outcome = seek.act(words, orders);
         keep(orders);
@@ -141,6 +143,61 @@ TEST(Seeking, ActsOutOfPlaceAreRefusedByName) {
     person.act("strat");
     ASSERT_FALSE(person.outcome);
     EXPECT_TRUE(person.outcome.error().line().contains("did you mean start")) << person.outcome.error().line();
+}
+
+// A second start dropped what the first search had measured.
+TEST(Seeking, ASecondSearchKeepsWhatTheFirstFound) {
+    Seeker person({.targets = 2, .seed = 3});
+    person.act("start");
+    person.stay(Vec3(0.0, 0.0, 0.3), 100, false);
+    person.stay(person.on(person.target()), 200, true);
+    person.stay(Vec3(0.0, 0.0, 0.3), 50, false);
+    ASSERT_EQ(person.seek.found().size(), 1u);
+    const Sought first = person.seek.found()[0];
+    person.act("start");  // in the middle of the first
+    EXPECT_TRUE(person.messages.back().contains("search 1 broken off at object 2 of 2")) << person.messages.back();
+    person.stay(Vec3(0.0, 0.0, 0.3), 10, false);
+    EXPECT_EQ(person.seek.panel().aside, "0 of 2");
+    EXPECT_EQ(person.target(), first.object) << "the same order";
+    person.stay(person.on(person.target()), 20, true);
+    person.act("skip");
+    ASSERT_FALSE(person.seek.is_running());
+    EXPECT_TRUE(person.messages.back().contains("2 objects sought")) << person.messages.back();
+    ASSERT_EQ(person.seek.found().size(), 4u);
+    EXPECT_EQ(person.seek.found()[0].time_s, first.time_s);
+    EXPECT_TRUE(person.seek.found()[1].skipped);
+    const Json report = person.seek.report();
+    ASSERT_EQ(report["searches"].size(), 2u);
+    EXPECT_FALSE(report["searches"][0]["complete"]);
+    EXPECT_TRUE(report["searches"][1]["complete"]);
+    std::vector<std::size_t> searches;
+    for (const Json& one : report["sought"]) searches.push_back(one["search"]);
+    EXPECT_EQ(searches, (std::vector<std::size_t>{1, 1, 2, 2}));
+}
+
+TEST(Seeking, TellsWhereThereIsLessToSeekThanWasAskedFor) {
+    Seeker person({.targets = 5, .seed = 1});
+    person.act("start");
+    person.stay(Vec3(0.0, 0.0, 0.3), 1, false);
+    ASSERT_EQ(person.messages.size(), 1u);
+    EXPECT_TRUE(person.messages[0].contains("3 objects can be sought, not 5")) << person.messages[0];
+    Seeker alone({});
+    alone.world = row_of(1);  // which is not felt
+    alone.act("start");
+    alone.stay(Vec3(0.0, 0.0, 0.3), 1, false);
+    ASSERT_FALSE(alone.messages.empty());
+    EXPECT_TRUE(alone.messages[0].contains("no object is both seen and felt")) << alone.messages[0];
+}
+
+// They were ignored: what else was meant by "start 2" was not done, and nobody was told.
+TEST(Seeking, WordsBehindAnActAreRefused) {
+    Seeker person({});
+    person.act("start nonsense");
+    ASSERT_FALSE(person.outcome);
+    EXPECT_TRUE(person.outcome.error().line().contains("command do start: takes no argument, and is given nonsense"))
+        << person.outcome.error().line();
+    person.stay(Vec3(0.0), 1, false);
+    EXPECT_FALSE(person.seek.is_running());
 }
 
 TEST(Seeking, TheSameSeedDrawsTheSameOrder) {

@@ -46,9 +46,63 @@ TEST(Command, RefusesWrongUsageWithStatusTwo) {
     expect_refused(place, "sculpt --workpiece ball:1 --engine gpu", 2, {"--engine"});
     expect_refused(place, "sculpt --workpiece ball:1 --hand mine", 2, {"--hand"});
     expect_refused(place, "sculpt --workpiece ball:1 --bogus", 2, {"--bogus"});
-    expect_refused(place, "sculpt --workpiece ball:1 --undo -1", 2, {"--undo", "below zero"});
+    expect_refused(place, "sculpt --workpiece ball:1 --undo -1", 2, {"--undo", "'-1' is no whole number from 0 to"});
     expect_refused(place, "sculpt --workpiece ball:1 --sweep-tolerance nan", 2, {"--sweep-tolerance", "nan"});
     expect_refused(place, "fly", 2, {"fly"});
+}
+
+// The seed was clipped, 010 was eight, 0x10 sixteen and 1'000 a thousand, without a word.
+TEST(Command, TakesEveryNumberByOneRule) {
+    const Workplace place;
+    const std::string most = "from 0 to 18446744073709551615";
+    for (const char* seed : {"18446744073709551616", "99999999999999999999999", "0x10", "1e3", "1'000", "+1", "-1",
+                             "1.0", "' 1'", "''", "1_000"})
+        expect_refused(place,
+                       std::string("seek w.toml --seed ") + (seed[0] == '\'' ? seed : "\"" + std::string(seed) + "\""),
+                       2, {"--seed", "is no whole number " + most});
+    expect_refused(place, "seek w.toml --seed 010", 2,
+                   {"--seed", "'010' is no whole number", "without zeros before it"});
+    expect_refused(place, "seek w.toml --targets 4294967296", 2, {"--targets", "from 0 to 4294967295"});
+    expect_refused(place, "sculpt --resolution 0256", 2,
+                   {"--resolution", "'0256'", "from 16 to 2048", "without zeros"});
+    expect_refused(place, "sculpt --threads 0x2", 2, {"--threads", "from 0 to 1024"});
+    expect_refused(place, "sculpt --friction nan", 2, {"--friction", "'nan' is no number"});
+    expect_refused(place, "sculpt --press 1e400", 2, {"--press", "'1e400' is no number"});
+    expect_refused(place, "sculpt --grip 0100", 2, {"--grip", "'0100' is no number", "without zeros before it"});
+    expect_refused(place, "world w.toml --radius 0x1p-8", 2, {"--radius", "is no number from 1e-05 to 1"});
+    expect_refused(place, "bench stroke --resolution 64.0", 2, {"--resolution"});
+    // Both ends of a range, and what is usual.
+    expect_refused(place, "seek w.toml --seed 18446744073709551615", 1, {"w.toml"});
+    expect_refused(place, "sculpt --workpiece none.stl --resolution 16 --sweep-tolerance 1e-3 --report r.json", 1,
+                   {"none.stl"});
+}
+
+// They were ignored: what was asked for was not done, and nobody was told.
+TEST(Command, RefusesOptionsThatWouldHaveNoEffect) {
+    const Workplace place;
+    place.write("s.csv", kStrokeHeader + "0,0,0,1,0,0,0,1,0\n0.1,0,0,1,0,0,0,1,0\n");
+    place.write("a.off", tetrahedron_off(4));
+    const std::string carve = "sculpt --workpiece ball:0.1 --resolution 16 --stroke s.csv --report r.json ";
+    expect_refused(place, carve + "--world a.off", 1, {"--world", "belongs to a session"});
+    expect_refused(place, carve + "--no-workpiece", 1, {"--no-workpiece", "nothing to carve"});
+    expect_refused(place, carve + "--points top", 1, {"--points"});
+    expect_refused(place, carve + "--device simulated-wand", 1, {"--device simulated-wand"});
+    const std::string explore = "world a.off --stroke s.csv ";
+    expect_refused(place, explore + "--workpiece ball:0.1", 2, {"--workpiece", "nothing is carved"});
+    expect_refused(place, explore + "--tool ball:0.1", 2, {"--tool", "--radius"});
+    expect_refused(place, explore + "--input in.txt", 2, {"--input", "give one"});
+    expect_refused(place, "world a.off --report r.json", 2, {"--report belongs to a --stroke"});
+    expect_refused(place, "world a.off --pictures p", 2, {"--pictures belongs to a --stroke"});
+}
+
+// It made a file of that name.
+TEST(Command, AReportWithATableIsAFile) {
+    const Workplace place;
+    place.write("s.csv", kStrokeHeader + "0,0,0,1,0,0,0,1,0\n0.1,0,0,1,0,0,0,1,0\n");
+    place.write("a.off", tetrahedron_off(4));
+    expect_refused(place, "sculpt --workpiece ball:0.1 --resolution 16 --stroke s.csv --report -", 1, {"--report -"});
+    expect_refused(place, "world a.off --stroke s.csv --report -", 1, {"--report -", "name a file"});
+    expect_refused(place, "world a.off --stroke s.csv --device simulated-wand --report -", 1, {"--report -"});
 }
 
 TEST(Command, RefusesBadWorkpiecesNamingFileAndRemedy) {
@@ -262,7 +316,7 @@ TEST(Command, ConvertsBetweenFormatsAndTellsHealth) {
     EXPECT_NE(outcome.output.find("4 triangles"), std::string::npos) << outcome.output;
     EXPECT_EQ(place.run(std::string(kMeshAudit) + " t.ply").status, 0);
     expect_refused(place, "convert missing.off t.stl", 1, {"missing.off"});
-    expect_refused(place, "convert t.off ./t.off", 1, {"t.off", "overwrite"});
+    expect_refused(place, "convert t.off ./t.off", 1, {"t.off", "overwritten"});
 }
 
 // The input, which could not be read either, is not looked at before.

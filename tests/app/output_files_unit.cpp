@@ -6,8 +6,11 @@
 #include <unistd.h>
 
 #include <array>
+#include <utility>
 #include <vector>
 
+#include "session/record/input_files.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::app {
@@ -61,8 +64,8 @@ TEST(OutputFiles, OverwriteNeitherAnInputNorEachOther) {
         return checked ? "" : checked.error().line();
     };
     EXPECT_EQ(refused({(place / "a.stl").string()}, (place / "r.json").string()), "");
-    EXPECT_TRUE(refused({(place / "./in.stl").string()}, "").contains("is another file of this command"));
-    EXPECT_TRUE(refused({}, (place / "in.csv").string()).contains("is another file of this command"));
+    EXPECT_TRUE(refused({(place / "./in.stl").string()}, "").contains("is a file that this command reads"));
+    EXPECT_TRUE(refused({}, (place / "in.csv").string()).contains("is a file that this command reads"));
     EXPECT_TRUE(refused({(place / "a.stl").string(), (place / "./a.stl").string()}, "").contains("two outputs"));
 }
 
@@ -83,6 +86,111 @@ TEST(OutputFiles, OverwriteNoFileThatARecordingNames) {
     EXPECT_EQ(refused("a.log", path("r.json")), "");
     EXPECT_EQ(refused("script.txt", path("w.toml")), "") << "it is no recording";
     EXPECT_EQ(refused("none.log", path("w.toml")), "");
+}
+
+// Neither is there yet, and one of the names begins at the folder: they were taken for two.
+TEST(OutputFiles, AreTheSameByWhateverNameBeforeTheyAreThere) {
+    EXPECT_TRUE(session::is_same_file("not-there.json", "./not-there.json"));
+    EXPECT_TRUE(session::is_same_file("not-there.json", std::filesystem::absolute("x/../not-there.json")));
+    EXPECT_FALSE(session::is_same_file("not-there.json", "x/not-there.json"));
+    EXPECT_FALSE(session::is_same_file("", "."));
+}
+
+namespace {
+
+const std::string kBurinThatWrites = kBurinCommand;
+const std::string kTetrahedron = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+const std::string kBoxShape = "Shape { geometry Box { size 0.1 0.1 0.1 } }\n";
+
+// A world of each kind, and what they name.
+void write_worlds(const Workplace& place) {
+    place.write("w.toml",
+                "[[object]]\nname = \"a\"\nmesh = \"a.off\"\nmesh_units = \"m\"\nscale = 0.1\n"
+                "[[object]]\nname = \"b\"\nmesh = \"b.obj\"\nmesh_units = \"m\"\nscale = 0.1\n");
+    place.write("a.off", kTetrahedron);
+    place.write("b.obj", "mtllib b.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    place.write("b.mtl", "newmtl m\nKd 1 0 0\n");
+    place.write("w.wrl", "#VRML V2.0 utf8\nInline { url \"part.wrl\" }\n" + kBoxShape);
+    place.write("part.wrl", "#VRML V2.0 utf8\n" + kBoxShape);
+    place.write("wand.toml", "name = \"mine\"\n");
+    place.write("s.csv", kStrokeHeader + "0,0,0,1,0,0,0,1,0\n0.1,0,0,1,0,0,0,1,0\n");
+    place.write("in.txt", "burin-input 1 x\n0.05 command tool mesh:a.off\n0.1 command quit\n");
+}
+
+}  // namespace
+
+// Only the files that a command line names itself were guarded: what these name in turn was overwritten.
+TEST(OutputFiles, OverwriteNothingThatAnInputNames) {
+    const Workplace place;
+    write_worlds(place);
+    const std::array<std::pair<const char*, const char*>, 17> commands{{
+        {"world check w.toml --json a.off", "a.off"},
+        {"world check w.toml --json ./b.mtl", "b.mtl"},
+        {"world check w.wrl --json part.wrl", "part.wrl"},
+        {"world check w.wrl --json w.toml", "w.toml"},
+        {"world w.toml --stroke s.csv --report b.obj", "b.obj"},
+        {"world w.wrl --stroke s.csv --report w.toml", "w.toml"},
+        {"world w.toml --stroke s.csv --device simulated-wand:wand.toml --report wand.toml", "wand.toml"},
+        {"world w.toml --stroke s.csv --device simulated-wand --report a.off", "a.off"},
+        {"seek w.toml --input in.txt --offscreen --report b.mtl", "b.mtl"},
+        {"seek w.wrl --input in.txt --offscreen --report a.off", "a.off"},
+        {"sculpt --workpiece block:1,1,1 --resolution 16 --tool mesh:a.off --units m --report a.off", "a.off"},
+        {"sculpt --workpiece b.obj --units m --resolution 16 --export b.obj", "b.obj"},
+        {"sculpt --workpiece b.obj --units m --resolution 16 --report b.mtl", "b.mtl"},
+        {"convert b.obj b.obj", "b.obj"},
+        {"bench stroke --scene mesh:b.obj --json b.mtl", "b.mtl"},
+        {"bench world w.wrl --without-coin --json part.wrl", "part.wrl"},
+        {"profile --input in.txt --json a.off", "a.off"},
+    }};
+    for (const auto& [command, input] : commands) {
+        const std::string before = place.read(input);
+        const auto outcome = place.run(kBurinThatWrites + " " + command);
+        EXPECT_EQ(outcome.status, 1) << command << "\n" << outcome.output;
+        EXPECT_TRUE(outcome.output.contains(std::string(input) + ": is a file that this command reads"))
+            << command << "\n"
+            << outcome.output;
+        EXPECT_EQ(place.read(input), before) << command;
+    }
+}
+
+// A plot or table beside a report is an output like the report.
+TEST(OutputFiles, BesideAReportOverwriteNoInput) {
+    const Workplace place;
+    write_worlds(place);
+    place.write("r-felt.csv", place.read("s.csv"));
+    for (const std::string device : {"simulated", "simulated-wand"}) {
+        const auto outcome =
+            place.run(kBurinThatWrites + " world w.toml --stroke r-felt.csv --report r.json --device " + device);
+        EXPECT_EQ(outcome.status, 1) << outcome.output;
+        EXPECT_TRUE(outcome.output.contains("r-felt.csv: is a file that this command reads")) << outcome.output;
+    }
+    EXPECT_EQ(place.read("r-felt.csv"), place.read("s.csv"));
+}
+
+// A script's export took the place of the world's own mesh, where --outputs was the world's folder.
+TEST(OutputFiles, OfAScriptOverwriteNothingThatTheSessionReads) {
+    const Workplace place;
+    write_worlds(place);
+    place.write("out.txt", "burin-input 1 x\n0.1 command export b.obj\n0.2 command quit\n");
+    const std::string before = place.read("b.obj");
+    const auto outcome = place.run(kBurinThatWrites +
+                                   " sculpt --world w.toml --workpiece block:0.1,0.1,0.1 --resolution 16 --input "
+                                   "out.txt --offscreen --outputs .");
+    EXPECT_EQ(outcome.status, 1) << outcome.output;
+    EXPECT_TRUE(outcome.output.contains("out.txt:2: b.obj: is a file that this session reads")) << outcome.output;
+    EXPECT_EQ(place.read("b.obj"), before);
+}
+
+TEST(OutputFiles, OverwriteNoFileOfAStudy) {
+    const Workplace place;
+    ASSERT_EQ(place.run(kBurinThatWrites + " study init kinesthetic-path study --participants 2 --seed 1").status, 0);
+    const std::string before = place.read("study/journal.jsonl");
+    for (const char* file : {"study/journal.jsonl", "study/trials.csv", "study/data/journal.json"}) {
+        const auto outcome = place.run(kBurinThatWrites + " study analyse study --json " + file);
+        EXPECT_EQ(outcome.status, 1) << outcome.output;
+        EXPECT_TRUE(outcome.output.contains(std::string(file) + ": is a file ")) << outcome.output;
+    }
+    EXPECT_EQ(place.read("study/journal.jsonl"), before);
 }
 
 }  // namespace burin::app

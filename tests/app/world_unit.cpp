@@ -77,6 +77,39 @@ TEST(WorldCommand, TellsWhatIsInAWorldInToml) {
     EXPECT_TRUE(tells(bad, "burin: 1 of 2 files: 2 faults; correct them and check again")) << bad.output;
 }
 
+// What one sees through was told neither of a world in TOML nor of settings.
+TEST(WorldCommand, TellsHowOpaqueThingsAre) {
+    const Workplace place;
+    place.write("cube.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+    place.write("w.toml",
+                "[[object]]\nname = \"glass\"\nmesh = \"cube.off\"\nmesh_units = \"m\"\ncolour = \"#102030\"\n"
+                "opacity = 0.25\n[[object]]\nname = \"rock\"\nmesh = \"cube.off\"\nmesh_units = \"m\"\n");
+    const auto outcome = place.run(kWorldBurin + " world check w.toml --json r.json");
+    EXPECT_TRUE(tells(outcome, "#102030, opacity 0.25, 600 N/m")) << outcome.output;
+    EXPECT_FALSE(tells(outcome, "opacity 1")) << outcome.output;
+    const Json objects = Json::parse(place.read("r.json"))["files"][0]["objects"];
+    EXPECT_EQ(objects[0]["opacity"], 0.25);
+    EXPECT_EQ(objects[1]["opacity"], 1.0);
+    place.write("v.wrl", kWorldHead + "DEF Pane Shape { geometry Box { size 0.1 0.1 0.1 } }");
+    place.write("v.toml", "[[object]]\nname = \"Pane\"\nopacity = 0.5\n");
+    const auto set = place.run(kWorldBurin + " world check v.wrl --json s.json");
+    EXPECT_TRUE(tells(set, "Pane: #cccccc, opacity 0.5, 600 N/m")) << set.output;
+    EXPECT_EQ(Json::parse(place.read("s.json"))["files"][0]["felt_objects"][0]["opacity"], 0.5);
+}
+
+// A pipe that nobody writes to was waited for, for ever.
+TEST(WorldCommand, APipeIsNoInput) {
+    const Workplace place;
+    place.write("v.wrl", kWorldHead + "DEF Pane Shape { geometry Box { size 0.1 0.1 0.1 } }");
+    ASSERT_EQ(place.run("mkfifo pipe").status, 0);
+    for (const char* command : {"world --input pipe", "world v.wrl --input pipe --offscreen", "seek v.wrl --input pipe",
+                                "sculpt --input pipe --offscreen", "profile --input pipe"}) {
+        const auto outcome = place.run("timeout 60 " + kWorldBurin + " " + command);
+        EXPECT_EQ(outcome.status, 1) << command << "\n" << outcome.output;
+        EXPECT_TRUE(tells(outcome, "pipe: is not a regular file")) << command << "\n" << outcome.output;
+    }
+}
+
 TEST(WorldCommand, RefusesEmptyWorldsAndWrongUsage) {
     const Workplace place;
     place.write("w.wrl", kWorldHead);

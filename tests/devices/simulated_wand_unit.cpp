@@ -113,13 +113,42 @@ TEST(SimulatedWand, AmplifiersTripBeyondAnyLimitUntilTheyAreEnabledAgain) {
         let_tick(wand, 5, good);
         EXPECT_EQ(wand.acting_wrench().force_device_N, Vec3(0.0)) << "and for long";
         EXPECT_EQ(wand.read().fault, DeviceFault::other);
-        wand.enable_amplifiers();
+        EXPECT_EQ(wand.switch_amplifiers(true), AmplifierAnswer::done);
         EXPECT_EQ(wand.read().fault, DeviceFault::none);
         EXPECT_EQ(wand.acting_wrench().force_device_N, Vec3(0.0)) << "what was written before is gone";
         let_tick(wand, 5, good);
         EXPECT_EQ(wand.acting_wrench().force_device_N.x, 1.0);
         EXPECT_EQ(wand.trips(), 1u);
     }
+}
+
+TEST(SimulatedWand, AmplifiersStayOffWhileTheirCauseLasts) {
+    const DeviceWrench good{{1.0, 0.0, 0.0}, Vec3(0.0)}, beyond{{9.0, 0.0, 0.0}, Vec3(0.0)};
+    SimulatedWand wand(hand_of({{0.0, Vec3(0.0)}}));
+    let_tick(wand, 5, beyond);
+    EXPECT_TRUE(wand.tripped());
+    EXPECT_EQ(wand.switch_amplifiers(true), AmplifierAnswer::cause_remains) << "they would trip again at once";
+    EXPECT_TRUE(wand.tripped());
+    let_tick(wand, 1, good);
+    wand.lose_connection(true);
+    EXPECT_EQ(wand.switch_amplifiers(true), AmplifierAnswer::cause_remains);
+    wand.lose_connection(false);
+    EXPECT_EQ(wand.switch_amplifiers(true), AmplifierAnswer::done);
+    let_tick(wand, 5, good);
+    EXPECT_EQ(wand.acting_wrench().force_device_N.x, 1.0);
+}
+
+// Else the gate would go on with the force that it gave before.
+TEST(SimulatedWand, AmplifiersThatWereOffForLessThanATickAreToldOf) {
+    const DeviceWrench good{{1.0, 0.0, 0.0}, Vec3(0.0)};
+    SimulatedWand wand(hand_of({{0.0, Vec3(0.0)}}));
+    let_tick(wand, 5, good);
+    EXPECT_EQ(wand.switch_amplifiers(false), AmplifierAnswer::done);
+    EXPECT_EQ(wand.switch_amplifiers(true), AmplifierAnswer::done);
+    EXPECT_EQ(wand.read().fault, DeviceFault::other);
+    EXPECT_EQ(wand.acting_wrench().force_device_N, Vec3(0.0));
+    EXPECT_EQ(wand.read().fault, DeviceFault::none);
+    EXPECT_EQ(wand.trips(), 0u) << "nothing tripped";
 }
 
 TEST(SimulatedWand, CountsTheTicksInWhichAnAxisIsAtItsLimit) {

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "base/file_io.hpp"
+#include "devices/haptic/wand_choice.hpp"
 
 namespace burin::devices {
 namespace {
@@ -140,7 +141,7 @@ TEST(WandFile, RefusesWhatNoWandIs) {
     EXPECT_TRUE(reports("[torque]\ndriven = [\"x\", \"x\"]\nlimit = [1, 1]\n", "driven has x twice"));
     EXPECT_TRUE(reports("[[point]]\nname = \"a\"\noffset = [0, 0, 0]\n[[point]]\nname = \"a\"\noffset = [0, 0, 1]\n",
                         "w.toml:5: name \"a\" is another point's too"));
-    EXPECT_TRUE(reports("[[point]]\nname = \"centre\"\noffset = [0, 0, 0]\n", "name is centre"));
+    EXPECT_TRUE(reports("[[point]]\nname = \"centre\"\noffset = [0, 0, 0]\n", "name is \"centre\": that is the"));
     EXPECT_TRUE(reports("[arm]\nmass = 0\n", "mass is 0; write a number from 0.001 to 100"));
     EXPECT_TRUE(reports("[arm]\ndelay = 0.1\n", "delay is 0.1"));
     EXPECT_TRUE(reports("[workspace]\nhighest_turn = [95, 0, 85]\n", "highest_turn has 95 for x"));
@@ -150,6 +151,40 @@ TEST(WandFile, RefusesWhatNoWandIs) {
         points += "[[point]]\nname = \"p" + std::to_string(i) + "\"\noffset = [0, 0, 0]\n";
     EXPECT_TRUE(reports(points, "w.toml:61: is one point more than 20"));
     EXPECT_FALSE(read_wand("no-such.toml"));
+}
+
+// --points could not name such a point, or would take it for something else.
+TEST(WandFile, PointsHaveNamesThatCanBeChosen) {
+    const auto named = [](const std::string& name) {
+        return "[[point]]\nname = \"" + name + "\"\noffset = [0, 0, 0]\n";
+    };
+    EXPECT_TRUE(reports(named(""), "w.toml:2: name is \"\": nothing stands there; name it by a word"));
+    EXPECT_TRUE(reports(named("  "), "nothing stands there"));
+    EXPECT_TRUE(reports(named("5"), "name is \"5\": a number says how many points touch"));
+    EXPECT_TRUE(reports(named(" top"), "blanks stand around it"));
+    EXPECT_TRUE(reports(named("a,b"), "a comma separates names"));
+    EXPECT_TRUE(reports(named("a\\tb"), "it holds control characters"));
+    EXPECT_EQ(problems_of(named("5th")), "");
+    EXPECT_EQ(problems_of(named("ring finger")), "");
+    EXPECT_TRUE(reports("[[point]]\noffset = [0, 0, 0]\n", "[[point]] has no name"));
+}
+
+TEST(WandFile, TheListOfKeysIsWhole) {
+    EXPECT_TRUE(reports("something-quite-different = 1\n", "handle, point, calibration, arm"));
+    EXPECT_TRUE(reports("[torque]\nwhatever-it-may-be = 1\n", "its keys are driven, limit"));
+}
+
+TEST(WandFile, APointIsChosenOnce) {
+    const WandDescription wand;
+    const auto refused = [&](const std::string& text) {
+        const auto points = points_named(wand, text);
+        return points ? "" : points.error().line();
+    };
+    EXPECT_EQ(refused("top,centre,bottom"), "");
+    EXPECT_TRUE(refused("top,top").contains("names top twice")) << refused("top,top");
+    EXPECT_TRUE(refused("centre,bottom,centre").contains("names centre twice"));
+    for (const char* wrong : {"0", "05", "21", "99999999999999999999999"})
+        EXPECT_TRUE(refused(wrong).contains("write a number from 1 to 20")) << wrong << ": " << refused(wrong);
 }
 
 // A byte changed, removed or doubled anywhere: what is still read is a wand that a loop can run.

@@ -121,6 +121,29 @@ repeat = true
                      "w.toml:21: repeat stands where there is no path"}));
 }
 
+TEST(WorldFile, AnOpacityOutOfBoundsIsToldWithAllItsDigits) {
+    EXPECT_EQ(faults_of(kCube + "opacity = 1.0000001\n"), Lines{"w.toml:4: opacity is 1.0000001"});
+    EXPECT_EQ(faults_of(kCube + "opacity = -0.5\n"), Lines{"w.toml:4: opacity is -0.5"});
+    const WorldOrProblems over = parsed(kCube + "opacity = 2\n"), word = parsed(kCube + "opacity = \"half\"\n");
+    ASSERT_FALSE(over || word);
+    EXPECT_EQ(over.error().front().remedy, "give a number from 0, clear as glass, to 1, which hides what is behind");
+    EXPECT_EQ(word.error().front().remedy, "write opacity = 0.5, say") << "an example within the bounds";
+    EXPECT_EQ(faults_of(kCube + "[object.material]\nstiffness = 100000.5\n"), Lines{"w.toml:5: stiffness is 100000.5"});
+}
+
+// They reach terminals and recordings: an escape sequence in a file of somebody else's would be carried out.
+TEST(WorldFile, NamesAreWordsOnALine) {
+    for (const char* name : {"a\\nb", "\\u001b[31m", "\\u0000", "\\u007f", "a\\tb"})
+        EXPECT_EQ(faults_of("[[object]]\nname = \"" + std::string(name) + "\"\nmesh = \"cube.obj\"\n"),
+                  Lines{"w.toml:2: name holds control characters"})
+            << name;
+    EXPECT_EQ(faults_of("[[object]]\nname = \"  \"\nmesh = \"cube.obj\"\n"), Lines{"w.toml:2: name is empty"});
+    EXPECT_EQ(faults_of("[[object]]\nname = \"" + std::string(201, 'x') + "\"\nmesh = \"cube.obj\"\n"),
+              Lines{"w.toml:2: name has 201 bytes"});
+    EXPECT_EQ(faults_of("name = \"\\u001b]0;x\"\n" + kCube), Lines{"w.toml:1: name holds control characters"});
+    EXPECT_TRUE(parsed("name = \"Gärten\"\n[[object]]\nname = \"der Stein\"\nmesh = \"cube.obj\"\n"));
+}
+
 TEST(WorldFile, AnOpenMeshIsFeltFromBothSidesOrNotAtAll) {
     for (const char* mesh : {"open.obj", "inside.obj"}) {
         const std::string object = "[[object]]\nname = \"a\"\nmesh = \"" + std::string(mesh) + "\"\n";

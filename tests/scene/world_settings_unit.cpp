@@ -95,6 +95,16 @@ TEST(WorldSettings, AWorldWithoutThemIsAsItsFileSays) {
     EXPECT_EQ(world->objects[1].material, HapticMaterial{});
 }
 
+// A link whose file has been moved away was taken for no settings at all.
+TEST(WorldSettings, ALinkToNothingIsTold) {
+    const Workplace place;
+    place.write("yard.wrl", kTwoBoxes);
+    std::filesystem::create_symlink("moved-away.toml", place / "yard.toml");
+    const WorldOrProblems world = read_any_world(place / "yard.wrl");
+    ASSERT_FALSE(world);
+    EXPECT_TRUE(world.error().front().line().contains("yard.toml: cannot be read")) << world.error().front().line();
+}
+
 TEST(WorldSettings, OfTheTubeMakeItsCapsSeenAndNotFelt) {
     const WorldOrProblems world = read_any_world("assets/worlds/tube.wrl");
     ASSERT_TRUE(world) << world.error().front().line();

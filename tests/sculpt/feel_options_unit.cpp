@@ -87,7 +87,8 @@ TEST(FeelSettings, OutOfRangeAreRefused) {
     EXPECT_TRUE(check_feel({.stiffness_N_per_m = 1e5, .friction = 2.0}));
     for (const double bad : {-1.0, 1.1e5, std::nan("")}) EXPECT_FALSE(check_feel({.stiffness_N_per_m = bad})) << bad;
     for (const double bad : {-1.0, 1.1e6, std::nan("")}) EXPECT_FALSE(check_feel({.yield_kPa = bad})) << bad;
-    for (const double bad : {-1.0, 1.1e3, std::nan("")}) EXPECT_FALSE(check_feel({.grain_mm = bad})) << bad;
+    for (const double bad : {-1.0, 1.1e3, std::nan(""), 1e-310, 0.009})
+        EXPECT_FALSE(check_feel({.grain_mm = bad})) << bad;
     for (const double bad : {-0.1, 2.1, std::nan("")}) EXPECT_FALSE(check_feel({.friction = bad})) << bad;
 }
 

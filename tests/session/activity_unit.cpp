@@ -24,7 +24,6 @@ public:
         return kWatchingActs;
     }
     [[nodiscard]] Result<void> act(std::span<const std::string> words, ActivityOrders& orders) override {
-        if (words[0] == "hide" && words.size() < 2) return fail("command do hide", "says not what", "name an object");
         if (words[0] == "hide") orders.edits.push_back({words[1], scene::ObjectProperty::seen, {0.0}});
         if (words[0] == "calm") calm = orders.parameters = true;
         if (words[0] == "leave") orders.quit = true;
@@ -165,7 +164,10 @@ TEST(SessionActivity, ThatGovernsLeavesThePanelNeitherToolNorObjects) {
 TEST(SessionActivity, WhatItCannotDoIsToldByName) {
     WatchedSession watched(std::make_shared<Watching>());
     EXPECT_TRUE(watched.frame({{"do", {"hid", "t"}}}).contains("did you mean hide"));
-    EXPECT_TRUE(watched.frame({{"do", {"hide"}}}).contains("says not what"));
+    EXPECT_TRUE(watched.frame({{"do", {"hide"}}}).contains("command do hide: lacks its argument; write do hide NAME"));
+    EXPECT_TRUE(watched.frame({{"do", {"hide", "t", "x"}}}).contains("one word too many: x"));
+    EXPECT_TRUE(watched.frame({{"do", {"calm", "down"}}}).contains("takes no argument, and is given down"));
+    EXPECT_TRUE(watched.session->channels().parameters.newest().enabled) << "not calm";
     EXPECT_TRUE(watched.frame({{"do", {"hide", "x"}}}).contains("object x"));
     EXPECT_TRUE(watched.frame({{"do", {}}}).contains("lacks its argument"));
     WatchedSession alone(nullptr);

@@ -54,6 +54,9 @@ TEST(LogCommands, AreCheckedWithFileLineAndRemedyBeforeTheSession) {
         Wrong{"export authorized_keys", "extension", ".stl"},
         Wrong{"export a.png", "extension", ".stl"},
         Wrong{"export a.off", "extension", ".stl"},
+        Wrong{"object a opacity 1.5", "out of bounds", "from 0, clear as glass, to 1"},
+        Wrong{"object a opacity nan", "is not a number", "from 0, clear as glass, to 1"},
+        Wrong{"amplifiers", "lacks its argument", "amplifiers on|off"},
         Wrong{"tool box:0.01,0,0.01", "has no size", "above zero"},
         Wrong{"tool mesh:no/such/file.stl", "no/such/file.stl", "check the path"},
         Wrong{"save-session", "cannot be saved", "export"},
@@ -119,6 +122,16 @@ TEST(SessionOutputs, LieBesideWhereTheProgramRunsUnlessAFolderIsNamed) {
     EXPECT_EQ(SessionOutputs(led_by("other.log", "other-outputs")).place_of("a.stl", OutputKind::mesh).value(),
               "other-outputs/a.stl");
     fs::current_path(before);
+}
+
+TEST(SessionOutputs, OfAUserTakeNoInputsPlace) {
+    const Workplace place;
+    place.write("part.stl", "x");
+    const SessionOutputs outputs(LiveOptions{}, {(place / "part.stl").string()});
+    const auto refused = outputs.place_of((place / "./part.stl").string(), OutputKind::mesh);
+    ASSERT_FALSE(refused);
+    EXPECT_TRUE(refused.error().line().contains("is a file that this session reads")) << refused.error().line();
+    EXPECT_TRUE(outputs.place_of((place / "other.stl").string(), OutputKind::mesh));
 }
 
 TEST(SessionOutputs, OfAUserLieWhereTheUserSays) {

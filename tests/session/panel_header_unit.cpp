@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What stands beside the panel's title: the workpiece's name and size, and the frames a second.
+// What stands beside the panel's title: the workpiece's name and size, and the frames a second; and what
+// stands below where there is no force.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,6 +50,23 @@ TEST(PanelHeader, ShowsTheWorkpiecesSizeInMillimetres) {
     EXPECT_TRUE(header_of(session->panel_on(0).value().mesh) == expected);
     model.workpiece.size = "50 x 40 x 30 mm, 32 cells";
     EXPECT_FALSE(header_of(alike.show(model, 16'000'000).mesh) == expected);
+}
+
+TEST(PanelHeader, EnablesTheAmplifiersWhereTheDeviceReportsAFault) {
+    PanelModel model = no_force_model();
+    Panel panel = Panel::create({.size = {340, 1600}}).value();
+    static_cast<void>(panel.show(model, 0));
+    EXPECT_FALSE(panel.place_of("amplifiers")) << "they have nothing to do with this cause";
+    model.touch.cause = haptics::GateCause::device_fault;
+    static_cast<void>(panel.show(model, 16'000'000));
+    const auto at = panel.place_of("amplifiers");
+    ASSERT_TRUE(at);
+    const Vec2 middle(at->x + 0.5 * at->width, at->y + 0.5 * at->height);
+    const std::vector<InputEvent> press{{32'000'000, MouseMove{middle}},
+                                        {32'000'000, MouseClick{MouseButton::left, true, {}}},
+                                        {32'000'000, MouseClick{MouseButton::left, false, {}}}};
+    panel.feed(press);
+    EXPECT_EQ(panel.show(model, 32'000'000).actions, (std::vector<CommandInput>{{"amplifiers", {"on"}}}));
 }
 
 }  // namespace burin::session

@@ -62,4 +62,33 @@ TEST(RecordedWand, IsDoneAgainToTheBitEditsIncluded) {
     EXPECT_FALSE(place.read("live/touched.png") == place.read("live/through.png")) << "the block has another colour";
 }
 
+// The ticks without force are in the recording, and so is what the device answered.
+TEST(RecordedWand, WhoseAmplifiersWereOffIsDoneAgainToTheBit) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan device";
+    const Workplace place;
+    place.write("block.wrl", kWandWorld);
+    place.write("use.txt",
+                "burin-input 1 test\n0.05 mouse 160 100\n0.1 scroll 0 6\n0.2 scroll 0 6\n0.5 command amplifiers off\n"
+                "0.7 command screenshot off.png\n0.8 command amplifiers on\n1.2 command screenshot on.png\n"
+                "1.3 command quit\n");
+    const std::string burin = kBurinCommand;
+    const auto live = place.run(burin +
+                                " world block.wrl --device simulated-wand --offscreen --width 320 --height 200 "
+                                "--input use.txt --record live.session --outputs live");
+    ASSERT_EQ(live.status, 0) << live.output;
+    EXPECT_TRUE(live.output.contains("the amplifiers are off")) << live.output;
+    EXPECT_TRUE(live.output.contains("the amplifiers are on")) << live.output;
+    const auto again = place.run(burin + " world --input live.session --offscreen --outputs again");
+    ASSERT_EQ(again.status, 0) << again.output;
+    EXPECT_TRUE(again.output.contains("equal to the bit")) << again.output;
+    EXPECT_FALSE(again.output.contains("amplifiers")) << "no device was asked: " << again.output;
+    for (const std::string name : {"off.png", "on.png"}) {
+        EXPECT_FALSE(place.read("live/" + name).empty()) << name;
+        EXPECT_TRUE(place.read("live/" + name) == place.read("again/" + name)) << name;
+    }
+    const auto table = place.run(burin + " convert live.session ticks.csv --to csv --columns cause");
+    ASSERT_EQ(table.status, 0) << table.output;
+    EXPECT_TRUE(place.read("ticks.csv").contains("\n1\n")) << "a tick whose force a fault of the device took";
+}
+
 }  // namespace burin::session

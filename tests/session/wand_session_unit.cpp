@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "devices/haptic/wand_file.hpp"
 #include "session/drive/session_frames.hpp"
@@ -217,6 +218,39 @@ TEST(WandSession, ARecordingNamesDeviceAndPoints) {
     EXPECT_EQ(usual->options.live.device, devices::kDefaultHapticDevice);
     EXPECT_EQ(usual->options.points, "");
     EXPECT_EQ(usual->overruled.size(), 2u);
+}
+
+// Nothing in a session could enable them again.
+TEST(WandSession, ItsAmplifiersAreEnabledAgainAndTheForceComesBackFromZero) {
+    WandDesk desk;
+    desk.frame({Scroll{{0.0, 12.0}, {}}});
+    desk.rest(80);
+    const double pressed_N = glm::length(desk.last.gate.given.force_device_N);
+    ASSERT_GT(pressed_N, 0.3) << "an end rests on the block";
+    EXPECT_TRUE(desk.told_by({"amplifiers", {"off"}}).contains("the amplifiers are off"));
+    desk.rest(3);
+    EXPECT_EQ(desk.last.gate.given.force_device_N, Vec3(0.0));
+    EXPECT_EQ(desk.last.gate.cause, haptics::GateCause::device_fault);
+    desk.rest(30);
+    EXPECT_EQ(desk.last.gate.cause, haptics::GateCause::device_fault) << "nothing enables them by itself";
+    EXPECT_TRUE(desk.told_by({"amplifiers", {"on"}}).contains("the amplifiers are on"));
+    const double most_change_N = 1e-3 * desk.parameters().limits.max_slew_N_per_s;
+    Vec3 before_N(0.0);
+    double largest_N = 0.0;
+    for (int tick = 0; tick < 600; ++tick) {
+        desk.clock.sleep_until(desk.clock.now_ns() + desk.session->loop().period_ns());
+        const Vec3 given_N = desk.session->loop().step().gate.given.force_device_N;
+        EXPECT_LE(glm::length(given_N - before_N), most_change_N * (1.0 + 1e-9)) << tick;
+        // The gate waits for 50 ms after a fault, and fades in over 200 ms.
+        const double most_N = tick < 30 ? 0.0 : tick < 100 ? 0.6 * pressed_N : HUGE_VAL;
+        EXPECT_LE(glm::length(given_N), most_N) << tick;
+        largest_N = std::max(largest_N, glm::length(given_N));
+        before_N = given_N;
+        if (tick % 10 == 9) {
+            ASSERT_TRUE(desk.session->scene().update(desk.clock.now_ns()));
+        }
+    }
+    EXPECT_GT(largest_N, 0.7 * pressed_N);
 }
 
 }  // namespace burin::session

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "session/record/input_files.hpp"
+
+#include "geometry/files/mesh_files.hpp"
+#include "scene/world_inputs.hpp"
+#include "session/record/input_log.hpp"
+#include "session/record/log_outputs.hpp"
+#include "session/record/session_log.hpp"
+
+namespace burin::session {
+
+InputFiles& InputFiles::file(const std::string& path) {
+    if (!path.empty()) list_.push_back(path);
+    return *this;
+}
+
+InputFiles& InputFiles::mesh(const std::string& path) {
+    if (path.empty()) return *this;
+    for (const std::filesystem::path& file : geometry::files_of_mesh(path)) list_.push_back(file.string());
+    return *this;
+}
+
+InputFiles& InputFiles::world(const std::string& path) {
+    if (path.empty()) return *this;
+    for (const std::filesystem::path& file : scene::files_of_world(path)) list_.push_back(file.string());
+    return *this;
+}
+
+InputFiles& InputFiles::tool(const std::string& tool) {
+    constexpr std::string_view kOfAFile = "mesh:";
+    return tool.starts_with(kOfAFile) ? mesh(tool.substr(kOfAFile.size())) : *this;
+}
+
+InputFiles& InputFiles::device(const std::string& name) {
+    const std::size_t colon = name.find(':');
+    return colon == std::string::npos ? *this : file(name.substr(colon + 1));
+}
+
+InputFiles& InputFiles::script(const std::string& path) {
+    file(path);
+    if (path.empty() || is_database(path)) return *this;
+    if (const Result<InputLog> log = read_input_log(path))
+        for (const sculpt::ToolSpec& tool : tools_in(*log)) mesh(tool.file);
+    return *this;
+}
+
+InputFiles inputs_of(const SculptOptions& options) {
+    InputFiles inputs;
+    const std::string& workpiece = options.workpiece.source;
+    const bool is_a_shape = workpiece.starts_with("block:") || workpiece.starts_with("ball:");
+    if (!options.no_workpiece && !is_a_shape) inputs.mesh(workpiece);
+    inputs.world(options.world).tool(options.tool.shape).file(options.stroke);
+    const LiveOptions& live = options.live;
+    inputs.script(live.input).file(live.record).file(live.wall).device(live.device);
+    for (const sculpt::ToolSpec& tool : live.tools_of_input) inputs.mesh(tool.file);
+    return inputs;
+}
+
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+    if (a.empty() || b.empty()) return false;
+    std::error_code ignored, failed_a, failed_b;
+    if (std::filesystem::equivalent(a, b, ignored)) return true;
+    const std::filesystem::path canonical_a = std::filesystem::weakly_canonical(std::filesystem::absolute(a), failed_a),
+                                canonical_b = std::filesystem::weakly_canonical(std::filesystem::absolute(b), failed_b);
+    return !failed_a && !failed_b && canonical_a == canonical_b;
+}
+
+}  // namespace burin::session
