@@ -144,7 +144,7 @@ CommandOption Command::option(const std::string& name, std::optional<unsigned>& 
 }
 
 CommandOption Command::option(const std::string& name, std::optional<std::uint64_t>& to, const std::string& help) {
-    return unsigned_only(app_->add_option(name, to, help));
+    return with_number<std::uint64_t>(app_->add_option(name, to, help));
 }
 
 CommandOption Command::option(const std::string& name, std::optional<double>& to, const std::string& help) {
