@@ -17,6 +17,7 @@ namespace {
 constexpr const char* kStyle = R"(<style>
 body { font: 16px/1.45 "DejaVu Sans", Arial, sans-serif; max-width: 62em; margin: 1em auto; padding: 0 1em;
   color: #111; }
+p { overflow-wrap: anywhere; }
 h1 { font-size: 1.5em; } h2 { font-size: 1.2em; margin-top: 2em; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-size: 0.85em; }
