@@ -27,8 +27,8 @@ struct StageMoments {
     std::vector<activities::StageMoment> all;
     std::vector<bool> running;  // the attempt's clock ran
 
-    // Of those that tell most, within an attempt and where the wall is touched, the one whose wand is farthest from both
-    // ends of the path, whose funnels would hide it; of a wand that rests, the middle one.
+    // Of those that tell most, within an attempt and where the wall is touched, the one whose wand is farthest from
+    // both ends of the path, whose funnels would hide it; of a wand that rests, the middle one.
     [[nodiscard]] const activities::StageMoment* chosen(const std::vector<Vec3>& spine_m) const {
         for (const bool touching : {true, false}) {
             for (const bool attempt : {true, false}) {
@@ -108,7 +108,7 @@ std::string page_picture(const std::string& text) {
 Result<void> draw_pages(const study::StudyFolder& study, const std::filesystem::path& folder) {
     for (const study::StagePlace& at : study::places_of(study.protocol())) {
         if (at.stage->kind != study::StageKind::page) continue;
-        const std::string name = formatted("all-day%zu-%02zu-%s.svg", at.day, at.place, at.stage->name.c_str());
+        const std::string name = formatted("day%zu-%02zu-%s.svg", at.day, at.place, at.stage->name.c_str());
         if (const auto ok = write_text((folder / name).string(), page_picture(at.stage->page_text)); !ok) return ok;
         std::printf("wrote %s\n", (folder / name).c_str());
     }

@@ -143,7 +143,8 @@ study::ReportSection trial_section(const study::StudyFolder& study, const std::s
         return section;
     }
     section.sentences.push_back(formatted(
-        "%s, %s on day %zu: the trial with the middle deviation, %.3g mm, of the group's%s. Its motion was replayed "
+        "%s, %s on day %zu: the trial with the middle deviation, %.3g mm, of the group's trials%s. Its motion was "
+        "replayed "
         "through the haptic model with the tube's wall at %g N/m; deviations are point less collision point, forces "
         "those "
         "that the wall would have given each point. No force of the tube acted in the trial itself.",

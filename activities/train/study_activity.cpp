@@ -203,6 +203,9 @@ void StudyActivity::show(const std::vector<ShownObject>& objects, const study::F
 }
 
 void StudyActivity::stage(renderer::Scene& scene, std::size_t /*screen*/) const {
+    // As in a study's pictures: nothing is shown that is not the study's, and no shadow of a tube that is not seen.
+    scene.pedestal.visible = scene.box.visible = false;
+    scene.workpiece_object = {};
     if (!shown_.wand_seen || !shown_.moment) {
         scene.tool.visible = false;
         return;
@@ -247,7 +250,8 @@ session::ActivityPanel StudyActivity::panel() const {
                      {"Pause", {"pause"}, in_stage},
                      {"Go on", {"go-on"}, calibrated && in_stage},
                      {"Repeat", {"repeat"}, in_stage},
-                     {"Stop", {"stop"}, in_stage}};
+                     {"Stop", {"stop"}, in_stage},
+                     {"In the jig", {"jig"}, device_.wand.has_value()}};
     return panel;
 }
 

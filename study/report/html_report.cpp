@@ -140,9 +140,11 @@ std::string effects_section(const Analysis& analysis) {
         }
     }
     if (ranks.empty()) return "";
-    std::vector<std::string> figures{interval_figure("Rank-biserial correlation", "r: first group less second", ranks)};
+    const std::vector<std::string>& groups = analysis.table.groups;
+    const std::string sign = groups.size() == 2 ? groups[0] + " less " + groups[1] : "first group less second";
+    std::vector<std::string> figures{interval_figure("Rank-biserial correlation", "r: " + sign, ranks)};
     for (const auto& [measure, rows] : shifts)
-        figures.push_back(interval_figure("Shift of " + measure, "Hodges-Lehmann: first group less second", rows));
+        figures.push_back(interval_figure("Shift of " + measure, "Hodges-Lehmann: " + sign, rows));
     return element("h2", "Effect sizes") + wide_figures_of(figures);
 }
 

@@ -166,6 +166,9 @@ TEST_F(StudyActivities, HoldTheStageWhereTheWandReadsFartherOffInItsJigThanThePr
     EXPECT_EQ(activity_->run().session()->state().phase, study::StagePhase::paused);
     EXPECT_FALSE(act({"go-on"}));
     EXPECT_EQ(activity_->panel().rows.at(0).name, "in the jig");
+    for (const session::ActivityPanel::Button& button : activity_->panel().buttons)
+        EXPECT_EQ(button.enabled, button.title != "Start" && button.title != "Go on" && button.title != "Next")
+            << button.title;
     EXPECT_TRUE(std::ranges::any_of(events_, [](const RunEvent& e) { return e.value.contains("2.5 mm"); }));
     tool_.position_device_m = in_the_jig;
     frame({spine.front()});
@@ -188,8 +191,12 @@ TEST_F(StudyActivities, ShowTheTubeToWhoSeesItAndItsTouchInRed) {
     ASSERT_NE(edit("seen tube", ObjectProperty::colour), nullptr);
     EXPECT_GT(edit("seen tube", ObjectProperty::colour)->value[0], 0.7);
     renderer::Scene scene;
+    scene.pedestal.visible = scene.box.visible = true;
+    scene.workpiece_object = {Vec3(0.0), Vec3(1.0)};
     activity_->stage(scene, 0);
     EXPECT_EQ(scene.objects.size(), 2u);
+    EXPECT_FALSE(scene.pedestal.visible || scene.box.visible);
+    EXPECT_TRUE(scene.workpiece_object.empty()) << "its shadow would tell where the tube is";
 }
 
 TEST_F(StudyActivities, LimitTheForceAndLeadWhoIsLed) {

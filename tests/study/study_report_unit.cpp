@@ -75,6 +75,8 @@ TEST(StudyReport, ShowsATrialInWhichTheProxyFollowedTheHandAndListsTheOthersInOn
         for (const std::string& mm : followed) is_of_them = is_of_them || section.contains("deviation, " + mm);
         EXPECT_TRUE(is_of_them) << section;
     }
+    const std::string sign = html.contains("r: haptic less visual") ? "haptic less visual" : "visual less haptic";
+    EXPECT_TRUE(html.contains("r: " + sign) && html.contains("Hodges-Lehmann: " + sign));
     ASSERT_GT(flagged, 1u) << "a seed without such trials tests nothing";
     EXPECT_EQ(count_of("differ by more than", html), 1u);
     EXPECT_TRUE(html.contains(formatted("in %zu trials", flagged)));
@@ -100,7 +102,7 @@ TEST(StudyPictures, DrawAPageAsItsText) {
     ASSERT_EQ(place.run(kReported + "init p.toml s --participants 1 --seed 7").status, 0);
     // Where there is no graphics device the pages are drawn all the same.
     static_cast<void>(place.run(kReported + "run s --simulated --pictures"));
-    const std::string page = place.read("s/pictures/all-day1-01-introduction.svg");
+    const std::string page = place.read("s/pictures/day1-01-introduction.svg");
     EXPECT_TRUE(page.contains("You will learn to move the wand along a path.")) << page;
     EXPECT_TRUE(page.contains("without giving a reason.</text>")) << page;
 }
