@@ -176,6 +176,19 @@ CommandOption Command::unit(const std::string& name, std::optional<LengthUnit>& 
 
 bool Command::parsed() const { return app_->parsed(); }
 
+std::vector<std::string> Command::options() const {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app_->get_options()) names.push_back(option->get_name());
+    return names;
+}
+
+std::vector<std::string> Command::given() const {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app_->get_options())
+        if (option->count() > 0) names.push_back(option->get_name());
+    return names;
+}
+
 CommandLine::CommandLine(const std::string& description) : app_(std::make_unique<CLI::App>(description)) {
     app_->require_subcommand(0, 1);
 }

@@ -82,6 +82,9 @@ public:
     CommandOption unit(const std::string& name, std::optional<LengthUnit>& to, const std::string& help);
 
     [[nodiscard]] bool parsed() const;  // whether it was named on the command line
+    // Names of its options in the order in which they were added: all, and those that the command line gave.
+    [[nodiscard]] std::vector<std::string> options() const;
+    [[nodiscard]] std::vector<std::string> given() const;
 
 private:
     CommandOption add_choice(const std::string& name, const std::string& help,

@@ -6,12 +6,11 @@
 
 namespace burin::app {
 
-void add_live_options(Command command, session::LiveOptions& options) {
+std::vector<std::string> add_live_options(Command command, session::LiveOptions& options, const char* input_help) {
+    const std::size_t before = command.options().size();
     command.flag("--live", options.live,
                  "Open a window; also without this when neither a stroke nor an output is given");
-    command.option("--input", options.input,
-                   "A recording, done again as it was; or a written log of a session's input, in its user's place, in "
-                   "simulated time");
+    command.option("--input", options.input, input_help);
     command.option("--record", options.record,
                    "A new file for all that the session depends on; with --input that log is played in real time. "
                    "FILE.session keeps every tick as well (burin session info FILE), any other name is a log as text. "
@@ -40,6 +39,9 @@ void add_live_options(Command command, session::LiveOptions& options) {
     command.option("--outputs", options.outputs,
                    "With --input: the folder below which all its files go; else one in the working folder, named after "
                    "the log: LOG-outputs");
+    std::vector<std::string> names = command.options();
+    names.erase(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(before));
+    return names;
 }
 
 }  // namespace burin::app

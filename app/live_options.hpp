@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: MIT
-// The options of a live session, which burin sculpt and burin world share.
+// The options of a live session, which burin sculpt, world, seek and study run share.
 #pragma once
+
+#include <string>
+#include <vector>
 
 #include "app/command_line.hpp"
 #include "session/state/session_options.hpp"
 
 namespace burin::app {
 
-// Adds the options to a command. Both must outlive the command line.
-void add_live_options(Command command, session::LiveOptions& options);
+inline constexpr const char* kInputHelp =
+    "A recording, done again as it was; or a written log of a session's input, in its user's place, in simulated time";
+
+// Adds the options to a command. Both must outlive the command line. Returns their names.
+std::vector<std::string> add_live_options(Command command, session::LiveOptions& options,
+                                          const char* input_help = kInputHelp);
 
 }  // namespace burin::app

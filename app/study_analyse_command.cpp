@@ -35,11 +35,14 @@ Result<void> list_faults(const std::vector<study::TableFault>& faults, const std
                 "correct what is listed and try again");
 }
 
-Result<study::TrialTable> read_table(const std::string& file) {
-    auto parsed = study::read_trials(file);
-    if (!parsed) return std::unexpected(parsed.error());
-    if (const auto ok = list_faults(parsed->faults, file); !ok) return std::unexpected(ok.error());
-    return std::move(parsed->table);
+Result<study::TrialTable> read_table(const StudyAnalyseOptions& options) {
+    const bool chosen = options.chosen.day || !options.chosen.stage.empty();
+    auto text =
+        chosen ? chosen_trials(options.study, options.chosen) : read_text_file(options.data, study::kMostTableBytes);
+    if (!text) return std::unexpected(text.error());
+    study::ParsedTable parsed = study::parse_trials(*text);
+    if (const auto ok = list_faults(parsed.faults, options.data); !ok) return std::unexpected(ok.error());
+    return std::move(parsed.table);
 }
 
 // Returns the printed figures to check: by the file that the user names, else by those that Burin knows.
@@ -113,21 +116,30 @@ Result<void> study_analyse(const StudyAnalyseOptions& asked) {
     StudyAnalyseOptions options = asked;
     if (options.data.empty() == options.study.empty())
         return fail("analyse", "needs a study's folder or --data, and not both", "give one of them");
+    const bool chosen = options.chosen.day || !options.chosen.stage.empty();
+    if (chosen && options.study.empty())
+        return fail("--day, --stage", "choose among a study's trials, and --data is one table",
+                    "name the study's folder, or leave out rows of the table");
+    std::string pooled;
     if (!options.study.empty()) {
         options.data = (fs::path(options.study) / "trials.csv").string();
     }
     if (const auto ok = check_json(options); !ok) return ok;
-    if (!options.study.empty())
-        if (const auto made = make_trials(options.study); !made) return std::unexpected(made.error());
+    if (!options.study.empty()) {
+        const auto made = make_trials(options.study);
+        if (!made) return std::unexpected(made.error());
+        if (!chosen) pooled = made->pooled;
+    }
     std::string out = options.out;
     while (out.size() > 1 && out.ends_with('/')) out.pop_back();
     if (const auto ok = check_new_folder(out); !ok) return ok;
-    auto table = read_table(options.data);
+    auto table = read_table(options);
     if (!table) return std::unexpected(table.error());
     const auto published = comparisons(options.published, *table);
     if (!published) return std::unexpected(published.error());
 
-    const study::Analysis analysis = study::analyse(std::move(*table), options.seed);
+    study::Analysis analysis = study::analyse(std::move(*table), options.seed);
+    if (!pooled.empty()) analysis.notes.push_back(pooled);
     Json json = study::analysis_json(analysis);
     for (const study::PublishedComparison& one : *published) json["published"].push_back(study::published_json(one));
     if (options.json != kStandardOutput) {

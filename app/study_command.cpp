@@ -49,7 +49,9 @@ void StudyCommand::add_folder() {
     run_.flag("--simulated", r.simulated, "Simulated learners with a simulated wand fill all places; no window");
     run_.option("--participant", r.participant,
                 "Takes one participant, who is enrolled, through the next day's stages");
-    add_live_options(run_, r.live);  // its --input may also be a script of simulated time
+    r.live_names = add_live_options(run_, r.live,
+                                    "A written log of a session's input, in its user's place, in a live session; or a "
+                                    "script of a visit, in simulated time (docs/study.md)");
     run_.option("--key", r.key, "The allocation's key, where it is not in the folder");
     run_.option("--threads", r.threads, "People at a time; 0: one for each core; the result is the same")
         .within(0, 1024);
@@ -80,6 +82,8 @@ void StudyCommand::add_figures() {
     analyse_ = command_.subcommand("analyse", "Correlations, comparisons and effect sizes of a table of trials");
     analyse_.option("STUDY", a.study, "The study's folder, instead of --data");
     analyse_.option("--data", a.data, "CSV with participant, group, trial, deviation, time_s; see docs/formats.md");
+    analyse_.option("--day", a.chosen.day, "With STUDY: trials of this day alone, such as a later one's (retention)");
+    analyse_.option("--stage", a.chosen.stage, "With STUDY: trials of this stage alone, such as another path's");
     analyse_.option("--published", a.published, "CSV of figures that were published of these data, to be checked");
     analyse_.option("--json", a.json, "A file for every figure; - for standard output");
     analyse_.option("--out", a.out, "A new folder for report.html, results.json and tables as CSV");
@@ -112,7 +116,7 @@ Result<void> StudyCommand::run() const {
     if (init_.parsed()) return study_init(o.init);
     if (check_.parsed()) return study_check(o.checked);
     if (enrol_.parsed()) return study_enrol(o.enrol);
-    if (run_.parsed()) return study_run(o.run);
+    if (run_.parsed()) return study_run(o.run, run_.given());
     if (replay_.parsed()) return study_replay(o.replay);
     if (status_.parsed()) return study_status(o.status);
     if (withdraw_.parsed()) return study_withdraw(o.withdraw);

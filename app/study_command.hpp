@@ -4,12 +4,14 @@
 //   burin study check FILE.toml | STUDY
 //   burin study enrol STUDY ID [--codes CODE...] [--key FILE]
 //   burin study run STUDY --simulated [--effect D] [--threads N] [--without-motion | --pictures]
-//   burin study run STUDY --participant ID [--input SCRIPT] [--resume] [--without-motion | --pictures]
+//   burin study run STUDY --participant ID --input SCRIPT [--resume] [--without-motion | --pictures]
+//   burin study run STUDY --participant ID [--input LOG] [live options] [--resume] [--without-motion | --pictures]
 //   burin study replay STUDY
 //   burin study status STUDY
 //   burin study withdraw STUDY ID [--erase]
 //   burin study report STUDY
-//   burin study analyse STUDY | --data FILE.csv [--published FILE.csv] [--json OUT] [--out FOLDER]
+//   burin study analyse STUDY [--day N] [--stage NAME] [--json OUT] [--out FOLDER]
+//   burin study analyse --data FILE.csv [--published FILE.csv] [--json OUT] [--out FOLDER]
 //   burin study power --effect D [--participants N | --target P] [--json OUT]
 #pragma once
 
@@ -20,6 +22,7 @@
 #include <vector>
 
 #include "app/command_line.hpp"
+#include "app/study_trials.hpp"
 #include "base/error.hpp"
 #include "session/state/session_options.hpp"
 #include "study/report/html_report.hpp"
@@ -52,6 +55,7 @@ private:
 struct StudyAnalyseOptions {
     std::string data;       // CSV; empty: of the study
     std::string study;      // a study's folder; empty: data is given
+    TrialChoice chosen;     // with a study
     std::string published;  // CSV; empty: only studies that Burin knows
     std::string json;       // a file; empty: none
     std::string out;        // a folder that does not exist yet; empty: none
@@ -100,14 +104,15 @@ struct StudyEnrolOptions {
 
 struct StudyRunOptions {
     std::string study, key;
-    std::string participant;    // one participant; empty: simulated learners
-    session::LiveOptions live;  // its input: of a live session, or a script of simulated time
+    std::string participant;              // one participant; empty: simulated learners
+    session::LiveOptions live;            // its input: of a live session, or a script of simulated time
+    std::vector<std::string> live_names;  // of its options
     bool simulated = false, without_motion = false, pictures = false, resume = false;
     double effect = 0.0;
     unsigned threads = 0;  // 0: one for each core
 };
-// Goes on where the journal ends.
-[[nodiscard]] Result<void> study_run(const StudyRunOptions& options);
+// Goes on where the journal ends. `given`: the names of the options that were given; fails where one has no effect.
+[[nodiscard]] Result<void> study_run(const StudyRunOptions& options, const std::vector<std::string>& given);
 
 // Every recorded motion through the haptic tick again; fails where one does not give what was stored.
 struct StudyReplayOptions {

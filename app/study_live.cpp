@@ -21,6 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kSamePoint_m = 1e-6;
+
 std::string obj_text(const geometry::TriangleMesh& mesh) {
     std::string text = "# unit: metre\n";
     for (const Vec3& p : mesh.positions_m) text += formatted("v %.9g %.9g %.9g\n", p.x, p.y, p.z);
@@ -55,12 +57,32 @@ Result<std::string> write_world(const study::FeltWorld& world, const fs::path& f
 // The wand with its points where the protocol has them.
 Result<std::string> write_wand(const study::Protocol& protocol, const fs::path& folder) {
     std::string text = "name = \"simulated wand\"\n";
+    text += formatted("\n[calibration]\ntolerance = %.9g\n", protocol.calibration_tolerance_m);
     for (const devices::WandPoint& point : study::study_wand(protocol).points)
         text += formatted("\n[[point]]\nname = \"%s\"\noffset = [%.9g, %.9g, %.9g]\n", point.name.c_str(),
                           point.offset_m.x, point.offset_m.y, point.offset_m.z);
     const std::string file = (folder / "wand.toml").string();
     if (const auto ok = write_text(file, text); !ok) return std::unexpected(ok.error());
     return file;
+}
+
+// The wand that the device is, where it is one; its points must be where the protocol has them.
+Result<std::optional<devices::WandDescription>> wand_of(const std::string& device, const study::Protocol& protocol) {
+    if (!devices::is_wand(device)) return std::nullopt;
+    const auto wand = devices::wand_named(device);
+    if (!wand) return std::unexpected(wand.error());
+    const auto points = devices::points_named(*wand, devices::kUsualPoints);
+    if (!points) return std::unexpected(points.error());
+    const std::vector<devices::WandPoint> wanted = study::study_wand(protocol).points;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        const Vec3& at_m = points->at(i).offset_m;
+        if (glm::distance(at_m, wanted[i].offset_m) > kSamePoint_m)
+            return fail(device,
+                        formatted("has its point %s %.1f mm above the handle's middle, and the protocol %.1f mm",
+                                  wanted[i].name.c_str(), 1e3 * at_m.y, 1e3 * wanted[i].offset_m.y),
+                        "describe the points as the protocol's point_offset_m has them");
+    }
+    return *wand;
 }
 
 // The world of all stages that have one.
@@ -109,11 +131,13 @@ Result<void> run_live_visit(study::StudyFolder& study, const StudyRunOptions& op
     session.live = options.live;
     session.live.panel_window = true;  // the operator's; the participant sees the page alone
     if (session.live.device == devices::kDefaultHapticDevice || session.live.device == devices::kSimulatedWand) {
-        const auto wand = write_wand(study.protocol(), study.path() / "worlds" / *world);
-        if (!wand) return std::unexpected(wand.error());
-        session.live.device = std::string(devices::kSimulatedWand) + ":" + *wand;
+        const auto described = write_wand(study.protocol(), study.path() / "worlds" / *world);
+        if (!described) return std::unexpected(described.error());
+        session.live.device = std::string(devices::kSimulatedWand) + ":" + *described;
     }
-    const bool is_wand = devices::is_wand(session.live.device);
+    const auto wand = wand_of(session.live.device, study.protocol());
+    if (!wand) return std::unexpected(wand.error());
+    const bool is_wand = wand->has_value();
     if (is_wand) session.points = devices::kUsualPoints;
     if (const auto ok = study.begin_visit(options.participant, is_wand ? "simulated wand" : session.live.device); !ok)
         return ok;
@@ -128,9 +152,9 @@ Result<void> run_live_visit(study::StudyFolder& study, const StudyRunOptions& op
     const std::string settings =
         formatted("study run %s group %s day %zu stage %zu", study.facts().protocol_digest.substr(0, 12).c_str(),
                   group->code.c_str(), places->front().day, places->front().place);
-    const auto activity =
-        std::make_shared<activities::StudyActivity>(study.protocol(), *group, *worlds, std::move(*places), settings,
-                                                    is_wand ? study.protocol().point_offset_m : 0.0, keeper);
+    const auto activity = std::make_shared<activities::StudyActivity>(
+        study.protocol(), *group, *worlds, std::move(*places), settings,
+        activities::StudyDevice{is_wand ? study.protocol().point_offset_m : 0.0, *wand}, keeper);
     session.activity = activity;
     const Result<void> done = run_recorded_session(session, "study run");
     std::printf("%zu stages ended; %zu of the day are left\n", activity->stages_ended(),

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
+#include <span>
 
 #include "activities/train/scripted_visit.hpp"
 #include "activities/train/simulated_study.hpp"
@@ -15,6 +18,35 @@ namespace burin::app {
 namespace {
 
 constexpr std::uint64_t kMostScriptBytes = std::uint64_t{16} << 20;
+
+bool is_live(const StudyRunOptions& options) {
+    return !options.simulated && (options.live.input.empty() || is_session_log(options.live.input));
+}
+
+// Those of the options given that are in the list, with commas between them.
+std::string named_among(const std::vector<std::string>& given, std::span<const std::string> list) {
+    std::string names;
+    for (const std::string& name : given)
+        if (name != "--input" && std::ranges::find(list, name) != list.end())
+            names += (names.empty() ? "" : ", ") + name;
+    return names;
+}
+
+// That no option was given that changes nothing.
+Result<void> check_effect(const StudyRunOptions& options, const std::vector<std::string>& given) {
+    static const std::array<std::string, 2> kOfLearners{"--effect", "--threads"};
+    const std::string of_learners = options.simulated ? "" : named_among(given, kOfLearners);
+    if (!of_learners.empty())
+        return fail(of_learners, "no effect on a participant's visit: of simulated learners only",
+                    "leave it out, or give --simulated without --participant");
+    const std::string of_session = is_live(options) ? "" : named_among(given, options.live_names);
+    if (of_session.empty()) return {};
+    if (options.simulated)
+        return fail(of_session, "no effect on simulated learners, who have no window and no device: of a live session",
+                    "leave it out, or take one person through with --participant ID");
+    return fail(of_session, "no effect on a script, which has no window and no device: of a live session",
+                "leave it out, or give a session's log as --input (its first line begins with burin-input)");
+}
 
 Result<void> check_usage(const StudyRunOptions& options) {
     constexpr const char* kRun = "burin study run";
@@ -98,8 +130,9 @@ Result<void> take_participant(study::StudyFolder& study, const StudyRunOptions& 
 
 }  // namespace
 
-Result<void> study_run(const StudyRunOptions& options) {
+Result<void> study_run(const StudyRunOptions& options, const std::vector<std::string>& given) {
     if (const auto ok = check_usage(options); !ok) return ok;
+    if (const auto ok = check_effect(options, given); !ok) return ok;
     auto study = study::StudyFolder::open(options.study, study::StudyAccess::write);
     if (!study) return std::unexpected(study.error());
     warn_of_journal(*study);
@@ -107,10 +140,9 @@ Result<void> study_run(const StudyRunOptions& options) {
     if (!options.resume) {
         if (const auto ok = study::check_resumption(*study, study::now_utc_ns()); !ok) return ok;
     }
-    const bool is_live = options.live.input.empty() || is_session_log(options.live.input);
-    const auto went = options.simulated ? take_learners(*study, options)
-                      : is_live         ? run_live_visit(*study, options)
-                                        : take_participant(*study, options);
+    const auto went = options.simulated  ? take_learners(*study, options)
+                      : is_live(options) ? run_live_visit(*study, options)
+                                         : take_participant(*study, options);
     if (!went) return went;
     return options.pictures ? draw_stages(*study) : Result<void>();
 }

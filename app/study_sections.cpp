@@ -47,37 +47,56 @@ study::ReportSection flow_of(const study::StudyFolder& study) {
     return {"Flow of participants", {}, {study::flow_figure(groups)}};
 }
 
-// Of one stage as it was gone through; empty: as the protocol has it.
-std::string deviation_of(const study::StudyFolder& study, const Participant& p, const StageVisit& v) {
-    const std::string which = formatted("%s, %s (day %zu, stage %zu): ", p.id.c_str(), v.stage.c_str(), v.day, v.place);
-    if (v.status == StageStatus::aborted) return which + "interrupted; what was recorded until then is kept.";
+bool deviations_differ(const Json& record) {
+    const auto differ = record.find("deviations_differ");
+    return differ != record.end() && differ->is_number() && differ->get<double>() != 0.0;
+}
+
+struct StageDeviation {
+    std::string sentence;      // empty: none
+    bool is_of_proxy = false;  // the proxy could not follow the hand: many trials share this one
+};
+
+// Of one stage as it was gone through.
+StageDeviation deviation_of(const study::StudyFolder& study, const Participant& p, const StageVisit& v) {
+    const std::string which = formatted("%s, %s (day %zu, stage %zu)", p.id.c_str(), v.stage.c_str(), v.day, v.place);
+    if (v.status == StageStatus::aborted) return {which + ": interrupted; what was recorded until then is kept."};
     if (!is_outcome_trial(study.protocol(), v)) return {};
-    if (v.file.empty()) return which + "no valid exit after all attempts.";
+    if (v.file.empty()) return {which + ": no valid exit after all attempts."};
     const auto record = study.recorded(v);
-    if (!record) return which + "its file is missing or damaged, and is left out.";
-    const auto differ = record->find("deviations_differ");
-    if (differ == record->end() || !differ->is_number() || differ->get<double>() == 0.0) return {};
-    return which + formatted(
-                       "deviation to the proxy and to the wall differ by more than %g mm: the hand left the tube "
-                       "where the proxy could not follow.",
-                       study::kDeviationsAgree_mm);
+    if (!record) return {which + ": its file is missing or damaged, and is left out."};
+    return deviations_differ(*record) ? StageDeviation{which, true} : StageDeviation{};
+}
+
+std::string joined_trials(const std::vector<std::string>& trials) {
+    std::string text = formatted(
+        "Deviation to the proxy and to the wall differ by more than %g mm in %zu trial%s, as the hand left the tube "
+        "where "
+        "the proxy could not follow; these have no figures of contact and force: ",
+        study::kDeviationsAgree_mm, trials.size(), trials.size() == 1 ? "" : "s");
+    for (std::size_t i = 0; i < trials.size(); ++i) text += (i > 0 ? "; " : "") + trials[i];
+    return text + ".";
 }
 
 study::ReportSection deviations_of(const study::StudyFolder& study) {
     study::ReportSection section{"Deviations from the protocol", {}, {}};
+    std::vector<std::string> of_proxy;
     std::size_t more = 0;
     for (const Participant& p : study.participants()) {
         for (const StageVisit& v : p.visits) {
-            std::string sentence = p.withdrawn ? std::string() : deviation_of(study, p, v);
-            if (sentence.empty()) continue;
-            if (section.sentences.size() < kMostSentences) {
-                section.sentences.push_back(std::move(sentence));
+            StageDeviation one = p.withdrawn ? StageDeviation{} : deviation_of(study, p, v);
+            if (one.sentence.empty()) continue;
+            if (one.is_of_proxy) {
+                of_proxy.push_back(std::move(one.sentence));
+            } else if (section.sentences.size() < kMostSentences) {
+                section.sentences.push_back(std::move(one.sentence));
             } else {
                 ++more;
             }
         }
     }
     if (more > 0) section.sentences.push_back(formatted("%zu more are not listed.", more));
+    if (!of_proxy.empty()) section.sentences.push_back(joined_trials(of_proxy));
     if (section.sentences.empty()) section.sentences.emplace_back("None.");
     return section;
 }
@@ -86,9 +105,11 @@ struct SampleTrial {
     std::string person;
     StageVisit visit;
     double deviation_mm = 0.0;
+    bool differs = false;  // the proxy of the model hangs where the hand is not
 };
 
-// The trial of the group whose deviation is the middle one, of those whose motion is there.
+// The trial of the group whose deviation is the middle one, of those whose motion is there and, where there are such,
+// whose proxy followed the hand.
 std::optional<SampleTrial> sample_of(const study::StudyFolder& study, const std::string& group) {
     std::vector<SampleTrial> trials;
     for (const Participant& p : study.participants()) {
@@ -96,10 +117,11 @@ std::optional<SampleTrial> sample_of(const study::StudyFolder& study, const std:
         for (const StageVisit& v : p.visits) {
             if (!is_outcome_trial(study.protocol(), v) || v.file.empty() || v.recording.empty()) continue;
             const auto record = study.recorded(v);
-            if (record) trials.push_back({p.id, v, record->value("deviation_mm", 0.0)});
+            if (record) trials.push_back({p.id, v, record->value("deviation_mm", 0.0), deviations_differ(*record)});
         }
     }
     if (trials.empty()) return std::nullopt;
+    if (!std::ranges::all_of(trials, &SampleTrial::differs)) std::erase_if(trials, &SampleTrial::differs);
     std::ranges::stable_sort(trials, {}, &SampleTrial::deviation_mm);
     return trials[(trials.size() - 1) / 2];
 }
@@ -121,11 +143,17 @@ study::ReportSection trial_section(const study::StudyFolder& study, const std::s
         return section;
     }
     section.sentences.push_back(formatted(
-        "%s, %s on day %zu: the group's trial with the middle deviation, %.3g mm. Its motion was replayed through the "
-        "haptic model with the tube's wall at %g N/m; deviations are point less collision point, forces those that the "
-        "wall would have given each point. No force of the tube acted in the trial itself.",
+        "%s, %s on day %zu: the trial with the middle deviation, %.3g mm, of the group's trials%s. Its motion was "
+        "replayed "
+        "through the haptic model with the tube's wall at %g N/m; deviations are point less collision point, forces "
+        "those "
+        "that the wall would have given each point. No force of the tube acted in the trial itself.",
         sample->person.c_str(), sample->visit.stage.c_str(), sample->visit.day, sample->deviation_mm,
-        world->wall_N_per_m));
+        sample->differs ? "" : " in which the model's proxies followed the hand", world->wall_N_per_m));
+    if (sample->differs)
+        section.sentences.emplace_back(
+            "The model's proxy could not follow the hand, in this as in all trials of the group whose motion is there: "
+            "deviation and force of its points say nothing of the wall from there on.");
     if (replay->difference)
         section.sentences.push_back("The replay does not give what was stored: " + replay->difference->line());
     section.figures =

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <set>
 
 #include "app/output_files.hpp"
 #include "base/text.hpp"
@@ -18,6 +19,31 @@ using study::StageVisit;
 bool is_outcome(const study::Protocol& protocol, const StageVisit& visit) {
     const study::Stage* stage = protocol.stage(visit.stage);
     return stage != nullptr && stage->outcome && visit.status == StageStatus::ended && !visit.file.empty();
+}
+
+bool is_chosen(const TrialChoice& choice, const study::TrialRow& row) {
+    return (!choice.day || *choice.day == row.day) && (choice.stage.empty() || choice.stage == row.stage);
+}
+
+// Where the outcome trials are not all of one day and one world; else empty.
+std::string pooled_fact(const study::Protocol& protocol) {
+    std::set<std::size_t> days;
+    std::set<std::string> worlds;
+    for (const study::StagePlace& at : study::places_of(protocol)) {
+        if (!at.stage->outcome) continue;
+        days.insert(at.day);
+        worlds.insert(at.stage->world);
+    }
+    if (days.size() < 2 && worlds.size() < 2) return {};
+    return formatted(
+        "The outcome trials are of %zu days and %zu worlds: a participant's value is the mean over all of them. "
+        "burin study analyse STUDY --day N or --stage NAME takes some of them alone.",
+        days.size(), worlds.size());
+}
+
+bool is_simulated(const study::StudyFolder& study) {
+    return std::ranges::any_of(study.participants(),
+                               [](const Participant& p) { return p.simulated || p.device.starts_with("simulated"); });
 }
 
 // A damaged file is left out and named; the others are used.
@@ -84,6 +110,7 @@ std::vector<std::string> study_facts(const study::StudyFolder& study) {
                                   static_cast<std::size_t>(std::ranges::count_if(people, stayed))));
     }
     facts.push_back(formatted("%zu stages were aborted and %zu trials ended without a valid exit.", aborted, invalid));
+    if (const std::string pooled = pooled_fact(study.protocol()); !pooled.empty()) facts.push_back(pooled);
     if (!study.journal().faults.empty())
         facts.push_back(
             formatted("The journal is damaged in %zu lines, which are not used.", study.journal().faults.size()));
@@ -103,11 +130,27 @@ Result<TrialsMade> make_trials(const std::string& folder) {
     warn_of_journal(*study);
     const std::vector<study::TrialRow> rows = rows_of(*study);
     if (rows.empty()) return fail(folder, "has no valid outcome trial yet", "run it first: burin study run");
-    const bool simulated = std::ranges::any_of(
-        study->participants(), [](const Participant& p) { return p.simulated || p.device.starts_with("simulated"); });
+    const bool simulated = is_simulated(*study);
     const std::string path = (study->path() / "trials.csv").string();
     if (const auto ok = write_text(path, study::trials_csv(rows, simulated)); !ok) return std::unexpected(ok.error());
-    return TrialsMade{rows.size(), study_facts(*study)};
+    return TrialsMade{rows.size(), study_facts(*study), pooled_fact(study->protocol())};
+}
+
+Result<std::string> chosen_trials(const std::string& folder, const TrialChoice& choice) {
+    const auto study = study::StudyFolder::open(folder, study::StudyAccess::read);
+    if (!study) return std::unexpected(study.error());
+    const study::Protocol& protocol = study->protocol();
+    if (choice.day && (*choice.day == 0 || *choice.day > protocol.days.size()))
+        return fail(formatted("--day %u", *choice.day), formatted("the protocol has %zu days", protocol.days.size()),
+                    "count them from 1");
+    const study::Stage* stage = protocol.stage(choice.stage);
+    if (!choice.stage.empty() && (stage == nullptr || !stage->outcome))
+        return fail("--stage " + choice.stage, "is no stage with outcome = true in the protocol",
+                    "name one whose trials are analysed");
+    std::vector<study::TrialRow> rows = rows_of(*study);
+    std::erase_if(rows, [&](const study::TrialRow& row) { return !is_chosen(choice, row); });
+    if (rows.empty()) return fail(folder, "has no valid trial of that day and stage", "leave --day or --stage out");
+    return study::trials_csv(rows, is_simulated(*study));
 }
 
 }  // namespace burin::app

@@ -2,6 +2,7 @@
 // What the commands on a study's folder share: its table of trials and its flow of participants.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,15 @@ void warn_of_journal(const study::StudyFolder& study);
 struct TrialsMade {
     std::size_t trials = 0;
     std::vector<std::string> facts;
+    std::string pooled;  // a sentence where they are of several days or worlds, whose means are taken together
 };
 [[nodiscard]] Result<TrialsMade> make_trials(const std::string& folder);
+
+struct TrialChoice {
+    std::optional<unsigned> day;  // nothing: of all days
+    std::string stage;            // empty: of all stages
+};
+// Returns the table of some of a study's trials. Fails where the protocol has no such day or stage, or nobody a trial.
+[[nodiscard]] Result<std::string> chosen_trials(const std::string& folder, const TrialChoice& choice);
 
 }  // namespace burin::app

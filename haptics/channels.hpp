@@ -46,6 +46,7 @@ struct TickParameters {
     // Mapping from device to scene; its scale is the position gain g: motions grow by g, forces shrink by g.
     WorkspaceSettings workspace;
     Probe probe;
+    ProxyPlacement placement;
     ToolShape shape;   // what touches instead of the probe's first ball, where it has pieces
     ToolSurface tool;  // what cuts; count 0: nothing
     // The ball that touches is smaller than the ball that carves by this fraction of its radius. A ball lying in the

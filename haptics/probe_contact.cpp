@@ -177,6 +177,18 @@ void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept {
     contact.wrench.force_device_N += drag_device_N;
 }
 
+void place_proxies(ProbeState& state, const Vec3& position_object_m, std::uint64_t surface_sequence) noexcept {
+    ProxyState placed;
+    placed.position_object_m = placed.hip_object_m = position_object_m;
+    placed.surface_sequence = surface_sequence;
+    placed.placed = true;
+    state.proxies.fill(placed);
+    state.watches = {};
+    state.contacts = {};
+    state.left_out_m = {};
+    state.cutting.engaged = false;
+}
+
 void follow_hand(const ProbeStep& step, const ProbeInput& input) noexcept {
     step.contact.point_count = input.parameters.probe.count;
     step.next.bodies.count = 0;

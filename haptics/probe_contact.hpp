@@ -29,6 +29,7 @@ struct ProbeState {
     Quat tool_orientation_object{1.0, 0.0, 0.0, 0.0};  // of a tool's shape at its proxy
     CuttingState cutting;
     BodiesState bodies;
+    std::uint64_t placement = 0;  // number of the last ProxyPlacement that acted
 };
 
 // References hold for the call.
@@ -54,6 +55,9 @@ struct ProbeStep {
 // Computes, for each point, its proxy on the surface, the wall as the device may render it, and the force; the first
 // point also cuts.
 void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept;
+
+// Sets the proxies of all points in one place, as if they had come there without touching anything.
+void place_proxies(ProbeState& state, const Vec3& position_object_m, std::uint64_t surface_sequence) noexcept;
 
 // Lets the proxies follow the hand while nothing is touched.
 void follow_hand(const ProbeStep& step, const ProbeInput& input) noexcept;

@@ -165,12 +165,18 @@ void compute_tick(const TickResult& t, const TickState& state, const devices::De
     const bool searchable = surface.sequence > 0;
     if (!searchable) record.flags |= kTickNoSurface;
     const bool touches = searchable && parameters.enabled && !workspace.paused;
+    const bool places = touches && parameters.placement.number != next.probe.placement;
+    if (places) {
+        place_proxies(next.probe, parameters.placement.position_object_m, surface.sequence);
+        next.probe.placement = parameters.placement.number;
+    }
     const ProbeInput input{sample, motion, surface, parameters, device, dt_s, now_ns, record.turn};
     const ProbeStep probe{next.probe, record.contact, record.flags};
     if (touches)
         touch_surface(probe, input);
     else
         follow_hand(probe, input);
+    if (places) record.contact.jumped = true;
     next.in_contact = record.in_contact();
     const double age_s = seconds(now_ns - surface.made_ns);
     if (next.in_contact && parameters.max_surface_age_s > 0.0 && age_s > parameters.max_surface_age_s)

@@ -64,12 +64,13 @@ bool sensible(const WeightSettings& w) {
 bool parameters_are_sensible(const TickParameters& p) noexcept {
     for (const TouchMaterial& material : p.materials)
         if (!sensible(material)) return false;
-    return settings_are_sensible(p.workspace) && sensible(p.probe) && sensible(p.shape) && share(p.clearance_ratio) &&
-           share(p.signals.velocity_alpha) && share(p.signals.force_alpha) &&
-           not_negative(p.coupling.stiffness_N_per_m) && not_negative(p.coupling.damping_Ns_per_m) &&
-           not_negative(p.passivity.max_damping_Ns_per_m) && not_negative(p.passivity.reserve_J) &&
-           not_negative(p.passivity.surface_speed_m_per_s) && sensible(p.work) && sensible(p.weight) &&
-           sensible(p.curve, p.guidance) && not_negative(p.position_noise_m) && not_negative(p.max_surface_age_s);
+    return settings_are_sensible(p.workspace) && sensible(p.probe) && finite(p.placement.position_object_m) &&
+           sensible(p.shape) && share(p.clearance_ratio) && share(p.signals.velocity_alpha) &&
+           share(p.signals.force_alpha) && not_negative(p.coupling.stiffness_N_per_m) &&
+           not_negative(p.coupling.damping_Ns_per_m) && not_negative(p.passivity.max_damping_Ns_per_m) &&
+           not_negative(p.passivity.reserve_J) && not_negative(p.passivity.surface_speed_m_per_s) && sensible(p.work) &&
+           sensible(p.weight) && sensible(p.curve, p.guidance) && not_negative(p.position_noise_m) &&
+           not_negative(p.max_surface_age_s);
 }
 
 }  // namespace burin::haptics

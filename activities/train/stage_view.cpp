@@ -103,6 +103,7 @@ renderer::Scene StageView::scene(StageMoment moment) {
     }
     renderer::Scene scene = view_.close_scene({});
     scene.pedestal.visible = false;
+    scene.workpiece_object = {};  // no shadow on the floor: it would tell of a tube that is not seen
     stand_back(scene);
     if (stage_.sees_wand) add_wand(scene, moment);
     return scene;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "activities/train/stage_view.hpp"
+#include "base/text.hpp"
 
 namespace burin::activities {
 namespace {
@@ -22,6 +23,7 @@ constexpr std::array kStudyActs{
     session::Act{"go-on", "", "Go on after a pause"},
     session::Act{"repeat", "", "Give the attempt up, and have it done again"},
     session::Act{"stop", "", "End the stage and the visit"},
+    session::Act{"jig", "", "The wand stands in its jig: nothing goes on where it reads farther off than is allowed"},
     session::Act{"note", "TEXT...", "Write to the journal; it must name nobody"},
 };
 
@@ -50,15 +52,17 @@ haptics::TickRecord record_of(const haptics::StrokeSample& tick, const study::St
 }  // namespace
 
 StudyActivity::StudyActivity(const study::Protocol& protocol, const study::Group& group, const FeltWorlds& worlds,
-                             std::vector<study::StagePlace> places, std::string settings, double point_offset_m,
+                             std::vector<study::StagePlace> places, std::string settings, StudyDevice device,
                              StageKeeper keeper)
     : protocol_(protocol),
       group_(group),
       worlds_(worlds),
       settings_(std::move(settings)),
-      point_offset_m_(point_offset_m),
+      device_(std::move(device)),
       keeper_(std::move(keeper)),
-      run_(protocol, group, worlds, std::move(places)) {}
+      run_(protocol, group, worlds, std::move(places)) {
+    if (device_.wand) device_.wand->calibration.tolerance_m = protocol.calibration_tolerance_m;
+}
 
 std::span<const session::Act> StudyActivity::acts() const { return kStudyActs; }
 
@@ -67,21 +71,11 @@ void StudyActivity::tell(const Result<void>& done, session::ActivityOrders& orde
 }
 
 Result<void> StudyActivity::act(std::span<const std::string> words, session::ActivityOrders& orders) {
+    if (words[0] == "jig") return check_jig(orders);
     const std::string text = words[0] == "go-on" ? "go on" : joined_words(words);
     const Result<OperatorCommand> command = operator_command(text);
     if (!command) return std::unexpected(command.error());
-    const TrainingRun::Phase phase = run_.phase();
-    const bool is_note = command->says == OperatorSays::note;
-    if (command->says == OperatorSays::start && phase != TrainingRun::Phase::between)
-        return fail("do start", phase == TrainingRun::Phase::finished ? "all stages are done" : "a stage is under way",
-                    "end it first, with do next or do stop");
-    if (command->says == OperatorSays::start && now_ns_ == 0)
-        return fail("do start", "no tick has come from the device yet", "wait a moment, or see to the device");
-    if (command->says != OperatorSays::start && !is_note && phase != TrainingRun::Phase::in_stage)
-        return fail("do " + words[0], "no stage is under way", "do start begins one");
-    if (command->says == OperatorSays::next && !ends_by_operator())
-        return fail("do next", "this stage ends by itself, as the protocol has it",
-                    "wait, or break it off with do stop");
+    if (const auto ok = check_order(*command); !ok) return fail("do " + words[0], ok.error().what, ok.error().remedy);
     run_.command(*command, now_ns_);
     if (command->says == OperatorSays::start) {
         if (keeper_.begun) tell(keeper_.begun(run_), orders);
@@ -90,11 +84,56 @@ Result<void> StudyActivity::act(std::span<const std::string> words, session::Act
     return {};
 }
 
+// Whether the operator may say that now.
+Result<void> StudyActivity::check_order(const OperatorCommand& command) const {
+    const TrainingRun::Phase phase = run_.phase();
+    const bool starts = command.says == OperatorSays::start;
+    if (starts && phase != TrainingRun::Phase::between)
+        return fail("", phase == TrainingRun::Phase::finished ? "all stages are done" : "a stage is under way",
+                    "end it first, with do next or do stop");
+    if (starts && now_ns_ == 0)
+        return fail("", "no tick has come from the device yet", "wait a moment, or see to the device");
+    if (!starts && command.says != OperatorSays::note && phase != TrainingRun::Phase::in_stage)
+        return fail("", "no stage is under way", "do start begins one");
+    if (command.says == OperatorSays::next && !ends_by_operator())
+        return fail("", "this stage ends by itself, as the protocol has it", "wait, or break it off with do stop");
+    if (!jig_off_.empty() && (starts || command.says == OperatorSays::go_on))
+        return fail("", "the wand read " + jig_off_ + " in its jig",
+                    "put it there and say do jig until it reads right");
+    return {};
+}
+
+Result<void> StudyActivity::check_jig(session::ActivityOrders& orders) {
+    if (!device_.wand) return fail("do jig", "the device has no jig", "see to its calibration by its own means");
+    const devices::WandDescription& wand = *device_.wand;
+    const devices::CalibrationError error = devices::calibration_error(wand, reads_device_);
+    const std::string off =
+        formatted("%.1f mm and %.2f degrees off (%.1f mm and %.2f degrees are allowed)", 1e3 * error.distance_m,
+                  error.angle_rad / devices::kDegree_rad, 1e3 * wand.calibration.tolerance_m,
+                  wand.calibration.tolerance_rad / devices::kDegree_rad);
+    run_.command({OperatorSays::note, "in the jig the wand reads " + off}, now_ns_);
+    jig_off_ = error.within_tolerance ? "" : off;
+    if (error.within_tolerance) {
+        orders.messages.push_back("jig: the wand reads " + off);
+        return {};
+    }
+    const bool in_stage = run_.phase() == TrainingRun::Phase::in_stage;
+    if (in_stage) run_.command({OperatorSays::pause, {}}, now_ns_);
+    const Vec3& jig_m = wand.calibration.maker_from_handle.position_m;
+    return fail(
+        in_stage ? "STAGE STOPPED" : "do jig", "in its jig the wand reads " + off,
+        formatted("put it into the jig, which is at %g, %g, %g m in the maker's frame, and say do jig again; if "
+                  "it is there, switch the device off and on in the jig",
+                  jig_m.x, jig_m.y, jig_m.z));
+}
+
 bool StudyActivity::ends_by_operator() const {
     return run_.place() != nullptr && run_.place()->stage->ends_by_operator;
 }
 
 void StudyActivity::step(const session::ActivityView& view, session::ActivityOrders& orders) {
+    reads_device_ = {view.tool.position_device_m,
+                     glm::conjugate(view.tool.workspace.object_from_device.orientation) * view.tool.orientation_object};
     for (const haptics::StrokeSample& tick : view.ticks) follow(tick, orders);
     if (run_.phase() == TrainingRun::Phase::in_stage && run_.session() != nullptr && run_.session()->touch().leads())
         orders.parameters = true;  // guidance fades and turns
@@ -106,12 +145,23 @@ void StudyActivity::step(const session::ActivityView& view, session::ActivityOrd
 void StudyActivity::follow(const haptics::StrokeSample& tick, session::ActivityOrders& orders) {
     now_ns_ = tick.time_ns;
     if (run_.session() == nullptr || run_.phase() != TrainingRun::Phase::in_stage) return;
-    const haptics::TickRecord record = record_of(tick, run_.session()->touch(), point_offset_m_);
+    const haptics::TickRecord record = record_of(tick, run_.session()->touch(), device_.point_offset_m);
+    const std::size_t known = run_.session()->events().size();
     const study::OperatorAct act = run_.follow(record);
     if (keeper_.tick) keeper_.tick({&record, act});
+    place_proxies(known, orders);
     if (run_.phase() != TrainingRun::Phase::ended) return;
     show(orders);
     end_stage(orders);
+}
+
+// Where the start cap was touched, as the events from `known` on tell.
+void StudyActivity::place_proxies(std::size_t known, session::ActivityOrders& orders) {
+    const auto events = std::span(run_.session()->events()).subspan(known);
+    if (std::ranges::find(events, study::StageEventKind::start_touched, &study::StageEvent::kind) == events.end())
+        return;
+    placement_ = {placement_.number + 1, run_.world()->world().spine_m.front()};
+    orders.parameters = true;
 }
 
 void StudyActivity::show(session::ActivityOrders& orders) {
@@ -153,6 +203,9 @@ void StudyActivity::show(const std::vector<ShownObject>& objects, const study::F
 }
 
 void StudyActivity::stage(renderer::Scene& scene, std::size_t /*screen*/) const {
+    // As in a study's pictures: nothing is shown that is not the study's, and no shadow of a tube that is not seen.
+    scene.pedestal.visible = scene.box.visible = false;
+    scene.workpiece_object = {};
     if (!shown_.wand_seen || !shown_.moment) {
         scene.tool.visible = false;
         return;
@@ -178,6 +231,7 @@ void StudyActivity::end_stage(session::ActivityOrders& orders) {
 
 void StudyActivity::adjust(haptics::TickParameters& parameters) const {
     parameters.limits.max_force_N = std::min(parameters.limits.max_force_N, protocol_.force_limit_N);
+    parameters.placement = placement_;
     const study::StageSession* session = run_.session();
     if (session == nullptr || run_.phase() != TrainingRun::Phase::in_stage || !session->touch().leads()) return;
     parameters.curve = session->touch().parameters().curve;
@@ -187,14 +241,17 @@ void StudyActivity::adjust(haptics::TickParameters& parameters) const {
 session::ActivityPanel StudyActivity::panel() const {
     session::ActivityPanel panel{
         .title = "Study", .aside = group_.code, .page = shown_.page, .rows = {}, .buttons = {}, .governs = true};
+    if (!jig_off_.empty()) panel.rows.push_back({"in the jig", jig_off_});
     for (const PanelRow& row : shown_.rows) panel.rows.push_back({row.name, row.value});
     const bool in_stage = run_.phase() == TrainingRun::Phase::in_stage;
-    panel.buttons = {{"Start", {"start"}, run_.phase() == TrainingRun::Phase::between},
+    const bool calibrated = jig_off_.empty();
+    panel.buttons = {{"Start", {"start"}, calibrated && run_.phase() == TrainingRun::Phase::between},
                      {"Next", {"next"}, in_stage && ends_by_operator()},
                      {"Pause", {"pause"}, in_stage},
-                     {"Go on", {"go-on"}, in_stage},
+                     {"Go on", {"go-on"}, calibrated && in_stage},
                      {"Repeat", {"repeat"}, in_stage},
-                     {"Stop", {"stop"}, in_stage}};
+                     {"Stop", {"stop"}, in_stage},
+                     {"In the jig", {"jig"}, device_.wand.has_value()}};
     return panel;
 }
 

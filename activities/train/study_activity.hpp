@@ -3,8 +3,12 @@
 // words are its acts (`do start`), the page and the operator's rows its section of the panel.
 //
 // Data flow: ticks of the session's own loop -> TrainingRun::follow -> what is seen and felt of the world's objects as
-// edits, guidance and force limit as tick parameters, and each stage's beginning, notes and end to whoever keeps them.
+// edits, guidance, force limit and the place of the proxies as tick parameters, and each stage's beginning, notes and
+// end to whoever keeps them. Where a frame finds that the start cap was touched, the next tick begins with both proxies
+// on the tube's axis there, as a simulated stage's next tick does.
 // The session's world must be the study's (study/felt/felt_world.hpp), under the same names and in the same frame.
+// `do jig` says that the wand stands in its jig. Where it reads farther off than the protocol allows, the stage under
+// way is paused, and nothing begins or goes on until it reads right there.
 // Frame: the scene's, which is the study world's. Thread: the frame's.
 #pragma once
 
@@ -28,13 +32,19 @@ struct StageKeeper {
     std::function<Result<void>()> closed;  // the session has ended; a stage may be under way
 };
 
+// The device in the participant's hand.
+struct StudyDevice {
+    // How far above the wand's middle, along its axis, the point is whose path the session's ticks tell; 0 for a stylus
+    // that stands in for a wand.
+    double point_offset_m = 0.0;
+    std::optional<devices::WandDescription> wand = {};  // none: there is no jig
+};
+
 class StudyActivity final : public session::Activity {
 public:
-    // Protocol, group and worlds must outlive it. `point_offset_m`: how far above the wand's middle, along its axis,
-    // the point is whose path the session's ticks tell; 0 for a stylus that stands in for a wand.
+    // Protocol, group and worlds must outlive it.
     StudyActivity(const study::Protocol& protocol, const study::Group& group, const FeltWorlds& worlds,
-                  std::vector<study::StagePlace> places, std::string settings, double point_offset_m,
-                  StageKeeper keeper);
+                  std::vector<study::StagePlace> places, std::string settings, StudyDevice device, StageKeeper keeper);
 
     [[nodiscard]] std::string settings() const override { return settings_; }
     [[nodiscard]] std::span<const session::Act> acts() const override;
@@ -52,7 +62,10 @@ public:
 
 private:
     [[nodiscard]] bool ends_by_operator() const;
+    [[nodiscard]] Result<void> check_order(const OperatorCommand& command) const;
+    [[nodiscard]] Result<void> check_jig(session::ActivityOrders& orders);
     void follow(const haptics::StrokeSample& tick, session::ActivityOrders& orders);
+    void place_proxies(std::size_t known, session::ActivityOrders& orders);
     void show(session::ActivityOrders& orders);
     void show(const std::vector<ShownObject>& objects, const study::FeltWorld& world, session::ActivityOrders& orders);
     void end_stage(session::ActivityOrders& orders);
@@ -62,13 +75,16 @@ private:
     const study::Group& group_;
     const FeltWorlds& worlds_;
     std::string settings_;
-    double point_offset_m_;
+    StudyDevice device_;
     StageKeeper keeper_;
     TrainingRun run_;
     TrainingShown shown_;
     std::map<scene::ObjectId, ShownObject> as_shown_;
     bool tube_pressed_ = true;  // the session's tube has its stiffness
     Nanoseconds now_ns_ = 0;    // of the last tick
+    haptics::ProxyPlacement placement_;
+    Pose reads_device_;    // where the wand read to be in the last step
+    std::string jig_off_;  // by how much the wand was off in its jig; empty: it was not
     std::size_t ended_ = 0;
 };
 

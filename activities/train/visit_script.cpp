@@ -54,7 +54,9 @@ Result<VisitScript> parse_visit_script(const std::string& text, const std::strin
         if (line.empty()) continue;
         if (!has_head) {
             if (line != kScriptHead)
-                return fail(where, "is no script of a visit", std::string("begin it with ") + kScriptHead);
+                return fail(where, "is no script of a visit",
+                            std::string("begin it with ") + kScriptHead +
+                                "; a written log of a session begins with burin-input 1");
             has_head = true;
             continue;
         }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -106,6 +107,29 @@ std::string marker(std::size_t style, double x, double y) {
     }
 }
 
+// Returns how a line without markers is dashed, so that series differ without colours too.
+const char* dashes(std::size_t style) {
+    constexpr std::array kDashes{"", " stroke-dasharray=\"7 3\"", " stroke-dasharray=\"2 3\"",
+                                 " stroke-dasharray=\"9 3 2 3\""};
+    return kDashes[style % kDashes.size()];
+}
+
+double width_of(const Plot& plot, const PlotSeries& series) {
+    return series.width > 0.0 ? series.width : plot.markers ? 1.8 : 1.0;
+}
+
+// Draws what stands before a name in the legend: the series' marker, or a piece of its line where it has none.
+std::string legend_sign(const std::vector<Plot>& plots, const std::string& name, std::size_t style, double x,
+                        double y) {
+    for (const Plot& plot : plots) {
+        const auto series = std::ranges::find(plot.series, name, &PlotSeries::name);
+        if (series == plot.series.end() || plot.markers) continue;
+        return line(x - 20, y, x + 6, y, colour_of(style),
+                    formatted(" stroke-width=\"%g\"%s", width_of(plot, *series), dashes(style)).c_str());
+    }
+    return marker(style, x, y);
+}
+
 std::string line_through(const Plot& plot, const PlotSeries& series, std::size_t style, const Frame& f) {
     std::string path, points;
     for (const PlotPoint& p : series.points) {
@@ -121,9 +145,9 @@ std::string line_through(const Plot& plot, const PlotSeries& series, std::size_t
                   p.label);
     }
     if (path.empty()) return "";
-    const double width = series.width > 0.0 ? series.width : plot.markers ? 1.8 : 1.0;
     return "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + colour_of(style) +
-           formatted("\" stroke-width=\"%g\"/>\n", width) + points;
+           formatted("\" stroke-width=\"%g\"%s/>\n", width_of(plot, series), plot.markers ? "" : dashes(style)) +
+           points;
 }
 
 std::string plot_text(const Plot& plot, double left, double top, const std::vector<std::string>& names) {
@@ -184,7 +208,7 @@ std::string svg_figure(const std::string& title, const std::vector<Plot>& plots,
     for (std::size_t i = 0; i < names.size(); ++i) {
         const double x = kFrameLeft + kLegendColumn * static_cast<double>(i % legends);
         const double y = legend_top + kLegendRow * static_cast<double>(i / legends);
-        text += marker(i, x, y) + write(x + 12, y + 4, "font-size=\"12\"", names[i]);
+        text += legend_sign(plots, names[i], i, x, y) + write(x + 12, y + 4, "font-size=\"12\"", names[i]);
     }
     return text + "</svg>\n";
 }

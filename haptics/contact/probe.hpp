@@ -26,6 +26,14 @@ struct Probe {
     std::array<ProbePoint, kMostProbePoints> points{};
 };
 
+// Where the proxies of all points begin anew, wherever the hand is: both ends of a wand at the start of a path. Each
+// number acts once, in the first tick that touches; 0: never. Where the hand is beyond a surface then, the proxies stay
+// on their side of it, and the gate fades the force in as that of a new contact.
+struct ProxyPlacement {
+    std::uint64_t number = 0;
+    Vec3 position_object_m{0.0};
+};
+
 [[nodiscard]] inline Probe ball_probe(double radius_m) {
     Probe probe;
     probe.points[0].radius_m = radius_m;

@@ -64,7 +64,7 @@ struct ActivityPanel {
     std::string title, aside;  // the aside stands right of the title, in a word or two
     std::string page;          // a paragraph for the person; empty: none
     std::vector<Row> rows;
-    std::vector<Button> buttons;  // side by side
+    std::vector<Button> buttons;  // side by side, in several rows where there are many
     // The panel offers neither tool nor objects nor workspace besides: what these are is the activity's alone.
     bool governs = false;
     bool operator==(const ActivityPanel&) const = default;

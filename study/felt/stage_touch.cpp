@@ -84,17 +84,7 @@ void StageTouch::set_curve() {
 }
 
 void StageTouch::begin_at_start() {
-    const Vec3 start = world_.world().spine_m.front();
-    haptics::ProbeState& probe = full_.next.tick.probe;
-    for (std::uint32_t i = 0; i < kWandPoints; ++i) {
-        probe.proxies[i] = {};
-        probe.proxies[i].position_object_m = probe.proxies[i].hip_object_m = start;
-        probe.proxies[i].surface_sequence = world_.surface().sequence;
-        probe.proxies[i].placed = true;
-        probe.watches[i] = {};
-        probe.contacts[i] = {};
-        probe.left_out_m[i] = 0.0;
-    }
+    haptics::place_proxies(full_.next.tick.probe, world_.world().spine_m.front(), world_.surface().sequence);
 }
 
 // Strength and direction of the guidance from now on.

@@ -17,6 +17,7 @@ namespace {
 constexpr const char* kStyle = R"(<style>
 body { font: 16px/1.45 "DejaVu Sans", Arial, sans-serif; max-width: 62em; margin: 1em auto; padding: 0 1em;
   color: #111; }
+p { overflow-wrap: anywhere; }
 h1 { font-size: 1.5em; } h2 { font-size: 1.2em; margin-top: 2em; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-size: 0.85em; }
@@ -139,9 +140,11 @@ std::string effects_section(const Analysis& analysis) {
         }
     }
     if (ranks.empty()) return "";
-    std::vector<std::string> figures{interval_figure("Rank-biserial correlation", "r: first group less second", ranks)};
+    const std::vector<std::string>& groups = analysis.table.groups;
+    const std::string sign = groups.size() == 2 ? groups[0] + " less " + groups[1] : "first group less second";
+    std::vector<std::string> figures{interval_figure("Rank-biserial correlation", "r: " + sign, ranks)};
     for (const auto& [measure, rows] : shifts)
-        figures.push_back(interval_figure("Shift of " + measure, "Hodges-Lehmann: first group less second", rows));
+        figures.push_back(interval_figure("Shift of " + measure, "Hodges-Lehmann: " + sign, rows));
     return element("h2", "Effect sizes") + wide_figures_of(figures);
 }
 

@@ -35,8 +35,8 @@ std::string path_figure(const ShownTrial& trial) {
         plot::Plot plot{title, "x (mm)", label, {}, true, true, false};
         plot.same_scale = true;
         plot.series.push_back(line_of(kPointNames[0], trial.model.points_m[0], 0, up, 2.0));
-        plot.series.push_back(line_of(kPointNames[1], trial.model.points_m[1], 0, up, 1.0));
-        plot.series.push_back(line_of("axis of the tube", trial.world->spine_m, 0, up, 0.6));
+        plot.series.push_back(line_of(kPointNames[1], trial.model.points_m[1], 0, up, 1.6));
+        plot.series.push_back(line_of("axis of the tube", trial.world->spine_m, 0, up, 1.4));
         return plot;
     };
     return plot::svg_figure("Path, " + trial.name,

@@ -40,8 +40,8 @@ protected:
                                return Result<void>(fail("disk", "is full"));
                            },
                            {}};
-        activity_.emplace(protocol_, protocol_.groups[group], worlds_, std::move(places), "study", 0.03,
-                          std::move(keeper));
+        activity_.emplace(protocol_, protocol_.groups[group], worlds_, std::move(places), "study",
+                          StudyDevice{0.03, study::study_wand(protocol_)}, std::move(keeper));
     }
     Result<void> act(std::vector<std::string> words) {
         orders_ = {};
@@ -58,8 +58,7 @@ protected:
             ticks.push_back(tick);
         }
         orders_ = {};
-        const haptics::ToolState tool;
-        activity_->step({.time_ns = 0, .ticks = ticks, .tool = tool, .world = nullptr}, orders_);
+        activity_->step({.time_ns = 0, .ticks = ticks, .tool = tool_, .world = nullptr}, orders_);
     }
     [[nodiscard]] const session::EditObject* edit(const char* object, ObjectProperty property) const {
         const auto found = std::ranges::find_if(orders_.edits, [&](const session::EditObject& one) {
@@ -72,6 +71,7 @@ protected:
     FeltWorlds worlds_;
     std::optional<StudyActivity> activity_;
     session::ActivityOrders orders_;
+    haptics::ToolState tool_;
     std::vector<EndedStage> ended_;
     std::vector<RunEvent> events_;
     std::size_t begun_ = 0;
@@ -119,6 +119,65 @@ TEST_F(StudyActivities, TakeATrialThroughAndSayWhereItWasNotKept) {
     EXPECT_TRUE(orders_.quit);
 }
 
+TEST_F(StudyActivities, SetTheProxiesOnTheAxisAtEachTouchOfTheStartCap) {
+    begin("test", 0);
+    const auto& spine = worlds_.at("tube")->world().spine_m;
+    const Vec3 in_start_cap = spine.front() + 1.5 * (spine.front() - spine[1]);
+    const auto placement = [&] {
+        haptics::TickParameters parameters;
+        activity_->adjust(parameters);
+        return parameters.placement;
+    };
+    frame({in_start_cap});
+    ASSERT_TRUE(act({"start"}));
+    frame({in_start_cap + Vec3(-0.1, 0.0, 0.0)});
+    EXPECT_EQ(placement().number, 0u);
+    frame({in_start_cap, in_start_cap});
+    EXPECT_TRUE(orders_.parameters);
+    EXPECT_EQ(placement().number, 1u);
+    EXPECT_EQ(placement().position_object_m, spine.front());
+    frame({in_start_cap, spine[1]});
+    EXPECT_FALSE(orders_.parameters);
+    EXPECT_EQ(placement().number, 1u) << "a placement acts once";
+    ASSERT_TRUE(act({"repeat"}));
+    frame({spine[1]});
+    frame({in_start_cap});
+    EXPECT_EQ(placement().number, 2u);
+}
+
+TEST_F(StudyActivities, HoldTheStageWhereTheWandReadsFartherOffInItsJigThanTheProtocolAllows) {
+    const devices::WandDescription wand = study::study_wand(protocol_);
+    const Vec3 in_the_jig = devices::jig_pose_device(wand).position_m;
+    const auto& spine = worlds_.at("tube")->world().spine_m;
+    begin("test", 0);
+    tool_.position_device_m = in_the_jig + Vec3(0.0015, 0.0, 0.0);
+    frame({spine.front()});
+    ASSERT_TRUE(act({"jig"})) << "2 mm are allowed";
+    EXPECT_TRUE(orders_.messages.at(0).contains("1.5 mm")) << orders_.messages.at(0);
+    ASSERT_TRUE(act({"start"}));
+    tool_.position_device_m.x += 0.001;
+    frame({spine.front()});
+    const auto off = act({"jig"});
+    ASSERT_FALSE(off);
+    for (const char* part : {"STAGE STOPPED", "2.5 mm", "2.0 mm", "0, 0, 0.123", "do jig again"})
+        EXPECT_TRUE(off.error().line().contains(part)) << off.error().line();
+    frame({spine.front()});
+    ASSERT_NE(activity_->run().session(), nullptr);
+    EXPECT_EQ(activity_->run().session()->state().phase, study::StagePhase::paused);
+    EXPECT_FALSE(act({"go-on"}));
+    EXPECT_EQ(activity_->panel().rows.at(0).name, "in the jig");
+    for (const session::ActivityPanel::Button& button : activity_->panel().buttons)
+        EXPECT_EQ(button.enabled, button.title != "Start" && button.title != "Go on" && button.title != "Next")
+            << button.title;
+    EXPECT_TRUE(std::ranges::any_of(events_, [](const RunEvent& e) { return e.value.contains("2.5 mm"); }));
+    tool_.position_device_m = in_the_jig;
+    frame({spine.front()});
+    ASSERT_TRUE(act({"jig"}));
+    EXPECT_TRUE(act({"go-on"}));
+    frame({spine.front(), spine.front()});
+    EXPECT_NE(activity_->run().session()->state().phase, study::StagePhase::paused);
+}
+
 TEST_F(StudyActivities, ShowTheTubeToWhoSeesItAndItsTouchInRed) {
     const auto& spine = worlds_.at("tube")->world().spine_m;
     begin("interactive", 1);
@@ -132,8 +191,12 @@ TEST_F(StudyActivities, ShowTheTubeToWhoSeesItAndItsTouchInRed) {
     ASSERT_NE(edit("seen tube", ObjectProperty::colour), nullptr);
     EXPECT_GT(edit("seen tube", ObjectProperty::colour)->value[0], 0.7);
     renderer::Scene scene;
+    scene.pedestal.visible = scene.box.visible = true;
+    scene.workpiece_object = {Vec3(0.0), Vec3(1.0)};
     activity_->stage(scene, 0);
     EXPECT_EQ(scene.objects.size(), 2u);
+    EXPECT_FALSE(scene.pedestal.visible || scene.box.visible);
+    EXPECT_TRUE(scene.workpiece_object.empty()) << "its shadow would tell where the tube is";
 }
 
 TEST_F(StudyActivities, LimitTheForceAndLeadWhoIsLed) {

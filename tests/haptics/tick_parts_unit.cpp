@@ -2,6 +2,8 @@
 // What each part of a tick works out reaches the record, the next tick, and the gate.
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "haptics/tick.hpp"
 #include "tests/haptics/cutting_ball.hpp"
 #include "tests/haptics/surfaces.hpp"
@@ -41,6 +43,29 @@ struct PartTicker {
         return t.record;
     }
 };
+
+TEST(TickParts, ProxiesThatWereSetBeforeAWallHoldAHandThatIsBeyondItAndAreSetOnce) {
+    PartTicker t;
+    t.surface = test::box({-0.05, -0.01, -0.05}, {0.05, 0.0, 0.05}, 4);
+    t.parameters.probe.count = 2;
+    t.parameters.probe.points[1] = {{0.01, 0.0, 0.0}, kTipRadius_m};
+    const Vec3 beyond(0.0, -0.02, 0.0);
+    EXPECT_EQ(t.at(beyond).flags & kTickInContact, 0u);
+    t.parameters.placement = {7, {0.0, 0.02, 0.0}};
+    t.parameters.enabled = false;
+    EXPECT_EQ(t.at(beyond).flags & kTickInContact, 0u);
+    t.parameters.enabled = true;
+    const TickRecord set = t.at(beyond);
+    ASSERT_EQ(set.contact.point_count, 2u);
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_GT(set.contact.points[i].proxy_object_m.y, 0.003) << i;
+    EXPECT_NE(set.flags & kTickInContact, 0u);
+    EXPECT_TRUE(set.contact.jumped) << "so that the gate fades the force in";
+    EXPECT_FALSE(t.at(beyond).contact.jumped);
+    t.at({0.0, 0.03, 0.0});
+    EXPECT_EQ(t.at({0.0, 0.03, 0.0}).contact.points[0].proxy_object_m, Vec3(0.0, 0.03, 0.0));
+    t.parameters.placement.position_object_m.x = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(parameters_are_sensible(t.parameters));
+}
 
 TEST(TickParts, TheForceFilterLetsATenthOfANewForceThroughInItsFirstTick) {
     PartTicker t;

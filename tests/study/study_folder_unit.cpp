@@ -7,6 +7,7 @@
 #include <fstream>
 #include <string>
 
+#include "base/json.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "study/folder/journal.hpp"
@@ -306,6 +307,73 @@ TEST(StudyCommands, TakeAParticipantThroughByAScriptAndGoOnAfterAnInterruption) 
     EXPECT_EQ(place.run(kBurinStudy + "run s --participant sim002 --input two.txt").status, 1);
     EXPECT_EQ(place.run(kBurinStudy + "run s --participant p09 --input two.txt").status, 1);
     EXPECT_EQ(place.run(kBurinStudy + "run s --participant p01").status, 1);
+}
+
+// A second day with the path of the first (retention) and another, shorter one (transfer).
+const std::string kSecondDay = R"(
+[[world]]
+name = "arch"
+tube_radius_m = 0.045
+cap_half_width_m = 0.068
+funnel_half_width_m = 0.045
+spine_m = [[-0.12, 0.19, 0.0], [-0.06, 0.21, 0.0], [0.0, 0.22, 0.0], [0.06, 0.21, 0.0], [0.12, 0.19, 0.0]]
+
+[[stage]]
+name = "other-path"
+kind = "trial"
+world = "arch"
+ends_at_exit = true
+attempts = 5
+outcome = true
+
+[[day]]
+stages = ["test", "other-path"]
+least_delay_h = 20
+most_delay_h = 48
+)";
+
+TEST(StudyCommands, GoOnTheNextDayInAnotherWorld) {
+    const Workplace place;
+    place.write("p.toml", short_protocol() + kSecondDay);
+    const auto made = place.run(kBurinStudy + "init p.toml s --participants 2 --seed 5");
+    ASSERT_EQ(made.status, 0) << made.output;
+    const auto ran = place.run(kBurinStudy + "run s --simulated");
+    ASSERT_EQ(ran.status, 0) << ran.output;
+    EXPECT_TRUE(ran.output.contains("9 stages")) << ran.output;
+    EXPECT_EQ(place.run(kBurinStudy + "check s").status, 0);
+    const auto replayed = place.run(kBurinStudy + "replay s");
+    EXPECT_EQ(replayed.status, 0) << replayed.output;
+    EXPECT_TRUE(replayed.output.contains("14 recordings")) << replayed.output;
+    const std::string trials = place.read("s/trials.csv");
+    for (const char* row : {",1,test,all\n", ",2,test,all\n", ",2,other-path,all\n"})
+        EXPECT_TRUE(trials.contains(row)) << row;
+    const auto reported = place.run(kBurinStudy + "report s");
+    EXPECT_EQ(reported.status, 0) << reported.output;
+    // Trials of several days are not one sample: each can be analysed alone, and together they are said to be mixed.
+    const std::string analyse = kBurinStudy + "analyse s ";
+    for (const std::string& said : {place.run(analyse).output, place.read("s/reports/001/report.html")})
+        EXPECT_TRUE(said.contains("of 2 days and 2 worlds")) << said;
+    const auto transfer = place.run(analyse + "--stage other-path");
+    EXPECT_TRUE(transfer.output.contains("2 trials, 2 groups")) << transfer.output;
+    EXPECT_FALSE(transfer.output.contains("of 2 days")) << transfer.output;
+    EXPECT_TRUE(place.run(analyse + "--day 2").output.contains("4 trials, 2 groups"));
+    EXPECT_TRUE(place.run(analyse + "--day 2 --stage test").output.contains("2 trials, 2 groups"));
+    for (const char* wrong : {"--day 3", "--day 0", "--stage led", "--stage other-path --day 1"})
+        EXPECT_EQ(place.run(analyse + wrong).status, 1) << wrong;
+    EXPECT_EQ(place.run(kBurinStudy + "analyse --data s/trials.csv --day 1").status, 1);
+}
+
+TEST(StudyBench, GivesProcessorTimeBesideTheClockOnTheWall) {
+    const Workplace place;
+    place.write("p.toml", short_protocol());
+    const auto benched =
+        place.run(std::string(BURIN_COMMAND) + " bench study p.toml --participants 1 --threads 1 --folder . --json -");
+    ASSERT_EQ(benched.status, 0) << benched.output;
+    const Json json = Json::parse(benched.output);
+    for (const char* run : {"without_motion", "with_motion"})
+        EXPECT_GT(json.at(run).at("processor_s").get<double>(), 0.0) << run;
+    for (const Json& stage : json.at("stages")) EXPECT_GT(stage.at("processor_us_a_tick").get<double>(), 0.0) << stage;
+    EXPECT_EQ(place.files(), 1u);
 }
 
 TEST(StudyCommands, LeaveOutAndEraseWhoWithdraws) {

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// A participant's visit in a live session, whose hand is a written log's mouse: from the start cap to the end cap.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "base/json.hpp"
+#include "base/text.hpp"
+#include "gpu/device.hpp"
+#include "study/protocol/protocol.hpp"
+#include "tests/support/run_command.hpp"
+
+namespace burin::app {
+namespace {
+
+const std::string kLiveStudy = std::string(BURIN_COMMAND) + " study ";
+
+// The thesis' study with one trial and no training.
+std::string one_trial_protocol() {
+    std::string text{study::known_protocol("kinesthetic-path").value()};
+    const std::size_t stages = text.find("stages = [\"introduction\"");
+    text.replace(stages, text.find('\n', stages) - stages, "stages = [\"test\"]");
+    return text;
+}
+
+// Writes the log of a desk whose mouse and wheel lead the middle of the simulated wand, in a window of 1280 by 720
+// pixels, evenly through places of the world.
+class DeskLog {
+public:
+    DeskLog() { text_ << "burin-input 1 a visit\n0.1 mouse 640 360\n0.15 command toggle-panel\n"; }
+
+    void go(const Vec3& to_m, int steps) {
+        const Vec3 from_m = at_m_;
+        for (int i = 1; i <= steps; ++i) {
+            const Vec3 next_m = from_m + (static_cast<double>(i) / steps) * (to_m - from_m);
+            time_s_ += 0.05;
+            // A pixel moves the hand as far as its picture, and so farther the deeper it is.
+            const double m_per_px = 0.001053 - 0.00126 * at_m_.z;
+            mouse_px_ += Vec2(next_m.x - at_m_.x, at_m_.y - next_m.y) / m_per_px;
+            text_ << formatted("%.3f mouse %.2f %.2f\n", time_s_, mouse_px_.x, mouse_px_.y);
+            if (next_m.z != at_m_.z)
+                text_ << formatted("%.3f scroll 0 %.5f\n", time_s_, (at_m_.z - next_m.z) / kWheelStep_m);
+            at_m_ = next_m;
+        }
+    }
+    void wait(double seconds) { time_s_ += seconds; }
+    void say(const std::string& act) { text_ << formatted("%.3f command do %s\n", time_s_, act.c_str()); }
+    [[nodiscard]] double time_s() const { return time_s_; }
+    [[nodiscard]] std::string closed() const { return text_.str() + formatted("%.3f close\n", time_s_ + 0.5); }
+
+private:
+    static constexpr double kWheelStep_m = 0.012;
+    std::ostringstream text_;
+    double time_s_ = 0.3;
+    Vec2 mouse_px_{640.0, 360.0};
+    Vec3 at_m_{0.0, 0.21, 0.2345};  // where the wand rests
+};
+
+const Vec3 kInStartCap{-0.175, 0.165, 0.11}, kInEndCap{0.18, 0.165, 0.11};
+
+void go_through(DeskLog& log) {
+    const study::Protocol protocol = study::parse_protocol(one_trial_protocol()).protocol;
+    for (const Vec3& place : protocol.worlds.at(0).spine_m) log.go(place, 2);
+    log.go(kInEndCap, 4);
+}
+
+void make_live_study(const Workplace& place) {
+    place.write("p.toml", one_trial_protocol());
+    ASSERT_EQ(place.run(kLiveStudy + "init p.toml s --participants 2 --seed 3").status, 0);
+    ASSERT_EQ(place.run(kLiveStudy + "enrol s p01").status, 0);
+}
+
+Workplace::Outcome visit(const Workplace& place, const DeskLog& log) {
+    place.write("visit.txt", log.closed());
+    return place.run(kLiveStudy + "run s --participant p01 --input visit.txt --offscreen");
+}
+
+// The columns of the visit's recording, by name.
+std::map<std::string, std::vector<double>> recorded_ticks(const Workplace& place) {
+    EXPECT_EQ(place.run(std::string(BURIN_COMMAND) + " convert s/data/p01/day1-01-run1.session t.csv --to csv").status,
+              0);
+    std::istringstream lines(place.read("t.csv"));
+    std::vector<std::string> names;
+    std::map<std::string, std::vector<double>> columns;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with('#')) continue;
+        const bool is_header = names.empty();
+        std::istringstream fields(line);
+        std::size_t i = 0;
+        for (std::string field; std::getline(fields, field, ',');) {
+            if (is_header)
+                names.push_back(field);
+            else
+                columns[names.at(i++)].push_back(std::strtod(field.c_str(), nullptr));
+        }
+    }
+    return columns;
+}
+
+}  // namespace
+
+TEST(LiveStudy, CountsATrialFromTheStartCapToTheEndCapInJournalAndRecord) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace place;
+    make_live_study(place);
+    DeskLog log;
+    log.go({-0.22, 0.165, 0.2345}, 20);  // beside the world, then in from behind the start cap
+    log.go({-0.22, 0.165, 0.11}, 20);
+    log.say("start");
+    log.wait(0.1);
+    log.go(kInStartCap, 10);
+    log.wait(0.3);
+    const double leaves_s = log.time_s();
+    go_through(log);
+    const double way_s = log.time_s() - leaves_s;
+    const auto went = visit(place, log);
+    ASSERT_EQ(went.status, 0) << went.output;
+    EXPECT_TRUE(went.output.contains("1 stages ended; 0 of the day are left")) << went.output;
+    EXPECT_TRUE(went.output.contains("trials.csv: 1 trials")) << went.output;
+    EXPECT_TRUE(place.read("s/journal.jsonl").contains("\"stage\":\"test\",\"result\":\"valid exit\""));
+    const Json record = Json::parse(place.read("s/data/p01/day1-01-run1.json"));
+    EXPECT_NEAR(record.at("time_s").get<double>(), way_s, 1.0);
+    EXPECT_LT(record.at("from_axis_mean_mm").get<double>(), 15.0);
+    EXPECT_EQ(record.at("failed_attempts"), 0);
+    EXPECT_EQ(record.at("deviations_differ"), 0);
+    const auto replayed = place.run(kLiveStudy + "replay s");
+    EXPECT_EQ(replayed.status, 0) << replayed.output;
+    EXPECT_EQ(place.run(kLiveStudy + "check s").status, 0);
+}
+
+TEST(LiveStudy, FreesAWandThatCameIntoTheStartCapThroughTheFunnelsWall) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace place;
+    make_live_study(place);
+    DeskLog log;
+    log.go({kInStartCap.x, kInStartCap.y, 0.2345}, 20);
+    log.say("start");
+    log.wait(0.1);
+    log.go({kInStartCap.x, kInStartCap.y, 0.15}, 20);  // against the funnel from its side, and on
+    log.go(kInStartCap, 10);
+    log.wait(1.0);
+    const auto went = visit(place, log);
+    ASSERT_EQ(went.status, 0) << went.output;
+    const auto ticks = recorded_ticks(place);
+    const std::vector<double>& z_m = ticks.at("position_device_z_m");
+    const auto force_N = [&](std::size_t i) {
+        return glm::length(Vec3(ticks.at("commanded_force_device_x_N")[i], ticks.at("commanded_force_device_y_N")[i],
+                                ticks.at("commanded_force_device_z_N")[i]));
+    };
+    // Both points are in the cap from 0.178 m on; the funnel's wall is 1 to 2 cm before that, and the cap's touch a few
+    // frames old at 0.157 m. A wand whose proxies stay outside is pushed with the 2 N of the limit there.
+    constexpr double kDeeper_m = 0.157 - 0.01;  // the device's middle is at 0.01 m
+    double largest_N = 0.0;
+    std::size_t i = 0;
+    for (; i < z_m.size() && z_m[i] > kDeeper_m; ++i) largest_N = std::max(largest_N, force_N(i));
+    ASSERT_LT(i, z_m.size());
+    EXPECT_GT(largest_N, 0.5) << "the funnel was felt from its side";
+    EXPECT_EQ(force_N(i), 0.0) << "both proxies are on the axis, on the hand's side of the funnel";
+}
+
+TEST(LiveStudy, StandsStillWhereTheWandReadsFartherOffInItsJigThanAllowed) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace place;
+    make_live_study(place);
+    DeskLog log;
+    log.go({-0.22, 0.165, 0.2345}, 10);
+    log.say("start");
+    log.wait(0.2);
+    log.say("jig");  // the hand does not reach the jig, which is below the workspace
+    log.wait(0.2);
+    log.say("go-on");
+    log.go({-0.22, 0.165, 0.11}, 20);
+    log.go(kInStartCap, 10);
+    go_through(log);
+    const auto went = visit(place, log);
+    for (const char* part : {"STAGE STOPPED: in its jig the wand reads", "2.0 mm and 2.00 degrees are allowed",
+                             "put it into the jig", "do go-on: the wand read", "0 stages ended; 1 of the day are left"})
+        EXPECT_TRUE(went.output.contains(part)) << part << "\n" << went.output;
+    const std::string journal = place.read("s/journal.jsonl");
+    EXPECT_TRUE(journal.contains("in the jig the wand reads")) << journal;
+    EXPECT_FALSE(journal.contains("stage ended")) << journal;
+}
+
+}  // namespace burin::app

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// How one participant is taken through: which options go with a script, with a live session and with learners.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+
+#include "tests/support/run_command.hpp"
+
+namespace burin::study {
+namespace {
+
+const std::string kVisitStudy = std::string(BURIN_COMMAND) + " study ";
+const std::string kStandingHand = "burin-study-input 1\n0 hand -0.175 0.165 0.11\n0.1 start\n0.2 stop\n";
+
+void make_visited(const Workplace& place) {
+    ASSERT_EQ(place.run(kVisitStudy + "init kinesthetic-path s --participants 2 --seed 3").status, 0);
+    ASSERT_EQ(place.run(kVisitStudy + "enrol s p01").status, 0);
+    place.write("hand.txt", kStandingHand);
+}
+
+}  // namespace
+
+TEST(StudyVisits, RefuseEachOptionThatAScriptWouldNotHeed) {
+    const Workplace place;
+    make_visited(place);
+    const std::string journal = place.read("s/journal.jsonl");
+    for (const auto& [name, value] :
+         {std::pair{"--live", ""}, std::pair{"--record", " r.session"}, std::pair{"--offscreen", ""},
+          std::pair{"--stereo", " side-by-side"}, std::pair{"--swap-eyes", ""}, std::pair{"--wall", " w.toml"},
+          std::pair{"--tracker", " udp:5000"}, std::pair{"--device", " simulated-wand"}, std::pair{"--windowed", ""},
+          std::pair{"--full-screen", " 0"}, std::pair{"--width", " 1280"}, std::pair{"--height", " 720"},
+          std::pair{"--samples", " 1"}, std::pair{"--screenshots", " shots"}, std::pair{"--outputs", " out"},
+          std::pair{"--effect", " 0"}, std::pair{"--threads", " 1"}}) {
+        const auto refused =
+            place.run(kVisitStudy + "run s --participant p01 --input hand.txt " + name + std::string(value));
+        EXPECT_EQ(refused.status, 1) << name;
+        EXPECT_TRUE(refused.output.contains(std::string(name) + ": no effect")) << refused.output;
+        EXPECT_TRUE(refused.output.contains("; leave it out, or ")) << refused.output;
+    }
+    const auto two = place.run(kVisitStudy + "run s --participant p01 --input hand.txt --offscreen --device x");
+    EXPECT_TRUE(two.output.contains("--offscreen, --device: ")) << two.output;
+    EXPECT_EQ(place.read("s/journal.jsonl"), journal);
+    EXPECT_EQ(place.run(kVisitStudy + "run s --participant p01 --input hand.txt").status, 0);
+}
+
+TEST(StudyVisits, RefuseALiveSessionsOptionsForLearners) {
+    const Workplace place;
+    make_visited(place);
+    const auto refused = place.run(kVisitStudy + "run s --simulated --offscreen");
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_TRUE(refused.output.contains("--offscreen: no effect on simulated learners")) << refused.output;
+}
+
+TEST(StudyVisits, SayInTheHelpWhatAnInputIs) {
+    const Workplace place;
+    const std::string help = place.run(kVisitStudy + "run --help").output;
+    const std::string input = help.substr(std::min(help.find("--input"), help.size()), 400);
+    EXPECT_TRUE(input.contains("script of a visit")) << input;
+    EXPECT_FALSE(input.contains("A recording, done again")) << input;
+}
+
+}  // namespace burin::study
