@@ -17,6 +17,9 @@ constexpr std::string_view kHeader = "time_s,x_m,y_m,z_m,qx,qy,qz,qw,button";
 constexpr std::string_view kAxisHeader = "time_s,x_m,y_m,z_m,axis_x,axis_y,axis_z,angle_rad,button";
 constexpr std::size_t kColumns = 9;
 constexpr double kLargest_m = 1e9;  // the limit for meshes, far from overflow
+// A hand that feels its way ticks a thousand times a second: times in another unit would keep it going for weeks.
+constexpr double kLongest_s = 86'400.0;
+constexpr double kLeastStep_s = 1e-9;  // clocks count nanoseconds
 
 std::string_view trimmed(std::string_view text) {
     const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
@@ -71,9 +74,11 @@ Result<StrokeRow> make_row(const std::array<double, kColumns>& n, bool as_axis, 
             return fail(where, "holds a number that is not finite or is absurdly large", "correct the number");
         }
     }
-    if (!before.empty() && n[0] <= before.back().time_s) {
+    if (!before.empty() && !(n[0] - before.back().time_s >= kLeastStep_s)) {
         return fail(where, "its time does not come after the row before", "sort the rows by time_s, each time once");
     }
+    if (!before.empty() && n[0] - before.front().time_s > kLongest_s)
+        return fail(where, "its time is more than a day after that of the first row", "write time_s in seconds");
     const Result<Quat> turn = turn_in(n, as_axis, where);
     if (!turn) return std::unexpected(turn.error());
     if (n[8] != 0.0 && n[8] != 1.0) return fail(where, "its button is neither 0 nor 1", "write 0 or 1");

@@ -57,8 +57,14 @@ TEST(StrokeFile, NamesTheLineOfEveryKindOfMistake) {
         EXPECT_NE(complaint(kHeader + good + bad).find("s.csv:3: holds a number"), std::string::npos) << bad;
     }
     EXPECT_NE(complaint(kHeader + good + good).find("s.csv:3: its time"), std::string::npos);
+    EXPECT_NE(complaint(kHeader + good + "1e-10,0,0,0,0,0,0,1,0\n").find("s.csv:3: its time"), std::string::npos);
     EXPECT_NE(complaint(kHeader + "1,0,0,0,0,0,0,1,0\n0,0,0,0,0,0,0,1,0\n").find("s.csv:3: its time"),
               std::string::npos);
+    // Times in milliseconds: a hand that feels its way would have gone on for weeks.
+    EXPECT_NE(
+        complaint(kHeader + "-5,0,0,0,0,0,0,1,0\n86396,0,0,0,0,0,0,1,0\n").find("s.csv:3: its time is more than a"),
+        std::string::npos);
+    EXPECT_EQ(complaint(kHeader + "-5,0,0,0,0,0,0,1,0\n86395,0,0,0,0,0,0,1,0\n"), "");
     EXPECT_NE(complaint(kHeader + "0,0,0,0,0,0,0,0,0\n").find("quaternion"), std::string::npos);
     EXPECT_NE(complaint(kHeader + "0,0,0,0,0,0,0,1,0.5\n").find("button"), std::string::npos);
 }
