@@ -71,20 +71,58 @@ private:
     std::vector<std::uint32_t> first_, faces_;
 };
 
+// Sums up the faces around a place that are smooth with one of them: those of nearly its normal. Where very many meet,
+// as in the middle of a disc that is a fan, faces of about one normal are summed up beforehand, so that the cost is not
+// the square of their number.
+class SmoothAreas {
+public:
+    SmoothAreas(const std::vector<Face>& faces, std::size_t places) : faces_(faces), at_(faces, places) {}
+
+    Vec3 around(std::uint32_t place, const Vec3& normal) {
+        Vec3 sum(0.0);
+        const std::span<const std::uint32_t> faces = at_[place];
+        if (faces.size() <= kMany) {
+            for (const std::uint32_t face : faces)
+                if (glm::dot(faces_[face].normal, normal) >= kCreaseCosine) sum += faces_[face].area;
+            return sum;
+        }
+        auto& groups = groups_[place];
+        if (groups.empty()) groups = groups_of(faces);
+        for (const auto& [cell, area] : groups)
+            if (glm::dot(area, normal) >= kCreaseCosine * glm::length(area)) sum += area;
+        return sum == Vec3(0.0) ? normal : sum;
+    }
+
+private:
+    static constexpr std::size_t kMany = 256;
+    static constexpr double kCells = 16.0;  // for each unit of a normal: 3.6 degrees
+    using Groups = std::map<std::tuple<long, long, long>, Vec3>;
+
+    [[nodiscard]] Groups groups_of(std::span<const std::uint32_t> faces) const {
+        Groups groups;
+        for (const std::uint32_t face : faces) {
+            const Vec3 cell = kCells * faces_[face].normal;
+            groups[{std::lround(cell.x), std::lround(cell.y), std::lround(cell.z)}] += faces_[face].area;
+        }
+        return groups;
+    }
+
+    const std::vector<Face>& faces_;
+    FacesAt at_;
+    std::map<std::uint32_t, Groups> groups_;  // of the places where very many faces meet
+};
+
 }  // namespace
 
 std::shared_ptr<const DrawnMesh> drawn_mesh(const geometry::TriangleMesh& mesh) {
     std::vector<Vec3> places;
     const std::vector<Face> faces = faces_of(mesh, places);
-    const FacesAt faces_at(faces, places.size());
+    SmoothAreas areas(faces, places.size());
     auto drawn = std::make_shared<DrawnMesh>();
     std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> known;  // place, normal, colour
     for (const Face& face : faces) {
         for (const std::uint32_t place : face.corners) {
-            Vec3 sum(0.0);
-            for (const std::uint32_t other : faces_at[place])
-                if (glm::dot(faces[other].normal, face.normal) >= kCreaseCosine) sum += faces[other].area;
-            const std::uint32_t code = normal_code(sum);
+            const std::uint32_t code = normal_code(areas.around(place, face.normal));
             const auto [at, is_new] =
                 known.try_emplace({place, code, face.colour}, static_cast<std::uint32_t>(drawn->vertices.size()));
             if (is_new) {

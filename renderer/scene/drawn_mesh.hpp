@@ -24,8 +24,8 @@ struct DrawnMesh {
 inline constexpr double kCreaseCosine = 0.766;
 
 // Returns the mesh with a normal for each corner: the mean of the faces that meet there and turn from the corner's own
-// by less than a crease, weighted by area. Each triangle has its material's colour where the mesh has materials, and is
-// white, to be tinted, where it has none. Triangles without area are left out.
+// by less than a crease (to 4 degrees, where hundreds meet), weighted by area. Each triangle has its material's colour
+// where the mesh has materials, and is white, to be tinted, where it has none. Triangles without area are left out.
 [[nodiscard]] std::shared_ptr<const DrawnMesh> drawn_mesh(const geometry::TriangleMesh& mesh);
 
 }  // namespace burin::renderer

@@ -43,6 +43,18 @@ geometry::TriangleMesh tube(double radius_m, std::uint32_t around) {
     return mesh;
 }
 
+// A cone whose point is so many triangles' corner; a disc where it has no height.
+geometry::TriangleMesh cone(double height_m, std::uint32_t around) {
+    geometry::TriangleMesh mesh;
+    mesh.positions_m.emplace_back(0.0, 0.0, height_m);
+    for (std::uint32_t k = 0; k < around; ++k) {
+        const double angle = 2.0 * std::numbers::pi * k / around;
+        mesh.positions_m.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+        mesh.triangles.push_back({0, 1 + k, 1 + (k + 1) % around});
+    }
+    return mesh;
+}
+
 }  // namespace
 
 TEST(DrawnMesh, KeepsTheEdgesOfABoxSharp) {
@@ -119,6 +131,25 @@ TEST(HeadOf, BoundsATurnedMesh) {
         }
         EXPECT_LE(glm::length(p - ball_of(tool).center_world), ball_of(tool).radius_m + 1e-6);
     }
+}
+
+// Each of the fan's triangles was compared with each other: a world with such a mesh did not open for minutes.
+TEST(DrawnMesh, OfAFanCostsNoSquareOfItsTriangles) {
+    constexpr std::uint32_t kFan = 1'000'000;
+    const auto drawn = drawn_mesh(cone(0.0, kFan));
+    EXPECT_EQ(drawn->vertices.size(), kFan + 1u) << "one normal at the middle";
+    for (const shared::SurfaceVertex& v : {drawn->vertices.front(), drawn->vertices.back()})
+        EXPECT_GT(decoded(v.normal).z, 1.0 - 1e-6);
+}
+
+// The same cone with few and with very many triangles at its point: of the same normals there, to a few degrees.
+TEST(DrawnMesh, IsAsSmoothWhereVeryManyTrianglesMeet) {
+    const auto fine = drawn_mesh(cone(1.0, 4096)), coarse = drawn_mesh(cone(1.0, 128));
+    const auto at_the_point = [](const DrawnMesh& mesh, std::size_t triangle) {
+        return decoded(mesh.vertices[mesh.indices[3 * triangle]].normal);
+    };
+    for (std::size_t k = 0; k < 128; ++k)
+        EXPECT_GT(glm::dot(at_the_point(*fine, 32 * k + 16), at_the_point(*coarse, k)), std::cos(0.1)) << k;
 }
 
 }  // namespace burin::renderer
