@@ -109,7 +109,7 @@ Result<void> check_files(const record::RecordReader& reader, const session::Scul
     if (device == first_device)
         return check_wand_file(reader, device,
                                "say where it is now by --set device=simulated-wand:FILE, or put it back");
-    warn_of_another(reader, kWandDigestFact, device, digest_of(wand_file_of(device)));
+    warn_of_another(reader, record::kWandDigestFact, device, digest_of(wand_file_of(device)));
     return {};
 }
 

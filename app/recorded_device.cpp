@@ -31,6 +31,8 @@ Result<DeviceWords> device_words_of(const record::RecordReader& reader) {
         if (!stroke) return std::unexpected(stroke.error());
         return DeviceWords{stroke->device, stroke->points.empty() ? devices::kUsualPoints : stroke->points};
     }
+    if (const std::string points = fact_of(reader, record::kWandPointsFact); !points.empty())
+        return DeviceWords{std::string(devices::kSimulatedWand), points};
     if (activity != session::kLiveActivity) return DeviceWords{};
     const std::string settings = live_settings_of(reader);
     const Result<std::string> device = session::option_on(settings, "--device");
@@ -42,16 +44,16 @@ Result<DeviceWords> device_words_of(const record::RecordReader& reader) {
 
 Result<devices::WandDescription> recorded_wand(const record::RecordReader& reader, const std::string& device) {
     const std::string file = wand_file_of(device);
-    if (file.empty()) return devices::wand_named(device);
-    const std::string digest = fact_of(reader, kWandDigestFact);
-    if (const std::string text = fact_of(reader, kWandTextFact); !text.empty()) {
+    const std::string digest = fact_of(reader, record::kWandDigestFact);
+    if (const std::string text = fact_of(reader, record::kWandTextFact); !text.empty()) {
         if (sha256(text) != digest)
-            return fail(reader.path(), "holds another description of its wand, " + file + ", than its digest says",
+            return fail(reader.path(), "holds another description of its wand than its digest says",
                         "read it from an unchanged copy of the recording");
-        devices::WandOrProblems wand = devices::parse_wand(text, reader.path() + ": " + kWandTextFact);
+        devices::WandOrProblems wand = devices::parse_wand(text, reader.path() + ": " + record::kWandTextFact);
         if (!wand) return std::unexpected(wand.error().front());
         return std::move(*wand);
     }
+    if (file.empty()) return devices::wand_named(device);
     if (digest.empty())
         return fail(reader.path(), "does not hold the description of its wand, " + file,
                     "record the motion again: recordings of this version hold it");
@@ -77,11 +79,11 @@ std::vector<std::pair<std::string, std::string>> facts_of_wand_file(const std::s
     const Result<std::vector<std::byte>> bytes = read_file(file);
     if (!bytes) return {};
     const std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-    return {{kWandDigestFact, sha256(text)}, {kWandTextFact, text}};
+    return {{record::kWandDigestFact, sha256(text)}, {record::kWandTextFact, text}};
 }
 
 Result<void> check_wand_file(const record::RecordReader& reader, const std::string& device, const std::string& remedy) {
-    const std::string file = wand_file_of(device), recorded = fact_of(reader, kWandDigestFact);
+    const std::string file = wand_file_of(device), recorded = fact_of(reader, record::kWandDigestFact);
     if (file.empty() || recorded.empty()) return {};
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored))

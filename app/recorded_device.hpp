@@ -15,11 +15,8 @@ namespace burin::app {
 // Returns what a recording says of itself under this key; empty where it says nothing.
 [[nodiscard]] std::string fact_of(const record::RecordReader& reader, const char* key);
 
-// The facts of a session file that hold a wand's description: the SHA-256 of its file, and its text.
-inline constexpr const char* kWandDigestFact = "wand sha256";
-inline constexpr const char* kWandTextFact = "wand description";
-
-// Returns these facts; none where the device is no wand that a file describes, or the file cannot be read.
+// Returns the facts that describe a wand (record/motion.hpp); none where the device is no wand that a file describes,
+// or the file cannot be read.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> facts_of_wand_file(const std::string& device);
 
 // Returns the file that describes a device; empty for one that a program knows by itself.

@@ -8,6 +8,7 @@
 
 #include "app/recorded_device.hpp"
 #include "base/json.hpp"
+#include "session/record/input_files.hpp"
 #include "session/record/session_log.hpp"
 #include "session/state/session_settings.hpp"
 
@@ -16,17 +17,26 @@ namespace {
 
 constexpr std::size_t kMostHeadBytes = 1 << 16;  // of a text log's first line
 
-// Collects names of files; words such as "mesh:FILE" and "simulated-wand:FILE" name one as well.
+// Collects what a recording's options, facts and settings name, each by its word: a world with all that it reads.
 class NamedFiles {
 public:
-    void add(std::string name) {
-        for (const std::string_view kind : {"mesh:", "simulated-wand:"})
-            if (name.starts_with(kind)) name.erase(0, kind.size());
-        if (!name.empty()) names_.push_back(std::move(name));
+    void file(const std::string& path) { files_.file(path); }
+    void add(std::string_view word, const std::string& name) {
+        if (word == "world") {
+            files_.world(name);
+        } else if (word == "workpiece" || word == "source") {
+            if (!name.starts_with("block:") && !name.starts_with("ball:")) files_.mesh(name);
+        } else if (word == "tool" || word == "shape") {
+            files_.tool(name);
+        } else if (word == "device") {
+            files_.device(name);
+        } else {
+            files_.file(name);
+        }
     }
     void add_settings(const std::string& line) {
-        for (const char* option : {"--world", "--workpiece", "--tool", "--wall", "--device"})
-            if (auto name = session::option_on(line, option)) add(std::move(*name));
+        for (const std::string word : {"world", "workpiece", "tool", "wall", "device"})
+            if (const auto name = session::option_on(line, "--" + word)) add(word, *name);
     }
     // Of settings in JSON, and of their parts.
     void add_json(const Json& json) {
@@ -34,26 +44,26 @@ public:
         if (json.is_object())
             for (const Json& part : json) add_keys(part);
     }
-    [[nodiscard]] std::vector<std::string> take() { return std::move(names_); }
+    [[nodiscard]] const std::vector<std::string>& list() const { return files_.list(); }
 
 private:
     void add_keys(const Json& json) {
         if (!json.is_object()) return;
         for (const char* key : {"source", "shape", "stroke", "world", "device"})
-            if (json.contains(key) && json[key].is_string()) add(json[key].get<std::string>());
+            if (json.contains(key) && json[key].is_string()) add(key, json[key].get<std::string>());
     }
-    std::vector<std::string> names_;
+    session::InputFiles files_;
 };
 
 std::vector<std::string> named_by_session_file(const std::string& path) {
     NamedFiles files;
-    for (const char* beside : {"-wal", "-shm", "-journal"}) files.add(path + beside);
+    for (const char* beside : {"-wal", "-shm", "-journal"}) files.file(path + beside);
     const Result<record::RecordReader> reader = record::RecordReader::open(path);
-    if (!reader) return files.take();
-    for (const char* fact : {"world", "workpiece", "stroke", "device"}) files.add(fact_of(*reader, fact));
+    if (!reader) return files.list();
+    for (const char* fact : {"world", "workpiece", "stroke", "device"}) files.add(fact, fact_of(*reader, fact));
     files.add_settings(live_settings_of(*reader));
     files.add_json(Json::parse(fact_of(*reader, "settings"), nullptr, false));
-    return files.take();
+    return files.list();
 }
 
 std::vector<std::string> named_by_text_log(const std::string& path) {
@@ -65,7 +75,7 @@ std::vector<std::string> named_by_text_log(const std::string& path) {
     NamedFiles files;
     const std::size_t settings = head.find("burin sculpt");
     if (head.starts_with("burin-input ") && settings != std::string::npos) files.add_settings(head.substr(settings));
-    return files.take();
+    return files.list();
 }
 
 }  // namespace

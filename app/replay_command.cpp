@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/replay_command.hpp"
 
-#include <array>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -18,6 +17,7 @@
 #include "app/world_explore.hpp"
 #include "app/world_wand.hpp"
 #include "record/examination.hpp"
+#include "session/record/input_files.hpp"
 #include "session/record/session_recording.hpp"
 
 namespace burin::app {
@@ -190,8 +190,9 @@ std::string ReplayCommand::misuse() const {
 
 Result<void> ReplayCommand::run() const {
     const Options& o = *options_;
-    const std::array inputs{o.file, o.through, o.world, o.stroke, o.workpiece};
-    if (const auto ok = check_outputs({}, o.json == kStandardOutput ? "" : o.json, inputs); !ok) return ok;
+    session::InputFiles inputs;
+    inputs.file(o.file).world(o.through).world(o.world).file(o.stroke).mesh(o.workpiece);
+    if (const auto ok = check_outputs({}, o.json == kStandardOutput ? "" : o.json, inputs.list()); !ok) return ok;
     return o.through.empty() ? o.replay()
                              : replay_through({o.file, o.through, o.radius_m, o.materials, o.range(), o.json});
 }

@@ -11,6 +11,12 @@
 
 namespace burin::record {
 
+// Facts (table meta) of a recording that a simulated wand led: the text of its description
+// (devices/haptic/wand_file.hpp), the SHA-256 of that text, which is its file's where it has one, and the names of the
+// points that touched, with commas between them, where no settings of a session name them.
+inline constexpr const char *kWandTextFact = "wand description", *kWandDigestFact = "wand sha256",
+                            *kWandPointsFact = "wand points";
+
 struct RecordedTick {
     std::int64_t tick = 0;
     Nanoseconds time_ns = 0, lateness_ns = 0;

@@ -1,13 +1,32 @@
 // SPDX-License-Identifier: MIT
 #include "study/folder/stage_recording.hpp"
 
+#include <algorithm>
+#include <iterator>
+
+#include "base/sha256.hpp"
 #include "base/text.hpp"
+#include "record/motion.hpp"
 
 namespace burin::study {
 namespace {
 
 // Simulated time has no clock that holds it back: the writer takes what there is after so many ticks.
 constexpr std::size_t kTakenTogether = 2048;
+
+constexpr const char* kRecordedHand = "wand";
+
+// The wand's description, for whoever feels the motion elsewhere (docs/formats.md, "Replaying").
+std::vector<std::pair<std::string, std::string>> facts_of_wand(const devices::WandDescription& wand) {
+    std::string text = formatted("name = \"%s\"\n", kRecordedHand), points;
+    for (const devices::WandPoint& point : wand.points) {
+        const Vec3& p = point.offset_m;
+        text +=
+            formatted("[[point]]\nname = \"%s\"\noffset = [%.17g, %.17g, %.17g]\n", point.name.c_str(), p.x, p.y, p.z);
+        points += (points.empty() ? "" : ",") + point.name;
+    }
+    return {{record::kWandTextFact, text}, {record::kWandDigestFact, sha256(text)}, {record::kWandPointsFact, points}};
+}
 
 }  // namespace
 
@@ -23,7 +42,7 @@ Result<std::unique_ptr<StageRecording>> StageRecording::create(const std::filesy
     options.facts = std::move(facts);
     options.block_ns = block_ns;
     auto writer = record::RecordWriter::create(
-        file.string(), {{"wand", touch.device(), touch.parameters().probe, &made->ring_}}, std::move(options));
+        file.string(), {{kRecordedHand, touch.device(), touch.parameters().probe, &made->ring_}}, std::move(options));
     if (!writer) return std::unexpected(writer.error());
     made->writer_ = std::move(*writer);
     return made;
@@ -47,17 +66,20 @@ std::vector<std::pair<std::string, std::string>> facts_of_stage(const std::strin
                                                                 const Stage& stage, const FeltWorld& world,
                                                                 const StageTouch& touch) {
     const haptics::TickParameters& p = touch.parameters();
-    return {{kProtocolFact, protocol_digest},
-            {kWorldFact, world.digest()},
-            {kGroupFact, group.code},
-            {kStageFact, stage.name},
-            {"device", touch.device().name},
-            {"tube", formatted("%.17g N/m, %.17g Ns/m", p.materials[kTubeMaterial].stiffness_N_per_m,
-                               p.materials[kTubeMaterial].damping_Ns_per_m)},
-            {"funnels", formatted("%.17g N/m, %.17g Ns/m", p.materials[kFunnelMaterial].stiffness_N_per_m,
-                                  p.materials[kFunnelMaterial].damping_Ns_per_m)},
-            {"force limit", formatted("%.17g N", p.limits.max_force_N)},
-            {"led by the device", touch.leads() ? "yes" : "no"}};
+    std::vector<std::pair<std::string, std::string>> facts{
+        {kProtocolFact, protocol_digest},
+        {kWorldFact, world.digest()},
+        {kGroupFact, group.code},
+        {kStageFact, stage.name},
+        {"device", touch.device().name},
+        {"tube", formatted("%.17g N/m, %.17g Ns/m", p.materials[kTubeMaterial].stiffness_N_per_m,
+                           p.materials[kTubeMaterial].damping_Ns_per_m)},
+        {"funnels", formatted("%.17g N/m, %.17g Ns/m", p.materials[kFunnelMaterial].stiffness_N_per_m,
+                              p.materials[kFunnelMaterial].damping_Ns_per_m)},
+        {"force limit", formatted("%.17g N", p.limits.max_force_N)},
+        {"led by the device", touch.leads() ? "yes" : "no"}};
+    std::ranges::move(facts_of_wand(touch.wand()), std::back_inserter(facts));
+    return facts;
 }
 
 }  // namespace burin::study

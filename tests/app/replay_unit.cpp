@@ -183,10 +183,11 @@ TEST(ReplayOfAWorld, WritesNothingOverTheRecordingOrAFileThatItNames) {
     std::filesystem::create_directory(at / "sub");
     for (const std::string command :
          {" replay a.session --json ", " replay a.session --through w.toml --json ", " session info a.session --json "})
-        for (const std::string file : {"w.toml", "sub/../w.toml", "s.csv", "a.session", "a.session-wal"}) {
+        for (const std::string file : {"w.toml", "sub/../w.toml", "cube.off", "s.csv", "a.session", "a.session-wal"}) {
             const auto outcome = at.run(kReplayBurin + command + file);
             EXPECT_EQ(outcome.status, 1) << command << file;
-            EXPECT_TRUE(says_so(outcome, "overwrite") || says_so(outcome, "is a file of the recording a.session"))
+            EXPECT_TRUE(says_so(outcome, "would be overwritten") ||
+                        says_so(outcome, "is a file of the recording a.session"))
                 << outcome.output;
         }
     EXPECT_EQ(at.read("w.toml"), world);

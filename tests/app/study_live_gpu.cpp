@@ -13,12 +13,13 @@
 #include "base/text.hpp"
 #include "gpu/device.hpp"
 #include "study/protocol/protocol.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::app {
 namespace {
 
-const std::string kLiveStudy = std::string(BURIN_COMMAND) + " study ";
+const std::string kLiveStudy = std::string(kBurinCommand) + " study ";
 
 // The thesis' study with one trial and no training.
 std::string one_trial_protocol() {
@@ -82,7 +83,7 @@ Workplace::Outcome visit(const Workplace& place, const DeskLog& log) {
 
 // The columns of the visit's recording, by name.
 std::map<std::string, std::vector<double>> recorded_ticks(const Workplace& place) {
-    EXPECT_EQ(place.run(std::string(BURIN_COMMAND) + " convert s/data/p01/day1-01-run1.session t.csv --to csv").status,
+    EXPECT_EQ(place.run(std::string(kBurinCommand) + " convert s/data/p01/day1-01-run1.session t.csv --to csv").status,
               0);
     std::istringstream lines(place.read("t.csv"));
     std::vector<std::string> names;

@@ -172,7 +172,7 @@ TEST(ThroughAWorld, KnowsTheWandFromTheRecording) {
     for (const auto& [file, said] : std::vector<std::pair<std::string, std::string>>{
              {"digest.session", "wand.toml: is another wand than the one that was recorded"},
              {"nothing.session", "does not hold the description of its wand, wand.toml"},
-             {"changed.session", "holds another description of its wand, wand.toml, than its digest says"},
+             {"changed.session", "holds another description of its wand than its digest says"},
              {"points.session", "has more points than it names"}}) {
         const auto outcome = at.run(kThroughBurin + " replay " + file + through);
         EXPECT_EQ(outcome.status, 1) << file;
@@ -181,6 +181,30 @@ TEST(ThroughAWorld, KnowsTheWandFromTheRecording) {
     std::filesystem::remove(at / "wand.toml");
     EXPECT_EQ(at.run(kThroughBurin + " replay a.session" + through).status, 0);
     EXPECT_TRUE(says_so(at.run(kThroughBurin + " replay digest.session" + through), "and is not there"));
+}
+
+// A stage names its wand and points itself: no option of a command line did.
+TEST(ThroughAWorld, AStageOfAStudyIsFeltInBothPoints) {
+    const Workplace at;
+    write_small_world(at);
+    at.write("high.toml",
+             "[[object]]\nname = \"floor\"\nmesh = \"cube.off\"\nmesh_units = \"m\"\nposition = [0.0, 0.065, 0.0]\n");
+    at.write("script.txt",
+             "burin-study-input 1\n0 hand 0 0.165 0.11\n0.5 start\n61 start\n62 next\n62.5 hand 0 0.165 0.11\n"
+             "63 start\n64 hand 0 0.09 0\n65 note presses\n");
+    ASSERT_EQ(at.run(kThroughBurin + " study init kinesthetic-path s").status, 0);
+    ASSERT_EQ(at.run(kThroughBurin + " study enrol s p01").status, 0);
+    const auto led = at.run(kThroughBurin + " study run s --participant p01 --input script.txt");
+    ASSERT_EQ(led.status, 0) << led.output;
+    const std::string replay = kThroughBurin + " replay s/data/p01/day1-03-run1.session";
+    EXPECT_TRUE(says_so(at.run(replay + " --through high.toml"), "give it by --radius")) << "its points have no size";
+    const auto felt = at.run(replay + " --through high.toml --radius 0.003");
+    EXPECT_EQ(felt.status, 0) << felt.output;
+    EXPECT_TRUE(says_so(felt, "38 columns: a new derived table")) << felt.output;
+    EXPECT_TRUE(says_so(felt, "the proxy of bottom begins at the hand, at tick 1, (") &&
+                says_so(felt, "touches floor first"))
+        << felt.output;
+    EXPECT_EQ(at.run(kThroughBurin + " study replay s").status, 0) << "the ticks are untouched";
 }
 
 }  // namespace burin::app

@@ -367,7 +367,7 @@ TEST(StudyBench, GivesProcessorTimeBesideTheClockOnTheWall) {
     const Workplace place;
     place.write("p.toml", short_protocol());
     const auto benched =
-        place.run(std::string(BURIN_COMMAND) + " bench study p.toml --participants 1 --threads 1 --folder . --json -");
+        place.run(std::string(kBurinCommand) + " bench study p.toml --participants 1 --threads 1 --folder . --json -");
     ASSERT_EQ(benched.status, 0) << benched.output;
     const Json json = Json::parse(benched.output);
     for (const char* run : {"without_motion", "with_motion"})

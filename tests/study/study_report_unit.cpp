@@ -11,12 +11,13 @@
 #include "base/text.hpp"
 #include "study/protocol/protocol.hpp"
 #include "study/report/trial_figures.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::study {
 namespace {
 
-const std::string kReported = std::string(BURIN_COMMAND) + " study ";
+const std::string kReported = std::string(kBurinCommand) + " study ";
 
 // The thesis' study with stages short enough for a test.
 std::string brief_stages() {

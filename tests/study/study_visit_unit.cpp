@@ -5,12 +5,13 @@
 #include <string>
 #include <utility>
 
+#include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::study {
 namespace {
 
-const std::string kVisitStudy = std::string(BURIN_COMMAND) + " study ";
+const std::string kVisitStudy = std::string(kBurinCommand) + " study ";
 const std::string kStandingHand = "burin-study-input 1\n0 hand -0.175 0.165 0.11\n0.1 start\n0.2 stop\n";
 
 void make_visited(const Workplace& place) {
