@@ -10,7 +10,8 @@
 namespace burin::activities {
 namespace {
 
-constexpr Nanoseconds kVisitBlock_ns = kNanosecondsPerSecond;
+// So that a kill loses less than a second of motion, a disk that is slow for a while included.
+constexpr Nanoseconds kVisitBlock_ns = kNanosecondsPerSecond / 2;
 
 }  // namespace
 
