@@ -21,9 +21,9 @@ namespace {
 constexpr std::uint64_t kCodesStream = 1'000'000, kPeopleStream = 2'000'000, kDelaysStream = 3'000'000,
                         kStagesStream = 10'000'000;
 constexpr std::uint64_t kStagesOfPerson = 10'000;
-// A block of ticks and a transaction: of so much simulated time, and no longer apart by the clock on the wall. Half of
-// the second that a kill may cost: on a busy machine the transaction itself may take a good part of the other half.
-constexpr Nanoseconds kBlock_ns = kNanosecondsPerSecond / 2;
+// A block of ticks and a transaction: of so much simulated time, and no longer apart by the clock on the wall. A
+// quarter of the second that a kill may cost: on a busy machine two transactions may take a good part of the rest.
+constexpr Nanoseconds kBlock_ns = kNanosecondsPerSecond / 4;
 constexpr double kSecondsAnHour = 3600.0;
 
 // Fills the places that nobody has, with codes drawn at random from strata that have room.

@@ -10,8 +10,8 @@
 namespace burin::activities {
 namespace {
 
-// So that a kill loses less than a second of motion, a disk that is slow for a while included.
-constexpr Nanoseconds kVisitBlock_ns = kNanosecondsPerSecond / 2;
+// Of a block of ticks and between transactions: a quarter of the second that a kill may cost, as for learners.
+constexpr Nanoseconds kVisitBlock_ns = kNanosecondsPerSecond / 4;
 
 }  // namespace
 

@@ -10,6 +10,7 @@
 #include "base/json.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
+#include "record/record_reader.hpp"
 #include "study/folder/journal.hpp"
 #include "study/folder/study_folder.hpp"
 #include "tests/support/places.hpp"
@@ -161,6 +162,15 @@ TEST(StudyCommands, ReplayWhatWasRecordedToTheBit) {
     // Two people, each: show_model, interactive and led training, two tests.
     EXPECT_TRUE(replayed.output.contains("10 recordings")) << replayed.output;
     EXPECT_TRUE(replayed.output.contains("All equal what was stored")) << replayed.output;
+    // A kill may cost a second: transactions, a block of ticks each, are much less than that apart.
+    auto reader = record::RecordReader::open((place / "s/data/sim001/day1-04-run1.session").string());
+    ASSERT_TRUE(reader);
+    ASSERT_GE(reader->hands().front().blocks.size(), 4u);
+    for (std::size_t b = 0; b < reader->hands().front().blocks.size(); ++b) {
+        const auto block = reader->block(0, b);
+        ASSERT_TRUE(block);
+        EXPECT_LE(block->rows(), 251u);
+    }
     const auto one = place.run(kBurinStudy + "replay s --participant sim002");
     EXPECT_TRUE(one.output.contains("5 recordings")) << one.output;
 }
