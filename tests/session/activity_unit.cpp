@@ -161,6 +161,23 @@ TEST(SessionActivity, ThatGovernsLeavesThePanelNeitherToolNorObjects) {
     for (const char* section : {"Touch", "View", "Study"}) EXPECT_TRUE(offers(section)) << section;
 }
 
+TEST(SessionActivity, ManyButtonsStandInRowsSoThatTheirTitlesHaveRoom) {
+    Panel panel = Panel::create({.size = {340, 2000}}).value();
+    for (const std::size_t count : {6u, 7u}) {
+        PanelModel model;
+        model.activity = ActivityPanel{.title = "Study", .aside = "", .page = "", .rows = {}, .buttons = {}};
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::string act = "act" + std::to_string(i);
+            model.activity->buttons.push_back({"Go on", {act}, true});
+        }
+        static_cast<void>(panel.show(model, 0));
+        const auto first = panel.place_of("do act0"), last = panel.place_of("do act" + std::to_string(count - 1));
+        ASSERT_TRUE(first && last) << count;
+        EXPECT_EQ(last->y > first->y, count > 6) << count;
+        EXPECT_EQ(last->width, first->width) << count;
+    }
+}
+
 TEST(SessionActivity, WhatItCannotDoIsToldByName) {
     WatchedSession watched(std::make_shared<Watching>());
     EXPECT_TRUE(watched.frame({{"do", {"hid", "t"}}}).contains("did you mean hide"));
