@@ -98,14 +98,25 @@ Result<std::string> world_of(const std::vector<study::StagePlace>& places, const
     return name.empty() ? protocol.worlds.front().name : name;
 }
 
+// Empty where there is no file: a pipe would be waited for.
+std::string first_line_of(const std::string& file) {
+    std::error_code ignored;
+    std::string first;
+    if (!fs::is_regular_file(file, ignored)) return first;
+    std::ifstream in(file, std::ios::binary);
+    std::getline(in, first);
+    return first;
+}
+
 }  // namespace
 
-bool is_session_log(const std::string& file) {
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(file, ignored)) return false;  // a pipe would be waited for
-    std::ifstream in(file, std::ios::binary);
-    std::string first;
-    return static_cast<bool>(std::getline(in, first)) && first.starts_with("burin-input ");
+bool is_session_log(const std::string& file) { return first_line_of(file).starts_with("burin-input "); }
+
+Result<void> check_visit_input(const std::string& file) {
+    if (!first_line_of(file).starts_with("burin-input 2")) return {};
+    return fail(
+        file, "is a recording, whose ticks were another visit's",
+        "give a written log, which begins with burin-input 1; burin study replay STUDY does recorded stages again");
 }
 
 Result<void> run_live_visit(study::StudyFolder& study, const StudyRunOptions& options) {

@@ -11,6 +11,9 @@ namespace burin::app {
 // Whether a log is one of a session, by its first line; else it is a script of simulated time.
 [[nodiscard]] bool is_session_log(const std::string& file);
 
+// Refuses a recording as a participant's input: what it holds would be counted as theirs.
+[[nodiscard]] Result<void> check_visit_input(const std::string& file);
+
 // Opens the window, or plays the log. The folder must be open for writing.
 [[nodiscard]] Result<void> run_live_visit(study::StudyFolder& study, const StudyRunOptions& options);
 

@@ -133,6 +133,7 @@ Result<void> take_participant(study::StudyFolder& study, const StudyRunOptions& 
 Result<void> study_run(const StudyRunOptions& options, const std::vector<std::string>& given) {
     if (const auto ok = check_usage(options); !ok) return ok;
     if (const auto ok = check_effect(options, given); !ok) return ok;
+    if (const auto ok = check_visit_input(options.live.input); !ok) return ok;
     auto study = study::StudyFolder::open(options.study, study::StudyAccess::write);
     if (!study) return std::unexpected(study.error());
     warn_of_journal(*study);

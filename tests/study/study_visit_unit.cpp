@@ -32,7 +32,7 @@ TEST(StudyVisits, RefuseEachOptionThatAScriptWouldNotHeed) {
           std::pair{"--tracker", " udp:5000"}, std::pair{"--device", " simulated-wand"}, std::pair{"--windowed", ""},
           std::pair{"--full-screen", " 0"}, std::pair{"--width", " 1280"}, std::pair{"--height", " 720"},
           std::pair{"--samples", " 1"}, std::pair{"--screenshots", " shots"}, std::pair{"--outputs", " out"},
-          std::pair{"--effect", " 0"}, std::pair{"--threads", " 1"}}) {
+          std::pair{"--panel-window", ""}, std::pair{"--effect", " 0"}, std::pair{"--threads", " 1"}}) {
         const auto refused =
             place.run(kVisitStudy + "run s --participant p01 --input hand.txt " + name + std::string(value));
         EXPECT_EQ(refused.status, 1) << name;
@@ -51,6 +51,18 @@ TEST(StudyVisits, RefuseALiveSessionsOptionsForLearners) {
     const auto refused = place.run(kVisitStudy + "run s --simulated --offscreen");
     EXPECT_EQ(refused.status, 1);
     EXPECT_TRUE(refused.output.contains("--offscreen: no effect on simulated learners")) << refused.output;
+}
+
+TEST(StudyVisits, RefuseTheRecordingOfAnotherVisit) {
+    const Workplace place;
+    make_visited(place);
+    const std::string journal = place.read("s/journal.jsonl");
+    place.write("r.log", "burin-input 2 burin sculpt --world s/worlds/tube/world.toml\n0 clock 1 1000000 0.00005 1\n");
+    const auto refused = place.run(kVisitStudy + "run s --participant p01 --input r.log --offscreen");
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_TRUE(refused.output.contains("r.log: is a recording")) << refused.output;
+    EXPECT_TRUE(refused.output.contains("burin-input 1")) << refused.output;
+    EXPECT_EQ(place.read("s/journal.jsonl"), journal);
 }
 
 TEST(StudyVisits, SayInTheHelpWhatAnInputIs) {
