@@ -29,7 +29,7 @@ Result<DeviceWords> device_words_of(const record::RecordReader& reader) {
     if (activity == kWandActivity) {
         const Result<WorldExploration> stroke = recorded_wand_stroke(reader);
         if (!stroke) return std::unexpected(stroke.error());
-        return DeviceWords{stroke->device, stroke->points.empty() ? devices::kUsualPoints : stroke->points};
+        return DeviceWords{stroke->device, stroke->points};
     }
     if (const std::string points = fact_of(reader, record::kWandPointsFact); !points.empty())
         return DeviceWords{std::string(devices::kSimulatedWand), points};
@@ -109,8 +109,10 @@ Result<activities::RecordedDevice> recorded_device(const record::RecordReader& r
     Result<devices::WandDescription> wand = recorded_wand(reader, words->device);
     if (!wand) return std::unexpected(wand.error());
     recorded.wand = std::move(*wand);
-    if (words->points.empty()) return recorded;
-    Result<std::vector<devices::WandPoint>> points = devices::points_named(*recorded.wand, words->points);
+    const bool is_stroke = fact_of(reader, session::kActivityFact) == kWandActivity;
+    if (words->points.empty() && !is_stroke) return recorded;
+    Result<std::vector<devices::WandPoint>> points = devices::points_named(
+        *recorded.wand, words->points.empty() ? devices::usual_points(*recorded.wand) : words->points);
     if (!points) return fail(reader.path(), points.error().where + " " + points.error().what, points.error().remedy);
     recorded.points = std::move(*points);
     return recorded;

@@ -71,9 +71,14 @@ Result<std::optional<devices::WandDescription>> wand_of(const std::string& devic
     if (!devices::is_wand(device)) return std::nullopt;
     const auto wand = devices::wand_named(device);
     if (!wand) return std::unexpected(wand.error());
-    const auto points = devices::points_named(*wand, devices::kUsualPoints);
+    const auto points = devices::points_named(*wand, devices::usual_points(*wand));
     if (!points) return std::unexpected(points.error());
     const std::vector<devices::WandPoint> wanted = study::study_wand(protocol).points;
+    if (points->size() != wanted.size())
+        return fail(
+            device,
+            formatted("touches with %zu points, and the protocol's wand with %zu", points->size(), wanted.size()),
+            "describe the points as the protocol's point_offset_m has them");
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         const Vec3& at_m = points->at(i).offset_m;
         if (glm::distance(at_m, wanted[i].offset_m) > kSamePoint_m)
@@ -149,7 +154,7 @@ Result<void> run_live_visit(study::StudyFolder& study, const StudyRunOptions& op
     const auto wand = wand_of(session.live.device, study.protocol());
     if (!wand) return std::unexpected(wand.error());
     const bool is_wand = wand->has_value();
-    if (is_wand) session.points = devices::kUsualPoints;
+    if (is_wand) session.points = devices::usual_points(**wand);
     if (const auto ok = study.begin_visit(options.participant, is_wand ? "simulated wand" : session.live.device); !ok)
         return ok;
     activities::StageOnDisk disk(study, options.participant, *group,

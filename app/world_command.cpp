@@ -339,7 +339,7 @@ WorldCommand::WorldCommand(Command app)
         "--points", o.exploration.points,
         std::string("With a wand: which of its points touch, names with commas between them, centre, or how "
                     "many; else ") +
-            devices::kUsualPoints);
+            devices::kUsualPoints + ", or all that its description names where it has not both");
     command_.option("--pictures", o.exploration.pictures,
                     "A folder for pictures: the world, each object when it is first touched, both eyes at the end");
     command_.option("--report", o.exploration.report,
@@ -388,8 +388,12 @@ Result<void> WorldCommand::run() const {
     session::SculptOptions session = options_->session;
     session.world = options_->exploration.world;
     if (devices::is_wand(session.live.device)) {
-        const std::string& points = options_->exploration.points;
-        session.points = points.empty() ? devices::kUsualPoints : points;
+        session.points = options_->exploration.points;
+        if (session.points.empty()) {
+            const Result<devices::WandDescription> wand = devices::wand_named(session.live.device);
+            if (!wand) return std::unexpected(wand.error());
+            session.points = devices::usual_points(*wand);
+        }
         if (session.tool.shape.empty()) session.tool.shape = formatted("ball:%g", options_->exploration.radius_m);
     }
     // A recording says itself what it was of; a script does not.

@@ -18,7 +18,7 @@ struct WorldExploration {
     std::string report;                // a JSON file; empty: none
     std::string record;                // a new session file; empty: none
     std::string device = "simulated";  // or a wand (app/world_wand.hpp)
-    std::string points;                // of a wand, that touch; empty: devices::kUsualPoints
+    std::string points;                // of a wand, that touch; empty: devices::usual_points()
 };
 
 // Fails with all problems of the world printed, when it has some.

@@ -180,7 +180,7 @@ Result<std::unique_ptr<WandWorld>> open_wand_world(const WorldExploration& optio
     opened->feel.wand = *wand;
     opened->feel.radius_m = options.radius_m;
     Result<std::vector<devices::WandPoint>> points =
-        devices::points_named(*wand, options.points.empty() ? devices::kUsualPoints : options.points);
+        devices::points_named(*wand, options.points.empty() ? devices::usual_points(*wand) : options.points);
     if (!points) return std::unexpected(points.error());
     opened->feel.points = std::move(*points);
     Result<sculpt::Stroke> stroke = sculpt::read_stroke(options.stroke);

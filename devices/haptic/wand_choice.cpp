@@ -63,4 +63,14 @@ Result<std::vector<WandPoint>> points_named(const WandDescription& wand, const s
     return points;
 }
 
+std::string usual_points(const WandDescription& wand) {
+    const auto has = [&](const char* name) {
+        return std::ranges::find(wand.points, name, &WandPoint::name) != wand.points.end();
+    };
+    if (has("top") && has("bottom")) return kUsualPoints;
+    std::string names;
+    for (const WandPoint& point : wand.points) names += (names.empty() ? "" : ",") + point.name;
+    return names.empty() ? "centre" : names;
+}
+
 }  // namespace burin::devices

@@ -22,7 +22,10 @@ inline constexpr std::string_view kSimulatedWand = "simulated-wand";
 // origin, or a number of points evenly from the first to the last of the description's. Fails with the nearest name.
 [[nodiscard]] Result<std::vector<WandPoint>> points_named(const WandDescription& wand, const std::string& text);
 
-// What touches where nothing is said.
+// The ends of the Quanser wand.
 inline constexpr const char* kUsualPoints = "top,bottom";
+// Returns what touches where nothing is said, as points_named() reads it: top and bottom where the description has
+// both, else all of its points; the middle where it has none.
+[[nodiscard]] std::string usual_points(const WandDescription& wand);
 
 }  // namespace burin::devices

@@ -169,6 +169,26 @@ TEST(ExploreWithWandCommand, TellsWhatEachEndFeltInTheTube) {
     EXPECT_TRUE(place.read("r-felt.svg").starts_with("<svg"));
 }
 
+// The points were said to be top and bottom, which such a description does not have.
+TEST(ExploreWithWandCommand, TouchesWithThePointsThatTheDescriptionNames) {
+    const Workplace place;
+    place.write(
+        "wand.toml",
+        "[[point]]\nname = \"tip\"\noffset = [0, 0.08, 0]\n[[point]]\nname = \"tail\"\noffset = [0, -0.08, 0]\n");
+    place.write("w.wrl", "#VRML V2.0 utf8\nDEF Block Shape { geometry Box { size 0.1 0.1 0.1 } }\n");
+    place.write("s.csv", "time_s,x_m,y_m,z_m,qx,qy,qz,qw,button\n0,0,0.2,0,0,0,0,1,0\n0.2,0,0.1,0,0,0,0,1,0\n");
+    const std::string burin = kBurinCommand;
+    const auto felt = place.run(burin +
+                                " world w.wrl --stroke s.csv --device simulated-wand:wand.toml --report r.json "
+                                "--record a.session");
+    ASSERT_EQ(felt.status, 0) << felt.output;
+    EXPECT_EQ(Json::parse(place.read("r.json"))["points"], (Json{"tip", "tail"}));
+    EXPECT_EQ(place.run(burin + " replay a.session").status, 0);
+    const auto through = place.run(burin + " replay a.session --through w.wrl");
+    EXPECT_EQ(through.status, 0) << through.output;
+    EXPECT_NE(through.output.find("the proxy of tail begins at the hand"), std::string::npos) << through.output;
+}
+
 TEST(ExploreWithWandCommand, RefusesWhatItDoesNotKnow) {
     const Workplace place;
     const std::string world = std::string(kBurinCommand) + " world w.wrl --stroke s.csv --device ";

@@ -102,7 +102,7 @@ TEST(LiveRecording, OfAWandIsFeltThroughAnotherWorldInBothPoints) {
     at.write("use.txt",
              "burin-input 1 test\n0.05 mouse 160 100\n0.1 scroll 0 6\n0.2 scroll 0 6\n0.6 mouse 180 100\n1.0 close\n");
     const auto recorded = at.run(kLiveBurin +
-                                 " world block.wrl --device simulated-wand:wand.toml --points up,low --offscreen "
+                                 " world block.wrl --device simulated-wand:wand.toml --offscreen "
                                  "--width 320 --height 200 --input use.txt --record a.session --outputs out");
     ASSERT_EQ(recorded.status, 0) << recorded.output;
     EXPECT_EQ(at.run(kLiveBurin + " replay a.session").status, 0);

@@ -187,6 +187,18 @@ TEST(WandFile, APointIsChosenOnce) {
         EXPECT_TRUE(refused(wrong).contains("write a number from 1 to 20")) << wrong << ": " << refused(wrong);
 }
 
+// A description names its ends as it likes.
+TEST(WandFile, WhereNothingIsSaidItsOwnPointsTouch) {
+    WandDescription wand;
+    EXPECT_EQ(usual_points(wand), "top,bottom");
+    wand.points.push_back({"grip", Vec3(0.0)});
+    EXPECT_EQ(usual_points(wand), "top,bottom");
+    wand.points = {{"tip", {0.0, 0.08, 0.0}}, {"grip", Vec3(0.0)}, {"tail", {0.0, -0.08, 0.0}}};
+    EXPECT_EQ(usual_points(wand), "tip,grip,tail");
+    wand.points.clear();
+    EXPECT_EQ(usual_points(wand), "centre");
+}
+
 // A byte changed, removed or doubled anywhere: what is still read is a wand that a loop can run.
 TEST(WandFile, DamagedFilesAreRefusedOrGiveAWandThatCanBe) {
     const Result<std::string> whole = read_text_file("assets/devices/quanser-wand.toml");
