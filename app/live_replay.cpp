@@ -11,10 +11,10 @@
 #include "app/recorded_device.hpp"
 #include "app/world_digest.hpp"
 #include "record/record_writer.hpp"
+#include "scene/vrml_world.hpp"
 #include "session/drive/session.hpp"
 #include "session/drive/tick_comparison.hpp"
 #include "session/input/input_words.hpp"
-#include "session/live/world_side.hpp"
 #include "session/picture/pictures.hpp"
 #include "session/record/log_outputs.hpp"
 #include "session/record/session_log.hpp"
@@ -42,7 +42,7 @@ std::optional<std::string> digest_of(const std::string& path) {
 
 std::optional<std::string> digest_of_world(const std::string& path) {
     if (path.empty()) return {};
-    const Result<scene::World> world = session::read_sound_world(path);
+    const scene::WorldOrProblems world = scene::read_any_world(path);  // the session tells its remarks and problems
     return world ? std::optional(world_digest(world->objects)) : std::nullopt;
 }
 

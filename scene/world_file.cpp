@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/file_io.hpp"
+#include "base/length_unit.hpp"
 #include "base/text.hpp"
 #include "base/toml_table.hpp"
 #include "geometry/mesh/mesh_health.hpp"
@@ -25,8 +26,18 @@ struct WorldMesh {
     std::shared_ptr<const geometry::TriangleMesh> mesh;  // null: could not be read
     geometry::MeshHealth health;
     double reach_m = 0.0;  // of the farthest corner of its box from its origin
+    std::optional<Colour> colour;  // of the material that the file gives its first triangle
     std::optional<Error> failure;
 };
+
+// Returns the colour of the first triangle's material of an OBJ. The colours of scans vary from triangle to triangle,
+// and the first says nothing of the whole.
+std::optional<Colour> first_colour(const geometry::ImportedMesh& imported) {
+    const geometry::TriangleMesh& mesh = imported.mesh;
+    if (imported.report.format != "OBJ" || !mesh.colours.empty()) return std::nullopt;
+    const std::size_t at = mesh.triangle_materials.empty() ? 0 : mesh.triangle_materials.front();
+    return at < mesh.materials.size() ? std::optional(mesh.materials[at].colour) : std::nullopt;
+}
 
 // Returns why a mesh is not the surface of a solid; empty where it is.
 std::string not_solid(const geometry::MeshHealth& health) {
@@ -34,6 +45,17 @@ std::string not_solid(const geometry::MeshHealth& health) {
     if (!health.consistently_oriented)
         return formatted("has %zu edges whose two triangles face opposite ways", health.misoriented_edges);
     return health.inside_out() ? "is inside out: its triangles face inwards" : "";
+}
+
+// Says how large a mesh of no known unit is, how it was read, and what to write in the object if that is wrong.
+std::string guessed_size(const std::string& name, const geometry::ImportReport& report) {
+    const LengthUnit read = report.unit.unit, other = read == LengthUnit::m ? LengthUnit::mm : LengthUnit::m;
+    return formatted(
+        "%s: %s (no unit that Burin knows is given in the file; read as %s, since its longest side is %s %g; "
+        "mesh_units = \"%s\" in the [[object]] of a world reads it as %s)",
+        name.c_str(), in_millimetres(report.size_m).c_str(), descriptor_of(read).plural,
+        read == LengthUnit::m ? "at most" : "above", geometry::kLongestInMetres, name_of(other),
+        descriptor_of(other).plural);
 }
 
 // Reads one file; collects problems on the way.
@@ -83,6 +105,7 @@ private:
         const WorldMesh& known = mesh_of(*name, unit);
         if (known.failure) return t.refuse("mesh", known.failure->what, known.failure->remedy);
         object.mesh = known.mesh;
+        if (known.colour && t.find("colour") == nullptr) object.colour = *known.colour;
         if (const double reach_m = object.scale * known.reach_m; object.scale <= kMaxScale && reach_m > kMaxDistance_m)
             t.refuse("mesh", formatted("reaches %.3g m from its origin", reach_m), "give mesh_units, or another scale");
         if (!object.felt || object.both_sides) return;
@@ -115,6 +138,7 @@ private:
                                   imported.error().remedy};
             return known;
         }
+        known.colour = first_colour(*imported);
         geometry::weld_vertices(imported->mesh);
         triangles_ += imported->mesh.triangles.size();
         if (imported->mesh.triangles.empty()) known.failure = Error{"has no triangles: " + name, "", "name another"};
@@ -123,8 +147,7 @@ private:
         if (!box.empty()) known.reach_m = glm::length(glm::max(glm::abs(box.lo), glm::abs(box.hi)));
         const geometry::ImportReport& report = imported->report;
         for (const std::string& remark : report.remarks) world_.remarks.push_back(name + ": " + remark);
-        if (report.unit.source == geometry::UnitSource::guessed)
-            world_.remarks.push_back(geometry::describe_size(name, report.size_m, report.unit));
+        if (report.unit.source == geometry::UnitSource::guessed) world_.remarks.push_back(guessed_size(name, report));
         known.mesh = std::make_shared<const geometry::TriangleMesh>(std::move(imported->mesh));
         return known;
     }

@@ -221,6 +221,35 @@ TEST(WorldFile, TheGardenHasTenThingsOfDifferentFeel) {
     EXPECT_TRUE(MeshPart::create(world->objects, materials).has_value());
 }
 
+// A world knows no --units.
+TEST(WorldFile, TellsHowItReadAMeshAndWhatToWriteIfThatIsWrong) {
+    const Workplace place;
+    place.write("tetra.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+    place.write("w.toml", "[[object]]\nname = \"a\"\nmesh = \"tetra.off\"\n");
+    const WorldOrProblems world = read_world(place / "w.toml");
+    ASSERT_TRUE(world);
+    EXPECT_EQ(world->remarks,
+              Lines{"tetra.off: 1000 x 1000 x 1000 mm (no unit that Burin knows is given in the file; read as metres, "
+                    "since its longest side is at most 5; mesh_units = \"mm\" in the [[object]] of a world reads it as "
+                    "millimetres)"});
+}
+
+// They were read for a workpiece alone.
+TEST(WorldFile, AnObjectHasTheFirstColourOfItsMaterialFile) {
+    const Workplace place;
+    place.write("crate.mtl", "newmtl wood\nKd 0.8 0.4 0.2\nnewmtl iron\nKd 0 0 0\n");
+    place.write("crate.obj",
+                "mtllib crate.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl wood\nf 1 3 2\nf 1 2 4\n"
+                "usemtl iron\nf 1 4 3\nf 2 3 4\n");
+    place.write("w.toml",
+                "[[object]]\nname = \"a\"\nmesh = \"crate.obj\"\n[[object]]\nname = \"b\"\nmesh = \"crate.obj\"\n"
+                "colour = \"#010203\"\n");
+    const WorldOrProblems world = read_world(place / "w.toml");
+    ASSERT_TRUE(world);
+    EXPECT_EQ(world->objects[0].colour, (Colour{204, 102, 51}));
+    EXPECT_EQ(world->objects[1].colour, (Colour{1, 2, 3}));
+}
+
 TEST(WorldFile, ReadsMeshesInItsFolderAndNoOthers) {
     const Workplace place;
     std::filesystem::create_directory(place / "yard");
