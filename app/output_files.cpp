@@ -20,6 +20,16 @@ Result<void> check_place(const std::string& path) {
     return check_writable(path);
 }
 
+Result<void> make_folder_of(const std::string& path) {
+    const fs::path folder = fs::path(path).parent_path();
+    if (path == kStandardOutput || folder.empty()) return {};
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (fs::is_directory(folder)) return {};
+    return fail(path, "cannot be written: folder " + folder.string() + " cannot be made (" + error.message() + ")",
+                "choose another place");
+}
+
 namespace {
 
 // A report that is written as a file, since others lie beside it or a table goes to standard output: "-" would become

@@ -17,6 +17,9 @@ inline constexpr const char* kStandardOutput = "-";
 // is wanted.
 [[nodiscard]] Result<void> check_place(const std::string& path);
 
+// Makes the folder of a file that will be written; nothing to make for standard output and for an empty path.
+[[nodiscard]] Result<void> make_folder_of(const std::string& path);
+
 // Checks whether all these files can be written, each to a place of its own and none over one of the inputs
 // (session/record/input_files.hpp), by whatever path; a file that is still to be made counts as well. Standard output
 // and empty paths need no check.

@@ -22,6 +22,7 @@
 #include "devices/haptic/wand_choice.hpp"
 #include "geometry/files/mesh_unit.hpp"
 #include "geometry/vrml/vrml_shapes.hpp"
+#include "scene/mesh_world.hpp"
 #include "scene/vrml_world.hpp"
 #include "scene/world_file.hpp"
 #include "scene/world_settings.hpp"
@@ -237,8 +238,9 @@ void print_settings(const std::string& path, const scene::World& world) {
         std::printf("  %s: %s, %s\n", o.name.c_str(), look_text(o).c_str(), feel_text(o).c_str());
 }
 
+// Checks a world in TOML, or a mesh that is a world alone.
 CheckedWorld check_toml_world(const std::string& path, bool print) {
-    const scene::WorldOrProblems world = scene::read_world(path);
+    const scene::WorldOrProblems world = scene::read_any_world(path);
     if (!world) return faulty(path, world.error(), print);
     if (print) print_world(path, *world);
     Json json{{"file", path}, {"faults", Json::array()}};
@@ -250,7 +252,8 @@ CheckedWorld check_toml_world(const std::string& path, bool print) {
 }
 
 CheckedWorld check_world(const std::string& path, bool print) {
-    if (std::filesystem::path(path).extension() == ".toml") return check_toml_world(path, print);
+    if (std::filesystem::path(path).extension() == ".toml" || scene::is_mesh_file(path))
+        return check_toml_world(path, print);
     const Result<geometry::VrmlFile> file = geometry::read_vrml_file(path);
     if (!file) return faulty(path, std::array{file.error()}, print);
     const geometry::VrmlWorldOrFaults world = geometry::shapes_of(*file);
@@ -298,6 +301,7 @@ struct WorldCommand::Options {
 Result<void> WorldCommand::Options::check_files() const {
     session::InputFiles inputs;
     for (const std::string& file : files) inputs.world(file);
+    if (const auto ok = make_folder_of(json); !ok) return ok;
     if (const auto ok = check_places(std::array{json}, inputs.list()); !ok) return ok;
     Json report{{"files", Json::array()}};
     std::size_t faults = 0, faulty_files = 0;
@@ -346,7 +350,7 @@ WorldCommand::WorldCommand(Command app)
                     "A JSON file for what was felt of each object; plots lie beside it");
     add_live_options(command_, o.session.live);
     check_ = command_.subcommand("check", "What is in each file, or all that is wrong with it; exit status 1 then");
-    check_.option("FILE", o.files, "Worlds (.toml, or .wrl for VRML 2.0), see docs/formats.md").required();
+    check_.option("FILE", o.files, "Worlds (.toml, .wrl for VRML 2.0, or a mesh), see docs/formats.md").required();
     check_.option("--json", o.json, "A file for all figures and faults; - for standard output");
 }
 

@@ -150,9 +150,16 @@ Result<std::vector<std::pair<std::string, std::string>>> facts_of_world(const Wo
 
 }  // namespace
 
+void print_motion_scaled(double scene_from_device_scale) {
+    if (scene_from_device_scale == 1.0) return;
+    std::printf("  motion scaled by %.3g: 1 mm of the hand's way is %.3g mm in the world; forces are the hand's\n",
+                scene_from_device_scale, scene_from_device_scale);
+}
+
 Result<void> explore_world(const WorldExploration& options) {
     session::InputFiles inputs;
     inputs.world(options.world).file(options.stroke).file(options.record);
+    if (const auto ok = make_folder_of(options.report); !ok) return ok;
     if (const auto ok = check_felt_report(options.report, inputs.list()); !ok) return ok;
     if (const auto ok = record::check_new_place(options.record); !ok) return ok;
     const Result<sculpt::Stroke> stroke = sculpt::read_stroke(options.stroke);
@@ -197,6 +204,7 @@ Result<void> explore_world(const WorldExploration& options) {
     if (!options.record.empty())
         std::printf("%s: %s ticks recorded\n", options.record.c_str(), std::to_string(figures->felt.ticks).c_str());
     print_touches(*figures);
+    print_motion_scaled(figures->felt.object_from_device.scale);
     return write_world_report(options, *figures);
 }
 

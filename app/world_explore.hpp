@@ -24,4 +24,7 @@ struct WorldExploration {
 // Fails with all problems of the world printed, when it has some.
 [[nodiscard]] Result<void> explore_world(const WorldExploration& options);
 
+// Prints that the hand's motion is not as large as the tool's in the world; nothing where it is.
+void print_motion_scaled(double scene_from_device_scale);
+
 }  // namespace burin::app

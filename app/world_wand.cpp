@@ -281,6 +281,7 @@ Result<record::Comparison> replay_wand(record::RecordReader& reader, const std::
 Result<void> explore_world_with_wand(const WorldExploration& options) {
     session::InputFiles inputs;
     inputs.world(options.world).file(options.stroke).file(options.record).device(options.device);
+    if (const auto ok = make_folder_of(options.report); !ok) return ok;
     if (const auto ok = check_felt_report(options.report, inputs.list()); !ok) return ok;
     if (const auto ok = record::check_new_place(options.record); !ok) return ok;
     Result<std::unique_ptr<WandWorld>> opened = open_wand_world(options);
@@ -302,6 +303,7 @@ Result<void> explore_world_with_wand(const WorldExploration& options) {
                      options.stroke.c_str(), explored->scene_from_device.scale);
     if (const auto done = pictures.finish(); !done) return done;
     print_point_touches(*explored);
+    print_motion_scaled(explored->scene_from_device.scale);
     if (!options.record.empty())
         std::printf("%s: %s ticks recorded\n", options.record.c_str(), std::to_string(explored->run.ticks).c_str());
     return write_wand_report(options, w.feel.wand, w.feel.points, *w.part, *explored);

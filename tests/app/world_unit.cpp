@@ -97,6 +97,44 @@ TEST(WorldCommand, TellsHowOpaqueThingsAre) {
     EXPECT_EQ(Json::parse(place.read("s.json"))["files"][0]["felt_objects"][0]["opacity"], 0.5);
 }
 
+// What world opens, check reads: it said that a mesh is no world.
+TEST(WorldCommand, ChecksAMeshAsTheWorldThatItIs) {
+    const Workplace place;
+    place.write("crate.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    const auto outcome = place.run(kWorldBurin + " world check crate.obj --json new/r.json");
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_TRUE(tells(outcome, "crate.obj: 1 object, 4 triangles")) << outcome.output;
+    EXPECT_TRUE(tells(outcome, "mesh_units = \"mm\"")) << outcome.output;
+    EXPECT_EQ(Json::parse(place.read("new/r.json"))["files"][0]["objects"][0]["name"], "crate");
+}
+
+// A report's folder was asked for, and that of pictures made.
+TEST(WorldCommand, MakesTheFolderOfAReport) {
+    const Workplace place;
+    place.write("w.wrl", kWorldHead + "DEF Pane Shape { geometry Box { size 0.1 0.1 0.1 } }");
+    place.write("s.csv", "time_s,x_m,y_m,z_m,qx,qy,qz,qw,button\n0,0,0.2,0,0,0,0,1,0\n0.1,0,0.2,0,0,0,0,1,0\n");
+    for (const std::string device : {"", " --device simulated-wand"}) {
+        const std::string folder = device.empty() ? "of/stylus" : "of/wand";
+        const auto outcome =
+            place.run(kWorldBurin + " world w.wrl --stroke s.csv" + device + " --report " + folder + "/r.json");
+        EXPECT_EQ(outcome.status, 0) << outcome.output;
+        EXPECT_EQ(Json::parse(place.read(folder + "/r.json"))["world"], "w.wrl");
+        EXPECT_FALSE(tells(outcome, "motion scaled")) << outcome.output;
+    }
+    const auto in_a_file = place.run(kWorldBurin + " world w.wrl --stroke s.csv --report s.csv/r.json");
+    EXPECT_EQ(in_a_file.status, 1) << in_a_file.output;
+}
+
+TEST(WorldCommand, TellsThatTheHandMovesLessThanTheTool) {
+    const Workplace place;
+    place.write("w.wrl", kWorldHead + "DEF Pane Shape { geometry Box { size 0.1 0.1 0.1 } }");
+    place.write("s.csv", "time_s,x_m,y_m,z_m,qx,qy,qz,qw,button\n0,-1,0.2,0,0,0,0,1,0\n1,1,0.2,0,0,0,0,1,0\n");
+    const auto outcome = place.run(kWorldBurin + " world w.wrl --stroke s.csv --report r.json");
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_TRUE(tells(outcome, "motion scaled by ")) << outcome.output;
+    EXPECT_GT(Json::parse(place.read("r.json"))["motion_scaled"].get<double>(), 2.0);
+}
+
 // A pipe that nobody writes to was waited for, for ever.
 TEST(WorldCommand, APipeIsNoInput) {
     const Workplace place;
