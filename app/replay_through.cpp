@@ -78,13 +78,26 @@ private:
 
 std::string place_mm(const Vec3& p) { return formatted("(%g, %g, %g) mm", 1e3 * p.x, 1e3 * p.y, 1e3 * p.z); }
 
+// Says how near a point came that touched nothing, and why it may have touched nothing where it came to a surface.
+std::string why_nothing(const activities::ThroughPoint& point) {
+    if (point.came_nearest.empty()) return "";
+    if (point.came_nearest_m > 0.0)
+        return formatted("; it came within %.3g mm of %s", 1e3 * point.came_nearest_m, point.came_nearest.c_str());
+    return "; it came to " + point.came_nearest +
+           ", and a proxy that begins outside a surface does not touch it from inside";
+}
+
 void print_point(const activities::ThroughFigures& f, const activities::ThroughPoint& point) {
     const std::string proxy = point.name.empty() ? "the proxy" : "the proxy of " + point.name;
     std::printf("  %s begins at the hand, at tick %lld, %s", proxy.c_str(), static_cast<long long>(f.first_tick),
                 place_mm(point.begins_scene_m).c_str());
     if (point.begins_inside) std::printf(", inside material, and is moved out");
-    if (!point.nearest.empty() && !point.begins_inside)
-        std::printf(", outside, %.3g mm from %s", 1e3 * point.nearest_m, point.nearest.c_str());
+    if (!point.nearest.empty() && !point.begins_inside) {
+        if (point.nearest_m < 0.0)
+            std::printf(", where the ball overlaps %s by %.3g mm", point.nearest.c_str(), -1e3 * point.nearest_m);
+        else
+            std::printf(", outside, %.3g mm from %s", 1e3 * point.nearest_m, point.nearest.c_str());
+    }
     std::printf("\n    ");
     if (point.first_contact_tick)
         std::printf("touches %s first, at tick %lld; in contact for %llu of %llu ticks\n",
@@ -92,7 +105,7 @@ void print_point(const activities::ThroughFigures& f, const activities::ThroughP
                     static_cast<long long>(*point.first_contact_tick),
                     static_cast<unsigned long long>(point.ticks_in_contact), static_cast<unsigned long long>(f.ticks));
     else
-        std::printf("touches nothing; a proxy that begins outside a surface does not touch it from inside\n");
+        std::printf("touches nothing%s\n", why_nothing(point).c_str());
 }
 
 void print_through(const activities::ThroughFigures& f, bool has_torque) {
@@ -119,6 +132,8 @@ Json point_json(const activities::ThroughPoint& point) {
               {"first_contact", point.first_contact},
               {"force_max_N", point.force_max_N},
               {"proxy_deviation_max_m", point.proxy_deviation_max_m}};
+    json["came_nearest"] = point.first_contact_tick ? Json() : Json(point.came_nearest);
+    json["came_nearest_m"] = point.first_contact_tick ? Json() : Json(point.came_nearest_m);
     json["first_contact_tick"] = point.first_contact_tick ? Json(*point.first_contact_tick) : Json();
     return json;
 }

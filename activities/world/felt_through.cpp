@@ -169,8 +169,7 @@ void visit_through(Sink& sink, const RecordedDevice& device, const TickThrough& 
 
 // Notes where the proxies begin.
 void note_beginning(ThroughFigures& figures, const TickThrough& first, const scene::MeshPart& part,
-                    std::span<const scene::ObjectId> ids, const ThroughProbe& probe) {
-    const NearestObject objects(part, ids);
+                    const NearestObject& objects, const ThroughProbe& probe) {
     figures.first_tick = first.recorded.tick;
     for (std::uint32_t i = 0; i < probe.device.point_count(); ++i) {
         const haptics::PointRecord& felt = first.points[i].felt;
@@ -212,6 +211,51 @@ void note_tick(ThroughFigures& figures, const TickThrough& tick, const scene::Me
 }
 
 // ---- The other world
+
+// Notes how near the points come to surfaces that they have not touched. A look at all objects costs more than a tick,
+// so that there is none where the way since the last one is too short for a nearer place.
+class Approach {
+public:
+    Approach(const scene::MeshPart& part, std::span<const scene::ObjectId> ids, const ThroughProbe& probe)
+        : part_(part), objects_(part, ids), radius_m_(probe.radius_m), seen_(probe.device.point_count()) {
+        objects_move_ = std::ranges::any_of(
+            ids, [&](scene::ObjectId id) { return std::holds_alternative<scene::PathMotion>(part.object(id).motion); });
+    }
+    [[nodiscard]] const NearestObject& objects() const { return objects_; }
+
+    void note(ThroughFigures& figures, const TickThrough& tick) {
+        for (std::size_t i = 0; i < figures.points.size(); ++i) {
+            const Vec3& at_m = tick.points[i].felt.hip_object_m;
+            ThroughPoint& point = figures.points[i];
+            if (point.first_contact_tick || !finite(at_m) || !may_be_nearer(seen_[i], point, at_m, tick)) continue;
+            const auto near = objects_.at(at_m);
+            if (!near) continue;
+            seen_[i] = {.at_m = at_m, .time_ns = tick.recorded.time_ns, .near_m = near->distance_m - radius_m_};
+            if (!point.came_nearest.empty() && seen_[i].near_m >= point.came_nearest_m) continue;
+            point.came_nearest = part_.object(near->id).name;
+            point.came_nearest_m = seen_[i].near_m;
+        }
+    }
+
+private:
+    struct Seen {
+        Vec3 at_m{0.0};
+        std::int64_t time_ns = 0;
+        double near_m = 0.0;
+    };
+    [[nodiscard]] bool may_be_nearer(const Seen& seen, const ThroughPoint& point, const Vec3& at_m,
+                                     const TickThrough& tick) const {
+        if (point.came_nearest.empty()) return true;
+        if (objects_move_ && tick.recorded.time_ns - seen.time_ns >= scene::SceneService::kHandsMove_ns) return true;
+        return glm::distance(at_m, seen.at_m) > seen.near_m - point.came_nearest_m;
+    }
+
+    const scene::MeshPart& part_;
+    NearestObject objects_;
+    double radius_m_;
+    bool objects_move_ = false;
+    std::vector<Seen> seen_;  // of each point, at the last look
+};
 
 // Updates the scene every 10 ms, after the tick before.
 class SteadyUpdates {
@@ -306,6 +350,7 @@ Result<ThroughFigures> feel_through(record::RecordReader& reader, scene::MeshPar
     if (!motion) return std::unexpected(motion.error());
     if (!recorded) return std::unexpected(recorded.error());
     std::unique_ptr<OtherWorld> world;
+    Approach approach(part, ids, probe);
     ThroughFigures figures;
     record::RowWalk walk(reader, 0);
     for (;;) {
@@ -325,8 +370,9 @@ Result<ThroughFigures> feel_through(record::RecordReader& reader, scene::MeshPar
         const Result<haptics::TickRecord> felt = world->feel(tick);
         if (!felt) return std::unexpected(felt.error());
         const TickThrough through = tick_through(tick, *felt, world->touch, *recorded, walk, probe.device);
-        if (is_first) note_beginning(figures, through, part, ids, probe);
+        if (is_first) note_beginning(figures, through, part, approach.objects(), probe);
         note_tick(figures, through, part);
+        approach.note(figures, through);
         ThroughValues values;
         values.words.reserve(64);
         visit_through(values, probe.device, through);

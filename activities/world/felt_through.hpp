@@ -33,7 +33,11 @@ struct ThroughPoint {
     Vec3 begins_scene_m{0.0};    // where its proxy begins
     bool begins_inside = false;  // in material, and is moved out by the shortest path
     std::string nearest;         // object there; empty: there is none
-    double nearest_m = 0.0;      // how far its surface is from the ball
+    double nearest_m = 0.0;      // how far its surface is from the ball; below 0: they overlap by so much
+    // Likewise where the ball has come nearest to a surface; until its first contact, and seen every 10 ms where
+    // objects move.
+    std::string came_nearest;
+    double came_nearest_m = 0.0;
     std::uint64_t ticks_in_contact = 0;
     std::optional<std::int64_t> first_contact_tick = {};  // none: it touched nothing
     std::string first_contact;                            // the object

@@ -88,7 +88,12 @@ TEST(ThroughAWorld, TellsWhereTheProxyBeginsAndWhatIsMissing) {
     const auto outside = at.run(kThroughBurin + " replay a.session --through far.toml --to 500");
     EXPECT_EQ(outside.status, 0);
     EXPECT_TRUE(says_so(outside, "mm from far")) << outside.output;
-    EXPECT_TRUE(says_so(outside, "touches nothing; a proxy that begins outside a surface")) << outside.output;
+    EXPECT_TRUE(says_so(outside, "touches nothing; it came within ")) << outside.output;
+    EXPECT_FALSE(says_so(outside, "from inside")) << "too far away for that to be the reason: " << outside.output;
+    // A ball of 40 mm whose middle is 12 mm above the cube.
+    const auto over = at.run(kThroughBurin + " replay a.session --through w.toml --radius 0.04");
+    EXPECT_TRUE(says_so(over, "the ball overlaps floor by 28 mm")) << over.output;
+    EXPECT_FALSE(says_so(over, "-28")) << over.output;
     for (const auto& [arguments, said] : std::vector<std::pair<std::string, std::string>>{
              {" --through none.toml", "none.toml"},
              {" --through w.toml --stiffness -1", "stiffness"},
