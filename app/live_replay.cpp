@@ -191,7 +191,10 @@ Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay&
     if (const auto sound = session::check_commands(*log, reader.path(), options.activity.get()); !sound)
         return std::unexpected(sound.error());
 
-    Result<session::TickComparison> judge = session::TickComparison::create(reader, range);
+    Result<session::TickComparison> judge =
+        session::TickComparison::create(reader, range,
+                                        how.pictures.empty() ? session::TickComparison::AtDifference::ends
+                                                             : session::TickComparison::AtDifference::goes_on);
     if (!judge) return std::unexpected(judge.error());
     session::ReplayManner manner;
     manner.draws = !how.pictures.empty();

@@ -18,6 +18,20 @@ bool tells(const Workplace::Outcome& outcome, const std::string& text) {
     return outcome.output.find(text) != std::string::npos;
 }
 
+// The pictures that are named by their time.
+std::size_t pictures_in(const std::filesystem::path& folder) {
+    std::size_t pictures = 0;
+    for (const auto& file : std::filesystem::directory_iterator(folder))
+        pictures += file.path().filename().string().starts_with("000") ? 1u : 0u;
+    return pictures;
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+    return count;
+}
+
 }  // namespace
 
 TEST(LiveRecording, IsDoneAgainDrawnAndGivenBackAsText) {
@@ -47,16 +61,19 @@ TEST(LiveRecording, IsDoneAgainDrawnAndGivenBackAsText) {
     const auto again = at.run(kLiveBurin + " replay a.session --pictures seen --every 0.5");
     EXPECT_EQ(again.status, 0) << again.output;
     EXPECT_TRUE(tells(again, "equal to the bit")) << again.output;
-    std::size_t pictures = 0;
-    for (const auto& file : std::filesystem::directory_iterator(at / "seen"))
-        pictures += file.path().filename().string().starts_with("000") ? 1u : 0u;
-    EXPECT_GE(pictures, 1u) << "the first frame's, and more where frames come as often";
+    EXPECT_GE(pictures_in(at / "seen"), 1u) << "the first frame's, and more where frames come as often";
     EXPECT_TRUE(std::filesystem::exists(at / "seen/carved.png"));
     EXPECT_FALSE(std::filesystem::exists(at / "seen/part.stl"));
 
+    EXPECT_EQ(at.run(kLiveBurin + " replay a.session --pictures all --every 0.2").status, 0);
+    EXPECT_GE(pictures_in(at / "all"), 3u);
     const auto other = at.run(kLiveBurin + " replay a.session --set tool=ball:0.0121");
     EXPECT_EQ(other.status, 1);
     EXPECT_TRUE(tells(other, "equal ticks: tick ")) << other.output;
+    const auto drawn = at.run(kLiveBurin + " replay a.session --set tool=ball:0.0121 --pictures other --every 0.2");
+    EXPECT_EQ(drawn.status, 1);
+    EXPECT_TRUE(tells(drawn, "equal ticks: tick ")) << drawn.output;
+    EXPECT_EQ(pictures_in(at / "other"), pictures_in(at / "all")) << "to the end, not to the first difference";
     EXPECT_TRUE(tells(at.run(kLiveBurin + " replay a.session --set tol=1"), "no option")) << "a setting that is none";
     // What no command line takes, no replay takes either.
     for (const auto& [set, said] : std::vector<std::pair<std::string, std::string>>{
@@ -84,6 +101,22 @@ TEST(LiveRecording, IsDoneAgainDrawnAndGivenBackAsText) {
     EXPECT_TRUE(tells(by_file, "equal to the bit")) << by_file.output;
     EXPECT_EQ(at.read("text/carved.png"), at.read("file/carved.png"));
     EXPECT_EQ(at.read("text/part.stl"), at.read("file/part.stl"));
+}
+
+// The digest of a world was computed from a second reading, which told its remarks again.
+TEST(LiveRecording, TellsTheRemarksOfAWorldOnce) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace at;
+    at.write("tetra.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+    at.write("w.toml", "[[object]]\nname = \"a\"\nmesh = \"tetra.off\"\n");
+    at.write("use.txt", "burin-input 1 test\n0.2 close\n");
+    const auto recorded =
+        at.run(kLiveBurin + " world w.toml --offscreen --width 320 --height 200 --input use.txt --record a.session");
+    ASSERT_EQ(recorded.status, 0) << recorded.output;
+    EXPECT_EQ(count_of(recorded.output, "no unit that Burin knows"), 1u) << recorded.output;
+    const auto again = at.run(kLiveBurin + " replay a.session");
+    EXPECT_EQ(again.status, 0) << again.output;
+    EXPECT_EQ(count_of(again.output, "no unit that Burin knows"), 1u) << again.output;
 }
 
 // A wand's two points, led by a script, then felt in a world from which its recording knows nothing.
