@@ -219,6 +219,44 @@ std::string text_of(Word word, ColumnType type) {
     return {};
 }
 
+namespace {
+
+std::vector<std::string_view> pieces_of(std::string_view name) {
+    std::vector<std::string_view> pieces;
+    for (std::size_t begin = 0; begin <= name.size();) {
+        const std::size_t end = std::min(name.find('_', begin), name.size());
+        pieces.push_back(name.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return pieces;
+}
+
+// Whether a name has the pieces of another in their order, each at least as a beginning: "force0_device_x_N" those of
+// "force_x".
+bool has_pieces(std::string_view name, std::string_view wanted) {
+    const std::vector<std::string_view> pieces = pieces_of(name);
+    auto at = pieces.begin();
+    for (const std::string_view piece : pieces_of(wanted)) {
+        at = std::find_if(at, pieces.end(), [&](std::string_view p) { return p.starts_with(piece); });
+        if (at++ == pieces.end()) return false;
+    }
+    return true;
+}
+
+// Returns the name that may have been meant: most columns are far longer than what is typed for them, so that one with
+// its pieces comes before one of its length.
+std::string meant_column(std::span<const Column> columns, std::string_view wanted) {
+    std::vector<std::string_view> all, with_pieces;
+    for (const Column& column : columns) {
+        all.push_back(column.name);
+        if (has_pieces(column.name, wanted)) with_pieces.push_back(column.name);
+    }
+    const std::vector<std::string_view>& names = with_pieces.empty() ? all : with_pieces;
+    return names.empty() ? "" : std::string(nearest_name(wanted, names));
+}
+
+}  // namespace
+
 Result<std::vector<std::size_t>> choose_columns(std::span<const Column> columns, std::string_view list) {
     std::vector<std::size_t> chosen;
     if (list.empty()) list = "*";
@@ -230,11 +268,8 @@ Result<std::vector<std::size_t>> choose_columns(std::span<const Column> columns,
             if (fits(columns[i], wanted) && std::ranges::find(chosen, i) == chosen.end()) chosen.push_back(i);
         const bool known = std::ranges::any_of(columns, [&](const Column& c) { return fits(c, wanted); });
         if (chosen.size() == before && !known) {
-            std::vector<std::string_view> names;
-            for (const Column& column : columns) names.push_back(column.name);
-            const std::string nearest = names.empty() ? "" : std::string(nearest_name(wanted, names));
             return fail("column '" + std::string(wanted) + "'", "is not in the recording",
-                        "did you mean " + nearest + "? burin session info lists all");
+                        "did you mean " + meant_column(columns, wanted) + "? burin session info lists all");
         }
         begin = end + 1;
     }

@@ -131,7 +131,7 @@ std::string describe_size(const std::string& file, const Vec3& size_m, const Fil
     const std::string size = file + ": " + in_millimetres(size_m), in = plural_of(unit.unit);
     switch (unit.source) {
         case UnitSource::given:
-            return size + " (read as " + in + ", as --units says" +
+            return size + " (read as " + in + ", as --units or the recording says" +
                    (unit.stated && *unit.stated != unit.unit
                         ? std::string("; the file itself says ") + plural_of(*unit.stated)
                         : "") +

@@ -69,7 +69,8 @@ TEST(MeshUnit, WhatTheFileStatesBeatsAGuessAndWhatTheUserGivesBeatsBoth) {
     const ImportReport given = read_cube("50", "units m", LengthUnit::cm);
     EXPECT_EQ(given.size_m, Vec3(0.5));
     EXPECT_EQ(describe_size("cube.off", given.size_m, given.unit),
-              "cube.off: 500 x 500 x 500 mm (read as centimetres, as --units says; the file itself says metres)");
+              "cube.off: 500 x 500 x 500 mm (read as centimetres, as --units or the recording says; the file itself "
+              "says metres)");
     const ImportReport stated = read_cube("2", "units in");
     EXPECT_EQ(stated.size_m, Vec3(0.0508));
     EXPECT_EQ(describe_size("cube.off", stated.size_m, stated.unit),

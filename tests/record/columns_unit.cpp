@@ -97,6 +97,13 @@ TEST(Columns, AreChosenByNameAndByBeginning) {
     const auto wrong = choose_columns(columns, "tick,hip0_object_x");
     ASSERT_FALSE(wrong);
     EXPECT_NE(wrong.error().line().find("hip0_object_x_m"), std::string::npos) << wrong.error().line();
+    // A short word is nearer to a short name than to the long one that it stands for: "tick" was suggested.
+    for (const auto& [word, meant] :
+         {std::pair("force_x", "force0_device_x_N"), std::pair("proxy_y", "proxy0_object_y_m")}) {
+        const auto shortened = choose_columns(columns, word);
+        ASSERT_FALSE(shortened);
+        EXPECT_NE(shortened.error().line().find(meant), std::string::npos) << shortened.error().line();
+    }
     EXPECT_FALSE(choose_columns(columns, "tick,"));
     EXPECT_FALSE(choose_columns(columns, "nothing*"));
 }
