@@ -58,7 +58,7 @@ Result<std::string_view> checked_header(std::string_view bytes, const std::strin
         if (text->starts_with(known.begins)) return fail(place, known.what, known.remedy);
     }
     return fail(place, "does not begin with '#VRML V2.0 utf8'",
-                "write this as the first line of a VRML 2.0 file; other formats are not read as a world");
+                "write this as the first line of a VRML 2.0 file; others are named .toml, .stl, .obj, .ply or .off");
 }
 
 // Returns the name of an inlined file relative to the world's folder, or what is wrong with it. `folder` is that of the
