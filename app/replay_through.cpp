@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdio>
+#include <filesystem>
 #include <utility>
 
 #include "activities/world/felt_through.hpp"
@@ -224,7 +225,21 @@ Result<std::unique_ptr<OpenedWorld>> open_world(const std::string& path, const M
     return opened;
 }
 
+namespace {
+
+// A study's journal knows its recordings byte by byte, and a table added to one makes it another file.
+Result<void> check_is_of_no_study(const std::string& file) {
+    std::error_code ignored;
+    const std::filesystem::path study = std::filesystem::weakly_canonical(file, ignored) / "../../..";
+    if (!std::filesystem::exists(study.lexically_normal() / "journal.jsonl", ignored)) return {};
+    return fail(file, "belongs to the study " + study.lexically_normal().string() + ", which keeps it as it is",
+                "copy the file elsewhere, and feel the copy through the world");
+}
+
+}  // namespace
+
 Result<void> replay_through(const ThroughOptions& options) {
+    if (const auto free = check_is_of_no_study(options.file); !free) return free;
     Result<record::RecordReader> reader = record::RecordReader::open(options.file);
     if (!reader) return std::unexpected(reader.error());
     if (const auto some = record::check_ticks(*reader, options.range); !some) return some;

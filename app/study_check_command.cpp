@@ -29,6 +29,13 @@ Result<void> check_folder(const std::string& folder) {
     if (!study) return std::unexpected(study.error());
     warn_of_journal(*study);
     std::size_t faults = study->journal().faults.size(), files = 0;
+    const auto& entries = study->journal().entries;
+    if (entries.empty() || entries.front().value.value("event", std::string()) != "study made") {
+        ++faults;
+        std::fprintf(stderr,
+                     "%s/journal.jsonl: has lost its beginning, which says how the study was made; restore it\n",
+                     folder.c_str());
+    }
     if (const auto ok = study->check_allocation(); !ok) {
         ++faults;
         std::fprintf(stderr, "%s\n", ok.error().line().c_str());

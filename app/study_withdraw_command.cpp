@@ -12,8 +12,10 @@ Result<void> study_withdraw(const StudyWithdrawOptions& options) {
     if (!study) return std::unexpected(study.error());
     warn_of_journal(*study);
     if (const auto ok = study->withdraw(options.id, options.erase); !ok) return ok;
+    if (options.erase)
+        if (const auto made = make_trials(options.study); !made) return std::unexpected(made.error());
     std::printf("%s: withdrawn%s\n", options.id.c_str(),
-                options.erase ? ", data erased; reports made before still hold its figures" : "");
+                options.erase ? ", data erased; reports and pictures made before still hold its figures" : "");
     return {};
 }
 

@@ -33,8 +33,10 @@ std::string joined_words(std::span<const std::string> words) {
     return text;
 }
 
-// A tick as far as a stage needs it.
-haptics::TickRecord record_of(const haptics::StrokeSample& tick, const study::StageTouch& touch, double offset_m) {
+// A tick as far as a stage needs it. cause: why the tool had no force when the frame began, which is the tick's own
+// where it had none; a tick whose cause was over by then is taken for one of switched-off amplifiers.
+haptics::TickRecord record_of(const haptics::StrokeSample& tick, const study::StageTouch& touch, double offset_m,
+                              haptics::GateCause cause) {
     const Quat turn = tick.orientation_object;
     const Similarity& world_from_device = touch.parameters().workspace.object_from_device;
     haptics::TickRecord record;
@@ -46,6 +48,9 @@ haptics::TickRecord record_of(const haptics::StrokeSample& tick, const study::St
     record.gate.given.force_device_N = glm::conjugate(world_from_device.orientation) * tick.force_object_N;
     record.gate.saturated = (tick.flags & haptics::kTickForceSaturated) != 0;
     record.flags = tick.flags;
+    if ((tick.flags & haptics::kTickFault) == 0) return record;
+    record.gate.cause = cause == haptics::GateCause::none ? haptics::GateCause::device_fault : cause;
+    if (record.gate.cause == haptics::GateCause::device_fault) record.sample.fault = devices::DeviceFault::other;
     return record;
 }
 
@@ -132,6 +137,7 @@ bool StudyActivity::ends_by_operator() const {
 }
 
 void StudyActivity::step(const session::ActivityView& view, session::ActivityOrders& orders) {
+    cause_ = view.tool.cause;
     reads_device_ = {view.tool.position_device_m,
                      glm::conjugate(view.tool.workspace.object_from_device.orientation) * view.tool.orientation_object};
     for (const haptics::StrokeSample& tick : view.ticks) follow(tick, orders);
@@ -145,7 +151,7 @@ void StudyActivity::step(const session::ActivityView& view, session::ActivityOrd
 void StudyActivity::follow(const haptics::StrokeSample& tick, session::ActivityOrders& orders) {
     now_ns_ = tick.time_ns;
     if (run_.session() == nullptr || run_.phase() != TrainingRun::Phase::in_stage) return;
-    const haptics::TickRecord record = record_of(tick, run_.session()->touch(), device_.point_offset_m);
+    const haptics::TickRecord record = record_of(tick, run_.session()->touch(), device_.point_offset_m, cause_);
     const std::size_t known = run_.session()->events().size();
     const study::OperatorAct act = run_.follow(record);
     if (keeper_.tick) keeper_.tick({&record, act});

@@ -82,6 +82,7 @@ private:
     std::map<scene::ObjectId, ShownObject> as_shown_;
     bool tube_pressed_ = true;  // the session's tube has its stiffness
     Nanoseconds now_ns_ = 0;    // of the last tick
+    haptics::GateCause cause_ = haptics::GateCause::none;  // of the tool, as this frame draws it
     haptics::ProxyPlacement placement_;
     Pose reads_device_;    // where the wand read to be in the last step
     std::string jig_off_;  // by how much the wand was off in its jig; empty: it was not

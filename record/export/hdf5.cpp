@@ -143,6 +143,9 @@ Result<ExportReport> export_hdf5(RecordReader& reader, std::size_t table, const 
     Result<NewFile> file = NewFile::create(path);
     if (!file) return std::unexpected(file.error());
     if (file->is_standard_output()) return fail("hdf5", "cannot go to standard output", "name a file");
+    // What could not be written on a full disk stays in the library's hands, and its clearing up at the program's end
+    // writes it again and then uses what it has freed.
+    H5dont_atexit();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // failures are told by what is returned
     const auto failed = [&] { return fail(path, "cannot be written as HDF5", "check whether the disk is full"); };
     H5Handle h5(H5Fcreate(file->temporary().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);

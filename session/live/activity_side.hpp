@@ -43,6 +43,11 @@ public:
     [[nodiscard]] std::optional<ActivityPanel> panel() const {
         return activity_ ? std::optional(activity_->panel()) : std::nullopt;
     }
+    // Returns whether tool, objects and workspace are the activity's alone.
+    [[nodiscard]] bool governs() const {
+        const auto section = panel();
+        return section && section->governs;
+    }
     // Ends the activity; it is not told of anything afterwards. Does nothing when called again.
     [[nodiscard]] Result<void> finish() {
         const auto ended = std::exchange(activity_, nullptr);

@@ -356,6 +356,9 @@ Result<void> StudyFolder::withdraw(const std::string& id, bool erase) {
     const bool files_left = fs::exists(path_ / "data" / id, error);
     if (found->withdrawn && (!erase || (found->erased && !files_left)))
         return fail(id, "has withdrawn already", erase ? "nothing is left to erase" : "add --erase to erase its data");
+    if (erase && fs::is_symlink(path_ / "data" / id, error))
+        return fail((path_ / "data" / id).string(), "is a link, so that the data themselves would stay",
+                    "put the folder in the link's place, or erase it by hand where it is");
     // Told before it is done: files that a power cut leaves are erased when it is asked for again.
     if (const auto ok = note(Json{{"event", "withdrawn"}, {"participant", id}, {"erase", erase}}); !ok) return ok;
     if (!erase) return {};

@@ -118,6 +118,21 @@ TEST(SessionFile, IsConvertedToWhatOtherProgramsRead) {
         << "the stroke, a report with its plots, the recording, three tables: nothing that failed";
 }
 
+// Where the disk is full; HDF5 then ended the program by a fault of its own.
+TEST(SessionFile, IsNotConvertedWhereTheDiskIsFullAndNothingIsLeft) {
+    const Workplace at;
+    at.write("press.csv", kRecordedPress);
+    ASSERT_EQ(at.run(kRecordingSculpt + " --record a.session").status, 0);
+    const std::size_t files = at.files();
+    for (const std::string format : {"hdf5", "csv", "npy", "mat"}) {
+        const auto outcome =
+            at.run("trap '' XFSZ; ulimit -f 60; " + kRecordingBurin + " convert a.session out --to " + format);
+        EXPECT_EQ(outcome.status, 1) << format << "\n" << outcome.output;
+        EXPECT_TRUE(outcome.output.contains("out")) << outcome.output;
+        EXPECT_EQ(at.files(), files) << format;
+    }
+}
+
 TEST(SessionFile, IsNeverWrittenOverAndRefusedBeforeTheWork) {
     const Workplace at;
     at.write("press.csv", kRecordedPress);

@@ -51,6 +51,7 @@ public:
     }
     void wait(double seconds) { time_s_ += seconds; }
     void say(const std::string& act) { text_ << formatted("%.3f command do %s\n", time_s_, act.c_str()); }
+    void command(const std::string& words) { text_ << formatted("%.3f command %s\n", time_s_, words.c_str()); }
     [[nodiscard]] double time_s() const { return time_s_; }
     [[nodiscard]] std::string closed() const { return text_.str() + formatted("%.3f close\n", time_s_ + 0.5); }
 
@@ -132,6 +133,59 @@ TEST(LiveStudy, CountsATrialFromTheStartCapToTheEndCapInJournalAndRecord) {
     const auto replayed = place.run(kLiveStudy + "replay s");
     EXPECT_EQ(replayed.status, 0) << replayed.output;
     EXPECT_EQ(place.run(kLiveStudy + "check s").status, 0);
+}
+
+// Nobody can feel a path without force: such an attempt counted, since a live tick did not say that there was none.
+TEST(LiveStudy, CountsNoAttemptInWhichTheAmplifiersWereOff) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace place;
+    make_live_study(place);
+    DeskLog log;
+    log.go({-0.22, 0.165, 0.2345}, 20);
+    log.go({-0.22, 0.165, 0.11}, 20);
+    log.say("start");
+    log.wait(0.1);
+    log.go(kInStartCap, 10);
+    log.wait(0.3);
+    const study::Protocol protocol = study::parse_protocol(one_trial_protocol()).protocol;
+    const auto& spine_m = protocol.worlds.at(0).spine_m;
+    for (std::size_t i = 0; i < spine_m.size(); ++i) {
+        log.go(spine_m[i], 2);
+        if (i == spine_m.size() / 2) log.command("amplifiers off");
+    }
+    log.go(kInEndCap, 4);
+    const auto went = visit(place, log);
+    EXPECT_FALSE(went.output.contains("valid exit")) << went.output;
+    const std::string told =
+        place.run(std::string(kBurinCommand) + " convert s/data/p01/day1-01-run1.session - --to log").output;
+    EXPECT_TRUE(told.contains("amplifiers off")) << told.substr(told.size() - std::min<std::size_t>(told.size(), 2000));
+    EXPECT_EQ(place.run(kLiveStudy + "replay s").status, 0);
+}
+
+// What is seen and felt in a stage is the protocol's: a script's command changed it, and the journal said nothing.
+TEST(LiveStudy, KeepsItsWorldWhateverIsSaid) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace place;
+    make_live_study(place);
+    const auto shown = [&](const std::string& name, const std::vector<std::string>& commands) {
+        DeskLog log;
+        log.say("start");
+        log.wait(0.5);
+        for (const std::string& command : commands) log.command(command);
+        log.wait(0.5);
+        log.command("screenshot " + name + ".png");
+        place.write(name + ".txt", log.closed());
+        return place.run(kLiveStudy + "run s --participant p01 --resume --input " + name +
+                         ".txt --offscreen --outputs .");
+    };
+    ASSERT_EQ(shown("as-it-is", {}).status, 0);
+    for (const std::string command :
+         {"object \"seen tube\" seen on", "object tube felt off", "tool ball:0.01", "radius 1"}) {
+        const auto outcome = shown("changed", {command});
+        EXPECT_EQ(outcome.status, 1) << command << "\n" << outcome.output;
+        EXPECT_TRUE(outcome.output.contains("stay as they are")) << command << "\n" << outcome.output;
+        EXPECT_TRUE(place.read("as-it-is.png") == place.read("changed.png")) << command;
+    }
 }
 
 TEST(LiveStudy, FreesAWandThatCameIntoTheStartCapThroughTheFunnelsWall) {

@@ -208,7 +208,13 @@ TEST(ThroughAWorld, AStageOfAStudyIsFeltInBothPoints) {
     ASSERT_EQ(at.run(kThroughBurin + " study enrol s p01").status, 0);
     const auto led = at.run(kThroughBurin + " study run s --participant p01 --input script.txt");
     ASSERT_EQ(led.status, 0) << led.output;
-    const std::string replay = kThroughBurin + " replay s/data/p01/day1-03-run1.session";
+    const std::string kept = "s/data/p01/day1-03-run1.session";
+    const auto refused = at.run(kThroughBurin + " replay " + kept + " --through high.toml --radius 0.003");
+    EXPECT_EQ(refused.status, 1) << "its journal knows it byte by byte";
+    EXPECT_TRUE(says_so(refused, "belongs to the study")) << refused.output;
+    EXPECT_EQ(at.run(kThroughBurin + " study check s").status, 0);
+    std::filesystem::copy_file(at / kept, at / "stage.session");
+    const std::string replay = kThroughBurin + " replay stage.session";
     EXPECT_TRUE(says_so(at.run(replay + " --through high.toml"), "give it by --radius")) << "its points have no size";
     const auto felt = at.run(replay + " --through high.toml --radius 0.003");
     EXPECT_EQ(felt.status, 0) << felt.output;
@@ -216,7 +222,6 @@ TEST(ThroughAWorld, AStageOfAStudyIsFeltInBothPoints) {
     EXPECT_TRUE(says_so(felt, "the proxy of bottom begins at the hand, at tick 1, (") &&
                 says_so(felt, "touches floor first"))
         << felt.output;
-    EXPECT_EQ(at.run(kThroughBurin + " study replay s").status, 0) << "the ticks are untouched";
 }
 
 }  // namespace burin::app

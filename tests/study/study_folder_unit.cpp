@@ -405,6 +405,31 @@ TEST(StudyCommands, LeaveOutAndEraseWhoWithdraws) {
     EXPECT_EQ(place.run(kBurinStudy + "withdraw s sim002 --erase").status, 1);
 }
 
+TEST(StudyCommands, EraseWhatAFigureTellsAndNothingBehindALink) {
+    const Workplace place;
+    ASSERT_EQ(make_study(place).status, 0);
+    ASSERT_EQ(place.run(kBurinStudy + "run s --simulated").status, 0);
+    ASSERT_TRUE(place.read("s/trials.csv").contains("sim002"));
+    ASSERT_EQ(place.run(kBurinStudy + "withdraw s sim002 --erase").status, 0);
+    EXPECT_FALSE(place.read("s/trials.csv").contains("sim002"));
+    std::filesystem::rename(place / "s/data/sim001", place / "elsewhere");
+    std::filesystem::create_symlink(place / "elsewhere", place / "s/data/sim001");
+    const auto refused = place.run(kBurinStudy + "withdraw s sim001 --erase");
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_TRUE(refused.output.contains("is a link")) << refused.output;
+    EXPECT_FALSE(place.run(kBurinStudy + "status s").output.contains("sim001 withdrew")) << "nothing was done";
+}
+
+TEST(StudyCommands, FindAJournalThatHasLostItsBeginning) {
+    const Workplace place;
+    ASSERT_EQ(make_study(place).status, 0);
+    ASSERT_EQ(place.run(kBurinStudy + "check s").status, 0);
+    place.write("s/journal.jsonl", "");
+    const auto checked = place.run(kBurinStudy + "check s");
+    EXPECT_EQ(checked.status, 1);
+    EXPECT_TRUE(checked.output.contains("has lost its beginning")) << checked.output;
+}
+
 TEST(StudyCommands, NameDataThatWereChanged) {
     const Workplace place;
     ASSERT_EQ(make_study(place).status, 0);
