@@ -12,6 +12,7 @@
 #include "app/study_pictures.hpp"
 #include "app/study_trials.hpp"
 #include "base/file_io.hpp"
+#include "base/text.hpp"
 #include "study/folder/interruption.hpp"
 
 namespace burin::app {
@@ -117,6 +118,7 @@ Result<void> take_participant(study::StudyFolder& study, const StudyRunOptions& 
         log.at(time_s, shown);
         return {};
     };
+    visit.tell = [](double time_s, const std::string& line) { std::printf("%9.3f s  %s\n", time_s, line.c_str()); };
     const auto went = activities::run_scripted_visit(study, options.participant, *script, visit);
     if (!went) return std::unexpected(went.error());
     std::printf("%zu stages ended in %.1f s of simulated time, %llu ticks; %zu of the day are left%s\n", went->stages,
@@ -125,7 +127,10 @@ Result<void> take_participant(study::StudyFolder& study, const StudyRunOptions& 
     // Without a valid trial yet there is no table.
     if (const auto made = make_trials(options.study))
         std::printf("%s/trials.csv: %zu trials\n", options.study.c_str(), made->trials);
-    return {};
+    if (went->without_effect == 0) return {};
+    std::fflush(stdout);
+    return fail(options.live.input, formatted("%zu of its words had no effect, as told above", went->without_effect),
+                "correct the script; the visit's stages are kept");
 }
 
 }  // namespace

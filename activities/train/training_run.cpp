@@ -88,6 +88,37 @@ void TrainingRun::command(const OperatorCommand& command, Nanoseconds now_ns) {
     if (phase_ == Phase::in_stage) acts_.push_back(act_of(command.says));
 }
 
+bool TrainingRun::paused() const {
+    if (phase_ != Phase::in_stage) return false;
+    bool is_paused = (session_ ? session_->state() : page_).phase == study::StagePhase::paused;
+    for (const OperatorAct act : acts_)
+        if (act == OperatorAct::pause || act == OperatorAct::go_on) is_paused = act == OperatorAct::pause;
+    return is_paused;
+}
+
+Result<void> TrainingRun::check(const OperatorCommand& command) const {
+    const bool in_stage = phase_ == Phase::in_stage;
+    if (command.says == OperatorSays::note) return {};
+    if (command.says == OperatorSays::start) {
+        if (phase_ == Phase::between) return {};
+        return fail("", phase_ == Phase::finished ? "all stages are done" : "a stage is under way",
+                    "end it first, with next or stop");
+    }
+    if (!in_stage) return fail("", "no stage is under way", "start begins one");
+    if (command.says == OperatorSays::next && !places_[at_].stage->ends_by_operator)
+        return fail("", "this stage ends by itself, as the protocol has it", "wait, or break it off with stop");
+    if (command.says == OperatorSays::pause && paused())
+        return fail("", "the stage is paused already", "go on ends the pause");
+    if (command.says == OperatorSays::go_on && !paused())
+        return fail("", "the stage is not paused", "leave it out");
+    if (command.says == OperatorSays::repeat) {
+        if (places_[at_].stage->kind != study::StageKind::trial)
+            return fail("", "this stage is no trial and has no attempts", "leave it out");
+        if (paused()) return fail("", "the attempt is lost with the pause already", "go on");
+    }
+    return {};
+}
+
 void TrainingRun::begin(Nanoseconds now_ns) {
     const study::Stage& stage = *places_[at_].stage;
     const auto found = worlds_.find(stage.world);

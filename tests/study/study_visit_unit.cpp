@@ -45,6 +45,26 @@ TEST(StudyVisits, RefuseEachOptionThatAScriptWouldNotHeed) {
     EXPECT_EQ(place.run(kVisitStudy + "run s --participant p01 --input hand.txt").status, 0);
 }
 
+TEST(StudyVisits, NameEachWordOfAScriptThatHadNoEffectAndFailAtTheEnd) {
+    const Workplace place;
+    make_visited(place);
+    place.write("words.txt", "burin-study-input 1\n0 hand -0.175 0.165 0.11\n0.1 stop\n0.2 start\n0.3 next\n" +
+                                 std::string("0.4 go on\n0.5 pause\n0.6 pause\n0.7 go on\n0.8 repeat\n0.911 stop\n"));
+    const auto went = place.run(kVisitStudy + "run s --participant p01 --input words.txt");
+    EXPECT_EQ(went.status, 1);
+    for (const char* part :
+         {"words.txt:3: stop had no effect: no stage", "words.txt:5: next had no effect: this stage ends by itself",
+          "words.txt:6: go on had no effect: the stage is not paused", "words.txt:8: pause had no effect",
+          "words.txt:10: repeat had no effect", "introduction ended by stop", "5 of its words had no effect"})
+        EXPECT_TRUE(went.output.contains(part)) << part << "\n" << went.output;
+    // The last line comes between two frames and is said all the same; what comes after the visit's end is not.
+    EXPECT_TRUE(place.read("s/journal.jsonl").contains("\"result\":\"stopped\""));
+    place.write("late.txt", kStandingHand + "0.3 note too late\n");
+    const auto late = place.run(kVisitStudy + "run s --participant p01 --input late.txt");
+    EXPECT_EQ(late.status, 1);
+    EXPECT_TRUE(late.output.contains("late.txt:5: note too late had no effect: the visit has ended")) << late.output;
+}
+
 TEST(StudyVisits, RefuseALiveSessionsOptionsForLearners) {
     const Workplace place;
     make_visited(place);
