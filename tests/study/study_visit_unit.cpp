@@ -4,7 +4,9 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "study/people/recorded_trial.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_command.hpp"
 
@@ -63,6 +65,24 @@ TEST(StudyVisits, NameEachWordOfAScriptThatHadNoEffectAndFailAtTheEnd) {
     const auto late = place.run(kVisitStudy + "run s --participant p01 --input late.txt");
     EXPECT_EQ(late.status, 1);
     EXPECT_TRUE(late.output.contains("late.txt:5: note too late had no effect: the visit has ended")) << late.output;
+}
+
+TEST(StudyTrials, SayOfEachParticipantWhetherThereWasAPerson) {
+    std::vector<TrialRow> rows;
+    for (const auto& [id, hand] : {std::pair{"p1", Hand::learner}, std::pair{"p2", Hand::script},
+                                   std::pair{"p3", Hand::device}, std::pair{"p3", Hand::simulated_device}})
+        rows.push_back({id, "haptic", "all", "test", 1, 1, Json::object(), hand});
+    EXPECT_EQ(simulated_fact(rows),
+              "2 of 3 participants of these trials are simulated, no person: 1 learners, 1 by a script. 1 of 3 held a "
+              "simulated device (mouse, keys or a log).");
+    const std::string table = trials_csv(rows);
+    for (const char* part : {"# 2 of 3 participants", "stratum,hand\n", ",all,learner\n", ",all,script\n",
+                             ",all,device\n", ",all,simulated device\n"})
+        EXPECT_TRUE(table.contains(part)) << table;
+    rows.erase(rows.begin(), rows.begin() + 2);
+    rows.pop_back();
+    EXPECT_EQ(simulated_fact(rows), "");
+    EXPECT_FALSE(trials_csv(rows).contains("simulated"));
 }
 
 TEST(StudyVisits, RefuseALiveSessionsOptionsForLearners) {
