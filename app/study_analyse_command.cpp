@@ -37,9 +37,8 @@ Result<void> list_faults(const std::vector<study::TableFault>& faults, const std
 
 // Puts the table's groups into the protocol's order where there is one. Returns a sentence that says the order.
 std::string order_groups(study::TrialTable& table, const std::vector<std::string>& wanted) {
-    std::ranges::stable_sort(table.groups, {}, [&](const std::string& group) {
-        return std::ranges::find(wanted, group) - wanted.begin();
-    });
+    std::ranges::stable_sort(
+        table.groups, {}, [&](const std::string& group) { return std::ranges::find(wanted, group) - wanted.begin(); });
     std::string names;
     for (const std::string& group : table.groups) names += (names.empty() ? "" : ", ") + group;
     return "Groups in the order of the " + std::string(wanted.empty() ? "table's rows" : "protocol") + ": " + names +

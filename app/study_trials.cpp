@@ -61,8 +61,8 @@ std::vector<study::TrialRow> rows_of(const study::StudyFolder& study) {
                 std::fprintf(stderr, "left out: %s\n", record.error().line().c_str());
                 continue;
             }
-            rows.push_back({p.id, p.group, p.stratum, visit.stage, visit.day, number, std::move(*record),
-                            hand_of(p, visit)});
+            rows.push_back(
+                {p.id, p.group, p.stratum, visit.stage, visit.day, number, std::move(*record), hand_of(p, visit)});
         }
     }
     return rows;

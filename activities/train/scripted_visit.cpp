@@ -39,8 +39,8 @@ public:
         const auto last = static_cast<std::int64_t>(std::ceil(script_.end_s * 1000.0 - kSameTick));
         for (std::int64_t tick = 0; tick <= last && run_.phase() != TrainingRun::Phase::finished; ++tick) {
             clock_.sleep_until(kNanosecondsPerSecond + tick * kVisitTick_ns);  // a loop's clock is never 0
-            const bool is_frame = tick * kFramesASecond / 1000 != (tick - 1) * kFramesASecond / 1000 || tick == 0 ||
-                                  tick == last;
+            const bool is_frame =
+                tick * kFramesASecond / 1000 != (tick - 1) * kFramesASecond / 1000 || tick == 0 || tick == last;
             if (is_frame)
                 if (const auto ok = frame(seconds(tick * kVisitTick_ns)); !ok) return std::unexpected(ok.error());
             const TrainingRun::Ticked ticked = run_.tick(wand_.read(), clock_.now_ns());

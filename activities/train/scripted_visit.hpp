@@ -46,9 +46,9 @@ struct VisitFigures {
     std::size_t stages = 0;  // ended
     std::uint64_t ticks = 0;
     double simulated_s = 0.0;
-    bool interrupted = false;         // within a stage
+    bool interrupted = false;        // within a stage
     std::size_t without_effect = 0;  // words of the script
-    std::size_t left = 0;      // stages of the day that are still to be done
+    std::size_t left = 0;            // stages of the day that are still to be done
 };
 
 // The folder must be open for writing.

@@ -109,8 +109,7 @@ Result<void> TrainingRun::check(const OperatorCommand& command) const {
         return fail("", "this stage ends by itself, as the protocol has it", "wait, or break it off with stop");
     if (command.says == OperatorSays::pause && paused())
         return fail("", "the stage is paused already", "go on ends the pause");
-    if (command.says == OperatorSays::go_on && !paused())
-        return fail("", "the stage is not paused", "leave it out");
+    if (command.says == OperatorSays::go_on && !paused()) return fail("", "the stage is not paused", "leave it out");
     if (command.says == OperatorSays::repeat) {
         if (places_[at_].stage->kind != study::StageKind::trial)
             return fail("", "this stage is no trial and has no attempts", "leave it out");
