@@ -7,8 +7,9 @@
 //   burin-study-input 1
 //   TIME start | next | pause | go on | stop | repeat | note TEXT
 //   TIME hand X Y Z [QX QY QZ QW]     the wand's middle, metres, in the maker's frame (study/felt/stage_touch.hpp)
-// The hand moves straight and evenly between its places. After the last line the visit ends; a stage that is under way
-// then is interrupted, as by a power cut, and is to be done again. One thread.
+// A word that has no effect where it comes is told and counted. The hand moves straight and evenly between its places.
+// After the last line the visit ends; a stage that is under way then is interrupted, as by a power cut, and is to be
+// done again. One thread.
 #pragma once
 
 #include <filesystem>

@@ -228,6 +228,12 @@ std::vector<PanelRow> TrainingRun::rows() const {
         {"path", formatted("%.0f mm along, %.0f mm off the axis", 1e3 * nearest.along_m, 1e3 * nearest.distance_m)});
     rows.push_back({"force", formatted("%.2f N, largest %.2f N", glm::length(last_->gate.given.force_device_N),
                                        forces.largest_N)});
+    if (trial && state.phase == study::StagePhase::waiting) {
+        const study::CapBox cap = study::start_cap(world_->world());
+        const Vec3 middle_m = cap.centre_m + 0.5 * cap.depth_m * cap.z;
+        rows.push_back(
+            {"start cap", formatted("%.0f mm away", 1e3 * glm::distance(middle_m, 0.5 * (points[0] + points[1])))});
+    }
     const StageMoment moment = moment_of(*world_, *session_, *last_);
     rows.push_back({"caps", moment.start_touched ? "in the start cap"
                             : moment.end_touched ? "in the end cap"

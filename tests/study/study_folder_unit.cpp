@@ -266,6 +266,8 @@ TEST(StudyCommands, HideTheGroupOfAPlaceUntilSomebodyTakesIt) {
 TEST(StudyCommands, MakeTheStudyOfTheThesisByItsName) {
     const Workplace place;
     const auto made = place.run(kBurinStudy + "init kinesthetic-path out --participants 10 --seed 7");
+    EXPECT_TRUE(made.output.contains("blocks are of 2 or 4 places, and a list of 10 may end within one"))
+        << made.output;
     ASSERT_EQ(made.status, 0) << made.output;
     EXPECT_TRUE(made.output.contains("protocol kinesthetic-path")) << made.output;
     EXPECT_EQ(place.run(kBurinStudy + "check out").status, 0);
