@@ -155,8 +155,7 @@ std::string simulated_fact(std::span<const TrialRow> rows) {
     std::string fact;
     if (learners + scripts > 0)
         fact = formatted(
-            "%zu of %zu participants of these trials are simulated, no person: %zu learners, %zu by a "
-            "script.",
+            "%zu of %zu participants of these trials are simulated, no person (learners: %zu, by a script: %zu).",
             learners + scripts, hands.size(), learners, scripts);
     if (const std::size_t live = count(Hand::simulated_device); live > 0)
         fact += formatted("%s%zu of %zu held a simulated device (mouse, keys or a log).", fact.empty() ? "" : " ", live,

@@ -321,7 +321,8 @@ TEST(StudyCommands, TakeAParticipantThroughByAScriptAndGoOnAfterAnInterruption) 
         const std::string said = place.run(kBurinStudy + "analyse s --out " + out + choice).output;
         EXPECT_TRUE(said.contains("4 trials, 2 groups")) << said;
         for (const std::string& form : {said, place.read(out + "/report.html"), place.read(out + "/results.json")}) {
-            EXPECT_TRUE(form.contains("2 of 2 participants of these trials are simulated, no person: 1 learners, 1 by"))
+            EXPECT_TRUE(
+                form.contains("2 of 2 participants of these trials are simulated, no person (learners: 1, by a"))
                 << form;
             EXPECT_TRUE(form.contains("Groups in the order of the protocol: haptic, visual")) << form;
         }

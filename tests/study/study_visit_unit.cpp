@@ -83,8 +83,7 @@ TEST(StudyVisits, TellWhereTheStartCapIsAlsoOfAWorldThatWasMoved) {
         << stays.output;
     std::string spine = "spine_m = [";
     const Protocol protocol = parse_protocol(text).protocol;
-    for (const Vec3& p : protocol.worlds.at(0).spine_m)
-        spine += formatted("[%.6f, %.6f, %.6f], ", p.x, p.y, p.z + 0.3);
+    for (const Vec3& p : protocol.worlds.at(0).spine_m) spine += formatted("[%.6f, %.6f, %.6f], ", p.x, p.y, p.z + 0.3);
     replace("spine_m = [", "\n]", spine + "]");
     place.write("p.toml", text);
     const auto moved = place.run(kVisitStudy + "check p.toml");
@@ -111,9 +110,10 @@ TEST(StudyTrials, SayOfEachParticipantWhetherThereWasAPerson) {
     for (const auto& [id, hand] : {std::pair{"p1", Hand::learner}, std::pair{"p2", Hand::script},
                                    std::pair{"p3", Hand::device}, std::pair{"p3", Hand::simulated_device}})
         rows.push_back({id, "haptic", "all", "test", 1, 1, Json::object(), hand});
-    EXPECT_EQ(simulated_fact(rows),
-              "2 of 3 participants of these trials are simulated, no person: 1 learners, 1 by a script. 1 of 3 held a "
-              "simulated device (mouse, keys or a log).");
+    EXPECT_EQ(
+        simulated_fact(rows),
+        "2 of 3 participants of these trials are simulated, no person (learners: 1, by a script: 1). 1 of 3 held a "
+        "simulated device (mouse, keys or a log).");
     const std::string table = trials_csv(rows);
     for (const char* part : {"# 2 of 3 participants", "stratum,hand\n", ",all,learner\n", ",all,script\n",
                              ",all,device\n", ",all,simulated device\n"})
