@@ -6,7 +6,8 @@
 
 namespace burin::app {
 
-std::vector<std::string> add_live_options(Command command, session::LiveOptions& options, const char* input_help) {
+std::vector<std::string> add_live_options(Command command, session::LiveOptions& options, const char* input_help,
+                                          const char* device_help) {
     const std::size_t before = command.options().size();
     command.flag("--live", options.live,
                  "Open a window; also without this when neither a stroke nor an output is given");
@@ -21,7 +22,8 @@ std::vector<std::string> add_live_options(Command command, session::LiveOptions&
     command.option("--wall", options.wall,
                    "A wall file: its screens, each on its monitor or display, its eyes and its tracker");
     command.option("--tracker", options.tracker, "Where head and wands are heard: " + devices::tracker_usage());
-    command.option("--device", options.device, "The force-feedback device; " + devices::haptic_usage()).show_default();
+    command.option("--device", options.device, "The force-feedback device; " + devices::haptic_usage() + device_help)
+        .show_default();
     command.flag("--windowed", options.windowed,
                  "With --wall: its screens in windows, fitted into --width by --height");
     command.flag("--panel-window", options.panel_window,

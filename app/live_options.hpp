@@ -13,8 +13,9 @@ namespace burin::app {
 inline constexpr const char* kInputHelp =
     "A recording, done again as it was; or a written log of a session's input, in its user's place, in simulated time";
 
-// Adds the options to a command. Both must outlive the command line. Returns their names.
+// Adds the options to a command. Both must outlive the command line. Returns their names. `device_help` goes behind the
+// help of --device.
 std::vector<std::string> add_live_options(Command command, session::LiveOptions& options,
-                                          const char* input_help = kInputHelp);
+                                          const char* input_help = kInputHelp, const char* device_help = "");
 
 }  // namespace burin::app

@@ -114,13 +114,14 @@ Result<void> check_files(const record::RecordReader& reader, const session::Scul
 }
 
 // Makes the activity of a recorded session anew; null where it had none.
-Result<std::shared_ptr<session::Activity>> activity_as_recorded(const std::string& settings_line) {
+Result<std::shared_ptr<session::Activity>> activity_as_recorded(const std::string& settings_line,
+                                                                const std::string& file) {
     const Result<std::string> settings = session::activity_on(settings_line);
     if (!settings) return std::unexpected(settings.error());
     if (settings->empty()) return nullptr;
     if (settings->starts_with("study "))
-        return fail("the recording", "is of a participant in a study, whose stages are not in it",
-                    "replay them with burin study replay");
+        return fail(file, "is of a participant in a study, whose stages are not in it",
+                    "replay them with burin study replay STUDY; the study's folder has their recordings");
     const Result<activities::SeekOptions> seek = activities::seek_options_of(*settings);
     if (!seek) return std::unexpected(seek.error());
     return std::make_shared<activities::Seek>(*seek);
@@ -169,7 +170,7 @@ Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay&
     session::SculptOptions options;
     options.live.input = reader.path();
     options.live.offscreen = true;
-    auto activity = activity_as_recorded(log->settings);
+    auto activity = activity_as_recorded(log->settings, reader.path());
     if (!activity) return std::unexpected(activity.error());
     options.activity = std::move(*activity);
     const auto first = session::options_as_recorded(log->settings, options);

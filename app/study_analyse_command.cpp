@@ -35,11 +35,29 @@ Result<void> list_faults(const std::vector<study::TableFault>& faults, const std
                 "correct what is listed and try again");
 }
 
-Result<study::TrialTable> read_table(const StudyAnalyseOptions& options) {
+// Puts the table's groups into the protocol's order where there is one. Returns a sentence that says the order.
+std::string order_groups(study::TrialTable& table, const std::vector<std::string>& wanted) {
+    std::ranges::stable_sort(
+        table.groups, {}, [&](const std::string& group) { return std::ranges::find(wanted, group) - wanted.begin(); });
+    std::string names;
+    for (const std::string& group : table.groups) names += (names.empty() ? "" : ", ") + group;
+    return "Groups in the order of the " + std::string(wanted.empty() ? "table's rows" : "protocol") + ": " + names +
+           "; signs are the first one's.";
+}
+
+// Adds to the notes what is to be said of a choice of trials.
+Result<study::TrialTable> read_table(StudyAnalyseOptions& options) {
     const bool chosen = options.chosen.day || !options.chosen.stage.empty();
-    auto text =
-        chosen ? chosen_trials(options.study, options.chosen) : read_text_file(options.data, study::kMostTableBytes);
-    if (!text) return std::unexpected(text.error());
+    Result<std::string> text;
+    if (chosen) {
+        const auto some = chosen_trials(options.study, options.chosen);
+        if (!some) return std::unexpected(some.error());
+        text = some->table;
+        if (!some->simulated.empty()) options.notes.push_back(some->simulated);
+    } else {
+        text = read_text_file(options.data, study::kMostTableBytes);
+        if (!text) return std::unexpected(text.error());
+    }
     study::ParsedTable parsed = study::parse_trials(*text);
     if (const auto ok = list_faults(parsed.faults, options.data); !ok) return std::unexpected(ok.error());
     return std::move(parsed.table);
@@ -120,7 +138,6 @@ Result<void> study_analyse(const StudyAnalyseOptions& asked) {
     if (chosen && options.study.empty())
         return fail("--day, --stage", "choose among a study's trials, and --data is one table",
                     "name the study's folder, or leave out rows of the table");
-    std::string pooled;
     if (!options.study.empty()) {
         options.data = (fs::path(options.study) / "trials.csv").string();
     }
@@ -128,7 +145,9 @@ Result<void> study_analyse(const StudyAnalyseOptions& asked) {
     if (!options.study.empty()) {
         const auto made = make_trials(options.study);
         if (!made) return std::unexpected(made.error());
-        if (!chosen) pooled = made->pooled;
+        options.groups = made->groups;
+        if (!chosen && !made->simulated.empty()) options.notes.push_back(made->simulated);
+        if (!chosen && !made->pooled.empty()) options.notes.push_back(made->pooled);
     }
     std::string out = options.out;
     while (out.size() > 1 && out.ends_with('/')) out.pop_back();
@@ -138,8 +157,10 @@ Result<void> study_analyse(const StudyAnalyseOptions& asked) {
     const auto published = comparisons(options.published, *table);
     if (!published) return std::unexpected(published.error());
 
+    const std::string order = order_groups(*table, options.groups);
     study::Analysis analysis = study::analyse(std::move(*table), options.seed);
-    if (!pooled.empty()) analysis.notes.push_back(pooled);
+    if (analysis.table.groups.size() > 1) options.notes.push_back(order);
+    analysis.notes.insert(analysis.notes.begin(), options.notes.begin(), options.notes.end());
     Json json = study::analysis_json(analysis);
     for (const study::PublishedComparison& one : *published) json["published"].push_back(study::published_json(one));
     if (options.json != kStandardOutput) {

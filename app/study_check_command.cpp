@@ -5,10 +5,33 @@
 #include "app/study_command.hpp"
 #include "app/study_trials.hpp"
 #include "base/file_io.hpp"
+#include "study/felt/stage_touch.hpp"
 #include "study/folder/study_folder.hpp"
+#include "study/trial/stage_step.hpp"
 
 namespace burin::app {
 namespace {
+
+// Says where a hand has to be for the start cap, in the maker's frame, and by how much a world was moved for the wand.
+Result<void> place_worlds(const study::Protocol& protocol) {
+    const devices::WandDescription wand = study::study_wand(protocol);
+    for (const study::StudyWorld& world : protocol.worlds) {
+        const auto felt = study::FeltWorld::create(world);
+        if (!felt) return std::unexpected(felt.error());
+        const Vec3 moved_m =
+            devices::scene_from_device(wand).position_m - study::world_from_wand(wand, (*felt)->bounds()).position_m;
+        const study::CapBox cap = study::start_cap(world);
+        const Vec3 middle_m = cap.centre_m + 0.5 * cap.depth_m * cap.z + moved_m;
+        if (moved_m == Vec3(0.0))
+            std::printf("world %s: in the wand's workspace as it stands", world.name.c_str());
+        else
+            std::printf("world %s: centred in the wand's workspace, as it reaches beyond; moved by %.1f, %.1f, %.1f mm",
+                        world.name.c_str(), 1e3 * moved_m.x, 1e3 * moved_m.y, 1e3 * moved_m.z);
+        std::printf("; the middle of its start cap is at %.4f, %.4f, %.4f m in the maker's frame\n", middle_m.x,
+                    middle_m.y, middle_m.z);
+    }
+    return {};
+}
 
 Result<void> check_protocol(const std::string& file) {
     const auto text = read_text_file(file, study::kMostProtocolBytes);
@@ -21,7 +44,7 @@ Result<void> check_protocol(const std::string& file) {
     const study::Protocol& p = parsed.protocol;
     std::printf("%s: %zu groups, %zu strata, %zu worlds, %zu stages, %zu days; no faults\n", file.c_str(),
                 p.groups.size(), p.strata.size(), p.worlds.size(), p.stages.size(), p.days.size());
-    return {};
+    return place_worlds(p);
 }
 
 Result<void> check_folder(const std::string& folder) {
@@ -57,7 +80,7 @@ Result<void> check_folder(const std::string& folder) {
         return fail(folder, std::to_string(faults) + " faults", "see above; what is not named there can be used");
     std::printf("%s: protocol as frozen, %zu lines of journal chained, %zu files of data as recorded\n", folder.c_str(),
                 study->journal().entries.size(), files);
-    return {};
+    return place_worlds(study->protocol());
 }
 
 }  // namespace

@@ -51,7 +51,9 @@ void StudyCommand::add_folder() {
                 "Takes one participant, who is enrolled, through the next day's stages");
     r.live_names = add_live_options(run_, r.live,
                                     "A written log of a session's input, in its user's place, in a live session; or a "
-                                    "script of a visit, in simulated time (docs/study.md)");
+                                    "script of a visit, in simulated time (docs/study.md)",
+                                    ". In a study \"simulated\" is not the Omni but the wand, simulated, with the "
+                                    "protocol's two points");
     run_.option("--key", r.key, "The allocation's key, where it is not in the folder");
     run_.option("--threads", r.threads, "People at a time; 0: one for each core; the result is the same")
         .within(0, 1024);

@@ -60,8 +60,10 @@ struct StudyAnalyseOptions {
     std::string json;       // a file; empty: none
     std::string out;        // a folder that does not exist yet; empty: none
     std::uint64_t seed = 1;
-    std::vector<std::string> facts;  // whole sentences about the study for the report
-    std::string title;               // of the study; empty: the file's name
+    std::vector<std::string> groups;  // of a study, in its protocol's order; empty: in the order of the rows
+    std::vector<std::string> notes;   // whole sentences that stand beside the figures in every form
+    std::vector<std::string> facts;   // whole sentences about the study for the report
+    std::string title;                // of the study; empty: the file's name
     std::vector<study::ReportSection> sections;
 };
 // Lists every fault of the inputs and fails, or analyses. The folder is written whole or not at all.

@@ -16,6 +16,18 @@ Result<std::string> protocol_named(const std::string& protocol) {
     return read_text_file(protocol, study::kMostProtocolBytes);
 }
 
+// Says where the list may end within a block, so that the groups are not of the protocol's ratios.
+void warn_of_blocks(const study::Protocol& protocol, unsigned places) {
+    const auto& blocks = protocol.blocks;
+    if (blocks.size() == 1 && places % blocks.front() == 0) return;
+    std::string sizes;
+    for (const unsigned size : blocks) sizes += (sizes.empty() ? "" : " or ") + std::to_string(size);
+    std::printf(
+        "Note: blocks are of %s places, and a list of %u %s within one: the last block is then cut off, and the "
+        "groups may be unequal.\n",
+        sizes.c_str(), places, blocks.size() == 1 ? "ends" : "may end");
+}
+
 }  // namespace
 
 Result<void> study_init(const StudyInitOptions& options) {
@@ -41,6 +53,7 @@ Result<void> study_init(const StudyInitOptions& options) {
     if (!made) return std::unexpected(made.error());
     std::printf("%s: protocol %s, SHA-256 %s, %u places in each stratum\n", folder.c_str(),
                 made->protocol().name.c_str(), made->facts().protocol_digest.c_str(), options.participants);
+    warn_of_blocks(made->protocol(), options.participants);
     if (options.seed)
         std::printf("The allocation is drawn with seed %llu: whoever knows the seed can know the list.\n",
                     static_cast<unsigned long long>(*options.seed));

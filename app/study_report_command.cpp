@@ -25,6 +25,8 @@ Result<void> study_report(const std::string& folder) {
     options.data = (fs::path(folder) / "trials.csv").string();
     options.out = report.string();
     options.facts = made->facts;
+    options.groups = made->groups;
+    if (!made->simulated.empty()) options.notes.push_back(made->simulated);
     const auto study = study::StudyFolder::open(folder, study::StudyAccess::read);
     if (!study) return std::unexpected(study.error());
     options.sections = report_sections(*study);

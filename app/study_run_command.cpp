@@ -12,6 +12,7 @@
 #include "app/study_pictures.hpp"
 #include "app/study_trials.hpp"
 #include "base/file_io.hpp"
+#include "base/text.hpp"
 #include "study/folder/interruption.hpp"
 
 namespace burin::app {
@@ -90,16 +91,34 @@ public:
     void at(double time_s, const activities::TrainingShown& shown) {
         for (const activities::RunEvent& event : shown.events)
             std::printf("%9.3f s  %s: %s\n", time_s, event.name.c_str(), event.value.c_str());
-        std::string now;
+        std::string now, away;
         for (const activities::PanelRow& row : shown.rows)
-            if (row.name == "stage" || row.name == "now") now += (now.empty() ? "" : "; ") + row.value;
-        if (now == last_) return;
+            if (row.name == "stage" || row.name == "now")
+                now += (now.empty() ? "" : "; ") + row.value;
+            else if (row.name == "start cap")
+                away = row.value;
+        if (now == last_) return hint(time_s, away);
         last_ = now;
+        since_s_ = time_s;
+        hinted_ = false;
         std::printf("%9.3f s  %s\n", time_s, now.c_str());
     }
 
 private:
+    // Where a trial has waited long for its start cap.
+    void hint(double time_s, const std::string& away) {
+        constexpr double kLongWait_s = 10.0;
+        if (away.empty() || hinted_ || time_s - since_s_ < kLongWait_s) return;
+        hinted_ = true;
+        std::printf(
+            "%9.3f s  both points must be in the start cap, which lies outside the tube's first point: its "
+            "middle is %s\n",
+            time_s, away.c_str());
+    }
+
     std::string last_;
+    double since_s_ = 0.0;
+    bool hinted_ = false;
 };
 
 Result<void> take_participant(study::StudyFolder& study, const StudyRunOptions& options) {
@@ -117,6 +136,7 @@ Result<void> take_participant(study::StudyFolder& study, const StudyRunOptions& 
         log.at(time_s, shown);
         return {};
     };
+    visit.tell = [](double time_s, const std::string& line) { std::printf("%9.3f s  %s\n", time_s, line.c_str()); };
     const auto went = activities::run_scripted_visit(study, options.participant, *script, visit);
     if (!went) return std::unexpected(went.error());
     std::printf("%zu stages ended in %.1f s of simulated time, %llu ticks; %zu of the day are left%s\n", went->stages,
@@ -125,7 +145,10 @@ Result<void> take_participant(study::StudyFolder& study, const StudyRunOptions& 
     // Without a valid trial yet there is no table.
     if (const auto made = make_trials(options.study))
         std::printf("%s/trials.csv: %zu trials\n", options.study.c_str(), made->trials);
-    return {};
+    if (went->without_effect == 0) return {};
+    std::fflush(stdout);
+    return fail(options.live.input, formatted("%zu of its words had no effect, as told above", went->without_effect),
+                "correct the script; the visit's stages are kept");
 }
 
 }  // namespace

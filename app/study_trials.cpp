@@ -41,9 +41,10 @@ std::string pooled_fact(const study::Protocol& protocol) {
         days.size(), worlds.size());
 }
 
-bool is_simulated(const study::StudyFolder& study) {
-    return std::ranges::any_of(study.participants(),
-                               [](const Participant& p) { return p.simulated || p.device.starts_with("simulated"); });
+study::Hand hand_of(const Participant& p, const StageVisit& visit) {
+    if (p.simulated) return study::Hand::learner;
+    if (visit.device == study::StudyFolder::kScriptedDevice) return study::Hand::script;
+    return visit.device.starts_with("simulated") ? study::Hand::simulated_device : study::Hand::device;
 }
 
 // A damaged file is left out and named; the others are used.
@@ -60,7 +61,8 @@ std::vector<study::TrialRow> rows_of(const study::StudyFolder& study) {
                 std::fprintf(stderr, "left out: %s\n", record.error().line().c_str());
                 continue;
             }
-            rows.push_back({p.id, p.group, p.stratum, visit.stage, visit.day, number, std::move(*record)});
+            rows.push_back(
+                {p.id, p.group, p.stratum, visit.stage, visit.day, number, std::move(*record), hand_of(p, visit)});
         }
     }
     return rows;
@@ -130,13 +132,15 @@ Result<TrialsMade> make_trials(const std::string& folder) {
     warn_of_journal(*study);
     const std::vector<study::TrialRow> rows = rows_of(*study);
     if (rows.empty()) return fail(folder, "has no valid outcome trial yet", "run it first: burin study run");
-    const bool simulated = is_simulated(*study);
     const std::string path = (study->path() / "trials.csv").string();
-    if (const auto ok = write_text(path, study::trials_csv(rows, simulated)); !ok) return std::unexpected(ok.error());
-    return TrialsMade{rows.size(), study_facts(*study), pooled_fact(study->protocol())};
+    if (const auto ok = write_text(path, study::trials_csv(rows)); !ok) return std::unexpected(ok.error());
+    std::vector<std::string> groups;
+    for (const study::Group& group : study->protocol().groups) groups.push_back(group.code);
+    return TrialsMade{rows.size(), study_facts(*study), std::move(groups), study::simulated_fact(rows),
+                      pooled_fact(study->protocol())};
 }
 
-Result<std::string> chosen_trials(const std::string& folder, const TrialChoice& choice) {
+Result<ChosenTrials> chosen_trials(const std::string& folder, const TrialChoice& choice) {
     const auto study = study::StudyFolder::open(folder, study::StudyAccess::read);
     if (!study) return std::unexpected(study.error());
     const study::Protocol& protocol = study->protocol();
@@ -150,7 +154,7 @@ Result<std::string> chosen_trials(const std::string& folder, const TrialChoice& 
     std::vector<study::TrialRow> rows = rows_of(*study);
     std::erase_if(rows, [&](const study::TrialRow& row) { return !is_chosen(choice, row); });
     if (rows.empty()) return fail(folder, "has no valid trial of that day and stage", "leave --day or --stage out");
-    return study::trials_csv(rows, is_simulated(*study));
+    return ChosenTrials{study::trials_csv(rows), study::simulated_fact(rows)};
 }
 
 }  // namespace burin::app

@@ -22,6 +22,8 @@ void warn_of_journal(const study::StudyFolder& study);
 struct TrialsMade {
     std::size_t trials = 0;
     std::vector<std::string> facts;
+    std::vector<std::string> groups;  // in the protocol's order
+    std::string simulated;            // a sentence where not all participants are persons with a device
     std::string pooled;  // a sentence where they are of several days or worlds, whose means are taken together
 };
 [[nodiscard]] Result<TrialsMade> make_trials(const std::string& folder);
@@ -30,7 +32,11 @@ struct TrialChoice {
     std::optional<unsigned> day;  // nothing: of all days
     std::string stage;            // empty: of all stages
 };
+struct ChosenTrials {
+    std::string table;
+    std::string simulated;  // as of TrialsMade
+};
 // Returns the table of some of a study's trials. Fails where the protocol has no such day or stage, or nobody a trial.
-[[nodiscard]] Result<std::string> chosen_trials(const std::string& folder, const TrialChoice& choice);
+[[nodiscard]] Result<ChosenTrials> chosen_trials(const std::string& folder, const TrialChoice& choice);
 
 }  // namespace burin::app

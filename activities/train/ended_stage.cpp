@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "activities/train/ended_stage.hpp"
 
+#include "base/text.hpp"
 #include "study/people/recorded_trial.hpp"
 
 namespace burin::activities {
@@ -15,6 +16,21 @@ EndedStage ended_stage(const study::Protocol& protocol, const study::Stage& stag
         ended.record = study::forces_record(session.forces());
     }
     return ended;
+}
+
+std::string outcome_text(const study::Stage& stage, const study::StageState& end) {
+    if (stage.kind != study::StageKind::trial) {
+        if (end.result == study::StageResult::stopped) return stage.name + " ended by stop: it is not done again";
+        return stage.name + ": " + study::name_of(end.result);
+    }
+    const std::string trial = "trial " + stage.name;
+    if (end.result == study::StageResult::valid_exit)
+        return trial + formatted(": valid exit after %.4f s", study::trial_time_s(end));
+    std::string how = end.result == study::StageResult::stopped ? std::string(" ended by stop")
+                                                                : std::string(" ended, ") + study::name_of(end.result);
+    if (end.last_failure != study::Failure::none)
+        how += std::string(" (the last attempt: ") + study::name_of(end.last_failure) + ")";
+    return trial + how + ": counts as ended without a valid exit";
 }
 
 Result<FeltWorlds> felt_worlds(const study::Protocol& protocol) {

@@ -23,6 +23,9 @@ struct EndedStage {
 [[nodiscard]] EndedStage ended_stage(const study::Protocol& protocol, const study::Stage& stage,
                                      const study::FeltWorld& world, const study::StageSession& session);
 
+// What became of a stage, for the operator: "trial test: valid exit after 12.3456 s".
+[[nodiscard]] std::string outcome_text(const study::Stage& stage, const study::StageState& end);
+
 // By name. Fails where a world cannot be touched.
 using FeltWorlds = std::map<std::string, std::unique_ptr<const study::FeltWorld>>;
 [[nodiscard]] Result<FeltWorlds> felt_worlds(const study::Protocol& protocol);

@@ -2,6 +2,7 @@
 #include "activities/train/scripted_visit.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "activities/train/stage_on_disk.hpp"
@@ -34,10 +35,12 @@ public:
         : run_(run), disk_(disk), script_(script), options_(options), wand_(std::move(hand), wand, &clock_) {}
 
     Result<VisitFigures> go() {
-        const auto last = static_cast<std::int64_t>(script_.end_s * 1000.0);
+        constexpr double kSameTick = 1e-6;  // of rounding; the last line's time is reached
+        const auto last = static_cast<std::int64_t>(std::ceil(script_.end_s * 1000.0 - kSameTick));
         for (std::int64_t tick = 0; tick <= last && run_.phase() != TrainingRun::Phase::finished; ++tick) {
             clock_.sleep_until(kNanosecondsPerSecond + tick * kVisitTick_ns);  // a loop's clock is never 0
-            const bool is_frame = tick * kFramesASecond / 1000 != (tick - 1) * kFramesASecond / 1000 || tick == 0;
+            const bool is_frame =
+                tick * kFramesASecond / 1000 != (tick - 1) * kFramesASecond / 1000 || tick == 0 || tick == last;
             if (is_frame)
                 if (const auto ok = frame(seconds(tick * kVisitTick_ns)); !ok) return std::unexpected(ok.error());
             const TrainingRun::Ticked ticked = run_.tick(wand_.read(), clock_.now_ns());
@@ -45,11 +48,13 @@ public:
             disk_.take(ticked);
             figures_.ticks += ticked.record != nullptr ? 1 : 0;
             if (run_.phase() == TrainingRun::Phase::ended) {
-                if (const auto ok = end_stage(); !ok) return std::unexpected(ok.error());
+                if (const auto ok = end_stage(seconds(tick * kVisitTick_ns)); !ok) return std::unexpected(ok.error());
                 if (run_.stopped()) break;
             }
             figures_.simulated_s = seconds(tick * kVisitTick_ns);
         }
+        for (; said_ < script_.said.size(); ++said_)
+            refuse(figures_.simulated_s, script_.said[said_], "the visit has ended before; leave it out");
         figures_.interrupted = run_.phase() == TrainingRun::Phase::in_stage;
         if (const auto ok = disk_.take(run_.frame(clock_.now_ns()).events); !ok) return std::unexpected(ok.error());
         if (const auto ok = disk_.close(); !ok) return std::unexpected(ok.error());
@@ -59,8 +64,13 @@ public:
 private:
     Result<void> frame(double time_s) {
         for (; said_ < script_.said.size() && script_.said[said_].time_s <= time_s; ++said_) {
+            const VisitScript::Said& said = script_.said[said_];
+            if (const auto ok = run_.check(said.command); !ok) {
+                refuse(time_s, said, ok.error().what + "; " + ok.error().remedy);
+                continue;
+            }
             const auto before = run_.phase();
-            run_.command(script_.said[said_].command, clock_.now_ns());
+            run_.command(said.command, clock_.now_ns());
             if (before == TrainingRun::Phase::between && run_.phase() == TrainingRun::Phase::in_stage)
                 if (const auto ok = disk_.begin(run_); !ok) return ok;
         }
@@ -71,11 +81,25 @@ private:
         return {};
     }
 
-    Result<void> end_stage() {
+    void refuse(double time_s, const VisitScript::Said& said, const std::string& why) {
+        ++figures_.without_effect;
+        tell(time_s, said.where + ": " + said.text + " had no effect: " + why);
+    }
+
+    void tell(double time_s, const std::string& line) const {
+        if (options_.tell) options_.tell(time_s, line);
+    }
+
+    Result<void> end_stage(double time_s) {
         const TrainingShown shown = run_.frame(clock_.now_ns());
         if (const auto ok = disk_.take(shown.events); !ok) return ok;
+        if (options_.on_frame)
+            if (const auto ok = options_.on_frame(time_s, shown, run_); !ok) return ok;
         ++figures_.stages;
-        return disk_.end(run_.take_end());
+        const study::Stage& stage = *run_.place()->stage;
+        const EndedStage ended = run_.take_end();
+        tell(time_s, outcome_text(stage, ended.end));
+        return disk_.end(ended);
     }
 
     TrainingRun& run_;

@@ -7,8 +7,9 @@
 //   burin-study-input 1
 //   TIME start | next | pause | go on | stop | repeat | note TEXT
 //   TIME hand X Y Z [QX QY QZ QW]     the wand's middle, metres, in the maker's frame (study/felt/stage_touch.hpp)
-// The hand moves straight and evenly between its places. After the last line the visit ends; a stage that is under way
-// then is interrupted, as by a power cut, and is to be done again. One thread.
+// A word that has no effect where it comes is told and counted. The hand moves straight and evenly between its places.
+// After the last line the visit ends; a stage that is under way then is interrupted, as by a power cut, and is to be
+// done again. One thread.
 #pragma once
 
 #include <filesystem>
@@ -25,6 +26,7 @@ struct VisitScript {
     struct Said {
         double time_s = 0.0;
         OperatorCommand command;
+        std::string where{}, text{};  // "FILE:LINE", and what stands there
     };
     std::vector<Said> said;
     std::vector<devices::HandPose> hand;  // in the wand's scene frame; at least one
@@ -37,14 +39,17 @@ struct VisitOptions {
     bool records = true;     // the motion of stages that the protocol has recorded
     bool any_delay = false;  // whatever the protocol says of the time since the day before
     std::function<Result<void>(double time_s, const TrainingShown& shown, const TrainingRun& run)> on_frame;
+    // A whole line of each stage that has ended, and of each word that had no effect, with its line of the script.
+    std::function<void(double time_s, const std::string& line)> tell;
 };
 
 struct VisitFigures {
     std::size_t stages = 0;  // ended
     std::uint64_t ticks = 0;
     double simulated_s = 0.0;
-    bool interrupted = false;  // within a stage
-    std::size_t left = 0;      // stages of the day that are still to be done
+    bool interrupted = false;        // within a stage
+    std::size_t without_effect = 0;  // words of the script
+    std::size_t left = 0;            // stages of the day that are still to be done
 };
 
 // The folder must be open for writing.

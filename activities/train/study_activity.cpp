@@ -91,17 +91,10 @@ Result<void> StudyActivity::act(std::span<const std::string> words, session::Act
 
 // Whether the operator may say that now.
 Result<void> StudyActivity::check_order(const OperatorCommand& command) const {
-    const TrainingRun::Phase phase = run_.phase();
     const bool starts = command.says == OperatorSays::start;
-    if (starts && phase != TrainingRun::Phase::between)
-        return fail("", phase == TrainingRun::Phase::finished ? "all stages are done" : "a stage is under way",
-                    "end it first, with do next or do stop");
+    if (const auto ok = run_.check(command); !ok) return ok;
     if (starts && now_ns_ == 0)
         return fail("", "no tick has come from the device yet", "wait a moment, or see to the device");
-    if (!starts && command.says != OperatorSays::note && phase != TrainingRun::Phase::in_stage)
-        return fail("", "no stage is under way", "do start begins one");
-    if (command.says == OperatorSays::next && !ends_by_operator())
-        return fail("", "this stage ends by itself, as the protocol has it", "wait, or break it off with do stop");
     if (!jig_off_.empty() && (starts || command.says == OperatorSays::go_on))
         return fail("", "the wand read " + jig_off_ + " in its jig",
                     "put it there and say do jig until it reads right");
@@ -118,6 +111,10 @@ Result<void> StudyActivity::check_jig(session::ActivityOrders& orders) {
                   wand.calibration.tolerance_rad / devices::kDegree_rad);
     run_.command({OperatorSays::note, "in the jig the wand reads " + off}, now_ns_);
     jig_off_ = error.within_tolerance ? "" : off;
+    jig_row_ = error.distance_m > wand.calibration.tolerance_m
+                   ? formatted("%.1f mm off, %.1f allowed", 1e3 * error.distance_m, 1e3 * wand.calibration.tolerance_m)
+                   : formatted("%.1f deg off, %.1f allowed", error.angle_rad / devices::kDegree_rad,
+                               wand.calibration.tolerance_rad / devices::kDegree_rad);
     if (error.within_tolerance) {
         orders.messages.push_back("jig: the wand reads " + off);
         return {};
@@ -225,11 +222,11 @@ void StudyActivity::stage(renderer::Scene& scene, std::size_t /*screen*/) const 
 }
 
 void StudyActivity::end_stage(session::ActivityOrders& orders) {
-    const std::string name = run_.place()->stage->name;
+    const study::Stage& stage = *run_.place()->stage;
     const EndedStage ended = run_.take_end();
     ++ended_;
     if (keeper_.ended) tell(keeper_.ended(ended), orders);
-    orders.messages.push_back(name + ": " + study::name_of(ended.end.result));
+    orders.messages.push_back(outcome_text(stage, ended.end));
     orders.parameters = true;
     orders.quit = run_.stopped() || run_.phase() == TrainingRun::Phase::finished;
     show(orders);
@@ -247,15 +244,16 @@ void StudyActivity::adjust(haptics::TickParameters& parameters) const {
 session::ActivityPanel StudyActivity::panel() const {
     session::ActivityPanel panel{
         .title = "Study", .aside = group_.code, .page = shown_.page, .rows = {}, .buttons = {}, .governs = true};
-    if (!jig_off_.empty()) panel.rows.push_back({"in the jig", jig_off_});
+    if (!jig_off_.empty()) panel.rows.push_back({"in the jig", jig_row_});
     for (const PanelRow& row : shown_.rows) panel.rows.push_back({row.name, row.value});
     const bool in_stage = run_.phase() == TrainingRun::Phase::in_stage;
-    const bool calibrated = jig_off_.empty();
+    const bool calibrated = jig_off_.empty(), paused = run_.paused();
+    const bool trial = in_stage && run_.place()->stage->kind == study::StageKind::trial;
     panel.buttons = {{"Start", {"start"}, calibrated && run_.phase() == TrainingRun::Phase::between},
                      {"Next", {"next"}, in_stage && ends_by_operator()},
-                     {"Pause", {"pause"}, in_stage},
-                     {"Go on", {"go-on"}, calibrated && in_stage},
-                     {"Repeat", {"repeat"}, in_stage},
+                     {"Pause", {"pause"}, in_stage && !paused},
+                     {"Go on", {"go-on"}, calibrated && paused},
+                     {"Repeat", {"repeat"}, trial && !paused},
                      {"Stop", {"stop"}, in_stage},
                      {"In the jig", {"jig"}, device_.wand.has_value()}};
     return panel;

@@ -86,6 +86,7 @@ private:
     haptics::ProxyPlacement placement_;
     Pose reads_device_;    // where the wand read to be in the last step
     std::string jig_off_;  // by how much the wand was off in its jig; empty: it was not
+    std::string jig_row_;  // the same as short as the panel has room for
     std::size_t ended_ = 0;
 };
 

@@ -88,6 +88,36 @@ void TrainingRun::command(const OperatorCommand& command, Nanoseconds now_ns) {
     if (phase_ == Phase::in_stage) acts_.push_back(act_of(command.says));
 }
 
+bool TrainingRun::paused() const {
+    if (phase_ != Phase::in_stage) return false;
+    bool is_paused = (session_ ? session_->state() : page_).phase == study::StagePhase::paused;
+    for (const OperatorAct act : acts_)
+        if (act == OperatorAct::pause || act == OperatorAct::go_on) is_paused = act == OperatorAct::pause;
+    return is_paused;
+}
+
+Result<void> TrainingRun::check(const OperatorCommand& command) const {
+    const bool in_stage = phase_ == Phase::in_stage;
+    if (command.says == OperatorSays::note) return {};
+    if (command.says == OperatorSays::start) {
+        if (phase_ == Phase::between) return {};
+        return fail("", phase_ == Phase::finished ? "all stages are done" : "a stage is under way",
+                    "end it first, with next or stop");
+    }
+    if (!in_stage) return fail("", "no stage is under way", "start begins one");
+    if (command.says == OperatorSays::next && !places_[at_].stage->ends_by_operator)
+        return fail("", "this stage ends by itself, as the protocol has it", "wait, or break it off with stop");
+    if (command.says == OperatorSays::pause && paused())
+        return fail("", "the stage is paused already", "go on ends the pause");
+    if (command.says == OperatorSays::go_on && !paused()) return fail("", "the stage is not paused", "leave it out");
+    if (command.says == OperatorSays::repeat) {
+        if (places_[at_].stage->kind != study::StageKind::trial)
+            return fail("", "this stage is no trial and has no attempts", "leave it out");
+        if (paused()) return fail("", "the attempt is lost with the pause already", "go on");
+    }
+    return {};
+}
+
 void TrainingRun::begin(Nanoseconds now_ns) {
     const study::Stage& stage = *places_[at_].stage;
     const auto found = worlds_.find(stage.world);
@@ -198,6 +228,12 @@ std::vector<PanelRow> TrainingRun::rows() const {
         {"path", formatted("%.0f mm along, %.0f mm off the axis", 1e3 * nearest.along_m, 1e3 * nearest.distance_m)});
     rows.push_back({"force", formatted("%.2f N, largest %.2f N", glm::length(last_->gate.given.force_device_N),
                                        forces.largest_N)});
+    if (trial && state.phase == study::StagePhase::waiting) {
+        const study::CapBox cap = study::start_cap(world_->world());
+        const Vec3 middle_m = cap.centre_m + 0.5 * cap.depth_m * cap.z;
+        rows.push_back(
+            {"start cap", formatted("%.0f mm away", 1e3 * glm::distance(middle_m, 0.5 * (points[0] + points[1])))});
+    }
     const StageMoment moment = moment_of(*world_, *session_, *last_);
     rows.push_back({"caps", moment.start_touched ? "in the start cap"
                             : moment.end_touched ? "in the end cap"

@@ -70,6 +70,10 @@ public:
     [[nodiscard]] const study::StageSession* session() const { return session_ ? &*session_ : nullptr; }
 
     void command(const OperatorCommand& command, Nanoseconds now_ns);
+    // Fails where the command would have no effect now, with why.
+    [[nodiscard]] Result<void> check(const OperatorCommand& command) const;
+    // Whether the stage under way is paused, or will be with the next tick.
+    [[nodiscard]] bool paused() const;
 
     struct Ticked {
         const haptics::TickRecord* record = nullptr;  // until the next tick

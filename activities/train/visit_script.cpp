@@ -75,7 +75,7 @@ Result<VisitScript> parse_visit_script(const std::string& text, const std::strin
         }
         auto command = operator_command(line);
         if (!command) return fail(where, command.error().what, command.error().remedy + ", or hand X Y Z");
-        script.said.push_back({*time_s, std::move(*command)});
+        script.said.push_back({*time_s, std::move(*command), where, std::string(line)});
     }
     if (script.hand.empty()) return fail(name, "has no hand in it", "write at least one line TIME hand X Y Z");
     return script;

@@ -100,6 +100,7 @@ void visit(Participant& p, const Json& entry, const std::string& event) {
     if (event == "stage begun") {
         StageVisit begun{.day = day, .place = place, .stage = text_in(entry, "stage")};
         begun.recording = text_in(entry, "recording");
+        begun.device = p.device;
         begun.begun_utc = text_in(entry, "time");
         begun.clock_s = number_in(entry, "clock_s");
         p.visits.push_back(std::move(begun));

@@ -43,6 +43,7 @@ struct StageVisit {
     std::string file_digest{};  // SHA-256
     // The motion, likewise; named from the stage's beginning on, its digest known at its end.
     std::string recording{}, recording_digest{};
+    std::string device{};                              // of a visit with an operator; empty: a learner's
     std::string begun_utc{}, ended_utc{};              // as the journal has them
     std::optional<double> clock_s{}, ended_clock_s{};  // of a simulated participant's clock
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "base/text.hpp"
 #include "study/metrics/path.hpp"
@@ -130,14 +131,46 @@ Json forces_record(const FeltForces& forces) {
                 {"ticks", forces.ticks}};
 }
 
-std::string trials_csv(std::span<const TrialRow> rows, bool simulated) {
+const char* name_of(Hand hand) {
+    switch (hand) {
+        case Hand::learner: return "learner";
+        case Hand::script: return "script";
+        case Hand::simulated_device: return "simulated device";
+        case Hand::device: return "device";
+    }
+    return "unknown";
+}
+
+std::string simulated_fact(std::span<const TrialRow> rows) {
+    std::map<std::string, Hand> hands;  // of each participant the least real one
+    for (const TrialRow& row : rows) {
+        const auto [at, fresh] = hands.emplace(row.participant, row.hand);
+        if (!fresh) at->second = std::min(at->second, row.hand);
+    }
+    const auto count = [&](Hand hand) {
+        return static_cast<std::size_t>(
+            std::ranges::count_if(hands, [&](const auto& one) { return one.second == hand; }));
+    };
+    const std::size_t learners = count(Hand::learner), scripts = count(Hand::script);
+    std::string fact;
+    if (learners + scripts > 0)
+        fact = formatted(
+            "%zu of %zu participants of these trials are simulated, no person (learners: %zu, by a script: %zu).",
+            learners + scripts, hands.size(), learners, scripts);
+    if (const std::size_t live = count(Hand::simulated_device); live > 0)
+        fact += formatted("%s%zu of %zu held a simulated device (mouse, keys or a log).", fact.empty() ? "" : " ", live,
+                          hands.size());
+    return fact;
+}
+
+std::string trials_csv(std::span<const TrialRow> rows) {
     std::string text =
         "# made by burin study of the folder's journal and data; deviation is by distance to the tube's wall, "
         "proxy_deviation to the proxy of the haptic model\n";
-    if (simulated) text += "# simulated learners: no person took part; the hand and the wand are simulated\n";
+    if (const std::string fact = simulated_fact(rows); !fact.empty()) text += "# " + fact + " See the column hand.\n";
     text += "participant,group,trial";
     for (const char* column : kColumns) text += std::string(",") + column;
-    text += ",day,stage,stratum\n";
+    text += ",day,stage,stratum,hand\n";
     for (const TrialRow& row : rows) {
         text += row.participant + "," + row.group + "," + std::to_string(row.number);
         for (const char* column : kColumns) {
@@ -145,7 +178,7 @@ std::string trials_csv(std::span<const TrialRow> rows, bool simulated) {
             const bool known = found != row.record.end() && found->is_number();
             text += known ? formatted(",%.17g", found->get<double>()) : ",";
         }
-        text += "," + std::to_string(row.day) + "," + row.stage + "," + row.stratum + "\n";
+        text += "," + std::to_string(row.day) + "," + row.stage + "," + row.stratum + "," + name_of(row.hand) + "\n";
     }
     return text;
 }

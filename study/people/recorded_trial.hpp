@@ -24,12 +24,22 @@ inline constexpr double kDeviationsAgree_mm = 1.0;
 // Of any other stage in which something was felt: contact and force as they were given to the hand.
 [[nodiscard]] Json forces_record(const FeltForces& forces);
 
+// What moved the wand: a simulated learner or a script, which are no persons; mouse, keys or a log, with a simulated
+// device in a live session; or a device.
+enum class Hand { learner, script, simulated_device, device };
+[[nodiscard]] const char* name_of(Hand hand);  // "learner", "script", "simulated device", "device"
+
 struct TrialRow {
     std::string participant, group, stratum, stage;
     std::size_t day = 1, number = 1;  // which outcome trial of the participant
     Json record;                      // by trial_record
+    Hand hand = Hand::device;
 };
-// CSV, with a line that says how the numbers came about.
-[[nodiscard]] std::string trials_csv(std::span<const TrialRow> rows, bool simulated);
+// CSV, with lines that say how the numbers came about and whose hands were simulated.
+[[nodiscard]] std::string trials_csv(std::span<const TrialRow> rows);
+
+// A whole sentence that says how many of the rows' participants are no persons, or held a simulated device; empty where
+// all held a device.
+[[nodiscard]] std::string simulated_fact(std::span<const TrialRow> rows);
 
 }  // namespace burin::study

@@ -166,16 +166,25 @@ TEST_F(StudyActivities, HoldTheStageWhereTheWandReadsFartherOffInItsJigThanThePr
     EXPECT_EQ(activity_->run().session()->state().phase, study::StagePhase::paused);
     EXPECT_FALSE(act({"go-on"}));
     EXPECT_EQ(activity_->panel().rows.at(0).name, "in the jig");
+    EXPECT_EQ(activity_->panel().rows.at(0).value, "2.5 mm off, 2.0 allowed") << "longer, it would cover its name";
     for (const session::ActivityPanel::Button& button : activity_->panel().buttons)
-        EXPECT_EQ(button.enabled, button.title != "Start" && button.title != "Go on" && button.title != "Next")
-            << button.title;
+        EXPECT_EQ(button.enabled, button.title == "Stop" || button.title == "In the jig") << button.title;
     EXPECT_TRUE(std::ranges::any_of(events_, [](const RunEvent& e) { return e.value.contains("2.5 mm"); }));
     tool_.position_device_m = in_the_jig;
     frame({spine.front()});
     ASSERT_TRUE(act({"jig"}));
+    const auto enabled = [&](const char* title) {
+        const auto buttons = activity_->panel().buttons;
+        return std::ranges::find(buttons, title, &session::ActivityPanel::Button::title)->enabled;
+    };
+    EXPECT_TRUE(enabled("Go on"));
+    EXPECT_FALSE(enabled("Pause"));
     EXPECT_TRUE(act({"go-on"}));
+    EXPECT_FALSE(act({"go-on"})) << "it goes on already";
     frame({spine.front(), spine.front()});
     EXPECT_NE(activity_->run().session()->state().phase, study::StagePhase::paused);
+    EXPECT_FALSE(enabled("Go on"));
+    EXPECT_TRUE(enabled("Pause"));
 }
 
 TEST_F(StudyActivities, ShowTheTubeToWhoSeesItAndItsTouchInRed) {

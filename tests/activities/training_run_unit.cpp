@@ -130,6 +130,18 @@ TEST_F(TrainingRuns, TakeATrialFromTheStartCapToTheEndCap) {
     EXPECT_NEAR(ended.record.at("time_s").get<double>(), 2.0, 0.1);
 }
 
+TEST_F(TrainingRuns, SayThatAStoppedTrialCountsAsEnded) {
+    skip_to("test");
+    say("start");
+    say("stop");
+    EXPECT_FALSE(run_->paused());
+    hold(Vec3(0.0), 2);
+    ASSERT_EQ(run_->phase(), TrainingRun::Phase::ended);
+    const study::Stage& stage = *run_->place()->stage;
+    EXPECT_EQ(outcome_text(stage, run_->take_end().end),
+              "trial test ended by stop: counts as ended without a valid exit");
+}
+
 TEST_F(TrainingRuns, LoseAnAttemptWhenTheOperatorPausesAndUseUpNone) {
     skip_to("test");
     say("start");

@@ -188,6 +188,21 @@ TEST(LiveStudy, KeepsItsWorldWhateverIsSaid) {
     }
 }
 
+TEST(LiveStudy, NamesTheRecordingOfASessionThatCannotBeReplayed) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace place;
+    make_live_study(place);
+    DeskLog log;
+    log.wait(0.1);
+    place.write("visit.txt", log.closed());
+    const auto went =
+        place.run(kLiveStudy + "run s --participant p01 --input visit.txt --offscreen --record r.session");
+    ASSERT_TRUE(std::filesystem::exists(place / "r.session")) << went.output;
+    const auto replayed = place.run(std::string(kBurinCommand) + " replay r.session");
+    EXPECT_EQ(replayed.status, 1);
+    EXPECT_TRUE(replayed.output.contains("r.session: is of a participant in a study")) << replayed.output;
+}
+
 TEST(LiveStudy, FreesAWandThatCameIntoTheStartCapThroughTheFunnelsWall) {
     if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
     const Workplace place;

@@ -266,6 +266,8 @@ TEST(StudyCommands, HideTheGroupOfAPlaceUntilSomebodyTakesIt) {
 TEST(StudyCommands, MakeTheStudyOfTheThesisByItsName) {
     const Workplace place;
     const auto made = place.run(kBurinStudy + "init kinesthetic-path out --participants 10 --seed 7");
+    EXPECT_TRUE(made.output.contains("blocks are of 2 or 4 places, and a list of 10 may end within one"))
+        << made.output;
     ASSERT_EQ(made.status, 0) << made.output;
     EXPECT_TRUE(made.output.contains("protocol kinesthetic-path")) << made.output;
     EXPECT_EQ(place.run(kBurinStudy + "check out").status, 0);
@@ -299,7 +301,8 @@ TEST(StudyCommands, TakeAParticipantThroughByAScriptAndGoOnAfterAnInterruption) 
                                "7 start\n" + through_the_tube(7.0) + "12 start\n12.5 hand 0 0.2 0.1\n");
     const auto first = place.run(run + "one.txt");
     ASSERT_EQ(first.status, 0) << first.output;
-    EXPECT_TRUE(first.output.contains("6 stages ended")) << first.output;
+    for (const char* part : {"6 stages ended", "end touched: ", "stage ended: valid exit", "trial test: valid exit"})
+        EXPECT_TRUE(first.output.contains(part)) << part << first.output;
     EXPECT_TRUE(first.output.contains("ended within a stage")) << first.output;
     EXPECT_TRUE(place.run(kBurinStudy + "status s").output.contains("aborted: test (day 1, stage 7)"));
     EXPECT_TRUE(place.read("s/journal.jsonl").contains("sits down"));
@@ -312,7 +315,20 @@ TEST(StudyCommands, TakeAParticipantThroughByAScriptAndGoOnAfterAnInterruption) 
     EXPECT_TRUE(place.run(kBurinStudy + "status s").output.contains("with a simulated device"));
     // Learners fill the other place, and the analysis counts both alike.
     ASSERT_EQ(place.run(kBurinStudy + "run s --simulated --without-motion").status, 0);
-    EXPECT_TRUE(place.run(kBurinStudy + "analyse s").output.contains("4 trials, 2 groups"));
+    // Each form says that nobody took part, and has the groups in the protocol's order, whoever was first.
+    for (const char* choice : {"", " --day 1", " --stage test"}) {
+        const std::string out = formatted("out%zu", std::string(choice).size());
+        const std::string said = place.run(kBurinStudy + "analyse s --out " + out + choice).output;
+        EXPECT_TRUE(said.contains("4 trials, 2 groups")) << said;
+        for (const std::string& form : {said, place.read(out + "/report.html"), place.read(out + "/results.json")}) {
+            EXPECT_TRUE(
+                form.contains("2 of 2 participants of these trials are simulated, no person (learners: 1, by a"))
+                << form;
+            EXPECT_TRUE(form.contains("Groups in the order of the protocol: haptic, visual")) << form;
+        }
+    }
+    EXPECT_TRUE(place.read("s/trials.csv").contains("\np01,visual,1,"));
+    EXPECT_LT(place.read("s/trials.csv").find(",visual,"), place.read("s/trials.csv").find(",haptic,"));
     EXPECT_EQ(place.run(run + "two.txt").status, 1);  // all is done
     EXPECT_EQ(place.run(kBurinStudy + "run s --participant sim002 --input two.txt").status, 1);
     EXPECT_EQ(place.run(kBurinStudy + "run s --participant p09 --input two.txt").status, 1);
@@ -355,7 +371,7 @@ TEST(StudyCommands, GoOnTheNextDayInAnotherWorld) {
     EXPECT_EQ(replayed.status, 0) << replayed.output;
     EXPECT_TRUE(replayed.output.contains("14 recordings")) << replayed.output;
     const std::string trials = place.read("s/trials.csv");
-    for (const char* row : {",1,test,all\n", ",2,test,all\n", ",2,other-path,all\n"})
+    for (const char* row : {",1,test,all,learner\n", ",2,test,all,learner\n", ",2,other-path,all,learner\n"})
         EXPECT_TRUE(trials.contains(row)) << row;
     const auto reported = place.run(kBurinStudy + "report s");
     EXPECT_EQ(reported.status, 0) << reported.output;
