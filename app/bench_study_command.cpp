@@ -34,7 +34,7 @@ public:
     [[nodiscard]] double seconds() const {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
     }
-    // Of all of the process' threads: what the work takes, whoever else works on the same cores.
+    // Returns the processor time of all threads of the process: what the work takes, whoever else uses the cores.
     [[nodiscard]] double processor_s() const {
         return static_cast<double>(std::clock() - processor_begun_) / CLOCKS_PER_SEC;
     }

@@ -23,7 +23,7 @@ struct EndedStage {
 [[nodiscard]] EndedStage ended_stage(const study::Protocol& protocol, const study::Stage& stage,
                                      const study::FeltWorld& world, const study::StageSession& session);
 
-// What became of a stage, for the operator: "trial test: valid exit after 12.3456 s".
+// Returns a line for the operator that says how a stage ended: "trial test: valid exit after 12.3456 s".
 [[nodiscard]] std::string outcome_text(const study::Stage& stage, const study::StageState& end);
 
 // By name. Fails where a world cannot be touched.

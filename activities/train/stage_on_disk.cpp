@@ -10,7 +10,7 @@
 namespace burin::activities {
 namespace {
 
-// Of a block of ticks and between transactions: a quarter of the second that a kill may cost, as for learners.
+// How long a block of ticks and a transaction are: a quarter of the second that a kill may cost, as for learners.
 constexpr Nanoseconds kVisitBlock_ns = kNanosecondsPerSecond / 4;
 
 }  // namespace

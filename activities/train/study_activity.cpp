@@ -89,7 +89,7 @@ Result<void> StudyActivity::act(std::span<const std::string> words, session::Act
     return {};
 }
 
-// Whether the operator may say that now.
+// Checks that the operator may give this order now.
 Result<void> StudyActivity::check_order(const OperatorCommand& command) const {
     const bool starts = command.says == OperatorSays::start;
     if (const auto ok = run_.check(command); !ok) return ok;
@@ -206,7 +206,7 @@ void StudyActivity::show(const std::vector<ShownObject>& objects, const study::F
 }
 
 void StudyActivity::stage(renderer::Scene& scene, std::size_t /*screen*/) const {
-    // As in a study's pictures: nothing is shown that is not the study's, and no shadow of a tube that is not seen.
+    // Shows nothing but the study's own, as its pictures do: a shadow would tell where the tube is that nobody may see.
     scene.pedestal.visible = scene.box.visible = false;
     scene.workpiece_object = {};
     if (!shown_.wand_seen || !shown_.moment) {

@@ -34,8 +34,8 @@ struct StageKeeper {
 
 // The device in the participant's hand.
 struct StudyDevice {
-    // How far above the wand's middle, along its axis, the point is whose path the session's ticks tell; 0 for a stylus
-    // that stands in for a wand.
+    // Distance from the wand's middle, up along its axis, to the point whose path the session's ticks tell; 0 for a
+    // stylus that stands in for a wand.
     double point_offset_m = 0.0;
     std::optional<devices::WandDescription> wand = {};  // none: there is no jig
 };

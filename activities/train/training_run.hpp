@@ -72,7 +72,7 @@ public:
     void command(const OperatorCommand& command, Nanoseconds now_ns);
     // Fails where the command would have no effect now, with why.
     [[nodiscard]] Result<void> check(const OperatorCommand& command) const;
-    // Whether the stage under way is paused, or will be with the next tick.
+    // Returns whether the stage under way is paused, or will be with the next tick.
     [[nodiscard]] bool paused() const;
 
     struct Ticked {

@@ -47,7 +47,7 @@ public:
     [[nodiscard]] Vec3 proxy_m(const record::RowWalk& walk, std::uint32_t point) const {
         return vector(walk, 3 + 3 * std::size_t{point});
     }
-    // Of a wand.
+    // Only a wand's recording has it.
     [[nodiscard]] Vec3 torque_Nm(const record::RowWalk& walk) const { return vector(walk, torque_); }
 
 private:

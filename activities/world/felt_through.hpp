@@ -21,21 +21,21 @@
 
 namespace burin::activities {
 
-// What is felt through the world: the device as it was recorded, with a ball at each of its points.
+// The probe that is led through the world: the device as it was recorded, with a ball at each of its points.
 struct ThroughProbe {
     RecordedDevice device;
     double radius_m = 0.004;  // of the balls, in the scene
 };
 
-// What one point has felt.
+// Figures of what one point has felt.
 struct ThroughPoint {
     std::string name;            // of a wand's point; empty: the tool's only one
     Vec3 begins_scene_m{0.0};    // where its proxy begins
     bool begins_inside = false;  // in material, and is moved out by the shortest path
     std::string nearest;         // object there; empty: there is none
     double nearest_m = 0.0;      // how far its surface is from the ball; below 0: they overlap by so much
-    // Likewise where the ball has come nearest to a surface; until its first contact, and seen every 10 ms where
-    // objects move.
+    // The object whose surface the ball came nearest to before its first contact, and how near; looked at every 10 ms
+    // where objects move.
     std::string came_nearest;
     double came_nearest_m = 0.0;
     std::uint64_t ticks_in_contact = 0;
@@ -48,7 +48,7 @@ struct ThroughFigures {
     std::uint64_t ticks = 0, ticks_in_contact = 0, ticks_pushed_out = 0;  // of any point
     std::int64_t first_tick = 0;
     std::vector<ThroughPoint> points;
-    // Of the commanded wrench; torques are 0 for a device that has none.
+    // Largest values of the commanded wrench; torques are 0 for a device that has none.
     double force_max_N = 0.0, force_deviation_max_N = 0.0;
     double torque_max_Nm = 0.0, torque_deviation_max_Nm = 0.0;
 };

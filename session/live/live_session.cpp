@@ -12,6 +12,7 @@
 #include "sculpt/workpiece.hpp"
 #include "session/record/input_files.hpp"
 #include "session/record/session_recording.hpp"
+#include "session/state/governed.hpp"
 
 namespace burin::session {
 namespace {
@@ -218,7 +219,7 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
     last_step_ns_ = input.time_ns;
     if (!input.events.empty()) last_line_ = input.events.back().line;
     const SceneInput left = feed_panel(input);
-    const SessionState before = state_;
+    const auto before = activity_.governs() ? std::optional(state_) : std::nullopt;
     SessionStep step =
         step_session(state_, room_, left.events, {dt_s, input.display_ns, main_eye(), tool_, left.captured});
     state_ = std::move(step.state);
@@ -227,33 +228,13 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
         if (const auto done = run_command(state_, step.orders, action); !done)
             step.orders.messages.push_back({done.error().line()});
     }
-    keep_governed(before, step.orders);
+    if (before) keep_governed(*before, state_, step.orders);
     activity_.step(state_, step.orders, input.time_ns, tool_);
     news_.frames_for_ticks(activity_.is_running());
     fit_desk_screen(room_.wall, main_eye());  // a command may have changed the mode
     haptics_.move_hand(step.hand_way, input.time_ns, step.hand);
     carry_out(std::move(step.orders), give);
     watch(input.time_ns);
-}
-
-// What the activity governs stays as it was, whoever asked for something else.
-void LiveSession::keep_governed(const SessionState& before, SessionOrders& orders) {
-    const bool asked = !orders.world.empty() || !orders.carving.empty() || state_.technique != before.technique ||
-                       state_.workspace_gain != before.workspace_gain || state_.force_filter != before.force_filter ||
-                       state_.velocity_filter != before.velocity_filter;
-    if (!asked || !activity_.governs()) return;
-    state_.tool = before.tool;
-    state_.held = before.held;
-    state_.feel = before.feel;
-    state_.world = before.world;
-    state_.technique = before.technique;
-    state_.workspace_gain = before.workspace_gain;
-    state_.force_filter = before.force_filter;
-    state_.velocity_filter = before.velocity_filter;
-    orders.world.clear();
-    orders.carving.clear();
-    orders.parameters = true;
-    orders.messages.push_back({"tool, objects and workspace are the activity's, and stay as they are", orders.line});
 }
 
 SceneInput LiveSession::feed_panel(const FrameInput& input) {

@@ -65,7 +65,8 @@ struct ActivityPanel {
     std::string page;          // a paragraph for the person; empty: none
     std::vector<Row> rows;
     std::vector<Button> buttons;  // side by side, in several rows where there are many
-    // The panel offers neither tool nor objects nor workspace besides: what these are is the activity's alone.
+    // Tool, objects, workspace and filters are the activity's alone (governed.hpp): no panel, key or command changes
+    // them.
     bool governs = false;
     bool operator==(const ActivityPanel&) const = default;
 };

@@ -8,6 +8,7 @@
 
 #include "session/drive/session_frames.hpp"
 #include "session/live/live_session.hpp"
+#include "session/state/governed.hpp"
 #include "session/state/session_settings.hpp"
 #include "tests/support/run_command.hpp"
 
@@ -159,6 +160,7 @@ TEST(SessionActivity, ThatGovernsLeavesThePanelNeitherToolNorObjects) {
     model.activity->governs = true;
     for (const char* section : {"Tool", "Material", "Objects", "Workspace"}) EXPECT_FALSE(offers(section)) << section;
     for (const char* section : {"Touch", "View", "Study"}) EXPECT_TRUE(offers(section)) << section;
+    for (const char* filter : {"velocity-filter", "force-filter"}) EXPECT_FALSE(offers(filter)) << filter;
 }
 
 TEST(SessionActivity, ManyButtonsStandInRowsSoThatTheirTitlesHaveRoom) {
@@ -176,6 +178,27 @@ TEST(SessionActivity, ManyButtonsStandInRowsSoThatTheirTitlesHaveRoom) {
         EXPECT_EQ(last->y > first->y, count > 6) << count;
         EXPECT_EQ(last->width, first->width) << count;
     }
+}
+
+TEST(SessionActivity, ThatGovernsHasNobodyChangeToolObjectsOrWorkspace) {
+    SessionState before, state;
+    before.workspace_gain = 1.0;
+    state.workspace_gain = 2.0;
+    state.force_filter = 0.5;
+    state.interpupillary_m = 0.07;
+    SessionOrders orders;
+    orders.line = 7;
+    orders.carving.push_back(sculpt::SculptOrder{});
+    keep_governed(before, state, orders);
+    EXPECT_EQ(state.workspace_gain, 1.0);
+    EXPECT_EQ(state.force_filter, 0.0);
+    EXPECT_EQ(state.interpupillary_m, 0.07) << "who looks is nobody's but the viewer's";
+    EXPECT_TRUE(orders.carving.empty());
+    ASSERT_EQ(orders.messages.size(), 1u);
+    EXPECT_EQ(orders.messages[0].line, 7u);
+    SessionOrders none;
+    keep_governed(before, state, none);
+    EXPECT_TRUE(none.messages.empty()) << "nobody asked for anything";
 }
 
 TEST(SessionActivity, WhatItCannotDoIsToldByName) {
