@@ -68,8 +68,11 @@ Result<void> info(const std::string& path, const std::string& json_path) {
     if (!trials) return std::unexpected(trials.error());
     if (!clocks) return std::unexpected(clocks.error());
     if (!lines) return std::unexpected(lines.error());
+    const auto digest = reader->last_digest();
+    if (!digest) return std::unexpected(digest.error());
     const double moved_s = seconds(record::wall_clock_moved_ns(*clocks));
     Json json{{"file", path}, {"closed", reader->is_closed()}};
+    json["last_digest"] = *digest;
     json["facts"] = Json::object();
     for (const auto& [key, value] : reader->facts()) json["facts"][key] = value;
     json["lines"] = *lines;
@@ -93,6 +96,8 @@ Result<void> info(const std::string& path, const std::string& json_path) {
         std::printf("  %-22s %s, %s; the wall clock moved by %g s against the monotonic one\n", "lines, trials, clock",
                     counted(*lines, "line", "lines").c_str(), counted(trials->size(), "trial", "trials").c_str(),
                     moved_s);
+        if (!digest->empty())
+            std::printf("  %-22s %s (noted elsewhere, it shows a cut end)\n", "last digest", digest->c_str());
         for (const record::HandRecord& hand : reader->hands()) print_hand(hand, record::summary_of(hand));
         for (const record::HandRecord& table : reader->derived()) {
             std::printf("derived by %s: ", table.program.c_str());
@@ -100,6 +105,34 @@ Result<void> info(const std::string& path, const std::string& json_path) {
         }
     }
     return write_output(json_path, json_text(json));
+}
+
+// Ticks that the loop could not run are no damage of the file, but of what it is a record of.
+void print_ticks_due(const record::HandExamination& found, const std::string& name) {
+    if (!found.never_run || found.ticks == 0) return;
+    std::printf("%s: %llu of %llu due ticks never ran; the longest time between two ticks is %.3g ms\n", name.c_str(),
+                static_cast<unsigned long long>(*found.never_run),
+                static_cast<unsigned long long>(found.ticks + *found.never_run),
+                1e3 * seconds(found.longest_interval_ns));
+}
+
+// Prints what the chain of digests shows. Returns how many places it names.
+Result<std::size_t> check_chain(record::RecordReader& reader) {
+    const Result<record::ChainExamination> chain = reader.examine_chain();
+    if (!chain) return std::unexpected(chain.error());
+    const char* file = reader.path().c_str();
+    if (!chain->is_there) {
+        std::printf(
+            "%s: has no chain of digests, since an earlier version wrote it: what was changed later stays unseen\n",
+            file);
+        return std::size_t{0};
+    }
+    for (const std::string& fault : chain->faults) std::printf("%s: %s\n", file, fault.c_str());
+    std::printf("%s: %s chained, %s; the last digest is %s\n", file,
+                counted(static_cast<std::uint64_t>(chain->links), "transaction", "transactions").c_str(),
+                counted(chain->faults.size(), "place is", "places are").append(" other than recorded").c_str(),
+                chain->last_digest.c_str());
+    return chain->faults.size();
 }
 
 Result<void> check(const std::string& path) {
@@ -122,11 +155,19 @@ Result<void> check(const std::string& path) {
                     counted(found.gaps.size(), "gap", "gaps").c_str(),
                     counted(found.backward_times, "time", "times").c_str(),
                     counted(found.not_finite, "value", "values").c_str());
+        print_ticks_due(found, reader->table(h).name);
         damaged += found.damaged.size();
         if (found.ticks == 0 && found.damaged.empty()) empty.push_back(reader->table(h).name);
     }
+    const Result<std::size_t> changed = check_chain(*reader);
+    if (!changed) return std::unexpected(changed.error());
     if (!reader->is_closed())
         std::printf("%s: was not closed; ticks of the last second may be missing\n", path.c_str());
+    if (damaged == 0 && *changed > 0) {
+        std::fflush(stdout);
+        return fail(path, "is not as it was recorded: " + counted(*changed, "place was", "places were") + " changed",
+                    "take the file as it was recorded, from a copy");
+    }
     if (damaged == 0 && empty.empty() && !reader->hands().empty()) return {};
     std::fflush(stdout);
     if (damaged == 0)
@@ -231,7 +272,8 @@ SessionCommand::SessionCommand(Command app)
         command_.subcommand("info", "What is in a session file: columns with units and frames, ticks, gaps, clocks");
     info_.option("FILE", o.file, "A file that --record has written").required();
     info_.option("--json", o.json, "A file for all of it; - for standard output");
-    check_ = command_.subcommand("check", "Read all of a session file and name what is damaged; exit status 1 then");
+    check_ = command_.subcommand(
+        "check", "Read all of a session file and name what is damaged or was changed; exit status 1 then");
     check_.option("FILE", o.file, "A file that --record has written").required();
     Command compared =
         command_.subcommand("compare", "The first difference of two session files; exit status 1 where there is one");

@@ -182,7 +182,7 @@ struct TurnShare {
 struct TickRecord {
     std::uint64_t tick = 0;
     Nanoseconds time_ns = 0;      // the loop's clock when the tick began
-    Nanoseconds lateness_ns = 0;  // time after the deadline; 0 in simulated time
+    Nanoseconds lateness_ns = 0;  // time after the deadline; 0 in simulated time; see skipped_deadlines()
     devices::DeviceSample sample;
     std::uint64_t surface_sequence = 0;
     std::uint64_t parameter_sequence = 0;
@@ -199,6 +199,12 @@ struct TickRecord {
     [[nodiscard]] const PointRecord& deepest() const { return contact.points[contact.deepest]; }
     [[nodiscard]] bool in_contact() const { return (flags & kTickInContact) != 0; }
 };
+
+// Returns how many deadlines passed while a tick was late by so much: ticks that were due and never ran. The loop goes
+// on at the next deadline that is still ahead.
+[[nodiscard]] constexpr std::uint64_t skipped_deadlines(Nanoseconds lateness_ns, Nanoseconds period_ns) noexcept {
+    return lateness_ns > 0 && period_ns > 0 ? static_cast<std::uint64_t>(lateness_ns / period_ns) : 0;
+}
 
 // The view of a tick for the frame (tool_of): where to draw the tool and what to report about it.
 struct ToolState {

@@ -142,9 +142,9 @@ void HapticLoop::run_ticks(std::uint64_t count, const std::atomic<bool>* stop, c
         step(lateness_ns);
         lateness_.add(lateness_ns);
         duration_.add(clock_.now_ns() - begin_ns);
-        const Nanoseconds missed = lateness_ns / period_ns_;
-        skipped_deadlines_ += static_cast<std::uint64_t>(missed);
-        deadline_ns += (missed + 1) * period_ns_;
+        const std::uint64_t skipped = haptics::skipped_deadlines(lateness_ns, period_ns_);
+        skipped_deadlines_ += skipped;
+        deadline_ns += static_cast<Nanoseconds>(skipped + 1) * period_ns_;
         if (pace.rests && is_still()) deadline_ns += std::max<Nanoseconds>(kRest_ns - period_ns_, 0);
     }
     for (Part& part : parts_) part.device->write({});

@@ -3,9 +3,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
+#include <system_error>
+
+#include "record/record_writer.hpp"
 
 namespace burin::record {
 namespace {
@@ -35,14 +40,25 @@ std::int64_t saturated_difference(std::int64_t a, std::int64_t b) {
 // Follows the ticks of a hand from block to block.
 class TickWatch {
 public:
-    TickWatch(const HandRecord& hand, HandExamination& found)
-        : tick_(column_named(hand, "tick")), time_(column_named(hand, "time_ns")), found_(found) {}
+    TickWatch(const HandRecord& hand, std::optional<Nanoseconds> period_ns, HandExamination& found)
+        : tick_(column_named(hand, "tick")),
+          time_(column_named(hand, "time_ns")),
+          lateness_(column_named(hand, "lateness_ns")),
+          period_ns_(period_ns),
+          found_(found) {
+        if (lateness_ && period_ns_) found_.never_run = 0;
+    }
 
     void see(const Block& block, std::uint32_t row) {
         if (tick_) see_tick(static_cast<std::int64_t>(block.at(*tick_, row)));
+        if (found_.never_run)
+            *found_.never_run +=
+                haptics::skipped_deadlines(static_cast<std::int64_t>(block.at(*lateness_, row)), *period_ns_);
         if (!time_) return;
         const auto time_ns = static_cast<std::int64_t>(block.at(*time_, row));
         if (saw_time_ && time_ns <= last_ns_) ++found_.backward_times;
+        if (saw_time_)
+            found_.longest_interval_ns = std::max(found_.longest_interval_ns, saturated_difference(time_ns, last_ns_));
         saw_time_ = true;
         last_ns_ = time_ns;
     }
@@ -56,7 +72,8 @@ private:
     }
 
     static constexpr std::size_t kMostGaps = 100'000;
-    std::optional<std::size_t> tick_, time_;
+    std::optional<std::size_t> tick_, time_, lateness_;
+    std::optional<Nanoseconds> period_ns_;
     bool saw_tick_ = false, saw_time_ = false;
     std::int64_t last_tick_ = 0, last_ns_ = 0;
     HandExamination& found_;
@@ -70,6 +87,16 @@ std::uint64_t not_finite_in(const Block& block, const HandRecord& hand) {
             count += std::isfinite(std::bit_cast<double>(block.at(c, row))) ? 0 : 1;
     }
     return count;
+}
+
+std::optional<Nanoseconds> period_of(const RecordReader& reader, std::size_t hand) {
+    const auto fact = reader.facts().find(period_fact(hand));
+    if (fact == reader.facts().end()) return {};
+    Nanoseconds period_ns = 0;
+    const std::string& text = fact->second;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), period_ns);
+    if (error != std::errc() || end != text.data() + text.size() || period_ns <= 0) return {};
+    return period_ns;
 }
 
 }  // namespace
@@ -120,7 +147,7 @@ Nanoseconds wall_clock_moved_ns(const std::vector<ClockPair>& clocks) {
 HandExamination examine(RecordReader& reader, std::size_t table) {
     const HandRecord& of = reader.table(table);
     HandExamination found;
-    TickWatch watch(of, found);
+    TickWatch watch(of, of.is_derived() ? std::nullopt : period_of(reader, of.number), found);
     for (std::size_t number = 0; number < of.blocks.size(); ++number) {
         const Result<Block> block = reader.block(table, number);
         if (!block) {

@@ -3,6 +3,8 @@
 // One thread. Memory: one block.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +40,10 @@ struct HandExamination {
     std::vector<TickGap> gaps;
     std::uint64_t backward_times = 0;  // ticks that are not later than the one before
     std::uint64_t not_finite = 0;      // numbers that are none, but for the points that a tick does not have
+    // Ticks that were due and that the loop skipped because it came too late, by the lateness of those that ran. Nothing:
+    // the file does not say how far apart ticks were due.
+    std::optional<std::uint64_t> never_run;
+    Nanoseconds longest_interval_ns = 0;  // between two ticks that follow one another
 };
 [[nodiscard]] HandExamination examine(RecordReader& reader, std::size_t table);
 

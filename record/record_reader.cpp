@@ -306,6 +306,10 @@ Result<void> RecordReader::each_line(const std::function<void(std::int64_t, cons
     return {};
 }
 
+Result<ChainExamination> RecordReader::examine_chain() { return record::examine_chain(*database_); }
+
+Result<std::string> RecordReader::last_digest() { return record::last_digest(*database_); }
+
 Result<std::string> RecordReader::structure_fault() {
     const Result<std::string> found = database_->text("PRAGMA quick_check(1)");
     if (!found) return std::unexpected(found.error());

@@ -17,6 +17,7 @@
 
 #include "base/error.hpp"
 #include "record/block.hpp"
+#include "record/chain.hpp"
 #include "record/database.hpp"
 
 namespace burin::record {
@@ -96,6 +97,10 @@ public:
     [[nodiscard]] Result<std::uint64_t> lines();  // how many there are
     // Calls for each line in order, one in memory at a time.
     [[nodiscard]] Result<void> each_line(const std::function<void(std::int64_t time_ns, const std::string&)>& take);
+    // Compares the file with its chain of digests (chain.hpp). Reads the whole file.
+    [[nodiscard]] Result<ChainExamination> examine_chain();
+    // Returns the digest of the last transaction as the file states it; empty: it has none.
+    [[nodiscard]] Result<std::string> last_digest();
     // Has SQLite check its own structure: empty, or what is wrong. Reads the whole file.
     [[nodiscard]] Result<std::string> structure_fault();
 

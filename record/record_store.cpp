@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
@@ -76,6 +77,7 @@ RecordStore::RecordStore(std::string path, std::vector<RecordedHand> hands, Writ
         part.columns = columns_for(part.shape);
         part.columns.insert(part.columns.end(), hand.more_columns.begin(), hand.more_columns.end());
         part.block = Block(types_of(part.columns));
+        part.period_ns = nanoseconds(1.0 / hand.device.rate_Hz);
         part.hand = std::move(hand);
         parts_.push_back(std::move(part));
     }
@@ -128,23 +130,43 @@ Result<void> RecordStore::open() {
 
 Result<void> RecordStore::fill_tables() {
     if (const auto begun = database_->run("BEGIN IMMEDIATE"); !begun) return begun;
-    if (const auto made = database_->run(store_tables()); !made) return made;
-    Result<Statement> fact = database_->prepare("INSERT OR REPLACE INTO meta VALUES(?, ?)");
+    if (const auto made = database_->run(std::string(store_tables()) + chain_table()); !made) return made;
     Result<Statement> object = database_->prepare("INSERT OR REPLACE INTO object VALUES('', ?, ?)");
-    if (!fact || !object) return fail(path_, "its tables cannot be made", "choose another disk");
-    for (const auto& [key, value] : options_.facts) {
-        fact->bind(1, std::string_view(key));
-        fact->bind(2, std::string_view(value));
-        if (const auto done = fact->run(); !done) return done;
-    }
+    if (!object) return fail(path_, "its tables cannot be made", "choose another disk");
+    for (const auto& [key, value] : options_.facts)
+        if (const auto done = put_fact(key, value); !done) return done;
     for (const auto& [number, name] : options_.objects) {
         object->bind(1, number);
         object->bind(2, std::string_view(name));
         if (const auto done = object->run(); !done) return done;
     }
     if (const auto filled = fill_columns(); !filled) return filled;
+    for (std::size_t h = 0; h < parts_.size(); ++h)
+        if (const auto done = put_fact(period_fact(h), std::to_string(parts_[h].period_ns)); !done) return done;
     if (const auto noted = insert_clock(); !noted) return noted;
-    return database_->run("COMMIT");
+    return commit_with_link();
+}
+
+// Commits what the open transaction has written, with its link of the chain.
+Result<void> RecordStore::commit_with_link() {
+    std::vector<std::int64_t> ended;
+    for (const StoreNote& note : notes_)
+        if (note.kind == StoreNote::Kind::trial_end && note.trial) ended.push_back(*note.trial);
+    if (const auto linked = chain_.add(*database_, new_facts_, ended); !linked) return linked;
+    if (const auto done = database_->run("COMMIT"); !done) return done;
+    chain_.added();
+    new_facts_.clear();
+    return {};
+}
+
+Result<void> RecordStore::put_fact(const std::string& key, const std::string& value) {
+    Result<Statement> fact = database_->prepare("INSERT OR REPLACE INTO meta VALUES(?, ?)");
+    if (!fact) return std::unexpected(fact.error());
+    fact->bind(1, std::string_view(key));
+    fact->bind(2, std::string_view(value));
+    if (const auto done = fact->run(); !done) return done;
+    if (std::ranges::find(new_facts_, key) == new_facts_.end()) new_facts_.push_back(key);
+    return {};
 }
 
 Result<void> RecordStore::fill_columns() {
@@ -206,6 +228,7 @@ void RecordStore::take(std::size_t index, const haptics::TickRecord& record) {
     row.resize(part.columns.size());
     part.block.add(row);
     part.last_tick = record.tick;
+    part.never_run += haptics::skipped_deadlines(record.lateness_ns, part.period_ns);
 }
 
 void RecordStore::seal(std::size_t index) {
@@ -283,7 +306,7 @@ Result<void> RecordStore::insert_all() {
     for (const StoreNote& note : notes_)
         if (const auto done = insert_note(note); !done) return done;
     if (const auto done = insert_clock(); !done) return done;
-    return database_->run("COMMIT");
+    return commit_with_link();
 }
 
 Result<void> RecordStore::insert_note(const StoreNote& note) {
@@ -356,19 +379,17 @@ void RecordStore::give_up(Error why) {
 }
 
 Result<void> RecordStore::write_facts_of_end(std::uint64_t notes_lost) {
-    Result<Statement> fact = database_->prepare("INSERT OR REPLACE INTO meta VALUES(?, ?)");
-    if (!fact) return std::unexpected(fact.error());
-    const auto put = [&](const std::string& key, const std::string& value) -> Result<void> {
-        fact->bind(1, std::string_view(key));
-        fact->bind(2, std::string_view(value));
-        return fact->run();
-    };
+    if (const auto begun = database_->run("BEGIN IMMEDIATE"); !begun) return begun;
     for (std::size_t h = 0; h < parts_.size(); ++h) {
-        const std::string lost = std::to_string(parts_[h].lost + parts_[h].hand.ring->refused());
-        if (const auto done = put("ticks lost, hand " + std::to_string(h), lost); !done) return done;
+        const std::string of_hand = ", hand " + std::to_string(h),
+                          lost = std::to_string(parts_[h].lost + parts_[h].hand.ring->refused());
+        if (const auto done = put_fact("ticks lost" + of_hand, lost); !done) return done;
+        if (const auto done = put_fact("ticks never run" + of_hand, std::to_string(parts_[h].never_run)); !done)
+            return done;
     }
-    if (const auto done = put("notes lost", std::to_string(notes_lost)); !done) return done;
-    return put("end", failure_ ? failure_->line() : "regular");
+    if (const auto done = put_fact("notes lost", std::to_string(notes_lost)); !done) return done;
+    if (const auto done = put_fact("end", failure_ ? failure_->line() : "regular"); !done) return done;
+    return commit_with_link();
 }
 
 void RecordStore::end(std::uint64_t notes_lost) {
@@ -377,6 +398,7 @@ void RecordStore::end(std::uint64_t notes_lost) {
         ended = write_facts_of_end(notes_lost);
     } else {
         static_cast<void>(write_facts_of_end(notes_lost));  // where the disk takes it again
+        if (database_->in_transaction()) static_cast<void>(database_->run("ROLLBACK"));
     }
     // All into the one file, and no log beside it: then it can be read where nothing can be written.
     if (ended) ended = database_->run("PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode = DELETE");

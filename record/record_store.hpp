@@ -12,6 +12,7 @@
 
 #include "haptics/histogram.hpp"
 #include "record/block.hpp"
+#include "record/chain.hpp"
 #include "record/database.hpp"
 #include "record/record_writer.hpp"
 
@@ -61,12 +62,16 @@ private:
         std::uint64_t acknowledged = 0;  // on the disk
         std::uint64_t sealed_tick = 0;   // the last tick of the sealed blocks
         std::uint64_t lost = 0;          // taken from the ring and not kept
+        Nanoseconds period_ns = 0;
+        std::uint64_t never_run = 0;  // ticks that were due and that the loop skipped
     };
 
     [[nodiscard]] Result<void> make_file();
     [[nodiscard]] Result<void> open();
     [[nodiscard]] Result<void> fill_tables();
     [[nodiscard]] Result<void> fill_columns();
+    [[nodiscard]] Result<void> put_fact(const std::string& key, const std::string& value);
+    [[nodiscard]] Result<void> commit_with_link();
     void take(std::size_t index, const haptics::TickRecord& record);
     void seal(std::size_t index);
     [[nodiscard]] Result<void> commit();
@@ -88,6 +93,8 @@ private:
     struct stat made_{};  // the file as it was made
     std::deque<PackedBlock> sealed_;
     std::vector<StoreNote> notes_;
+    ChainWriter chain_;
+    std::vector<std::string> new_facts_;  // keys of those that no link covers yet
     std::size_t sealed_bytes_ = 0, note_bytes_ = 0;
     std::uint64_t transactions_ = 0;
     Nanoseconds committed_ns_ = 0;           // when the last transaction ended, or was tried

@@ -9,7 +9,8 @@
 // Whoever else wants the records (figures, plots, monitors) gets them from the writer, by `on_record`.
 //
 // Ownership: one SQLite connection, which alone writes and checkpoints; it holds the file's lock until the end, so
-// that no other program reads or writes the file meanwhile. WAL with synchronous FULL: what is acknowledged survives a
+// that no other program reads or writes the file meanwhile. Each transaction adds a link to the chain of digests
+// (chain.hpp), so that what is changed later shows. WAL with synchronous FULL: what is acknowledged survives a
 // kill and a power cut. close() brings everything into the one file, which then travels alone.
 // Failures: create() never touches an existing file. While the disk refuses (full, locked, unplugged) the writer keeps
 // what it has, tries again, and gives up after `patience_ns` or beyond kMostWaitingBytes: failure() then says why,
@@ -46,6 +47,11 @@ inline constexpr std::size_t kMostWaitingBytes = std::size_t{64} << 20;
 // Checks, as far as that shows beforehand, whether a recording can be made there: nothing has the name yet, and the
 // folder takes files. Writes nothing. Empty: nothing is asked for.
 [[nodiscard]] Result<void> check_new_place(const std::string& path);
+
+// The fact that says how far apart a hand's ticks are due, in nanoseconds.
+[[nodiscard]] inline std::string period_fact(std::size_t hand) {
+    return "tick period ns, hand " + std::to_string(hand);
+}
 
 struct RecordedHand {
     std::string name;  // of the device and, of several parts, the part; unique
