@@ -46,12 +46,28 @@ std::optional<std::string> digest_of_world(const std::string& path) {
     return world ? std::optional(world_digest(world->objects)) : std::nullopt;
 }
 
-void warn_of_another(const record::RecordReader& reader, const char* fact, const std::string& what,
-                     const std::optional<std::string>& now) {
-    const auto recorded = reader.facts().find(fact);
-    if (recorded == reader.facts().end() || !now || *now == recorded->second) return;
-    std::fprintf(stderr, "burin: %s: is another one than was recorded: SHA-256 %s, recorded: %s\n", what.c_str(),
-                 now->c_str(), recorded->second.c_str());
+// A file that a recording depends on: the fact that holds its digest, what it is, and the option that names it.
+struct FileOfRecording {
+    const char* fact;
+    const char* what;
+    const char* option;
+};
+
+// Fails where the file is another one than was recorded, since its ticks could not be the same. Where the user has put
+// another in its place by --set, that is told and no more.
+Result<void> check_recorded_file(const record::RecordReader& reader, const FileOfRecording& file,
+                                 const std::string& path, const std::optional<std::string>& now,
+                                 const std::vector<std::string>& sets) {
+    const std::string recorded = fact_of(reader, file.fact);
+    if (recorded.empty() || !now || *now == recorded) return {};
+    const std::string what = "is another " + std::string(file.what) + " than the one that was recorded: SHA-256 " +
+                             *now + ", recorded: " + recorded;
+    const std::string set = std::string(file.option) + "=";
+    if (std::ranges::any_of(sets, [&](const std::string& given) { return given.starts_with(set); })) {
+        std::fprintf(stderr, "burin: %s: %s\n", path.c_str(), what.c_str());
+        return {};
+    }
+    return fail(path, what, "put the recorded one back, or try this one on purpose by --set " + set + path);
 }
 
 // Returns the settings with one of them changed, "OPTION=VALUE"; a value of nothing leaves an option out, and is a
@@ -99,18 +115,27 @@ Result<std::string> with_changes(std::string settings, const LiveReplay& how, co
     return settings;
 }
 
-// Tells which files are others than were recorded. The wand must be the recorded one, but where it was chosen anew.
+// Checks that the files which the session read are those that were recorded.
 Result<void> check_files(const record::RecordReader& reader, const session::SculptOptions& own,
-                         const std::string& first_device) {
-    warn_of_another(reader, kWorldDigestFact, own.world, digest_of_world(own.world));
-    warn_of_another(reader, kWorkpieceDigestFact, own.workpiece.source, digest_of(own.workpiece.source));
-    warn_of_another(reader, kToolDigestFact, own.tool.shape, digest_of(tool_file_of(own)));
-    const std::string& device = own.live.device;
+                         const std::string& first_device, const std::vector<std::string>& sets) {
+    const std::string tool = tool_file_of(own), &workpiece = own.workpiece.source, &device = own.live.device;
+    if (const auto same = check_recorded_file(reader, {kWorldDigestFact, "world", "world"}, own.world,
+                                              digest_of_world(own.world), sets);
+        !same)
+        return same;
+    if (const auto same = check_recorded_file(reader, {kWorkpieceDigestFact, "workpiece", "workpiece"}, workpiece,
+                                              digest_of(workpiece), sets);
+        !same)
+        return same;
+    if (const auto same =
+            check_recorded_file(reader, {kToolDigestFact, "tool", "tool"}, "mesh:" + tool, digest_of(tool), sets);
+        !same)
+        return same;
     if (device == first_device)
         return check_wand_file(reader, device,
                                "say where it is now by --set device=simulated-wand:FILE, or put it back");
-    warn_of_another(reader, record::kWandDigestFact, device, digest_of(wand_file_of(device)));
-    return {};
+    return check_recorded_file(reader, {record::kWandDigestFact, "wand", "device"}, device,
+                               digest_of(wand_file_of(device)), sets);
 }
 
 // Makes the activity of a recorded session anew; null where it had none.
@@ -187,7 +212,8 @@ Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay&
     const auto recorded = session::options_as_recorded(log->settings, options);
     if (!recorded) return std::unexpected(recorded.error());
     const std::string &device = first->options.live.device, &now = recorded->options.live.device;
-    if (const auto same = check_files(reader, recorded->options, device); !same) return std::unexpected(same.error());
+    if (const auto same = check_files(reader, recorded->options, device, how.sets); !same)
+        return std::unexpected(same.error());
     if (now != device) log->device.clear();  // chosen anew
     if (const auto sound = session::check_commands(*log, reader.path(), options.activity.get()); !sound)
         return std::unexpected(sound.error());

@@ -222,12 +222,14 @@ std::vector<std::pair<std::string, std::string>> facts_of_wand(const WorldExplor
     return facts;
 }
 
-void warn_where_another(const record::RecordReader& reader, const std::string& what, const std::string& now,
-                        const char* fact) {
-    const auto recorded = reader.facts().find(fact);
-    if (recorded == reader.facts().end() || recorded->second == now) return;
-    std::fprintf(stderr, "burin: %s: is another one than was recorded: SHA-256 %s, recorded: %s\n", what.c_str(),
-                 now.c_str(), recorded->second.c_str());
+// Fails where a file is another one than was recorded: its ticks could not be the same.
+Result<void> check_as_recorded(const record::RecordReader& reader, const std::string& file, const std::string& what,
+                               const std::string& now, const char* fact) {
+    const std::string recorded = fact_of(reader, fact);
+    if (recorded.empty() || recorded == now) return {};
+    return fail(file,
+                "is another " + what + " than the one that was recorded: SHA-256 " + now + ", recorded: " + recorded,
+                "put the recorded one back, or feel the motion in another world by --through");
 }
 
 }  // namespace
@@ -265,8 +267,12 @@ Result<record::Comparison> replay_wand(record::RecordReader& reader, const std::
     Result<std::unique_ptr<WandWorld>> opened = open_wand_world(options);
     if (!opened) return std::unexpected(opened.error());
     WandWorld& again = **opened;
-    warn_where_another(reader, options.world, again.digest, kWorldDigestFact);
-    if (const auto now = file_digest(options.stroke)) warn_where_another(reader, options.stroke, *now, "stroke sha256");
+    if (const auto as_was = check_as_recorded(reader, options.world, "world", again.digest, kWorldDigestFact); !as_was)
+        return std::unexpected(as_was.error());
+    if (const auto now = file_digest(options.stroke)) {
+        const auto as_was = check_as_recorded(reader, options.stroke, "stroke", *now, "stroke sha256");
+        if (!as_was) return std::unexpected(as_was.error());
+    }
     const Result<TemporaryFolder> folder = TemporaryFolder::create();
     if (!folder) return std::unexpected(folder.error());
     again.feel.record = *folder / "again.session";

@@ -42,6 +42,8 @@ struct DeviceDescription {
     double orientation_step_rad = 0.0;         // orientation quantum
     // How far the handle turns about each axis from where its orientation is the identity; both 0: not known.
     Vec3 lowest_turn_rad{0.0}, highest_turn_rad{0.0};
+    // Whether a person's hand holds it. Simulated devices say no: their hand is simulated too, and feels nothing.
+    bool felt_by_person = true;
     // The driver that knows them and their Jacobian fills resolution_m and orientation_step_rad by step_at_handle().
     Joints joints{};
 };

@@ -37,6 +37,7 @@ SimulatedOmni::SimulatedOmni(OmniHand hand, const OmniModel& model, Clock* clock
     description_.resolution_m = model_.resolution_m;
     description_.max_force_N = model_.max_force_N;
     description_.max_stiffness_N_per_m = model_.max_stiffness_N_per_m;
+    description_.felt_by_person = false;
     description_.rate_Hz = 1000.0;
     description_.apparent_mass_kg = model_.apparent_mass_kg;
     description_.damping_Ns_per_m = model_.damping_Ns_per_m;

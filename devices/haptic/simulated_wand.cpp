@@ -61,6 +61,7 @@ bool exceeds(const Vec3& given, const Vec3& most) {
 
 SimulatedWand::SimulatedWand(OmniHand hand, WandDescription wand, Clock* clock)
     : hand_(std::move(hand)), wand_(std::move(wand)), clock_(clock), description_(device_of(wand_)) {
+    description_.felt_by_person = false;
     delay_ns_ = nanoseconds(wand_.arm.delay_s);
     if (clock_ != nullptr) clock_start_ns_ = clock_->now_ns();
     const Vec3 &lowest = description_.lowest_turn_rad, &highest = description_.highest_turn_rad;

@@ -205,6 +205,11 @@ void tell_of(const SessionRecording& recording) {
 
 }  // namespace
 
+haptics::LoopPace pace_of(haptics::LoopPace asked, const devices::DeviceDescription& device, bool has_activity) {
+    asked.rests = asked.rests && !has_activity && !device.felt_by_person;
+    return asked;
+}
+
 Result<SessionRecord> run_in_real_time(const SculptOptions& options, const SessionWall& wall, InputSource input,
                                        RealTimeRun run) {
     MonotonicClock clock;
@@ -227,7 +232,8 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
     }
 
     LiveFrames frames(session, *presenter, std::move(input), clock, tracker.get());
-    ThreadedExecutor threads(clock, session.loop(), session.channels(), session.scene(), run.pace,
+    const haptics::LoopPace pace = pace_of(run.pace, session.device(), options.activity != nullptr);
+    ThreadedExecutor threads(clock, session.loop(), session.channels(), session.scene(), pace,
                              [&session, &wake](const auto& ended) {
                                  if (session.collect(ended) || ended.failed) wake();
                              });

@@ -49,12 +49,16 @@ struct ReplayManner {
 // Options of a real-time run. The haptic loop rests by default, since nobody feels the force on a simulated hand.
 struct RealTimeRun {
     bool keep_frames = false;  // keeps every frame and its times in the record
-    haptics::LoopPace pace = {.rests = true};
+    haptics::LoopPace pace = {.rests = true};  // of what pace_of() allows
     std::optional<double>
         machine_pace{};  // haptics::WorkSettings::pace; none: it is measured before the session begins
     DirectDriver driver = direct_driver();
     SessionFacts facts{};  // of a session file
 };
+// Returns the pace that was asked for, without rest where ticks are missed by somebody: an activity, whose clock and
+// figures go by them, or a person who feels the device.
+[[nodiscard]] haptics::LoopPace pace_of(haptics::LoopPace asked, const devices::DeviceDescription& device,
+                                        bool has_activity);
 // Runs in real time: haptics and carving have threads of their own, and a frame is drawn when something has changed, as
 // late as the display allows. Input comes from a user, or from a log in the user's place. Where options.live.record
 // asks for it, it is recorded once the session has found out what the recording's first line has to hold. SIGINT and

@@ -81,6 +81,49 @@ TEST(ContactWatch, LetsAHandGoThatACaughtToolHolds) {
     EXPECT_GT(hand.force_N(), 1.5);
 }
 
+// A doubt that the next look takes back costs no force, however often it comes.
+TEST(ContactWatch, FadesNothingBeforeThreeDoubtfulLooksInARow) {
+    for (std::uint32_t doubtful = 0; doubtful < ContactWatch::kLooks; ++doubtful) {
+        WatchState state;
+        for (int i = 0; i < 500; ++i) {
+            state.doubtful_looks = i / 12 % 2 == 0 ? doubtful : 0;
+            ASSERT_FALSE(ContactWatch::gives_up(state));
+            ASSERT_EQ(ContactWatch::share(state), 1.0) << doubtful;
+        }
+    }
+    WatchState state;
+    state.doubtful_looks = ContactWatch::kLooks;
+    std::uint32_t ticks = 1;
+    for (; !ContactWatch::gives_up(state); ++ticks) EXPECT_LT(ContactWatch::share(state), 1.0);
+    EXPECT_EQ(ticks, ContactWatch::kFade);
+}
+
+// The proxy lies soundly on a thin plate, and the hand is in free air beyond it. That alone is no doubt; a search that
+// has run out of work for eight ticks is.
+TEST(ContactWatch, DoubtsAContactThatFallsBehindWhileTheHandIsFree) {
+    const geometry::LocalSurface plate = test::around({{test::plate(0.05, 0.0005), 0}});
+    const geometry::PosedSurface posed(plate);
+    const ContactWatch::Contact contact{
+        .proxy_m = {0.0, kWatchedBall_m, 0.0}, .hand_m = {0.0, -0.01, 0.0}, .radius_m = kWatchedBall_m};
+    const auto doubts_after = [&](int limited_ticks) {
+        WatchState state;
+        ContactWork work;
+        for (int i = 0; i < limited_ticks; ++i) ContactWatch::note(state, true);
+        ContactWatch::look(state, contact, posed, work);
+        return state.doubtful_looks;
+    };
+    EXPECT_EQ(doubts_after(0), 0u);
+    EXPECT_EQ(doubts_after(static_cast<int>(ContactWatch::kShort) - 1), 0u);
+    EXPECT_EQ(doubts_after(static_cast<int>(ContactWatch::kShort)), 1u);
+    EXPECT_EQ(doubts_after(500), 1u);
+    WatchState caught_up;
+    for (int i = 0; i < 500; ++i) ContactWatch::note(caught_up, true);
+    ContactWatch::note(caught_up, false);
+    ContactWork work;
+    ContactWatch::look(caught_up, contact, posed, work);
+    EXPECT_EQ(caught_up.doubtful_looks, 0u) << "one tick with enough work ends it";
+}
+
 TEST(ContactWatch, DoesNotLetGoWhileTheHandPresses) {
     WatchedHand hand = on_a_plate();
     for (int i = 0; i < 400; ++i) hand.tick({0.0, -0.003, 0.0});

@@ -235,6 +235,33 @@ TEST(RecordWriter, OfADiskThatIsFullWhatWasAcknowledgedStaysAndTheEndSaysHowFarI
     }
 }
 
+// What the disk refused counts as lost, whether it was in a block that waited, in one that was being filled, or came
+// after the end: what is kept and what is lost is all that was made.
+TEST(RecordWriter, OfADiskThatIsFullWhatIsKeptAndWhatIsLostIsAllThatWasMade) {
+    const Workplace at;
+    test::FailingDisk& disk = test::failing_disk();
+    disk.reset();
+    test::Recording recording;
+    ASSERT_TRUE(recording.begin(at / "a.session", on_failing_disk(kNanosecondsPerSecond / 5)));
+    recording.push(2500);
+    disk.is_full = true;
+    recording.push(2700);  // blocks wait while the disk is given time
+    EXPECT_FALSE(recording.writer->failure()) << "blocks were to wait";
+    ASSERT_TRUE(comes_true([&] {
+        recording.push(1);
+        return recording.writer->failure().has_value();
+    }));
+    recording.push(300);
+    disk.reset();  // the facts of the end find room
+    ASSERT_FALSE(recording.writer->close());
+    const auto reader = RecordReader::open(at / "a.session");
+    ASSERT_TRUE(reader) << reader.error().line();
+    const std::uint64_t kept = reader->hands()[0].rows();
+    ASSERT_GT(kept, 0u);
+    ASSERT_TRUE(reader->facts().contains("ticks lost, hand 0"));
+    EXPECT_EQ(kept + std::stoull(reader->facts().at("ticks lost, hand 0")), recording.last_tick);
+}
+
 TEST(RecordWriter, ADiskThatHasRoomAgainGetsWhatHasWaited) {
     const Workplace at;
     test::FailingDisk& disk = test::failing_disk();

@@ -226,6 +226,82 @@ TEST(MeshPart, NothingIsTakenInTheAirOrWhileTheWorkspaceMoves) {
     }
 }
 
+// The workspace has more ways to move than one: none of them takes what lies under the tool along.
+TEST(MeshPart, AButtonTakesHoldInNoPhaseOfTheWorkspaceButEditing) {
+    using Phase = haptics::WorkspacePhase;
+    for (const Phase phase :
+         {Phase::editing, Phase::paused, Phase::dragging, Phase::jumping, Phase::clutched, Phase::gliding}) {
+        MaterialTable materials;
+        auto part = *MeshPart::create(cubes(2), materials);
+        part->grip_with(0, 2u, 0.008);
+        const haptics::StrokeSample up = gripping_sample(1, {0.0, kHalf_m + 0.004, 0.0}, false);
+        haptics::StrokeSample pressed = gripping_sample(2, up.proxy_object_m, true);
+        pressed.phase = phase;
+        part->take_samples(0, std::array{up, pressed});
+        EXPECT_EQ(std::holds_alternative<HeldMotion>(part->object(1).motion), phase == Phase::editing)
+            << static_cast<int>(phase);
+    }
+}
+
+TEST(MeshPart, WhatOneHandHoldsNoOtherHandTakesAway) {
+    MaterialTable materials;
+    auto part = *MeshPart::create(cubes(2), materials);
+    for (const std::size_t hand : {0u, 1u}) part->grip_with(hand, 2u, 0.008);
+    const Vec3 on_top(0.0, kHalf_m + 0.004, 0.0);
+    for (const std::size_t hand : {0u, 1u}) part->take_samples(hand, std::array{gripping_sample(1, on_top, false)});
+    part->take_samples(0, std::array{gripping_sample(2, on_top, true)});
+    part->take_samples(1, std::array{gripping_sample(2, on_top, true)});
+    const auto* held = std::get_if<HeldMotion>(&part->object(1).motion);
+    ASSERT_NE(held, nullptr);
+    EXPECT_EQ(held->hand, 0u);
+    // The second hand, which holds nothing, lets nothing go either.
+    part->take_samples(1, std::array{gripping_sample(3, on_top, false)});
+    ASSERT_TRUE(std::holds_alternative<HeldMotion>(part->object(1).motion));
+    part->take_samples(0, std::array{gripping_sample(3, on_top, false)});
+    EXPECT_TRUE(std::holds_alternative<FixedMotion>(part->object(1).motion));
+}
+
+// Keys that turn and shift, of an object that is itself turned: in the scene's axes it would go another way.
+TEST(MeshPart, APathRunsInTheAxesOfItsObject) {
+    const Quat quarter_about_z = glm::angleAxis(glm::radians(90.0), Vec3(0.0, 0.0, 1.0));
+    const Quat eighth_about_x = glm::angleAxis(glm::radians(45.0), Vec3(1.0, 0.0, 0.0));
+    std::vector<SceneObject> objects = cubes(1);
+    objects[0].pose = {{0.5, 0.0, 0.0}, quarter_about_z};
+    objects[0].motion = PathMotion{{{0.0, {}}, {1.0, {{0.0, 0.2, 0.0}, eighth_about_x}}}, false};
+    MaterialTable materials;
+    auto part = *MeshPart::create(objects, materials);
+    ASSERT_TRUE(part->update(1'000'000'000, nullptr));
+    ASSERT_TRUE(part->update(3'000'000'000, nullptr));
+    const Pose there = part->pose(1);
+    // The object's y axis is the scene's -x, and its x axis the scene's y.
+    EXPECT_LT(glm::length(there.position_m - Vec3(0.3, 0.0, 0.0)), 1e-12)
+        << there.position_m.x << ' ' << there.position_m.y;
+    const Vec3 top = there.orientation * Vec3(0.0, 1.0, 0.0);
+    const double half = std::sqrt(0.5);
+    EXPECT_LT(glm::length(top - Vec3(-half, 0.0, half)), 1e-12) << top.x << ' ' << top.y << ' ' << top.z;
+}
+
+// What the hand feels of it is the path's velocity in the scene's axes, a quarter turn from the object's.
+TEST(MeshPart, AMovingObjectTellsItsVelocityInTheScenesAxes) {
+    std::vector<SceneObject> objects = cubes(1);
+    objects[0].pose.orientation = glm::angleAxis(glm::radians(90.0), Vec3(0.0, 0.0, 1.0));
+    const Quat half_about_y = glm::angleAxis(glm::radians(179.0), Vec3(0.0, 1.0, 0.0));
+    objects[0].motion = PathMotion{{{0.0, {}}, {2.0, {{0.0, 0.2, 0.0}, half_about_y}}}, false};
+    MaterialTable materials;
+    auto part = *MeshPart::create(objects, materials);
+    ASSERT_TRUE(part->update(1'000'000'000, nullptr));
+    ASSERT_TRUE(part->update(2'000'000'000, nullptr));
+    geometry::LocalSurface seen;
+    ASSERT_TRUE(part->add_near({0, part->pose(1).position_m, 0.1}, seen));
+    ASSERT_EQ(seen.meshes.size(), 1u);
+    const Vec3 velocity = seen.meshes[0].motion.velocity_object_m_per_s;
+    const Vec3 turning = seen.meshes[0].motion.angular_velocity_object_rad_per_s;
+    EXPECT_LT(velocity.x, -0.05);
+    EXPECT_LT(std::hypot(velocity.y, velocity.z), 1e-3);
+    EXPECT_LT(turning.x, -0.5);
+    EXPECT_LT(std::hypot(turning.y, turning.z), 1e-3);
+}
+
 TEST(MeshPart, AnUpdateIsRepeatedToTheBit) {
     std::vector<SceneObject> objects = cubes(1);
     objects[0].motion = test::up_and_down(0.1);

@@ -2,6 +2,9 @@
 // Materials, objects and paths as data.
 #include <gtest/gtest.h>
 
+#include <limits>
+
+#include "scene/haptic_material.hpp"
 #include "scene/scene_object.hpp"
 
 namespace burin::scene {
@@ -71,6 +74,16 @@ TEST(SceneObject, EveryEditIsPureAndCheckedFirst) {
           ObjectEdit{SetMaterial{{.damping_Ns_per_m = -1.0}}}})
         EXPECT_FALSE(edited(object, bad).has_value()) << bad.index();
     EXPECT_EQ(object.scale, 1.0);
+}
+
+// Four different numbers, so that none can stand in another's place; and no tool cuts an object of a scene.
+TEST(HapticMaterial, GivesTheTickEachOfItsValuesAndIsNotCut) {
+    const haptics::TouchMaterial touched = touch_material({430.0, 0.7, 0.6, 0.25});
+    EXPECT_EQ(touched.stiffness_N_per_m, 430.0);
+    EXPECT_EQ(touched.damping_Ns_per_m, 0.7);
+    EXPECT_EQ(touched.static_friction, 0.6);
+    EXPECT_EQ(touched.dynamic_friction, 0.25);
+    EXPECT_EQ(touched.hardness_Ns_per_m3, std::numeric_limits<double>::infinity());
 }
 
 TEST(PathMotion, WhatJumpsIsNamed) {

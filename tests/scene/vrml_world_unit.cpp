@@ -34,6 +34,25 @@ Box bounds(const SceneObject& object) {
 
 }  // namespace
 
+// One shape of the name is a closed box that is felt from outside; whether it stands first or last, the other's word
+// that both sides are felt holds for the object.
+TEST_F(VrmlWorldFile, AnObjectIsFeltFromBothSidesWhereAnyOfItsShapesSaysSo) {
+    const std::string solid = "Shape { geometry Box { size 0.1 0.1 0.1 } }";
+    const std::string open = R"(Transform { translation 1 0 0 children Shape { geometry IndexedFaceSet { solid FALSE
+        coord Coordinate { point [0 0 0, 1 0 0, 0 1 0, 0 0 1] }
+        coordIndex [0 2 1 -1, 0 1 3 -1, 0 3 2 -1, 1 2 3 -1] } } })";
+    for (const std::string& shapes : {open + "\n" + solid, solid + "\n" + open, solid + "\n" + open + "\n" + solid}) {
+        const WorldOrProblems world = read("DEF Thing Transform { children [\n" + shapes + "\n] }\n");
+        ASSERT_TRUE(world) << world.error().front().line();
+        ASSERT_EQ(world->objects.size(), 1u);
+        EXPECT_TRUE(world->objects[0].both_sides) << shapes;
+        EXPECT_TRUE(world->remarks.empty()) << "it is closed: the file's own word made it so";
+    }
+    const WorldOrProblems closed = read("DEF Thing Transform { children [\n" + solid + "\n] }\n");
+    ASSERT_TRUE(closed);
+    EXPECT_FALSE(closed->objects[0].both_sides);
+}
+
 TEST_F(VrmlWorldFile, NamesObjectsAndGivesThemTheirMaterial) {
     const WorldOrProblems world = read(R"(
 DEF Block Transform { translation 1 0 0 scale 2 2 2 children [

@@ -7,8 +7,10 @@
 #include <string>
 
 #include "devices/haptic/simulated_omni.hpp"
+#include "devices/haptic/simulated_wand.hpp"
 #include "sculpt/carved_scene.hpp"
 #include "sculpt/workpiece.hpp"
+#include "session/drive/session.hpp"
 #include "tests/support/test_units.hpp"
 
 namespace burin::session {
@@ -113,6 +115,26 @@ TEST(Driver, EndsAtTheFirstErrorAndStopsTheThreadsAllTheSame) {
     ASSERT_FALSE(drawing);
     EXPECT_NE(drawing.error().line().find("frames"), std::string::npos);
     EXPECT_EQ(notes, (std::vector<std::string>{"advance to 1", "make 1", "advance to 2", "make 2", "stop"}));
+}
+
+// A loop that rests takes 71 ticks a second: times in contact and smoothness of a trial would be those of another motion.
+TEST(Pace, RestsOnlyWhereNeitherAnActivityNorAPersonMissesATick) {
+    devices::DeviceDescription held, simulated;
+    simulated.felt_by_person = false;
+    for (const bool asked : {false, true})
+        for (const bool has_activity : {false, true})
+            for (const devices::DeviceDescription& device : {held, simulated}) {
+                const haptics::LoopPace pace = pace_of({.lead_ns = 7, .rests = asked}, device, has_activity);
+                EXPECT_EQ(pace.rests, asked && !has_activity && !device.felt_by_person);
+                EXPECT_EQ(pace.lead_ns, 7);
+            }
+    EXPECT_TRUE(held.felt_by_person) << "a driver that does not say is a real device's";
+}
+
+TEST(Pace, KnowsThatASimulatedDeviceIsFeltByNobody) {
+    EXPECT_FALSE(devices::SimulatedOmni(devices::SimulatedHand{}).description().felt_by_person);
+    EXPECT_FALSE(
+        devices::SimulatedWand(devices::SimulatedHand{}, devices::WandDescription{}).description().felt_by_person);
 }
 
 TEST(SteppedExecutor, TicksEachPeriodAndCarvesAfterEveryTenthTick) {

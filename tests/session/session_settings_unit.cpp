@@ -4,6 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <functional>
+#include <sstream>
+#include <string>
+#include <type_traits>
+#include <vector>
+
 namespace burin::session {
 namespace {
 
@@ -30,6 +37,99 @@ TEST(SettingsOfARecording, BeyondTheBoundsOfTheCommandLineAreRefusedByThem) {
         EXPECT_NE(refusal_of(settings).find(said), std::string::npos) << settings << ": " << refusal_of(settings);
     }
     EXPECT_EQ(refusal_of("--width 64 --height 8192 --samples 4 --resolution 16 --close-holes"), "");
+}
+
+namespace {
+
+// An option of a session: puts it away from its default, and tells its value as text.
+struct SetOption {
+    const char* name;
+    std::function<void(SculptOptions&)> change;
+    std::function<std::string(const SculptOptions&)> value;
+};
+
+template <typename Member>
+SetOption option(const char* name, Member member, auto other) {
+    return {name, [=](SculptOptions& o) { member(o) = other; },
+            [=](const SculptOptions& o) {
+                std::ostringstream text;
+                const auto& value = member(o);
+                if constexpr (requires { value.has_value(); }) {
+                    text << value.has_value();
+                    if (!value) return text.str();
+                    if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(*value)>>)
+                        text << ' ' << static_cast<int>(*value);
+                    else
+                        text << ' ' << *value;
+                } else if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(value)>>) {
+                    text << static_cast<int>(value);
+                } else {
+                    text << value;
+                }
+                return text.str();
+            }};
+}
+
+// Member access that works for options and for constant ones.
+#define BURIN_OF(path) [](auto& o) -> auto& { return o.path; }
+
+const std::vector<SetOption>& every_option() {
+    static const std::vector<SetOption> options{
+        option("--world", BURIN_OF(world), "a b.wrl"),
+        option("--no-workpiece", BURIN_OF(no_workpiece), true),
+        option("--points", BURIN_OF(points), "top,bottom"),
+        option("--workpiece", BURIN_OF(workpiece.source), "my part.stl"),
+        option("--units", BURIN_OF(workpiece.units), LengthUnit::mm),
+        option("--export-units", BURIN_OF(export_units), LengthUnit::cm),
+        option("--close-holes", BURIN_OF(workpiece.close_holes), true),
+        option("--resolution", BURIN_OF(workpiece.resolution), 97),
+        option("--tool", BURIN_OF(tool.shape), "box:0.01,0.02,0.03"),
+        option("--operation", BURIN_OF(tool.operation), compute::Operation::fill),
+        option("--material", BURIN_OF(tool.material), "1,2,3"),
+        option("--sweep-tolerance", BURIN_OF(tool.sweep_tolerance_cells), 0.25),
+        option("--smooth-strength", BURIN_OF(tool.smooth_strength), 0.75),
+        option("--hardness", BURIN_OF(feel.hardness), "oak"),
+        option("--yield", BURIN_OF(feel.yield_kPa), 12.5),
+        option("--grain", BURIN_OF(feel.grain_mm), 1.5),
+        option("--stiffness", BURIN_OF(feel.stiffness_N_per_m), 433.0),
+        option("--friction", BURIN_OF(feel.friction), 0.31),
+        option("--undo-memory", BURIN_OF(undo_memory_MiB), std::size_t{77}),
+        option("--device", BURIN_OF(live.device), "simulated-wand:w.toml"),
+        option("--wall", BURIN_OF(live.wall), "cave.toml"),
+        option("--stereo", BURIN_OF(live.stereo), "side-by-side"),
+        option("--swap-eyes", BURIN_OF(live.swap_eyes), true),
+        option("--width", BURIN_OF(live.width), 640),
+        option("--height", BURIN_OF(live.height), 480),
+        option("--panel-window", BURIN_OF(live.panel_window), true),
+        option("--samples", BURIN_OF(live.samples), 4u),
+    };
+    return options;
+}
+#undef BURIN_OF
+
+}  // namespace
+
+// A recording that forgets one of them is done again as another session, and nobody is told.
+TEST(SettingsOfARecording, HoldEveryOptionAndGiveItBack) {
+    SculptOptions all;
+    all.workpiece.units = LengthUnit::m;  // a line without a unit is an old one
+    all.tool.shape = "ball:0.01";
+    for (const SetOption& one : every_option()) {
+        SculptOptions changed = all;
+        const std::string usual = one.value(changed);
+        one.change(changed);
+        ASSERT_NE(one.value(changed), usual) << one.name << " was to be away from its default";
+        const std::string line = settings_line(changed);
+        const auto back = options_as_recorded(line, SculptOptions{});
+        ASSERT_TRUE(back) << back.error().line();
+        for (const SetOption& each : every_option())
+            EXPECT_EQ(each.value(back->options), each.value(changed)) << each.name << " of " << line;
+    }
+    for (const SetOption& one : every_option()) one.change(all);
+    const std::string line = settings_line(all);
+    std::size_t named = 0;
+    for (std::size_t at = line.find(" --"); at != std::string::npos; at = line.find(" --", at + 1)) ++named;
+    EXPECT_EQ(named, every_option().size()) << "an option that this test does not know: " << line;
 }
 
 TEST(SettingsOfARecording, AnOptionIsFoundWhateverElseIsOnTheLine) {
