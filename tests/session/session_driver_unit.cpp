@@ -132,9 +132,10 @@ TEST(Pace, RestsOnlyWhereNeitherAnActivityNorAPersonMissesATick) {
 }
 
 TEST(Pace, KnowsThatASimulatedDeviceIsFeltByNobody) {
-    EXPECT_FALSE(devices::SimulatedOmni(devices::SimulatedHand{}).description().felt_by_person);
-    EXPECT_FALSE(
-        devices::SimulatedWand(devices::SimulatedHand{}, devices::WandDescription{}).description().felt_by_person);
+    const auto hand = devices::SimulatedHand::create({{}});
+    ASSERT_TRUE(hand) << hand.error().line();
+    EXPECT_FALSE(devices::SimulatedOmni(*hand).description().felt_by_person);
+    EXPECT_FALSE(devices::SimulatedWand(*hand).description().felt_by_person);
 }
 
 TEST(SteppedExecutor, TicksEachPeriodAndCarvesAfterEveryTenthTick) {
