@@ -227,7 +227,8 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
     }
 
     LiveFrames frames(session, *presenter, std::move(input), clock, tracker.get());
-    ThreadedExecutor threads(clock, session.loop(), session.channels(), session.scene(), run.pace,
+    const haptics::LoopPace pace = pace_beside_activity(run.pace, session.has_activity());
+    ThreadedExecutor threads(clock, session.loop(), session.channels(), session.scene(), pace,
                              [&session, &wake](const auto& ended) {
                                  if (session.collect(ended) || ended.failed) wake();
                              });

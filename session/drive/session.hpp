@@ -46,7 +46,14 @@ struct ReplayManner {
 
 // ---- The three kinds
 
-// Options of a real-time run. The haptic loop rests by default, since nobody feels the force on a simulated hand.
+// Returns the pace of a live loop: as asked, but where an activity lives by its ticks it never rests. Figures of a stage,
+// a search or an exercise are made of every tick that there should be.
+[[nodiscard]] inline haptics::LoopPace pace_beside_activity(haptics::LoopPace asked, bool has_activity) {
+    asked.rests = asked.rests && !has_activity;
+    return asked;
+}
+
+// Options of a real-time run. The haptic loop may rest by default, since nobody feels the force on a simulated hand.
 struct RealTimeRun {
     bool keep_frames = false;  // keeps every frame and its times in the record
     haptics::LoopPace pace = {.rests = true};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "session/drive/session.hpp"
 #include "session/drive/session_frames.hpp"
 #include "session/drive/thread_replay.hpp"
 #include "session/state/session_settings.hpp"
@@ -264,6 +265,16 @@ std::string with_another_move(const std::string& text) {
 }  // namespace
 
 // ---- A whole session
+
+TEST(LoopPace, OfASessionWithAnActivityNeverRests) {
+    const haptics::LoopPace usual = RealTimeRun{}.pace;
+    EXPECT_TRUE(usual.rests);
+    EXPECT_TRUE(pace_beside_activity(usual, false).rests);
+    EXPECT_FALSE(pace_beside_activity(usual, true).rests);
+    const haptics::LoopPace of_a_device{.lead_ns = haptics::HapticLoop::kLead_ns};
+    EXPECT_FALSE(pace_beside_activity(of_a_device, false).rests);
+    EXPECT_EQ(pace_beside_activity(of_a_device, true).lead_ns, of_a_device.lead_ns);
+}
 
 TEST(ThreadReplay, DoesTheSameAsTheThreadsDid) {
     const Workplace place;
