@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 
 #include "base/plot/figures.hpp"
+#include "study/metrics/even_motion.hpp"
 
 namespace burin::study {
 namespace {
@@ -43,16 +43,16 @@ std::string path_figure(const ShownTrial& trial) {
                             {view("from the front", 1, "y (mm)"), view("from above", 2, "z (mm)")}, 1);
 }
 
-// Three plots, one for each axis, of a vector over the time since the clock's start.
+// Three plots, one for each axis, of a vector over the time since the clock's start; the model ticks at an even rate.
 std::string axes_figure(const std::string& title, const char* quantity, const std::vector<Vec3>& vectors,
-                        std::span<const Nanoseconds> times_ns, double factor) {
+                        double factor) {
     std::vector<plot::TimePlot> plots;
     const std::vector<std::size_t> drawn = drawn_ticks(vectors.size());
     for (int axis = 0; axis < 3; ++axis) {
         plot::TimePlot plot{std::string("along ") + kAxisNames[static_cast<std::size_t>(axis)], quantity, {}, {}};
         plot::TimeSeries series{"", {}};
         for (const std::size_t i : drawn) {
-            plot.times_s.push_back(seconds(times_ns[i] - times_ns.front()));
+            plot.times_s.push_back(static_cast<double>(i) / kEvenRate_Hz);
             series.values.push_back(factor * vectors[i][axis]);
         }
         plot.series.push_back(std::move(series));
@@ -69,12 +69,11 @@ std::vector<std::string> trial_figures(const ShownTrial& trial) {
         std::vector<Vec3> deviations_m;
         for (std::size_t i = 0; i < trial.model.points_m[p].size(); ++i)
             deviations_m.push_back(trial.model.points_m[p][i] - trial.model.collision_points_m[p][i]);
-        figures.push_back(axes_figure(std::string("Deviation of the ") + kPointNames[p], "mm", deviations_m,
-                                      trial.model.times_ns, 1000.0));
+        figures.push_back(axes_figure(std::string("Deviation of the ") + kPointNames[p], "mm", deviations_m, 1000.0));
     }
     for (std::size_t p = 0; p < kPointNames.size(); ++p)
-        figures.push_back(axes_figure(std::string("Force on the ") + kPointNames[p], "N", trial.model.forces_N[p],
-                                      trial.model.times_ns, 1.0));
+        figures.push_back(
+            axes_figure(std::string("Force on the ") + kPointNames[p], "N", trial.model.forces_N[p], 1.0));
     return figures;
 }
 
