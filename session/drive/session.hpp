@@ -46,8 +46,8 @@ struct ReplayManner {
 
 // ---- The three kinds
 
-// Returns the pace of a live loop: as asked, but where an activity lives by its ticks it never rests. Figures of a stage,
-// a search or an exercise are made of every tick that there should be.
+// Returns the pace of a live loop: as asked, but where an activity lives by its ticks it never rests. Figures of a
+// stage, a search or an exercise are made of every tick that there should be.
 [[nodiscard]] inline haptics::LoopPace pace_beside_activity(haptics::LoopPace asked, bool has_activity) {
     asked.rests = asked.rests && !has_activity;
     return asked;

@@ -22,7 +22,10 @@ void FeltForces::add(const haptics::TickRecord& record) {
     largest_N = std::max(largest_N, force_N);
     largest_torque_Nm = std::max(largest_torque_Nm, glm::length(record.gate.given.torque_device_Nm));
     limited_ticks += limited ? 1 : 0;
-    faults += record.gate.cause != haptics::GateCause::none ? 1 : 0;
+    if (record.gate.cause != haptics::GateCause::none) {
+        ++faults;
+        cause = record.gate.cause;
+    }
     late_ticks += (record.flags & haptics::kTickLate) != 0 ? 1 : 0;
     was_in_contact = contact;
     was_limited = limited;

@@ -31,6 +31,7 @@ struct FeltForces {
     double contact_s = 0.0, limited_s = 0.0;
     double sum_Ns = 0.0, largest_N = 0.0;  // of the commanded force; the sum over the time in contact
     double largest_torque_Nm = 0.0;
+    haptics::GateCause cause = haptics::GateCause::none;  // of the last tick without force
     bool was_in_contact = false, was_limited = false;
     double was_N = 0.0;
     Nanoseconds last_ns = 0, touched_ns = 0;  // of the last tick, and of the last in contact
@@ -77,11 +78,11 @@ private:
     bool was_running_ = false;
 };
 
-// What the haptic model makes of an attempt's motion (W18): a tick a millisecond, whatever the device's rate, since what
-// a wall gives depends on the period of its ticks; with the tube and the funnels pressing on the wand, and both proxies
-// on the axis at the start cap before the first. The motion goes straight between the times at which the device was
-// read, or those of its ticks where it does not say. Forces are each point's own, before the force limit; the frame of
-// all is the world's.
+// What the haptic model makes of an attempt's motion (W18): a tick a millisecond, whatever the device's rate, since
+// what a wall gives depends on the period of its ticks; with the tube and the funnels pressing on the wand, and both
+// proxies on the axis at the start cap before the first. The motion goes straight between the times at which the device
+// was read, or those of its ticks where it does not say. Forces are each point's own, before the force limit; the frame
+// of all is the world's.
 struct ModelTouch {
     std::vector<Nanoseconds> times_ns;
     std::array<std::vector<Vec3>, 2> points_m, collision_points_m, forces_N;  // top, bottom
