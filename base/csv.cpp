@@ -95,6 +95,12 @@ std::optional<double> finite_number(std::string_view text) {
     return value;
 }
 
+std::string csv_number(double value) {
+    if (!std::isfinite(value)) return "";
+    char text[40];
+    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
 std::string csv_field(std::string_view text) {
     if (text.find_first_of(",\"\n") == std::string_view::npos) return std::string(text);
     std::string quoted = "\"";

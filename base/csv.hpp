@@ -38,6 +38,9 @@ struct CsvLine {
 // Returns the number that is the whole text; nothing for any other text, and for nan and inf.
 [[nodiscard]] std::optional<double> finite_number(std::string_view text);
 
+// The shortest text that is read back as the same bits; empty for what is not finite.
+[[nodiscard]] std::string csv_number(double value);
+
 // Writes a field, in quotes where it needs them.
 [[nodiscard]] std::string csv_field(std::string_view text);
 

@@ -56,6 +56,18 @@ Difference difference_of(const std::string& hand, const Column& column, std::int
     return difference;
 }
 
+std::optional<Difference> difference_in_row(const HandRecord& hand, const Block& block, std::uint32_t row,
+                                            std::span<const Word> again) {
+    BURIN_CHECK(again.size() == hand.columns.size() && again.size() == block.columns());
+    const std::size_t tick = find_column(hand, "tick", ColumnType::i64);
+    const auto number = tick < hand.columns.size() ? static_cast<std::int64_t>(block.at(tick, row)) : std::int64_t{0};
+    for (std::size_t c = 0; c < again.size(); ++c) {
+        const Word stored = block.at(c, row);
+        if (stored != again[c]) return difference_of(hand.name, hand.columns[c], number, stored, again[c]);
+    }
+    return std::nullopt;
+}
+
 std::string Difference::line() const {
     if (column.empty())
         return hand + ", tick " + std::to_string(tick) + ": only the " + (first == "-" ? "second" : "first") +

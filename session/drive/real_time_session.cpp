@@ -232,7 +232,7 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
     }
 
     LiveFrames frames(session, *presenter, std::move(input), clock, tracker.get());
-    const haptics::LoopPace pace = pace_of(run.pace, session.device(), options.activity != nullptr);
+    const haptics::LoopPace pace = pace_of(run.pace, session.device(), session.has_activity());
     ThreadedExecutor threads(clock, session.loop(), session.channels(), session.scene(), pace,
                              [&session, &wake](const auto& ended) {
                                  if (session.collect(ended) || ended.failed) wake();

@@ -46,7 +46,7 @@ struct ReplayManner {
 
 // ---- The three kinds
 
-// Options of a real-time run. The haptic loop rests by default, since nobody feels the force on a simulated hand.
+// Options of a real-time run. The haptic loop may rest by default, since nobody feels the force on a simulated hand.
 struct RealTimeRun {
     bool keep_frames = false;  // keeps every frame and its times in the record
     haptics::LoopPace pace = {.rests = true};  // of what pace_of() allows

@@ -23,6 +23,7 @@ public:
         if (activity_) tap_.emplace(0);
     }
 
+    [[nodiscard]] bool is_there() const { return activity_ != nullptr; }
     // Returns the part of the scene by which the hand's ticks come; null without an activity.
     [[nodiscard]] SampleTap* tap() { return tap_ ? &*tap_ : nullptr; }
     // Takes ticks that the scene has read, for the next step.

@@ -127,6 +127,7 @@ public:
     [[nodiscard]] Outside take_outside() { return {log_.take_events(), std::exchange(refused_, std::nullopt)}; }
 
     [[nodiscard]] const devices::DeviceDescription& device() const { return haptics_.device(); }
+    [[nodiscard]] bool has_activity() const { return activity_.is_there(); }
     [[nodiscard]] haptics::HapticChannels& channels() { return haptics_.channels(); }
     // Returns the surface as it is carved now; null without a workpiece.
     [[nodiscard]] const compute::Surface* surface() const { return carving_ ? &carving_->surface() : nullptr; }

@@ -3,29 +3,37 @@
 
 #include <algorithm>
 
+#include "study/metrics/trial_metrics.hpp"
+
 namespace burin::study {
 
 void FeltForces::add(const haptics::TickRecord& record) {
-    ++ticks;
-    const bool contact = record.in_contact();
-    if (contact && !was_in_contact) ++contacts;
-    was_in_contact = contact;
+    const double half_s = ticks > 0 ? 0.5 * seconds(record.time_ns - last_ns) : 0.0;
+    const bool contact = record.in_contact(), limited = record.gate.saturated;
     const double force_N = glm::length(record.gate.given.force_device_N);
+    ++ticks;
+    if (contact) {
+        if (contacts == 0 || seconds(record.time_ns - touched_ns) > kContactBreak_s) ++contacts;
+        touched_ns = record.time_ns;
+    }
+    contact_s += half_s * ((was_in_contact ? 1.0 : 0.0) + (contact ? 1.0 : 0.0));
+    sum_Ns += half_s * ((was_in_contact ? was_N : 0.0) + (contact ? force_N : 0.0));
+    limited_s += half_s * ((was_limited ? 1.0 : 0.0) + (limited ? 1.0 : 0.0));
     largest_N = std::max(largest_N, force_N);
     largest_torque_Nm = std::max(largest_torque_Nm, glm::length(record.gate.given.torque_device_Nm));
-    if (contact) {
-        ++contact_ticks;
-        sum_N += force_N;
-    }
-    limited_ticks += record.gate.saturated ? 1 : 0;
+    limited_ticks += limited ? 1 : 0;
     if (record.gate.cause != haptics::GateCause::none) {
         ++faults;
         cause = record.gate.cause;
     }
     late_ticks += (record.flags & haptics::kTickLate) != 0 ? 1 : 0;
+    was_in_contact = contact;
+    was_limited = limited;
+    was_N = force_N;
+    last_ns = record.time_ns;
 }
 
-double FeltForces::mean_N() const { return contact_ticks > 0 ? sum_N / static_cast<double>(contact_ticks) : 0.0; }
+double FeltForces::mean_N() const { return contact_s > 0.0 ? sum_Ns / contact_s : 0.0; }
 
 StageSession::StageSession(const Protocol& protocol, const Stage& stage, const Group& group, const FeltWorld& world)
     : touch_(protocol, stage, group, world), setup_(setup_of(protocol, stage)) {}
@@ -66,21 +74,65 @@ bool StageSession::step_on(const haptics::TickRecord& record, const devices::Dev
     return at_start;
 }
 
+namespace {
+
+// The times at which the device was read, where it says them; those of its ticks otherwise.
+std::vector<Nanoseconds> times_of(std::span<const AttemptTick> attempt) {
+    std::vector<Nanoseconds> read_ns, ticked_ns;
+    for (const AttemptTick& tick : attempt) {
+        read_ns.push_back(tick.sample_ns);
+        ticked_ns.push_back(tick.now_ns);
+    }
+    const bool says = std::ranges::is_sorted(read_ns) && !read_ns.empty() && read_ns.front() < read_ns.back();
+    return says ? read_ns : ticked_ns;
+}
+
+// A tick between two, or one of them.
+AttemptTick between(const AttemptTick& before, const AttemptTick& after, double share) {
+    AttemptTick tick = before;
+    if (!(share > 0.0)) return tick;
+    tick.position_device_m += share * (after.position_device_m - before.position_device_m);
+    tick.orientation_device = glm::slerp(before.orientation_device, after.orientation_device, share);
+    return tick;
+}
+
+// The attempt a millisecond a tick, whatever its device's rate: what a wall gives depends on the period of its ticks.
+std::vector<AttemptTick> every_millisecond(std::span<const AttemptTick> attempt) {
+    constexpr Nanoseconds kStep_ns = 1'000'000;
+    const std::vector<Nanoseconds> times_ns = times_of(attempt);
+    std::vector<AttemptTick> even;
+    std::size_t next = 0;  // the first tick behind the place
+    for (Nanoseconds at_ns = times_ns.empty() ? 0 : times_ns.front(); next < times_ns.size(); at_ns += kStep_ns) {
+        while (next < times_ns.size() && times_ns[next] <= at_ns) ++next;
+        if (next == times_ns.size() && times_ns.back() < at_ns) break;
+        const std::size_t last = std::min(next, times_ns.size() - 1);
+        const Nanoseconds whole_ns = times_ns[last] - times_ns[next - 1];
+        const double share = whole_ns > 0 ? seconds(at_ns - times_ns[next - 1]) / seconds(whole_ns) : 0.0;
+        even.push_back(between(attempt[next - 1], attempt[last], share));
+        even.back().sample_ns = even.back().now_ns = at_ns;
+    }
+    return even;
+}
+
+}  // namespace
+
 ModelTouch touch_by_model(const Protocol& protocol, const Stage& stage, const FeltWorld& world,
                           std::span<const AttemptTick> attempt) {
     ModelTouch model;
     StageTouch touch(protocol, stage, {}, world, TouchPurpose::model);
-    for (const AttemptTick& tick : attempt) {
+    for (const AttemptTick& tick : every_millisecond(attempt)) {
         devices::DeviceSample sample;
         sample.time_ns = tick.sample_ns;
         sample.position_device_m = tick.position_device_m;
         sample.orientation_device = tick.orientation_device;
         const haptics::TickRecord& record = touch.tick(sample, tick.now_ns);
+        const std::array<Vec3, kWandPoints> points_m = touch.points_m(sample);
+        model.times_ns.push_back(tick.now_ns);
         for (std::size_t i = 0; i < kWandPoints; ++i) {
             const haptics::PointRecord& point = record.contact.points[i];
             const bool known = record.contact.point_count == kWandPoints;
-            model.points_m[i].push_back(tick.points_m[i]);
-            model.collision_points_m[i].push_back(known ? point.proxy_object_m : tick.points_m[i]);
+            model.points_m[i].push_back(points_m[i]);
+            model.collision_points_m[i].push_back(known ? point.proxy_object_m : points_m[i]);
             model.forces_N[i].push_back(known ? point.force_device_N : Vec3(0.0));
         }
     }

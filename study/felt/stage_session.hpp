@@ -24,16 +24,20 @@ struct AttemptTick {
     std::array<Vec3, 2> points_m{};  // top, bottom
 };
 
-// What the hand was given over a stage.
+// What the hand was given over a stage. Times are those that the ticks state, whatever their rate: what begins or ends
+// between two ticks lasts for half of the time between them. Contacts are episodes (study/metrics/trial_metrics.hpp).
 struct FeltForces {
-    std::uint64_t ticks = 0, contact_ticks = 0, contacts = 0, limited_ticks = 0, faults = 0, late_ticks = 0;
-    double sum_N = 0.0, largest_N = 0.0;  // of the commanded force; the sum over the ticks in contact
+    std::uint64_t ticks = 0, contacts = 0, limited_ticks = 0, faults = 0, late_ticks = 0;
+    double contact_s = 0.0, limited_s = 0.0;
+    double sum_Ns = 0.0, largest_N = 0.0;  // of the commanded force; the sum over the time in contact
     double largest_torque_Nm = 0.0;
     haptics::GateCause cause = haptics::GateCause::none;  // of the last tick without force
-    bool was_in_contact = false;
+    bool was_in_contact = false, was_limited = false;
+    double was_N = 0.0;
+    Nanoseconds last_ns = 0, touched_ns = 0;  // of the last tick, and of the last in contact
 
     void add(const haptics::TickRecord& record);
-    [[nodiscard]] double mean_N() const;  // over the ticks in contact; 0 without any
+    [[nodiscard]] double mean_N() const;  // over the time in contact; 0 without any
 };
 
 class StageSession {
@@ -74,10 +78,13 @@ private:
     bool was_running_ = false;
 };
 
-// What the haptic model makes of an attempt's motion (W18): a tick for each, with the tube and the funnels pressing on
-// the wand, and both proxies on the axis at the start cap before the first. Forces are each point's own, before the
-// force limit; the frame of all is the world's.
+// What the haptic model makes of an attempt's motion (W18): a tick a millisecond, whatever the device's rate, since
+// what a wall gives depends on the period of its ticks; with the tube and the funnels pressing on the wand, and both
+// proxies on the axis at the start cap before the first. The motion goes straight between the times at which the device
+// was read, or those of its ticks where it does not say. Forces are each point's own, before the force limit; the frame
+// of all is the world's.
 struct ModelTouch {
+    std::vector<Nanoseconds> times_ns;
     std::array<std::vector<Vec3>, 2> points_m, collision_points_m, forces_N;  // top, bottom
 };
 [[nodiscard]] ModelTouch touch_by_model(const Protocol& protocol, const Stage& stage, const FeltWorld& world,

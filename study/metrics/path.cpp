@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/metrics/even_motion.hpp"
 #include "study/statistics/outcome.hpp"
 
 namespace burin::study {
@@ -31,13 +32,8 @@ double distance_to_polyline(const Vec3& point, std::span<const Vec3> line) {
     return least;
 }
 
-Distances mean_and_largest(std::span<const double> distances) {
-    Distances both;
-    for (const double distance : distances) {
-        both.mean_m += distance / static_cast<double>(distances.size());
-        both.largest_m = std::max(both.largest_m, distance);
-    }
-    return both;
+Distances mean_and_largest(std::span<const double> distances, std::span<const double> weights = {}) {
+    return {.mean_m = weighted_mean(distances, weights), .largest_m = std::ranges::max(distances)};
 }
 
 }  // namespace
@@ -58,11 +54,12 @@ double economy_of_path(std::span<const Vec3> points_m, double ideal_length_m) {
     return length > 0.0 ? ideal_length_m / length : kUndefined;
 }
 
-Distances distances_to_centreline(std::span<const Vec3> points_m, std::span<const Vec3> centreline_m) {
+Distances distances_to_centreline(std::span<const Vec3> points_m, std::span<const Vec3> centreline_m,
+                                  std::span<const double> weights) {
     if (!is_path(points_m) || !is_path(centreline_m)) return kNoDistances;
     std::vector<double> distances;
     for (const Vec3& point : points_m) distances.push_back(distance_to_polyline(point, centreline_m));
-    return mean_and_largest(distances);
+    return mean_and_largest(distances, weights);
 }
 
 Distances arc_length_matched(std::span<const Vec3> points_m, std::span<const Vec3> centreline_m, std::size_t places) {

@@ -25,8 +25,10 @@ struct Distances {
     double mean_m = 0.0, largest_m = 0.0;
 };
 
-// From each point to the nearest place of the centreline. Cost: the product of both sizes.
-[[nodiscard]] Distances distances_to_centreline(std::span<const Vec3> points_m, std::span<const Vec3> centreline_m);
+// From each point to the nearest place of the centreline. The mean is by weights, the seconds that each point stands
+// for (even_motion.hpp), or of all points alike without any. Cost: the product of both sizes.
+[[nodiscard]] Distances distances_to_centreline(std::span<const Vec3> points_m, std::span<const Vec3> centreline_m,
+                                                std::span<const double> weights = {});
 
 // Between places that lie at the same share of either path's length, at `places` equal shares from start to end (at
 // least 2). Unlike the nearest distance it sees going back and forth, and it does not depend on speed.

@@ -3,38 +3,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "base/error.hpp"
-#include "study/metrics/smoothness.hpp"
 #include "study/statistics/outcome.hpp"
 
 namespace burin::study {
 namespace {
 
-PointMetrics measure_point(const PointSamples& samples, std::span<const Vec3> centreline_m, double rate_hz,
+PointMetrics measure_point(const PointSamples& samples, const TrialSamples& trial, std::span<const double> weights,
                            double threshold_N) {
-    const std::vector<double> speeds = speeds_m_per_s(samples.positions_m, rate_hz);
-    return {.deviation_m = mean_deviation_m(samples.positions_m, samples.collision_points_m),
-            .to_centreline = distances_to_centreline(samples.positions_m, centreline_m),
-            .along_centreline = arc_length_matched(samples.positions_m, centreline_m),
-            .frechet_m = frechet_distance_m(samples.positions_m, centreline_m),
-            .path_length_m = path_length_m(samples.positions_m),
-            .economy = economy_of_path(samples.positions_m, path_length_m(centreline_m)),
-            .spectral_arc_length = spectral_arc_length(speeds, rate_hz),
-            .dimensionless_jerk = dimensionless_jerk(speeds, rate_hz),
-            .log_dimensionless_jerk = log_dimensionless_jerk(speeds, rate_hz),
-            .contact = contact_figures(samples.forces_N, rate_hz, threshold_N)};
+    PointMetrics metrics{.deviation_m = mean_deviation_m(samples.positions_m, samples.collision_points_m, weights),
+                         .to_centreline = distances_to_centreline(samples.positions_m, trial.centreline_m, weights),
+                         .along_centreline = arc_length_matched(samples.positions_m, trial.centreline_m),
+                         .frechet_m = frechet_distance_m(samples.positions_m, trial.centreline_m),
+                         .motion = motion_figures(samples.positions_m, trial.times_ns),
+                         .contact = contact_figures(samples.forces_N, trial.times_ns, threshold_N)};
+    metrics.economy = path_length_m(trial.centreline_m) / metrics.motion.path_length_m;
+    return metrics;
 }
 
 }  // namespace
 
-double mean_deviation_m(std::span<const Vec3> points_m, std::span<const Vec3> collision_points_m) {
+double mean_deviation_m(std::span<const Vec3> points_m, std::span<const Vec3> collision_points_m,
+                        std::span<const double> weights) {
     BURIN_CHECK(points_m.size() == collision_points_m.size());
-    const std::size_t n = std::min(points_m.size(), collision_points_m.size());
-    if (n == 0) return kUndefined;
-    double sum = 0.0;
-    for (std::size_t i = 0; i < n; ++i) sum += glm::distance(points_m[i], collision_points_m[i]);
-    return sum / static_cast<double>(n);
+    std::vector<double> lengths;
+    for (std::size_t i = 0; i < std::min(points_m.size(), collision_points_m.size()); ++i)
+        lengths.push_back(glm::distance(points_m[i], collision_points_m[i]));
+    return weighted_mean(lengths, weights);
 }
 
 double effectiveness_index(double deviation_top, double deviation_bottom) {
@@ -45,35 +43,36 @@ double effectiveness_cost(double time, double deviation, const EffectivenessWeig
     return weights.of_time * time + weights.of_deviation * deviation;
 }
 
-ContactFigures contact_figures(std::span<const Vec3> forces_N, double rate_hz, double threshold_N) {
+ContactFigures contact_figures(std::span<const Vec3> forces_N, std::span<const Nanoseconds> times_ns,
+                               double threshold_N) {
+    BURIN_CHECK(forces_N.size() == times_ns.size());
     ContactFigures figures;
-    std::size_t ticks = 0;
-    double sum_N = 0.0;
-    bool in_contact = false;
-    for (const Vec3& force : forces_N) {
-        const double size_N = glm::length(force);
+    const std::vector<double> stands_for_s = tick_seconds(times_ns);
+    double sum_Ns = 0.0;
+    std::optional<Nanoseconds> touched_ns;  // last
+    for (std::size_t i = 0; i < std::min(forces_N.size(), stands_for_s.size()); ++i) {
+        const double size_N = glm::length(forces_N[i]);
         if (!std::isfinite(size_N)) return {kUndefined, figures.episodes, kUndefined, kUndefined};
-        const bool touches = size_N > threshold_N;
-        if (touches) {
-            ++ticks;
-            sum_N += size_N;
+        if (size_N > threshold_N) {
+            figures.time_s += stands_for_s[i];
+            sum_Ns += stands_for_s[i] * size_N;
             figures.peak_force_N = std::max(figures.peak_force_N, size_N);
-            if (!in_contact) ++figures.episodes;
+            if (!touched_ns || seconds(times_ns[i] - *touched_ns) > kContactBreak_s) ++figures.episodes;
+            touched_ns = times_ns[i];
         }
-        in_contact = touches;
     }
-    figures.time_s = rate_hz > 0.0 ? static_cast<double>(ticks) / rate_hz : kUndefined;
-    figures.mean_force_N = ticks > 0 ? sum_N / static_cast<double>(ticks) : kUndefined;
+    figures.mean_force_N = figures.time_s > 0.0 ? sum_Ns / figures.time_s : kUndefined;
     return figures;
 }
 
 TrialMetrics measure_trial(const TrialSamples& samples, const EffectivenessWeights& weights,
                            double contact_threshold_N) {
-    const std::size_t ticks = samples.top.positions_m.size();
     TrialMetrics metrics;
-    metrics.time_s = ticks > 0 && samples.rate_hz > 0.0 ? static_cast<double>(ticks - 1) / samples.rate_hz : kUndefined;
-    metrics.top = measure_point(samples.top, samples.centreline_m, samples.rate_hz, contact_threshold_N);
-    metrics.bottom = measure_point(samples.bottom, samples.centreline_m, samples.rate_hz, contact_threshold_N);
+    metrics.time_s =
+        samples.times_ns.empty() ? kUndefined : seconds(samples.times_ns.back() - samples.times_ns.front());
+    const std::vector<double> stand_for_s = tick_seconds(samples.times_ns);
+    metrics.top = measure_point(samples.top, samples, stand_for_s, contact_threshold_N);
+    metrics.bottom = measure_point(samples.bottom, samples, stand_for_s, contact_threshold_N);
     const double top_mm = 1000.0 * metrics.top.deviation_m, bottom_mm = 1000.0 * metrics.bottom.deviation_m;
     metrics.effectiveness_index = effectiveness_index(top_mm, bottom_mm);
     metrics.effectiveness_cost = effectiveness_cost(metrics.time_s, top_mm + bottom_mm, weights);

@@ -76,7 +76,6 @@ private:
     unsigned attempt_ = 1;
     double lean_phase_ = 0.0;
 };
-inline constexpr double kSimulatedRate_Hz = 1000.0;
 inline constexpr double kOperatorWaits_s = 1.0;  // before a simulated operator ends what nothing else ends
 
 // After the stage: training counts, whatever the kind.

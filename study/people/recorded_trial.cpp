@@ -6,9 +6,10 @@
 #include <cmath>
 #include <map>
 
+#include "base/csv.hpp"
 #include "base/text.hpp"
+#include "study/metrics/even_motion.hpp"
 #include "study/metrics/path.hpp"
-#include "study/metrics/smoothness.hpp"
 #include "study/metrics/trial_metrics.hpp"
 #include "study/people/learner.hpp"
 
@@ -39,11 +40,11 @@ constexpr std::array kColumns{"deviation_mm",
                               "force_mean_N",
                               "force_largest_N"};
 
-double mean_outside_mm(const StudyWorld& world, const std::vector<Vec3>& points_m) {
+double mean_outside_mm(const StudyWorld& world, const std::vector<Vec3>& points_m, std::span<const double> weights) {
     std::vector<Vec3> collisions_m;
     collisions_m.reserve(points_m.size());
     for (const Vec3& p : points_m) collisions_m.push_back(within_tube(world, p));
-    return kMillimetres * mean_deviation_m(points_m, collisions_m);
+    return kMillimetres * mean_deviation_m(points_m, collisions_m, weights);
 }
 
 // Mean deviations of the two points, in millimetres.
@@ -57,9 +58,10 @@ struct Deviations {
 
 Deviations deviations_of(const StudyWorld& world, const ModelTouch& model) {
     Deviations d;
+    const std::vector<double> weights = tick_seconds(model.times_ns);
     for (std::size_t i = 0; i < 2; ++i) {
-        d.proxy_mm[i] = kMillimetres * mean_deviation_m(model.points_m[i], model.collision_points_m[i]);
-        d.wall_mm[i] = mean_outside_mm(world, model.points_m[i]);
+        d.proxy_mm[i] = kMillimetres * mean_deviation_m(model.points_m[i], model.collision_points_m[i], weights);
+        d.wall_mm[i] = mean_outside_mm(world, model.points_m[i], weights);
     }
     return d;
 }
@@ -73,7 +75,7 @@ std::vector<Vec3> sums_of(const ModelTouch& model) {
 }
 
 void add_contact(Json& record, const ModelTouch& model) {
-    const ContactFigures contact = contact_figures(sums_of(model), kSimulatedRate_Hz);
+    const ContactFigures contact = contact_figures(sums_of(model), model.times_ns);
     record["contact_s"] = contact.time_s;
     record["contacts"] = contact.episodes;
     record["force_mean_N"] = contact.episodes > 0 ? contact.mean_force_N : 0.0;
@@ -92,8 +94,8 @@ Json trial_record(const StudyWorld& world, const StageState& end, std::span<cons
     const Deviations deviation = deviations_of(world, model);
     const double top_mm = deviation.wall_mm[0], bottom_mm = deviation.wall_mm[1];
     const bool differ = deviation.differ_mm() > kDeviationsAgree_mm;
-    const Distances nearest = distances_to_centreline(middle_m, world.spine_m);
-    const std::vector<double> speeds = speeds_m_per_s(middle_m, kSimulatedRate_Hz);
+    const Distances nearest = distances_to_centreline(middle_m, world.spine_m, tick_seconds(model.times_ns));
+    const MotionFigures motion = motion_figures(middle_m, model.times_ns);
     std::size_t failed = 0;
     for (const StageEvent& e : events) failed += e.kind == StageEventKind::attempt_failed ? 1 : 0;
     Json record{{"deviation_mm", top_mm + bottom_mm},
@@ -108,10 +110,11 @@ Json trial_record(const StudyWorld& world, const StageState& end, std::span<cons
                 {"from_axis_most_mm", kMillimetres * nearest.largest_m},
                 {"along_axis_mean_mm", kMillimetres * arc_length_matched(middle_m, world.spine_m).mean_m},
                 {"frechet_mm", kMillimetres * frechet_distance_m(middle_m, centreline_m)},
-                {"path_m", path_length_m(middle_m)},
-                {"economy", economy_of_path(middle_m, path_length_m(world.spine_m))},
-                {"sparc", spectral_arc_length(speeds, kSimulatedRate_Hz)},
-                {"ldlj", log_dimensionless_jerk(speeds, kSimulatedRate_Hz)},
+                {"path_m", motion.path_length_m},
+                {"economy", path_length_m(world.spine_m) / motion.path_length_m},
+                {"sparc", motion.spectral_arc_length},
+                {"ldlj", motion.log_dimensionless_jerk},
+                {"low_pass_Hz", kMotionCutoff_Hz},
                 {"effectiveness_index", effectiveness_index(top_mm, bottom_mm)},
                 {"failed_attempts", failed}};
     // The forces of a proxy that hangs where the hand is not say nothing of the wall.
@@ -120,12 +123,12 @@ Json trial_record(const StudyWorld& world, const StageState& end, std::span<cons
 }
 
 Json forces_record(const FeltForces& forces) {
-    return Json{{"contact_s", static_cast<double>(forces.contact_ticks) / kSimulatedRate_Hz},
+    return Json{{"contact_s", forces.contact_s},
                 {"contacts", forces.contacts},
                 {"force_mean_N", forces.mean_N()},
                 {"force_largest_N", forces.largest_N},
                 {"torque_largest_Nm", forces.largest_torque_Nm},
-                {"limited_s", static_cast<double>(forces.limited_ticks) / kSimulatedRate_Hz},
+                {"limited_s", forces.limited_s},
                 {"without_force_ticks", forces.faults},
                 {"late_ticks", forces.late_ticks},
                 {"ticks", forces.ticks}};
@@ -166,7 +169,9 @@ std::string simulated_fact(std::span<const TrialRow> rows) {
 std::string trials_csv(std::span<const TrialRow> rows) {
     std::string text =
         "# made by burin study of the folder's journal and data; deviation is by distance to the tube's wall, "
-        "proxy_deviation to the proxy of the haptic model\n";
+        "proxy_deviation to the proxy of the haptic model; path_m, economy, sparc and ldlj are of the middle's motion "
+        "after a low-pass of " +
+        formatted("%g Hz\n", kMotionCutoff_Hz);
     if (const std::string fact = simulated_fact(rows); !fact.empty()) text += "# " + fact + " See the column hand.\n";
     text += "participant,group,trial";
     for (const char* column : kColumns) text += std::string(",") + column;
@@ -176,7 +181,7 @@ std::string trials_csv(std::span<const TrialRow> rows) {
         for (const char* column : kColumns) {
             const auto found = row.record.find(column);
             const bool known = found != row.record.end() && found->is_number();
-            text += known ? formatted(",%.17g", found->get<double>()) : ",";
+            text += known ? "," + csv_number(found->get<double>()) : ",";
         }
         text += "," + std::to_string(row.day) + "," + row.stage + "," + row.stratum + "," + name_of(row.hand) + "\n";
     }

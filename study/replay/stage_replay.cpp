@@ -14,8 +14,6 @@
 namespace burin::study {
 namespace {
 
-using record::Word;
-
 constexpr std::array kInputs{"time_ns",
                              "sample_time_ns",
                              "position_device_x_m",
@@ -75,19 +73,6 @@ Result<std::map<std::int64_t, OperatorAct>> acts_in(record::RecordReader& reader
         acts[event.time_ns] = *act;
     }
     return acts;
-}
-
-// Looks for the first column whose bits differ.
-std::optional<record::Difference> differs(const record::HandRecord& hand, const record::Block& block, std::uint32_t row,
-                                          const std::vector<Word>& again) {
-    for (std::size_t c = 0; c < again.size(); ++c) {
-        const Word stored = block.at(c, row);
-        if (stored == again[c]) continue;
-        const record::ColumnType type = hand.columns[c].type;
-        return record::Difference{hand.name, hand.columns[c].name, static_cast<std::int64_t>(block.at(0, row)),
-                                  record::text_of(stored, type), record::text_of(again[c], type)};
-    }
-    return std::nullopt;
 }
 
 haptics::TickRecord followed_tick(const devices::DeviceSample& sample, Nanoseconds now_ns) {
@@ -158,7 +143,7 @@ Result<StageReplay> replay_stage(const std::filesystem::path& file, const Protoc
             ++replay.ticks;
             if (on_tick) on_tick(session, tick);
             if (!replay.of_session && !replay.difference)
-                replay.difference = differs(hand, *block, row, record::row_of(tick, shape));
+                replay.difference = record::difference_in_row(hand, *block, row, record::row_of(tick, shape));
         }
     }
     replay.end = session.state();

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "study/report/analysis_tables.hpp"
 
-#include <charconv>
-#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -11,12 +9,6 @@
 
 namespace burin::study {
 namespace {
-
-std::string exact_text(double value) {
-    if (!std::isfinite(value)) return "";
-    char text[40];
-    return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
 
 // A line of fields with commas between them.
 template <typename... Fields>
@@ -28,7 +20,7 @@ std::string csv_line(const Fields&... fields) {
         if constexpr (requires { std::string_view(field); }) {
             line += csv_field(field);
         } else {
-            line += exact_text(static_cast<double>(field));
+            line += csv_number(static_cast<double>(field));
         }
     };
     (add(fields), ...);

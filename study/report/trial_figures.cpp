@@ -5,7 +5,7 @@
 #include <array>
 
 #include "base/plot/figures.hpp"
-#include "study/people/learner.hpp"
+#include "study/metrics/even_motion.hpp"
 
 namespace burin::study {
 namespace {
@@ -43,7 +43,7 @@ std::string path_figure(const ShownTrial& trial) {
                             {view("from the front", 1, "y (mm)"), view("from above", 2, "z (mm)")}, 1);
 }
 
-// Three plots, one for each axis, of a vector over the time since the clock's start.
+// Three plots, one for each axis, of a vector over the time since the clock's start; the model ticks at an even rate.
 std::string axes_figure(const std::string& title, const char* quantity, const std::vector<Vec3>& vectors,
                         double factor) {
     std::vector<plot::TimePlot> plots;
@@ -52,7 +52,7 @@ std::string axes_figure(const std::string& title, const char* quantity, const st
         plot::TimePlot plot{std::string("along ") + kAxisNames[static_cast<std::size_t>(axis)], quantity, {}, {}};
         plot::TimeSeries series{"", {}};
         for (const std::size_t i : drawn) {
-            plot.times_s.push_back(static_cast<double>(i) / kSimulatedRate_Hz);
+            plot.times_s.push_back(static_cast<double>(i) / kEvenRate_Hz);
             series.values.push_back(factor * vectors[i][axis]);
         }
         plot.series.push_back(std::move(series));

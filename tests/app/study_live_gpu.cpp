@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <map>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -133,6 +135,51 @@ TEST(LiveStudy, CountsATrialFromTheStartCapToTheEndCapInJournalAndRecord) {
     const auto replayed = place.run(kLiveStudy + "replay s");
     EXPECT_EQ(replayed.status, 0) << replayed.output;
     EXPECT_EQ(place.run(kLiveStudy + "check s").status, 0);
+}
+
+// A trial's figures are the hand's: a wand that is read four times less often has the same, all from time stamps.
+TEST(LiveStudy, FiguresOfATrialAreTheSameWhateverTheWandsRate) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const study::Protocol protocol = study::parse_protocol(one_trial_protocol()).protocol;
+    const auto& spine_m = protocol.worlds.at(0).spine_m;
+    DeskLog log;
+    log.go({-0.22, 0.165, 0.2345}, 20);
+    log.go({-0.22, 0.165, 0.11}, 20);
+    log.say("start");
+    log.wait(0.1);
+    log.go(kInStartCap, 10);
+    log.wait(0.3);
+    // Too high in the middle, so that the upper point goes out of the tube's wall for a while.
+    for (std::size_t i = 0; i < spine_m.size(); ++i) {
+        const double share = static_cast<double>(i) / static_cast<double>(spine_m.size() - 1);
+        log.go(spine_m[i] + Vec3(0.0, 0.03 * std::sin(std::numbers::pi * share), 0.0), 2);
+    }
+    log.go(kInEndCap, 4);
+    const auto figures_at = [&](int rate_Hz) {
+        const Workplace place;
+        make_live_study(place);
+        place.write("w.toml", formatted("name = \"Wand at %d Hz\"\nrate = %d\n[[point]]\nname = \"top\"\noffset = "
+                                        "[0, 0.03, 0]\n[[point]]\nname = \"bottom\"\noffset = [0, -0.03, 0]\n",
+                                        rate_Hz, rate_Hz));
+        place.write("visit.txt", log.closed());
+        const auto went = place.run(
+            kLiveStudy + "run s --participant p01 --input visit.txt --offscreen --device simulated-wand:w.toml");
+        EXPECT_TRUE(went.output.contains("trials.csv: 1 trials")) << went.output;
+        return Json::parse(place.read("s/data/p01/day1-01-run1.json"));
+    };
+    const Json usual = figures_at(1000);
+    ASSERT_GT(usual.at("contact_s").get<double>(), 0.5);
+    ASSERT_TRUE(usual.at("ldlj").is_number() && usual.at("sparc").is_number());
+    for (const int rate_Hz : {250, 500, 2000}) {
+        const Json figures = figures_at(rate_Hz);
+        for (const auto& [name, value] : usual.items()) {
+            const double wanted = value.get<double>();
+            // A hundredth of a millimetre is nothing for an encoder of 0.05 mm.
+            const double least = name.ends_with("_mm") ? 0.01 : 0.0;
+            EXPECT_NEAR(figures.at(name).get<double>(), wanted, std::max(least, 0.01 * std::abs(wanted)))
+                << name << " at " << rate_Hz;
+        }
+    }
 }
 
 // Nobody can feel a path without force: such an attempt counted, since a live tick did not say that there was none.

@@ -4,8 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <set>
+#include <string>
+#include <utility>
 
 #include "tests/record/made_ticks.hpp"
 
@@ -39,6 +43,29 @@ TEST(Columns, HaveNamesOfTheirOwnAndAValueEach) {
         EXPECT_LE(columns.size(), 1024u);
         std::set<std::string> names;
         for (const Column& column : columns) EXPECT_TRUE(names.insert(column.name).second) << column.name;
+    }
+}
+
+// A name ends in its unit and says its frame: who reads a table has nothing else.
+TEST(Columns, HaveTheUnitAndTheFrameThatTheirNamesSay) {
+    constexpr std::array kEndings{
+        std::pair("_rad_per_s", "rad/s"), std::pair("_m_per_s", "m/s"), std::pair("_Nm", "Nm"), std::pair("_N", "N"),
+        std::pair("_rad", "rad"),         std::pair("_m", "m"),         std::pair("_ns", "ns")};
+    const auto unit_of = [&](const std::string& name) -> std::string {
+        if (name.starts_with("joint")) return "rad or m";
+        const auto found = std::ranges::find_if(kEndings, [&](const auto& e) { return name.ends_with(e.first); });
+        return found != kEndings.end() ? found->second : "";
+    };
+    const auto frame_of = [](const std::string& name) -> std::string {
+        if (name.contains("_object_") || name.starts_with("object_from_device_") || name.starts_with("penetration"))
+            return name == "object_from_device_scale" ? "" : "object";
+        return name.contains("_device_") ? "device" : "";
+    };
+    for (const RowShape shape : {RowShape{0, 1}, RowShape{6, 2}, RowShape{8, haptics::kMostProbePoints}}) {
+        for (const Column& column : columns_for(shape)) {
+            EXPECT_EQ(column.unit, unit_of(column.name)) << column.name;
+            EXPECT_EQ(column.frame, frame_of(column.name)) << column.name;
+        }
     }
 }
 

@@ -55,6 +55,30 @@ TEST(Compare, TheFirstDifferenceIsNamedByTickColumnAndBothValues) {
     EXPECT_FALSE(compare(*a, *b, "nothing"));
 }
 
+// One bit changed in each column in turn, in the row of a stored tick: it is found, and its column named.
+TEST(Compare, ARowThatIsComputedAgainIsComparedInEveryColumn) {
+    for (const RowShape shape : {RowShape{0, 1}, RowShape{2, 2}, RowShape{8, 4}}) {
+        HandRecord hand;
+        hand.name = "made";
+        hand.columns = columns_for(shape);
+        Block block(hand.types());
+        for (const std::uint64_t tick : {6u, 7u, 8u}) block.add(row_of(test::made_tick(tick, shape.points), shape));
+        const std::vector<Word> row = row_of(test::made_tick(7, shape.points), shape);
+        EXPECT_FALSE(difference_in_row(hand, block, 1, row));
+        for (std::size_t c = 0; c < row.size(); ++c) {
+            for (const int bit : {0, hand.columns[c].type == ColumnType::u32 ? 31 : 63}) {
+                std::vector<Word> again = row;
+                again[c] ^= Word{1} << bit;
+                const auto found = difference_in_row(hand, block, 1, again);
+                ASSERT_TRUE(found) << hand.columns[c].name;
+                EXPECT_EQ(found->column, hand.columns[c].name);
+                EXPECT_EQ(found->tick, 7);
+                EXPECT_NE(found->first, found->second) << hand.columns[c].name;
+            }
+        }
+    }
+}
+
 TEST(Compare, ZeroesOfBothSignsDifferAndTicksThatOneAloneHasAreNamed) {
     const Workplace at;
     recorded_so(at / "a", 10, kNanosecondsPerSecond);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "study/trial/stage_step.hpp"
@@ -31,12 +32,13 @@ struct Ran {
     std::vector<StageEvent> events;
 };
 
-// Ticks until the stage is done; the wand is upright, its middle where `middle_m` says.
+// Ticks until the stage is done; the wand's middle is where `middle_m` says, its top so far from it and its bottom on
+// the other side: upright, unless `up` says otherwise.
 Ran run_stage(const StageSetup& setup, double until_s, double tick_s, const std::function<Vec3(double)>& middle_m,
-              const std::function<void(StageTick&)>& change = {}) {
+              const std::function<void(StageTick&)>& change = {}, const Vec3& up = {0.0, 0.03, 0.0}) {
     Ran ran;
     for (int i = 0; i * tick_s <= until_s; ++i) {
-        const Vec3 m = middle_m(i * tick_s), up{0.0, 0.03, 0.0};
+        const Vec3 m = middle_m(i * tick_s);
         StageTick tick{i * tick_s, {m + up, m - up}, OperatorAct::none, false};
         if (change) change(tick);
         const StageStep stepped = step(setup, ran.state, tick);
@@ -64,6 +66,21 @@ TEST(StageStep, TimesATrialFromCapToCapExactlyBetweenTicks) {
         EXPECT_NEAR(trial_time_s(ran.state), 4.0, 1e-9) << tick_s;
         EXPECT_NEAR(ran.state.clock_started_s, 0.1, 1e-9);
         EXPECT_NEAR(ran.state.clock_stopped_s, 4.1, 1e-9);
+    }
+}
+
+// A tilted wand: one point leads by up to 10 mm. The clock starts when the other has left the cap as well, and stops
+// when the other has come into the end cap as well, whichever of the two it is.
+TEST(StageStep, ClockGoesByTheLaterOfTheTwoPoints) {
+    for (const double lead_m : {0.005, -0.005, 0.0005, -0.0005}) {
+        for (const double tick_s : {0.001, 0.0073, 0.03, 0.04}) {
+            const Ran ran =
+                run_stage(trial_setup(), 5.0, tick_s, [](double t) { return straight_on(t); }, {}, {lead_m, 0.03, 0.0});
+            ASSERT_EQ(ran.state.result, StageResult::valid_exit) << lead_m << " " << tick_s;
+            const double later_s = 0.1 + std::abs(lead_m) / 0.1;
+            EXPECT_NEAR(ran.state.clock_started_s, later_s, 1e-9) << lead_m << " " << tick_s;
+            EXPECT_NEAR(ran.state.clock_stopped_s, later_s + 4.0, 1e-9) << lead_m << " " << tick_s;
+        }
     }
 }
 
@@ -149,6 +166,54 @@ TEST(StageStep, AGapInTheTicksSpoilsTheAttempt) {
     const Ran ran = run_stage(trial_setup(), 5.0, 0.001, [](double t) { return straight_on(t); }, silent);
     EXPECT_EQ(failures_of(ran), std::vector{Failure::gap});
     EXPECT_NE(ran.state.result, StageResult::valid_exit);
+}
+
+// Every way to fail, with one attempt and with three: which of them uses an attempt up.
+TEST(StageStep, OnlyFailuresOfThePersonUseUpAnAttempt) {
+    const auto goes = [](double t) { return straight_on(t); };
+    const auto strays = [](double t) { return straight_on(t) + Vec3{0.0, t > 1.0 ? 0.5 * (t - 1.0) : 0.0, 0.0}; };
+    const auto goes_back = [](double t) { return straight_on(t < 2.0 ? t : std::max(0.0, 4.0 - t)); };
+    const auto lies = [](double t) { return straight_on(std::min(t, 2.0)); };
+    const auto from_behind = [](double t) {
+        if (t < 1.0) return straight_on(t);
+        if (t < 2.0) return straight_on(1.0) + Vec3{0.0, 0.0, 0.12 * (t - 1.0)};
+        if (t < 6.0) return Vec3{0.09 + 0.1 * (t - 2.0), 0.0, 0.12};
+        return Vec3{0.49, 0.0, 0.12} + (t - 6.0) * Vec3{-0.1, 0.0, -0.12};
+    };
+    const auto at_two = [](auto&& what) {
+        return [what](StageTick& tick) {
+            if (std::abs(tick.time_s - 2.0) < 1e-9) what(tick);
+        };
+    };
+    struct Way {
+        Failure failure;
+        std::function<Vec3(double)> middle_m;
+        std::function<void(StageTick&)> change;
+        bool of_person;
+    };
+    const std::vector<Way> ways{
+        {Failure::strayed, strays, {}, true},
+        {Failure::wrong_exit, from_behind, {}, true},
+        {Failure::went_back, goes_back, {}, true},
+        {Failure::laid_down, lies, {}, true},
+        {Failure::amplifiers, goes, at_two([](StageTick& tick) { tick.amplifiers_off = true; }), false},
+        {Failure::gap, goes,
+         [](StageTick& tick) {
+             if (tick.time_s > 2.0 && tick.time_s < 2.1) tick.points_m[0].x = std::nan("");
+         },
+         false},
+        {Failure::paused, goes, at_two([](StageTick& tick) { tick.act = OperatorAct::pause; }), false},
+        {Failure::repeated, goes, at_two([](StageTick& tick) { tick.act = OperatorAct::repeat; }), false}};
+    for (const Way& way : ways) {
+        const std::string name = name_of(way.failure);
+        const Ran three = run_stage(trial_setup(ClockStart::leave, 3), 13.0, 0.001, way.middle_m, way.change);
+        ASSERT_EQ(failures_of(three), std::vector{way.failure}) << name;
+        EXPECT_EQ(three.state.attempt, way.of_person ? 2u : 1u) << name;
+        EXPECT_NE(three.state.result, StageResult::no_attempt_left) << name;
+        const Ran one = run_stage(trial_setup(ClockStart::leave, 1), 13.0, 0.001, way.middle_m, way.change);
+        EXPECT_EQ(one.state.result == StageResult::no_attempt_left, way.of_person) << name;
+        EXPECT_EQ(one.state.attempt, 1u) << name;
+    }
 }
 
 TEST(StageStep, TheTimeOfAPauseIsNotTheStagesTime) {
