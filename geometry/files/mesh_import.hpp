@@ -61,6 +61,9 @@ struct ImportReport {
     std::uint64_t vertices_merged = 0;   // STL corners that met at an equal position
     std::uint64_t materials_merged = 0;  // number of materials removed by merging down to kMaxMaterials
     std::vector<std::string> remarks;    // one line each, for the user: what was ignored or assumed
+    // Distance up to which corners at open edges are one corner that was rounded in two ways (join_open_edges). It
+    // follows from how many digits the file's numbers have; 0 where there are too few to tell.
+    double weld_tolerance_m = 0.0;
     FileUnit unit;                       // of the file's numbers
     Vec3 size_m{0.0};                    // of the box around all triangles; describe_size() says both in a line
 };

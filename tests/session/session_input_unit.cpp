@@ -5,12 +5,14 @@
 #include <unistd.h>
 
 #include <bit>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 
+#include "base/text.hpp"
 #include "session/input/input_keys.hpp"
 #include "session/input/input_line.hpp"
 #include "session/input/input_words.hpp"
@@ -186,6 +188,28 @@ TEST(InputLog, WritesNumbersBitForBit) {
     }));
 }
 
+// A sender that writes five decimals is heard in every direction, not only where these happen to have length 1.
+TEST(InputLog, ARotationOfFewDecimalsIsBroughtToLengthOneInEveryDirection) {
+    for (int i = 0; i < 500; ++i) {
+        const Quat q = glm::normalize(Quat(std::sin(1.0 + i), std::cos(2.0 * i), std::sin(3.0 * i), std::cos(5.0 + i)));
+        for (const int decimals : {3, 4, 5}) {
+            const std::string line = formatted("1 %s 0 1.6 2 %.*f %.*f %.*f %.*f", i % 2 == 0 ? "head" : "wand 0",
+                                               decimals, q.x, decimals, q.y, decimals, q.z, decimals, q.w);
+            const auto event = parse_line(line, "n");
+            ASSERT_TRUE(event.has_value() && event->has_value()) << event.error().line();
+            const Input& input = (*event)->input;
+            const Quat heard = i % 2 == 0 ? std::get<HeadInput>(input).pose_world.orientation
+                                          : std::get<WandInput>(input).pose_world.orientation;
+            EXPECT_NEAR(glm::length(heard), 1.0, 1e-6) << line;
+            EXPECT_NEAR(glm::dot(heard, q), 1.0, 1e-5) << line;
+            // Written and read again it stays as it is.
+            const auto again = parse_line(line_of(**event), "n");
+            ASSERT_TRUE(again.has_value() && again->has_value());
+            EXPECT_EQ((*again)->input, input) << line;
+        }
+    }
+}
+
 TEST(InputLog, TimesAreExactToTheNanosecond) {
     EXPECT_EQ(text_of_time(0), "0");
     EXPECT_EQ(text_of_time(1), "0.000000001");
@@ -223,7 +247,9 @@ TEST(InputLog, NamesFileLineAndRemedyOfEveryMistake) {
     expect("1 resize -1 4", "no whole number");
     expect("1 resize 70000 4", "out of its range");
     expect("1 resize 99999999999999999999 4", "no whole number");
-    expect("1 head 0 0 0 0 0 0 2", "out of its range");
+    expect("1 head 0 0 0 0 0 0 2", "its quaternion, of length 2, is out of its range");
+    expect("1 wand 0 0 0 0 0 0.7 0 0.7", "its quaternion, of length 0.99, is out of its range");  // 0.98995
+    expect("1 head 0 0 0 0 0 0 0", "its quaternion, of length 0, is out of its range");
     expect("1 head 0 0 0 0 0 0 1 found", "the nearest is 'lost'");
     expect("1 wand 9 0 0 0 0 0 0 1", "out of its range");
     expect("1 wand-stick 0 0 1.5", "out of its range");
