@@ -28,7 +28,7 @@ Json describe(const compute::SliverReport& slivers, const compute::Lattice& latt
     Json json = {{"solid", slivers.solid}, {"gaps", slivers.gaps}};
     if (slivers.count() == 0) return json;
     json["thinnest_m"] = slivers.thinnest_m;
-    json["tenth_m"] = slivers.tenth_m;
+    json["median_m"] = slivers.median_m;
     if (const auto resolution = compute::resolution_that_shows(slivers, lattice)) json["resolution"] = *resolution;
     json["where_m"] = {{"lo", as_json(slivers.bounds_object_m.lo)}, {"hi", as_json(slivers.bounds_object_m.hi)}};
     for (const compute::Sliver& s : slivers.first) {
@@ -46,9 +46,9 @@ std::string too_thin(const compute::SliverReport& slivers, const compute::Lattic
     return formatted("%llu places are thinner than the mesh can show (the report's \"slivers\"); the solid keeps them: ",
                      static_cast<unsigned long long>(slivers.count())) +
            "a cell is " + in_millimetres(lattice.spacing_m) + " wide, the thinnest of them " +
-           in_millimetres(slivers.thinnest_m) + ", nine tenths at least " + in_millimetres(slivers.tenth_m) + "; " +
-           (resolution ? formatted("--resolution %d shows these", *resolution)
-                       : formatted("no --resolution up to %d shows these", compute::kMaxResolution));
+           in_millimetres(slivers.thinnest_m) + ", half of them at least " + in_millimetres(slivers.median_m) +
+           (resolution ? formatted(", which --resolution %d shows", *resolution)
+                       : formatted(", which no --resolution up to %d shows", compute::kMaxResolution));
 }
 
 }  // namespace

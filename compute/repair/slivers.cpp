@@ -69,17 +69,17 @@ SliverReport find_slivers(const Solid& solid, WorkerPool& pool) {
     }
     if (thicknesses.empty()) return report;
     report.thinnest_m = *std::ranges::min_element(thicknesses) * solid.lattice.unit_m();
-    const auto tenth = thicknesses.begin() + static_cast<std::ptrdiff_t>(thicknesses.size() / 10);
-    std::ranges::nth_element(thicknesses, tenth);
-    report.tenth_m = *tenth * solid.lattice.unit_m();
+    const auto middle = thicknesses.begin() + static_cast<std::ptrdiff_t>(thicknesses.size() / 2);
+    std::ranges::nth_element(thicknesses, middle);
+    report.median_m = *middle * solid.lattice.unit_m();
     return report;
 }
 
 std::optional<int> resolution_that_shows(const SliverReport& slivers, const Lattice& lattice) {
-    if (!(slivers.tenth_m > 0.0)) return std::nullopt;
+    if (!(slivers.median_m > 0.0)) return std::nullopt;
     // A lattice has at least two more cells along the longest side than its resolution (lattice_around).
     const double longest_m = (*std::ranges::max_element(lattice.cells) - 2) * lattice.spacing_m;
-    const double resolution = std::ceil(longest_m / slivers.tenth_m);
+    const double resolution = std::ceil(longest_m / slivers.median_m);
     return resolution <= kMaxResolution ? std::optional(static_cast<int>(resolution)) : std::nullopt;
 }
 
