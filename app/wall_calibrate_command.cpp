@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
-#include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <utility>
 
 #include "app/output_files.hpp"
 #include "app/wall_commands.hpp"
+#include "base/csv.hpp"
 #include "base/file_io.hpp"
 #include "base/json.hpp"
 #include "wall/wall_file.hpp"
@@ -24,23 +26,27 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
-std::vector<std::string_view> fields_of(std::string_view line) {
-    std::vector<std::string_view> fields;
-    for (;;) {
-        const std::size_t comma = line.find(',');
-        fields.push_back(trimmed(line.substr(0, comma)));
-        if (comma == std::string_view::npos) return fields;
-        line.remove_prefix(comma + 1);
+// The fields of a place and three numbers, or of three numbers, with a tab, a semicolon or a comma between them.
+std::vector<CsvField> fields_of(std::string_view line) {
+    for (const char separator : {'\t', ';'}) {
+        std::vector<CsvField> fields = split_csv(line, separator).fields;
+        if (fields.size() == 3 || fields.size() == 4) return fields;
     }
+    return split_csv(line).fields;
+}
+
+bool is_header(std::string_view line) {
+    constexpr std::array kNames{"place", "x", "y", "z"};
+    return std::ranges::equal(fields_of(line), kNames, {}, &CsvField::text);
 }
 
 // Parses a line. `asked` is the place of a line of three numbers; empty: the line must name its place.
 Result<wall::CalibrationSample> parse_sample(std::string_view line, const std::string& where, const std::string& asked,
                                              double unit_m) {
-    std::vector<std::string_view> fields = fields_of(line);
+    std::vector<CsvField> fields = fields_of(line);
     wall::CalibrationSample sample{asked, {}};
     if (fields.size() == 4) {
-        sample.place = std::string(fields[0]);
+        sample.place = fields[0].text;
         fields.erase(fields.begin());
     }
     if (fields.size() != 3 || sample.place.empty()) {
@@ -52,14 +58,13 @@ Result<wall::CalibrationSample> parse_sample(std::string_view line, const std::s
             "use lower_left, lower_right, upper_left, upper_right, left, right, bottom, top or u:v from 0 to 1");
     }
     for (int i = 0; i < 3; ++i) {
-        const std::string_view f = fields[static_cast<std::size_t>(i)];
-        double value = 0.0;
-        const auto [end, error] = std::from_chars(f.data(), f.data() + f.size(), value);
-        if (error != std::errc{} || end != f.data() + f.size() || !std::isfinite(value) || std::abs(value) > 1e6) {
-            return fail(where, "holds a number that cannot be read: " + std::string(f.substr(0, 40)),
-                        "correct the number");
+        const std::string& f = fields[static_cast<std::size_t>(i)].text;
+        const std::optional<double> value = finite_number(f);
+        if (!value || std::abs(*value) > 1e6) {
+            return fail(where, "holds a number that cannot be read: " + f.substr(0, 40),
+                        f.contains(',') ? "write a decimal point, not a comma" : "correct the number");
         }
-        sample.tip_tracker[i] = unit_m * value;
+        sample.tip_tracker[i] = unit_m * *value;
     }
     return sample;
 }
@@ -131,9 +136,9 @@ Result<std::vector<wall::CalibrationSample>> parse_samples(std::string_view text
         const std::string_view line = trimmed(text.substr(0, end));
         text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
         if (skipped(line)) continue;
-        const bool header = first && fields_of(line) == std::vector<std::string_view>{"place", "x", "y", "z"};
-        first = false;
-        if (header) continue;
+        const bool head = first && (is_header(line) || declared_separator(line));
+        first = first && declared_separator(line);
+        if (head) continue;
         auto sample = parse_sample(line, name + ":" + std::to_string(number), "", unit_m);
         if (!sample) return std::unexpected(sample.error());
         samples.push_back(std::move(*sample));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/csv.hpp"
 #include "base/file_io.hpp"
 #include "sculpt/progress.hpp"
 
@@ -28,23 +29,22 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
-std::string without_blanks(std::string_view text) {
-    std::string result;
-    for (const char c : text)
-        if (c != ' ' && c != '\t' && c != '\r') result += c;
-    return result;
+// The names of a first line with commas between them, whatever separates them in the file.
+std::string names_in(std::string_view line, char separator) {
+    std::string names;
+    for (const CsvField& field : split_csv(line, separator).fields) names += (names.empty() ? "" : ",") + field.text;
+    return names;
 }
 
-// Parses the nine numbers of a line; returns nullopt when there are not nine, or one is not a number.
-std::optional<std::array<double, kColumns>> numbers(std::string_view line) {
+// Parses the nine numbers of a line, in quotes or not; returns nullopt when there are not nine, or one is not a number.
+std::optional<std::array<double, kColumns>> numbers(std::string_view line, char separator) {
+    const CsvLine split = split_csv(line, separator);
+    if (split.fields.size() != kColumns || split.unclosed_quote != 0) return std::nullopt;
     std::array<double, kColumns> values{};
     for (std::size_t i = 0; i < kColumns; ++i) {
-        const std::size_t comma = line.find(',');
-        if ((comma == std::string_view::npos) != (i + 1 == kColumns)) return std::nullopt;
-        const std::string_view field = trimmed(line.substr(0, comma));
+        const std::string& field = split.fields[i].text;
         const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), values[i]);
         if (error != std::errc{} || end != field.data() + field.size()) return std::nullopt;
-        if (comma != std::string_view::npos) line.remove_prefix(comma + 1);
     }
     return values;
 }
@@ -90,14 +90,17 @@ Result<StrokeRow> make_row(const std::array<double, kColumns>& n, bool as_axis, 
 Result<Stroke> parse_stroke(std::string_view text, const std::string& name) {
     Stroke stroke;
     bool header_seen = false, as_axis = false;
+    std::optional<char> separator;
     for (std::size_t line_number = 1; !text.empty(); ++line_number) {
         const std::size_t end = text.find('\n');
         const std::string_view line = trimmed(text.substr(0, end));
         text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
         if (line.empty() || line.front() == '#') continue;
         const std::string where = name + ":" + std::to_string(line_number);
+        if (!separator && (separator = declared_separator(line))) continue;
         if (!header_seen) {
-            const std::string header = without_blanks(line);
+            if (!separator) separator = separator_in(line);
+            const std::string header = names_in(line, *separator);
             as_axis = header == kAxisHeader;
             if (!as_axis && header != kHeader)
                 return fail(where, "is not a stroke file",
@@ -106,9 +109,11 @@ Result<Stroke> parse_stroke(std::string_view text, const std::string& name) {
             header_seen = true;
             continue;
         }
-        const auto values = numbers(line);
+        const auto values = numbers(line, *separator);
         if (!values)
-            return fail(where, "does not hold nine numbers separated by commas",
+            return fail(where,
+                        std::string("does not hold nine numbers, each with a decimal point and between them ") +
+                            name_of_separator(*separator),
                         "write " + std::string(as_axis ? kAxisHeader : kHeader));
         Result<StrokeRow> row = make_row(*values, as_axis, where, stroke);
         if (!row) return std::unexpected(row.error());

@@ -5,7 +5,6 @@
 #include <map>
 #include <utility>
 
-#include "base/statistics.hpp"
 #include "base/text.hpp"
 #include "study/statistics/agreement.hpp"
 #include "study/statistics/effect_size.hpp"
@@ -19,7 +18,7 @@ namespace {
 struct ParticipantTrials {
     std::string participant;
     std::string group;
-    std::vector<double> times, deviations;
+    std::vector<Decimal> times, deviations;
 };
 
 // By participant, in the order of the table.
@@ -31,54 +30,49 @@ std::vector<ParticipantTrials> by_participant(const TrialTable& table) {
         if (fresh)
             participants.push_back(
                 {.participant = trial.participant, .group = trial.group, .times = {}, .deviations = {}});
-        participants[at->second].times.push_back(trial.time);
-        participants[at->second].deviations.push_back(trial.deviation);
+        participants[at->second].times.push_back(trial.exact_time);
+        participants[at->second].deviations.push_back(trial.exact_deviation);
     }
     return participants;
 }
 
-// The median as statistics books have it: the mean of the two in the middle of an even number.
-double middle_of(std::vector<double> values) {
-    if (values.empty()) return kUndefined;
-    std::ranges::sort(values);
-    const std::size_t half = values.size() / 2;
-    return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
+using Measure = std::vector<Int128> GroupSummary::*;
 
-using Measure = std::vector<double> GroupSummary::*;
-
-Comparison compare(const GroupSummary& a, const GroupSummary& b, Measure measure, std::uint64_t seed) {
-    const std::vector<double>&first = a.*measure, &second = b.*measure;
+Comparison compare(const GroupSummary& a, const GroupSummary& b, Measure measure, const Step& step,
+                   std::uint64_t seed) {
+    const std::vector<Int128>&first = a.*measure, &second = b.*measure;
     return {.measure = {},
             .unit = {},
             .first = a.group,
             .second = b.group,
             .n_first = first.size(),
             .n_second = second.size(),
-            .median_first = middle_of(first),
-            .median_second = middle_of(second),
+            .median_first = median_of(first, step),
+            .median_second = median_of(second, step),
             .mann_whitney = mann_whitney(first, second),
             .mann_whitney_normal = mann_whitney_normal(first, second),
-            .difference_of_means = permutation_of_means(first, second, seed),
+            .difference_of_means = permutation_of_means(first, second, step, seed),
             .rank_biserial = rank_biserial(first, second),
-            .hodges_lehmann = hodges_lehmann(first, second)};
+            .hodges_lehmann = hodges_lehmann(first, second, step)};
 }
 
 struct NamedMeasure {
     const char* name;
     Measure values;
+    Step step;
     std::string unit;
 };
 
 void compare_groups(UnitAnalysis& analysis, const TrialTable& table, std::uint64_t seed) {
-    const NamedMeasure measures[] = {{"time", &GroupSummary::times, table.time_unit},
-                                     {"deviation", &GroupSummary::deviations, table.deviation_unit}};
+    const NamedMeasure measures[] = {
+        {"time", &GroupSummary::exact_times, analysis.time_step, table.time_unit},
+        {"deviation", &GroupSummary::exact_deviations, analysis.deviation_step, table.deviation_unit}};
     for (GroupSummary& group : analysis.groups)
-        group.deviation_with_time = spearman(group.times, group.deviations, seed);
+        group.deviation_with_time = spearman(group.exact_times, group.exact_deviations, seed);
     for (std::size_t i = 0; i < analysis.groups.size(); ++i) {
         for (std::size_t k = i + 1; k < analysis.groups.size(); ++k) {
             for (const NamedMeasure& measure : measures) {
-                Comparison one = compare(analysis.groups[i], analysis.groups[k], measure.values, seed);
+                Comparison one = compare(analysis.groups[i], analysis.groups[k], measure.values, measure.step, seed);
                 one.measure = measure.name;
                 one.unit = measure.unit;
                 analysis.comparisons.push_back(std::move(one));
@@ -93,13 +87,42 @@ std::vector<GroupSummary> empty_groups(const TrialTable& table) {
     return groups;
 }
 
-// The values of one unit: of a trial, or the means of a participant, whose trial has number 0.
-void add_unit(std::vector<GroupSummary>& groups, const Trial& unit) {
-    GroupSummary& group = *std::ranges::find(groups, unit.group, &GroupSummary::group);
-    group.participants.push_back(unit.participant);
-    group.trial_numbers.push_back(unit.number);
-    group.times.push_back(unit.time);
-    group.deviations.push_back(unit.deviation);
+// Whom a unit's values are of; a participant's means have trial number 0.
+struct UnitOf {
+    std::string participant, group;
+    int trial = 0;
+};
+
+void add_units(UnitAnalysis& analysis, const std::vector<UnitOf>& units, const ExactValues& times,
+               const ExactValues& deviations) {
+    analysis.time_step = times.step;
+    analysis.deviation_step = deviations.step;
+    for (std::size_t i = 0; i < units.size(); ++i) {
+        GroupSummary& group = *std::ranges::find(analysis.groups, units[i].group, &GroupSummary::group);
+        group.participants.push_back(units[i].participant);
+        group.trial_numbers.push_back(units[i].trial);
+        group.times.push_back(times.value(i));
+        group.deviations.push_back(deviations.value(i));
+        group.exact_times.push_back(times.steps[i]);
+        group.exact_deviations.push_back(deviations.steps[i]);
+    }
+}
+
+// Each participant's trials of one measure.
+std::vector<std::vector<Decimal>> samples_of(const std::vector<ParticipantTrials>& participants,
+                                             std::vector<Decimal> ParticipantTrials::* measure) {
+    std::vector<std::vector<Decimal>> samples;
+    for (const ParticipantTrials& one : participants) samples.push_back(one.*measure);
+    return samples;
+}
+
+UnitAnalysis empty_analysis(Unit unit, const TrialTable& table) {
+    return {.unit = unit,
+            .groups = empty_groups(table),
+            .time_step = {},
+            .deviation_step = {},
+            .comparisons = {},
+            .warnings = {}};
 }
 
 void warn_of_sizes(UnitAnalysis& analysis) {
@@ -113,14 +136,11 @@ void warn_of_sizes(UnitAnalysis& analysis) {
 
 UnitAnalysis of_participants(const TrialTable& table, const std::vector<ParticipantTrials>& participants,
                              std::uint64_t seed) {
-    UnitAnalysis analysis{.unit = Unit::participant, .groups = empty_groups(table), .comparisons = {}, .warnings = {}};
-    for (const ParticipantTrials& one : participants) {
-        add_unit(analysis.groups, {.participant = one.participant,
-                                   .group = one.group,
-                                   .number = 0,
-                                   .deviation = mean(one.deviations),
-                                   .time = mean(one.times)});
-    }
+    UnitAnalysis analysis = empty_analysis(Unit::participant, table);
+    std::vector<UnitOf> units;
+    for (const ParticipantTrials& one : participants) units.push_back({one.participant, one.group, 0});
+    add_units(analysis, units, exact_means(samples_of(participants, &ParticipantTrials::times)),
+              exact_means(samples_of(participants, &ParticipantTrials::deviations)));
     compare_groups(analysis, table, seed);
     warn_of_sizes(analysis);
     const auto trials = [](const ParticipantTrials& one) { return one.times.size(); };
@@ -134,8 +154,15 @@ UnitAnalysis of_participants(const TrialTable& table, const std::vector<Particip
 }
 
 UnitAnalysis of_trials(const TrialTable& table, std::size_t participants, std::uint64_t seed) {
-    UnitAnalysis analysis{.unit = Unit::trial, .groups = empty_groups(table), .comparisons = {}, .warnings = {}};
-    for (const Trial& trial : table.trials) add_unit(analysis.groups, trial);
+    UnitAnalysis analysis = empty_analysis(Unit::trial, table);
+    std::vector<UnitOf> units;
+    std::vector<Decimal> times, deviations;
+    for (const Trial& trial : table.trials) {
+        units.push_back({trial.participant, trial.group, trial.number});
+        times.push_back(trial.exact_time);
+        deviations.push_back(trial.exact_deviation);
+    }
+    add_units(analysis, units, exact_values(times), exact_values(deviations));
     compare_groups(analysis, table, seed);
     warn_of_sizes(analysis);
     if (participants < table.trials.size()) {
@@ -147,14 +174,27 @@ UnitAnalysis of_trials(const TrialTable& table, std::size_t participants, std::u
     return analysis;
 }
 
-std::vector<Agreement> agreement_of(const std::vector<ParticipantTrials>& participants) {
-    std::vector<std::vector<double>> times, deviations;
+// The steps of each participant's trials.
+std::vector<std::vector<Int128>> exact_trials(const std::vector<ParticipantTrials>& participants,
+                                              std::vector<Decimal> ParticipantTrials::* measure) {
+    std::vector<Decimal> pooled;
+    for (const ParticipantTrials& one : participants)
+        pooled.insert(pooled.end(), (one.*measure).begin(), (one.*measure).end());
+    const ExactValues all = exact_values(pooled);
+    std::vector<std::vector<Int128>> trials;
+    auto next = all.steps.begin();
     for (const ParticipantTrials& one : participants) {
-        times.push_back(one.times);
-        deviations.push_back(one.deviations);
+        trials.emplace_back(next, next + std::ssize(one.*measure));
+        next += std::ssize(one.*measure);
     }
-    return {{.measure = "time", .intraclass = intraclass_correlation(times)},
-            {.measure = "deviation", .intraclass = intraclass_correlation(deviations)}};
+    return trials;
+}
+
+std::vector<Agreement> agreement_of(const std::vector<ParticipantTrials>& participants) {
+    return {{.measure = "time",
+             .intraclass = exact_intraclass_correlation(exact_trials(participants, &ParticipantTrials::times))},
+            {.measure = "deviation",
+             .intraclass = exact_intraclass_correlation(exact_trials(participants, &ParticipantTrials::deviations))}};
 }
 
 }  // namespace

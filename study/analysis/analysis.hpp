@@ -3,13 +3,16 @@
 // in time and in deviation. It is done twice. With participants as units (each one's mean over their trials) the units
 // are independent, as every test here assumes; that analysis is the one to report. With trials as units the trials of
 // one participant count as if they were several people's, so that p comes out too small where they agree; it is there
-// beside the first to compare with reports that did so. Pure; any thread; the same table and seed give the same bits.
+// beside the first to compare with reports that did so. Values are ranked, and their differences taken, as the decimals
+// of the table and exact means of these; doubles are for printing. Pure; any thread; the same table and seed give the
+// same bits.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "study/statistics/exact.hpp"
 #include "study/statistics/outcome.hpp"
 #include "study/table/trial_table.hpp"
 
@@ -24,8 +27,9 @@ struct GroupSummary {
     // One for each unit, in the table's order; the trial's number is 0 where the unit is the participant.
     std::vector<std::string> participants;
     std::vector<int> trial_numbers;
-    std::vector<double> times, deviations;
-    Outcome deviation_with_time;  // Spearman
+    std::vector<double> times, deviations;              // rounded
+    std::vector<Int128> exact_times, exact_deviations;  // in steps of the unit's analysis, the same for all groups
+    Outcome deviation_with_time;                        // Spearman
 };
 
 // Two groups in one measure. Signs are the first group's.
@@ -44,6 +48,7 @@ struct Comparison {
 struct UnitAnalysis {
     Unit unit = Unit::participant;
     std::vector<GroupSummary> groups;
+    Step time_step, deviation_step;       // of the exact values
     std::vector<Comparison> comparisons;  // every two groups, time before deviation
     std::vector<std::string> warnings;    // whole sentences
 };

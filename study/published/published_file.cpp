@@ -5,9 +5,9 @@
 #include <set>
 #include <utility>
 
+#include "base/csv.hpp"
 #include "base/text.hpp"
 #include "study/published/published.hpp"
-#include "study/table/csv.hpp"
 
 namespace burin::study {
 namespace {
@@ -30,6 +30,13 @@ constexpr std::array kQuantityNames{
 constexpr std::string_view kPublishedHeader = "table,quantity,group,participant,trial,printed";
 constexpr std::string_view kTitleMark = "# study: ";
 constexpr std::size_t kPublishedColumns = 6;
+
+// Whether the line has the header's names, in quotes or not.
+bool is_header(std::string_view line, char separator) {
+    std::string names;
+    for (const CsvField& field : split_csv(line, separator).fields) names += (names.empty() ? "" : ",") + field.text;
+    return names == kPublishedHeader;
+}
 
 bool is_of_a_trial(PublishedQuantity quantity) { return quantity <= PublishedQuantity::deviation_rank_in_group; }
 
@@ -86,6 +93,7 @@ const char* name_of(PublishedQuantity quantity) {
 ParsedPublished parse_published(std::string_view text) {
     ParsedPublished parsed;
     bool header_seen = false;
+    std::optional<char> separator;
     std::set<std::string> tables;
     for (std::size_t line_number = 1; !text.empty(); ++line_number) {
         const std::size_t end = std::min(text.find('\n'), text.size());
@@ -93,6 +101,7 @@ ParsedPublished parse_published(std::string_view text) {
         text.remove_prefix(std::min(end + 1, text.size()));
         if (line.starts_with(kTitleMark)) parsed.study.title = line.substr(kTitleMark.size());
         if (line.empty() || line.front() == '#') continue;
+        if (!header_seen && !separator && (separator = declared_separator(line))) continue;
         if (parsed.study.values.size() == kMostPublishedValues || tables.size() > kMostPublishedTables) {
             parsed.faults.push_back(
                 {line_number, 1,
@@ -101,9 +110,12 @@ ParsedPublished parse_published(std::string_view text) {
             return parsed;
         }
         if (header_seen) {
-            read_value(parsed, split_csv(line), line_number);
+            read_value(parsed, split_csv(line, *separator), line_number);
             if (!parsed.study.values.empty()) tables.insert(parsed.study.values.back().table);
-        } else if (line != kPublishedHeader) {
+        } else if (!separator) {
+            separator = separator_in(line);
+        }
+        if (!header_seen && !is_header(line, *separator)) {
             parsed.faults.push_back({line_number, 1, "is no table of published figures",
                                      "its first line must read " + std::string(kPublishedHeader)});
             return parsed;

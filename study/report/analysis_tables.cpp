@@ -6,8 +6,8 @@
 #include <string_view>
 #include <utility>
 
+#include "base/csv.hpp"
 #include "study/statistics/ranks.hpp"
-#include "study/table/csv.hpp"
 
 namespace burin::study {
 namespace {
@@ -91,7 +91,7 @@ std::string trials_csv(const TrialTable& table) {
 std::string ranks_in_groups(const UnitAnalysis& analysis) {
     std::string text;
     for (const GroupSummary& g : analysis.groups) {
-        const std::vector<double> times = midranks(g.times), deviations = midranks(g.deviations);
+        const std::vector<double> times = midranks(g.exact_times), deviations = midranks(g.exact_deviations);
         for (std::size_t i = 0; i < times.size(); ++i) {
             const double d = times[i] - deviations[i];
             text += csv_line(name_of(analysis.unit), g.group, g.participants[i], g.trial_numbers[i], g.times[i],
@@ -101,10 +101,16 @@ std::string ranks_in_groups(const UnitAnalysis& analysis) {
     return text;
 }
 
+// One measure of a group's units, as it is ranked and as it is printed.
+struct RankedMeasure {
+    std::vector<Int128> GroupSummary::* exact;
+    std::vector<double> GroupSummary::* printed;
+};
+
 std::string ranks_of_pair(const UnitAnalysis& analysis, const GroupSummary& first, const GroupSummary& second,
-                          std::vector<double> GroupSummary::* measure) {
-    std::vector<double> all = first.*measure;
-    all.insert(all.end(), (second.*measure).begin(), (second.*measure).end());
+                          const RankedMeasure& measure) {
+    std::vector<Int128> all = first.*measure.exact;
+    all.insert(all.end(), (second.*measure.exact).begin(), (second.*measure.exact).end());
     const std::vector<double> ranks = midranks(all);
     std::string text;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -112,12 +118,12 @@ std::string ranks_of_pair(const UnitAnalysis& analysis, const GroupSummary& firs
         const GroupSummary& group = in_first ? first : second;
         const std::size_t at = in_first ? i : i - first.participants.size();
         text += csv_line(name_of(analysis.unit), first.group, second.group, group.group, group.participants[at],
-                         group.trial_numbers[at], all[i], ranks[i]);
+                         group.trial_numbers[at], (group.*measure.printed)[at], ranks[i]);
     }
     return text;
 }
 
-std::string ranks_of(const Analysis& analysis, std::vector<double> GroupSummary::* measure) {
+std::string ranks_of(const Analysis& analysis, const RankedMeasure& measure) {
     std::string text = csv_line("unit", "first", "second", "group", "participant", "trial", "value", "rank");
     for (const UnitAnalysis* unit : {&analysis.participants, &analysis.trials}) {
         for (std::size_t i = 0; i < unit->groups.size(); ++i) {
@@ -211,12 +217,13 @@ Json published_json(const PublishedComparison& comparison) {
 std::vector<NamedText> analysis_tables(const Analysis& analysis) {
     const std::string ranks_header = csv_line("unit", "group", "participant", "trial", "time", "time_rank", "deviation",
                                               "deviation_rank", "d", "d_squared");
-    return {{"trials.csv", trials_csv(analysis.table)},
-            {"ranks-in-groups.csv",
-             ranks_header + ranks_in_groups(analysis.participants) + ranks_in_groups(analysis.trials)},
-            {"ranks-of-time.csv", ranks_of(analysis, &GroupSummary::times)},
-            {"ranks-of-deviation.csv", ranks_of(analysis, &GroupSummary::deviations)},
-            {"tests.csv", tests_csv(analysis)}};
+    return {
+        {"trials.csv", trials_csv(analysis.table)},
+        {"ranks-in-groups.csv",
+         ranks_header + ranks_in_groups(analysis.participants) + ranks_in_groups(analysis.trials)},
+        {"ranks-of-time.csv", ranks_of(analysis, {&GroupSummary::exact_times, &GroupSummary::times})},
+        {"ranks-of-deviation.csv", ranks_of(analysis, {&GroupSummary::exact_deviations, &GroupSummary::deviations})},
+        {"tests.csv", tests_csv(analysis)}};
 }
 
 }  // namespace burin::study

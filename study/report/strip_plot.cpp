@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/plot/svg.hpp"
+#include "base/statistics.hpp"
 
 namespace burin::study {
 namespace {
@@ -69,9 +71,7 @@ std::string dots(const Strip& strip, const Axis& axis, double middle) {
 std::string median_bar(std::vector<double> values, const Axis& axis, double middle) {
     std::erase_if(values, [](double value) { return !std::isfinite(value); });
     if (values.empty()) return "";
-    std::ranges::sort(values);
-    const std::size_t half = values.size() / 2;
-    const double median = values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+    const double median = middle_value(std::move(values));
     const double y = axis.y_of(median);
     return plot::line(middle - 34.0, y, middle + 34.0, y, "#000000", " stroke-width=\"2.5\"") +
            plot::write(middle + 38.0, y + 4.0, "", formatted("%.3g", median));

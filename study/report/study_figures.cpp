@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "base/plot/figures.hpp"
 #include "base/plot/svg.hpp"
+#include "base/statistics.hpp"
 
 namespace burin::study {
 namespace {
@@ -25,12 +27,9 @@ std::string arrow(double x0, double y0, double x1, double y1) {
            formatted("<path d=\"M%.1f %.1f l-4 -7 h8 z\" fill=\"#333333\"/>\n", x1, y1);
 }
 
-double median_of(std::vector<double> values) {
+double middle_of_known(std::vector<double> values) {
     std::erase_if(values, [](double v) { return !std::isfinite(v); });
-    if (values.empty()) return kUndefined;
-    std::ranges::sort(values);
-    const std::size_t half = values.size() / 2;
-    return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+    return values.empty() ? kUndefined : middle_value(std::move(values));
 }
 
 // The range that all values, their intervals and 0 lie in, with a margin.
@@ -119,7 +118,7 @@ std::string learning_figure(const UnitAnalysis& trials, const std::string& measu
         for (auto& [person, line] : lines) plot.series.push_back(std::move(line));
         plot::PlotSeries middle{group.group + ", median", {}, 3.0};
         for (const auto& [trial, all] : by_trial)
-            middle.points.push_back({static_cast<double>(trial), median_of(all), ""});
+            middle.points.push_back({static_cast<double>(trial), middle_of_known(all), ""});
         plot.series.push_back(std::move(middle));
     }
     plot.y_lowest = 0.0;

@@ -4,6 +4,10 @@
 
 namespace burin::study {
 
+// A probability that is at most this times a bound is at most the bound but for rounding: of 0.1 and 0.5 (1 - 0.8) both
+// are one tenth. Probabilities of counted ways differ by far more.
+inline constexpr double kAlikeProbabilities = 1.0 + 1e-12;
+
 // P(|Z| >= |z|) of a standard normal Z.
 [[nodiscard]] double normal_two_sided(double z);
 // The z with P(Z <= z) = p, 0 < p < 1.

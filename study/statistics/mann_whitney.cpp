@@ -2,6 +2,7 @@
 #include "study/statistics/mann_whitney.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <string>
@@ -12,43 +13,89 @@
 namespace burin::study {
 namespace {
 
-std::vector<double> pooled(std::span<const double> first, std::span<const double> second) {
-    std::vector<double> all(first.begin(), first.end());
+// Doubled midranks of both groups together, the first group's first.
+struct PooledRanks {
+    std::vector<std::int64_t> doubled;
+    std::size_t n1 = 0;
+
+    [[nodiscard]] std::size_t n2() const { return doubled.size() - n1; }
+    [[nodiscard]] std::span<const std::int64_t> first() const { return std::span(doubled).first(n1); }
+    // Twice the distance of the first group's U from its middle, with its sign: a whole number.
+    [[nodiscard]] std::int64_t doubled_distance() const {
+        const std::int64_t sum = std::accumulate(first().begin(), first().end(), std::int64_t{0});
+        return sum - static_cast<std::int64_t>(n1 * (doubled.size() + 1));
+    }
+    [[nodiscard]] double middle() const { return 0.5 * static_cast<double>(n1) * static_cast<double>(n2()); }
+    [[nodiscard]] double u() const { return middle() + 0.5 * static_cast<double>(doubled_distance()); }
+};
+
+template <typename Number>
+PooledRanks pooled_ranks(std::span<const Number> first, std::span<const Number> second) {
+    std::vector<Number> all(first.begin(), first.end());
     all.insert(all.end(), second.begin(), second.end());
-    return all;
+    return {.doubled = doubled_midranks(std::span<const Number>(all)), .n1 = first.size()};
 }
+
+// Why there is no U; empty where there is one.
+std::string why_no_u(const PooledRanks& ranks) { return ranks.n1 == 0 || ranks.n2() == 0 ? "a group is empty" : ""; }
 
 std::string why_no_u(std::span<const double> first, std::span<const double> second) {
     if (first.empty() || second.empty()) return "a group is empty";
     return all_finite(first) && all_finite(second) ? "" : kNotFinite;
 }
 
-// U from the doubled sum of the first group's ranks.
-double u_from(std::int64_t doubled_sum, std::size_t n) {
-    const auto count = static_cast<double>(n);
-    return 0.5 * static_cast<double>(doubled_sum) - 0.5 * count * (count + 1.0);
-}
-
-double u_of(std::span<const double> first, std::span<const double> second) {
-    const std::vector<std::int64_t> ranks = doubled_midranks(pooled(first, second));
-    const auto end = ranks.begin() + static_cast<std::ptrdiff_t>(first.size());
-    return u_from(std::accumulate(ranks.begin(), end, std::int64_t{0}), first.size());
-}
-
-double exact_rank_sum_p(std::span<const double> first, std::span<const double> second) {
-    const std::vector<std::int64_t> ranks = doubled_midranks(pooled(first, second));
-    const std::span<const std::int64_t> all(ranks);
+double exact_rank_sum_p(const PooledRanks& ranks) {
     // Either group's sum tells the other's; the smaller has the smaller table.
-    const auto mine = first.size() <= second.size() ? all.first(first.size()) : all.subspan(first.size());
-    const auto mean = static_cast<std::int64_t>(mine.size() * (ranks.size() + 1));
-    const std::int64_t observed = std::abs(std::accumulate(mine.begin(), mine.end(), std::int64_t{0}) - mean);
-    const std::vector<double> counts = rank_sum_counts(ranks, mine.size());
+    const std::size_t chosen = std::min(ranks.n1, ranks.n2());
+    const auto mean = static_cast<std::int64_t>(chosen * (ranks.doubled.size() + 1));
+    const std::int64_t observed = std::abs(ranks.doubled_distance());
+    const std::vector<double> counts = rank_sum_counts(ranks.doubled, chosen);
     double hits = 0.0, ways = 0.0;
     for (std::size_t s = 0; s < counts.size(); ++s) {
         ways += counts[s];
         if (std::abs(static_cast<std::int64_t>(s) - mean) >= observed) hits += counts[s];
     }
     return hits / ways;
+}
+
+// The variance of U is n1 n2 (n^3 - n - ties) / (12 n (n - 1)), whose numerator is a whole number: 0 where all are
+// equal, and never next to it.
+NormalU normal_of(const PooledRanks& ranks) {
+    NormalU normal;
+    const auto n = static_cast<Int128>(ranks.doubled.size());
+    const Int128 untied = n * n * n - n - tie_term(ranks.doubled);
+    normal.mean = ranks.middle();
+    const auto all = static_cast<double>(ranks.doubled.size());
+    normal.deviation = std::sqrt(normal.mean * static_cast<double>(untied) / (6.0 * all * (all - 1.0)));
+    if (untied > 0) normal.z = 0.5 * static_cast<double>(ranks.doubled_distance()) / normal.deviation;
+    return normal;
+}
+
+Outcome normal_outcome(const PooledRanks& ranks, const std::string& undefined) {
+    Outcome outcome;
+    outcome.method = "Mann-Whitney U test, normal approximation with tie and continuity correction";
+    outcome.undefined = undefined;
+    if (!undefined.empty()) return outcome;
+    const NormalU normal = normal_of(ranks);
+    outcome.statistic = ranks.u();
+    // 0.5 nearer to the middle, and not across it.
+    const std::int64_t doubled_distance = std::max<std::int64_t>(0, std::abs(ranks.doubled_distance()) - 1);
+    outcome.p = doubled_distance == 0 || std::isnan(normal.z)
+                    ? 1.0
+                    : normal_two_sided(0.5 * static_cast<double>(doubled_distance) / normal.deviation);
+    return outcome;
+}
+
+Outcome exact_outcome(const PooledRanks& ranks, const std::string& undefined) {
+    if (ranks.doubled.size() > kExactValues) return normal_outcome(ranks, undefined);
+    Outcome outcome;
+    outcome.method = "Mann-Whitney U test, exact permutation p with midranks";
+    outcome.undefined = undefined;
+    if (!undefined.empty()) return outcome;
+    outcome.statistic = ranks.u();
+    outcome.p = exact_rank_sum_p(ranks);
+    outcome.exact = true;
+    return outcome;
 }
 
 }  // namespace
@@ -71,38 +118,23 @@ std::vector<double> rank_sum_counts(std::span<const std::int64_t> doubled_ranks,
 }
 
 NormalU normal_u(std::span<const double> first, std::span<const double> second) {
-    NormalU normal;
-    if (!why_no_u(first, second).empty()) return normal;
-    const auto n1 = static_cast<double>(first.size()), n2 = static_cast<double>(second.size()), n = n1 + n2;
-    normal.mean = 0.5 * n1 * n2;
-    const double ties = n > 1.0 ? tie_term(pooled(first, second)) / (n * (n - 1.0)) : 0.0;
-    normal.deviation = std::sqrt(std::max(0.0, n1 * n2 / 12.0 * (n + 1.0 - ties)));
-    if (normal.deviation > 0.0) normal.z = (u_of(first, second) - normal.mean) / normal.deviation;
-    return normal;
+    return why_no_u(first, second).empty() ? normal_of(pooled_ranks(first, second)) : NormalU{};
 }
 
 Outcome mann_whitney_normal(std::span<const double> first, std::span<const double> second) {
-    Outcome outcome;
-    outcome.method = "Mann-Whitney U test, normal approximation with tie and continuity correction";
-    outcome.undefined = why_no_u(first, second);
-    if (!outcome.undefined.empty()) return outcome;
-    const NormalU normal = normal_u(first, second);
-    outcome.statistic = u_of(first, second);
-    const double distance = std::max(0.0, std::abs(outcome.statistic - normal.mean) - 0.5);
-    outcome.p = normal.deviation > 0.0 ? normal_two_sided(distance / normal.deviation) : 1.0;
-    return outcome;
+    return normal_outcome(pooled_ranks(first, second), why_no_u(first, second));
+}
+Outcome mann_whitney_normal(std::span<const Int128> first, std::span<const Int128> second) {
+    const PooledRanks ranks = pooled_ranks(first, second);
+    return normal_outcome(ranks, why_no_u(ranks));
 }
 
 Outcome mann_whitney(std::span<const double> first, std::span<const double> second) {
-    if (first.size() + second.size() > kExactValues) return mann_whitney_normal(first, second);
-    Outcome outcome;
-    outcome.method = "Mann-Whitney U test, exact permutation p with midranks";
-    outcome.undefined = why_no_u(first, second);
-    if (!outcome.undefined.empty()) return outcome;
-    outcome.statistic = u_of(first, second);
-    outcome.p = exact_rank_sum_p(first, second);
-    outcome.exact = true;
-    return outcome;
+    return exact_outcome(pooled_ranks(first, second), why_no_u(first, second));
+}
+Outcome mann_whitney(std::span<const Int128> first, std::span<const Int128> second) {
+    const PooledRanks ranks = pooled_ranks(first, second);
+    return exact_outcome(ranks, why_no_u(ranks));
 }
 
 }  // namespace burin::study

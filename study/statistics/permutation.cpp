@@ -13,31 +13,27 @@
 namespace burin::study {
 namespace {
 
-// All values as deviations from their common mean, the first group's first.
+// All values as their distance from the common mean, times the number of values: whole numbers. The first group's
+// come first.
 struct Dealt {
-    std::vector<double> values;
+    std::vector<Int128> values;
     std::size_t n1 = 0;
-    double tolerance = 0.0;  // of a sum
 
-    // Means differ by sum / n1 + sum / n2, where sum is the first group's.
-    [[nodiscard]] bool as_far(double sum, double observed) const {
-        return std::abs(sum) >= std::abs(observed) - tolerance;
-    }
-    [[nodiscard]] double first_sum() const {
-        return std::accumulate(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(n1), 0.0);
+    [[nodiscard]] Int128 first_sum() const {
+        return std::accumulate(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(n1), Int128{0});
     }
 };
 
-Dealt deal(std::span<const double> first, std::span<const double> second) {
+// Means differ by sum / n1 + sum / n2, where sum is the first group's.
+bool as_far(Int128 sum, Int128 observed) { return std::max(sum, -sum) >= std::max(observed, -observed); }
+
+Int128 sum_of(std::span<const Int128> steps) { return std::accumulate(steps.begin(), steps.end(), Int128{0}); }
+
+Dealt deal(std::span<const Int128> first, std::span<const Int128> second) {
     Dealt dealt{.values = {first.begin(), first.end()}, .n1 = first.size()};
     dealt.values.insert(dealt.values.end(), second.begin(), second.end());
-    const double middle = mean(dealt.values);
-    double largest = 0.0;
-    for (double& value : dealt.values) {
-        largest = std::max(largest, std::abs(value));
-        value -= middle;
-    }
-    dealt.tolerance = 1e-12 * largest * static_cast<double>(dealt.values.size());
+    const Int128 total = sum_of(dealt.values);
+    for (Int128& value : dealt.values) value = value * static_cast<Int128>(dealt.values.size()) - total;
     return dealt;
 }
 
@@ -50,16 +46,16 @@ double ways_to_choose(std::size_t n, std::size_t k) {
 
 // Visits every choice of n1 of the values, as rising places.
 double exact_share(const Dealt& dealt) {
-    const double observed = dealt.first_sum();
+    const Int128 observed = dealt.first_sum();
     std::vector<std::size_t> chosen(dealt.n1);
     std::iota(chosen.begin(), chosen.end(), std::size_t{0});
     const std::size_t n = dealt.values.size();
     double hits = 0.0, ways = 0.0;
     while (true) {
-        double sum = 0.0;
+        Int128 sum = 0;
         for (const std::size_t i : chosen) sum += dealt.values[i];
         ways += 1.0;
-        if (dealt.as_far(sum, observed)) hits += 1.0;
+        if (as_far(sum, observed)) hits += 1.0;
         std::size_t at = chosen.size();
         while (at > 0 && chosen[at - 1] == n - chosen.size() + at - 1) --at;
         if (at == 0) return hits / ways;
@@ -69,13 +65,13 @@ double exact_share(const Dealt& dealt) {
 }
 
 double sampled_share(Dealt dealt, std::uint64_t seed) {
-    const double observed = dealt.first_sum();
+    const Int128 observed = dealt.first_sum();
     Random random(seed);
     std::size_t hits = 0;
     for (std::size_t draw = 0; draw < kRandomDeals; ++draw) {
         for (std::size_t i = 0; i < dealt.n1; ++i)
             std::swap(dealt.values[i], dealt.values[i + random.below(dealt.values.size() - i)]);
-        if (dealt.as_far(dealt.first_sum(), observed)) ++hits;
+        if (as_far(dealt.first_sum(), observed)) ++hits;
     }
     return static_cast<double>(1 + hits) / static_cast<double>(1 + kRandomDeals);
 }
@@ -83,20 +79,35 @@ double sampled_share(Dealt dealt, std::uint64_t seed) {
 // The sum of n1 of n values drawn without replacement has the variance n1 n2 / n * s^2.
 double normal_share(const Dealt& dealt) {
     const auto n1 = static_cast<double>(dealt.n1), n = static_cast<double>(dealt.values.size());
-    const double squares = std::inner_product(dealt.values.begin(), dealt.values.end(), dealt.values.begin(), 0.0);
-    const double deviation = std::sqrt(n1 * (n - n1) / n * squares / (n - 1.0));
-    return deviation > 0.0 ? normal_two_sided(dealt.first_sum() / deviation) : 1.0;
+    double squares = 0.0;
+    for (const Int128 value : dealt.values) squares += static_cast<double>(value) * static_cast<double>(value);
+    const Int128 sum = dealt.first_sum();
+    if (sum == 0) return 1.0;
+    return normal_two_sided(static_cast<double>(sum) / std::sqrt(n1 * (n - n1) / n * squares / (n - 1.0)));
+}
+
+Outcome undefined_outcome(const std::string& why) {
+    Outcome outcome;
+    outcome.method = "permutation test of the difference of means";
+    outcome.undefined = why;
+    return outcome;
 }
 
 }  // namespace
 
 Outcome permutation_of_means(std::span<const double> first, std::span<const double> second, std::uint64_t seed) {
-    Outcome outcome;
-    outcome.method = "permutation test of the difference of means";
-    if (first.empty() || second.empty()) outcome.undefined = "a group is empty";
-    if (!all_finite(first) || !all_finite(second)) outcome.undefined = kNotFinite;
+    if (first.empty() || second.empty()) return undefined_outcome("a group is empty");
+    if (!all_finite(first) || !all_finite(second)) return undefined_outcome(kNotFinite);
+    const ExactGroups exact = exact_groups(first, second);
+    return permutation_of_means(exact.first, exact.second, exact.step, seed);
+}
+
+Outcome permutation_of_means(std::span<const Int128> first, std::span<const Int128> second, const Step& step,
+                             std::uint64_t seed) {
+    Outcome outcome = undefined_outcome(first.empty() || second.empty() ? "a group is empty" : "");
     if (!outcome.undefined.empty()) return outcome;
-    outcome.statistic = mean({first.begin(), first.end()}) - mean({second.begin(), second.end()});
+    const auto n1 = static_cast<std::int64_t>(first.size()), n2 = static_cast<std::int64_t>(second.size());
+    outcome.statistic = value_of(sum_of(first) * n2 - sum_of(second) * n1, step, n1 * n2);
     const Dealt dealt = deal(first, second);
     if (ways_to_choose(dealt.values.size(), dealt.n1) <= kMostDeals) {
         outcome.exact = true;

@@ -32,7 +32,7 @@ Rejection exact_rejection(std::size_t first, std::size_t second, double alpha) {
     double tails = 0.0;
     for (std::size_t u = 0; 2 * u <= pairs; ++u) {
         tails += (2 * u == pairs ? 1.0 : 2.0) * counts[least_sum + u] / ways;
-        if (tails > alpha * (1.0 + 1e-12)) break;  // a p that equals alpha but for rounding counts
+        if (tails > alpha * kAlikeProbabilities) break;  // a p that equals alpha counts
         rejection.rejected[u] = rejection.rejected[pairs - u] = 1;
         rejection.level = tails;
     }

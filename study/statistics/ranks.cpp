@@ -7,44 +7,47 @@
 namespace burin::study {
 namespace {
 
-// Calls f(first, end, order) for every run of equal values, by places in `order`, which sorts the values.
-template <typename F>
-void for_each_tie(std::span<const double> values, F&& f) {
+std::vector<double> halved(const std::vector<std::int64_t>& doubled_ranks) {
+    std::vector<double> ranks;
+    ranks.reserve(doubled_ranks.size());
+    for (const std::int64_t doubled : doubled_ranks) ranks.push_back(0.5 * static_cast<double>(doubled));
+    return ranks;
+}
+
+template <typename Number>
+std::vector<std::int64_t> doubled_ranks_of(std::span<const Number> values) {
     std::vector<std::size_t> order(values.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::sort(order, {}, [&](std::size_t i) { return values[i]; });
+    std::vector<std::int64_t> ranks(values.size());
     for (std::size_t first = 0; first < order.size();) {
         std::size_t end = first + 1;
         while (end < order.size() && values[order[end]] == values[order[first]]) ++end;
-        f(first, end, order);
+        // The mean of the ranks first + 1 .. end, twice.
+        for (std::size_t i = first; i < end; ++i) ranks[order[i]] = static_cast<std::int64_t>(first + 1 + end);
         first = end;
     }
+    return ranks;
 }
 
 }  // namespace
 
-std::vector<std::int64_t> doubled_midranks(std::span<const double> values) {
-    std::vector<std::int64_t> ranks(values.size());
-    for_each_tie(values, [&](std::size_t first, std::size_t end, const std::vector<std::size_t>& order) {
-        // The mean of the ranks first + 1 .. end, twice.
-        for (std::size_t i = first; i < end; ++i) ranks[order[i]] = static_cast<std::int64_t>(first + 1 + end);
-    });
-    return ranks;
-}
+std::vector<std::int64_t> doubled_midranks(std::span<const double> values) { return doubled_ranks_of(values); }
+std::vector<std::int64_t> doubled_midranks(std::span<const Int128> values) { return doubled_ranks_of(values); }
 
-std::vector<double> midranks(std::span<const double> values) {
-    std::vector<double> ranks;
-    ranks.reserve(values.size());
-    for (const std::int64_t doubled : doubled_midranks(values)) ranks.push_back(0.5 * static_cast<double>(doubled));
-    return ranks;
-}
+std::vector<double> midranks(std::span<const double> values) { return halved(doubled_midranks(values)); }
+std::vector<double> midranks(std::span<const Int128> values) { return halved(doubled_midranks(values)); }
 
-double tie_term(std::span<const double> values) {
-    double term = 0.0;
-    for_each_tie(values, [&](std::size_t first, std::size_t end, const std::vector<std::size_t>&) {
-        const auto tied = static_cast<double>(end - first);
+Int128 tie_term(std::span<const std::int64_t> doubled_ranks) {
+    std::vector<std::int64_t> sorted(doubled_ranks.begin(), doubled_ranks.end());
+    std::ranges::sort(sorted);
+    Int128 term = 0;
+    for (auto first = sorted.begin(); first != sorted.end();) {
+        const auto end = std::upper_bound(first, sorted.end(), *first);
+        const Int128 tied = end - first;
         term += tied * tied * tied - tied;
-    });
+        first = end;
+    }
     return term;
 }
 

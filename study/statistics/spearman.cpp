@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -84,37 +86,34 @@ double sampled_p(const Ranks& x, Ranks y, std::uint64_t seed) {
 
 bool all_equal(const Ranks& ranks) { return std::ranges::adjacent_find(ranks, std::not_equal_to{}) == ranks.end(); }
 
+// Sums are whole numbers, so that the correlation is rounded once where neither list has ties, and is exactly 1 where
+// both rise together.
 double correlation_of(const Ranks& x, const Ranks& y) {
-    const auto n = static_cast<double>(x.size());
-    const double mean = n + 1.0;
-    double xy = 0.0, xx = 0.0, yy = 0.0;
+    const auto mean = static_cast<std::int64_t>(x.size() + 1);
+    Int128 xy = 0, xx = 0, yy = 0;
     for (std::size_t i = 0; i < x.size(); ++i) {
-        const double dx = static_cast<double>(x[i]) - mean, dy = static_cast<double>(y[i]) - mean;
+        const Int128 dx = x[i] - mean, dy = y[i] - mean;
         xy += dx * dy;
         xx += dx * dx;
         yy += dy * dy;
     }
-    // Whole numbers below 2^53 for any table that is read, so that r = 1 comes out as 1.
-    return xy / std::sqrt(xx * yy);
+    if (xx == yy) return static_cast<double>(xy) / static_cast<double>(xx);
+    const auto of_both = std::sqrt(static_cast<long double>(xx) * static_cast<long double>(yy));
+    return static_cast<double>(static_cast<long double>(xy) / of_both);
 }
 
-}  // namespace
-
-Outcome spearman(std::span<const double> x, std::span<const double> y, std::uint64_t seed) {
-    BURIN_CHECK(x.size() == y.size());
+Outcome undefined_correlation(const std::string& why) {
     Outcome outcome;
     outcome.method = "Spearman's rank correlation of midranks";
-    const std::size_t n = std::min(x.size(), y.size());
-    x = x.first(n);
-    y = y.first(n);
-    if (n < 2) outcome.undefined = "fewer than two pairs";
-    if (!all_finite(x) || !all_finite(y)) outcome.undefined = kNotFinite;
-    if (!outcome.undefined.empty()) return outcome;
-    const Ranks rx = doubled_midranks(x), ry = doubled_midranks(y);
-    if (all_equal(rx) || all_equal(ry)) {
-        outcome.undefined = "all values of one variable are equal";
-        return outcome;
-    }
+    outcome.undefined = why;
+    return outcome;
+}
+
+Outcome correlation_outcome(const Ranks& rx, const Ranks& ry, std::uint64_t seed) {
+    const std::size_t n = rx.size();
+    if (n < 2) return undefined_correlation("fewer than two pairs");
+    if (all_equal(rx) || all_equal(ry)) return undefined_correlation("all values of one variable are equal");
+    Outcome outcome = undefined_correlation("");
     outcome.statistic = correlation_of(rx, ry);
     if (n <= kExactPairs) {
         outcome.p = exact_p(rx, ry);
@@ -126,10 +125,25 @@ Outcome spearman(std::span<const double> x, std::span<const double> y, std::uint
             formatted(", p from %zu random permutations, seed %llu", kPairings, static_cast<unsigned long long>(seed));
     } else {
         const double r = outcome.statistic, freedom = static_cast<double>(n) - 2.0;
-        outcome.p = student_two_sided(r * std::sqrt(freedom / std::max(0.0, 1.0 - r * r)), freedom);
+        outcome.p = student_two_sided(r * std::sqrt(freedom / std::max(0.0, (1.0 - r) * (1.0 + r))), freedom);
         outcome.method += ", p from Student's t";
     }
     return outcome;
+}
+
+}  // namespace
+
+Outcome spearman(std::span<const double> x, std::span<const double> y, std::uint64_t seed) {
+    BURIN_CHECK(x.size() == y.size());
+    const std::size_t n = std::min(x.size(), y.size());
+    if (n >= 2 && (!all_finite(x.first(n)) || !all_finite(y.first(n)))) return undefined_correlation(kNotFinite);
+    return correlation_outcome(doubled_midranks(x.first(n)), doubled_midranks(y.first(n)), seed);
+}
+
+Outcome spearman(std::span<const Int128> x, std::span<const Int128> y, std::uint64_t seed) {
+    BURIN_CHECK(x.size() == y.size());
+    const std::size_t n = std::min(x.size(), y.size());
+    return correlation_outcome(doubled_midranks(x.first(n)), doubled_midranks(y.first(n)), seed);
 }
 
 }  // namespace burin::study

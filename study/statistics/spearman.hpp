@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <span>
 
+#include "study/statistics/exact.hpp"
 #include "study/statistics/outcome.hpp"
 
 namespace burin::study {
@@ -22,5 +23,7 @@ inline constexpr std::size_t kExactPairs = 12, kSampledPairs = 200, kPairings = 
 // statistic: r_s, -1 to 1. x and y have the same length, x[i] belongs to y[i]. Undefined below two pairs and where all
 // of x or all of y are equal.
 [[nodiscard]] Outcome spearman(std::span<const double> x, std::span<const double> y, std::uint64_t seed = 1);
+// Of values as whole steps (exact.hpp), which tie as the decimals do that were written.
+[[nodiscard]] Outcome spearman(std::span<const Int128> x, std::span<const Int128> y, std::uint64_t seed = 1);
 
 }  // namespace burin::study

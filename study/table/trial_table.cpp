@@ -7,9 +7,9 @@
 #include <optional>
 #include <utility>
 
+#include "base/csv.hpp"
 #include "base/file_io.hpp"
 #include "base/text.hpp"
-#include "study/table/csv.hpp"
 
 namespace burin::study {
 namespace {
@@ -55,7 +55,7 @@ public:
             }
             if (header_seen_) {
                 read_row(line);
-            } else {
+            } else if (!takes_separator(line)) {
                 read_header(line);
             }
         }
@@ -80,9 +80,21 @@ private:
         return false;
     }
 
+    // Whether the line says what separates columns; nothing but the first may.
+    [[nodiscard]] bool takes_separator(std::string_view line) {
+        const std::optional<char> declared = declared_separator(line);
+        if (!declared || separator_) return false;
+        if (*declared == '\0')
+            complain(line_, 1, "declares a separator that is none: " + std::string(line.substr(0, 40)),
+                     "separate columns by commas, semicolons or tabs");
+        separator_ = *declared == '\0' ? ',' : *declared;
+        return true;
+    }
+
     void read_header(std::string_view line) {
         header_seen_ = true;
-        const CsvLine split = split_csv(line);
+        if (!separator_) separator_ = separator_in(line);
+        const CsvLine split = split_csv(line, *separator_);
         if (!quotes_closed(split)) return;
         columns_ = split.fields.size();
         for (std::size_t i = 0; i < columns_; ++i) name_column(split.fields[i], i);
@@ -90,10 +102,16 @@ private:
         for (std::size_t q = 0; q < kQuantities; ++q) {
             if (place_[q]) continue;
             columns_known_ = false;
-            const bool semicolons = line.contains(';') && columns_ == 1;
-            complain(line_, 1, std::string("has no column ") + kWays[q],
-                     semicolons ? "separate columns by commas, not semicolons" : "name the column in this line");
+            complain(line_, 1, std::string("has no column ") + kWays[q], remedy_for_columns(line));
         }
+    }
+
+    [[nodiscard]] std::string remedy_for_columns(std::string_view line) const {
+        if (columns_ == 1)
+            return std::string("separate columns by commas, semicolons or tabs") +
+                   (line.contains('|') ? ", not by |" : "");
+        return std::string("name the column in this line; what separates its fields is ") +
+               name_of_separator(*separator_);
     }
 
     void name_column(const CsvField& field, std::size_t i) {
@@ -115,27 +133,32 @@ private:
 
     void read_row(std::string_view line) {
         ++rows_seen_;
-        const CsvLine split = split_csv(line);
-        if (!quotes_closed(split) || !columns_known_) return;
-        if (split.fields.size() != columns_) {
-            const bool more = split.fields.size() > columns_;
-            const CsvField& where = more ? split.fields[columns_] : split.fields.back();
-            complain(line_, where.column,
-                     formatted("has %zu fields where the first line names %zu columns", split.fields.size(), columns_),
-                     more ? "remove what is too much, or put text that holds a comma in double quotes"
-                          : "write every field; leave none out");
-            return;
-        }
+        const CsvLine split = split_csv(line, *separator_);
+        if (!quotes_closed(split) || !columns_known_ || !has_all_fields(split)) return;
         const std::size_t faults_before = parsed_.faults.size();
         const Trial trial{.participant = code(split, Quantity::participant),
                           .group = code(split, Quantity::group),
                           .number = trial_number(split),
                           .deviation = number(split, Quantity::deviation, false),
-                          .time = number(split, Quantity::time, true)};
+                          .time = number(split, Quantity::time, true),
+                          .exact_deviation = decimal_of(field(split, Quantity::deviation).text),
+                          .exact_time = decimal_of(field(split, Quantity::time).text)};
         check_against_rows_before(split, trial);
         if (parsed_.faults.size() > faults_before) return;
         add_group(split, trial.group);
         parsed_.table.trials.push_back(trial);
+    }
+
+    [[nodiscard]] bool has_all_fields(const CsvLine& split) {
+        if (split.fields.size() == columns_) return true;
+        const bool more = split.fields.size() > columns_;
+        const CsvField& where = more ? split.fields[columns_] : split.fields.back();
+        complain(line_, where.column,
+                 formatted("has %zu fields where the first line names %zu columns", split.fields.size(), columns_),
+                 more ? std::string("remove what is too much, or put text that holds ") +
+                            name_of_separator(*separator_) + " in double quotes"
+                      : std::string("write every field, with ") + name_of_separator(*separator_) + " between them");
+        return false;
     }
 
     void add_group(const CsvLine& split, const std::string& group) {
@@ -210,6 +233,7 @@ private:
     ParsedTable parsed_;
     std::size_t line_ = 1, columns_ = 0, rows_seen_ = 0;
     bool header_seen_ = false, columns_known_ = false;
+    std::optional<char> separator_;  // of the columns; none before the first line
     std::array<std::optional<std::size_t>, kQuantities> place_;
     std::map<std::string, std::pair<std::string, std::size_t>> group_of_;  // of a participant, and the first line
     std::map<std::pair<std::string, int>, std::size_t> line_of_trial_;

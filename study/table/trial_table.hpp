@@ -12,15 +12,17 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "study/statistics/exact.hpp"
 
 namespace burin::study {
 
 struct Trial {
-    std::string participant;  // a code, never a name
-    std::string group;        // the training that the participant had
-    int number = 0;           // which trial of the participant
-    double deviation = 0.0;   // at least 0, in the table's unit
-    double time = 0.0;        // above 0, in the table's unit
+    std::string participant;              // a code, never a name
+    std::string group;                    // the training that the participant had
+    int number = 0;                       // which trial of the participant
+    double deviation = 0.0;               // at least 0, in the table's unit
+    double time = 0.0;                    // above 0, in the table's unit
+    Decimal exact_deviation, exact_time;  // the same as they are written
 };
 
 struct TrialTable {

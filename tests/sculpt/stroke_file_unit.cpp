@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/support/run_command.hpp"
 
 namespace burin::sculpt {
@@ -28,6 +30,27 @@ TEST(StrokeFile, ReadsRowsCommentsBlanksAndCarriageReturns) {
     EXPECT_DOUBLE_EQ(glm::length((*stroke)[0].orientation_object), 1.0);  // normalised
     EXPECT_FALSE((*stroke)[0].button);
     EXPECT_TRUE((*stroke)[1].button);
+}
+
+TEST(StrokeFile, IsReadWithQuotesAndWithSemicolonsOrTabsBetweenItsColumns) {
+    const std::string commas = kHeader + "0,0,0.12,0,0,0,0,1,1\n1,0.05,0.09,0,0,0,0,1,1\n";
+    std::string quoted = "\"", semicolons = commas, tabs = commas;
+    for (const char c : commas) quoted += c == ',' ? "\",\"" : c == '\n' ? "\"\n\"" : std::string(1, c);
+    quoted.pop_back();
+    std::ranges::replace(semicolons, ',', ';');
+    std::ranges::replace(tabs, ',', '\t');
+    for (const std::string& text : {commas, quoted, semicolons, tabs, "sep=;\n" + semicolons, "sep=,\n" + commas}) {
+        const auto stroke = parse_stroke(text, "s.csv");
+        ASSERT_TRUE(stroke) << text << stroke.error().line();
+        ASSERT_EQ(stroke->size(), 2u) << text;
+        EXPECT_EQ((*stroke)[1].position_object_m, Vec3(0.05, 0.09, 0.0));
+        EXPECT_TRUE((*stroke)[1].button);
+    }
+    std::string wrong = semicolons;
+    wrong.replace(wrong.find("0.12"), 4, "0,12");
+    EXPECT_NE(complaint(wrong).find("a decimal point and between them a semicolon"), std::string::npos)
+        << complaint(wrong);
+    EXPECT_NE(complaint(kHeader + "0,0,0.12,0,0,0,0,1,\"1\n").find("s.csv:2: does not hold nine"), std::string::npos);
 }
 
 TEST(StrokeFile, ReadsTurnsAsAxisAndAngle) {

@@ -47,6 +47,22 @@ TEST(Published, TextIsCompiledInAsTheAssetIs) {
     EXPECT_EQ(known_published_texts()[0], asset("published.csv"));
 }
 
+TEST(Published, IsReadAsASpreadsheetWritesIt) {
+    const std::string header = "table,quantity,group,participant,trial,printed\n", row = "5,time,a,1,1,2.5\n";
+    const auto with = [](std::string text, char separator) {
+        std::ranges::replace(text, ',', separator);
+        return text;
+    };
+    for (const std::string& text :
+         {header + row, with(header + row, ';'), with(header + row, '\t'), "sep=;\n" + with(header + row, ';'),
+          "\"table\",\"quantity\",\"group\",\"participant\",\"trial\",\"printed\"\n" + row}) {
+        const ParsedPublished parsed = parse_published(text);
+        ASSERT_TRUE(parsed.faults.empty()) << text << line_of(parsed.faults[0], "");
+        ASSERT_EQ(parsed.study.values.size(), 1u) << text;
+        EXPECT_EQ(parsed.study.values[0].printed, 2.5);
+    }
+}
+
 TEST(Published, RanksThatMixTwoKindsAreFound) {
     const PublishedComparison found = of_the_thesis();
     using enum PublishedQuantity;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/text.hpp"
+#include "study/analysis/analysis.hpp"
 #include "study/metrics/smoothness.hpp"
 #include "study/statistics/agreement.hpp"
 #include "study/statistics/distributions.hpp"
@@ -21,6 +22,8 @@
 #include "study/statistics/permutation.hpp"
 #include "study/statistics/ranks.hpp"
 #include "study/statistics/spearman.hpp"
+#include "study/table/trial_table.hpp"
+#include "tests/study/decimal_studies.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/property_cases.hpp"
 #include "tests/support/run_command.hpp"
@@ -169,13 +172,57 @@ std::map<std::string, int> compare_all(const Reference& reference, const std::ve
 
 std::string script(const std::string& name) { return std::string(kStudyTests) + "/" + name; }
 
-TEST(Reference, OfSciPyIsMet) {
-    const std::vector<Groups> groups = random_groups();
+Reference ask_scipy(const std::vector<Groups>& groups) {
     Reference reference;
     for (const char* python : {"/usr/bin/python3", "python3"}) {
         reference = ask(std::string(python) + " '" + script("reference_scipy.py") + "'", groups);
         if (!reference.figures.empty()) break;
     }
+    return reference;
+}
+
+Values numbers_of(const std::vector<std::int64_t>& whole) { return {whole.begin(), whole.end()}; }
+
+// SciPy's floats would round the means; it is given their ranks instead, and has the same U, p and r_s to find.
+TEST(Reference, OfSciPyIsMetByTheAnalysisOfDecimalsWhoseRanksItIsGiven) {
+    using test_decimals::DecimalPerson;
+    const auto studies = test_decimals::random_decimal_studies(30, test::property_cases().seed);
+    std::vector<Groups> groups;  // of each study the ranks of deviations in both groups, and of time and deviation in A
+    for (const test_decimals::DecimalStudy& study : studies) {
+        test_decimals::Twelfths pooled = study.values(0, &DecimalPerson::deviations, true);
+        const auto first = static_cast<std::ptrdiff_t>(pooled.size());
+        const test_decimals::Twelfths other = study.values(1, &DecimalPerson::deviations, true);
+        pooled.insert(pooled.end(), other.begin(), other.end());
+        const Values ranks = numbers_of(test_decimals::twice_ranks(pooled));
+        groups.push_back({{ranks.begin(), ranks.begin() + first}, {ranks.begin() + first, ranks.end()}});
+        groups.push_back({numbers_of(test_decimals::twice_ranks(study.values(0, &DecimalPerson::times, true))),
+                          numbers_of(test_decimals::twice_ranks(study.values(0, &DecimalPerson::deviations, true)))});
+    }
+    const Reference reference = ask_scipy(groups);
+    if (reference.figures.empty()) {
+        ASSERT_TRUE(reference.why.contains("not found") || reference.why.contains("No module")) << reference.why;
+        GTEST_SKIP() << "python3-scipy is not installed: " << reference.why;
+    }
+    std::size_t correlations = 0;
+    for (std::size_t i = 0; i < studies.size(); ++i) {
+        const UnitAnalysis unit = analyse(parse_trials(studies[i].csv()).table).participants;
+        const Comparison& deviation = unit.comparisons.at(1);
+        Figures of_groups = reference.figures[2 * i], of_pairs = reference.figures[2 * i + 1];
+        EXPECT_EQ(deviation.mann_whitney.statistic, of_groups.at("u")) << studies[i].csv();
+        EXPECT_NEAR(deviation.rank_biserial.value, of_groups.at("delta"), 1e-15);
+        if (of_groups.contains("u_exact_p")) {
+            EXPECT_NEAR(deviation.mann_whitney.p, of_groups.at("u_exact_p"), 1e-12) << studies[i].csv();
+        }
+        if (!of_pairs.contains("r")) continue;
+        ++correlations;
+        EXPECT_NEAR(unit.groups.at(0).deviation_with_time.statistic, of_pairs.at("r"), 1e-14) << studies[i].csv();
+    }
+    EXPECT_GT(correlations, studies.size() / 3);
+}
+
+TEST(Reference, OfSciPyIsMet) {
+    const std::vector<Groups> groups = random_groups();
+    const Reference reference = ask_scipy(groups);
     if (reference.figures.empty()) {
         ASSERT_TRUE(reference.why.contains("not found") || reference.why.contains("No module")) << reference.why;
         GTEST_SKIP() << "python3-scipy is not installed: " << reference.why;

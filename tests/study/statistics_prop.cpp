@@ -166,21 +166,33 @@ TEST(RankBiserial, IsTheShareOfGreaterPairsLessThatOfLesser) {
 
 TEST(HodgesLehmann, IsTheMedianOfAllDifferencesWithinTwoOfThem) {
     EXPECT_TRUE(rc::check([] {
-        Values first = tied_values(1, 12), second = tied_values(1, 12);
-        for (double& value : first) value *= *rc::gen::element(1.0, -0.1, 1e9, -1e-9);
-        Values differences;
-        for (const double a : first) {
-            for (const double b : second) differences.push_back(a - b);
+        // Whole numbers of one step, far apart in size.
+        const std::int64_t factor = *rc::gen::element<std::int64_t>(1, -1, 1'000'000'007, -3);
+        const auto steps = [&](std::int64_t times) {
+            std::vector<Int128> values;
+            for (const double value : tied_values(1, 12))
+                values.push_back(times * static_cast<std::int64_t>(2 * value));
+            return values;
+        };
+        const std::vector<Int128> first = steps(factor), second = steps(1);
+        Values doubled;  // twice each difference: whole, and below 2^53
+        for (const Int128 a : first) {
+            for (const Int128 b : second) doubled.push_back(2.0 * static_cast<double>(a - b));
         }
-        std::ranges::sort(differences);
-        const std::size_t n = differences.size(), half = n / 2;
-        const double median = n % 2 == 1 ? differences[half] : 0.5 * (differences[half - 1] + differences[half]);
-        const Estimate estimate = hodges_lehmann(first, second);
-        RC_ASSERT(estimate.value == median);
-        RC_ASSERT(std::ranges::binary_search(differences, estimate.low));
-        RC_ASSERT(std::ranges::binary_search(differences, estimate.high));
+        std::ranges::sort(doubled);
+        const std::size_t n = doubled.size(), half = n / 2;
+        const double median = n % 2 == 1 ? doubled[half] : 0.5 * (doubled[half - 1] + doubled[half]);
+        const Estimate estimate = hodges_lehmann(first, second, {.divisor = 2, .exponent = 0});
+        RC_ASSERT(estimate.value == median / 4.0);
+        RC_ASSERT(std::ranges::binary_search(doubled, 4.0 * estimate.low));
+        RC_ASSERT(std::ranges::binary_search(doubled, 4.0 * estimate.high));
         RC_ASSERT(estimate.low <= estimate.value && estimate.value <= estimate.high);
         RC_ASSERT(estimate.exact);
+        // Doubles are the decimals that they stand for: tenths of these steps.
+        Values a, b;
+        for (const Int128 value : first) a.push_back(static_cast<double>(value) / 10.0);
+        for (const Int128 value : second) b.push_back(static_cast<double>(value) / 10.0);
+        RC_ASSERT(hodges_lehmann(a, b).value == median / 20.0);
     }));
 }
 

@@ -2,10 +2,12 @@
 // Tables of trials as people and programs write them, and what is said of those that are wrong.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "study/table/csv.hpp"
+#include "base/csv.hpp"
 #include "study/table/trial_table.hpp"
 
 namespace burin::study {
@@ -85,9 +87,9 @@ TEST(TrialTable, NamesWhatIsWrongWithTheWhole) {
     expect_fault(kHeader, "1:1", "holds no trial");
     expect_fault("user,group,trial,deviation\n1,a,1,0.1\n", "1:1", "time_s or time_min");
     expect_fault("user,participant,group,trial,deviation,time_s\n1,1,a,1,0.1,2\n", "1:6", "says again");
-    const ParsedTable semicolons = parse_trials("user;group;trial;deviation;time_s\n");
-    ASSERT_EQ(semicolons.faults.size(), 5u);
-    EXPECT_NE(semicolons.faults[0].remedy.find("commas"), std::string::npos);
+    const ParsedTable bars = parse_trials("user|group|trial|deviation|time_s\n");
+    ASSERT_EQ(bars.faults.size(), 5u);
+    EXPECT_NE(bars.faults[0].remedy.find("by commas, semicolons or tabs, not by |"), std::string::npos);
     std::string many = kHeader;
     for (int i = 0; i < 100; ++i) many += std::to_string(i) + ",g" + std::to_string(i) + ",1,0.1,2\n";
     expect_fault(many, "22:4", "more than 20 groups");
@@ -100,6 +102,33 @@ TEST(TrialTable, NamesWhatIsWrongWithTheWhole) {
 TEST(TrialTable, ListsAllFaultsByLineAndColumn) {
     const ParsedTable parsed = parse_trials(std::string(kHeader) + "1,a,1,x,y\n2,a,1,0.1,2\n2,b,1,-1,2\n3,a,1,0.1\n");
     EXPECT_EQ(places_of(parsed), (std::vector<std::string>{"2:7", "2:9", "4:3", "4:5", "4:7", "5:7"}));
+}
+
+TEST(TrialTable, IsReadWithCommasSemicolonsOrTabsBetweenItsColumns) {
+    const std::string commas =
+        "user,group,trial,deviation_mm,time_s\n1,a,1,1.5,20.25\n2,b,1,3.5999999999999996,17.25\n";
+    const auto separated = [&](char separator) {
+        std::string text = commas;
+        std::ranges::replace(text, ',', separator);
+        return text;
+    };
+    for (const std::string& text :
+         {commas, separated(';'), separated('\t'), "sep=,\n" + commas, "sep=;\n" + separated(';'),
+          "\"sep=;\"\n" + separated(';'), "sep=\t\n" + separated('\t'), "Sep=,\n# a remark\n" + commas}) {
+        const ParsedTable parsed = parse_trials(text);
+        ASSERT_TRUE(parsed.faults.empty()) << text << line_of(parsed.faults[0], "");
+        ASSERT_EQ(parsed.table.trials.size(), 2u) << text;
+        EXPECT_EQ(parsed.table.deviation_unit, "mm");
+        EXPECT_EQ(parsed.table.trials[1].participant, "2");
+        EXPECT_EQ(parsed.table.trials[1].deviation, 3.5999999999999996);
+        EXPECT_EQ(parsed.table.trials[1].time, 17.25);
+    }
+    // An empty field between tabs is a field; a semicolon in one name of many is none between columns.
+    expect_fault("user\tgroup\ttrial\tdeviation\ttime_s\n1\t\t1\t0.1\t2\n", "2:3", "names no group");
+    EXPECT_TRUE(parse_trials("user,group,trial,deviation,time_s,a;b\n1,a,1,0.1,2,x\n").faults.empty());
+    expect_fault("user;group;trial;deviation;time_s\n1;a;1;0,1;2\n", "2:7", "decimal point");
+    expect_fault("user;group;trial;deviation;time_s\n1;a;1;0.1\n", "2:7", "with a semicolon between them");
+    expect_fault("sep=|\n" + commas, "1:1", "declares a separator that is none: sep=|");
 }
 
 TEST(TrialTable, RefusesAFileThatIsNoTextAtAll) {
@@ -116,6 +145,21 @@ TEST(Csv, ReadsBackWhatItWrites) {
         EXPECT_EQ(split.fields[1].text, text);
         EXPECT_EQ(split.unclosed_quote, 0u);
     }
+}
+
+TEST(Csv, SeesWhatSeparatesTheFields) {
+    EXPECT_EQ(separator_in("a,b,c"), ',');
+    EXPECT_EQ(separator_in("a;b;c"), ';');
+    EXPECT_EQ(separator_in("a\tb\tc"), '\t');
+    EXPECT_EQ(separator_in("alone"), ',');
+    EXPECT_EQ(separator_in("0,5;0,5;0,5;0,5;0,5;0,5"), ',') << "there is one comma more than semicolons";
+    EXPECT_EQ(separator_in("a;0,5;0,5"), ';') << "of as many fields the semicolon's";
+    EXPECT_EQ(separator_in("\"a;b;c;d\",e"), ',') << "quotes hold a field together";
+    EXPECT_EQ(declared_separator("sep=;"), ';');
+    EXPECT_EQ(declared_separator("sep=\t"), '\t');
+    EXPECT_EQ(declared_separator("sep="), '\0');
+    EXPECT_EQ(declared_separator("sep,group"), std::nullopt);
+    EXPECT_EQ(declared_separator("separator=;"), std::nullopt);
 }
 
 }  // namespace

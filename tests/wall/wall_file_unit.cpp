@@ -310,6 +310,26 @@ TEST(WallCommand, ReadsTouchesAfterAByteOrderMarkAndWithAnyLineEnds) {
               std::string::npos);
 }
 
+TEST(WallCommand, ReadsTouchesWithSemicolonsOrTabsBetweenThem) {
+    const std::string commas = "place,x,y,z\nlower_left,-5,0,0\nlower_right,5,0,0.25\n";
+    std::string semicolons = commas, tabs = commas;
+    std::ranges::replace(semicolons, ',', ';');
+    std::ranges::replace(tabs, ',', '\t');
+    for (const std::string& text : {commas, semicolons, tabs, "sep=;\n" + semicolons,
+                                    std::string("\"lower_left\",\"-5\",0,0\nlower_right;5;0;0.25\n"),
+                                    std::string("lower_left,-5,\t0,0\t\nlower_right,5,0,0.25\n")}) {
+        const auto samples = app::parse_samples(text, "touches.csv", 0.01);
+        ASSERT_TRUE(samples) << text << samples.error().line();
+        ASSERT_EQ(samples->size(), 2u) << text;
+        EXPECT_EQ((*samples)[0].place, "lower_left");
+        EXPECT_EQ((*samples)[0].tip_tracker, (Vec3{-0.05, 0.0, 0.0}));
+        EXPECT_EQ((*samples)[1].tip_tracker, (Vec3{0.05, 0.0, 0.0025}));
+    }
+    const auto decimal_commas = app::parse_samples("lower_left;-5,0;0,0;0,0\n", "touches.csv", 0.01);
+    ASSERT_FALSE(decimal_commas);
+    EXPECT_NE(decimal_commas.error().line().find("decimal point"), std::string::npos) << decimal_commas.error().line();
+}
+
 TEST(WallCommand, AsksForTouchAfterTouch) {
     std::istringstream in("1,2,3\nnonsense\n4,5,6\n\n7,8,9\nupper_right,0,0,1\n10,11,12\ndone\n1,1,1\n");
     std::ostringstream prompts;

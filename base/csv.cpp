@@ -1,15 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "study/table/csv.hpp"
+#include "base/csv.hpp"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <system_error>
 
-namespace burin::study {
+namespace burin {
 namespace {
 
-std::string_view without_blanks_around(std::string_view text) {
-    const std::size_t first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
+// The strongest first: a comma may also be one of a number.
+constexpr std::array kSeparators{'\t', ';', ','};
+
+// Blanks that are no separator.
+const char* blanks_beside(char separator) { return separator == '\t' ? " " : " \t"; }
+
+std::string_view without_blanks_around(std::string_view text, const char* blanks) {
+    const std::size_t first = text.find_first_not_of(blanks), last = text.find_last_not_of(blanks);
     return first == std::string_view::npos ? std::string_view() : text.substr(first, last + 1 - first);
 }
 
@@ -22,7 +30,8 @@ std::size_t characters_in(std::string_view text) {
 
 }  // namespace
 
-CsvLine split_csv(std::string_view line) {
+CsvLine split_csv(std::string_view line, char separator) {
+    const char* const blanks = blanks_beside(separator);
     CsvLine split;
     std::size_t at = 0, columns_before = 0, counted_to = 0;
     const auto column_at = [&](std::size_t place) {
@@ -31,7 +40,7 @@ CsvLine split_csv(std::string_view line) {
         return columns_before + 1;
     };
     while (true) {
-        while (at < line.size() && (line[at] == ' ' || line[at] == '\t')) ++at;
+        at = std::min(line.find_first_not_of(blanks, at), line.size());
         CsvField field{.text = {}, .column = column_at(at)};
         if (at < line.size() && line[at] == '"') {
             bool closed = false;
@@ -44,12 +53,39 @@ CsvLine split_csv(std::string_view line) {
             if (!closed && split.unclosed_quote == 0) split.unclosed_quote = field.column;
         }
         // What stands behind a closing quote belongs to the field, so that it is seen and complained about.
-        const std::size_t end = std::min(line.find(',', at), line.size());
-        field.text += without_blanks_around(line.substr(at, end - at));
+        const std::size_t end = std::min(line.find(separator, at), line.size());
+        field.text += without_blanks_around(line.substr(at, end - at), blanks);
         split.fields.push_back(std::move(field));
         if (end == line.size()) return split;
         at = end + 1;
     }
+}
+
+char separator_in(std::string_view line) {
+    char best = ',';
+    std::size_t most = 1;
+    for (const char separator : kSeparators) {
+        const std::size_t fields = split_csv(line, separator).fields.size();
+        if (fields <= most) continue;
+        most = fields;
+        best = separator;
+    }
+    return best;
+}
+
+std::optional<char> declared_separator(std::string_view line) {
+    line = without_blanks_around(line, " \r");
+    if (line.starts_with('"') && line.ends_with('"') && line.size() >= 2) line = line.substr(1, line.size() - 2);
+    constexpr std::string_view kMark = "sep=";
+    const bool declares = line.starts_with(kMark) || line.starts_with("Sep=") || line.starts_with("SEP=");
+    if (!declares || line.size() > kMark.size() + 1) return std::nullopt;
+    const char separator = line.size() > kMark.size() ? line[kMark.size()] : '\0';
+    return std::ranges::find(kSeparators, separator) != kSeparators.end() ? separator : '\0';
+}
+
+const char* name_of_separator(char separator) {
+    if (separator == ';') return "a semicolon";
+    return separator == '\t' ? "a tab" : "a comma";
 }
 
 std::optional<double> finite_number(std::string_view text) {
@@ -69,4 +105,4 @@ std::string csv_field(std::string_view text) {
     return quoted + '"';
 }
 
-}  // namespace burin::study
+}  // namespace burin
