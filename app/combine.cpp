@@ -99,10 +99,10 @@ Result<void> combine_files(const CombineOptions& options) {
     if (!finished) return std::unexpected(finished.error());
     const geometry::TriangleMesh& mesh = finished->mesh;
     if (mesh.triangles.empty() && !finished->too_thin.empty()) {
-        return fail(options.a + " and " + options.b,
-                    "leave nothing that shows: of their " + std::string(text(options.operation)) + " " +
-                        finished->too_thin,
-                    "raise --resolution, or make it thicker");
+        return fail(
+            options.a + " and " + options.b,
+            "leave nothing that shows: of their " + std::string(text(options.operation)) + " " + finished->too_thin,
+            "raise --resolution, or make it thicker");
     }
     if (mesh.triangles.empty()) {
         return fail(options.a + " and " + options.b,

@@ -50,7 +50,7 @@ struct CombineOptions {
     compute::Combination operation = compute::Combination::unite;
     int resolution = 256;  // cells along the longest side of both together
     bool close_holes = false;
-    std::optional<double> weld_m;  // none: by the files' numbers (sculpt/workpiece.hpp)
+    std::optional<double> weld_m;      // none: by the files' numbers (sculpt/workpiece.hpp)
     std::vector<std::string> exports;  // STL, PLY, OBJ
     std::string report;                // a JSON file; empty: none
     unsigned threads = 0;              // 0: one per core

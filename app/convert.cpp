@@ -28,8 +28,8 @@ void print_health(const geometry::TriangleMesh& numbers, LengthUnit unit = Lengt
     for (const std::string& complaint : geometry::complaints(health)) std::printf("  %s\n", complaint.c_str());
 }
 
-// One triangle in so many may lose its area by rounding: its corners are then moved apart by a step of a float, which is
-// no more than rounding does. Where more lose it, the format cannot hold the shape.
+// One triangle in so many may lose its area by rounding: its corners are then moved apart by a step of a float, which
+// is no more than rounding does. Where more lose it, the format cannot hold the shape.
 constexpr std::size_t kTrianglesForOneWithoutArea = 1000;
 
 Result<void> check_precision(const geometry::FileNumbers& numbers, const std::string& out) {
@@ -52,13 +52,15 @@ Result<geometry::TriangleMesh> rounded_for(const std::string& out, const geometr
     if (!numbers.is_rounded || format == geometry::MeshFormat::obj) return std::move(numbers.mesh);
     const compute::RoundingReport repair = compute::repair_rounding(mesh_m, numbers.mesh, pool);
     if (repair.vertices_moved > 0)
-        std::printf("  %s vertices were moved by a step or two of a float, so that triangles do not pass through each "
-                    "other by rounding\n",
-                    std::to_string(repair.vertices_moved).c_str());
+        std::printf(
+            "  %s vertices were moved by a step or two of a float, so that triangles do not pass through each "
+            "other by rounding\n",
+            std::to_string(repair.vertices_moved).c_str());
     if (repair.left != repair.before)
-        std::printf("  %s pairs of triangles pass through each other in the file's single-precision numbers, %s before; "
-                    ".obj has double precision\n",
-                    std::to_string(repair.left).c_str(), std::to_string(repair.before).c_str());
+        std::printf(
+            "  %s pairs of triangles pass through each other in the file's single-precision numbers, %s before; "
+            ".obj has double precision\n",
+            std::to_string(repair.left).c_str(), std::to_string(repair.before).c_str());
     return std::move(numbers.mesh);
 }
 

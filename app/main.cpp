@@ -26,7 +26,8 @@ constexpr const char* kUnitsHelp =
     "5, and m where not";
 
 constexpr const char* kWeldHelp =
-    "Join corners at open edges that lie up to this far apart, in metres; else as far as the file's numbers are precise";
+    "Join corners at open edges that lie up to this far apart, in metres; else as far as the file's numbers are "
+    "precise";
 
 void add_sculpt_options(Command command, session::SculptOptions& options) {
     command

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 struct WorldMesh {
     std::shared_ptr<const geometry::TriangleMesh> mesh;  // null: could not be read
     geometry::MeshHealth health;
-    double reach_m = 0.0;  // of the farthest corner of its box from its origin
+    double reach_m = 0.0;          // of the farthest corner of its box from its origin
     std::optional<Colour> colour;  // of the material that the file gives its first triangle
     std::optional<Error> failure;
 };
@@ -111,7 +111,8 @@ private:
         if (!object.felt || object.both_sides) return;
         if (const std::string why = not_solid(known.health); !why.empty())
             t.refuse("mesh", why,
-                     "burin convert --close-holes closes and turns it, --weld joins corners; both_sides = true has it felt from "
+                     "burin convert --close-holes closes and turns it, --weld joins corners; both_sides = true has it "
+                     "felt from "
                      "either side, felt = false not at all");
     }
 

@@ -30,8 +30,7 @@ ExportOutcome export_surface(const compute::Surface& surface, const compute::Sol
     if (finished->mesh.triangles.empty()) return ended(name + ": there is nothing left to export; undo some strokes");
     std::error_code ignored;
     const bool was_there = std::filesystem::exists(wanted.path, ignored);
-    if (const auto written = export_finished(*finished, wanted.path); !written)
-        return ended(written.error().line());
+    if (const auto written = export_finished(*finished, wanted.path); !written) return ended(written.error().line());
     outcome.written = true;
     outcome.replaced = was_there;
     const auto left = finished->self_intersections["left"].get<std::uint64_t>();

@@ -43,8 +43,9 @@ Json describe(const compute::SliverReport& slivers, const compute::Lattice& latt
 std::string too_thin(const compute::SliverReport& slivers, const compute::Lattice& lattice) {
     if (slivers.count() == 0) return "";
     const std::optional<int> resolution = compute::resolution_that_shows(slivers, lattice);
-    return formatted("%llu places are thinner than the mesh can show (the report's \"slivers\"); the solid keeps them: ",
-                     static_cast<unsigned long long>(slivers.count())) +
+    return formatted(
+               "%llu places are thinner than the mesh can show (the report's \"slivers\"); the solid keeps them: ",
+               static_cast<unsigned long long>(slivers.count())) +
            "a cell is " + in_millimetres(lattice.spacing_m) + " wide, the thinnest of them " +
            in_millimetres(slivers.thinnest_m) + ", half of them at least " + in_millimetres(slivers.median_m) +
            (resolution ? formatted(", which --resolution %d shows", *resolution)

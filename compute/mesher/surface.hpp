@@ -54,9 +54,9 @@ public:
     // Computes the enclosed volume by the divergence theorem, m^3.
     [[nodiscard]] double volume_m3() const;
     // Returns one closed two-manifold mesh in the object frame: vertices are shared across sharp edges and tile
-    // borders, sorted by key, with the mean colour of the surfaces that meet there. Its positions are numbers in `unit`,
-    // rounded as a file in that unit holds them: to floats if the lattice fits_floats(), else relative to its origin. No
-    // two vertices have the same position.
+    // borders, sorted by key, with the mean colour of the surfaces that meet there. Its positions are numbers in
+    // `unit`, rounded as a file in that unit holds them: to floats if the lattice fits_floats(), else relative to its
+    // origin. No two vertices have the same position.
     [[nodiscard]] geometry::TriangleMesh welded(LengthUnit unit = LengthUnit::m) const;
 
 private:

@@ -65,7 +65,7 @@ private:
 
     const geometry::TriangleMesh& mesh_;
     const Fans& fans_;
-    Lattice lattice_;  // in the mesh's unit
+    Lattice lattice_;                  // in the mesh's unit
     Vec3 shift_;                       // origin that the mesh's floats are relative to (surface.cpp)
     std::vector<std::uint64_t> keys_;  // keys of the vertices (tile_mesher.hpp)
 };

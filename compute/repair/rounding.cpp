@@ -97,14 +97,16 @@ private:
                 box.include(mesh_.positions_m[corner]);
                 box.include(before_[corner]);
             }
-            const Vec3 reach = 8.0 * std::numeric_limits<float>::epsilon() * glm::max(glm::abs(box.lo), glm::abs(box.hi));
+            const Vec3 reach =
+                8.0 * std::numeric_limits<float>::epsilon() * glm::max(glm::abs(box.lo), glm::abs(box.hi));
             box.lo -= reach;
             box.hi += reach;
             tree_.for_each_meeting(tree_.box_of(box), 0, [&](std::size_t place) {
                 const std::uint32_t other = tree_.triangle_at(place);
                 if (count >= enough || other == t) return;
                 if (other < t && std::ranges::binary_search(fan, other)) return;
-                if (geometry::meet_beyond_shared(mesh_.positions_m, mesh_.triangles[t], mesh_.triangles[other])) ++count;
+                if (geometry::meet_beyond_shared(mesh_.positions_m, mesh_.triangles[t], mesh_.triangles[other]))
+                    ++count;
             });
         }
         return count;

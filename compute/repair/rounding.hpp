@@ -12,7 +12,7 @@
 namespace burin::compute {
 
 struct RoundingReport {
-    std::uint64_t before = 0;          // pairs of triangles that met before the mesh was rounded
+    std::uint64_t before = 0;           // pairs of triangles that met before the mesh was rounded
     std::uint64_t found = 0, left = 0;  // pairs that meet in the rounded mesh, before and after the repair
     std::uint64_t vertices_moved = 0;
 };

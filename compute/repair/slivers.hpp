@@ -28,16 +28,16 @@ struct SliverReport {
     // Half of them are thinner. Where a curved surface grazes rays some are as thin as one likes, at any resolution; a
     // wall or a gap shows in most of them.
     double median_m = 0.0;
-    Box bounds_object_m;                           // bounds of their midpoints
-    std::vector<Sliver> first;                     // the first kSliversNamed, ordered by axis, row and ray
+    Box bounds_object_m;        // bounds of their midpoints
+    std::vector<Sliver> first;  // the first kSliversNamed, ordered by axis, row and ray
 
     [[nodiscard]] std::uint64_t count() const { return solid[0] + solid[1] + solid[2] + gaps[0] + gaps[1] + gaps[2]; }
 };
 
 inline constexpr std::size_t kSliversNamed = 8;
 
-// Returns the resolution from which on a lattice around the same bounds shows the thicker half of them: its cells are as
-// wide as median_m, so that each of these holds a node. Nothing where no lattice is so fine.
+// Returns the resolution from which on a lattice around the same bounds shows the thicker half of them: its cells are
+// as wide as median_m, so that each of these holds a node. Nothing where no lattice is so fine.
 [[nodiscard]] std::optional<int> resolution_that_shows(const SliverReport& slivers, const Lattice& lattice);
 
 // Scans every ray once. The result does not depend on the number of threads.

@@ -8,8 +8,8 @@
 namespace burin::geometry {
 namespace {
 
-constexpr int kFewDigits = 4;           // numbers of no more are exact
-constexpr int kDigitsOfAnyFloat = 8;    // up to here every number looks like a float
+constexpr int kFewDigits = 4;         // numbers of no more are exact
+constexpr int kDigitsOfAnyFloat = 8;  // up to here every number looks like a float
 constexpr double kFloatBits = 24.0, kDoubleBits = 53.0;
 constexpr double kTrustedDigits = 5.0 / 6.0;
 

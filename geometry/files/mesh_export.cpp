@@ -206,10 +206,9 @@ void round_to_floats(FileNumbers& numbers, LengthUnit unit) {
     const auto fall_together = [&](std::uint32_t a, std::uint32_t b) {
         return index[a] != index[b] && rounded[index[a]] == rounded[index[b]];
     };
-    numbers.without_area =
-        static_cast<std::size_t>(std::ranges::count_if(numbers.mesh.triangles, [&](const auto& t) {
-            return fall_together(t[0], t[1]) || fall_together(t[1], t[2]) || fall_together(t[2], t[0]);
-        }));
+    numbers.without_area = static_cast<std::size_t>(std::ranges::count_if(numbers.mesh.triangles, [&](const auto& t) {
+        return fall_together(t[0], t[1]) || fall_together(t[1], t[2]) || fall_together(t[2], t[0]);
+    }));
     numbers.steps_apart = make_distinct(rounded);
     for (std::size_t v = 0; v < index.size(); ++v) numbers.mesh.positions_m[v] = Vec3(rounded[index[v]]);
 }

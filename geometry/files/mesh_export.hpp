@@ -27,9 +27,9 @@ namespace burin::geometry {
 // A mesh whose positions are the numbers of a file: in its unit, and floats where the format has floats.
 struct FileNumbers {
     TriangleMesh mesh;
-    bool is_rounded = false;        // a number is not the mesh's own
-    std::size_t without_area = 0;   // triangles with corners that differed and became equal by rounding
-    std::size_t steps_apart = 0;    // single steps of a float by which vertices were moved apart again
+    bool is_rounded = false;       // a number is not the mesh's own
+    std::size_t without_area = 0;  // triangles with corners that differed and became equal by rounding
+    std::size_t steps_apart = 0;   // single steps of a float by which vertices were moved apart again
 };
 // Returns the mesh as the format holds it. Positions that differ stay different (distinct_positions.hpp), equal ones
 // stay equal. Requires finite coordinates, in float too for STL and PLY.
@@ -39,8 +39,8 @@ struct FileNumbers {
 [[nodiscard]] Result<void> export_numbers(const TriangleMesh& numbers, const std::filesystem::path& path,
                                           LengthUnit unit);
 
-// Writes the numbers of a mesh in metres to a file. Refuses meshes without triangles, indices out of range, coordinates that are not finite
-// (in float, for STL and PLY), and OFF.
+// Writes the numbers of a mesh in metres to a file. Refuses meshes without triangles, indices out of range, coordinates
+// that are not finite (in float, for STL and PLY), and OFF.
 [[nodiscard]] Result<void> export_mesh(const TriangleMesh& mesh, const std::filesystem::path& path,
                                        LengthUnit unit = LengthUnit::m);
 

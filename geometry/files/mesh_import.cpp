@@ -34,8 +34,8 @@ std::optional<Likeness> looks_like(std::span<const std::byte> bytes) {
     if (equals_ignoring_case(first, "solid")) return Likeness{MeshFormat::stl, "ASCII STL", ".stl"};
     if (first.size() >= 3 && equals_ignoring_case(first.substr(first.size() - 3), "off") && first.size() <= 7)
         return Likeness{MeshFormat::off, "OFF", ".off"};
-    const bool is_obj = equals_ignoring_case(first, "mtllib") ||
-                        (equals_ignoring_case(first, "v") && number_from(second).has_value());
+    const bool is_obj =
+        equals_ignoring_case(first, "mtllib") || (equals_ignoring_case(first, "v") && number_from(second).has_value());
     return is_obj ? std::optional(Likeness{MeshFormat::obj, "OBJ", ".obj"}) : std::nullopt;
 }
 

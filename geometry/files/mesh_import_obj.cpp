@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Reads OBJ: v (with w, or with a colour: x y z r g b, and perhaps its alpha), f (and the old fo) with positive or negative indices, usemtl,
-// mtllib. A face may name a vertex that comes later. Texture coordinates, normals, groups and smoothing are skipped
-// silently, since they do not change the surface; lines, points, curves and free-form surfaces are counted in a remark.
-// Reads only the diffuse colours (Kd) of material files (MTL), of which a line may name several. A comment near the
-// beginning may state the unit.
+// Reads OBJ: v (with w, or with a colour: x y z r g b, and perhaps its alpha), f (and the old fo) with positive or
+// negative indices, usemtl, mtllib. A face may name a vertex that comes later. Texture coordinates, normals, groups and
+// smoothing are skipped silently, since they do not change the surface; lines, points, curves and free-form surfaces
+// are counted in a remark. Reads only the diffuse colours (Kd) of material files (MTL), of which a line may name
+// several. A comment near the beginning may state the unit.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Reads STL. Binary: an 80-byte header, a 32-bit count, then 50 bytes a triangle (normal, three corners, attribute),
-// little endian. ASCII: solid, facet normal, outer loop, vertex, endloop (or end loop), endfacet, endsolid; any case, any
-// number of solids. A binary header may say "solid" too, so the file's size decides first. Normals are ignored: the winding gives
-// them. The header of a binary file, or the name of a solid, may state the unit: "UNITS=mm".
+// little endian. ASCII: solid, facet normal, outer loop, vertex, endloop (or end loop), endfacet, endsolid; any case,
+// any number of solids. A binary header may say "solid" too, so the file's size decides first. Normals are ignored: the
+// winding gives them. The header of a binary file, or the name of a solid, may state the unit: "UNITS=mm".
 #include <algorithm>
 #include <bit>
 #include <cstring>

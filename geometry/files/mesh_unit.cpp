@@ -122,8 +122,8 @@ std::string_view without_small_words(std::string_view text) {
     }
 }
 
-// Tells whether a unit ends behind = or :. Another "KEY=value" may follow; behind "in", which is a word as well, nothing
-// else.
+// Tells whether a unit ends behind = or :. Another "KEY=value" may follow; behind "in", which is a word as well,
+// nothing else.
 bool ends_a_value(std::string_view unit, std::string_view behind) {
     if (!equals_ignoring_case(unit, "in") || ends_a_statement(behind)) return ends_a_word(behind);
     behind = without_leading_gap(behind);
@@ -144,7 +144,8 @@ std::optional<LengthUnit> unit_after(std::string_view rest, std::string_view bef
     const std::optional<double> length = take_number(rest);
     if (length) rest = without_leading_gap(rest);
     const std::string_view word = leading_word(rest), behind = rest.substr(word.size());
-    if (!(is_assigned ? ends_a_value(word, behind) : ends_a_statement(behind) && ends_a_word(behind))) return std::nullopt;
+    if (!(is_assigned ? ends_a_value(word, behind) : ends_a_statement(behind) && ends_a_word(behind)))
+        return std::nullopt;
     return times(length ? *length / number_before(before) : 1.0, unit_named(word));
 }
 

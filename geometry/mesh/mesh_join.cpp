@@ -55,7 +55,8 @@ private:
     struct Hash {
         std::size_t operator()(const Cell& cell) const {
             std::uint64_t h = 0;
-            for (const std::int64_t c : cell) h = (h ^ static_cast<std::uint64_t>(c)) * 0x9E3779B97F4A7C15u, h ^= h >> 29;
+            for (const std::int64_t c : cell)
+                h = (h ^ static_cast<std::uint64_t>(c)) * 0x9E3779B97F4A7C15u, h ^= h >> 29;
             return h;
         }
     };
@@ -116,9 +117,10 @@ JoinReport join_open_edges(TriangleMesh& mesh, double tolerance_m) {
 
 std::string in_words(const JoinReport& joined) {
     if (joined.vertices_joined == 0) return "";
-    std::string text = formatted("%zu corners up to %.2g mm apart were joined", joined.vertices_joined,
-                                 1e3 * joined.farthest_m);
-    if (joined.triangles_dropped > 0) text += formatted(", and %zu triangles without area dropped", joined.triangles_dropped);
+    std::string text =
+        formatted("%zu corners up to %.2g mm apart were joined", joined.vertices_joined, 1e3 * joined.farthest_m);
+    if (joined.triangles_dropped > 0)
+        text += formatted(", and %zu triangles without area dropped", joined.triangles_dropped);
     return text;
 }
 

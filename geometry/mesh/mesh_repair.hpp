@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Repairs of a triangle mesh, each done on request only and each with a report. None drops a triangle that has area.
-// The usual order: weld_vertices, join_open_edges, close_holes, orient_outward. Metres, object frame. Deterministic; single-threaded.
+// The usual order: weld_vertices, join_open_edges, close_holes, orient_outward. Metres, object frame. Deterministic;
+// single-threaded.
 #pragma once
 
 #include <cstddef>

@@ -13,7 +13,8 @@ namespace {
 constexpr const char* kTetrahedronObj =
     "# units m\nv 0 0 0\nv 0.1 0 0.01\nv 0.02 0.09 0\nv 0.03 0.02 0.08\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 constexpr const char* kToolObj =
-    "# units m\nv -0.01 -0.006 0\nv 0.012 -0.008 0\nv 0 0.011 0\nv 0.001 0.001 0.03\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+    "# units m\nv -0.01 -0.006 0\nv 0.012 -0.008 0\nv 0 0.011 0\nv 0.001 0.001 0.03\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 "
+    "4\n";
 
 // Strokes across a box of 100 mm, each pressed along a line on which the tool turns a little.
 class Strokes {
@@ -28,8 +29,8 @@ public:
             Quat turn = glm::normalize(Quat(between(-1, 1), between(-1, 1), between(-1, 1), between(-1, 1)));
             constexpr int kRows = 5;
             for (int row = 0; row <= kRows; ++row) {
-                text += formatted("%g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%d\n", time_s_ += 0.1, at.x, at.y, at.z, turn.x,
-                                  turn.y, turn.z, turn.w, row == kRows ? 0 : 1);
+                text += formatted("%g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%d\n", time_s_ += 0.1, at.x, at.y, at.z,
+                                  turn.x, turn.y, turn.z, turn.w, row == kRows ? 0 : 1);
                 at += step;
                 turn = glm::normalize(turn * Quat(1.0, between(-0.05, 0.05), between(-0.05, 0.05), 0.0));
             }
@@ -38,7 +39,9 @@ public:
     }
 
 private:
-    double between(double lo, double hi) { return lo + (hi - lo) * 1e-9 * static_cast<double>(random_() % 1000000000u); }
+    double between(double lo, double hi) {
+        return lo + (hi - lo) * 1e-9 * static_cast<double>(random_() % 1000000000u);
+    }
 
     std::mt19937 random_;
     double shift_m_;

@@ -47,7 +47,8 @@ TEST(ExportedFilesSoak, HaveWhatTheReportSaysAndCgalAgrees) {
             }
         }
     }
-    if (!judge_by_cgal("")) GTEST_SKIP() << "CGAL is not installed, and judged nothing: scripts/setup --peers installs it";
+    if (!judge_by_cgal(""))
+        GTEST_SKIP() << "CGAL is not installed, and judged nothing: scripts/setup --peers installs it";
 }
 
 }  // namespace burin::app

@@ -33,8 +33,8 @@ std::string crowded_obj() {
     for (int i = 0; i < kAround; ++i) {
         const int upper = 2 + 2 * i, lower = upper + 1, next_upper = 2 + 2 * ((i + 1) % kAround),
                   next_lower = next_upper + 1;
-        faces += formatted("f 1 %d %d\nf %d %d %d\nf %d %d %d\nf %d %d %d\n", upper, next_upper, upper, lower, next_lower,
-                           upper, next_lower, next_upper, lower, 2 + 2 * kAround, next_lower);
+        faces += formatted("f 1 %d %d\nf %d %d %d\nf %d %d %d\nf %d %d %d\n", upper, next_upper, upper, lower,
+                           next_lower, upper, next_lower, next_upper, lower, 2 + 2 * kAround, next_lower);
     }
     return text + faces;
 }
@@ -59,7 +59,8 @@ TEST(ExportedFiles, HaveWhatTheReportSaysInEveryUnitAndFormat) {
             EXPECT_EQ(said["misoriented_edges"], 0) << file;
             left += said["crossing_pairs"].get<std::size_t>();
             found += report["mesh"]["self_intersections"]["found"].get<std::size_t>();
-            for (const char* ending : kFileEndings) EXPECT_EQ(counts_of_file(place / (file + ending)), said) << file << ending;
+            for (const char* ending : kFileEndings)
+                EXPECT_EQ(counts_of_file(place / (file + ending)), said) << file << ending;
         }
     }
     // Where walls thinner than a cell meet, single pairs cannot be separated.
@@ -70,10 +71,11 @@ TEST(ExportedFiles, OfTwoMeshesCombinedHaveWhatTheReportSays) {
     const Workplace place;
     write_meshes_of_samples(place);
     for (const std::string unit : kFileUnits) {
-        const auto outcome = place.run(kFilesBurin +
-                                       " combine part.obj tool.obj --operation difference --resolution 96 --export a.stl"
-                                       " --export a.ply --export a.obj --report r.json --export-units " +
-                                       unit);
+        const auto outcome =
+            place.run(kFilesBurin +
+                      " combine part.obj tool.obj --operation difference --resolution 96 --export a.stl"
+                      " --export a.ply --export a.obj --report r.json --export-units " +
+                      unit);
         ASSERT_EQ(outcome.status, 0) << outcome.output;
         const Json report = Json::parse(place.read("r.json"));
         EXPECT_EQ(report["export_unit"], unit);

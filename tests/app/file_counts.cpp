@@ -26,8 +26,8 @@ Json counts_of_file(const std::filesystem::path& path) {
 
 Json counts_of_report(const Json& report) {
     Json counts;
-    for (const char* key : {"triangles", "vertices", "open_edges", "nonmanifold_edges", "nonmanifold_vertices",
-                            "misoriented_edges"})
+    for (const char* key :
+         {"triangles", "vertices", "open_edges", "nonmanifold_edges", "nonmanifold_vertices", "misoriented_edges"})
         counts[key] = report["mesh"][key];
     counts["crossing_pairs"] = report["mesh"]["self_intersections"]["left"];
     return counts;

@@ -42,7 +42,8 @@ TEST(ReadTruly, ASolidWhoseCornersDifferByARoundingIsClosedForEveryCommandAndTha
     place.write("seam.obj", box_obj({0, 0, 0}, {0.1, 0.1, 0.1}, 4e-17));
     place.write("w.toml", "[[object]]\nname = \"box\"\nmesh = \"seam.obj\"\n");
     const std::string joined = "corners up to ";
-    const auto carved = place.run(kTrulyBurin + " sculpt --workpiece seam.obj --resolution 32 --export x.stl --report r.json");
+    const auto carved =
+        place.run(kTrulyBurin + " sculpt --workpiece seam.obj --resolution 32 --export x.stl --report r.json");
     EXPECT_EQ(carved.status, 0) << carved.output;
     EXPECT_TRUE(told(carved, joined)) << carved.output;
     const Json report = Json::parse(place.read("r.json"));
@@ -53,7 +54,8 @@ TEST(ReadTruly, ASolidWhoseCornersDifferByARoundingIsClosedForEveryCommandAndTha
         place.run(kTrulyBurin + " combine seam.obj seam.obj --operation union --resolution 32 --export u.stl");
     EXPECT_EQ(combined.status, 0) << combined.output;
     EXPECT_TRUE(told(combined, joined)) << combined.output;
-    const auto tool = place.run(kTrulyBurin + " sculpt --workpiece block:1,1,1 --tool mesh:seam.obj --resolution 32 --export x.stl");
+    const auto tool =
+        place.run(kTrulyBurin + " sculpt --workpiece block:1,1,1 --tool mesh:seam.obj --resolution 32 --export x.stl");
     EXPECT_EQ(tool.status, 0) << tool.output;
     const auto converted = place.run(kTrulyBurin + " convert seam.obj out.stl --close-holes");
     EXPECT_TRUE(told(converted, joined) && told(converted, "closed 0 holes") && told(converted, "volume 1000 cm3"))
@@ -72,17 +74,20 @@ TEST(ReadTruly, AWiderCrackIsRefusedWithTheLengthThatClosesItAndClosedByIt) {
     EXPECT_EQ(refused.status, 1);
     EXPECT_TRUE(told(refused, "crack.obj: is not closed")) << refused.output;
     EXPECT_TRUE(told(refused, "pass --weld 0.0001 to have corners joined")) << refused.output;
-    const auto carved = place.run(kTrulyBurin + " sculpt --workpiece crack.obj --resolution 32 --export x.stl --weld 0.0001");
+    const auto carved =
+        place.run(kTrulyBurin + " sculpt --workpiece crack.obj --resolution 32 --export x.stl --weld 0.0001");
     EXPECT_EQ(carved.status, 0) << carved.output;
     EXPECT_TRUE(told(carved, "16 corners up to 0.0")) << carved.output;
-    EXPECT_EQ(place.run(kTrulyBurin +
-                        " combine crack.obj crack.obj --operation union --resolution 32 --weld 0.0001 --export u.stl")
+    EXPECT_EQ(place
+                  .run(kTrulyBurin +
+                       " combine crack.obj crack.obj --operation union --resolution 32 --weld 0.0001 --export u.stl")
                   .status,
               0);
     const auto converted = place.run(kTrulyBurin + " convert crack.obj out.stl --weld 0.0001");
     EXPECT_TRUE(told(converted, "16 corners up to 0.0")) << converted.output;
     EXPECT_FALSE(told(place.run(kTrulyBurin + " convert out.stl again.ply"), "only one triangle"));
-    for (const std::string command : {"sculpt --workpiece crack.obj --export x.stl --weld ", "convert crack.obj out.stl --weld "}) {
+    for (const std::string command :
+         {"sculpt --workpiece crack.obj --export x.stl --weld ", "convert crack.obj out.stl --weld "}) {
         for (const std::string length : {"0", "-1", "nan", "0.05"}) {
             const auto wrong = place.run(kTrulyBurin + " " + command + length);
             EXPECT_NE(wrong.status, 0) << command << length;
@@ -113,8 +118,9 @@ TEST(ReadTruly, AGapThatIsClosedByTheLatticeIsCountedByCombineAsBySculpt) {
     place.write("a.obj", box_obj({0, 0, 0}, {0.02, 0.02, 0.02}));
     place.write("b.obj", box_obj({0.0201, 0, 0}, {0.04, 0.02, 0.02}));
     const auto run = [&](int resolution) {
-        const auto outcome = place.run(kTrulyBurin + " combine a.obj b.obj --operation union --export u.stl --report "
-                                                     "r.json --resolution " +
+        const auto outcome = place.run(kTrulyBurin +
+                                       " combine a.obj b.obj --operation union --export u.stl --report "
+                                       "r.json --resolution " +
                                        std::to_string(resolution));
         EXPECT_EQ(outcome.status, 0) << outcome.output;
         return outcome;

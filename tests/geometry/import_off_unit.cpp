@@ -92,7 +92,8 @@ void expect_off_box(const std::string& text) {
 }
 
 TEST(OffImport, ReadsABoxWhetherEdgesAreCountedOrNotAndBehindTheKeywordAtOnce) {
-    for (const char* head : {"OFF\n8 6 0\n", "OFF\n8 6\n", "OFF8 6 0\n", "OFF8 6\n", "OFF 8 6\n", "off # box\n\n8 6 12\n"})
+    for (const char* head :
+         {"OFF\n8 6 0\n", "OFF\n8 6\n", "OFF8 6 0\n", "OFF8 6\n", "OFF 8 6\n", "off # box\n\n8 6 12\n"})
         expect_off_box(head + kOffBox);
 }
 
@@ -109,15 +110,12 @@ TEST(OffImport, ReadsNormalsColoursAndTextureInAnyOrderOfTheirLetters) {
         expect_off_box(box(keyword, " 0 0 1 0 0 255 255"));
         EXPECT_EQ(import_off(box(keyword, " 0 0 1 0 0 255 255"))->mesh.colours.at(7), (Rgb{0, 0, 255})) << keyword;
     }
-    for (const char* keyword : {"STCNOFF", "NCSTOFF", "CSTNOFF"})
-        expect_off_box(box(keyword, " 0 0 1 1 0 0 1 .5 .5"));
+    for (const char* keyword : {"STCNOFF", "NCSTOFF", "CSTNOFF"}) expect_off_box(box(keyword, " 0 0 1 1 0 0 1 .5 .5"));
     EXPECT_EQ(refused_off(box("CCOFF", " 0 0 1 1 0 0")).substr(0, 11), "test.off:1:");
 }
 
 TEST(OffImport, AColourOutsideItsRangeIsClampedAndNamedAtItsLine) {
-    const auto head = [](const std::string& faces) {
-        return import_off("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n" + faces);
-    };
+    const auto head = [](const std::string& faces) { return import_off("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n" + faces); };
     const auto bytes = head("3 0 1 2 1 0 0\n3 0 1 2 300 0 -1\n");
     ASSERT_TRUE(bytes) << bytes.error().line();
     EXPECT_EQ(bytes->mesh.materials.at(0).colour, (Rgb{1, 0, 0})) << "one of the file is above 1";

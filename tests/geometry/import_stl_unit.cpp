@@ -129,8 +129,10 @@ TEST(StlImport, RefusesAnAsciiFileCutAfterAnyWord) {
 }
 
 TEST(StlImport, ReadsTheEndOfLoopsFacetsAndSolidsInTwoWords) {
-    std::string text = "solid brick\n" + facet("0 0 0", "1 0 0", "0 1 0") + facet("0 0 0", "1 0 0", "0 0 1") + "end solid brick\n";
-    for (const auto& [from, to] : {std::pair<std::string, std::string>("endloop", "end loop"), {"endfacet", "End Facet"}}) {
+    std::string text =
+        "solid brick\n" + facet("0 0 0", "1 0 0", "0 1 0") + facet("0 0 0", "1 0 0", "0 0 1") + "end solid brick\n";
+    for (const auto& [from, to] :
+         {std::pair<std::string, std::string>("endloop", "end loop"), {"endfacet", "End Facet"}}) {
         for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
             text.replace(at, from.size(), to);
     }

@@ -19,8 +19,8 @@ namespace {
 
 using Corner = std::array<double, 3>;
 
-// The corners of a sphere's triangles, radius 47 about (60, 10, -20), each triangle with its own: as programs write them
-// that compute a corner anew for each face.
+// The corners of a sphere's triangles, radius 47 about (60, 10, -20), each triangle with its own: as programs write
+// them that compute a corner anew for each face.
 std::vector<Corner> sphere_corners() {
     constexpr int kAround = 24, kRings = 12;
     const auto at = [](int ring, int segment) -> Corner {
