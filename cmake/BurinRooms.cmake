@@ -1,26 +1,27 @@
 # Room builds: the sources of a room (a subfolder) are compiled as one, since most of a source's time goes into headers
 # that its neighbours read too (docs/decisions/016-build-time.md). So a name in an anonymous namespace is unique within
-# its folder. Preset dev compiles each source alone, and preset ci each source of the program: there a missing include
-# does not go unnoticed. Tests are two fifths of all sources, and nothing includes them.
+# its folder. A forgotten include, which a roommate has read already, is found by the test house.includes, and by preset
+# dev, which compiles each source alone.
 #   burin_rooms(RESULT NAME SOURCES source... [ALONE source...])
 # Sets RESULT to what is compiled for these sources, whose paths are relative to the current folder: texts in
 # build/rooms/NAME/ that include the sources of a room, and the sources after ALONE, which have compile options of their
 # own. The texts name sources from the repository's root, so that they are the same in every clone, as ccache asks.
-set(BURIN_ROOM_BUILDS ON CACHE STRING "Compile the sources of a room as one: ON, OFF, or TESTS: of tests alone")
-if(BURIN_ROOM_BUILDS AND NOT BURIN_ROOM_BUILDS STREQUAL "TESTS"
-   AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+option(BURIN_ROOM_BUILDS "Compile the sources of a room as one" ON)
+if(BURIN_ROOM_BUILDS AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # It sees through std::variant's moves in so long a text, and then takes them for reads of other alternatives. Preset
-  # ci keeps the warning.
+  # dev keeps the warning.
   target_compile_options(burin_options INTERFACE -Wno-maybe-uninitialized)
 endif()
 
-# A text includes sources of at most so many bytes together, or one core would wait for the other's longest text.
-set(BURIN_BYTES_TOGETHER 60000)
+# A text includes sources of at most so many bytes together. Short ones are compiled anew quickly when one source changes,
+# and are spread well over the cores; long ones read the headers less often, which continuous integration, that compiles
+# everything, gains two fifths of the time from.
+set(BURIN_BYTES_TOGETHER 60000 CACHE STRING "Bytes of sources that are compiled as one")
 
 function(burin_rooms RESULT NAME)
   cmake_parse_arguments(ARG "" "" "SOURCES;ALONE" ${ARGN})
   file(RELATIVE_PATH here ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
-  if(NOT BURIN_ROOM_BUILDS OR (BURIN_ROOM_BUILDS STREQUAL "TESTS" AND NOT here MATCHES "^tests"))
+  if(NOT BURIN_ROOM_BUILDS)
     set(${RESULT} ${ARG_SOURCES} PARENT_SCOPE)
     return()
   endif()

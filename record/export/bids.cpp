@@ -13,6 +13,7 @@
 #include <map>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include "base/json.hpp"
 #include "base/text.hpp"

@@ -16,6 +16,7 @@
 #include <bitset>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "haptics/histogram.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/commands.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <numeric>

@@ -71,7 +71,7 @@ TEST(Words, EveryHeaderCanBeIncludedTwice) {
     expect_everywhere([](const std::string& path) { return path.ends_with(".hpp"); }, complaint_on_guard);
 }
 
-// house.headers compiles only the headers without a source of their own, and counts on this.
+// So compiling the source proves that its header, read first, can stand alone, where each source is compiled alone.
 TEST(Words, EverySourceIncludesItsOwnHeaderFirst) {
     const fs::path root = BURIN_SOURCE_FOLDER;
     std::size_t looked_at = 0;
