@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "app/study_command.hpp"
+#include "app/study_reach.hpp"
 #include "app/study_trials.hpp"
 #include "base/file_io.hpp"
 #include "study/felt/stage_touch.hpp"
@@ -42,6 +43,7 @@ Result<void> check_protocol(const std::string& file) {
     if (!parsed.faults.empty())
         return fail(file, std::to_string(parsed.faults.size()) + " faults", "correct what is listed");
     const study::Protocol& p = parsed.protocol;
+    if (const auto ok = check_reach(p, file); !ok) return ok;
     std::printf("%s: %zu groups, %zu strata, %zu worlds, %zu stages, %zu days; no faults\n", file.c_str(),
                 p.groups.size(), p.strata.size(), p.worlds.size(), p.stages.size(), p.days.size());
     return place_worlds(p);
@@ -80,6 +82,7 @@ Result<void> check_folder(const std::string& folder) {
         return fail(folder, std::to_string(faults) + " faults", "see above; what is not named there can be used");
     std::printf("%s: protocol as frozen, %zu lines of journal chained, %zu files of data as recorded\n", folder.c_str(),
                 study->journal().entries.size(), files);
+    if (const auto ok = check_reach(study->protocol(), folder); !ok) return ok;
     return place_worlds(study->protocol());
 }
 

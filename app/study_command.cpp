@@ -58,7 +58,10 @@ void StudyCommand::add_folder() {
     run_.option("--threads", r.threads, "People at a time; 0: one for each core; the result is the same")
         .within(0, 1024);
     run_.flag("--without-motion", r.without_motion, "Keep what is measured, but not the motion; replay needs that");
-    run_.flag("--resume", r.resume, "Begin interrupted stages anew though the protocol's time for it is over");
+    run_.flag("--resume", r.resume,
+              "Begin an interrupted stage anew though the protocol's time for it is over; journal and report name it");
+    run_.flag("--any-delay", r.any_delay,
+              "Begin the day though it comes too early or too late by the protocol; journal and report name it");
     run_.flag("--pictures", r.pictures, "Draw what each group saw in each stage, into the folder's pictures/");
     run_.option("--effect", r.effect, "Of simulated learners: how much less the first group wanders, in SD")
         .within(-10.0, 10.0)
@@ -74,7 +77,8 @@ void StudyCommand::add_folder() {
     withdraw_ = command_.subcommand("withdraw", "Excludes a participant");
     withdraw_.option("STUDY", w.study, kStudy).required();
     withdraw_.option("ID", w.id, "The participant's code").required();
-    withdraw_.flag("--erase", w.erase, "Delete the participant's data too; the journal keeps that there was one");
+    withdraw_.flag("--erase", w.erase,
+                   "Delete the participant's data too, and all that journal and reports tell but for code and group");
     report_ = command_.subcommand("report", "A new folder in reports/ with report.html, results.json and tables");
     report_.option("STUDY", options_->reported, kStudy).required();
 }

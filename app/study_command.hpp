@@ -4,8 +4,9 @@
 //   burin study check FILE.toml | STUDY
 //   burin study enrol STUDY ID [--codes CODE...] [--key FILE]
 //   burin study run STUDY --simulated [--effect D] [--threads N] [--without-motion | --pictures]
-//   burin study run STUDY --participant ID --input SCRIPT [--resume] [--without-motion | --pictures]
-//   burin study run STUDY --participant ID [--input LOG] [live options] [--resume] [--without-motion | --pictures]
+//   burin study run STUDY --participant ID --input SCRIPT [--resume] [--any-delay] [--without-motion | --pictures]
+//   burin study run STUDY --participant ID [--input LOG] [live options] [--resume] [--any-delay]
+//                   [--without-motion | --pictures]
 //   burin study replay STUDY
 //   burin study status STUDY
 //   burin study withdraw STUDY ID [--erase]
@@ -109,7 +110,8 @@ struct StudyRunOptions {
     std::string participant;              // one participant; empty: simulated learners
     session::LiveOptions live;            // its input: of a live session, or a script of simulated time
     std::vector<std::string> live_names;  // of its options
-    bool simulated = false, without_motion = false, pictures = false, resume = false;
+    bool simulated = false, without_motion = false, pictures = false;
+    bool resume = false, any_delay = false;  // what of the protocol's calendar need not be kept
     double effect = 0.0;
     unsigned threads = 0;  // 0: one for each core
 };

@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "app/study_command.hpp"
+#include "app/study_reach.hpp"
 #include "base/file_io.hpp"
 #include "study/folder/study_folder.hpp"
 
@@ -44,6 +45,7 @@ Result<void> study_init(const StudyInitOptions& options) {
     std::fflush(stdout);
     if (!parsed.faults.empty())
         return fail(protocol, std::to_string(parsed.faults.size()) + " faults", "correct what is listed");
+    if (const auto ok = check_reach(parsed.protocol, protocol); !ok) return ok;
     study::StudyMaking making;
     making.participants = options.participants;
     making.key = options.key;

@@ -30,30 +30,6 @@ std::string obj_text(const geometry::TriangleMesh& mesh) {
     return text;
 }
 
-// The world as a session reads it (docs/formats.md), with the names and numbers of study/felt/felt_world.hpp.
-Result<std::string> write_world(const study::FeltWorld& world, const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) return fail(folder.string(), "cannot be made: " + error.message(), "see to its permissions");
-    std::string text = "name = \"" + world.world().name + "\"\n";
-    for (const scene::ObjectId id : world.objects()) {
-        const scene::SceneObject& object = world.part().object(id);
-        const std::string mesh = formatted("object-%u.obj", static_cast<unsigned>(id));
-        if (const auto ok = write_text((folder / mesh).string(), obj_text(*object.mesh)); !ok)
-            return std::unexpected(ok.error());
-        text += "\n[[object]]\nname = \"" + object.name + "\"\nmesh = \"" + mesh + "\"\nmesh_units = \"m\"\n";
-        text += formatted("colour = \"#%02x%02x%02x\"\nseen = %s\nfelt = %s\n", object.colour[0], object.colour[1],
-                          object.colour[2], object.seen && id != study::kSeenTubeObject ? "true" : "false",
-                          object.felt ? "true" : "false");
-        if (object.felt)
-            text += formatted("both_sides = true\n[object.material]\nstiffness = %.9g\ndamping = %.9g\n",
-                              world.world().wall_N_per_m, world.world().wall_Ns_per_m);
-    }
-    const std::string file = (folder / "world.toml").string();
-    if (const auto ok = write_text(file, text); !ok) return std::unexpected(ok.error());
-    return file;
-}
-
 // The wand with its points where the protocol has them.
 Result<std::string> write_wand(const study::Protocol& protocol, const fs::path& folder) {
     std::string text = "name = \"simulated wand\"\n";
@@ -115,6 +91,30 @@ std::string first_line_of(const std::string& file) {
 
 }  // namespace
 
+// As docs/formats.md has a world, with the names and numbers of study/felt/felt_world.hpp.
+Result<std::string> write_study_world(const study::FeltWorld& world, const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) return fail(folder.string(), "cannot be made: " + error.message(), "see to its permissions");
+    std::string text = "name = \"" + world.world().name + "\"\n";
+    for (const scene::ObjectId id : world.objects()) {
+        const scene::SceneObject& object = world.part().object(id);
+        const std::string mesh = formatted("object-%u.obj", static_cast<unsigned>(id));
+        if (const auto ok = write_text((folder / mesh).string(), obj_text(*object.mesh)); !ok)
+            return std::unexpected(ok.error());
+        text += "\n[[object]]\nname = \"" + object.name + "\"\nmesh = \"" + mesh + "\"\nmesh_units = \"m\"\n";
+        text += formatted("colour = \"#%02x%02x%02x\"\nseen = %s\nfelt = %s\n", object.colour[0], object.colour[1],
+                          object.colour[2], object.seen && id != study::kSeenTubeObject ? "true" : "false",
+                          object.felt ? "true" : "false");
+        if (object.felt)
+            text += formatted("both_sides = true\n[object.material]\nstiffness = %.9g\ndamping = %.9g\n",
+                              world.world().wall_N_per_m, world.world().wall_Ns_per_m);
+    }
+    const std::string file = (folder / "world.toml").string();
+    if (const auto ok = write_text(file, text); !ok) return std::unexpected(ok.error());
+    return file;
+}
+
 bool is_session_log(const std::string& file) { return first_line_of(file).starts_with("burin-input "); }
 
 Result<void> check_visit_input(const std::string& file) {
@@ -124,10 +124,22 @@ Result<void> check_visit_input(const std::string& file) {
         "give a written log, which begins with burin-input 1; burin study replay STUDY does recorded stages again");
 }
 
+session::SculptOptions participant_session(const session::LiveOptions& live, const std::string& world_file) {
+    session::SculptOptions session;
+    session.world = world_file;
+    session.no_workpiece = true;
+    session.tool.shape = "ball:0.001";  // a point, as far as a session's tool can be one
+    session.live = live;
+    session.live.panel_window = true;
+    return session;
+}
+
 Result<void> run_live_visit(study::StudyFolder& study, const StudyRunOptions& options) {
-    auto places = activities::places_left(study, options.participant, options.resume, study::now_utc_ns());
-    if (!places) return std::unexpected(places.error());
-    const std::size_t wanted = places->size();
+    const auto plan = activities::plan_visit(study, options.participant,
+                                             {.resumes_late = options.resume, .any_delay = options.any_delay},
+                                             study::now_utc_ns());
+    if (!plan) return std::unexpected(plan.error());
+    const std::vector<study::StagePlace>& places = plan->places;
     const auto people = study.participants();
     const auto person = std::ranges::find(people, options.participant, &study::Participant::id);
     const auto group = std::ranges::find(study.protocol().groups, person->group, &study::Group::code);
@@ -135,17 +147,12 @@ Result<void> run_live_visit(study::StudyFolder& study, const StudyRunOptions& op
         return fail(options.participant, "is in a group that the protocol has not", "restore the journal from a copy");
     const auto worlds = activities::felt_worlds(study.protocol());
     if (!worlds) return std::unexpected(worlds.error());
-    const auto world = world_of(*places, study.protocol());
+    const auto world = world_of(places, study.protocol());
     if (!world) return std::unexpected(world.error());
-    const auto file = write_world(*worlds->at(*world), study.path() / "worlds" / *world);
+    const auto file = write_study_world(*worlds->at(*world), study.path() / "worlds" / *world);
     if (!file) return std::unexpected(file.error());
 
-    session::SculptOptions session;
-    session.world = *file;
-    session.no_workpiece = true;
-    session.tool.shape = "ball:0.001";  // a point, as far as a session's tool can be one
-    session.live = options.live;
-    session.live.panel_window = true;  // the operator's; the participant sees the page alone
+    session::SculptOptions session = participant_session(options.live, *file);
     if (session.live.device == devices::kDefaultHapticDevice || session.live.device == devices::kSimulatedWand) {
         const auto described = write_wand(study.protocol(), study.path() / "worlds" / *world);
         if (!described) return std::unexpected(described.error());
@@ -155,8 +162,8 @@ Result<void> run_live_visit(study::StudyFolder& study, const StudyRunOptions& op
     if (!wand) return std::unexpected(wand.error());
     const bool is_wand = wand->has_value();
     if (is_wand) session.points = devices::usual_points(**wand);
-    if (const auto ok = study.begin_visit(options.participant, is_wand ? "simulated wand" : session.live.device); !ok)
-        return ok;
+    const std::string device = is_wand ? "simulated wand" : session.live.device;
+    if (const auto ok = activities::begin_visit(study, options.participant, device, *plan); !ok) return ok;
     activities::StageOnDisk disk(study, options.participant, *group,
                                  options.without_motion ? activities::StageOnDisk::Motion::none
                                                         : activities::StageOnDisk::Motion::session_ticks);
@@ -167,14 +174,15 @@ Result<void> run_live_visit(study::StudyFolder& study, const StudyRunOptions& op
         [&](const activities::EndedStage& ended) { return disk.end(ended); }, [&] { return disk.close(); }};
     const std::string settings =
         formatted("study run %s group %s day %zu stage %zu", study.facts().protocol_digest.substr(0, 12).c_str(),
-                  group->code.c_str(), places->front().day, places->front().place);
+                  group->code.c_str(), places.front().day, places.front().place);
     const auto activity = std::make_shared<activities::StudyActivity>(
-        study.protocol(), *group, *worlds, std::move(*places), settings,
-        activities::StudyDevice{is_wand ? study.protocol().point_offset_m : 0.0, *wand}, keeper);
+        study.protocol(), *group, *worlds, places, settings,
+        activities::StudyDevice{is_wand ? study.protocol().point_offset_m : 0.0, *wand,
+                                options.participant}, keeper);
     session.activity = activity;
     const Result<void> done = run_recorded_session(session, "study run");
     std::printf("%zu stages ended; %zu of the day are left\n", activity->stages_ended(),
-                wanted - activity->stages_ended());
+                places.size() - activity->stages_ended());
     if (const auto made = make_trials(options.study))
         std::printf("%s/trials.csv: %zu trials\n", options.study.c_str(), made->trials);
     return done;

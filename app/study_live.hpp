@@ -3,7 +3,12 @@
 // journal that keeps its stages.
 #pragma once
 
+#include <filesystem>
+#include <string>
+
 #include "app/study_command.hpp"
+#include "session/state/session_options.hpp"
+#include "study/felt/felt_world.hpp"
 #include "study/folder/study_folder.hpp"
 
 namespace burin::app {
@@ -13,6 +18,14 @@ namespace burin::app {
 
 // Refuses a recording as a participant's input: what it holds would be counted as theirs.
 [[nodiscard]] Result<void> check_visit_input(const std::string& file);
+
+// What a participant's session is opened with: the study's world alone, touched with points; and the operator's panel
+// in a window of its own, whatever the options say, so that the participant's picture has the page and no more.
+[[nodiscard]] session::SculptOptions participant_session(const session::LiveOptions& live,
+                                                         const std::string& world_file);
+// Writes the world as a session reads it into a folder, which it makes. Returns the file's name.
+[[nodiscard]] Result<std::string> write_study_world(const study::FeltWorld& world,
+                                                    const std::filesystem::path& folder);
 
 // Opens the window, or plays the log. The folder must be open for writing.
 [[nodiscard]] Result<void> run_live_visit(study::StudyFolder& study, const StudyRunOptions& options);

@@ -13,7 +13,6 @@
 #include "app/study_trials.hpp"
 #include "base/file_io.hpp"
 #include "base/text.hpp"
-#include "study/folder/interruption.hpp"
 
 namespace burin::app {
 namespace {
@@ -40,6 +39,9 @@ Result<void> check_effect(const StudyRunOptions& options, const std::vector<std:
     if (!of_learners.empty())
         return fail(of_learners, "no effect on a participant's visit: of simulated learners only",
                     "leave it out, or give --simulated without --participant");
+    if (options.simulated && options.any_delay)
+        return fail("--any-delay", "no effect on simulated learners, who come in time: of a participant's visit",
+                    "leave it out, or take one person through with --participant ID");
     const std::string of_session = is_live(options) ? "" : named_among(given, options.live_names);
     if (of_session.empty()) return {};
     if (options.simulated)
@@ -69,6 +71,7 @@ Result<void> take_learners(study::StudyFolder& study, const StudyRunOptions& opt
     simulation.effect = options.effect;
     simulation.threads = options.threads;
     simulation.records = !options.without_motion;
+    simulation.resumes_late = options.resume;
     simulation.tell = [](const std::string& line) {
         std::printf("%s\n", line.c_str());
         std::fflush(stdout);
@@ -129,7 +132,7 @@ Result<void> take_participant(study::StudyFolder& study, const StudyRunOptions& 
     std::printf("%s by a script, in simulated time: hand and wand are simulated.\n", options.participant.c_str());
     activities::VisitOptions visit;
     visit.records = !options.without_motion;
-    visit.any_delay = options.resume;
+    visit.leave = {.resumes_late = options.resume, .any_delay = options.any_delay};
     OperatorLog log;
     visit.on_frame = [&](double time_s, const activities::TrainingShown& shown,
                          const activities::TrainingRun&) -> Result<void> {
@@ -161,9 +164,6 @@ Result<void> study_run(const StudyRunOptions& options, const std::vector<std::st
     if (!study) return std::unexpected(study.error());
     warn_of_journal(*study);
     study->use_key(options.key);
-    if (!options.resume) {
-        if (const auto ok = study::check_resumption(*study, study::now_utc_ns()); !ok) return ok;
-    }
     const auto went = options.simulated  ? take_learners(*study, options)
                       : is_live(options) ? run_live_visit(*study, options)
                                          : take_participant(*study, options);

@@ -2,6 +2,7 @@
 #include "app/study_sections.hpp"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include "base/text.hpp"
@@ -47,6 +48,36 @@ study::ReportSection flow_of(const study::StudyFolder& study) {
     return {"Flow of participants", {}, {study::flow_figure(groups)}};
 }
 
+// Why attempts failed, by group: a task that nobody can do shows here first.
+study::ReportSection failures_of(const study::StudyFolder& study) {
+    study::ReportSection section{"Failed attempts", {}, {}};
+    for (const study::Group& group : study.protocol().groups) {
+        std::size_t trials = 0, failed = 0;
+        std::map<std::string, std::size_t> reasons;
+        for (const Participant& p : study.participants()) {
+            if (p.group != group.code || p.withdrawn) continue;
+            for (const StageVisit& v : p.visits) {
+                const study::Stage* stage = study.protocol().stage(v.stage);
+                const bool trial = stage != nullptr && stage->kind == study::StageKind::trial;
+                trials += trial && v.status == StageStatus::ended ? 1 : 0;
+                for (const auto& [why, times] : v.failures) {
+                    reasons[why] += times;
+                    failed += times;
+                }
+            }
+        }
+        std::string sentence =
+            formatted("Group %s: %zu failed attempts in %zu trials", group.code.c_str(), failed, trials);
+        const char* between = ": ";
+        for (const auto& [why, times] : reasons) {
+            sentence += between + formatted("%s %zu", why.c_str(), times);
+            between = ", ";
+        }
+        section.sentences.push_back(sentence + ".");
+    }
+    return section;
+}
+
 bool deviations_differ(const Json& record) {
     const auto differ = record.find("deviations_differ");
     return differ != record.end() && differ->is_number() && differ->get<double>() != 0.0;
@@ -62,6 +93,7 @@ StageDeviation deviation_of(const study::StudyFolder& study, const Participant& 
     const std::string which = formatted("%s, %s (day %zu, stage %zu)", p.id.c_str(), v.stage.c_str(), v.day, v.place);
     if (v.status == StageStatus::aborted) return {which + ": interrupted; what was recorded until then is kept."};
     if (!is_outcome_trial(study.protocol(), v)) return {};
+    if (v.file.empty() && v.result == name_of(study::StageResult::stopped)) return {};  // is told as a deviation
     if (v.file.empty()) return {which + ": no valid exit after all attempts."};
     const auto record = study.recorded(v);
     if (!record) return {which + ": its file is missing or damaged, and is left out."};
@@ -83,6 +115,9 @@ study::ReportSection deviations_of(const study::StudyFolder& study) {
     std::vector<std::string> of_proxy;
     std::size_t more = 0;
     for (const Participant& p : study.participants()) {
+        if (!p.withdrawn)
+            for (const study::ProtocolDeviation& d : p.deviations)
+                section.sentences.push_back(p.id + ": " + d.text + " (" + d.utc + ").");
         for (const StageVisit& v : p.visits) {
             StageDeviation one = p.withdrawn ? StageDeviation{} : deviation_of(study, p, v);
             if (one.sentence.empty()) continue;
@@ -164,7 +199,7 @@ study::ReportSection trial_section(const study::StudyFolder& study, const std::s
 }  // namespace
 
 std::vector<study::ReportSection> report_sections(const study::StudyFolder& study) {
-    std::vector<study::ReportSection> sections{flow_of(study), deviations_of(study)};
+    std::vector<study::ReportSection> sections{flow_of(study), failures_of(study), deviations_of(study)};
     for (const study::Group& group : study.protocol().groups) sections.push_back(trial_section(study, group.code));
     return sections;
 }

@@ -28,6 +28,9 @@ Result<void> study_status(const std::string& folder) {
                     : p.withdrawn ? "; withdrawn"
                                   : "");
     }
+    for (const study::Participant& p : study->participants())
+        for (const study::ProtocolDeviation& d : p.withdrawn ? std::vector<study::ProtocolDeviation>{} : p.deviations)
+            std::printf("deviation from the protocol: %s, %s: %s\n", p.id.c_str(), d.utc.c_str(), d.text.c_str());
     for (const study::Interruption& one : study::interruptions_of(*study)) {
         std::printf("interrupted: %s, %s (day %zu, stage %zu), known until %s, %llu ticks of its motion are kept; %s\n",
                     one.participant.c_str(), one.visit.stage.c_str(), one.visit.day, one.visit.place,

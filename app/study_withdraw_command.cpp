@@ -11,11 +11,17 @@ Result<void> study_withdraw(const StudyWithdrawOptions& options) {
     auto study = study::StudyFolder::open(options.study, study::StudyAccess::write);
     if (!study) return std::unexpected(study.error());
     warn_of_journal(*study);
-    if (const auto ok = study->withdraw(options.id, options.erase); !ok) return ok;
-    if (options.erase)
-        if (const auto made = make_trials(options.study); !made) return std::unexpected(made.error());
+    const auto deleted = study->withdraw(options.id, options.erase);
+    if (!deleted) return std::unexpected(deleted.error());
     std::printf("%s: withdrawn%s\n", options.id.c_str(),
-                options.erase ? ", data erased; reports and pictures made before still hold its figures" : "");
+                options.erase ? ", data and the journal's words about it erased; its code, its group and that it has "
+                                "withdrawn stay"
+                              : "");
+    for (const std::string& one : *deleted)
+        std::printf("%s/%s told of it, and was deleted; make it anew with what is left\n", options.study.c_str(),
+                    one.c_str());
+    // Without a valid trial of somebody else there is no table.
+    if (options.erase) static_cast<void>(make_trials(options.study));
     return {};
 }
 

@@ -21,18 +21,20 @@ function(burin_folder NAME)
 endfunction()
 
 # burin_test(FOLDER compute KIND unit [SOURCES a_unit.cpp ...] [FOLDERS folder...] [LINKS library...] [RUNS_BURIN]
-#            [ONE_THREAD])
+#            [ONE_THREAD | MANY_THREADS])
 # One program for each folder and kind, of the files *_KIND.cpp in the folder and its rooms that no program before has
 # taken, or of SOURCES alone; the ctest name is FOLDER.KIND and the label is KIND. RUNS_BURIN: it starts the program
 # on files of assets/ and judges meshes by mesh_audit (tests/support/places.hpp). Each writes
 # test-reports/FOLDER.KIND.xml in the build directory, which scripts/test reads for its counts and the reasons of skips.
-# ONE_THREAD: what it tests starts no thread, or none but the pool of workers, which another test of the folder has;
-# under the thread sanitizer it is neither built nor run, since there is nothing to find.
+# ONE_THREAD: what it tests starts no thread, or none but those which another test has; under the thread sanitizer it is
+# neither built nor run, since there is nothing to find. MANY_THREADS: whole sessions with a Vulkan device in software,
+# which is slow under any sanitizer; built and run under the thread sanitizer alone, the address sanitizer has the other
+# programs of kind gpu. Kind golden is run under none: what it compares a sanitizer does not change.
 # Kind realtime runs alone on the machine. Kind soak is random use with a new seed each time, short by default. Kind
 # fuzz is a libFuzzer program (no GoogleTest), built by preset fuzz only; its ctest replays tests/FOLDER/corpus and then
 # mutates it for a fixed number of runs.
 function(burin_test)
-  cmake_parse_arguments(ARG "RUNS_BURIN;ONE_THREAD" "FOLDER;KIND" "SOURCES;ALONE;FOLDERS;LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "RUNS_BURIN;ONE_THREAD;MANY_THREADS" "FOLDER;KIND" "SOURCES;ALONE;FOLDERS;LINKS" ${ARGN})
   set(target ${ARG_FOLDER}_${ARG_KIND})
   if(ARG_KIND STREQUAL "fuzz")
     burin_fuzzer(${target} ${ARGN})
@@ -44,7 +46,8 @@ function(burin_test)
     list(REMOVE_ITEM ARG_SOURCES ${taken})
   endif()
   set_property(DIRECTORY APPEND PROPERTY BURIN_TAKEN_TESTS ${ARG_SOURCES})
-  if(ARG_ONE_THREAD AND BURIN_SANITIZE MATCHES "thread")
+  if((ARG_ONE_THREAD AND BURIN_SANITIZE MATCHES "thread") OR (ARG_MANY_THREADS AND BURIN_SANITIZE MATCHES "address")
+     OR (ARG_KIND STREQUAL "golden" AND BURIN_SANITIZE))
     return()
   endif()
   burin_rooms(sources ${target} SOURCES ${ARG_SOURCES} ALONE ${ARG_ALONE})

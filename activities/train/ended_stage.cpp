@@ -8,7 +8,8 @@ namespace burin::activities {
 
 EndedStage ended_stage(const study::Protocol& protocol, const study::Stage& stage, const study::FeltWorld& world,
                        const study::StageSession& session) {
-    EndedStage ended{session.state(), session.events(), {}, session.ticks(), session.time_s()};
+    EndedStage ended{session.state(), session.events(), {}, session.ticks(), session.time_s(),
+                     session.forces()};
     if (stage.kind == study::StageKind::trial) {
         ended.record = study::trial_record(world.world(), session.state(), session.events(),
                                            study::touch_by_model(protocol, stage, world, session.attempt()));
@@ -16,6 +17,33 @@ EndedStage ended_stage(const study::Protocol& protocol, const study::Stage& stag
         ended.record = study::forces_record(session.forces());
     }
     return ended;
+}
+
+std::optional<std::string> deviation_of(const study::StagePlace& at, const EndedStage& ended) {
+    const bool training = at.stage->kind != study::StageKind::page && at.stage->kind != study::StageKind::trial;
+    const std::string which = formatted("%s (day %zu, stage %zu)", at.stage->name.c_str(), at.day, at.place);
+    std::string what;
+    if (training && ended.forces.faults > 0)
+        what = formatted(" had %llu of its %llu ticks without force (the last: %s)",
+                         static_cast<unsigned long long>(ended.forces.faults),
+                         static_cast<unsigned long long>(ended.forces.ticks), haptics::text(ended.forces.cause));
+    if (ended.end.result == study::StageResult::stopped)
+        what += formatted("%s was ended by stop after %.1f s", what.empty() ? "" : "; it", ended.duration_s);
+    return what.empty() ? std::nullopt : std::optional(which + what);
+}
+
+Json failures_of(const study::Stage& stage, const EndedStage& ended) {
+    if (stage.kind != study::StageKind::trial) return {};
+    Json failures;
+    bool touched = false;
+    for (const study::StageEvent& event : ended.events) {
+        touched = touched || event.kind == study::StageEventKind::start_touched;
+        if (event.kind != study::StageEventKind::attempt_failed) continue;
+        const char* name = study::name_of(event.failure);
+        failures[name] = failures.contains(name) ? failures[name].get<std::size_t>() + 1 : std::size_t{1};
+    }
+    if (!touched) failures[study::kNeverTouched] = std::size_t{1};
+    return failures;
 }
 
 std::string outcome_text(const study::Stage& stage, const study::StageState& end) {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "activities/train/stage_on_disk.hpp"
 #include "base/text.hpp"
 #include "devices/haptic/simulated_wand.hpp"
 #include "study/folder/interruption.hpp"
@@ -116,9 +115,9 @@ private:
 
 Result<VisitFigures> run_scripted_visit(study::StudyFolder& study, const std::string& participant,
                                         const VisitScript& script, const VisitOptions& options) {
-    auto places = places_left(study, participant, options.any_delay, study::now_utc_ns());
-    if (!places) return std::unexpected(places.error());
-    const std::size_t wanted = places->size();
+    const auto plan = plan_visit(study, participant, options.leave, study::now_utc_ns());
+    if (!plan) return std::unexpected(plan.error());
+    const std::size_t wanted = plan->places.size();
     const std::vector<study::Participant> people = study.participants();
     const study::Participant& person = *std::ranges::find(people, participant, &study::Participant::id);
     const auto group = std::ranges::find(study.protocol().groups, person.group, &study::Group::code);
@@ -129,9 +128,9 @@ Result<VisitFigures> run_scripted_visit(study::StudyFolder& study, const std::st
     const devices::WandDescription wand = study::study_wand(study.protocol());
     auto hand = devices::SimulatedHand::create(at_device(script.hand, wand));
     if (!hand) return std::unexpected(hand.error());
-    if (const auto ok = study.begin_visit(participant, study::StudyFolder::kScriptedDevice); !ok)
+    if (const auto ok = begin_visit(study, participant, study::StudyFolder::kScriptedDevice, *plan); !ok)
         return std::unexpected(ok.error());
-    TrainingRun run(study.protocol(), *group, *worlds, std::move(*places));
+    TrainingRun run(study.protocol(), *group, *worlds, plan->places);
     StageOnDisk disk(study, participant, *group,
                      options.records ? StageOnDisk::Motion::ticks : StageOnDisk::Motion::none);
     auto figures = ScriptedVisit(run, disk, script, options, std::move(*hand), wand).go();

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "activities/train/stage_on_disk.hpp"
 #include "activities/train/training_run.hpp"
 #include "devices/hand/simulated_hand.hpp"
 
@@ -36,8 +37,8 @@ struct VisitScript {
 [[nodiscard]] Result<VisitScript> parse_visit_script(const std::string& text, const std::string& name);
 
 struct VisitOptions {
-    bool records = true;     // the motion of stages that the protocol has recorded
-    bool any_delay = false;  // whatever the protocol says of the time since the day before
+    bool records = true;  // the motion of stages that the protocol has recorded
+    VisitLeave leave;
     std::function<Result<void>(double time_s, const TrainingShown& shown, const TrainingRun& run)> on_frame;
     // A whole line of each stage that has ended, and of each word that had no effect, with its line of the script.
     std::function<void(double time_s, const std::string& line)> tell;

@@ -40,7 +40,11 @@ StageMoment moment_of(const study::FeltWorld& world, const study::StageSession& 
 }
 
 bool sees_tube(const study::Stage& stage, const study::Group& group) {
-    return stage.sees_world && group.sees_tube && stage.kind != study::StageKind::show_model;
+    return stage.sees_world && group.sees_tube && !stage.world.empty() && stage.kind != study::StageKind::show_model;
+}
+
+bool feels_tube(const study::Stage& stage, const study::Group& group) {
+    return stage.feels_world && group.feels_tube && !stage.world.empty();
 }
 
 std::vector<ShownObject> shown_objects(const study::FeltWorld& world, const study::Stage& stage,

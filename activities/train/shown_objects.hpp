@@ -32,6 +32,10 @@ struct ShownObject {
 // Returns whether the group sees the tube in the stage; by default nobody does in a trial.
 [[nodiscard]] bool sees_tube(const study::Stage& stage, const study::Group& group);
 
+// Returns whether the group feels the tube in the stage; by default nobody does in a trial. study/felt/stage_touch.hpp
+// has the same of a stage's own ticks.
+[[nodiscard]] bool feels_tube(const study::Stage& stage, const study::Group& group);
+
 // The tube is green, and red while either point touches its wall; the wand is seen in it, as in the funnels. A cap is
 // grey, and green while both points are in it.
 [[nodiscard]] std::vector<ShownObject> shown_objects(const study::FeltWorld& world, const study::Stage& stage,

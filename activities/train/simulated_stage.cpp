@@ -11,7 +11,8 @@ namespace {
 using study::OperatorAct;
 
 constexpr Nanoseconds kPeriod_ns = 1'000'000;
-constexpr double kLongestStage_s = 4.0 * 3600.0;  // then the operator stops it
+// Without anything new in a trial for so long, the operator stops it: nobody who can do it needs as long.
+constexpr double kLongestAttempt_s = 120.0;
 constexpr double kLimpDamping = 0.5;              // of the grip's, in a hand that gives way
 
 // Only the time of a page passes: a tick a second, and one at its end.
@@ -39,6 +40,13 @@ devices::HandGrip limp_grip() {
     grip.damping_Ns_per_m *= kLimpDamping;
     grip.angular_damping_Nms_per_rad *= kLimpDamping;
     return grip;
+}
+
+// Whether a trial has stood still: nothing has happened for longer than an attempt takes.
+bool waits_too_long(const study::Stage& stage, const study::StageSession& session) {
+    if (stage.kind != study::StageKind::trial) return false;
+    const double last_s = session.events().empty() ? 0.0 : session.events().back().time_s;
+    return session.time_s() - last_s > kLongestAttempt_s;
 }
 
 // From a place in the world to where the hand means to be a period later.
@@ -71,7 +79,7 @@ EndedStage simulate_stage(const StageInputs& in, study::Random& random, const On
     devices::SimulatedWand wand(devices::DirectedHand(direction), session.touch().wand(), &clock);
     while (!session.done()) {
         const devices::DeviceSample sample = wand.read();
-        const OperatorAct act = session.time_s() > kLongestStage_s ? OperatorAct::stop : wish.act;
+        const OperatorAct act = waits_too_long(in.stage, session) ? OperatorAct::stop : wish.act;
         const haptics::TickRecord& record = session.take(sample, clock.now_ns(), act);
         wand.write(record.gate.given);
         if (on_tick) on_tick(record, act);

@@ -3,6 +3,7 @@
 // period, reads it, runs the haptic tick on the study's world, writes the force back and asks the learner where its
 // hand goes next.
 //
+// A trial in which nothing happens for two minutes is stopped: who cannot touch a cap would wait without an end.
 // Pages have no world and no wand: only their time passes. Every run of the same inputs gives the same bits, on any
 // number of threads. Pure but for `random` and `on_tick`.
 #pragma once

@@ -39,6 +39,19 @@ Result<void> enrol_learners(study::StudyFolder& study) {
     return {};
 }
 
+// Of learners whose stage was interrupted longer ago than the protocol allows; persons are not asked about.
+Result<void> check_resumptions(study::StudyFolder& study, bool resumes_late) {
+    const std::int64_t now_ns = study::now_utc_ns();
+    for (const study::Participant& person : study.participants()) {
+        if (!person.simulated) continue;
+        const auto late = study::late_resumption(study, person, now_ns);
+        if (!late) continue;
+        if (!resumes_late) return study::check_resumption(study, person, now_ns);
+        if (const auto ok = study.note_deviation(person.id, late->text(study.protocol())); !ok) return ok;
+    }
+    return {};
+}
+
 // Shares the folder among the threads, one of which writes at a time, and counts how far all of them have come.
 class SharedStudy {
 public:
@@ -153,8 +166,10 @@ private:
             if (const auto closed = recording->close(); !closed) return std::unexpected(closed.error());
         }
         const std::lock_guard lock(mutex_);
+        if (const auto deviation = deviation_of(at, stage))
+            if (const auto ok = study_.note_deviation(person.id, *deviation); !ok) return std::unexpected(ok.error());
         const auto ended = study_.end_stage(person.id, at, study::name_of(stage.end.result), stage.record, *files,
-                                            clock_s + stage.duration_s);
+                                            failures_of(*at.stage, stage), clock_s + stage.duration_s);
         if (!ended) return std::unexpected(ended.error());
         return stage;
     }
@@ -173,6 +188,7 @@ private:
 }  // namespace
 
 Result<SimulationFigures> run_simulated(study::StudyFolder& study, const SimulationOptions& options) {
+    if (const auto ok = check_resumptions(study, options.resumes_late); !ok) return std::unexpected(ok.error());
     if (const auto ok = study.begin_simulation(options.effect); !ok) return std::unexpected(ok.error());
     if (const auto ok = enrol_learners(study); !ok) return std::unexpected(ok.error());
     const auto worlds = felt_worlds(study.protocol());

@@ -20,6 +20,7 @@ struct SimulationOptions {
     double effect = 0.0;                                // study::LearnerPopulation
     unsigned threads = 0;                               // 0: one for each core
     bool records = true;                                // the motion of stages that the protocol has recorded
+    bool resumes_late = false;                          // as VisitLeave; the journal names the deviation
     std::function<void(const std::string& line)> tell;  // one person has gone through; null: nobody is told
 };
 

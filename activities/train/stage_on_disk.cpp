@@ -2,6 +2,7 @@
 #include "activities/train/stage_on_disk.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "base/text.hpp"
@@ -13,10 +14,38 @@ namespace {
 // How long a block of ticks and a transaction are: a quarter of the second that a kill may cost, as for learners.
 constexpr Nanoseconds kVisitBlock_ns = kNanosecondsPerSecond / 4;
 
+// The stages that are left of the first day that has not ended.
+std::vector<study::StagePlace> places_left(const study::Protocol& protocol, const study::Participant& person) {
+    std::vector<study::StagePlace> places;
+    for (const study::StagePlace& at : study::places_of(protocol)) {
+        if (!places.empty() && at.day != places.front().day) break;
+        if (!person.has_ended(at.day, at.place)) places.push_back(at);
+    }
+    return places;
+}
+
+// Says how long after the day before a day begins that is too early or too late; nothing where it is in time or has
+// begun already.
+std::optional<std::string> off_the_calendar(const study::Protocol& protocol, const study::Participant& person,
+                                            std::size_t day, std::int64_t now_utc_ns) {
+    if (std::ranges::find(person.visits, day, &study::StageVisit::day) != person.visits.end()) return std::nullopt;
+    std::int64_t day_before_ns = 0;
+    for (const study::StageVisit& v : person.visits)
+        if (v.day < day && v.status == study::StageStatus::ended)
+            day_before_ns = std::max(day_before_ns, study::utc_of(v.ended_utc));
+    const double hours = static_cast<double>(now_utc_ns - day_before_ns) * 1e-9 / 3600.0;
+    const study::DayVerdict verdict = study::day_verdict(protocol, day, hours);
+    if (verdict == study::DayVerdict::in_time) return std::nullopt;
+    const study::Day& wanted = protocol.days[day - 1];
+    return formatted("%.1f h after the day before, too %s by the protocol (%g to %g h)", hours,
+                     verdict == study::DayVerdict::too_early ? "early" : "late", wanted.least_delay_h,
+                     wanted.most_delay_h);
+}
+
 }  // namespace
 
-Result<std::vector<study::StagePlace>> places_left(const study::StudyFolder& study, const std::string& participant,
-                                                   bool any_delay, std::int64_t now_utc_ns) {
+Result<VisitPlan> plan_visit(const study::StudyFolder& study, const std::string& participant, const VisitLeave& leave,
+                             std::int64_t now_utc_ns) {
     const std::vector<study::Participant> people = study.participants();
     const auto person = std::ranges::find(people, participant, &study::Participant::id);
     if (person == people.end())
@@ -24,28 +53,29 @@ Result<std::vector<study::StagePlace>> places_left(const study::StudyFolder& stu
     if (person->withdrawn) return fail(participant, "has withdrawn", "nobody goes on for them");
     if (person->simulated)
         return fail(participant, "is a simulated learner", "take it through with burin study run STUDY --simulated");
-    std::vector<study::StagePlace> places;
-    std::int64_t day_before_ns = 0;
-    for (const study::StagePlace& at : study::places_of(study.protocol())) {
-        if (!places.empty() && at.day != places.front().day) break;
-        if (!person->has_ended(at.day, at.place)) {
-            places.push_back(at);
-            continue;
-        }
-        for (const study::StageVisit& v : person->visits)
-            if (v.day == at.day && v.place == at.place && v.status == study::StageStatus::ended)
-                day_before_ns = std::max(day_before_ns, study::utc_of(v.ended_utc));
+    VisitPlan plan;
+    plan.places = places_left(study.protocol(), *person);
+    if (plan.places.empty()) return fail(participant, "has gone through all stages", "burin study analyse STUDY");
+    if (const auto late = study::late_resumption(study, *person, now_utc_ns)) {
+        if (!leave.resumes_late) return std::unexpected(study::check_resumption(study, *person, now_utc_ns).error());
+        plan.deviations.push_back(late->text(study.protocol()));
     }
-    if (places.empty()) return fail(participant, "has gone through all stages", "burin study analyse STUDY");
-    const bool new_day = places.front().place == 1 && places.front().day > 1;
-    const double hours = static_cast<double>(now_utc_ns - day_before_ns) * 1e-9 / 3600.0;
-    const study::DayVerdict verdict = study::day_verdict(study.protocol(), places.front().day, hours);
-    if (new_day && !any_delay && verdict != study::DayVerdict::in_time)
-        return fail(participant,
-                    formatted("comes %.1f h after the day before, too %s by the protocol", hours,
-                              verdict == study::DayVerdict::too_early ? "early" : "late"),
-                    "give --resume to begin the day all the same, or come at another time");
-    return places;
+    if (const auto off = off_the_calendar(study.protocol(), *person, plan.places.front().day, now_utc_ns)) {
+        if (!leave.any_delay)
+            return fail(participant, "comes " + *off,
+                        "come at another time, or give --any-delay to begin the day all the same, which journal and "
+                        "report name as a deviation from the protocol");
+        plan.deviations.push_back(formatted("day %zu was begun ", plan.places.front().day) + *off);
+    }
+    return plan;
+}
+
+Result<void> begin_visit(study::StudyFolder& study, const std::string& participant, const std::string& device,
+                         const VisitPlan& plan) {
+    if (const auto ok = study.begin_visit(participant, device); !ok) return ok;
+    for (const std::string& text : plan.deviations)
+        if (const auto ok = study.note_deviation(participant, text); !ok) return ok;
+    return {};
 }
 
 Result<void> StageOnDisk::begin(const TrainingRun& run) {
@@ -86,7 +116,11 @@ Result<void> StageOnDisk::take(const std::vector<RunEvent>& events) {
 
 Result<void> StageOnDisk::end(const EndedStage& ended) {
     if (const auto ok = close(); !ok) return ok;
-    return study_.end_stage(participant_, at_, study::name_of(ended.end.result), ended.record, files_);
+    const auto deviation = deviation_of(at_, ended);
+    if (deviation)
+        if (const auto ok = study_.note_deviation(participant_, *deviation); !ok) return ok;
+    return study_.end_stage(participant_, at_, study::name_of(ended.end.result), ended.record, files_,
+                            failures_of(*at_.stage, ended));
 }
 
 Result<void> StageOnDisk::close() {

@@ -12,11 +12,24 @@
 
 namespace burin::activities {
 
-// The stages of the first day that the participant has not ended. Fails where there is none left, where somebody else
-// must not go through them, and where the day comes too early or too late by the protocol.
-[[nodiscard]] Result<std::vector<study::StagePlace>> places_left(const study::StudyFolder& study,
-                                                                 const std::string& participant, bool any_delay,
-                                                                 std::int64_t now_utc_ns);
+// What of the protocol's calendar a visit need not keep.
+struct VisitLeave {
+    bool resumes_late = false;  // begins a stage anew whose interruption is longer ago than resume_within_min
+    bool any_delay = false;     // begins a day too early or too late after the day before
+};
+
+// The stages of the first day that the participant has not ended, and what of the calendar is not kept by that.
+struct VisitPlan {
+    std::vector<study::StagePlace> places;
+    std::vector<std::string> deviations;  // a sentence each without its stop; none without leave
+};
+// Asks about this participant alone. Fails where no stage is left, where nobody must go through them (who has
+// withdrawn, who is simulated), and, without leave, where the calendar is not kept.
+[[nodiscard]] Result<VisitPlan> plan_visit(const study::StudyFolder& study, const std::string& participant,
+                                           const VisitLeave& leave, std::int64_t now_utc_ns);
+// Writes to the journal that the visit begins, with its deviations from the protocol.
+[[nodiscard]] Result<void> begin_visit(study::StudyFolder& study, const std::string& participant,
+                                       const std::string& device, const VisitPlan& plan);
 
 class StageOnDisk {
 public:

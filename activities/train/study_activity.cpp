@@ -33,6 +33,13 @@ std::string joined_words(std::span<const std::string> words) {
     return text;
 }
 
+// The name of the world of all stages that have one; of a day of pages, the protocol's first.
+const std::string& world_of(const study::Protocol& protocol, const std::vector<study::StagePlace>& places) {
+    for (const study::StagePlace& at : places)
+        if (!at.stage->world.empty()) return at.stage->world;
+    return protocol.worlds.front().name;
+}
+
 // A tick as far as a stage needs it. cause: why the tool had no force when the frame began, which is the tick's own
 // where it had none; a tick whose cause was over by then is taken for one of switched-off amplifiers.
 haptics::TickRecord record_of(const haptics::StrokeSample& tick, const study::StageTouch& touch, double offset_m,
@@ -61,7 +68,7 @@ StudyActivity::StudyActivity(const study::Protocol& protocol, const study::Group
                              StageKeeper keeper)
     : protocol_(protocol),
       group_(group),
-      worlds_(worlds),
+      world_(*worlds.at(world_of(protocol, places))),
       settings_(std::move(settings)),
       device_(std::move(device)),
       keeper_(std::move(keeper)),
@@ -170,33 +177,33 @@ void StudyActivity::place_proxies(std::size_t known, session::ActivityOrders& or
 void StudyActivity::show(session::ActivityOrders& orders) {
     shown_ = run_.frame(now_ns_);
     if (keeper_.events && !shown_.events.empty()) tell(keeper_.events(shown_.events), orders);
-    const study::FeltWorld* world = run_.world();
-    if (world == nullptr || shown_.objects.empty()) {
+    if (run_.world() == nullptr || shown_.objects.empty()) {
         // Pages and the time between stages show nothing of any world: who learns by touch must not see the tube.
-        for (const auto& [name, other] : worlds_) {
-            std::vector<ShownObject> hidden = shown_objects(*other, study::Stage{}, group_, {});
-            for (ShownObject& one : hidden) one.seen = false;
-            show(hidden, *other, orders);
-        }
+        std::vector<ShownObject> hidden = shown_objects(world_, study::Stage{}, group_, {});
+        for (ShownObject& one : hidden) one.seen = false;
+        show(hidden, orders);
+        press(false, orders);
         return;
     }
-    show(shown_.objects, *world, orders);
-    const study::Stage& stage = *run_.place()->stage;
-    const bool pressed = group_.feels_tube && stage.feels_world;
-    if (pressed == tube_pressed_) return;
+    show(shown_.objects, orders);
+    press(feels_tube(*run_.place()->stage, group_), orders);
+}
+
+// Has the tube press on the hand, or not.
+void StudyActivity::press(bool pressed, session::ActivityOrders& orders) {
+    if (tube_pressed_ == pressed) return;
     tube_pressed_ = pressed;
-    const study::StudyWorld& tube = world->world();
-    const std::string& name = world->part().object(study::kTubeObject).name;
+    const study::StudyWorld& tube = world_.world();
+    const std::string& name = world_.part().object(study::kTubeObject).name;
     orders.edits.push_back({name, ObjectProperty::stiffness, {pressed ? tube.wall_N_per_m : kUnfelt_N_per_m}});
     orders.edits.push_back({name, ObjectProperty::damping, {pressed ? tube.wall_Ns_per_m : 0.0}});
 }
 
-void StudyActivity::show(const std::vector<ShownObject>& objects, const study::FeltWorld& world,
-                         session::ActivityOrders& orders) {
+void StudyActivity::show(const std::vector<ShownObject>& objects, session::ActivityOrders& orders) {
     for (const ShownObject& one : objects) {
         const auto before = as_shown_.find(one.id);
         if (before != as_shown_.end() && before->second == one) continue;
-        const std::string& name = world.part().object(one.id).name;
+        const std::string& name = world_.part().object(one.id).name;
         orders.edits.push_back({name, ObjectProperty::seen, {one.seen ? 1.0 : 0.0}});
         orders.edits.push_back(
             {name, ObjectProperty::colour, {one.colour[0] / 255.0, one.colour[1] / 255.0, one.colour[2] / 255.0}});
@@ -243,7 +250,13 @@ void StudyActivity::adjust(haptics::TickParameters& parameters) const {
 
 session::ActivityPanel StudyActivity::panel() const {
     session::ActivityPanel panel{
-        .title = "Study", .aside = group_.code, .page = shown_.page, .rows = {}, .buttons = {}, .governs = true};
+        .title = "Study",
+        .aside = device_.participant.empty() ? group_.code : device_.participant + ", " + group_.code,
+        .page = shown_.page,
+        .rows = {},
+        .buttons = {},
+        .field = "note",
+        .governs = true};
     if (!jig_off_.empty()) panel.rows.push_back({"in the jig", jig_row_});
     for (const PanelRow& row : shown_.rows) panel.rows.push_back({row.name, row.value});
     const bool in_stage = run_.phase() == TrainingRun::Phase::in_stage;
@@ -254,8 +267,8 @@ session::ActivityPanel StudyActivity::panel() const {
                      {"Pause", {"pause"}, in_stage && !paused},
                      {"Go on", {"go-on"}, calibrated && paused},
                      {"Repeat", {"repeat"}, trial && !paused},
-                     {"Stop", {"stop"}, in_stage},
-                     {"In the jig", {"jig"}, device_.wand.has_value()}};
+                     {"In the jig", {"jig"}, device_.wand.has_value()},
+                     {"Stop", {"stop"}, in_stage, "End the visit for good?"}};
     return panel;
 }
 

@@ -38,11 +38,12 @@ struct StudyDevice {
     // stylus that stands in for a wand.
     double point_offset_m = 0.0;
     std::optional<devices::WandDescription> wand = {};  // none: there is no jig
+    std::string participant = {};                       // whose hand it is, for the operator; empty: nobody's
 };
 
 class StudyActivity final : public session::Activity {
 public:
-    // Protocol, group and worlds must outlive it.
+    // Protocol, group and worlds must outlive it; all of the places' stages that have a world have the same.
     StudyActivity(const study::Protocol& protocol, const study::Group& group, const FeltWorlds& worlds,
                   std::vector<study::StagePlace> places, std::string settings, StudyDevice device, StageKeeper keeper);
 
@@ -67,21 +68,22 @@ private:
     void follow(const haptics::StrokeSample& tick, session::ActivityOrders& orders);
     void place_proxies(std::size_t known, session::ActivityOrders& orders);
     void show(session::ActivityOrders& orders);
-    void show(const std::vector<ShownObject>& objects, const study::FeltWorld& world, session::ActivityOrders& orders);
+    void show(const std::vector<ShownObject>& objects, session::ActivityOrders& orders);
+    void press(bool pressed, session::ActivityOrders& orders);
     void end_stage(session::ActivityOrders& orders);
     void tell(const Result<void>& done, session::ActivityOrders& orders);
 
     const study::Protocol& protocol_;
     const study::Group& group_;
-    const FeltWorlds& worlds_;
+    const study::FeltWorld& world_;  // the session's: all stages of the visit that have a world have this one
     std::string settings_;
     StudyDevice device_;
     StageKeeper keeper_;
     TrainingRun run_;
     TrainingShown shown_;
     std::map<scene::ObjectId, ShownObject> as_shown_;
-    bool tube_pressed_ = true;  // the session's tube has its stiffness
-    Nanoseconds now_ns_ = 0;    // of the last tick
+    std::optional<bool> tube_pressed_;  // as last ordered
+    Nanoseconds now_ns_ = 0;            // of the last tick
     haptics::GateCause cause_ = haptics::GateCause::none;  // of the tool, as this frame draws it
     haptics::ProxyPlacement placement_;
     Pose reads_device_;    // where the wand read to be in the last step

@@ -207,8 +207,15 @@ std::vector<PanelRow> TrainingRun::rows() const {
         rows.push_back({"now", "start begins it"});
         return rows;
     }
+    const auto add_left = [&](const study::StageState& of, double time_s) {
+        if (!at->stage->ends_after_s) return;
+        const double paused_s = of.paused_s + (of.phase == study::StagePhase::paused ? time_s - of.pause_begun_s : 0.0);
+        rows.push_back({"left", formatted("%.0f s of %.0f", std::max(*at->stage->ends_after_s + paused_s - time_s, 0.0),
+                                          *at->stage->ends_after_s)});
+    };
     if (!session_) {
         rows.push_back({"time", formatted("%.1f s", page_time_s_)});
+        add_left(page_, page_time_s_);
         return rows;
     }
     const study::StageState& state = session_->state();
@@ -218,6 +225,7 @@ std::vector<PanelRow> TrainingRun::rows() const {
                            : state.phase == study::StagePhase::paused ? "paused"
                                                                       : "runs"});
     if (trial) rows.push_back({"attempt", formatted("%u of %u", state.attempt, at->stage->attempts)});
+    add_left(state, session_->time_s());
     const bool runs = trial && state.phase == study::StagePhase::running;
     rows.push_back(
         {"clock", formatted("%.1f s", runs ? session_->time_s() - state.clock_started_s : session_->time_s())});

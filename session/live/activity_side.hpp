@@ -43,7 +43,7 @@ public:
     [[nodiscard]] std::optional<ActivityPanel> panel() const {
         return activity_ ? std::optional(activity_->panel()) : std::nullopt;
     }
-    // Returns whether tool, objects and workspace are the activity's alone.
+    // Returns whether what is felt and seen is the activity's alone (governed.hpp).
     [[nodiscard]] bool governs() const {
         const auto section = panel();
         return section && section->governs;

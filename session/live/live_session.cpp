@@ -228,13 +228,21 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
         if (const auto done = run_command(state_, step.orders, action); !done)
             step.orders.messages.push_back({done.error().line()});
     }
-    if (before) keep_governed(*before, state_, step.orders);
+    if (before) hold_governed(*before, step.orders);
     activity_.step(state_, step.orders, input.time_ns, tool_);
     news_.frames_for_ticks(activity_.is_running());
     fit_desk_screen(room_.wall, main_eye());  // a command may have changed the mode
     haptics_.move_hand(step.hand_way, input.time_ns, step.hand);
     carry_out(std::move(step.orders), give);
     watch(input.time_ns);
+}
+
+// A hand that goes on turning the scene is told once that it stays.
+void LiveSession::hold_governed(const SessionState& before, SessionOrders& orders) {
+    const std::size_t told = orders.messages.size();
+    keep_governed(before, state_, orders);
+    if (orders.messages.size() > told && orders.line == 0 && log_.newest() == kGovernedMessage)
+        orders.messages.pop_back();
 }
 
 SceneInput LiveSession::feed_panel(const FrameInput& input) {

@@ -142,6 +142,7 @@ private:
     [[nodiscard]] Result<void> take_up_tool(const SculptOptions& options);
     [[nodiscard]] Result<void> make_scene(const sculpt::UseTool& use, const Vec3& tool_object, std::size_t undo_bytes);
     SceneInput feed_panel(const FrameInput& input);
+    void hold_governed(const SessionState& before, SessionOrders& orders);
     void carry_out(SessionOrders orders, const Give& give);
     void publish_parameters();
     void switch_amplifiers(const AskedAmplifiers& asked);

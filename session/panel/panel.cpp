@@ -206,7 +206,9 @@ private:
         const float margin = kit_.px(12.0f);
         begin_ground(margin, kit_.px(8.0f));
         panel::show_header(kit_, model);
-        const float footer = kit_.px(26.0f + 56.0f + 8.0f + 14.0f);
+        const bool governed = model.activity && model.activity->governs;
+        const float foot = kit_.px(26.0f + 56.0f + 8.0f + 14.0f);
+        const float footer = foot + (governed ? kit_.px(panel::acts_height(*model.activity)) : 0.0f);
         const ImVec2 top = ImGui::GetCursorScreenPos();
         const ImVec2 inside{ImGui::GetContentRegionAvail().x + 0.8f * margin,
                             ImGui::GetContentRegionAvail().y - footer};
@@ -221,7 +223,11 @@ private:
         ImGui::EndChild();
         kit_.visible_lo = {0.0f, 0.0f};
         kit_.visible_hi = screen;
-        ImGui::SetCursorScreenPos({margin, screen.y - footer + kit_.px(4.0f)});
+        if (governed) {
+            ImGui::SetCursorScreenPos({margin, screen.y - footer + kit_.px(4.0f)});
+            panel::show_acts(kit_, *model.activity);
+        }
+        ImGui::SetCursorScreenPos({margin, screen.y - foot + kit_.px(4.0f)});
         panel::show_plots(kit_, model);
         ImGui::SetCursorScreenPos({margin, screen.y - kit_.px(26.0f + 8.0f)});
         panel::show_footer(kit_, model);
@@ -240,11 +246,11 @@ private:
             panel::show_tool(kit_, model);
             panel::show_material(kit_, model);
             panel::show_objects(kit_, model);
+            panel::show_touch(kit_, model);
+            panel::show_workspace(kit_, model);
+            panel::show_view(kit_, model);
+            panel::show_history(kit_, model);
         }
-        panel::show_touch(kit_, model);
-        if (!governed) panel::show_workspace(kit_, model);
-        panel::show_view(kit_, model);
-        panel::show_history(kit_, model);
         panel::show_state(kit_, model);
     }
 

@@ -238,11 +238,9 @@ void show_touch(Kit& kit, const PanelModel& model) {
                          written("%.0f N/m", model.stiffness_N_per_m));
             kit.quantity(Quantity::friction, "Friction", model.friction, written("%.2f", model.friction));
         }
-        if (!model.activity || !model.activity->governs) {
-            kit.quantity(Quantity::velocity_filter, "Velocity filter", model.velocity_filter,
-                         filter_text(model.velocity_filter));
-            kit.quantity(Quantity::force_filter, "Force filter", model.force_filter, filter_text(model.force_filter));
-        }
+        kit.quantity(Quantity::velocity_filter, "Velocity filter", model.velocity_filter,
+                     filter_text(model.velocity_filter));
+        kit.quantity(Quantity::force_filter, "Force filter", model.force_filter, filter_text(model.force_filter));
     }
     kit.end_card();
 }

@@ -25,6 +25,8 @@ struct Memory {
     // Last command of the held widget, so that a hand at rest gives it once.
     CommandInput last;
     std::string open_list;  // the label of the list that is open
+    std::string asking;     // the label of the activity's button whose question stands there
+    std::string field;      // text of the activity's field
 };
 
 struct Item {

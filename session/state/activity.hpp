@@ -59,14 +59,16 @@ struct ActivityPanel {
         std::string title;
         std::vector<std::string> act;  // the words behind `do`
         bool enabled = true;
+        std::string asks = {};  // a question that the panel asks before it gives the act; empty: it gives it at once
         bool operator==(const Button&) const = default;
     };
     std::string title, aside;  // the aside stands right of the title, in a word or two
     std::string page;          // a paragraph for the person; empty: none
     std::vector<Row> rows;
     std::vector<Button> buttons;  // side by side, in several rows where there are many
-    // Tool, objects, workspace and filters are the activity's alone (governed.hpp): no panel, key or command changes
-    // them.
+    std::string field = {};       // the act that a line of text is for, behind the buttons; empty: there is no field
+    // All that is felt and seen is the activity's alone (governed.hpp): no panel, key or command changes it, and the
+    // panel shows none of its sections. Buttons and field then stand at the panel's foot, where nothing moves them.
     bool governs = false;
     bool operator==(const ActivityPanel&) const = default;
 };

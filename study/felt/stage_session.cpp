@@ -18,7 +18,10 @@ void FeltForces::add(const haptics::TickRecord& record) {
         sum_N += force_N;
     }
     limited_ticks += record.gate.saturated ? 1 : 0;
-    faults += record.gate.cause != haptics::GateCause::none ? 1 : 0;
+    if (record.gate.cause != haptics::GateCause::none) {
+        ++faults;
+        cause = record.gate.cause;
+    }
     late_ticks += (record.flags & haptics::kTickLate) != 0 ? 1 : 0;
 }
 

@@ -29,6 +29,7 @@ struct FeltForces {
     std::uint64_t ticks = 0, contact_ticks = 0, contacts = 0, limited_ticks = 0, faults = 0, late_ticks = 0;
     double sum_N = 0.0, largest_N = 0.0;  // of the commanded force; the sum over the ticks in contact
     double largest_torque_Nm = 0.0;
+    haptics::GateCause cause = haptics::GateCause::none;  // of the last tick without force
     bool was_in_contact = false;
 
     void add(const haptics::TickRecord& record);

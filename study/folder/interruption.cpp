@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 
 #include "base/clock.hpp"
 #include "base/text.hpp"
@@ -25,41 +26,57 @@ void look_at_recording(Interruption& one, const std::filesystem::path& file) {
     if (clocks && !clocks->empty()) one.known_utc_ns = std::max(one.known_utc_ns, clocks->back().utc_ns);
 }
 
-}  // namespace
-
-std::vector<Interruption> interruptions_of(const StudyFolder& study) {
+std::vector<Interruption> of_person(const StudyFolder& study, const Participant& person) {
     std::vector<Interruption> all;
-    for (const Participant& p : study.participants()) {
-        if (p.withdrawn) continue;
-        for (const StageVisit& visit : p.visits) {
-            if (visit.status != StageStatus::aborted) continue;
-            Interruption one{p.id, visit, 0, utc_of(visit.begun_utc), p.has_ended(visit.day, visit.place)};
-            look_at_recording(one, study.path() / visit.recording);
-            all.push_back(std::move(one));
-        }
+    if (person.withdrawn) return all;
+    for (const StageVisit& visit : person.visits) {
+        if (visit.status != StageStatus::aborted) continue;
+        Interruption one{person.id, visit, 0, utc_of(visit.begun_utc), person.has_ended(visit.day, visit.place)};
+        look_at_recording(one, study.path() / visit.recording);
+        all.push_back(std::move(one));
     }
     return all;
 }
 
-Result<void> check_resumption(const StudyFolder& study, std::int64_t now_utc_ns) {
-    const std::vector<Interruption> all = interruptions_of(study);
+}  // namespace
+
+std::vector<Interruption> interruptions_of(const StudyFolder& study) {
+    std::vector<Interruption> all;
+    for (const Participant& p : study.participants()) std::ranges::move(of_person(study, p), std::back_inserter(all));
+    return all;
+}
+
+std::string LateResumption::text(const Protocol& protocol) const {
+    const StageVisit& v = interruption.visit;
+    return formatted("%s (day %zu, stage %zu) was begun anew %.0f min after its interruption, and the protocol allows "
+                     "%g min",
+                     v.stage.c_str(), v.day, v.place, minutes, protocol.resume_within_min);
+}
+
+std::optional<LateResumption> late_resumption(const StudyFolder& study, const Participant& person,
+                                              std::int64_t now_utc_ns) {
+    const std::vector<Interruption> all = of_person(study, person);
     for (const Interruption& one : all) {
         const double minutes = static_cast<double>(now_utc_ns - one.known_utc_ns) * 1e-9 / 60.0;
         // Of several interruptions of one stage only the last counts.
         const auto later = [&](const Interruption& other) {
-            return other.participant == one.participant && other.visit.day == one.visit.day &&
-                   other.visit.place == one.visit.place && other.known_utc_ns > one.known_utc_ns;
+            return other.visit.day == one.visit.day && other.visit.place == one.visit.place &&
+                   other.known_utc_ns > one.known_utc_ns;
         };
         if (one.done_again || minutes <= study.protocol().resume_within_min) continue;
-        if (std::ranges::any_of(all, later)) continue;
-        return fail(one.participant + ", " + one.visit.stage,
-                    formatted("was interrupted %.0f min ago, and the protocol lets a stage be taken up again within "
-                              "%g min",
-                              minutes, study.protocol().resume_within_min),
-                    "give --resume to begin the stage anew all the same, which the journal notes, or withdraw the "
-                    "participant");
+        if (std::ranges::none_of(all, later)) return LateResumption{one, minutes};
     }
-    return {};
+    return std::nullopt;
+}
+
+Result<void> check_resumption(const StudyFolder& study, const Participant& person, std::int64_t now_utc_ns) {
+    const std::optional<LateResumption> late = late_resumption(study, person, now_utc_ns);
+    if (!late) return {};
+    return fail(person.id + ", " + late->interruption.visit.stage,
+                formatted("was interrupted %.0f min ago, and the protocol lets a stage be taken up again within %g min",
+                          late->minutes, study.protocol().resume_within_min),
+                "give --resume to begin the stage anew all the same, which journal and report name as a deviation from "
+                "the protocol, or withdraw the participant");
 }
 
 std::string utc_text(std::int64_t utc_ns) {

@@ -3,6 +3,7 @@
 // may go on there by the protocol's resume_within_min. Reads the recordings; one thread.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,19 @@ struct Interruption {
 // In the order of participants and stages; those of withdrawn participants are left out.
 [[nodiscard]] std::vector<Interruption> interruptions_of(const StudyFolder& study);
 
-// Fails where a stage that is still to be done was interrupted longer before `now_utc_ns` than the protocol allows.
-[[nodiscard]] Result<void> check_resumption(const StudyFolder& study, std::int64_t now_utc_ns);
+// A stage that a participant is still to do and that was interrupted longer ago than resume_within_min.
+struct LateResumption {
+    Interruption interruption;
+    double minutes = 0.0;  // since it was known to go on
+
+    [[nodiscard]] std::string text(const Protocol& protocol) const;  // for the journal and the report
+};
+// Returns nothing where this participant may go on by the protocol, whatever became of the others.
+[[nodiscard]] std::optional<LateResumption> late_resumption(const StudyFolder& study, const Participant& person,
+                                                            std::int64_t now_utc_ns);
+// Fails where there is one, with the remedy.
+[[nodiscard]] Result<void> check_resumption(const StudyFolder& study, const Participant& person,
+                                            std::int64_t now_utc_ns);
 
 // "2026-11-25T10:00:00.123Z" of nanoseconds since 1970, and back, also without a fraction; 0 for what is no such text.
 [[nodiscard]] std::string utc_text(std::int64_t utc_ns);

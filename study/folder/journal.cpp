@@ -8,6 +8,8 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <random>
+#include <set>
 
 #include "base/sha256.hpp"
 #include "base/text.hpp"
@@ -32,16 +34,134 @@ bool is_digest(std::string_view text) {
     return text.size() == kDigestLetters && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
+constexpr const char *kWordsKey = "words_sha256", *kSaltKey = "salt";
+constexpr char kBeforeWords = '\t';  // stands in no JSON on one line
+
 bool is_entry(const Json& value) {
     return value.is_object() && value.contains("event") && value["event"].is_string() && value.contains("time") &&
            value["time"].is_string();
 }
 
+std::string text_of(const Json& value, const char* key) {
+    const auto found = value.find(key);
+    return found != value.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+bool is_true(const Json& value, const char* key) {
+    const auto found = value.find(key);
+    return found != value.end() && found->is_boolean() && found->get<bool>();
+}
+
+std::string dumped(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+std::string drawn_salt() {
+    std::random_device device;
+    return formatted("%08x%08x%08x%08x", device(), device(), device(), device());
+}
+
+// What stays of an entry about a participant when the words are erased: that there was one in this group, and that they
+// have withdrawn; how many places of each list were taken until then; and that a learner was no person.
+Json public_part(const Json& value) {
+    Json kept{{"participant", value["participant"]}};
+    const std::string event = text_of(value, "event");
+    const auto keep = [&](const char* key) {
+        if (value.contains(key)) kept[key] = value[key];
+    };
+    if (event == "enrolled" || event == "withdrawn") keep("event");
+    if (event == "enrolled") keep("group");
+    if (event == "enrolled" && is_true(value, "simulated")) keep("simulated");
+    if (event == "withdrawn") {
+        keep("erase");
+        keep("places_taken");
+    }
+    return kept;
+}
+
+// A line, taken apart; the digest is empty where the line has none.
+struct JournalText {
+    std::string digest, open, words;
+    bool has_words = false;
+};
+JournalText taken_apart(std::string_view line) {
+    JournalText parts;
+    parts.digest = line.substr(0, kDigestLetters);
+    if (!is_digest(parts.digest) || line.size() <= kDigestLetters || line[kDigestLetters] != ' ') {
+        if (!is_digest(parts.digest)) parts.digest.clear();
+        return parts;
+    }
+    std::string_view rest = line.substr(kDigestLetters + 1);
+    const std::size_t tab = rest.find(kBeforeWords);
+    parts.open = rest.substr(0, tab);
+    parts.has_words = tab != std::string_view::npos;
+    if (parts.has_words) parts.words = rest.substr(tab + 1);
+    return parts;
+}
+
+// The entry that a chained line holds; not an object where its words are others than PUBLIC says.
+Json entry_of(const JournalText& line) {
+    Json open = Json::parse(line.open, nullptr, false);
+    if (!open.is_object()) return {};
+    if (!line.has_words) {
+        open.erase(kWordsKey);
+        return open;
+    }
+    if (sha256(line.words) != text_of(open, kWordsKey)) return {};  // also where PUBLIC names none
+    Json words = Json::parse(line.words, nullptr, false);
+    if (words.is_object()) words.erase(kSaltKey);
+    return words;
+}
+
+// Of lines whose words are gone: only an erased participant's may be.
+void find_lost_words(Journal& journal, const std::vector<std::size_t>& without) {
+    std::set<std::string> erased;
+    for (const JournalEntry& entry : journal.entries)
+        if (text_of(entry.value, "event") == "withdrawn" && is_true(entry.value, "erase"))
+            erased.insert(text_of(entry.value, "participant"));
+    for (const std::size_t line : without) {
+        const auto entry = std::ranges::find(journal.entries, line, &JournalEntry::line);
+        if (erased.contains(text_of(entry->value, "participant"))) continue;
+        journal.faults.push_back({line, "has lost its words, and its participant was never erased",
+                                  "restore the journal from a copy; until then the line is passed over"});
+        journal.entries.erase(entry);
+    }
+    std::ranges::stable_sort(journal.faults, {}, &JournalFault::line);
+}
+
 }  // namespace
 
 std::string journal_line(const std::string& previous_digest, const Json& value) {
-    const std::string json = value.dump(-1, ' ', false, Json::error_handler_t::replace);
-    return sha256(previous_digest + json) + " " + json + "\n";
+    std::string open = dumped(value), words;
+    if (!text_of(value, "participant").empty()) {
+        Json salted = value;
+        salted[kSaltKey] = drawn_salt();
+        words = dumped(salted);
+        Json kept = public_part(value);
+        kept[kWordsKey] = sha256(words);
+        open = dumped(kept);
+        words.insert(words.begin(), kBeforeWords);
+    }
+    return sha256(previous_digest + open) + " " + open + words + "\n";
+}
+
+std::string without_words(std::string_view text, const std::string& participant) {
+    const std::string quoted = "\"" + participant + "\"";
+    std::string kept;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        const std::string_view line = text.substr(0, end);
+        const std::string_view ending = text.substr(end, 1);
+        text.remove_prefix(std::min(end + 1, text.size()));
+        const JournalText parts = taken_apart(line);
+        const Json open = Json::parse(parts.open, nullptr, false);
+        if (open.is_object() && text_of(open, "participant") == participant && open.contains(kWordsKey))
+            kept += parts.digest + " " + parts.open;
+        else if (!open.is_object() && line.contains(quoted))
+            kept += parts.digest;
+        else
+            kept += line;
+        kept += ending;
+    }
+    return kept;
 }
 
 Journal parse_journal(std::string_view text) {
@@ -49,18 +169,22 @@ Journal parse_journal(std::string_view text) {
     journal.last_digest = kNoDigest;
     journal.ends_within_line = !text.empty() && text.back() != '\n';
     std::string stated = kNoDigest;  // by the line before, good or not
+    std::string last_sound = kNoDigest;  // of the last good line that is not without its words, as a torn one may be
     std::string latest_time;
+    std::vector<std::size_t> without;  // words
     for (std::size_t line = 1; !text.empty(); ++line) {
         const std::size_t end = text.find('\n');
         const std::string_view now = text.substr(0, end);
         text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-        const std::string digest(now.substr(0, kDigestLetters));
-        const std::string json(now.size() > kDigestLetters ? now.substr(kDigestLetters + 1) : std::string_view());
-        const bool chained = is_digest(digest) && now.size() > kDigestLetters && now[kDigestLetters] == ' ' &&
-                             (sha256(stated + json) == digest || sha256(journal.last_digest + json) == digest);
-        if (is_digest(digest)) stated = digest;
-        const Json value = chained ? Json::parse(json, nullptr, false) : Json();
-        if (!chained || !is_entry(value)) {
+        const JournalText parts = taken_apart(now);
+        const auto follows = [&](const std::string& before) { return sha256(before + parts.open) == parts.digest; };
+        const bool chained =
+            !parts.digest.empty() && (follows(stated) || follows(journal.last_digest) || follows(last_sound));
+        if (!parts.digest.empty()) stated = parts.digest;
+        const Json value = chained ? entry_of(parts) : Json();
+        const bool erased = !parts.has_words && end != std::string_view::npos && value.is_object() &&
+                            !text_of(value, "participant").empty();
+        if (!chained || !(erased || is_entry(value))) {
             const bool torn = end == std::string_view::npos;
             journal.faults.push_back(
                 {line,
@@ -69,14 +193,19 @@ Journal parse_journal(std::string_view text) {
                       : "restore the journal from a copy; until then the line is passed over"});
             continue;
         }
-        const std::string time = value["time"].get<std::string>();
-        if (time < latest_time)
+        if (erased)
+            without.push_back(line);
+        else
+            last_sound = parts.digest;
+        const std::string time = text_of(value, "time");
+        if (!time.empty() && time < latest_time)
             journal.notes.push_back(formatted("line %zu: the clock went back, from %s to %s", line,
                                               latest_time.substr(0, 40).c_str(), time.substr(0, 40).c_str()));
         latest_time = std::max(latest_time, time);
-        journal.last_digest = digest;
-        journal.entries.push_back({line, value});
+        journal.last_digest = parts.digest;
+        journal.entries.push_back({line, value, parts.has_words});
     }
+    find_lost_words(journal, without);
     return journal;
 }
 
@@ -105,7 +234,8 @@ Result<void> append(const std::filesystem::path& file, Journal& journal, Json va
     ::close(handle);
     if (!done) return done;
     const std::size_t number = journal.entries.empty() ? 1 : journal.entries.back().line + 1;
-    journal.entries.push_back({number, std::move(value)});
+    const bool has_words = !text_of(value, "participant").empty();
+    journal.entries.push_back({number, std::move(value), has_words});
     journal.last_digest = line.substr(0, kDigestLetters);
     journal.ends_within_line = false;
     return {};

@@ -117,12 +117,15 @@ void visit(Participant& p, const Json& entry, const std::string& event) {
     begun->file_digest = text_in(entry, "digest");
     begun->recording_digest = text_in(entry, "recording_sha256");
     begun->ended_clock_s = number_in(entry, "clock_s");
+    const auto failures = entry.find("failures");
+    if (failures == entry.end() || !failures->is_object()) return;
+    for (const auto& [why, times] : failures->items())
+        if (times.is_number_unsigned()) begun->failures[why] = times.get<std::size_t>();
 }
 
 bool good_id(const std::string& id) {
     return !id.empty() && id.size() <= 32 &&
-           id.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_") ==
-               std::string::npos &&
+           id.find_first_not_of(kLettersOfCodes) == std::string::npos &&
            id.find_first_of("0123456789") != std::string::npos;
 }
 
@@ -156,13 +159,20 @@ std::vector<Participant> participants_of(const Journal& journal) {
     for (const JournalEntry& entry : journal.entries) {
         const std::string event = text_in(entry.value, "event"), id = text_in(entry.value, "participant");
         const auto found = std::ranges::find(all, id, &Participant::id);
-        if (event == "enrolled" && found == all.end() && good_id(id)) all.push_back(enrolled_by(entry.value));
+        if (event == "enrolled" && found == all.end() && good_id(id)) {
+            all.push_back(enrolled_by(entry.value));
+            all.back().has_words = entry.has_words;
+            continue;
+        }
         if (found == all.end()) continue;
+        found->has_words = found->has_words || entry.has_words;
         if (event == "withdrawn") {
             found->withdrawn = true;
             found->erased = found->erased || flag_in(entry.value, "erase");
         }
         if (event == "visit") found->device = text_in(entry.value, "device");
+        if (event == "deviation")
+            found->deviations.push_back({text_in(entry.value, "time"), text_in(entry.value, "text")});
         if (event == "stage begun" || event == "stage ended") visit(*found, entry.value, event);
     }
     return all;
@@ -199,7 +209,7 @@ Result<void> create_study(const fs::path& folder, const std::string& protocol_te
     const StudyFacts facts{sha256(protocol_text), sha256(sealed),
                            making.seed ? *making.seed : drawn_by_the_system() % 1'000'000'000, making.seed.has_value(),
                            making.participants};
-    const Json json{{"format", 2},
+    const Json json{{"format", 3},
                     {"protocol_sha256", facts.protocol_digest},
                     {"allocation_sha256", facts.allocation_digest},
                     {"seed", facts.seed},
@@ -254,7 +264,7 @@ Result<StudyFolder> StudyFolder::open(const fs::path& folder, StudyAccess access
     if (!json_read) return fail(name, "is no study: " + json_read.error().what, "make one with burin study init");
     const Json json = Json::parse(*json_read, nullptr, false);
     if (!json.is_object()) return fail(name + "/study.json", "is damaged", "restore it from a copy");
-    if (count_in(json, "format") != 2)
+    if (count_in(json, "format") != 3)
         return fail(name + "/study.json", "is of another version of Burin",
                     "go on with the version that made the study");
     study.facts_ = {text_in(json, "protocol_sha256"), text_in(json, "allocation_sha256"), count_in(json, "seed"),
@@ -307,6 +317,7 @@ Result<void> StudyFolder::check_allocation() const {
     const auto key = read_key(key_file());
     if (!key) return {};  // it is kept elsewhere
     for (const Participant& p : participants()) {
+        if (p.erased && p.position == 0) continue;  // nobody knows its place any more
         const auto place = open_place(*sealed, protocol_, *key, p.stratum, p.position);
         if (!place) return std::unexpected(place.error());
         if (protocol_.groups[place->group].code != p.group)
@@ -324,10 +335,9 @@ Result<Participant> StudyFolder::enrol(const std::string& id, const std::vector<
         return fail(id, "is in this study already", "give a code that nobody has had");
     if (!are_codes_of(protocol_, codes)) return fail("--codes", "do not fit the strata", wanted_codes(protocol_));
     const std::string label = stratum_label(codes);
-    std::size_t position = 0;
-    for (const Participant& p : all) {
-        if (p.stratum == label) position = std::max(position, p.position);
-    }
+    const auto strata = combinations(protocol_.strata);
+    const std::size_t position =
+        places_taken()[static_cast<std::size_t>(std::ranges::find(strata, codes) - strata.begin())];
     if (sealed_.empty()) {
         auto sealed = sealed_list();
         if (!sealed) return std::unexpected(sealed.error());
@@ -349,25 +359,6 @@ Result<Participant> StudyFolder::enrol(const std::string& id, const std::vector<
     return p;
 }
 
-Result<void> StudyFolder::withdraw(const std::string& id, bool erase) {
-    const std::vector<Participant> all = participants();
-    const auto found = std::ranges::find(all, id, &Participant::id);
-    if (found == all.end()) return fail(id, "is not in this study", "burin study status lists who is");
-    std::error_code error;
-    const bool files_left = fs::exists(path_ / "data" / id, error);
-    if (found->withdrawn && (!erase || (found->erased && !files_left)))
-        return fail(id, "has withdrawn already", erase ? "nothing is left to erase" : "add --erase to erase its data");
-    if (erase && fs::is_symlink(path_ / "data" / id, error))
-        return fail((path_ / "data" / id).string(), "is a link, so that the data themselves would stay",
-                    "put the folder in the link's place, or erase it by hand where it is");
-    // Told before it is done: files that a power cut leaves are erased when it is asked for again.
-    if (const auto ok = note(Json{{"event", "withdrawn"}, {"participant", id}, {"erase", erase}}); !ok) return ok;
-    if (!erase) return {};
-    fs::remove_all(path_ / "data" / id, error);
-    if (error) return fail((path_ / "data" / id).string(), "cannot be erased: " + error.message(), "delete it by hand");
-    return {};
-}
-
 std::optional<double> StudyFolder::simulated_effect() const {
     for (const JournalEntry& entry : journal_.entries) {
         const auto effect = entry.value.find("effect");
@@ -387,6 +378,10 @@ Result<void> StudyFolder::begin_simulation(double effect) {
 
 Result<void> StudyFolder::note_of(const std::string& id, const std::string& text) {
     return note(Json{{"event", "note"}, {"participant", id}, {"text", text}});
+}
+
+Result<void> StudyFolder::note_deviation(const std::string& id, const std::string& text) {
+    return note(Json{{"event", "deviation"}, {"participant", id}, {"text", text}});
 }
 
 Result<void> StudyFolder::begin_visit(const std::string& id, const std::string& device) {
@@ -416,9 +411,11 @@ Result<StageFiles> StudyFolder::begin_stage(const std::string& id, const StagePl
 }
 
 Result<void> StudyFolder::end_stage(const std::string& id, const StagePlace& at, const std::string& result,
-                                    const Json& recorded, const StageFiles& files, std::optional<double> clock_s) {
+                                    const Json& recorded, const StageFiles& files, const Json& failures,
+                                    std::optional<double> clock_s) {
     Json entry{{"event", "stage ended"}, {"participant", id},       {"day", at.day},
                {"place", at.place},      {"stage", at.stage->name}, {"result", result}};
+    if (!failures.is_null()) entry["failures"] = failures;
     if (clock_s) entry["clock_s"] = *clock_s;
     if (!files.recording.empty()) {
         const auto digest = digest_of_file(path_ / files.recording);

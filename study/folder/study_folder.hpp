@@ -15,6 +15,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,6 +32,9 @@ namespace burin::study {
 inline constexpr std::array<std::string_view, 7> kFilesOfStudy{
     "protocol.toml", "study.json", "allocation.sealed", "allocation.key", "journal.jsonl", "trials.csv", "lock"};
 
+// Of participants' codes.
+inline constexpr std::string_view kLettersOfCodes = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
+
 enum class StageStatus { ended, aborted };
 
 // A stage as a participant went through it. Aborted: begun and never ended.
@@ -46,6 +50,15 @@ struct StageVisit {
     std::string device{};                              // of a visit with an operator; empty: a learner's
     std::string begun_utc{}, ended_utc{};              // as the journal has them
     std::optional<double> clock_s{}, ended_clock_s{};  // of a simulated participant's clock
+    std::map<std::string, std::size_t> failures{};     // of a trial's attempts, how many by the reason's name
+};
+
+// The reason of a trial that nobody came to begin.
+inline constexpr const char* kNeverTouched = "start cap never touched";
+
+// What was done otherwise than the protocol has it, as the journal tells it.
+struct ProtocolDeviation {
+    std::string utc{}, text{};
 };
 
 struct Participant {
@@ -55,6 +68,8 @@ struct Participant {
     bool withdrawn = false, erased = false, simulated = false;
     std::string device{};  // of the last visit with an operator; empty: none
     std::vector<StageVisit> visits{};
+    std::vector<ProtocolDeviation> deviations{};
+    bool has_words = false;  // the journal holds more of it than its code and group
 
     [[nodiscard]] bool has_ended(std::size_t day, std::size_t place) const;
 };
@@ -116,8 +131,10 @@ public:
     // Needs access to write. Opens the next place of the stratum's list; refuses an id that was used before.
     [[nodiscard]] Result<Participant> enrol(const std::string& id, const std::vector<std::string>& codes,
                                             bool simulated);
-    // Excludes the participant; with erase its data files are deleted, and the journal keeps that it was here.
-    [[nodiscard]] Result<void> withdraw(const std::string& id, bool erase);
+    // Excludes the participant. With erase its data, the journal's words about it and the reports and pictures that
+    // tell of it are deleted; the journal keeps its code, its group and that it has withdrawn. Returns what was deleted
+    // of reports and pictures, within the folder.
+    [[nodiscard]] Result<std::vector<std::string>> withdraw(const std::string& id, bool erase);
     // A study has one effect of simulated learners: the first run's. Refuses another.
     [[nodiscard]] Result<void> begin_simulation(double effect);
     [[nodiscard]] std::optional<double> simulated_effect() const;  // nothing before the first run
@@ -125,6 +142,8 @@ public:
     [[nodiscard]] Result<void> note_of(const std::string& id, const std::string& text);
     // That the hand is scripted and the device simulated, so that nobody takes it for a person's visit.
     static constexpr const char* kScriptedDevice = "simulated wand, scripted hand";
+    // What is done otherwise than the protocol has it; reports name it.
+    [[nodiscard]] Result<void> note_deviation(const std::string& id, const std::string& text);
     // A participant comes for some stages, with this device: before the first of them.
     [[nodiscard]] Result<void> begin_visit(const std::string& id, const std::string& device);
     // Names the files of the stage, of which there are none yet. `has_motion`: its motion will be recorded. `clock_s`:
@@ -132,9 +151,10 @@ public:
     [[nodiscard]] Result<StageFiles> begin_stage(const std::string& id, const StagePlace& at, bool has_motion,
                                                  std::optional<double> clock_s = {});
     // Writes what was measured (null: nothing) to a new file and syncs it before the journal names it, and takes the
-    // digest of the recording, which must be closed.
+    // digest of the recording, which must be closed. `failures`: an object of why attempts failed, each with how often;
+    // null: none.
     [[nodiscard]] Result<void> end_stage(const std::string& id, const StagePlace& at, const std::string& result,
-                                         const Json& recorded, const StageFiles& files,
+                                         const Json& recorded, const StageFiles& files, const Json& failures = {},
                                          std::optional<double> clock_s = {});
     // Fails where the file is missing or not the one that the journal names.
     [[nodiscard]] Result<Json> recorded(const StageVisit& visit) const;
@@ -144,6 +164,9 @@ public:
 private:
     StudyFolder() = default;
     [[nodiscard]] Result<void> note(Json value);
+    [[nodiscard]] std::vector<std::size_t> places_taken() const;
+    [[nodiscard]] Result<std::vector<std::string>> erase(const std::string& id);
+    [[nodiscard]] Result<void> erase_words(const std::string& id);
     [[nodiscard]] Result<std::string> sealed_list() const;
     [[nodiscard]] std::filesystem::path key_file() const { return key_.empty() ? path_ / kKeyFile : key_; }
 

@@ -143,5 +143,37 @@ TEST_F(SimulatedStages, ReachNoFartherThanTheWandAndNeverTripIt) {
     EXPECT_EQ(go("interactive", 0).faults, 0u);
 }
 
+// A learner waited four hours for a cap that does not hold both points, and left 1.5 GB of that.
+TEST_F(SimulatedStages, AreStoppedWhereNobodyCanDoThemAndSayWhy) {
+    protocol_.worlds[0].cap_depth_m = 0.001;
+    for (Vec3& p : protocol_.worlds[0].spine_m) p.y += 0.8 * (p.x - protocol_.worlds[0].spine_m.front().x);
+    SetUp();
+    const Went went = go("test", 0);
+    EXPECT_EQ(went.stage.end.result, study::StageResult::stopped);
+    EXPECT_LT(went.stage.duration_s, 125.0);
+    const study::Stage& stage = *protocol_.stage("test");
+    EXPECT_EQ(failures_of(stage, went.stage), (Json{{study::kNeverTouched, 1u}}));
+    const auto told = deviation_of({1, 6, &stage}, went.stage);
+    ASSERT_TRUE(told);
+    EXPECT_TRUE(told->contains("was ended by stop after 12")) << *told;
+}
+
+TEST_F(SimulatedStages, CountWhyTheirAttemptsFailed) {
+    population_.stray_chance = 1.0;
+    const Went astray = go("test", 1);
+    ASSERT_EQ(astray.stage.end.result, study::StageResult::no_attempt_left);
+    const study::Stage& stage = *protocol_.stage("test");
+    const Json failures = failures_of(stage, astray.stage);
+    std::size_t sum = 0;
+    for (const auto& [why, times] : failures.items()) {
+        EXPECT_TRUE(why == "strayed" || why == "laid down") << why;
+        sum += times.get<std::size_t>();
+    }
+    EXPECT_EQ(sum, stage.attempts);
+    population_.stray_chance = 0.0;
+    EXPECT_TRUE(failures_of(stage, go("test", 1).stage).is_null());
+    EXPECT_TRUE(failures_of(*protocol_.stage("interactive"), go("interactive", 1).stage).is_null());
+}
+
 }  // namespace
 }  // namespace burin::activities

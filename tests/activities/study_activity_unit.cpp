@@ -8,6 +8,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "base/text.hpp"
+
 namespace burin::activities {
 namespace {
 
@@ -28,6 +30,9 @@ protected:
         std::vector<study::StagePlace> places;
         for (const study::StagePlace& at : study::places_of(protocol_))
             if (at.stage->name == stage) places.push_back(at);
+        begin(std::move(places), group);
+    }
+    void begin(std::vector<study::StagePlace> places, std::size_t group) {
         const auto ok = [] { return Result<void>{}; };
         StageKeeper keeper{[&, ok](const TrainingRun&) { return ++begun_, ok(); },
                            {},
@@ -41,7 +46,7 @@ protected:
                            },
                            {}};
         activity_.emplace(protocol_, protocol_.groups[group], worlds_, std::move(places), "study",
-                          StudyDevice{0.03, study::study_wand(protocol_)}, std::move(keeper));
+                          StudyDevice{0.03, study::study_wand(protocol_), "p07"}, std::move(keeper));
     }
     Result<void> act(std::vector<std::string> words) {
         orders_ = {};
@@ -55,6 +60,7 @@ protected:
             tick.tick = ++tick_;
             tick.time_ns = static_cast<Nanoseconds>(1000 + tick_) * 1'000'000;
             tick.position_object_m = middle + Vec3(0.0, 0.03, 0.0);
+            tick.flags = flags_;
             ticks.push_back(tick);
         }
         orders_ = {};
@@ -76,6 +82,7 @@ protected:
     std::vector<RunEvent> events_;
     std::size_t begun_ = 0;
     std::uint64_t tick_ = 0;
+    std::uint32_t flags_ = 0;  // of each tick
 };
 
 TEST_F(StudyActivities, TakeATrialThroughAndSayWhereItWasNotKept) {
@@ -88,6 +95,8 @@ TEST_F(StudyActivities, TakeATrialThroughAndSayWhereItWasNotKept) {
         ASSERT_NE(edit(object, ObjectProperty::seen), nullptr) << object;
         EXPECT_EQ(edit(object, ObjectProperty::seen)->value[0], 0.0) << object;
     }
+    ASSERT_NE(edit("tube", ObjectProperty::stiffness), nullptr) << "nobody feels it between stages";
+    EXPECT_LT(edit("tube", ObjectProperty::stiffness)->value[0], 1e-3);
     ASSERT_TRUE(act({"start"}));
     EXPECT_FALSE(act({"start"}));
     EXPECT_EQ(begun_, 1u);
@@ -96,8 +105,7 @@ TEST_F(StudyActivities, TakeATrialThroughAndSayWhereItWasNotKept) {
     EXPECT_GT(edit("start cap", ObjectProperty::colour)->value[1], 0.6);  // green
     EXPECT_EQ(edit("seen tube", ObjectProperty::seen), nullptr);          // it stays hidden
     EXPECT_EQ(edit("start cap", ObjectProperty::seen)->value[0], 1.0);
-    ASSERT_NE(edit("tube", ObjectProperty::stiffness), nullptr);
-    EXPECT_LT(edit("tube", ObjectProperty::stiffness)->value[0], 1e-3);
+    EXPECT_EQ(edit("tube", ObjectProperty::stiffness), nullptr) << "nor in a trial";
     ASSERT_TRUE(act({"note", "holds", "her", "breath"}));
     for (std::size_t i = 0; i + 1 < spine.size(); ++i) {
         std::vector<Vec3> places;
@@ -117,6 +125,84 @@ TEST_F(StudyActivities, TakeATrialThroughAndSayWhereItWasNotKept) {
     ASSERT_TRUE(act({"stop"}));
     frame(std::vector<Vec3>(2, spine.front()));
     EXPECT_TRUE(orders_.quit);
+}
+
+TEST_F(StudyActivities, EndTheVisitWithStopThoughStagesAreLeft) {
+    const auto& spine = worlds_.at("tube")->world().spine_m;
+    for (const std::size_t stopped : {0u, 3u}) {  // a page; training
+        const auto all = study::places_of(protocol_);
+        begin({all.begin() + static_cast<std::ptrdiff_t>(stopped), all.end()}, 0);
+        ended_.clear();
+        frame({spine.front()});
+        ASSERT_TRUE(act({"start"}));
+        frame({spine.front(), spine.front()});
+        EXPECT_FALSE(orders_.quit);
+        ASSERT_TRUE(act({"stop"}));
+        frame({spine.front(), spine.front()});
+        EXPECT_TRUE(orders_.quit) << all[stopped].stage->name;
+        ASSERT_EQ(ended_.size(), 1u);
+        EXPECT_EQ(ended_[0].end.result, study::StageResult::stopped);
+        EXPECT_EQ(activity_->run().phase(), TrainingRun::Phase::between) << "the others are not begun";
+    }
+}
+
+TEST_F(StudyActivities, TellOfTrainingWithoutForceThatItWasNotAsTheProtocolHasIt) {
+    const auto& spine = worlds_.at("tube")->world().spine_m;
+    for (const char* name : {"interactive", "led", "test"}) {
+        const study::Stage* stage = protocol_.stage(name);
+        const study::StagePlace at{1, 4, stage};
+        for (const bool without : {false, true}) {
+            begin({at}, 0);
+            ended_.clear();
+            frame({spine.front()});
+            ASSERT_TRUE(act({"start"}));
+            frame(std::vector<Vec3>(20, spine.front()));
+            flags_ = without ? haptics::kTickFault : 0u;
+            frame(std::vector<Vec3>(30, spine.front()));
+            flags_ = 0;
+            // Its time is over, or it is no training.
+            if (stage->ends_after_s) tick_ += static_cast<std::uint64_t>(*stage->ends_after_s * 1000.0);
+            if (!stage->ends_after_s) {
+                ASSERT_TRUE(act({"stop"}));
+            }
+            frame({spine.front(), spine.front()});
+            ASSERT_EQ(ended_.size(), 1u) << name;
+            const auto told = deviation_of(at, ended_[0]);
+            const bool training = stage->kind != study::StageKind::trial;
+            ASSERT_EQ(told.has_value(), without || !training) << name;
+            if (training && told) {
+                EXPECT_EQ(*told, std::string(name) + " (day 1, stage 4) had 30 of its 51 ticks without force (the "
+                                                     "last: no force: the device reports a fault)");
+            }
+            if (!training) {
+                EXPECT_TRUE(told->contains("was ended by stop after")) << *told;
+            }
+        }
+    }
+}
+
+TEST_F(StudyActivities, GiveTheOperatorCodeTimeLeftANoteAndAStopThatAsks) {
+    const auto& spine = worlds_.at("tube")->world().spine_m;
+    begin("interactive", 0);
+    frame({spine.front()});
+    ASSERT_TRUE(act({"start"}));
+    frame(std::vector<Vec3>(2001, spine.front()));
+    const session::ActivityPanel panel = activity_->panel();
+    EXPECT_EQ(panel.aside, "p07, haptic");
+    EXPECT_EQ(panel.field, "note");
+    EXPECT_TRUE(panel.governs);
+    const double whole_s = *protocol_.stage("interactive")->ends_after_s;
+    const auto left = std::ranges::find(panel.rows, "left", &session::ActivityPanel::Row::name);
+    ASSERT_NE(left, panel.rows.end());
+    EXPECT_EQ(left->value, formatted("%.0f s of %.0f", whole_s - 2.0, whole_s));
+    for (const session::ActivityPanel::Button& button : panel.buttons)
+        EXPECT_EQ(button.asks.empty(), button.title != "Stop") << button.title;
+    ASSERT_TRUE(act({"pause"}));
+    frame(std::vector<Vec3>(3001, spine.front()));
+    const auto paused = activity_->panel().rows;
+    EXPECT_EQ(std::ranges::find(paused, "left", &session::ActivityPanel::Row::name)->value, left->value)
+        << "a pause takes nothing of it";
+    ASSERT_TRUE(act({"note", "holds her breath"}));
 }
 
 TEST_F(StudyActivities, SetTheProxiesOnTheAxisAtEachTouchOfTheStartCap) {
@@ -228,7 +314,7 @@ TEST_F(StudyActivities, LimitTheForceAndLeadWhoIsLed) {
     activity_->adjust(parameters);
     EXPECT_LT(parameters.guidance.lead_speed_m_per_s, 0.0);
     const session::ActivityPanel panel = activity_->panel();
-    EXPECT_EQ(panel.aside, "haptic");
+    EXPECT_EQ(panel.aside, "p07, haptic");
     EXPECT_TRUE(std::ranges::any_of(panel.rows, [](const auto& row) { return row.name == "force"; }));
 }
 

@@ -5,6 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
+#include <map>
+#include <set>
+#include <tuple>
 
 #include "session/drive/session_frames.hpp"
 #include "session/live/live_session.hpp"
@@ -41,7 +45,8 @@ public:
                 .aside = "",
                 .page = page,
                 .rows = {{"Ticks", "many"}},
-                .buttons = {{"Calm", {"calm"}}}};
+                .buttons = {{"Calm", {"calm"}}},
+                .governs = governs_from_now && asked_++ % 2 == 1};
     }
     [[nodiscard]] Result<void> finish() override {
         finished = true;
@@ -52,6 +57,10 @@ public:
     std::vector<std::uint64_t> ticks;
     std::size_t objects = 0;
     bool calm = false, finished = false;
+    bool governs_from_now = false;  // in each step, once the panel is laid out
+
+private:
+    mutable std::size_t asked_ = 0;
 };
 
 const std::string kPyramid = "OFF\n4 4 0\n0 0 0\n0.1 0 0\n0 0.1 0\n0 0 0.1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
@@ -72,13 +81,16 @@ struct WatchedSession {
     }
     // A frame of 10 ms with these commands. Returns what the session told meanwhile.
     std::string frame(const std::vector<CommandInput>& commands) {
+        return send({commands.begin(), commands.end()}, {640, 360});
+    }
+    std::string send(const std::vector<Input>& inputs, ImageSize output = {1280, 720}) {
         testing::internal::CaptureStderr();
         const Nanoseconds until_ns = clock.now_ns() + 10'000'000;
         EXPECT_TRUE(executor->advance_to(until_ns));
         std::vector<InputEvent> events;
-        for (const CommandInput& command : commands) events.push_back({until_ns, command});
+        for (const Input& input : inputs) events.push_back({until_ns, input});
         session->step(
-            {until_ns, until_ns, events}, {.size = {640, 360}}, session->newest_tool(),
+            {until_ns, until_ns, events}, {.size = output}, session->newest_tool(),
             [&](Executor::Order order) { executor->order(std::move(order)); },
             options.live.panel_window ? ImageSize{340, 700} : ImageSize{});
         const Result<Executor::Taken> taken = executor->take_updates();
@@ -144,7 +156,7 @@ TEST(SessionActivity, ItsPageIsOnThePictureWhereThePanelIsNot) {
     EXPECT_EQ(watched.session->panel_on(1)->size.height, 700u) << "the operator's";
 }
 
-TEST(SessionActivity, ThatGovernsLeavesThePanelNeitherToolNorObjects) {
+TEST(SessionActivity, ThatGovernsLeavesThePanelNothingOfWhatIsFeltOrSeen) {
     PanelModel model;
     model.object = PanelObject{};
     model.object_names = {"stone"};
@@ -158,9 +170,110 @@ TEST(SessionActivity, ThatGovernsLeavesThePanelNeitherToolNorObjects) {
     for (const char* section : {"Tool", "Material", "Objects", "Workspace", "Touch", "View", "Study"})
         EXPECT_TRUE(offers(section)) << section;
     model.activity->governs = true;
-    for (const char* section : {"Tool", "Material", "Objects", "Workspace"}) EXPECT_FALSE(offers(section)) << section;
-    for (const char* section : {"Touch", "View", "Study"}) EXPECT_TRUE(offers(section)) << section;
-    for (const char* filter : {"velocity-filter", "force-filter"}) EXPECT_FALSE(offers(filter)) << filter;
+    for (const char* section : {"Tool", "Material", "Objects", "Workspace", "Touch", "View"})
+        EXPECT_FALSE(offers(section)) << section;
+    for (const char* switched : {"force", "velocity-filter", "force-filter", "stereo-mode", "swap-eyes", "show-force"})
+        EXPECT_FALSE(offers(switched)) << switched;
+    EXPECT_TRUE(offers("Study"));
+}
+
+// The operator of a study: a page, warnings and rows come and go while the hand is on its way to a button.
+TEST(SessionActivity, ThatGovernsHasItsButtonsWhereNothingMovesThem) {
+    PanelModel model;
+    ActivityPanel activity{.title = "Study", .aside = "p07, touch", .page = "", .rows = {}, .buttons = {}};
+    activity.governs = true;
+    activity.field = "note";
+    activity.buttons = {{"Start", {"start"}}, {"Next", {"next"}}, {"Pause", {"pause"}}, {"Go on", {"go-on"}},
+                        {"Repeat", {"repeat"}}, {"In the jig", {"jig"}}, {"Stop", {"stop"}, true, "End the visit?"}};
+    for (const ImageSize size : {ImageSize{340, 700}, ImageSize{340, 1000}}) {
+        Panel panel = Panel::create({.size = size}).value();
+        std::map<std::string, PixelRect> first;
+        for (int state = 0; state < 5; ++state) {
+            model.activity = activity;
+            if (state > 0) model.activity->rows = {{"in the jig", "2.5 mm off"}, {"stage", "test"}, {"now", "runs"}};
+            if (state > 1) model.activity->page = "A page of the participant's, which takes some lines of the panel.";
+            if (state > 2) model.warnings = {"Picture 61 ms behind the hand; 15 is noticed", "The tracker is lost"};
+            if (state > 3) {
+                model.touch.cause = haptics::GateCause::device_fault;
+                model.activity->buttons[1].enabled = false;
+            }
+            static_cast<void>(panel.show(model, state));
+            for (const char* label : {"do start", "do next", "do pause", "do go-on", "do repeat", "do jig", "do stop",
+                                      "field", "do note"}) {
+                const auto at = panel.place_of(label);
+                ASSERT_TRUE(at) << label << " is not shown, state " << state;
+                const auto [before, fresh] = first.emplace(label, *at);
+                EXPECT_EQ(std::tie(at->x, at->y, at->width, at->height),
+                          std::tie(before->second.x, before->second.y, before->second.width, before->second.height))
+                    << label << ", state " << state;
+            }
+        }
+        model.touch = {};
+        model.warnings = {};
+    }
+}
+
+TEST(SessionActivity, AsksBeforeItDoesWhatCannotBeTakenBack) {
+    PanelModel model;
+    model.activity = ActivityPanel{.title = "Study", .aside = "", .page = "", .rows = {}, .buttons = {}};
+    model.activity->buttons = {{"Next", {"next"}}, {"Stop", {"stop"}, true, "End the visit for good?"}};
+    model.activity->governs = true;
+    Panel panel = Panel::create({.size = {340, 700}}).value();
+    Nanoseconds now_ns = 0;
+    const auto clicked = [&](const std::string& label) {
+        static_cast<void>(panel.show(model, now_ns += 16'000'000));
+        const auto at = panel.place_of(label);
+        EXPECT_TRUE(at) << label;
+        const Vec2 middle = at ? Vec2(at->x + 0.5 * at->width, at->y + 0.5 * at->height) : Vec2(-1.0);
+        const std::vector<InputEvent> events{{now_ns, MouseMove{middle}},
+                                             {now_ns, MouseClick{MouseButton::left, true, {}}},
+                                             {now_ns, MouseClick{MouseButton::left, false, {}}}};
+        panel.feed(events);
+        return panel.show(model, now_ns += 16'000'000).actions;
+    };
+    const std::vector<CommandInput> stop{{"do", {"stop"}}};
+    EXPECT_TRUE(clicked("do stop").empty());
+    EXPECT_TRUE(clicked("do stop").empty()) << "twice in one place does nothing";
+    EXPECT_TRUE(clicked("no").empty());
+    EXPECT_FALSE(panel.place_of("yes, do stop"));
+    EXPECT_TRUE(clicked("do stop").empty());
+    EXPECT_EQ(clicked("do next"), (std::vector<CommandInput>{{"do", {"next"}}}));
+    EXPECT_FALSE(panel.place_of("yes, do stop")) << "something else was wanted";
+    EXPECT_TRUE(clicked("do stop").empty());
+    EXPECT_EQ(clicked("yes, do stop"), stop);
+    EXPECT_FALSE(panel.place_of("yes, do stop"));
+    EXPECT_TRUE(clicked("do stop").empty());
+    model.activity->buttons[1].enabled = false;
+    static_cast<void>(panel.show(model, now_ns += 16'000'000));
+    EXPECT_FALSE(panel.place_of("yes, do stop")) << "the stage has ended meanwhile";
+}
+
+TEST(SessionActivity, TakesANoteFromTheOperatorsField) {
+    PanelModel model;
+    model.activity = ActivityPanel{.title = "Study", .aside = "", .page = "", .rows = {}, .buttons = {}};
+    model.activity->buttons = {{"Next", {"next"}}};
+    model.activity->field = "note";
+    model.activity->governs = true;
+    Panel panel = Panel::create({.size = {340, 700}}).value();
+    static_cast<void>(panel.show(model, 0));
+    const auto middle = [&](const std::string& label) {
+        const auto at = panel.place_of(label);
+        EXPECT_TRUE(at) << label;
+        return at ? Vec2(at->x + 0.5 * at->width, at->y + 0.5 * at->height) : Vec2(-1.0);
+    };
+    const auto click = [&](const std::string& label) {
+        const std::vector<InputEvent> events{{0, MouseMove{middle(label)}},
+                                             {0, MouseClick{MouseButton::left, true, {}}},
+                                             {0, MouseClick{MouseButton::left, false, {}}}};
+        panel.feed(events);
+        return panel.show(model, 0).actions;
+    };
+    EXPECT_TRUE(click("do note").empty()) << "nothing is written";
+    EXPECT_TRUE(click("field").empty());
+    panel.feed(std::vector<InputEvent>{{0, TextInput{"holds her breath"}}});
+    EXPECT_TRUE(panel.show(model, 0).actions.empty());
+    EXPECT_EQ(click("do note"), (std::vector<CommandInput>{{"do", {"note", "holds her breath"}}}));
+    EXPECT_TRUE(click("do note").empty()) << "it was written once";
 }
 
 TEST(SessionActivity, ManyButtonsStandInRowsSoThatTheirTitlesHaveRoom) {
@@ -180,25 +293,89 @@ TEST(SessionActivity, ManyButtonsStandInRowsSoThatTheirTitlesHaveRoom) {
     }
 }
 
-TEST(SessionActivity, ThatGovernsHasNobodyChangeToolObjectsOrWorkspace) {
-    SessionState before, state;
-    before.workspace_gain = 1.0;
-    state.workspace_gain = 2.0;
-    state.force_filter = 0.5;
-    state.interpupillary_m = 0.07;
+TEST(SessionActivity, ThatGovernsHasNobodyChangeWhatIsFeltOrSeen) {
+    using Change = std::function<void(SessionState&)>;
+    const std::vector<std::pair<const char*, Change>> changes{
+        {"tool", [](SessionState& s) { s.tool.shape.sizes_m[0] = 0.02; }},
+        {"feel", [](SessionState& s) { s.feel.friction = 0.7; }},
+        {"world", [](SessionState& s) { s.world = std::make_shared<WorldObjects>(); }},
+        {"technique", [](SessionState& s) { s.technique = haptics::WorkspaceTechnique::moving; }},
+        {"scale", [](SessionState& s) { s.workspace_gain = 2.0; }},
+        {"force filter", [](SessionState& s) { s.force_filter = 0.5; }},
+        {"velocity filter", [](SessionState& s) { s.velocity_filter = 0.5; }},
+        {"force", [](SessionState& s) { s.force_on = false; }},
+        {"drill", [](SessionState& s) { s.catch_drill = true; }},
+        {"only touch", [](SessionState& s) { s.only_touch = true; }},
+        {"scene", [](SessionState& s) { s.world_from_object.position_m.x = 0.1; }},
+        {"device", [](SessionState& s) { s.world_from_device.position_m.x = 0.1; }},
+        {"calibration", [](SessionState& s) { s.device_from_read.position_m.x = 0.1; }},
+        {"arrow", [](SessionState& s) { s.force_shown = true; }},
+        {"stereo", [](SessionState& s) { s.output.mode = wall::StereoMode::left; }},
+        {"eyes", [](SessionState& s) { s.output.swap_eyes = true; }},
+        {"pattern", [](SessionState& s) { s.output.test_pattern = wall::TestPattern::ghosting; }}};
+    const Room room = [] {
+        Room made;
+        made.workpiece_object = {Vec3(-0.1), Vec3(0.1)};
+        made.wall = *session_wall({});
+        return made;
+    }();
+    const SessionState before = begin_session(room, {.shape = {sculpt::ToolKind::ball, {0.01, 0.0, 0.0}, {}}}, {}, {});
+    const haptics::TickParameters felt = parameters_of(before, room);
+    for (const auto& [what, change] : changes) {
+        SessionState state = before;
+        change(state);
+        state.interpupillary_m = 0.07;
+        SessionOrders orders;
+        orders.line = 7;
+        keep_governed(before, state, orders);
+        EXPECT_EQ(state.interpupillary_m, 0.07) << "who looks is nobody's but the viewer's";
+        ASSERT_EQ(orders.messages.size(), 1u) << what;
+        EXPECT_EQ(orders.messages[0].line, 7u);
+        EXPECT_EQ(state.force_on, before.force_on) << what;
+        EXPECT_EQ(state.output, before.output) << what;
+        EXPECT_EQ(state.force_shown, before.force_shown) << what;
+        const haptics::TickParameters now = parameters_of(state, room);
+        EXPECT_EQ(now.workspace.object_from_device, felt.workspace.object_from_device) << what;
+        EXPECT_EQ(now.enabled, felt.enabled) << what;
+        EXPECT_EQ(now.catch_drill, felt.catch_drill) << what;
+        EXPECT_EQ(now.signals.force_alpha, felt.signals.force_alpha) << what;
+        EXPECT_EQ(now.signals.velocity_alpha, felt.signals.velocity_alpha) << what;
+        EXPECT_EQ(now.materials[0].static_friction, felt.materials[0].static_friction) << what;
+        SessionOrders again;
+        keep_governed(before, state, again);
+        EXPECT_TRUE(again.messages.empty()) << what << ": all is as it was";
+    }
+    SessionState state = before;
     SessionOrders orders;
-    orders.line = 7;
     orders.carving.push_back(sculpt::SculptOrder{});
     keep_governed(before, state, orders);
-    EXPECT_EQ(state.workspace_gain, 1.0);
-    EXPECT_EQ(state.force_filter, 0.0);
-    EXPECT_EQ(state.interpupillary_m, 0.07) << "who looks is nobody's but the viewer's";
     EXPECT_TRUE(orders.carving.empty());
-    ASSERT_EQ(orders.messages.size(), 1u);
-    EXPECT_EQ(orders.messages[0].line, 7u);
-    SessionOrders none;
-    keep_governed(before, state, none);
-    EXPECT_TRUE(none.messages.empty()) << "nobody asked for anything";
+    EXPECT_EQ(orders.messages.size(), 1u);
+}
+
+// The panel was laid out before the activity began to govern, as at the beginning of a stage: what it gives then is
+// held back like any other's word.
+TEST(SessionActivity, ThatGovernsIsNotOverruledByThePanel) {
+    for (const bool governs : {false, true}) {
+        const auto watching = std::make_shared<Watching>();
+        WatchedSession watched(watching);
+        watched.send({});
+        const SessionState before = watched.session->state();
+        watching->governs_from_now = governs;
+        std::set<std::string> changed;
+        for (double y = 60.0; y < 680.0; y += 8.0) {
+            for (const double x : {980.0, 1110.0, 1240.0}) {
+                watched.send({MouseMove{{x, y}}, MouseClick{MouseButton::left, true, {}},
+                              MouseClick{MouseButton::left, false, {}}});
+                const SessionState& now = watched.session->state();
+                if (now.force_on != before.force_on) changed.insert("force");
+                if (now.workspace_gain != before.workspace_gain) changed.insert("scale");
+                if (!(now.tool == before.tool)) changed.insert("tool");
+                if (now.technique != before.technique) changed.insert("technique");
+            }
+        }
+        EXPECT_EQ(changed.empty(), governs) << testing::PrintToString(changed);
+    }
 }
 
 TEST(SessionActivity, WhatItCannotDoIsToldByName) {

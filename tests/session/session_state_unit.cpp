@@ -49,6 +49,19 @@ TEST(SessionState, BeginsWithTheWorkpieceInViewAndTheHandBeforeIt) {
     EXPECT_TRUE(haptics::parameters_are_sensible(parameters_of(state, room)));
 }
 
+TEST(SessionState, ForceOffReachesTheTick) {
+    const Room room = test_room();
+    SessionState state = test_state(room);
+    SessionOrders orders;
+    EXPECT_TRUE(parameters_of(state, room).enabled);
+    for (const bool on : {false, true, false}) {
+        orders = {};
+        ASSERT_TRUE(run(state, orders, "force", {on ? "on" : "off"}));
+        EXPECT_TRUE(orders.parameters) << "the loop is told";
+        EXPECT_EQ(parameters_of(state, room).enabled, on);
+    }
+}
+
 TEST(SessionState, AToolThatIsWrongLeavesTheOldOne) {
     const Room room = test_room();
     SessionState state = test_state(room);

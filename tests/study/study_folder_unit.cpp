@@ -1,42 +1,20 @@
 // SPDX-License-Identifier: MIT
-// A study's folder as its user meets it, and the journal by itself.
+// A study's folder as its user meets it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "base/json.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "record/record_reader.hpp"
-#include "study/folder/journal.hpp"
 #include "study/folder/study_folder.hpp"
-#include "tests/support/places.hpp"
-#include "tests/support/run_command.hpp"
+#include "tests/study/short_study.hpp"
 
 namespace burin::study {
 namespace {
-
-const std::string kBurinStudy = std::string(kBurinCommand) + " study ";
-const std::string kProtocolFile = std::filesystem::absolute("assets/studies/kinesthetic-path/protocol.toml").string();
-
-// The thesis' study with stages short enough for a test.
-std::string short_protocol() {
-    std::ifstream in(kProtocolFile);
-    std::string text{std::istreambuf_iterator<char>(in), {}};
-    for (const char* seconds : {"ends_after_s = 60", "ends_after_s = 300", "ends_after_s = 120"}) {
-        for (std::size_t at = text.find(seconds); at != std::string::npos; at = text.find(seconds, at + 1))
-            text.replace(at, std::string(seconds).size(), "ends_after_s = 1");
-    }
-    return text;
-}
-
-Workplace::Outcome make_study(const Workplace& place, const std::string& more = "--participants 4 --seed 7") {
-    place.write("p.toml", short_protocol());
-    return place.run(kBurinStudy + "init s --protocol p.toml " + more);
-}
 
 TEST(StudyDigest, IsThatOfTheStandard) {
     // FIPS 180-4's examples, and a message as long as the padding's seam.
@@ -45,64 +23,6 @@ TEST(StudyDigest, IsThatOfTheStandard) {
     EXPECT_EQ(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
               "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
     EXPECT_EQ(sha256(std::string(1'000'000, 'a')), "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
-}
-
-std::string three_lines() {
-    std::string text, digest(64, '0');
-    for (const char* event : {"one", "two", "three"}) {
-        const std::string line = journal_line(digest, Json{{"event", event}, {"time", "2026-11-25T10:00:00Z"}});
-        digest = line.substr(0, 64);
-        text += line;
-    }
-    return text;
-}
-
-TEST(StudyJournal, NamesAnEditedLineAndUsesTheOthers) {
-    std::string text = three_lines();
-    text.replace(text.find("two"), 3, "TWO");
-    const Journal journal = parse_journal(text);
-    ASSERT_EQ(journal.faults.size(), 1u);
-    EXPECT_EQ(journal.faults[0].line, 2u);
-    ASSERT_EQ(journal.entries.size(), 2u);
-    EXPECT_EQ(journal.entries[1].value["event"], "three");
-}
-
-TEST(StudyJournal, FindsALineThatWasTakenOutOrMoved) {
-    const std::string text = three_lines();
-    const std::size_t second = text.find('\n') + 1, third = text.find('\n', second) + 1;
-    EXPECT_EQ(parse_journal(text).faults.size(), 0u);
-    const Journal cut = parse_journal(text.substr(0, second) + text.substr(third));
-    ASSERT_EQ(cut.faults.size(), 1u);
-    EXPECT_EQ(cut.faults[0].line, 2u);
-    EXPECT_FALSE(parse_journal(text.substr(0, second) + text.substr(third) + text.substr(second, third - second))
-                     .faults.empty());
-}
-
-TEST(StudyJournal, GoesOnBehindALineThatAPowerCutTore) {
-    const Workplace place;
-    const std::string whole = three_lines();
-    for (const std::size_t missing : {1u, 5u, 60u, 100u}) {
-        place.write("journal", whole.substr(0, whole.size() - missing));
-        Journal journal = parse_journal(place.read("journal"));
-        ASSERT_TRUE(append(place / "journal", journal, Json{{"event", "four"}}));
-        ASSERT_TRUE(append(place / "journal", journal, Json{{"event", "five"}}));
-        const Journal again = parse_journal(place.read("journal"));
-        EXPECT_EQ(again.faults.size(), missing == 1u ? 0u : 1u) << missing;
-        ASSERT_GE(again.entries.size(), 4u) << missing;
-        EXPECT_EQ(again.entries.back().value["event"], "five");
-        EXPECT_TRUE(place.read("journal").starts_with(whole.substr(0, whole.size() - missing)));
-    }
-}
-
-TEST(StudyJournal, TellsOfAClockThatWentBack) {
-    std::string digest(64, '0');
-    const std::string first = journal_line(digest, Json{{"event", "a"}, {"time", "2026-11-25T10:00:00Z"}});
-    const std::string text =
-        first + journal_line(first.substr(0, 64), Json{{"event", "b"}, {"time", "2026-11-24T10:00:00Z"}});
-    const Journal journal = parse_journal(text);
-    EXPECT_EQ(journal.entries.size(), 2u);
-    ASSERT_EQ(journal.notes.size(), 1u);
-    EXPECT_TRUE(journal.notes[0].contains("line 2"));
 }
 
 TEST(StudyCommands, GoFromAProtocolToAReport) {
@@ -119,7 +39,8 @@ TEST(StudyCommands, GoFromAProtocolToAReport) {
     ASSERT_EQ(reported.status, 0) << reported.output;
     ASSERT_EQ(place.run(kBurinStudy + "report s").status, 0);  // beside the first
     const std::string html = place.read("s/reports/001/report.html");
-    for (const char* part : {"simulated learners", "SHA-256", "Group haptic: 2 allocated"})
+    for (const char* part : {"simulated learners", "SHA-256", "Group haptic: 2 allocated", "Failed attempts",
+                             "failed attempts in 4 trials"})
         EXPECT_TRUE(html.contains(part)) << part;
     EXPECT_EQ(html, place.read("s/reports/002/report.html"));
 }
@@ -276,20 +197,6 @@ TEST(StudyCommands, MakeTheStudyOfTheThesisByItsName) {
     EXPECT_FALSE(std::filesystem::exists(place / "out2"));
 }
 
-// The hand waits in the start cap, goes through the tube in three seconds and rests in the end cap.
-std::string through_the_tube(double from_s) {
-    const Protocol protocol = parse_protocol(short_protocol()).protocol;
-    const std::vector<Vec3>& spine = protocol.worlds.at(0).spine_m;
-    std::vector<Vec3> places{spine.front() + Vec3(-0.01, 0, 0), spine.front() + Vec3(-0.01, 0, 0)};
-    places.insert(places.end(), spine.begin(), spine.end());
-    places.push_back(spine.back() + Vec3(0.01, 0, 0));
-    std::string text;
-    for (std::size_t i = 0; i < places.size(); ++i)
-        text += formatted("%.3f hand %.6f %.6f %.6f\n", from_s + static_cast<double>(i) * 0.06 + (i > 0 ? 0.5 : 0.0),
-                          places[i].x, places[i].y, places[i].z);
-    return text;
-}
-
 TEST(StudyCommands, TakeAParticipantThroughByAScriptAndGoOnAfterAnInterruption) {
     const Workplace place;
     ASSERT_EQ(make_study(place, "--participants 2 --seed 3").status, 0);
@@ -400,40 +307,6 @@ TEST(StudyBench, GivesProcessorTimeBesideTheClockOnTheWall) {
         EXPECT_GT(json.at(run).at("processor_s").get<double>(), 0.0) << run;
     for (const Json& stage : json.at("stages")) EXPECT_GT(stage.at("processor_us_a_tick").get<double>(), 0.0) << stage;
     EXPECT_EQ(place.files(), 1u);
-}
-
-TEST(StudyCommands, LeaveOutAndEraseWhoWithdraws) {
-    const Workplace place;
-    ASSERT_EQ(make_study(place).status, 0);
-    ASSERT_EQ(place.run(kBurinStudy + "run s --simulated").status, 0);
-    ASSERT_EQ(place.run(kBurinStudy + "withdraw s sim002").status, 0);
-    EXPECT_TRUE(place.run(kBurinStudy + "analyse s").output.contains("6 trials"));
-    EXPECT_TRUE(std::filesystem::exists(place / "s/data/sim002"));
-    ASSERT_EQ(place.run(kBurinStudy + "withdraw s sim002 --erase").status, 0);
-    EXPECT_FALSE(std::filesystem::exists(place / "s/data/sim002"));
-    EXPECT_TRUE(place.run(kBurinStudy + "status s").output.contains("erased"));
-    EXPECT_EQ(place.run(kBurinStudy + "check s").status, 0);
-    EXPECT_EQ(place.run(kBurinStudy + "withdraw s nobody1").status, 1);
-    // Files that an interrupted erasure left are erased when it is asked for again; then nothing is left.
-    std::filesystem::create_directory(place / "s/data/sim002");
-    EXPECT_EQ(place.run(kBurinStudy + "withdraw s sim002 --erase").status, 0);
-    EXPECT_FALSE(std::filesystem::exists(place / "s/data/sim002"));
-    EXPECT_EQ(place.run(kBurinStudy + "withdraw s sim002 --erase").status, 1);
-}
-
-TEST(StudyCommands, EraseWhatAFigureTellsAndNothingBehindALink) {
-    const Workplace place;
-    ASSERT_EQ(make_study(place).status, 0);
-    ASSERT_EQ(place.run(kBurinStudy + "run s --simulated").status, 0);
-    ASSERT_TRUE(place.read("s/trials.csv").contains("sim002"));
-    ASSERT_EQ(place.run(kBurinStudy + "withdraw s sim002 --erase").status, 0);
-    EXPECT_FALSE(place.read("s/trials.csv").contains("sim002"));
-    std::filesystem::rename(place / "s/data/sim001", place / "elsewhere");
-    std::filesystem::create_symlink(place / "elsewhere", place / "s/data/sim001");
-    const auto refused = place.run(kBurinStudy + "withdraw s sim001 --erase");
-    EXPECT_EQ(refused.status, 1);
-    EXPECT_TRUE(refused.output.contains("is a link")) << refused.output;
-    EXPECT_FALSE(place.run(kBurinStudy + "status s").output.contains("sim001 withdrew")) << "nothing was done";
 }
 
 TEST(StudyCommands, FindAJournalThatHasLostItsBeginning) {
