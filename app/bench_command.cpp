@@ -92,7 +92,8 @@ Result<bench::CarveScene> BenchCommand::Options::scene_named(const std::string& 
     if (name.starts_with(kMeshScene)) {
         const std::string file = name.substr(std::string(kMeshScene).size());
         // The scene is brought to a size of its own, whatever the file's unit.
-        Result<sculpt::ClosedMesh> closed = sculpt::load_closed_mesh(file, true, LengthUnit::m);
+        Result<sculpt::ClosedMesh> closed =
+            sculpt::load_closed_mesh({.source = file, .close_holes = true, .units = LengthUnit::m});
         if (!closed) return std::unexpected(closed.error());
         const std::string stem = std::filesystem::path(file).stem().string();
         Result<bench::CarveScene> on_mesh = bench::stroke_on_mesh_scene(stem, std::move(closed->mesh), swept);

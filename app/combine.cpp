@@ -9,7 +9,6 @@
 #include "base/clock.hpp"
 #include "compute/mesher/surface.hpp"
 #include "compute/rays/scan_convert.hpp"
-#include "geometry/files/mesh_export.hpp"
 #include "sculpt/finishing.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/record/input_files.hpp"
@@ -62,9 +61,13 @@ Result<void> combine_files(const CombineOptions& options) {
     session::InputFiles inputs;
     inputs.mesh(options.a).mesh(options.b);
     if (const auto ok = check_outputs(options.exports, options.report, inputs.list()); !ok) return ok;
-    Result<sculpt::ClosedMesh> a = sculpt::load_closed_mesh(options.a, options.close_holes, options.units);
+    const auto load = [&](const std::string& file) {
+        return sculpt::load_closed_mesh(
+            {.source = file, .close_holes = options.close_holes, .units = options.units, .weld_m = options.weld_m});
+    };
+    Result<sculpt::ClosedMesh> a = load(options.a);
     if (!a) return std::unexpected(a.error());
-    Result<sculpt::ClosedMesh> b = sculpt::load_closed_mesh(options.b, options.close_holes, options.units);
+    Result<sculpt::ClosedMesh> b = load(options.b);
     if (!b) return std::unexpected(b.error());
     name_materials(*a, options.a, {205, 195, 178});
     name_materials(*b, options.b, {224, 142, 54});
@@ -91,7 +94,16 @@ Result<void> combine_files(const CombineOptions& options) {
     if (!result) return std::unexpected(result.error());
     compute::Surface surface(*lattice);
     surface.mesh_all(*result, pool);
-    const geometry::TriangleMesh mesh = surface.welded();
+    const LengthUnit unit = options.export_units.value_or(a->unit);
+    const Result<sculpt::FinishedMesh> finished = sculpt::finish_mesh(surface, *result, unit, std::nullopt, pool);
+    if (!finished) return std::unexpected(finished.error());
+    const geometry::TriangleMesh& mesh = finished->mesh;
+    if (mesh.triangles.empty() && !finished->too_thin.empty()) {
+        return fail(
+            options.a + " and " + options.b,
+            "leave nothing that shows: of their " + std::string(text(options.operation)) + " " + finished->too_thin,
+            "raise --resolution, or make it thicker");
+    }
     if (mesh.triangles.empty()) {
         return fail(options.a + " and " + options.b,
                     "leave nothing: their " + std::string(text(options.operation)) + " is empty (" + a->size + "; " +
@@ -101,11 +113,13 @@ Result<void> combine_files(const CombineOptions& options) {
     report["lattice_cells"] = lattice->cells;
     report["lattice_spacing_m"] = lattice->spacing_m;
     report["disagreeing_edges"] = surface.disagreeing_edges();
-    report["mesh"] = describe_mesh(mesh);
+    report["mesh"] = describe_mesh(mesh, unit);
+    report["mesh"]["self_intersections"] = finished->self_intersections;
+    report["slivers"] = finished->slivers;
+    report["export_unit"] = name_of(unit);
     std::printf("%s\n%s\n", a->size.c_str(), b->size.c_str());
-    const LengthUnit unit = options.export_units.value_or(a->unit);
     for (const std::string& path : options.exports) {
-        if (const auto written = geometry::export_mesh(mesh, path, unit); !written) return written;
+        if (const auto written = sculpt::export_finished(*finished, path); !written) return written;
         std::printf("%s: written in %s\n", path.c_str(), descriptor_of(unit).plural);
         report["exports"].push_back(std::filesystem::path(path).filename().string());
     }

@@ -30,6 +30,7 @@ struct ConvertOptions {
     std::optional<LengthUnit> units;         // of IN; none: as the file states, else guessed (mesh_unit.hpp)
     std::optional<LengthUnit> export_units;  // of OUT; none: those of IN
     bool close_holes = false;
+    std::optional<double> weld_m;                // corners at open edges that are joined; none: with close_holes alone
     std::optional<double> simplify_m;            // bound on the surface's motion; none: all triangles
     std::string to;                              // format of a session file's table; empty: IN is a mesh
     std::string columns, part, trials;           // of that table
@@ -49,6 +50,7 @@ struct CombineOptions {
     compute::Combination operation = compute::Combination::unite;
     int resolution = 256;  // cells along the longest side of both together
     bool close_holes = false;
+    std::optional<double> weld_m;      // none: by the files' numbers (sculpt/workpiece.hpp)
     std::vector<std::string> exports;  // STL, PLY, OBJ
     std::string report;                // a JSON file; empty: none
     unsigned threads = 0;              // 0: one per core

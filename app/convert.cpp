@@ -5,39 +5,63 @@
 
 #include "app/commands.hpp"
 #include "app/output_files.hpp"
+#include "compute/repair/rounding.hpp"
 #include "geometry/files/mesh_export.hpp"
 #include "geometry/files/mesh_import.hpp"
 #include "geometry/mesh/mesh_health.hpp"
 #include "geometry/mesh/mesh_repair.hpp"
 #include "sculpt/finishing.hpp"
+#include "sculpt/workpiece.hpp"
 #include "session/record/input_files.hpp"
 
 namespace burin::app {
 
 namespace {
 
-void print_health(const geometry::TriangleMesh& mesh) {
-    const geometry::MeshHealth health = geometry::examine(mesh);
-    std::printf("  size %s, %zu shells, area %g cm2, volume %g cm3\n", in_millimetres(health.bounds_m.extent()).c_str(),
-                health.shells, 1e4 * health.area_m2, 1e6 * health.signed_volume_m3);
+// Prints the health of a mesh of numbers in the unit.
+void print_health(const geometry::TriangleMesh& numbers, LengthUnit unit = LengthUnit::m) {
+    const geometry::MeshHealth health = geometry::examine(numbers);
+    const double cm = 100.0 * metres_in(unit);
+    std::printf("  size %s, %zu shells, area %g cm2, volume %g cm3\n",
+                in_millimetres(to_metres(health.bounds_m.extent(), unit)).c_str(), health.shells,
+                cm * cm * health.area_m2, cm * cm * cm * health.signed_volume_m3);
     for (const std::string& complaint : geometry::complaints(health)) std::printf("  %s\n", complaint.c_str());
 }
 
-// Checks that corners which differ still do so in the single-precision numbers of .stl and .ply.
-Result<void> check_precision(const geometry::TriangleMesh& mesh, const std::string& out) {
-    if (geometry::mesh_format_of(out) == geometry::MeshFormat::obj) return {};
-    const auto fall_together = [&](std::uint32_t a, std::uint32_t b) {
-        const Vec3 &p = mesh.positions_m[a], &q = mesh.positions_m[b];
-        return p != q && glm::vec3(p) == glm::vec3(q);
-    };
-    const auto collapses = [&](const std::array<std::uint32_t, 3>& t) {
-        return fall_together(t[0], t[1]) || fall_together(t[1], t[2]) || fall_together(t[2], t[0]);
-    };
-    const auto lost = std::ranges::count_if(mesh.triangles, collapses);
-    if (lost == 0) return {};
+// One triangle in so many may lose its area by rounding: its corners are then moved apart by a step of a float, which
+// is no more than rounding does. Where more lose it, the format cannot hold the shape.
+constexpr std::size_t kTrianglesForOneWithoutArea = 1000;
+
+Result<void> check_precision(const geometry::FileNumbers& numbers, const std::string& out) {
+    if (numbers.without_area * kTrianglesForOneWithoutArea <= numbers.mesh.triangles.size()) return {};
     return fail(out,
-                "would hold single-precision numbers, in which " + std::to_string(lost) + " triangles have no area",
+                "would hold single-precision numbers, in which " + std::to_string(numbers.without_area) +
+                    " triangles have no area",
                 "move the mesh nearer to its origin, or write .obj");
+}
+
+// Brings the mesh to the numbers that the file will hold, and says what scaling and rounding have changed.
+Result<geometry::TriangleMesh> rounded_for(const std::string& out, const geometry::TriangleMesh& mesh_m,
+                                           LengthUnit unit, WorkerPool& pool) {
+    const auto format = geometry::mesh_format_of(out).value_or(geometry::MeshFormat::obj);  // check_outputs() knows it
+    geometry::FileNumbers numbers = geometry::numbers_of_file(mesh_m, format, unit);
+    if (const auto ok = check_precision(numbers, out); !ok) return std::unexpected(ok.error());
+    if (numbers.steps_apart > 0)
+        std::printf("  vertices that fall together by rounding were moved apart by %zu steps of a float\n",
+                    numbers.steps_apart);
+    if (!numbers.is_rounded || format == geometry::MeshFormat::obj) return std::move(numbers.mesh);
+    const compute::RoundingReport repair = compute::repair_rounding(mesh_m, numbers.mesh, pool);
+    if (repair.vertices_moved > 0)
+        std::printf(
+            "  %s vertices were moved by a step or two of a float, so that triangles do not pass through each "
+            "other by rounding\n",
+            std::to_string(repair.vertices_moved).c_str());
+    if (repair.left != repair.before)
+        std::printf(
+            "  %s pairs of triangles pass through each other in the file's single-precision numbers, %s before; "
+            ".obj has double precision\n",
+            std::to_string(repair.left).c_str(), std::to_string(repair.before).c_str());
+    return std::move(numbers.mesh);
 }
 
 }  // namespace
@@ -54,32 +78,40 @@ Result<void> convert(const ConvertOptions& options) {
                 mesh.triangles.size(), mesh.positions_m.size());
     const geometry::ImportReport& report = imported->report;
     std::printf("%s\n", geometry::describe_size(options.in, report.size_m, report.unit).c_str());
+    const double longest_side_m = std::max({report.size_m.x, report.size_m.y, report.size_m.z});
+    if (const auto ok = sculpt::check_weld(options.weld_m, longest_side_m); !ok) return ok;
     for (const std::string& remark : imported->report.remarks) std::printf("  %s\n", remark.c_str());
     print_health(mesh);
-    if (options.close_holes) {
+    if (options.close_holes || options.weld_m) {
         geometry::weld_vertices(mesh);
+        const auto joined = geometry::join_open_edges(mesh, options.weld_m.value_or(report.weld_tolerance_m));
+        if (joined.vertices_joined > 0) std::printf("  %s\n", in_words(joined).c_str());
+        if (!options.close_holes) print_health(mesh);
+    }
+    if (options.close_holes) {
         const geometry::ClosingReport closing = geometry::close_holes(mesh);
         const geometry::OrientationReport turned = geometry::orient_outward(mesh);
         std::printf("  closed %zu holes with %zu triangles; turned %zu triangles\n", closing.holes.size(),
                     closing.triangles_added, turned.triangles_turned);
         print_health(mesh);
     }
+    // Without shared vertices every edge would be a border, and decimation keeps borders.
+    if (options.simplify_m) geometry::weld_vertices(mesh);
+    WorkerPool pool;
+    const LengthUnit unit = options.export_units.value_or(report.unit.unit);
+    Result<geometry::TriangleMesh> numbers = rounded_for(options.out, mesh, unit, pool);
+    if (!numbers) return std::unexpected(numbers.error());
     if (options.simplify_m) {
-        // Without shared vertices every edge would be a border, and decimation keeps borders.
-        geometry::weld_vertices(mesh);
-        WorkerPool pool;
-        Result<sculpt::SimplifiedMesh> simplified = sculpt::simplify_with_progress(mesh, *options.simplify_m, pool);
+        auto simplified = sculpt::simplify_with_progress(*numbers, unit, *options.simplify_m, pool);
         if (!simplified) return std::unexpected(simplified.error());
         std::printf("  simplified from %zu to %zu triangles, at most %s away (asked: %s)\n", mesh.triangles.size(),
                     simplified->mesh.triangles.size(),
                     in_millimetres(simplified->figures["error_max_m"].get<double>()).c_str(),
                     in_millimetres(*options.simplify_m).c_str());
-        mesh = std::move(simplified->mesh);
-        print_health(mesh);
+        numbers = std::move(simplified->mesh);
+        print_health(*numbers, unit);
     }
-    if (const auto ok = check_precision(mesh, options.out); !ok) return ok;
-    const LengthUnit unit = options.export_units.value_or(report.unit.unit);
-    if (const auto written = geometry::export_mesh(mesh, options.out, unit); !written) return written;
+    if (const auto written = geometry::export_numbers(*numbers, options.out, unit); !written) return written;
     std::printf("%s: written in %s\n", options.out.c_str(), descriptor_of(unit).plural);
     return {};
 }

@@ -53,6 +53,10 @@ public:
         to.emplace();
         number(part, key, *to, -1e300, 1e300);
     }
+    // Reads likewise a key that recordings of before do not have.
+    void maybe_later(const char* part, const char* key, std::optional<double>& to) {
+        if (at(part, key) != nullptr) maybe(part, key, to);
+    }
     [[nodiscard]] const std::string& missing() const { return missing_; }
 
 private:
@@ -91,6 +95,7 @@ std::string felt_settings(const session::SculptOptions& options, const sculpt::T
                      {{"source", options.workpiece.source},
                       {"resolution", options.workpiece.resolution},
                       {"close_holes", options.workpiece.close_holes},
+                      {"weld_m", optional_json(options.workpiece.weld_m)},
                       {"units", units ? std::string(name_of(*units)) : std::string()}}},
                     {"tool",
                      {{"shape", tool.shape},
@@ -123,6 +128,7 @@ Result<session::SculptOptions> read_felt_settings(const std::string& text, const
     reader.text("workpiece", "source", o.workpiece.source);
     reader.number("workpiece", "resolution", o.workpiece.resolution, session::kResolutionBounds);
     reader.flag("workpiece", "close_holes", o.workpiece.close_holes);
+    reader.maybe_later("workpiece", "weld_m", o.workpiece.weld_m);
     reader.text("workpiece", "units", units);
     reader.text("tool", "shape", o.tool.shape);
     reader.text("tool", "operation", operation);

@@ -25,6 +25,10 @@ constexpr const char* kUnitsHelp =
     "Unit of the numbers in a mesh file that is read; else as the file states, else mm where its longest side is above "
     "5, and m where not";
 
+constexpr const char* kWeldHelp =
+    "Join corners at open edges that lie up to this far apart, in metres; else as far as the file's numbers are "
+    "precise";
+
 void add_sculpt_options(Command command, session::SculptOptions& options) {
     command
         .option("--workpiece", options.workpiece.source,
@@ -40,6 +44,7 @@ void add_sculpt_options(Command command, session::SculptOptions& options) {
     command.unit("--export-units", options.export_units,
                  "Unit of the numbers in exported files; else that of the workpiece's file, or m");
     command.flag("--close-holes", options.workpiece.close_holes, "Fill the holes of a mesh that is not closed");
+    command.option("--weld", options.workpiece.weld_m, kWeldHelp);
     command.option("--tool", options.tool.shape,
                    sculpt::alternatives(sculpt::tool_synopses()) +
                        ", in metres; else a ball whose radius is 5 % of the workpiece's longest side");
@@ -124,6 +129,7 @@ void add_combine_options(Command command, CombineOptions& options) {
     command.unit("--units", options.units, std::string("Of both files: ") + kUnitsHelp);
     command.unit("--export-units", options.export_units, "Unit of the numbers in exported files; else that of A");
     command.flag("--close-holes", options.close_holes, "Fill the holes of meshes that are not closed");
+    command.option("--weld", options.weld_m, kWeldHelp);
     command.option("--export", options.exports,
                    "Where to write the result: .stl, .ply (with colour) or .obj; may be repeated");
     command.option("--report", options.report, "A JSON file for all figures");
@@ -193,6 +199,9 @@ int run(int argc, char** argv) {
     convert.unit("--units", convert_options.units, kUnitsHelp);
     convert.unit("--export-units", convert_options.export_units, "Unit of the numbers in OUT; else that of IN");
     convert.flag("--close-holes", convert_options.close_holes, "Fill holes and turn the triangles outwards");
+    convert.option("--weld", convert_options.weld_m,
+                   "Join corners at open edges that lie up to this far apart, in metres; with --close-holes at least "
+                   "as far as the file's numbers are precise");
     convert.option("--simplify", convert_options.simplify_m,
                    "Fewer triangles: the surface moves at most this far, in metres");
 

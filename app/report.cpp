@@ -32,8 +32,12 @@ Json describe_carving(const sculpt::Sculpture& carving) {
             {"volume_removed_m3", carving.initial_volume_m3() - volume_m3}};
 }
 
-Json describe_mesh(const geometry::TriangleMesh& mesh) {
-    const geometry::MeshHealth health = geometry::examine(mesh);
+Json describe_mesh(const geometry::TriangleMesh& numbers, LengthUnit unit) {
+    const geometry::MeshHealth health = geometry::examine(numbers);
+    const auto to_power = [unit](double value, int power) {
+        for (; power > 0; --power) value = to_metres(value, unit);
+        return value;
+    };
     return {{"triangles", health.triangles},
             {"vertices", health.vertices},
             {"open_edges", health.boundary_edges},
@@ -41,8 +45,8 @@ Json describe_mesh(const geometry::TriangleMesh& mesh) {
             {"nonmanifold_vertices", health.nonmanifold_vertices},
             {"misoriented_edges", health.misoriented_edges},
             {"shells", health.shells},
-            {"volume_m3", health.signed_volume_m3},
-            {"area_m2", health.area_m2}};
+            {"volume_m3", to_power(health.signed_volume_m3, 3)},
+            {"area_m2", to_power(health.area_m2, 2)}};
 }
 
 namespace {

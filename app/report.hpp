@@ -13,7 +13,8 @@
 namespace burin::app {
 
 [[nodiscard]] Json describe_carving(const sculpt::Sculpture& carving);
-[[nodiscard]] Json describe_mesh(const geometry::TriangleMesh& mesh);
+// Counts what a mesh of numbers in the unit has; volume and area in metres.
+[[nodiscard]] Json describe_mesh(const geometry::TriangleMesh& numbers, LengthUnit unit);
 [[nodiscard]] Json describe_feel(const session::FeltFigures& felt, const sculpt::Feel& feel);
 // Wall-clock figures: these differ from run to run.
 [[nodiscard]] Json describe_timing(const sculpt::Sculpture& carving, const session::FeltFigures* felt);

@@ -9,7 +9,6 @@
 #include "app/report.hpp"
 #include "app/world_digest.hpp"
 #include "compute/tools/apply.hpp"
-#include "geometry/files/mesh_export.hpp"
 #include "geometry/files/mesh_import.hpp"
 #include "record/record_writer.hpp"
 #include "sculpt/finishing.hpp"
@@ -267,8 +266,9 @@ Result<void> sculpt(const session::SculptOptions& options) {
         undone = std::move(*taken_back);
     }
 
+    const LengthUnit export_unit = options.export_units.value_or(workpiece->unit);
     const Result<sculpt::FinishedMesh> finished =
-        sculpt::finish_mesh(carving.surface(), carving.engine().solid(), options.simplify_m, pool);
+        sculpt::finish_mesh(carving.surface(), carving.engine().solid(), export_unit, options.simplify_m, pool);
     if (!finished) return std::unexpected(finished.error());
     const geometry::TriangleMesh& mesh = finished->mesh;
     Json report = {{"burin", BURIN_VERSION}, {"workpiece", workpiece->report}};
@@ -277,20 +277,23 @@ Result<void> sculpt(const session::SculptOptions& options) {
         {"name", carving.engine().name()}, {"device", chosen->device}, {"chosen_because", chosen->reason}};
     report["carving"] = describe_carving(carving);
     if (!stroke.empty() && report["carving"]["rays_touched"] == 0) say_that_nothing_was_touched(carving);
-    report["mesh"] = describe_mesh(mesh);
+    report["mesh"] = describe_mesh(mesh, export_unit);
     report["mesh"]["self_intersections"] = finished->self_intersections;
     report["slivers"] = finished->slivers;
     if (!finished->simplification.is_null()) report["simplification"] = finished->simplification;
     if (!undone.is_null()) report["undo"] = undone;
     if (felt) report["feel"] = describe_feel(*felt, *feel);
     report["timing"] = describe_timing(carving, felt ? &*felt : nullptr);
+    if (mesh.triangles.empty() && !options.exports.empty() && !finished->too_thin.empty()) {
+        return fail(options.workpiece.source, "has nothing to export: " + finished->too_thin,
+                    "raise --resolution, or make it thicker");
+    }
     if (mesh.triangles.empty() && !options.exports.empty()) {
         return fail(options.workpiece.source, "has been carved away altogether, so there is nothing to export",
                     "use a smaller tool or a shorter stroke");
     }
-    const LengthUnit export_unit = options.export_units.value_or(workpiece->unit);
     for (const std::string& path : options.exports) {
-        if (const auto written = geometry::export_mesh(mesh, path, export_unit); !written) return written;
+        if (const auto written = sculpt::export_finished(*finished, path); !written) return written;
         report["exports"].push_back(fs::path(path).filename().string());
         std::printf("%s: written in %s\n", path.c_str(), descriptor_of(export_unit).plural);
     }

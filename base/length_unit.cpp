@@ -53,6 +53,14 @@ double from_metres(double length_m, LengthUnit unit) {
     return length_m * in.denominator / in.numerator;
 }
 
+Vec3 to_metres(const Vec3& lengths, LengthUnit unit) {
+    return {to_metres(lengths.x, unit), to_metres(lengths.y, unit), to_metres(lengths.z, unit)};
+}
+
+Vec3 from_metres(const Vec3& lengths_m, LengthUnit unit) {
+    return {from_metres(lengths_m.x, unit), from_metres(lengths_m.y, unit), from_metres(lengths_m.z, unit)};
+}
+
 std::string in_millimetres(double length_m) { return four_digits(1e3 * length_m) + " mm"; }
 
 std::string in_millimetres(const Vec3& size_m) {

@@ -32,6 +32,8 @@ struct LengthUnitDescriptor {
 [[nodiscard]] double metres_in(LengthUnit unit);
 [[nodiscard]] double to_metres(double length, LengthUnit unit);
 [[nodiscard]] double from_metres(double length_m, LengthUnit unit);
+[[nodiscard]] Vec3 to_metres(const Vec3& lengths, LengthUnit unit);
+[[nodiscard]] Vec3 from_metres(const Vec3& lengths_m, LengthUnit unit);
 
 // Writes a length with four significant digits and without an exponent: "50 mm", "0.0125 mm".
 [[nodiscard]] std::string in_millimetres(double length_m);

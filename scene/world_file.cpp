@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 struct WorldMesh {
     std::shared_ptr<const geometry::TriangleMesh> mesh;  // null: could not be read
     geometry::MeshHealth health;
-    double reach_m = 0.0;  // of the farthest corner of its box from its origin
+    double reach_m = 0.0;          // of the farthest corner of its box from its origin
     std::optional<Colour> colour;  // of the material that the file gives its first triangle
     std::optional<Error> failure;
 };
@@ -111,7 +111,8 @@ private:
         if (!object.felt || object.both_sides) return;
         if (const std::string why = not_solid(known.health); !why.empty())
             t.refuse("mesh", why,
-                     "burin convert --close-holes closes and turns it; both_sides = true has it felt from "
+                     "burin convert --close-holes closes and turns it, --weld joins corners; both_sides = true has it "
+                     "felt from "
                      "either side, felt = false not at all");
     }
 
@@ -140,6 +141,7 @@ private:
         }
         known.colour = first_colour(*imported);
         geometry::weld_vertices(imported->mesh);
+        const auto joined = geometry::join_open_edges(imported->mesh, imported->report.weld_tolerance_m);
         triangles_ += imported->mesh.triangles.size();
         if (imported->mesh.triangles.empty()) known.failure = Error{"has no triangles: " + name, "", "name another"};
         known.health = geometry::examine(imported->mesh);
@@ -147,6 +149,7 @@ private:
         if (!box.empty()) known.reach_m = glm::length(glm::max(glm::abs(box.lo), glm::abs(box.hi)));
         const geometry::ImportReport& report = imported->report;
         for (const std::string& remark : report.remarks) world_.remarks.push_back(name + ": " + remark);
+        if (joined.vertices_joined > 0) world_.remarks.push_back(name + ": " + in_words(joined));
         if (report.unit.source == geometry::UnitSource::guessed) world_.remarks.push_back(guessed_size(name, report));
         known.mesh = std::make_shared<const geometry::TriangleMesh>(std::move(imported->mesh));
         return known;

@@ -24,17 +24,19 @@ ExportOutcome export_surface(const compute::Surface& surface, const compute::Sol
     };
     if (wanted.refused) return ended(wanted.refused->line());
     WorkerPool alone(1);
-    const Result<FinishedMesh> finished = finish_mesh(surface, solid, std::nullopt, alone);
+    const Result<FinishedMesh> finished = finish_mesh(surface, solid, wanted.unit, std::nullopt, alone);
     if (!finished) return ended(finished.error().line());
+    if (finished->mesh.triangles.empty() && !finished->too_thin.empty()) return ended(name + ": " + finished->too_thin);
     if (finished->mesh.triangles.empty()) return ended(name + ": there is nothing left to export; undo some strokes");
     std::error_code ignored;
     const bool was_there = std::filesystem::exists(wanted.path, ignored);
-    if (const auto written = geometry::export_mesh(finished->mesh, wanted.path, wanted.unit); !written)
-        return ended(written.error().line());
+    if (const auto written = export_finished(*finished, wanted.path); !written) return ended(written.error().line());
     outcome.written = true;
     outcome.replaced = was_there;
+    const auto left = finished->self_intersections["left"].get<std::uint64_t>();
     return ended("exported " + std::to_string(finished->mesh.triangles.size()) + " triangles to " + name + ", in " +
-                 descriptor_of(wanted.unit).plural);
+                 descriptor_of(wanted.unit).plural +
+                 (left > 0 ? "; " + std::to_string(left) + " pairs of them pass through each other" : ""));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/text.hpp"
 #include "compute/repair/self_intersections.hpp"
 #include "compute/repair/slivers.hpp"
 #include "geometry/files/mesh_export.hpp"
@@ -23,10 +24,12 @@ Json describe(const compute::RepairReport& repair) {
             {"deviation_max_m", repair.deviation_max_m}};
 }
 
-Json describe(const compute::SliverReport& slivers) {
+Json describe(const compute::SliverReport& slivers, const compute::Lattice& lattice) {
     Json json = {{"solid", slivers.solid}, {"gaps", slivers.gaps}};
     if (slivers.count() == 0) return json;
     json["thinnest_m"] = slivers.thinnest_m;
+    json["median_m"] = slivers.median_m;
+    if (const auto resolution = compute::resolution_that_shows(slivers, lattice)) json["resolution"] = *resolution;
     json["where_m"] = {{"lo", as_json(slivers.bounds_object_m.lo)}, {"hi", as_json(slivers.bounds_object_m.hi)}};
     for (const compute::Sliver& s : slivers.first) {
         json["first"].push_back({{"place_m", as_json(s.place_object_m)},
@@ -35,6 +38,18 @@ Json describe(const compute::SliverReport& slivers) {
                                  {"kind", s.is_gap ? "gap" : "solid"}});
     }
     return json;
+}
+
+std::string too_thin(const compute::SliverReport& slivers, const compute::Lattice& lattice) {
+    if (slivers.count() == 0) return "";
+    const std::optional<int> resolution = compute::resolution_that_shows(slivers, lattice);
+    return formatted(
+               "%llu places are thinner than the mesh can show (the report's \"slivers\"); the solid keeps them: ",
+               static_cast<unsigned long long>(slivers.count())) +
+           "a cell is " + in_millimetres(lattice.spacing_m) + " wide, the thinnest of them " +
+           in_millimetres(slivers.thinnest_m) + ", half of them at least " + in_millimetres(slivers.median_m) +
+           (resolution ? formatted(", which --resolution %d shows", *resolution)
+                       : formatted(", which no --resolution up to %d shows", compute::kMaxResolution));
 }
 
 }  // namespace
@@ -53,43 +68,45 @@ Result<void> check_simplification(std::optional<double> bound_m) {
                 "give how far the surface may move, in metres, or leave the option out");
 }
 
-Result<SimplifiedMesh> simplify_with_progress(const geometry::TriangleMesh& mesh, double bound_m, WorkerPool& pool) {
+Result<SimplifiedMesh> simplify_with_progress(const geometry::TriangleMesh& numbers, LengthUnit unit, double bound_m,
+                                              WorkerPool& pool) {
     Progress progress("simplifying");
     Result<compute::ThinnedOut> decimated =
-        compute::decimate(mesh, bound_m, pool, [&](double done) { progress.show(done); });
+        compute::decimate(numbers, from_metres(bound_m, unit), pool, [&](double done) { progress.show(done); });
     if (!decimated) return std::unexpected(decimated.error());
     Json figures = {{"triangles_before", decimated->triangles_before},
                     {"triangles_after", decimated->mesh.triangles.size()},
-                    {"bound_m", decimated->bound_m},
-                    {"error_max_m", decimated->error_m},
+                    {"bound_m", bound_m},
+                    {"error_max_m", to_metres(decimated->error_m, unit)},
                     {"self_intersections", decimated->self_intersections}};
     return SimplifiedMesh{std::move(decimated->mesh), std::move(figures)};
 }
 
-Result<FinishedMesh> finish_mesh(const compute::Surface& surface, const compute::Solid& solid,
+Result<FinishedMesh> finish_mesh(const compute::Surface& surface, const compute::Solid& solid, LengthUnit unit,
                                  std::optional<double> simplify_bound_m, WorkerPool& pool) {
-    FinishedMesh finished;
-    finished.mesh = surface.welded();
-    const compute::RepairReport repair = compute::repair_intersections(finished.mesh, surface, solid, pool);
+    FinishedMesh finished{surface.welded(unit), unit, {}, {}, {}, {}};
+    const compute::RepairReport repair = compute::repair_intersections(finished.mesh, surface, solid, pool, unit);
     finished.self_intersections = describe(repair);
     if (repair.left > 0) {
         std::fprintf(stderr, "burin: %llu pairs of triangles still pass through each other\n",
                      static_cast<unsigned long long>(repair.left));
     }
     const compute::SliverReport slivers = compute::find_slivers(solid, pool);
-    finished.slivers = describe(slivers);
-    if (slivers.count() > 0) {
-        std::printf(
-            "  %llu places are thinner than the mesh can show (the report's \"slivers\"); the solid keeps them\n",
-            static_cast<unsigned long long>(slivers.count()));
-    }
+    finished.slivers = describe(slivers, solid.lattice);
+    finished.too_thin = too_thin(slivers, solid.lattice);
+    if (!finished.too_thin.empty()) std::printf("  %s\n", finished.too_thin.c_str());
     if (simplify_bound_m) {
-        Result<SimplifiedMesh> simplified = simplify_with_progress(finished.mesh, *simplify_bound_m, pool);
+        Result<SimplifiedMesh> simplified = simplify_with_progress(finished.mesh, unit, *simplify_bound_m, pool);
         if (!simplified) return std::unexpected(simplified.error());
         finished.mesh = std::move(simplified->mesh);
         finished.simplification = std::move(simplified->figures);
+        finished.self_intersections["left"] = finished.simplification["self_intersections"];
     }
     return finished;
+}
+
+Result<void> export_finished(const FinishedMesh& finished, const std::string& path) {
+    return geometry::export_numbers(finished.mesh, path, finished.unit);
 }
 
 }  // namespace burin::sculpt

@@ -16,7 +16,7 @@ constexpr std::string_view kAboveZero = "give sizes above zero, in metres";
 constexpr std::string_view kConeSizes = "give a length above zero, and one radius above zero";
 
 Made read_mesh_tool(const ToolSpec& spec) {
-    Result<ClosedMesh> closed = load_closed_mesh(spec.file, false, spec.units);
+    Result<ClosedMesh> closed = load_closed_mesh({.source = spec.file, .units = spec.units});
     if (!closed) return std::unexpected(closed.error());
     Result<compute::MeshTool> tool =
         compute::prepare_mesh_tool(std::make_shared<const geometry::TriangleMesh>(std::move(closed->mesh)));

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/text.hpp"
 #include "compute/rays/scan_convert.hpp"
 #include "geometry/files/mesh_import.hpp"
 #include "geometry/mesh/mesh_health.hpp"
@@ -50,6 +51,7 @@ Json describe(const geometry::ImportReport& import) {
             {"triangles_in_file", import.triangles_in_file},
             {"polygons_split", import.polygons_in_file},
             {"faces_without_area", import.faces_without_area},
+            {"weld_tolerance_m", import.weld_tolerance_m},
             {"materials_merged", import.materials_merged},
             {"remarks", import.remarks}};
 }
@@ -71,15 +73,33 @@ std::string joined(const std::vector<std::string>& sentences) {
     return text;
 }
 
-// Closes the mesh where that is asked for, and turns it to face outwards.
-Result<void> make_ready(geometry::TriangleMesh& mesh, const std::string& file, bool fill_holes, Json& report) {
+// Says how an open mesh can be closed.
+std::string remedy_of_open(const geometry::TriangleMesh& mesh) {
+    if (const auto tolerance_m = geometry::tolerance_that_closes_m(mesh))
+        return formatted("pass --weld %g to have corners joined that lie up to %g mm apart, which closes it",
+                         *tolerance_m, 1e3 * *tolerance_m);
+    return "close it in a mesh editor, or pass --close-holes to have its holes filled, or --weld LENGTH to have "
+           "corners joined that lie so near to each other";
+}
+
+// Welds the mesh, closes it where that is asked for, and turns it to face outwards.
+Result<void> make_ready(ClosedMesh& closed, const WorkpieceOptions& options, double tolerance_m) {
+    geometry::TriangleMesh& mesh = closed.mesh;
+    Json& report = closed.report;
     report["vertices_welded"] = geometry::weld_vertices(mesh).vertices_merged;
+    const geometry::JoinReport joins = geometry::join_open_edges(mesh, options.weld_m.value_or(tolerance_m));
+    if (joins.vertices_joined > 0) {
+        report["joined"] = {{"vertices", joins.vertices_joined},
+                            {"farthest_m", joins.farthest_m},
+                            {"triangles_dropped", joins.triangles_dropped}};
+        closed.size += "; " + in_words(joins);
+    }
     geometry::MeshHealth health = geometry::examine(mesh);
     report["health"] = describe(health);
     if (!health.closed) {
-        if (!fill_holes) {
-            return fail(file, "is not closed, so it has no inside: " + joined(geometry::complaints(health)),
-                        "close it in a mesh editor, or pass --close-holes to have its holes filled");
+        if (!options.close_holes) {
+            return fail(options.source, "is not closed, so it has no inside: " + joined(geometry::complaints(health)),
+                        remedy_of_open(mesh));
         }
         report["closed_holes"] = describe(close_holes(mesh));
         health = geometry::examine(mesh);
@@ -93,7 +113,7 @@ Result<void> make_ready(geometry::TriangleMesh& mesh, const std::string& file, b
 }
 
 Result<LoadedWorkpiece> from_file(const WorkpieceOptions& options, WorkerPool& pool) {
-    Result<ClosedMesh> closed = load_closed_mesh(options.source, options.close_holes, options.units);
+    Result<ClosedMesh> closed = load_closed_mesh(options);
     if (!closed) return std::unexpected(closed.error());
     LoadedWorkpiece workpiece{{}, std::move(closed->report), std::move(closed->size), closed->unit, closed->size_m};
     Result<compute::ScanConversion> converted = compute::scan_convert(closed->mesh, options.resolution, pool);
@@ -168,9 +188,25 @@ Result<std::vector<double>> parse_numbers(std::string_view text, std::size_t cou
     return numbers;
 }
 
-Result<ClosedMesh> load_closed_mesh(const std::string& file, bool close_holes, std::optional<LengthUnit> units) {
-    Result<geometry::ImportedMesh> imported = geometry::import_mesh(file, units);
+Result<void> check_weld(std::optional<double> weld_m, double longest_side_m) {
+    if (!weld_m) return {};
+    if (!(std::isfinite(*weld_m) && *weld_m > 0.0)) {
+        return fail("--weld", "needs a distance above zero",
+                    "give how far corners may lie apart that are joined, in metres, or leave the option out");
+    }
+    if (10.0 * *weld_m < longest_side_m) return {};
+    return fail(formatted("--weld %g", *weld_m),
+                "is more than a tenth of the mesh, whose longest side is " + in_millimetres(longest_side_m),
+                "give a shorter distance, in metres");
+}
+
+Result<ClosedMesh> load_closed_mesh(const WorkpieceOptions& options) {
+    const std::string& file = options.source;
+    Result<geometry::ImportedMesh> imported = geometry::import_mesh(file, options.units);
     if (!imported) return std::unexpected(imported.error());
+    const Vec3& size_m = imported->report.size_m;
+    if (const auto ok = check_weld(options.weld_m, std::max({size_m.x, size_m.y, size_m.z})); !ok)
+        return std::unexpected(ok.error());
     const geometry::ImportReport& import = imported->report;
     ClosedMesh closed{std::move(imported->mesh),
                       {},
@@ -178,11 +214,11 @@ Result<ClosedMesh> load_closed_mesh(const std::string& file, bool close_holes, s
                       import.unit.unit,
                       import.size_m};
     closed.report["source"] = file;
-    closed.report["size"] = closed.size;
     closed.report["import"] = describe(import);
-    if (const auto ready = make_ready(closed.mesh, file, close_holes, closed.report); !ready) {
+    if (const auto ready = make_ready(closed, options, import.weld_tolerance_m); !ready) {
         return std::unexpected(ready.error());
     }
+    closed.report["size"] = closed.size;
     return closed;
 }
 

@@ -24,6 +24,7 @@ struct WorkpieceOptions {
     int resolution = 256;             // lattice cells along the longest side
     bool close_holes = false;
     std::optional<LengthUnit> units = std::nullopt;  // of a file; none: as it states, else guessed (mesh_unit.hpp)
+    std::optional<double> weld_m = std::nullopt;     // of a file; none: by its numbers (join_open_edges)
 };
 
 struct LoadedWorkpiece {
@@ -42,10 +43,14 @@ struct ClosedMesh {
     Vec3 size_m{0.0};
 };
 
-// Reads a mesh file, welds it (equal positions become one vertex) and turns it to face outwards; the report says how
-// much of each. Fails on a mesh that is not closed, with the reason, unless its holes are to be closed.
-[[nodiscard]] Result<ClosedMesh> load_closed_mesh(const std::string& file, bool close_holes,
-                                                  std::optional<LengthUnit> units = std::nullopt);
+// Reads the mesh file that is the source, welds it and turns it to face outwards; the report says how much of each.
+// Equal positions become one vertex; where it is open, corners at open edges are joined within a tolerance that follows
+// from the precision of the file's numbers, or within weld_m, which `size` tells. Fails on a mesh that is not closed
+// then, with the reason, unless its holes are to be closed.
+[[nodiscard]] Result<ClosedMesh> load_closed_mesh(const WorkpieceOptions& options);
+
+// Checks the length of --weld, which must be a distance above zero; a loaded mesh must be more than ten times as long.
+[[nodiscard]] Result<void> check_weld(std::optional<double> weld_m, double longest_side_m);
 // Makes the solid of a file or a shape. Every triangle of a file is in the solid or in the report.
 [[nodiscard]] Result<LoadedWorkpiece> load_workpiece(const WorkpieceOptions& options, WorkerPool& pool);
 

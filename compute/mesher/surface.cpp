@@ -2,10 +2,10 @@
 #include "compute/mesher/surface.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numeric>
 #include <tuple>
+
+#include "geometry/mesh/distinct_positions.hpp"
 
 namespace burin::compute {
 
@@ -66,30 +66,7 @@ double Surface::volume_m3() const {
     return six_volumes / 6.0;
 }
 
-namespace {
-
-// Makes all positions distinct. Two sheets in one cell may have vertices at the same position; each is moved by single
-// steps of a float until all positions differ, so that a format without shared vertices keeps the sheets apart.
-void make_places_distinct(std::vector<Vec3f>& places) {
-    std::vector<std::uint32_t> order(places.size());
-    std::iota(order.begin(), order.end(), 0u);
-    const auto key = [&](std::uint32_t i) { return std::tuple(places[i].x, places[i].y, places[i].z); };
-    for (bool all_differ = false; !all_differ;) {
-        all_differ = true;
-        std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
-            return std::tuple_cat(key(a), std::tuple(a)) < std::tuple_cat(key(b), std::tuple(b));
-        });
-        for (std::size_t i = 1; i < order.size(); ++i) {
-            if (key(order[i]) != key(order[i - 1])) continue;
-            places[order[i]].x = std::nextafter(places[order[i]].x, std::numeric_limits<float>::max());
-            all_differ = false;
-        }
-    }
-}
-
-}  // namespace
-
-geometry::TriangleMesh Surface::welded() const {
+geometry::TriangleMesh Surface::welded(LengthUnit unit) const {
     struct Place {
         std::uint64_t key;
         std::uint32_t tile, vertex;
@@ -108,7 +85,8 @@ geometry::TriangleMesh Surface::welded() const {
     geometry::TriangleMesh mesh;
     // Positions are rounded to floats in the object frame, as most files hold them; where that is too coarse, relative
     // to the lattice's origin.
-    const Vec3 shift = lattice_.fits_floats() ? Vec3(0.0) : lattice_.origin_object;
+    const Vec3 shift_m = lattice_.fits_floats() ? Vec3(0.0) : lattice_.origin_object;
+    const Vec3 shift = from_metres(shift_m, unit);
     std::vector<Vec3f> welded_places;
     for (std::size_t from = 0, to = 0; from < places.size(); from = to) {
         std::array<std::uint32_t, 3> colour{};
@@ -119,12 +97,13 @@ geometry::TriangleMesh Surface::welded() const {
             ++to;
         } while (to < places.size() && places[to].key == places[from].key);
         const shared::SurfaceVertex& v = tile(places[from].tile).vertices[places[from].vertex];
-        welded_places.emplace_back(lattice_.origin_object - shift + Vec3(v.x, v.y, v.z));
+        welded_places.emplace_back(from_metres(lattice_.origin_object - shift_m + Vec3(v.x, v.y, v.z), unit));
         const auto count = static_cast<std::uint32_t>(to - from);
         const auto mean = [&](std::size_t k) { return static_cast<std::uint8_t>((colour[k] + count / 2) / count); };
         mesh.colours.push_back({mean(0), mean(1), mean(2)});
     }
-    make_places_distinct(welded_places);
+    // Two sheets in one cell may have vertices at one position.
+    geometry::make_distinct(welded_places);
     for (const Vec3f& place : welded_places) mesh.positions_m.push_back(shift + Vec3(place));
     for (std::uint32_t t = 0; t < tiles_.size(); ++t) {
         const std::vector<std::uint32_t>& index = welded_index[t];

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "base/length_unit.hpp"
 #include "base/worker_pool.hpp"
 #include "compute/mesher/dirty_cells.hpp"
 #include "compute/mesher/tile_mesher.hpp"
@@ -53,9 +54,10 @@ public:
     // Computes the enclosed volume by the divergence theorem, m^3.
     [[nodiscard]] double volume_m3() const;
     // Returns one closed two-manifold mesh in the object frame: vertices are shared across sharp edges and tile
-    // borders, sorted by key, with the mean colour of the surfaces that meet there. No two vertices have the same
-    // position, in float precision too if the lattice fits_floats().
-    [[nodiscard]] geometry::TriangleMesh welded() const;
+    // borders, sorted by key, with the mean colour of the surfaces that meet there. Its positions are numbers in
+    // `unit`, rounded as a file in that unit holds them: to floats if the lattice fits_floats(), else relative to its
+    // origin. No two vertices have the same position.
+    [[nodiscard]] geometry::TriangleMesh welded(LengthUnit unit = LengthUnit::m) const;
 
 private:
     template <typename MaskOf>

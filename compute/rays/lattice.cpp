@@ -39,6 +39,10 @@ AxisPlacement place(double extent_cells) {
 
 }  // namespace
 
+Lattice in_unit(const Lattice& lattice, LengthUnit unit) {
+    return {from_metres(lattice.origin_object, unit), from_metres(lattice.spacing_m, unit), lattice.cells};
+}
+
 Result<Lattice> lattice_around(const Box& bounds, int resolution) {
     if (resolution < kMinResolution || resolution > kMaxResolution) {
         return fail("resolution " + std::to_string(resolution), "is outside 16 to 2048",

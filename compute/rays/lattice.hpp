@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "base/error.hpp"
+#include "base/length_unit.hpp"
 #include "base/space.hpp"
 #include "shaders/shared/dexel.h"
 
@@ -38,6 +39,9 @@ struct Lattice {
     }
     bool operator==(const Lattice&) const = default;
 };
+
+// Returns the lattice with its lengths as numbers in `unit`, for meshes whose positions are such numbers.
+[[nodiscard]] Lattice in_unit(const Lattice& lattice, LengthUnit unit);
 
 inline constexpr int kMinResolution = 16, kMaxResolution = 2048;
 

@@ -65,10 +65,10 @@ void sort_unique(std::vector<std::uint32_t>& list) {
     list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
-Remedies::Remedies(const geometry::TriangleMesh& mesh, const Fans& fans, const Surface& surface)
+Remedies::Remedies(const geometry::TriangleMesh& mesh, const Fans& fans, const Surface& surface, LengthUnit unit)
     : mesh_(mesh),
       fans_(fans),
-      lattice_(surface.lattice()),
+      lattice_(in_unit(surface.lattice(), unit)),
       shift_(lattice_.fits_floats() ? Vec3(0.0) : lattice_.origin_object),
       keys_(keys_of(surface)) {}
 

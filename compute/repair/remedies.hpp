@@ -33,20 +33,20 @@ private:
 struct Remedy {
     std::vector<std::pair<std::uint32_t, Vec3>> places;
     std::vector<std::pair<std::uint32_t, geometry::VertexTriple>> triangles;
-    double deviation_m = 0.0;
+    double deviation = 0.0;
 };
 
 // Sorts the list in ascending order and removes duplicates.
 void sort_unique(std::vector<std::uint32_t>& list);
 
-// Proposes remedies for one mesh, which must be surface.welded() except for what remedies have changed. Mesh and fans
-// are read on each call.
+// Proposes remedies for one mesh, which must be surface.welded(unit) except for what remedies have changed. Lengths are
+// in that unit. Mesh and fans are read on each call.
 class Remedies {
 public:
     // From this round on a vertex may move to any part of its cell.
     static constexpr int kAnywhere = 5;
 
-    Remedies(const geometry::TriangleMesh& mesh, const Fans& fans, const Surface& surface);
+    Remedies(const geometry::TriangleMesh& mesh, const Fans& fans, const Surface& surface, LengthUnit unit);
 
     // Returns the remedies for a pair of intersecting triangles; later rounds return more of them.
     [[nodiscard]] std::vector<Remedy> remedies_for(const TrianglePair& pair, int round) const;
@@ -65,7 +65,7 @@ private:
 
     const geometry::TriangleMesh& mesh_;
     const Fans& fans_;
-    Lattice lattice_;
+    Lattice lattice_;                  // in the mesh's unit
     Vec3 shift_;                       // origin that the mesh's floats are relative to (surface.cpp)
     std::vector<std::uint64_t> keys_;  // keys of the vertices (tile_mesher.hpp)
 };

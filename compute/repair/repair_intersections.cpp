@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "compute/repair/remedies.hpp"
+#include "geometry/mesh/distinct_positions.hpp"
 #include "geometry/mesh/triangle_contact.hpp"
 #include "geometry/mesh/triangle_tree.hpp"
 #include "shaders/shared/octahedral.h"
@@ -29,15 +30,17 @@ double most_deviation(int round) {
 constexpr int kCureOnly = 2;  // number of first rounds in which a remedy must leave no fault behind
 
 struct TangentPlane {
-    Vec3 point_m, normal;
+    Vec3 point, normal;
 };
 
 // Finds the tangent planes that a solid's rays give around the vertices of its mesh, and caches them by vertex; the
-// deviation of a moved vertex is measured against them. Frame: the object frame. To be used from one thread.
+// deviation of a moved vertex is measured against them. Frame: the object frame; lengths in the mesh's unit. To be used
+// from one thread.
 class PlanesAround {
 public:
     // Takes the vertices as they were meshed.
-    PlanesAround(const Solid& solid, const std::vector<Vec3>& vertices_m) : solid_(solid), vertices_m_(vertices_m) {}
+    PlanesAround(const Solid& solid, const Lattice& lattice, const std::vector<Vec3>& vertices)
+        : solid_(solid), lattice_(lattice), vertices_(vertices) {}
 
     // Returns the tangent planes at the ends of rays within a cell's width of the vertex, along each axis. The search
     // is not limited to the vertex's own cell: a feature may lie in a cell that has no crossing.
@@ -47,16 +50,16 @@ private:
     void add_crossings(int axis, int u, int v, double at_cells, std::vector<TangentPlane>& planes) const;
 
     const Solid& solid_;
-    const std::vector<Vec3>& vertices_m_;
+    const Lattice& lattice_;
+    const std::vector<Vec3>& vertices_;
     std::unordered_map<std::uint32_t, std::vector<TangentPlane>> planes_;  // cache, by vertex
 };
 
 const std::vector<TangentPlane>& PlanesAround::at(std::uint32_t vertex) {
-    const Lattice& lattice = solid_.lattice;
     const auto whole = [](double x) { return static_cast<int>(std::floor(x)); };
     const auto [known, fresh] = planes_.try_emplace(vertex);
     if (!fresh) return known->second;
-    const Vec3 cells = (vertices_m_[vertex] - lattice.origin_object) / lattice.spacing_m;
+    const Vec3 cells = (vertices_[vertex] - lattice_.origin_object) / lattice_.spacing_m;
     for (int axis = 0; axis < 3; ++axis) {
         const double at_u = cells[(axis + 1) % 3], at_v = cells[(axis + 2) % 3];
         for (int ray_v = whole(at_v - 1.0) + 1; ray_v <= at_v + 1.0; ++ray_v) {
@@ -69,10 +72,9 @@ const std::vector<TangentPlane>& PlanesAround::at(std::uint32_t vertex) {
 }
 
 void PlanesAround::add_crossings(int axis, int u, int v, double at_cells, std::vector<TangentPlane>& planes) const {
-    const Lattice& lattice = solid_.lattice;
-    if (u < 0 || v < 0 || u >= lattice.rays_u(axis) || v >= lattice.rays_v(axis)) return;
+    if (u < 0 || v < 0 || u >= lattice_.rays_u(axis) || v >= lattice_.rays_v(axis)) return;
     const std::size_t ray =
-        static_cast<std::size_t>(v) * static_cast<std::size_t>(lattice.rays_u(axis)) + static_cast<std::size_t>(u);
+        static_cast<std::size_t>(v) * static_cast<std::size_t>(lattice_.rays_u(axis)) + static_cast<std::size_t>(u);
     for (const shared::DexelEnd& end : solid_.sets[static_cast<std::size_t>(axis)].ends(ray)) {
         const double depth = shared::depth_of(end);
         if (std::abs(depth - at_cells * shared::kUnitsPerCell) > shared::kUnitsPerCell) continue;
@@ -81,20 +83,21 @@ void PlanesAround::add_crossings(int axis, int u, int v, double at_cells, std::v
         units[(axis + 1) % 3] = static_cast<double>(u) * shared::kUnitsPerCell;
         units[(axis + 2) % 3] = static_cast<double>(v) * shared::kUnitsPerCell;
         const shared::Direction n = shared::decode_normal(end.normal);
-        planes.push_back({lattice.object_from_units(units), Vec3(n.x, n.y, n.z)});
+        planes.push_back({lattice_.object_from_units(units), Vec3(n.x, n.y, n.z)});
     }
 }
 
+// Repairs one mesh. Lengths are in the mesh's unit.
 class Repairer {
 public:
-    Repairer(geometry::TriangleMesh& mesh, const Surface& surface, const Solid& solid)
+    Repairer(geometry::TriangleMesh& mesh, const Surface& surface, const Solid& solid, LengthUnit unit)
         : mesh_(mesh),
-          spacing_m_(solid.lattice.spacing_m),
+          lattice_(in_unit(solid.lattice, unit)),
           before_(mesh.positions_m),
           triangles_before_(mesh.triangles),
           fans_(mesh),
-          remedies_(mesh, fans_, surface),
-          planes_(solid, before_),
+          remedies_(mesh, fans_, surface, unit),
+          planes_(solid, lattice_, before_),
           tree_(before_, triangles_before_) {}
 
     // Makes one attempt at each pair. Returns the pairs that intersect afterwards, in ascending order.
@@ -122,7 +125,7 @@ public:
         report.vertices_moved = moved_.size();
         report.moved = moved_;
         report.diagonals_turned = turned_;
-        report.deviation_max_m = deviation_m_;
+        report.deviation_max_m = deviation_;
     }
 
 private:
@@ -132,16 +135,16 @@ private:
 
     void treat(const TrianglePair& pair, int round) {
         std::vector<Remedy> remedies = remedies_.remedies_for(pair, round);
-        const double allowed_m = most_deviation(round) * spacing_m_;
+        const double allowed = most_deviation(round) * lattice_.spacing_m;
         std::erase_if(remedies, [&](Remedy& r) {
             exchange(r);
-            r.deviation_m = deviation(r);
+            r.deviation = deviation(r);
             exchange(r);
-            return r.deviation_m > allowed_m;
+            return r.deviation > allowed;
         });
         // Takes the first remedy without a remaining fault, in order of deviation; in the later rounds otherwise the
         // one that leaves the fewest.
-        std::ranges::stable_sort(remedies, {}, &Remedy::deviation_m);
+        std::ranges::stable_sort(remedies, {}, &Remedy::deviation);
         Remedy* best = nullptr;
         std::size_t best_left = std::numeric_limits<std::size_t>::max();
         for (Remedy& r : remedies) {
@@ -173,15 +176,15 @@ private:
     // false.
     template <typename Visit>
     void for_each_fault(std::span<const std::uint32_t> touched, Visit&& visit) const {
-        double reach_m = reach_m_;
-        for (const std::uint32_t t : touched) reach_m = std::max(reach_m, strayed(t));
+        double reach = reach_;
+        for (const std::uint32_t t : touched) reach = std::max(reach, strayed(t));
         bool go_on = true;
         for (std::size_t i = 0; i < touched.size() && go_on; ++i) {
             const std::uint32_t t = touched[i];
             Box box = box_of(t);
             const geometry::TreeBox exact = tree_.box_of(box);
-            box.lo -= reach_m;
-            box.hi += reach_m;
+            box.lo -= reach;
+            box.hi += reach;
             tree_.for_each_meeting(tree_.box_of(box), 0, [&](std::size_t place) {
                 const std::uint32_t other = tree_.triangle_at(place);
                 // Reports a pair of touched triangles once, from the one with the lower index.
@@ -226,9 +229,9 @@ private:
             for (const std::uint32_t v : mesh_.triangles[t]) fans_.add(v, t);
         }
         for (const auto& [v, place] : remedy.places) moved_.push_back(v);
-        for (const std::uint32_t t : touched) reach_m_ = std::max(reach_m_, strayed(t));
+        for (const std::uint32_t t : touched) reach_ = std::max(reach_, strayed(t));
         turned_ += remedy.triangles.size() / 2;
-        deviation_m_ = std::max(deviation_m_, remedy.deviation_m);
+        deviation_ = std::max(deviation_, remedy.deviation);
     }
 
     [[nodiscard]] std::vector<std::uint32_t> triangles_of(const Remedy& remedy) const {
@@ -250,44 +253,55 @@ private:
         double worst = 0.0;
         for (const auto& [v, place] : exchanged.places) {
             for (const TangentPlane& plane : planes_.at(v)) {
-                const double at_first = std::abs(glm::dot(plane.normal, before_[v] - plane.point_m));
-                const double now = std::abs(glm::dot(plane.normal, mesh_.positions_m[v] - plane.point_m));
+                const double at_first = std::abs(glm::dot(plane.normal, before_[v] - plane.point));
+                const double now = std::abs(glm::dot(plane.normal, mesh_.positions_m[v] - plane.point));
                 // A plane far from the original vertex belongs to another sheet, or to a feature that a cell cannot
                 // represent.
-                if (at_first < kOwnPlane * spacing_m_) worst = std::max(worst, now - at_first);
+                if (at_first < kOwnPlane * lattice_.spacing_m) worst = std::max(worst, now - at_first);
             }
         }
         return worst;
     }
 
     geometry::TriangleMesh& mesh_;
-    const double spacing_m_;
+    const Lattice lattice_;
     const std::vector<Vec3> before_;
     const std::vector<geometry::VertexTriple> triangles_before_;
     Fans fans_;
     Remedies remedies_;
     mutable PlanesAround planes_;
     geometry::TriangleTree tree_;
-    double reach_m_ = 0.0;  // largest distance of any triangle beyond its box in the tree
-    double deviation_m_ = 0.0;
+    double reach_ = 0.0;  // largest distance of any triangle beyond its box in the tree
+    double deviation_ = 0.0;
     std::uint64_t turned_ = 0, attempts_ = 0;
     std::vector<std::uint32_t> changed_, moved_;
 };
 
+// Moves vertices apart that a remedy has moved onto each other; returns whether there were any. Positions that are not
+// floats belong to formats with shared vertices, which keep such vertices apart.
+bool separate_vertices(geometry::TriangleMesh& mesh, const Lattice& lattice) {
+    if (!lattice.fits_floats()) return false;
+    std::vector<Vec3f> places(mesh.positions_m.begin(), mesh.positions_m.end());
+    if (geometry::make_distinct(places) == 0) return false;
+    std::ranges::transform(places, mesh.positions_m.begin(), [](const Vec3f& p) { return Vec3(p); });
+    return true;
+}
+
 }  // namespace
 
 RepairReport repair_intersections(geometry::TriangleMesh& mesh, const Surface& surface, const Solid& solid,
-                                  WorkerPool& pool) {
+                                  WorkerPool& pool, LengthUnit unit) {
     RepairReport report;
     std::vector<TrianglePair> pairs = self_intersections(mesh, pool);
     report.found = report.left = pairs.size();
     if (pairs.empty()) return report;
-    Repairer repairer(mesh, surface, solid);
+    Repairer repairer(mesh, surface, solid, unit);
     for (int round = 0; round < kRounds && !pairs.empty(); ++round) {
         pairs = repairer.treat(pairs, round);
     }
     repairer.report(report);
-    report.left = pairs.size();
+    report.deviation_max_m = to_metres(report.deviation_max_m, unit);
+    report.left = separate_vertices(mesh, surface.lattice()) ? self_intersections(mesh, pool).size() : pairs.size();
     return report;
 }
 

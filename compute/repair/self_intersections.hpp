@@ -30,9 +30,9 @@ struct RepairReport {
     double deviation_max_m = 0.0;
 };
 
-// Repairs the mesh in place. It must be surface.welded(), and the surface up to date with the solid. Dual contouring
-// creates self-intersections where a cell's vertex, drawn to a sharp feature, jumps past a neighbour's (about one
-// triangle in ten thousand around rims and thin walls).
+// Repairs the mesh in place. It must be surface.welded(unit), and the surface up to date with the solid. Dual
+// contouring creates self-intersections where a cell's vertex, drawn to a sharp feature, jumps past a neighbour's
+// (about one triangle in ten thousand around rims and thin walls).
 //
 // Local: only triangles within a few cells of a fault change. In rounds over a growing neighbourhood, each fault (a
 // pair of intersecting triangles) is treated with the remedy that deviates least from the solid's surface: the other
@@ -42,6 +42,6 @@ struct RepairReport {
 // for faults.
 // What 20,000 attempts do not repair (random noise has that many faults) is left as it is, and counted.
 RepairReport repair_intersections(geometry::TriangleMesh& mesh, const Surface& surface, const Solid& solid,
-                                  WorkerPool& pool);
+                                  WorkerPool& pool, LengthUnit unit = LengthUnit::m);
 
 }  // namespace burin::compute

@@ -2,7 +2,7 @@
 #include "compute/repair/slivers.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 namespace burin::compute {
 namespace {
@@ -12,7 +12,7 @@ using shared::kUnitsPerCell;
 // Findings of one row of rays: the report's fields, with thicknesses in lattice units.
 struct RowFindings {
     std::uint64_t solid = 0, gaps = 0;
-    int thinnest = std::numeric_limits<int>::max();
+    std::vector<int> thicknesses;
     Box bounds_object_m;
     std::vector<Sliver> first;
 };
@@ -33,7 +33,7 @@ RowFindings broad_phase_row(const Solid& solid, int axis, int v) {
             if (!holds_no_node(from, to)) continue;
             const bool is_gap = i % 2 == 0;
             ++(is_gap ? row.gaps : row.solid);
-            row.thinnest = std::min(row.thinnest, to - from);
+            row.thicknesses.push_back(to - from);
             Vec3 units;
             units[axis] = 0.5 * (from + to);
             units[(axis + 1) % 3] = static_cast<double>(u) * kUnitsPerCell;
@@ -52,7 +52,7 @@ RowFindings broad_phase_row(const Solid& solid, int axis, int v) {
 
 SliverReport find_slivers(const Solid& solid, WorkerPool& pool) {
     SliverReport report;
-    int thinnest = std::numeric_limits<int>::max();
+    std::vector<int> thicknesses;
     for (int axis = 0; axis < 3; ++axis) {
         std::vector<RowFindings> rows(static_cast<std::size_t>(solid.lattice.rays_v(axis)));
         pool.run(rows.size(), [&](std::size_t v) { rows[v] = broad_phase_row(solid, axis, static_cast<int>(v)); });
@@ -60,15 +60,27 @@ SliverReport find_slivers(const Solid& solid, WorkerPool& pool) {
             report.solid[static_cast<std::size_t>(axis)] += row.solid;
             report.gaps[static_cast<std::size_t>(axis)] += row.gaps;
             if (row.solid + row.gaps == 0) continue;
-            thinnest = std::min(thinnest, row.thinnest);
+            thicknesses.insert(thicknesses.end(), row.thicknesses.begin(), row.thicknesses.end());
             report.bounds_object_m.include(row.bounds_object_m.lo);
             report.bounds_object_m.include(row.bounds_object_m.hi);
             const std::size_t room = std::min(row.first.size(), kSliversNamed - report.first.size());
             report.first.insert(report.first.end(), row.first.begin(), row.first.begin() + static_cast<long>(room));
         }
     }
-    if (report.count() > 0) report.thinnest_m = thinnest * solid.lattice.unit_m();
+    if (thicknesses.empty()) return report;
+    report.thinnest_m = *std::ranges::min_element(thicknesses) * solid.lattice.unit_m();
+    const auto middle = thicknesses.begin() + static_cast<std::ptrdiff_t>(thicknesses.size() / 2);
+    std::ranges::nth_element(thicknesses, middle);
+    report.median_m = *middle * solid.lattice.unit_m();
     return report;
+}
+
+std::optional<int> resolution_that_shows(const SliverReport& slivers, const Lattice& lattice) {
+    if (!(slivers.median_m > 0.0)) return std::nullopt;
+    // A lattice has at least two more cells along the longest side than its resolution (lattice_around).
+    const double longest_m = (*std::ranges::max_element(lattice.cells) - 2) * lattice.spacing_m;
+    const double resolution = std::ceil(longest_m / slivers.median_m);
+    return resolution <= kMaxResolution ? std::optional(static_cast<int>(resolution)) : std::nullopt;
 }
 
 }  // namespace burin::compute

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/worker_pool.hpp"
@@ -24,13 +25,20 @@ struct Sliver {
 struct SliverReport {
     std::array<std::uint64_t, 3> solid{}, gaps{};  // number of intervals, by the rays' axis x, y, z
     double thinnest_m = 0.0;                       // the smallest of all; 0 when there are none
-    Box bounds_object_m;                           // bounds of their midpoints
-    std::vector<Sliver> first;                     // the first kSliversNamed, ordered by axis, row and ray
+    // Half of them are thinner. Where a curved surface grazes rays some are as thin as one likes, at any resolution; a
+    // wall or a gap shows in most of them.
+    double median_m = 0.0;
+    Box bounds_object_m;        // bounds of their midpoints
+    std::vector<Sliver> first;  // the first kSliversNamed, ordered by axis, row and ray
 
     [[nodiscard]] std::uint64_t count() const { return solid[0] + solid[1] + solid[2] + gaps[0] + gaps[1] + gaps[2]; }
 };
 
 inline constexpr std::size_t kSliversNamed = 8;
+
+// Returns the resolution from which on a lattice around the same bounds shows the thicker half of them: its cells are
+// as wide as median_m, so that each of these holds a node. Nothing where no lattice is so fine.
+[[nodiscard]] std::optional<int> resolution_that_shows(const SliverReport& slivers, const Lattice& lattice);
 
 // Scans every ray once. The result does not depend on the number of threads.
 [[nodiscard]] SliverReport find_slivers(const Solid& solid, WorkerPool& pool);

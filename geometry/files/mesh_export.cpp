@@ -12,6 +12,8 @@
 #include <string_view>
 
 #include "base/file_io.hpp"
+#include "geometry/mesh/distinct_positions.hpp"
+#include "geometry/mesh/vertex_weld.hpp"
 
 namespace burin::geometry {
 namespace {
@@ -47,12 +49,8 @@ private:
     std::vector<std::byte> bytes_;
 };
 
-// Converts a position to numbers of the file.
-Vec3 in_unit(const Vec3& p_m, LengthUnit unit) {
-    return {from_metres(p_m.x, unit), from_metres(p_m.y, unit), from_metres(p_m.z, unit)};
-}
-
 Result<void> check(const TriangleMesh& mesh, MeshFormat format, const std::string& name, LengthUnit unit) {
+    if (format == MeshFormat::off) return fail(name, "OFF is read but not written", "name it .stl, .ply or .obj");
     if (mesh.triangles.empty()) return fail(name, "there are no triangles to write", "nothing was written");
     if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max()) {
         return fail(name, "there are more triangles than the format can count", "choose a lower resolution");
@@ -112,7 +110,7 @@ std::vector<std::byte> encode_stl(const TriangleMesh& mesh, LengthUnit unit) {
     for (const auto& t : mesh.triangles) {
         const Vec3 &a = mesh.positions_m[t[0]], &b = mesh.positions_m[t[1]], &c = mesh.positions_m[t[2]];
         out.put_point(normal_of(a, b, c));
-        for (const Vec3* p : {&a, &b, &c}) out.put_point(Vec3f(in_unit(*p, unit)));
+        for (const Vec3* p : {&a, &b, &c}) out.put_point(Vec3f(*p));
         out.put(std::uint16_t{0});
     }
     return out.take();
@@ -135,7 +133,7 @@ std::vector<std::byte> encode_ply(const TriangleMesh& mesh, LengthUnit unit) {
     if (face_colours) out.put_text(kColourProperties);
     out.put_text("end_header\n");
     for (std::size_t v = 0; v < mesh.positions_m.size(); ++v) {
-        out.put_point(Vec3f(in_unit(mesh.positions_m[v], unit)));
+        out.put_point(Vec3f(mesh.positions_m[v]));
         if (!colours.empty()) out.put(colours[v]);
     }
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -175,7 +173,7 @@ std::vector<std::byte> encode_obj(const TriangleMesh& mesh, LengthUnit unit) {
         out.put_text("v");
         for (int k = 0; k < 3; ++k) {
             out.put_text(" ");
-            out.put_number(shortest_in_unit(mesh.positions_m[v][k], unit));
+            out.put_number(mesh.positions_m[v][k]);
         }
         for (std::size_t k = 0; k < 3 && !colours.empty(); ++k) {
             out.put_text(" ");
@@ -194,23 +192,74 @@ std::vector<std::byte> encode_obj(const TriangleMesh& mesh, LengthUnit unit) {
     return out.take();
 }
 
+// Rounds the mesh's positions, of which equal ones stay equal and different ones different.
+void round_to_floats(FileNumbers& numbers, LengthUnit unit) {
+    std::vector<Vec3> different;
+    std::vector<std::uint32_t> index;
+    VertexWeld weld(different);
+    for (const Vec3& p : numbers.mesh.positions_m) index.push_back(weld.index_of(p));
+    std::vector<Vec3f> rounded;
+    for (const Vec3& p : different) {
+        rounded.emplace_back(from_metres(p, unit));
+        numbers.is_rounded = numbers.is_rounded || Vec3(rounded.back()) != p;
+    }
+    const auto fall_together = [&](std::uint32_t a, std::uint32_t b) {
+        return index[a] != index[b] && rounded[index[a]] == rounded[index[b]];
+    };
+    numbers.without_area = static_cast<std::size_t>(std::ranges::count_if(numbers.mesh.triangles, [&](const auto& t) {
+        return fall_together(t[0], t[1]) || fall_together(t[1], t[2]) || fall_together(t[2], t[0]);
+    }));
+    numbers.steps_apart = make_distinct(rounded);
+    for (std::size_t v = 0; v < index.size(); ++v) numbers.mesh.positions_m[v] = Vec3(rounded[index[v]]);
+}
+
+std::vector<std::byte> encode(const TriangleMesh& numbers, MeshFormat format, LengthUnit unit) {
+    switch (format) {
+        case MeshFormat::stl: return encode_stl(numbers, unit);
+        case MeshFormat::ply: return encode_ply(numbers, unit);
+        case MeshFormat::obj: return encode_obj(numbers, unit);
+        case MeshFormat::off: break;  // check() has refused it
+    }
+    return {};
+}
+
+Result<MeshFormat> format_of(const std::filesystem::path& path) {
+    const auto format = mesh_format_of(path);
+    if (!format) return fail(path.string(), "has an extension that is not a mesh format", "name it .stl, .ply or .obj");
+    return *format;
+}
+
 }  // namespace
+
+FileNumbers numbers_of_file(const TriangleMesh& mesh_m, MeshFormat format, LengthUnit unit) {
+    FileNumbers numbers{mesh_m};
+    if (format != MeshFormat::obj) {
+        round_to_floats(numbers, unit);
+        return numbers;
+    }
+    for (Vec3& p : numbers.mesh.positions_m) {
+        for (int k = 0; k < 3; ++k) p[k] = shortest_in_unit(p[k], unit);
+    }
+    numbers.is_rounded = unit != LengthUnit::m;
+    return numbers;
+}
 
 Result<std::vector<std::byte>> encode_mesh(const TriangleMesh& mesh, MeshFormat format, const std::string& name,
                                            LengthUnit unit) {
     if (const auto sound = check(mesh, format, name, unit); !sound) return std::unexpected(sound.error());
-    switch (format) {
-        case MeshFormat::stl: return encode_stl(mesh, unit);
-        case MeshFormat::ply: return encode_ply(mesh, unit);
-        case MeshFormat::obj: return encode_obj(mesh, unit);
-        case MeshFormat::off: break;
-    }
-    return fail(name, "OFF is read but not written", "name it .stl, .ply or .obj");
+    return encode(numbers_of_file(mesh, format, unit).mesh, format, unit);
+}
+
+Result<void> export_numbers(const TriangleMesh& numbers, const std::filesystem::path& path, LengthUnit unit) {
+    const auto format = format_of(path);
+    if (!format) return std::unexpected(format.error());
+    if (const auto sound = check(numbers, *format, path.string(), LengthUnit::m); !sound) return sound;
+    return write_file_atomically(path, encode(numbers, *format, unit));
 }
 
 Result<void> export_mesh(const TriangleMesh& mesh, const std::filesystem::path& path, LengthUnit unit) {
-    const auto format = mesh_format_of(path);
-    if (!format) return fail(path.string(), "has an extension that is not a mesh format", "name it .stl, .ply or .obj");
+    const auto format = format_of(path);
+    if (!format) return std::unexpected(format.error());
     const auto bytes = encode_mesh(mesh, *format, path.string(), unit);
     if (!bytes) return std::unexpected(bytes.error());
     return write_file_atomically(path, *bytes);

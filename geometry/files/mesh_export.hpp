@@ -7,6 +7,8 @@
 // Numbers are in the unit asked for, which the file states in a comment that import_mesh reads: "UNITS=mm" in the
 // header of an STL, "units mm" in PLY and OBJ. In OBJ metres are kept to the last bit, and so are numbers that were
 // read from a file in the same unit; others to within two units in the last place.
+// Scaling and rounding can change a mesh: vertices fall together, triangles turn over and pass through each other. So a
+// mesh is made of the numbers that the file will hold, is checked and repaired as such, and is then written as it is.
 // The frame is the object frame. The same mesh gives the same bytes. The file appears whole or not at all, see
 // write_file_atomically. Failure: an Error with the path and the remedy; an existing file is then unchanged. Cost: the
 // file in memory once. Any thread.
@@ -22,8 +24,23 @@
 
 namespace burin::geometry {
 
-// Writes the mesh to a file. Refuses meshes without triangles, indices out of range, coordinates that are not finite
-// (in float, for STL and PLY), and OFF.
+// A mesh whose positions are the numbers of a file: in its unit, and floats where the format has floats.
+struct FileNumbers {
+    TriangleMesh mesh;
+    bool is_rounded = false;       // a number is not the mesh's own
+    std::size_t without_area = 0;  // triangles with corners that differed and became equal by rounding
+    std::size_t steps_apart = 0;   // single steps of a float by which vertices were moved apart again
+};
+// Returns the mesh as the format holds it. Positions that differ stay different (distinct_positions.hpp), equal ones
+// stay equal. Requires finite coordinates, in float too for STL and PLY.
+[[nodiscard]] FileNumbers numbers_of_file(const TriangleMesh& mesh_m, MeshFormat format, LengthUnit unit);
+
+// Writes a mesh of numbers of the file, in the unit that the file states. Refuses as export_mesh does.
+[[nodiscard]] Result<void> export_numbers(const TriangleMesh& numbers, const std::filesystem::path& path,
+                                          LengthUnit unit);
+
+// Writes the numbers of a mesh in metres to a file. Refuses meshes without triangles, indices out of range, coordinates
+// that are not finite (in float, for STL and PLY), and OFF.
 [[nodiscard]] Result<void> export_mesh(const TriangleMesh& mesh, const std::filesystem::path& path,
                                        LengthUnit unit = LengthUnit::m);
 

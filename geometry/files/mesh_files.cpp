@@ -1,39 +1,32 @@
 // SPDX-License-Identifier: MIT
 #include "geometry/files/mesh_files.hpp"
 
-#include <algorithm>
-#include <string_view>
-
 #include "base/file_io.hpp"
 #include "geometry/files/mesh_import.hpp"
 #include "geometry/files/text_scanner.hpp"
 
 namespace burin::geometry {
-namespace {
 
-// Returns the name behind `mtllib`; empty where the line is another.
-std::string_view material_file_on(std::string_view line) {
-    constexpr std::string_view kKeyword = "mtllib", kBlanks = " \t";
-    line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
-    if (line.size() <= kKeyword.size() || !equals_ignoring_case(line.substr(0, kKeyword.size()), kKeyword)) return {};
-    line.remove_prefix(kKeyword.size());
-    const std::size_t begin = line.find_first_not_of(kBlanks);
-    if (begin == 0 || begin == std::string_view::npos) return {};
-    return line.substr(begin, line.find_last_not_of(kBlanks) - begin + 1);
+std::vector<std::string_view> material_file_names(std::string_view names) {
+    std::vector<std::string_view> words;
+    TextScanner scan(names);
+    for (auto word = scan.token_in_line(); !word.empty(); word = scan.token_in_line()) words.push_back(word);
+    return words;
 }
-
-}  // namespace
 
 std::vector<std::filesystem::path> files_of_mesh(const std::filesystem::path& path) {
     std::vector<std::filesystem::path> files{path};
     if (mesh_format_of(path) != MeshFormat::obj) return files;
     const Result<std::string> text = read_text_file(path);
     if (!text) return files;
-    for (std::size_t at = 0; at < text->size();) {
-        const std::size_t end = std::min(text->find('\n', at), text->size());
-        if (const auto name = material_file_on(std::string_view(*text).substr(at, end - at)); !name.empty())
-            files.push_back(path.parent_path() / name);
-        at = end + 1;
+    for (TextScanner scan(*text); !scan.at_end(); scan.next_line()) {
+        if (!equals_ignoring_case(scan.token_in_line(), "mtllib")) continue;
+        const std::string_view names = scan.rest_of_line();
+        if (names.empty()) continue;
+        files.push_back(path.parent_path() / names);
+        const std::vector<std::string_view> words = material_file_names(names);
+        if (words.size() < 2) continue;
+        for (const std::string_view word : words) files.push_back(path.parent_path() / word);
     }
     return files;
 }

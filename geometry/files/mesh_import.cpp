@@ -19,6 +19,26 @@ Result<MeshSoup> read(std::span<const std::byte> bytes, MeshFormat format, const
     return format == MeshFormat::obj ? read_obj(*text, name, material_files) : read_off(*text, name);
 }
 
+// What a file's content looks like, whatever its name says.
+struct Likeness {
+    MeshFormat format;
+    const char *what, *extension;
+};
+
+std::optional<Likeness> looks_like(std::span<const std::byte> bytes) {
+    if (is_binary_stl(bytes)) return Likeness{MeshFormat::stl, "binary STL", ".stl"};
+    TextScanner scan(text_of(bytes).substr(0, 512));
+    const std::string_view first = scan.token('#');
+    const std::string_view second = scan.token('#');
+    if (equals_ignoring_case(first, "ply")) return Likeness{MeshFormat::ply, "PLY", ".ply"};
+    if (equals_ignoring_case(first, "solid")) return Likeness{MeshFormat::stl, "ASCII STL", ".stl"};
+    if (first.size() >= 3 && equals_ignoring_case(first.substr(first.size() - 3), "off") && first.size() <= 7)
+        return Likeness{MeshFormat::off, "OFF", ".off"};
+    const bool is_obj =
+        equals_ignoring_case(first, "mtllib") || (equals_ignoring_case(first, "v") && number_from(second).has_value());
+    return is_obj ? std::optional(Likeness{MeshFormat::obj, "OBJ", ".obj"}) : std::nullopt;
+}
+
 MaterialFileReader files_beside(const std::filesystem::path& obj) {
     return [folder = obj.parent_path()](std::string_view name) -> Result<std::string> {
         return read_text_file(folder / std::filesystem::path(name), kMaxMaterialFileBytes);
@@ -56,8 +76,13 @@ Result<ImportedMesh> import_mesh(std::span<const std::byte> bytes, MeshFormat fo
                                  const MaterialFileReader& material_files, std::optional<LengthUnit> given_unit) {
     if (bytes.empty()) return fail(name, "is empty", "export it again");
     Result<MeshSoup> soup = read(bytes, format, name, material_files);
-    if (!soup) return std::unexpected(soup.error());
-    return finished(std::move(*soup), name, given_unit);
+    Result<ImportedMesh> mesh =
+        soup ? finished(std::move(*soup), name, given_unit) : Result<ImportedMesh>(std::unexpected(soup.error()));
+    if (mesh) return mesh;
+    const std::optional<Likeness> other = looks_like(bytes);
+    if (!other || other->format == format) return mesh;
+    return fail(name, std::string("is ") + other->what + " by another name",
+                std::string("rename it to end in ") + other->extension);
 }
 
 }  // namespace burin::geometry

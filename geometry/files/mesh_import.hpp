@@ -48,21 +48,24 @@ enum class MeshFormat : std::uint8_t { stl, obj, ply, off };
 
 // What the reader did: it does nothing that is not reported here.
 struct ImportReport {
-    std::string format;                         // e.g. "PLY, binary little endian"
-    std::uint64_t faces_in_file = 0;            // = triangles_in_file + polygons_in_file + faces_without_area
-    std::uint64_t triangles_in_file = 0;        // taken unchanged
-    std::uint64_t polygons_in_file = 0;         // of n > 3 corners, split into n - 2 triangles each (polygon.hpp):
-    std::uint64_t polygons_fanned = 0;          //   convex ones, as a fan from their first corner
-    std::uint64_t polygons_swept = 0;           //   other simple ones: their triangles cover them once
-    std::uint64_t polygons_touching = 0;        //   that touch themselves: likewise
-    std::uint64_t polygons_crossing = 0;        //   that cross themselves or have no area: triangles may overlap
-    std::uint64_t faces_without_area = 0;       // of fewer than 3 corners: not in the mesh
+    std::string format;                    // e.g. "PLY, binary little endian"
+    std::uint64_t faces_in_file = 0;       // = triangles_in_file + polygons_in_file + faces_without_area
+    std::uint64_t triangles_in_file = 0;   // taken unchanged
+    std::uint64_t polygons_in_file = 0;    // of n > 3 corners, split into n - 2 triangles each (polygon.hpp):
+    std::uint64_t polygons_fanned = 0;     //   convex ones, as a fan from their first corner
+    std::uint64_t polygons_swept = 0;      //   other simple ones: their triangles cover them once
+    std::uint64_t polygons_touching = 0;   //   that touch themselves: likewise
+    std::uint64_t polygons_crossing = 0;   //   that cross themselves or have no area: triangles may overlap
+    std::uint64_t faces_without_area = 0;  // of fewer than 3 corners: not in the mesh
     std::uint64_t vertices_in_file = 0;
     std::uint64_t vertices_merged = 0;   // STL corners that met at an equal position
     std::uint64_t materials_merged = 0;  // number of materials removed by merging down to kMaxMaterials
     std::vector<std::string> remarks;    // one line each, for the user: what was ignored or assumed
-    FileUnit unit;                       // of the file's numbers
-    Vec3 size_m{0.0};                    // of the box around all triangles; describe_size() says both in a line
+    // Distance up to which corners at open edges are one corner that was rounded in two ways (join_open_edges). It
+    // follows from how many digits the file's numbers have; 0 where there are too few to tell.
+    double weld_tolerance_m = 0.0;
+    FileUnit unit;     // of the file's numbers
+    Vec3 size_m{0.0};  // of the box around all triangles; describe_size() says both in a line
 };
 
 struct ImportedMesh {

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Reads OBJ: v (with w or with a colour: x y z r g b), f (and the old fo) with positive or negative indices, usemtl,
-// mtllib. A face may name a vertex that comes later. Texture coordinates, normals, groups and smoothing are skipped
-// silently, since they do not change the surface; lines, points, curves and free-form surfaces are counted in a remark.
-// Reads only the diffuse colours (Kd) of material files (MTL). A comment near the beginning may state the unit.
+// Reads OBJ: v (with w, or with a colour: x y z r g b, and perhaps its alpha), f (and the old fo) with positive or
+// negative indices, usemtl, mtllib. A face may name a vertex that comes later. Texture coordinates, normals, groups and
+// smoothing are skipped silently, since they do not change the surface; lines, points, curves and free-form surfaces
+// are counted in a remark. Reads only the diffuse colours (Kd) of material files (MTL), of which a line may name
+// several. A comment near the beginning may state the unit.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <set>
 
+#include "geometry/files/mesh_files.hpp"
 #include "geometry/files/mesh_soup.hpp"
 #include "geometry/files/text_scanner.hpp"
 
@@ -30,22 +32,31 @@ struct MaterialLibrary {
 };
 
 // Reads the numbers of a Kd statement. A single number means grey.
-std::optional<Colour> diffuse(TextScanner& scan) {
-    Colour colour;
-    std::size_t count = 0;
+std::optional<Vec3> diffuse(TextScanner& scan) {
+    Vec3 colour;
+    int count = 0;
     for (std::string_view word = scan.token_in_line('#'); !word.empty() && count < 3; word = scan.token_in_line('#')) {
         const auto value = number_from(word);
-        if (!value || !(*value >= 0.0 && *value <= 1.0)) return std::nullopt;
-        colour[count++] = static_cast<std::uint8_t>(std::lround(*value * 255.0));
+        if (!value || !std::isfinite(*value)) return std::nullopt;
+        colour[count++] = *value;
     }
-    if (count == 1) return Colour{colour[0], colour[0], colour[0]};
+    if (count == 1) return Vec3(colour[0]);
     return count == 3 ? std::optional(colour) : std::nullopt;
 }
+
+// A diffuse colour of a material file, with its material and its line.
+struct DiffuseColour {
+    Colour* of = nullptr;
+    Vec3 numbers{0.0};
+    std::uint64_t line = 0;
+};
 
 // Reads all materials of an MTL file. Kd numbers run from 0 to 1 and are taken as sRGB, as most programs write them.
 MaterialLibrary read_mtl(std::string_view text, const std::string& name) {
     MaterialLibrary library;
     Colour* current = nullptr;
+    ColourScale scale;
+    std::vector<DiffuseColour> found;
     std::size_t faults = 0;
     std::uint64_t first_fault = 0;
     for (TextScanner scan(text); !scan.at_end(); scan.next_line()) {
@@ -55,12 +66,16 @@ MaterialLibrary read_mtl(std::string_view text, const std::string& name) {
         } else if (equals_ignoring_case(keyword, "kd")) {
             const auto colour = diffuse(scan);
             if (colour && current != nullptr) {
-                *current = *colour;
+                scale.see(*colour);
+                found.push_back({current, *colour, scan.line()});
             } else if (faults++ == 0) {
                 first_fault = scan.line();
             }
         }
     }
+    for (const DiffuseColour& colour : found) *colour.of = scale.bytes_of(colour.numbers, colour.line);
+    if (auto remark = scale.remark("colours of material file " + in_quotes(name)))
+        library.remarks.push_back(std::move(*remark));
     if (faults > 0) {
         library.remarks.push_back(std::to_string(faults) + " colours of material file " + in_quotes(name) +
                                   " could not be understood, the first in line " + std::to_string(first_fault));
@@ -139,6 +154,7 @@ private:
         for (std::string_view w = word(); !w.empty(); w = word()) {
             const auto value = number_from(w);
             if (!value) return wrong(in_quotes(w) + " is not a number");
+            if (count < 3) soup_.precision.see(w, *value);
             if (count == values.size()) return wrong("a vertex has more than 7 numbers");
             values[count++] = *value;
         }
@@ -147,19 +163,17 @@ private:
             if (const char* fault = coordinate_fault(values[k])) return wrong(fault, kCoordinateRemedy);
         }
         soup_.positions.emplace_back(values[0], values[1], values[2]);
-        return count >= 6 ? vertex_colour(values, count - 3) : Done{};
+        return count >= 6 ? vertex_colour({values[3], values[4], values[5]}) : Done{};
     }
 
     // Keeps the colour as it is: only the whole file tells whether colours run to 1 or to 255.
-    Done vertex_colour(const std::array<double, 7>& values, std::size_t at) {
-        Vec3f colour;
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (!(values[at + k] >= 0.0 && values[at + k] <= 255.0))
-                return wrong("a vertex colour lies outside 0 to 1 and 0 to 255");
-            colour[static_cast<int>(k)] = static_cast<float>(values[at + k]);
-            brightest_ = std::max(brightest_, colour[static_cast<int>(k)]);
+    Done vertex_colour(const Vec3& colour) {
+        for (int k = 0; k < 3; ++k) {
+            if (!std::isfinite(colour[k])) return wrong("a vertex colour is not a number");
         }
+        scale_.see(colour);
         colours_.push_back(colour);
+        colour_lines_.push_back(scan_.line());
         return {};
     }
 
@@ -207,14 +221,10 @@ private:
                                            " of " + std::to_string(soup_.positions.size()) + " vertices have one");
             return {};
         }
-        const float scale = brightest_ > 1.0f ? 1.0f : 255.0f;
         soup_.colours.reserve(colours_.size());
-        for (const Vec3f& c : colours_) {
-            Colour colour;
-            for (int k = 0; k < 3; ++k)
-                colour[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(std::lround(scale * c[k]));
-            soup_.colours.push_back(colour);
-        }
+        for (std::size_t v = 0; v < colours_.size(); ++v)
+            soup_.colours.push_back(scale_.bytes_of(colours_[v], colour_lines_[v]));
+        if (auto remark = scale_.remark("vertex colours")) soup_.report.remarks.push_back(std::move(*remark));
         return {};
     }
 
@@ -247,25 +257,32 @@ private:
         return entry->second;
     }
 
-    void read_materials(std::string_view file) {
-        // Reads each library once, however often it is named.
-        if (libraries_.contains(file)) return;
-        if (libraries_.size() == kMostLibraries) {
+    // Reads the material files of a line, each once, however often it is named.
+    void read_materials(std::string_view names) {
+        if (libraries_.contains(names)) return;
+        if (libraries_.size() >= kMostLibraries) {
             if (!too_many_libraries_) soup_.report.remarks.emplace_back("further material files were ignored");
             too_many_libraries_ = true;
             return;
         }
-        libraries_.emplace(file);
+        libraries_.emplace(names);
         if (!material_files_) {
-            soup_.report.remarks.push_back("material file " + in_quotes(file) + " was not read");
+            soup_.report.remarks.push_back("material file " + in_quotes(names) + " was not read");
             return;
         }
-        const Result<std::string> text = material_files_(file);
-        if (!text) {
+        // A name may hold blanks, and blanks may stand between names: one file of the whole name comes first.
+        const Result<std::string> text = material_files_(names);
+        if (text) return add_materials(*text, names);
+        const std::vector<std::string_view> files = material_file_names(names);
+        if (files.size() < 2) {
             soup_.report.remarks.push_back("material file ignored: " + text.error().line());
             return;
         }
-        MaterialLibrary read = read_mtl(*text, std::string(file));
+        for (const std::string_view file : files) read_materials(file);
+    }
+
+    void add_materials(std::string_view text, std::string_view file) {
+        MaterialLibrary read = read_mtl(text, std::string(file));
         for (auto& [name, colour] : read.colours) library_.insert_or_assign(name, colour);
         std::ranges::move(read.remarks, std::back_inserter(soup_.report.remarks));
     }
@@ -275,8 +292,9 @@ private:
     const std::string& name_;
     const MaterialFileReader& material_files_;
     MeshSoup soup_;
-    std::vector<Vec3f> colours_;
-    float brightest_ = 0.0f;
+    std::vector<Vec3> colours_;
+    std::vector<std::uint64_t> colour_lines_;
+    ColourScale scale_;
     std::uint32_t farthest_corner_ = 0;
     std::uint64_t farthest_line_ = 0;
     std::uint64_t ignored_ = 0, first_ignored_line_ = 0;

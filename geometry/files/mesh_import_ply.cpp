@@ -14,6 +14,13 @@
 namespace burin::geometry {
 namespace {
 
+// A colour as the file has it.
+struct PlyColour {
+    Vec3 numbers{0.0};
+    bool has_floats = false;
+    std::uint64_t place = 0;  // its line, or byte
+};
+
 class PlyReader {
 public:
     PlyReader(std::span<const std::byte> bytes, const std::string& name, PlyHeader header)
@@ -28,6 +35,7 @@ public:
             if (auto done = read_element(element); !done) return std::unexpected(done.error());
         }
         if (auto done = check_corners(); !done) return std::unexpected(done.error());
+        resolve_colours();
         if (ignored_ > 0) {
             soup_.report.remarks.push_back(std::to_string(ignored_) +
                                            " other kinds of element were ignored, the first is " +
@@ -103,15 +111,42 @@ private:
         return {};
     }
 
-    Done colour_channel(const PlyProperty& property, Colour& colour) {
+    // Whole numbers run to 255, or to 65535 where they have 16 bits. Of floats only the whole file tells the range.
+    Done colour_channel(const PlyProperty& property, PlyColour& colour) {
         const auto read = value(property.type);
         if (!read) return std::unexpected(read.error());
-        const double scaled = property.type == PlyType::f32 || property.type == PlyType::f64 ? *read * 255.0
-                              : property.type == PlyType::u16                                ? *read / 257.0
-                                                                                             : *read;
-        if (!(scaled >= 0.0 && scaled <= 255.5)) return wrong("a colour lies outside its range");
-        colour[property.channel()] = static_cast<std::uint8_t>(std::min(std::lround(scaled), 255L));
+        if (!std::isfinite(*read)) return wrong("a colour is not a number");
+        colour.place = values_.place();
+        colour.has_floats = colour.has_floats || property.type == PlyType::f32 || property.type == PlyType::f64;
+        colour.numbers[static_cast<int>(property.channel())] =
+            property.type == PlyType::u16 ? std::round(*read / 257.0) : *read;
         return {};
+    }
+
+    void see(const PlyColour& colour) { (colour.has_floats ? floats_ : whole_).see(colour.numbers); }
+    Colour bytes_of(const PlyColour& colour) {
+        const std::string place =
+            (header_.encoding == PlyEncoding::ascii ? "line " : "byte ") + std::to_string(colour.place);
+        return (colour.has_floats ? floats_ : whole_).bytes_of(colour.numbers, place);
+    }
+
+    // Converts the colours of vertices and faces, which may be of different types.
+    void resolve_colours() {
+        whole_.see(Vec3(255.0));  // the type says that these run to 255
+        for (const PlyColour& colour : vertex_colours_) soup_.colours.push_back(bytes_of(colour));
+        for (const PlyColour& colour : face_colours_)
+            soup_.face_materials.push_back(materials_.index_of(bytes_of(colour)));
+        for (const ColourScale* scale : {&floats_, &whole_}) {
+            if (auto remark = scale->remark("colours")) soup_.report.remarks.push_back(std::move(*remark));
+        }
+    }
+
+    void see_precision(double coordinate) {
+        if (header_.encoding == PlyEncoding::ascii) {
+            soup_.precision.see(values_.word(), coordinate);
+        } else {
+            soup_.precision.see(coordinate);
+        }
     }
 
     Done read_vertices(const PlyElement& element) {
@@ -120,16 +155,17 @@ private:
         }
         const bool coloured = element.has_colour();
         soup_.positions.reserve(element.count);
-        if (coloured) soup_.colours.reserve(element.count);
+        if (coloured) vertex_colours_.reserve(element.count);
         for (std::uint64_t row = 0; row < element.count; ++row) {
             Vec3 p(0.0);
-            Colour colour = kPlainColour;
+            PlyColour colour;
             for (const PlyProperty& property : element.properties) {
                 if (property.role == PlyRole::x || property.role == PlyRole::y || property.role == PlyRole::z) {
                     const auto read = value(property.type);
                     if (!read) return std::unexpected(read.error());
                     if (const char* fault = coordinate_fault(*read)) return wrong(fault, kCoordinateRemedy);
                     p[static_cast<int>(property.role) - static_cast<int>(PlyRole::x)] = *read;
+                    see_precision(*read);
                 } else if (auto done =
                                coloured && property.is_colour() ? colour_channel(property, colour) : skip(property);
                            !done) {
@@ -137,7 +173,9 @@ private:
                 }
             }
             soup_.positions.push_back(p);
-            if (coloured) soup_.colours.push_back(colour);
+            if (!coloured) continue;
+            see(colour);
+            vertex_colours_.push_back(colour);
         }
         return {};
     }
@@ -149,14 +187,16 @@ private:
         const bool coloured = element.has_colour();
         soup_.corner_counts.reserve(element.count);
         for (std::uint64_t row = 0; row < element.count; ++row) {
-            Colour colour = kPlainColour;
+            PlyColour colour;
             for (const PlyProperty& property : element.properties) {
                 auto done = property.role == PlyRole::corners  ? corners(property)
                             : coloured && property.is_colour() ? colour_channel(property, colour)
                                                                : skip(property);
                 if (!done) return done;
             }
-            if (coloured) soup_.face_materials.push_back(materials_.index_of(colour));
+            if (!coloured) continue;
+            see(colour);
+            face_colours_.push_back(colour);
         }
         return {};
     }
@@ -194,6 +234,8 @@ private:
     PlyValues values_;
     MeshSoup soup_;
     ColourMaterials materials_{soup_.materials};
+    std::vector<PlyColour> vertex_colours_, face_colours_;
+    ColourScale floats_, whole_;
     std::uint32_t farthest_corner_ = 0;
     std::uint64_t farthest_where_ = 0;
     std::uint64_t ignored_ = 0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Reads STL. Binary: an 80-byte header, a 32-bit count, then 50 bytes a triangle (normal, three corners, attribute),
-// little endian. ASCII: solid, facet normal, outer loop, vertex, endloop, endfacet, endsolid; any case, any number of
-// solids. A binary header may say "solid" too, so the file's size decides first. Normals are ignored: the winding gives
-// them. The header of a binary file, or the name of a solid, may state the unit: "UNITS=mm".
+// little endian. ASCII: solid, facet normal, outer loop, vertex, endloop (or end loop), endfacet, endsolid; any case,
+// any number of solids. A binary header may say "solid" too, so the file's size decides first. Normals are ignored: the
+// winding gives them. The header of a binary file, or the name of a solid, may state the unit: "UNITS=mm".
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -46,7 +46,8 @@ Result<MeshSoup> read_binary(std::span<const std::byte> bytes, const std::string
     }
     MeshSoup soup;
     soup.report.format = "STL, binary";
-    soup.stated_unit = unit_in_comment(text_of(bytes.first(kTitleBytes)));
+    if (const auto unit = unit_in_comment(text_of(bytes.first(kTitleBytes))))
+        soup.stated_unit = {*unit, "in its header"};
     if (claimed < bytes.size()) {
         soup.report.remarks.push_back(std::to_string(bytes.size() - claimed) +
                                       " bytes after the last triangle were ignored");
@@ -60,6 +61,7 @@ Result<MeshSoup> read_binary(std::span<const std::byte> bytes, const std::string
         float xyz[9];
         std::memcpy(xyz, triangle + kNormalBytes, sizeof xyz);
         for (std::size_t k = 0; k < 9; ++k) {
+            soup.precision.see(xyz[k]);
             if (const char* fault = coordinate_fault(xyz[k])) {
                 const auto byte = kHeaderBytes + t * kTriangleBytes + kNormalBytes + 4 * k;
                 return fail(at_byte(name, byte), fault, kCoordinateRemedy);
@@ -83,12 +85,12 @@ public:
     Result<MeshSoup> read() {
         soup_.report.format = "STL, ASCII";
         for (std::string_view word = scan_.token(); !word.empty(); word = scan_.token()) {
-            if (equals_ignoring_case(word, "solid") || equals_ignoring_case(word, "endsolid")) {
+            if (equals_ignoring_case(word, "solid") || ends(word, "solid")) {
                 open_ = equals_ignoring_case(word, "solid");
-                if (!soup_.stated_unit) soup_.stated_unit = unit_in_comment(scan_.rest_of_line());
+                if (!soup_.stated_unit) soup_.stated_unit = unit_in_line(scan_.rest_of_line(), scan_.line());
                 scan_.next_line();  // skips the solid's name
             } else if (!equals_ignoring_case(word, "facet")) {
-                return wrong(word, "facet");
+                return wrong(word, "facet or endsolid");
             } else if (const auto done = facet(); !done) {
                 return std::unexpected(done.error());
             }
@@ -104,6 +106,17 @@ private:
         return fail(at_line(name_, scan_.line()), got + " stands where '" + wanted + "' should", kTruncatedRemedy);
     }
 
+    // Tells whether the word, or the word and the next, end what is named: "endloop", and "end loop" as some write.
+    bool ends(std::string_view word, std::string_view what) {
+        if (word.size() > 3 && equals_ignoring_case(word.substr(0, 3), "end"))
+            return equals_ignoring_case(word.substr(3), what);
+        if (!equals_ignoring_case(word, "end")) return false;
+        TextScanner next = scan_;
+        if (!equals_ignoring_case(next.token_in_line(), what)) return false;
+        scan_ = next;
+        return true;
+    }
+
     // Reads a facet after its keyword: all words before "outer" are the normal, in whatever form.
     Result<void> facet() {
         constexpr int kMostNormalWords = 4;
@@ -115,8 +128,8 @@ private:
         for (word = scan_.token(); equals_ignoring_case(word, "vertex"); word = scan_.token(), ++corners) {
             if (const auto done = vertex(); !done) return done;
         }
-        if (!equals_ignoring_case(word, "endloop")) return wrong(word, "vertex or endloop");
-        if (word = scan_.token(); !equals_ignoring_case(word, "endfacet")) return wrong(word, "endfacet");
+        if (!ends(word, "loop")) return wrong(word, "vertex or endloop");
+        if (word = scan_.token(); !ends(word, "facet")) return wrong(word, "endfacet");
         soup_.corner_counts.push_back(corners);
         return {};
     }
@@ -131,6 +144,7 @@ private:
                 return fail(at_line(name_, scan_.line()), fault, kCoordinateRemedy);
             }
             p[k] = *value;
+            soup_.precision.see(word, *value);
         }
         soup_.corners.push_back(weld_.index_of(p));
         return {};
@@ -145,9 +159,13 @@ private:
 
 }  // namespace
 
+bool is_binary_stl(std::span<const std::byte> bytes) {
+    return bytes.size() >= kHeaderBytes && bytes_claimed(bytes) == bytes.size();
+}
+
 Result<MeshSoup> read_stl(std::span<const std::byte> bytes, const std::string& name) {
+    if (is_binary_stl(bytes)) return read_binary(bytes, name);
     const bool has_count = bytes.size() >= kHeaderBytes;
-    if (has_count && bytes_claimed(bytes) == bytes.size()) return read_binary(bytes, name);
     const Result<std::string_view> text = utf8_text(text_of(bytes), name);
     if (text && looks_like_text(*text)) return AsciiStl(*text, name).read();
     // Four bytes of UTF-16, taken for a count of triangles, claim more than any file holds.

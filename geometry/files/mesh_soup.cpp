@@ -144,20 +144,21 @@ FirstFaces split_faces(const MeshSoup& soup, TriangleMesh& mesh, ImportReport& r
 }
 
 // Brings the mesh, whose positions are numbers of the file, to metres. Metres stay as they are to the last bit.
-void bring_to_metres(ImportedMesh& imported, std::optional<LengthUnit> given, std::optional<LengthUnit> stated) {
+void bring_to_metres(ImportedMesh& imported, std::optional<LengthUnit> given, const std::optional<StatedUnit>& stated,
+                     const CoordinatePrecision& precision) {
     Box bounds;
     for (const auto& triangle : imported.mesh.triangles) {
         for (const std::uint32_t v : triangle) bounds.include(imported.mesh.positions_m[v]);
     }
-    const Vec3 size = bounds.extent();
+    const Vec3 size = bounds.extent(), farthest = glm::max(glm::abs(bounds.lo), glm::abs(bounds.hi));
     ImportReport& report = imported.report;
     report.unit = choose_unit(given, stated, std::max({size.x, size.y, size.z}));
-    const auto in_metres = [unit = report.unit.unit](const Vec3& p) {
-        return Vec3(to_metres(p.x, unit), to_metres(p.y, unit), to_metres(p.z, unit));
-    };
-    report.size_m = in_metres(size);
-    if (report.unit.unit == LengthUnit::m) return;
-    std::ranges::transform(imported.mesh.positions_m, imported.mesh.positions_m.begin(), in_metres);
+    const LengthUnit unit = report.unit.unit;
+    report.size_m = to_metres(size, unit);
+    const double tolerance = precision.weld_tolerance(std::max({farthest.x, farthest.y, farthest.z}));
+    report.weld_tolerance_m = to_metres(tolerance, unit);
+    if (unit == LengthUnit::m) return;
+    for (Vec3& p : imported.mesh.positions_m) p = to_metres(p, unit);
 }
 
 }  // namespace
@@ -200,7 +201,7 @@ Result<ImportedMesh> finished(MeshSoup&& soup, const std::string& name, std::opt
     }
     remark_polygons(report, first_faces);
     result.mesh.positions_m = std::move(soup.positions);
-    bring_to_metres(result, given_unit, soup.stated_unit);
+    bring_to_metres(result, given_unit, soup.stated_unit, soup.precision);
     result.mesh.colours = std::move(soup.colours);
     result.mesh.materials = std::move(soup.materials);
     return result;

@@ -13,18 +13,19 @@
 #include <unordered_map>
 #include <vector>
 
+#include "geometry/files/colour_scale.hpp"
+#include "geometry/files/coordinate_precision.hpp"
 #include "geometry/files/mesh_import.hpp"
 
 namespace burin::geometry {
-
-using Colour = std::array<std::uint8_t, 3>;
 
 // For surfaces without a colour in the file; equals Material{}.colour.
 inline constexpr Colour kPlainColour{200, 200, 200};
 
 struct MeshSoup {
     std::vector<Vec3> positions;                // numbers of the file, in whichever unit
-    std::optional<LengthUnit> stated_unit;      // by a comment or a header of the file
+    std::optional<StatedUnit> stated_unit;      // by a comment or a header of the file
+    CoordinatePrecision precision;              // of the positions
     std::vector<Colour> colours;                // one for each vertex, or empty
     std::vector<std::uint32_t> corners;         // corners of all faces, one face after another
     std::vector<std::uint32_t> corner_counts;   // one for each face
@@ -58,6 +59,8 @@ inline constexpr const char* kTruncatedRemedy = "the file is cut short or damage
 [[nodiscard]] Result<ImportedMesh> finished(MeshSoup&& soup, const std::string& name,
                                             std::optional<LengthUnit> given_unit);
 
+// Tells whether the bytes are exactly as many as a binary STL's count of triangles takes.
+[[nodiscard]] bool is_binary_stl(std::span<const std::byte> bytes);
 [[nodiscard]] Result<MeshSoup> read_stl(std::span<const std::byte> bytes, const std::string& name);
 [[nodiscard]] Result<MeshSoup> read_obj(std::string_view text, const std::string& name,
                                         const MaterialFileReader& material_files);

@@ -21,23 +21,34 @@ namespace burin::geometry {
 // The longest side, in numbers of the file, up to which a guess takes them for metres.
 inline constexpr double kLongestInMetres = 5.0;
 
+// A unit that a file states, and where: "in line 3", "in its header".
+struct StatedUnit {
+    LengthUnit unit = LengthUnit::m;
+    std::string place;
+};
+
 enum class UnitSource : std::uint8_t { given, stated, guessed };
 
 struct FileUnit {
     LengthUnit unit = LengthUnit::m;
     UnitSource source = UnitSource::given;
     std::optional<LengthUnit> stated = std::nullopt;  // by the file, whatever the user gave
+    std::string place = {};                           // where it states it
 };
 // Decides by the rule above. longest_side: of the mesh, in numbers of the file.
-[[nodiscard]] FileUnit choose_unit(std::optional<LengthUnit> given, std::optional<LengthUnit> stated,
+[[nodiscard]] FileUnit choose_unit(std::optional<LengthUnit> given, const std::optional<StatedUnit>& stated,
                                    double longest_side);
 
-// Returns the unit that a comment or a header states, in any case: "UNITS=mm", "units mm", "File units = inches",
-// "Unit: metres", "1 unit = 0.001 m". Nothing where it states none, or a length that is none of ours.
+// Returns the unit that a comment or a header states, in any case. It stands behind the word "unit" or "units": behind
+// = or :, as in "UNITS=mm", "File units = inches", "Unit: metres", "1 unit = 0.001 m"; or alone, as in "units mm",
+// "the units are mm", where nothing may follow but the next clause. The word must end with the unit: "Unit M-12",
+// "unit cm4" and "unit ft-lbs" state none. Nothing where it states none, or a length that is none of ours.
 [[nodiscard]] std::optional<LengthUnit> unit_in_comment(std::string_view comment);
+// Returns it with its place.
+[[nodiscard]] std::optional<StatedUnit> unit_in_line(std::string_view comment, std::uint64_t line);
 // Returns the first unit that the comments near the beginning of a text state; a comment runs from '#' to its line's
 // end.
-[[nodiscard]] std::optional<LengthUnit> unit_in_comments(std::string_view text);
+[[nodiscard]] std::optional<StatedUnit> unit_in_comments(std::string_view text);
 // Returns how Burin's own exports state a unit: "units mm".
 [[nodiscard]] std::string comment_of(LengthUnit unit);
 

@@ -68,7 +68,7 @@ public:
             } else if (equals_ignoring_case(keyword, "property")) {
                 done = property();
             } else if (equals_ignoring_case(keyword, "comment") || equals_ignoring_case(keyword, "obj_info")) {
-                if (!header_.stated_unit) header_.stated_unit = unit_in_comment(scan_.rest_of_line());
+                if (!header_.stated_unit) header_.stated_unit = unit_in_line(scan_.rest_of_line(), scan_.line());
             } else if (!keyword.empty()) {
                 done = wrong(in_quotes(keyword) + " is not a keyword of a PLY header", "repair the header");
             }
@@ -219,7 +219,7 @@ std::optional<double> PlyValues::next(PlyType type) {
 }
 
 std::optional<double> PlyValues::next_in_text() {
-    const std::string_view word = scan_.token();
+    const std::string_view word = word_ = scan_.token();
     if (word.empty()) {
         fault_ = "ends in the middle of its data";
         return std::nullopt;

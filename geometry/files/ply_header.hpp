@@ -52,7 +52,7 @@ struct PlyElement {
 struct PlyHeader {
     PlyEncoding encoding = PlyEncoding::ascii;
     std::vector<PlyElement> elements;
-    std::optional<LengthUnit> stated_unit;  // by a comment
+    std::optional<StatedUnit> stated_unit;  // by a comment
     std::size_t data_begin = 0;             // the byte after the header
     std::uint64_t data_line = 1;            // line number of that byte
 };
@@ -69,6 +69,8 @@ public:
     // which.
     [[nodiscard]] std::optional<double> next(PlyType type);
     [[nodiscard]] std::string fault() const { return fault_; }
+    // Returns the word that the last value was read from; empty in a binary file.
+    [[nodiscard]] std::string_view word() const { return word_; }
 
     // Returns how many bytes can still hold values, plus one for text, whose last value needs no blank after it.
     [[nodiscard]] std::uint64_t bytes_left() const;
@@ -89,6 +91,7 @@ private:
     std::size_t at_ = 0;
     TextScanner scan_;
     std::string fault_;
+    std::string_view word_;
 };
 
 }  // namespace burin::geometry

@@ -72,7 +72,7 @@ public:
     Pose pose() {
         std::array<double, 7> n{};
         for (double& value : n) value = number();
-        return {{n[0], n[1], n[2]}, Quat(n[6], n[3], n[4], n[5])};
+        return {{n[0], n[1], n[2]}, rotation(Quat(n[6], n[3], n[4], n[5]))};
     }
     void refuse(std::string what) {
         if (!complaint_) complaint_ = std::move(what);
@@ -83,6 +83,18 @@ public:
     }
 
 private:
+    // Brings a quaternion to unit length that is off by a few of its decimals. What is closer than that stays to the
+    // bit, so that a log that is written and read stays the same.
+    Quat rotation(const Quat& q) {
+        constexpr double kRounded = 0.01, kUnit = 1e-6;
+        const double length = glm::length(q);
+        if (complaint_ || std::abs(length - 1.0) <= kUnit) return q;
+        if (std::abs(length - 1.0) <= kRounded) return q / length;
+        refuse(
+            formatted("its quaternion, of length %.3g, is out of its range: it turns where its length is 1", length));
+        return Quat(1.0, 0.0, 0.0, 0.0);
+    }
+
     std::span<const std::string> words_;
     std::size_t next_ = 0;
     std::optional<std::string> complaint_;

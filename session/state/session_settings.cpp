@@ -26,6 +26,7 @@ void visit_settings(Options& o, Visit&& visit) {
     visit("--units", o.workpiece.units);
     visit("--export-units", o.export_units);
     visit("--close-holes", o.workpiece.close_holes);
+    visit("--weld", o.workpiece.weld_m);
     visit("--resolution", o.workpiece.resolution, kResolutionBounds);
     visit("--tool", o.tool.shape);
     visit("--operation", o.tool.operation);

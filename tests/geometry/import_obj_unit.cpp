@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "geometry/files/mesh_files.hpp"
 #include "geometry/mesh/mesh_health.hpp"
 #include "tests/geometry/mesh_samples.hpp"
 
@@ -144,17 +147,75 @@ TEST(ObjImport, MergesMoreThan254MaterialsAndSaysSo) {
 
 TEST(ObjImport, ReadsVertexColoursOfEitherRange) {
     const auto unit = import_obj("v 0 0 0 1 0 0.5\nv 1 0 0 1 0 0.5\nv 0 1 0 0 0 0\nf 1 2 3");
-    const auto bytes = import_obj("v 0 0 0 255 0 128\nv 1 0 0 1.0 255 0 128\nv 0 1 0 0 0 0\nf 1 2 3");
+    const auto bytes = import_obj("v 0 0 0 255 0 128\nv 1 0 0 255 0 128\nv 0 1 0 0 0 0\nf 1 2 3");
     ASSERT_TRUE(unit && bytes);
     EXPECT_EQ(unit->mesh.colours, bytes->mesh.colours);
     EXPECT_EQ(unit->mesh.materials.at(0).colour, (Rgb{255, 0, 128}));  // two of three corners
+}
+
+TEST(ObjImport, NumbersFourToSixOfAVertexAreItsColourWhateverFollows) {
+    const auto rgba = import_obj("v 0 0 0 0 0 1 1\nv 1 0 0 1 0 0 1\nv 0 1 0 1 0 0 0.5\nf 1 2 3");
+    ASSERT_TRUE(rgba) << rgba.error().line();
+    EXPECT_EQ(rgba->mesh.colours, (std::vector<Rgb>{{0, 0, 255}, {255, 0, 0}, {255, 0, 0}}));
+    const auto bytes = import_obj("v 0 0 0 9 0 255 255\nv 1 0 0 255 0 0 255\nv 0 1 0 1 0 0 0\nf 1 2 3");
+    ASSERT_TRUE(bytes) << bytes.error().line();
+    EXPECT_EQ(bytes->mesh.colours, (std::vector<Rgb>{{9, 0, 255}, {255, 0, 0}, {1, 0, 0}}));
+    const auto weighted = import_obj("v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\nf 1 2 3");
+    ASSERT_TRUE(weighted);
+    EXPECT_TRUE(weighted->mesh.colours.empty());
+}
+
+TEST(ObjImport, AColourALittleOutsideItsRangeIsClampedAndTold) {
+    const auto bright = import_obj("v 0 0 0 1.02 0.6 0.2\nv 1 0 0 0.95 0.6 -0.01\nv 0 1 0 0.95 0.6 0.2\nf 1 2 3");
+    ASSERT_TRUE(bright) << bright.error().line();
+    EXPECT_EQ(bright->mesh.colours, (std::vector<Rgb>{{255, 153, 51}, {242, 153, 0}, {242, 153, 51}}));
+    ASSERT_EQ(bright->report.remarks.size(), 1u);
+    EXPECT_EQ(bright->report.remarks[0], "2 vertex colours lie outside 0 to 1 and were clamped, the first in line 1");
+    const auto bytes = import_obj("v 0 0 0 0 0 0\nv 1 0 0 300 0 -1\nv 0 1 0 0 0 0\nf 1 2 3");
+    ASSERT_TRUE(bytes) << bytes.error().line();
+    EXPECT_EQ(bytes->mesh.colours[1], (Rgb{255, 0, 0}));
+    ASSERT_EQ(bytes->report.remarks.size(), 1u);
+    EXPECT_EQ(bytes->report.remarks[0], "1 vertex colours lie outside 0 to 255 and were clamped, the first in line 2");
+    EXPECT_EQ(import_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0 nan 0 0\nf 1 2 3").error().where, "test.obj:4");
+}
+
+TEST(ObjImport, MaterialColoursFollowTheSameRule) {
+    const auto first_colour = [](const std::string& kd) {
+        const auto read = geometry::import_mesh(
+            bytes_of(std::string(kTriangle) + "mtllib m\nusemtl a\nf 1 2 3\n"), MeshFormat::obj, "test.obj",
+            [&](std::string_view) -> Result<std::string> { return "newmtl a\n" + kd; });
+        EXPECT_TRUE(read);
+        return std::pair(read->mesh.materials.at(0).colour, read->report.remarks.size());
+    };
+    EXPECT_EQ(first_colour("Kd 1.02 0.6 -0.1\n"), (std::pair(Rgb{255, 153, 0}, std::size_t{1})));
+    EXPECT_EQ(first_colour("Kd 255 128 0\n"), (std::pair(Rgb{255, 128, 0}, std::size_t{0})));
+    EXPECT_EQ(first_colour("Kd 1 0 0\n"), (std::pair(Rgb{255, 0, 0}, std::size_t{0})));
+}
+
+TEST(ObjImport, ALineMayNameSeveralMaterialFilesOrOneWithABlankInItsName) {
+    const TemporaryFolder folder;
+    folder.write("a.mtl", "newmtl A\nKd 1 0 0\n");
+    folder.write("b.mtl", "newmtl B\nKd 0 0 1\n");
+    folder.write("c d.mtl", "newmtl C\nKd 0 1 0\n");
+    const auto obj = folder.write("part.obj", "mtllib a.mtl b.mtl\r\nmtllib c d.mtl\r\n" + std::string(kTriangle) +
+                                                  "usemtl A\nf 1 2 3\nusemtl B\nf 1 2 3\nusemtl C\nf 1 2 3\n");
+    const auto read = geometry::import_mesh(obj);
+    ASSERT_TRUE(read) << read.error().line();
+    EXPECT_TRUE(read->report.remarks.empty()) << read->report.remarks[0];
+    EXPECT_EQ(read->mesh.materials.at(0).colour, (Rgb{255, 0, 0}));
+    EXPECT_EQ(read->mesh.materials.at(1).colour, (Rgb{0, 0, 255}));
+    EXPECT_EQ(read->mesh.materials.at(2).colour, (Rgb{0, 255, 0}));
+    // What is read may not be overwritten.
+    const std::vector<std::filesystem::path> files = files_of_mesh(obj);
+    for (const char* name : {"a.mtl", "b.mtl", "c d.mtl"})
+        EXPECT_NE(std::ranges::find(files, folder.path() / name), files.end()) << name;
 }
 
 TEST(ObjImport, NamesTheLineAndTheRemedyOfWhatIsWrong) {
     const std::string start(kTriangle);  // 3 lines
     for (const char* bad :
          {"f 1 2 4", "f 0 1 2", "f 1 2 -4", "f 1 2", "f 1 2 x", "f 1 2 3.5", "f 1 2 99999999999999999999", "v 1 2",
-          "v 1 2 nan", "v 1 -inf 2", "v 1 2 1e400", "v 1 2 2e9", "v 1 2 3 4 5 6 7 8", "v 1,5 2 3", "v 0 0 0 -1 0 0"}) {
+          "v 1 2 nan", "v 1 -inf 2", "v 1 2 1e400", "v 1 2 2e9", "v 1 2 3 4 5 6 7 8", "v 1,5 2 3", "v 0 0 0 inf 0 0"}) {
         const std::string message = refused_obj(start + bad + "\nf 1 2 3\n");
         EXPECT_EQ(message.substr(0, 11), "test.obj:4:") << bad << " -> " << message;
         EXPECT_NE(message.find("; "), std::string::npos) << message;

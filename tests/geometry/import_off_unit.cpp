@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "geometry/mesh/mesh_health.hpp"
 #include "tests/geometry/mesh_samples.hpp"
 
 namespace burin::geometry::test {
@@ -60,7 +61,12 @@ TEST(OffImport, NamesTheLineOfWhatIsWrong) {
     };
     EXPECT_EQ(refused_off(with("3 0 1 2", "3 0 1 3")).substr(0, 11), "test.off:6:");
     EXPECT_EQ(refused_off(with("3 0 1 2", "3 0 1 -1")).substr(0, 11), "test.off:6:");
-    EXPECT_EQ(refused_off(with("3 0 1 2", "3 0 1 2 300 0 0")).substr(0, 11), "test.off:6:");
+    EXPECT_EQ(refused_off(with("3 0 1 2", "3 0 1 2 red 0 0")).substr(0, 11), "test.off:6:");
+    EXPECT_EQ(refused_off(with("3 0 1 2", "3 0 1 2 9 0")).substr(0, 11), "test.off:6:");
+    EXPECT_EQ(refused_off(with("1 0 0", "1 0")).substr(0, 11), "test.off:4:");
+    EXPECT_EQ(refused_off(with("1 0 0", "1 0 0 255 0 0")).substr(0, 11), "test.off:4:");
+    EXPECT_EQ(refused_off(with("3 1 0", "3")).substr(0, 11), "test.off:2:");
+    EXPECT_EQ(refused_off(with("3 1 0", "3 1 0 4")).substr(0, 11), "test.off:2:");
     EXPECT_EQ(refused_off(with("3 0 1 2", "4000000000 0 1 2")).substr(0, 9), "test.off:");
     EXPECT_EQ(refused_off(with("1 0 0", "1 nan 0")).substr(0, 11), "test.off:4:");
     EXPECT_EQ(refused_off(with("1 0 0", "1 0x0 0")).substr(0, 11), "test.off:4:");
@@ -69,6 +75,60 @@ TEST(OffImport, NamesTheLineOfWhatIsWrong) {
     EXPECT_EQ(refused_off(with("3 1 0", "3 18446744073709551615 0")).substr(0, 11), "test.off:2:");
     EXPECT_EQ(refused_off(with("OFF", "4OFF")).substr(0, 11), "test.off:1:");
     EXPECT_EQ(refused_off(with("OFF", "OFF BINARY")).substr(0, 11), "test.off:1:");
+}
+
+// A box of 300 x 200 x 100 mm: what stands behind the counts, with a line end of its own.
+const std::string kOffBox =
+    "0 0 0\n0.3 0 0\n0.3 0.2 0\n0 0.2 0\n0 0 0.1\n0.3 0 0.1\n0.3 0.2 0.1\n0 0.2 0.1\n"
+    "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n";
+
+void expect_off_box(const std::string& text) {
+    const auto read = import_off(text);
+    ASSERT_TRUE(read) << text.substr(0, 20) << ": " << read.error().line();
+    const MeshHealth health = examine(read->mesh);
+    EXPECT_EQ(health.triangles, 12u) << text.substr(0, 20);
+    EXPECT_TRUE(health.closed) << text.substr(0, 20);
+    EXPECT_NEAR(health.signed_volume_m3, 6e-3, 1e-12) << text.substr(0, 20);
+}
+
+TEST(OffImport, ReadsABoxWhetherEdgesAreCountedOrNotAndBehindTheKeywordAtOnce) {
+    for (const char* head :
+         {"OFF\n8 6 0\n", "OFF\n8 6\n", "OFF8 6 0\n", "OFF8 6\n", "OFF 8 6\n", "off # box\n\n8 6 12\n"})
+        expect_off_box(head + kOffBox);
+}
+
+TEST(OffImport, ReadsNormalsColoursAndTextureInAnyOrderOfTheirLetters) {
+    std::string faces = kOffBox.substr(kOffBox.find("4 0 3 2 1"));
+    const auto box = [&](const std::string& keyword, const std::string& behind) {
+        std::string vertices = kOffBox.substr(0, kOffBox.size() - faces.size()), text = keyword + "\n8 6\n";
+        for (std::size_t at = 0; (at = vertices.find('\n', at)) != std::string::npos; at += behind.size() + 1)
+            vertices.insert(at, behind);
+        return text + vertices + faces;
+    };
+    for (const char* keyword : {"NOFF", "noff"}) expect_off_box(box(keyword, " 0 0 1"));
+    for (const char* keyword : {"CNOFF", "NCOFF"}) {
+        expect_off_box(box(keyword, " 0 0 1 0 0 255 255"));
+        EXPECT_EQ(import_off(box(keyword, " 0 0 1 0 0 255 255"))->mesh.colours.at(7), (Rgb{0, 0, 255})) << keyword;
+    }
+    for (const char* keyword : {"STCNOFF", "NCSTOFF", "CSTNOFF"}) expect_off_box(box(keyword, " 0 0 1 1 0 0 1 .5 .5"));
+    EXPECT_EQ(refused_off(box("CCOFF", " 0 0 1 1 0 0")).substr(0, 11), "test.off:1:");
+}
+
+TEST(OffImport, AColourOutsideItsRangeIsClampedAndNamedAtItsLine) {
+    const auto head = [](const std::string& faces) { return import_off("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n" + faces); };
+    const auto bytes = head("3 0 1 2 1 0 0\n3 0 1 2 300 0 -1\n");
+    ASSERT_TRUE(bytes) << bytes.error().line();
+    EXPECT_EQ(bytes->mesh.materials.at(0).colour, (Rgb{1, 0, 0})) << "one of the file is above 1";
+    EXPECT_EQ(bytes->mesh.materials.at(1).colour, (Rgb{255, 0, 0}));
+    EXPECT_EQ(bytes->report.remarks,
+              (std::vector<std::string>{"1 colours lie outside 0 to 255 and were clamped, the first in line 7"}));
+    const auto whole = head("3 0 1 2 1 0 0\n3 0 1 2 0 0 1\n");
+    ASSERT_TRUE(whole);
+    EXPECT_EQ(whole->mesh.materials.at(0).colour, (Rgb{255, 0, 0})) << "none of the file is above 1";
+    const auto points = head("3 0 1 2 1.02 0.6 0.2\n3 0 1 2 -0.01 1 0\n");
+    ASSERT_TRUE(points);
+    EXPECT_EQ(points->mesh.materials.at(0).colour, (Rgb{255, 153, 51}));
+    EXPECT_EQ(points->mesh.materials.at(1).colour, (Rgb{0, 255, 0}));
 }
 
 TEST(OffImport, SaysThatTextAfterTheLastFaceWasIgnored) {

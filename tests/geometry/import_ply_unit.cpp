@@ -111,7 +111,17 @@ TEST(PlyImport, ReadsFloatColoursFromZeroToOne) {
     const auto result = import_ply(head + "0 0 0 1 .5 0\n1 0 0 1 .5 0\n0 1 0 1 .5 0\n3 0 1 2\n");
     ASSERT_TRUE(result) << result.error().line();
     EXPECT_EQ(result->mesh.colours[0], (Rgb{255, 128, 0}));
-    EXPECT_NE(refused_ply(head + "0 0 0 2 .5 0\n1 0 0 1 .5 0\n0 1 0 1 .5 0\n3 0 1 2\n").find("colour"),
+    const auto bright = import_ply(head + "0 0 0 1.02 .5 -.01\n1 0 0 1 .5 0\n0 1 0 1 .5 0\n3 0 1 2\n");
+    ASSERT_TRUE(bright) << bright.error().line();
+    EXPECT_EQ(bright->mesh.colours[0], (Rgb{255, 128, 0}));
+    ASSERT_EQ(bright->report.remarks.size(), 1u);
+    EXPECT_NE(bright->report.remarks[0].find("1 colours lie outside 0 to 1 and were clamped, the first in line "),
+              std::string::npos);
+    const auto whole = import_ply(head + "0 0 0 255 128 0\n1 0 0 1 0 0\n0 1 0 1 0 0\n3 0 1 2\n");
+    ASSERT_TRUE(whole) << whole.error().line();
+    EXPECT_EQ(whole->mesh.colours[0], (Rgb{255, 128, 0}));
+    EXPECT_EQ(whole->mesh.colours[1], (Rgb{1, 0, 0}));
+    EXPECT_NE(refused_ply(head + "0 0 0 nan .5 0\n1 0 0 1 .5 0\n0 1 0 1 .5 0\n3 0 1 2\n").find("colour"),
               std::string::npos);
 }
 

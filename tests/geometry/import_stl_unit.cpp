@@ -128,6 +128,35 @@ TEST(StlImport, RefusesAnAsciiFileCutAfterAnyWord) {
     EXPECT_EQ(refusal(whole, MeshFormat::stl), "");
 }
 
+TEST(StlImport, ReadsTheEndOfLoopsFacetsAndSolidsInTwoWords) {
+    std::string text =
+        "solid brick\n" + facet("0 0 0", "1 0 0", "0 1 0") + facet("0 0 0", "1 0 0", "0 0 1") + "end solid brick\n";
+    for (const auto& [from, to] :
+         {std::pair<std::string, std::string>("endloop", "end loop"), {"endfacet", "End Facet"}}) {
+        for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+            text.replace(at, from.size(), to);
+    }
+    const auto result = import_text(text, MeshFormat::stl);
+    ASSERT_TRUE(result) << result.error().line();
+    EXPECT_EQ(result->mesh.triangles.size(), 2u);
+    EXPECT_NE(refusal("solid\n" + facet("0 0 0", "1 0 0", "0 1 0") + "end\n", MeshFormat::stl), "");
+}
+
+TEST(StlImport, AFileByAnotherNameIsCalledWhatItIs) {
+    const std::vector<float> corners{0, 0, 0, 1, 0, 0, 0, 1, 0};
+    const auto bytes = binary_stl(corners, 1);
+    for (const MeshFormat format : {MeshFormat::obj, MeshFormat::off, MeshFormat::ply}) {
+        const auto read = import_mesh(bytes, format, "test");
+        ASSERT_FALSE(read);
+        EXPECT_EQ(read.error().line(), "test: is binary STL by another name; rename it to end in .stl");
+    }
+    const std::string stl = "solid a\n" + facet("0 0 0", "1 0 0", "0 1 0") + "endsolid\n";
+    EXPECT_NE(refusal(stl, MeshFormat::off).find("is ASCII STL"), std::string::npos);
+    EXPECT_NE(refusal("OFF\n3 1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", MeshFormat::stl).find("is OFF"), std::string::npos);
+    EXPECT_NE(refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", MeshFormat::off).find("is OBJ"), std::string::npos);
+    EXPECT_NE(refusal("ply\nformat ascii 1.0\n", MeshFormat::off).find("is PLY"), std::string::npos);
+}
+
 TEST(StlImport, SplitsAsciiFacetsOfFourCorners) {
     const auto result = import_text(
         "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 "

@@ -70,11 +70,11 @@ TEST(MeshUnit, WhatTheFileStatesBeatsAGuessAndWhatTheUserGivesBeatsBoth) {
     EXPECT_EQ(given.size_m, Vec3(0.5));
     EXPECT_EQ(describe_size("cube.off", given.size_m, given.unit),
               "cube.off: 500 x 500 x 500 mm (read as centimetres, as --units or the recording says; the file itself "
-              "says metres)");
+              "says metres in line 1)");
     const ImportReport stated = read_cube("2", "units in");
     EXPECT_EQ(stated.size_m, Vec3(0.0508));
     EXPECT_EQ(describe_size("cube.off", stated.size_m, stated.unit),
-              "cube.off: 50.8 x 50.8 x 50.8 mm (its numbers are inches, as the file says)");
+              "cube.off: 50.8 x 50.8 x 50.8 mm (its numbers are inches, as the file says in line 1)");
 }
 
 TEST(MeshUnit, IsTheSizesAndNotThePlaces) {
@@ -97,12 +97,63 @@ TEST(MeshUnit, IsUnderstoodAsProgramsWriteIt) {
     expect("the units are centimeters", cm);
     expect("COLOR=\x01\x02\x03\xff UNITS=ft", ft);
     expect("binary STL by Burin, in metres", m);  // as older exports have it
+    expect("1000 units = 1 m", mm);
+    expect("units (mm)", mm);
+    expect("units: 'cm', exported 2020", cm);
+    expect("UNITS=in SCALE=2", inch);
+    expect("unit = 1e-3 m", mm);
+    expect("unit mm.", mm);
     expect("", std::nullopt);
     expect("units", std::nullopt);
     expect("units of the lattice", std::nullopt);
     expect("made for the unit in room 5", std::nullopt);
     expect("munits mm", std::nullopt);
+    // Words that go on behind what would be a unit, and words of a sentence.
+    expect("Unit M-12 bracket", std::nullopt);
+    expect("control unit cm4", std::nullopt);
+    expect("unit ft-lbs", std::nullopt);
+    expect("unit: m3", std::nullopt);
+    expect("UNITS=mm2", std::nullopt);
+    expect("Unit M bracket", std::nullopt);
+    expect("units in stock", std::nullopt);
+    expect("unit: in stock", std::nullopt);
+    expect("unit in a box", std::nullopt);
+    expect("unit m/s", std::nullopt);
+    expect("units_mm", std::nullopt);
+    expect("in-unit 5", std::nullopt);
     expect("Made by make_soccer_ball.py; metres.", std::nullopt);
+}
+
+TEST(MeshUnit, AWordThatOnlyLooksLikeAUnitChangesNoSizeInAnyFormat) {
+    const std::string ascii =
+        "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 50 0 0\nvertex 0 40 0\nendloop\nendfacet\nendsolid\n";
+    const std::string ply =
+        "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+        "property list uchar int vertex_indices\nend_header\n0 0 0\n50 0 0\n0 40 0\n3 0 1 2\n";
+    for (const std::string words : {"Unit M-12 bracket", "control unit cm4", "unit ft-lbs"}) {
+        const auto expect_guessed = [&](const std::string& text, MeshFormat format) {
+            const auto read = import_text(text, format);
+            ASSERT_TRUE(read) << read.error().line();
+            EXPECT_EQ(read->report.unit.source, UnitSource::guessed) << words;
+            EXPECT_EQ(read->report.size_m, Vec3(0.05, 0.04, 0.0)) << words;
+        };
+        expect_guessed("solid " + words + "\n" + ascii, MeshFormat::stl);
+        expect_guessed("# " + words + "\nv 0 0 0\nv 50 0 0\nv 0 40 0\nf 1 2 3\n", MeshFormat::obj);
+        expect_guessed("OFF # " + words + "\n3 1 0\n0 0 0\n50 0 0\n0 40 0\n3 0 1 2\n", MeshFormat::off);
+        expect_guessed("ply\nformat ascii 1.0\ncomment " + words + "\n" + ply, MeshFormat::ply);
+    }
+}
+
+TEST(MeshUnit, IsToldWithItsPlace) {
+    TriangleMesh mesh = tetrahedron();
+    const auto told = [&](MeshFormat format) {
+        const auto read = import_mesh(*encode_mesh(mesh, format, "export", LengthUnit::cm), format, "export");
+        return describe_size("export", read->report.size_m, read->report.unit);
+    };
+    const std::string size = "export: 1000 x 1000 x 1000 mm (its numbers are centimetres, as the file says ";
+    EXPECT_EQ(told(MeshFormat::stl), size + "in its header)");
+    EXPECT_EQ(told(MeshFormat::ply), size + "in line 4)");
+    EXPECT_EQ(told(MeshFormat::obj), size + "in line 2)");
 }
 
 TEST(MeshUnit, IsReadWhereEachFormatHasRoomForIt) {

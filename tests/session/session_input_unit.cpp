@@ -223,7 +223,9 @@ TEST(InputLog, NamesFileLineAndRemedyOfEveryMistake) {
     expect("1 resize -1 4", "no whole number");
     expect("1 resize 70000 4", "out of its range");
     expect("1 resize 99999999999999999999 4", "no whole number");
-    expect("1 head 0 0 0 0 0 0 2", "out of its range");
+    expect("1 head 0 0 0 0 0 0 2", "its quaternion, of length 2, is out of its range");
+    expect("1 wand 0 0 0 0 0 0.7 0 0.7", "its quaternion, of length 0.99, is out of its range");  // 0.98995
+    expect("1 head 0 0 0 0 0 0 0", "its quaternion, of length 0, is out of its range");
     expect("1 head 0 0 0 0 0 0 1 found", "the nearest is 'lost'");
     expect("1 wand 9 0 0 0 0 0 0 1", "out of its range");
     expect("1 wand-stick 0 0 1.5", "out of its range");

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "geometry/files/coordinate_precision.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace burin::geometry {
+namespace {
+
+constexpr int kFewDigits = 4;         // numbers of no more are exact
+constexpr int kDigitsOfAnyFloat = 8;  // up to here every number looks like a float
+constexpr double kFloatBits = 24.0, kDoubleBits = 53.0;
+constexpr double kTrustedDigits = 5.0 / 6.0;
+
+struct Digits {
+    int significant = 0;
+    int decimals = 0;
+    int exponent = 0;
+};
+
+Digits digits_of(std::string_view word) {
+    Digits digits;
+    const std::size_t mantissa_end = std::min(word.find_first_of("eE"), word.size());
+    bool behind_point = false;
+    for (const char c : word.substr(0, mantissa_end)) {
+        if (c == '.') behind_point = true;
+        if (c < '0' || c > '9') continue;
+        if (behind_point) ++digits.decimals;
+        if (c != '0' || digits.significant > 0) ++digits.significant;
+    }
+    if (mantissa_end == word.size()) return digits;
+    std::string_view exponent = word.substr(mantissa_end + 1);
+    if (exponent.starts_with('+')) exponent.remove_prefix(1);
+    std::from_chars(exponent.data(), exponent.data() + exponent.size(), digits.exponent);
+    return digits;
+}
+
+}  // namespace
+
+void CoordinatePrecision::see(std::string_view word, double value) {
+    const Digits digits = digits_of(word);
+    digits_ = std::max(digits_, digits.significant);
+    if (!all_floats_ || digits.significant <= kDigitsOfAnyFloat) return;
+    const double last_place = std::pow(10.0, digits.exponent - digits.decimals);
+    all_floats_ = std::abs(value - static_cast<double>(static_cast<float>(value))) <= 0.5 * last_place;
+}
+
+double CoordinatePrecision::weld_tolerance(double largest) const {
+    const bool is_text = digits_ > 0;
+    if (is_text && digits_ <= kFewDigits) return 0.0;
+    double bits = all_floats_ ? kFloatBits : kDoubleBits;
+    if (is_text) bits = std::min(bits, digits_ * std::log2(10.0));
+    return 2.0 * largest * std::exp2(-kTrustedDigits * bits);
+}
+
+}  // namespace burin::geometry

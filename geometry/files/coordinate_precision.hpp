@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// How precise a mesh file's coordinates are: as many digits as its numbers have, or as a float or a double where these
+// have fewer. Two corners that a program computed in two ways, such as both ends of a seam, differ by some of the last
+// of these digits. Internal to geometry/.
+#pragma once
+
+#include <string_view>
+
+namespace burin::geometry {
+
+class CoordinatePrecision {
+public:
+    // Take note of a coordinate: of a text, with its word; of a binary file.
+    void see(std::string_view word, double value);
+    void see(double value) { all_floats_ = all_floats_ && value == static_cast<double>(static_cast<float>(value)); }
+
+    // Returns the distance, in numbers of the file, up to which corners count as one where the surface is open between
+    // them: `largest` is the largest absolute coordinate. Five sixths of the digits are trusted, of a float 20 of 24
+    // bits. 0 for texts of few digits, which somebody has typed as they are.
+    [[nodiscard]] double weld_tolerance(double largest) const;
+
+private:
+    int digits_ = 0;  // the most of any word of a text; 0: none is a text
+    bool all_floats_ = true;
+};
+
+}  // namespace burin::geometry
