@@ -177,8 +177,7 @@ Result<void> run_live_visit(study::StudyFolder& study, const StudyRunOptions& op
                   group->code.c_str(), places.front().day, places.front().place);
     const auto activity = std::make_shared<activities::StudyActivity>(
         study.protocol(), *group, *worlds, places, settings,
-        activities::StudyDevice{is_wand ? study.protocol().point_offset_m : 0.0, *wand,
-                                options.participant}, keeper);
+        activities::StudyDevice{*wand, options.participant}, keeper);
     session.activity = activity;
     const Result<void> done = run_recorded_session(session, "study run");
     std::printf("%zu stages ended; %zu of the day are left\n", activity->stages_ended(),

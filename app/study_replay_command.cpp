@@ -77,7 +77,6 @@ private:
             return formatted("%s: ends with \"%s\", the journal says \"%s\"", file.c_str(), name_of(replay->end.result),
                              visit.result.c_str());
         if (replay->of_session) ++of_session_;
-        if (replay->of_session && stage->kind != study::StageKind::trial) return {};
         return measured_differs(visit, replay->record);
     }
 
@@ -104,7 +103,7 @@ void tell_replays(const Replays& replays, std::size_t count, std::size_t without
                 static_cast<unsigned long long>(replays.ticks()), replays.columns());
     if (replays.interrupted() > 0) std::printf("; %zu of them end where they were interrupted", replays.interrupted());
     if (replays.of_session() > 0)
-        std::printf("; %zu of them are of a live session: their stages and trials were computed again, not their ticks",
+        std::printf("; %zu of them are of a live session: their stages, trials and figures were computed again from the ticks as stored",
                     replays.of_session());
     if (without > 0) std::printf("; %zu were erased or hold nothing yet", without);
     std::printf("\n");

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "base/newest_slot.hpp"
 #include "base/ring.hpp"
@@ -239,12 +240,19 @@ struct ToolState {
 // Capacities: four seconds of ticks for a carving side that stalls, one second for a recorder that writes.
 struct HapticChannels {
     static constexpr std::size_t kStrokes = 4096, kRecords = 1024;
-    explicit HapticChannels(std::size_t stroke_capacity = kStrokes, std::size_t record_capacity = kRecords)
-        : stroke(stroke_capacity), records(record_capacity) {}
+    // whole_ticks: somebody in the scene asks for the ticks whole, not as strokes alone.
+    explicit HapticChannels(std::size_t stroke_capacity = kStrokes, std::size_t record_capacity = kRecords,
+                            bool whole_ticks = false)
+        : stroke(stroke_capacity), records(record_capacity) {
+        if (whole_ticks) whole.emplace(stroke_capacity);
+    }
 
     NewestSlot<geometry::LocalSurface> surface;  // carving side -> haptic thread
     NewestSlot<TickParameters> parameters;       // frame or study -> haptic thread
     Ring<StrokeSample> stroke;                   // haptic thread -> carving side
+    // The same channel's ticks whole, each pushed before its stroke, so that whoever has read a stroke finds its tick
+    // here. Without kTickSampleDropped, which only the stroke's push can tell.
+    std::optional<Ring<TickRecord>> whole;
     Ring<TickRecord> records;                    // haptic thread -> recorder
     NewestSlot<ToolState> tool;                  // haptic thread -> frame
 };

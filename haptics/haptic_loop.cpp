@@ -76,6 +76,7 @@ TickRecord HapticLoop::tick_part(Part& part, TurnShare& share, Nanoseconds now_n
     record.lateness_ns = lateness_ns;
     if (lateness_ns > period_ns_ / 2) record.flags |= kTickLate;
     HapticChannels& channels = *part.channels;
+    if (channels.whole) channels.whole->push(record);  // a full ring counts the records it refuses
     if (!channels.stroke.push(stroke_of(record))) record.flags |= kTickSampleDropped;
     channels.records.push(record);  // a full ring counts the records it refuses
     if ((record.flags & kTickLetGo) != 0) part.let_go_ns = now_ns;

@@ -44,6 +44,8 @@ public:
     // Takes what a hand has done since the last update, in order, just before the next one. A part that needs none of
     // it leaves it.
     virtual void take_samples(std::size_t /*hand*/, std::span<const haptics::StrokeSample> /*samples*/) {}
+    // Takes the same ticks whole, where the hand's channels have them (HapticChannels::whole).
+    virtual void take_ticks(std::size_t /*hand*/, std::span<const haptics::TickRecord> /*ticks*/) {}
     // Brings the part to the present. `recorded`: what a recorded update saw, which this one sees again; null in a live
     // one. Fails when the part cannot go on; it is then as it was before the update.
     [[nodiscard]] virtual Result<void> update(Nanoseconds now_ns, const PartSeen* recorded) = 0;

@@ -42,7 +42,15 @@ void SceneService::read_samples(std::size_t hand, std::uint64_t last_tick) {
         samples_.push_back(*oldest);
         ring.drop();
     }
+    ticks_.clear();
     if (samples_.empty()) return;
+    if (auto& whole = hands_[hand].channels->whole) {
+        while (const haptics::TickRecord* oldest = whole->oldest()) {
+            if (oldest->tick > samples_.back().tick) break;
+            ticks_.push_back(*oldest);
+            whole->drop();
+        }
+    }
     seen_.last_ticks[hand] = samples_.back().tick;
     places_[hand] = samples_.back().proxy_object_m;
     sunk_m_[hand] = glm::length(samples_.back().position_object_m - places_[hand]);
@@ -58,6 +66,7 @@ Result<void> SceneService::update(Nanoseconds now_ns, const SceneUpdate* recorde
         read_samples(hand, recorded != nullptr ? recorded->last_ticks[hand] : UINT64_MAX);
         hands_move_ = hands_move_ || samples_.size() > few;
         for (ScenePart* part : parts_) part->take_samples(hand, samples_);
+        for (ScenePart* part : parts_) part->take_ticks(hand, ticks_);
     }
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         const PartSeen* const part_seen = recorded != nullptr ? &recorded->parts[i] : nullptr;

@@ -77,6 +77,7 @@ private:
     std::vector<Vec3> places_;                    // of each hand's tool
     std::vector<double> sunk_m_;                  // how far each hand was beyond where its tool rested
     std::vector<haptics::StrokeSample> samples_;  // of one hand in one update
+    std::vector<haptics::TickRecord> ticks_;      // the same whole, where its channels have them
     bool hands_move_ = false;
     SceneUpdate seen_;
 };

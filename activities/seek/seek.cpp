@@ -78,7 +78,8 @@ std::size_t Seek::sought_now() const {
 void Seek::step(const session::ActivityView& view, session::ActivityOrders& orders) {
     if (view.world == nullptr) return;
     if (phase_ == Phase::starting) begin(*view.world, orders);
-    for (const haptics::StrokeSample& tick : view.ticks) {
+    for (const haptics::TickRecord& whole : view.ticks) {
+        const haptics::StrokeSample tick = haptics::stroke_of(whole);
         if (phase_ == Phase::seeking) go_on_by(tick, *view.world, orders);
         last_ns_ = tick.time_ns;
         last_place_scene_ = tick.proxy_object_m;

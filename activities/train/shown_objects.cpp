@@ -18,21 +18,18 @@ bool is_in(const study::CapBox& cap, const StageMoment& moment) {
 StageMoment moment_of(const study::FeltWorld& world, const study::StageSession& session,
                       const haptics::TickRecord& record) {
     StageMoment moment;
-    moment.points_m = session.touch().points_m(record.sample);
+    moment.points_m = session.touch().points_m(session.sample());
     moment.orientation =
-        session.touch().parameters().workspace.object_from_device.orientation * record.sample.orientation_device;
+        session.touch().parameters().workspace.object_from_device.orientation * session.sample().orientation_device;
     moment.time_s = session.time_s();
     for (std::uint32_t i = 0; i < record.contact.point_count; ++i) {
-        const std::uint32_t triangle = record.contact.points[i].active_triangle;
-        moment.touches_wall = moment.touches_wall || (triangle != haptics::kNoTriangle &&
-                                                      world.surface().material(triangle) == study::kTubeMaterial);
-    }
-    // Ticks of a session's loop tell no triangle of this world.
-    if (record.contact.point_count == 0) {
-        const study::StudyWorld& tube = world.world();
-        for (const Vec3& p : moment.points_m)
-            moment.touches_wall =
-                moment.touches_wall || study::nearest_on(tube.spine_m, p).distance_m >= tube.tube_radius_m;
+        const haptics::PointRecord& point = record.contact.points[i];
+        if (point.active_triangle == haptics::kNoTriangle) continue;
+        // Another loop numbers triangles in its own surfaces, and objects as the world's file does.
+        moment.touches_wall =
+            moment.touches_wall ||
+            (session.follows() ? point.object == study::kTubeObject
+                               : world.surface().material(point.active_triangle) == study::kTubeMaterial);
     }
     moment.start_touched = is_in(study::start_cap(world.world()), moment);
     moment.end_touched = is_in(study::end_cap(world.world()), moment);

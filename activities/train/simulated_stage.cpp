@@ -82,7 +82,7 @@ EndedStage simulate_stage(const StageInputs& in, study::Random& random, const On
         const OperatorAct act = waits_too_long(in.stage, session) ? OperatorAct::stop : wish.act;
         const haptics::TickRecord& record = session.take(sample, clock.now_ns(), act);
         wand.write(record.gate.given);
-        if (on_tick) on_tick(record, act);
+        if (on_tick) on_tick(record, act, session);
         // The operator sees to it at once; the attempt is lost.
         if (wand.tripped()) static_cast<void>(wand.switch_amplifiers(true));
         const Vec3 from_m = wish.middle_m;

@@ -26,7 +26,8 @@ struct StageInputs {
 };
 
 // Called after each tick with a world, in order; `act` is what the operator did in it.
-using OnStageTick = std::function<void(const haptics::TickRecord&, study::OperatorAct act)>;
+using OnStageTick =
+    std::function<void(const haptics::TickRecord&, study::OperatorAct act, const study::StageSession& session)>;
 
 [[nodiscard]] EndedStage simulate_stage(const StageInputs& in, study::Random& random, const OnStageTick& on_tick);
 

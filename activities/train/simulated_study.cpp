@@ -159,8 +159,9 @@ private:
             if (!made) return std::unexpected(made.error());
             recording = std::move(*made);
         }
-        EndedStage stage = simulate_stage(in, random, [&](const haptics::TickRecord& record, study::OperatorAct act) {
-            if (recording) recording->take(record, act);
+        EndedStage stage = simulate_stage(in, random, [&](const haptics::TickRecord& record, study::OperatorAct act,
+                                                            const study::StageSession& session) {
+            if (recording) recording->take(record, act, session);
         });
         if (recording) {
             if (const auto closed = recording->close(); !closed) return std::unexpected(closed.error());

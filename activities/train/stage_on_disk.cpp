@@ -102,7 +102,7 @@ Result<void> StageOnDisk::begin(const TrainingRun& run) {
 }
 
 void StageOnDisk::take(const TrainingRun::Ticked& ticked) {
-    if (recording_ && ticked.record != nullptr) recording_->take(*ticked.record, ticked.act);
+    if (recording_ && ticked.record != nullptr) recording_->take(*ticked.record, ticked.act, *ticked.session);
 }
 
 Result<void> StageOnDisk::take(const std::vector<RunEvent>& events) {

@@ -40,27 +40,6 @@ const std::string& world_of(const study::Protocol& protocol, const std::vector<s
     return protocol.worlds.front().name;
 }
 
-// A tick as far as a stage needs it. cause: why the tool had no force when the frame began, which is the tick's own
-// where it had none; a tick whose cause was over by then is taken for one of switched-off amplifiers.
-haptics::TickRecord record_of(const haptics::StrokeSample& tick, const study::StageTouch& touch, double offset_m,
-                              haptics::GateCause cause) {
-    const Quat turn = tick.orientation_object;
-    const Similarity& world_from_device = touch.parameters().workspace.object_from_device;
-    haptics::TickRecord record;
-    record.tick = tick.tick;
-    record.time_ns = tick.time_ns;
-    record.sample.time_ns = tick.time_ns;
-    record.sample.position_device_m = touch.place_at_device(tick.position_object_m - turn * Vec3(0.0, offset_m, 0.0));
-    record.sample.orientation_device = glm::conjugate(world_from_device.orientation) * turn;
-    record.gate.given.force_device_N = glm::conjugate(world_from_device.orientation) * tick.force_object_N;
-    record.gate.saturated = (tick.flags & haptics::kTickForceSaturated) != 0;
-    record.flags = tick.flags;
-    if ((tick.flags & haptics::kTickFault) == 0) return record;
-    record.gate.cause = cause == haptics::GateCause::none ? haptics::GateCause::device_fault : cause;
-    if (record.gate.cause == haptics::GateCause::device_fault) record.sample.fault = devices::DeviceFault::other;
-    return record;
-}
-
 }  // namespace
 
 StudyActivity::StudyActivity(const study::Protocol& protocol, const study::Group& group, const FeltWorlds& worlds,
@@ -141,10 +120,9 @@ bool StudyActivity::ends_by_operator() const {
 }
 
 void StudyActivity::step(const session::ActivityView& view, session::ActivityOrders& orders) {
-    cause_ = view.tool.cause;
     reads_device_ = {view.tool.position_device_m,
                      glm::conjugate(view.tool.workspace.object_from_device.orientation) * view.tool.orientation_object};
-    for (const haptics::StrokeSample& tick : view.ticks) follow(tick, orders);
+    for (const haptics::TickRecord& tick : view.ticks) follow(tick, orders);
     if (run_.phase() == TrainingRun::Phase::in_stage && run_.session() != nullptr && run_.session()->touch().leads())
         orders.parameters = true;  // guidance fades and turns
     show(orders);
@@ -152,13 +130,12 @@ void StudyActivity::step(const session::ActivityView& view, session::ActivityOrd
     if (run_.phase() == TrainingRun::Phase::ended) end_stage(orders);
 }
 
-void StudyActivity::follow(const haptics::StrokeSample& tick, session::ActivityOrders& orders) {
+void StudyActivity::follow(const haptics::TickRecord& tick, session::ActivityOrders& orders) {
     now_ns_ = tick.time_ns;
     if (run_.session() == nullptr || run_.phase() != TrainingRun::Phase::in_stage) return;
-    const haptics::TickRecord record = record_of(tick, run_.session()->touch(), device_.point_offset_m, cause_);
     const std::size_t known = run_.session()->events().size();
-    const study::OperatorAct act = run_.follow(record);
-    if (keeper_.tick) keeper_.tick({&record, act});
+    const study::OperatorAct act = run_.follow(tick);
+    if (keeper_.tick) keeper_.tick({&tick, act, run_.session()});
     place_proxies(known, orders);
     if (run_.phase() != TrainingRun::Phase::ended) return;
     show(orders);

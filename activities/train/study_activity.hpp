@@ -34,9 +34,6 @@ struct StageKeeper {
 
 // The device in the participant's hand.
 struct StudyDevice {
-    // Distance from the wand's middle, up along its axis, to the point whose path the session's ticks tell; 0 for a
-    // stylus that stands in for a wand.
-    double point_offset_m = 0.0;
     std::optional<devices::WandDescription> wand = {};  // none: there is no jig
     std::string participant = {};                       // whose hand it is, for the operator; empty: nobody's
 };
@@ -65,7 +62,7 @@ private:
     [[nodiscard]] bool ends_by_operator() const;
     [[nodiscard]] Result<void> check_order(const OperatorCommand& command) const;
     [[nodiscard]] Result<void> check_jig(session::ActivityOrders& orders);
-    void follow(const haptics::StrokeSample& tick, session::ActivityOrders& orders);
+    void follow(const haptics::TickRecord& tick, session::ActivityOrders& orders);
     void place_proxies(std::size_t known, session::ActivityOrders& orders);
     void show(session::ActivityOrders& orders);
     void show(const std::vector<ShownObject>& objects, session::ActivityOrders& orders);
@@ -84,7 +81,6 @@ private:
     std::map<scene::ObjectId, ShownObject> as_shown_;
     std::optional<bool> tube_pressed_;  // as last ordered
     Nanoseconds now_ns_ = 0;            // of the last tick
-    haptics::GateCause cause_ = haptics::GateCause::none;  // of the tool, as this frame draws it
     haptics::ProxyPlacement placement_;
     Pose reads_device_;    // where the wand read to be in the last step
     std::string jig_off_;  // by how much the wand was off in its jig; empty: it was not

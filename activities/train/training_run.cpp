@@ -163,7 +163,7 @@ TrainingRun::Ticked TrainingRun::tick(const devices::DeviceSample& sample, Nanos
     const haptics::TickRecord& record = session_->take(sample, now_ns, act);
     last_ = record;
     note_stage_events(now_ns);
-    return {&record, act};
+    return {&record, act, &*session_};
 }
 
 OperatorAct TrainingRun::follow(const haptics::TickRecord& record) {
@@ -230,7 +230,7 @@ std::vector<PanelRow> TrainingRun::rows() const {
     rows.push_back(
         {"clock", formatted("%.1f s", runs ? session_->time_s() - state.clock_started_s : session_->time_s())});
     if (!last_) return rows;
-    const auto points = session_->touch().points_m(last_->sample);
+    const auto points = session_->touch().points_m(session_->sample());
     const study::NearestOnLine nearest = study::nearest_on(world_->world().spine_m, 0.5 * (points[0] + points[1]));
     rows.push_back(
         {"path", formatted("%.0f mm along, %.0f mm off the axis", 1e3 * nearest.along_m, 1e3 * nearest.distance_m)});

@@ -78,6 +78,7 @@ public:
     struct Ticked {
         const haptics::TickRecord* record = nullptr;  // until the next tick
         study::OperatorAct act = study::OperatorAct::none;
+        const study::StageSession* session = nullptr;  // as the tick left it; until the stage is taken
     };
     // Runs a tick; nothing where no stage with a world is under way.
     Ticked tick(const devices::DeviceSample& sample, Nanoseconds now_ns);

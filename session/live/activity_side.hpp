@@ -27,7 +27,7 @@ public:
     // Returns the part of the scene by which the hand's ticks come; null without an activity.
     [[nodiscard]] SampleTap* tap() { return tap_ ? &*tap_ : nullptr; }
     // Takes ticks that the scene has read, for the next step.
-    void take(std::vector<haptics::StrokeSample> ticks) {
+    void take(std::vector<haptics::TickRecord> ticks) {
         ticks_.insert(ticks_.end(), std::make_move_iterator(ticks.begin()), std::make_move_iterator(ticks.end()));
     }
     // Tells the activity what the step's commands ask of it, and has it go on; changes the state and adds to the orders
@@ -60,7 +60,7 @@ private:
 
     std::shared_ptr<Activity> activity_;
     std::optional<SampleTap> tap_;
-    std::vector<haptics::StrokeSample> ticks_;  // since the last step
+    std::vector<haptics::TickRecord> ticks_;  // since the last step
 };
 
 }  // namespace burin::session

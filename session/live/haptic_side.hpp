@@ -18,8 +18,10 @@ namespace burin::session {
 
 class HapticSide {
 public:
-    // records: ticks that the recording's ring holds. pace: of the machine (haptics::WorkSettings).
-    HapticSide(std::size_t records, double pace) : channels_(haptics::HapticChannels::kStrokes, records), pace_(pace) {}
+    // records: ticks that the recording's ring holds. pace: of the machine (haptics::WorkSettings). whole_ticks: an
+    // activity goes by them.
+    HapticSide(std::size_t records, double pace, bool whole_ticks)
+        : channels_(haptics::HapticChannels::kStrokes, records, whole_ticks), pace_(pace) {}
 
     // Opens the device of that name (devices/haptic/device_registry.hpp), a simulated one with its hand at rest there.
     // The clock must outlive it.

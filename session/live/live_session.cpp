@@ -65,7 +65,7 @@ std::string where_it_lies(const std::string& message, const std::string& path, b
 LiveSession::LiveSession(Clock& clock, const SculptOptions& options, double pace)
     : clock_(clock),
       pool_(options.threads),
-      haptics_(ring_for(options.live.record), pace),
+      haptics_(ring_for(options.live.record), pace, options.activity != nullptr),
       activity_(options.activity),
       outputs_(options.live, inputs_of(options).list()),
       log_name_(options.live.input) {}

@@ -35,7 +35,7 @@ struct ActivityView {
     Nanoseconds time_ns = 0;  // of the frame, since the session's start
     // Every tick since the step before, in order; a tick whose sample was lost is missing from the numbers. Their times
     // are of the loop's clock.
-    std::span<const haptics::StrokeSample> ticks;
+    std::span<const haptics::TickRecord> ticks;
     const haptics::ToolState& tool;  // as the frame draws it
     const WorldObjects* world;       // as of the last update of the scene; null: there is none
 };

@@ -46,13 +46,34 @@ const haptics::TickRecord& StageSession::take(const devices::DeviceSample& sampl
 }
 
 void StageSession::follow(const haptics::TickRecord& record, OperatorAct act) {
-    touch_.follow(record);
-    step_on(record, record.sample, record.time_ns, act);
+    follows_ = true;
+    const devices::DeviceSample sample = sample_of(record);
+    touch_.follow(record.time_ns, sample);
+    step_on(record, sample, record.time_ns, act);
+}
+
+devices::DeviceSample StageSession::sample_of(const haptics::TickRecord& record) const {
+    const Similarity& own = touch_.parameters().workspace.object_from_device;
+    const Similarity& its = record.motion.object_from_device;
+    if (its == own) return record.sample;
+    devices::DeviceSample sample = record.sample;
+    sample.time_ns = record.time_ns;
+    sample.position_device_m = sample_.position_device_m;
+    sample.orientation_device = sample_.orientation_device;
+    const haptics::ContactRecord& contact = record.contact;
+    if (contact.point_count == 0) return sample;
+    Vec3 middle_m = contact.points[0].hip_object_m;  // of a stylus that stands in for a wand
+    if (contact.point_count > 1) middle_m = 0.5 * (middle_m + contact.points[1].hip_object_m);
+    sample.position_device_m = touch_.place_at_device(middle_m);
+    sample.orientation_device =
+        glm::conjugate(own.orientation) * its.orientation * record.sample.orientation_device;
+    return sample;
 }
 
 // Returns whether the start cap was touched.
 bool StageSession::step_on(const haptics::TickRecord& record, const devices::DeviceSample& sample, Nanoseconds now_ns,
                            OperatorAct act) {
+    sample_ = sample;
     if (forces_.ticks == 0) begun_ns_ = now_ns;
     time_s_ = seconds(now_ns - begun_ns_);
     forces_.add(record);

@@ -48,8 +48,10 @@ public:
     // Runs the tick. Returns its record, which stays until the next.
     const haptics::TickRecord& take(const devices::DeviceSample& sample, Nanoseconds now_ns,
                                     OperatorAct act = OperatorAct::none);
-    // Takes a tick that a loop of its own has run, with touch().parameters() as they were when the loop took them over.
-    // The stage, its events and its attempt are as if take() had been given the sample; forces are the record's.
+    // Takes a tick that a loop of its own has run. Forces, contact and faults are the record's own. Where the wand is in
+    // the world is the record's too, by its points and its mapping: of one with the stage's own mapping the stage, its
+    // events and its attempt are to the bit as if take() had been given the sample. A tick that was not computed, as its
+    // sample was no number, leaves the wand where it was.
     void follow(const haptics::TickRecord& record, OperatorAct act = OperatorAct::none);
 
     [[nodiscard]] const StageState& state() const { return state_; }
@@ -59,6 +61,11 @@ public:
     [[nodiscard]] std::span<const AttemptTick> attempt() const { return attempt_; }
     [[nodiscard]] const FeltForces& forces() const { return forces_; }
     [[nodiscard]] const StageTouch& touch() const { return touch_; }
+    // Where the wand was in the last tick, in the frame of touch().device().
+    [[nodiscard]] const devices::DeviceSample& sample() const { return sample_; }
+    // Whether the last tick was another loop's, whose triangles are not this world's.
+    [[nodiscard]] bool follows() const { return follows_; }
+    [[nodiscard]] Nanoseconds begun_ns() const { return begun_ns_; }
     [[nodiscard]] std::uint64_t ticks() const { return forces_.ticks; }
     // Since the stage's first tick.
     [[nodiscard]] double time_s() const { return time_s_; }
@@ -66,6 +73,7 @@ public:
 private:
     bool step_on(const haptics::TickRecord& record, const devices::DeviceSample& sample, Nanoseconds now_ns,
                  OperatorAct act);
+    [[nodiscard]] devices::DeviceSample sample_of(const haptics::TickRecord& record) const;
 
     StageTouch touch_;
     StageSetup setup_;
@@ -75,7 +83,8 @@ private:
     FeltForces forces_;
     Nanoseconds begun_ns_ = 0;
     double time_s_ = 0.0;
-    bool was_running_ = false;
+    bool was_running_ = false, follows_ = false;
+    devices::DeviceSample sample_;
 };
 
 // What the haptic model makes of an attempt's motion (W18): a tick a millisecond, whatever the device's rate, since

@@ -116,11 +116,11 @@ const haptics::TickRecord& StageTouch::tick(const devices::DeviceSample& sample,
     return full_.record;
 }
 
-void StageTouch::follow(const haptics::TickRecord& record) {
-    if (ticks_++ == 0) begun_ns_ = guidance_ns_ = record.time_ns;
+void StageTouch::follow(Nanoseconds now_ns, const devices::DeviceSample& sample) {
+    if (ticks_++ == 0) begun_ns_ = guidance_ns_ = now_ns;
     if (!leads_) return;
-    const Vec3 middle = place_in_world(record.sample.position_device_m);
-    guide_on(record.time_ns, {nearest_on(world_.world().spine_m, middle).along_m, true}, kHandAtEnd_m);
+    const Vec3 middle = place_in_world(sample.position_device_m);
+    guide_on(now_ns, {nearest_on(world_.world().spine_m, middle).along_m, true}, kHandAtEnd_m);
 }
 
 Vec3 StageTouch::place_in_world(const Vec3& position_device_m) const {

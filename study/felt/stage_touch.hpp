@@ -44,8 +44,8 @@ public:
     // The record stays until the next tick.
     const haptics::TickRecord& tick(const devices::DeviceSample& sample, Nanoseconds now_ns);
     // For a tick that a loop of its own has run with these parameters: guidance goes on as after a tick of this. Where
-    // the attracting point is it takes from where the wand's middle is along the path.
-    void follow(const haptics::TickRecord& record);
+    // the attracting point is it takes from where the wand's middle is along the path. sample: as this device reads it.
+    void follow(Nanoseconds now_ns, const devices::DeviceSample& sample);
     // Sets both proxies on the axis at the start cap, from where the next tick takes them to the hand.
     void begin_at_start();
 

@@ -28,7 +28,31 @@ std::vector<std::pair<std::string, std::string>> facts_of_wand(const devices::Wa
     return {{record::kWandTextFact, text}, {record::kWandDigestFact, sha256(text)}, {record::kWandPointsFact, points}};
 }
 
+std::vector<record::Column> touched_objects(const record::RowShape& shape) {
+    std::vector<record::Column> columns;
+    for (std::uint32_t i = 0; i < shape.points; ++i)
+        columns.push_back({"object" + std::to_string(i), "", "", record::ColumnType::u32});
+    return columns;
+}
+
+void append_objects(const haptics::TickRecord& tick, const record::RowShape& shape, std::vector<record::Word>& row) {
+    for (std::uint32_t i = 0; i < shape.points; ++i)
+        row.push_back(i < tick.contact.point_count ? tick.contact.points[i].object : 0u);
+}
+
 }  // namespace
+
+std::vector<record::Column> stage_columns(const record::RowShape& shape) {
+    std::vector<record::Column> columns = record::columns_for(shape);
+    std::ranges::move(touched_objects(shape), std::back_inserter(columns));
+    return columns;
+}
+
+std::vector<record::Word> stage_row(const haptics::TickRecord& tick, const record::RowShape& shape) {
+    std::vector<record::Word> row = record::row_of(tick, shape);
+    append_objects(tick, shape, row);
+    return row;
+}
 
 StageRecording::StageRecording() : ring_(2 * kTakenTogether) {}
 StageRecording::~StageRecording() = default;
@@ -41,14 +65,40 @@ Result<std::unique_ptr<StageRecording>> StageRecording::create(const std::filesy
     record::WriterOptions options;
     options.facts = std::move(facts);
     options.block_ns = block_ns;
-    auto writer = record::RecordWriter::create(
-        file.string(), {{kRecordedHand, touch.device(), touch.parameters().probe, &made->ring_}}, std::move(options));
+    options.objects = {{kTubeObject, "tube"}, {kStartFunnelObject, "start funnel"}, {kEndFunnelObject, "end funnel"}};
+    const auto stage = std::ranges::find(options.facts, kStageFact, [](const auto& fact) { return fact.first; });
+    if (stage != options.facts.end()) made->stage_ = stage->second;
+    const record::RowShape shape = record::shape_of(touch.device(), touch.parameters().probe);
+    record::RecordedHand hand{kRecordedHand, touch.device(), touch.parameters().probe, &made->ring_};
+    hand.more_columns = touched_objects(shape);
+    hand.more_values = [shape](const haptics::TickRecord& tick, std::vector<record::Word>& row) {
+        append_objects(tick, shape, row);
+    };
+    std::vector<record::RecordedHand> hands;
+    hands.push_back(std::move(hand));
+    auto writer = record::RecordWriter::create(file.string(), std::move(hands), std::move(options));
     if (!writer) return std::unexpected(writer.error());
     made->writer_ = std::move(*writer);
     return made;
 }
 
-void StageRecording::take(const haptics::TickRecord& record, OperatorAct act) {
+void StageRecording::note_trials(const StageSession& session) {
+    const std::vector<StageEvent>& events = session.events();
+    for (; events_told_ < events.size(); ++events_told_) {
+        const StageEvent& event = events[events_told_];
+        const Nanoseconds at_ns = session.begun_ns() + nanoseconds(event.time_s);
+        if (event.kind == StageEventKind::clock_started) trial_ = writer_->begin_trial(at_ns, stage_);
+        if (!trial_ || event.kind == StageEventKind::clock_started || event.kind == StageEventKind::start_touched)
+            continue;
+        const char* state = event.kind == StageEventKind::end_touched      ? "done"
+                            : event.kind == StageEventKind::attempt_failed ? name_of(event.failure)
+                                                                           : name_of(session.state().result);
+        writer_->end_trial(*std::exchange(trial_, std::nullopt), at_ns, state);
+    }
+}
+
+void StageRecording::take(const haptics::TickRecord& record, OperatorAct act, const StageSession& session) {
+    note_trials(session);
     if (act != OperatorAct::none) writer_->note_event(record.time_ns, kOperatorEvent, name_of(act));
     ring_.push(record);
     if (++untaken_ < kTakenTogether) return;

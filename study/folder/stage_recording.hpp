@@ -22,8 +22,7 @@ inline constexpr const char* kOperatorEvent = "operator";
 // Facts of a session file that replay needs; all are texts.
 inline constexpr const char *kProtocolFact = "study protocol", *kWorldFact = "study world", *kGroupFact = "study group",
                             *kStageFact = "study stage";
-// Of a live stage: its ticks were a session's, whose surface and parameters are not a stage's. Pose, force on the hand,
-// flags and times are in its file, and no contact.
+// Of a live stage: its ticks were a session's, whose surface and parameters are not a stage's.
 inline constexpr const char *kTicksFact = "ticks", *kTicksOfSession = "of a session's own loop";
 
 class StageRecording {
@@ -36,7 +35,9 @@ public:
     StageRecording(const StageRecording&) = delete;
     StageRecording& operator=(const StageRecording&) = delete;
 
-    void take(const haptics::TickRecord& record, OperatorAct act);
+    // session: as the tick left it. From the clock's start to the end of the attempt a trial stands in the file, by the
+    // stage's name: "done" where it ended with a valid exit, else why it failed.
+    void take(const haptics::TickRecord& record, OperatorAct act, const StageSession& session);
     // Of what the operator wrote and what became of the stage; times as the ticks'.
     void note(Nanoseconds time_ns, const std::string& name, const std::string& value);
     // All is on the disk when it returns. Fails with why not.
@@ -44,10 +45,19 @@ public:
 
 private:
     StageRecording();
+    void note_trials(const StageSession& session);
+
     Ring<haptics::TickRecord> ring_;
     std::unique_ptr<record::RecordWriter> writer_;
-    std::size_t untaken_ = 0;
+    std::string stage_;
+    std::size_t untaken_ = 0, events_told_ = 0;
+    std::optional<std::int64_t> trial_;  // that is under way
 };
+
+// The columns of a stage's recording, columns_for() and behind them object0 and object1, what each point touches
+// (felt_world.hpp); and a tick's values in their order.
+[[nodiscard]] std::vector<record::Column> stage_columns(const record::RowShape& shape);
+[[nodiscard]] std::vector<record::Word> stage_row(const haptics::TickRecord& tick, const record::RowShape& shape);
 
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> facts_of_stage(const std::string& protocol_digest,
                                                                               const Group& group, const Stage& stage,

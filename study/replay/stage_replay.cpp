@@ -75,12 +75,47 @@ Result<std::map<std::int64_t, OperatorAct>> acts_in(record::RecordReader& reader
     return acts;
 }
 
-haptics::TickRecord followed_tick(const devices::DeviceSample& sample, Nanoseconds now_ns) {
-    haptics::TickRecord record;
-    record.time_ns = now_ns;
-    record.sample = sample;
-    return record;
-}
+// Puts a session's tick together again, as far as a stage goes by it, from the columns of its row.
+class SessionTick {
+public:
+    // Requires the columns of a stage's recording.
+    explicit SessionTick(const std::vector<record::Column>& columns) {
+        for (std::size_t i = 0; i < columns.size(); ++i) at_[columns[i].name] = i;
+    }
+    [[nodiscard]] haptics::TickRecord record(const record::Block& block, std::uint32_t row,
+                                             const devices::DeviceSample& sample, Nanoseconds now_ns) const {
+        const auto word = [&](const std::string& name) { return block.at(at_.at(name), row); };
+        const auto real = [&](const std::string& name) { return std::bit_cast<double>(word(name)); };
+        const auto vector = [&](const std::string& name, const char* unit) {
+            return Vec3(real(name + "_x" + unit), real(name + "_y" + unit), real(name + "_z" + unit));
+        };
+        haptics::TickRecord tick;
+        tick.tick = word("tick");
+        tick.time_ns = now_ns;
+        tick.sample = sample;
+        Similarity& map = tick.motion.object_from_device;
+        map.position_m = vector("object_from_device", "_m");
+        map.orientation = {real("object_from_device_qw"), real("object_from_device_qx"), real("object_from_device_qy"),
+                           real("object_from_device_qz")};
+        map.scale = real("object_from_device_scale");
+        tick.contact.point_count = std::min(static_cast<std::uint32_t>(word("points")), kWandPoints);
+        for (std::uint32_t i = 0; i < tick.contact.point_count; ++i) {
+            haptics::PointRecord& point = tick.contact.points[i];
+            const std::string number = std::to_string(i);
+            point.hip_object_m = vector("hip" + number + "_object", "_m");
+            point.active_triangle = static_cast<std::uint32_t>(word("triangle" + number));
+            point.object = static_cast<std::uint32_t>(word("object" + number));
+        }
+        tick.gate.given = {vector("commanded_force_device", "_N"), vector("commanded_torque_device", "_Nm")};
+        tick.gate.cause = static_cast<haptics::GateCause>(word("cause"));
+        tick.flags = static_cast<std::uint32_t>(word("flags"));
+        tick.gate.saturated = (tick.flags & haptics::kTickForceSaturated) != 0;
+        return tick;
+    }
+
+private:
+    std::map<std::string, std::size_t> at_;
+};
 
 struct Parts {
     const Group& group;
@@ -115,13 +150,14 @@ Result<StageReplay> replay_stage(const std::filesystem::path& file, const Protoc
     if (!parts) return std::unexpected(parts.error());
     StageSession session(protocol, parts->stage, parts->group, world);
     const record::RowShape shape = record::shape_of(session.touch().device(), session.touch().parameters().probe);
-    if (reader->hands().size() != 1 || reader->hands().front().columns != record::columns_for(shape))
+    if (reader->hands().size() != 1 || reader->hands().front().columns != stage_columns(shape))
         return fail(file.string(), "has other columns than a study's recording of this version",
                     "replay it with the version that the study was run with");
     const record::HandRecord& hand = reader->hands().front();
     const auto acts = acts_in(*reader);
     if (!acts) return std::unexpected(acts.error());
     const Inputs inputs(hand.columns);
+    const SessionTick of_session(hand.columns);
     StageReplay replay;
     replay.columns = hand.columns.size();
     replay.closed = reader->is_closed();
@@ -136,14 +172,14 @@ Result<StageReplay> replay_stage(const std::filesystem::path& file, const Protoc
             const OperatorAct done = act != acts->end() ? act->second : OperatorAct::none;
             const devices::DeviceSample sample = inputs.sample(*block, row);
             if (replay.of_session) {
-                followed = followed_tick(sample, now_ns);
+                followed = of_session.record(*block, row, sample, now_ns);
                 session.follow(followed, done);
             }
             const haptics::TickRecord& tick = replay.of_session ? followed : session.take(sample, now_ns, done);
             ++replay.ticks;
             if (on_tick) on_tick(session, tick);
             if (!replay.of_session && !replay.difference)
-                replay.difference = record::difference_in_row(hand, *block, row, record::row_of(tick, shape));
+                replay.difference = record::difference_in_row(hand, *block, row, stage_row(tick, shape));
         }
     }
     replay.end = session.state();

@@ -101,16 +101,18 @@ public:
     LiveStage(const study::Protocol& protocol, const study::Group& group, const FeltWorlds& worlds,
               const study::Stage& stage)
         : activity_(protocol, group, worlds, {{1, 1, &stage}}, "study",
-                    StudyDevice{0.03, study::study_wand(protocol)}, StageKeeper{}),
+                    StudyDevice{study::study_wand(protocol)}, StageKeeper{}),
           place_m_(worlds.at("tube")->world().spine_m.front()) {
         frame();
     }
     void frame() {
-        std::vector<haptics::StrokeSample> ticks(2);
-        for (haptics::StrokeSample& tick : ticks) {
+        std::vector<haptics::TickRecord> ticks(2);
+        for (haptics::TickRecord& tick : ticks) {
             tick.tick = ++tick_;
             tick.time_ns = static_cast<Nanoseconds>(1000 + tick_) * 1'000'000;
-            tick.position_object_m = place_m_ + Vec3(0.0, 0.03, 0.0);
+            tick.contact.point_count = 2;
+            for (std::size_t i = 0; i < 2; ++i)
+                tick.contact.points[i].hip_object_m = place_m_ + Vec3(0.0, i == 0 ? 0.03 : -0.03, 0.0);
         }
         session::ActivityOrders orders;
         activity_.step({.time_ns = 0, .ticks = ticks, .tool = tool_, .world = nullptr}, orders);

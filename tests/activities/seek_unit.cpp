@@ -50,12 +50,12 @@ public:
     }
     // Ticks at a place, so many, in contact or not.
     void stay(const Vec3& place_scene, int ticks, bool in_contact) {
-        std::vector<haptics::StrokeSample> samples;
+        std::vector<haptics::TickRecord> samples;
         for (int i = 0; i < ticks; ++i) {
-            haptics::StrokeSample sample;
+            haptics::TickRecord sample;
             sample.tick = ++tick_;
             sample.time_ns = static_cast<Nanoseconds>(tick_) * kTick_ns;
-            sample.proxy_object_m = place_scene;
+            sample.contact.points[0].proxy_object_m = place_scene;
             sample.flags = in_contact ? haptics::kTickInContact : 0u;
             samples.push_back(sample);
         }

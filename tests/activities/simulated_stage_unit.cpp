@@ -42,7 +42,7 @@ protected:
         Went went;
         went.stage = simulate_stage(
             {protocol_, s, protocol_.groups[group], s.world.empty() ? nullptr : world_.get(), learner_, population_},
-            random, [&](const haptics::TickRecord& record, study::OperatorAct) {
+            random, [&](const haptics::TickRecord& record, study::OperatorAct, const study::StageSession&) {
                 went.forces_N.push_back(record.gate.given.force_device_N);
                 went.places_m.push_back(record.contact.points[0].hip_object_m);
                 went.faults += record.sample.fault != devices::DeviceFault::none ? 1 : 0;

@@ -5,10 +5,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include "base/text.hpp"
+#include "record/record_reader.hpp"
+#include "study/folder/stage_recording.hpp"
+#include "study/replay/stage_replay.hpp"
+#include "tests/support/run_command.hpp"
 
 namespace burin::activities {
 namespace {
@@ -35,7 +41,7 @@ protected:
     void begin(std::vector<study::StagePlace> places, std::size_t group) {
         const auto ok = [] { return Result<void>{}; };
         StageKeeper keeper{[&, ok](const TrainingRun&) { return ++begun_, ok(); },
-                           {},
+                           [&](const TrainingRun::Ticked& ticked) { kept_.push_back(*ticked.record); },
                            [&, ok](const std::vector<RunEvent>& events) {
                                events_.insert(events_.end(), events.begin(), events.end());
                                return ok();
@@ -46,7 +52,7 @@ protected:
                            },
                            {}};
         activity_.emplace(protocol_, protocol_.groups[group], worlds_, std::move(places), "study",
-                          StudyDevice{0.03, study::study_wand(protocol_), "p07"}, std::move(keeper));
+                          StudyDevice{study::study_wand(protocol_), "p07"}, std::move(keeper));
     }
     Result<void> act(std::vector<std::string> words) {
         orders_ = {};
@@ -54,15 +60,28 @@ protected:
     }
     // A frame with ticks in which the wand's middle is at these places.
     void frame(const std::vector<Vec3>& middles_m) {
-        std::vector<haptics::StrokeSample> ticks;
-        for (const Vec3& middle : middles_m) {
-            haptics::StrokeSample tick;
-            tick.tick = ++tick_;
-            tick.time_ns = static_cast<Nanoseconds>(1000 + tick_) * 1'000'000;
-            tick.position_object_m = middle + Vec3(0.0, 0.03, 0.0);
-            tick.flags = flags_;
-            ticks.push_back(tick);
+        std::vector<haptics::TickRecord> ticks;
+        for (const Vec3& middle : middles_m) ticks.push_back(tick_at(middle));
+        frame_of(ticks);
+    }
+    // A session's tick: its device is mapped in another way than the study's own.
+    haptics::TickRecord tick_at(const Vec3& middle_m) {
+        haptics::TickRecord tick = tick_;
+        tick.tick = ++number_;
+        tick.time_ns = static_cast<Nanoseconds>(1000 + number_) * 1'000'000;
+        tick.sample.time_ns = tick.time_ns - 200'000;
+        tick.contact.point_count = 2;
+        const study::StudyWorld& world = worlds_.at("tube")->world();
+        for (std::size_t i = 0; i < 2; ++i) {
+            haptics::PointRecord& point = tick.contact.points[i];
+            point.hip_object_m = middle_m + Vec3(0.0, i == 0 ? 0.03 : -0.03, 0.0);
+            if (study::nearest_on(world.spine_m, point.hip_object_m).distance_m < world.tube_radius_m) continue;
+            point.object = study::kTubeObject;
+            point.active_triangle = 7;
         }
+        return tick;
+    }
+    void frame_of(const std::vector<haptics::TickRecord>& ticks) {
         orders_ = {};
         activity_->step({.time_ns = 0, .ticks = ticks, .tool = tool_, .world = nullptr}, orders_);
     }
@@ -81,8 +100,9 @@ protected:
     std::vector<EndedStage> ended_;
     std::vector<RunEvent> events_;
     std::size_t begun_ = 0;
-    std::uint64_t tick_ = 0;
-    std::uint32_t flags_ = 0;  // of each tick
+    std::vector<haptics::TickRecord> kept_;
+    haptics::TickRecord tick_;  // what is the same in each tick
+    std::uint64_t number_ = 0;
 };
 
 TEST_F(StudyActivities, TakeATrialThroughAndSayWhereItWasNotKept) {
@@ -157,11 +177,11 @@ TEST_F(StudyActivities, TellOfTrainingWithoutForceThatItWasNotAsTheProtocolHasIt
             frame({spine.front()});
             ASSERT_TRUE(act({"start"}));
             frame(std::vector<Vec3>(20, spine.front()));
-            flags_ = without ? haptics::kTickFault : 0u;
+            tick_.gate.cause = without ? haptics::GateCause::device_fault : haptics::GateCause::none;
             frame(std::vector<Vec3>(30, spine.front()));
-            flags_ = 0;
+            tick_.gate.cause = haptics::GateCause::none;
             // Its time is over, or it is no training.
-            if (stage->ends_after_s) tick_ += static_cast<std::uint64_t>(*stage->ends_after_s * 1000.0);
+            if (stage->ends_after_s) number_ += static_cast<std::uint64_t>(*stage->ends_after_s * 1000.0);
             if (!stage->ends_after_s) {
                 ASSERT_TRUE(act({"stop"}));
             }
@@ -203,6 +223,90 @@ TEST_F(StudyActivities, GiveTheOperatorCodeTimeLeftANoteAndAStopThatAsks) {
     EXPECT_EQ(std::ranges::find(paused, "left", &session::ActivityPanel::Row::name)->value, left->value)
         << "a pause takes nothing of it";
     ASSERT_TRUE(act({"note", "holds her breath"}));
+}
+
+TEST_F(StudyActivities, KeepATickAsItWasAndCountWhatItSays) {
+    const auto& spine = worlds_.at("tube")->world().spine_m;
+    begin("interactive", 0);
+    frame({spine.front()});
+    ASSERT_TRUE(act({"start"}));
+    std::vector<haptics::TickRecord> ticks;
+    for (int i = 0; i < 50; ++i) {
+        tick_.gate.given = {Vec3(0.1 * i, 0.2, -0.3), Vec3(0.01 * i, 0.0, 0.002)};
+        tick_.wanted = {Vec3(0.5 * i, 0.2, -0.3), Vec3(0.0)};
+        tick_.gate.cause = i == 7 ? haptics::GateCause::stale_surface : haptics::GateCause::none;
+        tick_.gate.saturated = i > 40;
+        tick_.flags = (i > 20 ? haptics::kTickInContact : 0u) | (i == 3 ? haptics::kTickLate : 0u);
+        tick_.sample.fault = i == 9 ? devices::DeviceFault::other : devices::DeviceFault::none;
+        tick_.sample.buttons = static_cast<std::uint32_t>(i % 3);
+        tick_.lateness_ns = 100 * i;
+        tick_.surface_sequence = 5;
+        ticks.push_back(tick_at(spine.front() + Vec3(0.001 * i, 0.02, 0.0)));
+    }
+    frame_of(ticks);
+    ASSERT_EQ(kept_.size(), ticks.size());
+    const record::RowShape shape{0, 2};
+    for (std::size_t i = 0; i < ticks.size(); ++i)
+        ASSERT_EQ(study::stage_row(kept_[i], shape), study::stage_row(ticks[i], shape)) << i;
+    const study::FeltForces& forces = activity_->run().session()->forces();
+    EXPECT_EQ(forces.ticks, 50u);
+    EXPECT_EQ(forces.contact_ticks, 29u);
+    EXPECT_EQ(forces.contacts, 1u);
+    EXPECT_EQ(forces.limited_ticks, 9u);
+    EXPECT_EQ(forces.late_ticks, 1u);
+    EXPECT_EQ(forces.faults, 1u);
+    EXPECT_EQ(forces.cause, haptics::GateCause::stale_surface);
+    EXPECT_EQ(forces.largest_torque_Nm, glm::length(Vec3(0.49, 0.0, 0.002)));
+}
+
+// What a live stage measured follows from its own file, whatever mapping and surfaces its session had.
+TEST_F(StudyActivities, GiveTheSameStageAndFiguresAgainFromTheTicksAsStored) {
+    const Workplace place;
+    const study::FeltWorld& world = *worlds_.at("tube");
+    const auto& spine = world.world().spine_m;
+    for (const char* name : {"interactive", "test"}) {
+        const study::Stage& stage = *protocol_.stage(name);
+        const study::Group& group = protocol_.groups[0];
+        study::StageSession session(protocol_, stage, group, world);
+        auto facts = study::facts_of_stage("digest", group, stage, world, session.touch());
+        facts.emplace_back(study::kTicksFact, study::kTicksOfSession);
+        const std::filesystem::path file = place / (std::string(name) + ".session");
+        auto recording = study::StageRecording::create(file, session.touch(), std::move(facts), kNanosecondsPerSecond);
+        ASSERT_TRUE(recording);
+        tick_.motion.object_from_device = {Vec3(0.3, -0.2, 0.1), glm::angleAxis(0.3, Vec3(0.0, 1.0, 0.0)), 1.5};
+        for (std::size_t i = 0; !session.done() && i < 12'000; ++i) {
+            const double at = std::clamp(static_cast<double>(i) / 60.0 - 3.0, -1.5,
+                                         static_cast<double>(spine.size()) + 0.5);
+            const auto k = std::min(static_cast<std::size_t>(std::max(at, 0.0)), spine.size() - 2);
+            tick_.gate.given = {Vec3(0.1, std::sin(0.01 * static_cast<double>(i)), 0.0), Vec3(0.0, 0.0, 0.02)};
+            tick_.gate.cause = i % 700 == 5 ? haptics::GateCause::stale_surface : haptics::GateCause::none;
+            tick_.flags = i % 90 > 60 ? haptics::kTickInContact : 0u;
+            const haptics::TickRecord tick =
+                tick_at(spine[k] + (at - static_cast<double>(k)) * (spine[k + 1] - spine[k]));
+            const study::OperatorAct act = i == 9'000 ? study::OperatorAct::stop : study::OperatorAct::none;
+            session.follow(tick, act);
+            (*recording)->take(tick, act, session);
+        }
+        ASSERT_TRUE(session.done());
+        ASSERT_TRUE((*recording)->close());
+        const auto replay = study::replay_stage(file, protocol_, "digest", world);
+        ASSERT_TRUE(replay) << replay.error().line();
+        EXPECT_TRUE(replay->of_session);
+        EXPECT_EQ(replay->end.result, session.state().result);
+        EXPECT_EQ(replay->end.clock_stopped_s, session.state().clock_stopped_s);
+        const Json measured = ended_stage(protocol_, stage, world, session).record;
+        EXPECT_FALSE(measured.is_null());
+        EXPECT_EQ(json_text(replay->record), json_text(measured)) << name;
+        auto reader = record::RecordReader::open(file.string());
+        ASSERT_TRUE(reader);
+        const auto trials = reader->trials();
+        ASSERT_TRUE(trials);
+        ASSERT_EQ(trials->size(), stage.kind == study::StageKind::trial ? 1u : 0u);
+        if (trials->empty()) continue;
+        EXPECT_EQ(trials->front().name, "test");
+        EXPECT_EQ(trials->front().state, "done");
+        EXPECT_EQ(trials->front().begun_ns, session.begun_ns() + nanoseconds(session.state().clock_started_s));
+    }
 }
 
 TEST_F(StudyActivities, SetTheProxiesOnTheAxisAtEachTouchOfTheStartCap) {

@@ -217,11 +217,13 @@ TEST_F(VisitPlans, KnowAStageForAsLongAsItsRecordingWentOn) {
     const study::Protocol protocol = study::parse_protocol(kTwoDays).protocol;
     const auto world = study::FeltWorld::create(protocol.worlds[0]);
     ASSERT_TRUE(world);
-    study::StageTouch touch(protocol, *protocol.stage("test"), protocol.groups[0], **world);
+    study::StageSession session(protocol, *protocol.stage("test"), protocol.groups[0], **world);
     fs::create_directories(place_ / "s/data/p01");
-    auto recording = study::StageRecording::create(place_ / "s/data/p01/r.session", touch, {}, kNanosecondsPerSecond);
+    auto recording = study::StageRecording::create(place_ / "s/data/p01/r.session", session.touch(), {},
+                                                   kNanosecondsPerSecond);
     ASSERT_TRUE(recording);
-    for (Nanoseconds t = 1; t < 100; ++t) (*recording)->take(touch.tick({}, t * 1'000'000), study::OperatorAct::none);
+    for (Nanoseconds t = 1; t < 100; ++t)
+        (*recording)->take(session.take({}, t * 1'000'000), study::OperatorAct::none, session);
     ASSERT_TRUE((*recording)->close());
     // The first hour is an hour from now, so that the recording ends an hour before it.
     write(-1.5, Json{{"event", "stage begun"},

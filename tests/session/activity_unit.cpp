@@ -35,7 +35,7 @@ public:
         return {};
     }
     void step(const ActivityView& view, ActivityOrders&) override {
-        for (const haptics::StrokeSample& tick : view.ticks) ticks.push_back(tick.tick);
+        for (const haptics::TickRecord& tick : view.ticks) ticks.push_back(tick.tick);
         objects = view.world != nullptr ? view.world->objects.size() : 0;
     }
     void adjust(haptics::TickParameters& parameters) const override { parameters.enabled = !calm; }

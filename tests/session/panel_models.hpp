@@ -70,6 +70,31 @@ inline PanelModel export_model() {
     return model;
 }
 
+// As the operator of a study sees it, in training whose hand is near the wall.
+inline PanelModel study_model() {
+    PanelModel model = idle_model();
+    model.carves = false;
+    model.workpiece = {"world.toml", "320 x 130 x 90 mm, 6 objects"};
+    model.activity = ActivityPanel{
+        .title = "Study", .aside = "p07, touch", .page = "", .rows = {}, .buttons = {}, .field = "note", .governs = true};
+    model.activity->rows = {{"stage", "practice (day 1, stage 3)"},
+                            {"now", "runs"},
+                            {"left", "43 s of 300"},
+                            {"clock", "257.3 s"},
+                            {"path", "112 mm along, 18 mm off the axis"},
+                            {"force", "0.61 N, largest 1.90 N"},
+                            {"caps", "in none"},
+                            {"saturated", "0.4 % of ticks"},
+                            {"missed ticks", "0"}};
+    model.activity->buttons = {{"Start", {"start"}, false}, {"Next", {"next"}, false},
+                               {"Pause", {"pause"}},        {"Go on", {"go-on"}, false},
+                               {"Repeat", {"repeat"}, false}, {"In the jig", {"jig"}},
+                               {"Stop", {"stop"}, true, "End the visit for good?"}};
+    model.touch.in_contact = true;
+    model.touch.force_N = 0.61;
+    return model;
+}
+
 inline PanelModel help_model() {
     PanelModel model = idle_model();
     model.show_help = true;

@@ -70,11 +70,12 @@ protected:
 };
 
 TEST_F(SessionPanel, ShowsEachStateOfASession) {
-    const std::array<std::pair<const char*, PanelModel>, 5> states{{{"idle", idle_model()},
+    const std::array<std::pair<const char*, PanelModel>, 6> states{{{"idle", idle_model()},
                                                                     {"carving", carving_model()},
                                                                     {"no_force", no_force_model()},
                                                                     {"export", export_model()},
-                                                                    {"help", help_model()}}};
+                                                                    {"help", help_model()},
+                                                                    {"study", study_model()}}};
     std::vector<Image> pictures;
     for (const auto& [name, model] : states) {
         auto panel = Panel::create({.size = {340, 1180}});
@@ -117,6 +118,29 @@ TEST_F(SessionPanel, ShowsAnOpenListOverAllElse) {
     (void)panel->show(model, 16'000'000);
     keep(paint(*panel, model, 32'000'000), "list");
     EXPECT_TRUE(panel->place_of("stereo-mode mono"));
+}
+
+TEST_F(SessionPanel, AsksTheOperatorOfAStudyInALineOfItsOwn) {
+    auto panel = Panel::create({.size = {340, 720}});
+    ASSERT_TRUE(panel);
+    PanelModel model = study_model();
+    (void)panel->show(model, 0);
+    const auto at = panel->place_of("do stop");
+    ASSERT_TRUE(at);
+    const Vec2 middle(at->x + 0.5 * at->width, at->y + 0.5 * at->height);
+    const std::array<InputEvent, 3> click{{{0, MouseMove{middle}},
+                                           {0, MouseClick{MouseButton::left, true, {}}},
+                                           {0, MouseClick{MouseButton::left, false, {}}}}};
+    panel->feed(click);
+    model.warnings = {"Picture 61 ms behind the hand; 15 is noticed"};
+    (void)panel->show(model, 16'000'000);
+    keep(paint(*panel, model, 32'000'000), "study_asks");
+    const auto yes = panel->place_of("yes, do stop"), stop = panel->place_of("do stop"), field = panel->place_of("field");
+    ASSERT_TRUE(yes && stop && field);
+    EXPECT_EQ(stop->y, at->y);
+    EXPECT_GE(yes->y, stop->y + stop->height);
+    EXPECT_LE(yes->y + yes->height, field->y);
+    EXPECT_LE(field->y + field->height, 720u);
 }
 
 }  // namespace burin::session

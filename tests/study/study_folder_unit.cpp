@@ -92,6 +92,25 @@ TEST(StudyCommands, ReplayWhatWasRecordedToTheBit) {
         ASSERT_TRUE(block);
         EXPECT_LE(block->rows(), 251u);
     }
+    // The attempts stand in the trial's own file, for whoever wants their ticks alone.
+    auto trial = record::RecordReader::open((place / "s/data/sim001/day1-06-run1.session").string());
+    ASSERT_TRUE(trial);
+    const auto attempts = trial->trials();
+    ASSERT_TRUE(attempts && !attempts->empty());
+    const Json measured = Json::parse(place.read("s/data/sim001/day1-06-run1.json"));
+    EXPECT_EQ(attempts->back().name, "test");
+    EXPECT_EQ(attempts->back().state, "done");
+    EXPECT_NEAR(1e-9 * static_cast<double>(attempts->back().ended_ns - attempts->back().begun_ns),
+                measured.at("time_s").get<double>(), 2e-9);
+    EXPECT_EQ(attempts->size(), 1u + measured.at("failed_attempts").get<std::size_t>());
+    const std::string convert = std::string(kBurinCommand) + " convert s/data/sim001/day1-06-run1.session ";
+    const auto ticks = place.run(convert + "t.csv --to csv --trials test");
+    EXPECT_EQ(ticks.status, 0) << ticks.output;
+    EXPECT_TRUE(place.read("t.csv").contains("object1"));
+    ASSERT_EQ(place.run(convert + "b --to bids").status, 0);
+    EXPECT_TRUE(std::ranges::any_of(std::filesystem::recursive_directory_iterator(place / "b"), [](const auto& entry) {
+        return entry.path().string().ends_with("_events.tsv");
+    }));
     const auto one = place.run(kBurinStudy + "replay s --participant sim002");
     EXPECT_TRUE(one.output.contains("5 recordings")) << one.output;
 }
