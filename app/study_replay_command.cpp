@@ -103,8 +103,10 @@ void tell_replays(const Replays& replays, std::size_t count, std::size_t without
                 static_cast<unsigned long long>(replays.ticks()), replays.columns());
     if (replays.interrupted() > 0) std::printf("; %zu of them end where they were interrupted", replays.interrupted());
     if (replays.of_session() > 0)
-        std::printf("; %zu of them are of a live session: their stages, trials and figures were computed again from the ticks as stored",
-                    replays.of_session());
+        std::printf(
+            "; %zu of them are of a live session: their stages, trials and figures were computed again from the ticks "
+            "as stored",
+            replays.of_session());
     if (without > 0) std::printf("; %zu were erased or hold nothing yet", without);
     std::printf("\n");
 }

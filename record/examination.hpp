@@ -19,7 +19,7 @@ struct TickGap {
 
 // What the list of blocks says of a hand, without reading one.
 struct HandSummary {
-    std::uint64_t ticks = 0;      // none: nothing was recorded, or its blocks are gone
+    std::uint64_t ticks = 0;  // none: nothing was recorded, or its blocks are gone
     std::int64_t first_tick = 0;
     Nanoseconds first_ns = 0, last_block_ns = 0;
     std::vector<TickGap> gaps;  // that show between blocks; one within a block is told at the block's end
@@ -40,8 +40,8 @@ struct HandExamination {
     std::vector<TickGap> gaps;
     std::uint64_t backward_times = 0;  // ticks that are not later than the one before
     std::uint64_t not_finite = 0;      // numbers that are none, but for the points that a tick does not have
-    // Ticks that were due and that the loop skipped because it came too late, by the lateness of those that ran. Nothing:
-    // the file does not say how far apart ticks were due.
+    // Ticks that were due and that the loop skipped because it came too late, by the lateness of those that ran.
+    // Nothing: the file does not say how far apart ticks were due.
     std::optional<std::uint64_t> never_run;
     Nanoseconds longest_interval_ns = 0;  // between two ticks that follow one another
 };

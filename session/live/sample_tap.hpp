@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Keeps what a hand has done for an activity: every tick whose stroke the scene's service has read, whole and in order. A part
-// of the scene that touches nothing: so the ticks reach the frames with the number of the update that read them, live
-// as in a replay.
-// Threads: as any part's (scene/scene_part.hpp).
+// Keeps what a hand has done for an activity: every tick whose stroke the scene's service has read, whole and in order.
+// A part of the scene that touches nothing: so the ticks reach the frames with the number of the update that read them,
+// live as in a replay. Threads: as any part's (scene/scene_part.hpp).
 #pragma once
 
 #include <utility>

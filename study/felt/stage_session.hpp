@@ -48,10 +48,10 @@ public:
     // Runs the tick. Returns its record, which stays until the next.
     const haptics::TickRecord& take(const devices::DeviceSample& sample, Nanoseconds now_ns,
                                     OperatorAct act = OperatorAct::none);
-    // Takes a tick that a loop of its own has run. Forces, contact and faults are the record's own. Where the wand is in
-    // the world is the record's too, by its points and its mapping: of one with the stage's own mapping the stage, its
-    // events and its attempt are to the bit as if take() had been given the sample. A tick that was not computed, as its
-    // sample was no number, leaves the wand where it was.
+    // Takes a tick that a loop of its own has run. Forces, contact and faults are the record's own. Where the wand is
+    // in the world is the record's too, by its points and its mapping: of one with the stage's own mapping the stage,
+    // its events and its attempt are to the bit as if take() had been given the sample. A tick that was not computed,
+    // as its sample was no number, leaves the wand where it was.
     void follow(const haptics::TickRecord& record, OperatorAct act = OperatorAct::none);
 
     [[nodiscard]] const StageState& state() const { return state_; }

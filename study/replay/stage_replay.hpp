@@ -26,7 +26,8 @@ struct StageReplay {
     Json record;         // as simulate and run make it (recorded_trial.hpp)
     ModelTouch model;    // of a trial with a valid exit, for plots
     bool closed = true;  // false: its recording was interrupted
-    // The ticks were a session's: they are taken as they are, and stage, trial and figures are computed from them again.
+    // The ticks were a session's: they are taken as they are, and stage, trial and figures are computed from them
+    // again.
     bool of_session = false;
 };
 

@@ -8,8 +8,6 @@
 #include <numbers>
 #include <random>
 
-#include "haptics/tick.hpp"
-#include "sculpt/felt_tool.hpp"
 #include "tests/haptics/cutting_ball.hpp"
 #include "tests/haptics/surfaces.hpp"
 
@@ -371,46 +369,6 @@ TEST(Cutting, ATurningToolIsHeldBackByWhatItTurnsInto) {
     // Turning about +z lowers the half at -x; the material pushes it back up, which is a torque about -z.
     EXPECT_LT(step.torque_device_Nm.z, -1e-3);
     EXPECT_LT(std::abs(step.torque_device_Nm.x), 0.1 * std::abs(step.torque_device_Nm.z));
-}
-
-// The whole tick of a bar that lies in the material, pressed in its middle, while the hand turns it: what the hand gets
-// is the torque of the material, against the turn. The spring, which bears in the middle, has none.
-TEST(Cutting, TheTickGivesTheHandTheMaterialsTorqueOnAToolThatTurns) {
-    const Vec3 half(0.012, 0.002, 0.004);
-    const sculpt::FeltTool felt = sculpt::felt_tool(compute::BoxTool{half});
-    const auto torque_of_turn = [&](double rate_rad_per_s) {
-        TickParameters p;
-        p.probe = felt.probe;
-        p.shape = felt.shape;
-        p.tool = felt.surface;
-        p.action = ToolAction::cut;
-        p.clearance_ratio = 0.0;
-        p.limit_stiffness = false;
-        p.passivity.control = false;
-        p.max_surface_age_s = 0.0;
-        p.materials[0] = material_of(2e6, 1e4);
-        p.materials[0].stiffness_N_per_m = kStiffness;
-        p.materials[0].damping_Ns_per_m = 0.0;
-        TickState state;
-        TickRecord record;
-        for (int i = 0; i < 80; ++i) {
-            devices::DeviceSample sample;
-            sample.time_ns = (i + 1) * 1'000'000;
-            sample.buttons = 1;
-            // In the air, then half a millimetre into the plane, and turned from the sixtieth tick on.
-            sample.position_device_m = {0.0, i < 5 ? half.y + 0.002 : half.y - 0.0005, 0.0};
-            sample.orientation_device = glm::angleAxis(rate_rad_per_s * kDt * std::max(0, i - 60), Vec3(0.0, 0.0, 1.0));
-            const Tick t = haptics::tick(state, sample, flat(), p, test::kStrongDevice, sample.time_ns, kDt);
-            state = t.next;
-            record = t.record;
-        }
-        EXPECT_NE(record.flags & kTickCutting, 0u);
-        return record.contact.wrench.torque_device_Nm.z;
-    };
-    const double to_left = torque_of_turn(1.0), to_right = torque_of_turn(-1.0), still = torque_of_turn(0.0);
-    EXPECT_LT(to_left, -1e-3);
-    EXPECT_GT(to_right, 1e-3);
-    EXPECT_LT(std::abs(still), 0.2 * std::min(-to_left, to_right));
 }
 
 TEST(Cutting, GrainMakesTheForceSwellAndFallWithThePlace) {

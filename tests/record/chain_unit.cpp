@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The chain of digests: a file as it was recorded passes, and each kind of change that a hand can make afterwards shows.
+// The chain of digests: a file as it was recorded passes, and each kind of change that a hand can make afterwards
+// shows.
 #include "record/chain.hpp"
 
 #include <gtest/gtest.h>

@@ -285,10 +285,12 @@ TEST(MeshPart, APathRunsInTheAxesOfItsObject) {
 TEST(MeshPart, AMovingObjectTellsItsVelocityInTheScenesAxes) {
     std::vector<SceneObject> objects = cubes(1);
     objects[0].pose.orientation = glm::angleAxis(glm::radians(90.0), Vec3(0.0, 0.0, 1.0));
-    const Quat half_about_y = glm::angleAxis(glm::radians(179.0), Vec3(0.0, 1.0, 0.0));
-    objects[0].motion = PathMotion{{{0.0, {}}, {2.0, {{0.0, 0.2, 0.0}, half_about_y}}}, false};
+    const Quat quarter_about_y = glm::angleAxis(glm::radians(90.0), Vec3(0.0, 1.0, 0.0));
+    objects[0].motion = PathMotion{{{0.0, {}}, {2.0, {{0.0, 0.2, 0.0}, quarter_about_y}}}, false};
     MaterialTable materials;
-    auto part = *MeshPart::create(objects, materials);
+    auto made = MeshPart::create(objects, materials);
+    ASSERT_TRUE(made) << made.error().line();
+    const auto& part = *made;
     ASSERT_TRUE(part->update(1'000'000'000, nullptr));
     ASSERT_TRUE(part->update(2'000'000'000, nullptr));
     geometry::LocalSurface seen;

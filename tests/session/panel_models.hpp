@@ -75,8 +75,13 @@ inline PanelModel study_model() {
     PanelModel model = idle_model();
     model.carves = false;
     model.workpiece = {"world.toml", "320 x 130 x 90 mm, 6 objects"};
-    model.activity = ActivityPanel{
-        .title = "Study", .aside = "p07, touch", .page = "", .rows = {}, .buttons = {}, .field = "note", .governs = true};
+    model.activity = ActivityPanel{.title = "Study",
+                                   .aside = "p07, touch",
+                                   .page = "",
+                                   .rows = {},
+                                   .buttons = {},
+                                   .field = "note",
+                                   .governs = true};
     model.activity->rows = {{"stage", "practice (day 1, stage 3)"},
                             {"now", "runs"},
                             {"left", "43 s of 300"},
@@ -86,9 +91,12 @@ inline PanelModel study_model() {
                             {"caps", "in none"},
                             {"saturated", "0.4 % of ticks"},
                             {"missed ticks", "0"}};
-    model.activity->buttons = {{"Start", {"start"}, false}, {"Next", {"next"}, false},
-                               {"Pause", {"pause"}},        {"Go on", {"go-on"}, false},
-                               {"Repeat", {"repeat"}, false}, {"In the jig", {"jig"}},
+    model.activity->buttons = {{"Start", {"start"}, false},
+                               {"Next", {"next"}, false},
+                               {"Pause", {"pause"}},
+                               {"Go on", {"go-on"}, false},
+                               {"Repeat", {"repeat"}, false},
+                               {"In the jig", {"jig"}},
                                {"Stop", {"stop"}, true, "End the visit for good?"}};
     model.touch.in_contact = true;
     model.touch.force_N = 0.61;

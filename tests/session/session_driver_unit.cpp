@@ -117,7 +117,8 @@ TEST(Driver, EndsAtTheFirstErrorAndStopsTheThreadsAllTheSame) {
     EXPECT_EQ(notes, (std::vector<std::string>{"advance to 1", "make 1", "advance to 2", "make 2", "stop"}));
 }
 
-// A loop that rests takes 71 ticks a second: times in contact and smoothness of a trial would be those of another motion.
+// A loop that rests takes 71 ticks a second: times in contact and smoothness of a trial would be those of another
+// motion.
 TEST(Pace, RestsOnlyWhereNeitherAnActivityNorAPersonMissesATick) {
     devices::DeviceDescription held, simulated;
     simulated.felt_by_person = false;

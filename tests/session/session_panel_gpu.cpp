@@ -135,7 +135,8 @@ TEST_F(SessionPanel, AsksTheOperatorOfAStudyInALineOfItsOwn) {
     model.warnings = {"Picture 61 ms behind the hand; 15 is noticed"};
     (void)panel->show(model, 16'000'000);
     keep(paint(*panel, model, 32'000'000), "study_asks");
-    const auto yes = panel->place_of("yes, do stop"), stop = panel->place_of("do stop"), field = panel->place_of("field");
+    const auto yes = panel->place_of("yes, do stop"), stop = panel->place_of("do stop"),
+               field = panel->place_of("field");
     ASSERT_TRUE(yes && stop && field);
     EXPECT_EQ(stop->y, at->y);
     EXPECT_GE(yes->y, stop->y + stop->height);
