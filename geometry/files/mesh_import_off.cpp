@@ -11,6 +11,7 @@
 
 #include "geometry/files/mesh_soup.hpp"
 #include "geometry/files/text_scanner.hpp"
+#include "geometry/files/unit_statement.hpp"
 
 namespace burin::geometry {
 namespace {
