@@ -137,7 +137,8 @@ void expect_closed_within_its_precision(const std::string& text, MeshFormat form
     EXPECT_NEAR(health.signed_volume_m3, 4.18e-4, 0.05e-4) << what;
 }
 
-// A cup of 100 mm with walls of 5 mm whose rim is open, about `at` and in metres, its numbers as the format writes them.
+// A cup of 100 mm with walls of 5 mm whose rim is open, about `at` and in metres, its numbers as the format writes them
+// out.
 std::string cup_obj(const Corner& at, const char* format) {
     constexpr int kAround = 36;
     std::string text, faces;
