@@ -22,7 +22,7 @@ void name_materials(sculpt::ClosedMesh& closed, const std::string& file, const s
     closed.mesh.materials = {{std::filesystem::path(file).stem().string(), colour}};
 }
 
-Result<compute::Solid> convert_onto(const sculpt::ClosedMesh& closed, const std::string& file,
+Result<compute::Solid> convert_onto(sculpt::ClosedMesh& closed, const std::string& file,
                                     const compute::Lattice& lattice, WorkerPool& pool, Json& report) {
     Result<compute::ScanConversion> converted = compute::scan_convert_onto(closed.mesh, lattice, pool);
     if (!converted) {
@@ -33,6 +33,7 @@ Result<compute::Solid> convert_onto(const sculpt::ClosedMesh& closed, const std:
     report = closed.report;
     report["unmatched_rays"] = converted->unmatched_rays;
     report["inside_by_parity"] = converted->by_parity;
+    sculpt::note_unmet_parts(closed.mesh, converted->solid, closed.size, report);
     return std::move(converted->solid);
 }
 

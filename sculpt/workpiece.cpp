@@ -11,6 +11,7 @@
 #include "geometry/mesh/mesh_health.hpp"
 #include "geometry/mesh/mesh_repair.hpp"
 #include "gpu/device.hpp"
+#include "sculpt/unmet_parts.hpp"
 
 namespace burin::sculpt {
 namespace {
@@ -92,13 +93,16 @@ Result<void> make_ready(ClosedMesh& closed, const WorkpieceOptions& options, dou
         report["joined"] = {{"vertices", joins.vertices_joined},
                             {"farthest_m", joins.farthest_m},
                             {"triangles_dropped", joins.triangles_dropped}};
-        closed.size += "; " + in_words(joins);
+        closed.joined = in_words(joins);
+        closed.size += "; " + closed.joined;
     }
     geometry::MeshHealth health = geometry::examine(mesh);
     report["health"] = describe(health);
     if (!health.closed) {
         if (!options.close_holes) {
-            return fail(options.source, "is not closed, so it has no inside: " + joined(geometry::complaints(health)),
+            std::vector<std::string> complaints = geometry::complaints(health);
+            if (!closed.joined.empty()) complaints.push_back(closed.joined + " before");
+            return fail(options.source, "is not closed, so it has no inside: " + joined(complaints),
                         remedy_of_open(mesh));
         }
         report["closed_holes"] = describe(close_holes(mesh));
@@ -120,6 +124,7 @@ Result<LoadedWorkpiece> from_file(const WorkpieceOptions& options, WorkerPool& p
     if (!converted) {
         Error error = converted.error();
         if (error.where == "mesh") error.where = options.source;
+        if (!closed->joined.empty()) error.what += "; " + closed->joined + ", as --weld LENGTH decides";
         return std::unexpected(error);
     }
     workpiece.report["triangles_converted"] = closed->mesh.triangles.size();
@@ -127,6 +132,7 @@ Result<LoadedWorkpiece> from_file(const WorkpieceOptions& options, WorkerPool& p
     workpiece.report["unmatched_rays"] = converted->unmatched_rays;
     workpiece.report["inside_by_parity"] = converted->by_parity;
     workpiece.solid = std::move(converted->solid);
+    note_unmet_parts(closed->mesh, workpiece.solid, workpiece.size, workpiece.report);
     return workpiece;
 }
 
@@ -220,6 +226,15 @@ Result<ClosedMesh> load_closed_mesh(const WorkpieceOptions& options) {
     }
     closed.report["size"] = closed.size;
     return closed;
+}
+
+void note_unmet_parts(const geometry::TriangleMesh& mesh, const compute::Solid& solid, std::string& size,
+                      Json& report) {
+    const std::vector<UnmetPart> parts = find_unmet_parts(mesh, solid);
+    if (parts.empty()) return;
+    size += "; " + in_words(parts, solid.lattice);
+    report["size"] = size;
+    report["unmet"] = describe(parts, solid.lattice);
 }
 
 Result<LoadedWorkpiece> load_workpiece(const WorkpieceOptions& options, WorkerPool& pool) {

@@ -41,6 +41,7 @@ struct ClosedMesh {
     std::string size = {};  // as of a LoadedWorkpiece
     LengthUnit unit = LengthUnit::m;
     Vec3 size_m{0.0};
+    std::string joined = {};  // which corners were joined, in words; empty where none were
 };
 
 // Reads the mesh file that is the source, welds it and turns it to face outwards; the report says how much of each.
@@ -48,6 +49,9 @@ struct ClosedMesh {
 // from the precision of the file's numbers, or within weld_m, which `size` tells. Fails on a mesh that is not closed
 // then, with the reason, unless its holes are to be closed.
 [[nodiscard]] Result<ClosedMesh> load_closed_mesh(const WorkpieceOptions& options);
+
+// Notes in `size` and in the report what of the mesh no ray of its solid met (unmet_parts.hpp).
+void note_unmet_parts(const geometry::TriangleMesh& mesh, const compute::Solid& solid, std::string& size, Json& report);
 
 // Checks the length of --weld, which must be a distance above zero; a loaded mesh must be more than ten times as long.
 [[nodiscard]] Result<void> check_weld(std::optional<double> weld_m, double longest_side_m);

@@ -4,14 +4,19 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace burin::geometry {
 namespace {
 
-constexpr int kFewDigits = 4;         // numbers of no more are exact
-constexpr int kDigitsOfAnyFloat = 8;  // up to here every number looks like a float
-constexpr double kFloatBits = 24.0, kDoubleBits = 53.0;
-constexpr double kTrustedDigits = 5.0 / 6.0;
+constexpr int kFewDigits = 4;            // numbers of no more are exact
+constexpr int kDigitsOfAnyFloat = 8;     // up to here every number looks like a float
+constexpr double kDecimalPlaces = 1.75;  // one last place along each axis, sqrt(3) of them in space, and a little
+constexpr double kFloatPlaces = 3.5;     // two, as of what was computed in floats
+constexpr double kDoublePlaces = 512.0;  // of doubles, which are computed from others, 13 digits of 16 count
+
+// Returns the last place of a number of so many bits: what the smallest step changes it by.
+double last_place_of(double number, int bits) { return std::ldexp(1.0, std::ilogb(number) + 1 - bits); }
 
 struct Digits {
     int significant = 0;
@@ -48,10 +53,12 @@ void CoordinatePrecision::see(std::string_view word, double value) {
 
 double CoordinatePrecision::weld_tolerance(double largest) const {
     const bool is_text = digits_ > 0;
-    if (is_text && digits_ <= kFewDigits) return 0.0;
-    double bits = all_floats_ ? kFloatBits : kDoubleBits;
-    if (is_text) bits = std::min(bits, digits_ * std::log2(10.0));
-    return 2.0 * largest * std::exp2(-kTrustedDigits * bits);
+    if ((is_text && digits_ <= kFewDigits) || !(largest > 0.0)) return 0.0;
+    const double binary = all_floats_ ? kFloatPlaces * last_place_of(largest, std::numeric_limits<float>::digits)
+                                      : kDoublePlaces * last_place_of(largest, std::numeric_limits<double>::digits);
+    if (!is_text) return binary;
+    const double last_decimal = std::pow(10.0, std::floor(std::log10(largest)) + 1.0 - digits_);
+    return std::max(binary, kDecimalPlaces * last_decimal);
 }
 
 }  // namespace burin::geometry

@@ -15,8 +15,9 @@ public:
     void see(double value) { all_floats_ = all_floats_ && value == static_cast<double>(static_cast<float>(value)); }
 
     // Returns the distance, in numbers of the file, up to which corners count as one where the surface is open between
-    // them: `largest` is the largest absolute coordinate. Five sixths of the digits are trusted, of a float 20 of 24
-    // bits. 0 for texts of few digits, which somebody has typed as they are.
+    // them: `largest` is the largest absolute coordinate. It follows from the last place in which this number is
+    // written: one of a text's decimals, two of a float, along each axis; of doubles, which programs compute from
+    // others, 512. 0 for texts of few digits, which somebody has typed as they are.
     [[nodiscard]] double weld_tolerance(double largest) const;
 
 private:

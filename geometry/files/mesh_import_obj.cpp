@@ -13,6 +13,7 @@
 #include "geometry/files/mesh_files.hpp"
 #include "geometry/files/mesh_soup.hpp"
 #include "geometry/files/text_scanner.hpp"
+#include "geometry/files/unit_statement.hpp"
 
 namespace burin::geometry {
 namespace {
@@ -163,6 +164,7 @@ private:
             if (const char* fault = coordinate_fault(values[k])) return wrong(fault, kCoordinateRemedy);
         }
         soup_.positions.emplace_back(values[0], values[1], values[2]);
+        if (count == values.size() && with_alpha_++ == 0) first_alpha_line_ = scan_.line();
         return count >= 6 ? vertex_colour({values[3], values[4], values[5]}) : Done{};
     }
 
@@ -216,6 +218,12 @@ private:
 
     Done resolve_colours() {
         if (colours_.empty()) return {};
+        if (with_alpha_ > 0) {
+            soup_.report.remarks.push_back(std::to_string(with_alpha_) +
+                                           " vertices have 7 numbers, the first in line " +
+                                           std::to_string(first_alpha_line_) +
+                                           ": 4 to 6 were taken for a colour, and the last for its alpha, ignored");
+        }
         if (colours_.size() != soup_.positions.size()) {
             soup_.report.remarks.push_back("vertex colours were ignored: only " + std::to_string(colours_.size()) +
                                            " of " + std::to_string(soup_.positions.size()) + " vertices have one");
@@ -295,6 +303,7 @@ private:
     std::vector<Vec3> colours_;
     std::vector<std::uint64_t> colour_lines_;
     ColourScale scale_;
+    std::uint64_t with_alpha_ = 0, first_alpha_line_ = 0;
     std::uint32_t farthest_corner_ = 0;
     std::uint64_t farthest_line_ = 0;
     std::uint64_t ignored_ = 0, first_ignored_line_ = 0;

@@ -11,6 +11,7 @@
 
 #include "geometry/files/mesh_soup.hpp"
 #include "geometry/files/text_scanner.hpp"
+#include "geometry/files/unit_statement.hpp"
 
 namespace burin::geometry {
 namespace {
@@ -201,19 +202,20 @@ private:
 
     // Takes note of a colour of `count` numbers from the word `at` on; only the whole file tells its scale.
     Done colour(std::size_t at, std::size_t count, std::size_t of, std::vector<FileColour>& colours) {
-        if (count == 1) ++uncoloured_;
-        if (count < 2) return {};
+        if (count == 0) return {};
         if (count > kMostColourNumbers) return wrong("a line has too many numbers", kOneALine);
         if (count == 2) return wrong("a colour has 2 numbers", "give 3 or 4");
         FileColour colour{Vec3(0.0), false, line_, of};
         for (std::size_t k = 0; k < count; ++k) {
             const auto value = number_from(words_[at + k]);
-            if (!value || !std::isfinite(*value))
+            const bool is_alpha = k == 3;
+            if (!value || (!is_alpha && !std::isfinite(*value)))
                 return wrong(in_quotes(words_[at + k]) + " stands where a colour should", "repair the file");
-            if (k == 3) break;
+            if (is_alpha || count == 1) break;
             colour.numbers[static_cast<int>(k)] = *value;
             colour.has_point = colour.has_point || words_[at + k].find_first_of(".eE") != std::string_view::npos;
         }
+        if (count == 1) return ++uncoloured_, Done{};
         (colour.has_point ? with_point_ : whole_).see(colour.numbers);
         colours.push_back(colour);
         return {};

@@ -78,10 +78,19 @@ private:
         return {};
     }
 
-    Result<double> value(PlyType type) {
+    // Returns the next value, of whatever kind.
+    Result<double> any_value(PlyType type) {
         const auto read = values_.next(type);
         if (!read) return wrong(values_.fault(), kTruncatedRemedy);
         return *read;
+    }
+    // Returns the next value that counts: of an integer type it is whole, in a text as well.
+    Result<double> value(PlyType type) {
+        const auto read = any_value(type);
+        const bool is_float = type == PlyType::f32 || type == PlyType::f64;
+        if (!read || is_float || *read == std::floor(*read)) return read;
+        return wrong(in_quotes(values_.word()) + " stands where a whole number should, as its property's type says",
+                     "declare the property as float, or write whole numbers");
     }
 
     Result<std::uint64_t> list_length(const PlyProperty& property) {
@@ -106,7 +115,7 @@ private:
             count = *length;
         }
         for (; count > 0; --count) {
-            if (const auto read = value(property.type); !read) return std::unexpected(read.error());
+            if (const auto read = any_value(property.type); !read) return std::unexpected(read.error());
         }
         return {};
     }

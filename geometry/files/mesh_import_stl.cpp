@@ -10,6 +10,7 @@
 #include "base/file_io.hpp"
 #include "geometry/files/mesh_soup.hpp"
 #include "geometry/files/text_scanner.hpp"
+#include "geometry/files/unit_statement.hpp"
 #include "geometry/mesh/vertex_weld.hpp"
 
 namespace burin::geometry {
@@ -46,7 +47,7 @@ Result<MeshSoup> read_binary(std::span<const std::byte> bytes, const std::string
     }
     MeshSoup soup;
     soup.report.format = "STL, binary";
-    if (const auto unit = unit_in_comment(text_of(bytes.first(kTitleBytes))))
+    if (const auto unit = unit_in_header(text_of(bytes.first(kTitleBytes))))
         soup.stated_unit = {*unit, "in its header"};
     if (claimed < bytes.size()) {
         soup.report.remarks.push_back(std::to_string(bytes.size() - claimed) +

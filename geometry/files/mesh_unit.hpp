@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The unit of a mesh file's numbers. No mesh format has a field for it, so it is, in this order,
 //   given    by the user, as --units does;
-//   stated   by the file in a comment, as Burin's own exports and some programs write it;
+//   stated   by the file in a comment, as Burin's own exports and some programs write it (unit_statement.hpp);
 //   guessed  by the size: longest side above 5 -> millimetres, up to 5 -> metres.
 // The guess: parts from CAD programs are 3 to 2000 mm long and in millimetres, scans in metres 0.1 to 2 m, and models
 // of no particular size fill a cube of side 1 or 2. A part of up to 5 mm and a building come out wrong; so a guess is
@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "base/length_unit.hpp"
 
@@ -39,16 +38,6 @@ struct FileUnit {
 [[nodiscard]] FileUnit choose_unit(std::optional<LengthUnit> given, const std::optional<StatedUnit>& stated,
                                    double longest_side);
 
-// Returns the unit that a comment or a header states, in any case. It stands behind the word "unit" or "units": behind
-// = or :, as in "UNITS=mm", "File units = inches", "Unit: metres", "1 unit = 0.001 m"; or alone, as in "units mm",
-// "the units are mm", where nothing may follow but the next clause. The word must end with the unit: "Unit M-12",
-// "unit cm4" and "unit ft-lbs" state none. Nothing where it states none, or a length that is none of ours.
-[[nodiscard]] std::optional<LengthUnit> unit_in_comment(std::string_view comment);
-// Returns it with its place.
-[[nodiscard]] std::optional<StatedUnit> unit_in_line(std::string_view comment, std::uint64_t line);
-// Returns the first unit that the comments near the beginning of a text state; a comment runs from '#' to its line's
-// end.
-[[nodiscard]] std::optional<StatedUnit> unit_in_comments(std::string_view text);
 // Returns how Burin's own exports state a unit: "units mm".
 [[nodiscard]] std::string comment_of(LengthUnit unit);
 

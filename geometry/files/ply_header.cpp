@@ -9,6 +9,7 @@
 
 #include "base/file_io.hpp"
 #include "geometry/files/mesh_soup.hpp"
+#include "geometry/files/unit_statement.hpp"
 
 namespace burin::geometry {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "base/text.hpp"
 #include "geometry/mesh/edge_table.hpp"
+#include "geometry/mesh/mesh_health.hpp"
 #include "geometry/mesh/mesh_repair.hpp"
 
 namespace burin::geometry {
@@ -87,6 +88,14 @@ void drop_folded(TriangleMesh& mesh, const std::vector<std::uint32_t>& joined_to
     if (!mesh.triangle_materials.empty()) mesh.triangle_materials.resize(kept);
 }
 
+// Tells whether a mesh is closed and, on average, thicker than that: walls that are no thicker were pressed together.
+bool is_thicker_than(double least_m, TriangleMesh& mesh) {
+    if (!vertices_of_open_edges(mesh).empty()) return false;
+    orient_outward(mesh);
+    const MeshHealth health = examine(mesh);
+    return 2.0 * health.signed_volume_m3 > least_m * health.area_m2;
+}
+
 }  // namespace
 
 JoinReport join_open_edges(TriangleMesh& mesh, double tolerance_m) {
@@ -136,7 +145,7 @@ std::optional<double> tolerance_that_closes_m(const TriangleMesh& mesh) {
     for (double below = 6.0; below >= 3.0; below -= 1.0) {
         const double tolerance_m = std::pow(10.0, power - below);
         TriangleMesh joined = mesh;
-        if (join_open_edges(joined, tolerance_m).vertices_joined > 0 && vertices_of_open_edges(joined).empty())
+        if (join_open_edges(joined, tolerance_m).vertices_joined > 0 && is_thicker_than(tolerance_m, joined))
             return tolerance_m;
     }
     return std::nullopt;

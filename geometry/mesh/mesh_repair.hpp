@@ -37,7 +37,8 @@ JoinReport join_open_edges(TriangleMesh& mesh, double tolerance_m);
 [[nodiscard]] std::string in_words(const JoinReport& joined);
 
 // Returns the tolerance, of a few powers of ten below the mesh's size, with which join_open_edges would close a mesh
-// that is open; nothing where none does, since the holes are wider.
+// that is open; nothing where none does, since the holes are wider, or since walls would be pressed together: what is
+// left must be thicker than the tolerance.
 [[nodiscard]] std::optional<double> tolerance_that_closes_m(const TriangleMesh& mesh);
 
 // The method that filled a hole.

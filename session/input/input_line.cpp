@@ -90,8 +90,8 @@ private:
         const double length = glm::length(q);
         if (complaint_ || std::abs(length - 1.0) <= kUnit) return q;
         if (std::abs(length - 1.0) <= kRounded) return q / length;
-        refuse(
-            formatted("its quaternion, of length %.3g, is out of its range: it turns where its length is 1", length));
+        refuse(formatted("its quaternion, of length %.12g, is out of its range: %g to %g, which is brought to 1",
+                         length, 1.0 - kRounded, 1.0 + kRounded));
         return Quat(1.0, 0.0, 0.0, 0.0);
     }
 

@@ -113,6 +113,61 @@ TEST(ReadTruly, AWallThinnerThanACellIsNamedWithTheResolutionThatShowsIt) {
     EXPECT_FALSE(told(fine, "thinner than the mesh can show")) << fine.output;
 }
 
+TEST(ReadTruly, APinBetweenAllRaysIsNamedWithTheResolutionThatKeepsIt) {
+    const Workplace place;
+    const std::string plate = box_obj({0, 0, 0}, {0.1, 0.1, 0.01});
+    place.write("pin.obj", plate + box_obj({0.014524, 0.01679, 0.009}, {0.014824, 0.01709, 0.039}));
+    place.write("plate.obj", plate);
+    for (const std::string command : {"sculpt --workpiece pin.obj --report r.json --resolution ",
+                                      "combine pin.obj plate.obj --operation union --report r.json --resolution "}) {
+        const auto coarse = place.run(kTrulyBurin + " " + command + "64 --export out.stl");
+        EXPECT_EQ(coarse.status, 0) << coarse.output;
+        EXPECT_TRUE(told(coarse,
+                         "no ray met what reaches 29 mm farther along +z (a cell is 1.562 mm wide), which "
+                         "--resolution 4"))
+            << coarse.output;
+        const Json report = Json::parse(place.read("r.json"));
+        const Json& piece = report.contains("workpiece") ? report["workpiece"] : report["a"];
+        ASSERT_EQ(piece["unmet"].size(), 1u) << piece;
+        EXPECT_EQ(piece["unmet"][0]["along"], "+z");
+        EXPECT_NEAR(piece["unmet"][0]["length_m"].get<double>(), 0.029, 1e-5);
+        EXPECT_NEAR(piece["unmet"][0]["width_m"].get<double>(), 0.0003, 2e-6);
+        const auto fine = place.run(kTrulyBurin + " " + command +
+                                    std::to_string(piece["unmet"][0]["resolution"].get<int>()) + " --export out.stl");
+        EXPECT_EQ(fine.status, 0) << fine.output;
+        EXPECT_FALSE(told(fine, "no ray met")) << fine.output;
+        EXPECT_FALSE(told(place.run(kTrulyBurin + " convert out.stl again.stl"), "x 10 mm")) << "the pin is there";
+    }
+    const auto whole = place.run(kTrulyBurin + " sculpt --workpiece plate.obj --resolution 64 --export out.stl");
+    EXPECT_FALSE(told(whole, "no ray met")) << whole.output;
+}
+
+// A cup whose walls are 5 mm thick and whose rim is open, far from the origin and in whole millimetres.
+TEST(ReadTruly, AnOpenRimIsRefusedAndNotPressedTogether) {
+    const Workplace place;
+    std::string cup = "# units m\n";
+    for (const double in : {0.0, 0.005}) {
+        for (const double z : {in, 0.06}) {
+            for (const auto& [x, y] : {std::array{in, in}, {0.1 - in, in}, {0.1 - in, 0.1 - in}, {in, 0.1 - in}})
+                cup += formatted("v %.3f %.3f %.3f\n", 500.0 + x, 800.0 + y, 10.0 + z);
+        }
+    }
+    cup += "f 4 3 2 1\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+    cup += "f 9 10 11 12\nf 14 10 9 13\nf 15 11 10 14\nf 16 12 11 15\nf 13 9 12 16\n";
+    place.write("cup.obj", cup);
+    const auto open = place.run(kTrulyBurin + " sculpt --workpiece cup.obj --resolution 64 --export out.obj");
+    EXPECT_EQ(open.status, 1) << open.output;
+    EXPECT_TRUE(told(open, "is not closed")) << open.output;
+    EXPECT_TRUE(told(open, "pass --close-holes")) << open.output;
+    EXPECT_FALSE(told(open, "which closes it")) << open.output;
+    const auto pressed =
+        place.run(kTrulyBurin + " sculpt --workpiece cup.obj --resolution 64 --export out.obj --weld 0.0049");
+    EXPECT_EQ(pressed.status, 1) << pressed.output;
+    const auto closed =
+        place.run(kTrulyBurin + " sculpt --workpiece cup.obj --resolution 64 --export out.obj --close-holes");
+    EXPECT_EQ(closed.status, 0) << closed.output;
+}
+
 TEST(ReadTruly, AGapThatIsClosedByTheLatticeIsCountedByCombineAsBySculpt) {
     const Workplace place;
     place.write("a.obj", box_obj({0, 0, 0}, {0.02, 0.02, 0.02}));

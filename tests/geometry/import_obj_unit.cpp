@@ -160,6 +160,11 @@ TEST(ObjImport, NumbersFourToSixOfAVertexAreItsColourWhateverFollows) {
     const auto bytes = import_obj("v 0 0 0 9 0 255 255\nv 1 0 0 255 0 0 255\nv 0 1 0 1 0 0 0\nf 1 2 3");
     ASSERT_TRUE(bytes) << bytes.error().line();
     EXPECT_EQ(bytes->mesh.colours, (std::vector<Rgb>{{9, 0, 255}, {255, 0, 0}, {1, 0, 0}}));
+    EXPECT_EQ(bytes->report.remarks,
+              (std::vector<std::string>{"3 vertices have 7 numbers, the first in line 1: 4 to 6 were taken for a "
+                                        "colour, and the last for its alpha, ignored"}));
+    EXPECT_TRUE(import_obj("v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3")->report.remarks.empty());
+    EXPECT_TRUE(import_obj("v 0 0 0 1 0 0 nan\nv 1 0 0 1 0 0 1\nv 0 1 0 1 0 0 1\nf 1 2 3"));
     const auto weighted = import_obj("v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\nf 1 2 3");
     ASSERT_TRUE(weighted);
     EXPECT_TRUE(weighted->mesh.colours.empty());

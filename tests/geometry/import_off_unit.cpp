@@ -131,6 +131,22 @@ TEST(OffImport, AColourOutsideItsRangeIsClampedAndNamedAtItsLine) {
     EXPECT_EQ(points->mesh.materials.at(1).colour, (Rgb{0, 255, 0}));
 }
 
+TEST(OffImport, AColourThatIsNoNumberIsAnErrorAtItsLineAndAnAlphaIsIgnored) {
+    const auto face = [](const std::string& colour) {
+        return refused_off("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 " + colour + "\n");
+    };
+    for (const char* colour : {"red", "0xff0000", "red green blue", "1 0 nan", "1 0 inf 1", "1 0 0 opaque"}) {
+        EXPECT_EQ(face(colour).substr(0, 11), "test.off:6:") << colour;
+    }
+    EXPECT_EQ(face("1 0 0 nan"), "");
+    EXPECT_EQ(face("3"), "");
+    const auto vertex = [](const std::string& colour) {
+        return refused_off("COFF\n3 1 0\n0 0 0 1 0 0 1\n1 0 0 " + colour + "\n0 1 0 1 0 0 1\n3 0 1 2\n");
+    };
+    EXPECT_EQ(vertex("red").substr(0, 11), "test.off:4:");
+    EXPECT_EQ(vertex("1 0 0 nan"), "");
+}
+
 TEST(OffImport, SaysThatTextAfterTheLastFaceWasIgnored) {
     const auto result = import_off(kPlainOff + "1 0\n");
     ASSERT_TRUE(result) << result.error().line();

@@ -172,6 +172,25 @@ TEST(PlyImport, NamesTheLineOfWhatIsWrong) {
     EXPECT_EQ(refused_ply(with("vertex_indices", "corners")).substr(0, 8), "test.ply");
 }
 
+TEST(PlyImport, AnIntegerWithADecimalPointIsAnErrorAtItsLineAndAnAlphaIsIgnored) {
+    const auto coloured = [](const std::string& type, const std::string& colour, const std::string& alpha) {
+        return "ply\nformat ascii 1.0\n" + kVertexHeader + "property " + type + " red\nproperty " + type +
+               " green\nproperty " + type + " blue\nproperty " + type + " alpha\n" + kFaceHeader +
+               "end_header\n0 0 0 1 0 0 " + alpha + "\n1 0 0 " + colour + " " + alpha + "\n0 1 0 1 1 1 " + alpha +
+               "\n3 0 1 2\n";
+    };
+    for (const std::string type : {"uchar", "char", "ushort", "int", "uint"}) {
+        EXPECT_EQ(refused_ply(coloured(type, "0.5 0.5 0.5", "1")).substr(0, 12), "test.ply:15:") << type;
+        EXPECT_EQ(refused_ply(coloured(type, "9 9 nan", "1")).substr(0, 12), "test.ply:15:") << type;
+        EXPECT_EQ(refused_ply(coloured(type, "9 9 9", "0.5")), "") << type;
+        EXPECT_EQ(refused_ply(coloured(type, "9 9 9", "nan")), "") << type;
+    }
+    EXPECT_NE(refused_ply(coloured("uchar", "0.5 1 1", "1")).find("'0.5' stands where a whole number should"),
+              std::string::npos);
+    EXPECT_EQ(refused_ply(coloured("float", "0.5 0.5 0.5", "nan")), "");
+    EXPECT_EQ(import_ply(coloured("uchar", "255.0 1 2", "1"))->mesh.colours.at(1), (Rgb{255, 1, 2}));
+}
+
 TEST(PlyImport, RefusesTriangleStripsRatherThanLosingThem) {
     const std::string message = refused_ply(
         "ply\nformat ascii 1.0\n" + kVertexHeader +

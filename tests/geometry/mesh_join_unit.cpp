@@ -137,7 +137,70 @@ void expect_closed_within_its_precision(const std::string& text, MeshFormat form
     EXPECT_NEAR(health.signed_volume_m3, 4.18e-4, 0.05e-4) << what;
 }
 
+// A cup of 100 mm with walls of 5 mm whose rim is open, about `at` and in metres, its numbers as the format writes them
+// out.
+std::string cup_obj(const Corner& at, const char* format) {
+    constexpr int kAround = 36;
+    std::string text, faces;
+    const auto ring = [&](double radius, double height) {
+        for (int i = 0; i < kAround; ++i) {
+            const double around = 2.0 * std::numbers::pi * i / kAround;
+            text += "v" +
+                    text_of({at[0] + radius * std::cos(around), at[1] + radius * std::sin(around), at[2] + height},
+                            format) +
+                    "\n";
+        }
+    };
+    ring(0.05, 0.0), ring(0.05, 0.1), ring(0.045, 0.1), ring(0.045, 0.005);
+    for (int i = 0; i < kAround; ++i) {
+        const int a = i + 1, b = (i + 1) % kAround + 1, inside = 2 * kAround;
+        faces += formatted("f %d %d %d %d\n", a, b, b + kAround, a + kAround);
+        faces += formatted("f %d %d %d %d\n", a + inside, b + inside, b + inside + kAround, a + inside + kAround);
+        if (i > 0 && i + 1 < kAround) {
+            faces += formatted("f 1 %d %d\n", b, a);
+            faces += formatted("f %d %d %d\n", 3 * kAround + 1, a + 3 * kAround, b + 3 * kAround);
+        }
+    }
+    return text + faces;
+}
+
 }  // namespace
+
+TEST(JoinOpenEdges, LeavesTheOpenRimOfACupAsItIsHoweverFarItStandsFromTheOrigin) {
+    for (const char* format : {"%.3f", "%.4f", "%.7g", "%.9g", "%.17g"}) {
+        for (const Corner& at : {Corner{500, 800, 10}, Corner{0, 0, 0}, Corner{-90, 5, 999.95}}) {
+            auto read = import_text(cup_obj(at, format), MeshFormat::obj, LengthUnit::m);
+            ASSERT_TRUE(read) << read.error().line();
+            weld_vertices(read->mesh);
+            EXPECT_LT(read->report.weld_tolerance_m, 2e-3) << format << ": walls are 5 mm";
+            EXPECT_EQ(join_open_edges(read->mesh, read->report.weld_tolerance_m).vertices_joined, 0u) << format;
+            EXPECT_FALSE(examine(read->mesh).closed) << format;
+            EXPECT_EQ(tolerance_that_closes_m(read->mesh), std::nullopt) << format;
+        }
+    }
+}
+
+TEST(JoinOpenEdges, TheToleranceOfAFileIsAPlaceOrTwoOfWhatIsWritten) {
+    const auto tolerance = [](const std::string& x) {
+        const auto read = import_text("v " + x + " 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n", MeshFormat::obj, LengthUnit::m);
+        return read ? read->report.weld_tolerance_m : -1.0;
+    };
+    EXPECT_NEAR(tolerance("800.000"), 1.75e-3, 1e-9);
+    EXPECT_NEAR(tolerance("-999.999"), 1.75e-3, 1e-9);
+    EXPECT_NEAR(tolerance("8.00000e+02"), 1.75e-3, 1e-9);
+    EXPECT_NEAR(tolerance("1.0000000"), 3.5 * 0x1p-23, 1e-15) << "a float holds no more";
+    EXPECT_NEAR(tolerance("800.12345678901"), 512 * 0x1p-43, 1e-17);
+    EXPECT_EQ(tolerance("800"), 0.0);
+}
+
+TEST(JoinOpenEdges, SaysNoToleranceThatPressesWallsTogether) {
+    TriangleMesh sheets;  // 1 m wide, 0.5 mm apart
+    for (const double z : {0.0, 5e-4}) {
+        for (const double y : {0.0, 1.0}) sheets.positions_m.insert(sheets.positions_m.end(), {{0, y, z}, {1, y, z}});
+    }
+    sheets.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}};
+    EXPECT_EQ(tolerance_that_closes_m(sheets), std::nullopt);
+}
 
 TEST(JoinOpenEdges, ClosesASphereWhoseCornersWereRoundedInTwoWaysInEveryFormat) {
     const auto floats = rounded_apart(in_floats), doubles = rounded_apart(in_doubles),

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/files/mesh_export.hpp"
+#include "geometry/files/unit_statement.hpp"
 #include "tests/geometry/mesh_samples.hpp"
 
 namespace burin::geometry::test {

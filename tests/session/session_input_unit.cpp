@@ -223,8 +223,10 @@ TEST(InputLog, NamesFileLineAndRemedyOfEveryMistake) {
     expect("1 resize -1 4", "no whole number");
     expect("1 resize 70000 4", "out of its range");
     expect("1 resize 99999999999999999999 4", "no whole number");
-    expect("1 head 0 0 0 0 0 0 2", "its quaternion, of length 2, is out of its range");
-    expect("1 wand 0 0 0 0 0 0.7 0 0.7", "its quaternion, of length 0.99, is out of its range");  // 0.98995
+    expect("1 head 0 0 0 0 0 0 2", "its quaternion, of length 2, is out of its range: 0.99 to 1.01");
+    expect("1 head 0 0 0 0 0 0 1.0101", "of length 1.0101, is out of its range: 0.99 to 1.01, which is brought to 1");
+    expect("1 head 0 0 0 0 0 0 0.98999999", "of length 0.98999999, is out of its range");
+    expect("1 wand 0 0 0 0 0 0.7 0 0.7", "its quaternion, of length 0.989949493661, is out of its range");
     expect("1 head 0 0 0 0 0 0 0", "its quaternion, of length 0, is out of its range");
     expect("1 head 0 0 0 0 0 0 1 found", "the nearest is 'lost'");
     expect("1 wand 9 0 0 0 0 0 0 1", "out of its range");
