@@ -35,6 +35,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   # tests/base/space_unit.cpp shows it.
   target_compile_options(burin_options INTERFACE -fno-tree-slp-vectorize)
 endif()
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  # libstdc++ 12 asks for std::get_temporary_buffer itself, within std::stable_sort.
+  target_compile_options(burin_options INTERFACE -Wno-deprecated-declarations)
+endif()
 if(BURIN_WARNINGS_ARE_ERRORS)
   target_compile_options(burin_options INTERFACE -Werror)
 endif()

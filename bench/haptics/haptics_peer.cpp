@@ -10,7 +10,7 @@
 namespace burin::bench {
 namespace {
 
-constexpr Nanoseconds kPeriod_ns = 1'000'000;
+constexpr Nanoseconds kPeerPeriod_ns = 1'000'000;
 constexpr Nanoseconds kSleep_ns = 200'000;  // of the thread before a cold tick
 
 // Whatever moves a proxy after the hand.
@@ -34,7 +34,7 @@ public:
             channels_->parameters.draft() = parameters_;
             channels_->parameters.publish();
         }
-        clock_.sleep_until(clock_.now_ns() + kPeriod_ns);
+        clock_.sleep_until(clock_.now_ns() + kPeerPeriod_ns);
         if (ticks_++ % TouchRun::kTicksAnUpdate == 0) {
             fill(channels_->surface.draft(), scene_, ticks_, clock_.now_ns());
             channels_->surface.publish();

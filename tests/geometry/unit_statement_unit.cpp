@@ -17,7 +17,7 @@ void expect_unit(std::string_view comment, std::optional<LengthUnit> unit) {
     EXPECT_EQ(unit_in_comment(comment), unit) << comment;
 }
 
-const std::string kTriangle = "v 0 0 0\nv 50 0 0\nv 0 40 0\nf 1 2 3\n";
+const std::string kStatedTriangle = "v 0 0 0\nv 50 0 0\nv 0 40 0\nf 1 2 3\n";
 
 }  // namespace
 
@@ -90,7 +90,7 @@ TEST(UnitStatement, TakesNoneFromAWordThatTheEndOfAFullHeaderCutsOff) {
 TEST(UnitStatement, TakesNoneFromALineThatTheLimitOfCommentsCutsOff) {
     const std::string statement = "# units mm\n";
     for (std::size_t inside = 0; inside <= statement.size() + 1; ++inside) {
-        const std::string text = "#" + std::string(8190 - inside, '-') + "\n" + statement + kTriangle;
+        const std::string text = "#" + std::string(8190 - inside, '-') + "\n" + statement + kStatedTriangle;
         const auto unit = unit_in_comments(text);
         // The statement begins `inside` bytes before the limit; a line is whole with its end.
         EXPECT_EQ(unit.has_value(), inside >= statement.size() - 1) << inside;

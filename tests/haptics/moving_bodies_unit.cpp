@@ -11,7 +11,7 @@
 namespace burin::haptics {
 namespace {
 
-constexpr double kRadius_m = 0.004, kStiffness_N_per_m = 600.0, kDamping_Ns_per_m = 0.5;
+constexpr double kBodysRadius_m = 0.004, kStiffness_N_per_m = 600.0, kDamping_Ns_per_m = 0.5;
 
 // Up and down between two heights at one speed, turning only when it is published.
 struct Zigzag {
@@ -45,7 +45,7 @@ Pressed press(double speed_m_per_s, bool announced, bool at_random = false) {
     bodies.motions = {
         test::along_y([way](double t) { return way.height_m(t); }, [way](double t) { return way.speed(t); })};
     // Touched from 1 to 4 mm deep.
-    const Vec3 hand(0.0, kRadius_m - 0.001, 0.0);
+    const Vec3 hand(0.0, kBodysRadius_m - 0.001, 0.0);
     Pressed felt;
     std::mt19937 random(1);
     constexpr int kTicks = 1200, kFrom = 500;
@@ -112,7 +112,7 @@ TEST(MovingBodies, AFallingBodyThatHitsAHandAtRestIsFeltAtOnceWithoutARamp) {
         for (int i = 0; i < 5000 && !felt; ++i) {
             const double t = bodies.time_s();
             const TickRecord record = bodies.tick(hand);
-            const double depth_m = -0.5 + speed * t + kRadius_m;
+            const double depth_m = -0.5 + speed * t + kBodysRadius_m;
             ASSERT_EQ(record.in_contact(), depth_m > 1e-5) << speed << ' ' << depth_m;
             if (!record.in_contact()) continue;
             EXPECT_EQ(record.flags & kTickRamping, 0u);
@@ -136,7 +136,7 @@ TEST(MovingBodies, AProxyThatSticksIsCarriedSidewaysAndOneThatSlidesRubsByTheRel
         motion.velocity_object_m_per_s.x = speed;
         return motion;
     }};
-    const auto hand_at = [&](double x) { return Vec3(x, kRadius_m - 0.002, 0.0); };
+    const auto hand_at = [&](double x) { return Vec3(x, kBodysRadius_m - 0.002, 0.0); };
     // The hand goes along with the plate: it sticks, and nothing drags.
     for (int i = 0; i < 600; ++i) {
         const TickRecord record = bodies.tick(hand_at(speed * bodies.time_s()));
@@ -170,7 +170,7 @@ TEST(MovingBodies, ADrumThatTurnsDragsTheHandRound) {
             motion.angular_velocity_object_rad_per_s.z = speed;
             return motion;
         }};
-        const Vec3 hand(0.0, 0.05 + kRadius_m - 0.002, 0.0);
+        const Vec3 hand(0.0, 0.05 + kBodysRadius_m - 0.002, 0.0);
         double least = HUGE_VAL, most = -HUGE_VAL;
         for (int i = 0; i < 1500; ++i) {
             const TickRecord record = bodies.tick(hand);
@@ -195,7 +195,7 @@ TEST(MovingBodies, WhatIsSetElsewhereOrRaisedByAnEditFadesInAndWhatRetreatsDoesN
             test::along_y([rise_m](double t) { return t < 0.5 ? 0.0 : rise_m; }, [](double) { return 0.0; })};
         bool fades = false;
         double steepest_N = 0.0, last_N = 0.0;
-        const Vec3 hand(0.0, kRadius_m - 0.004, 0.0);
+        const Vec3 hand(0.0, kBodysRadius_m - 0.004, 0.0);
         for (int i = 0; i < 520; ++i) {
             const TickRecord record = bodies.tick(hand);
             const double force_N = record.gate.given.force_device_N.y;
@@ -212,7 +212,7 @@ TEST(MovingBodies, WhatIsSetElsewhereOrRaisedByAnEditFadesInAndWhatRetreatsDoesN
     for (const double rise_m : {0.0003, 0.003}) {
         test::Bodies bodies;
         bodies.surface = test::around({{test::plate(0.05, 0.1), 0}});
-        const Vec3 hand(0.0, kRadius_m - 0.001, 0.0);
+        const Vec3 hand(0.0, kBodysRadius_m - 0.001, 0.0);
         for (int i = 0; i < 500; ++i) (void)bodies.tick(hand);
         auto raised = test::snapshot_of(test::box({-0.05, -0.1, -0.05}, {0.05, rise_m, 0.05}, 4));
         bodies.surface.meshes[0].snapshot = raised;
@@ -232,7 +232,7 @@ std::vector<double> pressed_behind(const std::vector<geometry::TouchedMesh>& oth
         test::along_y([way](double t) { return way.height_m(t); }, [way](double t) { return way.speed(t); }));
     std::vector<double> forces_N;
     for (int i = 0; i < 800; ++i)
-        forces_N.push_back(bodies.tick({0.0, kRadius_m - 0.001, 0.0}).gate.given.force_device_N.y);
+        forces_N.push_back(bodies.tick({0.0, kBodysRadius_m - 0.001, 0.0}).gate.given.force_device_N.y);
     return forces_N;
 }
 
@@ -260,7 +260,7 @@ TEST(MovingBodies, ABodyStandsWhenItIsNoLongerPublished) {
     bodies.motions = {test::along_y([](double t) { return -0.1 + t; }, [](double) { return 1.0; })};
     TickRecord record;
     for (int i = 0; i < 200; ++i) record = bodies.tick({0.0, -0.047, 0.0});
-    EXPECT_NEAR(record.deepest().proxy_object_m.y, -0.05 + kRadius_m, 1e-4);
+    EXPECT_NEAR(record.deepest().proxy_object_m.y, -0.05 + kBodysRadius_m, 1e-4);
     EXPECT_EQ(record.contact.surface_velocity_device_m_per_s, Vec3(0.0));
     EXPECT_EQ(record.gate.cause, GateCause::stale_surface);
 }
