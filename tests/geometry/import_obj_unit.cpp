@@ -10,7 +10,7 @@
 namespace burin::geometry::test {
 namespace {
 
-using Triangle = std::array<std::uint32_t, 3>;
+using Corners3 = std::array<std::uint32_t, 3>;
 using Rgb = std::array<std::uint8_t, 3>;
 
 constexpr std::string_view kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
@@ -21,7 +21,7 @@ std::string refused_obj(const std::string& text) { return refusal(text, MeshForm
 TEST(ObjImport, ReadsPositiveNegativeAndForwardIndices) {
     const auto result = import_obj("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3//-1 -2/7 -1/2/5\nv 0 0 1\nf 4 -4 1\n");
     ASSERT_TRUE(result) << result.error().line();
-    EXPECT_EQ(result->mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 1, 2}, {3, 0, 0}}));
+    EXPECT_EQ(result->mesh.triangles, (std::vector<Corners3>{{0, 1, 2}, {0, 1, 2}, {3, 0, 0}}));
 }
 
 TEST(ObjImport, ReadsCommentsCarriageReturnsJoinedLinesAndOddCase) {
@@ -29,7 +29,7 @@ TEST(ObjImport, ReadsCommentsCarriageReturnsJoinedLinesAndOddCase) {
         "# a cube it is not\r\nV 0 0 0 # the origin\r\nv 1 \\\r\n 0 0\r\n\r\n\tv 0 1 0\r\nvn 0 0 1\r\ng part\r\nF 1 2 "
         "\\\n 3");
     ASSERT_TRUE(result) << result.error().line();
-    EXPECT_EQ(result->mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
+    EXPECT_EQ(result->mesh.triangles, (std::vector<Corners3>{{0, 1, 2}}));
     EXPECT_EQ(result->mesh.positions_m[1], Vec3(1, 0, 0));
     EXPECT_TRUE(result->report.remarks.empty());
 }

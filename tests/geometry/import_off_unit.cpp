@@ -7,7 +7,7 @@
 namespace burin::geometry::test {
 namespace {
 
-using Triangle = std::array<std::uint32_t, 3>;
+using Corners3 = std::array<std::uint32_t, 3>;
 using Rgb = std::array<std::uint8_t, 3>;
 
 Result<ImportedMesh> import_off(std::string_view text) { return import_text(text, MeshFormat::off); }
@@ -20,7 +20,7 @@ TEST(OffImport, ReadsCommentsCarriageReturnsAndFacesOfAnySize) {
         "off # a kite\r\n# and an edge\r\n4 3 0\r\n0 0 0 1 0 0\r\n1 1 0 # three\r\n0 1 0\r\n3 0 1 2\r\n4 0 1 2 3\r\n2 "
         "0 1");
     ASSERT_TRUE(result) << result.error().line();
-    EXPECT_EQ(result->mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 1, 2}, {0, 2, 3}}));
+    EXPECT_EQ(result->mesh.triangles, (std::vector<Corners3>{{0, 1, 2}, {0, 1, 2}, {0, 2, 3}}));
     EXPECT_EQ(result->report.faces_without_area, 1u);
 }
 

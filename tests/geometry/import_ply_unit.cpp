@@ -10,7 +10,7 @@
 namespace burin::geometry::test {
 namespace {
 
-using Triangle = std::array<std::uint32_t, 3>;
+using Corners3 = std::array<std::uint32_t, 3>;
 using Rgb = std::array<std::uint8_t, 3>;
 
 Result<ImportedMesh> import_ply(std::string_view text) { return import_text(text, MeshFormat::ply); }
@@ -215,7 +215,7 @@ TEST(PlyImport, CountsFacesOfFewerThanThreeCorners) {
         "element face 3\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n0\n3 0 1 2\n");
     ASSERT_TRUE(result) << result.error().line();
     EXPECT_EQ(result->report.faces_without_area, 2u);
-    EXPECT_EQ(result->mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
+    EXPECT_EQ(result->mesh.triangles, (std::vector<Corners3>{{0, 1, 2}}));
     EXPECT_EQ(result->report.remarks.size(), 1u);
 }
 
