@@ -11,7 +11,7 @@ namespace burin::compute::test {
 namespace {
 
 using shared::DexelEnd;
-using RayEnds = std::vector<std::vector<DexelEnd>>;
+using EndsOfRays = std::vector<std::vector<DexelEnd>>;
 
 std::vector<DexelEnd> random_ends(Random& random, int most) {
     std::vector<DexelEnd> ends(static_cast<std::size_t>(2 * random.small(0, most / 2)));
@@ -19,7 +19,7 @@ std::vector<DexelEnd> random_ends(Random& random, int most) {
     return ends;
 }
 
-void assign(DexelSet& set, const RayEnds& rays) {
+void assign(DexelSet& set, const EndsOfRays& rays) {
     std::vector<std::uint32_t> counts;
     std::vector<DexelEnd> all;
     for (const auto& ends : rays) {
@@ -29,7 +29,7 @@ void assign(DexelSet& set, const RayEnds& rays) {
     set.assign(counts, all);
 }
 
-bool holds(const DexelSet& set, const RayEnds& rays) {
+bool holds(const DexelSet& set, const EndsOfRays& rays) {
     for (std::size_t r = 0; r < rays.size(); ++r) {
         if (!std::ranges::equal(set.ends(r), rays[r], [](const DexelEnd& a, const DexelEnd& b) {
                 return a.depth_material == b.depth_material && a.normal == b.normal;
@@ -58,7 +58,7 @@ TEST(DexelSet, KeepsContentsThroughReplacingAndGrowing) {
     Random random(1);
     for (int i = 0; i < repeated(50); ++i) {
         const int width = random.small(1, 200), rows = random.small(1, 4);
-        RayEnds rays(static_cast<std::size_t>(width * rows));
+        EndsOfRays rays(static_cast<std::size_t>(width * rows));
         for (auto& ends : rays) ends = random_ends(random, random.chance(0.3) ? 0 : 6);
         DexelSet set(width, rows);
         assign(set, rays);
@@ -84,7 +84,7 @@ TEST(DexelSet, KeepsContentsThroughReplacingAndGrowing) {
 TEST(DexelSet, SplicesAsAVectorDoes) {
     Random random(2);
     DexelSet set = row_of(100);
-    RayEnds rays(100);
+    EndsOfRays rays(100);
     for (int k = 0; k < repeated(20000); ++k) {
         const int u = random.small(0, 99);
         auto& ray = rays[static_cast<std::size_t>(u)];
