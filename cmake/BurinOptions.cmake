@@ -10,7 +10,7 @@ option(BURIN_WITH_PEERS
   "Build the benchmarks' peers: OpenVDB, CGAL, OpenSceneGraph and VTK (scripts/setup --peers)" OFF)
 option(BURIN_BUILD_FUZZERS "Build the libFuzzer targets (needs clang)" OFF)
 option(BURIN_WARNINGS_ARE_ERRORS "Stop the build at a warning" OFF)
-set(BURIN_TESTS_OPTIMISED_BY "" CACHE STRING "A compile option of the tests alone, such as -O1: they are compiled faster")
+set(BURIN_TESTS_OPTIMISED_BY "" CACHE STRING "A compile option of the tests alone, such as -O1 for a faster build")
 option(BURIN_COVERAGE "Instrument for gcov" OFF)
 set(BURIN_SANITIZE "" CACHE STRING "Sanitizers, as -fsanitize= takes them: address,undefined or thread")
 set(BURIN_SANITIZE_WITHOUT "" CACHE STRING "Checks of these sanitizers that are left out, as -fno-sanitize= takes them")
