@@ -91,7 +91,7 @@ std::string first_line_of(const std::string& file) {
 
 }  // namespace
 
-// As docs/formats.md has a world, with the names and numbers of study/felt/felt_world.hpp.
+// Writes a world file (docs/formats.md), with the names and numbers of study/felt/felt_world.hpp.
 Result<std::string> write_study_world(const study::FeltWorld& world, const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);

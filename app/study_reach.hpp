@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What of a protocol's worlds the wand cannot do, told before anybody sits down.
+// Tells which places of a protocol's worlds the wand cannot reach, before anybody sits down.
 #pragma once
 
 #include <string>

@@ -42,7 +42,7 @@ devices::HandGrip limp_grip() {
     return grip;
 }
 
-// Whether a trial has stood still: nothing has happened for longer than an attempt takes.
+// Returns whether a trial stands still: nothing has happened for longer than an attempt takes.
 bool waits_too_long(const study::Stage& stage, const study::StageSession& session) {
     if (stage.kind != study::StageKind::trial) return false;
     const double last_s = session.events().empty() ? 0.0 : session.events().back().time_s;

@@ -39,7 +39,7 @@ Result<void> enrol_learners(study::StudyFolder& study) {
     return {};
 }
 
-// Of learners whose stage was interrupted longer ago than the protocol allows; persons are not asked about.
+// Checks learners whose stage was interrupted longer ago than the protocol allows; persons are not asked about.
 Result<void> check_resumptions(study::StudyFolder& study, bool resumes_late) {
     const std::int64_t now_ns = study::now_utc_ns();
     for (const study::Participant& person : study.participants()) {

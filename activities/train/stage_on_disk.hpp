@@ -12,7 +12,7 @@
 
 namespace burin::activities {
 
-// What of the protocol's calendar a visit need not keep.
+// Leaves that an operator gives a visit to depart from the protocol's calendar.
 struct VisitLeave {
     bool resumes_late = false;  // begins a stage anew whose interruption is longer ago than resume_within_min
     bool any_delay = false;     // begins a day too early or too late after the day before

@@ -19,7 +19,7 @@ Result<MeshSoup> read(std::span<const std::byte> bytes, MeshFormat format, const
     return format == MeshFormat::obj ? read_obj(*text, name, material_files) : read_off(*text, name);
 }
 
-// What a file's content looks like, whatever its name says.
+// Holds the format that a file's content looks like, whatever its name says.
 struct Likeness {
     MeshFormat format;
     const char *what, *extension;

@@ -139,7 +139,7 @@ std::optional<double> take_number(std::string_view& text) {
     return number;
 }
 
-// How many units a statement is about, as it stands before the word: the 1000 of "1000 drawing units".
+// Holds how many units a statement is about, as it stands before the word: the 1000 of "1000 drawing units".
 struct Count {
     double number = 1.0;
     bool is_told = false;       // a number stands there
@@ -236,7 +236,7 @@ bool goes_on(std::string_view behind, LengthUnit unit) {
 
 // ---- Statements
 
-// What stands behind the word "unit".
+// Holds the words that stand behind the word "unit".
 struct Value {
     bool is_assigned = false;  // behind = or :
     bool has_equals = false;   // or behind "is", "are", "equals"
