@@ -5,9 +5,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
+#include <memory>
 #include <optional>
 
-#include "activities/seek/seek.hpp"
+#include "activities/registry.hpp"
 #include "app/recorded_device.hpp"
 #include "app/world_digest.hpp"
 #include "record/record_writer.hpp"
@@ -138,18 +139,15 @@ Result<void> check_files(const record::RecordReader& reader, const session::Scul
                                digest_of(wand_file_of(device)), sets);
 }
 
-// Makes the activity of a recorded session anew; null where it had none.
-Result<std::shared_ptr<session::Activity>> activity_as_recorded(const std::string& settings_line,
-                                                                const std::string& file) {
+// Makes the activity of a recorded session anew; none where it had none.
+Result<activities::MadeActivity> activity_of(const record::RecordReader& reader, const std::string& settings_line) {
     const Result<std::string> settings = session::activity_on(settings_line);
     if (!settings) return std::unexpected(settings.error());
-    if (settings->empty()) return nullptr;
-    if (settings->starts_with("study "))
-        return fail(file, "is of a participant in a study, whose stages are not in it",
-                    "replay them with burin study replay STUDY; the study's folder has their recordings");
-    const Result<activities::SeekOptions> seek = activities::seek_options_of(*settings);
-    if (!seek) return std::unexpected(seek.error());
-    return std::make_shared<activities::Seek>(*seek);
+    auto made = activities::activity_as_recorded(
+        *settings, [&](const std::string& name) { return fact_of(reader, name.c_str()); });
+    if (!made && made.error().where == "the recording")
+        return fail(reader.path(), made.error().what, made.error().remedy);
+    return made;
 }
 
 }  // namespace
@@ -195,9 +193,10 @@ Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay&
     session::SculptOptions options;
     options.live.input = reader.path();
     options.live.offscreen = true;
-    auto activity = activity_as_recorded(log->settings, reader.path());
-    if (!activity) return std::unexpected(activity.error());
-    options.activity = std::move(*activity);
+    auto made = activity_of(reader, log->settings);
+    if (!made) return std::unexpected(made.error());
+    options.activity = std::move(made->activity);
+    options.scene = std::move(made->scene);
     const auto first = session::options_as_recorded(log->settings, options);
     if (!first) return std::unexpected(first.error());
     Result<std::string> changed = with_changes(log->settings, how, options);

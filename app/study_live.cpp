@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "activities/train/recorded_visit.hpp"
 #include "activities/train/stage_on_disk.hpp"
 #include "activities/train/study_activity.hpp"
 #include "app/output_files.hpp"
@@ -23,21 +24,14 @@ namespace fs = std::filesystem;
 
 constexpr double kSamePoint_m = 1e-6;
 
-std::string obj_text(const geometry::TriangleMesh& mesh) {
-    std::string text = "# unit: metre\n";
-    for (const Vec3& p : mesh.positions_m) text += formatted("v %.9g %.9g %.9g\n", p.x, p.y, p.z);
-    for (const auto& t : mesh.triangles) text += formatted("f %u %u %u\n", t[0] + 1, t[1] + 1, t[2] + 1);
-    return text;
-}
-
 // The wand with its points where the protocol has them.
-Result<std::string> write_wand(const study::Protocol& protocol, const fs::path& folder) {
+Result<std::string> write_wand(const study::Protocol& protocol, const fs::path& study) {
     std::string text = "name = \"simulated wand\"\n";
     text += formatted("\n[calibration]\ntolerance = %.9g\n", protocol.calibration_tolerance_m);
     for (const devices::WandPoint& point : study::study_wand(protocol).points)
         text += formatted("\n[[point]]\nname = \"%s\"\noffset = [%.9g, %.9g, %.9g]\n", point.name.c_str(),
                           point.offset_m.x, point.offset_m.y, point.offset_m.z);
-    const std::string file = (folder / "wand.toml").string();
+    const std::string file = (study / "wand.toml").string();
     if (const auto ok = write_text(file, text); !ok) return std::unexpected(ok.error());
     return file;
 }
@@ -66,19 +60,6 @@ Result<std::optional<devices::WandDescription>> wand_of(const std::string& devic
     return *wand;
 }
 
-// The world of all stages that have one.
-Result<std::string> world_of(const std::vector<study::StagePlace>& places, const study::Protocol& protocol) {
-    std::string name;
-    for (const study::StagePlace& at : places) {
-        if (at.stage->world.empty() || at.stage->world == name) continue;
-        if (!name.empty())
-            return fail(at.stage->name, "is in another world than the stage before",
-                        "a live session has one world: give the days' stages one, or run by a script");
-        name = at.stage->world;
-    }
-    return name.empty() ? protocol.worlds.front().name : name;
-}
-
 // Empty where there is no file: a pipe would be waited for.
 std::string first_line_of(const std::string& file) {
     std::error_code ignored;
@@ -91,30 +72,6 @@ std::string first_line_of(const std::string& file) {
 
 }  // namespace
 
-// Writes a world file (docs/formats.md), with the names and numbers of study/felt/felt_world.hpp.
-Result<std::string> write_study_world(const study::FeltWorld& world, const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) return fail(folder.string(), "cannot be made: " + error.message(), "see to its permissions");
-    std::string text = "name = \"" + world.world().name + "\"\n";
-    for (const scene::ObjectId id : world.objects()) {
-        const scene::SceneObject& object = world.part().object(id);
-        const std::string mesh = formatted("object-%u.obj", static_cast<unsigned>(id));
-        if (const auto ok = write_text((folder / mesh).string(), obj_text(*object.mesh)); !ok)
-            return std::unexpected(ok.error());
-        text += "\n[[object]]\nname = \"" + object.name + "\"\nmesh = \"" + mesh + "\"\nmesh_units = \"m\"\n";
-        text += formatted("colour = \"#%02x%02x%02x\"\nseen = %s\nfelt = %s\n", object.colour[0], object.colour[1],
-                          object.colour[2], object.seen && id != study::kSeenTubeObject ? "true" : "false",
-                          object.felt ? "true" : "false");
-        if (object.felt)
-            text += formatted("both_sides = true\n[object.material]\nstiffness = %.9g\ndamping = %.9g\n",
-                              world.world().wall_N_per_m, world.world().wall_Ns_per_m);
-    }
-    const std::string file = (folder / "world.toml").string();
-    if (const auto ok = write_text(file, text); !ok) return std::unexpected(ok.error());
-    return file;
-}
-
 bool is_session_log(const std::string& file) { return first_line_of(file).starts_with("burin-input "); }
 
 Result<void> check_visit_input(const std::string& file) {
@@ -124,9 +81,11 @@ Result<void> check_visit_input(const std::string& file) {
         "give a written log, which begins with burin-input 1; burin study replay STUDY does recorded stages again");
 }
 
-session::SculptOptions participant_session(const session::LiveOptions& live, const std::string& world_file) {
+session::SculptOptions participant_session(const session::LiveOptions& live,
+                                           std::shared_ptr<activities::StudyActivity> activity) {
     session::SculptOptions session;
-    session.world = world_file;
+    session.scene = activity->scene();
+    session.activity = std::move(activity);
     session.no_workpiece = true;
     session.tool.shape = "ball:0.001";  // a point, as far as a session's tool can be one
     session.live = live;
@@ -147,22 +106,16 @@ Result<void> run_live_visit(study::StudyFolder& study, const StudyRunOptions& op
         return fail(options.participant, "is in a group that the protocol has not", "restore the journal from a copy");
     const auto worlds = activities::felt_worlds(study.protocol());
     if (!worlds) return std::unexpected(worlds.error());
-    const auto world = world_of(places, study.protocol());
-    if (!world) return std::unexpected(world.error());
-    const auto file = write_study_world(*worlds->at(*world), study.path() / "worlds" / *world);
-    if (!file) return std::unexpected(file.error());
-
-    session::SculptOptions session = participant_session(options.live, *file);
-    if (session.live.device == devices::kDefaultHapticDevice || session.live.device == devices::kSimulatedWand) {
-        const auto described = write_wand(study.protocol(), study.path() / "worlds" / *world);
+    session::LiveOptions live = options.live;
+    if (live.device == devices::kDefaultHapticDevice || live.device == devices::kSimulatedWand) {
+        const auto described = write_wand(study.protocol(), study.path());
         if (!described) return std::unexpected(described.error());
-        session.live.device = std::string(devices::kSimulatedWand) + ":" + *described;
+        live.device = std::string(devices::kSimulatedWand) + ":" + *described;
     }
-    const auto wand = wand_of(session.live.device, study.protocol());
+    const auto wand = wand_of(live.device, study.protocol());
     if (!wand) return std::unexpected(wand.error());
     const bool is_wand = wand->has_value();
-    if (is_wand) session.points = devices::usual_points(**wand);
-    const std::string device = is_wand ? "simulated wand" : session.live.device;
+    const std::string device = is_wand ? "simulated wand" : live.device;
     if (const auto ok = activities::begin_visit(study, options.participant, device, *plan); !ok) return ok;
     activities::StageOnDisk disk(study, options.participant, *group,
                                  options.without_motion ? activities::StageOnDisk::Motion::none
@@ -172,13 +125,13 @@ Result<void> run_live_visit(study::StudyFolder& study, const StudyRunOptions& op
         [&](const activities::TrainingRun::Ticked& ticked) { disk.take(ticked); },
         [&](const std::vector<activities::RunEvent>& events) { return disk.take(events); },
         [&](const activities::EndedStage& ended) { return disk.end(ended); }, [&] { return disk.close(); }};
-    const std::string settings =
-        formatted("study run %s group %s day %zu stage %zu", study.facts().protocol_digest.substr(0, 12).c_str(),
-                  group->code.c_str(), places.front().day, places.front().place);
     const auto activity = std::make_shared<activities::StudyActivity>(
-        study.protocol(), *group, *worlds, places, settings,
-        activities::StudyDevice{*wand, options.participant}, keeper);
-    session.activity = activity;
+        study.protocol(), *group, *worlds, places,
+        activities::visit_settings(study.facts().protocol_digest, *group, places),
+        activities::StudyDevice{*wand, options.participant}, keeper,
+        std::vector<std::pair<std::string, std::string>>{{activities::kProtocolTextFact, study.protocol_text()}});
+    session::SculptOptions session = participant_session(live, activity);
+    if (is_wand) session.points = devices::usual_points(**wand);
     const Result<void> done = run_recorded_session(session, "study run");
     std::printf("%zu stages ended; %zu of the day are left\n", activity->stages_ended(),
                 places.size() - activity->stages_ended());

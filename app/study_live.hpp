@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// A participant's visit in a live session: the study's world as files that a session reads, the activity, and the
-// journal that keeps its stages.
+// A participant's visit in a live session: the study's worlds as its scene, the activity, and the journal that keeps its
+// stages.
 #pragma once
 
-#include <filesystem>
+#include <memory>
 #include <string>
 
+#include "activities/train/study_activity.hpp"
 #include "app/study_command.hpp"
 #include "session/state/session_options.hpp"
-#include "study/felt/felt_world.hpp"
 #include "study/folder/study_folder.hpp"
 
 namespace burin::app {
@@ -19,13 +19,10 @@ namespace burin::app {
 // Refuses a recording as a participant's input: what it holds would be counted as theirs.
 [[nodiscard]] Result<void> check_visit_input(const std::string& file);
 
-// What a participant's session is opened with: the study's world alone, touched with points; and the operator's panel
+// What a participant's session is opened with: the study's worlds alone, touched with points; and the operator's panel
 // in a window of its own, whatever the options say, so that the participant's picture has the page and no more.
 [[nodiscard]] session::SculptOptions participant_session(const session::LiveOptions& live,
-                                                         const std::string& world_file);
-// Writes the world as a session reads it into a folder, which it makes. Returns the file's name.
-[[nodiscard]] Result<std::string> write_study_world(const study::FeltWorld& world,
-                                                    const std::filesystem::path& folder);
+                                                         std::shared_ptr<activities::StudyActivity> activity);
 
 // Opens the window, or plays the log. The folder must be open for writing.
 [[nodiscard]] Result<void> run_live_visit(study::StudyFolder& study, const StudyRunOptions& options);

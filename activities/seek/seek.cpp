@@ -61,6 +61,7 @@ Result<void> Seek::act(std::span<const std::string> words, session::ActivityOrde
 
 void Seek::give_up(session::ActivityOrders& orders) {
     now_.skipped = true;
+    if (since_ns_) orders.trials.push_back({last_ns_, "", "given up"});
     end_glow(orders);
     found_.push_back(std::exchange(now_, {}));
 }
@@ -125,6 +126,7 @@ void Seek::go_on_by(const haptics::StrokeSample& tick, const session::WorldObjec
                     session::ActivityOrders& orders) {
     if (!since_ns_) {
         since_ns_ = last_ns_ > 0 ? last_ns_ : tick.time_ns;
+        orders.trials.push_back({*since_ns_, now_.object});
         if (last_ns_ == 0) last_place_scene_ = tick.proxy_object_m;
     }
     now_.time_s = seconds(tick.time_ns - *since_ns_);
@@ -143,6 +145,7 @@ void Seek::go_on_by(const haptics::StrokeSample& tick, const session::WorldObjec
         return;
     }
     end_glow(orders);
+    orders.trials.push_back({tick.time_ns, "", "found"});
     orders.messages.push_back(formatted("found %s in %.1f s", now_.object.c_str(), now_.time_s));
     found_.push_back(now_);
     take_next(orders);

@@ -33,22 +33,17 @@ std::string joined_words(std::span<const std::string> words) {
     return text;
 }
 
-// The name of the world of all stages that have one; of a day of pages, the protocol's first.
-const std::string& world_of(const study::Protocol& protocol, const std::vector<study::StagePlace>& places) {
-    for (const study::StagePlace& at : places)
-        if (!at.stage->world.empty()) return at.stage->world;
-    return protocol.worlds.front().name;
-}
-
 }  // namespace
 
 StudyActivity::StudyActivity(const study::Protocol& protocol, const study::Group& group, const FeltWorlds& worlds,
                              std::vector<study::StagePlace> places, std::string settings, StudyDevice device,
-                             StageKeeper keeper)
+                             StageKeeper keeper, std::vector<std::pair<std::string, std::string>> facts)
     : protocol_(protocol),
       group_(group),
-      world_(*worlds.at(world_of(protocol, places))),
+      visit_(protocol, worlds, places),
+      world_(visit_.worlds().front()),
       settings_(std::move(settings)),
+      facts_(std::move(facts)),
       device_(std::move(device)),
       keeper_(std::move(keeper)),
       run_(protocol, group, worlds, std::move(places)) {
@@ -70,6 +65,8 @@ Result<void> StudyActivity::act(std::span<const std::string> words, session::Act
     run_.command(*command, now_ns_);
     if (command->says == OperatorSays::start) {
         if (keeper_.begun) tell(keeper_.begun(run_), orders);
+        trials_ = {};
+        open_world(orders);
         orders.parameters = true;
     }
     return {};
@@ -134,12 +131,44 @@ void StudyActivity::follow(const haptics::TickRecord& tick, session::ActivityOrd
     now_ns_ = tick.time_ns;
     if (run_.session() == nullptr || run_.phase() != TrainingRun::Phase::in_stage) return;
     const std::size_t known = run_.session()->events().size();
-    const study::OperatorAct act = run_.follow(tick);
-    if (keeper_.tick) keeper_.tick({&tick, act, run_.session()});
+    const haptics::TickRecord own = in_stage_world(tick);
+    const study::OperatorAct act = run_.follow(own);
+    if (keeper_.tick) keeper_.tick({&own, act, run_.session()});
+    note_trials(orders);
     place_proxies(known, orders);
     if (run_.phase() != TrainingRun::Phase::ended) return;
     show(orders);
     end_stage(orders);
+}
+
+haptics::TickRecord StudyActivity::in_stage_world(haptics::TickRecord tick) const {
+    for (std::uint32_t i = 0; i < tick.contact.point_count; ++i) {
+        std::uint32_t& object = tick.contact.points[i].object;
+        object = static_cast<std::uint32_t>(visit_.number_in(*world_, object));
+    }
+    return tick;
+}
+
+void StudyActivity::note_trials(session::ActivityOrders& orders) {
+    for (const study::TrialMark& mark : trials_.take(*run_.session()))
+        orders.trials.push_back({mark.time_ns, mark.begins ? run_.place()->stage->name : "", mark.state});
+}
+
+// Has what can be felt of the stage's world felt, and nothing of the one before felt or seen.
+void StudyActivity::open_world(session::ActivityOrders& orders) {
+    const study::FeltWorld* next = run_.world();
+    if (next == nullptr || next == world_) return;
+    for (const study::FeltWorld* world : {world_, next}) {
+        for (const scene::ObjectId id : world->objects()) {
+            const std::string& name = visit_.object(*world, id).name;
+            if (world->part().object(id).felt)
+                orders.edits.push_back({name, ObjectProperty::felt, {world == next ? 1.0 : 0.0}});
+            if (world == world_) orders.edits.push_back({name, ObjectProperty::seen, {0.0}});
+        }
+    }
+    world_ = next;
+    as_shown_.clear();
+    tube_pressed_.reset();
 }
 
 // Where the start cap was touched, as the events from `known` on tell.
@@ -156,7 +185,7 @@ void StudyActivity::show(session::ActivityOrders& orders) {
     if (keeper_.events && !shown_.events.empty()) tell(keeper_.events(shown_.events), orders);
     if (run_.world() == nullptr || shown_.objects.empty()) {
         // Pages and the time between stages show nothing of any world: who learns by touch must not see the tube.
-        std::vector<ShownObject> hidden = shown_objects(world_, study::Stage{}, group_, {});
+        std::vector<ShownObject> hidden = shown_objects(*world_, study::Stage{}, group_, {});
         for (ShownObject& one : hidden) one.seen = false;
         show(hidden, orders);
         press(false, orders);
@@ -170,8 +199,8 @@ void StudyActivity::show(session::ActivityOrders& orders) {
 void StudyActivity::press(bool pressed, session::ActivityOrders& orders) {
     if (tube_pressed_ == pressed) return;
     tube_pressed_ = pressed;
-    const study::StudyWorld& tube = world_.world();
-    const std::string& name = world_.part().object(study::kTubeObject).name;
+    const study::StudyWorld& tube = world_->world();
+    const std::string& name = visit_.object(*world_, study::kTubeObject).name;
     orders.edits.push_back({name, ObjectProperty::stiffness, {pressed ? tube.wall_N_per_m : kUnfelt_N_per_m}});
     orders.edits.push_back({name, ObjectProperty::damping, {pressed ? tube.wall_Ns_per_m : 0.0}});
 }
@@ -180,7 +209,7 @@ void StudyActivity::show(const std::vector<ShownObject>& objects, session::Activ
     for (const ShownObject& one : objects) {
         const auto before = as_shown_.find(one.id);
         if (before != as_shown_.end() && before->second == one) continue;
-        const std::string& name = world_.part().object(one.id).name;
+        const std::string& name = visit_.object(*world_, one.id).name;
         orders.edits.push_back({name, ObjectProperty::seen, {one.seen ? 1.0 : 0.0}});
         orders.edits.push_back(
             {name, ObjectProperty::colour, {one.colour[0] / 255.0, one.colour[1] / 255.0, one.colour[2] / 255.0}});

@@ -6,7 +6,9 @@
 // edits, guidance, force limit and the place of the proxies as tick parameters, and each stage's beginning, notes and
 // end to whoever keeps them. Where a frame finds that the start cap was touched, the next tick begins with both proxies
 // on the tube's axis there, as a simulated stage's next tick does.
-// The session's world must be the study's (study/felt/felt_world.hpp), under the same names and in the same frame.
+// The session's scene must be scene(): the worlds of all stages of the visit (visit_scene.hpp), of which those of the
+// stage under way are seen and felt. Where several worlds are there, each tick is followed with the numbers that the
+// stage's world gives its objects (study/felt/felt_world.hpp), as its recording has them.
 // `do jig` says that the wand stands in its jig. Where it reads farther off than the protocol allows, the stage under
 // way is paused, and nothing begins or goes on until it reads right there.
 // Frame: the scene's, which is the study world's. Thread: the frame's.
@@ -16,10 +18,13 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "activities/train/training_run.hpp"
+#include "activities/train/visit_scene.hpp"
 #include "session/state/activity.hpp"
+#include "study/felt/trial_marks.hpp"
 
 namespace burin::activities {
 
@@ -40,11 +45,15 @@ struct StudyDevice {
 
 class StudyActivity final : public session::Activity {
 public:
-    // Protocol, group and worlds must outlive it; all of the places' stages that have a world have the same.
+    // Protocol, group and worlds must outlive it. facts: what a recording needs of the protocol (recorded_visit.hpp).
     StudyActivity(const study::Protocol& protocol, const study::Group& group, const FeltWorlds& worlds,
-                  std::vector<study::StagePlace> places, std::string settings, StudyDevice device, StageKeeper keeper);
+                  std::vector<study::StagePlace> places, std::string settings, StudyDevice device, StageKeeper keeper,
+                  std::vector<std::pair<std::string, std::string>> facts = {});
 
+    // What the session is opened with.
+    [[nodiscard]] const std::shared_ptr<const scene::World>& scene() const { return visit_.scene(); }
     [[nodiscard]] std::string settings() const override { return settings_; }
+    [[nodiscard]] std::vector<std::pair<std::string, std::string>> facts() const override { return facts_; }
     [[nodiscard]] std::span<const session::Act> acts() const override;
     [[nodiscard]] Result<void> act(std::span<const std::string> words, session::ActivityOrders& orders) override;
     void step(const session::ActivityView& view, session::ActivityOrders& orders) override;
@@ -66,17 +75,23 @@ private:
     void place_proxies(std::size_t known, session::ActivityOrders& orders);
     void show(session::ActivityOrders& orders);
     void show(const std::vector<ShownObject>& objects, session::ActivityOrders& orders);
+    void open_world(session::ActivityOrders& orders);
     void press(bool pressed, session::ActivityOrders& orders);
+    void note_trials(session::ActivityOrders& orders);
+    [[nodiscard]] haptics::TickRecord in_stage_world(haptics::TickRecord tick) const;
     void end_stage(session::ActivityOrders& orders);
     void tell(const Result<void>& done, session::ActivityOrders& orders);
 
     const study::Protocol& protocol_;
     const study::Group& group_;
-    const study::FeltWorld& world_;  // the session's: all stages of the visit that have a world have this one
+    VisitScene visit_;
+    const study::FeltWorld* world_;  // whose objects can be felt
     std::string settings_;
+    std::vector<std::pair<std::string, std::string>> facts_;
     StudyDevice device_;
     StageKeeper keeper_;
     TrainingRun run_;
+    study::TrialMarks trials_;  // of the stage under way
     TrainingShown shown_;
     std::map<scene::ObjectId, ShownObject> as_shown_;
     std::optional<bool> tube_pressed_;  // as last ordered

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "session/drive/recording_start.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include "session/drive/thread_recorder.hpp"
 #include "session/state/session_settings.hpp"
 
@@ -28,6 +31,7 @@ Result<InputLogWriter> create_recording(const SculptOptions& options, const Sess
     of.clock = clock_of(session);
     of.settings = settings;
     of.facts = facts;
+    if (options.activity) std::ranges::move(options.activity->facts(), std::back_inserter(of.facts));
     of.facts.emplace_back(kDeviceFact, options.live.device);
     of.objects = touchable_in(session);
     Result<std::shared_ptr<SessionRecording>> recording = SessionRecording::create(options.live.record, std::move(of));

@@ -59,7 +59,7 @@ Result<void> check_for_a_session(const SculptOptions& options) {
 Result<void> check(const SculptOptions& options) {
     if (const auto tool = sculpt::parse_tool(options.tool); !tool) return std::unexpected(tool.error());
     if (const auto feel = sculpt::parse_feel(options.feel); !feel) return std::unexpected(feel.error());
-    if (options.no_workpiece && options.world.empty())
+    if (options.no_workpiece && options.world.empty() && !options.scene)
         return fail("--no-workpiece", "leaves nothing, since there is no world", "name one: burin world FILE");
     std::error_code ignored;
     if (!options.world.empty() && !std::filesystem::is_regular_file(options.world, ignored))

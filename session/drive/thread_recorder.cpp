@@ -61,6 +61,7 @@ void ThreadRecorder::outside() {
 
 void ThreadRecorder::frame(std::uint64_t tick, const std::vector<scene::SceneUpdate>& updates,
                            const std::vector<wall::OutputPlace>& places) {
+    write_trials();
     if (!input_.records()) return;
     if (!file_) write_ticks();  // a tick is in the ring before its tool is published
     write_updates(updates);
@@ -82,6 +83,7 @@ void ThreadRecorder::frame(std::uint64_t tick, const std::vector<scene::SceneUpd
 
 void ThreadRecorder::finish(const std::vector<scene::SceneUpdate>& updates) {
     outside();
+    write_trials();
     if (recording_) {
         if (file_) {
             file_->take_ticks();
@@ -95,6 +97,12 @@ void ThreadRecorder::finish(const std::vector<scene::SceneUpdate>& updates) {
     if (!file_) return;
     // Its ticks go on where its log has ended.
     if (const auto closed = file_->close(); !closed && recording_) session_.notify_of_loss(closed.error().line());
+}
+
+// A text log has no table of them.
+void ThreadRecorder::write_trials() {
+    for (const TrialMark& mark : session_.take_trials())
+        if (file_) file_->trial(mark);
 }
 
 void ThreadRecorder::write_ticks() {

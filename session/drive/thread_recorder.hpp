@@ -41,6 +41,7 @@ public:
     void finish(const std::vector<scene::SceneUpdate>& updates);
 
 private:
+    void write_trials();
     void write_ticks();
     void write_ticks(const std::vector<TickSeen>& ticks);
     void write_updates(const std::vector<scene::SceneUpdate>& updates);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "session/live/activity_side.hpp"
 
+#include <algorithm>
+
 namespace burin::session {
 
 void ActivitySide::step(SessionState& state, SessionOrders& orders, Nanoseconds time_ns,
@@ -14,14 +16,15 @@ void ActivitySide::step(SessionState& state, SessionOrders& orders, Nanoseconds 
     if (!activity_) return;
     activity_->step({time_ns, ticks_, tool, state.world.get()}, wanted);
     ticks_.clear();
-    carry_out(wanted, state, orders);
+    carry_out(std::move(wanted), state, orders);
 }
 
-void ActivitySide::carry_out(const ActivityOrders& wanted, SessionState& state, SessionOrders& orders) const {
+void ActivitySide::carry_out(ActivityOrders wanted, SessionState& state, SessionOrders& orders) {
     for (const EditObject& edit : wanted.edits)
         if (const auto done = run_command(state, orders, edit); !done) orders.messages.push_back({done.error().line()});
     for (const std::string& message : wanted.messages) orders.messages.push_back({message});
     for (const std::string& name : wanted.screenshots) orders.screenshots.push_back({name});
+    std::ranges::move(wanted.trials, std::back_inserter(trials_));
     orders.parameters = orders.parameters || wanted.parameters;
     state.quit = state.quit || wanted.quit;
 }

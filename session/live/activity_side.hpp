@@ -49,6 +49,8 @@ public:
         const auto section = panel();
         return section && section->governs;
     }
+    // Returns the trials that it has begun and ended since the last call.
+    [[nodiscard]] std::vector<TrialMark> take_trials() { return std::exchange(trials_, {}); }
     // Ends the activity; it is not told of anything afterwards. Does nothing when called again.
     [[nodiscard]] Result<void> finish() {
         const auto ended = std::exchange(activity_, nullptr);
@@ -56,11 +58,12 @@ public:
     }
 
 private:
-    void carry_out(const ActivityOrders& wanted, SessionState& state, SessionOrders& orders) const;
+    void carry_out(ActivityOrders wanted, SessionState& state, SessionOrders& orders);
 
     std::shared_ptr<Activity> activity_;
     std::optional<SampleTap> tap_;
     std::vector<haptics::TickRecord> ticks_;  // since the last step
+    std::vector<TrialMark> trials_;           // not taken yet
 };
 
 }  // namespace burin::session

@@ -82,9 +82,10 @@ Result<void> LiveSession::load(const SculptOptions& options, const SessionWall& 
     room_ = room_of(wall);
     if (devices::is_wand(options.live.device))
         if (const auto held = hold_wand(options); !held) return held;
-    if (!options.no_workpiece || options.world.empty())
+    const bool has_world = options.scene || !options.world.empty();
+    if (!options.no_workpiece || !has_world)
         if (const auto loaded = load_workpiece(options); !loaded) return loaded;
-    if (!options.world.empty())
+    if (has_world)
         if (const auto loaded = load_world(options); !loaded) return loaded;
     const double longest_side_m = sculpt::longest_side_m(room_.workpiece_object);
     tool_options_ = options.tool;
@@ -123,7 +124,7 @@ Result<void> LiveSession::load_workpiece(const SculptOptions& options) {
 }
 
 Result<void> LiveSession::load_world(const SculptOptions& options) {
-    Result<scene::World> read = read_sound_world(options.world);
+    Result<scene::World> read = options.scene ? *options.scene : read_sound_world(options.world);
     if (!read) return std::unexpected(read.error());
     const std::size_t count = read->objects.size();
     Result<std::unique_ptr<WorldSide>> made = WorldSide::create(std::move(*read));
@@ -139,7 +140,8 @@ Result<void> LiveSession::load_world(const SculptOptions& options) {
     room_.covers_depth = true;
     const std::string objects = std::to_string(count) + (count == 1 ? " object" : " objects");
     if (!carving_)
-        workpiece_ = {.name = std::filesystem::path(options.world).filename().string(),
+        workpiece_ = {.name = options.scene ? options.scene->name
+                                            : std::filesystem::path(options.world).filename().string(),
                       .size = in_millimetres(all.extent()) + ", " + objects};
     return {};
 }

@@ -128,6 +128,8 @@ public:
 
     [[nodiscard]] const devices::DeviceDescription& device() const { return haptics_.device(); }
     [[nodiscard]] bool has_activity() const { return activity_.is_there(); }
+    // Returns the trials that the activity has begun and ended since the last call.
+    [[nodiscard]] std::vector<TrialMark> take_trials() { return activity_.take_trials(); }
     [[nodiscard]] haptics::HapticChannels& channels() { return haptics_.channels(); }
     // Returns the surface as it is carved now; null without a workpiece.
     [[nodiscard]] const compute::Surface* surface() const { return carving_ ? &carving_->surface() : nullptr; }

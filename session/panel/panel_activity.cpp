@@ -2,6 +2,7 @@
 // The panel's section for the activity: what the person is to do, what the activity has to tell, and its buttons.
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "session/panel/panel_sections.hpp"
 
@@ -40,26 +41,41 @@ void show_buttons(Kit& kit, const ActivityPanel& activity) {
     }
 }
 
+// A question that the panel asks before it does what a button is for.
+struct Question {
+    std::string label, title, asks;
+    SessionCommand answer;
+};
+
+// Returns what is being asked: by a button of the activity, or by Quit, which would break off what the activity has
+// under way.
+std::optional<Question> question_of(const Kit& kit, const ActivityPanel& activity) {
+    if (activity.governs && kit.memory.asking == name_of(Action::quit))
+        return Question{kit.memory.asking, "Quit", "Quit? A stage under way is broken off.", RunAction{Action::quit}};
+    for (const ActivityPanel::Button& button : activity.buttons)
+        if (button.enabled && !button.asks.empty() && label_of(button) == kit.memory.asking)
+            return Question{kit.memory.asking, button.title, button.asks, DoAct{button.act}};
+    return std::nullopt;
+}
+
 // The line in which a button's question stands, empty while there is none. The answer that does it lies at the left:
 // buttons that ask stand at the right, so that a second click in the same place does nothing.
 void show_question(Kit& kit, const ActivityPanel& activity) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const auto asking = std::ranges::find_if(activity.buttons, [&](const ActivityPanel::Button& button) {
-        return button.enabled && !button.asks.empty() && label_of(button) == kit.memory.asking;
-    });
-    if (asking == activity.buttons.end()) {
+    const std::optional<Question> asking = question_of(kit, activity);
+    if (!asking) {
         kit.memory.asking.clear();
         ImGui::Dummy({kit.width(), kit.px(kButtonHeight)});
         return;
     }
     const float each = kit.px(84.0f), space = kit.px(kBetweenButtons);
-    const bool yes = kit.button("yes, " + label_of(*asking), asking->title, each, true, true);
+    const bool yes = kit.button("yes, " + asking->label, asking->title, each, true, true);
     ImGui::SameLine(0.0f, space);
     const bool no = kit.button("no", "No", 0.5f * each);
     const float left = at.x + 1.5f * each + 2.0f * space;
     kit.write({left, at.y + 0.5f * (kit.px(kButtonHeight) - kit.type.small->FontSize)}, kWarning, asking->asks,
               kit.type.small);
-    if (yes) kit.give(DoAct{asking->act});
+    if (yes) kit.give(asking->answer);
     if (!yes && !no) return;
     kit.memory.asking.clear();
     kit.again = true;  // without the question

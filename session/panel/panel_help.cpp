@@ -95,10 +95,14 @@ void show_footer(Kit& kit, const PanelModel& model) {
                                         {Action::quit, "Quit", false}}};
     for (std::size_t i = 0; i < entries.size(); ++i) {
         if (i > 0) ImGui::SameLine(0.0f, gap);
-        if (kit.button(std::string(name_of(entries[i].action)), entries[i].text, each,
-                       entries[i].action != Action::toggle_panel || model.may_be_hidden, entries[i].on, 26.0f)) {
-            kit.give(RunAction{entries[i].action});
-        }
+        const Action action = entries[i].action;
+        if (!kit.button(std::string(name_of(action)), entries[i].text, each,
+                        action != Action::toggle_panel || model.may_be_hidden, entries[i].on, 26.0f))
+            continue;
+        if (action == Action::quit && model.activity && model.activity->governs)
+            kit.memory.asking = name_of(action);  // show_acts() asks
+        else
+            kit.give(RunAction{action});
     }
 }
 

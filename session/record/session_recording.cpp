@@ -78,6 +78,13 @@ Result<void> SessionRecording::add(Waiting waiting) {
     return {};
 }
 
+void SessionRecording::trial(const TrialMark& mark) {
+    if (!mark.name.empty())
+        trial_ = writer_->begin_trial(mark.time_ns, mark.name);
+    else if (trial_)
+        writer_->end_trial(*std::exchange(trial_, std::nullopt), mark.time_ns, mark.state);
+}
+
 void SessionRecording::take_ticks() { writer_->take_now(); }
 
 Result<void> SessionRecording::close() {

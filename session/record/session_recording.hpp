@@ -10,7 +10,7 @@
 // could not be replayed beyond: where a tick is missing, because the disk stood still for longer than the ring holds,
 // or where the scene did not take a tick's sample. Columns go on all the same; what is lost is counted in the file.
 //
-// Threads: line(), frame(), take_ticks(), close() are the frame's thread's, progress() any one's but the haptic one's.
+// Threads: line(), frame(), trial(), take_ticks(), close() are the frame's thread's, progress() any one's but the haptic one's.
 #pragma once
 
 #include <deque>
@@ -23,6 +23,7 @@
 #include "record/record_writer.hpp"
 #include "session/record/session_check.hpp"
 #include "session/record/thread_log.hpp"
+#include "session/state/activity.hpp"
 
 namespace burin::session {
 
@@ -67,6 +68,8 @@ public:
     [[nodiscard]] Result<void> line(Nanoseconds time_ns, std::string line);
     // Takes a frame, whose line follows when its tick has been recorded; its checksum is computed then.
     [[nodiscard]] Result<void> frame(Nanoseconds time_ns, const FrameSeen& seen, const StateWords& state);
+    // Begins a trial, or ends the one under way.
+    void trial(const TrialMark& mark);
     // Returns when all ticks that the ring holds are recorded: at the end, when no tick follows.
     void take_ticks();
     // Brings everything to the disk. Fails with why something is missing.
@@ -107,6 +110,7 @@ private:
     Nanoseconds last_ns_ = 0;                      // of the last line
     SessionCheck check_;
     std::optional<Error> log_ended_;
+    std::optional<std::int64_t> trial_;  // under way; the frame's thread's
     std::unique_ptr<record::RecordWriter> writer_;  // last: its thread calls take() until it has ended
 };
 

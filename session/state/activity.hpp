@@ -7,14 +7,15 @@
 //   `do WORDS` of a script, a button of its panel -> act() -> the same orders
 //   adjust(): what the tick does besides; stage(): what the picture shows besides; panel(): what its section says
 //
-// It must depend on nothing but what it is given here: then a recording, which keeps its name and settings() and no
-// more of it, is done again to the bit.
+// It must depend on nothing but what it is given here: then a recording, which keeps its settings() and facts() and no
+// more of it, is done again to the bit (activities/registry.hpp).
 // Frame: the scene's. Thread: the frame's.
 #pragma once
 
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "haptics/channels.hpp"
@@ -40,11 +41,19 @@ struct ActivityView {
     const WorldObjects* world;       // as of the last update of the scene; null: there is none
 };
 
+// A trial for the recording's table of trials, of which one is under way at a time.
+struct TrialMark {
+    Nanoseconds time_ns = 0;  // on the loop's clock
+    std::string name;         // of one that begins; empty: the one under way ends
+    std::string state = {};   // how it ended, in a word or two: "done", "given up"
+};
+
 // What it wants done; filled in order.
 struct ActivityOrders {
     std::vector<EditObject> edits;
     std::vector<std::string> messages;     // for the user, on panel and terminal
     std::vector<std::string> screenshots;  // names
+    std::vector<TrialMark> trials;         // kept where a session file is recorded
     bool parameters = false;               // adjust() has changed
     bool quit = false;
 };
@@ -83,6 +92,9 @@ public:
     // Returns its name, the command's that starts it, and all that its course depends on besides what it is given here;
     // on one line, at most a few hundred characters.
     [[nodiscard]] virtual std::string settings() const = 0;
+    // Returns what a session file has to keep so that the activity can be made anew, where settings() has no room for
+    // it: facts by their names.
+    [[nodiscard]] virtual std::vector<std::pair<std::string, std::string>> facts() const { return {}; }
     [[nodiscard]] virtual std::span<const Act> acts() const { return {}; }
     // Carries out one of its acts: words[0] is one of acts(). The Error says what would be right; nothing has changed
     // then.

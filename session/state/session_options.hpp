@@ -14,6 +14,10 @@
 #include "sculpt/tool_options.hpp"
 #include "sculpt/workpiece.hpp"
 
+namespace burin::scene {
+struct World;  // scene/world_file.hpp
+}
+
 namespace burin::session {
 
 struct LiveOptions {
@@ -47,7 +51,8 @@ enum class HandChoice { rigid, simulated };
 struct SculptOptions {
     sculpt::WorkpieceOptions workpiece;
     std::string world;          // a file of objects that are touched besides the workpiece, or without one; empty: none
-    bool no_workpiece = false;  // with a world
+    std::shared_ptr<const scene::World> scene;  // the world itself, in place of a file; no option of the command line
+    bool no_workpiece = false;                  // with a world
     std::string points;         // of a wand, that touch (devices::points_named); empty: the tool is held in its middle
     sculpt::ToolOptions tool;
     std::string stroke;      // a CSV file; empty: nothing is carved

@@ -83,17 +83,11 @@ Result<std::unique_ptr<StageRecording>> StageRecording::create(const std::filesy
 }
 
 void StageRecording::note_trials(const StageSession& session) {
-    const std::vector<StageEvent>& events = session.events();
-    for (; events_told_ < events.size(); ++events_told_) {
-        const StageEvent& event = events[events_told_];
-        const Nanoseconds at_ns = session.begun_ns() + nanoseconds(event.time_s);
-        if (event.kind == StageEventKind::clock_started) trial_ = writer_->begin_trial(at_ns, stage_);
-        if (!trial_ || event.kind == StageEventKind::clock_started || event.kind == StageEventKind::start_touched)
-            continue;
-        const char* state = event.kind == StageEventKind::end_touched      ? "done"
-                            : event.kind == StageEventKind::attempt_failed ? name_of(event.failure)
-                                                                           : name_of(session.state().result);
-        writer_->end_trial(*std::exchange(trial_, std::nullopt), at_ns, state);
+    for (const TrialMark& mark : marks_.take(session)) {
+        if (mark.begins)
+            trial_ = writer_->begin_trial(mark.time_ns, stage_);
+        else if (trial_)
+            writer_->end_trial(*std::exchange(trial_, std::nullopt), mark.time_ns, mark.state);
     }
 }
 

@@ -15,6 +15,7 @@
 
 #include "record/record_writer.hpp"
 #include "study/felt/stage_session.hpp"
+#include "study/felt/trial_marks.hpp"
 
 namespace burin::study {
 
@@ -50,7 +51,8 @@ private:
     Ring<haptics::TickRecord> ring_;
     std::unique_ptr<record::RecordWriter> writer_;
     std::string stage_;
-    std::size_t untaken_ = 0, events_told_ = 0;
+    std::size_t untaken_ = 0;
+    TrialMarks marks_;
     std::optional<std::int64_t> trial_;  // that is under way
 };
 

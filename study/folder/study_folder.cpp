@@ -280,6 +280,7 @@ Result<StudyFolder> StudyFolder::open(const fs::path& folder, StudyAccess access
         return fail(line_of(parsed.faults.front(), name + "/protocol.toml"), "this Burin refuses the protocol",
                     "use the version that the study was made with");
     study.protocol_ = std::move(parsed.protocol);
+    study.protocol_text_ = text;
     const auto journal = read_file(folder / "journal.jsonl", kMostJournalBytes);
     if (!journal) return std::unexpected(journal.error());
     study.journal_ = parse_journal({reinterpret_cast<const char*>(journal->data()), journal->size()});

@@ -8,6 +8,7 @@
 //   data/ID/*.json   one file for each stage that was measured, never written twice
 //   data/ID/*.session  the motion of a stage, tick by tick (stage_recording.hpp); DAY-PLACE-runN as its .json
 //   trials.csv       derived of these: made anew by run and report
+//   wand.toml        the simulated wand with the points of the protocol, of the last visit with it
 //   lock             held by the process that writes
 // One process writes at a time; others read. One thread for each object.
 #pragma once
@@ -29,8 +30,8 @@
 namespace burin::study {
 
 // The names in a study's folder that are the study's own, beside those below data/.
-inline constexpr std::array<std::string_view, 7> kFilesOfStudy{
-    "protocol.toml", "study.json", "allocation.sealed", "allocation.key", "journal.jsonl", "trials.csv", "lock"};
+inline constexpr std::array<std::string_view, 8> kFilesOfStudy{
+    "wand.toml",       "protocol.toml", "study.json", "allocation.sealed", "allocation.key", "journal.jsonl", "trials.csv", "lock"};
 
 // Of participants' codes.
 inline constexpr std::string_view kLettersOfCodes = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
@@ -117,6 +118,8 @@ public:
     StudyFolder& operator=(StudyFolder&&) = delete;
 
     [[nodiscard]] const Protocol& protocol() const { return protocol_; }
+    // The text of protocol.toml.
+    [[nodiscard]] const std::string& protocol_text() const { return protocol_text_; }
     [[nodiscard]] const StudyFacts& facts() const { return facts_; }
     [[nodiscard]] const Journal& journal() const { return journal_; }
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
@@ -173,6 +176,7 @@ private:
     static constexpr const char* kKeyFile = "allocation.key";
     std::filesystem::path path_, key_;
     Protocol protocol_;
+    std::string protocol_text_;
     StudyFacts facts_;
     Journal journal_;
     std::string sealed_;  // the sealed list, once somebody was enrolled

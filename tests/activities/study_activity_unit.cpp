@@ -309,6 +309,55 @@ TEST_F(StudyActivities, GiveTheSameStageAndFiguresAgainFromTheTicksAsStored) {
     }
 }
 
+TEST_F(StudyActivities, GoThroughTheWorldsOfADayOneAfterTheOther) {
+    study::StudyWorld second = protocol_.worlds.front();
+    second.name = "curve";
+    second.wall_N_per_m = 350.0;
+    for (Vec3& p : second.spine_m) p.y += 0.02;
+    protocol_.worlds.push_back(second);
+    study::Stage in_second = *protocol_.stage("interactive");
+    in_second.name = "transfer";
+    in_second.world = "curve";
+    protocol_.stages.push_back(in_second);
+    worlds_ = felt_worlds(protocol_).value();
+    begin({{1, 1, protocol_.stage("interactive")}, {1, 2, protocol_.stage("transfer")}}, 0);
+    const scene::World& scene = *activity_->scene();
+    ASSERT_EQ(scene.objects.size(), 2 * worlds_.at("tube")->objects().size());
+    const auto object = [&](const std::string& name) {
+        return *std::ranges::find(scene.objects, name, &scene::SceneObject::name);
+    };
+    EXPECT_TRUE(object("tube").felt);
+    EXPECT_FALSE(object("curve: tube").felt) << "it would press on the hand in the other's stage";
+    EXPECT_FALSE(object("curve: end cap").seen);
+    EXPECT_EQ(object("curve: tube").material.stiffness_N_per_m, 350.0);
+
+    frame({second.spine_m.front()});
+    ASSERT_TRUE(act({"start"}));
+    EXPECT_TRUE(orders_.edits.empty()) << "its world is there already";
+    frame(std::vector<Vec3>(20, second.spine_m.front()));
+    number_ += static_cast<std::uint64_t>(*in_second.ends_after_s * 1000.0);
+    frame({second.spine_m.front(), second.spine_m.front()});
+    ASSERT_EQ(ended_.size(), 1u);
+
+    ASSERT_TRUE(act({"start"}));
+    ASSERT_NE(edit("curve: tube", ObjectProperty::felt), nullptr);
+    EXPECT_EQ(edit("curve: tube", ObjectProperty::felt)->value[0], 1.0);
+    EXPECT_EQ(edit("tube", ObjectProperty::felt)->value[0], 0.0);
+    EXPECT_EQ(edit("start funnel", ObjectProperty::felt)->value[0], 0.0);
+    for (const char* name : {"tube", "start funnel", "start cap", "seen tube"}) {
+        ASSERT_NE(edit(name, ObjectProperty::seen), nullptr) << name;
+        EXPECT_EQ(edit(name, ObjectProperty::seen)->value[0], 0.0) << name;
+    }
+    haptics::TickRecord tick = tick_at(second.spine_m.front());
+    tick.contact.points[0].object = static_cast<std::uint32_t>(object("curve: end funnel").id);
+    tick.contact.points[1].object = static_cast<std::uint32_t>(object("tube").id);
+    frame_of({tick});
+    ASSERT_NE(edit("curve: tube", ObjectProperty::stiffness), nullptr);
+    EXPECT_EQ(edit("curve: tube", ObjectProperty::stiffness)->value[0], 350.0);
+    EXPECT_EQ(kept_.back().contact.points[0].object, study::kEndFunnelObject) << "as a recording of that world has it";
+    EXPECT_EQ(kept_.back().contact.points[1].object, 0u) << "an object of another world";
+}
+
 TEST_F(StudyActivities, SetTheProxiesOnTheAxisAtEachTouchOfTheStartCap) {
     begin("test", 0);
     const auto& spine = worlds_.at("tube")->world().spine_m;

@@ -235,19 +235,52 @@ TEST(LiveStudy, KeepsItsWorldWhateverIsSaid) {
     }
 }
 
-TEST(LiveStudy, NamesTheRecordingOfASessionThatCannotBeReplayed) {
+// Everything that the participant's hand, the operator and the threads did is in the file, and the protocol is.
+TEST(LiveStudy, ItsRecordingIsDoneAgainToTheBitAndHoldsTheTrial) {
     if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
     const Workplace place;
     make_live_study(place);
     DeskLog log;
+    log.go({-0.22, 0.165, 0.2345}, 20);
+    log.go({-0.22, 0.165, 0.11}, 20);
+    log.say("start");
     log.wait(0.1);
+    log.go(kInStartCap, 10);
+    log.wait(0.3);
+    go_through(log);
     place.write("visit.txt", log.closed());
     const auto went =
         place.run(kLiveStudy + "run s --participant p01 --input visit.txt --offscreen --record r.session");
-    ASSERT_TRUE(std::filesystem::exists(place / "r.session")) << went.output;
+    ASSERT_EQ(went.status, 0) << went.output;
     const auto replayed = place.run(std::string(kBurinCommand) + " replay r.session");
-    EXPECT_EQ(replayed.status, 1);
-    EXPECT_TRUE(replayed.output.contains("r.session: is of a participant in a study")) << replayed.output;
+    EXPECT_EQ(replayed.status, 0) << replayed.output;
+    EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
+    const std::string told = place.run(std::string(kBurinCommand) + " session info r.session --json -").output;
+    const Json info = Json::parse(told, nullptr, false);
+    ASSERT_TRUE(info.is_object()) << told;
+    ASSERT_EQ(info.at("trials").size(), 1u) << told;
+    EXPECT_EQ(info.at("trials").at(0).at("name"), "test");
+    EXPECT_EQ(info.at("trials").at(0).at("state"), "done");
+    // The stage's own recording has the same forces for the same ticks.
+    ASSERT_EQ(place.run(std::string(kBurinCommand) +
+                        " convert r.session trial.csv --to csv --trials test --columns tick,commanded_force_device_x_N")
+                  .status,
+              0);
+    std::istringstream trial(place.read("trial.csv"));
+    std::map<std::string, std::string> session_force;
+    for (std::string line; std::getline(trial, line);)
+        if (const std::size_t comma = line.find(','); comma != std::string::npos)
+            session_force[line.substr(0, comma)] = line.substr(comma + 1);
+    EXPECT_GT(session_force.size(), 1000u);
+    const auto stage = recorded_ticks(place);
+    std::size_t compared = 0;
+    for (std::size_t i = 0; i < stage.at("tick").size(); ++i) {
+        const auto same = session_force.find(formatted("%.0f", stage.at("tick")[i]));
+        if (same == session_force.end()) continue;
+        ++compared;
+        ASSERT_EQ(std::strtod(same->second.c_str(), nullptr), stage.at("commanded_force_device_x_N")[i]);
+    }
+    EXPECT_GT(compared, 1000u);
 }
 
 TEST(LiveStudy, FreesAWandThatCameIntoTheStartCapThroughTheFunnelsWall) {

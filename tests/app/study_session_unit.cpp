@@ -12,7 +12,6 @@
 #include "session/drive/session.hpp"
 #include "session/drive/session_frames.hpp"
 #include "session/live/live_session.hpp"
-#include "tests/support/run_command.hpp"
 
 namespace burin::app {
 namespace {
@@ -23,15 +22,13 @@ public:
     ParticipantSession(const std::string& stage, std::size_t group, bool asks_for_panel_window) {
         protocol_ = study::parse_protocol(*study::known_protocol("kinesthetic-path")).protocol;
         worlds_ = activities::felt_worlds(protocol_).value();
-        const auto world = write_study_world(*worlds_.at("tube"), place_ / "world");
-        if (!world) throw std::runtime_error(world.error().line());
         session::LiveOptions live;
         live.panel_window = asks_for_panel_window;
-        session::SculptOptions options = participant_session(live, *world);
-        options.activity = std::make_shared<activities::StudyActivity>(
-            protocol_, protocol_.groups.at(group), worlds_,
-            std::vector<study::StagePlace>{{1, 1, protocol_.stage(stage)}}, "study", activities::StudyDevice{},
-            activities::StageKeeper{});
+        const session::SculptOptions options = participant_session(
+            live, std::make_shared<activities::StudyActivity>(
+                      protocol_, protocol_.groups.at(group), worlds_,
+                      std::vector<study::StagePlace>{{1, 1, protocol_.stage(stage)}}, "study",
+                      activities::StudyDevice{}, activities::StageKeeper{}));
         auto made = session::LiveSession::create(options, session::session_wall(options.live).value(), clock_);
         if (!made) throw std::runtime_error(made.error().line());
         session_ = std::move(*made);
@@ -56,7 +53,6 @@ public:
     [[nodiscard]] std::optional<session::PanelPicture> operators() const { return session_->panel_on(1); }
 
 private:
-    Workplace place_;
     study::Protocol protocol_;
     activities::FeltWorlds worlds_;
     SimulatedClock clock_;

@@ -246,6 +246,13 @@ TEST(SessionActivity, AsksBeforeItDoesWhatCannotBeTakenBack) {
     model.activity->buttons[1].enabled = false;
     static_cast<void>(panel.show(model, now_ns += 16'000'000));
     EXPECT_FALSE(panel.place_of("yes, do stop")) << "the stage has ended meanwhile";
+
+    const std::vector<CommandInput> quit{{"quit", {}}};
+    EXPECT_TRUE(clicked("quit").empty()) << "it would break the stage off";
+    EXPECT_TRUE(clicked("quit").empty());
+    EXPECT_EQ(clicked("yes, quit"), quit);
+    model.activity->governs = false;
+    EXPECT_EQ(clicked("quit"), quit) << "nothing is lost";
 }
 
 TEST(SessionActivity, TakesANoteFromTheOperatorsField) {

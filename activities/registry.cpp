@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "activities/registry.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "activities/seek/seek.hpp"
+#include "activities/train/recorded_visit.hpp"
+
+namespace burin::activities {
+namespace {
+
+Result<MadeActivity> seek_as_recorded(const std::string& settings, const RecordedFact& /*fact*/) {
+    const Result<SeekOptions> options = seek_options_of(settings);
+    if (!options) return std::unexpected(options.error());
+    return MadeActivity{std::make_shared<Seek>(*options), nullptr};
+}
+
+constexpr std::array kActivityKinds{
+    ActivityKind{"seek", "Objects of a world are touched as they are named", seek_as_recorded},
+    ActivityKind{kVisitName, "A participant goes through the stages of a study", visit_as_recorded},
+};
+
+}  // namespace
+
+std::span<const ActivityKind> activity_kinds() { return kActivityKinds; }
+
+Result<MadeActivity> activity_as_recorded(const std::string& settings, const RecordedFact& fact) {
+    if (settings.empty()) return MadeActivity{};
+    const std::string name = settings.substr(0, settings.find(' '));
+    const auto kind = std::ranges::find(kActivityKinds, name, &ActivityKind::name);
+    if (kind != kActivityKinds.end()) return kind->make(settings, fact);
+    std::string known;
+    for (const ActivityKind& one : kActivityKinds) known += (known.empty() ? "" : ", ") + std::string(one.name);
+    return fail("the recording", "is of the activity '" + name + "', and this program has " + known,
+                "replay it with the program that recorded it");
+}
+
+}  // namespace burin::activities
