@@ -123,6 +123,16 @@ CommandOption Command::option(const std::string& name, std::vector<std::string>&
     return CommandOption(app_->add_option(name, to, help));
 }
 
+CommandOption Command::option(const std::string& name,
+                              const std::function<Result<void>(const std::vector<std::string>&)>& take,
+                              const std::string& help) {
+    const std::function<void(const std::vector<std::string>&)> taken = [take](const std::vector<std::string>& given) {
+        if (const auto ok = take(given); !ok) throw CLI::ValidationError(ok.error().line());
+    };
+    // One value each time that it is given: what follows may be a file's name.
+    return CommandOption(app_->add_option_function(name, taken, help)->expected(1)->take_all());
+}
+
 CommandOption Command::option(const std::string& name, int& to, const std::string& help) {
     return with_number<int>(app_->add_option(name, to, help));
 }

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/error.hpp"
 #include "base/length_unit.hpp"
 #include "session/state/option_bounds.hpp"
 
@@ -60,6 +61,10 @@ public:
     // Numbers are decimal, without zeros before them and within what the variable holds; anything else is wrong usage.
     CommandOption option(const std::string& name, std::string& to, const std::string& help);
     CommandOption option(const std::string& name, std::vector<std::string>& to, const std::string& help);
+    // Likewise, and gives all values to a function, whose failure is wrong usage.
+    CommandOption option(const std::string& name,
+                         const std::function<Result<void>(const std::vector<std::string>&)>& take,
+                         const std::string& help);
     CommandOption option(const std::string& name, int& to, const std::string& help);
     CommandOption option(const std::string& name, unsigned& to, const std::string& help);
     CommandOption option(const std::string& name, std::uint64_t& to, const std::string& help);

@@ -22,8 +22,11 @@ std::vector<std::string> add_live_options(Command command, session::LiveOptions&
     command.option("--wall", options.wall,
                    "A wall file: its screens, each on its monitor or display, its eyes and its tracker");
     command.option("--tracker", options.tracker, "Where head and wands are heard: " + devices::tracker_usage());
-    command.option("--device", options.device, "The force-feedback device; " + devices::haptic_usage() + device_help)
-        .show_default();
+    command.option(
+        "--device", [&options](const std::vector<std::string>& given) { return session::set_devices(options, given); },
+        "The force-feedback device, else " + std::string(devices::kDefaultHapticDevice) +
+            "; several hands have one each: --device right=simulated --device left=simulated-wand. There are " +
+            devices::haptic_usage() + device_help);
     command.flag("--windowed", options.windowed,
                  "With --wall: its screens in windows, fitted into --width by --height");
     command.flag("--panel-window", options.panel_window,

@@ -227,10 +227,12 @@ Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay&
     manner.only_compares = true;
     manner.picture_every_ns = nanoseconds(how.every_s);
     manner.witness = &*judge;
+    manner.ticks = &reader;
     const Result<void> done = session::run_as_recorded(options, std::move(*log), manner);
     LiveReplayed replayed{judge->found(), judge->unrecorded(), 0};
     if (!done && !replayed.comparison.difference) return std::unexpected(done.error());
-    const std::uint64_t rows = reader.hands().front().rows();
+    std::uint64_t rows = 0;
+    for (const record::HandRecord& part : reader.hands()) rows += part.rows();
     replayed.left = rows - std::min(rows, judge->repeated());
     return replayed;
 }

@@ -70,6 +70,8 @@ Result<void> check_for_a_stroke(const session::SculptOptions& options) {
     if (!options.world.empty()) return fail("--world", "belongs to a session and not to carving by itself", kRemedy);
     if (options.no_workpiece) return fail("--no-workpiece", "leaves nothing to carve", kRemedy);
     if (!options.points.empty()) return fail("--points", "belongs to a session with a wand", kRemedy);
+    if (!options.live.hands.empty())
+        return fail("--device", "gives several hands, which belong to a session and not to carving by itself", kRemedy);
     if (options.live.device != devices::kDefaultHapticDevice)
         return fail("--device " + options.live.device, "belongs to a session and not to carving by itself", kRemedy);
     return {};

@@ -24,6 +24,8 @@ void add_seek_options(Command command, SeekSession& seek) {
 Result<void> seek(const SeekSession& options) {
     session::SculptOptions session = options.session;
     session.no_workpiece = true;
+    if (!session.live.hands.empty())
+        return fail("--device", "gives several hands, and a search is one hand's", "name one device");
     if (const auto ok = check_places(std::array{options.report}, session::inputs_of(session).list()); !ok) return ok;
     const auto activity =
         std::make_shared<activities::Seek>(activities::SeekOptions{.targets = options.targets, .seed = options.seed});

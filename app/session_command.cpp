@@ -12,6 +12,7 @@
 #include "record/examination.hpp"
 #include "record/export/new_file.hpp"
 #include "record/export/table_export.hpp"
+#include "session/record/log_export.hpp"
 
 namespace burin::app {
 namespace {
@@ -220,6 +221,8 @@ std::string output_of(const ConvertOptions& options) {
 
 Result<record::ExportReport> export_table(record::RecordReader& reader, const ConvertOptions& options,
                                           const std::string& out) {
+    if (options.to == "log" && reader.facts().contains(record::kLogHeaderFact))
+        return session::export_session_log(reader, out);
     if (options.to == "log") return record::export_log(reader, out);
     const Result<std::size_t> table = find_table(reader, options.part);
     if (!table) return std::unexpected(table.error());

@@ -107,6 +107,8 @@ Result<void> run_live_visit(study::StudyFolder& study, const StudyRunOptions& op
     const auto worlds = activities::felt_worlds(study.protocol());
     if (!worlds) return std::unexpected(worlds.error());
     session::LiveOptions live = options.live;
+    if (!live.hands.empty())
+        return fail("--device", "gives several hands, and a participant's visit has one", "name one device");
     if (live.device == devices::kDefaultHapticDevice || live.device == devices::kSimulatedWand) {
         const auto described = write_wand(study.protocol(), study.path());
         if (!described) return std::unexpected(described.error());

@@ -373,6 +373,8 @@ std::string WorldCommand::misuse() const {
         return std::string(exploration.report.empty() ? "--pictures" : "--report") + " belongs to a --stroke";
     if (!options_->exploration.points.empty() && !devices::is_wand(live.device))
         return "--points belongs to a wand: give --device " + std::string(devices::kSimulatedWand);
+    if (!options_->exploration.stroke.empty() && !live.hands.empty())
+        return "world explores with one hand: name one --device";
     if (!options_->exploration.stroke.empty() && live.device != devices::kDefaultHapticDevice &&
         !devices::is_wand(live.device))
         return "world explores with --device " + std::string(devices::kDefaultHapticDevice) +

@@ -43,10 +43,8 @@ ExportOutcome export_surface(const compute::Surface& surface, const compute::Sol
 
 CarvedPart::CarvedPart(Sculpture& sculpture, const Tool& tool, double hardness_Ns_per_m3,
                        std::optional<std::size_t> undo_bytes, std::size_t hand)
-    : sculpture_(sculpture),
-      reader_(tool, hardness_Ns_per_m3, sculpture.surface().lattice().spacing_m),
-      keeps_history_(undo_bytes.has_value()),
-      hand_(hand) {
+    : sculpture_(sculpture), keeps_history_(undo_bytes.has_value()) {
+    carvers_.push_back({hand, StrokeReader(tool, hardness_Ns_per_m3, sculpture.surface().lattice().spacing_m)});
     if (undo_bytes) sculpture_.keep_history(*undo_bytes);
 }
 
@@ -54,37 +52,60 @@ CarvedPart::~CarvedPart() { CarvedPart::finish(); }
 
 // ---- Updates
 
+CarvedPart::Carver* CarvedPart::carver_of(std::size_t hand) {
+    const auto at = std::ranges::find(carvers_, hand, &Carver::hand);
+    return at != carvers_.end() ? &*at : nullptr;
+}
+
+double CarvedPart::around_m(std::size_t hand) const {
+    const auto at = std::ranges::find(carvers_, hand, &Carver::hand);
+    return at != carvers_.end() ? at->reader.around_m() : 0.0;
+}
+
 void CarvedPart::take_samples(std::size_t hand, std::span<const haptics::StrokeSample> samples) {
-    if (hand == hand_) reader_.take(samples);
+    if (Carver* const carver = carver_of(hand)) carver->reader.take(samples);
 }
 
 Result<void> CarvedPart::update(Nanoseconds, const scene::PartSeen* recorded) {
     seen_ = recorded != nullptr ? *recorded : scene::PartSeen{export_is_done()};
     if (seen_.background_ended) finish();
+    for (Carver& carver : carvers_)
+        if (const auto carved = carve(carver); !carved) return carved;
+    return {};
+}
+
+Result<void> CarvedPart::carve(Carver& carver) {
     SweptSamples swept;
     do {
-        swept = reader_.read();
-        drop_invalid(swept.sweeps);
+        swept = carver.reader.read();
+        drop_invalid(carver, swept.sweeps);
         if (!swept.sweeps.empty()) {
             if (const auto updated = sculpture_.update(swept.sweeps); !updated) return updated;
         }
         if (swept.stroke_ended) {
             sculpture_.end_stroke();
-            said_why_ = false;
+            carver.said_why = false;
         }
     } while (swept.stroke_ended);
     return {};
 }
 
 Result<void> CarvedPart::add_near(const scene::ProbeBall& ball, geometry::LocalSurface& draft) {
-    if (ball.hand == hand_) tool_object_ = ball.center_scene;
+    if (Carver* const carver = carver_of(ball.hand)) carver->tool_object = ball.center_scene;
     return sculpture_.local_surface(ball.center_scene, ball.radius_m, draft);
 }
 
+bool CarvedPart::pressed() const {
+    return std::ranges::any_of(carvers_, [](const Carver& carver) { return carver.reader.pressed(); });
+}
+
 void CarvedPart::after_publication() {
-    if (stroke_open_ && !reader_.pressed()) status_changed_ = true;
-    stroke_open_ = reader_.pressed();
-    sculpture_.bake_light(tool_object_, stroke_open_ ? kLitWorking : kLitResting);
+    if (stroke_open_ && !pressed()) status_changed_ = true;
+    stroke_open_ = pressed();
+    // Light is baked where a tool works; where none does, around the first.
+    const auto working = std::ranges::find_if(carvers_, [](const Carver& c) { return c.reader.pressed(); });
+    const Carver& lit = working != carvers_.end() ? *working : carvers_.front();
+    sculpture_.bake_light(lit.tool_object, stroke_open_ ? kLitWorking : kLitResting);
     if (keeps_history_) {
         for (const std::string& notice : sculpture_.history()->take_notices()) notify(notice);
     }
@@ -93,12 +114,12 @@ void CarvedPart::after_publication() {
 
 // Drops sweeps that cannot be carved, such as smoothing too far at once, and says why once a stroke: a session that
 // ended for one of them would lose all others.
-void CarvedPart::drop_invalid(std::vector<compute::ToolSweep>& sweeps) {
+void CarvedPart::drop_invalid(Carver& carver, std::vector<compute::ToolSweep>& sweeps) {
     const compute::Solid& solid = sculpture_.engine().solid();
     std::erase_if(sweeps, [&](const compute::ToolSweep& sweep) {
-        std::optional<Error> why = refused_;
+        std::optional<Error> why = carver.refused;
         if (const auto ok = compute::check_tool(solid, sweep); !ok && !why) why = ok.error();
-        if (why && !std::exchange(said_why_, true)) notify(why->line());
+        if (why && !std::exchange(carver.said_why, true)) notify(why->line());
         return why.has_value();
     });
 }
@@ -117,7 +138,7 @@ std::optional<SurfaceUpdate> CarvedPart::take_surface_update() {
     if (light != nullptr) update.inner_boxes_object = light->inner_boxes_object();
     if (update.tiles.empty() && messages_.empty() && exports_.empty() && !status_changed_) return std::nullopt;
     status_changed_ = false;
-    update.cut_ns = reader_.last_worked_ns();
+    for (const Carver& carver : carvers_) update.cut_ns = std::max(update.cut_ns, carver.reader.last_worked_ns());
     if (const compute::History* history = sculpture_.history()) {
         update.undoable = history->undoable();
         update.redoable = history->redoable();
@@ -135,17 +156,27 @@ void CarvedPart::order(const SculptOrder& order) {
     status_changed_ = true;
 }
 
-void CarvedPart::carry_out(const UseTool& use) {
+void CarvedPart::order(const UseTool& use, std::size_t hand) {
+    Carver* carver = carver_of(hand);
+    if (carver == nullptr) {
+        const double cell_m = sculpture_.surface().lattice().spacing_m;
+        carver = &carvers_.emplace_back(hand, StrokeReader(use.tool, use.hardness_Ns_per_m3, cell_m));
+    }
+    use_tool(*carver, use);
+    status_changed_ = true;
+}
+
+void CarvedPart::use_tool(Carver& carver, const UseTool& use) {
     const Result<std::uint8_t> material = sculpture_.add_material(use.material);
     if (!material) return notify(material.error().line());
     Tool tool = use.tool;
     tool.material = *material;
-    refused_.reset();
+    carver.refused.reset();
     if (const auto ok = compute::check_tool(sculpture_.engine().solid(), tool.sweep(Pose{}, Pose{})); !ok) {
-        refused_ = ok.error();
+        carver.refused = ok.error();
         return notify(ok.error().line());
     }
-    reader_.use_tool(tool, use.hardness_Ns_per_m3);
+    carver.reader.use_tool(tool, use.hardness_Ns_per_m3);
 }
 
 void CarvedPart::carry_out(const UndoStroke&) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A carved workpiece as a part of a scene: carves what a hand does, carries out orders, and reports changes to the
-// frame.
+// A carved workpiece as a part of a scene: carves what hands do, each with a tool of its own, carries out orders, and
+// reports changes to the frame.
 //
-// Data flow of an update: stroke samples of the hand -> sweeps (StrokeReader) -> Sculpture::update. Then the touch
-// publisher asks for the surface near the tool, and after that the light of a few tiles is baked. Orders come from
+// Data flow of an update: stroke samples of a hand -> sweeps (its StrokeReader) -> Sculpture::update, one hand after the
+// other. Then the touch publisher asks for the surface near the tool, and after that the light of a few tiles is baked. Orders come from
 // keys, panel, script or recording. take_surface_update() gives the frame the tiles that changed since the last call,
 // as references to tiles that never change again.
 // Frame: object, metres; a workpiece stands in the scene as in its own frame. Thread: one at a time, that of the
@@ -76,7 +76,7 @@ public:
     // Between updates while something changes, and at rest.
     static constexpr Nanoseconds kBusy_ns = 10'000'000, kResting_ns = 40'000'000;
 
-    // sculpture must outlive the part. `hand` is the one that carves. With `undo_bytes` the part has the sculpture keep
+    // sculpture must outlive the part. `hand` is the first that carves; another does once it has been given a tool. With `undo_bytes` the part has the sculpture keep
     // a history within that much memory, and passes its notices on; without, a history that the sculpture keeps remains
     // the caller's affair.
     CarvedPart(Sculpture& sculpture, const Tool& tool, double hardness_Ns_per_m3, std::optional<std::size_t> undo_bytes,
@@ -85,10 +85,13 @@ public:
 
     // Carries out an order. One that fails leaves the solid as it was and a message in the next surface update.
     void order(const SculptOrder& order);
-    // Returns the radius of a ball about the tool's place that holds the tool and what the tick looks at around it.
-    [[nodiscard]] double around_m() const { return reader_.around_m(); }
+    // Gives a hand a tool, likewise.
+    void order(const UseTool& use, std::size_t hand);
+    // Returns the radius of a ball about a hand's tool that holds the tool and what the tick looks at around it.
+    [[nodiscard]] double around_m() const { return carvers_.front().reader.around_m(); }
+    [[nodiscard]] double around_m(std::size_t hand) const;
 
-    // ScenePart. Each release of the button ends a stroke, which is what one undo takes back. Fails when the engine
+    // ScenePart. Each release of a button ends a stroke, which is what one undo takes back. Fails when the engine
     // does. A repeated update waits for an export that the recorded one found complete. finish() waits for the export
     // under way, if any.
     void take_samples(std::size_t hand, std::span<const haptics::StrokeSample> samples) override;
@@ -103,27 +106,35 @@ public:
     [[nodiscard]] std::optional<SurfaceUpdate> take_surface_update();
 
 private:
-    void carry_out(const UseTool& use);
+    // A hand that carves.
+    struct Carver {
+        std::size_t hand = 0;
+        StrokeReader reader;
+        Vec3 tool_object{0.0};           // as of the last publication
+        std::optional<Error> refused{};  // why the tool that was asked for last cannot carve; nothing does until another
+        bool said_why = false;           // this stroke's user has been told why nothing is carved
+    };
+    void carry_out(const UseTool& use) { use_tool(carvers_.front(), use); }
     void carry_out(const UndoStroke&);
     void carry_out(const RedoStroke&);
     void carry_out(const ExportSurface& wanted);
     void carry_out(const LightFrom& from);
-    void drop_invalid(std::vector<compute::ToolSweep>& sweeps);
+    void use_tool(Carver& carver, const UseTool& use);
+    [[nodiscard]] Result<void> carve(Carver& carver);
+    void drop_invalid(Carver& carver, std::vector<compute::ToolSweep>& sweeps);
+    [[nodiscard]] Carver* carver_of(std::size_t hand);
+    [[nodiscard]] bool pressed() const;
     void notify(std::string message);
     [[nodiscard]] bool export_is_done() const;
     [[nodiscard]] bool has_news() const;
 
     Sculpture& sculpture_;
-    StrokeReader reader_;
+    std::vector<Carver> carvers_;  // at least one, in the order in which they were given tools
     bool keeps_history_;
-    std::size_t hand_;
-    Vec3 tool_object_{0.0};       // as of the last publication
-    bool stroke_open_ = false;    // the button was down at the end of the last update
+    bool stroke_open_ = false;    // a button was down at the end of the last update
     bool status_changed_ = true;  // something other than tiles and messages has to be reported
     bool busy_ = true;            // there was something to report after the last update
     std::future<ExportOutcome> export_;
-    std::optional<Error> refused_;  // why the tool that was asked for last cannot carve; nothing does until another
-    bool said_why_ = false;         // this stroke's user has been told why nothing is carved
     std::vector<std::string> messages_;
     std::vector<ExportOutcome> exports_;  // that have ended and nobody knows of
     scene::PartSeen seen_;

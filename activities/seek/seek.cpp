@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <limits>
 #include <random>
 #include <utility>
 
@@ -28,6 +27,9 @@ std::vector<std::string> in_drawn_order(std::vector<std::string> names, std::uin
     for (std::size_t i = names.size(); i > 1; --i) std::swap(names[i - 1], names[random() % i]);
     return names;
 }
+
+// Returns where the tool rests in a tick.
+const Vec3& place_of(const haptics::TickRecord& tick) { return tick.contact.points[0].proxy_object_m; }
 
 }  // namespace
 
@@ -79,11 +81,10 @@ std::size_t Seek::sought_now() const {
 void Seek::step(const session::ActivityView& view, session::ActivityOrders& orders) {
     if (view.world == nullptr) return;
     if (phase_ == Phase::starting) begin(*view.world, orders);
-    for (const haptics::TickRecord& whole : view.ticks) {
-        const haptics::StrokeSample tick = haptics::stroke_of(whole);
+    for (const haptics::TickRecord& tick : view.ticks) {
         if (phase_ == Phase::seeking) go_on_by(tick, *view.world, orders);
         last_ns_ = tick.time_ns;
-        last_place_scene_ = tick.proxy_object_m;
+        last_place_scene_ = place_of(tick);
     }
     if (phase_ == Phase::seeking && !its_colour_) let_glow(*view.world, orders);
 }
@@ -122,22 +123,20 @@ void Seek::take_next(session::ActivityOrders& orders) {
     orders.messages.push_back(formatted("%zu objects sought in %.1f s", sought, time_s));
 }
 
-void Seek::go_on_by(const haptics::StrokeSample& tick, const session::WorldObjects& world,
+void Seek::go_on_by(const haptics::TickRecord& tick, const session::WorldObjects& world,
                     session::ActivityOrders& orders) {
     if (!since_ns_) {
         since_ns_ = last_ns_ > 0 ? last_ns_ : tick.time_ns;
         orders.trials.push_back({*since_ns_, now_.object});
-        if (last_ns_ == 0) last_place_scene_ = tick.proxy_object_m;
+        if (last_ns_ == 0) last_place_scene_ = place_of(tick);
     }
     now_.time_s = seconds(tick.time_ns - *since_ns_);
-    now_.path_m += glm::length(tick.proxy_object_m - last_place_scene_);
-    if ((tick.flags & haptics::kTickInContact) == 0) {
+    now_.path_m += glm::length(place_of(tick) - last_place_scene_);
+    if (!tick.in_contact()) {
         in_touch_with_.clear();
         return;
     }
-    // A search costs a look at every object: ten ticks are soon enough where a touch goes on.
-    if (!in_touch_with_.empty() && tick.tick % 10 != 0) return;
-    const scene::SceneObject* object = touched(world, tick.proxy_object_m);
+    const scene::SceneObject* object = world.find(tick.deepest().object);
     if (object == nullptr || object->name == in_touch_with_) return;
     in_touch_with_ = object->name;
     if (object->name != now_.object) {
@@ -161,24 +160,6 @@ void Seek::let_glow(const session::WorldObjects& world, session::ActivityOrders&
 void Seek::end_glow(session::ActivityOrders& orders) {
     if (its_colour_) orders.edits.push_back({now_.object, ObjectProperty::colour, *its_colour_});
     its_colour_.reset();
-}
-
-// Returns the felt object whose surface is nearest to the place.
-const scene::SceneObject* Seek::touched(const session::WorldObjects& world, const Vec3& place_scene) {
-    const scene::SceneObject* nearest = nullptr;
-    double least_m = std::numeric_limits<double>::infinity();
-    for (const auto& object : world.objects) {
-        if (!object->felt) continue;
-        auto& tree = trees_[object->mesh.get()];
-        if (!tree) tree = std::make_unique<geometry::TriangleTree>(object->mesh->positions_m, object->mesh->triangles);
-        const Vec3 place_object =
-            glm::inverse(object->pose.orientation) * (place_scene - object->pose.position_m) / object->scale;
-        const double distance_m = object->scale * tree->nearest(place_object, 0).distance_m;
-        if (distance_m >= least_m) continue;
-        least_m = distance_m;
-        nearest = object.get();
-    }
-    return nearest;
 }
 
 session::ActivityPanel Seek::panel() const {

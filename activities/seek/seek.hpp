@@ -5,21 +5,18 @@
 //   waiting -> "start" -> one target after the other, in an order drawn from the seed -> over -> "start" ...
 // Each start begins a search of its own, numbered from 1, in the same order; what earlier ones measured is kept. One
 // that is under way is broken off then, and its target counts as given up.
-// A target glows while it is sought. It is found by the first tick in which the tool is in contact and the surface
-// nearest to where it rests is the target's; touches of other objects on the way are counted. Time and path are those
+// A target glows while it is sought. It is found by the first tick that touches it; touches of other objects on the way
+// are counted. Time and path are those
 // of the ticks, from the tick that found the target before, or that came first after the start.
 // Frame: the scene's, metres. One thread, the frame's.
 #pragma once
 
 #include <cstdint>
-#include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/json.hpp"
-#include "geometry/mesh/triangle_tree.hpp"
 #include "session/state/activity.hpp"
 
 namespace burin::activities {
@@ -60,7 +57,7 @@ private:
     enum class Phase : std::uint8_t { waiting, starting, seeking, over };
 
     void begin(const session::WorldObjects& world, session::ActivityOrders& orders);
-    void go_on_by(const haptics::StrokeSample& tick, const session::WorldObjects& world,
+    void go_on_by(const haptics::TickRecord& tick, const session::WorldObjects& world,
                   session::ActivityOrders& orders);
     void give_up(session::ActivityOrders& orders);
     void break_off(session::ActivityOrders& orders);
@@ -68,7 +65,6 @@ private:
     void let_glow(const session::WorldObjects& world, session::ActivityOrders& orders);
     void end_glow(session::ActivityOrders& orders);
     [[nodiscard]] std::size_t sought_now() const;  // targets of the present search that are done with
-    [[nodiscard]] const scene::SceneObject* touched(const session::WorldObjects& world, const Vec3& place_scene);
 
     SeekOptions options_;
     Phase phase_ = Phase::waiting;
@@ -82,7 +78,6 @@ private:
     Nanoseconds last_ns_ = 0;                         // of the last tick
     Vec3 last_place_scene_{0.0};
     std::string in_touch_with_;  // empty: nothing
-    std::map<const geometry::TriangleMesh*, std::unique_ptr<geometry::TriangleTree>> trees_;
 };
 
 }  // namespace burin::activities

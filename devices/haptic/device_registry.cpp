@@ -6,39 +6,51 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "devices/haptic/steered_fingers.hpp"
 #include "devices/haptic/simulated_wand.hpp"
 #include "devices/haptic/wand_file.hpp"
 
 namespace burin::devices {
 namespace {
 
-Result<std::unique_ptr<HapticDevice>> open_simulated_omni(HapticHost host, const std::string& file) {
+Result<OpenedDevice> open_simulated_omni(HapticHost host, const std::string& file) {
     if (!file.empty())
         return fail("haptic device " + std::string(kDefaultHapticDevice), "takes no description: " + file,
                     "write the name alone");
-    return std::make_unique<SimulatedOmni>(std::move(host.hand), OmniModel{}, &host.clock);
+    return of_one_part(std::make_unique<SimulatedOmni>(std::move(host.hand), OmniModel{}, &host.clock));
 }
 
-Result<std::unique_ptr<HapticDevice>> open_simulated_wand(HapticHost host, const std::string& file) {
+Result<OpenedDevice> open_simulated_wand(HapticHost host, const std::string& file) {
     Result<WandDescription> wand = file.empty() ? WandDescription{} : read_wand(file);
     if (!wand) return std::unexpected(wand.error());
-    return std::make_unique<SimulatedWand>(std::move(host.hand), std::move(*wand), &host.clock);
+    auto opened = std::make_unique<SimulatedWand>(std::move(host.hand), std::move(*wand), &host.clock);
+    Amplifiers* const amplifiers = opened.get();
+    return of_one_part(std::move(opened), amplifiers);
+}
+
+Result<OpenedDevice> open_simulated_fingers(HapticHost host, const std::string& file) {
+    if (!file.empty())
+        return fail("haptic device " + std::string(kSimulatedFingers), "takes no description: " + file,
+                    "write the name alone");
+    return simulated_fingers(std::move(host.hand), host.clock);
 }
 
 constexpr std::array kKinds{
-    HapticKind{kDefaultHapticDevice, "a PHANTOM Omni in a simulated hand", open_simulated_omni},
+    HapticKind{kDefaultHapticDevice, "a PHANTOM Omni in a simulated hand", 1, open_simulated_omni},
     HapticKind{
         "simulated-wand",
         "a wand that is driven in three forces and two torques, in a simulated hand; simulated-wand:FILE.toml as "
         "FILE describes it",
-        open_simulated_wand},
+        1, open_simulated_wand},
+    HapticKind{kSimulatedFingers, "four fingertips of a simulated hand, each pushed by itself", kFingers,
+               open_simulated_fingers},
 };
 
 }  // namespace
 
 std::span<const HapticKind> haptic_kinds() { return kKinds; }
 
-Result<std::unique_ptr<HapticDevice>> open_haptic_device(std::string_view name, HapticHost host) {
+Result<OpenedDevice> open_haptic_device(std::string_view name, HapticHost host) {
     const std::string_view kind_name = name.substr(0, name.find(':'));
     const auto kind = std::ranges::find(kKinds, kind_name, &HapticKind::name);
     if (kind != kKinds.end())
@@ -47,6 +59,11 @@ Result<std::unique_ptr<HapticDevice>> open_haptic_device(std::string_view name, 
     std::ranges::transform(kKinds, names.begin(), &HapticKind::name);
     return fail("haptic device " + std::string(name), "is no device that Burin knows",
                 "did you mean " + std::string(nearest_name(kind_name, names)) + "? There are: " + joined(names));
+}
+
+std::size_t parts_of_device(std::string_view name) {
+    const auto kind = std::ranges::find(kKinds, name.substr(0, name.find(':')), &HapticKind::name);
+    return kind != kKinds.end() ? kind->parts : 0;
 }
 
 std::string haptic_usage() {

@@ -11,7 +11,7 @@
 
 #include "base/clock.hpp"
 #include "base/error.hpp"
-#include "devices/haptic/haptic_device.hpp"
+#include "devices/haptic/opened_device.hpp"
 #include "devices/haptic/simulated_omni.hpp"
 
 namespace burin::devices {
@@ -25,16 +25,20 @@ struct HapticHost {
 struct HapticKind {
     std::string_view name;   // as --device spells it
     std::string_view usage;  // what it is, for the help
+    std::size_t parts;       // that move by themselves
     // `file` is what follows the name and a colon: a description of the device; empty: none was named.
-    Result<std::unique_ptr<HapticDevice>> (*open)(HapticHost host, const std::string& file);
+    Result<OpenedDevice> (*open)(HapticHost host, const std::string& file);
 };
 [[nodiscard]] std::span<const HapticKind> haptic_kinds();
+
+// Returns how many parts the device of that name has; 0 where there is no such device.
+[[nodiscard]] std::size_t parts_of_device(std::string_view name);
 
 inline constexpr const char* kDefaultHapticDevice = "simulated";
 
 // Opens the device of that name, or of NAME:FILE. An Error names the kinds that there are, or says why the device
 // cannot be used.
-[[nodiscard]] Result<std::unique_ptr<HapticDevice>> open_haptic_device(std::string_view name, HapticHost host);
+[[nodiscard]] Result<OpenedDevice> open_haptic_device(std::string_view name, HapticHost host);
 
 // Returns all names with what they are, for the help of --device.
 [[nodiscard]] std::string haptic_usage();

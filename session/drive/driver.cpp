@@ -17,13 +17,20 @@ Result<void> drive(Executor& executor, FrameSource& frames) {
     return outcome;
 }
 
+std::vector<haptics::ToolState> newest_tools(const std::vector<haptics::HapticChannels*>& parts) {
+    std::vector<haptics::ToolState> tools;
+    for (haptics::HapticChannels* const part : parts) tools.push_back(part->tool.newest());
+    return tools;
+}
+
 // ---- On the caller's thread
 
-SteppedExecutor::SteppedExecutor(SimulatedClock& clock, haptics::HapticLoop& loop, haptics::HapticChannels& channels,
-                                 scene::SceneService& service, AfterUpdate after_update)
+SteppedExecutor::SteppedExecutor(SimulatedClock& clock, haptics::HapticLoop& loop,
+                                 std::vector<haptics::HapticChannels*> parts, scene::SceneService& service,
+                                 AfterUpdate after_update)
     : clock_(clock),
       loop_(loop),
-      channels_(channels),
+      parts_(std::move(parts)),
       service_(service),
       after_update_(std::move(after_update)),
       next_update_ns_(clock.now_ns() + scene::SceneService::kHandsMove_ns) {}
@@ -66,16 +73,16 @@ Result<Executor::Taken> SteppedExecutor::take_updates() {
 
 // ---- On threads
 
-ThreadedExecutor::ThreadedExecutor(Clock& clock, haptics::HapticLoop& loop, haptics::HapticChannels& channels,
-                                   scene::SceneService& service, const haptics::LoopPace& pace,
-                                   AfterUpdate after_update)
-    : clock_(clock), channels_(channels), touch_(loop, pace), service_(service) {
+ThreadedExecutor::ThreadedExecutor(Clock& clock, haptics::HapticLoop& loop,
+                                   std::vector<haptics::HapticChannels*> parts, scene::SceneService& service,
+                                   const haptics::LoopPace& pace, AfterUpdate after_update)
+    : clock_(clock), parts_(std::move(parts)), touch_(loop, pace), service_(service) {
     scene_.emplace(service, clock, std::move(after_update));
 }
 
-ThreadedExecutor::ThreadedExecutor(Clock& clock, haptics::HapticLoop& loop, haptics::HapticChannels& channels,
-                                   scene::SceneService& service)
-    : clock_(clock), channels_(channels), touch_(loop), service_(service) {}
+ThreadedExecutor::ThreadedExecutor(Clock& clock, haptics::HapticLoop& loop,
+                                   std::vector<haptics::HapticChannels*> parts, scene::SceneService& service)
+    : clock_(clock), parts_(std::move(parts)), touch_(loop), service_(service) {}
 
 haptics::RealtimeNotice ThreadedExecutor::start() {
     haptics::RealtimeNotice notice = touch_.start();

@@ -37,8 +37,8 @@ public:
     // Returns when all is done that is due by this time of the clock; in real time that is when the time has come.
     // Fails when the scene does.
     [[nodiscard]] virtual Result<void> advance_to(Nanoseconds until_ns) = 0;
-    // Returns the tool as the present frame draws it.
-    [[nodiscard]] virtual const haptics::ToolState& tool() = 0;
+    // Returns the tool of each part of the hands as the present frame draws it, in the parts' order.
+    [[nodiscard]] virtual std::vector<haptics::ToolState> tools() = 0;
     // Gives an order to a part of the scene, which is carried out before its next update.
     virtual void order(Order order) = 0;
     // Has the present frame take the updates that are done.
@@ -58,6 +58,9 @@ public:
     [[nodiscard]] virtual Result<void> make(Executor& executor) = 0;
 };
 
+// Returns the newest tool state of each part of the hands.
+[[nodiscard]] std::vector<haptics::ToolState> newest_tools(const std::vector<haptics::HapticChannels*>& parts);
+
 // Makes all frames, until the source has no more or something fails, and then stops the executor.
 [[nodiscard]] Result<void> drive(Executor& executor, FrameSource& frames);
 
@@ -66,14 +69,14 @@ public:
 class SteppedExecutor final : public Executor {
 public:
     // All must outlive it. The first tick is one period from the clock's present time.
-    SteppedExecutor(SimulatedClock& clock, haptics::HapticLoop& loop, haptics::HapticChannels& channels,
+    SteppedExecutor(SimulatedClock& clock, haptics::HapticLoop& loop, std::vector<haptics::HapticChannels*> parts,
                     scene::SceneService& service, AfterUpdate after_update = {});
 
     // Appends how long each tick from now on takes, in nanoseconds.
     void measure_ticks(std::vector<std::uint32_t>& durations_ns) { tick_durations_ns_ = &durations_ns; }
 
     [[nodiscard]] Result<void> advance_to(Nanoseconds until_ns) override;
-    [[nodiscard]] const haptics::ToolState& tool() override { return channels_.tool.newest(); }
+    [[nodiscard]] std::vector<haptics::ToolState> tools() override { return newest_tools(parts_); }
     // Carries the order out at once, exports to their end, so that later orders find it complete.
     void order(Order order) override;
     // Collects once more, for orders since the last update.
@@ -85,7 +88,7 @@ private:
 
     SimulatedClock& clock_;
     haptics::HapticLoop& loop_;
-    haptics::HapticChannels& channels_;
+    std::vector<haptics::HapticChannels*> parts_;
     scene::SceneService& service_;
     AfterUpdate after_update_;
     Nanoseconds next_update_ns_;
@@ -98,24 +101,24 @@ private:
 class ThreadedExecutor final : public Executor {
 public:
     // All must outlive it. after_update is called on the scene's thread (SceneThread).
-    ThreadedExecutor(Clock& clock, haptics::HapticLoop& loop, haptics::HapticChannels& channels,
+    ThreadedExecutor(Clock& clock, haptics::HapticLoop& loop, std::vector<haptics::HapticChannels*> parts,
                      scene::SceneService& service, const haptics::LoopPace& pace, AfterUpdate after_update);
     // Without a thread for the scene: the caller's makes one update each time it has come to a frame.
-    ThreadedExecutor(Clock& clock, haptics::HapticLoop& loop, haptics::HapticChannels& channels,
+    ThreadedExecutor(Clock& clock, haptics::HapticLoop& loop, std::vector<haptics::HapticChannels*> parts,
                      scene::SceneService& service);
 
     // Starts the threads; call it once. Returns what the system refused of real-time scheduling.
     [[nodiscard]] haptics::RealtimeNotice start();
 
     [[nodiscard]] Result<void> advance_to(Nanoseconds until_ns) override;
-    [[nodiscard]] const haptics::ToolState& tool() override { return channels_.tool.newest(); }
+    [[nodiscard]] std::vector<haptics::ToolState> tools() override { return newest_tools(parts_); }
     void order(Order order) override;
     [[nodiscard]] Result<Taken> take_updates() override;
     void stop() override;
 
 private:
     Clock& clock_;
-    haptics::HapticChannels& channels_;
+    std::vector<haptics::HapticChannels*> parts_;
     haptics::HapticThread touch_;
     scene::SceneService& service_;
     std::optional<scene::SceneThread> scene_;

@@ -205,8 +205,8 @@ void tell_of(const SessionRecording& recording) {
 
 }  // namespace
 
-haptics::LoopPace pace_of(haptics::LoopPace asked, const devices::DeviceDescription& device, bool has_activity) {
-    asked.rests = asked.rests && !has_activity && !device.felt_by_person;
+haptics::LoopPace pace_of(haptics::LoopPace asked, bool felt_by_person, bool has_activity) {
+    asked.rests = asked.rests && !has_activity && !felt_by_person;
     return asked;
 }
 
@@ -232,8 +232,8 @@ Result<SessionRecord> run_in_real_time(const SculptOptions& options, const Sessi
     }
 
     LiveFrames frames(session, *presenter, std::move(input), clock, tracker.get());
-    const haptics::LoopPace pace = pace_of(run.pace, session.device(), session.has_activity());
-    ThreadedExecutor threads(clock, session.loop(), session.channels(), session.scene(), pace,
+    const haptics::LoopPace pace = pace_of(run.pace, session.hands().felt_by_person(), session.has_activity());
+    ThreadedExecutor threads(clock, session.loop(), session.channels_of_parts(), session.scene(), pace,
                              [&session, &wake](const auto& ended) {
                                  if (session.collect(ended) || ended.failed) wake();
                              });

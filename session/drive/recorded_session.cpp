@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cstdio>
+#include <memory>
+#include <utility>
 
 #include "base/text.hpp"
 #include "session/drive/session.hpp"
@@ -82,6 +85,27 @@ private:
     std::optional<Error> departed_;
 };
 
+// Returns what has the recording's ticks, and checks that they are of this session's hands.
+Result<std::unique_ptr<TickSource>> ticks_for(LiveSession& session, const ThreadLog& log, const std::string& name,
+                                              const ReplayManner& manner) {
+    std::unique_ptr<TickSource> source;
+    if (log.ticks.count > 0 || manner.ticks == nullptr) {
+        source = ticks_of_lines(log, name);
+    } else {
+        auto columns = ticks_of_columns(*manner.ticks);
+        if (!columns) return columns;
+        source = std::move(*columns);
+    }
+    const std::size_t parts = session.hands().parts();
+    const bool frames_agree =
+        std::ranges::all_of(log.frames, [&](const FrameSeen& seen) { return seen.ticks.size() == parts; });
+    if (source->parts() == parts && frames_agree) return source;
+    return fail(name,
+                "has the ticks of so many parts of hands: " + std::to_string(source->parts()) +
+                    ", and this session's devices have " + std::to_string(parts),
+                "replay it with the --device that it was recorded with");
+}
+
 Result<void> check_screens(const Presenter& presenter, const ThreadLog& log, const std::string& name) {
     for (const FrameSeen& seen : log.frames) {
         for (const OutputSeen& output : seen.outputs) {
@@ -110,7 +134,9 @@ Result<void> replay_as_recorded(const SculptOptions& options, const SessionWall&
     if (!presenter) return std::unexpected(presenter.error());
     if (const auto fits = check_screens(*presenter, threads, name); !fits) return fits;
 
-    ThreadReplay replay(session, threads, name);
+    auto ticks = ticks_for(session, threads, name, manner);
+    if (!ticks) return std::unexpected(ticks.error());
+    ThreadReplay replay(session, threads, std::move(*ticks), name);
     replay.judge_ticks(manner.witness);
     RecordedFrames frames(session, *presenter, std::move(input), threads, name, replay, manner);
     Result<void> done = drive(replay, frames);

@@ -23,11 +23,18 @@ std::vector<std::pair<std::int64_t, std::string>> touchable_in(const LiveSession
 
 Result<InputLogWriter> create_recording(const SculptOptions& options, const SessionFacts& facts, LiveSession& session) {
     const std::string settings = settings_line(session.settled(options));
-    if (!is_session_file(options.live.record)) return InputLogWriter::create(options.live.record, settings);
+    SessionHands& hands = session.hands();
+    if (!is_session_file(options.live.record)) {
+        if (hands.parts() == 1) return InputLogWriter::create(options.live.record, settings);
+        return fail(options.live.record, "is a log as text, which has the ticks of one hand with one part alone",
+                    "record into a session file: --record FILE.session");
+    }
     RecordingOf of;
-    of.device = session.device();
-    of.probe = session.channels().parameters.newest().probe;
-    of.ring = &session.channels().records;
+    for (std::size_t part = 0; part < hands.parts(); ++part) {
+        haptics::HapticChannels& channels = hands.channels(part);
+        of.parts.push_back({hands.parts() > 1 ? hands.name_of(part) : "", hands.device(part),
+                            channels.parameters.newest().probe, &channels.records});
+    }
     of.clock = clock_of(session);
     of.settings = settings;
     of.facts = facts;

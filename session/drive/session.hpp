@@ -6,6 +6,7 @@
 #pragma once
 
 #include "haptics/haptic_loop.hpp"
+#include "record/record_reader.hpp"
 #include "session/drive/recording_start.hpp"
 #include "session/drive/tick_witness.hpp"
 #include "session/present/direct_output.hpp"
@@ -30,6 +31,7 @@ namespace burin::session {
 struct ReplayManner {
     bool draws = true;               // its frames' pictures; their screenshots, too
     TickWitness* witness = nullptr;  // judges every tick; null: only the frames' checksums are compared
+    record::RecordReader* ticks = nullptr;  // the session file that has the ticks, where the log has none
     // What the log asked for and did not get then either is no failure of the replay.
     bool only_compares = false;
     Nanoseconds picture_every_ns = 0;  // with draws: of session time, as SECONDS.png; 0: none
@@ -56,9 +58,8 @@ struct RealTimeRun {
     SessionFacts facts{};  // of a session file
 };
 // Returns the pace that was asked for, without rest where ticks are missed by somebody: an activity, whose clock and
-// figures go by them, or a person who feels the device.
-[[nodiscard]] haptics::LoopPace pace_of(haptics::LoopPace asked, const devices::DeviceDescription& device,
-                                        bool has_activity);
+// figures go by them, or a person who feels a device.
+[[nodiscard]] haptics::LoopPace pace_of(haptics::LoopPace asked, bool felt_by_person, bool has_activity);
 // Runs in real time: haptics and carving have threads of their own, and a frame is drawn when something has changed, as
 // late as the display allows. Input comes from a user, or from a log in the user's place. Where options.live.record
 // asks for it, it is recorded once the session has found out what the recording's first line has to hold. SIGINT and

@@ -9,15 +9,15 @@ namespace burin::session {
 
 Result<void> step_frame(LiveSession& session, Executor& executor, ThreadRecorder& recorder, const FrameInput& input,
                         const std::vector<wall::OutputPlace>& places) {
-    const haptics::ToolState tool = executor.tool();
+    const std::vector<haptics::ToolState> tools = executor.tools();
     const SessionWall& wall = session.room().wall;
     session.step(
-        input, places[wall.main], tool, [&](Executor::Order order) { executor.order(std::move(order)); },
+        input, places[wall.main], tools, [&](Executor::Order order) { executor.order(std::move(order)); },
         wall.has_panel_window() ? places.back().size : ImageSize{});
     const Result<Executor::Taken> taken = executor.take_updates();
     if (!taken) return std::unexpected(taken.error());
     session.take_news(taken->collected);
-    recorder.frame(tool.tick, taken->updates, places);
+    recorder.frame(tools, taken->updates, places);
     return {};
 }
 
@@ -90,7 +90,7 @@ Result<void> run_in_simulated_time(const SculptOptions& options, const SessionWa
     Result<Presenter> presenter = Presenter::open(options.live, wall);
     if (!presenter) return std::unexpected(presenter.error());
     ScriptedFrames frames(session, *presenter, std::move(input));
-    SteppedExecutor executor(clock, session.loop(), session.channels(), session.scene(),
+    SteppedExecutor executor(clock, session.loop(), session.channels_of_parts(), session.scene(),
                              [&](const auto& ended) { static_cast<void>(session.collect(ended)); });
     if (const auto driven = drive(executor, frames); !driven) return driven;
     session.finish_scene();

@@ -59,7 +59,7 @@ void ThreadRecorder::outside() {
     for (const std::string& message : outside.heard) input_.record_threads(message_text(message));
 }
 
-void ThreadRecorder::frame(std::uint64_t tick, const std::vector<scene::SceneUpdate>& updates,
+void ThreadRecorder::frame(std::span<const haptics::ToolState> tools, const std::vector<scene::SceneUpdate>& updates,
                            const std::vector<wall::OutputPlace>& places) {
     write_trials();
     if (!input_.records()) return;
@@ -71,13 +71,14 @@ void ThreadRecorder::frame(std::uint64_t tick, const std::vector<scene::SceneUpd
     if (measured.numbers) input_.record_threads(text_of(*measured.numbers));
     if (measured.acknowledged) input_.record_threads(kept_text(*measured.acknowledged));
     FrameSeen frame;
-    frame.tick = tick;
+    frame.ticks.clear();
+    for (const haptics::ToolState& tool : tools) frame.ticks.push_back(tool.tick);
     frame.updates = updates_;
     if (file_) {
         input_.record_frame(frame, words_of(session_.state()));
         return;
     }
-    frame.check = check_.frame(tick, words_of(session_.state()));
+    frame.check = check_.frame(frame.ticks, words_of(session_.state()));
     input_.record_threads(text_of(frame));
 }
 
@@ -115,7 +116,7 @@ void ThreadRecorder::write_ticks() {
                                    "what is in the file is whole and can be replayed; record the rest anew"});
             return;
         }
-        check_.tick(record);
+        check_.tick(0, record);
         ticks.push_back({record.time_ns, record.sample, record.surface_sequence, record.parameter_sequence,
                          (record.flags & haptics::kTickLate) != 0});
         if (ticks.size() == kMostTicksALine) write_ticks(std::exchange(ticks, {}));

@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "session/live/live_session.hpp"
 #include "session/record/input_source.hpp"
@@ -34,8 +35,8 @@ public:
 
     // Records the outside messages since the previous frame. Reports, once, why the recording has ended.
     void outside();
-    // Records a frame. tick: the one whose tool the frame draws. updates: those that it took.
-    void frame(std::uint64_t tick, const std::vector<scene::SceneUpdate>& updates,
+    // Records a frame. tools: those that the frame draws, one of each part of the hands. updates: those that it took.
+    void frame(std::span<const haptics::ToolState> tools, const std::vector<scene::SceneUpdate>& updates,
                const std::vector<wall::OutputPlace>& places);
     // Ends the recording, and closes a session file.
     void finish(const std::vector<scene::SceneUpdate>& updates);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "session/drive/thread_replay.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace burin::session {
 namespace {
 
@@ -27,25 +30,36 @@ Result<std::unique_ptr<LiveSession>> open_as_recorded(const SculptOptions& optio
                 "replay it with the device that it was recorded with");
 }
 
-ThreadReplay::ThreadReplay(LiveSession& session, const ThreadLog& log, const std::string& name)
+ThreadReplay::ThreadReplay(LiveSession& session, const ThreadLog& log, std::unique_ptr<TickSource> ticks,
+                           const std::string& name)
     : session_(session),
       log_(log),
       name_(name),
-      tick_lines_(log.clock, log.ticks),
-      update_lines_(log.clock, log.updates) {
-    end_.tick = log.ticks.count;
-    end_.updates = log.updates.count;
-    keep_surface();
-    tools_.push_back(session_.newest_tool());
+      ticks_source_(std::move(ticks)),
+      update_lines_(log.clock, log.updates),
+      parts_(session.hands().parts()),
+      check_(session.hands().parts()) {
+    keep_surfaces();
+    for (std::size_t part = 0; part < parts_.size(); ++part)
+        parts_[part].tools.push_back(session_.hands().newest_tool(part));
 }
 
 // ---- Frames
 
 Result<void> ThreadReplay::advance_to(Nanoseconds) {
     keep_parameters();
-    if (const auto run = run_ticks(frame_->tick); !run) return run;
-    while (tools_.size() > 1 && tools_[1].tick <= frame_->tick) tools_.pop_front();
+    if (const auto run = run_turns(std::ranges::max(frame_->ticks)); !run) return run;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        std::deque<haptics::ToolState>& tools = parts_[i].tools;
+        while (tools.size() > 1 && tools[1].tick <= frame_->ticks[i]) tools.pop_front();
+    }
     return {};
+}
+
+std::vector<haptics::ToolState> ThreadReplay::tools() {
+    std::vector<haptics::ToolState> tools;
+    for (const Part& part : parts_) tools.push_back(part.tools.front());
+    return tools;
 }
 
 Result<Executor::Taken> ThreadReplay::take_updates() {
@@ -54,62 +68,110 @@ Result<Executor::Taken> ThreadReplay::take_updates() {
     return Taken{{}, frame_->updates};
 }
 
-bool ThreadReplay::is_as_recorded() { return check_.frame(frame_->tick, words_of(session_.state())) == frame_->check; }
-
-Result<void> ThreadReplay::run_to_end() {
-    begin_frame(end_);
-    keep_parameters();
-    if (const auto run = run_updates(end_.updates); !run) return run;
-    return run_ticks(end_.tick);
+bool ThreadReplay::is_as_recorded() {
+    return check_.frame(frame_->ticks, words_of(session_.state())) == frame_->check;
 }
 
-// ---- Ticks
+Result<void> ThreadReplay::run_to_end() {
+    if (!log_.end_check) return {};
+    keep_parameters();
+    if (const auto run = run_updates(log_.updates.count); !run) return run;
+    for (;;) {
+        const Result<bool> there = read_turn();
+        if (!there) return std::unexpected(there.error());
+        if (!*there) return {};
+        if (const auto run = run_turn(); !run) return run;
+    }
+}
 
-Result<void> ThreadReplay::run_ticks(std::uint64_t last) {
-    if (last > log_.ticks.count) return ends("tick " + std::to_string(last));
+// ---- Turns of the loop
+
+Result<void> ThreadReplay::run_turns(std::uint64_t last) {
     while (ticks_ < last) {
-        if (const auto run = run_tick(); !run) return run;
+        const Result<bool> there = read_turn();
+        if (!there) return std::unexpected(there.error());
+        if (!*there) return ends("tick " + std::to_string(last));
+        if (const auto run = run_turn(); !run) return run;
     }
     return {};
 }
 
-Result<void> ThreadReplay::run_tick() {
-    TickSeen tick = *tick_lines_.next();  // the count was checked
-    const std::size_t line = tick_lines_.line();
+// Reads the next tick of each part; false where there is none.
+Result<bool> ThreadReplay::read_turn() {
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        if (parts_[i].next) continue;
+        Result<std::optional<TickSeen>> tick = ticks_source_->next(i);
+        if (!tick) return std::unexpected(tick.error());
+        if (!*tick) return false;
+        parts_[i].next = std::move(*tick);
+    }
+    return true;
+}
+
+Result<haptics::PartInput> ThreadReplay::input_of(std::size_t i) {
+    Part& part = parts_[i];
+    const TickSeen& tick = *part.next;
     const std::string what = "tick " + std::to_string(ticks_ + 1) + " saw ";
-    ticking_ = ticks_ + 1;
     if (updating_ && tick.surface_sequence > updates_ + 1)
-        return contradiction(line, what + "a surface for which its own sample was needed");
+        return contradiction(ticks_source_->place(i), what + "a surface for which its own sample was needed");
     // The first surface existed before the first update.
     if (!updating_ && tick.surface_sequence > 0) {
-        if (const auto run = run_updates(tick.surface_sequence - 1); !run) return run;
+        if (const auto run = run_updates(tick.surface_sequence - 1); !run) return std::unexpected(run.error());
     }
-    const geometry::LocalSurface* surface = seen(surfaces_, tick.surface_sequence);
+    const geometry::LocalSurface* surface = seen(part.surfaces, tick.surface_sequence);
     if (surface == nullptr)
-        return contradiction(
-            line, what + "surface " + std::to_string(tick.surface_sequence) + ", which there is not, or is no more");
-    const haptics::TickParameters* parameters = seen(parameters_, tick.parameter_sequence);
+        return contradiction(ticks_source_->place(i), what + "surface " + std::to_string(tick.surface_sequence) +
+                                                          ", which there is not, or is no more");
+    const haptics::TickParameters* parameters = seen(part.parameters, tick.parameter_sequence);
     if (parameters == nullptr)
         return contradiction(
-            line, what + "parameters " + std::to_string(tick.parameter_sequence) + ", which no frame has set by then");
+            ticks_source_->place(i),
+            what + "parameters " + std::to_string(tick.parameter_sequence) + ", which no frame has set by then");
+    return haptics::PartInput{tick.sample, surface, parameters};
+}
+
+Result<void> ThreadReplay::run_turn() {
+    ticking_ = ticks_ + 1;
     haptics::HapticLoop& loop = session_.loop();
-    // The log holds only whether a tick was late, not by how much; a tick counts as late from half a period on.
-    Nanoseconds lateness_ns = tick.late ? loop.period_ns() : 0;
-    if (const auto known = witness_ != nullptr ? witness_->known(ticks_ + 1) : std::nullopt) {
-        tick.sample.joints = known->joints;
+    const TickSeen& first = *parts_.front().next;
+    // A log of lines holds only whether a tick was late, not by how much; it counts as late from half a period on.
+    Nanoseconds lateness_ns = first.lateness_ns.value_or(first.late ? loop.period_ns() : 0);
+    if (const auto known = witness_ != nullptr ? witness_->known(0, ticking_) : std::nullopt; known && !first.lateness_ns) {
+        parts_.front().next->sample.joints = known->joints;
         lateness_ns = known->lateness_ns;
     }
-    const haptics::TickRecord again = loop.repeat(tick.sample, *surface, *parameters, tick.time_ns, lateness_ns);
-    check_.tick(again);
-    tools_.push_back(session_.newest_tool());
+    std::vector<haptics::PartInput> inputs;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        Result<haptics::PartInput> input = input_of(i);
+        if (!input) return std::unexpected(input.error());
+        inputs.push_back(*input);
+    }
+    loop.repeat(inputs, first.time_ns, lateness_ns);
     ++ticks_;
     ticking_ = 0;
-    return witness_ != nullptr ? witness_->take(again) : Result<void>{};
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        parts_[i].next.reset();
+        if (const auto judged = judge(i); !judged) return judged;
+    }
+    return {};
+}
+
+// Takes the tick that the loop has just repeated for a part out of its ring.
+Result<void> ThreadReplay::judge(std::size_t i) {
+    haptics::TickRecord again;
+    while (session_.hands().channels(i).records.pop(again)) {
+    }
+    check_.tick(i, again);
+    parts_[i].tools.push_back(session_.hands().newest_tool(i));
+    return witness_ != nullptr ? witness_->take(i, again) : Result<void>{};
 }
 
 void ThreadReplay::keep_parameters() {
-    const haptics::TickParameters& newest = session_.channels().parameters.newest();
-    if (parameters_.empty() || parameters_.back().sequence < newest.sequence) parameters_.push_back(newest);
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        const haptics::TickParameters& newest = session_.hands().channels(i).parameters.newest();
+        std::deque<haptics::TickParameters>& kept = parts_[i].parameters;
+        if (kept.empty() || kept.back().sequence < newest.sequence) kept.push_back(newest);
+    }
 }
 
 // ---- Updates
@@ -125,15 +187,14 @@ Result<void> ThreadReplay::run_updates(std::uint64_t last) {
 Result<void> ThreadReplay::run_update() {
     const scene::SceneUpdate update = *update_lines_.next();
     updating_ = true;
-    const std::size_t line = update_lines_.line();
+    const std::string where = name_ + ":" + std::to_string(update_lines_.line());
     const std::string what = "update " + std::to_string(updates_ + 1) + " took ";
-    // A session has one hand, so far.
-    const std::uint64_t last_tick = update.last_ticks.empty() ? 0 : update.last_ticks.front();
+    const std::uint64_t last_tick = update.last_ticks.empty() ? 0 : std::ranges::max(update.last_ticks);
     if (ticking_ > 0 && last_tick >= ticking_)
-        return contradiction(line, what + "the sample of a tick that saw its surface");
-    if (const auto run = run_ticks(last_tick); !run) return run;
+        return contradiction(where, what + "the sample of a tick that saw its surface");
+    if (const auto run = run_turns(last_tick); !run) return run;
     if (update.orders > orders_.size())
-        return contradiction(line, what + std::to_string(update.orders) + " orders of " +
+        return contradiction(where, what + std::to_string(update.orders) + " orders of " +
                                        std::to_string(orders_.size()) + " that there were");
     for (std::size_t i = 0; i < update.orders; ++i) {
         orders_.front()();
@@ -143,11 +204,14 @@ Result<void> ThreadReplay::run_update() {
     ++updates_;
     session_.collect({});
     updating_ = false;
-    keep_surface();
+    keep_surfaces();
     return {};
 }
 
-void ThreadReplay::keep_surface() { surfaces_.push_back(session_.channels().surface.newest()); }
+void ThreadReplay::keep_surfaces() {
+    for (std::size_t i = 0; i < parts_.size(); ++i)
+        parts_[i].surfaces.push_back(session_.hands().channels(i).surface.newest());
+}
 
 // ---- Errors
 
@@ -157,9 +221,9 @@ std::unexpected<Error> ThreadReplay::ends(const std::string& what) {
                 "it was torn off; what comes before is replayed");
 }
 
-std::unexpected<Error> ThreadReplay::contradiction(std::size_t line, const std::string& what) const {
+std::unexpected<Error> ThreadReplay::contradiction(const std::string& where, const std::string& what) const {
     return fail(
-        name_ + ":" + std::to_string(line), what,
+        where, what,
         "the file was changed: replay it as it was recorded, or take out what the threads did (docs/formats.md)");
 }
 

@@ -23,6 +23,7 @@
 #include "session/drive/tick_witness.hpp"
 #include "session/live/live_session.hpp"
 #include "session/record/thread_log.hpp"
+#include "session/record/tick_source.hpp"
 
 namespace burin::session {
 
@@ -36,52 +37,62 @@ namespace burin::session {
 class ThreadReplay final : public Executor {
 public:
     // name: the log's file name. session and log must outlive it.
-    ThreadReplay(LiveSession& session, const ThreadLog& log, const std::string& name);
+    // ticks: what the ticks of each part of the hands saw.
+    ThreadReplay(LiveSession& session, const ThreadLog& log, std::unique_ptr<TickSource> ticks,
+                 const std::string& name);
 
     // Has the ticks judged; null: by the frames' checksums alone.
     void judge_ticks(TickWitness* witness) { witness_ = witness; }
     // Says which frame of the log is the present one.
     void begin_frame(const FrameSeen& frame) { frame_ = &frame; }
-    // Runs the ticks up to that whose tool the frame drew, whatever the time.
+    // Runs the ticks up to those whose tools the frame drew, whatever the time.
     [[nodiscard]] Result<void> advance_to(Nanoseconds until_ns) override;
-    // Returns the tool as that tick left it: an update may have needed later ticks.
-    [[nodiscard]] const haptics::ToolState& tool() override { return tools_.front(); }
+    // Returns the tools as these ticks left them: an update may have needed later ticks.
+    [[nodiscard]] std::vector<haptics::ToolState> tools() override;
     void order(Order order) override { orders_.push_back(std::move(order)); }
     // Runs the updates that the frame had taken.
     [[nodiscard]] Result<Taken> take_updates() override;
     // Returns, after the frame's step, whether everything is as recorded.
     [[nodiscard]] bool is_as_recorded();
 
-    // Runs what the threads did after the last frame until they were stopped.
+    // Runs what the threads did after the last frame until they were stopped; nothing where the log does not say that
+    // they were.
     [[nodiscard]] Result<void> run_to_end();
 
     // Returns, after an Error, whether the log just ends there.
     [[nodiscard]] bool log_ends() const { return log_ends_; }
 
 private:
-    [[nodiscard]] Result<void> run_ticks(std::uint64_t last);
-    [[nodiscard]] Result<void> run_tick();
+    // What is kept of each part of the hands.
+    struct Part {
+        std::optional<TickSeen> next;                 // of the turn in progress
+        std::deque<geometry::LocalSurface> surfaces;  // that ticks may still see, by sequence
+        std::deque<haptics::TickParameters> parameters;
+        std::deque<haptics::ToolState> tools;  // after each tick that frames may still see
+    };
+    [[nodiscard]] Result<void> run_turns(std::uint64_t last);
+    [[nodiscard]] Result<bool> read_turn();
+    [[nodiscard]] Result<void> run_turn();
+    [[nodiscard]] Result<haptics::PartInput> input_of(std::size_t part);
+    [[nodiscard]] Result<void> judge(std::size_t part);
     [[nodiscard]] Result<void> run_updates(std::uint64_t last);
     [[nodiscard]] Result<void> run_update();
-    void keep_surface();
+    void keep_surfaces();
     void keep_parameters();
     [[nodiscard]] std::unexpected<Error> ends(const std::string& what);
-    [[nodiscard]] std::unexpected<Error> contradiction(std::size_t line, const std::string& what) const;
+    [[nodiscard]] std::unexpected<Error> contradiction(const std::string& where, const std::string& what) const;
 
     LiveSession& session_;
     const ThreadLog& log_;
     std::string name_;
     const FrameSeen* frame_ = nullptr;  // the present one
-    FrameSeen end_;                     // stands for a frame after all ticks and updates
-    ThreadLinesReader<TickText> tick_lines_;
+    std::unique_ptr<TickSource> ticks_source_;
     ThreadLinesReader<UpdateText> update_lines_;
-    std::uint64_t ticks_ = 0, updates_ = 0;  // done so far
+    std::uint64_t ticks_ = 0, updates_ = 0;  // done so far; a turn is a tick of each part
     bool updating_ = false;
-    std::uint64_t ticking_ = 0;                    // the tick in progress; 0: none
-    std::deque<geometry::LocalSurface> surfaces_;  // that ticks may still see, by sequence
-    std::deque<haptics::TickParameters> parameters_;
-    std::deque<haptics::ToolState> tools_;  // after each tick that frames may still see
-    std::deque<Order> orders_;              // not taken by an update yet
+    std::uint64_t ticking_ = 0;  // the turn in progress; 0: none
+    std::vector<Part> parts_;
+    std::deque<Order> orders_;  // not taken by an update yet
     SessionCheck check_;
     TickWitness* witness_ = nullptr;
     bool log_ends_ = false;

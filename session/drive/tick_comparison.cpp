@@ -28,46 +28,55 @@ Result<TickComparison> TickComparison::create(record::RecordReader& reader, cons
                                               AtDifference then) {
     if (reader.hands().empty()) return fail(reader.path(), "holds no hand's ticks", "name a recorded session");
     if (const auto some = record::check_ticks(reader); !some) return std::unexpected(some.error());
-    const std::vector<record::Column>& columns = reader.table(0).columns;
+    TickComparison comparison(reader, range, then);
+    for (std::size_t table = 0; table < reader.hands().size(); ++table)
+        if (const auto added = comparison.add_part(table); !added) return std::unexpected(added.error());
+    return comparison;
+}
+
+Result<void> TickComparison::add_part(std::size_t table) {
+    const std::vector<record::Column>& columns = reader_->table(table).columns;
     const record::RowShape shape{counted(columns, "joint", ""), counted(columns, "hip", "_object_x_m")};
     std::vector<record::Column> expected = record::columns_for(shape);
     std::ranges::copy(touched_columns(shape), std::back_inserter(expected));
     if (columns != expected)
-        return fail(reader.path(), "has other columns than this program's recordings",
+        return fail(reader_->path(), "has other columns than this program's recordings",
                     "replay it with the program that recorded it; its data can be read and converted");
-    Result<record::MotionColumns> motion = record::MotionColumns::find(reader, 0);
+    Result<record::MotionColumns> motion = record::MotionColumns::find(*reader_, table);
     if (!motion) return std::unexpected(motion.error());
-    const std::size_t tick = record::find_column(reader.table(0), "tick", record::ColumnType::i64);
-    TickComparison comparison(reader, range, shape, std::move(*motion), tick);
-    comparison.then_ = then;
-    return comparison;
+    parts_.push_back({shape, std::move(*motion), record::RowWalk(*reader_, table),
+                      record::find_column(reader_->table(table), "tick", record::ColumnType::i64)});
+    found_.columns += columns.size();
+    return {};
 }
 
-Result<bool> TickComparison::go_to(std::uint64_t tick) {
-    if (damaged_) return std::unexpected(*damaged_);
+Result<bool> TickComparison::go_to(Part& part, std::uint64_t tick) {
+    if (part.damaged) return std::unexpected(*part.damaged);
     const auto wanted = static_cast<std::int64_t>(tick);
-    while (!over_ && (!begun_ || static_cast<std::int64_t>(walk_.at(tick_column_)) < wanted)) {
-        begun_ = true;
-        const Result<bool> more = walk_.next();
+    while (!part.over && (!part.begun || static_cast<std::int64_t>(part.walk.at(part.tick_column)) < wanted)) {
+        part.begun = true;
+        const Result<bool> more = part.walk.next();
         if (!more) {
-            damaged_ = more.error();
+            part.damaged = more.error();
             return more;
         }
-        over_ = !*more;
+        part.over = !*more;
     }
-    return !over_ && static_cast<std::int64_t>(walk_.at(tick_column_)) == wanted;
+    return !part.over && static_cast<std::int64_t>(part.walk.at(part.tick_column)) == wanted;
 }
 
-std::optional<TickWitness::Known> TickComparison::known(std::uint64_t tick) {
-    const Result<bool> is_there = go_to(tick);
+std::optional<TickWitness::Known> TickComparison::known(std::size_t part, std::uint64_t tick) {
+    Part& own = parts_[part];
+    const Result<bool> is_there = go_to(own, tick);
     if (!is_there || !*is_there) return std::nullopt;
-    const record::RecordedTick recorded = motion_.at(walk_.block(), walk_.row());
+    const record::RecordedTick recorded = own.motion.at(own.walk.block(), own.walk.row());
     return Known{recorded.sample.joints, recorded.lateness_ns};
 }
 
-Result<void> TickComparison::take(const haptics::TickRecord& again) {
+Result<void> TickComparison::take(std::size_t part, const haptics::TickRecord& again) {
     if (found_.difference) return {};
-    const Result<bool> is_there = go_to(again.tick);
+    Part& own = parts_[part];
+    const Result<bool> is_there = go_to(own, again.tick);
     if (!is_there) return std::unexpected(is_there.error());
     if (*is_there) ++repeated_;
     if (!range_.holds(static_cast<std::int64_t>(again.tick))) return {};
@@ -75,11 +84,11 @@ Result<void> TickComparison::take(const haptics::TickRecord& again) {
         ++unrecorded_;
         return {};
     }
-    const std::vector<record::Word> row = session_row(again, shape_);
+    const std::vector<record::Word> row = session_row(again, own.shape);
     for (std::size_t c = 0; c < row.size(); ++c) {
-        const record::Word was = walk_.at(c);
+        const record::Word was = own.walk.at(c);
         if (was == row[c]) continue;
-        const record::HandRecord& hand = reader_->table(0);
+        const record::HandRecord& hand = reader_->table(part);
         found_.difference =
             record::difference_of(hand.name, hand.columns[c], static_cast<std::int64_t>(again.tick), was, row[c]);
         if (then_ == AtDifference::goes_on) return {};

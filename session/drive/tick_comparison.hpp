@@ -2,6 +2,8 @@
 // Compares the ticks of a replayed session with those in its session file: every column, bit for bit. One thread.
 #pragma once
 
+#include <vector>
+
 #include "record/compare.hpp"
 #include "record/motion.hpp"
 #include "session/drive/tick_witness.hpp"
@@ -17,10 +19,10 @@ public:
     [[nodiscard]] static Result<TickComparison> create(record::RecordReader& reader, const record::TickRange& range,
                                                        AtDifference then = AtDifference::ends);
 
-    [[nodiscard]] std::optional<Known> known(std::uint64_t tick) override;
-    [[nodiscard]] Result<void> take(const haptics::TickRecord& again) override;
+    [[nodiscard]] std::optional<Known> known(std::size_t part, std::uint64_t tick) override;
+    [[nodiscard]] Result<void> take(std::size_t part, const haptics::TickRecord& again) override;
 
-    // What was compared so far, up to the first difference.
+    // What was compared so far, up to the first difference: ticks and columns of all parts.
     [[nodiscard]] const record::Comparison& found() const { return found_; }
     // Ticks that were computed again and are not in the file: lost, or not acknowledged before a kill.
     [[nodiscard]] std::uint64_t unrecorded() const { return unrecorded_; }
@@ -28,30 +30,27 @@ public:
     [[nodiscard]] std::uint64_t repeated() const { return repeated_; }
 
 private:
-    TickComparison(record::RecordReader& reader, const record::TickRange& range, const record::RowShape& shape,
-                   record::MotionColumns motion, std::size_t tick_column)
-        : reader_(&reader),
-          range_(range),
-          shape_(shape),
-          motion_(std::move(motion)),
-          walk_(reader, 0),
-          tick_column_(tick_column) {
-        found_.columns = reader.table(0).columns.size();
-    }
+    // The table of a part of the hands.
+    struct Part {
+        record::RowShape shape;
+        record::MotionColumns motion;
+        record::RowWalk walk;
+        std::size_t tick_column = 0;
+        bool begun = false, over = false;
+        std::optional<Error> damaged = {};  // a block that cannot be read: no row is looked at from then on
+    };
+    TickComparison(record::RecordReader& reader, const record::TickRange& range, AtDifference then)
+        : reader_(&reader), range_(range), then_(then) {}
+    [[nodiscard]] Result<void> add_part(std::size_t table);
     // Goes to the row of a tick; false where there is none.
-    [[nodiscard]] Result<bool> go_to(std::uint64_t tick);
+    [[nodiscard]] static Result<bool> go_to(Part& part, std::uint64_t tick);
 
     record::RecordReader* reader_;
     record::TickRange range_;
-    record::RowShape shape_;
-    record::MotionColumns motion_;
-    record::RowWalk walk_;
-    std::size_t tick_column_;
-    bool begun_ = false, over_ = false;
-    std::optional<Error> damaged_;  // a block that cannot be read: there is no row to look at from then on
+    std::vector<Part> parts_;
     std::uint64_t unrecorded_ = 0, repeated_ = 0;
     record::Comparison found_;
-    AtDifference then_ = AtDifference::ends;
+    AtDifference then_;
 };
 
 }  // namespace burin::session

@@ -212,7 +212,7 @@ Result<void> feel_in_simulated_time(devices::SimulatedHand hand, haptics::Haptic
     FeltFrames frames(clock, loop, channels, figures, "carving by feel");
     const auto begun = frames.record(recording, omni.description(), FeltFrames::Pace::simulated);
     if (!begun) return begun;
-    SteppedExecutor executor(clock, loop, channels, carved.service());
+    SteppedExecutor executor(clock, loop, {&channels}, carved.service());
     executor.measure_ticks(figures.tick_ns);
     const Result<void> driven = drive(executor, frames);
     return first_failure(driven, frames.finish());
@@ -227,7 +227,7 @@ Result<void> feel_in_real_time(devices::SimulatedHand hand, haptics::HapticChann
     FeltFrames frames(clock, loop, channels, figures, "carving by feel, in real time");
     const auto begun = frames.record(recording, omni.description(), FeltFrames::Pace::real);
     if (!begun) return begun;
-    ThreadedExecutor executor(clock, loop, channels, carved.service());
+    ThreadedExecutor executor(clock, loop, {&channels}, carved.service());
     const haptics::RealtimeNotice notice = executor.start();
     if (!notice.text.empty()) {
         figures.notices.push_back(notice.text);

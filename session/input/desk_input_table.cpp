@@ -27,6 +27,7 @@ constexpr std::array kShortCuts = {
     ShortCut{Key::m, kNone, Action::next_stereo_mode, false, "Next stereo mode"},
     ShortCut{Key::m, kShift, Action::swap_eyes, false, "Exchange the eyes"},
     ShortCut{Key::t, kNone, Action::next_workspace_technique, false, "Next way to move the workspace"},
+    ShortCut{Key::h, kNone, Action::next_hand, false, "Lead the next hand, of several"},
     ShortCut{Key::home, kNone, Action::reset_view, false, "Back to the first view"},
     ShortCut{Key::tab, kNone, Action::toggle_panel, false, "Show or hide the panel"},
     ShortCut{Key::f1, kNone, Action::toggle_help, false, "Show or hide this help"},
@@ -69,7 +70,7 @@ constexpr std::array kMouseGestures = {
     MouseGesture{MouseUse::middle_drag, kCtrlShift, Gesture::roll_stylus, "Turn the stylus about its shaft"},
 };
 
-constexpr std::array<std::string_view, 21> kActionNames = {"undo",
+constexpr std::array<std::string_view, 22> kActionNames = {"undo",
                                                            "redo",
                                                            "tool-1",
                                                            "tool-2",
@@ -89,6 +90,7 @@ constexpr std::array<std::string_view, 21> kActionNames = {"undo",
                                                            "export-mesh",
                                                            "save-session",
                                                            "reset-view",
+                                                           "next-hand",
                                                            "quit"};
 static_assert(kActionNames[static_cast<std::size_t>(Action::quit)] == "quit");
 

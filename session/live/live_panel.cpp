@@ -17,10 +17,16 @@ constexpr double kOfScreensWidth = 0.26;
 // How long the panel tells that the hand has been let go.
 constexpr Nanoseconds kTold_ns = 5'000'000'000;
 
-PanelSource hand_source(const haptics::ToolState& tool) {
-    const bool silent = tool.cause != haptics::GateCause::none;
-    return {"Hand", silent ? haptics::text(tool.cause) : "simulated, steered by the mouse",
-            silent ? Condition::fault : Condition::good};
+// Says of a part of the hands what it is, or why it gets no force.
+PanelSource hand_source(const PanelContext& context, std::size_t part) {
+    const haptics::GateCause cause = context.tools[part].cause;
+    const bool several = context.hands.parts() > 1;
+    const std::string name = several ? "Hand, " + context.hands.name_of(part) : "Hand";
+    if (cause != haptics::GateCause::none) return {name, haptics::text(cause), Condition::fault};
+    const devices::DeviceDescription& device = context.hands.device(part);
+    if (device.felt_by_person) return {name, device.name, Condition::good};
+    const bool led = context.hands.part_of_hand(part).hand == context.state.hand;
+    return {name, led ? "simulated, steered by the mouse" : "simulated, rests", Condition::good};
 }
 
 PanelSource tracker_source(const wall::TrackerReport& report) {
@@ -94,7 +100,9 @@ PanelModel LivePanel::model_of(const PanelContext& context, const std::string& m
     m.touch.cause = tool_state.cause;
     m.touch.was_let_go = tool_state.let_go_ns > 0 && tool_state.time_ns - tool_state.let_go_ns < kTold_ns;
     m.touch.flags = tool_state.flags & haptics::kTickInContact;
-    m.sources = {hand_source(tool_state)};
+    for (std::size_t part = 0; part < context.tools.size(); ++part) m.sources.push_back(hand_source(context, part));
+    for (const HandState& hand : state.hands) m.hand_names.push_back(hand.hand_name);
+    m.hand = state.hand;
     if (state.head.tracked) m.sources.push_back(tracker_source(context.tracker));
     feed_.show_on(m);
     return m;

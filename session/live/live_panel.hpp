@@ -7,10 +7,12 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "haptics/haptic_loop.hpp"
+#include "session/hands/session_hands.hpp"
 #include "session/live/message_log.hpp"
 #include "session/panel/panel.hpp"
 #include "session/panel/panel_feed.hpp"
@@ -26,8 +28,10 @@ namespace burin::session {
 struct PanelContext {
     const SessionState& state;
     const Room& room;
-    const haptics::ToolState& tool;
-    const wall::TrackerReport& tracker;  // meaningless without a tracker
+    const haptics::ToolState& tool;  // of the hand in use
+    const SessionHands& hands;
+    std::span<const haptics::ToolState> tools;  // of each part of the hands
+    const wall::TrackerReport& tracker;         // meaningless without a tracker
     const PanelWorkpiece& workpiece;
     ToolSizeRange tool_sizes = {};
     std::size_t undoable = 0, redoable = 0;

@@ -42,7 +42,7 @@ Room room_of(const SessionWall& wall) {
 }
 
 // Has the desk steer a wand: upright where it rests, over a workspace of its own size.
-void use_wand(Room& room, const devices::WandDescription& wand) {
+void use_wand(HandRoom& room, const devices::WandDescription& wand) {
     constexpr double kDepthPerWheelStep = 0.025;  // of the workspace's longest side, about as a stylus'
     room.workspace_device_m = devices::device_of(wand).workspace_m;
     room.desk.workspace_m = room.workspace_device_m;
@@ -50,6 +50,11 @@ void use_wand(Room& room, const devices::WandDescription& wand) {
         kDepthPerWheelStep * sculpt::longest_side_m({Vec3(0.0), room.workspace_device_m});
     room.desk.rest_device = {1.0, 0.0, 0.0, 0.0};
     room.desk.leans_sideways = true;
+}
+
+// Returns the devices of all hands: one without a name where there is one.
+std::vector<NamedDevice> hands_wanted(const LiveOptions& live) {
+    return live.hands.empty() ? std::vector<NamedDevice>{{"", live.device}} : live.hands;
 }
 
 // Says on the terminal where a file lies, if the message does not, and that another one was there.
@@ -65,7 +70,7 @@ std::string where_it_lies(const std::string& message, const std::string& path, b
 LiveSession::LiveSession(Clock& clock, const SculptOptions& options, double pace)
     : clock_(clock),
       pool_(options.threads),
-      haptics_(ring_for(options.live.record), pace, options.activity != nullptr),
+      hands_(ring_for(options.live.record), pace, options.activity != nullptr),
       activity_(options.activity),
       outputs_(options.live, inputs_of(options).list()),
       log_name_(options.live.input) {}
@@ -80,8 +85,7 @@ Result<std::unique_ptr<LiveSession>> LiveSession::create(const SculptOptions& op
 
 Result<void> LiveSession::load(const SculptOptions& options, const SessionWall& wall) {
     room_ = room_of(wall);
-    if (devices::is_wand(options.live.device))
-        if (const auto held = hold_wand(options); !held) return held;
+    if (const auto held = hold_wands(options); !held) return held;
     const bool has_world = options.scene || !options.world.empty();
     if (!options.no_workpiece || !has_world)
         if (const auto loaded = load_workpiece(options); !loaded) return loaded;
@@ -97,14 +101,21 @@ Result<void> LiveSession::load(const SculptOptions& options, const SessionWall& 
     return {};
 }
 
-Result<void> LiveSession::hold_wand(const SculptOptions& options) {
-    Result<devices::WandDescription> wand = devices::wand_named(options.live.device);
-    if (!wand) return std::unexpected(wand.error());
-    use_wand(room_, *wand);
-    if (options.points.empty()) return {};
-    Result<std::vector<devices::WandPoint>> points = devices::points_named(*wand, options.points);
-    if (!points) return std::unexpected(points.error());
-    wand_ = std::make_shared<const HeldWand>(std::move(*wand), std::move(*points));
+// Fits the room to the devices of all hands, and makes the wands ready whose points touch.
+Result<void> LiveSession::hold_wands(const SculptOptions& options) {
+    const std::vector<NamedDevice> hands = hands_wanted(options.live);
+    room_.others.assign(hands.size() - 1, room_);
+    wands_.assign(hands.size(), nullptr);
+    for (std::size_t i = 0; i < hands.size(); ++i) {
+        if (!devices::is_wand(hands[i].device)) continue;
+        Result<devices::WandDescription> wand = devices::wand_named(hands[i].device);
+        if (!wand) return std::unexpected(wand.error());
+        use_wand(i == 0 ? room_ : room_.others[i - 1], *wand);
+        if (options.points.empty()) continue;
+        Result<std::vector<devices::WandPoint>> points = devices::points_named(*wand, options.points);
+        if (!points) return std::unexpected(points.error());
+        wands_[i] = std::make_shared<const HeldWand>(std::move(*wand), std::move(*points));
+    }
     return {};
 }
 
@@ -162,7 +173,9 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
         if (const auto read = meshes->read(other); !read) return read;
     const auto feel = sculpt::parse_feel_settings(options.feel);
     if (!feel) return std::unexpected(feel.error());
-    state_ = begin_session(room_, *tool, *feel, output, std::move(meshes), wand_);
+    std::vector<std::string> names;
+    for (const NamedDevice& hand : options.live.hands) names.push_back(hand.hand);
+    state_ = begin_session(room_, *tool, *feel, output, std::move(meshes), wands_, names);
     state_.export_unit = options.export_units.value_or(unit_);
     state_.carves = carving_ != nullptr;
     if (world_) state_.world = world_->objects();
@@ -171,37 +184,60 @@ Result<void> LiveSession::take_up_tool(const SculptOptions& options) {
     warn_of_misfit(use->tool);
 
     start_ns_ = clock_.now_ns();
-    const Vec3 rest_device_m = state_.desk.target_device_m;
-    if (const auto opened = haptics_.open(options.live.device, clock_, {rest_device_m, room_.desk.rest_device});
-        !opened)
-        return opened;
+    if (const auto opened = open_hands(options); !opened) return opened;
     publish_parameters();
-    const Vec3 first_device_m =
-        wand_ ? wand_->first_point_device({rest_device_m, room_.desk.rest_device}) : rest_device_m;
-    const Vec3 tool_object = inverse(state_.world_from_object) * (state_.world_from_device * first_device_m);
-    return make_scene(*use, tool_object, options.undo_memory_MiB << 20);
+    return make_scene(*use, options.undo_memory_MiB << 20);
 }
 
-Result<void> LiveSession::make_scene(const sculpt::UseTool& use, const Vec3& tool_object, std::size_t undo_bytes) {
+Result<void> LiveSession::open_hands(const SculptOptions& options) {
+    std::vector<HandToOpen> wanted;
+    for (const NamedDevice& hand : hands_wanted(options.live)) {
+        const std::size_t i = wanted.size();
+        const Vec3& rest_device_m =
+            i == state_.hand ? state_.desk.target_device_m : state_.hands[i].target.position_device_m;
+        wanted.push_back({hand.hand, hand.device, {rest_device_m, room_.of(i).desk.rest_device}});
+    }
+    if (const auto opened = hands_.open(wanted, clock_); !opened) return opened;
+    tools_.resize(hands_.parts());
+    return {};
+}
+
+// Returns where a hand's tool is before the first tick.
+Vec3 LiveSession::place_at_rest(std::size_t hand) const {
+    const Vec3& rest_device_m =
+        hand == state_.hand ? state_.desk.target_device_m : state_.hands[hand].target.position_device_m;
+    const Vec3 first_device_m =
+        wands_[hand] ? wands_[hand]->first_point_device({rest_device_m, room_.of(hand).desk.rest_device})
+                     : rest_device_m;
+    return inverse(state_.world_from_object) * (hand_of(state_, hand).world_from_device * first_device_m);
+}
+
+Result<void> LiveSession::make_scene(const sculpt::UseTool& use, std::size_t undo_bytes) {
     std::vector<scene::ScenePart*> parts;
     if (carving_) {
         carved_.emplace(*carving_, use.tool, use.hardness_Ns_per_m3, undo_bytes);
-        carved_->order(use);
+        for (std::size_t part = 0; part < hands_.parts(); ++part) carved_->order(use, part);
         parts.push_back(&*carved_);
     }
-    tool_around_m_ = sculpt::around_m(use.tool);
+    tools_around_m_.assign(hands_.hands(), sculpt::around_m(use.tool));
     if (world_) {
-        world_->part().grip_with(0, kGrips, tool_around_m_);
+        for (std::size_t part = 0; part < hands_.parts(); ++part)
+            world_->part().grip_with(part, kGrips, tools_around_m_[hands_.part_of_hand(part).hand]);
         parts.push_back(&world_->part());
     }
     if (activity_.tap() != nullptr) parts.push_back(activity_.tap());
-    // Far enough for the fastest hand to stay inside the known ball until the next update: 1 m/s for 12 ms; the ends of
-    // a wand are swung as well, at 6 rad/s.
-    const double scale = parameters_of(state_, room_).workspace.object_from_device.scale;
-    const double reach_m = (wand_ ? 0.02 : 0.012) * scale + 2.0 * spacing_m();
-    spread_m_ = wand_spread_m();
-    scene_.emplace(std::move(parts), std::vector<scene::SceneHand>{
-                                         {&haptics_.channels(), tool_object, tool_around_m_ + spread_m_, reach_m}});
+    std::vector<scene::SceneHand> touched;
+    for (std::size_t part = 0; part < hands_.parts(); ++part) {
+        const std::size_t hand = hands_.part_of_hand(part).hand;
+        // Far enough for the fastest hand to stay inside the known ball until the next update: 1 m/s for 12 ms; the
+        // ends of a wand are swung as well, at 6 rad/s.
+        const double scale = parameters_of(state_, room_, hand).workspace.object_from_device.scale;
+        const double reach_m = (wands_[hand] ? 0.02 : 0.012) * scale + 2.0 * spacing_m();
+        if (part == hands_.first_part(hand)) spreads_m_.push_back(spread_of(hand));
+        touched.push_back(
+            {&hands_.channels(part), place_at_rest(hand), tools_around_m_[hand] + spreads_m_[hand], reach_m});
+    }
+    scene_.emplace(std::move(parts), std::move(touched));
     news_.report_of(carved_ ? &*carved_ : nullptr, world_ ? &world_->part() : nullptr,
                     world_ ? &world_->materials() : nullptr, activity_.tap());
     return scene_->update(start_ns_);
@@ -209,21 +245,24 @@ Result<void> LiveSession::make_scene(const sculpt::UseTool& use, const Vec3& too
 
 // ---- One step
 
-void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output, const haptics::ToolState& tool,
-                       const Give& give, ImageSize panel_output) {
+void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
+                       std::span<const haptics::ToolState> tools, const Give& give, ImageSize panel_output) {
     // Each keeps its last size while it is minimised.
     if (!is_empty(output.size)) output_ = output;
     if (!is_empty(panel_output)) panel_output_ = panel_output;
     fit_desk_screen(room_.wall, main_eye());
-    tool_ = tool;
-    times_.sampled(start_ns_ + head_sampled_ns(input), tool_.time_ns);
+    tools_.assign(tools.begin(), tools.end());
+    std::vector<haptics::ToolState> of_hands;  // by the first part of each
+    for (std::size_t hand = 0; hand < hands_.hands(); ++hand) of_hands.push_back(tools_[hands_.first_part(hand)]);
+    const haptics::ToolState tool = tool_in_use();
+    times_.sampled(start_ns_ + head_sampled_ns(input), tool.time_ns);
     const double dt_s = seconds(std::max<Nanoseconds>(input.time_ns - last_step_ns_, 0));
     last_step_ns_ = input.time_ns;
     if (!input.events.empty()) last_line_ = input.events.back().line;
     const SceneInput left = feed_panel(input);
     const auto before = activity_.governs() ? std::optional(state_) : std::nullopt;
     SessionStep step =
-        step_session(state_, room_, left.events, {dt_s, input.display_ns, main_eye(), tool_, left.captured});
+        step_session(state_, room_, left.events, {dt_s, input.display_ns, main_eye(), tool, left.captured, of_hands});
     state_ = std::move(step.state);
     step.orders.line = input.events.empty() ? 0 : input.events.back().line;
     for (const CommandInput& action : panel_.actions()) {
@@ -231,10 +270,10 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
             step.orders.messages.push_back({done.error().line()});
     }
     if (before) hold_governed(*before, step.orders);
-    activity_.step(state_, step.orders, input.time_ns, tool_);
+    activity_.step(state_, step.orders, input.time_ns, tool_in_use());
     news_.frames_for_ticks(activity_.is_running());
     fit_desk_screen(room_.wall, main_eye());  // a command may have changed the mode
-    haptics_.move_hand(step.hand_way, input.time_ns, step.hand);
+    hands_.move_hand(step.led_hand, step.hand_way, input.time_ns, step.hand);
     carry_out(std::move(step.orders), give);
     watch(input.time_ns);
 }
@@ -251,7 +290,9 @@ SceneInput LiveSession::feed_panel(const FrameInput& input) {
     auto left = panel_.feed(input,
                             {.state = state_,
                              .room = room_,
-                             .tool = tool_,
+                             .tool = tool_in_use(),
+                             .hands = hands_,
+                             .tools = tools_,
                              .tracker = tracker_.report(),
                              .workpiece = workpiece_,
                              .tool_sizes = tool_sizes_,
@@ -260,7 +301,7 @@ SceneInput LiveSession::feed_panel(const FrameInput& input) {
                              .exporting = exporting_,
                              .activity = activity_.panel(),
                              .times = times_,
-                             .tick_duration = haptics_.loop().duration(),
+                             .tick_duration = hands_.loop().duration(),
                              .shown = output_on(room_.wall.main),
                              .output = output_,
                              .panel_output = panel_output_,
@@ -274,28 +315,38 @@ SceneInput LiveSession::feed_panel(const FrameInput& input) {
     return {{input.events.begin(), input.events.end()}, {}};
 }
 
+// A tool is the one of the hand in use.
 scene::SceneThread::Order LiveSession::carving(sculpt::SculptOrder order) {
-    return [this, order = std::move(order), spread_m = spread_m_] {
-        if (carved_) carved_->order(order);
+    return [this, order = std::move(order), hand = state_.hand, spread_m = spreads_m_[state_.hand]] {
+        const std::size_t first = hands_.first_part(hand), parts = hands_.parts_of(hand);
         const auto* use = std::get_if<sculpt::UseTool>(&order);
+        if (carved_ && use == nullptr) carved_->order(order);
         if (use == nullptr) return;
-        tool_around_m_ = carved_ ? carved_->around_m() : sculpt::around_m(use->tool);
-        scene_->use_probe(0, tool_around_m_ + spread_m);
-        if (world_) world_->part().grip_with(0, kGrips, tool_around_m_);
+        for (std::size_t part = first; carved_ && part < first + parts; ++part) carved_->order(*use, part);
+        tools_around_m_[hand] = carved_ ? carved_->around_m(first) : sculpt::around_m(use->tool);
+        for (std::size_t part = first; part < first + parts; ++part) {
+            scene_->use_probe(part, tools_around_m_[hand] + spread_m);
+            if (world_) world_->part().grip_with(part, kGrips, tools_around_m_[hand]);
+        }
     };
 }
 
 // How far a wand's points are from the first of them, in the scene as large as it is shown now.
-double LiveSession::wand_spread_m() const {
-    return wand_ ? wand_->spread_m() * parameters_of(state_, room_).workspace.object_from_device.scale : 0.0;
+double LiveSession::spread_of(std::size_t hand) const {
+    return wands_[hand] ? wands_[hand]->spread_m() * parameters_of(state_, room_, hand).workspace.object_from_device.scale
+                        : 0.0;
 }
 
 // The scene has been scaled, or the motion: what is known around the first point has to reach the others.
 void LiveSession::follow_spread(const Give& give) {
-    const double spread_m = wand_spread_m();
-    if (spread_m == spread_m_) return;
-    spread_m_ = spread_m;
-    give([this, spread_m] { scene_->use_probe(0, tool_around_m_ + spread_m); });
+    for (std::size_t hand = 0; hand < hands_.hands(); ++hand) {
+        const double spread_m = spread_of(hand);
+        if (spread_m == spreads_m_[hand]) continue;
+        spreads_m_[hand] = spread_m;
+        give([this, hand, spread_m] {
+            scene_->use_probe(hands_.first_part(hand), tools_around_m_[hand] + spread_m);  // a wand has one part
+        });
+    }
 }
 
 scene::SceneThread::Order LiveSession::editing(WorldOrder order) {
@@ -305,27 +356,31 @@ scene::SceneThread::Order LiveSession::editing(WorldOrder order) {
 }
 
 void LiveSession::publish_parameters() {
-    haptics::TickParameters parameters = parameters_of(state_, room_);
-    activity_.adjust(parameters);
-    haptics_.publish(std::move(parameters));
+    for (std::size_t part = 0; part < hands_.parts(); ++part) {
+        const std::size_t hand = hands_.part_of_hand(part).hand;
+        haptics::TickParameters parameters = parameters_of(state_, room_, hand);
+        // An activity guides the hand that it is told of.
+        if (part == 0) activity_.adjust(parameters);
+        hands_.publish(part, std::move(parameters));
+    }
 }
 
 // What the device answers comes from outside the session: a replay has it from the recording, and the ticks with it.
 void LiveSession::switch_amplifiers(const AskedAmplifiers& asked) {
     if (log_.follows_recording()) return;
-    const std::optional<devices::AmplifierAnswer> answer = haptics_.switch_amplifiers(asked.on);
+    const std::optional<devices::AmplifierAnswer> answer = hands_.switch_amplifiers(state_.hand, asked.on);
     if (answer == devices::AmplifierAnswer::done)
         return log_.notify_of_event(asked.on ? "the amplifiers are on; the force comes back from zero"
                                              : "the amplifiers are off: no force until they are enabled again");
     const std::string why = answer ? "they stay off, since what tripped them is not over; see to the device first"
-                                   : "those of " + std::string(device().name) + " cannot be switched from here";
+                                   : "those of " + std::string(hands_.device(hands_.first_part(state_.hand)).name) + " cannot be switched from here";
     log_.notify_of_event("amplifiers: " + why, {failed_on(asked.line), {}});
 }
 
 void LiveSession::carry_out(SessionOrders orders, const Give& give) {
     for (const AskedAmplifiers& asked : orders.amplifiers) switch_amplifiers(asked);
     if (orders.parameters) publish_parameters();
-    if (orders.parameters && wand_) follow_spread(give);
+    if (orders.parameters) follow_spread(give);
     for (sculpt::SculptOrder& order : orders.carving) {
         if (const auto* use = std::get_if<sculpt::UseTool>(&order)) warn_of_misfit(use->tool);
         auto* wanted = std::get_if<sculpt::ExportSurface>(&order);
@@ -361,7 +416,7 @@ SculptOptions LiveSession::settled(SculptOptions options) const {
 }
 
 void LiveSession::watch(Nanoseconds time_ns) {
-    if (const auto strain = comfort_.look(state_, room_, tool_)) notify(*strain);
+    if (const auto strain = comfort_.look(state_, room_, tool_in_use())) notify(*strain);
     if (const auto change = tracker_.look(state_, room_, time_ns)) notify(*change);
 }
 
@@ -387,7 +442,9 @@ Vec3 LiveSession::lattice_origin_object() const {
 
 std::optional<renderer::Scene> LiveSession::scene_on(std::size_t screen) const {
     if (room_.wall.is_panel(screen)) return std::nullopt;
-    std::optional<renderer::Scene> scene = scene_of(state_, room_, screen, lattice_origin_object(), tool_);
+    std::optional<renderer::Scene> scene = scene_of(state_, room_, screen, lattice_origin_object(), tool_in_use());
+    for (std::size_t part = 0; scene && part < hands_.parts(); ++part)
+        if (part != hands_.first_part(state_.hand)) add_tool(*scene, state_, hands_.part_of_hand(part).hand, tools_[part]);
     if (scene && world_)
         std::ranges::move(world_->drawn().in_world(state_.world_from_object), std::back_inserter(scene->objects));
     if (scene) activity_.stage(*scene, screen);
@@ -400,7 +457,7 @@ void LiveSession::finish_scene() {
     take_news(UINT64_MAX);
     // What the activity orders now has nobody to carry it out, but for its words.
     SessionOrders orders;
-    activity_.step(state_, orders, last_step_ns_, tool_);
+    activity_.step(state_, orders, last_step_ns_, tool_in_use());
     for (const Asked& message : orders.messages) notify(message.text);
     if (const auto done = activity_.finish(); !done) notify_of_loss(done.error().line());
 }

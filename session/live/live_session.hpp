@@ -6,7 +6,7 @@
 //                 |-> orders                           ->   the scene's parts (the scene's thread, or stepped)
 //   what the parts report (scene_news.hpp) -> take_news() -> take_surface_updates() -> tiles of the picture
 //
-// Each role has a class of its own: HapticSide, LivePanel, MessageLog, SessionOutputs, and the watches of
+// Each role has a class of its own: SessionHands, LivePanel, MessageLog, SessionOutputs, and the watches of
 // session_watch.hpp. A driver gives the session its frames (session.hpp), the Presenter draws them. What the threads of
 // a real-time session did can be recorded (session/drive/thread_recorder.hpp) and replayed
 // (session/drive/thread_replay.hpp).
@@ -20,8 +20,8 @@
 
 #include "scene/scene_thread.hpp"
 #include "sculpt/carved_part.hpp"
+#include "session/hands/session_hands.hpp"
 #include "session/live/activity_side.hpp"
-#include "session/live/haptic_side.hpp"
 #include "session/live/live_panel.hpp"
 #include "session/live/message_log.hpp"
 #include "session/live/scene_news.hpp"
@@ -44,13 +44,19 @@ public:
                                                                      const SessionWall& wall, Clock& clock,
                                                                      double pace = 1.0);
 
-    // Applies one frame's input. `output` is the main screen's output, `tool` the tool as the frame draws it. Orders to
-    // the scene's parts are passed to `give`. panel_output: size of the panel's own window; empty: there is none.
+    // Applies one frame's input. `output` is the main screen's output, `tools` the tools as the frame draws them, one of
+    // each part of the hands. Orders to the scene's parts are passed to `give`. panel_output: size of the panel's own
+    // window; empty: there is none.
     using Give = std::function<void(scene::SceneThread::Order)>;
-    void step(const FrameInput& input, const wall::OutputPlace& output, const haptics::ToolState& tool,
+    void step(const FrameInput& input, const wall::OutputPlace& output, std::span<const haptics::ToolState> tools,
               const Give& give, ImageSize panel_output = {});
-    // Returns the newest tool state that the haptic loop has published.
-    [[nodiscard]] const haptics::ToolState& newest_tool() { return haptics_.newest_tool(); }
+    // Likewise of a session whose hand has one part.
+    void step(const FrameInput& input, const wall::OutputPlace& output, const haptics::ToolState& tool,
+              const Give& give, ImageSize panel_output = {}) {
+        step(input, output, std::span(&tool, 1), give, panel_output);
+    }
+    // Returns the newest tool state that the haptic loop has published for the first part of the first hand.
+    [[nodiscard]] const haptics::ToolState& newest_tool() { return hands_.newest_tool(0); }
     // Collects what the scene's parts report of the update that has just ended; returns whether it is anything. The
     // scene's thread.
     bool collect(const scene::SceneThread::Ended& update) { return news_.collect(update); }
@@ -93,9 +99,10 @@ public:
     [[nodiscard]] SculptOptions settled(SculptOptions options) const;
     [[nodiscard]] const SessionState& state() const { return state_; }
     [[nodiscard]] const Room& room() const { return room_; }
-    [[nodiscard]] haptics::HapticLoop& loop() { return haptics_.loop(); }
-    [[nodiscard]] double pace() const { return haptics_.pace(); }
-    [[nodiscard]] std::uint64_t lost_targets() const { return haptics_.lost_targets(); }
+    [[nodiscard]] SessionHands& hands() { return hands_; }
+    [[nodiscard]] haptics::HapticLoop& loop() { return hands_.loop(); }
+    [[nodiscard]] double pace() const { return hands_.pace(); }
+    [[nodiscard]] std::uint64_t lost_targets() const { return hands_.lost_targets(); }
     [[nodiscard]] scene::SceneService& scene() { return *scene_; }
     // Returns the durations of the scene's updates in which the carved surface changed.
     [[nodiscard]] const haptics::Histogram& carving_duration() const { return news_.carving_duration(); }
@@ -126,11 +133,13 @@ public:
     };
     [[nodiscard]] Outside take_outside() { return {log_.take_events(), std::exchange(refused_, std::nullopt)}; }
 
-    [[nodiscard]] const devices::DeviceDescription& device() const { return haptics_.device(); }
+    // Returns the device of the first hand.
+    [[nodiscard]] const devices::DeviceDescription& device() const { return hands_.device(0); }
     [[nodiscard]] bool has_activity() const { return activity_.is_there(); }
     // Returns the trials that the activity has begun and ended since the last call.
     [[nodiscard]] std::vector<TrialMark> take_trials() { return activity_.take_trials(); }
-    [[nodiscard]] haptics::HapticChannels& channels() { return haptics_.channels(); }
+    [[nodiscard]] haptics::HapticChannels& channels(std::size_t part = 0) { return hands_.channels(part); }
+    [[nodiscard]] std::vector<haptics::HapticChannels*> channels_of_parts() { return hands_.channels_of_parts(); }
     // Returns the surface as it is carved now; null without a workpiece.
     [[nodiscard]] const compute::Surface* surface() const { return carving_ ? &carving_->surface() : nullptr; }
     // Returns the objects of the world as they are now; null without one.
@@ -139,11 +148,14 @@ public:
 private:
     LiveSession(Clock& clock, const SculptOptions& options, double pace);
     [[nodiscard]] Result<void> load(const SculptOptions& options, const SessionWall& wall);
-    [[nodiscard]] Result<void> hold_wand(const SculptOptions& options);
+    [[nodiscard]] Result<void> hold_wands(const SculptOptions& options);
     [[nodiscard]] Result<void> load_workpiece(const SculptOptions& options);
     [[nodiscard]] Result<void> load_world(const SculptOptions& options);
     [[nodiscard]] Result<void> take_up_tool(const SculptOptions& options);
-    [[nodiscard]] Result<void> make_scene(const sculpt::UseTool& use, const Vec3& tool_object, std::size_t undo_bytes);
+    [[nodiscard]] Result<void> open_hands(const SculptOptions& options);
+    [[nodiscard]] Result<void> make_scene(const sculpt::UseTool& use, std::size_t undo_bytes);
+    [[nodiscard]] Vec3 place_at_rest(std::size_t hand) const;
+    [[nodiscard]] const haptics::ToolState& tool_in_use() const { return tools_[hands_.first_part(state_.hand)]; }
     SceneInput feed_panel(const FrameInput& input);
     void hold_governed(const SessionState& before, SessionOrders& orders);
     void carry_out(SessionOrders orders, const Give& give);
@@ -151,7 +163,7 @@ private:
     void switch_amplifiers(const AskedAmplifiers& asked);
     [[nodiscard]] scene::SceneThread::Order carving(sculpt::SculptOrder order);
     [[nodiscard]] scene::SceneThread::Order editing(WorldOrder order);
-    [[nodiscard]] double wand_spread_m() const;
+    [[nodiscard]] double spread_of(std::size_t hand) const;
     void follow_spread(const Give& give);
     [[nodiscard]] double spacing_m() const { return carving_ ? carving_->surface().lattice().spacing_m : 0.0; }
     void take(sculpt::SurfaceUpdate news);
@@ -167,7 +179,7 @@ private:
     Nanoseconds start_ns_ = 0;
     WorkerPool pool_;
     std::unique_ptr<sculpt::Sculpture> carving_;
-    HapticSide haptics_;
+    SessionHands hands_;
     std::optional<sculpt::CarvedPart> carved_;  // with carving_
     std::unique_ptr<WorldSide> world_;          // null: none
     std::optional<scene::SceneService> scene_;
@@ -179,11 +191,12 @@ private:
     ToolSizeRange tool_sizes_;
     bool warns_of_misfit_ = true, misfits_ = false;
     Room room_;
-    std::shared_ptr<const HeldWand> wand_;  // null: a stylus, or a wand that holds a tool
-    double spread_m_ = 0.0;                 // of its points, as the scene's thread has been told
-    double tool_around_m_ = 0.0;            // of the tool at each; the scene's thread's
+    // Of each hand:
+    std::vector<std::shared_ptr<const HeldWand>> wands_;  // null: a stylus, or a wand that holds a tool
+    std::vector<double> spreads_m_;       // of its points, as the scene's thread has been told
+    std::vector<double> tools_around_m_;  // of the tool at each; the scene's thread's
     SessionState state_;
-    haptics::ToolState tool_;
+    std::vector<haptics::ToolState> tools_;  // of each part, as the frame draws them
     Nanoseconds last_step_ns_ = 0;
     wall::OutputPlace output_;                    // of the main screen
     ImageSize panel_output_;                      // of the panel's window; empty: there is none

@@ -243,6 +243,7 @@ private:
         panel::show_activity(kit_, model);
         const bool governed = model.activity && model.activity->governs;
         if (!governed) {
+            panel::show_hands(kit_, model);
             panel::show_tool(kit_, model);
             panel::show_material(kit_, model);
             panel::show_objects(kit_, model);

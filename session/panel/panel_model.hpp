@@ -103,6 +103,8 @@ struct PanelModel {
     std::vector<std::string> object_names;  // of a world
     std::optional<PanelObject> object;      // none: there is no world
     bool carves = true;                     // there is a workpiece
+    std::vector<std::string> hand_names;    // where there are several
+    std::size_t hand = 0;                   // that mouse, keys and panel lead; tool and touch are its
     sculpt::ToolSpec tool;
     ToolSizeRange tool_sizes;
     compute::Operation operation = compute::Operation::cut;

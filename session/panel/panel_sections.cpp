@@ -202,6 +202,17 @@ void show_operations(Kit& kit, const PanelModel& model) {
 
 }  // namespace
 
+void show_hands(Kit& kit, const PanelModel& model) {
+    if (model.hand_names.size() < 2) return;
+    if (kit.begin_card("Hands", "mouse and keys lead")) {
+        std::vector<Item> items;
+        for (const std::string& name : model.hand_names) items.push_back(item_of("hand", name, name));
+        const auto chosen = kit.segments(items, model.hand);
+        if (chosen && *chosen != model.hand) kit.give(LeadHand{model.hand_names[*chosen]});
+    }
+    kit.end_card();
+}
+
 void show_tool(Kit& kit, const PanelModel& model) {
     const std::string aside =
         model.tool.file.empty() ? std::string(sculpt::descriptor_of(model.tool.kind).name) : model.tool.file;

@@ -13,6 +13,7 @@ void show_activity(Kit& kit, const PanelModel& model);
 // The activity's buttons, the line of their question, and its field; as high as acts_height() says, at scale 1.
 void show_acts(Kit& kit, const ActivityPanel& activity);
 [[nodiscard]] float acts_height(const ActivityPanel& activity);
+void show_hands(Kit& kit, const PanelModel& model);
 void show_tool(Kit& kit, const PanelModel& model);
 void show_material(Kit& kit, const PanelModel& model);
 void show_objects(Kit& kit, const PanelModel& model);

@@ -52,6 +52,7 @@ InputFiles inputs_of(const SculptOptions& options) {
     inputs.world(options.world).tool(options.tool.shape).file(options.stroke);
     const LiveOptions& live = options.live;
     inputs.script(live.input).file(live.record).file(live.wall).device(live.device);
+    for (const NamedDevice& hand : live.hands) inputs.device(hand.device);
     for (const sculpt::ToolSpec& tool : live.tools_of_input) inputs.mesh(tool.file);
     return inputs;
 }

@@ -42,8 +42,9 @@ StateWords words_of(const SessionState& state) {
     return words;
 }
 
-void SessionCheck::tick(const haptics::TickRecord& record) {
-    CheckSum sum(check_);
+void SessionCheck::tick(std::size_t part, const haptics::TickRecord& record) {
+    Part& own = parts_[part];
+    CheckSum sum(own.check);
     sum.add(static_cast<std::uint64_t>(record.time_ns));
     sum.add(static_cast<std::uint64_t>(record.sample.time_ns));
     sum.add(record.surface_sequence);
@@ -54,14 +55,19 @@ void SessionCheck::tick(const haptics::TickRecord& record) {
         sum.add(v);
     sum.add(record.sample.orientation_device);
     sum.add(std::uint64_t{record.flags} << 32 | record.sample.buttons);
-    check_ = sum.sum();
-    ticks_.push_back({record.tick, check_});
+    own.check = sum.sum();
+    own.ticks.push_back({record.tick, own.check});
 }
 
-std::uint64_t SessionCheck::frame(std::uint64_t tick, const StateWords& state) {
-    while (ticks_.size() > 1 && ticks_[1].tick <= tick) ticks_.pop_front();
-    CheckSum sum(!ticks_.empty() && ticks_.front().tick <= tick ? ticks_.front().check : 0);
+std::uint64_t SessionCheck::Part::at(std::uint64_t tick) {
+    while (ticks.size() > 1 && ticks[1].tick <= tick) ticks.pop_front();
+    return !ticks.empty() && ticks.front().tick <= tick ? ticks.front().check : 0;
+}
+
+std::uint64_t SessionCheck::frame(std::span<const std::uint64_t> ticks, const StateWords& state) {
+    CheckSum sum(parts_.front().at(ticks.front()));
     for (const std::uint64_t word : state) sum.add(word);
+    for (std::size_t part = 1; part < parts_.size(); ++part) sum.add(parts_[part].at(ticks[part]));
     return sum.sum();
 }
 

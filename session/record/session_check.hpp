@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <deque>
 #include <span>
+#include <vector>
 
 #include "haptics/channels.hpp"
 #include "session/state/session_state.hpp"
@@ -45,17 +46,23 @@ using StateWords = std::array<std::uint64_t, 34>;
 
 class SessionCheck {
 public:
-    void tick(const haptics::TickRecord& record);
-    // Returns the checksum of a frame that draws the tool of this tick and has taken its surface updates. Earlier ticks
-    // are not asked for again.
-    [[nodiscard]] std::uint64_t frame(std::uint64_t tick, const StateWords& state);
+    explicit SessionCheck(std::size_t parts = 1) : parts_(parts) {}
+    void tick(std::size_t part, const haptics::TickRecord& record);
+    // Returns the checksum of a frame that draws the tools of these ticks, one of each part, and has taken its surface
+    // updates. Earlier ticks are not asked for again.
+    [[nodiscard]] std::uint64_t frame(std::span<const std::uint64_t> ticks, const StateWords& state);
 
 private:
     struct After {
         std::uint64_t tick = 0, check = 0;
     };
-    std::uint64_t check_ = 0;
-    std::deque<After> ticks_;  // not seen by a frame yet, except for the first
+    struct Part {
+        std::uint64_t check = 0;
+        std::deque<After> ticks;  // not seen by a frame yet, except for the first
+
+        [[nodiscard]] std::uint64_t at(std::uint64_t tick);
+    };
+    std::vector<Part> parts_;
 };
 
 }  // namespace burin::session

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "session/record/session_recording.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "record/export/table_export.hpp"
@@ -34,21 +35,23 @@ Result<std::shared_ptr<SessionRecording>> SessionRecording::create(const std::st
     if (!header) return std::unexpected(header.error());
     std::shared_ptr<SessionRecording> made(new SessionRecording(path, std::move(session)));
     const RecordingOf& own = made->session_;
-    record::RecordedHand hand{own.device.name, own.device, own.probe, own.ring};
-    const record::RowShape shape = record::shape_of(own.device, own.probe);
-    hand.more_columns = touched_columns(shape);
-    hand.more_values = [shape](const haptics::TickRecord& tick, std::vector<record::Word>& row) {
-        append_touched(tick, shape, row);
-    };
+    std::vector<record::RecordedHand> hands;
+    for (const RecordedPart& part : own.parts) {
+        record::RecordedHand hand{part.name.empty() ? part.device.name : part.name, part.device, part.probe, part.ring};
+        const record::RowShape shape = record::shape_of(part.device, part.probe);
+        hand.more_columns = touched_columns(shape);
+        hand.more_values = [shape](const haptics::TickRecord& tick, std::vector<record::Word>& row) {
+            append_touched(tick, shape, row);
+        };
+        hands.push_back(std::move(hand));
+    }
     record::WriterOptions options;
     options.facts = own.facts;
     options.facts.emplace_back(kActivityFact, kLiveActivity);
     options.facts.emplace_back(record::kLogHeaderFact, *header);
     options.objects = own.objects;
     options.vfs = own.vfs;
-    options.on_record = [r = made.get()](std::size_t, const haptics::TickRecord& tick) { r->take(tick); };
-    std::vector<record::RecordedHand> hands;
-    hands.push_back(std::move(hand));
+    options.on_record = [r = made.get()](std::size_t part, const haptics::TickRecord& tick) { r->take(part, tick); };
     // The writer's thread calls take() as soon as there are ticks, and there are none before the haptic thread runs.
     auto writer = record::RecordWriter::create(path, std::move(hands), std::move(options));
     if (!writer) return std::unexpected(writer.error());
@@ -57,16 +60,19 @@ Result<std::shared_ptr<SessionRecording>> SessionRecording::create(const std::st
 }
 
 SessionRecording::SessionRecording(std::string path, RecordingOf session)
-    : path_(std::move(path)), session_(std::move(session)), tick_text_(session_.clock) {}
+    : path_(std::move(path)),
+      session_(std::move(session)),
+      ticks_(session_.parts.size()),
+      check_(session_.parts.size()) {}
 
 // ---- The frame's thread
 
 Result<void> SessionRecording::line(Nanoseconds time_ns, std::string line) {
-    return add({time_ns, std::move(line), 0, {}, {}});
+    return add({time_ns, std::move(line), false, {}, {}});
 }
 
 Result<void> SessionRecording::frame(Nanoseconds time_ns, const FrameSeen& seen, const StateWords& state) {
-    return add({time_ns, {}, seen.tick, seen, state});
+    return add({time_ns, {}, true, seen, state});
 }
 
 Result<void> SessionRecording::add(Waiting waiting) {
@@ -92,7 +98,6 @@ Result<void> SessionRecording::close() {
     std::optional<Error> ended;
     {
         const std::lock_guard lock(mutex_);
-        if (!log_ended_) write_ticks();
         ended = log_ended_;
     }
     if (const auto closed = writer_->close(); !closed) return closed;
@@ -101,20 +106,26 @@ Result<void> SessionRecording::close() {
 }
 
 SessionRecording::Progress SessionRecording::progress() const {
-    const std::uint64_t acknowledged = writer_->acknowledged();
+    Progress progress{0, writer_->acknowledged(), 0};
+    for (std::size_t part = 0; part < session_.parts.size(); ++part) {
+        progress.acknowledged = std::min(progress.acknowledged, writer_->acknowledged(part));
+        progress.lost += session_.parts[part].ring->refused();
+    }
     const std::lock_guard lock(mutex_);
-    return {recorded_, acknowledged, session_.ring->refused()};
+    progress.recorded = recorded_;
+    return progress;
 }
 
 // ---- The writer's thread
 
-void SessionRecording::take(const haptics::TickRecord& tick) {
+void SessionRecording::take(std::size_t part, const haptics::TickRecord& tick) {
     const std::lock_guard lock(mutex_);
     ++recorded_;
     if (log_ended_) return;
-    if (tick.tick != ticks_ + 1) {
-        return end_log({"the disk stood still for so long that " + std::to_string(tick.tick - ticks_ - 1) +
-                            " ticks were lost after tick " + std::to_string(ticks_),
+    std::uint64_t& last = ticks_[part];
+    if (tick.tick != last + 1) {
+        return end_log({"the disk stood still for so long that " + std::to_string(tick.tick - last - 1) +
+                            " ticks were lost after tick " + std::to_string(last),
                         path_, "up to there it can be replayed; record to a faster disk"});
     }
     if ((tick.flags & haptics::kTickSampleDropped) != 0) {
@@ -122,35 +133,30 @@ void SessionRecording::take(const haptics::TickRecord& tick) {
             {"the scene stood still for so long that it did not take the sample of tick " + std::to_string(tick.tick),
              path_, "up to there it can be replayed; record the rest anew"});
     }
-    check_.tick(tick);
-    tick_text_.write(ticks_text_, {tick.time_ns, tick.sample, tick.surface_sequence, tick.parameter_sequence,
-                                   (tick.flags & haptics::kTickLate) != 0});
-    ++ticks_;
-    if (ticks_ - written_ticks_ == kMostTicksALine) write_ticks();
+    check_.tick(part, tick);
+    last = tick.tick;
     if (!waiting_.empty()) pass_on();
 }
 
 // ---- Either, with the mutex held
 
-// Passes on what waits, up to a frame whose tick has not come.
+bool SessionRecording::has_ticks_of(const FrameSeen& frame) const {
+    for (std::size_t part = 0; part < ticks_.size(); ++part)
+        if (frame.ticks[part] > ticks_[part]) return false;
+    return true;
+}
+
+// Passes on what waits, up to a frame whose ticks have not come.
 void SessionRecording::pass_on() {
-    while (!waiting_.empty() && waiting_.front().tick <= ticks_) {
+    while (!waiting_.empty() && (!waiting_.front().is_frame || has_ticks_of(waiting_.front().frame))) {
         Waiting next = std::move(waiting_.front());
         waiting_.pop_front();
-        if (next.line.empty()) {
-            write_ticks();
-            next.frame.check = check_.frame(next.tick, next.state);
+        if (next.is_frame) {
+            next.frame.check = check_.frame(next.frame.ticks, next.state);
             next.line = text_of_time(next.time_ns) + " " + text_of(next.frame);
         }
         note(next.time_ns, std::move(next.line));
     }
-}
-
-void SessionRecording::write_ticks() {
-    if (ticks_ == written_ticks_) return;
-    note(last_ns_, text_of_time(last_ns_) + " ticks " + std::to_string(written_ticks_ + 1) + " " + ticks_text_);
-    ticks_text_.clear();
-    written_ticks_ = ticks_;
 }
 
 void SessionRecording::note(Nanoseconds time_ns, std::string line) {
@@ -159,7 +165,6 @@ void SessionRecording::note(Nanoseconds time_ns, std::string line) {
 }
 
 void SessionRecording::end_log(Error why) {
-    write_ticks();
     waiting_.clear();
     writer_->note_event(session_.clock.start_ns + last_ns_, "log ended", why.line());
     log_ended_ = std::move(why);

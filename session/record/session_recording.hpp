@@ -2,9 +2,10 @@
 // Records a live session into a session file (record/record_writer.hpp): every tick with all its columns, and beside
 // them the input log, line by line as a text log has it (docs/formats.md, "The input log").
 //
-//   haptic thread -> ring of tick records -> the writer's thread, the ring's only reader
-//     -> columns; and the log's lines of ticks, the frames' checksums
+//   haptic thread -> ring of tick records of each part of the hands -> the writer's thread, the rings' only reader
+//     -> columns; and the frames' checksums
 //   frame's thread -> lines, frames -> wait here for the ticks that a frame has seen -> the same transactions
+// What the ticks saw stands in their columns alone; a replay reads them there (tick_source.hpp).
 //
 // The frame's thread waits for no disk and reads no ring: one that stands still loses nothing. The log ends where it
 // could not be replayed beyond: where a tick is missing, because the disk stood still for longer than the ring holds,
@@ -45,11 +46,17 @@ void append_touched(const haptics::TickRecord& tick, const record::RowShape& sha
 // Returns whether a recording of this name is a session file: it ends in .session. Any other name is a text log's.
 [[nodiscard]] bool is_session_file(const std::string& path);
 
-// What a recording is of. The ring must outlive the recording.
-struct RecordingOf {
+// A part of a hand whose ticks are recorded: a table of the file.
+struct RecordedPart {
+    std::string name;  // unique; empty: the device's
     devices::DeviceDescription device;
-    haptics::Probe probe;  // with as many points as any that the session will have
+    haptics::Probe probe;  // with as many points as any that the part will have
     Ring<haptics::TickRecord>* ring = nullptr;
+};
+
+// What a recording is of. The rings must outlive the recording.
+struct RecordingOf {
+    std::vector<RecordedPart> parts;
     ThreadClock clock;
     std::string settings;  // of the session (settings_line())
     std::vector<std::pair<std::string, std::string>> facts = {};
@@ -76,8 +83,8 @@ public:
     [[nodiscard]] Result<void> close();
 
     struct Progress {
-        std::uint64_t recorded = 0;      // ticks
-        std::uint64_t acknowledged = 0;  // the last tick that is on the disk
+        std::uint64_t recorded = 0;      // ticks, of all parts
+        std::uint64_t acknowledged = 0;  // the last tick that is on the disk, of every part
         std::uint64_t lost = 0;          // ticks, to a full ring
     };
     [[nodiscard]] Progress progress() const;
@@ -86,16 +93,16 @@ public:
 private:
     struct Waiting {
         Nanoseconds time_ns = 0;
-        std::string line;        // of a frame: none yet
-        std::uint64_t tick = 0;  // that it waits for; 0: none
-        FrameSeen frame;
+        std::string line;         // of a frame: none yet
+        bool is_frame = false;    // which waits for the ticks that it has seen
+        FrameSeen frame = {};
         StateWords state{};
     };
     SessionRecording(std::string path, RecordingOf session);
-    void take(const haptics::TickRecord& tick);
+    void take(std::size_t part, const haptics::TickRecord& tick);
     [[nodiscard]] Result<void> add(Waiting waiting);
+    [[nodiscard]] bool has_ticks_of(const FrameSeen& frame) const;
     void pass_on();
-    void write_ticks();
     void note(Nanoseconds time_ns, std::string line);
     void end_log(Error why);
 
@@ -103,11 +110,9 @@ private:
     RecordingOf session_;
     mutable std::mutex mutex_;  // guards what follows
     std::deque<Waiting> waiting_;
-    TickText tick_text_;
-    std::string ticks_text_;                       // ticks that have no line yet
-    std::uint64_t ticks_ = 0, written_ticks_ = 0;  // taken; of these, in lines
-    std::uint64_t recorded_ = 0;                   // whether or not the log has ended
-    Nanoseconds last_ns_ = 0;                      // of the last line
+    std::vector<std::uint64_t> ticks_;  // taken, of each part
+    std::uint64_t recorded_ = 0;        // whether or not the log has ended
+    Nanoseconds last_ns_ = 0;           // of the last line
     SessionCheck check_;
     std::optional<Error> log_ended_;
     std::optional<std::int64_t> trial_;  // under way; the frame's thread's

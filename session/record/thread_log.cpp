@@ -13,6 +13,7 @@ namespace burin::session {
 namespace {
 
 constexpr double kSlightestPace = 1e-3, kGreatestPace = 1e3;
+constexpr std::size_t kMostPartsOfHands = 16;
 constexpr Nanoseconds kLatestStart_ns = Nanoseconds{1} << 60;  // 36 years after a machine's start
 
 struct Kind {
@@ -26,7 +27,7 @@ constexpr std::array kKinds = {
     Kind{"plotted", "TICK_US FRAME_MS FRAME_LIMIT_MS"},
     Kind{"figures", "FIGURES OF THE PANEL, AND ITS WARNINGS"},
     Kind{"kept", "TICK"},
-    Kind{"saw", "TICK UPDATES CHECK"},
+    Kind{"saw", "TICK UPDATES CHECK [TICK OF EACH FURTHER PART...]"},
     Kind{"refused", "STEREO_MODE"},
     Kind{"said", "\"MESSAGE\""},
     Kind{"end", "CHECK"},
@@ -114,7 +115,9 @@ std::string text_of(const PanelNumbers& numbers) {
 }
 
 std::string text_of(const FrameSeen& frame) {
-    return "saw " + text(frame.tick) + " " + text(frame.updates) + " " + text(frame.check);
+    std::string line = "saw " + text(frame.ticks.front()) + " " + text(frame.updates) + " " + text(frame.check);
+    for (std::size_t part = 1; part < frame.ticks.size(); ++part) line += " " + text(frame.ticks[part]);
+    return line;
 }
 
 std::string kept_text(std::uint64_t acknowledged) { return "kept " + text(acknowledged); }
@@ -169,14 +172,23 @@ bool ThreadLogReader::take_clock(const std::vector<std::string>& words) {
 
 // Takes the `saw` line of the frame that has begun; each frame has one.
 bool ThreadLogReader::take_saw(const std::vector<std::string>& words, std::size_t line) {
-    if (words.size() != 4 || log_->frames.size() + 1 != begun_) return false;
-    const auto tick = number<std::uint64_t>(words[1]), updates = number<std::uint64_t>(words[2]);
-    const auto check = number<std::uint64_t>(words[3]);
-    if (!tick || !updates || !check) return false;
-    if (!log_->frames.empty() && (*tick < log_->frames.back().tick || *updates < log_->frames.back().updates))
-        return false;
+    if (words.size() < 4 || words.size() > 3 + kMostPartsOfHands || log_->frames.size() + 1 != begun_) return false;
+    const auto updates = number<std::uint64_t>(words[2]), check = number<std::uint64_t>(words[3]);
+    if (!updates || !check) return false;
+    std::vector<std::uint64_t> ticks;
+    for (std::size_t word = 1; word < words.size(); word = word == 1 ? 4 : word + 1) {
+        const auto tick = number<std::uint64_t>(words[word]);
+        if (!tick) return false;
+        ticks.push_back(*tick);
+    }
+    if (!log_->frames.empty()) {
+        const FrameSeen& before = log_->frames.back();
+        if (ticks.size() != before.ticks.size() || *updates < before.updates) return false;
+        for (std::size_t part = 0; part < ticks.size(); ++part)
+            if (ticks[part] < before.ticks[part]) return false;
+    }
     FrameSeen& frame = log_->frames.emplace_back(std::exchange(frame_, {}));
-    frame.tick = *tick;
+    frame.ticks = std::move(ticks);
     frame.updates = *updates;
     frame.check = *check;
     frame.line = line;

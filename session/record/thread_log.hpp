@@ -2,7 +2,8 @@
 // Log of what the threads of a live session did, beside its input: enough to repeat it on one thread. The lines are
 // described in docs/formats.md, "What the threads did".
 //
-//   a tick    what it read from the device, and which surface and parameters it saw
+//   a tick    what it read from the device, and which surface and parameters it saw. Of one hand with one part, as lines
+//             of a text log; a session file has the ticks of all parts in its columns (tick_source.hpp)
 //   an update when the scene's service made it, up to which tick of each hand, how many orders it took
 //   a frame   the tick whose tool it drew, the scene's updates it had taken, the sizes of its outputs, and the messages
 //             from outside
@@ -32,6 +33,7 @@ struct TickSeen {
     devices::DeviceSample sample;
     std::uint64_t surface_sequence = 0, parameter_sequence = 0;
     bool late = false;
+    std::optional<Nanoseconds> lateness_ns = {};  // where it is known to the nanosecond
 };
 
 // Position and size of a screen's output, from this frame on.
@@ -41,7 +43,7 @@ struct OutputSeen {
 };
 
 struct FrameSeen {
-    std::uint64_t tick = 0;     // the newest that was finished; 0: none yet
+    std::vector<std::uint64_t> ticks{0};  // the newest that was finished, of each part of the hands; 0: none yet
     std::uint64_t updates = 0;  // of the scene, whose results it had taken
     std::uint64_t check = 0;    // checksum of the resulting state (SessionCheck)
     std::vector<OutputSeen> outputs;
@@ -76,7 +78,7 @@ struct ThreadLines {
 
 struct ThreadLog {
     ThreadClock clock;
-    ThreadLines ticks, updates;                // from the first on
+    ThreadLines ticks, updates;                // from the first on; no ticks: they are in columns
     std::vector<std::string> messages_before;  // from outside, before the first frame
     std::vector<FrameSeen> frames;             // finished frames
     std::optional<std::uint64_t> end_check;

@@ -218,6 +218,8 @@ Parsed parse_act(Arguments words) { return DoAct{{words.begin(), words.end()}}; 
 
 Parsed parse_select(Arguments words) { return SelectObject{words[0]}; }
 
+Parsed parse_hand(Arguments words) { return LeadHand{words[0]}; }
+
 Parsed parse_calibrate(Arguments words) {
     if (words.empty()) return CalibrateWand{};
     if (words[0] == "reset") return CalibrateWand{.reset = true};
@@ -268,6 +270,7 @@ const std::vector<Entry>& entries() {
           "Change an object of the world: " + alternatives(names_in(scene::object_properties()))},
          parse_object},
         {{"select", "NAME", "Show an object of the world on the panel"}, parse_select},
+        {{"hand", "NAME", "Lead the hand of this name with mouse and keys, of several"}, parse_hand},
         {{"do", "ACT...", "Tell the activity something, as the buttons of its section do"}, parse_act},
         {{"show-force", "on|off", "Whether an arrow shows the force"}, parse_force_shown},
         {{"calibrate", "[reset]", "Take the wand, now in its jig, for being where that is; or take that back"},

@@ -125,6 +125,12 @@ struct SelectObject {
     bool operator==(const SelectObject&) const = default;
 };
 
+// Has mouse, keys and panel lead another hand.
+struct LeadHand {
+    std::string hand;
+    bool operator==(const LeadHand&) const = default;
+};
+
 // Tells the activity something: one of its acts, and its arguments (session/state/activity.hpp).
 struct DoAct {
     std::vector<std::string> words;
@@ -139,7 +145,7 @@ struct CalibrateWand {
 using SessionCommand =
     std::variant<RunAction, SetTool, SetOperation, SetColour, SetMaterial, SetQuantity, SetTechnique, SetStereoMode,
                  SetTestPattern, SetEyeSwap, SetForce, SetForceShown, SetCatchDrill, ExportTo, ScreenshotTo, EditObject,
-                 SelectObject, DoAct, CalibrateWand, SetAmplifiers>;
+                 SelectObject, DoAct, CalibrateWand, SetAmplifiers, LeadHand>;
 
 struct SessionState;
 

@@ -49,6 +49,7 @@ struct Printer {
     CommandInput operator()(const SetForceShown& c) const { return {"show-force", {on_off(c.on)}}; }
     CommandInput operator()(const DoAct& c) const { return {"do", c.words}; }
     CommandInput operator()(const SelectObject& c) const { return {"select", {c.object}}; }
+    CommandInput operator()(const LeadHand& c) const { return {"hand", {c.hand}}; }
     CommandInput operator()(const EditObject& c) const {
         const scene::PropertyDescriptor& property = scene::descriptor_of(c.property);
         std::string value = property.numbers == 0 ? on_off(c.value[0] != 0.0) : exact(c.value[0]);

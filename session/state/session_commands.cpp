@@ -75,6 +75,7 @@ public:
         return {};
     }
     Result<void> operator()(const CalibrateWand& wanted);
+    Result<void> operator()(const LeadHand& wanted) { return lead_hand(state_, wanted.hand); }
     Result<void> operator()(const EditObject& wanted) {
         const WorldObjects none;
         Result<EditedWorld> edited = session::edited(state_.world ? *state_.world : none, wanted);
@@ -196,6 +197,9 @@ Result<void> Runner::operator()(const RunAction& run) {
         case Action::save_session:
             return fail("save-session", "sessions cannot be saved yet", "export the mesh (export FILE, Ctrl+E)");
         case Action::reset_view: state_.world_from_object = state_.home_world_from_object; return update_touch();
+        case Action::next_hand:
+            return lead_hand(state_, state_.hands.empty() ? "next"
+                                                          : state_.hands[(state_.hand + 1) % state_.hands.size()].hand_name);
         case Action::quit: state_.quit = true; return {};
     }
     return {};

@@ -20,6 +20,18 @@ struct World;  // scene/world_file.hpp
 
 namespace burin::session {
 
+// The device of one hand of several: --device right=simulated.
+struct NamedDevice {
+    std::string hand, device;
+    bool operator==(const NamedDevice&) const = default;
+};
+// Hands have names of letters, digits, - and _.
+inline constexpr std::size_t kMostHands = 4;
+// Reads "right=simulated". Fails on a name that no hand can have, and where no device is named.
+[[nodiscard]] Result<NamedDevice> parse_named_device(const std::string& text);
+// Reads what --device was given: one device alone, or a named one for each hand. Fails on two of one name.
+[[nodiscard]] Result<void> set_devices(struct LiveOptions& live, const std::vector<std::string>& given);
+
 struct LiveOptions {
     bool live = false;  // explicitly requested; also implied when there is neither a stroke nor an output
     std::string input;  // a log or a script that takes the user's place; empty: keyboard, mouse, trackers
@@ -30,7 +42,8 @@ struct LiveOptions {
     bool swap_eyes = false;
     std::string wall;     // wall file with screens, eyes and tracker; empty: one desktop window
     std::string tracker;  // tracker address, "udp:PORT"; empty: keys fly the head
-    std::string device = devices::kDefaultHapticDevice;  // name of a force-feedback device
+    std::string device = devices::kDefaultHapticDevice;  // name of a force-feedback device; of the first of several
+    std::vector<NamedDevice> hands;                      // of all, where there are several; else empty
     bool windowed = false;    // the wall's screens as desktop windows, fitted into width x height
     std::string full_screen;  // a monitor's name or index; empty: a window
     // The panel has a window of its own and is on no picture; these show the activity's page alone.

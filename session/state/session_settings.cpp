@@ -40,6 +40,7 @@ void visit_settings(Options& o, Visit&& visit) {
     visit("--friction", o.feel.friction);
     visit("--undo-memory", o.undo_memory_MiB, kUndoMemoryBounds);
     visit("--device", o.live.device);
+    visit("--hands", o.live.hands);
     visit("--wall", o.live.wall);
     visit("--stereo", o.live.stereo);
     visit("--swap-eyes", o.live.swap_eyes);
@@ -59,6 +60,12 @@ std::optional<std::string> text(compute::Operation operation) {
     return std::string(sculpt::descriptor_of(operation).name);
 }
 std::optional<std::string> text(LengthUnit unit) { return name_of(unit); }
+std::optional<std::string> text(const std::vector<NamedDevice>& hands) {
+    if (hands.empty()) return std::nullopt;
+    std::string all;
+    for (const NamedDevice& one : hands) all += (all.empty() ? "" : " ") + as_word(one.hand + "=" + one.device);
+    return all;
+}
 template <typename T>
 std::optional<std::string> text(T number) {
     std::array<char, 32> digits;
@@ -71,6 +78,17 @@ std::optional<std::string> text(const std::optional<T>& value) {
 
 bool read(const std::string& text, std::string& value) {
     value = text;
+    return true;
+}
+// As words, each of a hand: "right=simulated left=simulated-wand:w.toml".
+bool read(const std::string& text, std::vector<NamedDevice>& hands) {
+    const Result<std::vector<std::string>> words = words_of(text, "--hands");
+    if (!words || words->size() > kMostHands) return false;
+    for (const std::string& word : *words) {
+        Result<NamedDevice> named = parse_named_device(word);
+        if (!named) return false;
+        hands.push_back(std::move(*named));
+    }
     return true;
 }
 bool read(const std::string& text, bool& on) { return on = text.empty(); }

@@ -58,10 +58,11 @@ Similarity place_workpiece(const Room& room, const HeldWand* held) {
 }
 
 // Places the hand's workspace with its center at the workpiece's front, large enough to cover its width and height.
-Similarity place_workspace(const Room& room, const Similarity& world_from_object, const HeldWand* held) {
+Similarity place_workspace(const Room& room, const HandRoom& hand, const Similarity& world_from_object,
+                           const HeldWand* held) {
     if (held != nullptr) return world_from_object * object_from_device(*held, room.workpiece_object);
     const Vec3 size = room.workpiece_object.extent() * world_from_object.scale;
-    const Vec3 needed = kWorkspaceCovers * size / room.workspace_device_m;
+    const Vec3 needed = kWorkspaceCovers * size / hand.workspace_device_m;
     Vec3 place = room.workpiece_object.center();
     if (room.covers_depth) return {world_from_object * place, world_from_object.orientation, longest(needed)};
     place.z = room.workpiece_object.hi.z;
@@ -69,9 +70,9 @@ Similarity place_workspace(const Room& room, const Similarity& world_from_object
 }
 
 // Returns where the hand rests: this far before the workspace's front.
-Vec3 resting_hand_device(const Room& room, const HeldWand* held, double before_front_m) {
+Vec3 resting_hand_device(const HandRoom& hand, const HeldWand* held, double before_front_m) {
     const Vec3 front = held != nullptr ? held->front_device() : Vec3(0.0, 0.0, 1.0);
-    return (0.5 * glm::dot(glm::abs(front), room.workspace_device_m) - before_front_m) * front;
+    return (0.5 * glm::dot(glm::abs(front), hand.workspace_device_m) - before_front_m) * front;
 }
 
 // Before a wall, moves the workpiece back or forth as far as its viewer's eyes require at the start.
@@ -80,7 +81,7 @@ void move_into_comfort(SessionState& state, const Room& room) {
     const View sight = view_of(room.wall.setup, room.wall.main, state.head, state.interpupillary_m);
     if (!sight.visible) return;
     const double radius_m = 0.5 * state.world_from_object.scale * longest(room.workpiece_object.extent());
-    const Similarity world_from_device = place_workspace(room, state.world_from_object, state.wand.get());
+    const Similarity world_from_device = place_workspace(room, room, state.world_from_object, state.wand.get());
     const std::array<wall::ContentBall, 2> content{
         {{state.world_from_object * room.workpiece_object.center(), radius_m},
          {world_from_device * resting_hand_device(room, state.wand.get(), 0.0), 0.2 * radius_m}}};  // the tool at rest
@@ -91,14 +92,14 @@ void move_into_comfort(SessionState& state, const Room& room) {
 }
 
 // Returns the feel of the workpiece; with infinite hardness when it can only be touched.
-haptics::TouchMaterial material_under_tool(const SessionState& state) {
+haptics::TouchMaterial material_under_tool(const SessionState& state, const HandState& hand) {
     constexpr double kCannotBeCut = std::numeric_limits<double>::infinity();
-    return sculpt::touch_material(state.only_touch || !state.carves ? sculpt::with_hardness(state.feel, kCannotBeCut)
+    return sculpt::touch_material(hand.only_touch || !state.carves ? sculpt::with_hardness(state.feel, kCannotBeCut)
                                                                     : state.feel);
 }
 
 // Returns the radius of a ball about as wide as the tool.
-double tool_radius_m(const SessionState& state) { return state.held->half_width_m(); }
+double tool_radius_m(const HandState& hand) { return hand.held->half_width_m(); }
 
 // Returns the distance from the main screen to the head; never 0, even where the head is beside or behind it.
 double head_distance_m(const SessionState& state, const wall::Screen& screen, const wall::WallSetup& setup) {
@@ -132,23 +133,89 @@ Pose read_pose(const haptics::ToolState& tool) {
             glm::conjugate(tool.workspace.object_from_device.orientation) * tool.orientation_object};
 }
 
+// Returns where a hand has its device in the world, in the tick of a tool.
+Similarity world_from_hand(const HandState& hand, const haptics::ToolState& tool) {
+    Similarity world_from_device = hand.world_from_device;
+    world_from_device.scale *= hand.workspace_gain;
+    const Pose read = read_pose(tool);
+    Similarity placed = world_from_device * Similarity{read.position_m, read.orientation, 1.0};
+    placed.scale = 1.0;
+    return placed;
+}
+
+// Has a hand whose second button is down take the scene along, where there are several: one holds and turns the
+// workpiece, and another carves it. Returns whether a hold has begun or ended.
+bool hold_scene(SessionState& state, std::span<const haptics::ToolState> tools) {
+    constexpr std::uint32_t kHolds = 2;
+    if (!state.carves || tools.size() < 2) return false;
+    bool changed = false, is_held = false;
+    for (std::size_t i = 0; i < tools.size(); ++i) {
+        HandState& hand = hand_of(state, i);
+        // A workspace that is moved by the hand takes the button for itself.
+        const bool presses = hand.technique == haptics::WorkspaceTechnique::fixed && tools[i].tick > 0 &&
+                             (tools[i].buttons & kHolds) != 0;
+        if (!presses || is_held) {
+            changed = changed || hand.holds.has_value();
+            hand.holds.reset();
+            continue;
+        }
+        const Similarity now = world_from_hand(hand, tools[i]);
+        is_held = true;
+        if (hand.holds) {
+            state.world_from_object = now * inverse(hand.holds->world_from_hand) * hand.holds->world_from_scene;
+        } else {
+            hand.holds = {now, state.world_from_object};
+            changed = true;
+        }
+    }
+    return changed;
+}
+
 // Keeps a large box around the whole workpiece from dimming it.
 constexpr double kBoxOpacity = 0.04;
 
 // Returns the colour of what the tool leaves behind; a cutting tool has its own.
-Vec3 tool_colour(const SessionState& state) {
-    if (state.tool.operation == compute::Operation::cut) return renderer::SceneTool{}.colour;
-    const auto c = sculpt::material_of(state.tool).colour;
+Vec3 tool_colour(const HandState& hand) {
+    if (hand.tool.operation == compute::Operation::cut) return renderer::SceneTool{}.colour;
+    const auto c = sculpt::material_of(hand.tool).colour;
     return Vec3(c[0], c[1], c[2]) / 255.0;
+}
+
+}  // namespace
+
+namespace {
+
+// Where a hand of several stands beside the others at the start, as a share of its workspace's width.
+constexpr double kBeside = 0.22;
+
+// Gives each hand of several its workspace, and where it rests in there: the first to the right, the second to the left.
+void begin_hands(SessionState& state, const Room& room, std::span<const std::shared_ptr<const HeldWand>> wands,
+                 std::span<const std::string> names) {
+    if (names.size() < 2) return;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        HandState hand = state;
+        hand.hand_name = names[i];
+        hand.wand = i < wands.size() ? wands[i] : nullptr;
+        hand.world_from_device = place_workspace(room, room.of(i), state.world_from_object, hand.wand.get());
+        hand.target.position_device_m = resting_hand_device(room.of(i), hand.wand.get(), kClearsBorder_m);
+        const Quat device_from_scene = hand.wand ? hand.wand->device_from_scene_turn() : Quat(1.0, 0.0, 0.0, 0.0);
+        const double side = i % 2 == 0 ? 1.0 : -1.0;
+        hand.target.position_device_m +=
+            device_from_scene * Vec3(side * kBeside * room.of(i).workspace_device_m.x, 0.0, 0.0);
+        state.hands.push_back(std::move(hand));
+    }
+    static_cast<HandState&>(state) = state.hands.front();
+    state.desk.target_device_m = state.target.position_device_m;
 }
 
 }  // namespace
 
 SessionState begin_session(const Room& room, const sculpt::ToolSettings& tool, const sculpt::FeelSettings& feel,
                            const wall::OutputSettings& output, std::shared_ptr<const ToolMeshes> meshes,
-                           std::shared_ptr<const HeldWand> wand) {
+                           std::span<const std::shared_ptr<const HeldWand>> wands,
+                           std::span<const std::string> hands) {
     SessionState state;
-    state.wand = std::move(wand);
+    if (!wands.empty()) state.wand = wands.front();
     state.meshes = std::move(meshes);
     state.desk = desk_at_home(room.desk);
     state.head = follow_head({}, room.wall.setup, room.wall.setup.timing, {}, 0, state.desk.head_world);
@@ -156,14 +223,38 @@ SessionState begin_session(const Room& room, const sculpt::ToolSettings& tool, c
     state.world_from_object = place_workpiece(room, state.wand.get());
     move_into_comfort(state, room);
     state.home_world_from_object = state.world_from_object;
-    state.world_from_device = place_workspace(room, state.world_from_object, state.wand.get());
+    state.world_from_device = place_workspace(room, room, state.world_from_object, state.wand.get());
     // Let the hand rest in front of the workpiece.
     state.desk.target_device_m = resting_hand_device(room, state.wand.get(), kClearsBorder_m);
     state.tool = tool;
     static_cast<void>(take_up(state));  // tool_of() says why it has none
     state.feel = feel;
     state.output = output;
+    begin_hands(state, room, wands, hands);
     return state;
+}
+
+Result<void> lead_hand(SessionState& state, const std::string& name) {
+    const auto at = std::ranges::find(state.hands, name, &HandState::hand_name);
+    if (at == state.hands.end()) {
+        std::string known;
+        for (const HandState& hand : state.hands) known += (known.empty() ? "" : " or ") + hand.hand_name;
+        return fail("hand " + name, state.hands.empty() ? "the session has one hand" : "there is no hand of that name",
+                    state.hands.empty() ? "open it with --device right=simulated --device left=simulated"
+                                        : "name " + known);
+    }
+    const auto next = static_cast<std::size_t>(at - state.hands.begin());
+    if (next == state.hand) return {};
+    state.target = {state.desk.target_device_m, Vec3(0.0), {}, state.desk.buttons};
+    state.target_turn_device = state.desk.target_turn_device;
+    HandState& own = state;
+    state.hands[state.hand] = own;
+    own = state.hands[next];
+    state.hand = next;
+    state.desk.target_device_m = state.target.position_device_m;
+    state.desk.target_turn_device = state.target_turn_device;
+    state.desk.buttons = state.target.buttons;
+    return {};
 }
 
 Result<void> take_up(SessionState& state) {
@@ -178,8 +269,9 @@ Result<void> take_up(SessionState& state) {
 SessionStep step_session(SessionState state, const Room& room, std::span<const InputEvent> events,
                          const SessionView& view) {
     SessionStep step;
+    step.led_hand = state.hand;
     if (state.wand) state.wand_reads_device = read_pose(view.tool);
-    DeskStep desk = step_desk(state.desk, events, view.dt_s, view_of(state, room, view), room.desk);
+    DeskStep desk = step_desk(state.desk, events, view.dt_s, view_of(state, room, view), room.of(state.hand).desk);
     state.desk = desk.state;
     const wall::StereoMode mode = output_on(room.wall, room.wall.main, state.output).mode;
     state.head = follow_head(state.head, room.wall.setup, timing_in(room.wall.setup, mode), events, view.display_ns,
@@ -193,6 +285,7 @@ SessionStep step_session(SessionState state, const Room& room, std::span<const I
                    {.home_world_from_scene = state.home_world_from_object});
     state.wands = wands.state;
     state.world_from_object = wands.world_from_scene;
+    if (hold_scene(state, view.tools)) step.orders.parameters = true;
     if (state.world_from_object != before) {
         state.world_from_object.orientation = glm::normalize(state.world_from_object.orientation);
         step.orders.parameters = true;  // the workpiece has moved under the hand
@@ -214,38 +307,39 @@ SessionStep step_session(SessionState state, const Room& room, std::span<const I
     return step;
 }
 
-haptics::TickParameters parameters_of(const SessionState& state, const Room& room) {
+haptics::TickParameters parameters_of(const SessionState& state, const Room& room, std::size_t number) {
+    const HandState& hand = hand_of(state, number);
     haptics::TickParameters p;
-    const double radius_m = tool_radius_m(state);
-    p.workspace.technique = state.technique;
-    Similarity world_from_device = state.world_from_device;
-    world_from_device.scale *= state.workspace_gain;
+    const double radius_m = tool_radius_m(hand);
+    p.workspace.technique = hand.technique;
+    Similarity world_from_device = hand.world_from_device;
+    world_from_device.scale *= hand.workspace_gain;
     p.workspace.object_from_device = inverse(state.world_from_object) * world_from_device;
-    if (state.wand) {
-        const Pose& read = state.device_from_read;
+    if (hand.wand) {
+        const Pose& read = hand.device_from_read;
         p.workspace.object_from_device = p.workspace.object_from_device * Similarity{read.position_m, read.orientation};
     }
-    p.workspace.workspace_device_m = room.workspace_device_m;
+    p.workspace.workspace_device_m = room.of(number).workspace_device_m;
     p.workspace.reach_object = room.workpiece_object;
     const Vec3 around = Vec3(2.0 * radius_m) + 0.25 * room.workpiece_object.extent();
     p.workspace.reach_object.lo -= around;
     p.workspace.reach_object.hi += around;
-    const sculpt::FeltTool& felt = state.held->felt;
+    const sculpt::FeltTool& felt = hand.held->felt;
     p.probe = felt.probe;
     p.shape = felt.shape;
     p.tool = felt.surface;
-    p.action = state.carves ? sculpt::action_of(state.tool.operation) : haptics::ToolAction::touch;
-    p.materials.fill(material_under_tool(state));
+    p.action = state.carves ? sculpt::action_of(hand.tool.operation) : haptics::ToolAction::touch;
+    p.materials.fill(material_under_tool(state, hand));
     if (state.world) state.world->materials.write(p.materials);
-    if (state.wand) state.wand->write(p, radius_m);
-    if (state.wand && !state.carves) p.clearance_ratio = 0.0;  // no groove has to be clear of the ball that cut it
-    p.signals.force_alpha = state.force_filter;
-    if (state.velocity_filter > 0.0) {
+    if (hand.wand) hand.wand->write(p, radius_m);
+    if (hand.wand && !state.carves) p.clearance_ratio = 0.0;  // no groove has to be clear of the ball that cut it
+    p.signals.force_alpha = hand.force_filter;
+    if (hand.velocity_filter > 0.0) {
         p.signals.velocity = haptics::VelocityMethod::moving_average;
-        p.signals.velocity_alpha = state.velocity_filter;
+        p.signals.velocity_alpha = hand.velocity_filter;
     }
-    p.enabled = state.force_on;
-    p.catch_drill = state.catch_drill;
+    p.enabled = hand.force_on && !hand.holds;  // what a hand holds does not push it
+    p.catch_drill = hand.catch_drill;
     return p;
 }
 
@@ -260,7 +354,7 @@ Result<sculpt::UseTool> tool_of(const SessionState& state) {
     Result<compute::ToolShape> shape = (state.meshes ? *state.meshes : none).shape_of(tool.shape);
     if (!shape) return std::unexpected(shape.error());
     return sculpt::UseTool{sculpt::make_tool(tool, std::move(*shape)), sculpt::material_of(tool),
-                           material_under_tool(state).hardness_Ns_per_m3};
+                           material_under_tool(state, state).hardness_Ns_per_m3};
 }
 
 std::optional<renderer::Scene> scene_of(const SessionState& state, const Room& room, std::size_t screen,
@@ -283,7 +377,7 @@ std::optional<renderer::Scene> scene_of(const SessionState& state, const Room& r
     scene.pedestal.visible = true;
     scene.pedestal.top_center_world = {middle.x, middle.y - 0.5 * size.y, middle.z};
     scene.pedestal.radius_m = 0.25 * glm::length(size);
-    Staging staging = staging_of(tool, tool_radius_m(state), room.workspace_device_m);
+    Staging staging = staging_of(tool, tool_radius_m(state), room.of(state.hand).workspace_device_m);
     staging.held = state.held;
     staging.contact_shown = state.force_shown;
     staging.tool_visible = staging.tool_visible && !state.wand;
@@ -292,6 +386,18 @@ std::optional<renderer::Scene> scene_of(const SessionState& state, const Room& r
     scene.tool.colour = tool_colour(state);
     if (scene.box.face_opacity > kBoxOpacity) scene.box.face_opacity = kBoxOpacity;
     return scene;
+}
+
+void add_tool(renderer::Scene& scene, const SessionState& state, std::size_t number, const haptics::ToolState& tool) {
+    if (tool.tick == 0) return;
+    const HandState& hand = hand_of(state, number);
+    if (hand.wand) return add_wand(scene, *hand.wand, tool, tool_radius_m(hand), state.world_from_object);
+    static const auto kBall = renderer::drawn_mesh(sculpt::drawing_of(compute::BallTool{1.0}));
+    Similarity object_from_tool{tool.proxy_object_m, tool.tool_orientation_object, 1.0};
+    const bool is_ball = !hand.held->drawn;
+    if (is_ball) object_from_tool.scale = tool_radius_m(hand);
+    scene.objects.push_back(
+        {is_ball ? kBall : hand.held->drawn, state.world_from_object * object_from_tool, tool_colour(hand)});
 }
 
 wall::ComfortFinding comfort_of(const SessionState& state, const Room& room, const haptics::ToolState& tool) {

@@ -19,8 +19,7 @@
 #include "session/input/input_event.hpp"
 #include "session/input/input_wand.hpp"
 #include "session/state/command_table.hpp"
-#include "session/state/held_tool.hpp"
-#include "session/state/held_wand.hpp"
+#include "session/state/hand_state.hpp"
 #include "session/state/session_head.hpp"
 #include "session/state/session_screens.hpp"
 #include "session/state/world_objects.hpp"
@@ -28,28 +27,20 @@
 
 namespace burin::session {
 
-struct SessionState {
+// A session has one hand or more. Mouse, keys and panel lead one of them, whose state is the session's own; the others
+// wait in `hands`.
+struct SessionState : HandState {
+    std::vector<HandState> hands;  // of all, by number; that of the hand in use is out of date. Empty: there is one
+    std::size_t hand = 0;          // in use
     DeskState desk;
     SessionHead head;
     WandState wands;
     Similarity world_from_object, home_world_from_object;
-    Similarity world_from_device;  // where the hand's workspace is in the world
     double interpupillary_m = 0.063;
-    sculpt::ToolSettings tool;
-    std::shared_ptr<const HeldTool> held;      // of tool.shape, after a step; null only where that cannot be made
-    std::shared_ptr<const HeldWand> wand;      // whose points touch, each as the tool's ball; null: the tool alone
-    Pose wand_reads_device, device_from_read;  // where the wand read to be last; its calibration
     std::shared_ptr<const ToolMeshes> meshes;  // that tools of files are taken from; null: there are none
     sculpt::FeelSettings feel;
-    haptics::WorkspaceTechnique technique = haptics::WorkspaceTechnique::fixed;
-    // Factors a of the exponentially weighted means of force (P11) and velocity; 0: off.
-    double force_filter = 0.0, velocity_filter = 0.0;
-    double workspace_gain = 1.0;  // multiplies the workspace's gain at home
-    bool force_on = true;
-    bool catch_drill = false;
     bool force_shown = false;                   // as an arrow
     bool carves = true;                         // there is a workpiece
-    bool only_touch = false;                    // the tool feels the surface but leaves it unchanged
     std::shared_ptr<const WorldObjects> world;  // null: none
     scene::ObjectId selected = 0;               // on the panel; 0: the first
     wall::OutputSettings output;                // of the main screen (output_on(), session_screens.hpp)
@@ -58,6 +49,16 @@ struct SessionState {
     LengthUnit export_unit = LengthUnit::m;
     bool quit = false;
 };
+
+[[nodiscard]] inline std::size_t hands_of(const SessionState& state) { return state.hands.empty() ? 1 : state.hands.size(); }
+[[nodiscard]] inline const HandState& hand_of(const SessionState& state, std::size_t hand) {
+    return hand == state.hand ? state : state.hands[hand];
+}
+[[nodiscard]] inline HandState& hand_of(SessionState& state, std::size_t hand) {
+    return hand == state.hand ? state : state.hands[hand];
+}
+// Has mouse, keys and panel lead another hand. Fails where there is none of that name, and says which there are.
+[[nodiscard]] Result<void> lead_hand(SessionState& state, const std::string& name);
 
 // A file that is asked for, or a message about what was.
 struct Asked {
@@ -90,22 +91,30 @@ struct SessionOrders {
     std::vector<Asked> messages;     // for the user: why a command was not carried out; with the line of one in a log
 };
 
+// What of a hand's device decides how mouse and keys lead it.
+struct HandRoom {
+    Vec3 workspace_device_m{0.1626, 0.1219, 0.0711};
+    DeskSettings desk;
+};
+
 // Positions at the start: the workpiece before the viewer, the hand's workspace over its front.
-struct Room {
+struct Room : HandRoom {
     Box workpiece_object;       // of all that stands before the viewer
     bool covers_depth = false;  // the workspace reaches all of it, not its front alone
     SessionWall wall;
-    Vec3 workspace_device_m{0.1626, 0.1219, 0.0711};
-    DeskSettings desk;
+    std::vector<HandRoom> others;  // of the hands after the first
 
+    [[nodiscard]] const HandRoom& of(std::size_t hand) const { return hand == 0 ? *this : others[hand - 1]; }
     [[nodiscard]] wall::Screen screen() const { return wall::screen_world(wall.setup, wall.setup.screens[wall.main]); }
 };
 // Places the workpiece before the viewer and returns the first state.
+// Each hand begins with the tool; wands: of each hand that has one, by number; hands: their names, none for one alone.
 [[nodiscard]] SessionState begin_session(const Room& room, const sculpt::ToolSettings& tool,
                                          const sculpt::FeelSettings& feel, const wall::OutputSettings& output,
                                          std::shared_ptr<const ToolMeshes> meshes = nullptr,
-                                         std::shared_ptr<const HeldWand> wand = nullptr);
-// Makes the tool of the settings ready to be held.
+                                         std::span<const std::shared_ptr<const HeldWand>> wands = {},
+                                         std::span<const std::string> hands = {});
+// Makes the tool of the settings of the hand in use ready to be held.
 [[nodiscard]] Result<void> take_up(SessionState& state);
 
 // What a step must know of the rest of the session: input that the panel captures, times, and the tool.
@@ -116,13 +125,15 @@ struct SessionView {
     double dt_s = 0.0;           // since the step before
     Nanoseconds display_ns = 0;  // when the picture is to be seen
     ImageSize eye_size;          // of the main screen
-    haptics::ToolState tool;
+    haptics::ToolState tool;     // of the hand in use
     Captured captured;
+    std::span<const haptics::ToolState> tools = {};  // of each hand; empty: of the only one
 };
 struct SessionStep {
     SessionState state;
     SessionOrders orders;
-    // Where the hand is to go meanwhile, at the times of the events, and at the end.
+    std::size_t led_hand = 0;  // the hand in use when the step began
+    // Where that hand is to go meanwhile, at the times of the events, and at the end.
     std::vector<devices::SteeredTarget> hand_way;
     devices::HandTarget hand;
 };
@@ -133,14 +144,19 @@ struct SessionStep {
 [[nodiscard]] Result<void> run_command(SessionState& state, SessionOrders& orders, const CommandInput& command);
 [[nodiscard]] Result<void> run_command(SessionState& state, SessionOrders& orders, const SessionCommand& command);
 
-// Returns the parameters that the haptic thread is to use.
-[[nodiscard]] haptics::TickParameters parameters_of(const SessionState& state, const Room& room);
+// Returns the parameters that the haptic thread is to use for a hand.
+[[nodiscard]] haptics::TickParameters parameters_of(const SessionState& state, const Room& room, std::size_t hand);
+[[nodiscard]] inline haptics::TickParameters parameters_of(const SessionState& state, const Room& room) {
+    return parameters_of(state, room, state.hand);
+}
 // Returns the tool that the carving side is to use; the Error says what is wrong with it.
 [[nodiscard]] Result<sculpt::UseTool> tool_of(const SessionState& state);
-// Returns the scene that one screen shows; nothing where an eye is not in front of it.
+// Returns the scene that one screen shows, with the tool of the hand in use; nothing where an eye is not in front of it.
 [[nodiscard]] std::optional<renderer::Scene> scene_of(const SessionState& state, const Room& room, std::size_t screen,
                                                       const Vec3& lattice_origin_object,
                                                       const haptics::ToolState& tool);
+// Adds the tool of another part of the hands to a picture: the tool of a hand, where a part of it has it.
+void add_tool(renderer::Scene& scene, const SessionState& state, std::size_t hand, const haptics::ToolState& tool);
 // Judges what in the scene strains the eyes, on the main screen.
 [[nodiscard]] wall::ComfortFinding comfort_of(const SessionState& state, const Room& room,
                                               const haptics::ToolState& tool);

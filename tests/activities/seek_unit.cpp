@@ -57,12 +57,20 @@ public:
             sample.time_ns = static_cast<Nanoseconds>(tick_) * kTick_ns;
             sample.contact.points[0].proxy_object_m = place_scene;
             sample.flags = in_contact ? haptics::kTickInContact : 0u;
+            sample.contact.points[0].object = in_contact ? object_at(place_scene) : 0u;
             samples.push_back(sample);
         }
         session::ActivityOrders orders;
         const haptics::ToolState tool;
         seek.step({static_cast<Nanoseconds>(tick_) * kTick_ns, samples, tool, &world}, orders);
         keep(orders);
+    }
+    // The number of the felt object that the place is on, as a tick's own contact has it.
+    [[nodiscard]] std::uint32_t object_at(const Vec3& place_scene) const {
+        for (const auto& object : world.objects)
+            if (object->felt && glm::distance(place_scene, on(object->name)) < 0.2)
+                return static_cast<std::uint32_t>(object->id);
+        return 0;
     }
     // A place on the object's slanted face.
     [[nodiscard]] Vec3 on(const std::string& object) const {

@@ -32,7 +32,7 @@ public:
         auto made = session::LiveSession::create(options, session::session_wall(options.live).value(), clock_);
         if (!made) throw std::runtime_error(made.error().line());
         session_ = std::move(*made);
-        executor_.emplace(clock_, session_->loop(), session_->channels(), session_->scene(),
+        executor_.emplace(clock_, session_->loop(), session_->channels_of_parts(), session_->scene(),
                           [this](const auto& ended) { static_cast<void>(session_->collect(ended)); });
         for (int i = 0; i < 5; ++i) frame({});
     }

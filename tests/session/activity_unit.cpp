@@ -76,7 +76,7 @@ struct WatchedSession {
         auto made = LiveSession::create(options, session_wall(options.live).value(), clock);
         if (!made) throw std::runtime_error(made.error().line());
         session = std::move(*made);
-        executor.emplace(clock, session->loop(), session->channels(), session->scene(),
+        executor.emplace(clock, session->loop(), session->channels_of_parts(), session->scene(),
                          [this](const auto& ended) { static_cast<void>(session->collect(ended)); });
     }
     // A frame of 10 ms with these commands. Returns what the session told meanwhile.

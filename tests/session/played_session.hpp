@@ -143,7 +143,7 @@ private:
         if (!presenter) return std::unexpected(presenter.error());
         LiveSession& s = **session;
         MishapFrames frames(s, *presenter, std::move(input), mishap, minimised);
-        SteppedExecutor executor(clock, s.loop(), s.channels(), s.scene(),
+        SteppedExecutor executor(clock, s.loop(), s.channels_of_parts(), s.scene(),
                                  [&](const auto& ended) { static_cast<void>(s.collect(ended)); });
         const Result<void> driven = drive(executor, frames);
         played.presented = presenter->presented();

@@ -85,7 +85,7 @@ struct Parts {
         &clock};
     haptics::HapticLoop loop{omni, clock, channels};
     sculpt::CarvedScene carved{carving, channels, sculpt::Tool{compute::BallTool{0.005}}, 1e6, 0.01, {}};
-    SteppedExecutor executor{clock, loop, channels, carved.service()};
+    SteppedExecutor executor{clock, loop, {&channels}, carved.service()};
 };
 
 }  // namespace
@@ -125,7 +125,7 @@ TEST(Pace, RestsOnlyWhereNeitherAnActivityNorAPersonMissesATick) {
     for (const bool asked : {false, true})
         for (const bool has_activity : {false, true})
             for (const devices::DeviceDescription& device : {held, simulated}) {
-                const haptics::LoopPace pace = pace_of({.lead_ns = 7, .rests = asked}, device, has_activity);
+                const haptics::LoopPace pace = pace_of({.lead_ns = 7, .rests = asked}, device.felt_by_person, has_activity);
                 EXPECT_EQ(pace.rests, asked && !has_activity && !device.felt_by_person);
                 EXPECT_EQ(pace.lead_ns, 7);
             }

@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <span>
 #include <stdexcept>
+#include <vector>
 
 #include "session/drive/session_frames.hpp"
 #include "session/drive/thread_replay.hpp"
+#include "session/record/tick_source.hpp"
 #include "session/state/session_settings.hpp"
 #include "tests/support/run_command.hpp"
 
@@ -114,7 +117,7 @@ Live live(const Workplace& place) {
     RecordedSession recorded(place, clock);
     LiveSession& s = *recorded.session;
     UndrawnFrames frames(recorded, clock, 5'000'000);
-    ThreadedExecutor threads(clock, s.loop(), s.channels(), s.scene(), {},
+    ThreadedExecutor threads(clock, s.loop(), s.channels_of_parts(), s.scene(), {},
                              [&](const auto& ended) { static_cast<void>(s.collect(ended)); });
     static_cast<void>(threads.start());
     EXPECT_TRUE(drive(threads, frames));
@@ -134,7 +137,7 @@ public:
         tick(3);
         return {};
     }
-    [[nodiscard]] const haptics::ToolState& tool() override { return tool_; }
+    [[nodiscard]] std::vector<haptics::ToolState> tools() override { return {tool_}; }
     void order(Order order) override {
         order();
         ++orders_;
@@ -196,7 +199,7 @@ public:
     }
     [[nodiscard]] Result<void> make(Executor& executor) override {
         if (const auto done = step_frame(session_, executor, recorder_, frame_, {{.size = kSize}}); !done) return done;
-        const bool same_tool = replay_.tool().tick == log_.frames[result_.frames++].tick;
+        const bool same_tool = replay_.tools().front().tick == log_.frames[result_.frames++].ticks.front();
         if (!same_tool || !replay_.is_as_recorded()) ++result_.departed;
         return {};
     }
@@ -227,7 +230,7 @@ Again again(const std::string& text) {
         return result;
     }
     LiveSession& s = **session;
-    ThreadReplay replay(s, threads, "live.log");
+    ThreadReplay replay(s, threads, ticks_of_lines(threads, "live.log"), "live.log");
     FramesAgain frames(s, InputSource::replay(std::move(*log)), threads, replay, result);
     Result<void> done = drive(replay, frames);
     if (done) done = replay.run_to_end();
@@ -285,7 +288,7 @@ TEST(ThreadReplay, DoesTheSameAsTheThreadsDid) {
 TEST(ThreadReplay, KeepsWhatTicksSawThatTheRestHasOvertaken) {
     const Workplace place;
     const Live was = overtaking(place);
-    EXPECT_EQ(parse_input_log(was.log, "live.log")->threads->frames.at(1).tick, 8u) << "not the executor's tool";
+    EXPECT_EQ(parse_input_log(was.log, "live.log")->threads->frames.at(1).ticks.front(), 8u) << "not the executor's tool";
     ASSERT_GT(was.ticks, 500u);
     EXPECT_NE(was.surface, was.untouched);
     const Again is = again(was.log);
@@ -372,7 +375,7 @@ TEST(ThreadRecorder, EndsTheRecordingWhenTicksWereLost) {
         const auto begun = input.begin_frame(clock.now_ns(), clock.now_ns());
         const haptics::ToolState tool = s.newest_tool();
         s.step(*begun, {.size = kSize}, tool, [](Executor::Order) {});
-        recorder.frame(tool.tick, {}, {{.size = kSize}});
+        recorder.frame(std::span(&tool, 1), {}, {{.size = kSize}});
     };
     const auto tick = [&](int times) {
         for (int i = 0; i < times; ++i) {
@@ -411,7 +414,8 @@ TEST(ThreadRecorder, WritesTheModeThatAScreenWentBackTo) {
         const Nanoseconds now_ns = clock.now_ns() - s.start_ns();
         const auto begun = recorded.input->begin_frame(now_ns, now_ns);
         s.step(*begun, {.size = kSize}, s.newest_tool(), [](Executor::Order) {});
-        recorded.recorder->frame(s.newest_tool().tick, {}, {{.size = kSize}});
+        const haptics::ToolState drawn = s.newest_tool();
+        recorded.recorder->frame(std::span(&drawn, 1), {}, {{.size = kSize}});
     };
     frame();
     testing::internal::CaptureStderr();

@@ -163,7 +163,7 @@ TEST(WorldSession, AWorkpieceIsCarvedAmongObjects) {
 TEST(WorldSession, TheSecondButtonTakesAnObjectAlong) {
     OpenWorld world;
     LiveSession& s = *world.session;
-    SteppedExecutor executor(world.clock, s.loop(), s.channels(), s.scene(),
+    SteppedExecutor executor(world.clock, s.loop(), s.channels_of_parts(), s.scene(),
                              [&](const auto& ended) { static_cast<void>(s.collect(ended)); });
     const Vec3 start = s.objects()->pose(1).position_m;
     bool touched = false;

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "session/hands/session_hands.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/text.hpp"
+#include "devices/haptic/device_registry.hpp"
+
+namespace burin::session {
+
+Result<void> SessionHands::open(std::span<const HandToOpen> wanted, Clock& clock) {
+    for (const HandToOpen& one : wanted)
+        if (const auto opened = open(one, clock); !opened) return opened;
+    std::vector<haptics::LoopPart> parts;
+    const double rate_Hz = device(0).rate_Hz;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        const PartOfHand of = parts_[i]->of;
+        if (device(i).rate_Hz != rate_Hz)
+            return fail("--device " + hands_[of.hand]->name + "=" + device(i).name,
+                        formatted("ticks %g times a second, and %s=%s %g times", device(i).rate_Hz,
+                                  hands_.front()->name.c_str(), device(0).name, rate_Hz),
+                        "take devices of one rate: one loop drives both");
+        parts.push_back({*hands_[of.hand]->device.parts[of.part].device, parts_[i]->channels});
+    }
+    loop_.emplace(parts, clock);
+    return {};
+}
+
+Result<void> SessionHands::open(const HandToOpen& wanted, Clock& clock) {
+    auto hand = std::make_unique<Hand>();
+    hand->name = wanted.name;
+    hand->first_part = parts_.size();
+    devices::HandTarget rest;
+    rest.position_device_m = wanted.rest_device.position_m;
+    rest.orientation_device = wanted.rest_device.orientation;
+    Result<devices::SteeredHand> steered = devices::SteeredHand::create(&hand->steering, rest);
+    if (!steered) return std::unexpected(steered.error());
+    hand->told.position_device_m = rest.position_device_m;
+    hand->told.orientation_device = rest.orientation_device;
+    auto opened = devices::open_haptic_device(wanted.device, {clock, std::move(*steered)});
+    if (!opened && wanted.name.empty()) return std::unexpected(opened.error());
+    if (!opened) return fail("hand " + wanted.name + ": " + opened.error().where, opened.error().what, opened.error().remedy);
+    hand->device = std::move(*opened);
+    for (std::size_t i = 0; i < hand->device.parts.size(); ++i)
+        parts_.push_back(std::make_unique<Part>(PartOfHand{hands_.size(), i}, records_, whole_ticks_));
+    hands_.push_back(std::move(hand));
+    return {};
+}
+
+std::string SessionHands::name_of(std::size_t part) const {
+    const PartOfHand of = parts_[part]->of;
+    const Hand& hand = *hands_[of.hand];
+    const std::string& own = hand.device.parts[of.part].name;
+    if (hand.name.empty() && own.empty()) return device(part).name;
+    return hand.name + (hand.name.empty() || own.empty() ? "" : " ") + own;
+}
+
+void SessionHands::move_hand(std::size_t hand, std::span<const devices::SteeredTarget> way, Nanoseconds time_ns,
+                             const devices::HandTarget& end) {
+    Hand& own = *hands_[hand];
+    const auto tell = [&](const devices::SteeredTarget& target) {
+        if (own.steering.push(target)) own.told = target;  // else the next frame tells the end again
+    };
+    for (const devices::SteeredTarget& target : way) tell(target);
+    const bool is_there = end.position_device_m == own.told.position_device_m && end.buttons == own.told.buttons &&
+                          end.orientation_device == own.told.orientation_device;
+    if (!is_there) tell({time_ns, end.position_device_m, end.orientation_device, end.buttons});
+}
+
+std::uint64_t SessionHands::lost_targets() const {
+    std::uint64_t lost = 0;
+    for (const auto& hand : hands_) lost += hand->steering.lost();
+    return lost;
+}
+
+void SessionHands::publish(std::size_t part, haptics::TickParameters parameters) {
+    Part& own = *parts_[part];
+    parameters.sequence = ++own.parameter_sequence;
+    parameters.work.pace = pace_;
+    own.channels.parameters.draft() = std::move(parameters);
+    own.channels.parameters.publish();
+}
+
+std::optional<devices::AmplifierAnswer> SessionHands::switch_amplifiers(std::size_t hand, bool on) {
+    devices::Amplifiers* const amplifiers = hands_[hand]->device.amplifiers;
+    return amplifiers != nullptr ? std::optional(amplifiers->switch_amplifiers(on)) : std::nullopt;
+}
+
+std::vector<haptics::HapticChannels*> SessionHands::channels_of_parts() {
+    std::vector<haptics::HapticChannels*> channels;
+    for (const auto& part : parts_) channels.push_back(&part->channels);
+    return channels;
+}
+
+bool SessionHands::felt_by_person() const {
+    for (std::size_t i = 0; i < parts_.size(); ++i)
+        if (device(i).felt_by_person) return true;
+    return false;
+}
+
+}  // namespace burin::session

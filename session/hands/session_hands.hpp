@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// The hands of a session: for each the opened device, what steers it, and the channels of each of its parts. One haptic
+// loop drives all parts of all hands in one turn, so that they share a period's budget (haptics/haptic_loop.hpp); their
+// devices must have one rate.
+//
+// Parts are numbered through, those of the first hand first: the number of a part is its number in the scene
+// (scene/scene_service.hpp), in the loop and in a session file. The loop runs on a thread of its own, or is stepped by
+// whoever drives the session; all other functions are the frame's thread's.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "devices/hand/steered_hand.hpp"
+#include "devices/haptic/opened_device.hpp"
+#include "haptics/haptic_loop.hpp"
+
+namespace burin::session {
+
+// Which device is whose, and where a simulated hand rests in it.
+struct HandToOpen {
+    std::string name;    // "right"; empty for the only hand
+    std::string device;  // by its name (devices/haptic/device_registry.hpp)
+    Pose rest_device;
+};
+
+// A part of a hand, by the numbers of both.
+struct PartOfHand {
+    std::size_t hand = 0, part = 0;
+};
+
+class SessionHands {
+public:
+    // records: ticks that the recording's ring of each part holds. pace: of the machine (haptics::WorkSettings).
+    // whole_ticks: an activity goes by them.
+    SessionHands(std::size_t records, double pace, bool whole_ticks)
+        : records_(records), pace_(pace), whole_ticks_(whole_ticks) {}
+
+    // Opens a device for each hand, simulated ones with their hand at rest. Fails, and names the hand, where one does
+    // not open, or where they do not tick at one rate. The clock must outlive them.
+    [[nodiscard]] Result<void> open(std::span<const HandToOpen> wanted, Clock& clock);
+
+    [[nodiscard]] std::size_t hands() const { return hands_.size(); }
+    [[nodiscard]] std::size_t parts() const { return parts_.size(); }
+    [[nodiscard]] PartOfHand part_of_hand(std::size_t part) const { return parts_[part]->of; }
+    // Returns the number of the hand's first part, by which it is drawn and reported.
+    [[nodiscard]] std::size_t first_part(std::size_t hand) const { return hands_[hand]->first_part; }
+    [[nodiscard]] std::size_t parts_of(std::size_t hand) const { return hands_[hand]->device.parts.size(); }
+    // Names a part for people: "right", "left index"; the device's name for the only part of the only hand.
+    [[nodiscard]] std::string name_of(std::size_t part) const;
+
+    // Publishes where a hand is to go, for its device's next ticks: through the targets of the way, each at its own
+    // time, to where it is to be at time_ns if the way does not end there. All times are session time.
+    void move_hand(std::size_t hand, std::span<const devices::SteeredTarget> way, Nanoseconds time_ns,
+                   const devices::HandTarget& end);
+    // Returns the number of targets that were lost to a full channel, of all hands.
+    [[nodiscard]] std::uint64_t lost_targets() const;
+    // Publishes other parameters of a part's ticks; numbers them, and gives them the machine's pace.
+    void publish(std::size_t part, haptics::TickParameters parameters);
+    // Switches the amplifiers of a hand's device; nothing where it has none that can be switched from here.
+    [[nodiscard]] std::optional<devices::AmplifierAnswer> switch_amplifiers(std::size_t hand, bool on);
+    // Returns the newest tool state that the loop has published for a part.
+    [[nodiscard]] const haptics::ToolState& newest_tool(std::size_t part) { return channels(part).tool.newest(); }
+
+    [[nodiscard]] double pace() const { return pace_; }
+    [[nodiscard]] haptics::HapticLoop& loop() { return *loop_; }
+    [[nodiscard]] haptics::HapticChannels& channels(std::size_t part) { return parts_[part]->channels; }
+    // Returns the channels of all parts, in their order.
+    [[nodiscard]] std::vector<haptics::HapticChannels*> channels_of_parts();
+    [[nodiscard]] const devices::DeviceDescription& device(std::size_t part) const {
+        const PartOfHand of = parts_[part]->of;
+        return hands_[of.hand]->device.parts[of.part].device->description();
+    }
+    // Returns whether a person's hand feels any of the devices.
+    [[nodiscard]] bool felt_by_person() const;
+
+private:
+    struct Hand {
+        std::string name;
+        devices::HandSteering steering;
+        devices::OpenedDevice device;
+        devices::SteeredTarget told;  // the last target published
+        std::size_t first_part = 0;
+    };
+    struct Part {
+        Part(PartOfHand of_hand, std::size_t records, bool whole_ticks)
+            : of(of_hand), channels(haptics::HapticChannels::kStrokes, records, whole_ticks) {}
+        PartOfHand of;
+        haptics::HapticChannels channels;
+        std::uint64_t parameter_sequence = 0;
+    };
+    [[nodiscard]] Result<void> open(const HandToOpen& wanted, Clock& clock);
+
+    std::size_t records_;
+    double pace_;
+    bool whole_ticks_;
+    std::vector<std::unique_ptr<Hand>> hands_;
+    std::vector<std::unique_ptr<Part>> parts_;
+    std::optional<haptics::HapticLoop> loop_;  // after what it ticks
+};
+
+}  // namespace burin::session

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+// Sessions with several hands, and hands of several parts, without a picture drawn.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "session/drive/session.hpp"
+#include "session/drive/session_frames.hpp"
+#include "session/drive/thread_recorder.hpp"
+#include "session/live/live_session.hpp"
+#include "session/state/session_settings.hpp"
+
+namespace burin::session {
+namespace {
+
+// A ball that two hands carve, in simulated time.
+class HandsAtABall {
+public:
+    explicit HandsAtABall(const std::vector<std::string>& devices) {
+        SculptOptions options;
+        options.workpiece.source = "ball:0.1";
+        options.workpiece.resolution = 32;
+        options.tool.shape = "ball:0.012";
+        if (const auto set = set_devices(options.live, devices); !set) throw std::runtime_error(set.error().line());
+        auto made = LiveSession::create(options, session_wall(options.live).value(), clock_);
+        if (!made) throw std::runtime_error(made.error().line());
+        session = std::move(*made);
+        executor_.emplace(clock_, session->loop(), session->channels_of_parts(), session->scene(),
+                          [this](const auto& ended) { static_cast<void>(session->collect(ended)); });
+    }
+    // A frame of 10 ms with these inputs.
+    void frame(const std::vector<Input>& inputs = {}) {
+        const Nanoseconds until_ns = clock_.now_ns() + 10'000'000;
+        ASSERT_TRUE(executor_->advance_to(until_ns));
+        std::vector<InputEvent> events;
+        for (const Input& input : inputs) events.push_back({until_ns, input});
+        session->step({until_ns, until_ns, events}, {.size = {1280, 720}}, executor_->tools(),
+                      [&](Executor::Order order) { executor_->order(std::move(order)); });
+        const auto taken = executor_->take_updates();
+        ASSERT_TRUE(taken);
+        session->take_news(taken->collected);
+    }
+    void frames(int count) {
+        for (int i = 0; i < count; ++i) frame();
+    }
+    // Leads the hand in use along the screen.
+    void drag(const Vec2& by_px, int count = 20) {
+        for (int i = 1; i <= count; ++i) {
+            mouse_px_ += by_px / static_cast<double>(count);
+            frame({MouseMove{mouse_px_}});
+        }
+        frames(20);
+    }
+    [[nodiscard]] const haptics::ToolState& tool(std::size_t part) { return session->hands().newest_tool(part); }
+
+    std::unique_ptr<LiveSession> session;
+
+private:
+    SimulatedClock clock_;
+    std::optional<SteppedExecutor> executor_;
+    Vec2 mouse_px_{640.0, 360.0};
+};
+
+CommandInput lead(const std::string& hand) { return {"hand", {hand}}; }
+
+}  // namespace
+
+TEST(SessionHands, EachHandIsLedByItselfAndTheOthersStayWhereTheyAre) {
+    HandsAtABall desk({"right=simulated", "left=simulated"});
+    ASSERT_EQ(desk.session->hands().parts(), 2u);
+    desk.frame({MouseMove{{640.0, 360.0}}});
+    desk.frames(20);
+    const Vec3 right_m = desk.tool(0).hip_object_m, left_m = desk.tool(1).hip_object_m;
+    EXPECT_GT(right_m.x, left_m.x + 0.02) << "beside each other at the start";
+    desk.drag({80.0, 0.0});
+    EXPECT_GT(desk.tool(0).hip_object_m.x, right_m.x + 0.003);
+    EXPECT_LT(glm::distance(desk.tool(1).hip_object_m, left_m), 1e-4);
+
+    desk.frame({lead("left")});
+    const Vec3 rests_m = desk.tool(0).hip_object_m;
+    desk.drag({0.0, -80.0});
+    EXPECT_GT(desk.tool(1).hip_object_m.y, left_m.y + 0.003);
+    EXPECT_LT(glm::distance(desk.tool(0).hip_object_m, rests_m), 1e-4) << "it rests where it was left";
+    desk.frame({CommandInput{"next-hand", {}}});
+    EXPECT_EQ(desk.session->state().hand_name, "right");
+}
+
+TEST(SessionHands, EachHandHasAToolAndForcesOfItsOwn) {
+    HandsAtABall desk({"right=simulated", "left=simulated"});
+    desk.frames(3);
+    desk.frame({lead("left"), CommandInput{"tool", {"box:0.01,0.01,0.01"}}, CommandInput{"force", {"off"}}});
+    desk.frames(3);
+    const auto parameters = [&](std::size_t part) { return desk.session->channels(part).parameters.newest(); };
+    EXPECT_TRUE(parameters(0).enabled);
+    EXPECT_FALSE(parameters(1).enabled);
+    EXPECT_FALSE(parameters(0).shape.touches());
+    EXPECT_TRUE(parameters(1).shape.touches());
+    desk.frame({lead("right")});
+    EXPECT_EQ(desk.session->state().tool.shape.kind, sculpt::ToolKind::ball);
+    EXPECT_TRUE(desk.session->state().force_on);
+}
+
+TEST(SessionHands, BothHandsCarveTheSamePiece) {
+    HandsAtABall desk({"right=simulated", "left=simulated"});
+    desk.frame({MouseMove{{640.0, 360.0}}});
+    const std::uint64_t before = check_of(*desk.session);
+    std::uint64_t last = before;
+    for (const char* hand : {"right", "left"}) {
+        desk.frame({lead(hand)});
+        desk.frame({Scroll{{0.0, 10.0}}});
+        desk.frames(30);
+        desk.frame({MouseClick{MouseButton::left, true, {}}});
+        desk.frame({Scroll{{0.0, 10.0}}});
+        desk.frames(40);
+        desk.frame({MouseClick{MouseButton::left, false, {}}});
+        desk.frame({Scroll{{0.0, -20.0}}});
+        desk.frames(30);
+        EXPECT_NE(check_of(*desk.session), last) << hand;
+        last = check_of(*desk.session);
+    }
+}
+
+TEST(SessionHands, AHandThatHoldsTurnsThePieceUnderTheOther) {
+    HandsAtABall desk({"right=simulated", "left=simulated"});
+    desk.frame({MouseMove{{640.0, 360.0}}});
+    desk.frames(10);
+    desk.frame({lead("left")});
+    const Similarity home = desk.session->state().world_from_object;
+    const Vec3 right_m = desk.tool(0).hip_object_m;
+    const Vec3 right_world_m = home * right_m;
+    desk.frame({MouseClick{MouseButton::right, true, {}}});
+    desk.frames(5);
+    EXPECT_FALSE(desk.session->channels(1).parameters.newest().enabled) << "what is held does not push its hand";
+    desk.frame({MouseClick{MouseButton::middle, true, {.ctrl = true}}});
+    desk.drag({120.0, 0.0});
+    desk.frame({MouseClick{MouseButton::middle, false, {}}});
+    const Similarity turned = desk.session->state().world_from_object;
+    EXPECT_GT(2.0 * std::acos(std::min(1.0, std::abs(glm::dot(turned.orientation, home.orientation)))), 0.2);
+    EXPECT_EQ(turned.scale, home.scale);
+    EXPECT_LT(glm::distance(turned * desk.tool(0).hip_object_m, right_world_m), 1e-3) << "the other hand rests";
+    EXPECT_GT(glm::distance(desk.tool(0).hip_object_m, right_m), 1e-3) << "and so it is elsewhere on the piece";
+    desk.frame({MouseClick{MouseButton::right, false, {}}});
+    desk.frames(5);
+    EXPECT_TRUE(desk.session->channels(1).parameters.newest().enabled);
+    desk.drag({60.0, 0.0});
+    EXPECT_EQ(desk.session->state().world_from_object.orientation, turned.orientation) << "let go";
+}
+
+TEST(SessionHands, OneAloneHoldsNothing) {
+    HandsAtABall desk({});
+    desk.frame({MouseMove{{640.0, 360.0}}});
+    const Similarity home = desk.session->state().world_from_object;
+    desk.frame({MouseClick{MouseButton::right, true, {}}});
+    desk.drag({60.0, 20.0});
+    EXPECT_EQ(desk.session->state().world_from_object, home) << "as in recordings from before there were several";
+}
+
+TEST(SessionHands, ADeviceWhoseAmplifiersAreOffLeavesTheOtherItsForce) {
+    HandsAtABall desk({"right=simulated", "left=simulated-wand"});
+    desk.frame({MouseMove{{640.0, 360.0}}});
+    desk.frame({Scroll{{0.0, 14.0}}});
+    desk.frames(60);
+    ASSERT_GT(glm::length(desk.tool(0).given.force_device_N), 0.1) << "it presses on the ball";
+    desk.frame({lead("left"), CommandInput{"amplifiers", {"off"}}});
+    desk.frames(5);
+    EXPECT_EQ(desk.tool(1).cause, haptics::GateCause::device_fault);
+    EXPECT_EQ(desk.tool(0).cause, haptics::GateCause::none);
+    EXPECT_GT(glm::length(desk.tool(0).given.force_device_N), 0.1);
+}
+
+TEST(SessionHands, AHandOfFourFingersHasFourToolsThatCloseAndFeelByThemselves) {
+    HandsAtABall desk({"simulated-fingers"});
+    ASSERT_EQ(desk.session->hands().parts(), 4u);
+    EXPECT_EQ(desk.session->hands().name_of(1), "index");
+    desk.frame({MouseMove{{640.0, 360.0}}});
+    desk.frames(30);
+    const double open_m = glm::distance(desk.tool(0).hip_object_m, desk.tool(2).hip_object_m);
+    EXPECT_GT(open_m, 0.03);
+    desk.frame({CommandInput{"force", {"off"}}});  // in the air: nothing is between them
+    desk.frame({MouseClick{MouseButton::left, true, {}}});
+    desk.frames(80);
+    EXPECT_LT(glm::distance(desk.tool(0).hip_object_m, desk.tool(2).hip_object_m), 0.6 * open_m);
+}
+
+TEST(SessionHands, SayWhichHandsThereAreWhereAnotherIsAskedFor) {
+    HandsAtABall two({"right=simulated", "left=simulated"});
+    SessionState state = two.session->state();
+    const auto none = lead_hand(state, "middle");
+    ASSERT_FALSE(none);
+    EXPECT_TRUE(none.error().line().contains("right or left")) << none.error().line();
+    HandsAtABall one({});
+    state = one.session->state();
+    const auto alone = lead_hand(state, "left");
+    ASSERT_FALSE(alone);
+    EXPECT_TRUE(alone.error().line().contains("--device right=simulated")) << alone.error().line();
+}
+
+TEST(SessionHands, RefuseDevicesThatCannotBeTold) {
+    const auto refused = [](const std::vector<std::string>& given) {
+        LiveOptions live;
+        const auto set = set_devices(live, given);
+        return set ? "nothing" : set.error().line();
+    };
+    EXPECT_TRUE(refused({"right=simulated", "simulated"}).contains("does not say whose device it is"));
+    EXPECT_TRUE(refused({"right=simulated", "right=simulated-wand"}).contains("a second device of one name"));
+    EXPECT_TRUE(refused({"right="}).contains("names no device"));
+    EXPECT_TRUE(refused({"my hand=simulated", "b=simulated"}).contains("letters, digits"));
+    EXPECT_TRUE(refused({"a=simulated", "b=simulated", "c=simulated", "d=simulated", "e=simulated"}).contains("4 hands"));
+    EXPECT_EQ(refused({"simulated-wand:left=right.toml"}), "nothing") << "a file's name";
+    SculptOptions options;
+    ASSERT_TRUE(set_devices(options.live, {"right=simulated", "left=simulatd"}));
+    SimulatedClock clock;
+    const auto opened = LiveSession::create(options, session_wall(options.live).value(), clock);
+    ASSERT_FALSE(opened);
+    EXPECT_TRUE(opened.error().line().contains("hand left: haptic device simulatd")) << opened.error().line();
+    EXPECT_TRUE(opened.error().line().contains("did you mean simulated?")) << opened.error().line();
+}
+
+TEST(SessionHands, AreKeptInTheFirstLineOfARecording) {
+    SculptOptions options;
+    options.live.input = "x";
+    ASSERT_TRUE(set_devices(options.live, {"right=simulated", "left=simulated-wand:my wand.toml"}));
+    const auto again = options_as_recorded(settings_line(options), SculptOptions{});
+    ASSERT_TRUE(again) << again.error().line();
+    EXPECT_EQ(again->options.live.hands, options.live.hands);
+    EXPECT_FALSE(options_as_recorded("burin sculpt --hands right", SculptOptions{}));
+}
+
+}  // namespace burin::session
