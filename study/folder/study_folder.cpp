@@ -241,6 +241,7 @@ StudyFolder::StudyFolder(StudyFolder&& other) noexcept
     : path_(std::move(other.path_)),
       key_(std::move(other.key_)),
       protocol_(std::move(other.protocol_)),
+      protocol_text_(std::move(other.protocol_text_)),
       facts_(std::move(other.facts_)),
       journal_(std::move(other.journal_)),
       sealed_(std::move(other.sealed_)),
