@@ -10,10 +10,10 @@
 namespace burin::activities {
 namespace {
 
-Result<MadeActivity> seek_as_recorded(const std::string& settings, const RecordedFact& /*fact*/) {
+Result<session::MadeActivity> seek_as_recorded(const std::string& settings, const session::RecordedFact& /*fact*/) {
     const Result<SeekOptions> options = seek_options_of(settings);
     if (!options) return std::unexpected(options.error());
-    return MadeActivity{std::make_shared<Seek>(*options), nullptr};
+    return session::MadeActivity{std::make_shared<Seek>(*options), nullptr};
 }
 
 constexpr std::array kActivityKinds{
@@ -25,8 +25,8 @@ constexpr std::array kActivityKinds{
 
 std::span<const ActivityKind> activity_kinds() { return kActivityKinds; }
 
-Result<MadeActivity> activity_as_recorded(const std::string& settings, const RecordedFact& fact) {
-    if (settings.empty()) return MadeActivity{};
+Result<session::MadeActivity> activity_as_recorded(const std::string& settings, const session::RecordedFact& fact) {
+    if (settings.empty()) return session::MadeActivity{};
     const std::string name = settings.substr(0, settings.find(' '));
     const auto kind = std::ranges::find(kActivityKinds, name, &ActivityKind::name);
     if (kind != kActivityKinds.end()) return kind->make(settings, fact);

@@ -140,7 +140,7 @@ Result<void> check_files(const record::RecordReader& reader, const session::Scul
 }
 
 // Makes the activity of a recorded session anew; none where it had none.
-Result<activities::MadeActivity> activity_of(const record::RecordReader& reader, const std::string& settings_line) {
+Result<session::MadeActivity> activity_of(const record::RecordReader& reader, const std::string& settings_line) {
     const Result<std::string> settings = session::activity_on(settings_line);
     if (!settings) return std::unexpected(settings.error());
     auto made = activities::activity_as_recorded(

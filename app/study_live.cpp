@@ -94,9 +94,9 @@ session::SculptOptions participant_session(const session::LiveOptions& live,
 }
 
 Result<void> run_live_visit(study::StudyFolder& study, const StudyRunOptions& options) {
-    const auto plan = activities::plan_visit(study, options.participant,
-                                             {.resumes_late = options.resume, .any_delay = options.any_delay},
-                                             study::now_utc_ns());
+    const auto plan =
+        activities::plan_visit(study, options.participant,
+                               {.resumes_late = options.resume, .any_delay = options.any_delay}, study::now_utc_ns());
     if (!plan) return std::unexpected(plan.error());
     const std::vector<study::StagePlace>& places = plan->places;
     const auto people = study.participants();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A participant's visit in a live session: the study's worlds as its scene, the activity, and the journal that keeps its
-// stages.
+// A participant's visit in a live session: the study's worlds as its scene, the activity, and the journal that keeps
+// its stages.
 #pragma once
 
 #include <memory>

@@ -55,7 +55,7 @@ struct RepeatedVisit {
     std::optional<StudyActivity> activity;
 };
 
-Result<study::Protocol> recorded_protocol(const std::string& wanted_digest, const RecordedFact& fact) {
+Result<study::Protocol> recorded_protocol(const std::string& wanted_digest, const session::RecordedFact& fact) {
     const std::string text = fact(kProtocolTextFact);
     if (text.empty())
         return fail("the recording", "does not hold the protocol of its study",
@@ -79,7 +79,7 @@ std::string visit_settings(const std::string& protocol_digest, const study::Grou
                      group.code.c_str(), places.front().day, numbers.c_str());
 }
 
-Result<MadeActivity> visit_as_recorded(const std::string& settings, const RecordedFact& fact) {
+Result<session::MadeActivity> visit_as_recorded(const std::string& settings, const session::RecordedFact& fact) {
     const Result<VisitWords> words = visit_words(settings);
     if (!words) return std::unexpected(words.error());
     Result<study::Protocol> protocol = recorded_protocol(words->protocol_digest, fact);
@@ -105,7 +105,7 @@ Result<MadeActivity> visit_as_recorded(const std::string& settings, const Record
                             StageKeeper{});
     std::shared_ptr<const scene::World> scene = visit->activity->scene();
     session::Activity* activity = &*visit->activity;
-    return MadeActivity{{visit, activity}, std::move(scene)};
+    return session::MadeActivity{{visit, activity}, std::move(scene)};
 }
 
 }  // namespace burin::activities

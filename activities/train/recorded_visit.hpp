@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A participant's visit as a session's recording keeps it, and the visit done again: the settings name the group and the
-// stages, and the protocol's text is a fact of the recording. Neither says whose visit it was. Pure; any thread.
+// A participant's visit as a session's recording keeps it, and the visit done again: the settings name the group and
+// the stages, and the protocol's text is a fact of the recording. Neither says whose visit it was. Pure; any thread.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "activities/registry.hpp"
 #include "activities/train/study_activity.hpp"
+#include "session/state/recorded_activity.hpp"
 
 namespace burin::activities {
 
@@ -21,6 +21,7 @@ inline constexpr const char* kProtocolTextFact = "study protocol";
 
 // Makes the activity of a recorded visit anew, which keeps nothing. Fails where the recording's protocol is not the one
 // that the settings name.
-[[nodiscard]] Result<MadeActivity> visit_as_recorded(const std::string& settings, const RecordedFact& fact);
+[[nodiscard]] Result<session::MadeActivity> visit_as_recorded(const std::string& settings,
+                                                              const session::RecordedFact& fact);
 
 }  // namespace burin::activities

@@ -151,9 +151,9 @@ Result<void> LiveSession::load_world(const SculptOptions& options) {
     room_.covers_depth = true;
     const std::string objects = std::to_string(count) + (count == 1 ? " object" : " objects");
     if (!carving_)
-        workpiece_ = {.name = options.scene ? options.scene->name
-                                            : std::filesystem::path(options.world).filename().string(),
-                      .size = in_millimetres(all.extent()) + ", " + objects};
+        workpiece_ = {
+            .name = options.scene ? options.scene->name : std::filesystem::path(options.world).filename().string(),
+            .size = in_millimetres(all.extent()) + ", " + objects};
     return {};
 }
 

@@ -11,7 +11,8 @@
 // could not be replayed beyond: where a tick is missing, because the disk stood still for longer than the ring holds,
 // or where the scene did not take a tick's sample. Columns go on all the same; what is lost is counted in the file.
 //
-// Threads: line(), frame(), trial(), take_ticks(), close() are the frame's thread's, progress() any one's but the haptic one's.
+// Threads: line(), frame(), trial(), take_ticks(), close() are the frame's thread's, progress() any one's but the
+// haptic one's.
 #pragma once
 
 #include <deque>
@@ -115,7 +116,7 @@ private:
     Nanoseconds last_ns_ = 0;           // of the last line
     SessionCheck check_;
     std::optional<Error> log_ended_;
-    std::optional<std::int64_t> trial_;  // under way; the frame's thread's
+    std::optional<std::int64_t> trial_;             // under way; the frame's thread's
     std::unique_ptr<record::RecordWriter> writer_;  // last: its thread calls take() until it has ended
 };
 

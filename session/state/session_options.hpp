@@ -63,10 +63,10 @@ enum class HandChoice { rigid, simulated };
 
 struct SculptOptions {
     sculpt::WorkpieceOptions workpiece;
-    std::string world;          // a file of objects that are touched besides the workpiece, or without one; empty: none
+    std::string world;  // a file of objects that are touched besides the workpiece, or without one; empty: none
     std::shared_ptr<const scene::World> scene;  // the world itself, in place of a file; no option of the command line
     bool no_workpiece = false;                  // with a world
-    std::string points;         // of a wand, that touch (devices::points_named); empty: the tool is held in its middle
+    std::string points;  // of a wand, that touch (devices::points_named); empty: the tool is held in its middle
     sculpt::ToolOptions tool;
     std::string stroke;      // a CSV file; empty: nothing is carved
     bool merge_rows = true;  // with a rigid hand: merge nearly straight runs of rows into one sweep

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The attempts of a trial as a recording marks them: each from the start of its clock to how it ended. Pure; one thread.
+// The attempts of a trial as a recording marks them: each from the start of its clock to how it ended. Pure; one
+// thread.
 #pragma once
 
 #include <cstddef>

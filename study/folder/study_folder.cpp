@@ -124,8 +124,7 @@ void visit(Participant& p, const Json& entry, const std::string& event) {
 }
 
 bool good_id(const std::string& id) {
-    return !id.empty() && id.size() <= 32 &&
-           id.find_first_not_of(kLettersOfCodes) == std::string::npos &&
+    return !id.empty() && id.size() <= 32 && id.find_first_not_of(kLettersOfCodes) == std::string::npos &&
            id.find_first_of("0123456789") != std::string::npos;
 }
 

@@ -31,7 +31,8 @@ namespace burin::study {
 
 // The names in a study's folder that are the study's own, beside those below data/.
 inline constexpr std::array<std::string_view, 8> kFilesOfStudy{
-    "wand.toml",       "protocol.toml", "study.json", "allocation.sealed", "allocation.key", "journal.jsonl", "trials.csv", "lock"};
+    "wand.toml",      "protocol.toml", "study.json", "allocation.sealed",
+    "allocation.key", "journal.jsonl", "trials.csv", "lock"};
 
 // Of participants' codes.
 inline constexpr std::string_view kLettersOfCodes = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";

@@ -30,7 +30,7 @@ std::string settings_of_day(std::size_t day) {
     return visit_settings(sha256(thesis_text()), protocol.groups.at(1), places);
 }
 
-RecordedFact facts(std::map<std::string, std::string> known) {
+session::RecordedFact facts(std::map<std::string, std::string> known) {
     return [known = std::move(known)](const std::string& name) {
         const auto at = known.find(name);
         return at == known.end() ? std::string() : at->second;

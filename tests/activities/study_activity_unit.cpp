@@ -191,8 +191,9 @@ TEST_F(StudyActivities, TellOfTrainingWithoutForceThatItWasNotAsTheProtocolHasIt
             const bool training = stage->kind != study::StageKind::trial;
             ASSERT_EQ(told.has_value(), without || !training) << name;
             if (training && told) {
-                EXPECT_EQ(*told, std::string(name) + " (day 1, stage 4) had 30 of its 51 ticks without force (the "
-                                                     "last: no force: the device reports a fault)");
+                EXPECT_EQ(*told, std::string(name) +
+                                     " (day 1, stage 4) had 30 of its 51 ticks without force (the "
+                                     "last: no force: the device reports a fault)");
             }
             if (!training) {
                 EXPECT_TRUE(told->contains("was ended by stop after")) << *told;
@@ -275,8 +276,8 @@ TEST_F(StudyActivities, GiveTheSameStageAndFiguresAgainFromTheTicksAsStored) {
         ASSERT_TRUE(recording);
         tick_.motion.object_from_device = {Vec3(0.3, -0.2, 0.1), glm::angleAxis(0.3, Vec3(0.0, 1.0, 0.0)), 1.5};
         for (std::size_t i = 0; !session.done() && i < 12'000; ++i) {
-            const double at = std::clamp(static_cast<double>(i) / 60.0 - 3.0, -1.5,
-                                         static_cast<double>(spine.size()) + 0.5);
+            const double at =
+                std::clamp(static_cast<double>(i) / 60.0 - 3.0, -1.5, static_cast<double>(spine.size()) + 0.5);
             const auto k = std::min(static_cast<std::size_t>(std::max(at, 0.0)), spine.size() - 2);
             tick_.gate.given = {Vec3(0.1, std::sin(0.01 * static_cast<double>(i)), 0.0), Vec3(0.0, 0.0, 0.02)};
             tick_.gate.cause = i % 700 == 5 ? haptics::GateCause::stale_surface : haptics::GateCause::none;

@@ -262,8 +262,9 @@ TEST(LiveStudy, ItsRecordingIsDoneAgainToTheBitAndHoldsTheTrial) {
     EXPECT_EQ(info.at("trials").at(0).at("name"), "test");
     EXPECT_EQ(info.at("trials").at(0).at("state"), "done");
     // The stage's own recording has the same forces for the same ticks.
-    ASSERT_EQ(place.run(std::string(kBurinCommand) +
-                        " convert r.session trial.csv --to csv --trials test --columns tick,commanded_force_device_x_N")
+    ASSERT_EQ(place
+                  .run(std::string(kBurinCommand) +
+                       " convert r.session trial.csv --to csv --trials test --columns tick,commanded_force_device_x_N")
                   .status,
               0);
     std::istringstream trial(place.read("trial.csv"));

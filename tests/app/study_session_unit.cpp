@@ -25,10 +25,10 @@ public:
         session::LiveOptions live;
         live.panel_window = asks_for_panel_window;
         const session::SculptOptions options = participant_session(
-            live, std::make_shared<activities::StudyActivity>(
-                      protocol_, protocol_.groups.at(group), worlds_,
-                      std::vector<study::StagePlace>{{1, 1, protocol_.stage(stage)}}, "study",
-                      activities::StudyDevice{}, activities::StageKeeper{}));
+            live,
+            std::make_shared<activities::StudyActivity>(protocol_, protocol_.groups.at(group), worlds_,
+                                                        std::vector<study::StagePlace>{{1, 1, protocol_.stage(stage)}},
+                                                        "study", activities::StudyDevice{}, activities::StageKeeper{}));
         auto made = session::LiveSession::create(options, session::session_wall(options.live).value(), clock_);
         if (!made) throw std::runtime_error(made.error().line());
         session_ = std::move(*made);
@@ -41,9 +41,8 @@ public:
         ASSERT_TRUE(executor_->advance_to(until_ns));
         std::vector<session::InputEvent> events;
         for (const session::CommandInput& command : commands) events.push_back({until_ns, command});
-        session_->step(
-            {until_ns, until_ns, events}, {.size = {1280, 720}}, session_->newest_tool(),
-            [&](session::Executor::Order order) { executor_->order(std::move(order)); }, {340, 700});
+        session_->step({until_ns, until_ns, events}, {.size = {1280, 720}}, session_->newest_tool(),
+                       [&](session::Executor::Order order) { executor_->order(std::move(order)); }, {340, 700});
         const auto taken = executor_->take_updates();
         ASSERT_TRUE(taken);
         session_->take_news(taken->collected);

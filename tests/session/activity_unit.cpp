@@ -183,8 +183,13 @@ TEST(SessionActivity, ThatGovernsHasItsButtonsWhereNothingMovesThem) {
     ActivityPanel activity{.title = "Study", .aside = "p07, touch", .page = "", .rows = {}, .buttons = {}};
     activity.governs = true;
     activity.field = "note";
-    activity.buttons = {{"Start", {"start"}}, {"Next", {"next"}}, {"Pause", {"pause"}}, {"Go on", {"go-on"}},
-                        {"Repeat", {"repeat"}}, {"In the jig", {"jig"}}, {"Stop", {"stop"}, true, "End the visit?"}};
+    activity.buttons = {{"Start", {"start"}},
+                        {"Next", {"next"}},
+                        {"Pause", {"pause"}},
+                        {"Go on", {"go-on"}},
+                        {"Repeat", {"repeat"}},
+                        {"In the jig", {"jig"}},
+                        {"Stop", {"stop"}, true, "End the visit?"}};
     for (const ImageSize size : {ImageSize{340, 700}, ImageSize{340, 1000}}) {
         Panel panel = Panel::create({.size = size}).value();
         std::map<std::string, PixelRect> first;
