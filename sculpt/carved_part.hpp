@@ -110,9 +110,10 @@ private:
     struct Carver {
         std::size_t hand = 0;
         StrokeReader reader;
-        Vec3 tool_object{0.0};           // as of the last publication
-        std::optional<Error> refused{};  // why the tool that was asked for last cannot carve; nothing does until another
-        bool said_why = false;           // this stroke's user has been told why nothing is carved
+        Vec3 tool_object{0.0};  // as of the last publication
+        std::optional<Error>
+            refused{};          // why the tool that was asked for last cannot carve; nothing does until another
+        bool said_why = false;  // this stroke's user has been told why nothing is carved
     };
     void carry_out(const UseTool& use) { use_tool(carvers_.front(), use); }
     void carry_out(const UndoStroke&);

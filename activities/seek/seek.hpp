@@ -57,8 +57,7 @@ private:
     enum class Phase : std::uint8_t { waiting, starting, seeking, over };
 
     void begin(const session::WorldObjects& world, session::ActivityOrders& orders);
-    void go_on_by(const haptics::TickRecord& tick, const session::WorldObjects& world,
-                  session::ActivityOrders& orders);
+    void go_on_by(const haptics::TickRecord& tick, const session::WorldObjects& world, session::ActivityOrders& orders);
     void give_up(session::ActivityOrders& orders);
     void break_off(session::ActivityOrders& orders);
     void take_next(session::ActivityOrders& orders);

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/text.hpp"
-#include "devices/haptic/steered_fingers.hpp"
 #include "devices/haptic/simulated_wand.hpp"
+#include "devices/haptic/steered_fingers.hpp"
 #include "devices/haptic/wand_file.hpp"
 
 namespace burin::devices {

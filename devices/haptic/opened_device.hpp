@@ -21,7 +21,7 @@ struct DevicePart {
 };
 
 struct OpenedDevice {
-    std::vector<DevicePart> parts;      // at least one; all of one rate
+    std::vector<DevicePart> parts;     // at least one; all of one rate
     Amplifiers* amplifiers = nullptr;  // of all parts; null: none that can be switched from here
 };
 

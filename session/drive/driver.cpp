@@ -73,15 +73,15 @@ Result<Executor::Taken> SteppedExecutor::take_updates() {
 
 // ---- On threads
 
-ThreadedExecutor::ThreadedExecutor(Clock& clock, haptics::HapticLoop& loop,
-                                   std::vector<haptics::HapticChannels*> parts, scene::SceneService& service,
-                                   const haptics::LoopPace& pace, AfterUpdate after_update)
+ThreadedExecutor::ThreadedExecutor(Clock& clock, haptics::HapticLoop& loop, std::vector<haptics::HapticChannels*> parts,
+                                   scene::SceneService& service, const haptics::LoopPace& pace,
+                                   AfterUpdate after_update)
     : clock_(clock), parts_(std::move(parts)), touch_(loop, pace), service_(service) {
     scene_.emplace(service, clock, std::move(after_update));
 }
 
-ThreadedExecutor::ThreadedExecutor(Clock& clock, haptics::HapticLoop& loop,
-                                   std::vector<haptics::HapticChannels*> parts, scene::SceneService& service)
+ThreadedExecutor::ThreadedExecutor(Clock& clock, haptics::HapticLoop& loop, std::vector<haptics::HapticChannels*> parts,
+                                   scene::SceneService& service)
     : clock_(clock), parts_(std::move(parts)), touch_(loop), service_(service) {}
 
 haptics::RealtimeNotice ThreadedExecutor::start() {

@@ -83,7 +83,8 @@ Result<void> run_compared(const SculptOptions& options, InputLog log) {
     if (!reader) return std::unexpected(reader.error());
     Result<TickComparison> judge = TickComparison::create(*reader, {}, TickComparison::AtDifference::goes_on);
     if (!judge) return std::unexpected(judge.error());
-    if (const auto done = run_as_recorded(options, std::move(log), {.witness = &*judge, .ticks = &*reader}); !done) return done;
+    if (const auto done = run_as_recorded(options, std::move(log), {.witness = &*judge, .ticks = &*reader}); !done)
+        return done;
     const record::Comparison& found = judge->found();
     if (found.difference) return fail(options.live.input, "differs: " + found.difference->line());
     if (found.ticks == 0)

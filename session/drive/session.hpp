@@ -29,8 +29,8 @@ namespace burin::session {
 
 // How a recording is replayed.
 struct ReplayManner {
-    bool draws = true;               // its frames' pictures; their screenshots, too
-    TickWitness* witness = nullptr;  // judges every tick; null: only the frames' checksums are compared
+    bool draws = true;                      // its frames' pictures; their screenshots, too
+    TickWitness* witness = nullptr;         // judges every tick; null: only the frames' checksums are compared
     record::RecordReader* ticks = nullptr;  // the session file that has the ticks, where the log has none
     // What the log asked for and did not get then either is no failure of the replay.
     bool only_compares = false;
@@ -50,7 +50,7 @@ struct ReplayManner {
 
 // Options of a real-time run. The haptic loop may rest by default, since nobody feels the force on a simulated hand.
 struct RealTimeRun {
-    bool keep_frames = false;  // keeps every frame and its times in the record
+    bool keep_frames = false;                  // keeps every frame and its times in the record
     haptics::LoopPace pace = {.rests = true};  // of what pace_of() allows
     std::optional<double>
         machine_pace{};  // haptics::WorkSettings::pace; none: it is measured before the session begins

@@ -68,9 +68,7 @@ Result<Executor::Taken> ThreadReplay::take_updates() {
     return Taken{{}, frame_->updates};
 }
 
-bool ThreadReplay::is_as_recorded() {
-    return check_.frame(frame_->ticks, words_of(session_.state())) == frame_->check;
-}
+bool ThreadReplay::is_as_recorded() { return check_.frame(frame_->ticks, words_of(session_.state())) == frame_->check; }
 
 Result<void> ThreadReplay::run_to_end() {
     if (!log_.end_check) return {};
@@ -124,9 +122,8 @@ Result<haptics::PartInput> ThreadReplay::input_of(std::size_t i) {
                                                           ", which there is not, or is no more");
     const haptics::TickParameters* parameters = seen(part.parameters, tick.parameter_sequence);
     if (parameters == nullptr)
-        return contradiction(
-            ticks_source_->place(i),
-            what + "parameters " + std::to_string(tick.parameter_sequence) + ", which no frame has set by then");
+        return contradiction(ticks_source_->place(i), what + "parameters " + std::to_string(tick.parameter_sequence) +
+                                                          ", which no frame has set by then");
     return haptics::PartInput{tick.sample, surface, parameters};
 }
 
@@ -136,7 +133,8 @@ Result<void> ThreadReplay::run_turn() {
     const TickSeen& first = *parts_.front().next;
     // A log of lines holds only whether a tick was late, not by how much; it counts as late from half a period on.
     Nanoseconds lateness_ns = first.lateness_ns.value_or(first.late ? loop.period_ns() : 0);
-    if (const auto known = witness_ != nullptr ? witness_->known(0, ticking_) : std::nullopt; known && !first.lateness_ns) {
+    if (const auto known = witness_ != nullptr ? witness_->known(0, ticking_) : std::nullopt;
+        known && !first.lateness_ns) {
         parts_.front().next->sample.joints = known->joints;
         lateness_ns = known->lateness_ns;
     }
@@ -195,7 +193,7 @@ Result<void> ThreadReplay::run_update() {
     if (const auto run = run_turns(last_tick); !run) return run;
     if (update.orders > orders_.size())
         return contradiction(where, what + std::to_string(update.orders) + " orders of " +
-                                       std::to_string(orders_.size()) + " that there were");
+                                        std::to_string(orders_.size()) + " that there were");
     for (std::size_t i = 0; i < update.orders; ++i) {
         orders_.front()();
         orders_.pop_front();

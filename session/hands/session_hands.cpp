@@ -40,7 +40,8 @@ Result<void> SessionHands::open(const HandToOpen& wanted, Clock& clock) {
     hand->told.orientation_device = rest.orientation_device;
     auto opened = devices::open_haptic_device(wanted.device, {clock, std::move(*steered)});
     if (!opened && wanted.name.empty()) return std::unexpected(opened.error());
-    if (!opened) return fail("hand " + wanted.name + ": " + opened.error().where, opened.error().what, opened.error().remedy);
+    if (!opened)
+        return fail("hand " + wanted.name + ": " + opened.error().where, opened.error().what, opened.error().remedy);
     hand->device = std::move(*opened);
     for (std::size_t i = 0; i < hand->device.parts.size(); ++i)
         parts_.push_back(std::make_unique<Part>(PartOfHand{hands_.size(), i}, records_, whole_ticks_));

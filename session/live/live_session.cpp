@@ -107,10 +107,15 @@ Result<void> LiveSession::hold_wands(const SculptOptions& options) {
     room_.others.assign(hands.size() - 1, room_);
     wands_.assign(hands.size(), nullptr);
     for (std::size_t i = 0; i < hands.size(); ++i) {
+        HandRoom& room = i == 0 ? room_ : room_.others[i - 1];
+        if (devices::parts_of_device(hands[i].device) > 1) {  // a hand, which is held upright and not as a pen is
+            room.desk.rest_device = {1.0, 0.0, 0.0, 0.0};
+            room.desk.leans_sideways = true;
+        }
         if (!devices::is_wand(hands[i].device)) continue;
         Result<devices::WandDescription> wand = devices::wand_named(hands[i].device);
         if (!wand) return std::unexpected(wand.error());
-        use_wand(i == 0 ? room_ : room_.others[i - 1], *wand);
+        use_wand(room, *wand);
         if (options.points.empty()) continue;
         Result<std::vector<devices::WandPoint>> points = devices::points_named(*wand, options.points);
         if (!points) return std::unexpected(points.error());
@@ -206,9 +211,9 @@ Result<void> LiveSession::open_hands(const SculptOptions& options) {
 Vec3 LiveSession::place_at_rest(std::size_t hand) const {
     const Vec3& rest_device_m =
         hand == state_.hand ? state_.desk.target_device_m : state_.hands[hand].target.position_device_m;
-    const Vec3 first_device_m =
-        wands_[hand] ? wands_[hand]->first_point_device({rest_device_m, room_.of(hand).desk.rest_device})
-                     : rest_device_m;
+    const Vec3 first_device_m = wands_[hand]
+                                    ? wands_[hand]->first_point_device({rest_device_m, room_.of(hand).desk.rest_device})
+                                    : rest_device_m;
     return inverse(state_.world_from_object) * (hand_of(state_, hand).world_from_device * first_device_m);
 }
 
@@ -333,8 +338,9 @@ scene::SceneThread::Order LiveSession::carving(sculpt::SculptOrder order) {
 
 // How far a wand's points are from the first of them, in the scene as large as it is shown now.
 double LiveSession::spread_of(std::size_t hand) const {
-    return wands_[hand] ? wands_[hand]->spread_m() * parameters_of(state_, room_, hand).workspace.object_from_device.scale
-                        : 0.0;
+    return wands_[hand]
+               ? wands_[hand]->spread_m() * parameters_of(state_, room_, hand).workspace.object_from_device.scale
+               : 0.0;
 }
 
 // The scene has been scaled, or the motion: what is known around the first point has to reach the others.
@@ -373,7 +379,8 @@ void LiveSession::switch_amplifiers(const AskedAmplifiers& asked) {
         return log_.notify_of_event(asked.on ? "the amplifiers are on; the force comes back from zero"
                                              : "the amplifiers are off: no force until they are enabled again");
     const std::string why = answer ? "they stay off, since what tripped them is not over; see to the device first"
-                                   : "those of " + std::string(hands_.device(hands_.first_part(state_.hand)).name) + " cannot be switched from here";
+                                   : "those of " + std::string(hands_.device(hands_.first_part(state_.hand)).name) +
+                                         " cannot be switched from here";
     log_.notify_of_event("amplifiers: " + why, {failed_on(asked.line), {}});
 }
 
@@ -444,7 +451,8 @@ std::optional<renderer::Scene> LiveSession::scene_on(std::size_t screen) const {
     if (room_.wall.is_panel(screen)) return std::nullopt;
     std::optional<renderer::Scene> scene = scene_of(state_, room_, screen, lattice_origin_object(), tool_in_use());
     for (std::size_t part = 0; scene && part < hands_.parts(); ++part)
-        if (part != hands_.first_part(state_.hand)) add_tool(*scene, state_, hands_.part_of_hand(part).hand, tools_[part]);
+        if (part != hands_.first_part(state_.hand))
+            add_tool(*scene, state_, hands_.part_of_hand(part).hand, tools_[part]);
     if (scene && world_)
         std::ranges::move(world_->drawn().in_world(state_.world_from_object), std::back_inserter(scene->objects));
     if (scene) activity_.stage(*scene, screen);

@@ -193,8 +193,8 @@ private:
     Room room_;
     // Of each hand:
     std::vector<std::shared_ptr<const HeldWand>> wands_;  // null: a stylus, or a wand that holds a tool
-    std::vector<double> spreads_m_;       // of its points, as the scene's thread has been told
-    std::vector<double> tools_around_m_;  // of the tool at each; the scene's thread's
+    std::vector<double> spreads_m_;                       // of its points, as the scene's thread has been told
+    std::vector<double> tools_around_m_;                  // of the tool at each; the scene's thread's
     SessionState state_;
     std::vector<haptics::ToolState> tools_;  // of each part, as the frame draws them
     Nanoseconds last_step_ns_ = 0;

@@ -18,7 +18,8 @@ namespace {
 class TickLines {
 public:
     // Null: there are none to write.
-    TickLines(std::unique_ptr<TickSource> source, const ThreadClock& clock) : source_(std::move(source)), text_(clock) {}
+    TickLines(std::unique_ptr<TickSource> source, const ThreadClock& clock)
+        : source_(std::move(source)), text_(clock) {}
 
     [[nodiscard]] Result<std::string> up_to(std::uint64_t last, const std::string& time) {
         std::string lines;

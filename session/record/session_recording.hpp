@@ -94,8 +94,8 @@ public:
 private:
     struct Waiting {
         Nanoseconds time_ns = 0;
-        std::string line;         // of a frame: none yet
-        bool is_frame = false;    // which waits for the ticks that it has seen
+        std::string line;       // of a frame: none yet
+        bool is_frame = false;  // which waits for the ticks that it has seen
         FrameSeen frame = {};
         StateWords state{};
     };

@@ -44,8 +44,8 @@ struct OutputSeen {
 
 struct FrameSeen {
     std::vector<std::uint64_t> ticks{0};  // the newest that was finished, of each part of the hands; 0: none yet
-    std::uint64_t updates = 0;  // of the scene, whose results it had taken
-    std::uint64_t check = 0;    // checksum of the resulting state (SessionCheck)
+    std::uint64_t updates = 0;            // of the scene, whose results it had taken
+    std::uint64_t check = 0;              // checksum of the resulting state (SessionCheck)
     std::vector<OutputSeen> outputs;
     PanelMeasured measured;
     // The mode that the main screen fell back to while the frame was drawn.

@@ -198,8 +198,9 @@ Result<void> Runner::operator()(const RunAction& run) {
             return fail("save-session", "sessions cannot be saved yet", "export the mesh (export FILE, Ctrl+E)");
         case Action::reset_view: state_.world_from_object = state_.home_world_from_object; return update_touch();
         case Action::next_hand:
-            return lead_hand(state_, state_.hands.empty() ? "next"
-                                                          : state_.hands[(state_.hand + 1) % state_.hands.size()].hand_name);
+            return lead_hand(state_, state_.hands.empty()
+                                         ? "next"
+                                         : state_.hands[(state_.hand + 1) % state_.hands.size()].hand_name);
         case Action::quit: state_.quit = true; return {};
     }
     return {};

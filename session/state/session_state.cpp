@@ -95,7 +95,7 @@ void move_into_comfort(SessionState& state, const Room& room) {
 haptics::TouchMaterial material_under_tool(const SessionState& state, const HandState& hand) {
     constexpr double kCannotBeCut = std::numeric_limits<double>::infinity();
     return sculpt::touch_material(hand.only_touch || !state.carves ? sculpt::with_hardness(state.feel, kCannotBeCut)
-                                                                    : state.feel);
+                                                                   : state.feel);
 }
 
 // Returns the radius of a ball about as wide as the tool.
@@ -212,8 +212,7 @@ void begin_hands(SessionState& state, const Room& room, std::span<const std::sha
 
 SessionState begin_session(const Room& room, const sculpt::ToolSettings& tool, const sculpt::FeelSettings& feel,
                            const wall::OutputSettings& output, std::shared_ptr<const ToolMeshes> meshes,
-                           std::span<const std::shared_ptr<const HeldWand>> wands,
-                           std::span<const std::string> hands) {
+                           std::span<const std::shared_ptr<const HeldWand>> wands, std::span<const std::string> hands) {
     SessionState state;
     if (!wands.empty()) state.wand = wands.front();
     state.meshes = std::move(meshes);
@@ -239,9 +238,9 @@ Result<void> lead_hand(SessionState& state, const std::string& name) {
     if (at == state.hands.end()) {
         std::string known;
         for (const HandState& hand : state.hands) known += (known.empty() ? "" : " or ") + hand.hand_name;
-        return fail("hand " + name, state.hands.empty() ? "the session has one hand" : "there is no hand of that name",
-                    state.hands.empty() ? "open it with --device right=simulated --device left=simulated"
-                                        : "name " + known);
+        return fail(
+            "hand " + name, state.hands.empty() ? "the session has one hand" : "there is no hand of that name",
+            state.hands.empty() ? "open it with --device right=simulated --device left=simulated" : "name " + known);
     }
     const auto next = static_cast<std::size_t>(at - state.hands.begin());
     if (next == state.hand) return {};
@@ -398,6 +397,13 @@ void add_tool(renderer::Scene& scene, const SessionState& state, std::size_t num
     if (is_ball) object_from_tool.scale = tool_radius_m(hand);
     scene.objects.push_back(
         {is_ball ? kBall : hand.held->drawn, state.world_from_object * object_from_tool, tool_colour(hand)});
+    // A shaft as the tool in use has one, along the tool's +Y.
+    static const auto kShaft = renderer::drawn_mesh(sculpt::drawing_of(compute::CylinderTool{0.12, 3.2}));
+    const double from_m = is_ball ? 0.8 * tool_radius_m(hand) : hand.held->shaft_height_m;
+    Similarity object_from_shaft = object_from_tool;
+    object_from_shaft.position_m += object_from_tool.orientation * Vec3(0.0, from_m, 0.0);
+    object_from_shaft.scale = tool_radius_m(hand);
+    scene.objects.push_back({kShaft, state.world_from_object * object_from_shaft, Vec3(0.1)});
 }
 
 wall::ComfortFinding comfort_of(const SessionState& state, const Room& room, const haptics::ToolState& tool) {

@@ -50,7 +50,9 @@ struct SessionState : HandState {
     bool quit = false;
 };
 
-[[nodiscard]] inline std::size_t hands_of(const SessionState& state) { return state.hands.empty() ? 1 : state.hands.size(); }
+[[nodiscard]] inline std::size_t hands_of(const SessionState& state) {
+    return state.hands.empty() ? 1 : state.hands.size();
+}
 [[nodiscard]] inline const HandState& hand_of(const SessionState& state, std::size_t hand) {
     return hand == state.hand ? state : state.hands[hand];
 }

@@ -235,10 +235,11 @@ TEST(SimulatedWand, IsInTheRegistryAlsoWithADescription) {
     const auto host = [&] { return HapticHost{clock, hand_of({{0.0, Vec3(0.0)}})}; };
     const auto plain = open_haptic_device("simulated-wand", host());
     ASSERT_TRUE(plain) << plain.error().line();
-    EXPECT_EQ((*plain)->description().max_torque_Nm, Vec3(0.230, 0.0, 0.250));
+    EXPECT_EQ(plain->parts.front().device->description().max_torque_Nm, Vec3(0.230, 0.0, 0.250));
+    EXPECT_NE(plain->amplifiers, nullptr);
     const auto described = open_haptic_device("simulated-wand:assets/devices/quanser-wand.toml", host());
     ASSERT_TRUE(described) << described.error().line();
-    EXPECT_STREQ((*described)->description().name, "Quanser 5-DOF Haptic Wand");
+    EXPECT_STREQ(described->parts.front().device->description().name, "Quanser 5-DOF Haptic Wand");
     const auto missing = open_haptic_device("simulated-wand:no-such.toml", host());
     ASSERT_FALSE(missing);
     EXPECT_NE(missing.error().line().find("no-such.toml"), std::string::npos);

@@ -42,7 +42,8 @@ TEST(PanelHeader, ShowsTheWorkpiecesSizeInMillimetres) {
     options.engine = sculpt::EngineChoice::cpu;
     SimulatedClock clock;
     const auto session = LiveSession::create(options, session_wall(options.live).value(), clock).value();
-    session->step({16'000'000, 16'000'000, {}}, {.size = {1280, 900}}, {}, [](const scene::SceneThread::Order&) {});
+    session->step({16'000'000, 16'000'000, {}}, {.size = {1280, 900}}, haptics::ToolState{},
+                  [](const scene::SceneThread::Order&) {});
     Panel alike = Panel::create({.size = session->panel_on(0).value().size}).value();
     PanelModel model;
     model.workpiece = {"block:0.05,0.04,0.0305", "50 x 40 x 30.5 mm, 32 cells"};

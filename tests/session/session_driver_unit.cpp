@@ -26,7 +26,7 @@ public:
         if (until_ns == fails_at_ns_) return fail("executor", "it fails", "");
         return {};
     }
-    [[nodiscard]] const haptics::ToolState& tool() override { return tool_; }
+    [[nodiscard]] std::vector<haptics::ToolState> tools() override { return {{}}; }
     void order(Order) override {}
     [[nodiscard]] Result<Taken> take_updates() override { return Taken{}; }
     void stop() override { notes_.emplace_back("stop"); }
@@ -34,7 +34,6 @@ public:
 private:
     std::vector<std::string>& notes_;
     Nanoseconds fails_at_ns_;
-    haptics::ToolState tool_;
 };
 
 // Three frames, of which one fails if that is wanted.
@@ -125,7 +124,8 @@ TEST(Pace, RestsOnlyWhereNeitherAnActivityNorAPersonMissesATick) {
     for (const bool asked : {false, true})
         for (const bool has_activity : {false, true})
             for (const devices::DeviceDescription& device : {held, simulated}) {
-                const haptics::LoopPace pace = pace_of({.lead_ns = 7, .rests = asked}, device.felt_by_person, has_activity);
+                const haptics::LoopPace pace =
+                    pace_of({.lead_ns = 7, .rests = asked}, device.felt_by_person, has_activity);
                 EXPECT_EQ(pace.rests, asked && !has_activity && !device.felt_by_person);
                 EXPECT_EQ(pace.lead_ns, 7);
             }

@@ -36,7 +36,8 @@ double carried_m(double x_world, double y_world) {
     const SessionWall wall = session_wall(options.live).value();
     const auto session = LiveSession::create(options, wall, clock).value();
     const auto step = [&](Nanoseconds time_ns, const std::vector<InputEvent>& events) {
-        session->step({time_ns, time_ns, events}, {.size = {1440, 1080}}, {}, [](const scene::SceneThread::Order&) {});
+        session->step({time_ns, time_ns, events}, {.size = {1440, 1080}}, haptics::ToolState{},
+                      [](const scene::SceneThread::Order&) {});
     };
     const auto wand = [&](double y) { return WandInput{0, {{x_world, y, 1.0}, Quat{1, 0, 0, 0}}, true}; };
     step(10'000'000, {{10'000'000, wand(y_world)}});
@@ -62,7 +63,7 @@ std::size_t files_asked_for(bool writes_nothing) {
                                          {0, CommandInput{"export-mesh", {}}},
                                          {0, CommandInput{"screenshot", {"a.png"}}},
                                          {0, CommandInput{"take-screenshot", {}}}};
-    session->step({10'000'000, 10'000'000, events}, {.size = {640, 360}}, {}, [&](const auto& order) {
+    session->step({10'000'000, 10'000'000, events}, {.size = {640, 360}}, haptics::ToolState{}, [&](const auto& order) {
         order();
         session->finish_scene();
         // The second export takes the place of the first, whose name it has.
@@ -203,7 +204,8 @@ TEST(LiveSession, OffersToolSizesThatSuitItsWorkpiece) {
     const auto step = [&](const Input& input) {
         now_ns += 16'000'000;
         const std::vector<InputEvent> events{{now_ns, input}};
-        session->step({now_ns, now_ns, events}, {.size = window}, {}, [](const scene::SceneThread::Order&) {});
+        session->step({now_ns, now_ns, events}, {.size = window}, haptics::ToolState{},
+                      [](const scene::SceneThread::Order&) {});
     };
     step(MouseMove{{left_px + 0.5 * slider.width, y_px}});
     step(MouseClick{MouseButton::left, true, {}});
@@ -230,7 +232,9 @@ TEST(LivePanel, IsWorkedInItsOwnWindowAlone) {
     const auto step = [&](const Input& input) {
         now_ns += 16'000'000;
         const std::vector<InputEvent> events{{now_ns, input}};
-        session->step({now_ns, now_ns, events}, {.size = window}, {}, [](const scene::SceneThread::Order&) {}, own);
+        session->step(
+            {now_ns, now_ns, events}, {.size = window}, haptics::ToolState{}, [](const scene::SceneThread::Order&) {},
+            own);
     };
     const auto drag = [&](double left_px) {
         const double y_px = slider.y + 0.5 * slider.height;

@@ -65,8 +65,8 @@ struct Recorded {
         const SculptOptions options = short_options(path);
         session = std::move(*LiveSession::create(options, *session_wall(options.live), clock));
         RecordingOf of;
-        of.parts.push_back({"", session->device(), session->channels().parameters.newest().probe,
-                            &session->channels().records});
+        of.parts.push_back(
+            {"", session->device(), session->channels().parameters.newest().probe, &session->channels().records});
         of.clock = clock_of(*session);
         of.settings = settings_line(options);
         of.vfs = vfs;

@@ -288,7 +288,8 @@ TEST(ThreadReplay, DoesTheSameAsTheThreadsDid) {
 TEST(ThreadReplay, KeepsWhatTicksSawThatTheRestHasOvertaken) {
     const Workplace place;
     const Live was = overtaking(place);
-    EXPECT_EQ(parse_input_log(was.log, "live.log")->threads->frames.at(1).ticks.front(), 8u) << "not the executor's tool";
+    EXPECT_EQ(parse_input_log(was.log, "live.log")->threads->frames.at(1).ticks.front(), 8u)
+        << "not the executor's tool";
     ASSERT_GT(was.ticks, 500u);
     EXPECT_NE(was.surface, was.untouched);
     const Again is = again(was.log);

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// Sessions with several hands by the command line: recorded, done again to the bit, and refused by name.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "gpu/device.hpp"
+#include "tests/support/places.hpp"
+#include "tests/support/run_command.hpp"
+
+namespace burin::app {
+namespace {
+
+const std::string kHandsBurin = kBurinCommand;
+const std::string kTwoHands = "--device right=simulated --device left=simulated";
+// A small piece, and small pictures.
+const std::string kSmallPiece = " sculpt --workpiece ball:0.08 --resolution 48 --width 320 --height 180 --input " +
+                                std::string(kSessionsFolder) + "/two-hands.txt --offscreen ";
+
+// The rows of a column of a part, as the file has them.
+std::vector<double> column_of(const Workplace& at, const std::string& file, const std::string& part,
+                              const std::string& column) {
+    const auto outcome =
+        at.run(kHandsBurin + " convert " + file + " - --to csv --part " + part + " --columns " + column);
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+    std::istringstream lines(outcome.output);
+    std::vector<double> rows;
+    for (std::string line; std::getline(lines, line);) {
+        char* end = nullptr;
+        const double value = std::strtod(line.c_str(), &end);
+        if (end != line.c_str()) rows.push_back(value);
+    }
+    return rows;
+}
+
+}  // namespace
+
+TEST(Hands, TwoAtOnePieceAreRecordedAndDoneAgainToTheBit) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace at;
+    const auto recorded = at.run(kHandsBurin + kSmallPiece + kTwoHands + " --record " + (at / "two.session").string() +
+                                 " --outputs " + (at / "out").string());
+    ASSERT_EQ(recorded.status, 0) << recorded.output;
+    const auto replayed = at.run(kHandsBurin + " replay two.session");
+    EXPECT_EQ(replayed.status, 0) << replayed.output;
+    EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
+    const auto info = at.run(kHandsBurin + " session info two.session");
+    EXPECT_TRUE(info.output.contains("\nright: ")) << info.output;
+    EXPECT_TRUE(info.output.contains("\nleft: ")) << info.output;
+    EXPECT_EQ(at.run(kHandsBurin + " session check two.session").status, 0);
+    // The right one has felt the piece; the left one has turned it, and its buttons say so.
+    const auto of = [&](const char* part, const char* column) { return column_of(at, "two.session", part, column); };
+    EXPECT_TRUE(std::ranges::any_of(of("right", "commanded_force_device_z_N"), [](double n) { return n > 0.5; }));
+    EXPECT_TRUE(std::ranges::any_of(of("left", "buttons"), [](double bits) { return bits == 2.0; }));
+    EXPECT_TRUE(std::ranges::none_of(of("right", "buttons"), [](double bits) { return bits == 2.0; }));
+}
+
+TEST(Hands, ARecordingOfTwoIsRefusedWhereOneIsLeft) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace at;
+    at.write("s.txt", "burin-input 1 test\n0.1 mouse 100 100\n0.3 close\n");
+    const std::string short_one = kHandsBurin +
+                                  " sculpt --workpiece ball:0.08 --resolution 32 --width 320 --height 180 --input "
+                                  "s.txt --offscreen " +
+                                  kTwoHands;
+    ASSERT_EQ(at.run(short_one + " --record two.session").status, 0);
+    const auto replayed = at.run(kHandsBurin + " replay two.session --set hands=");
+    EXPECT_EQ(replayed.status, 1);
+    EXPECT_TRUE(replayed.output.contains("--device that it was recorded with")) << replayed.output;
+    const auto as_text = at.run(short_one + " --record two.log");
+    EXPECT_EQ(as_text.status, 1);
+    EXPECT_TRUE(as_text.output.contains("record into a session file")) << as_text.output;
+}
+
+TEST(Hands, WhatIsWrongWithADeviceIsSaidBeforeAWindowOpens) {
+    const Workplace at;
+    const auto of = [&](const std::string& devices) {
+        return at.run(kHandsBurin + " sculpt --workpiece ball:0.08 --resolution 16 --live " + devices);
+    };
+    const auto twice = of("--device right=simulated --device right=simulated-wand");
+    EXPECT_EQ(twice.status, 2);
+    EXPECT_TRUE(twice.output.contains("a second device of one name")) << twice.output;
+    const auto alone = of("--device right=simulated --device simulated");
+    EXPECT_EQ(alone.status, 2);
+    EXPECT_TRUE(alone.output.contains("does not say whose device it is")) << alone.output;
+    const auto carved =
+        at.run(kHandsBurin + " sculpt --workpiece ball:0.08 --resolution 16 --stroke none.csv " + kTwoHands);
+    EXPECT_EQ(carved.status, 1);
+    EXPECT_TRUE(carved.output.contains("several hands, which belong to a session")) << carved.output;
+}
+
+TEST(Hands, FourFingersFeelAWorldAndAreDoneAgainToTheBit) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace at;
+    const auto recorded = at.run(
+        kHandsBurin +
+        " world " + std::string(kSessionsFolder) + "/../worlds/garden.toml --device simulated-fingers --input " +
+        kSessionsFolder + "/fingers.txt --offscreen "
+        "--width 320 --height 180 --record " +
+        (at / "fingers.session").string() + " --outputs " + (at / "out").string());
+    ASSERT_EQ(recorded.status, 0) << recorded.output;
+    const auto replayed = at.run(kHandsBurin + " replay fingers.session");
+    EXPECT_EQ(replayed.status, 0) << replayed.output;
+    EXPECT_TRUE(replayed.output.contains("equal to the bit")) << replayed.output;
+    for (const char* finger : {"thumb", "index", "middle", "ring"})
+        EXPECT_GT(column_of(at, "fingers.session", finger, "tick").size(), 1000u) << finger;
+}
+
+}  // namespace burin::app
