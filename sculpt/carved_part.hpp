@@ -2,10 +2,10 @@
 // A carved workpiece as a part of a scene: carves what hands do, each with a tool of its own, carries out orders, and
 // reports changes to the frame.
 //
-// Data flow of an update: stroke samples of a hand -> sweeps (its StrokeReader) -> Sculpture::update, one hand after the
-// other. Then the touch publisher asks for the surface near the tool, and after that the light of a few tiles is baked. Orders come from
-// keys, panel, script or recording. take_surface_update() gives the frame the tiles that changed since the last call,
-// as references to tiles that never change again.
+// Data flow of an update: stroke samples of a hand -> sweeps (its StrokeReader) -> Sculpture::update, one hand after
+// the other. Then the touch publisher asks for the surface near the tool, and after that the light of a few tiles is
+// baked. Orders come from keys, panel, script or recording. take_surface_update() gives the frame the tiles that
+// changed since the last call, as references to tiles that never change again.
 // Frame: object, metres; a workpiece stands in the scene as in its own frame. Thread: one at a time, that of the
 // scene's service. An export works on copies on a thread of its own.
 #pragma once
@@ -76,9 +76,9 @@ public:
     // Between updates while something changes, and at rest.
     static constexpr Nanoseconds kBusy_ns = 10'000'000, kResting_ns = 40'000'000;
 
-    // sculpture must outlive the part. `hand` is the first that carves; another does once it has been given a tool. With `undo_bytes` the part has the sculpture keep
-    // a history within that much memory, and passes its notices on; without, a history that the sculpture keeps remains
-    // the caller's affair.
+    // sculpture must outlive the part. `hand` is the first that carves; another does once it has been given a tool.
+    // With `undo_bytes` the part has the sculpture keep a history within that much memory, and passes its notices on;
+    // without, a history that the sculpture keeps remains the caller's affair.
     CarvedPart(Sculpture& sculpture, const Tool& tool, double hardness_Ns_per_m3, std::optional<std::size_t> undo_bytes,
                std::size_t hand = 0);
     ~CarvedPart() override;

@@ -3,7 +3,7 @@
 // its place in the hand. The hand's pose is led as a stylus' is; its first button closes the fingers onto each other,
 // as far as what they touch lets them.
 //
-// Places, in the frame of the hand, whose +Y points from wrist to fingers and whose +Z from the palm's side away: index,
+// Places, in the frame of the hand, whose +Y points from wrist to fingers and whose +Z away from the palm: index,
 // middle and ring lie side by side, the thumb opposite the middle one. Closed, the tips are kClosed_m from the middle.
 // Time and threads as SimulatedOmni. The first part's read() leads the hand, so that all parts of a turn see one hand:
 // the loop reads them in their order (haptic_device.hpp).

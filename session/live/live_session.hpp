@@ -36,6 +36,9 @@ namespace burin::session {
 
 class LiveSession {
 public:
+    // The stylus' second button takes hold of an object.
+    static constexpr std::uint32_t kGrips = 2;
+
     // Loads and meshes the workpiece, and opens the world. Session time counts from the clock's present value; the
     // clock must outlive the session. pace: how much slower than the reference core the machine is
     // (haptics::WorkSettings); as measured where time is real (session/timing/machine_pace.hpp), as recorded in a
@@ -44,9 +47,9 @@ public:
                                                                      const SessionWall& wall, Clock& clock,
                                                                      double pace = 1.0);
 
-    // Applies one frame's input. `output` is the main screen's output, `tools` the tools as the frame draws them, one of
-    // each part of the hands. Orders to the scene's parts are passed to `give`. panel_output: size of the panel's own
-    // window; empty: there is none.
+    // Applies one frame's input. `output` is the main screen's output, `tools` the tools as the frame draws them, one
+    // of each part of the hands. Orders to the scene's parts are passed to `give`. panel_output: size of the panel's
+    // own window; empty: there is none.
     using Give = std::function<void(scene::SceneThread::Order)>;
     void step(const FrameInput& input, const wall::OutputPlace& output, std::span<const haptics::ToolState> tools,
               const Give& give, ImageSize panel_output = {});

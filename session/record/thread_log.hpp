@@ -2,8 +2,8 @@
 // Log of what the threads of a live session did, beside its input: enough to repeat it on one thread. The lines are
 // described in docs/formats.md, "What the threads did".
 //
-//   a tick    what it read from the device, and which surface and parameters it saw. Of one hand with one part, as lines
-//             of a text log; a session file has the ticks of all parts in its columns (tick_source.hpp)
+//   a tick    what it read from the device, and which surface and parameters it saw. As lines of a text log, of one
+//             hand with one part; a session file has the ticks of all parts in its columns (tick_source.hpp)
 //   an update when the scene's service made it, up to which tick of each hand, how many orders it took
 //   a frame   the tick whose tool it drew, the scene's updates it had taken, the sizes of its outputs, and the messages
 //             from outside

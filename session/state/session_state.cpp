@@ -188,7 +188,8 @@ namespace {
 // Where a hand of several stands beside the others at the start, as a share of its workspace's width.
 constexpr double kBeside = 0.22;
 
-// Gives each hand of several its workspace, and where it rests in there: the first to the right, the second to the left.
+// Gives each hand of several its workspace, and where it rests in there: the first to the right, the second to the
+// left.
 void begin_hands(SessionState& state, const Room& room, std::span<const std::shared_ptr<const HeldWand>> wands,
                  std::span<const std::string> names) {
     if (names.size() < 2) return;

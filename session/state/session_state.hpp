@@ -153,7 +153,8 @@ struct SessionStep {
 }
 // Returns the tool that the carving side is to use; the Error says what is wrong with it.
 [[nodiscard]] Result<sculpt::UseTool> tool_of(const SessionState& state);
-// Returns the scene that one screen shows, with the tool of the hand in use; nothing where an eye is not in front of it.
+// Returns the scene that one screen shows, with the tool of the hand in use; nothing where an eye is not in front of
+// it.
 [[nodiscard]] std::optional<renderer::Scene> scene_of(const SessionState& state, const Room& room, std::size_t screen,
                                                       const Vec3& lattice_origin_object,
                                                       const haptics::ToolState& tool);

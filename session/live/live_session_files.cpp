@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// The files that a session is asked for, and what becomes of those that are missing.
+#include <cstdio>
+#include <filesystem>
+
+#include "renderer/png.hpp"
+#include "session/live/live_session.hpp"
+
+namespace burin::session {
+namespace {
+
+// Says on the terminal where a file lies, if the message does not, and that another one was there.
+std::string where_it_lies(const std::string& message, const std::string& path, bool replaced) {
+    const std::string place = message.ends_with(" " + path) ? "" : path;
+    const std::string instead = replaced ? "in place of the file that was there" : "";
+    if (place.empty() && instead.empty()) return {};
+    return " (" + place + (place.empty() || instead.empty() ? "" : ", ") + instead + ")";
+}
+
+}  // namespace
+
+// A refused export is ordered as well, since a recording counts the orders.
+void LiveSession::place(sculpt::ExportSurface& wanted) const {
+    const auto placed = outputs_.place_of(wanted.path, OutputKind::mesh);
+    if (!placed) {
+        wanted.refused = placed.error();
+        return;
+    }
+    wanted.name = outputs_.shown(wanted.path, *placed);
+    wanted.path = placed->string();
+}
+
+void LiveSession::take(const sculpt::ExportOutcome& ended) {
+    if (ended.written) {
+        log_.notify(ended.message, {{}, where_it_lies(ended.message, ended.path, ended.replaced)});
+    } else if (outputs_.refuse_meshes()) {
+        log_.notify(ended.message);
+    } else {
+        log_.notify(ended.message, {failed_on(ended.asked_by), {}});
+    }
+}
+
+void LiveSession::keep_screenshot(const Asked& wanted, const Result<Image>& image) {
+    const auto place = image ? outputs_.place_of(wanted.text, OutputKind::picture) : std::unexpected(image.error());
+    std::error_code ignored;
+    const bool was_there = place && std::filesystem::exists(*place, ignored);
+    const auto written = place ? renderer::write_png(*place, *image) : std::unexpected(place.error());
+    if (written) {
+        const std::string message = "wrote " + outputs_.shown(wanted.text, *place);
+        log_.notify_of_event(message, {{}, where_it_lies(message, place->string(), was_there)});
+    } else {
+        log_.notify_of_event(written.error().line(), {failed_on(wanted.line), {}});
+    }
+}
+
+std::string LiveSession::failed_on(std::size_t line) {
+    if (log_name_.empty()) return {};
+    ++failures_;
+    return line == 0 ? log_name_ + ": " : log_name_ + ":" + std::to_string(line) + ": ";
+}
+
+void LiveSession::notify_of_loss(const std::string& message) {
+    const std::string where = failed_on(last_line_);
+    if (where.empty()) ++failures_;
+    log_.notify(message, {where, {}});
+}
+
+Result<void> LiveSession::outcome() const {
+    if (failures_ == 0) return {};
+    return fail(log_name_.empty() ? "the session" : log_name_,
+                failures_ == 1 ? "one thing that was asked for is missing"
+                               : std::to_string(failures_) + " things that were asked for are missing",
+                "see above what, and why");
+}
+
+void LiveSession::refuse_mode(wall::StereoMode working, const Error& error) {
+    state_.output.mode = working;
+    refused_ = working;
+    notify_of_event(error.line());
+}
+
+}  // namespace burin::session
