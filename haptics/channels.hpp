@@ -119,7 +119,7 @@ enum TickFlag : std::uint32_t {
     kTickLoopGap = 1u << 19,        // ticks were lost before this one
     kTickDoubted = 1u << 20,        // the watch finds no sound contact: its force fades out (ContactWatch)
     kTickLetGo = 1u << 21,          // ... and the tool was set to the hand in this tick
-    // a part of several for which no work was left in this turn: its contacts are held on their last planes
+    // a part, or some points of one, for which no work was left in this turn: contacts are held on their last planes
     kTickHeldOver = 1u << 22,
 };
 
@@ -165,7 +165,8 @@ struct ContactRecord {
 
 // A tick's share of its turn. The parts of a device that are ticked in one turn of the loop have one period's budget
 // among them, by need: each may use what those before it have left over. A part for which too little is left is held
-// over: its contacts stay on their last planes, and the next turn begins with it.
+// over: its contacts stay on their last planes, and the next turn begins with it. Points of one part share in the same
+// way (haptics/contact/point_turns.hpp).
 struct TurnShare {
     // A part with less than this share of the budget, or less time, is held over. A tick on a scan takes a tenth of the
     // budget on average.
@@ -173,8 +174,9 @@ struct TurnShare {
 
     double spent_ns = 0.0;  // by the parts before, as cost_ns() counts
     bool held_over = false;
+    double kept_ns = 0.0;  // for the parts after, each of which costs something although it does nothing
 
-    [[nodiscard]] double of(double budget_ns) const noexcept { return std::max(budget_ns - spent_ns, 0.0); }
+    [[nodiscard]] double of(double budget_ns) const noexcept { return std::max(budget_ns - spent_ns - kept_ns, 0.0); }
 };
 
 // Everything a tick used and did; the other records are views of it. With the surface and the parameters of the

@@ -30,23 +30,29 @@ TickRecord HapticLoop::turn(Nanoseconds now_ns, Nanoseconds lateness_ns) noexcep
     if (lateness_ns > period_ns_ / 2) ++late_ticks_;
     newest_ns_ = now_ns;
     TickRecord of_first;
-    TurnShare share;
+    double spent_ns = 0.0;
     std::size_t next_first = first_;
     for (std::size_t n = 0; n < parts_.size(); ++n) {
         const std::size_t i = in_turn(n);
-        if (share.held_over && next_first == first_) next_first = i;
+        const TurnShare share = share_of(n, spent_ns, *parts_[i].input.parameters);
         const TickRecord record = tick_part(parts_[i], share, now_ns, lateness_ns);
-        pass_on(share, record, *parts_[in_turn(n + 1)].input.parameters);
+        spent_ns += cost_ns(record.contact.work);
+        const bool fell_short =
+            (record.flags & (kTickHeldOver | kTickWorkLimited)) != 0 || anyone_waits(parts_[i].state.tick.probe.turns);
+        if (n > 0 && fell_short && next_first == first_) next_first = i;
         if (i == 0) of_first = record;
     }
     first_ = next_first;
     return of_first;
 }
 
-void HapticLoop::pass_on(TurnShare& share, const TickRecord& record, const TickParameters& next) const noexcept {
-    share.spent_ns += cost_ns(record.contact.work);
-    const double budget = budget_ns(next.work, dt_s_);
-    share.held_over = share.of(budget) < std::max(TurnShare::kLeast * budget, TurnShare::kLeast_ns);
+TurnShare HapticLoop::share_of(std::size_t n, double spent_ns, const TickParameters& parameters) const noexcept {
+    constexpr double kMostKept = 0.02;  // of the budget
+    const double budget = budget_ns(parameters.work, dt_s_);
+    const auto after = static_cast<double>(parts_.size() - 1 - n);
+    return {.spent_ns = spent_ns,
+            .held_over = n > 0 && budget - spent_ns < std::max(TurnShare::kLeast * budget, TurnShare::kLeast_ns),
+            .kept_ns = std::min(after * WorkCost::kTick_ns, kMostKept * budget)};
 }
 
 // A fault of the whole device counts as one of each part that has none of its own.
@@ -61,7 +67,8 @@ void HapticLoop::spread_fault() noexcept {
         if (part.input.sample.fault == devices::DeviceFault::none) part.input.sample.fault = fault;
 }
 
-TickRecord HapticLoop::tick_part(Part& part, TurnShare& share, Nanoseconds now_ns, Nanoseconds lateness_ns) noexcept {
+TickRecord HapticLoop::tick_part(Part& part, const TurnShare& share, Nanoseconds now_ns,
+                                 Nanoseconds lateness_ns) noexcept {
     const auto& [sample, surface, parameters] = part.input;
     FullTick full =
         full_tick(part.state, sample, *surface, *parameters, part.device->description(), now_ns, dt_s_, share);
@@ -105,7 +112,7 @@ void HapticLoop::warm_up() noexcept { warm_up_until(INT64_MAX); }
 
 // Parts whose turn would come after the deadline go without: a warm-up must not make the turn late.
 void HapticLoop::warm_up_until(Nanoseconds deadline_ns) noexcept {
-    TurnShare share;
+    double spent_ns = 0.0;
     for (std::size_t n = 0; n < parts_.size(); ++n) {
         const Part& part = parts_[in_turn(n)];
         const Nanoseconds now_ns = clock_.now_ns();
@@ -115,9 +122,9 @@ void HapticLoop::warm_up_until(Nanoseconds deadline_ns) noexcept {
         expected.position_device_m += dt_s_ * part.velocity_device_m_per_s;
         const TickParameters& parameters = part.channels->parameters.newest();
         const FullTick full = full_tick(part.state, expected, part.channels->surface.newest(), parameters,
-                                        part.device->description(), now_ns, dt_s_, share);
+                                        part.device->description(), now_ns, dt_s_, share_of(n, spent_ns, parameters));
         warmed_up_ += full.record.contact.work.triangles_tested;
-        pass_on(share, full.record, parameters);
+        spent_ns += cost_ns(full.record.contact.work);
     }
 }
 

@@ -7,7 +7,8 @@
 // made. One turn reads all parts, then ticks and writes one after the other. Each has channels, state, parameters, gate
 // and energy account of its own, so limits, slew and passivity hold for each. The turn's work is bounded as one tick's
 // is: the parts have one period's budget among them (TurnShare). A part for which nothing is left is held over, and the
-// next turn begins with the first such part, so that each gets its turn. A fault of one part gives that part no force,
+// next turn begins with the first part, after the one that this turn began with, whose work did not suffice, so that
+// each gets its turn. A fault of one part gives that part no force,
 // and the others go on; a fault that a part reports as the whole device's (DeviceSample::fault_is_of_all) gives none to
 // any part, in the same turn. Warm-up, idling, late and skipped ticks are the turn's, and so alike for all. In
 // simulated time: advance the clock (and the device, if it does not follow the clock) by a period and call step(); or
@@ -127,9 +128,9 @@ private:
     };
 
     TickRecord turn(Nanoseconds now_ns, Nanoseconds lateness_ns) noexcept;
-    TickRecord tick_part(Part& part, TurnShare& share, Nanoseconds now_ns, Nanoseconds lateness_ns) noexcept;
-    // Ends the share of one part and begins that of the next.
-    void pass_on(TurnShare& share, const TickRecord& record, const TickParameters& next) const noexcept;
+    TickRecord tick_part(Part& part, const TurnShare& share, Nanoseconds now_ns, Nanoseconds lateness_ns) noexcept;
+    // The share of the n-th part of this turn, after what those before it have spent.
+    [[nodiscard]] TurnShare share_of(std::size_t n, double spent_ns, const TickParameters& parameters) const noexcept;
     // The part that is ticked as the n-th of this turn.
     [[nodiscard]] std::size_t in_turn(std::size_t n) const noexcept { return (first_ + n) % parts_.size(); }
     void spread_fault() noexcept;

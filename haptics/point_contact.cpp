@@ -18,6 +18,9 @@ constexpr double kComingBack = 3.0;
 // The share of the spring from which on a part left out of it is told.
 constexpr double kFelt = 0.01;
 
+// The part of a point's share that a look of the watch may cost, at least.
+constexpr double kOfLook = 0.5;
+
 static ProxyBudget less(ProxyBudget budget, const ContactWork& work) {
     budget.max_cost_ns -= cost_ns(work) - WorkCost::kTick_ns;
     return budget;
@@ -56,7 +59,7 @@ void PointContact::stay_with_hand() {
     record_.proxy_object_m = record_.hip_object_m;
 }
 
-void PointContact::touch(bool painting, const ProxyBudget& budget) {
+PointContact::Moved PointContact::touch(bool painting, const ProxyBudget& budget, double needed_ns) {
     const bool was_fitting = state_.placed && state_.unfit_ticks == 0;
     const bool published = state_.surface_sequence != input_.surface.sequence;
     if (!was_fitting) left_out_m_ = 0.0;
@@ -66,7 +69,9 @@ void PointContact::touch(bool painting, const ProxyBudget& budget) {
     const Vec3 before = carried.state.position_object_m;
     ProxyBudget left = bodies_.any() ? less(budget, carried.work) : budget;
     ContactWork watched;
-    if (last_.constraints > 0 && was_fitting) watch(carried.state, watched);
+    const double spare_ns = needed_ns > 0.0 ? left.max_cost_ns - needed_ns : 0.0;
+    if (last_.constraints > 0 && was_fitting)
+        watch(carried.state, std::max(spare_ns, kOfLook * left.max_cost_ns), watched);
     left = less(left, watched);
     const bool caught = input_.parameters.catch_drill && last_.constraints > 0;
     const ProxyResult moved = caught ? as_caught(carried.state) : this->moved(carried.state, settings, left);
@@ -77,16 +82,19 @@ void PointContact::touch(bool painting, const ProxyBudget& budget) {
     count_work(watched, false);
     count_work(carried.work, !carried.complete);
     count_work(moved.work, moved.work_limited);
+    const Moved spent{cost_ns(carried.work) + cost_ns(moved.work) - 2.0 * WorkCost::kTick_ns,
+                      budget.max_cost_ns - cost_ns(watched) + WorkCost::kTick_ns,
+                      moved.work_limited || !carried.complete, moved.coarse};
     if (moved.pushed_out) step_.flags |= kTickPushedOut;
     last_ = {};
     ContactWatch::note(watch_, moved.work_limited);
-    if (ContactWatch::gives_up(watch_)) return let_go();
-    if (state_.unfit_ticks > 0) return;
+    if (ContactWatch::gives_up(watch_)) return let_go(), spent;
+    if (state_.unfit_ticks > 0) return spent;
     record_.proxy_object_m = moved.next.position_object_m;
     const Vec3 reach = record_.proxy_object_m - input_.surface.center_object;
     if (!(std::sqrt(glm::dot(reach, reach)) + reach_m() <= input_.surface.radius_m)) step_.flags |= kTickOutsideKnown;
     if (moved.active_triangle != kNoTriangle) material_ = input_.surface.material(moved.active_triangle);
-    if (!bears(moved.constraints, moved.normal_object)) return;
+    if (!bears(moved.constraints, moved.normal_object)) return spent;
     last_ = {moved.normal_object, moved.constraints};
     if (moved.sticking) step_.flags |= kTickSticking;
     record_.active_triangle = moved.active_triangle;
@@ -97,31 +105,64 @@ void PointContact::touch(bool painting, const ProxyBudget& budget) {
         step_.contact.jumped = true;
     else
         leave_out(unexplained_m(before, carried.unexplained_m, published));
+    return spent;
 }
 
 void PointContact::touch_last_plane() {
     if (!state_.placed || last_.constraints == 0) return;
     ContactWatch::wait(watch_);
     if (ContactWatch::gives_up(watch_)) return let_go();
+    if (carrier_is_gone()) return;
     const std::uint32_t body = bodies_.with_name(state_.carrier);
-    if (state_.carrier != 0 && body == MovingBodies::kNone) return;
     const Vec3 at = state_.carrier != 0 ? bodies_.carried(body, state_.position_object_m) : state_.position_object_m;
-    const Vec3 spring = at - record_.hip_object_m;
-    const double depth = glm::dot(spring, last_.normal_object);
-    if (!(depth > 0.0)) return;
     // The body's unannounced motion since this part's last full tick. It is left out of this tick's force alone;
     // the next full tick enters it into left_out_m_.
     const Vec3 unexplained = state_.carrier != 0 ? bodies_.unexplained(body, at) : Vec3(0.0);
-    if (glm::length(unexplained) > kElsewhere_m * scale()) return;
+    const double added_m = bear_on_last_plane(at, unexplained);
+    if (!in_contact()) return;
+    leave_out(0.0);
+    if (added_m > kJump_m * scale()) left_out_now_m_ = added_m;
+}
+
+void PointContact::wait(const ProxyBudget& budget) {
+    step_.flags |= kTickHeldOver;
+    if (!state_.placed) return;
+    const CarriedProxy carried =
+        carry(state_, bodies_, this->settings(false).contact_radius_m, kElsewhere_m * scale(), budget);
+    const bool carrier_is_gone = this->carrier_is_gone();
+    state_ = carried.state;
+    count_work(carried.work, !carried.complete);
+    if (last_.constraints == 0) return;
+    ContactWatch::wait(watch_);
+    if (ContactWatch::gives_up(watch_)) return let_go();
+    if (carrier_is_gone) return;
+    const double added_m = bear_on_last_plane(state_.position_object_m, carried.unexplained_m);
+    if (in_contact()) leave_out(added_m);
+}
+
+// Tells whether the body that the point touched is no longer there, or was set elsewhere.
+bool PointContact::carrier_is_gone() const {
+    if (state_.carrier == 0) return false;
+    const std::uint32_t body = bodies_.with_name(state_.carrier);
+    if (body == MovingBodies::kNone) return true;
+    const Vec3 at = bodies_.carried(body, state_.position_object_m);
+    return glm::length(bodies_.unexplained(body, at)) > kElsewhere_m * scale();
+}
+
+// Bears the point on the plane of its last contact through the proxy's place. Returns by how much the unannounced
+// motion has lengthened the spring.
+double PointContact::bear_on_last_plane(const Vec3& proxy_object_m, const Vec3& unexplained_m) {
+    const Vec3 spring = proxy_object_m - record_.hip_object_m;
+    const double depth = glm::dot(spring, last_.normal_object);
+    if (!(depth > 0.0)) return 0.0;
     const ProxySettings settings = this->settings(false);
     const Vec3 along = depth * last_.normal_object - spring;
     const double coefficient = state_.slipping ? settings.dynamic_friction : settings.static_friction;
-    record_.proxy_object_m = at + sliding_share(along, depth, coefficient) * along;
-    if (!bears(last_.constraints, last_.normal_object)) return;
-    if (state_.carrier != 0) surface_velocity_device_m_per_s_ = at_device(bodies_.velocity_of_body(state_.carrier, at));
-    leave_out(0.0);
-    const double added_m = glm::dot(unexplained, record_.proxy_object_m - record_.hip_object_m) / record_.penetration_m;
-    if (added_m > kJump_m * scale()) left_out_now_m_ = added_m;
+    record_.proxy_object_m = proxy_object_m + sliding_share(along, depth, coefficient) * along;
+    if (!bears(last_.constraints, last_.normal_object)) return 0.0;
+    if (state_.carrier != 0)
+        surface_velocity_device_m_per_s_ = at_device(bodies_.velocity_of_body(state_.carrier, proxy_object_m));
+    return glm::dot(unexplained_m, record_.proxy_object_m - record_.hip_object_m) / record_.penetration_m;
 }
 
 // Returns the point from which the spring pulls: the bearing point, moved towards the HIP by the length left out.
@@ -247,13 +288,13 @@ void PointContact::let_go() {
 }
 
 // Has the watch look at the contact of the last tick, taken along with the body that it is with.
-void PointContact::watch(const ProxyState& contact, ContactWork& work) {
+void PointContact::watch(const ProxyState& contact, double most_ns, ContactWork& work) {
     const Vec3& origin = input_.surface.origin_object;
     const double felt = felt_radius_m(radius_m(), bodies_.surface().mean_edge_m());
     ContactWatch::look(watch_,
                        {contact.position_object_m - origin, contact.hip_object_m - origin, felt, shape_,
                         step_.next.tool_orientation_object, input_.motion.orientation_object},
-                       bodies_.surface(), work);
+                       bodies_.surface(), work, most_ns);
     if (watch_.doubtful_looks > 0 || watch_.faded_ticks > 0) step_.flags |= kTickDoubted;
 }
 

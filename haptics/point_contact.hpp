@@ -19,10 +19,19 @@ public:
     PointContact(const ProbeInput& input, const ProbeStep& step, const MovingBodies& bodies, std::uint32_t index);
 
     void stay_with_hand();
-    void touch(bool painting, const ProxyBudget& budget);
+    // What moving the proxy has cost and might have, without the watch, and whether it suffices.
+    struct Moved {
+        double cost_ns = 0.0, most_ns = 0.0;
+        bool limited = false, coarse = false;
+    };
+    // needed_ns: what moving the proxy is likely to cost; 0: not known.
+    Moved touch(bool painting, const ProxyBudget& budget, double needed_ns = 0.0);
     // A part that is held over touches the plane of its last contact alone, as that moves with its body, and does not
     // look for others; in free space it waits. Its next tick goes on from where the last one has left the proxy.
     void touch_last_plane();
+    // A point that is held over while others of its part are not: the same, but it goes along with the bodies and out
+    // of their way, for they are not where they were when its turn comes.
+    void wait(const ProxyBudget& budget);
 
     [[nodiscard]] bool in_contact() const { return record_.constraints > 0; }
     // The material touched in the last tick until this one has touched: at a border friction changes a tick late.
@@ -53,10 +62,12 @@ private:
     [[nodiscard]] bool was_put_elsewhere(const ProxyResult& moved, const Vec3& before) const;
     [[nodiscard]] double unexplained_m(const Vec3& before, const Vec3& of_bodies_m, bool published) const;
     void leave_out(double unexplained_m);
+    [[nodiscard]] bool carrier_is_gone() const;
+    [[nodiscard]] double bear_on_last_plane(const Vec3& proxy_object_m, const Vec3& unexplained_m);
     bool bears(std::uint32_t constraints, const Vec3& normal_object);
     [[nodiscard]] ProxyResult as_caught(const ProxyState& state) const;
     void let_go();
-    void watch(const ProxyState& contact, ContactWork& work);
+    void watch(const ProxyState& contact, double most_ns, ContactWork& work);
     void count_work(const ContactWork& work, bool limited);
     [[nodiscard]] double scale() const { return input_.motion.object_from_device.scale; }
     [[nodiscard]] Vec3 at_device(const Vec3& velocity_object_m_per_s) const;

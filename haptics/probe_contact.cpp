@@ -83,10 +83,30 @@ CuttingStep cut_by(PointContact& point, CuttingState& state, const CoupledWall& 
     return step;
 }
 
-// Divides the rest of the tick's work budget among the remaining points.
-ProxyBudget share_of_rest(const ContactRecord& contact, std::uint32_t point, double budget_ns) {
-    const double left_ns = std::max(budget_ns - cost_ns(contact.work), 0.0);
-    return {.max_cost_ns = left_ns / (contact.point_count - point)};
+using PointContacts = std::array<std::optional<PointContact>, kMostProbePoints>;
+
+// Moves the proxies of all points, as far as the tick's work goes.
+void touch_points(PointContacts& points, const ProbeStep& step, const ProbeInput& input, bool painting) {
+    const std::uint32_t count = step.contact.point_count;
+    const double budget = budget_of(input);
+    const auto left_ns = [&] { return std::max(budget - cost_ns(step.contact.work), 0.0); };
+    if (count == 1) {
+        points[0]->touch(painting, {.max_cost_ns = left_ns()});
+        return;
+    }
+    PointQueue queue(step.next.turns, count, budget_ns(input.parameters.work, input.dt_s), left_ns());
+    for (std::uint32_t n = 0; n < count; ++n) {
+        const PointQueue::Turn turn = queue.next(left_ns());
+        PointContact& point = *points[turn.point];
+        if (turn.held_over) {
+            point.wait({.max_cost_ns = turn.share_ns});
+            continue;
+        }
+        const PointContact::Moved moved = point.touch(painting, {.max_cost_ns = turn.share_ns}, turn.needed_ns);
+        // What was stopped by something else than its work, as by its number of steps, has not fallen short.
+        constexpr double kSpent = 0.5;
+        queue.served(turn, moved.cost_ns, moved.coarse || (moved.limited && moved.cost_ns >= kSpent * moved.most_ns));
+    }
 }
 
 // The mean velocity of the surfaces touched, weighted by the forces: exact for one point, and for several whose forces
@@ -128,15 +148,17 @@ void touch_surface(const ProbeStep& step, const ProbeInput& input) noexcept {
     if (held_over) unnoticed = step.next.bodies;
     const MovingBodies bodies(held_over ? unnoticed : step.next.bodies, input.surface, input.now_ns,
                               longest_s > 0.0 ? longest_s : kLongestFollowed_s);
-    std::array<std::optional<PointContact>, kMostProbePoints> points;
-    Touching touching;
-    const double budget = budget_of(input);
+    PointContacts points;
     for (std::uint32_t i = 0; i < contact.point_count; ++i) {
         points[i].emplace(input, step, bodies, i);
-        if (held_over)
-            points[i]->touch_last_plane();
-        else
-            points[i]->touch(painting, share_of_rest(contact, i, budget));
+        if (held_over) points[i]->touch_last_plane();
+    }
+    if (held_over)
+        wait(step.next.turns);
+    else
+        touch_points(points, step, input, painting);
+    Touching touching;
+    for (std::uint32_t i = 0; i < contact.point_count; ++i) {
         if (!points[i]->in_contact()) continue;
         ++touching.points;
         if (contact.point_count > 1 || points[i]->has_shape()) touching.squared_arms_m2 += points[i]->squared_arm_m2();

@@ -7,6 +7,7 @@
 #include "haptics/contact/contact_watch.hpp"
 #include "haptics/contact/god_object.hpp"
 #include "haptics/contact/moving_bodies.hpp"
+#include "haptics/contact/point_turns.hpp"
 #include "haptics/forces/cutting.hpp"
 
 namespace burin::haptics {
@@ -27,6 +28,7 @@ struct ProbeState {
     std::array<LastContact, kMostProbePoints> contacts{};
     std::array<double, kMostProbePoints> left_out_m{};
     Quat tool_orientation_object{1.0, 0.0, 0.0, 0.0};  // of a tool's shape at its proxy
+    PointTurns turns;
     CuttingState cutting;
     BodiesState bodies;
     std::uint64_t placement = 0;  // number of the last ProxyPlacement that acted

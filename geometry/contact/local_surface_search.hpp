@@ -18,9 +18,10 @@ bool for_each_near_in_mesh(const TouchSnapshot& snapshot, const Vec3& shift, std
     for (Vec3* const place : {&shifted.lo, &shifted.hi, &shifted.from, &shifted.to}) *place -= shift;
     const auto triangle = [&](std::uint32_t i, const Triangle& t) {
         near.looks_left = shifted.looks_left;
-        if (!visit.triangle(first + i, Triangle{t.a + shift, t.b + shift, t.c + shift})) return false;
+        const bool goes_on = visit.triangle(first + i, Triangle{t.a + shift, t.b + shift, t.c + shift});
         shifted.reach_m = near.reach_m;
-        return true;
+        shifted.looks_left = near.looks_left;
+        return goes_on;
     };
     bool all = false;
     if constexpr (Visitor::kWantsPoints)
@@ -55,10 +56,11 @@ bool for_each_near_in_posed_mesh(const TouchSnapshot& snapshot, const Pose& pose
     turned.reach_m = widened(near.reach_m);
     const auto triangle = [&](std::uint32_t i, const Triangle& t) {
         near.looks_left = turned.looks_left;
-        if (!visit.triangle(first + i, Triangle{turn * t.a + offset, turn * t.b + offset, turn * t.c + offset}))
-            return false;
+        const Triangle moved{turn * t.a + offset, turn * t.b + offset, turn * t.c + offset};
+        const bool goes_on = visit.triangle(first + i, moved);
         turned.reach_m = widened(near.reach_m);
-        return true;
+        turned.looks_left = near.looks_left;
+        return goes_on;
     };
     bool all = false;
     if constexpr (Visitor::kWantsPoints) {
@@ -86,10 +88,10 @@ bool for_each_near_of_mesh(const PosedSurface& posed, std::uint32_t index, std::
 }
 
 // Visits the triangles within near.reach_m of the box [near.lo, near.hi], each once, and some a little farther off, but
-// no degenerate one: visit.triangle(id, triangle). It may reduce near.reach_m for the triangles that follow. Where the
-// visitor wants points and the surface is fine, visits the vertices near the segment of the query instead:
-// visit.point(point). The order depends only on the surface and the query. Ends and returns false when a visit returns
-// false, or when near.looks_left is used up.
+// no degenerate one: visit.triangle(id, triangle). It may reduce near.reach_m and near.looks_left for the triangles
+// that follow. Where the visitor wants points and the surface is fine, visits the vertices near the segment of the
+// query instead: visit.point(point). The order depends only on the surface and the query. Ends and returns false when a
+// visit returns false, or when near.looks_left is used up.
 template <typename Visitor>
 bool for_each_near(const PosedSurface& posed, Near& near, const Visitor& visit) {
     const LocalSurface& surface = posed.surface();

@@ -74,6 +74,7 @@ public:
     }
     // Number of times that the distances of four triangles were computed since gather().
     [[nodiscard]] std::uint32_t fours_measured() const noexcept { return fours_.measured(); }
+    void measure_at_most(std::uint32_t fours) noexcept { fours_.measure_at_most(fours); }
 
     // Calls visit(candidate) for the candidates within reach of a covered centre, and for those beyond by no more than
     // rounding. Stops and returns false when visit returns false.

@@ -28,16 +28,24 @@ bool is_beyond(const geometry::Triangle& t, const Vec3& center, double reach_m) 
     return glm::dot(off, off) > most * most;
 }
 
+// The work of a look, and what it may cost.
+struct LookWork {
+    ContactWork& done;
+    double most_ns;
+
+    [[nodiscard]] double left_ns() const { return most_ns + WorkCost::kTick_ns - cost_ns(done); }
+};
+
 // With a step, looks at all triangles in reach, else for the nearest one alone.
 Seen look_around(const Vec3& center, double reach_m, const Vec3& step, const geometry::PosedSurface& surface,
-                 ContactWork& work) {
+                 const LookWork& work) {
     Seen seen;
     const bool only_nearest = step == Vec3(0.0);
     geometry::Near near{.lo = center, .hi = center, .reach_m = reach_m, .by_way = true, .from = center, .to = center};
-    near.looks_left = ContactWatch::kMostLooks;
+    SearchWork paid(work.left_ns(), ContactWatch::kMostLooks, near.looks_left);
     seen.complete = geometry::for_each_triangle_near(surface, near, [&](std::uint32_t id, const geometry::Triangle& t) {
         if (is_beyond(t, center, near.reach_m)) return true;
-        ++work.triangles_tested;
+        if (!paid.pay_test()) return false;
         const Vec3 off = center - nearest_on_triangle(center, t).point;
         const double distance_m = glm::length(off);
         if (distance_m > reach_m) return true;
@@ -55,12 +63,13 @@ Seen look_around(const Vec3& center, double reach_m, const Vec3& step, const geo
         if (only_nearest) near.reach_m = std::min(near.reach_m, seen.distance_m * (1.0 + kWatchTie));
         return true;
     });
-    work.triangles_seen += ContactWatch::kMostLooks - near.looks_left;
+    work.done.triangles_tested += paid.tests();
+    work.done.triangles_seen += paid.looks();
     return seen;
 }
 
 // Outside of all material, with the ball clear of it. Looked for in balls that double, as far as the looks suffice.
-bool is_free(const Vec3& hand, double radius_m, const geometry::PosedSurface& surface, ContactWork& work) {
+bool is_free(const Vec3& hand, double radius_m, const geometry::PosedSurface& surface, const LookWork& work) {
     const Box all = geometry::bounds(surface);
     const double everything = glm::length(glm::max(glm::abs(hand - all.lo), glm::abs(hand - all.hi)));
     for (double reach_m = radius_m;; reach_m *= 2.0) {
@@ -74,23 +83,34 @@ bool is_free(const Vec3& hand, double radius_m, const geometry::PosedSurface& su
 }
 
 // Where the tests do not suffice the tool counts as clear, as a ball does.
-bool is_free(const PosedShape& tool, const geometry::PosedSurface& surface, ContactWork& work) {
-    return touches_something(tool, surface, work) != Held::yes &&
+bool is_free(const PosedShape& tool, const geometry::PosedSurface& surface, const LookWork& work) {
+    return touches_something(tool, surface, work.done) != Held::yes &&
            is_free(tool.inside(), 0.1 * tool.shape.size_m, surface, work);
 }
 
 // Whether a tool's contact is found wanting while the hand is clear.
 bool is_doubtful(const ContactWatch::Contact& contact, const Vec3& way, bool falls_behind,
-                 const geometry::PosedSurface& surface, ContactWork& work) {
-    const Held held = is_held({*contact.shape, contact.proxy_m, contact.proxy_orientation}, way, surface, work);
+                 const geometry::PosedSurface& surface, const LookWork& work) {
+    const Held held = is_held({*contact.shape, contact.proxy_m, contact.proxy_orientation}, way, surface, work.done);
     return (falls_behind || held == Held::no) &&
            is_free({*contact.shape, contact.hand_m, contact.hand_orientation}, surface, work);
+}
+
+// Whether a ball's contact is seen not to be one.
+bool is_unsound(const ContactWatch::Contact& contact, const Vec3& step, const geometry::PosedSurface& surface,
+                const LookWork& work) {
+    const double radius_m = contact.radius_m;
+    const Seen seen = look_around(contact.proxy_m, ContactWatch::kTouching * radius_m, step, surface, work);
+    const bool fits = seen.distance_m >= (1.0 - ContactWatch::kDeep) * radius_m && seen.height_m >= 0.0;
+    const bool in_the_way = seen.distance_m - seen.ahead_m > ContactWatch::kInTheWay * glm::length(step);
+    return seen.complete && !(fits && in_the_way);
 }
 
 }  // namespace
 
 void ContactWatch::look(WatchState& state, const Contact& contact, const geometry::PosedSurface& surface,
-                        ContactWork& work) noexcept {
+                        ContactWork& done, double most_ns) noexcept {
+    const LookWork work{done, most_ns + cost_ns(done) - WorkCost::kTick_ns};
     if (state.ticks_to_look > 0) {
         --state.ticks_to_look;
         return;
@@ -106,11 +126,7 @@ void ContactWatch::look(WatchState& state, const Contact& contact, const geometr
         state.doubtful_looks = doubtful ? std::min(state.doubtful_looks + 1, kLooks) : 0;
         return;
     }
-    const Seen seen = look_around(contact.proxy_m, kTouching * radius_m, (step_m / pull_m) * pull, surface, work);
-    const bool fits = seen.distance_m >= (1.0 - kDeep) * radius_m && seen.height_m >= 0.0;
-    const bool in_the_way = seen.distance_m - seen.ahead_m > kInTheWay * step_m;
-    const bool sound = fits && in_the_way;
-    const bool doubtful = falls_behind || (seen.complete && !sound);
+    const bool doubtful = falls_behind || is_unsound(contact, (step_m / pull_m) * pull, surface, work);
     if (doubtful && is_free(contact.hand_m, radius_m, surface, work))
         state.doubtful_looks = std::min(state.doubtful_looks + 1, kLooks);
     else

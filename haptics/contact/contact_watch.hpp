@@ -14,8 +14,9 @@
 // kInterval kLooks + kFade = 56 ticks after the hand has come free. A look that finds the contact sound, or the hand
 // not free, takes the doubt back. What it does not end: a contact that is sound although the hand is in free air, such
 // as one with a wall, or the rim of a hole too narrow for the ball, between proxy and hand. Cost: a look each kInterval
-// ticks in contact, of at most kMostLooks triangles for each query; where these do not suffice, the query says nothing.
-// Its work is counted. Frame: relative to the surface's origin, metres. No heap, lock, throw.
+// ticks in contact, of at most kMostLooks triangles for each query, and of no more work than it is given; where these
+// do not suffice, the query says nothing. Its work is counted. Frame: relative to the surface's origin, metres. No
+// heap, lock, throw.
 #pragma once
 
 #include <cstdint>
@@ -37,6 +38,7 @@ class ContactWatch {
 public:
     static constexpr std::uint32_t kInterval = 12, kShort = 8, kLooks = 3, kFade = 20;
     static constexpr std::uint32_t kMostLooks = 2000;
+    static constexpr double kUnbounded_ns = 1e12;
     // Multiples of the radius: the farthest a touched surface may be, and the deepest it may be in the ball. A ball on
     // very fine triangles sinks in by up to a tenth of its radius (touching.cpp).
     static constexpr double kTouching = 1.15, kDeep = 0.2;
@@ -53,13 +55,13 @@ public:
         Quat proxy_orientation{1.0, 0.0, 0.0, 0.0}, hand_orientation{1.0, 0.0, 0.0, 0.0};
     };
 
-    // Looks, where a look is due, and adds its work. Call it once a tick in contact, before the proxy moves.
+    // Looks, where a look is due, and adds its work, which costs at most most_ns. Call it once a tick in contact,
+    // before the proxy moves.
     static void look(WatchState& state, const Contact& contact, const geometry::PosedSurface& surface,
-                     ContactWork& work) noexcept;
-    // Lets a tick pass in which nothing is searched. After it a look is due: such ticks are many where they come at
-    // all.
+                     ContactWork& work, double most_ns = kUnbounded_ns) noexcept;
+    // Lets a tick pass in which nothing is searched.
     static void wait(WatchState& state) noexcept {
-        state.ticks_to_look = 0;
+        if (state.ticks_to_look > 0) --state.ticks_to_look;
         if (state.short_ticks > 0) ++state.short_ticks;
     }
     // Notes what the search has done in this tick.

@@ -7,6 +7,7 @@
 // smaller by this factor. What is left when the budget is used up goes on in the next tick.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 namespace burin::haptics {
@@ -54,6 +55,37 @@ struct WorkCost {
            WorkCost::kPiece_ns * work.pieces + WorkCost::kTerm_ns * work.cutting_terms +
            WorkCost::kSupport_ns * work.supports;
 }
+
+// The looks and the exact tests of one search, paid from one budget: each test leaves the search fewer looks. Refers to
+// the looks left of the search (geometry::Near::looks_left), which must outlive it.
+class SearchWork {
+public:
+    SearchWork(double budget_ns, std::uint32_t most_looks, std::uint32_t& looks_left) noexcept
+        : budget_ns_(budget_ns), looks_left_(looks_left) {
+        looks_left_ = std::min(most_looks, looks_in(budget_ns));
+        began_with_ = looks_left_;
+    }
+    // Counts a test; false: nothing is left for it.
+    [[nodiscard]] bool pay_test() noexcept {
+        const double left_ns = budget_ns_ - WorkCost::kTest_ns * (tests_ + 1) - WorkCost::kLook_ns * looks();
+        if (left_ns < 0.0) return false;
+        ++tests_;
+        const std::uint32_t affordable = std::min(looks_in(left_ns), looks_left_);
+        taken_away_ += looks_left_ - affordable;
+        looks_left_ = affordable;
+        return true;
+    }
+    [[nodiscard]] std::uint32_t looks() const noexcept { return began_with_ - taken_away_ - looks_left_; }
+    [[nodiscard]] std::uint32_t tests() const noexcept { return tests_; }
+
+private:
+    [[nodiscard]] static std::uint32_t looks_in(double ns) noexcept {
+        return static_cast<std::uint32_t>(std::clamp(ns / WorkCost::kLook_ns, 0.0, 4e9));
+    }
+    double budget_ns_;
+    std::uint32_t& looks_left_;
+    std::uint32_t began_with_ = 0, taken_away_ = 0, tests_ = 0;
+};
 
 // What a tick may spend on contact.
 struct WorkSettings {

@@ -102,6 +102,7 @@ public:
         if (!begin(state)) return limited();
         began_ = center_;
         for (;;) {
+            if (!search_.has_work_for(WorkCost::kStep_ns)) return limited();
             ++result_.work.steps;
             Goal goal = aim();
             if (!goal.found) goal = creep();
@@ -447,6 +448,7 @@ private:
         result_.next.leeway_m = leeway_;
         result_.next.step_share = step_share_.last();
         result_.next.stride = search_.next_stride();
+        result_.coarse = search_.was_coarse();
     }
 
     ProxySettings settings_;

@@ -78,6 +78,7 @@ struct ProxyResult {
     std::uint32_t constraints = 0;                // active planes, 0 to 3
     bool pushed_out = false;
     bool work_limited = false;
+    bool coarse = false;  // the work did not suffice for the whole way at once, or for each triangle and vertex
     ContactWork work;
 };
 

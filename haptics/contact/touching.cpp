@@ -47,8 +47,9 @@ bool ContactSearch::broad_phase(const Way& way) noexcept {
     double slack = kBesideOfRadius * radius_ + kBesideOfEdge * edge + kBesideOfWay * share * length;
     constexpr int kMostTries = 6;
     for (int tries = 1; tries <= kMostTries; ++tries) {
-        // A part of what is left for each try, so that a lesser one is still possible.
-        const double allowed_ns = (tries < kMostTries ? 0.4 : 1.0) * left_ns();
+        // A part of what is left for each try, so that a lesser one is still possible. It goes into looks, triangles
+        // and vertices, for half of it each: of the last try, too, all three together cost no more than is left.
+        const double allowed_ns = (tries < kMostTries ? 0.4 : 0.6) * left_ns();
         const std::uint32_t most_looks = times(0.5 * allowed_ns, WorkCost::kLook_ns);
         std::uint32_t looks_left = most_looks;
         Candidates::Query query{{way.from, way.from + share * motion}, radius_, slack, fineness_};
@@ -61,6 +62,7 @@ bool ContactSearch::broad_phase(const Way& way) noexcept {
         fours_before_ = work_.fours_measured;
         std::fill_n(touches_already_.begin(), candidates_.triangles(), false);
         std::fill_n(touches_already_.begin() + Candidates::kMost, candidates_.points(), false);
+        was_coarse_ = was_coarse_ || found != Candidates::Gathered::all || fineness_.stride > 1;
         if (found == Candidates::Gathered::all) return true;
         // Over a shorter way, and more coarsely.
         share *= 0.25;
@@ -71,6 +73,16 @@ bool ContactSearch::broad_phase(const Way& way) noexcept {
     }
     return false;
 }
+
+bool ContactSearch::count_fours_and_test() noexcept {
+    count_fours();
+    if (left_ns() < WorkCost::kTest_ns) return false;
+    ++work_.triangles_tested;
+    bound_fours();
+    return true;
+}
+
+void ContactSearch::bound_fours() noexcept { candidates_.measure_at_most(times(left_ns(), WorkCost::kFour_ns)); }
 
 double ContactSearch::known_share(const Vec3& center, const Vec3& motion) const noexcept {
     double share = 1.0;  // the covered region is convex, so a covered end point covers the whole segment
@@ -133,11 +145,12 @@ ContactSearch::Touching ContactSearch::touching(const Vec3& center, Touches& tou
     for (std::uint32_t i = 0; i < touches.count; ++i)  // those of earlier broad phases too; clearing twice does no harm
         touches_already_[touches.places[i].candidate] = false;
     touches.count = 0;
+    bound_fours();
     result.complete = candidates_.for_each_at(center, radius_ * (1.0 + kTouch), [&](std::uint32_t candidate) {
         if (Candidates::is_point(candidate)) return touch_point(candidate, center, result, touches);
-        return count_test() && touch_triangle(candidate, center, result, touches);
+        return count_fours_and_test() && touch_triangle(candidate, center, result, touches);
     });
-    work_.fours_measured = fours_before_ + candidates_.fours_measured();
+    count_fours();
     return result;
 }
 
@@ -145,6 +158,7 @@ ContactSearch::Sweep ContactSearch::sweep(const Vec3& center, const Vec3& motion
     Sweep result;
     const double radius = radius_ * (1.0 - 2.0 * kTouch);
     const Way way{center, center + motion};
+    bound_fours();
     result.complete = candidates_.for_each_on_way(way, radius, [&](std::uint32_t candidate) {
         if (touches_already_[candidate]) return true;
         double fraction = 0.0;
@@ -152,7 +166,7 @@ ContactSearch::Sweep ContactSearch::sweep(const Vec3& center, const Vec3& motion
             const geometry::SurfacePoint& point = candidates_.point(candidate);
             fraction = fraction_until_touch(center, motion, radius, point.position, point.normal());
         } else {
-            if (!count_test()) return false;
+            if (!count_fours_and_test()) return false;
             const geometry::Triangle& t = candidates_.triangle(candidate);
             const bool from_back =
                 candidates_.two_sided(candidate) && glm::dot(center - t.a, glm::cross(t.b - t.a, t.c - t.a)) < 0.0;
@@ -161,7 +175,7 @@ ContactSearch::Sweep ContactSearch::sweep(const Vec3& center, const Vec3& motion
         result.fraction = std::min(result.fraction, fraction);
         return true;
     });
-    work_.fours_measured = fours_before_ + candidates_.fours_measured();
+    count_fours();
     return result;
 }
 
@@ -176,30 +190,35 @@ std::uint32_t ContactSearch::triangle_at(const Vec3& vertex) const noexcept {
 
 Nearest ContactSearch::nearest(const Vec3& center, double most) noexcept {
     Nearest result;
-    geometry::Near near{.lo = center, .hi = center, .by_way = true, .from = center, .to = center};
-    const auto visit = [&](std::uint32_t id, const geometry::Triangle& t) {
-        if (beside(t, {center, center}, result.distance * (1.0 + kTie))) return true;
-        if (!count_test()) return false;
-        const NearestOnTriangle on = nearest_on_triangle(center, t);
-        const Vec3 off = center - on.point;
-        Vec3 normal = outward_normal(t);
-        if (glm::dot(off, normal) < 0.0 && surface_.two_sided(id)) normal = -normal;
-        keep_nearest(result, {std::sqrt(glm::dot(off, off)), glm::dot(off, normal), on.point, normal});
-        near.reach_m = std::min(near.reach_m, result.distance * (1.0 + kTie));
-        return true;
-    };
     const Box all = geometry::bounds(surface_);
     const Vec3 span = glm::max(glm::abs(center - all.lo), glm::abs(center - all.hi));
     const double everything = std::min(most, std::max({span.x, span.y, span.z}));
     // Starts a little above the radius: after a cut the surface is just out of contact.
     for (double reach = std::max(1.1 * radius_, 2.0 * surface_.mean_edge_m());; reach *= 2.0) {
-        near.reach_m = reach;
-        const std::uint32_t most_looks = near.looks_left = times(left_ns(), WorkCost::kLook_ns);
-        const bool complete = geometry::for_each_triangle_near(surface_, near, visit);
-        work_.triangles_seen += most_looks - near.looks_left;
-        if (!complete) return {};
+        if (!keep_nearest_within(result, center, reach)) return {};
         if (result.distance <= reach || reach >= everything) return result;
     }
+}
+
+// Returns false when the tick's work budget is used up.
+bool ContactSearch::keep_nearest_within(Nearest& best, const Vec3& center, double reach) noexcept {
+    geometry::Near near{.lo = center, .hi = center, .reach_m = reach, .by_way = true, .from = center, .to = center};
+    SearchWork paid(left_ns(), UINT32_MAX, near.looks_left);
+    const bool complete =
+        geometry::for_each_triangle_near(surface_, near, [&](std::uint32_t id, const geometry::Triangle& t) {
+            if (beside(t, {center, center}, best.distance * (1.0 + kTie))) return true;
+            if (!paid.pay_test()) return false;
+            const NearestOnTriangle on = nearest_on_triangle(center, t);
+            const Vec3 off = center - on.point;
+            Vec3 normal = outward_normal(t);
+            if (glm::dot(off, normal) < 0.0 && surface_.two_sided(id)) normal = -normal;
+            keep_nearest(best, {std::sqrt(glm::dot(off, off)), glm::dot(off, normal), on.point, normal});
+            near.reach_m = std::min(near.reach_m, best.distance * (1.0 + kTie));
+            return true;
+        });
+    work_.triangles_tested += paid.tests();
+    work_.triangles_seen += paid.looks();
+    return complete;
 }
 
 bool ContactSearch::sees_backs(const Vec3& center, double reach) noexcept {

@@ -107,15 +107,18 @@ public:
     [[nodiscard]] std::uint32_t triangle_at(const Vec3& vertex) const noexcept;
 
     [[nodiscard]] const Candidates& candidates() const noexcept { return candidates_; }
+    // Whether some broad phase covered less than it was asked for, or more coarsely.
+    [[nodiscard]] bool was_coarse() const noexcept { return was_coarse_; }
+    [[nodiscard]] bool has_work_for(double cost_ns) const noexcept { return left_ns() >= cost_ns; }
 
 private:
-    [[nodiscard]] bool count_test() noexcept {
-        if (left_ns() <= 0.0) return false;
-        ++work_.triangles_tested;
-        return true;
-    }
+    // Counts an exact test, and what was measured before it, if the work suffices.
+    [[nodiscard]] bool count_fours_and_test() noexcept;
+    void count_fours() noexcept { work_.fours_measured = fours_before_ + candidates_.fours_measured(); }
+    void bound_fours() noexcept;
     [[nodiscard]] double left_ns() const noexcept { return budget_.max_cost_ns - cost_ns(work_); }
     void keep_nearest(Nearest& best, const Nearest& other) const noexcept;
+    [[nodiscard]] bool keep_nearest_within(Nearest& best, const Vec3& center, double reach) noexcept;
     [[nodiscard]] bool touch_triangle(std::uint32_t candidate, const Vec3& center, Touching& result,
                                       Touches& touches) noexcept;
     [[nodiscard]] bool touch_point(std::uint32_t candidate, const Vec3& center, Touching& result,
@@ -127,6 +130,7 @@ private:
     ProxyBudget budget_;
     ContactWork& work_;
     int looks_taken_ = 0;
+    bool was_coarse_ = false;
     Candidates candidates_;
     geometry::Fineness fineness_;
     std::uint32_t fours_before_ = 0;                           // measured in earlier broad phases

@@ -19,6 +19,7 @@ void TriangleFours::begin(const Vec3& origin, double reach_m, double usual_edge_
     size_ = static_cast<float>(0.6 * usual_edge_m);  // circumscribed ball of an equilateral triangle
     travel_ = 0.0f;
     count_ = measured_ = 0;
+    most_measured_ = kNoLimit;
 }
 
 TriangleBall TriangleFours::ball_around(const geometry::Triangle& t) const noexcept {

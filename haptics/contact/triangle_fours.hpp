@@ -74,7 +74,7 @@ struct TriangleBall {
 
 class TriangleFours {
 public:
-    static constexpr std::uint32_t kMost = 4096;
+    static constexpr std::uint32_t kMost = 4096, kNoLimit = 0xffffffffu;
 
     // Leaves the array uninitialized: zeroing it would cost more than filling it.
     TriangleFours() noexcept {}
@@ -92,6 +92,10 @@ public:
     [[nodiscard]] float rounding() const noexcept { return rounding_; }
     // Number of times that the distances of four triangles were computed since begin().
     [[nodiscard]] std::uint32_t measured() const noexcept { return measured_; }
+    // Lets the next queries compute so many at most; one that would need more stops and returns false.
+    void measure_at_most(std::uint32_t count) noexcept {
+        most_measured_ = count < kNoLimit - measured_ ? measured_ + count : kNoLimit;
+    }
 
     // Calls visit(i) for the triangles within reach of a centre, and for those beyond by no more than rounding. Stops
     // and returns false when visit returns false.
@@ -186,6 +190,7 @@ private:
     template <typename IsNear, typename Visit>
     bool for_each_of(IsNear&& is_near, Visit&& visit) {
         for (std::uint32_t first = 0; first < count_; first += geometry::kLanes) {
+            if (measured_ >= most_measured_) return false;
             const geometry::LaneMask near = is_near(fours_[first / geometry::kLanes]);
             if (!geometry::any(near)) continue;
             for (std::uint32_t k = 0; k < geometry::kLanes; ++k)
@@ -199,7 +204,7 @@ private:
     float size_ = 0.0f;      // usual radius of the bounding balls
     Vec3 center_{0.0};       // of the ball at the last query
     float travel_ = 0.0f;    // length of its way since begin()
-    std::uint32_t count_ = 0, measured_ = 0;
+    std::uint32_t count_ = 0, measured_ = 0, most_measured_ = kNoLimit;
     std::array<TriangleFour, kMost / geometry::kLanes> fours_;
 };
 

@@ -315,9 +315,9 @@ TEST(Parts, TogetherDoNoMoreWorkInATurnThanOneMayAlone) {
                     limited += (r.flags & kTickWorkLimited) != 0 ? 1 : 0;
                     spent_ns += cost_ns(r.contact.work);
                 }
-                // What each costs that does nothing; and looks of the watch, which has its own measure.
+                // What each costs that does nothing.
                 const double idle_ns = WorkCost::kTick_ns * static_cast<double>(count - 1);
-                ASSERT_LE(spent_ns, count > 1 ? 1.5 * budget + idle_ns : budget) << count << " parts";
+                ASSERT_LE(spent_ns, budget + idle_ns) << count << " parts";
                 for (std::size_t n = 0; n < count; ++n) {
                     const std::size_t i = (n + first) % count;
                     waits[i] = records[n].turn.held_over ? waits[i] + 1 : 0;
