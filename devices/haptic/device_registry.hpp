@@ -18,8 +18,11 @@ namespace burin::devices {
 
 // What a device needs of the program. The clock must outlive the device.
 struct HapticHost {
-    Clock& clock;
-    OmniHand hand;  // what holds the stylus of a simulated device; others have a hand of their own
+    Clock& clock;   // of a device that is there it must be the machine's
+    OmniHand hand;  // what holds the stylus of a simulated device, and leads the palm of a glove
+    // A recording is done again, and no device is looked for: whatever there is stands in for one, with the same
+    // description. Its samples are the recording's.
+    bool stands_in = false;
 };
 
 struct HapticKind {

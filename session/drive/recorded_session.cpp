@@ -121,8 +121,10 @@ Result<void> check_screens(const Presenter& presenter, const ThreadLog& log, con
 
 }  // namespace
 
-Result<void> replay_as_recorded(const SculptOptions& options, const SessionWall& wall, InputLog log,
+Result<void> replay_as_recorded(const SculptOptions& given, const SessionWall& wall, InputLog log,
                                 const ReplayManner& manner) {
+    SculptOptions options = given;
+    options.live.stands_in = true;
     const ThreadLog threads = std::move(*log.threads);
     const std::string& name = options.live.input;
     InputSource input = InputSource::replay(std::move(log));
