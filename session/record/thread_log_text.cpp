@@ -15,7 +15,7 @@ namespace {
 constexpr double kMostSteps = 1e9;
 // Between updates, as a part of the format: whatever the scene's period is, files stay readable.
 constexpr Nanoseconds kBetweenUpdates_ns = 10'000'000;
-constexpr std::int64_t kMostHands = 16, kMostParts = 16;
+constexpr std::int64_t kMostHandsInALine = 16, kMostParts = 16;
 // Largest change of a sequence, a tick's number or a position in steps.
 constexpr std::int64_t kMostChange = 1'000'000'000;
 constexpr std::array<char, 3> kSteps = {'x', 'y', 'z'}, kMetres = {'X', 'Y', 'Z'};
@@ -195,7 +195,7 @@ std::optional<scene::SceneUpdate> UpdateText::read(std::string_view& text) {
     update.time_ns += kBetweenUpdates_ns + fields.change(-kLongestSession_ns, kLongestSession_ns);
     for (std::size_t hand = 0; fields.ok();) {
         const bool names_hand = fields.takes('h');
-        if (names_hand) hand = static_cast<std::size_t>(fields.change(1, kMostHands - 1));
+        if (names_hand) hand = static_cast<std::size_t>(fields.change(1, kMostHandsInALine - 1));
         if (!fields.takes('t')) {
             fields.require(!names_hand);
             break;
