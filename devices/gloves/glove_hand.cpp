@@ -10,9 +10,7 @@ namespace {
 Quat about_x(double angle_rad) { return glm::angleAxis(angle_rad, Vec3(1.0, 0.0, 0.0)); }
 
 // The thumb stands across the palm and faces the fingers.
-Quat thumb_turn() {
-    return glm::angleAxis(1.1, Vec3(0.0, 0.0, 1.0)) * glm::angleAxis(-1.2, Vec3(0.0, 1.0, 0.0));
-}
+Quat thumb_turn() { return glm::angleAxis(1.1, Vec3(0.0, 0.0, 1.0)) * glm::angleAxis(-1.2, Vec3(0.0, 1.0, 0.0)); }
 
 }  // namespace
 

@@ -97,9 +97,14 @@ Result<std::unique_ptr<TickSource>> ticks_for(LiveSession& session, const Thread
         source = std::move(*columns);
     }
     const std::size_t parts = session.hands().parts();
-    const bool frames_agree =
-        std::ranges::all_of(log.frames, [&](const FrameSeen& seen) { return seen.ticks.size() == parts; });
-    if (source->parts() == parts && frames_agree) return source;
+    const auto other =
+        std::ranges::find_if(log.frames, [&](const FrameSeen& seen) { return seen.ticks.size() != source->parts(); });
+    if (other != log.frames.end())
+        return fail(name + ":" + std::to_string(other->line),
+                    "names the ticks of so many parts of hands: " + std::to_string(other->ticks.size()) +
+                        ", and the recording has " + std::to_string(source->parts()),
+                    "replay it as it was recorded: a text log holds one part, a session file all");
+    if (source->parts() == parts) return source;
     return fail(name,
                 "has the ticks of so many parts of hands: " + std::to_string(source->parts()) +
                     ", and this session's devices have " + std::to_string(parts),

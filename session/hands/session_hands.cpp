@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/text.hpp"
-#include "devices/haptic/device_registry.hpp"
+#include "devices/registry/device_registry.hpp"
 
 namespace burin::session {
 

@@ -24,7 +24,7 @@ namespace burin::session {
 // Which device is whose, and where a simulated hand rests in it.
 struct HandToOpen {
     std::string name;    // "right"; empty for the only hand
-    std::string device;  // by its name (devices/haptic/device_registry.hpp)
+    std::string device;  // by its name (devices/registry/device_registry.hpp)
     Pose rest_device;
 };
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/haptic/device_registry.hpp"
+#include "devices/registry/device_registry.hpp"
 #include "sculpt/feel_options.hpp"
 #include "sculpt/tool_options.hpp"
 #include "sculpt/workpiece.hpp"

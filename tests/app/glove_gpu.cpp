@@ -17,7 +17,9 @@ TEST(GloveSession, IsRecordedWithFourFingersAndDoneAgainToTheBitWithoutTheGlove)
     at.write("s.txt", "burin-input 1 a glove\n0.1 mouse 160 90\n0.5 mouse 150 100\n2.5 close\n");
     // The emulated glove ends by itself, whatever becomes of the session.
     const auto recorded =
-        at.run("(" + burin + " glove emulate --seconds 30 > port.txt &) ; while ! test -s port.txt; do sleep 0.05; done; " +
+        at.run("(" + burin +
+               " glove emulate --seconds 30 > port.txt &) ; "
+               "while ! test -s port.txt; do sleep 0.05; done; " +
                burin + " world " + kSessionsFolder + "/../worlds/garden.toml --device glove:$(cat port.txt) " +
                "--input s.txt --offscreen --width 320 --height 180 --record g.session");
     ASSERT_EQ(recorded.status, 0) << recorded.output;

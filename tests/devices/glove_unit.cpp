@@ -9,7 +9,7 @@
 
 #include "devices/emulators/emulated_glove.hpp"
 #include "devices/gloves/glove_device.hpp"
-#include "devices/haptic/device_registry.hpp"
+#include "devices/registry/device_registry.hpp"
 
 namespace burin::devices {
 namespace {

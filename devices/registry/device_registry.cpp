@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "devices/haptic/device_registry.hpp"
+#include "devices/registry/device_registry.hpp"
 
 #include <algorithm>
 #include <array>
