@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The registry of all force-feedback devices that there are. To add one, write its source beside
-// devices/haptic/simulated_omni.cpp and enter it in the table of device_registry.cpp: the help of --device and its parsing read that table.
+// devices/haptic/simulated_omni.cpp and enter it in the table of device_registry.cpp: the help of --device and its
+// parsing read that table.
 // Thread: the one that opens the session.
 #pragma once
 
