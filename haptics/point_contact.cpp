@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "haptics/contact/friction.hpp"
+#include "haptics/contact/setting.hpp"
 #include "haptics/contact/touching.hpp"
 
 namespace burin::haptics {
@@ -18,6 +19,8 @@ constexpr double kComingBack = 3.0;
 // The share of the spring from which on a part left out of it is told.
 constexpr double kFelt = 0.01;
 
+// The part of a point's share that tried places may cost, so that it can go on from the one that is found.
+constexpr double kOfStart = 0.6;
 // The part of a point's share that a look of the watch may cost, at least.
 constexpr double kOfLook = 0.5;
 
@@ -74,7 +77,7 @@ PointContact::Moved PointContact::touch(bool painting, const ProxyBudget& budget
         watch(carried.state, std::max(spare_ns, kOfLook * left.max_cost_ns), watched);
     left = less(left, watched);
     const bool caught = input_.parameters.catch_drill && last_.constraints > 0;
-    const ProxyResult moved = caught ? as_caught(carried.state) : this->moved(carried.state, settings, left);
+    const ProxyResult moved = caught ? as_caught(carried.state) : moved_or_set(carried.state, settings, left);
     const std::uint64_t carrier = state_.carrier;
     state_ = moved.next;
     if (bodies_.any() && moved.constraints > 0)
@@ -206,10 +209,61 @@ ProxySettings PointContact::settings(bool painting) const {
     return s;
 }
 
-ProxyResult PointContact::moved(const ProxyState& state, const ProxySettings& settings, const ProxyBudget& budget) {
-    if (shape_ == nullptr) return move_proxy(state, record_.hip_object_m, settings, bodies_.surface(), budget);
+// Moves the proxy, and looks for a place where it fits if it could not be put into one. Where looking at the hand took
+// the tick's work, the next tick looks around it without.
+ProxyResult PointContact::moved_or_set(const ProxyState& state, const ProxySettings& settings,
+                                       const ProxyBudget& budget) {
+    if (state.placed && state.unfit_ticks > kMostUnfitTicks) {
+        ProxyResult waiting;
+        waiting.next = state;
+        waiting.next.position_object_m = waiting.next.hip_object_m = record_.hip_object_m;
+        waiting.next.unfit_ticks = kMostUnfitTicks;
+        return set_near_hand(state, settings, budget, waiting);
+    }
+    const bool is_lost = state.placed && state.unfit_ticks == kMostUnfitTicks;
+    ProxyResult result = moved(state, record_.hip_object_m, settings, budget);
+    if (result.next.unfit_ticks == 0) return result;
+    if (is_lost) return set_near_hand(state, settings, budget, result);
+    const double off_m = glm::length(result.next.position_object_m - record_.hip_object_m);
+    result.next.put_off_m = std::max(state.placed ? state.put_off_m : 0.0, off_m);
+    return result;
+}
+
+// Tries some places around the hand, and goes from the first in which the proxy fits towards the hand.
+ProxyResult PointContact::set_near_hand(const ProxyState& state, const ProxySettings& settings,
+                                        const ProxyBudget& budget, const ProxyResult& at_hand) {
+    const Vec3& hand = record_.hip_object_m;
+    const StartPlaces places{felt_radius_m(radius_m(), bodies_.surface().mean_edge_m()), state.put_off_m};
+    ContactWork work = at_hand.work;
+    std::uint32_t tried = state.places_tried;
+    const double enough_ns = kOfStart * budget.max_cost_ns;
+    for (std::uint32_t i = 0; i < StartPlaces::kMostInATick && cost_ns(work) < enough_ns; ++i) {
+        const Vec3 place = hand + places[tried++];
+        ProxyState set;
+        set.position_object_m = set.hip_object_m = place;
+        set.placed = true;
+        set.unfit_ticks = 1;
+        const ProxyResult there = moved(set, place, settings, less(budget, work));
+        work += there.work;
+        const bool is_near = glm::length(there.next.position_object_m - hand) <= places.farthest_m();
+        if (there.next.unfit_ticks > 0 || there.work_limited || !is_near) continue;
+        ProxyResult result = moved(there.next, hand, settings, less(budget, work));
+        result.work += work;
+        return result;
+    }
+    ProxyResult result = at_hand;
+    if (tried == state.places_tried) result.next.unfit_ticks = kMostUnfitTicks + 1;
+    result.next.put_off_m = state.put_off_m;
+    result.next.places_tried = tried;
+    result.work = work;
+    return result;
+}
+
+ProxyResult PointContact::moved(const ProxyState& state, const Vec3& hand_object_m, const ProxySettings& settings,
+                                const ProxyBudget& budget) {
+    if (shape_ == nullptr) return move_proxy(state, hand_object_m, settings, bodies_.surface(), budget);
     Quat& orientation = step_.next.tool_orientation_object;
-    const ShapeMotion motion{record_.hip_object_m, state.placed ? orientation : input_.motion.orientation_object,
+    const ShapeMotion motion{hand_object_m, state.placed ? orientation : input_.motion.orientation_object,
                              input_.motion.orientation_object, settings.static_friction, settings.dynamic_friction};
     const ShapeResult result = move_shape(state, motion, *shape_, bodies_.surface(), budget);
     orientation = result.orientation_object;

@@ -58,7 +58,12 @@ private:
     [[nodiscard]] double radius_m() const;
     [[nodiscard]] double reach_m() const;
     [[nodiscard]] ProxySettings settings(bool painting) const;
-    [[nodiscard]] ProxyResult moved(const ProxyState& state, const ProxySettings& settings, const ProxyBudget& budget);
+    [[nodiscard]] ProxyResult moved(const ProxyState& state, const Vec3& hand_object_m, const ProxySettings& settings,
+                                    const ProxyBudget& budget);
+    [[nodiscard]] ProxyResult moved_or_set(const ProxyState& state, const ProxySettings& settings,
+                                           const ProxyBudget& budget);
+    [[nodiscard]] ProxyResult set_near_hand(const ProxyState& state, const ProxySettings& settings,
+                                            const ProxyBudget& budget, const ProxyResult& at_hand);
     [[nodiscard]] bool was_put_elsewhere(const ProxyResult& moved, const Vec3& before) const;
     [[nodiscard]] double unexplained_m(const Vec3& before, const Vec3& of_bodies_m, bool published) const;
     void leave_out(double unexplained_m);

@@ -51,6 +51,14 @@ float longest_edge_m(const geometry::SurfaceTile& tile) {
     return std::sqrt(longest2);
 }
 
+geometry::TriangleSlab slab_of(const geometry::SurfaceTile& tile) {
+    return geometry::slab_around([&tile](auto&& visit) {
+        const auto place = [&](std::size_t i) { return Vec3(geometry::place_of(tile.vertices[tile.indices[i]])); };
+        for (std::size_t i = 0; i < tile.indices.size(); i += 3)
+            visit(geometry::Triangle{place(i), place(i + 1), place(i + 2)});
+    });
+}
+
 // Buffers of one thread, kept between calls so that their memory is reused.
 struct Scratch {
     TileSamples samples;
@@ -78,6 +86,7 @@ public:
         draft_.vertices.assign_to(mesh_.vertices);
         draft_.indices.assign_to(mesh_.indices);
         mesh_.longest_edge_m = longest_edge_m(mesh_);
+        mesh_.slab = slab_of(mesh_);
         draft_.quads.assign_to(mesh_.quads);
         draft_.cells.assign_to(mesh_.cells);
         draft_.vertex_of_edge.assign_to(mesh_.vertex_of_edge);

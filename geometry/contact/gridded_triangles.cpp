@@ -118,6 +118,12 @@ SearchBuild build_search(GriddedTriangles& piece) {
     // first_entry[cell + 1] now is the cell's beginning: shifts all down by one and closes the list.
     for (std::size_t cell = 0; cell < cell_count; ++cell) grid.first_entry[cell] = grid.first_entry[cell + 1];
     grid.first_entry[cell_count] = static_cast<std::uint32_t>(grid.entries.size());
+    grid.slabs.resize(cell_count);
+    for (std::size_t cell = 0; cell < cell_count; ++cell)
+        grid.slabs[cell] = slab_around([&](auto&& visit) {
+            for (std::uint32_t e = grid.first_entry[cell]; e < grid.first_entry[cell + 1]; ++e)
+                visit(piece.triangle(grid.entries[e]));
+        });
     return report;
 }
 

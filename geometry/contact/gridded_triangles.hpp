@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/contact/triangle_slab.hpp"
 #include "geometry/mesh/componentwise.hpp"
 #include "geometry/mesh/triangle.hpp"
 
@@ -33,11 +34,18 @@ struct SurfaceGrid {
     std::vector<std::uint32_t> first_entry;  // first entry of each cell; its entries end where the next cell's begin
     std::vector<std::uint32_t> entries;      // triangle indices
     std::vector<std::uint32_t> large;        // triangle indices
+    std::vector<TriangleSlab> slabs;         // around each cell's triangles
     std::vector<glm::vec4> spheres;          // around each triangle: centre, radius; a negative radius: not listed
 
     [[nodiscard]] Box bounds() const noexcept {  // bounds of the spheres' centres
         const Vec3 from(lo);
         return {from, from + static_cast<double>(cell_m) * Vec3(cells[0], cells[1], cells[2])};
+    }
+    // A box that contains the triangles listed in a cell.
+    [[nodiscard]] Box box_of(std::uint32_t x, std::uint32_t y, std::uint32_t z) const noexcept {
+        const auto cell = static_cast<double>(cell_m);
+        const Vec3 from = Vec3(lo) + cell * Vec3(x, y, z), reach(static_cast<double>(reach_m));
+        return {from - reach, from + cell + reach};
     }
 };
 
@@ -82,9 +90,9 @@ struct CellRange {
 }
 
 // Visits triangles as for_each_triangle_near does (geometry/contact/local_surface_search.hpp); calls visit(triangle
-// index, triangle).
-template <typename Visit>
-bool for_each_near(const GriddedTriangles& piece, Near& near, Visit&& visit) {
+// index, triangle), and leaves out cells where skips(box, slab) is true.
+template <typename Visit, typename Skips>
+bool for_each_near(const GriddedTriangles& piece, Near& near, Visit&& visit, Skips&& skips) {
     const SurfaceGrid& grid = piece.search;
     if (grid.listed == 0) return true;
     const auto look_at = [&](std::uint32_t i) {
@@ -102,12 +110,19 @@ bool for_each_near(const GriddedTriangles& piece, Near& near, Visit&& visit) {
     for (std::uint32_t z = range.lo[2]; z <= range.hi[2]; ++z)
         for (std::uint32_t y = range.lo[1]; y <= range.hi[1]; ++y) {
             const std::uint32_t row = (z * grid.cells[1] + y) * grid.cells[0];
-            // The cells of a row are consecutive, and so are their entries.
-            for (std::uint32_t e = grid.first_entry[row + range.lo[0]]; e < grid.first_entry[row + range.hi[0] + 1];
-                 ++e)
-                if (!look_at(grid.entries[e])) return false;
+            for (std::uint32_t x = range.lo[0]; x <= range.hi[0]; ++x) {
+                const std::uint32_t first = grid.first_entry[row + x], end = grid.first_entry[row + x + 1];
+                if (first == end || skips(grid.box_of(x, y, z), grid.slabs[row + x])) continue;
+                for (std::uint32_t e = first; e < end; ++e)
+                    if (!look_at(grid.entries[e])) return false;
+            }
         }
     return true;
+}
+
+template <typename Visit>
+bool for_each_near(const GriddedTriangles& piece, Near& near, Visit&& visit) {
+    return for_each_near(piece, near, visit, [](const Box&, const TriangleSlab&) { return false; });
 }
 
 }  // namespace burin::geometry

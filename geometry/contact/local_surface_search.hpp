@@ -24,7 +24,10 @@ bool for_each_near_in_mesh(const TouchSnapshot& snapshot, const Vec3& shift, std
         return goes_on;
     };
     bool all = false;
-    if constexpr (Visitor::kWantsPoints)
+    if constexpr (Visitor::kSkips)
+        all = for_each_near(snapshot, shifted, SkippingVisitor{triangle, visit.point, visit.fineness, visit.skips},
+                            shift);
+    else if constexpr (Visitor::kWantsPoints)
         all = for_each_near(snapshot, shifted, MixedVisitor{triangle, visit.point, visit.fineness}, shift);
     else
         all = for_each_near(snapshot, shifted, TriangleVisitor{triangle});
@@ -67,7 +70,19 @@ bool for_each_near_in_posed_mesh(const TouchSnapshot& snapshot, const Pose& pose
         const auto point = [&](const SurfacePoint& p) {
             return visit.point(SurfacePoint{turn * p.position + offset, nullptr, p.of_mesh, &pose.orientation});
         };
-        all = for_each_near(snapshot, turned, MixedVisitor{triangle, point, visit.fineness}, Vec3(0.0));
+        if constexpr (Visitor::kSkips) {
+            const auto skips = [&](const Box& box, const TriangleSlab& slab) {
+                const Vec3 middle = 0.5 * (box.lo + box.hi), half = 0.5 * (box.hi - box.lo);
+                const Vec3 placed = turn * middle + offset, normal = turn * Vec3(slab.normal);
+                Vec3 size(0.0);
+                for (int axis = 0; axis < 3; ++axis) size += glm::abs(turn[axis]) * half[axis];
+                return visit.skips(Box{placed - size, placed + size},
+                                   TriangleSlab{Vec3f(normal), slab.top_m + glm::dot(normal, offset)});
+            };
+            all = for_each_near(snapshot, turned, SkippingVisitor{triangle, point, visit.fineness, skips}, Vec3(0.0));
+        } else {
+            all = for_each_near(snapshot, turned, MixedVisitor{triangle, point, visit.fineness}, Vec3(0.0));
+        }
     } else {
         all = for_each_near(snapshot, turned, TriangleVisitor{triangle});
     }
@@ -87,11 +102,20 @@ bool for_each_near_of_mesh(const PosedSurface& posed, std::uint32_t index, std::
                                  visit);
 }
 
+// The same visitor where the surface is visited by its triangles alone.
+template <typename Visitor>
+[[nodiscard]] auto without_points(const Visitor& visit) {
+    if constexpr (Visitor::kSkips)
+        return SkippingVisitor{visit.triangle, visit.point, Fineness{}, visit.skips};
+    else
+        return TriangleVisitor{visit.triangle};
+}
+
 // Visits the triangles within near.reach_m of the box [near.lo, near.hi], each once, and some a little farther off, but
 // no degenerate one: visit.triangle(id, triangle). It may reduce near.reach_m and near.looks_left for the triangles
 // that follow. Where the visitor wants points and the surface is fine, visits the vertices near the segment of the
-// query instead: visit.point(point). The order depends only on the surface and the query. Ends and returns false when a
-// visit returns false, or when near.looks_left is used up.
+// query instead: visit.point(point). Leaves out groups that the visitor skips. The order depends only on the surface
+// and the query. Ends and returns false when a visit returns false, or when near.looks_left is used up.
 template <typename Visitor>
 bool for_each_near(const PosedSurface& posed, Near& near, const Visitor& visit) {
     const LocalSurface& surface = posed.surface();
@@ -99,7 +123,13 @@ bool for_each_near(const PosedSurface& posed, Near& near, const Visitor& visit) 
     if (ground && surface.tiles.triangles > 0 && !for_each_near(surface.tiles, near, visit)) return false;
     std::uint32_t first = surface.tiles.triangles;
     const auto visit_loose = [&](std::uint32_t i, const Triangle& t) { return visit.triangle(first + i, t); };
-    if (ground && surface.loose && !for_each_near(*surface.loose, near, visit_loose)) return false;
+    const auto visit_cell = [&](const Box& box, const TriangleSlab& slab) {
+        return skips(visit, box, slab, Vec3(0.0));
+    };
+    if (ground && surface.loose &&
+        !(Visitor::kSkips ? for_each_near(*surface.loose, near, visit_loose, visit_cell)
+                          : for_each_near(*surface.loose, near, visit_loose)))
+        return false;
     first += surface.loose_triangles();
     for (std::uint32_t i = 0; i < surface.meshes.size(); ++i) {
         const TouchedMesh& mesh = surface.meshes[i];
@@ -107,8 +137,8 @@ bool for_each_near(const PosedSurface& posed, Near& near, const Visitor& visit) 
         if (!near.look()) return false;
         if (posed.shows(i) &&
             // Vertices do not say which side of a sheet they are seen from.
-            (mesh.two_sided ? !for_each_near_of_mesh(posed, i, first, near, TriangleVisitor{visit.triangle})
-                            : !for_each_near_of_mesh(posed, i, first, near, visit)))
+            !(mesh.two_sided ? for_each_near_of_mesh(posed, i, first, near, without_points(visit))
+                             : for_each_near_of_mesh(posed, i, first, near, visit)))
             return false;
         first += triangles_of(mesh);
     }

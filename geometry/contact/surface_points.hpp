@@ -13,6 +13,7 @@
 
 #include "geometry/contact/lanes.hpp"
 #include "geometry/contact/surface_tile.hpp"
+#include "geometry/contact/triangle_slab.hpp"
 #include "geometry/mesh/triangle.hpp"
 #include "shaders/shared/octahedral.h"
 
@@ -114,17 +115,38 @@ bool for_each_point_near(std::span<const Vec3f> positions, std::span<const Vec3f
 // A visitor of triangles alone.
 template <typename VisitTriangle>
 struct TriangleVisitor {
-    static constexpr bool kWantsPoints = false;
+    static constexpr bool kWantsPoints = false, kSkips = false;
     VisitTriangle& triangle;  // bool(number, Triangle); false ends the search
 };
 
 // A visitor of triangles, and of points where the surface is fine.
 template <typename VisitTriangle, typename VisitPoint>
 struct MixedVisitor {
-    static constexpr bool kWantsPoints = true;
+    static constexpr bool kWantsPoints = true, kSkips = false;
     VisitTriangle& triangle;
     VisitPoint& point;  // bool(SurfacePoint); false ends the search
     Fineness fineness;
 };
+
+// A visitor that has groups of neighbouring triangles left out.
+template <typename VisitTriangle, typename VisitPoint, typename Skips>
+struct SkippingVisitor {
+    static constexpr bool kWantsPoints = true, kSkips = true;
+    VisitTriangle& triangle;
+    VisitPoint& point;
+    Fineness fineness;
+    Skips& skips;  // bool(Box, TriangleSlab), relative to the surface's origin; true leaves out what they bound
+};
+
+// Asks a visitor whether to leave out a group whose origin is at `shift`.
+template <typename Visitor>
+[[nodiscard]] bool skips(const Visitor& visit, const Box& box, const TriangleSlab& slab, const Vec3& shift) {
+    if constexpr (Visitor::kSkips) {
+        return visit.skips(Box{box.lo + shift, box.hi + shift},
+                           TriangleSlab{slab.normal, slab.top_m + glm::dot(Vec3(slab.normal), shift)});
+    } else {
+        return false;
+    }
+}
 
 }  // namespace burin::geometry

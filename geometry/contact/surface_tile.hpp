@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/space.hpp"
+#include "geometry/contact/triangle_slab.hpp"
 #include "shaders/shared/surface_vertex.h"
 
 namespace burin::geometry {
@@ -38,6 +39,7 @@ struct SurfaceTile {
     std::array<std::uint16_t, kRows + 1> row_quads{};
     std::array<std::uint32_t, kRows + 1> row_triangles{};
     float longest_edge_m = 0.0f;  // of all triangles
+    TriangleSlab slab;            // around all triangles
 
     [[nodiscard]] std::size_t triangles() const { return indices.size() / 3; }
 };

@@ -253,6 +253,12 @@ bool for_each_near_in_tile(const SurfaceTile& tile, const EdgeDistances& edges, 
     return quads_near.end();
 }
 
+// A box that contains a tile's surface.
+[[nodiscard]] inline Box box_of_tile(double cell_m, const std::array<int, 3>& first_node) noexcept {
+    const Vec3 first(first_node[0], first_node[1], first_node[2]);
+    return {cell_m * (first - TileBlock::kReach), cell_m * (first + (SurfaceTile::kCells - 1 + TileBlock::kReach))};
+}
+
 // Whether a tile's surface may be within reach; `first_node` is the tile's first node in the lattice.
 [[nodiscard]] inline bool tile_is_near(const Near& near, double cell_m, const std::array<int, 3>& first_node) noexcept {
     double outside2 = 0.0;
@@ -288,6 +294,7 @@ bool for_each_near(const TileBlock& block, Near& near, const Visitor& visit) {
                 if (!place.tile) continue;
                 const std::array<int, 3> first_node{(block.first[0] + x) * kCells, (block.first[1] + y) * kCells,
                                                     (block.first[2] + z) * kCells};
+                if (skips(visit, box_of_tile(block.cell_m, first_node), place.tile->slab, Vec3(0.0))) continue;
                 if constexpr (Visitor::kWantsPoints)
                     if (place.tile->longest_edge_m <= visit.fineness.longest_edge_m) {
                         if (tile_is_near(near, block.cell_m, first_node) &&

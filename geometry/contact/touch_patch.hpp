@@ -42,7 +42,9 @@ struct TouchPatch : TouchPart {
         // The leaf's own vertices: those that no leaf before it has. They come in a row, up to the next leaf's.
         std::uint16_t first_vertex = 0;
         float longest_edge_m = 0.0f;  // of its triangles
+        TriangleSlab slab;
     };
+    TriangleSlab slab;
     TouchBoxes boxes;  // bounds of the leaves
     std::vector<Leaf> leaves;
     // A mesh vertex on a sharp edge appears here once for each smooth piece, with the same position and another normal.
@@ -181,15 +183,17 @@ private:
                   const Vec3& shift) {
         if (!near_.look()) return false;
         if (!within_reach(patch.frame.lo, patch.frame.hi)) return true;
+        if (skips(visit, Box{Vec3(patch.frame.lo), Vec3(patch.frame.hi)}, patch.slab, shift)) return true;
         const SteppedBox asked = stepped(patch.frame);
         const Vec3f step_m = 1.0f / patch.frame.steps_per_m;
         for (std::uint32_t leaves = patch.boxes.meeting(asked, patch.count); leaves != 0; leaves &= leaves - 1) {
             const auto number = static_cast<std::uint32_t>(std::countr_zero(leaves));
             if (!near_.look()) return false;
-            if (!within_reach(patch.frame.lo + step_m * patch.boxes.lo_of(number),
-                              patch.frame.lo + step_m * (patch.boxes.hi_of(number) + 1.0f)))
-                continue;
+            const Vec3f lo = patch.frame.lo + step_m * patch.boxes.lo_of(number),
+                        hi = patch.frame.lo + step_m * (patch.boxes.hi_of(number) + 1.0f);
+            if (!within_reach(lo, hi)) continue;
             const TouchPatch::Leaf& leaf = patch.leaves[number];
+            if (skips(visit, Box{Vec3(lo), Vec3(hi)}, leaf.slab, shift)) continue;
             if constexpr (Visitor::kWantsPoints)
                 // A vertex that it shares with a leaf before it is within reach where that leaf is, and visited there.
                 if (leaf.longest_edge_m <= visit.fineness.longest_edge_m) {

@@ -114,6 +114,22 @@ void TouchPatchMaker::keep_pieces(TouchSurface& surface, std::uint32_t vertex) {
     for (const TouchSurface::Piece& piece : pieces) pieces_.push_back({piece});
 }
 
+void TouchPatchMaker::slab_triangles(TouchPatch& patch) {
+    const auto around = [&patch](std::uint32_t first, std::uint32_t end) {
+        return slab_around([&](auto&& visit) {
+            for (std::uint32_t i = first; i < end; ++i) {
+                const auto& [a, b, c] = patch.corners(i);
+                visit(Triangle{Vec3(patch.positions_m[a]), Vec3(patch.positions_m[b]), Vec3(patch.positions_m[c])});
+            }
+        });
+    };
+    patch.slab = around(0, patch.triangles);
+    for (std::uint32_t number = 0; number < patch.count; ++number) {
+        const std::uint32_t first = number * TouchBoxes::kMost;
+        patch.leaves[number].slab = around(first, first + patch.in_leaf(number));
+    }
+}
+
 void TouchPatchMaker::box_triangles(TouchPatch& patch) {
     if (patch.triangles == 0) return;
     patch.frame = frame_around(patch.positions_m);
@@ -130,6 +146,7 @@ void TouchPatchMaker::box_triangles(TouchPatch& patch) {
         }
         patch.boxes.set(number, box_of(all));
     }
+    slab_triangles(patch);
 }
 
 }  // namespace burin::geometry

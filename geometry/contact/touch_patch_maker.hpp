@@ -36,6 +36,7 @@ private:
     std::uint16_t split_vertex_of(TouchSurface& surface, std::uint32_t vertex, std::uint32_t slot);
     void keep_pieces(TouchSurface& surface, std::uint32_t vertex);
     void box_triangles(TouchPatch& patch);
+    static void slab_triangles(TouchPatch& patch);
 
     static constexpr std::uint16_t kNone = 0xffffu;
 

@@ -148,7 +148,7 @@ private:
     bool touch() {
         const auto touching = search_.touching(center_, touches_);
         nearest_ = touching.nearest;
-        return touching.complete;
+        return looked_ = touching.complete;
     }
 
     Goal aim() {
@@ -411,7 +411,7 @@ private:
     // waits at a safe position and continues in the next tick; the planes it lies on still bear it.
     ProxyResult limited() {
         result_.work_limited = true;
-        if (was_set_ && overlaps()) return unfit();
+        if (was_set_ && (!looked_ || overlaps())) return unfit();
         if (touched_.constraints == 0) note_most_opposed();
         // Between two facets no plane bears the ball: the last contact of this tick is reported.
         if (touched_.constraints == 0) touched_ = last_;
@@ -473,6 +473,7 @@ private:
     double leeway_ = 0.0;
     std::uint32_t unfit_ticks_ = 0;
     bool was_set_ = false;         // not known to fit where this tick began
+    bool looked_ = false;          // the last touch() was complete
     bool touched_before_ = false;  // in the last tick
     bool slips_ = false;           // the cone of dynamic friction applies, not the static one
     bool slid_ = false;            // in this tick

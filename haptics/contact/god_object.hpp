@@ -28,9 +28,9 @@
 // deep, so that what the ball slides along is not hit again. A point probe is a ball of 1/500 of the mean edge.
 //
 // A proxy that is found inside material (after an edit, at a first contact) is put outside by the shortest
-// displacement, and out of what the ball meets there, for some ticks if need be; until the ball fits there is no
-// contact, so a ball that fits nowhere goes out along the hand's way without force. The gate fades in the force that
-// follows. Frame: object, metres. No heap, lock, throw; the work is
+// displacement, and out of what the ball meets there, for some ticks if need be, and then at places around the hand
+// (setting.hpp); until the ball fits there is no contact, so a ball that fits nowhere goes out along the hand's way
+// without force. The gate fades in the force that follows. Frame: object, metres. No heap, lock, throw; the work is
 // counted and bounded (contact_work.hpp).
 #pragma once
 
@@ -57,6 +57,9 @@ struct ProxyState {
     std::uint32_t stride = 1;   // among very many vertices only each so manieth is touched
     // Above 0: the ball, set here from inside material, overlaps it still after so many ticks; there is no contact.
     std::uint32_t unfit_ticks = 0;
+    // Of a ball that fits nowhere near the hand yet: how far from it it was put, and places tried since (setting.hpp).
+    double put_off_m = 0.0;
+    std::uint32_t places_tried = 0;
 };
 
 struct ProxySettings {

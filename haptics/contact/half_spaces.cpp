@@ -7,6 +7,7 @@ namespace burin::haptics {
 namespace {
 
 constexpr std::uint32_t kMostExchanges = 48;
+constexpr int kMostWaysOut = 16;
 
 // A candidate set of one to three active planes.
 struct Bearing {
@@ -134,6 +135,19 @@ double share_to_first(std::span<const HalfSpace> spaces, const Vec3& way) noexce
         if (sinking < 0.0) share = std::min(share, plane.offset / sinking);
     }
     return std::max(share, 0.0);
+}
+
+Vec3 way_out(std::span<const HalfSpace> spaces, double least) noexcept {
+    Vec3 at(0.0);
+    for (int i = 0; i < kMostWaysOut; ++i) {
+        const HalfSpace* worst = nullptr;
+        double lack = least;
+        for (const HalfSpace& plane : spaces)
+            if (const double here = lack_at(plane, at); here > lack) lack = here, worst = &plane;
+        if (worst == nullptr) break;
+        at += lack * worst->normal;
+    }
+    return at;
 }
 
 WayAlong way_along(std::span<const HalfSpace> spaces, const Vec3& goal, double least) noexcept {

@@ -36,6 +36,11 @@ struct NearestInside {
 // The share of a way from the origin up to the first plane that it would cross; at most 1, at least 0.
 [[nodiscard]] double share_to_first(std::span<const HalfSpace> spaces, const Vec3& way) noexcept;
 
+// The way from the origin out of the planes that it lies behind by more than `least`: out of the one that it is the
+// deepest behind, again and again, a bounded number of times. Not the shortest, but found where nearest_inside() finds
+// nothing.
+[[nodiscard]] Vec3 way_out(std::span<const HalfSpace> spaces, double least) noexcept;
+
 // A way that crosses no plane: the goal's own, or along the plane that it crosses most steeply, or along the edge of
 // that plane and of the one that this way crosses most steeply; the first of these that is longer than `least`. Where
 // nearest_inside() finds nothing among nearly parallel planes, it still gets on.

@@ -154,6 +154,10 @@ double lowest(const ToolShape& shape, const ConvexPiece& piece, const Vec3& norm
     return glm::dot(farthest(shape, piece, -normal), normal);
 }
 
+Vec3 lowest_place(const ToolShape& shape, const ConvexPiece& piece, const Vec3& normal) noexcept {
+    return farthest(shape, piece, -normal);
+}
+
 Separation separation(const ToolShape& shape, const ConvexPiece& piece, const geometry::Triangle& t,
                       const SeparationQuery& query) noexcept {
     Separation result;

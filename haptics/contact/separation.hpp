@@ -33,6 +33,9 @@ struct SeparationQuery {
 // The height of the piece's lowest place above the plane through the origin with this normal.
 [[nodiscard]] double lowest(const ToolShape& shape, const ConvexPiece& piece, const Vec3& normal) noexcept;
 
+// A place of the piece that is so low.
+[[nodiscard]] Vec3 lowest_place(const ToolShape& shape, const ConvexPiece& piece, const Vec3& normal) noexcept;
+
 [[nodiscard]] Separation separation(const ToolShape& shape, const ConvexPiece& piece, const geometry::Triangle& t,
                                     const SeparationQuery& query) noexcept;
 

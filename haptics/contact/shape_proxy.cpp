@@ -14,8 +14,14 @@ namespace {
 // Fractions of the rounding: of planes' offsets, and of what is left to go, below which the tool is at rest; it is
 // also where the HIP is off the normal by less than this angle.
 constexpr double kOffset = 1e-6, kAtRest = 1e-4, kAtRestAngle = 1e-4;
+// Of the rounding: a tool that is so deep gives way although the hand holds still; else it moves only if that brings it
+// nearer by so much.
+constexpr double kGivesWay = 4.0 * kEdge, kGains = 1e-3;
 // Slack of a gathering: of the last motion, and of the tool's width. No step is longer than a part of the width.
 constexpr double kOfMotion = 1.5, kOfSize = 0.02, kLongestStep = 0.5;
+// A step that leaves what was gathered goes up to there, if that is more than this part of the slack. Else more is
+// gathered, with a slack that is larger by this factor.
+constexpr double kWorthGoing = 0.25, kFarther = 1.5;
 // A turn that brings the tool deeper into something than this part of its width is halved, so often, before it is put
 // off to the next tick.
 constexpr int kTurnHalvings = 4;
@@ -59,6 +65,7 @@ public:
     ShapeResult move() {
         if (unfit_ticks_ >= kMostUnfitTicks) return wait_outside();
         if (!begin()) return limited();
+        began_sunk_m_ = search_.sunk_m();
         if (is_buried()) return unfit();
         ShapeResult result = go_on();
         // There is no room for such a turn. One that brings the hulls into nothing is always possible.
@@ -85,20 +92,25 @@ private:
         result_.orientation_object = orientation;
         search_.turn_to(orientation);
         at_ = search_.to_tool(at_object_);
+        search_.draw_to(hip() - at_);
     }
 
-    // Gathers what is near, and turns the tool as the hand does, as far as that leads into nothing.
+    // Gathers what is near, and turns the tool as the hand does, as far as that leads into nothing. Looks around before
+    // it turns: from there the planes are known that the tool must stay beyond.
     bool begin() {
-        turn(motion_.wanted);
-        const double slack = slack_of(state_.placed ? std::min(angle_of_turn() * shape_.reach_m, shape_.size_m) : 0.0);
-        if (!search_.gather(at_, slack) || !search_.touch(at_)) return false;
+        const bool turns = state_.placed && motion_.before != motion_.wanted;
+        turn(turns ? motion_.before : motion_.wanted);
+        const double way = turns ? angle_of_turn() * shape_.reach_m : 0.0;
+        if (!search_.gather(at_, slack_of(std::min(way, shape_.size_m)))) return false;
+        if (!turns) return touch_as_held();
+        // A turn beyond what was gathered is finished in the next ticks.
+        double share = way > 0.0 ? std::min(1.0, search_.slack() / way) : 1.0;
+        turn(part_of_turn(motion_.before, motion_.wanted, share));
+        if (!search_.touch(at_)) return false;
         if (!search_.overlaps()) return true;
-        if (was_set_) return pushed();
-        // From where it was the planes are known that it must stay beyond.
         turn(motion_.before);
-        if (!search_.gather(at_, slack_of(kTurnedInto * shape_.size_m)) || !search_.touch(at_)) return false;
-        if (search_.overlaps()) return pushed();
-        double share = std::min(1.0, kTurnedInto * shape_.size_m / (angle_of_turn() * shape_.reach_m));
+        if (!touch_as_held()) return false;
+        if (search_.overlaps()) return true;
         for (int i = 0; i <= kTurnHalvings; ++i, share *= 0.5) {
             turn(part_of_turn(motion_.before, motion_.wanted, i < kTurnHalvings ? share : 0.0));
             if (!search_.touch(at_)) return false;
@@ -107,6 +119,8 @@ private:
         turned_into_ = search_.overlaps();
         return true;
     }
+
+    bool touch_as_held() { return search_.touch(at_) && (!search_.overlaps() || pushed()); }
 
     // How far from here the tool may come in this tick; turned_m: by turning alone.
     [[nodiscard]] double slack_of(double turned_m) const {
@@ -166,7 +180,11 @@ private:
         const double depth = glm::length(spring);
         if (depth > 0.0) normal_ = spring / depth;
         note_touched(goal);
-        if (motion_.static_friction > 0.0 || motion_.dynamic_friction > 0.0) hold(pull);
+        if (motion_.static_friction > 0.0 || motion_.dynamic_friction > 0.0) {
+            // Nothing holds a tool back before it has come to what will bear it.
+            if (!touches_here()) return come_nearer(pull);
+            hold(pull);
+        }
         const double enough = std::max(kAtRest * shape_.rounding_m,
                                        result_.proxy.work.steps > 2 ? kAtRestAngle * std::max(depth, 0.0) : 0.0);
         rests_ = glm::length(step_) <= enough;
@@ -175,10 +193,22 @@ private:
 
     // Among nearly parallel planes there may be no goal to be found although there is room.
     bool creep(const Vec3& pull) {
-        const WayAlong way = way_along(search_.planes(), pull, kAtRest * shape_.rounding_m);
-        if (!way.found) return false;
-        step_ = way.step;
+        const double least = kAtRest * shape_.rounding_m;
         in_contact_ = true;
+        step_ = way_out(search_.planes(), least);
+        if (glm::length(step_) > least) return true;
+        const WayAlong way = way_along(search_.planes(), pull, least);
+        step_ = way.step;
+        return way.found;
+    }
+
+    [[nodiscard]] bool touches_here() const {
+        const double least = -2.0 * kReached * shape_.rounding_m;
+        return std::ranges::any_of(search_.planes(), [&](const HalfSpace& plane) { return plane.offset >= least; });
+    }
+
+    bool come_nearer(const Vec3& pull) {
+        step_ = share_to_first(search_.planes(), pull) * pull;
         return true;
     }
 
@@ -212,15 +242,22 @@ private:
         bearing_constraints_ = goal.bearing_count;
     }
 
+    [[nodiscard]] Vec3 bounded(const Vec3& step) const {
+        const double length = glm::length(step), longest = kLongestStep * shape_.size_m;
+        return length > longest ? step * (longest / length) : step;
+    }
+
     bool go() {
-        const double length = glm::length(step_);
-        Vec3 step = step_;
-        if (length > kLongestStep * shape_.size_m) step *= kLongestStep * shape_.size_m / length;
-        if (!search_.covers(at_ + step)) {
-            if (!search_.gather(at_, 1.01 * glm::length(step)) || !search_.touch(at_)) return false;
-            if (!search_.covers(at_ + step)) step *= 0.99 * search_.slack() / glm::length(step);
-            // The planes are those that the step was found with, unless the surface is seen more coarsely now.
+        Vec3 step = bounded(step_);
+        if (search_.covered_share(at_, step) < std::min(1.0, kWorthGoing * search_.slack() / glm::length(step))) {
+            // What is seen anew may be touched where it was not before, so that the step is found anew.
+            const double slack = in_contact_ ? kFarther * search_.slack() : HUGE_VAL;
+            if (!search_.gather(at_, std::min(slack, 1.01 * glm::length(step))) || !search_.touch(at_) || !aim())
+                return false;
+            if (rests_) return true;
+            step = bounded(step_);
         }
+        step *= search_.covered_share(at_, step);
         const ShapeSearch::Sweep sweep = search_.sweep(at_, step);
         if (!sweep.complete) return false;
         at_ += sweep.fraction * step;
@@ -279,6 +316,19 @@ private:
         return result_;
     }
 
+    // Under a hand that holds still only what brings the tool nearer to it is a motion, unless it has to give way. So
+    // every motion ends.
+    [[nodiscard]] bool gains_nothing() const {
+        const bool holds_still = state_.placed && state_.touching && state_.unfit_ticks == 0 &&
+                                 state_.hip_object_m == motion_.hip_object_m &&
+                                 state_.surface_sequence == surface_.surface().sequence &&
+                                 motion_.before == result_.orientation_object;
+        if (!holds_still || began_sunk_m_ > kGivesWay * shape_.rounding_m) return false;
+        const double before = glm::length(state_.position_object_m - motion_.hip_object_m);
+        const double now = glm::length(surface_.origin_object() + at_object_ - motion_.hip_object_m);
+        return now > before - kGains * shape_.rounding_m;
+    }
+
     void stay(const Vec3& began) {
         ProxyResult& proxy = result_.proxy;
         proxy.constraints = bearing_constraints_;
@@ -287,9 +337,13 @@ private:
             if (heaviest_ < search_.planes().size()) proxy.active_triangle = search_.triangle(heaviest_);
             result_.touched_object_m = surface_.origin_object() + search_.from_tool(touched_);
         }
-        proxy.next.position_object_m = surface_.origin_object() + at_object_;
         proxy.next.slipping = slid_;
         proxy.next.touching = true;
+        if (gains_nothing()) {
+            proxy.next.position_object_m = state_.position_object_m;
+            return;
+        }
+        proxy.next.position_object_m = surface_.origin_object() + at_object_;
         proxy.next.motion_object_m = search_.from_tool(at_ - began);
     }
 
@@ -306,6 +360,7 @@ private:
     bool slips_, rests_ = false, in_contact_ = false, is_free_ = false;
     bool slid_ = false, slid_before_ = false;  // in this step, and in this tick
     std::uint32_t unfit_ticks_;
+    double began_sunk_m_ = 0.0;
     bool was_set_ = false;
     bool turned_into_ = false;  // the turn has brought the hulls into something
 };

@@ -6,11 +6,17 @@
 // its place is what the surface holds off: the point nearest to the haptic interface point (HIP) at which it touches.
 // In each step of a tick:
 //   1. Each triangle that the rounded pieces touch gives a plane. A face that is touched gives its own plane, so that
-//      the tool slides over it; an edge or a corner may sink in by kEdge of the rounding, so that it is rolled over.
+//      the tool slides over it; an edge or a corner may sink in by kEdge of the rounding, so that it is rolled over. It
+//      gives none where it lies behind a face that is touched, and pushes along its face's normal alone where another
+//      face rises beside it: the edges of a flat or hollow surface are nothing to be felt.
 //   2. The goal is the point nearest to the HIP beyond all these planes (half_spaces.hpp); friction holds it back.
 //   3. The tool goes there, up to the first other triangle: a triangle whose own plane it stays beyond cannot be hit,
 //      and others are approached by their distance along the plane between both (conservative advancement).
-// Where triangles are much finer than the tool, vertices stand for them. Hulls that overlap the surface, after an edit
+// Cost: among many triangles the faces that the tool lies on are found first, and whatever lies behind their planes is
+// left out, whole groups of neighbours at once (geometry/contact/triangle_slab.hpp). So a flat tool on a flat surface
+// costs the same however finely that is meshed. Where that does not suffice less is gathered, then vertices stand for
+// triangles.
+// Hulls that overlap the surface, after an edit
 // or where contact begins, are pushed out along the triangles' normals for some ticks; until the tool fits there is no
 // contact.
 // Frame: object, metres. No heap, lock, throw; the work is counted and bounded (contact_work.hpp).

@@ -10,32 +10,23 @@
 namespace burin::haptics {
 namespace {
 
-// Edges up to this share of the tool's width are touched by their vertices alone: between two of them a corner of the
-// tool sinks in by about a third of the edge.
-constexpr double kFineOfSize = 0.1;
-constexpr double kCoarserLook = 1.5;
-constexpr std::uint32_t kGreatestStride = 1024;
-constexpr int kMostLooksAround = 6;
-// Of the rounding: how exactly a gap is found, and by how much a face's own plane may lie nearer than the best one.
-constexpr double kExact = 1e-3, kOwnPlane = 2e-3;
+// Of the rounding: how exactly a gap is found.
+constexpr double kExact = 1e-3;
 // A triangle faces the tool where its normal and the plane's have at least this cosine; edges lie square to the plane.
 constexpr double kFaces = -0.02;
+// A plane is that of the face itself where both are turned by less than this cosine.
+constexpr double kAlongFace = 0.99;
+// Places nearer to each other than this part of the rounding are the same.
+constexpr double kSamePlace = 1e-4;
+// A triangle rises before a direction where one of its sides has this sine towards it.
+constexpr double kRises = 0.02;
 constexpr int kMostApproaches = 12;
-
-std::uint32_t as_many(double allowed_ns, double each_ns) {
-    return static_cast<std::uint32_t>(std::clamp(allowed_ns / each_ns, 0.0, 4e9));
-}
 
 }  // namespace
 
 ShapeSearch::ShapeSearch(const ToolShape& shape, const geometry::PosedSurface& surface, const ProxyBudget& budget,
                          ContactWork& work) noexcept
-    : shape_(shape),
-      surface_(surface),
-      budget_(budget),
-      work_(work),
-      rounding_(shape.rounding_m),
-      fineness_{kFineOfSize * shape.size_m, 1} {}
+    : shape_(shape), surface_(surface), budget_(budget), work_(work), rounding_(shape.rounding_m) {}
 
 void ShapeSearch::turn_to(const Quat& object_from_tool) noexcept {
     const glm::dmat3 before = turn_;
@@ -51,79 +42,7 @@ void ShapeSearch::turn_to(const Quat& object_from_tool) noexcept {
         c.guess = (before * c.guess) * turn_;
         c.clear_until_m = -HUGE_VAL;
     }
-}
-
-void ShapeSearch::add(const geometry::Triangle& object, const Vec3& normal, std::uint32_t id, bool is_vertex) noexcept {
-    Candidate c;
-    c.triangle = {object.a * turn_, object.b * turn_, object.c * turn_};
-    c.face = normal * turn_;
-    c.height = glm::dot(c.face, c.triangle.a);
-    c.is_vertex = is_vertex;
-    c.two_sided = !is_vertex && surface_.two_sided(id);
-    const Vec3 middle = (c.triangle.a + c.triangle.b + c.triangle.c) / 3.0;
-    c.guess = gathered_at_ + shape_.inside_m - middle;
-    c.clear_until_m = -HUGE_VAL;
-    in_object_.put(count_, object);
-    faces_in_object_.put(count_, normal);
-    ids_[count_] = id;
-    candidates_.put(count_++, c);
-}
-
-bool ShapeSearch::look(const Vec3& at, double slack) noexcept {
-    count_ = plane_count_ = 0;
-    gathered_at_ = at;
-    const Vec3 extent = shape_.bounds.extent(), middle = at + shape_.bounds.center();
-    const int longest = extent.x >= extent.y && extent.x >= extent.z ? 0 : (extent.y >= extent.z ? 1 : 2);
-    Vec3 half(0.0), across = 0.5 * extent;
-    half[longest] = across[longest];
-    across[longest] = 0.0;
-    const double reach = glm::length(across) + slack;
-    const Vec3 lo = at + shape_.bounds.lo - slack, hi = at + shape_.bounds.hi + slack;
-    const Vec3 from = from_tool(middle - half), to = from_tool(middle + half);
-    const auto left = [&] { return std::max(0.5 * left_ns(), 0.0); };
-    geometry::Near near{
-        glm::min(from, to), glm::max(from, to), reach, as_many(left(), WorkCost::kLook_ns), true, from, to};
-    const std::uint32_t most_looks = near.looks_left;
-    const std::uint32_t most = std::min(kMost, as_many(left(), WorkCost::kGathered_ns + 4.0 * WorkCost::kSupport_ns));
-    const auto is_beside = [&](const Vec3& low, const Vec3& high) {
-        return low.x > hi.x || low.y > hi.y || low.z > hi.z || high.x < lo.x || high.y < lo.y || high.z < lo.z;
-    };
-    const auto add_triangle = [&](std::uint32_t id, const geometry::Triangle& t) {
-        const Vec3 a = to_tool(t.a), b = to_tool(t.b), c = to_tool(t.c);
-        if (is_beside(glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c))) return true;
-        if (count_ == most) return false;
-        add(t, outward_normal(t), id, false);
-        return true;
-    };
-    const auto add_vertex = [&](const geometry::SurfacePoint& point) {
-        const Vec3 p = to_tool(point.position);
-        if (is_beside(p, p)) return true;
-        if (count_ == most) return false;
-        add({point.position, point.position, point.position}, point.normal(), kNoId, true);
-        return true;
-    };
-    const bool complete =
-        geometry::for_each_near(surface_, near, geometry::MixedVisitor{add_triangle, add_vertex, fineness_});
-    work_.triangles_seen += most_looks - near.looks_left;
-    work_.gathered += count_;
-    return complete;
-}
-
-bool ShapeSearch::gather(const Vec3& at, double slack) noexcept {
-    slack_ = 0.0;
-    travel_ = 0.0;
-    touched_at_ = at;
-    for (int tries = 0; tries < kMostLooksAround; ++tries) {
-        if (left_ns() <= 0.0) return false;
-        if (look(at, rounding_ + slack)) {
-            slack_ = slack;
-            return true;
-        }
-        slack = std::max(0.5 * slack, 0.1 * rounding_);
-        fineness_.longest_edge_m *= kCoarserLook;
-        if (tries > 1) fineness_.stride = std::min(2 * fineness_.stride, kGreatestStride);
-    }
-    return false;
+    for (std::uint32_t k = 0; k < held_count_; ++k) covers_[k] = {candidates_[k].face, candidates_[k].height};
 }
 
 std::uint32_t ShapeSearch::triangle(std::uint32_t plane) const noexcept {
@@ -207,18 +126,58 @@ void ShapeSearch::put_plane(std::uint32_t candidate, const HalfSpace& plane, con
     sunk_m_ = std::max(sunk_m_, plane.offset);
 }
 
+bool ShapeSearch::is_covered(const Candidate& c) const noexcept {
+    const double allowed = kEdge * rounding_;
+    for (std::uint32_t k = 0; k < cover_count_; ++k) {
+        const auto [normal, top] = covers_[k];
+        const geometry::Triangle& t = c.triangle;
+        if (std::max({glm::dot(normal, t.a), glm::dot(normal, t.b), glm::dot(normal, t.c)}) <= top + allowed)
+            return true;
+    }
+    return false;
+}
+
+void ShapeSearch::cover(const geometry::Triangle& t, const Vec3& normal) noexcept {
+    if (cover_count_ == kMostCovers) return;
+    covers_[cover_count_++] = {normal, std::max({glm::dot(normal, t.a), glm::dot(normal, t.b), glm::dot(normal, t.c)})};
+}
+
+// Whether a triangle that shares this place of an edge or corner rises before it, so that no direction that is held off
+// there can be this one: over a flat or hollow edge, all but the faces' own.
+bool ShapeSearch::is_hidden(const Vec3& place, const Vec3& normal) noexcept {
+    const Vec3 at = from_tool(place), n = from_tool(normal);
+    const double tie = kSamePlace * rounding_;
+    geometry::Near near{.lo = at, .hi = at, .reach_m = tie, .looks_left = affords(1.0, WorkCost::kLook_ns)};
+    const std::uint32_t most_looks = near.looks_left;
+    bool hidden = false;
+    geometry::for_each_triangle_near(surface_, near, [&](std::uint32_t, const geometry::Triangle& t) {
+        const Vec3 off = nearest_on_triangle(at, t).point - at;
+        if (glm::dot(off, off) > tie * tie) return true;
+        for (const Vec3& corner : {t.a, t.b, t.c})
+            hidden = hidden || glm::dot(n, corner - at) > kRises * glm::length(corner - at);
+        return !hidden;
+    });
+    work_.triangles_seen += most_looks - near.looks_left;
+    return hidden;
+}
+
 bool ShapeSearch::touch(const Vec3& at) noexcept {
     travel_ += glm::length(at - touched_at_);
     touched_at_ = at;
-    plane_count_ = 0;
+    plane_count_ = feature_count_ = 0;
     overlaps_ = false;
     sunk_m_ = 0.0;
+    touch_held(at);
     const double reach = rounding_ * (1.0 + kReached);
-    for (std::uint32_t i = 0; i < count_; ++i) {
+    for (std::uint32_t i = held_count_; i < count_; ++i) {
         Candidate& c = candidates_[i];
         touches_[i] = false;
         if (c.clear_until_m > travel_) continue;
         if (left_ns() <= 0.0) return false;
+        if (is_covered(c)) {
+            touches_[i] = true;
+            continue;
+        }
         if (const double clear_m = surely_clear_m(c, at, reach); clear_m > 0.0) {
             c.clear_until_m = travel_ + clear_m;
             continue;
@@ -230,20 +189,58 @@ bool ShapeSearch::touch(const Vec3& at) noexcept {
             overlaps_ = true;
             c.clear_until_m = -HUGE_VAL;
             put_plane(i, out, c.triangle.a);
+            cover(c.triangle, out.normal);
             continue;
         }
         c.clear_until_m = travel_ + s.gap_m - reach;
         if (s.gap_m > reach || !faces(c, s.normal)) continue;
         c.clear_until_m = -HUGE_VAL;
-        HalfSpace plane{s.normal, rounding_ * (1.0 - kEdge) - s.gap_m};
-        if (!c.is_vertex && std::abs(glm::dot(c.face, s.normal)) > 0.99) {
-            const double side = glm::dot(c.face, s.normal) < 0.0 ? -1.0 : 1.0;
-            const double height = side > 0.0 ? above(c, at) : -HUGE_VAL;
-            if (height >= s.gap_m - kOwnPlane * rounding_) plane = {c.face, rounding_ - height};
-        }
-        put_plane(i, plane, s.on_triangle);
+        if (!touch_face(i, s, at)) features_.put(feature_count_++, {i, s.normal, s.on_triangle, s.gap_m});
     }
+    touch_features(at);
     return true;
+}
+
+// Puts the planes of the faces that are held, whether or not the tool still lies on them.
+void ShapeSearch::touch_held(const Vec3& at) noexcept {
+    cover_count_ = held_count_;
+    for (std::uint32_t k = 0; k < held_count_; ++k) {
+        Candidate& c = candidates_[k];
+        const double height = above(c, at);
+        overlaps_ = overlaps_ || !(height > 0.0);
+        put_plane(k, {c.face, rounding_ - height}, c.triangle.a);
+    }
+}
+
+// Puts the plane of a face, or of a smooth surface's vertex, if that is what the tool touches.
+bool ShapeSearch::touch_face(std::uint32_t candidate, const Separation& s, const Vec3& at) noexcept {
+    const Candidate& c = candidates_[candidate];
+    const double facing = glm::dot(c.face, s.normal);
+    if (std::abs(facing) <= kAlongFace) return false;
+    if (c.is_vertex) {
+        put_plane(candidate, {s.normal, rounding_ * (1.0 - kEdge) - s.gap_m}, s.on_triangle);
+    } else {
+        const double height = facing > 0.0 ? above(c, at) : -HUGE_VAL;
+        if (!(height >= s.gap_m - kOwnPlane * rounding_)) return false;
+        put_plane(candidate, {c.face, rounding_ - height}, s.on_triangle);
+    }
+    cover(c.triangle, planes_[plane_count_ - 1].normal);
+    return true;
+}
+
+// Puts the planes of the edges and corners that lie behind no face that is touched.
+void ShapeSearch::touch_features(const Vec3& at) noexcept {
+    for (std::uint32_t k = 0; k < feature_count_; ++k) {
+        const Feature& f = features_[k];
+        const Candidate& c = candidates_[f.candidate];
+        touches_[f.candidate] = true;
+        if (is_covered(c)) continue;
+        HalfSpace plane{f.normal, rounding_ * (1.0 - kEdge) - f.gap_m};
+        // What rises before it is nearer and pushes by itself: this face may only not be come nearer to.
+        if (!c.two_sided && !c.is_vertex && is_hidden(f.place, f.normal) && above(c, at) > 0.0)
+            plane = {c.face, std::min(plane.offset, 0.0)};
+        put_plane(f.candidate, plane, f.place);
+    }
 }
 
 // The share of the step after which this triangle is touched; beyond 1: it is not.
@@ -273,7 +270,7 @@ ShapeSearch::Sweep ShapeSearch::sweep(const Vec3& at, const Vec3& step) noexcept
     for (std::uint32_t i = 0; i < count_; ++i) {
         if (touches_[i]) continue;
         Candidate& c = candidates_[i];
-        if (c.clear_until_m > travel_ + result.fraction * length) continue;
+        if (c.clear_until_m > travel_ + result.fraction * length || is_covered(c)) continue;
         if (left_ns() <= 0.0) return {0.0, false};
         ++work_.triangles_tested;
         result.fraction = std::min(result.fraction, until(c, at, result.fraction * step) * result.fraction);

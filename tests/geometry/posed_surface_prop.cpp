@@ -4,6 +4,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <numbers>
+#include <set>
 
 #include "geometry/mesh/triangle_tree.hpp"
 #include "tests/geometry/touch_samples.hpp"
@@ -51,6 +52,11 @@ struct Scene {
                      (glm::conjugate(published.orientation) * (*p + surface.origin_object - published.position_m)) -
                  surface.origin_object;
         return t;
+    }
+
+    // The same also where it is not part of a mesh.
+    [[nodiscard]] Triangle place(std::uint32_t id) const {
+        return surface.mesh_of(id) == LocalSurface::kNoMesh ? surface.triangle(id) : triangle(id);
     }
 
     LocalSurface surface;
@@ -108,6 +114,60 @@ RC_GTEST_PROP(PosedSurface, ItsPointsAndNormalsAreTurnedAsItsMeshesAre, (std::ui
     };
     RC_ASSERT(for_each_near(scene.posed(), near, MixedVisitor{triangle, point, Fineness{1.0, 1}}));
     RC_ASSERT(points > 20u);
+}
+
+// A group is left out where its slab and its box say that it lies behind a plane: then every triangle of it must.
+RC_GTEST_PROP(PosedSurface, LeavesOutNoTriangleThatRisesBeforeAPlane, (std::uint32_t seed)) {
+    std::mt19937 random(seed);
+    Scene scene(random);
+    auto loose = std::make_shared<GriddedTriangles>();
+    for (const Vec3& p : ball(3, 0.04, random_vector(random, 0.1)).positions_m) loose->positions_m.emplace_back(p);
+    loose->triangles = ball(3, 0.04, Vec3(0.0)).triangles;
+    build_search(*loose);
+    scene.surface.loose = loose;
+    const Box all = bounds(scene.posed());
+    const Vec3 normal = glm::normalize(random_vector(random, 1.0) + Vec3(1e-3));
+    const std::uint32_t chosen = static_cast<std::uint32_t>(random() % scene.surface.triangles());
+    const double top = glm::dot(normal, scene.place(chosen).a);
+    Near near{.lo = all.lo, .hi = all.hi, .reach_m = 1.0, .by_way = true, .from = all.lo, .to = all.hi};
+    std::set<std::uint32_t> seen;
+    std::size_t left_out = 0;
+    const auto triangle = [&](std::uint32_t id, const Triangle&) { return seen.insert(id), true; };
+    const auto point = [](const SurfacePoint&) { return true; };
+    const auto skips = [&](const Box& box, const TriangleSlab& slab) {
+        const bool behind = highest(box, slab, normal) <= top;
+        left_out += behind;
+        return behind;
+    };
+    RC_ASSERT(for_each_near(scene.posed(), near, SkippingVisitor{triangle, point, Fineness{}, skips}));
+    for (std::uint32_t id = 0; id < scene.surface.triangles(); ++id) {
+        const Triangle t = scene.place(id);
+        const double highest_corner = std::max({glm::dot(normal, t.a), glm::dot(normal, t.b), glm::dot(normal, t.c)});
+        if (highest_corner > top + 1e-7 && !is_degenerate(t)) RC_ASSERT(seen.contains(id));
+    }
+    RC_CLASSIFY(left_out > 0, "groups left out");
+}
+
+// The slab of a flat group is as tight as the group, however it is turned to the axes.
+TEST(TriangleSlab, OfAFlatGroupIsThatGroupsPlane) {
+    std::mt19937 random(3);
+    for (int i = 0; i < 100; ++i) {
+        const Vec3 up = glm::normalize(random_vector(random, 1.0) + Vec3(1e-3)), any = random_vector(random, 1.0);
+        const Vec3 across = glm::normalize(glm::cross(up, any)), along = glm::cross(up, across);
+        std::vector<Triangle> flat;
+        Box box;
+        for (int k = 0; k < 16; ++k) {
+            const Vec3 a = 0.01 * up + 0.001 * k * across;
+            flat.push_back({a, a + 0.001 * across, a + 0.001 * along});
+            if (glm::dot(glm::cross(flat[0].b - flat[0].a, flat[0].c - flat[0].a), up) < 0.0)
+                std::swap(flat.back().b, flat.back().c);
+            for (const Vec3& p : {flat.back().a, flat.back().b, flat.back().c}) box.include(p);
+        }
+        const TriangleSlab slab = slab_around([&](auto&& visit) { std::ranges::for_each(flat, visit); });
+        EXPECT_LT(std::abs(highest(box, slab, up) - 0.01), 1e-8);
+        EXPECT_LT(std::abs(highest(box, slab, -up) + glm::dot(up, box.center())),
+                  1e-12 + glm::dot(glm::abs(up), 0.5 * box.extent()));
+    }
 }
 
 TEST(MeshMotion, MovesAndTurnsAboutTheMeshsOrigin) {

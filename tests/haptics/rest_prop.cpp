@@ -5,35 +5,12 @@
 
 #include <vector>
 
-#include "compute/mesher/surface.hpp"
 #include "haptics/contact/god_object.hpp"
 #include "tests/compute/effort.hpp"
-#include "tests/compute/random_solids.hpp"
-#include "tests/haptics/smooth_shapes.hpp"
+#include "tests/haptics/rough_surfaces.hpp"
 
 namespace burin::haptics {
 namespace {
-
-// A bumpy sphere of 100 mm whose vertices are moved by up to `roughness` mean edges.
-test::Surface rough_ball(int subdivisions, double roughness, std::uint64_t seed) {
-    geometry::TriangleMesh mesh = test::mesh_of({.radius_m = 0.05, .bump_m = 0.001}, subdivisions);
-    const double edge = test::touchable(mesh)->mean_edge_m();
-    compute::test::Random random(seed);
-    for (Vec3& p : mesh.positions_m)
-        p += roughness * edge * Vec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
-    return test::touchable(mesh);
-}
-
-test::Surface noise_tiles() {
-    static WorkerPool pool(2);
-    const compute::Solid solid = compute::test::noise_solid({20, 20, 20}, 0.4, compute::test::Rays::agree, 4);
-    compute::Surface surface(solid.lattice);
-    surface.mesh_all(solid, pool);
-    auto local = std::make_unique<geometry::LocalSurface>();
-    compute::gather_local_surface(surface, solid.lattice.origin_object + 10.0 * solid.lattice.spacing_m, 1e3, *local);
-    local->sequence = 1;
-    return local;
-}
 
 struct Rests {
     int rests = 0, restless = 0, in_contact = 0;
@@ -93,10 +70,12 @@ void expect_rest(const geometry::LocalSurface& surface, const std::vector<double
 }  // namespace
 
 TEST(Rest, AProxyOnARoughMeshHoldsStillUnderAStillHand) {
-    expect_rest(*rough_ball(4, 0.2, 1), {0.0, 0.5, 1.0, 3.5}, 160);
-    expect_rest(*rough_ball(5, 0.1, 2), {7.0, 14.0}, 60);
+    expect_rest(*test::rough_ball(4, 0.2, 1), {0.0, 0.5, 1.0, 3.5}, 160);
+    expect_rest(*test::rough_ball(5, 0.1, 2), {7.0, 14.0}, 60);
 }
 
-TEST(Rest, AProxyOnCarvedNoiseHoldsStillUnderAStillHand) { expect_rest(*noise_tiles(), {0.0, 0.5, 2.0, 4.0}, 80); }
+TEST(Rest, AProxyOnCarvedNoiseHoldsStillUnderAStillHand) {
+    expect_rest(*test::noise_tiles(), {0.0, 0.5, 2.0, 4.0}, 80);
+}
 
 }  // namespace burin::haptics

@@ -293,6 +293,36 @@ TEST(Wand, TheFirstEndDoesNotSpendTheSecondsHalfOfTheTicksWork) {
     EXPECT_GE(out.contact.points[1].constraints, 1u);
 }
 
+// Half of a tick's work is enough for neither end: they come out one after the other.
+TEST(Wand, TwoEndsInBusyPlacesComeOutInTurns) {
+    for (const int fine : {30, 36, 39}) {
+        const double half = 0.0034, apart = 0.1;
+        test::SurfaceBuilder b;
+        for (const double at : {0.0, apart}) {  // seen from below
+            const double s = 2.0 * half / fine;
+            for (int j = 0; j < fine; ++j)
+                for (int i = 0; i < fine; ++i) {
+                    const double x = at - half + s * i, z = -half + s * j;
+                    b.quad({x, 0.0, z}, {x + s, 0.0, z}, {x + s, 0.0, z + s}, {x, 0.0, z + s});
+                }
+        }
+        const test::Surface surface = b.finish();
+        WandHand hand{surface.get(), wand(0.005, 500.0)};
+        hand.parameters.probe.points[0].offset_device_m = {0.0, 0.0001, 0.0};
+        hand.parameters.probe.points[1].offset_device_m = {apart, 0.0001, 0.0};
+        std::array<bool, 2> out{};
+        for (int tick = 0; tick < 200; ++tick) {
+            const TickRecord record = hand.at(Vec3(0.0));
+            EXPECT_LE(cost_ns(record.contact.work), ProxyBudget{}.max_cost_ns) << fine;
+            for (std::size_t i = 0; i < 2; ++i) {
+                const PointRecord& point = record.contact.points[i];
+                out[i] = out[i] || (point.constraints > 0 && point.proxy_object_m.y < -0.0045);
+            }
+        }
+        EXPECT_TRUE(out[0] && out[1]) << fine << " squares a side: " << out[0] << ", " << out[1];
+    }
+}
+
 TEST(Wand, AfterAGapInTheSamplesItIsNotTakenToHaveTurnedFast) {
     const test::Surface far_away = test::plane(0.05, 2, -5.0);
     WandHand hand{far_away.get(), wand(0.004, 500.0)};
