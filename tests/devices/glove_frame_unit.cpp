@@ -52,7 +52,8 @@ TEST(GloveFrames, HaveTheSizesOfThePapersAndReadBackWithinHalfAStep) {
         for (std::size_t i = 0; i < kGloveFingers; ++i) {
             for (std::size_t k = 0; k < kFingerJoints; ++k)
                 EXPECT_NEAR(read[0].joints[i][k], set.joints[i][k], 0.5001 * kAngleStep_rad);
-            if (with_forces) EXPECT_NEAR((*read[0].forces_N)[i], (*set.forces_N)[i], 0.5001 * kForceStep_N);
+            if (!with_forces) continue;
+            EXPECT_NEAR((*read[0].forces_N)[i], (*set.forces_N)[i], 0.5001 * kForceStep_N);
         }
         EXPECT_EQ(frame_of(read[0]).bytes, frame.bytes) << "what was read is written as it was";
     }
