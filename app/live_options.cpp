@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/live_options.hpp"
 
-#include "devices/haptic/device_registry.hpp"
+#include "devices/registry/device_registry.hpp"
 #include "devices/trackers/tracker.hpp"
 
 namespace burin::app {

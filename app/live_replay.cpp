@@ -28,6 +28,15 @@ namespace {
 constexpr const char* kWorkpieceDigestFact = "workpiece sha256";
 constexpr const char* kToolDigestFact = "tool sha256";
 
+// The fact that holds the digest of the wand of a hand after the first.
+std::string wand_fact_of(const session::NamedDevice& hand) { return record::kWandDigestFact + (", hand " + hand.hand); }
+
+std::string hands_text(const std::vector<session::NamedDevice>& hands) {
+    std::string text;
+    for (const session::NamedDevice& one : hands) text += (text.empty() ? "" : " ") + one.hand + "=" + one.device;
+    return text;
+}
+
 std::string tool_file_of(const session::SculptOptions& options) {
     const std::string& shape = options.tool.shape;
     return shape.starts_with("mesh:") ? shape.substr(5) : std::string();
@@ -132,11 +141,36 @@ Result<void> check_files(const record::RecordReader& reader, const session::Scul
             check_recorded_file(reader, {kToolDigestFact, "tool", "tool"}, "mesh:" + tool, digest_of(tool), sets);
         !same)
         return same;
+    for (std::size_t i = 1; i < own.live.hands.size(); ++i) {
+        const session::NamedDevice& hand = own.live.hands[i];
+        const std::string fact = wand_fact_of(hand), what = "wand of hand " + hand.hand;
+        if (const auto same = check_recorded_file(reader, {fact.c_str(), what.c_str(), "hands"}, hand.device,
+                                                  digest_of(wand_file_of(hand.device)), sets);
+            !same)
+            return same;
+    }
+    const bool several = !own.live.hands.empty();
     if (device == first_device)
         return check_wand_file(reader, device,
-                               "say where it is now by --set device=simulated-wand:FILE, or put it back");
+                               several ? "say where it is now by --set 'hands=" + hands_text(own.live.hands) +
+                                             "', with its place in there, or put it back"
+                                       : "say where it is now by --set device=simulated-wand:FILE, or put it back");
     return check_recorded_file(reader, {record::kWandDigestFact, "wand", "device"}, device,
                                digest_of(wand_file_of(device)), sets);
+}
+
+// Refuses changes that would have no effect on this recording: they would count as tried.
+Result<void> check_changes(const LiveReplay& how, const session::SculptOptions& recorded, bool brings_scene) {
+    const bool several = !recorded.live.hands.empty();
+    for (const std::string& set : how.sets)
+        if (several && set.starts_with("device="))
+            return fail("--set " + set, "the recording has several hands, each with its device",
+                        "change them by --set 'hands=" + hands_text(recorded.live.hands) + "'");
+    if (brings_scene && !how.world.empty())
+        return fail("--world " + how.world, "has no effect: the recording's scene is its study's", "leave it out");
+    if (recorded.no_workpiece && !how.workpiece.empty())
+        return fail("--workpiece " + how.workpiece, "has no effect: the recording has no workpiece", "leave it out");
+    return {};
 }
 
 // Makes the activity of a recorded session anew; none where it had none.
@@ -168,6 +202,9 @@ std::vector<std::pair<std::string, std::string>> facts_of_live(const session::Sc
     if (!options.no_workpiece) add(kWorkpieceDigestFact, digest_of(options.workpiece.source));
     add(kToolDigestFact, digest_of(tool_file_of(options)));
     std::ranges::move(facts_of_wand_file(options.live.device), std::back_inserter(facts));
+    for (std::size_t i = 1; i < options.live.hands.size(); ++i)
+        if (const auto digest = digest_of(wand_file_of(options.live.hands[i].device)))
+            facts.emplace_back(wand_fact_of(options.live.hands[i]), *digest);
     return facts;
 }
 
@@ -199,6 +236,8 @@ Result<LiveReplayed> replay_live(record::RecordReader& reader, const LiveReplay&
     options.scene = std::move(made->scene);
     const auto first = session::options_as_recorded(log->settings, options);
     if (!first) return std::unexpected(first.error());
+    if (const auto ok = check_changes(how, first->options, options.scene != nullptr); !ok)
+        return std::unexpected(ok.error());
     Result<std::string> changed = with_changes(log->settings, how, options);
     if (!changed) return std::unexpected(changed.error());
     log->settings = std::move(*changed);

@@ -6,6 +6,7 @@
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/demo_command.hpp"
+#include "app/glove_command.hpp"
 #include "app/live_options.hpp"
 #include "app/live_replay.hpp"
 #include "app/profile.hpp"
@@ -220,6 +221,7 @@ int run(int argc, char** argv) {
     const ProfileCommand profile(app);
     const SessionCommand recordings(app);
     const ReplayCommand replay(app);
+    const GloveCommand glove(app);
     const StudyCommand study(app);
 
     if (const auto status = line.parse(argc, argv)) return *status;
@@ -243,6 +245,7 @@ int run(int argc, char** argv) {
     if (profile.parsed()) return finish(profile.run());
     if (study.parsed()) return finish(study.run());
     if (recordings.parsed()) return finish(recordings.run());
+    if (glove.parsed()) return finish(glove.run());
     if (replay.parsed() && !replay.misuse().empty()) {
         std::fprintf(stderr, "burin: %s; see burin replay --help\n", replay.misuse().c_str());
         return 2;

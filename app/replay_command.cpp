@@ -59,14 +59,16 @@ Result<void> tell(const record::RecordReader& reader, const record::Comparison& 
     Json json{{"file", reader.path()}, {"ticks", found.ticks}, {"columns", found.columns}, {"seconds", took_s}};
     json["difference"] = Json();
     if (found.difference)
-        json["difference"] = {{"tick", found.difference->tick},
+        json["difference"] = {{"hand", found.difference->hand},
+                              {"tick", found.difference->tick},
                               {"column", found.difference->column},
                               {"recorded", found.difference->first},
                               {"again", found.difference->second}};
     if (const auto ok = write_output(json_path, json_text(json)); !ok) return ok;
     if (found.difference) {
         const record::Difference& d = *found.difference;
-        const std::string where = "tick " + std::to_string(d.tick) + (d.column.empty() ? "" : ", " + d.column);
+        const std::string whose = reader.hands().size() > 1 ? d.hand + ", " : "";
+        const std::string where = whose + "tick " + std::to_string(d.tick) + (d.column.empty() ? "" : ", " + d.column);
         return fail(reader.path(), "differs after " + std::to_string(found.ticks) + " equal ticks: " + where +
                                        ": recorded " + d.first + ", again " + d.second);
     }

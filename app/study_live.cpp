@@ -15,6 +15,7 @@
 #include "base/text.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "session/drive/session.hpp"
+#include "session/record/session_recording.hpp"
 #include "study/folder/interruption.hpp"
 
 namespace burin::app {
@@ -60,6 +61,22 @@ Result<std::optional<devices::WandDescription>> wand_of(const std::string& devic
     return *wand;
 }
 
+// Checks where a visit's session is recorded: beside the study, whose files a withdrawal erases, and so that it can be
+// done again.
+Result<void> check_record(const std::string& record, const fs::path& study) {
+    if (record.empty()) return {};
+    std::error_code ignored;
+    const fs::path there = fs::weakly_canonical(fs::absolute(record), ignored);
+    const fs::path folder = fs::weakly_canonical(fs::absolute(study), ignored);
+    if (const auto below = there.lexically_relative(folder); !below.empty() && *below.begin() != "..")
+        return fail(record,
+                    "lies in the study's folder, whose files are its own: a withdrawal would not erase it there",
+                    "record it elsewhere");
+    if (session::is_session_file(record)) return {};
+    return fail(record, "is a log as text, which cannot be done again with its activity",
+                "record into a session file: --record FILE.session");
+}
+
 // Empty where there is no file: a pipe would be waited for.
 std::string first_line_of(const std::string& file) {
     std::error_code ignored;
@@ -94,6 +111,7 @@ session::SculptOptions participant_session(const session::LiveOptions& live,
 }
 
 Result<void> run_live_visit(study::StudyFolder& study, const StudyRunOptions& options) {
+    if (const auto ok = check_record(options.live.record, study.path()); !ok) return ok;
     const auto plan =
         activities::plan_visit(study, options.participant,
                                {.resumes_late = options.resume, .any_delay = options.any_delay}, study::now_utc_ns());

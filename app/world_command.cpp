@@ -18,7 +18,7 @@
 #include "app/world_wand.hpp"
 #include "base/text.hpp"
 #include "compute/rays/lattice.hpp"
-#include "devices/haptic/device_registry.hpp"
+#include "devices/registry/device_registry.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "geometry/files/mesh_unit.hpp"
 #include "geometry/vrml/vrml_shapes.hpp"
@@ -371,7 +371,10 @@ std::string WorldCommand::misuse() const {
     if (along_a_stroke && !live.input.empty()) return "--input leads a session and --stroke a simulated hand: give one";
     if (!along_a_stroke && !(exploration.report.empty() && exploration.pictures.empty()))
         return std::string(exploration.report.empty() ? "--pictures" : "--report") + " belongs to a --stroke";
-    if (!options_->exploration.points.empty() && !devices::is_wand(live.device))
+    const bool has_wand = devices::is_wand(live.device) || std::ranges::any_of(live.hands, [](const auto& hand) {
+                              return devices::is_wand(hand.device);
+                          });
+    if (!options_->exploration.points.empty() && !has_wand)
         return "--points belongs to a wand: give --device " + std::string(devices::kSimulatedWand);
     if (!options_->exploration.stroke.empty() && !live.hands.empty())
         return "world explores with one hand: name one --device";

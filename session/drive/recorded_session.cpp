@@ -97,9 +97,14 @@ Result<std::unique_ptr<TickSource>> ticks_for(LiveSession& session, const Thread
         source = std::move(*columns);
     }
     const std::size_t parts = session.hands().parts();
-    const bool frames_agree =
-        std::ranges::all_of(log.frames, [&](const FrameSeen& seen) { return seen.ticks.size() == parts; });
-    if (source->parts() == parts && frames_agree) return source;
+    const auto other =
+        std::ranges::find_if(log.frames, [&](const FrameSeen& seen) { return seen.ticks.size() != source->parts(); });
+    if (other != log.frames.end())
+        return fail(name + ":" + std::to_string(other->line),
+                    "names the ticks of so many parts of hands: " + std::to_string(other->ticks.size()) +
+                        ", and the recording has " + std::to_string(source->parts()),
+                    "replay it as it was recorded: a text log holds one part, a session file all");
+    if (source->parts() == parts) return source;
     return fail(name,
                 "has the ticks of so many parts of hands: " + std::to_string(source->parts()) +
                     ", and this session's devices have " + std::to_string(parts),
@@ -121,8 +126,10 @@ Result<void> check_screens(const Presenter& presenter, const ThreadLog& log, con
 
 }  // namespace
 
-Result<void> replay_as_recorded(const SculptOptions& options, const SessionWall& wall, InputLog log,
+Result<void> replay_as_recorded(const SculptOptions& given, const SessionWall& wall, InputLog log,
                                 const ReplayManner& manner) {
+    SculptOptions options = given;
+    options.live.stands_in = true;
     const ThreadLog threads = std::move(*log.threads);
     const std::string& name = options.live.input;
     InputSource input = InputSource::replay(std::move(log));

@@ -64,7 +64,9 @@ Result<void> check(const SculptOptions& options) {
     std::error_code ignored;
     if (!options.world.empty() && !std::filesystem::is_regular_file(options.world, ignored))
         return fail(options.world, "is no file that can be read", "name a world: .toml, .wrl, or a mesh");
-    if (!options.points.empty() && !devices::is_wand(options.live.device))
+    const auto is_wands = [](const NamedDevice& hand) { return devices::is_wand(hand.device); };
+    if (!options.points.empty() && !devices::is_wand(options.live.device) &&
+        std::ranges::none_of(options.live.hands, is_wands))
         return fail("--points", "belongs to a wand, and the device is " + options.live.device,
                     "give --device " + std::string(devices::kSimulatedWand) + ", or leave --points out");
     return sculpt::check_units(options.workpiece, false);  // a session has no tool from a file

@@ -77,7 +77,7 @@ Result<void> ThreadReplay::run_to_end() {
     for (;;) {
         const Result<bool> there = read_turn();
         if (!there) return std::unexpected(there.error());
-        if (!*there) return {};
+        if (!*there) return check_ends_together();
         if (const auto run = run_turn(); !run) return run;
     }
 }
@@ -96,14 +96,15 @@ Result<void> ThreadReplay::run_turns(std::uint64_t last) {
 
 // Reads the next tick of each part; false where there is none.
 Result<bool> ThreadReplay::read_turn() {
+    bool all = true;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         if (parts_[i].next) continue;
         Result<std::optional<TickSeen>> tick = ticks_source_->next(i);
         if (!tick) return std::unexpected(tick.error());
-        if (!*tick) return false;
         parts_[i].next = std::move(*tick);
+        all = all && parts_[i].next.has_value();
     }
-    return true;
+    return all;
 }
 
 Result<haptics::PartInput> ThreadReplay::input_of(std::size_t i) {
@@ -213,7 +214,32 @@ void ThreadReplay::keep_surfaces() {
 
 // ---- Errors
 
+// Says what is wrong behind the last ticks that could be read.
+std::optional<std::string> ThreadReplay::hole() const {
+    for (std::size_t i = 0; i < parts_.size(); ++i)
+        if (auto found = ticks_source_->hole(i)) return found;
+    return std::nullopt;
+}
+
+// All parts of a session that was closed end with the same turn.
+Result<void> ThreadReplay::check_ends_together() const {
+    constexpr const char* kRemedy = "it was changed since: burin session check names where; take it from a copy";
+    if (const auto found = hole()) return fail(name_, "is damaged: " + *found, kRemedy);
+    for (std::size_t i = 0; i < parts_.size(); ++i)
+        if (parts_[i].next)
+            return fail(name_,
+                        "is damaged: " + session_.hands().name_of(i) + " has more ticks than another part of the hands",
+                        kRemedy);
+    return {};
+}
+
+// A log that was closed says so in its last line: then nothing is torn off, and what is missing was taken out.
 std::unexpected<Error> ThreadReplay::ends(const std::string& what) {
+    if (log_.end_check)
+        return fail(name_,
+                    "is damaged: it lacks " + what + ", which its frames need, though it goes on to its end" +
+                        (hole() ? " (" + *hole() + ")" : ""),
+                    "it was changed since: burin session check names where; take it from a copy");
     log_ends_ = true;
     return fail(name_, "the recording ends before " + what + ", which its last frames need",
                 "it was torn off; what comes before is replayed");

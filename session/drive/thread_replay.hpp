@@ -80,6 +80,8 @@ private:
     void keep_surfaces();
     void keep_parameters();
     [[nodiscard]] std::unexpected<Error> ends(const std::string& what);
+    [[nodiscard]] Result<void> check_ends_together() const;
+    [[nodiscard]] std::optional<std::string> hole() const;
     [[nodiscard]] std::unexpected<Error> contradiction(const std::string& where, const std::string& what) const;
 
     LiveSession& session_;

@@ -5,13 +5,13 @@
 #include <utility>
 
 #include "base/text.hpp"
-#include "devices/haptic/device_registry.hpp"
+#include "devices/registry/device_registry.hpp"
 
 namespace burin::session {
 
-Result<void> SessionHands::open(std::span<const HandToOpen> wanted, Clock& clock) {
+Result<void> SessionHands::open(std::span<const HandToOpen> wanted, Clock& clock, bool stands_in) {
     for (const HandToOpen& one : wanted)
-        if (const auto opened = open(one, clock); !opened) return opened;
+        if (const auto opened = open_one(one, clock, stands_in); !opened) return opened;
     std::vector<haptics::LoopPart> parts;
     const double rate_Hz = device(0).rate_Hz;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
@@ -27,7 +27,7 @@ Result<void> SessionHands::open(std::span<const HandToOpen> wanted, Clock& clock
     return {};
 }
 
-Result<void> SessionHands::open(const HandToOpen& wanted, Clock& clock) {
+Result<void> SessionHands::open_one(const HandToOpen& wanted, Clock& clock, bool stands_in) {
     auto hand = std::make_unique<Hand>();
     hand->name = wanted.name;
     hand->first_part = parts_.size();
@@ -38,7 +38,7 @@ Result<void> SessionHands::open(const HandToOpen& wanted, Clock& clock) {
     if (!steered) return std::unexpected(steered.error());
     hand->told.position_device_m = rest.position_device_m;
     hand->told.orientation_device = rest.orientation_device;
-    auto opened = devices::open_haptic_device(wanted.device, {clock, std::move(*steered)});
+    auto opened = devices::open_haptic_device(wanted.device, {clock, std::move(*steered), stands_in});
     if (!opened && wanted.name.empty()) return std::unexpected(opened.error());
     if (!opened)
         return fail("hand " + wanted.name + ": " + opened.error().where, opened.error().what, opened.error().remedy);

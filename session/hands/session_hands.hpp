@@ -24,7 +24,7 @@ namespace burin::session {
 // Which device is whose, and where a simulated hand rests in it.
 struct HandToOpen {
     std::string name;    // "right"; empty for the only hand
-    std::string device;  // by its name (devices/haptic/device_registry.hpp)
+    std::string device;  // by its name (devices/registry/device_registry.hpp)
     Pose rest_device;
 };
 
@@ -41,8 +41,9 @@ public:
         : records_(records), pace_(pace), whole_ticks_(whole_ticks) {}
 
     // Opens a device for each hand, simulated ones with their hand at rest. Fails, and names the hand, where one does
-    // not open, or where they do not tick at one rate. The clock must outlive them.
-    [[nodiscard]] Result<void> open(std::span<const HandToOpen> wanted, Clock& clock);
+    // not open, or where they do not tick at one rate. stands_in: of a recording that is done again (HapticHost). The
+    // clock must outlive them.
+    [[nodiscard]] Result<void> open(std::span<const HandToOpen> wanted, Clock& clock, bool stands_in = false);
 
     [[nodiscard]] std::size_t hands() const { return hands_.size(); }
     [[nodiscard]] std::size_t parts() const { return parts_.size(); }
@@ -93,7 +94,7 @@ private:
         haptics::HapticChannels channels;
         std::uint64_t parameter_sequence = 0;
     };
-    [[nodiscard]] Result<void> open(const HandToOpen& wanted, Clock& clock);
+    [[nodiscard]] Result<void> open_one(const HandToOpen& wanted, Clock& clock, bool stands_in);
 
     std::size_t records_;
     double pace_;

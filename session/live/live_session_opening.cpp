@@ -188,7 +188,7 @@ Result<void> LiveSession::open_hands(const SculptOptions& options) {
             i == state_.hand ? state_.desk.target_device_m : state_.hands[i].target.position_device_m;
         wanted.push_back({hand.hand, hand.device, {rest_device_m, room_.of(i).desk.rest_device}});
     }
-    if (const auto opened = hands_.open(wanted, clock_); !opened) return opened;
+    if (const auto opened = hands_.open(wanted, clock_, options.live.stands_in); !opened) return opened;
     tools_.resize(hands_.parts());
     return {};
 }

@@ -59,8 +59,11 @@ std::optional<std::uint64_t> seen_by(const std::string& line) {
 Result<record::ExportReport> export_session_log(record::RecordReader& reader, const std::string& path) {
     const Result<InputLog> log = read_session_log(reader);
     if (!log) return std::unexpected(log.error());
+    if (log->threads && reader.hands().size() > 1)
+        return fail(reader.path(), "has the ticks of several parts of hands, which a log as text cannot hold",
+                    "replay the session file itself; --to csv has its ticks");
     std::unique_ptr<TickSource> source;
-    if (log->threads && log->threads->ticks.count == 0 && reader.hands().size() == 1) {
+    if (log->threads && log->threads->ticks.count == 0) {
         auto columns = ticks_of_columns(reader);
         if (!columns) return std::unexpected(columns.error());
         source = std::move(*columns);

@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: MIT Writes a live session's log out of its session file as text, which can be done again
-// like any text log: the lines as they are, and the ticks' lines made of the columns. A text log holds the ticks of one
-// hand with one part; of others it is written without ticks, and holds the input alone. One thread; blocks on the disk.
+// SPDX-License-Identifier: MIT
+// Writes a live session's log out of its session file as text, which can be done again like any text log: the lines as
+// they are, and the ticks' lines made of the columns. A text log holds the ticks of one hand with one part; others are
+// refused. One thread; blocks on the disk.
 #pragma once
 
 #include <string>

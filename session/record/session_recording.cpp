@@ -111,8 +111,13 @@ SessionRecording::Progress SessionRecording::progress() const {
         progress.acknowledged = std::min(progress.acknowledged, writer_->acknowledged(part));
         progress.lost += session_.parts[part].ring->refused();
     }
+    std::uint64_t on_disk = 0;
+    for (std::size_t part = 0; part < session_.parts.size(); ++part) on_disk += writer_->acknowledged(part);
+    const bool failed = writer_->failure().has_value();
     const std::lock_guard lock(mutex_);
     progress.recorded = recorded_;
+    // Nothing of what waited for a disk that failed will get there.
+    if (failed && recorded_ > on_disk) progress.lost += recorded_ - on_disk;
     return progress;
 }
 

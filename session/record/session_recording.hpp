@@ -86,7 +86,7 @@ public:
     struct Progress {
         std::uint64_t recorded = 0;      // ticks, of all parts
         std::uint64_t acknowledged = 0;  // the last tick that is on the disk, of every part
-        std::uint64_t lost = 0;          // ticks, to a full ring
+        std::uint64_t lost = 0;          // ticks, to a full ring, or to a disk that failed
     };
     [[nodiscard]] Progress progress() const;
     [[nodiscard]] const std::string& path() const { return path_; }

@@ -47,8 +47,10 @@ public:
         if (!*more) return end(own);
         const record::RecordedTick tick = own.columns.motion.at(own.walk.block(), own.walk.row());
         const auto flags = static_cast<std::uint32_t>(own.walk.at(own.columns.flags));
-        const bool follows = tick.tick == own.tick + 1 && (flags & haptics::kTickSampleDropped) == 0;
-        if (!follows) return end(own);
+        if (tick.tick != own.tick + 1)
+            own.hole = "tick " + std::to_string(own.tick) + " of " + reader_.table(part).name +
+                       " is followed by tick " + std::to_string(tick.tick);
+        if (own.hole || (flags & haptics::kTickSampleDropped) != 0) return end(own);
         own.tick = tick.tick;
         return TickSeen{tick.time_ns,
                         tick.sample,
@@ -57,6 +59,7 @@ public:
                         (flags & haptics::kTickLate) != 0,
                         tick.lateness_ns};
     }
+    [[nodiscard]] std::optional<std::string> hole(std::size_t part) const override { return parts_[part].hole; }
     [[nodiscard]] std::string place(std::size_t part) const override {
         return reader_.path() + ": " + reader_.table(part).name + ", tick " + std::to_string(parts_[part].tick);
     }
@@ -67,6 +70,7 @@ private:
         record::RowWalk walk;
         std::int64_t tick = 0;  // the last
         bool over = false;
+        std::optional<std::string> hole = {};
     };
     static Result<std::optional<TickSeen>> end(Part& part) {
         part.over = true;

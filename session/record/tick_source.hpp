@@ -21,6 +21,9 @@ public:
     // Returns the next tick of a part, from the first on; nothing after the last that can be repeated: the end of the
     // recording, or a tick before one that was lost. Fails where it cannot be read.
     [[nodiscard]] virtual Result<std::optional<TickSeen>> next(std::size_t part) = 0;
+    // Says what is wrong behind the last tick of a part, where more ticks stand there that do not follow it; nothing at
+    // the end of the recording.
+    [[nodiscard]] virtual std::optional<std::string> hole(std::size_t /*part*/) const { return std::nullopt; }
     // Says where the last tick of a part stands, for messages: "FILE:LINE", or the file and the tick.
     [[nodiscard]] virtual std::string place(std::size_t part) const = 0;
 };

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/haptic/device_registry.hpp"
+#include "devices/registry/device_registry.hpp"
 #include "sculpt/feel_options.hpp"
 #include "sculpt/tool_options.hpp"
 #include "sculpt/workpiece.hpp"
@@ -55,6 +55,7 @@ struct LiveOptions {
     bool writes_nothing = false;  // files that are asked for are left out
     // Exports are ordered as ever and refused, so that a session that is done again takes the same course.
     bool refuses_exports = false;
+    bool stands_in = false;  // a recording is done again: no device is looked for
 };
 
 class Activity;  // session/state/activity.hpp

@@ -184,7 +184,9 @@ Result<void> check_activity(OptionWords& words, const Activity* given) {
     };
     return fail("the recording", "is of " + named(then) + ", and this session has " + named(now),
                 then.empty() ? "replay it with burin sculpt or burin world"
-                             : "replay it with the command that recorded it: burin " + then);
+                             : "do a session file again with burin replay FILE; a log as text with the command that "
+                               "recorded it: burin " +
+                                   then);
 }
 
 // Completes the options of a recording that names no unit. Every recording has named one since there are units; before,
@@ -248,6 +250,7 @@ Result<RecordedOptions> options_as_recorded(const std::string& line, const Sculp
     if (!words->empty()) wrong = words->begin()->first + " is no option that a session knows";
     if (!wrong.empty()) return fail("the recording's first line", wrong, "replay it with the program that recorded it");
     if (recorded.options.live.device.empty()) recorded.options.live.device = devices::kDefaultHapticDevice;
+    if (!recorded.options.live.hands.empty()) recorded.options.live.device = recorded.options.live.hands.front().device;
     as_before_units(recorded.options);
     return recorded;
 }

@@ -17,8 +17,8 @@ namespace {
 
 const std::string kHandsBurin = kBurinCommand;
 const std::string kTwoHands = "--device right=simulated --device left=simulated";
-// A small piece, and small pictures.
-const std::string kSmallPiece = " sculpt --workpiece ball:0.08 --resolution 48 --width 320 --height 180 --input " +
+// A coarse piece; the window is the script's, whose mouse moves by its pixels.
+const std::string kSmallPiece = " sculpt --workpiece ball:0.08 --resolution 48 --input " +
                                 std::string(kSessionsFolder) + "/two-hands.txt --offscreen ";
 
 // The rows of a column of a part, as the file has them.
@@ -76,6 +76,59 @@ TEST(Hands, ARecordingOfTwoIsRefusedWhereOneIsLeft) {
     EXPECT_TRUE(as_text.output.contains("record into a session file")) << as_text.output;
 }
 
+TEST(Hands, ARecordingFromWhichABlockWasTakenIsNotEqual) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace at;
+    if (at.run("/usr/bin/python3 -c 'import sqlite3'").status != 0)
+        GTEST_SKIP() << "no python3 to change the file with";
+    at.write("s.txt", "burin-input 1 test\n0.1 mouse 100 100\n1.0 mouse 120 100\n2.6 mouse 100 100\n3.2 close\n");
+    ASSERT_EQ(
+        at.run(kHandsBurin +
+               " sculpt --workpiece ball:0.08 --resolution 16 --width 320 --height 180 --input s.txt --offscreen " +
+               kTwoHands + " --record two.session")
+            .status,
+        0);
+    at.write("cut.py",
+             "import sqlite3, shutil, sys\n"
+             "hand, skip = sys.argv[1], sys.argv[2]\n"
+             "shutil.copy('two.session', 'cut.session')\n"
+             "d = sqlite3.connect('cut.session')\n"
+             "d.execute('delete from block where id = (select id from block where hand = ? order by tick0 desc '\n"
+             "          'limit 1 offset ?)', (hand, skip))\n"
+             "d.commit()\n");
+    for (const char* const cut : {"0 0", "1 0", "0 1", "1 1"}) {
+        ASSERT_EQ(at.run(std::string("/usr/bin/python3 cut.py ") + cut).status, 0);
+        const auto replayed = at.run(kHandsBurin + " replay cut.session");
+        EXPECT_EQ(replayed.status, 1) << cut << "\n" << replayed.output;
+        EXPECT_TRUE(replayed.output.contains("is damaged")) << cut << "\n" << replayed.output;
+    }
+}
+
+TEST(Hands, AReplayRefusesAnotherWandInAnyHandAndChangesWithoutEffect) {
+    if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
+    const Workplace at;
+    at.write("s.txt", "burin-input 1 test\n0.1 mouse 100 100\n0.3 close\n");
+    const std::string wand = "name = \"a wand\"\n[[point]]\nname = \"top\"\noffset = [0, 0.03, 0]\n";
+    at.write("w.toml", wand);
+    ASSERT_EQ(at.run(kHandsBurin +
+                     " sculpt --workpiece ball:0.08 --resolution 16 --width 320 --height 180 --input s.txt --offscreen "
+                     "--device right=simulated --device left=simulated-wand:w.toml --record two.session")
+                  .status,
+              0);
+    const std::string replay = kHandsBurin + " replay two.session";
+    EXPECT_EQ(at.run(replay).status, 0);
+    const auto single = at.run(replay + " --set device=simulated-wand");
+    EXPECT_EQ(single.status, 1);
+    EXPECT_TRUE(single.output.contains("the recording has several hands")) << single.output;
+    const auto as_text = at.run(kHandsBurin + " convert two.session two.log --to log");
+    EXPECT_EQ(as_text.status, 1);
+    EXPECT_TRUE(as_text.output.contains("a log as text cannot hold")) << as_text.output;
+    at.write("w.toml", wand + "# another one\n");
+    const auto other = at.run(replay);
+    EXPECT_EQ(other.status, 1);
+    EXPECT_TRUE(other.output.contains("is another wand of hand left")) << other.output;
+}
+
 TEST(Hands, WhatIsWrongWithADeviceIsSaidBeforeAWindowOpens) {
     const Workplace at;
     const auto of = [&](const std::string& devices) {
@@ -96,12 +149,11 @@ TEST(Hands, WhatIsWrongWithADeviceIsSaidBeforeAWindowOpens) {
 TEST(Hands, FourFingersFeelAWorldAndAreDoneAgainToTheBit) {
     if (!gpu::list_devices()) GTEST_SKIP() << "no Vulkan driver";
     const Workplace at;
-    const auto recorded = at.run(
-        kHandsBurin +
-        " world " + std::string(kSessionsFolder) + "/../worlds/garden.toml --device simulated-fingers --input " +
-        kSessionsFolder + "/fingers.txt --offscreen "
-        "--width 320 --height 180 --record " +
-        (at / "fingers.session").string() + " --outputs " + (at / "out").string());
+    const auto recorded = at.run(kHandsBurin + " world " + std::string(kSessionsFolder) +
+                                 "/../worlds/garden.toml --device simulated-fingers --input " + kSessionsFolder +
+                                 "/fingers.txt --offscreen "
+                                 "--width 320 --height 180 --record " +
+                                 (at / "fingers.session").string() + " --outputs " + (at / "out").string());
     ASSERT_EQ(recorded.status, 0) << recorded.output;
     const auto replayed = at.run(kHandsBurin + " replay fingers.session");
     EXPECT_EQ(replayed.status, 0) << replayed.output;

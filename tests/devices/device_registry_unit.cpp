@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The registry of force-feedback devices.
-#include "devices/haptic/device_registry.hpp"
+#include "devices/registry/device_registry.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "devices/haptic/device_registry.hpp"
+#include "devices/registry/device_registry.hpp"
 #include "tests/support/test_units.hpp"
 
 namespace burin::devices {

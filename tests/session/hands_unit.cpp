@@ -115,13 +115,13 @@ TEST(SessionHands, BothHandsCarveTheSamePiece) {
     std::uint64_t last = before;
     for (const char* hand : {"right", "left"}) {
         desk.frame({lead(hand)});
-        desk.frame({Scroll{{0.0, 10.0}}});
+        desk.frame({Scroll{{0.0, 10.0}, {}}});
         desk.frames(30);
         desk.frame({MouseClick{MouseButton::left, true, {}}});
-        desk.frame({Scroll{{0.0, 10.0}}});
+        desk.frame({Scroll{{0.0, 10.0}, {}}});
         desk.frames(40);
         desk.frame({MouseClick{MouseButton::left, false, {}}});
-        desk.frame({Scroll{{0.0, -20.0}}});
+        desk.frame({Scroll{{0.0, -20.0}, {}}});
         desk.frames(30);
         EXPECT_NE(check_of(*desk.session), last) << hand;
         last = check_of(*desk.session);
@@ -169,7 +169,7 @@ TEST(SessionHands, ADeviceWhoseAmplifiersAreOffLeavesTheOtherItsForce) {
     HandsAtABall desk({"right=simulated", "left=simulated-wand"});
     desk.frame({MouseMove{{640.0, 360.0}}});
     desk.drag({-60.0, 0.0});
-    desk.frame({Scroll{{0.0, 24.0}}});
+    desk.frame({Scroll{{0.0, 24.0}, {}}});
     desk.settle();
     ASSERT_GT(glm::length(desk.tool(0).given.force_device_N), 0.1) << "it presses on the ball";
     desk.frame({lead("left"), CommandInput{"amplifiers", {"off"}}});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The registry of all force-feedback devices that there are. To add one, write its source beside simulated_omni.cpp and
-// enter it in the table of device_registry.cpp: the help of --device and its parsing read that table.
+// The registry of all force-feedback devices that there are. To add one, write its source beside
+// devices/haptic/simulated_omni.cpp and enter it in the table of device_registry.cpp: the help of --device and its
+// parsing read that table.
 // Thread: the one that opens the session.
 #pragma once
 
@@ -18,8 +19,11 @@ namespace burin::devices {
 
 // What a device needs of the program. The clock must outlive the device.
 struct HapticHost {
-    Clock& clock;
-    OmniHand hand;  // what holds the stylus of a simulated device; others have a hand of their own
+    Clock& clock;   // of a device that is there it must be the machine's
+    OmniHand hand;  // what holds the stylus of a simulated device, and leads the palm of a glove
+    // A recording is done again, and no device is looked for: whatever there is stands in for one, with the same
+    // description. Its samples are the recording's.
+    bool stands_in = false;
 };
 
 struct HapticKind {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "devices/haptic/device_registry.hpp"
+#include "devices/registry/device_registry.hpp"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
 #include "base/text.hpp"
+#include "devices/gloves/glove_device.hpp"
 #include "devices/haptic/simulated_wand.hpp"
 #include "devices/haptic/steered_fingers.hpp"
 #include "devices/haptic/wand_file.hpp"
@@ -35,6 +36,16 @@ Result<OpenedDevice> open_simulated_fingers(HapticHost host, const std::string& 
     return simulated_fingers(std::move(host.hand), host.clock);
 }
 
+Result<OpenedDevice> open_glove_at(HapticHost host, const std::string& port) {
+    const std::string where = "haptic device " + std::string(kGlove);
+    if (host.stands_in) return open_glove({}, std::move(host.hand), host.clock);
+    if (port.empty()) return fail(where, "names no port", "write one: glove:/dev/ttyUSB0");
+    if (dynamic_cast<MonotonicClock*>(&host.clock) == nullptr)
+        return fail(where, "is on a line in real time, and this session's time is simulated",
+                    "run it in a window, or with --record FILE.session, which plays an --input in real time");
+    return open_glove(port, std::move(host.hand), host.clock);
+}
+
 constexpr std::array kKinds{
     HapticKind{kDefaultHapticDevice, "a PHANTOM Omni in a simulated hand", 1, open_simulated_omni},
     HapticKind{
@@ -44,6 +55,8 @@ constexpr std::array kKinds{
         1, open_simulated_wand},
     HapticKind{kSimulatedFingers, "four fingertips of a simulated hand, each pushed by itself", kFingers,
                open_simulated_fingers},
+    HapticKind{kGlove, "a glove that pushes four fingertips, on a serial line: glove:PORT, such as glove:/dev/ttyUSB0",
+               kGloveFingers, open_glove_at},
 };
 
 }  // namespace

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// The controller of a glove that is not there: what it does in a step, pure, and the pseudo-terminal on which it talks
+// as a glove on a serial line does.
+//
+// Model: a hand whose fingers mean to follow a script of flexions, each held with kGrip_Nm_per_rad; the piston's force
+// opens the finger against that grip. A piston follows its command as a low-pass of kBand_Hz, as the paper's glove does
+// from 10 to 50 Hz, and gives nothing when no command has come for kWatchdog_s.
+// Line: 38,400 bit/s carry 3,840 bytes a second, so a set of 32 bytes leaves each 8.3 ms. Units: SI.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "base/error.hpp"
+#include "devices/gloves/glove_hand.hpp"
+
+namespace burin::devices {
+
+enum class GloveMotion { still, closing };  // closing: closes within two seconds, rests, and opens again, and so on
+
+struct EmulatedGlove {
+    static constexpr double kStep_s = 0.002;  // the controller's loop of 500 Hz
+    static constexpr double kBand_Hz = 25.0, kGrip_Nm_per_rad = 1.5, kWatchdog_s = 0.1;
+
+    GloveMotion motion = GloveMotion::closing;
+    double time_s = 0.0;
+    GloveForces commanded_N{}, given_N{};
+    double since_command_s = kWatchdog_s;
+    GloveJoints joints{};
+    std::uint8_t number = 0;  // of the next set
+};
+// Takes the controller on by a step.
+[[nodiscard]] EmulatedGlove stepped(EmulatedGlove glove);
+[[nodiscard]] EmulatedGlove with_command(EmulatedGlove glove, const GloveCommand& command);
+// Returns the set that it sends now.
+[[nodiscard]] GloveSet set_of(const EmulatedGlove& glove);
+
+// A pseudo-terminal at whose far end a program finds a glove. One thread.
+class GlovePort {
+public:
+    [[nodiscard]] static Result<GlovePort> create();
+    ~GlovePort();
+    GlovePort(GlovePort&& other) noexcept;
+    GlovePort& operator=(GlovePort&&) = delete;
+
+    [[nodiscard]] const std::string& name() const { return name_; }  // of the far end: "/dev/pts/3"
+    // Runs a controller in real time until `ends` says so, which is asked 500 times a second.
+    void run(EmulatedGlove glove, const std::function<bool()>& ends);
+    // Falls silent without closing the line, as a glove whose cable is pulled at the hand; for drills.
+    void fall_silent(bool is_silent) { is_silent_.store(is_silent, std::memory_order_relaxed); }
+    // Returns the forces that the pistons gave last. Any thread.
+    [[nodiscard]] double given_N(std::size_t finger) const { return given_N_[finger].load(std::memory_order_relaxed); }
+
+private:
+    GlovePort(int file, int far_end, std::string name) : file_(file), far_end_(far_end), name_(std::move(name)) {}
+
+    int file_, far_end_;  // the far end is held open, so that a program may come and go
+    std::string name_;
+    std::atomic<bool> is_silent_ = false;
+    std::array<std::atomic<double>, kGloveFingers> given_N_{};
+};
+
+}  // namespace burin::devices

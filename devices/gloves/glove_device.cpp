@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "devices/gloves/glove_device.hpp"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <utility>
+
+#include "devices/gloves/glove_link.hpp"
+
+namespace burin::devices {
+namespace {
+
+constexpr std::array<const char*, kGloveFingers> kPistonNames{"thumb", "index", "middle", "ring"};
+
+DeviceDescription glove_description() {
+    DeviceDescription d;
+    d.name = "glove on a serial line";
+    // The palm's way, as a stylus' on a desk, and a hand around it.
+    d.workspace_m = Vec3(0.4, 0.4, 0.35);
+    d.resolution_m = 0.0001;  // a twelfth of a degree at the end of a finger
+    d.max_force_N = kMostPistonForce_N;
+    d.max_stiffness_N_per_m = 600.0;
+    d.rate_Hz = 1000.0;
+    d.apparent_mass_kg = 0.03;  // of a piston and a fingertip: assumed
+    d.damping_Ns_per_m = 0.5;
+    d.delay_s = seconds(GloveLink::kSend_ns);
+    return d;
+}
+
+class GloveParts {
+public:
+    GloveParts(std::unique_ptr<GloveLink> link, OmniHand hand, Clock& clock)
+        : link_(std::move(link)), hand_(std::move(hand)), clock_(clock), start_ns_(clock.now_ns()) {}
+
+    [[nodiscard]] DeviceSample read(std::size_t finger) noexcept {
+        if (finger == 0) look();
+        const Pose& tip = places_[finger].hand_from_tip;
+        DeviceSample sample;
+        sample.time_ns = now_ns_;
+        sample.position_device_m = palm_ * tip.position_m;
+        sample.orientation_device = glm::normalize(palm_.orientation * tip.orientation);
+        sample.buttons = buttons_;
+        if (is_lost_) {
+            sample.fault = DeviceFault::disconnected;
+            sample.fault_is_of_all = true;
+        } else if (has_fault_) {
+            sample.fault = DeviceFault::other;
+            sample.fault_is_of_all = true;
+        }
+        return sample;
+    }
+
+    void write(std::size_t finger, const DeviceWrench& wrench) noexcept {
+        const Vec3 force_hand_N = glm::conjugate(palm_.orientation) * wrench.force_device_N;
+        forces_N_[finger] = piston_force(places_[finger], force_hand_N).force_N;
+        if (link_ && finger + 1 == kGloveFingers) link_->command(is_lost_ ? GloveForces{} : forces_N_);
+    }
+
+private:
+    [[nodiscard]] HandTarget hand_target(double time_s) noexcept {
+        if (const auto* scripted = std::get_if<SimulatedHand>(&hand_)) return scripted->target(time_s);
+        if (const auto* directed = std::get_if<DirectedHand>(&hand_)) return directed->target(time_s);
+        return std::get_if<SteeredHand>(&hand_)->target(time_s);
+    }
+
+    // Takes where the palm and the joints are now.
+    void look() noexcept {
+        now_ns_ = clock_.now_ns();
+        const HandTarget hand = hand_target(seconds(now_ns_ - start_ns_));
+        palm_ = {hand.position_device_m, hand.orientation_device};
+        buttons_ = hand.buttons;
+        GloveJoints joints{};
+        if (link_) {
+            const GloveHeard& heard = link_->newest();
+            is_lost_ = heard.time_ns == 0 || now_ns_ - heard.time_ns > kGloveLost_ns;
+            has_fault_ = heard.set.fault;
+            joints = joints_at(heard);
+        }
+        for (std::size_t i = 0; i < kGloveFingers; ++i) places_[i] = place_of(shape_[i], joints[i]);
+    }
+
+    // On the way from the set before to the newest, as far as the time since its arrival is of that between them.
+    [[nodiscard]] GloveJoints joints_at(const GloveHeard& heard) const noexcept {
+        const Nanoseconds between_ns = heard.time_ns - heard.before_ns;
+        if (heard.before_ns == 0 || between_ns <= 0 || between_ns > kGloveLost_ns) return heard.set.joints;
+        const double share = std::min(seconds(now_ns_ - heard.time_ns) / seconds(between_ns), 1.0);
+        GloveJoints joints{};
+        for (std::size_t i = 0; i < kGloveFingers; ++i)
+            for (std::size_t k = 0; k < kFingerJoints; ++k) {
+                const double from = heard.before.joints[i][k], to = heard.set.joints[i][k];
+                joints[i][k] = from + share * (to - from);
+            }
+        return joints;
+    }
+
+    const GloveHand& shape_ = usual_hand();
+    std::unique_ptr<GloveLink> link_;  // null: there is no glove
+    OmniHand hand_;
+    Clock& clock_;
+    Nanoseconds start_ns_, now_ns_ = 0;
+    Pose palm_;
+    std::uint32_t buttons_ = 0;
+    bool is_lost_ = false, has_fault_ = false;
+    std::array<FingertipPlace, kGloveFingers> places_{};
+    GloveForces forces_N_{};
+};
+
+class GlovePart final : public HapticDevice {
+public:
+    GlovePart(std::shared_ptr<GloveParts> all, std::size_t finger)
+        : all_(std::move(all)), finger_(finger), description_(glove_description()) {}
+    [[nodiscard]] const DeviceDescription& description() const noexcept override { return description_; }
+    [[nodiscard]] DeviceSample read() noexcept override { return all_->read(finger_); }
+    void write(const DeviceWrench& wrench) noexcept override { all_->write(finger_, wrench); }
+
+private:
+    std::shared_ptr<GloveParts> all_;
+    std::size_t finger_;
+    DeviceDescription description_;
+};
+
+}  // namespace
+
+Result<OpenedDevice> open_glove(const std::string& port, OmniHand hand, Clock& clock) {
+    std::unique_ptr<GloveLink> link;
+    if (!port.empty()) {
+        auto opened = GloveLink::open(port, clock);
+        if (!opened) return std::unexpected(opened.error());
+        link = std::move(*opened);
+    }
+    const auto all = std::make_shared<GloveParts>(std::move(link), std::move(hand), clock);
+    OpenedDevice device;
+    for (std::size_t i = 0; i < kGloveFingers; ++i)
+        device.parts.push_back({kPistonNames[i], std::make_unique<GlovePart>(all, i)});
+    return device;
+}
+
+}  // namespace burin::devices

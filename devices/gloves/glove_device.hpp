@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// A glove on a serial line as a device of four parts, one for each fingertip that has a piston.
+//
+// Where a fingertip is follows from the hand's pose, which mouse, script or tracker lead, and from the finger's joints,
+// which the glove reads (glove_hand.hpp). Sets come each 8.3 ms: a fingertip goes from one to the next on a straight
+// line of its joints, one period of sets late, so that a tick each millisecond sees a motion and no steps. A line that
+// has been silent for kLost_ns is a fault of all parts.
+// A piston pushes one way alone: of a force at the fingertip it gives what does the same work (piston_force()).
+// Threads: as haptic_device.hpp; the first part's read() leads the hand and takes the newest set for all, the last
+// part's write() hands the forces over.
+#pragma once
+
+#include <string>
+
+#include "base/clock.hpp"
+#include "devices/gloves/glove_hand.hpp"
+#include "devices/haptic/opened_device.hpp"
+#include "devices/haptic/simulated_omni.hpp"
+
+namespace burin::devices {
+
+inline constexpr const char* kGlove = "glove";
+inline constexpr Nanoseconds kGloveLost_ns = 60'000'000;
+
+// port: of the serial line. Empty: a glove that is nowhere, with its fingers straight, for a recording that is done
+// again. `hand`: where the palm is, in the device frame. The clock must outlive the parts.
+[[nodiscard]] Result<OpenedDevice> open_glove(const std::string& port, OmniHand hand, Clock& clock);
+
+}  // namespace burin::devices

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "devices/gloves/glove_frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace burin::devices {
+namespace {
+
+constexpr std::uint8_t kSetSync = 0x9d, kCommandSync = 0x9e;
+// The lower half of a frame's second byte; the upper half of a set's has the controller's state.
+constexpr std::uint8_t kKindMask = 0x0f, kPositions = 1, kPositionsAndForces = 2, kForces = 3, kStop = 4;
+constexpr std::uint8_t kMotorsOn = 0x10, kFault = 0x20;
+constexpr std::size_t kAnglesAt = 3, kForcesAt = 27, kCommandForcesAt = 3;
+constexpr int kAngleSteps = 4095;
+
+// CRC-8 with the polynomial x^8 + x^2 + x + 1, most significant bit first, beginning at 0 (SMBus's packet error code).
+std::uint8_t check_of(std::span<const std::byte> bytes) noexcept {
+    unsigned crc = 0;
+    for (const std::byte byte : bytes) {
+        crc ^= static_cast<unsigned>(byte);
+        for (int bit = 0; bit < 8; ++bit) crc = (crc & 0x80u) != 0 ? (crc << 1 ^ 0x07u) & 0xffu : crc << 1;
+    }
+    return static_cast<std::uint8_t>(crc);
+}
+
+unsigned steps_of(double value, double least, double step, unsigned most) noexcept {
+    const double steps = std::isfinite(value) ? std::round((value - least) / step) : 0.0;
+    return static_cast<unsigned>(std::clamp(steps, 0.0, static_cast<double>(most)));
+}
+
+double angle_of(unsigned steps) noexcept { return kLeastAngle_rad + kAngleRange_rad * steps / kAngleSteps; }
+
+std::byte force_byte(double force_N) noexcept {
+    return static_cast<std::byte>(steps_of(force_N, 0.0, kForceStep_N, 255));
+}
+
+double force_of(std::byte byte) noexcept { return kForceStep_N * static_cast<unsigned>(byte); }
+
+void finish(GloveBytes& frame, std::size_t count) noexcept {
+    frame.count = count;
+    frame.bytes[count - 1] = static_cast<std::byte>(check_of({frame.bytes.data(), count - 1}));
+}
+
+// Returns the size of a frame of this kind; 0: there is none.
+std::size_t size_of(const GloveSet*, std::uint8_t kind) noexcept {
+    const std::uint8_t own = kind & kKindMask;
+    if ((kind & ~(kKindMask | kMotorsOn | kFault)) != 0) return 0;
+    return own == kPositions ? kSetBytes : own == kPositionsAndForces ? kSetWithForcesBytes : 0;
+}
+std::size_t size_of(const GloveCommand*, std::uint8_t kind) noexcept {
+    return kind == kForces || kind == kStop ? kCommandBytes : 0;
+}
+
+constexpr std::uint8_t sync_of(const GloveSet*) noexcept { return kSetSync; }
+constexpr std::uint8_t sync_of(const GloveCommand*) noexcept { return kCommandSync; }
+
+void read(std::span<const std::byte> bytes, GloveSet& set) noexcept {
+    const auto kind = static_cast<std::uint8_t>(bytes[1]);
+    set.motors_on = (kind & kMotorsOn) != 0;
+    set.fault = (kind & kFault) != 0;
+    for (std::size_t i = 0; i < kGloveFingers * kFingerJoints; ++i) {
+        const std::size_t at = kAnglesAt + i / 2 * 3;
+        const auto byte = [&](std::size_t k) { return static_cast<unsigned>(bytes[at + k]); };
+        const unsigned steps = i % 2 == 0 ? byte(0) << 4 | byte(1) >> 4 : (byte(1) & 0x0fu) << 8 | byte(2);
+        set.joints[i / kFingerJoints][i % kFingerJoints] = angle_of(steps);
+    }
+    if ((kind & kKindMask) != kPositionsAndForces) return;
+    GloveForces& forces_N = set.forces_N.emplace();
+    for (std::size_t i = 0; i < kGloveFingers; ++i) forces_N[i] = force_of(bytes[kForcesAt + i]);
+}
+
+void read(std::span<const std::byte> bytes, GloveCommand& command) noexcept {
+    command.stop = static_cast<std::uint8_t>(bytes[1]) == kStop;
+    for (std::size_t i = 0; i < kGloveFingers; ++i) command.forces_N[i] = force_of(bytes[kCommandForcesAt + i]);
+}
+
+}  // namespace
+
+GloveBytes frame_of(const GloveSet& set) noexcept {
+    GloveBytes frame;
+    const std::uint8_t kind = set.forces_N ? kPositionsAndForces : kPositions;
+    const auto state = static_cast<std::uint8_t>((set.motors_on ? kMotorsOn : 0) | (set.fault ? kFault : 0));
+    frame.bytes[0] = std::byte{kSetSync};
+    frame.bytes[1] = static_cast<std::byte>(kind | state);
+    frame.bytes[2] = static_cast<std::byte>(set.number);
+    for (std::size_t i = 0; i < kGloveFingers * kFingerJoints; i += 2) {
+        const auto steps = [&](std::size_t k) {
+            return steps_of(set.joints[k / kFingerJoints][k % kFingerJoints], kLeastAngle_rad,
+                            kAngleRange_rad / kAngleSteps, kAngleSteps);
+        };
+        const unsigned first = steps(i), second = steps(i + 1);
+        const std::size_t at = kAnglesAt + i / 2 * 3;
+        frame.bytes[at] = static_cast<std::byte>(first >> 4);
+        frame.bytes[at + 1] = static_cast<std::byte>((first & 0x0fu) << 4 | second >> 8);
+        frame.bytes[at + 2] = static_cast<std::byte>(second & 0xffu);
+    }
+    for (std::size_t i = 0; set.forces_N && i < kGloveFingers; ++i)
+        frame.bytes[kForcesAt + i] = force_byte((*set.forces_N)[i]);
+    finish(frame, set.forces_N ? kSetWithForcesBytes : kSetBytes);
+    return frame;
+}
+
+GloveBytes frame_of(const GloveCommand& command) noexcept {
+    GloveBytes frame;
+    frame.bytes[0] = std::byte{kCommandSync};
+    frame.bytes[1] = std::byte{command.stop ? kStop : kForces};
+    frame.bytes[2] = static_cast<std::byte>(command.number);
+    for (std::size_t i = 0; !command.stop && i < kGloveFingers; ++i)
+        frame.bytes[kCommandForcesAt + i] = force_byte(command.forces_N[i]);
+    finish(frame, kCommandBytes);
+    return frame;
+}
+
+template <typename Frame>
+void GloveFrameReader<Frame>::drop(std::size_t bytes) noexcept {
+    std::copy(bytes_.begin() + static_cast<std::ptrdiff_t>(bytes), bytes_.begin() + static_cast<std::ptrdiff_t>(count_),
+              bytes_.begin());
+    count_ -= bytes;
+}
+
+// Looks for a frame at the beginning of what waits, and drops what cannot be one. A byte completes one frame at most:
+// what waits is shorter than two.
+template <typename Frame>
+std::optional<Frame> GloveFrameReader<Frame>::look() noexcept {
+    constexpr const Frame* kType = nullptr;
+    while (count_ > 0) {
+        const bool begins = static_cast<std::uint8_t>(bytes_[0]) == sync_of(kType);
+        if (begins && count_ < 2) return std::nullopt;
+        const std::size_t size = begins ? size_of(kType, static_cast<std::uint8_t>(bytes_[1])) : 0;
+        if (size > count_) return std::nullopt;
+        const std::span<const std::byte> frame(bytes_.data(), size);
+        if (size == 0 || static_cast<std::uint8_t>(frame.back()) != check_of(frame.first(size - 1))) {
+            ++counts_.dropped_bytes;
+            drop(1);
+            continue;
+        }
+        Frame read_frame;
+        read_frame.number = static_cast<std::uint8_t>(frame[2]);
+        read(frame, read_frame);
+        drop(size);
+        ++counts_.frames;
+        if (last_number_) counts_.missed += static_cast<std::uint8_t>(read_frame.number - *last_number_ - 1);
+        last_number_ = read_frame.number;
+        return read_frame;
+    }
+    return std::nullopt;
+}
+
+template <typename Frame>
+std::optional<Frame> GloveFrameReader<Frame>::take(std::byte byte) noexcept {
+    bytes_[count_++] = byte;
+    return look();
+}
+
+template class GloveFrameReader<GloveSet>;
+template class GloveFrameReader<GloveCommand>;
+
+}  // namespace burin::devices

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Frames on the serial line of a force-feedback glove with four pistons from palm to fingertip (thumb, index, middle,
+// ring), as the Rutgers Master II has them. Its own layout was never published; this one keeps its sizes, 28 bytes of
+// positions and 32 of positions and forces, so that as many go over 38,400 bit/s. docs/glove.md has the layout.
+//
+// Angles are of 12 bits over 270 degrees, from -90 on: steps of 0.066 degrees. Forces are of 8 bits in steps of 0.05 N.
+// The reader comes into step by itself: a byte that begins no frame, or one whose check differs, is dropped, and what
+// follows it is looked at anew. A frame inside a frame is found where the outer one does not check.
+// Pure; no heap, lock or throw; one thread for each reader.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace burin::devices {
+
+inline constexpr std::size_t kGloveFingers = 4, kFingerJoints = 4;
+// Of a finger, in radians: to the side (towards the thumb is positive), then flexion of its three joints from the palm
+// on. Straight fingers have zeros.
+using FingerAngles = std::array<double, kFingerJoints>;
+using GloveJoints = std::array<FingerAngles, kGloveFingers>;
+using GloveForces = std::array<double, kGloveFingers>;  // N, of the pistons; away from the palm is positive
+
+inline constexpr double kLeastAngle_rad = -1.5707963267948966, kAngleRange_rad = 4.71238898038469;
+inline constexpr double kForceStep_N = 0.05, kMostFrameForce_N = 255 * kForceStep_N;
+inline constexpr std::size_t kSetBytes = 28, kSetWithForcesBytes = 32, kCommandBytes = 8;
+
+// What the controller sends.
+struct GloveSet {
+    std::uint8_t number = 0;  // counts up, and begins again after 255
+    bool motors_on = false, fault = false;
+    GloveJoints joints{};
+    std::optional<GloveForces> forces_N;  // measured at the pistons; none in a frame of positions alone
+    bool operator==(const GloveSet&) const = default;
+};
+
+// What the host sends: the forces that the pistons are to give. Stop takes all force off until the next forces.
+struct GloveCommand {
+    std::uint8_t number = 0;
+    bool stop = false;
+    GloveForces forces_N{};
+    bool operator==(const GloveCommand&) const = default;
+};
+
+// Bytes of one frame.
+struct GloveBytes {
+    std::array<std::byte, kSetWithForcesBytes> bytes{};
+    std::size_t count = 0;
+    [[nodiscard]] std::span<const std::byte> view() const noexcept { return {bytes.data(), count}; }
+};
+
+// Values are rounded to the nearest step; those beyond what a frame holds are held at its ends.
+[[nodiscard]] GloveBytes frame_of(const GloveSet& set) noexcept;
+[[nodiscard]] GloveBytes frame_of(const GloveCommand& command) noexcept;
+
+// What a reader has met since it began.
+struct GloveLineCounts {
+    std::uint64_t frames = 0, dropped_bytes = 0;
+    std::uint64_t missed = 0;  // frames whose numbers were left out
+};
+
+// Reads sets, or commands, from the bytes of a line as they come.
+template <typename Frame>
+class GloveFrameReader {
+public:
+    // Takes a byte; returns the frame that it completes.
+    [[nodiscard]] std::optional<Frame> take(std::byte byte) noexcept;
+    [[nodiscard]] const GloveLineCounts& counts() const noexcept { return counts_; }
+
+private:
+    void drop(std::size_t bytes) noexcept;
+    [[nodiscard]] std::optional<Frame> look() noexcept;
+
+    std::array<std::byte, kSetWithForcesBytes> bytes_{};
+    std::size_t count_ = 0;
+    std::optional<std::uint8_t> last_number_;
+    GloveLineCounts counts_;
+};
+
+extern template class GloveFrameReader<GloveSet>;
+extern template class GloveFrameReader<GloveCommand>;
+
+}  // namespace burin::devices

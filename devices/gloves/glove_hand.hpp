@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Where a glove's fingertips are in the hand, and what its pistons can do there. Plain data and pure functions.
+//
+// Frame: the hand's, whose origin is the middle of the palm, +Y from the wrist to the fingers, +Z out of the hand's
+// back, +X to its right. Of a right hand the thumb is at -X. Units: metres, radians.
+#pragma once
+
+#include <array>
+
+#include "base/space.hpp"
+#include "devices/gloves/glove_frame.hpp"
+
+namespace burin::devices {
+
+// A chain of three segments. Its first joint lies at base; straight, it points along the base's +Y, and it flexes
+// towards the base's -Z.
+struct FingerChain {
+    Pose hand_from_base;
+    std::array<double, 3> lengths_m{};
+    Vec3 piston_hand_m{0.0};  // where its piston stands on the palm
+};
+using GloveHand = std::array<FingerChain, kGloveFingers>;
+
+// A right hand of about middle size: thumb, index, middle, ring. Its lengths are assumed, not measured on anybody.
+[[nodiscard]] const GloveHand& usual_hand();
+
+// A fingertip, and how its piston meets it.
+struct FingertipPlace {
+    Pose hand_from_tip;     // its +Y is the last segment's
+    Vec3 flexes_hand{0.0};  // unit: where the tip goes as the finger flexes in its first joint
+    Vec3 piston_hand{0.0};  // unit: along the piston, away from the palm
+};
+[[nodiscard]] FingertipPlace place_of(const FingerChain& finger, const FingerAngles& angles);
+
+// Of the cosine between a piston and the tip's way. Nearer to a right angle a piston cannot give the force.
+inline constexpr double kLeastPistonCosine = 0.2;
+inline constexpr double kMostPistonForce_N = 10.0;
+
+struct PistonForce {
+    double force_N = 0.0;     // away from the palm; 0 to kMostPistonForce_N, since a piston does not pull
+    bool is_bounded = false;  // by the cosine or by the most
+};
+// Returns the piston's force that does the same virtual work at the fingertip as a force there: F . t / (p . t).
+[[nodiscard]] PistonForce piston_force(const FingertipPlace& place, const Vec3& force_hand_N);
+
+}  // namespace burin::devices

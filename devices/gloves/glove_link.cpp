@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "devices/gloves/glove_link.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include "base/text.hpp"
+
+namespace burin::devices {
+namespace {
+
+std::unexpected<Error> no_port(const std::string& port, int code) {
+    const std::string where = "glove " + port;
+    switch (code) {
+        case ENOENT: return fail(where, "there is no such port", "name one that is there, such as glove:/dev/ttyUSB0");
+        case EACCES:
+            return fail(where, "may not be opened by this user",
+                        "join the group that owns serial ports: sudo usermod -aG dialout $USER, and log in again");
+        case EBUSY: return fail(where, "is held by another program", "end that one, or name another port");
+        default: return fail(where, std::string("cannot be opened: ") + std::strerror(code), "see to the device");
+    }
+}
+
+// 38,400 bit/s, 8 bits, no parity, one stop bit, and nothing that the terminal would do to bytes by itself.
+Result<void> set_up_line(int file, const std::string& port) {
+    termios line{};
+    if (::tcgetattr(file, &line) != 0)
+        return fail("glove " + port, "is no serial line", "name a port such as glove:/dev/ttyUSB0");
+    ::cfmakeraw(&line);
+    line.c_cflag |= CLOCAL | CREAD;
+    ::cfsetispeed(&line, B38400);
+    ::cfsetospeed(&line, B38400);
+    if (::tcsetattr(file, TCSANOW, &line) != 0)
+        return fail("glove " + port, std::string("does not take 38,400 bit/s: ") + std::strerror(errno),
+                    "see to the device");
+    return {};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<GloveLink>> GloveLink::open(const std::string& port, Clock& clock) {
+    const int file = ::open(port.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0) return no_port(port, errno);
+    std::unique_ptr<GloveLink> link(new GloveLink(file, clock));
+    if (const auto ready = set_up_line(file, port); !ready) return std::unexpected(ready.error());
+    if (::ioctl(file, TIOCEXCL) != 0) return no_port(port, errno);
+    MonotonicClock watch;  // the session's own clock may stand still until the session begins
+    const Nanoseconds until_ns = watch.now_ns() + kFirst_ns;
+    while (link->last_.time_ns == 0 && watch.now_ns() < until_ns) {
+        pollfd waits{file, POLLIN, 0};
+        if (::poll(&waits, 1, 20) > 0 && !link->read_some()) break;
+    }
+    if (link->last_.time_ns == 0)
+        return fail("glove " + port,
+                    link->bytes_ == 0 ? "sends nothing"
+                                      : formatted("sends %llu bytes in a second, and no set of a glove among them",
+                                                  static_cast<unsigned long long>(link->bytes_)),
+                    "switch the glove's controller on, and see that it is on this port");
+    link->thread_ = std::thread([own = link.get()] { own->run(); });
+    return link;
+}
+
+GloveLink::~GloveLink() {
+    // relaxed: the flag says nothing of other memory.
+    ends_.store(true, std::memory_order_relaxed);
+    if (thread_.joinable()) thread_.join();
+    send({.number = ++number_, .stop = true});
+    ::close(file_);
+}
+
+void GloveLink::command(const GloveForces& forces_N) noexcept {
+    wanted_.draft() = {forces_N, clock_.now_ns()};
+    wanted_.publish();
+}
+
+// Reads what has come; false where the line is gone.
+bool GloveLink::read_some() {
+    std::array<std::byte, 256> bytes;
+    const ssize_t count = ::read(file_, bytes.data(), bytes.size());
+    if (count == 0) return false;
+    if (count < 0) return errno == EAGAIN || errno == EINTR;
+    bytes_ += static_cast<std::uint64_t>(count);
+    for (ssize_t i = 0; i < count; ++i) {
+        const std::optional<GloveSet> set = reader_.take(bytes[static_cast<std::size_t>(i)]);
+        if (!set) continue;
+        last_.before = last_.set;
+        last_.before_ns = last_.time_ns;
+        last_.set = *set;
+        last_.time_ns = clock_.now_ns();
+        heard_.draft() = last_;
+        heard_.publish();
+    }
+    return true;
+}
+
+void GloveLink::send(GloveCommand command) {
+    const GloveBytes frame = frame_of(command);
+    // A line that takes nothing now loses this command, and gets the next one.
+    static_cast<void>(::write(file_, frame.bytes.data(), frame.count));
+}
+
+void GloveLink::run() {
+    Nanoseconds sent_ns = 0;
+    // relaxed: as where it is set.
+    while (!ends_.load(std::memory_order_relaxed)) {
+        pollfd waits{file_, POLLIN, 0};
+        const int ready = ::poll(&waits, 1, 2);
+        if (ready > 0 && !read_some()) break;  // what was heard last grows old, and the device says so
+        const Nanoseconds now_ns = clock_.now_ns();
+        if (now_ns - sent_ns < kSend_ns) continue;
+        sent_ns = now_ns;
+        const Wanted& wanted = wanted_.newest();
+        const bool silent = wanted.time_ns == 0 || now_ns - wanted.time_ns > kSilent_ns;
+        send({.number = ++number_, .stop = silent, .forces_N = silent ? GloveForces{} : wanted.forces_N});
+    }
+}
+
+}  // namespace burin::devices

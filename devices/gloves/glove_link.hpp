@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// The serial line to a glove's controller: a thread that reads its sets and sends it what the pistons are to give.
+//
+// Data flow: line -> GloveFrameReader -> newest set, with the time of its arrival -> the haptic thread. The newest
+// forces -> a command each kSend_ns -> line; a line of 38,400 bit/s carries no more. When the object ends, and where
+// the haptic thread has given no forces for kSilent_ns, the pistons are told to stop.
+// Failures: a port that is missing, forbidden, busy or no terminal, and one on which no glove is heard, are errors of
+// open(). A line that goes silent, or vanishes, shows in age: GloveHeard::time_ns stays.
+// Threads: open() and the destructor on one; newest() and command() on the haptic thread, wait-free.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "base/clock.hpp"
+#include "base/error.hpp"
+#include "base/newest_slot.hpp"
+#include "devices/gloves/glove_frame.hpp"
+
+namespace burin::devices {
+
+struct GloveHeard {
+    Nanoseconds time_ns = 0;    // of the newest set's arrival; 0: none yet
+    Nanoseconds before_ns = 0;  // of the one before; 0: none
+    GloveSet set, before;       // the newest, and the one before
+};
+
+class GloveLink {
+public:
+    static constexpr Nanoseconds kSend_ns = 8'333'333;
+    static constexpr Nanoseconds kSilent_ns = 100'000'000;
+    // Time within which a glove must be heard when the line is opened.
+    static constexpr Nanoseconds kFirst_ns = 1'000'000'000;
+
+    // The clock must outlive the link. Sets the line to 38,400 bit/s, 8 bits, no parity, one stop bit.
+    [[nodiscard]] static Result<std::unique_ptr<GloveLink>> open(const std::string& port, Clock& clock);
+    ~GloveLink();
+    GloveLink(const GloveLink&) = delete;
+    GloveLink& operator=(const GloveLink&) = delete;
+
+    [[nodiscard]] const GloveHeard& newest() noexcept { return heard_.newest(); }
+    // Has the pistons give these forces from the next command on.
+    void command(const GloveForces& forces_N) noexcept;
+
+private:
+    GloveLink(int file, Clock& clock) : file_(file), clock_(clock) {}
+    [[nodiscard]] bool read_some();
+    void send(GloveCommand command);
+    void run();
+
+    struct Wanted {
+        GloveForces forces_N{};
+        Nanoseconds time_ns = 0;
+    };
+    int file_;
+    Clock& clock_;
+    GloveFrameReader<GloveSet> reader_;
+    GloveHeard last_;
+    std::uint64_t bytes_ = 0;
+    std::uint8_t number_ = 0;
+    NewestSlot<GloveHeard> heard_;  // the link's thread -> the haptic thread
+    NewestSlot<Wanted> wanted_;     // the haptic thread -> the link's
+    std::atomic<bool> ends_ = false;
+    std::thread thread_;
+};
+
+}  // namespace burin::devices

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+// A glove: where its fingertips are, what its pistons give there, and the emulated one at the far end of a line.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cmath>
+#include <thread>
+
+#include "devices/emulators/emulated_glove.hpp"
+#include "devices/gloves/glove_device.hpp"
+#include "devices/registry/device_registry.hpp"
+
+namespace burin::devices {
+namespace {
+
+const SimulatedHand& still_hand() {
+    static const SimulatedHand hand = SimulatedHand::create({{0.0, Vec3(0.0), {1.0, 0.0, 0.0, 0.0}, 0}}).value();
+    return hand;
+}
+
+FingerAngles flexed(double first_rad) { return {0.0, first_rad, 0.8 * first_rad, 0.5 * first_rad}; }
+
+// An emulated glove that runs while it lives.
+class RunningGlove {
+public:
+    explicit RunningGlove(GloveMotion motion) : port_(GlovePort::create().value()) {
+        thread_ = std::thread([this, motion] { port_.run({.motion = motion}, [this] { return ends_.load(); }); });
+    }
+    ~RunningGlove() {
+        ends_ = true;
+        thread_.join();
+    }
+    [[nodiscard]] GlovePort& port() { return port_; }
+
+private:
+    GlovePort port_;
+    std::atomic<bool> ends_ = false;
+    std::thread thread_;
+};
+
+}  // namespace
+
+TEST(GloveHands, FlexingBringsEveryTipNearerToThePalmWhichItsPistonOpposes) {
+    for (std::size_t i = 0; i < kGloveFingers; ++i) {
+        const FingerChain& finger = usual_hand()[i];
+        double before_m = 1.0;
+        for (double angle_rad = 0.0; angle_rad <= 1.2; angle_rad += 0.1) {
+            const FingertipPlace place = place_of(finger, flexed(angle_rad));
+            const double piston_m = glm::distance(place.hand_from_tip.position_m, finger.piston_hand_m);
+            EXPECT_LT(piston_m, before_m) << i << " at " << angle_rad;
+            before_m = piston_m;
+            EXPECT_LT(glm::dot(place.flexes_hand, place.piston_hand), 0.0) << i << " at " << angle_rad;
+            // Where the tip goes, by a small step of the first joint.
+            FingerAngles more = flexed(angle_rad);
+            more[1] += 1e-6;
+            const Vec3 way = place_of(finger, more).hand_from_tip.position_m - place.hand_from_tip.position_m;
+            EXPECT_GT(glm::dot(glm::normalize(way), place.flexes_hand), 0.999999) << i << " at " << angle_rad;
+        }
+    }
+}
+
+TEST(GloveHands, StraightFingersAreAsLongAsTheirSegments) {
+    for (const FingerChain& finger : usual_hand()) {
+        const FingertipPlace place = place_of(finger, {});
+        const double length_m = finger.lengths_m[0] + finger.lengths_m[1] + finger.lengths_m[2];
+        EXPECT_NEAR(glm::distance(place.hand_from_tip.position_m, finger.hand_from_base.position_m), length_m, 1e-12);
+    }
+}
+
+TEST(GloveHands, APistonDoesTheSameWorkAndPushesAlone) {
+    const FingerChain& index = usual_hand()[1];
+    const FingertipPlace place = place_of(index, flexed(0.8));
+    const Vec3 against = -2.0 * place.flexes_hand;  // what is grasped pushes the tip open
+    const PistonForce given = piston_force(place, against);
+    EXPECT_FALSE(given.is_bounded);
+    EXPECT_NEAR(given.force_N * glm::dot(place.piston_hand, place.flexes_hand), glm::dot(against, place.flexes_hand),
+                1e-12);
+    EXPECT_EQ(piston_force(place, 2.0 * place.flexes_hand).force_N, 0.0) << "it cannot pull";
+    const PistonForce most = piston_force(place, -100.0 * place.flexes_hand);
+    EXPECT_EQ(most.force_N, kMostPistonForce_N);
+    EXPECT_TRUE(most.is_bounded);
+    FingertipPlace square = place;
+    square.piston_hand = glm::normalize(glm::cross(place.flexes_hand, Vec3(0.3, 0.5, 0.9)));
+    EXPECT_TRUE(piston_force(square, against).is_bounded);
+    EXPECT_LE(piston_force(square, against).force_N, 2.0 / kLeastPistonCosine + 1e-12);
+}
+
+TEST(EmulatedGloves, APistonFollowsAsALowPassOpensItsFingerAndStopsByItself) {
+    EmulatedGlove glove{.motion = GloveMotion::still};
+    const EmulatedGlove straight = stepped(glove);
+    for (int i = 0; i < 100; ++i)
+        glove = stepped(with_command(glove, {.number = 0, .stop = false, .forces_N = {0, 4, 0, 0}}));
+    EXPECT_NEAR(glove.given_N[1], 4.0, 0.01);
+    EXPECT_EQ(glove.given_N[0], 0.0);
+    EXPECT_LT(glove.joints[1][1], straight.joints[1][1] - 0.05) << "it opens";
+    // One time constant of 25 Hz is 6.4 ms.
+    EmulatedGlove jump = with_command(EmulatedGlove{.motion = GloveMotion::still},
+                                      {.number = 0, .stop = false, .forces_N = {8, 0, 0, 0}});
+    for (int i = 0; i < 3; ++i) jump = stepped(jump);
+    EXPECT_NEAR(jump.given_N[0], 8.0 * (1.0 - std::exp(-0.006 * 2.0 * 3.14159265 * 25.0)), 0.02);
+    for (int i = 0; i < 200; ++i) glove = stepped(glove);  // nobody commands any more
+    EXPECT_LT(glove.given_N[1], 1e-6);
+}
+
+TEST(Gloves, SayWhatIsWrongWithAPort) {
+    MonotonicClock clock;
+    const auto refused = [&](const std::string& name) {
+        const auto opened = open_haptic_device(name, {clock, still_hand()});
+        return opened ? std::string("nothing") : opened.error().line();
+    };
+    EXPECT_TRUE(refused("glove").contains("names no port")) << refused("glove");
+    EXPECT_TRUE(refused("glove:/dev/no-such-port").contains("there is no such port"));
+    EXPECT_TRUE(refused("glove:/dev/null").contains("is no serial line")) << refused("glove:/dev/null");
+    GlovePort silent = GlovePort::create().value();
+    EXPECT_TRUE(refused("glove:" + silent.name()).contains("sends nothing"));
+    SimulatedClock simulated;
+    const auto in_simulated_time = open_haptic_device("glove:/dev/null", {simulated, still_hand()});
+    ASSERT_FALSE(in_simulated_time);
+    EXPECT_TRUE(in_simulated_time.error().line().contains("time is simulated")) << in_simulated_time.error().line();
+    const auto again = open_haptic_device("glove:/dev/no-such-port", {simulated, still_hand(), true});
+    ASSERT_TRUE(again) << "a recording is done again without one";
+    EXPECT_EQ(again->parts.size(), kGloveFingers);
+}
+
+TEST(Gloves, FeelFourFingersThatMoveAndGiveTheirForcesToThePistons) {
+    RunningGlove running(GloveMotion::closing);
+    MonotonicClock clock;
+    auto opened = open_haptic_device("glove:" + running.port().name(), {clock, still_hand()});
+    ASSERT_TRUE(opened) << opened.error().line();
+    ASSERT_EQ(opened->parts.size(), 4u);
+    EXPECT_EQ(opened->parts[1].name, "index");
+    // Ticks of a millisecond until the fingers have closed a good deal, but no longer than some seconds.
+    Vec3 first_m(0.0), last_m(0.0);
+    double longest_step_m = 0.0, given_N = 0.0;
+    for (int tick = 0; tick < 4000 && (glm::distance(first_m, last_m) < 0.03 || given_N < 1.0); ++tick) {
+        clock.sleep_until(clock.now_ns() + 1'000'000);
+        for (std::size_t i = 0; i < 4; ++i) {
+            const DeviceSample sample = opened->parts[i].device->read();
+            ASSERT_EQ(sample.fault, DeviceFault::none) << tick;
+            if (i != 1) continue;
+            if (tick > 0) longest_step_m = std::max(longest_step_m, glm::distance(sample.position_device_m, last_m));
+            if (tick == 0) first_m = sample.position_device_m;
+            last_m = sample.position_device_m;
+        }
+        for (std::size_t i = 0; i < 4; ++i)
+            opened->parts[i].device->write({i == 1 ? Vec3(0.0, 0.0, 2.0) : Vec3(0.0), Vec3(0.0)});
+        given_N = running.port().given_N(1);
+    }
+    EXPECT_GT(glm::distance(first_m, last_m), 0.03);
+    EXPECT_GT(given_N, 1.0) << "the index finger is pushed open";
+    EXPECT_LT(running.port().given_N(0), 0.01);
+    EXPECT_LT(longest_step_m, 0.02) << "a tick sees a motion, and no jumps from set to set";
+}
+
+TEST(Gloves, ALineThatFallsSilentIsAFaultOfAllParts) {
+    RunningGlove running(GloveMotion::still);
+    MonotonicClock clock;
+    auto opened = open_haptic_device("glove:" + running.port().name(), {clock, still_hand()});
+    ASSERT_TRUE(opened) << opened.error().line();
+    EXPECT_EQ(opened->parts[0].device->read().fault, DeviceFault::none);
+    running.port().fall_silent(true);
+    DeviceSample sample;
+    for (int i = 0; i < 2000 && sample.fault == DeviceFault::none; ++i) {
+        clock.sleep_until(clock.now_ns() + 1'000'000);
+        sample = opened->parts[0].device->read();
+    }
+    EXPECT_EQ(sample.fault, DeviceFault::disconnected);
+    EXPECT_TRUE(sample.fault_is_of_all);
+    running.port().fall_silent(false);
+    for (int i = 0; i < 2000 && sample.fault != DeviceFault::none; ++i) {
+        clock.sleep_until(clock.now_ns() + 1'000'000);
+        sample = opened->parts[0].device->read();
+    }
+    EXPECT_EQ(sample.fault, DeviceFault::none) << "it comes back";
+}
+
+}  // namespace burin::devices
