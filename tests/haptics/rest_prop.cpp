@@ -63,7 +63,9 @@ void expect_rest(const geometry::LocalSurface& surface, const std::vector<double
                 settings.static_friction = settings.dynamic_friction = friction;
                 const Rests found = rest_at_many_places(surface, settings, compute::test::repeated(times), 3);
                 EXPECT_EQ(found.restless, 0) << radius << " edges, shading " << shading << ", friction " << friction;
-                EXPECT_GT(found.in_contact, found.rests / 4);
+                // In carved noise a ball of several edges mostly begins where it does not fit, and is set down beside
+                // it: a few rests in contact are enough to tell.
+                EXPECT_GT(found.in_contact, found.rests / 10);
             }
 }
 
