@@ -61,7 +61,7 @@ public:
     // Numbers are decimal, without zeros before them and within what the variable holds; anything else is wrong usage.
     CommandOption option(const std::string& name, std::string& to, const std::string& help);
     CommandOption option(const std::string& name, std::vector<std::string>& to, const std::string& help);
-    // Likewise, and gives all values to a function, whose failure is wrong usage.
+    // Adds an option whose values all go to `take`; a failure of that function is reported as wrong usage.
     CommandOption option(const std::string& name,
                          const std::function<Result<void>(const std::vector<std::string>&)>& take,
                          const std::string& help);

@@ -19,7 +19,7 @@ namespace burin::app {
 // Refuses a recording as a participant's input: what it holds would be counted as theirs.
 [[nodiscard]] Result<void> check_visit_input(const std::string& file);
 
-// What a participant's session is opened with: the study's worlds alone, touched with points; and the operator's panel
+// Gives the options of a participant's session: the study's worlds alone, touched with points; the operator's panel is
 // in a window of its own, whatever the options say, so that the participant's picture has the page and no more.
 [[nodiscard]] session::SculptOptions participant_session(const session::LiveOptions& live,
                                                          std::shared_ptr<activities::StudyActivity> activity);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kDigestShown = 12;
 
-// What the settings of a visit say.
+// Holds what a record's settings say about the visit.
 struct VisitWords {
     std::string protocol_digest, group;  // the digest's beginning
     std::size_t day = 0;

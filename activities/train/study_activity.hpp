@@ -50,7 +50,7 @@ public:
                   std::vector<study::StagePlace> places, std::string settings, StudyDevice device, StageKeeper keeper,
                   std::vector<std::pair<std::string, std::string>> facts = {});
 
-    // What the session is opened with.
+    // Returns the scene that the session is opened with.
     [[nodiscard]] const std::shared_ptr<const scene::World>& scene() const { return visit_.scene(); }
     [[nodiscard]] std::string settings() const override { return settings_; }
     [[nodiscard]] std::vector<std::pair<std::string, std::string>> facts() const override { return facts_; }

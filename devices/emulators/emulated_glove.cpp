@@ -20,9 +20,9 @@ namespace burin::devices {
 namespace {
 
 constexpr double kSet_s = 1.0 / 120.0;
-// Of a fist's first joint, of the others, and how long closing takes.
+// A fist: its first joint's flexion, the second's as a share of it, and the times of closing and of resting.
 constexpr double kClosed_rad = 1.1, kFollows = 0.8, kCloses_s = 2.0, kRests_s = 1.5;
-// How far the piston's force acts from the first joint, about.
+// The approximate lever arm of the piston's force about the first joint.
 constexpr double kArm_m = 0.07;
 
 // The share of a closed hand that the script wants.
@@ -112,7 +112,7 @@ void GlovePort::run(EmulatedGlove glove, const std::function<bool()>& ends) {
         if (is_silent_.load(std::memory_order_relaxed)) continue;
         const GloveBytes frame = frame_of(set_of(glove));
         ++glove.number;
-        // What nobody reads is lost, as on a line.
+        // Frames that nobody reads are lost, as on a real serial line.
         if (::write(file_, frame.bytes.data(), frame.count) < 0) static_cast<void>(::tcflush(file_, TCIOFLUSH));
     }
 }

@@ -18,7 +18,7 @@
 namespace burin::devices {
 
 inline constexpr std::size_t kGloveFingers = 4, kFingerJoints = 4;
-// Of a finger, in radians: to the side (towards the thumb is positive), then flexion of its three joints from the palm
+// A finger's angles, in radians: to the side (positive towards the thumb), then its three joints' flexion from the palm
 // on. Straight fingers have zeros.
 using FingerAngles = std::array<double, kFingerJoints>;
 using GloveJoints = std::array<FingerAngles, kGloveFingers>;
@@ -28,7 +28,7 @@ inline constexpr double kLeastAngle_rad = -1.5707963267948966, kAngleRange_rad =
 inline constexpr double kForceStep_N = 0.05, kMostFrameForce_N = 255 * kForceStep_N;
 inline constexpr std::size_t kSetBytes = 28, kSetWithForcesBytes = 32, kCommandBytes = 8;
 
-// What the controller sends.
+// One set of joint angles, as the controller sends it.
 struct GloveSet {
     std::uint8_t number = 0;  // counts up, and begins again after 255
     bool motors_on = false, fault = false;
@@ -37,7 +37,7 @@ struct GloveSet {
     bool operator==(const GloveSet&) const = default;
 };
 
-// What the host sends: the forces that the pistons are to give. Stop takes all force off until the next forces.
+// A host's command: the forces that the pistons are to give. Stop takes all force off until the next forces.
 struct GloveCommand {
     std::uint8_t number = 0;
     bool stop = false;
@@ -56,7 +56,7 @@ struct GloveBytes {
 [[nodiscard]] GloveBytes frame_of(const GloveSet& set) noexcept;
 [[nodiscard]] GloveBytes frame_of(const GloveCommand& command) noexcept;
 
-// What a reader has met since it began.
+// Counts of what a reader has received and dropped since it began.
 struct GloveLineCounts {
     std::uint64_t frames = 0, dropped_bytes = 0;
     std::uint64_t missed = 0;  // frames whose numbers were left out

@@ -32,7 +32,7 @@ struct FingertipPlace {
 };
 [[nodiscard]] FingertipPlace place_of(const FingerChain& finger, const FingerAngles& angles);
 
-// Of the cosine between a piston and the tip's way. Nearer to a right angle a piston cannot give the force.
+// The least cosine between a piston and its tip's way: nearer to a right angle, the piston cannot give the force.
 inline constexpr double kLeastPistonCosine = 0.2;
 inline constexpr double kMostPistonForce_N = 10.0;
 
