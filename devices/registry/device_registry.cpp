@@ -46,6 +46,14 @@ Result<OpenedDevice> open_glove_at(HapticHost host, const std::string& port) {
     return open_glove(port, std::move(host.hand), host.clock);
 }
 
+Result<OpenedDevice> open_simulated_glove(HapticHost host, const std::string& shape) {
+    const auto grip = shape.empty() ? GripShape::whole : grip_named(shape);
+    if (!grip)
+        return fail("haptic device " + std::string(kSimulatedGlove), "closes in no way that is called " + shape,
+                    "write one of " + joined(kGripNames));
+    return simulated_glove(*grip, std::move(host.hand), host.clock);
+}
+
 constexpr std::array kKinds{
     HapticKind{kDefaultHapticDevice, "a PHANTOM Omni in a simulated hand", 1, open_simulated_omni},
     HapticKind{
@@ -57,6 +65,10 @@ constexpr std::array kKinds{
                open_simulated_fingers},
     HapticKind{kGlove, "a glove that pushes four fingertips, on a serial line: glove:PORT, such as glove:/dev/ttyUSB0",
                kGloveFingers, open_glove_at},
+    HapticKind{kSimulatedGlove,
+               "the same without a line, in a simulated hand that the first button closes; simulated-glove:pinch or "
+               "simulated-glove:point as it closes",
+               kGloveFingers, open_simulated_glove},
 };
 
 }  // namespace

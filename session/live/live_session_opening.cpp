@@ -2,8 +2,10 @@
 // Opens a session: workpiece, world, tool, hands and the scene that they touch.
 #include <cstdio>
 #include <filesystem>
+#include <numbers>
 
 #include "base/text.hpp"
+#include "devices/gloves/glove_device.hpp"
 #include "devices/haptic/wand_choice.hpp"
 #include "sculpt/workpiece.hpp"
 #include "session/live/live_session.hpp"
@@ -43,6 +45,18 @@ void use_wand(HandRoom& room, const devices::WandDescription& wand) {
     room.desk.depth_per_wheel_step_m =
         kDepthPerWheelStep * sculpt::longest_side_m({Vec3(0.0), room.workspace_device_m});
     room.desk.rest_device = {1.0, 0.0, 0.0, 0.0};
+    room.desk.leans_sideways = true;
+}
+
+// Has the desk lead the palm of a glove: palm down, fingers away from the viewer and to the left, over a workspace that
+// an arm reaches. (The device's own is larger by a hand, for its fingertips.)
+void use_glove(HandRoom& room) {
+    constexpr Vec3 kReach_m{0.33, 0.3, 0.264};
+    constexpr double kToTheLeft_rad = 0.85, kDown_rad = 0.25;
+    room.workspace_device_m = room.desk.workspace_m = kReach_m;
+    room.desk.depth_per_wheel_step_m = 0.01;
+    room.desk.rest_device = glm::angleAxis(kToTheLeft_rad, Vec3(0.0, 1.0, 0.0)) *
+                            glm::angleAxis(-0.5 * std::numbers::pi - kDown_rad, Vec3(1.0, 0.0, 0.0));
     room.desk.leans_sideways = true;
 }
 
@@ -98,6 +112,7 @@ Result<void> LiveSession::hold_wands(const SculptOptions& options) {
             room.desk.rest_device = {1.0, 0.0, 0.0, 0.0};
             room.desk.leans_sideways = true;
         }
+        if (devices::is_glove(hands[i].device)) use_glove(room);
         if (!devices::is_wand(hands[i].device)) continue;
         Result<devices::WandDescription> wand = devices::wand_named(hands[i].device);
         if (!wand) return std::unexpected(wand.error());
