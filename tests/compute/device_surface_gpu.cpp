@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ protected:
         }
     }
     gpu::Capabilities& capabilities() { return device().core()->capabilities; }
+    testing::AssertionResult equal(DeviceSurface& surface, const Surface& cpu);
 };
 
 bool same(const shared::SurfaceVertex& a, const shared::SurfaceVertex& b) {
@@ -61,9 +63,52 @@ std::vector<std::array<Corner, 3>> triangles_of(const TileMesh& mesh) {
     return triangles;
 }
 
+// How far the device's surface may be from the CPU's. A software driver divides and takes roots as IEEE says: every bit is
+// the same. A graphics card may round otherwise, which shows in the last bits of places and normals, and, where a choice
+// hangs on such a bit, in a diagonal or in a feature's place. What is made of whole numbers is the same on both: how many
+// vertices and triangles, and which material.
+struct Tolerance {
+    explicit Tolerance(const gpu::Device& device, double spacing_m) {
+        if (device.info().is_software()) return;
+        place_m = 1e-3 * spacing_m;
+        share = 0.002;
+    }
+    double place_m = 0.0;  // of a vertex in each axis
+    double share = 0.0;    // of vertices that may be elsewhere, and of triangles that may have other corners
+};
+
+struct Differences {
+    std::size_t vertices = 0, in_last_bits = 0, elsewhere = 0, triangles = 0, other_triangles = 0;
+    double most_m = 0.0;  // of the vertices that are not elsewhere
+
+    void add(const shared::SurfaceVertex& a, const shared::SurfaceVertex& b, const Tolerance& tolerance) {
+        ++vertices;
+        if (same(a, b)) return;
+        ++in_last_bits;
+        const double away =
+            std::max({std::abs(double{a.x} - b.x), std::abs(double{a.y} - b.y), std::abs(double{a.z} - b.z)});
+        if (away > tolerance.place_m) {
+            ++elsewhere;
+        } else {
+            most_m = std::max(most_m, away);
+        }
+    }
+    [[nodiscard]] bool within(const Tolerance& tolerance) const {
+        return static_cast<double>(elsewhere) <= tolerance.share * static_cast<double>(vertices) &&
+               static_cast<double>(other_triangles) <= tolerance.share * static_cast<double>(triangles);
+    }
+    [[nodiscard]] std::string text() const {
+        std::ostringstream out;
+        out << "of " << vertices << " vertices " << in_last_bits << " differ, by up to " << most_m << " m, "
+            << elsewhere << " are elsewhere; of " << triangles << " triangles " << other_triangles
+            << " have other corners";
+        return out.str();
+    }
+};
+
 // Nothing when the device's tile is the CPU's, else how it differs. The vertices of the cells come in the same order;
 // only the extra ones on faces, and the triangles of their fans, may come in another.
-std::string difference(const TileMesh& device, const TileMesh& cpu) {
+std::string difference(const TileMesh& device, const TileMesh& cpu, const Tolerance& tolerance, Differences& all) {
     if (device.vertices.size() != cpu.vertices.size() || device.indices.size() != cpu.indices.size()) {
         return std::to_string(device.vertices.size()) + " vertices and " + std::to_string(device.indices.size()) +
                " indices in place of " + std::to_string(cpu.vertices.size()) + " and " +
@@ -71,22 +116,36 @@ std::string difference(const TileMesh& device, const TileMesh& cpu) {
     }
     if (device.disagreeing_edges != cpu.disagreeing_edges) return "other disagreeing edges";
     for (std::size_t i = 0; i < cpu.cell_vertices(); ++i) {
-        if (!same(device.vertices[i], cpu.vertices[i])) {
+        all.add(device.vertices[i], cpu.vertices[i], tolerance);
+        if (device.vertices[i].colour != cpu.vertices[i].colour ||
+            (tolerance.place_m == 0.0 && !same(device.vertices[i], cpu.vertices[i]))) {
             return "vertex " + std::to_string(i) + " is " + text(device.vertices[i]) + " in place of " +
                    text(cpu.vertices[i]);
         }
     }
-    if (cpu.face_keys.empty()) return device.indices == cpu.indices ? "" : "other triangles";
-    return triangles_of(device) == triangles_of(cpu) ? "" : "other triangles, with fans";
+    all.triangles += cpu.indices.size() / 3;
+    if (tolerance.place_m == 0.0 && !cpu.face_keys.empty()) {
+        return triangles_of(device) == triangles_of(cpu) ? "" : "other triangles, with fans";
+    }
+    if (!cpu.face_keys.empty()) return "";  // with fans, whose corners have no order
+    std::size_t other = 0;
+    for (std::size_t i = 0; i < cpu.indices.size(); i += 3) {
+        other += !std::equal(&cpu.indices[i], &cpu.indices[i] + 3, &device.indices[i]);
+    }
+    all.other_triangles += other;
+    return other == 0 || tolerance.share > 0.0 ? "" : "other triangles";
 }
 
-testing::AssertionResult equal(DeviceSurface& device, const Surface& cpu) {
+testing::AssertionResult equal(DeviceSurface& device, const Surface& cpu, const Tolerance& tolerance) {
     const auto tiles = device.download();
     if (!tiles) return testing::AssertionFailure() << tiles.error().line();
+    Differences all;
     for (std::uint32_t t = 0; t < cpu.tile_count(); ++t) {
-        const std::string differs = difference((*tiles)[t], cpu.tile(t));
+        const std::string differs = difference((*tiles)[t], cpu.tile(t), tolerance, all);
         if (!differs.empty()) return testing::AssertionFailure() << "tile " << t << ": " << differs;
     }
+    if (!all.within(tolerance)) return testing::AssertionFailure() << all.text();
+    if (all.in_last_bits > 0) testing::Test::RecordProperty("differences", all.text());
     return testing::AssertionSuccess();
 }
 
@@ -97,6 +156,10 @@ std::unique_ptr<DeviceSurface> surface_of(VulkanEngine& engine, const DeviceSurf
 }
 
 }  // namespace
+
+testing::AssertionResult DeviceSurfaceGpu::equal(DeviceSurface& surface, const Surface& cpu) {
+    return test::equal(surface, cpu, Tolerance(device(), cpu.lattice().spacing_m));
+}
 
 TEST_F(DeviceSurfaceGpu, ABlockHasTheSameSurface) {
     EnginePair engines(unit_cube(40), device());
@@ -312,13 +375,15 @@ std::vector<PlacedTriangle> triangles_of(const geometry::LocalSurface& surface) 
 }
 
 // All whose box comes within the ball, relative to its centre.
-std::vector<PlacedTriangle> triangles_within(const Surface& surface, const Vec3& center_object, double radius_m) {
+template <typename TileOf>
+std::vector<PlacedTriangle> triangles_within(const Lattice& lattice, std::uint32_t tile_count, TileOf&& tile_of,
+                                             const Vec3& center_object, double radius_m) {
     std::vector<PlacedTriangle> triangles;
-    const Vec3 center = center_object - surface.lattice().origin_object;
+    const Vec3 center = center_object - lattice.origin_object;
     const Vec3f center_float(center);
     const auto radius = static_cast<float>(radius_m);
-    for (std::uint32_t t = 0; t < surface.tile_count(); ++t) {
-        const TileMesh& tile = surface.tile(t);
+    for (std::uint32_t t = 0; t < tile_count; ++t) {
+        const TileMesh& tile = tile_of(t);
         const auto corner = [&](std::size_t i) {
             const shared::SurfaceVertex& v = tile.vertices[tile.indices[i]];
             return Vec3f(v.x, v.y, v.z);
@@ -333,6 +398,22 @@ std::vector<PlacedTriangle> triangles_within(const Surface& surface, const Vec3&
         }
     }
     return sorted(triangles);
+}
+
+// Those of the CPU's surface, or, on a device that rounds otherwise, of its own.
+std::vector<PlacedTriangle> triangles_within(DeviceSurface& device, bool rounds_alike, const Surface& cpu,
+                                             const Vec3& center_object, double radius_m) {
+    if (rounds_alike) {
+        return triangles_within(
+            cpu.lattice(), static_cast<std::uint32_t>(cpu.tile_count()),
+            [&](std::uint32_t t) -> const TileMesh& { return cpu.tile(t); }, center_object, radius_m);
+    }
+    const auto tiles = device.download();
+    EXPECT_TRUE(tiles) << tiles.error().line();
+    if (!tiles) return {};
+    return triangles_within(
+        cpu.lattice(), static_cast<std::uint32_t>(cpu.tile_count()),
+        [&](std::uint32_t t) -> const TileMesh& { return (*tiles)[t]; }, center_object, radius_m);
 }
 
 }  // namespace
@@ -356,7 +437,8 @@ TEST_F(DeviceSurfaceGpu, TheTrianglesNearTheToolAreTheSameAsASet) {
             ASSERT_TRUE(gathered) << gathered.error().line();
             EXPECT_EQ(actual.radius_m, radius);
             EXPECT_EQ(actual.center_object, sweep.start_object_m);
-            ASSERT_EQ(triangles_of(actual), triangles_within(cpu, sweep.start_object_m, radius));
+            ASSERT_EQ(triangles_of(actual),
+                      triangles_within(*surface, device().info().is_software(), cpu, sweep.start_object_m, radius));
             triangles += actual.triangles();
         }
         EXPECT_EQ(surface->counts().submissions, before + 2);
@@ -379,24 +461,45 @@ TEST_F(DeviceSurfaceGpu, TheTrianglesNearTheToolAreTheSameWhereNoBindingShowsAll
     const auto gathered = surface->local_surface(corner, 0.3, actual);
     ASSERT_TRUE(gathered) << gathered.error().line();
     EXPECT_GT(actual.triangles(), 100u);
-    EXPECT_EQ(triangles_of(actual), triangles_within(cpu, corner, 0.3));
+    EXPECT_EQ(triangles_of(actual), triangles_within(*surface, device().info().is_software(), cpu, corner, 0.3));
 }
 
-TEST_F(DeviceSurfaceGpu, ABallWithMoreTrianglesThanTheDeviceGathersIsMadeSmaller) {
+// As large a ball as was asked for: with a smaller one, a tool that has cut itself free would find nothing near.
+TEST_F(DeviceSurfaceGpu, ABallWithMoreTrianglesThanAnyBeforeIsGatheredWhole) {
+    const Solid solid = noise_solid({60, 60, 60}, 0.3, Rays::agree, 8);
+    EnginePair engines(solid, device());
+    const auto surface = surface_of(engines.vulkan(), {.ball_triangles = 64, .ball_vertices = 64});
+    ASSERT_NE(surface, nullptr);
+    Surface cpu(solid.lattice);
+    cpu.mesh_all(solid, engines.pool());
+    geometry::LocalSurface actual;
+    const Vec3 center(0.0, 0.5, 0.4);
+    for (const double radius : {0.02, 0.3, 0.5, 0.1}) {
+        ASSERT_TRUE(surface->local_surface(center, radius, actual));
+        EXPECT_EQ(actual.radius_m, radius);
+        EXPECT_EQ(triangles_of(actual), triangles_within(*surface, device().info().is_software(), cpu, center, radius));
+    }
+    ASSERT_TRUE(surface->local_surface(center, 0.5, actual));
+    EXPECT_GT(actual.triangles(), 50'000u);
+}
+
+TEST_F(DeviceSurfaceGpu, ABallWithMoreTrianglesThanTheDeviceShowsIsMadeSmaller) {
     const Solid solid = noise_solid({60, 60, 60}, 0.3, Rays::agree, 8);
     EnginePair engines(solid, device());
     const auto surface = surface_of(engines.vulkan());
     ASSERT_NE(surface, nullptr);
     Surface cpu(solid.lattice);
     cpu.mesh_all(solid, engines.pool());
+    const std::uint64_t shown = capabilities().max_storage_buffer_bytes;
+    capabilities().max_storage_buffer_bytes = 12 << 15;
     geometry::LocalSurface actual;
     const Vec3 center(0.0, 0.5, 0.4);
     ASSERT_TRUE(surface->local_surface(center, 0.5, actual));
+    capabilities().max_storage_buffer_bytes = shown;
     EXPECT_LT(actual.radius_m, 0.5);
     EXPECT_GT(actual.triangles(), 1000u);
-    EXPECT_EQ(triangles_of(actual), triangles_within(cpu, center, actual.radius_m));
-    // The next larger one has too many corners, unless they share vertices, which few do in noise.
-    EXPECT_GT(3 * triangles_within(cpu, center, actual.radius_m / 0.7).size(), std::size_t{shared::kBallVertices});
+    EXPECT_EQ(triangles_of(actual),
+              triangles_within(*surface, device().info().is_software(), cpu, center, actual.radius_m));
 }
 
 }  // namespace burin::compute::test
