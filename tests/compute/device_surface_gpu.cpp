@@ -71,10 +71,14 @@ struct Tolerance {
     explicit Tolerance(const gpu::Device& device, double spacing_m) {
         if (device.info().is_software()) return;
         place_m = 1e-3 * spacing_m;
-        share = 0.002;
+        elsewhere = 0.002;
+        other_diagonals = 0.1;
     }
     double place_m = 0.0;  // of a vertex in each axis
-    double share = 0.0;    // of vertices that may be elsewhere, and of triangles that may have other corners
+    double elsewhere = 0.0;  // share of the vertices that may be farther away
+    // Share of the triangles that may have other corners. The two diagonals of a flat quad are equally good, so that the
+    // choice hangs on the last bits of its corners: an H100 took the other one in up to 4.4 % of the triangles of noise.
+    double other_diagonals = 0.0;
 };
 
 struct Differences {
@@ -94,8 +98,8 @@ struct Differences {
         }
     }
     [[nodiscard]] bool within(const Tolerance& tolerance) const {
-        return static_cast<double>(elsewhere) <= tolerance.share * static_cast<double>(vertices) &&
-               static_cast<double>(other_triangles) <= tolerance.share * static_cast<double>(triangles);
+        return static_cast<double>(elsewhere) <= tolerance.elsewhere * static_cast<double>(vertices) &&
+               static_cast<double>(other_triangles) <= tolerance.other_diagonals * static_cast<double>(triangles);
     }
     [[nodiscard]] std::string text() const {
         std::ostringstream out;
@@ -133,7 +137,7 @@ std::string difference(const TileMesh& device, const TileMesh& cpu, const Tolera
         other += !std::equal(&cpu.indices[i], &cpu.indices[i] + 3, &device.indices[i]);
     }
     all.other_triangles += other;
-    return other == 0 || tolerance.share > 0.0 ? "" : "other triangles";
+    return other == 0 || tolerance.other_diagonals > 0.0 ? "" : "other triangles";
 }
 
 testing::AssertionResult equal(DeviceSurface& device, const Surface& cpu, const Tolerance& tolerance) {
