@@ -18,6 +18,8 @@ constexpr std::uint32_t kGreatestStride = 1024, kCoarserStride = 3;
 constexpr int kMostLooksAround = 6;
 // Faces are held beyond so many candidates; where vertices stand for triangles, at once.
 constexpr std::uint32_t kHoldAt = 48, kHoldAtIfFine = 2;
+// Of the work left: what a look for faces to be held may take, of looks and of tests.
+constexpr double kOfWorkAround = 0.05;
 // Cosine of normals that are alike.
 constexpr double kAlikeNormals = 1.0 - 1e-8, kAlikeNormalsDiffer = 1.5e-4;
 // Of the rounding: a gathering that covers less is of no use.
@@ -232,11 +234,11 @@ bool ShapeSearch::was_tried(const Vec3& normal) const noexcept {
 
 void ShapeSearch::hold_faces_around(const Vec3& place, const Vec3& at, double reach) noexcept {
     const Vec3 in_object = from_tool(place);
-    geometry::Near near{
-        .lo = in_object, .hi = in_object, .reach_m = reach, .looks_left = affords(0.1, WorkCost::kLook_ns)};
-    const std::uint32_t most_looks = near.looks_left;
+    geometry::Near near{.lo = in_object, .hi = in_object, .reach_m = reach};
+    const std::uint32_t most_looks = near.looks_left = affords(kOfWorkAround, WorkCost::kLook_ns);
+    std::uint32_t tests_left = affords(kOfWorkAround, WorkCost::kTest_ns + WorkCost::kSupport_ns);
     geometry::for_each_triangle_near(surface_, near, [&](std::uint32_t id, const geometry::Triangle& t) {
-        if (count_ == kMost || held_count_ == kMostHeld) return false;
+        if (count_ == kMost || held_count_ == kMostHeld || tests_left-- == 0) return false;
         if (is_behind_held(t)) return near.look();
         add(t, outward_normal(t), id, false);
         if (lies_on(candidates_[count_ - 1], at, place))

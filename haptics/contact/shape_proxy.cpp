@@ -259,9 +259,9 @@ private:
         }
         step *= search_.covered_share(at_, step);
         const ShapeSearch::Sweep sweep = search_.sweep(at_, step);
-        if (!sweep.complete) return false;
         at_ += sweep.fraction * step;
         at_object_ = search_.from_tool(at_);
+        if (!sweep.complete) return false;
         is_free_ = !in_contact_ && sweep.fraction >= 1.0 && step == step_;
         return true;
     }

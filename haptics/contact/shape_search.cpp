@@ -2,6 +2,7 @@
 #include "haptics/contact/shape_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "geometry/contact/local_surface_search.hpp"
@@ -21,6 +22,8 @@ constexpr double kSamePlace = 1e-4;
 // A triangle rises before a direction where one of its sides has this sine towards it.
 constexpr double kRises = 0.02;
 constexpr int kMostApproaches = 12;
+// Up to these parts of the way what is so near is looked at, before what is farther.
+constexpr std::array kSweptShares{0.0, 0.02, 0.1, 0.25, 0.5, 1.0};
 
 }  // namespace
 
@@ -264,18 +267,42 @@ double ShapeSearch::until(Candidate& c, const Vec3& at, const Vec3& step) noexce
     return share;
 }
 
+// The nearest first, so that a sweep whose work does not suffice still proves a part of the way: what was not looked at
+// is farther off than that.
 ShapeSearch::Sweep ShapeSearch::sweep(const Vec3& at, const Vec3& step) noexcept {
     Sweep result;
     const double length = glm::length(step);
-    for (std::uint32_t i = 0; i < count_; ++i) {
-        if (touches_[i]) continue;
-        Candidate& c = candidates_[i];
-        if (c.clear_until_m > travel_ + result.fraction * length || is_covered(c)) continue;
-        if (left_ns() <= 0.0) return {0.0, false};
-        ++work_.triangles_tested;
-        result.fraction = std::min(result.fraction, until(c, at, result.fraction * step) * result.fraction);
+    double from = -HUGE_VAL;
+    for (const double share : kSweptShares) {
+        const double to = share * length;
+        for (std::uint32_t i = 0; i < count_ && result.complete; ++i) {
+            if (touches_[i]) continue;
+            Candidate& c = candidates_[i];
+            const double clear_m = c.clear_until_m - travel_;
+            if (clear_m <= from || clear_m > to || clear_m > result.fraction * length || is_covered(c)) continue;
+            if (left_ns() <= 0.0) {
+                result.complete = false;
+            } else {
+                ++work_.triangles_tested;
+                result.fraction = std::min(result.fraction, until(c, at, result.fraction * step) * result.fraction);
+            }
+        }
+        if (!result.complete) break;
+        from = to;
     }
+    if (!result.complete && length > 0.0)
+        result.fraction = std::min(result.fraction, std::max(nearest_beyond(from), 0.0) / length);
     return result;
+}
+
+// How far the tool may go until it may meet what is clear by more than `from`.
+double ShapeSearch::nearest_beyond(double from) const noexcept {
+    double least = HUGE_VAL;
+    for (std::uint32_t i = 0; i < count_; ++i) {
+        const double clear_m = candidates_[i].clear_until_m - travel_;
+        if (!touches_[i] && clear_m > from) least = std::min(least, clear_m);
+    }
+    return least;
 }
 
 }  // namespace burin::haptics

@@ -61,7 +61,7 @@ public:
 
     struct Sweep {
         double fraction = 1.0;
-        bool complete = true;
+        bool complete = true;  // false: the work is used up, and the fraction is what was proved until then
     };
     // How far the tool may go before it meets what touch() did not find. Both ends must be covered.
     [[nodiscard]] Sweep sweep(const Vec3& at, const Vec3& step) noexcept;
@@ -106,6 +106,7 @@ private:
     [[nodiscard]] bool touch_face(std::uint32_t candidate, const Separation& s, const Vec3& at) noexcept;
     void touch_features(const Vec3& at) noexcept;
     [[nodiscard]] double until(Candidate& c, const Vec3& at, const Vec3& step) noexcept;
+    [[nodiscard]] double nearest_beyond(double from) const noexcept;
     [[nodiscard]] bool is_beside(const Vec3& low, const Vec3& high, double slack) const noexcept;
     [[nodiscard]] bool is_left_out(const Box& box, const geometry::TriangleSlab& slab, double slack) noexcept;
     [[nodiscard]] bool is_around(const Vec3& low, const Vec3& high, double reach) const noexcept;
