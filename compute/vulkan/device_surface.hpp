@@ -78,10 +78,10 @@ public:
     // Waits until the surface matches the solid.
     [[nodiscard]] Result<void> finish();
 
-    // Sets `out` to the triangles of the ball as loose triangles, ready for contact. Only when they exceed what a binding
-    // shows (capabilities().max_storage_buffer_bytes) is the ball made smaller. `sequence` and `made_ns` of `out` are
-    // left unchanged. Calls finish first; takes one more submission where the ball differs from the one given to carve,
-    // and one or two more where it holds more than any before.
+    // Sets `out` to the triangles of the ball as loose triangles, ready for contact. Only when they exceed what a
+    // binding shows (capabilities().max_storage_buffer_bytes) is the ball made smaller. `sequence` and `made_ns` of
+    // `out` are left unchanged. Calls finish first; takes one more submission where the ball differs from the one
+    // given to carve, and one or two more where it holds more than any before.
     [[nodiscard]] Result<void> local_surface(const Vec3& center_object, double radius_m, geometry::LocalSurface& out);
     // Returns the vertices, indices and disagreeing edges of every tile, for tests and reports. Calls finish first.
     [[nodiscard]] Result<std::vector<TileMesh>> download();
