@@ -114,13 +114,24 @@ Result<void> MeshPart::let_go(ObjectId id) {
     return edit(id, LetGo{objects_[at->second].scene_from_object});
 }
 
-Result<void> MeshPart::take_hold(ObjectId id, std::size_t hand) {
+Result<void> MeshPart::take_hold(ObjectId id, std::span<const std::size_t> hands, bool felt) {
     const auto at = index_of_.find(id);
-    const auto where = hands_.find(hand);
     if (at == index_of_.end()) return fail("object " + std::to_string(id), "there is none with this number");
-    if (where == hands_.end()) return fail(objects_[at->second].object.name, "nobody knows where the hand is");
-    return edit(
-        id, TakeHold{hand, composed(inverse(where->second.scene_from_hand), objects_[at->second].scene_from_object)});
+    const auto frame = frame_of(hands);
+    if (!frame) return fail(objects_[at->second].object.name, "nobody knows where the hand is");
+    const Pose& placed = objects_[at->second].scene_from_object;
+    return edit(id, TakeHold{{hands.begin(), hands.end()}, composed(inverse(frame->scene_from_hand), placed), felt});
+}
+
+// Returns the frame in which the hands hold something; nothing where one of them is not known, or there is none.
+std::optional<HandPose> MeshPart::frame_of(std::span<const std::size_t> hands) const {
+    std::vector<HandPose> poses;
+    for (const std::size_t hand : hands) {
+        const auto known = hands_.find(hand);
+        if (known == hands_.end()) return std::nullopt;
+        poses.push_back(known->second);
+    }
+    return poses.empty() ? std::nullopt : std::optional(grip_frame(poses));
 }
 
 void MeshPart::take_samples(std::size_t hand, std::span<const haptics::StrokeSample> samples) {
@@ -155,7 +166,9 @@ void MeshPart::grip(std::size_t hand, Grip& grip, std::span<const haptics::Strok
             wanted = nearest_felt(sample.proxy_object_m, grip.around_m);
     }
     if (wanted == grip.held) return;
-    if (grip.held != 0) static_cast<void>(let_go(grip.held));
+    // An activity may have given it into other hands meanwhile.
+    const auto* held = grip.held != 0 ? std::get_if<HeldMotion>(&object(grip.held).motion) : nullptr;
+    if (held != nullptr && held->parts == std::vector{hand}) static_cast<void>(let_go(grip.held));
     grip.held = wanted != 0 && take_hold(wanted, hand) ? wanted : 0;
 }
 
@@ -199,9 +212,9 @@ void MeshPart::place(Placed& placed) {
         placed.velocities = velocities_between(placed.scene_from_object,
                                                composed(object.pose, pose_on(*path, time_s + period_s)), period_s);
     } else if (const auto* held = std::get_if<HeldMotion>(&object.motion)) {
-        const auto hand = hands_.find(held->hand);
-        if (hand == hands_.end()) return;  // stays until the hand is known
-        const HandPose& pose = hand->second;
+        const auto frame = frame_of(held->parts);
+        if (!frame) return;  // stays until the hands are known
+        const HandPose& pose = *frame;
         placed.scene_from_object = composed(pose.scene_from_hand, held->hand_from_object);
         const Vec3 arm = placed.scene_from_object.position_m - pose.scene_from_hand.position_m;
         placed.velocities = {pose.velocity_m_per_s + glm::cross(pose.angular_velocity_rad_per_s, arm),
@@ -252,7 +265,7 @@ geometry::TouchedMesh MeshPart::Placed::touched(Nanoseconds time_ns) const {
 void MeshPart::offer(const Placed& placed, const ProbeBall& ball, geometry::LocalSurface& draft) {
     if (!placed.snapshot || placed.snapshot->triangles() == 0) return;
     const auto* held = std::get_if<HeldMotion>(&placed.object.motion);
-    if (held != nullptr && held->hand == ball.hand) return;
+    if (held != nullptr && !held->felt && std::ranges::find(held->parts, ball.hand) != held->parts.end()) return;
     ++looks_;
     geometry::TouchedMesh mesh = placed.touched(now_ns_);
     if (distance_ahead_m(mesh, ball.center_scene) <= ball.radius_m) draft.meshes.push_back(std::move(mesh));

@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <utility>
@@ -29,14 +30,6 @@
 #include "scene/scene_part.hpp"
 
 namespace burin::scene {
-
-// Where a hand is, for what it holds.
-struct HandPose {
-    Pose scene_from_hand;  // at its HIP
-    Vec3 velocity_m_per_s{0.0};
-    Vec3 angular_velocity_rad_per_s{0.0};
-    Nanoseconds time_ns = 0;
-};
 
 // What the frame has to know of an object that has changed.
 struct ObjectUpdate {
@@ -64,14 +57,16 @@ public:
     void take_samples(std::size_t hand, std::span<const haptics::StrokeSample> samples) override;
     [[nodiscard]] Result<void> update(Nanoseconds now_ns, const PartSeen* recorded) override;
     [[nodiscard]] const PartSeen& seen() const override { return seen_; }
-    // Leaves out what the hand itself holds.
+    // Leaves out what the hand itself holds, unless it is to be felt by it.
     [[nodiscard]] Result<void> add_near(const ProbeBall& ball, geometry::LocalSurface& draft) override;
     [[nodiscard]] Nanoseconds period_ns() const override { return moving_.empty() ? kResting_ns : kMoving_ns; }
 
-    // Makes an edit, which the next update shows. One that fails changes nothing. take_hold() has an object move with a
-    // hand from where both are, let_go() leaves it fixed where it was in the last update.
+    // Makes an edit, which the next update shows. One that fails changes nothing. take_hold() has an object move with
+    // parts of hands from where all of them are; a hold that there was gives way. felt: by these parts as well
+    // (HeldMotion). let_go() leaves it fixed where it was in the last update.
     [[nodiscard]] Result<void> edit(ObjectId id, const ObjectEdit& edit);
-    [[nodiscard]] Result<void> take_hold(ObjectId id, std::size_t hand);
+    [[nodiscard]] Result<void> take_hold(ObjectId id, std::span<const std::size_t> hands, bool felt = false);
+    [[nodiscard]] Result<void> take_hold(ObjectId id, std::size_t hand) { return take_hold(id, {&hand, 1}); }
     [[nodiscard]] Result<void> let_go(ObjectId id);
     // Has a hand take hold of the object that its tool touches when a button goes down, and let go with the button.
     // button: bits of StrokeSample::buttons. around_m: how far the touched surface is from where the tool rests, at
@@ -126,6 +121,7 @@ private:
         ObjectId held = 0;  // 0: none
     };
     void grip(std::size_t hand, Grip& grip, std::span<const haptics::StrokeSample> samples);
+    [[nodiscard]] std::optional<HandPose> frame_of(std::span<const std::size_t> hands) const;
     [[nodiscard]] ObjectId nearest_felt(const Vec3& place_scene, double around_m);
     void offer(const Placed& placed, const ProbeBall& ball, geometry::LocalSurface& draft);
 

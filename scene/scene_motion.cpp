@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.hpp"
 #include "base/text.hpp"
 #include "geometry/contact/mesh_motion.hpp"
 
@@ -136,6 +137,28 @@ Pose pose_on(const PathMotion& path, double time_s) {
     return {hermite(a.position_m, b.position_m, linear_tangent(path, to - 1), linear_tangent(path, to), s, span_s),
             glm::normalize(hermite(a.orientation, turn_to, angular_tangent(path, to - 1, a.orientation),
                                    angular_tangent(path, to, turn_to), s, span_s))};
+}
+
+HandPose grip_frame(std::span<const HandPose> parts) {
+    BURIN_CHECK(!parts.empty());
+    HandPose frame = parts.front();
+    if (parts.size() == 1) return frame;
+    Pose& pose = frame.scene_from_hand;
+    const Quat first = pose.orientation;
+    for (const HandPose& part : parts.subspan(1)) {
+        pose.position_m += part.scene_from_hand.position_m;
+        const Quat& turn = part.scene_from_hand.orientation;
+        pose.orientation = pose.orientation + (glm::dot(turn, first) < 0.0 ? -turn : turn);
+        frame.velocity_m_per_s += part.velocity_m_per_s;
+        frame.angular_velocity_rad_per_s += part.angular_velocity_rad_per_s;
+    }
+    const auto count = static_cast<double>(parts.size());
+    pose.position_m /= count;
+    constexpr double kLeastSum = 1e-6;
+    pose.orientation = glm::length(pose.orientation) > kLeastSum ? glm::normalize(pose.orientation) : first;
+    frame.velocity_m_per_s /= count;
+    frame.angular_velocity_rad_per_s /= count;
+    return frame;
 }
 
 Velocities velocities_between(const Pose& from, const Pose& to, double time_s) {

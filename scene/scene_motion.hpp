@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -45,9 +46,12 @@ struct PathMotion {
     bool operator==(const PathMotion&) const = default;
 };
 
+// Held by parts of hands, by their numbers in the scene, and moved with the frame of them all (grip_frame()). A single
+// part is a hand with a tool.
 struct HeldMotion {
-    std::size_t hand = 0;
+    std::vector<std::size_t> parts;  // at least one
     Pose hand_from_object;
+    bool felt = false;  // by the parts that hold it, as fingertips feel what is between them; false: it would push them
 
     bool operator==(const HeldMotion&) const = default;
 };
@@ -64,6 +68,20 @@ inline constexpr std::size_t kMaxPathKeys = 10'000;
 
 // Returns the pose on a sound path, so long after its beginning; before it, that of the first key.
 [[nodiscard]] Pose pose_on(const PathMotion& path, double time_s);
+
+// Where a hand is, for what it holds.
+struct HandPose {
+    Pose scene_from_hand;  // at its HIP
+    Vec3 velocity_m_per_s{0.0};
+    Vec3 angular_velocity_rad_per_s{0.0};
+    Nanoseconds time_ns = 0;
+};
+
+// Returns the frame that moves with several parts of hands: in the middle of their places, turned by the normalised sum
+// of their unit quaternions, each taken with the sign that is nearer to the first's (Markley et al., "Averaging
+// quaternions", 2007, to first order), with the mean of their velocities and the time of the first. Of one part it is
+// the part itself, to the bit. Requires at least one. Where the turns cancel each other it is turned as the first.
+[[nodiscard]] HandPose grip_frame(std::span<const HandPose> parts);
 
 // The velocities that take one pose to another in a time above 0: of the origin, and of the shorter turn.
 struct Velocities {

@@ -33,7 +33,8 @@ struct Editor {
     std::string operator()(const SetColour& e) const { return object.colour = e.colour, ""; }
     std::string operator()(const SetOpacity& e) const { return object.opacity = e.opacity, ""; }
     std::string operator()(const TakeHold& e) const {
-        object.motion = HeldMotion{e.hand, e.hand_from_object};
+        if (e.parts.empty()) return "is to be held by nobody; name a hand";
+        object.motion = HeldMotion{e.parts, e.hand_from_object, e.felt};
         return "";
     }
     std::string operator()(const LetGo& e) const {

@@ -65,13 +65,14 @@ struct SetSeen {
 struct SetColour {
     Colour colour{};
 };
-// Has the object move with a hand from now on.
 struct SetOpacity {
     double opacity = 1.0;
 };
+// Has the object move with parts of hands from now on: the fields of HeldMotion.
 struct TakeHold {
-    std::size_t hand = 0;
+    std::vector<std::size_t> parts;
     Pose hand_from_object;
+    bool felt = false;
 };
 // Leaves the object fixed where it is.
 struct LetGo {

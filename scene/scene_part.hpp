@@ -18,6 +18,7 @@
 #include "base/error.hpp"
 #include "geometry/contact/local_surface.hpp"
 #include "haptics/channels.hpp"
+#include "scene/contact_events.hpp"
 
 namespace burin::scene {
 
@@ -46,6 +47,9 @@ public:
     virtual void take_samples(std::size_t /*hand*/, std::span<const haptics::StrokeSample> /*samples*/) {}
     // Takes the same ticks whole, where the hand's channels have them (HapticChannels::whole).
     virtual void take_ticks(std::size_t /*hand*/, std::span<const haptics::TickRecord> /*ticks*/) {}
+    // Takes what all hands have begun and ended to touch since the last update, in the order of time, after their
+    // ticks. Of hands whose channels have no whole ticks there are none.
+    virtual void take_contacts(std::span<const ContactEvent> /*events*/) {}
     // Brings the part to the present. `recorded`: what a recorded update saw, which this one sees again; null in a live
     // one. Fails when the part cannot go on; it is then as it was before the update.
     [[nodiscard]] virtual Result<void> update(Nanoseconds now_ns, const PartSeen* recorded) = 0;

@@ -19,7 +19,10 @@ std::vector<TouchPublisher::Slot*> slots_of(const std::vector<SceneHand>& hands)
 
 SceneService::SceneService(std::vector<ScenePart*> parts, std::vector<SceneHand> hands)
     : parts_(std::move(parts)), hands_(std::move(hands)), publisher_(slots_of(hands_)) {
-    for (const SceneHand& hand : hands_) places_.push_back(hand.start_scene);
+    for (const SceneHand& hand : hands_) {
+        places_.push_back(hand.start_scene);
+        followers_.emplace_back(hand.of);
+    }
     sunk_m_.resize(hands_.size());
     seen_.last_ticks.resize(hands_.size());
     seen_.parts.resize(parts_.size());
@@ -62,12 +65,16 @@ Result<void> SceneService::update(Nanoseconds now_ns, const SceneUpdate* recorde
     // While a hand stands still its loop rests and gives a tenth of the samples: twice as many mean that it moves.
     const auto few = static_cast<std::size_t>(std::max<Nanoseconds>(2 * since_ns / haptics::HapticLoop::kRest_ns, 1));
     hands_move_ = false;
+    contacts_.clear();
     for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
         read_samples(hand, recorded != nullptr ? recorded->last_ticks[hand] : UINT64_MAX);
         hands_move_ = hands_move_ || samples_.size() > few;
         for (ScenePart* part : parts_) part->take_samples(hand, samples_);
         for (ScenePart* part : parts_) part->take_ticks(hand, ticks_);
+        for (const haptics::TickRecord& tick : ticks_) followers_[hand].follow(tick, contacts_);
     }
+    std::ranges::stable_sort(contacts_, {}, &ContactEvent::time_ns);
+    for (ScenePart* part : parts_) part->take_contacts(contacts_);
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         const PartSeen* const part_seen = recorded != nullptr ? &recorded->parts[i] : nullptr;
         if (const auto updated = parts_[i]->update(now_ns, part_seen); !updated) return updated;

@@ -2,11 +2,12 @@
 // The service of a scene: has its parts do what the hands have done, and publishes what the hands touch.
 //
 // Data flow of an update: the stroke samples of each hand are read from its ring, of which the service is the only
-// reader -> every part takes them -> every part updates, in the order in which they were given -> the touch publisher
-// writes each hand's local surface around where its tool rests -> parts do what hands need not wait for. The service
-// knows no part by its kind: orders and what the frame shows go between the frame and the part itself, on the thread of
-// the service (scene/scene_thread.hpp). Replay: an update depends on orders, time, samples and on what its parts have
-// seen. seen() has all but the orders, and repeat() does it again to the bit.
+// reader -> contact events are made of them (scene/contact_events.hpp) -> every part takes both -> every part updates,
+// in the order in which they were given -> the touch publisher writes each hand's local surface around where its tool
+// rests -> parts do what hands need not wait for. The service knows no part by its kind: orders and what the frame
+// shows go between the frame and the part itself, on the thread of the service (scene/scene_thread.hpp). Replay: an
+// update depends on orders, time, samples and on what its parts have seen. seen() has all but the orders, and repeat()
+// does it again to the bit.
 // Frame: the scene's. Threads: one at a time, a SceneThread's or, where time is simulated, the caller's.
 #pragma once
 
@@ -27,6 +28,7 @@ struct SceneHand {
     double around_m =
         0.0;               // radius of a ball about its place that holds its probe and what the tick looks at around it
     double reach_m = 0.0;  // how far it may move until the next update
+    PartOfHand of = {};    // for its contact events
 };
 
 // Inputs of an update.
@@ -78,6 +80,8 @@ private:
     std::vector<double> sunk_m_;                  // how far each hand was beyond where its tool rested
     std::vector<haptics::StrokeSample> samples_;  // of one hand in one update
     std::vector<haptics::TickRecord> ticks_;      // the same whole, where its channels have them
+    std::vector<ContactFollower> followers_;      // of each hand
+    std::vector<ContactEvent> contacts_;          // of one update
     bool hands_move_ = false;
     SceneUpdate seen_;
 };

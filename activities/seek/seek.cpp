@@ -81,11 +81,16 @@ std::size_t Seek::sought_now() const {
 void Seek::step(const session::ActivityView& view, session::ActivityOrders& orders) {
     if (view.world == nullptr) return;
     if (phase_ == Phase::starting) begin(*view.world, orders);
-    for (const haptics::TickRecord& tick : view.ticks) {
-        if (phase_ == Phase::seeking) go_on_by(tick, *view.world, orders);
+    auto event = view.contacts.begin();
+    for (const haptics::TickRecord& tick : view.first_part().ticks) {
+        go_on_by(tick, *view.world, orders);
+        for (; event != view.contacts.end() && event->time_ns <= tick.time_ns; ++event)
+            feel(*event, *view.world, orders);
         last_ns_ = tick.time_ns;
         last_place_scene_ = place_of(tick);
     }
+    // Of other parts, whose ticks the scene has read further.
+    for (; event != view.contacts.end(); ++event) feel(*event, *view.world, orders);
     if (phase_ == Phase::seeking && !its_colour_) let_glow(*view.world, orders);
 }
 
@@ -100,7 +105,7 @@ void Seek::begin(const session::WorldObjects& world, session::ActivityOrders& or
     targets_ = in_drawn_order(std::move(names), options_.seed);
     if (options_.targets > 0 && options_.targets < targets_.size()) targets_.resize(options_.targets);
     ++searches_;
-    in_touch_with_.clear();
+    counts_anew_ = true;
     phase_ = Phase::seeking;
     take_next(orders);
 }
@@ -125,6 +130,7 @@ void Seek::take_next(session::ActivityOrders& orders) {
 
 void Seek::go_on_by(const haptics::TickRecord& tick, const session::WorldObjects& world,
                     session::ActivityOrders& orders) {
+    if (phase_ != Phase::seeking) return;
     if (!since_ns_) {
         since_ns_ = last_ns_ > 0 ? last_ns_ : tick.time_ns;
         orders.trials.push_back({*since_ns_, now_.object});
@@ -132,19 +138,31 @@ void Seek::go_on_by(const haptics::TickRecord& tick, const session::WorldObjects
     }
     now_.time_s = seconds(tick.time_ns - *since_ns_);
     now_.path_m += glm::length(place_of(tick) - last_place_scene_);
-    if (!tick.in_contact()) {
-        in_touch_with_.clear();
+    if (!std::exchange(counts_anew_, false)) return;
+    for (const scene::ObjectId id : std::vector(touched_)) touch(id, tick.time_ns, world, orders);
+}
+
+void Seek::feel(const scene::ContactEvent& event, const session::WorldObjects& world, session::ActivityOrders& orders) {
+    const auto known = std::ranges::find(touched_, event.object);
+    if (event.what == scene::ContactEvent::What::end) {
+        if (known != touched_.end()) touched_.erase(known);
         return;
     }
-    const scene::SceneObject* object = world.find(tick.deepest().object);
-    if (object == nullptr || object->name == in_touch_with_) return;
-    in_touch_with_ = object->name;
+    const bool is_new = known == touched_.end();  // another finger may touch it already
+    touched_.push_back(event.object);
+    if (is_new && phase_ == Phase::seeking && since_ns_) touch(event.object, event.time_ns, world, orders);
+}
+
+void Seek::touch(scene::ObjectId id, Nanoseconds time_ns, const session::WorldObjects& world,
+                 session::ActivityOrders& orders) {
+    const scene::SceneObject* object = world.find(id);
+    if (object == nullptr || phase_ != Phase::seeking) return;
     if (object->name != now_.object) {
         ++now_.others;
         return;
     }
     end_glow(orders);
-    orders.trials.push_back({tick.time_ns, "", "found"});
+    orders.trials.push_back({time_ns, "", "found"});
     orders.messages.push_back(formatted("found %s in %.1f s", now_.object.c_str(), now_.time_s));
     found_.push_back(now_);
     take_next(orders);

@@ -5,9 +5,9 @@
 //   waiting -> "start" -> one target after the other, in an order drawn from the seed -> over -> "start" ...
 // Each start begins a search of its own, numbered from 1, in the same order; what earlier ones measured is kept. One
 // that is under way is broken off then, and its target counts as given up.
-// A target glows while it is sought. It is found by the first tick that touches it; touches of other objects on the way
-// are counted. Time and path are those
-// of the ticks, from the tick that found the target before, or that came first after the start.
+// A target glows while it is sought. It is found as soon as any part of any hand begins to touch it; touches of other
+// objects on the way are counted. Time and path are those of the ticks of the first part of the first hand, from the
+// tick that found the target before, or that came first after the start.
 // Frame: the scene's, metres. One thread, the frame's.
 #pragma once
 
@@ -58,6 +58,9 @@ private:
 
     void begin(const session::WorldObjects& world, session::ActivityOrders& orders);
     void go_on_by(const haptics::TickRecord& tick, const session::WorldObjects& world, session::ActivityOrders& orders);
+    void feel(const scene::ContactEvent& event, const session::WorldObjects& world, session::ActivityOrders& orders);
+    void touch(scene::ObjectId id, Nanoseconds time_ns, const session::WorldObjects& world,
+               session::ActivityOrders& orders);
     void give_up(session::ActivityOrders& orders);
     void break_off(session::ActivityOrders& orders);
     void take_next(session::ActivityOrders& orders);
@@ -76,7 +79,8 @@ private:
     std::optional<Nanoseconds> since_ns_;             // when it was named; none: no tick has come since
     Nanoseconds last_ns_ = 0;                         // of the last tick
     Vec3 last_place_scene_{0.0};
-    std::string in_touch_with_;  // empty: nothing
+    bool counts_anew_ = false;              // what is touched while a search begins counts as touched by its first tick
+    std::vector<scene::ObjectId> touched_;  // now, once for each part of a hand that touches it
 };
 
 }  // namespace burin::activities

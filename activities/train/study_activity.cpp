@@ -117,9 +117,10 @@ bool StudyActivity::ends_by_operator() const {
 }
 
 void StudyActivity::step(const session::ActivityView& view, session::ActivityOrders& orders) {
-    reads_device_ = {view.tool.position_device_m,
-                     glm::conjugate(view.tool.workspace.object_from_device.orientation) * view.tool.orientation_object};
-    for (const haptics::TickRecord& tick : view.ticks) follow(tick, orders);
+    const session::PartView& wand = view.first_part();
+    reads_device_ = {wand.tool.position_device_m,
+                     glm::conjugate(wand.tool.workspace.object_from_device.orientation) * wand.tool.orientation_object};
+    for (const haptics::TickRecord& tick : wand.ticks) follow(tick, orders);
     if (run_.phase() == TrainingRun::Phase::in_stage && run_.session() != nullptr && run_.session()->touch().leads())
         orders.parameters = true;  // guidance fades and turns
     show(orders);
@@ -245,8 +246,9 @@ void StudyActivity::end_stage(session::ActivityOrders& orders) {
     show(orders);
 }
 
-void StudyActivity::adjust(haptics::TickParameters& parameters) const {
+void StudyActivity::adjust(session::PartOfHand of, haptics::TickParameters& parameters) const {
     parameters.limits.max_force_N = std::min(parameters.limits.max_force_N, protocol_.force_limit_N);
+    if (of != session::PartOfHand{}) return;  // not the participant's
     parameters.placement = placement_;
     const study::StageSession* session = run_.session();
     if (session == nullptr || run_.phase() != TrainingRun::Phase::in_stage || !session->touch().leads()) return;

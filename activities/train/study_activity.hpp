@@ -58,7 +58,7 @@ public:
     [[nodiscard]] Result<void> act(std::span<const std::string> words, session::ActivityOrders& orders) override;
     void step(const session::ActivityView& view, session::ActivityOrders& orders) override;
     [[nodiscard]] bool is_running() const override { return run_.phase() == TrainingRun::Phase::in_stage; }
-    void adjust(haptics::TickParameters& parameters) const override;
+    void adjust(session::PartOfHand of, haptics::TickParameters& parameters) const override;
     // The wand's two points, top red and bottom green, over what the session draws of it; no wand where none is seen.
     void stage(renderer::Scene& scene, std::size_t screen) const override;
     [[nodiscard]] session::ActivityPanel panel() const override;

@@ -18,6 +18,7 @@
 #include "devices/hand/steered_hand.hpp"
 #include "devices/haptic/opened_device.hpp"
 #include "haptics/haptic_loop.hpp"
+#include "scene/contact_events.hpp"
 
 namespace burin::session {
 
@@ -28,10 +29,7 @@ struct HandToOpen {
     Pose rest_device;
 };
 
-// A part of a hand, by the numbers of both.
-struct PartOfHand {
-    std::size_t hand = 0, part = 0;
-};
+using scene::PartOfHand;
 
 class SessionHands {
 public:
@@ -51,6 +49,16 @@ public:
     // Returns the number of the hand's first part, by which it is drawn and reported.
     [[nodiscard]] std::size_t first_part(std::size_t hand) const { return hands_[hand]->first_part; }
     [[nodiscard]] std::size_t parts_of(std::size_t hand) const { return hands_[hand]->device.parts.size(); }
+    // Returns the names that make it up: the hand's, "right", and the part's within it, "index"; each may be empty.
+    [[nodiscard]] const std::string& name_of_hand(std::size_t hand) const { return hands_[hand]->name; }
+    [[nodiscard]] const std::string& name_in_hand(std::size_t part) const {
+        return hands_[parts_[part]->of.hand]->device.parts[parts_[part]->of.part].name;
+    }
+    // Returns the number of a part, by which the scene knows it; nothing where there is none.
+    [[nodiscard]] std::optional<std::size_t> number_of(PartOfHand of) const {
+        return of.hand < hands() && of.part < parts_of(of.hand) ? std::optional(first_part(of.hand) + of.part)
+                                                                : std::nullopt;
+    }
     // Names a part for people: "right", "left index"; the device's name for the only part of the only hand.
     [[nodiscard]] std::string name_of(std::size_t part) const;
 

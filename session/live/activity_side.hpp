@@ -4,12 +4,13 @@
 // Threads: the tap is the scene's (session/live/sample_tap.hpp), all else the frame's.
 #pragma once
 
-#include <iterator>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "session/hands/session_hands.hpp"
 #include "session/live/sample_tap.hpp"
 #include "session/state/activity.hpp"
 #include "session/state/session_state.hpp"
@@ -20,22 +21,21 @@ class ActivitySide {
 public:
     // Null: the session has no activity, and nothing here does anything.
     explicit ActivitySide(std::shared_ptr<Activity> activity) : activity_(std::move(activity)) {
-        if (activity_) tap_.emplace(0);
+        if (activity_) tap_.emplace();
     }
 
     [[nodiscard]] bool is_there() const { return activity_ != nullptr; }
-    // Returns the part of the scene by which the hand's ticks come; null without an activity.
+    // Returns the part of the scene by which the ticks and contacts of the hands come; null without an activity.
     [[nodiscard]] SampleTap* tap() { return tap_ ? &*tap_ : nullptr; }
-    // Takes ticks that the scene has read, for the next step.
-    void take(std::vector<haptics::TickRecord> ticks) {
-        ticks_.insert(ticks_.end(), std::make_move_iterator(ticks.begin()), std::make_move_iterator(ticks.end()));
-    }
+    // Takes what the hands have done, as the scene has read it, for the next step.
+    void take(HandNews news) { news_.add(std::move(news)); }
     // Tells the activity what the step's commands ask of it, and has it go on; changes the state and adds to the orders
-    // as it wants.
-    void step(SessionState& state, SessionOrders& orders, Nanoseconds time_ns, const haptics::ToolState& tool);
+    // as it wants. tools: of each part of the hands, by its number.
+    void step(SessionState& state, SessionOrders& orders, Nanoseconds time_ns, const SessionHands& hands,
+              std::span<const haptics::ToolState> tools);
     [[nodiscard]] bool is_running() const { return activity_ && activity_->is_running(); }
-    void adjust(haptics::TickParameters& parameters) const {
-        if (activity_) activity_->adjust(parameters);
+    void adjust(PartOfHand of, haptics::TickParameters& parameters) const {
+        if (activity_) activity_->adjust(of, parameters);
     }
     void stage(renderer::Scene& scene, std::size_t screen) const {
         if (activity_) activity_->stage(scene, screen);
@@ -58,12 +58,12 @@ public:
     }
 
 private:
-    void carry_out(ActivityOrders wanted, SessionState& state, SessionOrders& orders);
+    void carry_out(ActivityOrders wanted, SessionState& state, SessionOrders& orders, const SessionHands& hands);
 
     std::shared_ptr<Activity> activity_;
     std::optional<SampleTap> tap_;
-    std::vector<haptics::TickRecord> ticks_;  // since the last step
-    std::vector<TrialMark> trials_;           // not taken yet
+    HandNews news_;                  // since the last step
+    std::vector<TrialMark> trials_;  // not taken yet
 };
 
 }  // namespace burin::session

@@ -36,7 +36,7 @@ void LiveSession::step(const FrameInput& input, const wall::OutputPlace& output,
             step.orders.messages.push_back({done.error().line()});
     }
     if (before) hold_governed(*before, step.orders);
-    activity_.step(state_, step.orders, input.time_ns, tool_in_use());
+    activity_.step(state_, step.orders, input.time_ns, hands_, tools_);
     news_.frames_for_ticks(activity_.is_running());
     fit_desk_screen(room_.wall, main_eye());  // a command may have changed the mode
     hands_.move_hand(step.led_hand, step.hand_way, input.time_ns, step.hand);
@@ -122,12 +122,20 @@ scene::SceneThread::Order LiveSession::editing(WorldOrder order) {
     };
 }
 
+scene::SceneThread::Order LiveSession::holding(HoldOrder order) {
+    return [this, order = std::move(order)] {
+        scene::MeshPart& part = world_->part();
+        const auto done =
+            order.parts.empty() ? part.let_go(order.object) : part.take_hold(order.object, order.parts, order.felt);
+        if (!done) news_.notify(done.error().line());
+    };
+}
+
 void LiveSession::publish_parameters() {
     for (std::size_t part = 0; part < hands_.parts(); ++part) {
-        const std::size_t hand = hands_.part_of_hand(part).hand;
-        haptics::TickParameters parameters = parameters_of(state_, room_, hand);
-        // An activity guides the hand that it is told of.
-        if (part == 0) activity_.adjust(parameters);
+        const PartOfHand of = hands_.part_of_hand(part);
+        haptics::TickParameters parameters = parameters_of(state_, room_, of.hand);
+        activity_.adjust(of, parameters);
         hands_.publish(part, std::move(parameters));
     }
 }
@@ -157,6 +165,7 @@ void LiveSession::carry_out(SessionOrders orders, const Give& give) {
         give(carving(std::move(order)));
     }
     for (WorldOrder& order : orders.world) give(editing(std::move(order)));
+    for (HoldOrder& order : orders.holds) give(holding(std::move(order)));
     if (const auto lamp = carving_ ? lamp_.look(state_) : std::nullopt) give(carving(sculpt::LightFrom{*lamp}));
     for (const Asked& message : orders.messages) {
         if (message.line == 0) {
@@ -197,7 +206,7 @@ void LiveSession::take_news(std::uint64_t updates) {
     SceneNews::Taken news = news_.take(updates);
     if (news.surface) take(std::move(*news.surface));
     for (const std::string& message : news.messages) notify(message);
-    activity_.take(std::move(news.ticks));
+    activity_.take(std::move(news.hands));
     if (!world_) return;
     world_->drawn().take(news.objects);
     state_.world = followed(std::move(state_.world), news.objects, news.materials ? &*news.materials : nullptr);
@@ -226,7 +235,7 @@ void LiveSession::finish_scene() {
     take_news(UINT64_MAX);
     // What the activity orders now has nobody to carry it out, but for its words.
     SessionOrders orders;
-    activity_.step(state_, orders, last_step_ns_, tool_in_use());
+    activity_.step(state_, orders, last_step_ns_, hands_, tools_);
     for (const Asked& message : orders.messages) notify(message.text);
     if (const auto done = activity_.finish(); !done) notify_of_loss(done.error().line());
 }

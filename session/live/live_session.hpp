@@ -166,6 +166,7 @@ private:
     void switch_amplifiers(const AskedAmplifiers& asked);
     [[nodiscard]] scene::SceneThread::Order carving(sculpt::SculptOrder order);
     [[nodiscard]] scene::SceneThread::Order editing(WorldOrder order);
+    [[nodiscard]] scene::SceneThread::Order holding(HoldOrder order);
     [[nodiscard]] double spread_of(std::size_t hand) const;
     void follow_spread(const Give& give);
     [[nodiscard]] double spacing_m() const { return carving_ ? carving_->surface().lattice().spacing_m : 0.0; }

@@ -225,8 +225,8 @@ Result<void> LiveSession::make_scene(const sculpt::UseTool& use, std::size_t und
         const double scale = parameters_of(state_, room_, hand).workspace.object_from_device.scale;
         const double reach_m = (wands_[hand] ? 0.02 : 0.012) * scale + 2.0 * spacing_m();
         if (part == hands_.first_part(hand)) spreads_m_.push_back(spread_of(hand));
-        touched.push_back(
-            {&hands_.channels(part), place_at_rest(hand), tools_around_m_[hand] + spreads_m_[hand], reach_m});
+        touched.push_back({&hands_.channels(part), place_at_rest(hand), tools_around_m_[hand] + spreads_m_[hand],
+                           reach_m, hands_.part_of_hand(part)});
     }
     scene_.emplace(std::move(parts), std::move(touched));
     news_.report_of(carved_ ? &*carved_ : nullptr, world_ ? &world_->part() : nullptr,

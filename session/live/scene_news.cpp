@@ -15,10 +15,10 @@ bool SceneNews::collect(const scene::SceneThread::Ended& update) {
     if (materials_ != nullptr && std::exchange(materials_version_, materials_->version()) != materials_->version())
         report.news.materials = *materials_;
     report.news.messages = std::exchange(messages_, {});
-    if (tap_ != nullptr) report.news.ticks = tap_->take();
+    if (tap_ != nullptr) report.news.hands = tap_->take();
     const bool anything =
         report.news.surface || !report.news.objects.empty() || report.news.materials || !report.news.messages.empty();
-    const bool ticks = !report.news.ticks.empty();
+    const bool ticks = !report.news.hands.empty();
     const std::lock_guard lock(mutex_);
     report.update = ++updates_;
     if (anything || ticks) reports_.push_back(std::move(report));
@@ -34,7 +34,7 @@ SceneNews::Taken SceneNews::take(std::uint64_t updates) {
         std::ranges::move(news.objects, std::back_inserter(taken.objects));
         if (news.materials) taken.materials = news.materials;
         std::ranges::move(news.messages, std::back_inserter(taken.messages));
-        taken.ticks.insert(taken.ticks.end(), news.ticks.begin(), news.ticks.end());
+        taken.hands.add(std::move(news.hands));
     }
     return taken;
 }

@@ -46,7 +46,7 @@ public:
         std::vector<scene::ObjectUpdate> objects;       // the newest last
         std::optional<scene::MaterialTable> materials;  // if it has changed
         std::vector<std::string> messages;
-        std::vector<haptics::TickRecord> ticks;  // for the activity, in order
+        HandNews hands;  // for the activity
     };
     [[nodiscard]] Taken take(std::uint64_t updates);
     // Returns the durations of the updates in which the carved surface changed. Any thread.

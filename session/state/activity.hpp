@@ -3,7 +3,8 @@
 // search against the clock another. Whatever starts a session may give it one; the session knows no more of it than
 // this, and docs/first-activity.md shows how one is written.
 //
-//   every tick of the hand, in order -> step() -> edits of objects, messages, the end
+//   every tick of every part of the hands, in order, and what they begin and end to touch
+//     -> step() -> edits of objects, what hands take hold of, messages, the end
 //   `do WORDS` of a script, a button of its panel -> act() -> the same orders
 //   adjust(): what the tick does besides; stage(): what the picture shows besides; panel(): what its section says
 //
@@ -20,6 +21,7 @@
 
 #include "haptics/channels.hpp"
 #include "renderer/scene/scene.hpp"
+#include "scene/contact_events.hpp"
 #include "session/state/world_objects.hpp"
 
 namespace burin::session {
@@ -31,14 +33,32 @@ struct Act {
     std::string_view help;       // one line
 };
 
-// What an activity may look at in a step.
-struct ActivityView {
-    Nanoseconds time_ns = 0;  // of the frame, since the session's start
+using scene::PartOfHand;
+
+// A part of a hand in a step. A stylus and a wand are one part, a glove has one for each fingertip.
+struct PartView {
+    std::string_view name;  // within the hand: "index"; empty for the only part
     // Every tick since the step before, in order; a tick whose sample was lost is missing from the numbers. Their times
-    // are of the loop's clock.
+    // are of the loop's clock, and all parts of all hands are ticked at the same times.
     std::span<const haptics::TickRecord> ticks;
-    const haptics::ToolState& tool;  // as the frame draws it
-    const WorldObjects* world;       // as of the last update of the scene; null: there is none
+    haptics::ToolState tool;  // as the frame draws it
+};
+struct HandView {
+    std::string_view name;            // "right"; empty for the only hand
+    std::span<const PartView> parts;  // at least one
+};
+
+// What an activity may look at in a step; all of it is valid until step() returns.
+struct ActivityView {
+    Nanoseconds time_ns = 0;          // of the frame, since the session's start
+    std::span<const HandView> hands;  // at least one
+    // What all hands have begun and ended to touch since the step before, in the order of the scene's updates and
+    // within each of time. An event never comes before the tick that found it.
+    std::span<const scene::ContactEvent> contacts;
+    const WorldObjects* world = nullptr;  // as of the last update of the scene; null: there is none
+
+    // Returns the first part of the first hand.
+    [[nodiscard]] const PartView& first_part() const { return hands.front().parts.front(); }
 };
 
 // A trial for the recording's table of trials, of which one is under way at a time.
@@ -48,9 +68,20 @@ struct TrialMark {
     std::string state = {};   // how it ended, in a word or two: "done", "given up"
 };
 
+// Has parts of hands take hold of an object: from the scene's next update on it moves with the frame of them all
+// (scene::grip_frame()), from where it and they are then. A hold that there was gives way. By nobody: lets go of it,
+// and it stays fixed where it was.
+struct HoldObject {
+    std::string object;
+    std::vector<PartOfHand> by;
+    bool felt = false;  // by the parts that hold it (scene::HeldMotion)
+    bool operator==(const HoldObject&) const = default;
+};
+
 // What it wants done; filled in order.
 struct ActivityOrders {
     std::vector<EditObject> edits;
+    std::vector<HoldObject> holds;
     std::vector<std::string> messages;     // for the user, on panel and terminal
     std::vector<std::string> screenshots;  // names
     std::vector<TrialMark> trials;         // kept where a session file is recorded
@@ -103,8 +134,8 @@ public:
     virtual void step(const ActivityView& view, ActivityOrders& orders) = 0;
     // Returns whether frames are to be made although neither hand nor user stirs, since a clock runs.
     [[nodiscard]] virtual bool is_running() const { return false; }
-    // Changes the parameters of the next ticks, such as guidance, once all else is in them.
-    virtual void adjust(haptics::TickParameters& /*parameters*/) const {}
+    // Changes the parameters of a part's next ticks, such as guidance, once all else is in them.
+    virtual void adjust(PartOfHand /*of*/, haptics::TickParameters& /*parameters*/) const {}
     // Changes what a screen shows.
     virtual void stage(renderer::Scene& /*scene*/, std::size_t /*screen*/) const {}
     [[nodiscard]] virtual ActivityPanel panel() const = 0;

@@ -85,6 +85,7 @@ struct SessionOrders {
     std::size_t line = 0;  // of the log, for commands that are run now
     std::vector<sculpt::SculptOrder> carving;
     std::vector<WorldOrder> world;
+    std::vector<HoldOrder> holds;  // after the edits of `world`
     std::vector<AskedAct> acts;
     std::vector<AskedAmplifiers> amplifiers;
     bool parameters = false;         // the haptic thread's parameters have changed

@@ -41,6 +41,14 @@ struct WorldOrder {
     scene::ObjectEdit edit;
 };
 
+// What parts of hands take hold of, by the numbers that the scene knows them by (scene/mesh_part.hpp); by none: it is
+// let go of.
+struct HoldOrder {
+    scene::ObjectId object = 0;
+    std::vector<std::size_t> parts;
+    bool felt = false;  // by these parts
+};
+
 // Returns the world after the command, and the order with which the scene follows. Fails where the world has no object
 // of that name, where the value is out of bounds, and where there would be more materials than a session has room for.
 struct EditedWorld {

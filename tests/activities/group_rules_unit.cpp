@@ -10,6 +10,7 @@
 
 #include "activities/train/study_activity.hpp"
 #include "base/text.hpp"
+#include "tests/activities/one_hand.hpp"
 
 namespace burin::activities {
 namespace {
@@ -100,8 +101,8 @@ class LiveStage {
 public:
     LiveStage(const study::Protocol& protocol, const study::Group& group, const FeltWorlds& worlds,
               const study::Stage& stage)
-        : activity_(protocol, group, worlds, {{1, 1, &stage}}, "study",
-                    StudyDevice{study::study_wand(protocol)}, StageKeeper{}),
+        : activity_(protocol, group, worlds, {{1, 1, &stage}}, "study", StudyDevice{study::study_wand(protocol)},
+                    StageKeeper{}),
           place_m_(worlds.at("tube")->world().spine_m.front()) {
         frame();
     }
@@ -115,7 +116,7 @@ public:
                 tick.contact.points[i].hip_object_m = place_m_ + Vec3(0.0, i == 0 ? 0.03 : -0.03, 0.0);
         }
         session::ActivityOrders orders;
-        activity_.step({.time_ns = 0, .ticks = ticks, .tool = tool_, .world = nullptr}, orders);
+        hand_.step(activity_, ticks, orders, nullptr, tool_);
         take(orders);
     }
     void say(const std::string& word) {
@@ -134,7 +135,7 @@ public:
     [[nodiscard]] bool seen() const { return last("seen tube", ObjectProperty::seen).value_or(1.0) != 0.0; }
     [[nodiscard]] bool led() const {
         haptics::TickParameters parameters;
-        activity_.adjust(parameters);
+        activity_.adjust({}, parameters);
         return parameters.curve.count > 0 && parameters.guidance.stiffness_N_per_m > 0.0;
     }
 
@@ -146,6 +147,7 @@ private:
     StudyActivity activity_;
     Vec3 place_m_;
     haptics::ToolState tool_;
+    OneHand hand_;
     std::map<std::pair<std::string, ObjectProperty>, double> ordered_;
     std::uint64_t tick_ = 0;
 };

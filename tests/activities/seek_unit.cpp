@@ -7,6 +7,7 @@
 #include <set>
 
 #include "session/input/input_words.hpp"
+#include "tests/activities/one_hand.hpp"
 
 namespace burin::activities {
 namespace {
@@ -56,13 +57,13 @@ public:
             sample.tick = ++tick_;
             sample.time_ns = static_cast<Nanoseconds>(tick_) * kTick_ns;
             sample.contact.points[0].proxy_object_m = place_scene;
+            sample.contact.point_count = 1;
             sample.flags = in_contact ? haptics::kTickInContact : 0u;
             sample.contact.points[0].object = in_contact ? object_at(place_scene) : 0u;
             samples.push_back(sample);
         }
         session::ActivityOrders orders;
-        const haptics::ToolState tool;
-        seek.step({static_cast<Nanoseconds>(tick_) * kTick_ns, samples, tool, &world}, orders);
+        hand_.step(seek, samples, orders, &world, {}, static_cast<Nanoseconds>(tick_) * kTick_ns);
         keep(orders);
     }
     // The number of the felt object that the place is on, as a tick's own contact has it.
@@ -90,6 +91,7 @@ private:
         messages.insert(messages.end(), orders.messages.begin(), orders.messages.end());
     }
     std::uint64_t tick_ = 0;
+    OneHand hand_;
 };
 
 }  // namespace

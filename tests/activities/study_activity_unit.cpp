@@ -14,6 +14,7 @@
 #include "record/record_reader.hpp"
 #include "study/folder/stage_recording.hpp"
 #include "study/replay/stage_replay.hpp"
+#include "tests/activities/one_hand.hpp"
 #include "tests/support/run_command.hpp"
 
 namespace burin::activities {
@@ -83,7 +84,7 @@ protected:
     }
     void frame_of(const std::vector<haptics::TickRecord>& ticks) {
         orders_ = {};
-        activity_->step({.time_ns = 0, .ticks = ticks, .tool = tool_, .world = nullptr}, orders_);
+        hand_.step(*activity_, ticks, orders_, nullptr, tool_);
     }
     [[nodiscard]] const session::EditObject* edit(const char* object, ObjectProperty property) const {
         const auto found = std::ranges::find_if(orders_.edits, [&](const session::EditObject& one) {
@@ -97,6 +98,7 @@ protected:
     std::optional<StudyActivity> activity_;
     session::ActivityOrders orders_;
     haptics::ToolState tool_;
+    OneHand hand_;
     std::vector<EndedStage> ended_;
     std::vector<RunEvent> events_;
     std::size_t begun_ = 0;
@@ -365,7 +367,7 @@ TEST_F(StudyActivities, SetTheProxiesOnTheAxisAtEachTouchOfTheStartCap) {
     const Vec3 in_start_cap = spine.front() + 1.5 * (spine.front() - spine[1]);
     const auto placement = [&] {
         haptics::TickParameters parameters;
-        activity_->adjust(parameters);
+        activity_->adjust({}, parameters);
         return parameters.placement;
     };
     frame({in_start_cap});
@@ -452,7 +454,7 @@ TEST_F(StudyActivities, LimitTheForceAndLeadWhoIsLed) {
     begin("led", 0);
     haptics::TickParameters parameters;
     parameters.limits.max_force_N = 3.0;
-    activity_->adjust(parameters);
+    activity_->adjust({}, parameters);
     EXPECT_EQ(parameters.limits.max_force_N, protocol_.force_limit_N);
     EXPECT_EQ(parameters.curve.count, 0u);
     const auto& spine = worlds_.at("tube")->world().spine_m;
@@ -460,12 +462,12 @@ TEST_F(StudyActivities, LimitTheForceAndLeadWhoIsLed) {
     ASSERT_TRUE(act({"start"}));
     frame(std::vector<Vec3>(20, spine.front()));
     EXPECT_TRUE(orders_.parameters);
-    activity_->adjust(parameters);
+    activity_->adjust({}, parameters);
     EXPECT_GT(parameters.curve.count, 10u);
     EXPECT_GT(parameters.guidance.stiffness_N_per_m, 0.0);
     EXPECT_GT(parameters.guidance.lead_speed_m_per_s, 0.0);
     frame(std::vector<Vec3>(200, spine.back()));  // and back again
-    activity_->adjust(parameters);
+    activity_->adjust({}, parameters);
     EXPECT_LT(parameters.guidance.lead_speed_m_per_s, 0.0);
     const session::ActivityPanel panel = activity_->panel();
     EXPECT_EQ(panel.aside, "p07, haptic");

@@ -153,7 +153,7 @@ TEST(MeshPart, AHandDoesNotTouchWhatItHoldsAndPushesOthersWithIt) {
     hand.scene_from_hand.position_m = {0.5, 0.5, 0.5};
     hand.velocity_m_per_s = {0.0, 0.1, 0.0};
     scene.part->move_hand(0, hand);
-    ASSERT_TRUE(scene.part->edit(1, TakeHold{0, {}}));
+    ASSERT_TRUE(scene.part->edit(1, TakeHold{{0}, {}}));
     (void)scene.tick({0.5, 0.5, 0.5});
     EXPECT_TRUE(scene.slot.newest().meshes.empty()) << "the hand that holds it";
     EXPECT_EQ(scene.part->pose(1).position_m, hand.scene_from_hand.position_m);
@@ -167,6 +167,56 @@ TEST(MeshPart, AHandDoesNotTouchWhatItHoldsAndPushesOthersWithIt) {
     EXPECT_EQ(scene.part->object(1).pose.position_m, hand.scene_from_hand.position_m);
     ASSERT_EQ(scene.slot.newest().meshes.size(), 1u);
     EXPECT_FALSE(scene.slot.newest().meshes[0].moves());
+}
+
+// Two fingertips hold it between them, and a third one touches it.
+TEST(MeshPart, WhatSeveralPartsHoldGoesWithTheirMiddleAndIsFeltByThemWhereItShallBe) {
+    for (const bool felt : {false, true}) {
+        TouchedScene scene(cubes(1));
+        const auto put = [&](std::size_t hand, const Vec3& at_m, double turn_rad) {
+            HandPose pose;
+            pose.scene_from_hand = {at_m, glm::angleAxis(turn_rad, Vec3(0.0, 0.0, 1.0))};
+            scene.part->move_hand(hand, pose);
+        };
+        const std::array<std::size_t, 2> holding{0, 2};
+        put(0, {0.0, kHalf_m, 0.0}, 0.0);
+        EXPECT_FALSE(scene.part->take_hold(1, holding, felt).has_value()) << "nobody knows where the second is";
+        EXPECT_FALSE(scene.part->take_hold(1, std::span<const std::size_t>()).has_value()) << "by nobody";
+        put(2, {0.0, -kHalf_m, 0.0}, 0.0);
+        const Pose before = scene.part->pose(1);
+        ASSERT_TRUE(scene.part->take_hold(1, holding, felt));
+        put(0, {0.03, kHalf_m, 0.0}, 0.3);
+        put(2, {0.01, -kHalf_m, 0.0}, 0.3);
+        ASSERT_TRUE(scene.part->update(1'000'000'000, nullptr));
+        const Pose& held = scene.part->pose(1);
+        const Vec3 expected = Vec3(0.02, 0.0, 0.0) + glm::angleAxis(0.3, Vec3(0.0, 0.0, 1.0)) * before.position_m;
+        EXPECT_LT(glm::length(held.position_m - expected), 1e-12);
+        EXPECT_NEAR(2.0 * std::asin(held.orientation.z), 0.3, 1e-12);
+        for (const std::size_t hand : {0u, 1u, 2u}) {
+            geometry::LocalSurface surface;
+            ASSERT_TRUE(scene.part->add_near({hand, held.position_m, 0.1}, surface));
+            EXPECT_EQ(surface.meshes.size(), felt || hand == 1 ? 1u : 0u) << hand;
+        }
+    }
+}
+
+// Whatever signs their quaternions have, which mean the same turns.
+TEST(SceneMotion, TheFrameOfAGripIsThatOfItsOnlyPartOrInTheMiddleOfAll) {
+    HandPose one;
+    one.scene_from_hand = {{0.1, 0.2, 0.3}, glm::normalize(Quat(0.7, 0.1, 0.3, -0.2))};
+    one.velocity_m_per_s = {1.0, 2.0, 3.0};
+    const HandPose alone = grip_frame(std::array{one});
+    EXPECT_EQ(alone.scene_from_hand, one.scene_from_hand);
+    EXPECT_EQ(alone.velocity_m_per_s, one.velocity_m_per_s);
+    HandPose left = one, right = one;
+    left.scene_from_hand.orientation = glm::angleAxis(0.2, Vec3(0.0, 1.0, 0.0));
+    right.scene_from_hand.orientation = -glm::angleAxis(0.6, Vec3(0.0, 1.0, 0.0));
+    right.scene_from_hand.position_m = {0.3, 0.2, 0.1};
+    right.velocity_m_per_s = {0.0, 0.0, 1.0};
+    const HandPose both = grip_frame(std::array{left, right});
+    EXPECT_LT(glm::length(both.scene_from_hand.position_m - Vec3(0.2, 0.2, 0.2)), 1e-15);
+    EXPECT_NEAR(glm::angle(both.scene_from_hand.orientation), 0.4, 1e-12);
+    EXPECT_LT(glm::length(both.velocity_m_per_s - Vec3(0.5, 1.0, 2.0)), 1e-15);
 }
 
 namespace {
@@ -205,6 +255,23 @@ TEST(MeshPart, AButtonTakesHoldOfWhatIsTouchedAndLetsGoOfIt) {
     update(on_top, false);
     EXPECT_EQ(part->pose(1), left) << "it stays where the hand has left it";
     EXPECT_TRUE(std::holds_alternative<FixedMotion>(part->object(1).motion));
+}
+
+// An activity gives what a button has taken into other hands: the button lets go of nothing that is not its own.
+TEST(MeshPart, AButtonLetsGoOfWhatItsHandAloneHolds) {
+    MaterialTable materials;
+    auto part = *MeshPart::create(cubes(2), materials);
+    for (const std::size_t hand : {0u, 1u}) part->move_hand(hand, {});
+    part->grip_with(0, 2u, 0.008);
+    const Vec3 on_top(0.0, kHalf_m + 0.004, 0.0);
+    part->take_samples(0, std::array{gripping_sample(1, on_top, true)});
+    ASSERT_TRUE(std::holds_alternative<HeldMotion>(part->object(1).motion));
+    const std::array<std::size_t, 2> both{0, 1};
+    ASSERT_TRUE(part->take_hold(1, both));
+    part->take_samples(0, std::array{gripping_sample(2, on_top, false)});
+    const auto* held = std::get_if<HeldMotion>(&part->object(1).motion);
+    ASSERT_NE(held, nullptr);
+    EXPECT_EQ(held->parts.size(), 2u);
 }
 
 TEST(MeshPart, NothingIsTakenInTheAirOrWhileTheWorkspaceMoves) {
@@ -253,7 +320,7 @@ TEST(MeshPart, WhatOneHandHoldsNoOtherHandTakesAway) {
     part->take_samples(1, std::array{gripping_sample(2, on_top, true)});
     const auto* held = std::get_if<HeldMotion>(&part->object(1).motion);
     ASSERT_NE(held, nullptr);
-    EXPECT_EQ(held->hand, 0u);
+    EXPECT_EQ(held->parts, (std::vector<std::size_t>{0}));
     // The second hand, which holds nothing, lets nothing go either.
     part->take_samples(1, std::array{gripping_sample(3, on_top, false)});
     ASSERT_TRUE(std::holds_alternative<HeldMotion>(part->object(1).motion));

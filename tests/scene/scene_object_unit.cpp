@@ -57,9 +57,9 @@ TEST(MaterialTable, RefusesOneMoreThanItHolds) {
 TEST(SceneObject, EveryEditIsPureAndCheckedFirst) {
     SceneObject object;
     object.name = "stone";
-    const auto held = edited(object, TakeHold{2, {}});
+    const auto held = edited(object, TakeHold{{2}, {}});
     ASSERT_TRUE(held.has_value());
-    EXPECT_EQ(std::get<HeldMotion>(held->motion).hand, 2u);
+    EXPECT_EQ(std::get<HeldMotion>(held->motion).parts, (std::vector<std::size_t>{2}));
     EXPECT_FALSE(edited(*held, SetPose{}).has_value());
     const auto dropped = edited(*held, LetGo{{{1.0, 2.0, 3.0}}});
     ASSERT_TRUE(dropped.has_value());

@@ -35,10 +35,10 @@ public:
         return {};
     }
     void step(const ActivityView& view, ActivityOrders&) override {
-        for (const haptics::TickRecord& tick : view.ticks) ticks.push_back(tick.tick);
+        for (const haptics::TickRecord& tick : view.first_part().ticks) ticks.push_back(tick.tick);
         objects = view.world != nullptr ? view.world->objects.size() : 0;
     }
-    void adjust(haptics::TickParameters& parameters) const override { parameters.enabled = !calm; }
+    void adjust(PartOfHand, haptics::TickParameters& parameters) const override { parameters.enabled = !calm; }
     void stage(renderer::Scene& scene, std::size_t) const override { scene.tool.colour = Vec3(0.0, 0.0, 1.0); }
     [[nodiscard]] ActivityPanel panel() const override {
         return {.title = "Watching",

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <span>
 #include <stdexcept>
 #include <thread>
@@ -17,6 +18,7 @@
 #include "session/record/session_log.hpp"
 #include "session/record/tick_source.hpp"
 #include "session/state/session_settings.hpp"
+#include "tests/geometry/touch_samples.hpp"
 #include "tests/record/failing_disk.hpp"
 #include "tests/support/run_command.hpp"
 
@@ -51,8 +53,9 @@ SculptOptions short_options(const std::string& record) {
 // A session that is recorded into a file: of a script, or of a user who does nothing.
 struct Recorded {
     enum class Of { script, nobody };
-    Recorded(const std::string& path, Clock& clock, Of of) {
-        const SculptOptions options = short_options(path);
+    Recorded(const std::string& path, Clock& clock, Of of) : Recorded(short_options(path), clock, of) {}
+    Recorded(const SculptOptions& options, Clock& clock, Of of, const std::string& of_script = kShortScript)
+        : script(of_script) {
         auto created = LiveSession::create(options, *session_wall(options.live), clock);
         if (!created) throw std::runtime_error(created.error().line());
         session = std::move(*created);
@@ -61,7 +64,7 @@ struct Recorded {
         begin(std::move(*writer), of);
     }
     // Of nobody, into a file of a disk that fails.
-    Recorded(const std::string& path, Clock& clock, const std::string& vfs) {
+    Recorded(const std::string& path, Clock& clock, const std::string& vfs) : script(kShortScript) {
         const SculptOptions options = short_options(path);
         session = std::move(*LiveSession::create(options, *session_wall(options.live), clock));
         RecordingOf of;
@@ -75,12 +78,12 @@ struct Recorded {
         begin(InputLogWriter::into(std::move(*recording)), Of::nobody);
     }
     void begin(InputLogWriter writer, Of of) {
-        input.emplace(of == Of::nobody
-                          ? InputSource::live(std::move(writer))
-                          : InputSource::play(*parse_input_log(kShortScript, "script"), std::move(writer)));
+        input.emplace(of == Of::nobody ? InputSource::live(std::move(writer))
+                                       : InputSource::play(*parse_input_log(script, "script"), std::move(writer)));
         recorder.emplace(*input, *session);
     }
 
+    std::string script;
     std::unique_ptr<LiveSession> session;
     std::optional<InputSource> input;
     std::optional<ThreadRecorder> recorder;
@@ -111,9 +114,9 @@ private:
 };
 
 // Records it with its threads, in real time. Returns how many ticks it had.
-std::uint64_t record_live(const std::string& path) {
+std::uint64_t record_live(const SculptOptions& options, const std::string& script = kShortScript) {
     MonotonicClock clock;
-    Recorded recorded(path, clock, Recorded::Of::script);
+    Recorded recorded(options, clock, Recorded::Of::script, script);
     LiveSession& s = *recorded.session;
     ShortFrames frames(recorded, clock);
     ThreadedExecutor threads(clock, s.loop(), s.channels_of_parts(), s.scene(), {},
@@ -121,6 +124,7 @@ std::uint64_t record_live(const std::string& path) {
     static_cast<void>(threads.start());
     EXPECT_TRUE(drive(threads, frames));
     recorded.recorder->finish(threads.take_updates()->updates);
+    s.finish_scene();
     EXPECT_TRUE(s.outcome());
     return s.loop().ticks();
 }
@@ -174,10 +178,79 @@ Judged judged(InputLog log, const std::string& path, const SculptOptions& option
     Judged result;
     result.done = drive(replay, frames);
     if (result.done) result.done = replay.run_to_end();
+    (*session)->finish_scene();
     result.departed = frames.departed();
     result.found = judge->found();
     result.unrecorded = judge->unrecorded();
     return result;
+}
+
+// Takes hold of what two parts of its first hand touch while the button is down, so that they still feel it, and lets
+// go with the button.
+class Grasping final : public Activity {
+public:
+    [[nodiscard]] std::string settings() const override { return "grasping"; }
+    [[nodiscard]] Result<void> act(std::span<const std::string>, ActivityOrders&) override { return {}; }
+    void step(const ActivityView& view, ActivityOrders& orders) override {
+        at = view.world->find(1)->pose;
+        for (const scene::ContactEvent& event : view.contacts) {
+            contacts.push_back(event);
+            if (event.what == scene::ContactEvent::What::begin)
+                touching_.insert(event.by.part);
+            else
+                touching_.erase(event.by.part);
+        }
+        const bool pressed = (view.first_part().tool.buttons & 1u) != 0;
+        if (!held_ && pressed && touching_.size() >= 2) {
+            held_ = true;
+            HoldObject hold{"block", {}, true};
+            for (const std::size_t part : touching_) hold.by.push_back({0, part});
+            holds.push_back(hold);
+        } else if (held_ && !pressed) {
+            held_ = false;
+            holds.push_back({"block", {}, false});
+        } else {
+            return;
+        }
+        orders.holds.push_back(holds.back());
+    }
+    [[nodiscard]] bool is_running() const override { return true; }
+    [[nodiscard]] ActivityPanel panel() const override { return {"Grasp", "", "", {}, {}}; }
+
+    std::vector<scene::ContactEvent> contacts;
+    std::vector<HoldObject> holds;
+    Pose at;  // of the block
+
+private:
+    std::set<std::size_t> touching_;
+    bool held_ = false;
+};
+
+// A block between the fingers of a hand.
+SculptOptions grasp_options(const std::string& record, std::shared_ptr<Grasping> activity) {
+    SculptOptions options;
+    options.no_workpiece = true;
+    options.threads = 1;
+    options.tool.shape = "ball:0.005";
+    options.live.device = "simulated-fingers";
+    options.live.record = record;
+    options.activity = std::move(activity);
+    auto world = std::make_shared<scene::World>();
+    world->name = "a block";
+    scene::SceneObject block;
+    block.id = 1;
+    block.name = "block";
+    block.mesh = std::make_shared<const geometry::TriangleMesh>(geometry::test::cube(0.055));
+    world->objects.push_back(block);
+    // The hand's workspace reaches over all that is seen.
+    scene::SceneObject around = block;
+    around.id = 2;
+    around.name = "around";
+    around.mesh = std::make_shared<const geometry::TriangleMesh>(geometry::test::cube(0.1));
+    around.felt = false;
+    world->objects.push_back(around);
+    options.scene = world;
+    return options;
 }
 
 Result<InputLog> log_in(const std::string& path) {
@@ -214,7 +287,7 @@ std::string told_by(Recorded& of) {
 TEST(SessionRecording, OfALiveSessionIsDoneAgainToTheBitInEveryColumn) {
     const Workplace place;
     const std::string path = (place / "a.session").string();
-    const std::uint64_t ticks = record_live(path);
+    const std::uint64_t ticks = record_live(short_options(path));
     ASSERT_GT(ticks, 20u) << "however busy the machine is";
 
     auto log = log_in(path);
@@ -250,6 +323,38 @@ TEST(SessionRecording, OfALiveSessionIsDoneAgainToTheBitInEveryColumn) {
     EXPECT_FALSE(changed.found.difference->column.empty());
     EXPECT_NE(changed.found.difference->first, changed.found.difference->second);
     EXPECT_EQ(static_cast<std::uint64_t>(changed.found.difference->tick), changed.found.ticks + 1);
+}
+
+// What hands touch, what an activity has them hold, and how the object moves and is felt then.
+TEST(SessionRecording, OfAnActivityThatGraspsWithFourFingersIsDoneAgainToTheBit) {
+    const std::string script = R"(burin-input 1 test
+0.02 mouse 320 180
+0.05 scroll 0 9
+0.2 button press left
+0.9 mouse 330 170
+1.0 mouse 350 160
+1.4 button release left
+1.8 close
+)";
+    const Workplace place;
+    const std::string path = (place / "a.session").string();
+    const auto live = std::make_shared<Grasping>();
+    const std::uint64_t ticks = record_live(grasp_options(path, live), script);
+    ASSERT_EQ(live->holds.size(), 2u) << "it was taken, and let go of";
+    EXPECT_GE(live->holds[0].by.size(), 2u);
+    EXPECT_GT(glm::length(live->at.position_m), 0.01) << "it has gone along with the hand";
+
+    auto log = log_in(path);
+    ASSERT_TRUE(log) << log.error().line();
+    const auto repeated = std::make_shared<Grasping>();
+    const Judged is = judged(std::move(*log), path, grasp_options("", repeated));
+    ASSERT_TRUE(is.done) << is.done.error().line();
+    EXPECT_EQ(is.found.ticks, 4 * ticks);
+    EXPECT_FALSE(is.found.difference);
+    EXPECT_EQ(is.departed, 0u);
+    EXPECT_EQ(repeated->contacts, live->contacts);
+    EXPECT_EQ(repeated->holds, live->holds);
+    EXPECT_EQ(repeated->at, live->at);
 }
 
 TEST(SessionRecording, LosesNothingWhereTheFramesStandStill) {

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "scene/contact_events.hpp"
+
+#include <algorithm>
+#include <span>
+
+namespace burin::scene {
+namespace {
+
+// Calls back for each object of a list that the other list does not have, once.
+template <typename Each>
+void each_only_in(std::span<const ObjectId> list, std::span<const ObjectId> other, Each each) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const ObjectId id = list[i];
+        if (id == 0 || std::ranges::find(other, id) != other.end()) continue;
+        if (std::ranges::find(list.first(i), id) == list.begin() + static_cast<std::ptrdiff_t>(i)) each(id);
+    }
+}
+
+}  // namespace
+
+void ContactFollower::follow(const haptics::TickRecord& tick, std::vector<ContactEvent>& events) {
+    Objects now{};
+    const std::uint32_t points = tick.in_contact() ? tick.contact.point_count : 0;
+    for (std::uint32_t i = 0; i < points; ++i) {
+        const haptics::PointRecord& point = tick.contact.points[i];
+        const bool is_held = (tick.flags & haptics::kTickHeldOver) != 0 && point.normal_object != Vec3(0.0);
+        now[i] = point.object == 0 && is_held ? touched_[i] : point.object;
+    }
+    each_only_in(touched_, now,
+                 [&](ObjectId id) { events.push_back({of_, id, ContactEvent::What::end, tick.time_ns}); });
+    each_only_in(now, touched_,
+                 [&](ObjectId id) { events.push_back({of_, id, ContactEvent::What::begin, tick.time_ns}); });
+    touched_ = now;
+}
+
+}  // namespace burin::scene
