@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // An open mesh has no inside, so a scene has it felt from both sides (scene/world_file.hpp). A hand that goes about in
-// free air, past its edges and through its holes, then feels nothing, however little work its ticks may do. Judged by the
-// distance to every triangle, which knows no side.
+// free air, past its edges and through its holes, then feels nothing, however little work its ticks may do. Judged by
+// the distance to every triangle, which knows no side.
 #include <gtest/gtest.h>
 
 #include <iostream>
